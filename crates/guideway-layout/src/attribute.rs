@@ -1,0 +1,267 @@
+use crate::TextColumn;
+
+/// Any further columns of a table, by name, in the order of the file.
+#[derive(Clone, Debug, Default)]
+pub struct Attributes {
+    columns: Vec<Attribute>,
+}
+
+impl Attributes {
+    /// Adds a whole column, in place of one of the same name.
+    pub fn insert(&mut self, column: Attribute) {
+        match self.columns.iter_mut().find(|c| c.name == column.name) {
+            Some(old) => *old = column,
+            None => self.columns.push(column),
+        }
+    }
+
+    /// Sets the value of one row, with empty rows before it as needed. A column whose values differ in
+    /// type widens: whole numbers to numbers, anything else to text.
+    pub fn set(&mut self, row: usize, name: &str, value: Value<'_>) {
+        let index = self
+            .columns
+            .iter()
+            .position(|c| c.name == name)
+            .unwrap_or_else(|| {
+                self.columns
+                    .push(Attribute::new(name, Values::empty_for(value)));
+                self.columns.len() - 1
+            });
+        let values = &mut self.columns[index].values;
+        values.widen_for(value);
+        values.set(row, value);
+    }
+
+    /// The column of this name.
+    pub fn get(&self, name: &str) -> Option<&Attribute> {
+        self.columns.iter().find(|c| c.name == name)
+    }
+
+    /// All columns, in the order of the file.
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = &Attribute> {
+        self.columns.iter()
+    }
+
+    /// Heap bytes held.
+    pub fn heap_bytes(&self) -> usize {
+        self.columns.iter().map(|c| c.values.heap_bytes()).sum()
+    }
+}
+
+/// One typed column. A row may have no value, and rows past the end have none.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Attribute {
+    /// Name, as the file has it.
+    pub name: String,
+    /// The values, a row each.
+    pub values: Values,
+    /// Type in the file when it is narrower than the one held here, such as `Int16`.
+    pub source_type: Option<String>,
+}
+
+impl Attribute {
+    /// A column whose type in the file is the one held here.
+    pub fn new(name: impl Into<String>, values: Values) -> Self {
+        Self {
+            name: name.into(),
+            values,
+            source_type: None,
+        }
+    }
+}
+
+/// The values of a column, held in one type.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Values {
+    /// Yes or no.
+    Bool(Vec<Option<bool>>),
+    /// Whole numbers.
+    Int(Vec<Option<i64>>),
+    /// Numbers.
+    Float(Vec<Option<f64>>),
+    /// Text; `present[row]` tells an empty text from none.
+    Text {
+        /// The text of each row.
+        text: TextColumn,
+        /// Whether the row has a value.
+        present: Vec<bool>,
+    },
+}
+
+impl Values {
+    fn empty_for(value: Value<'_>) -> Self {
+        match value {
+            Value::Bool(_) => Self::Bool(Vec::new()),
+            Value::Int(_) => Self::Int(Vec::new()),
+            Value::Float(_) => Self::Float(Vec::new()),
+            Value::Text(_) => Self::Text {
+                text: TextColumn::default(),
+                present: Vec::new(),
+            },
+        }
+    }
+
+    /// Number of rows held.
+    pub fn len(&self) -> usize {
+        match self {
+            Self::Bool(v) => v.len(),
+            Self::Int(v) => v.len(),
+            Self::Float(v) => v.len(),
+            Self::Text { present, .. } => present.len(),
+        }
+    }
+
+    /// Whether no row is held.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The value of a row, if it has one.
+    pub fn get(&self, row: usize) -> Option<Value<'_>> {
+        match self {
+            Self::Bool(v) => v.get(row).copied().flatten().map(Value::Bool),
+            Self::Int(v) => v.get(row).copied().flatten().map(Value::Int),
+            Self::Float(v) => v.get(row).copied().flatten().map(Value::Float),
+            Self::Text { text, present } => {
+                let here = present.get(row).copied().unwrap_or(false);
+                here.then(|| Value::Text(text.get(row)))
+            }
+        }
+    }
+
+    fn widen_for(&mut self, value: Value<'_>) {
+        *self = match (&*self, value) {
+            (Self::Bool(_), Value::Bool(_))
+            | (Self::Int(_), Value::Int(_))
+            | (Self::Float(_), Value::Float(_) | Value::Int(_))
+            | (Self::Text { .. }, _) => return,
+            (Self::Int(v), Value::Float(_)) => {
+                Self::Float(v.iter().map(|v| v.map(|v| v as f64)).collect())
+            }
+            (narrow, _) => {
+                let mut wide = Self::empty_for(Value::Text(""));
+                for row in 0..narrow.len() {
+                    match narrow.get(row) {
+                        Some(value) => wide.set(row, Value::Text(&value.to_string())),
+                        None => wide.pad_to(row + 1),
+                    }
+                }
+                wide
+            }
+        };
+    }
+
+    fn set(&mut self, row: usize, value: Value<'_>) {
+        if let Self::Text { text, present } = self {
+            Self::set_text(text, present, row, &value.to_string());
+            return;
+        }
+        if self.len() <= row {
+            self.pad_to(row + 1);
+        }
+        match (self, value) {
+            (Self::Bool(v), Value::Bool(x)) => v[row] = Some(x),
+            (Self::Int(v), Value::Int(x)) => v[row] = Some(x),
+            (Self::Float(v), Value::Float(x)) => v[row] = Some(x),
+            (Self::Float(v), Value::Int(x)) => v[row] = Some(x as f64),
+            _ => unreachable!("the column was widened for this value"),
+        }
+    }
+
+    fn set_text(text: &mut TextColumn, present: &mut Vec<bool>, row: usize, value: &str) {
+        if row < present.len() {
+            // Rare: a row set twice. The buffer is flat, so it is made anew.
+            let rows: Vec<String> = text.iter().map(str::to_owned).collect();
+            let replaced = rows
+                .iter()
+                .enumerate()
+                .map(|(i, old)| if i == row { value } else { old });
+            *text = replaced.collect();
+        } else {
+            while text.len() < row {
+                text.push("");
+                present.push(false);
+            }
+            text.push(value);
+            present.push(true);
+        }
+        present[row] = true;
+    }
+
+    fn pad_to(&mut self, rows: usize) {
+        match self {
+            Self::Bool(v) => v.resize(rows, None),
+            Self::Int(v) => v.resize(rows, None),
+            Self::Float(v) => v.resize(rows, None),
+            Self::Text { text, present } => {
+                while present.len() < rows {
+                    text.push("");
+                    present.push(false);
+                }
+            }
+        }
+    }
+
+    fn heap_bytes(&self) -> usize {
+        match self {
+            Self::Bool(v) => v.capacity() * size_of::<Option<bool>>(),
+            Self::Int(v) => v.capacity() * size_of::<Option<i64>>(),
+            Self::Float(v) => v.capacity() * size_of::<Option<f64>>(),
+            Self::Text { text, present } => text.heap_bytes() + present.capacity(),
+        }
+    }
+}
+
+/// One value of an attribute.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Value<'a> {
+    /// Yes or no.
+    Bool(bool),
+    /// A whole number.
+    Int(i64),
+    /// A number.
+    Float(f64),
+    /// Text.
+    Text(&'a str),
+}
+
+impl std::fmt::Display for Value<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Bool(v) => v.fmt(f),
+            Self::Int(v) => v.fmt(f),
+            Self::Float(v) => v.fmt(f),
+            Self::Text(v) => f.write_str(v),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_column_widens_to_hold_what_comes() {
+        let mut attributes = Attributes::default();
+        attributes.set(1, "speed", Value::Int(2));
+        attributes.set(2, "speed", Value::Float(0.5));
+        let speed = |a: &Attributes, row| {
+            a.get("speed")
+                .unwrap()
+                .values
+                .get(row)
+                .map(|v| v.to_string())
+        };
+        assert_eq!(speed(&attributes, 0), None);
+        assert_eq!(
+            attributes.get("speed").unwrap().values.get(1),
+            Some(Value::Float(2.0))
+        );
+        attributes.set(4, "speed", Value::Text("fast"));
+        assert_eq!(speed(&attributes, 2).as_deref(), Some("0.5"));
+        assert_eq!(speed(&attributes, 3), None);
+        attributes.set(2, "speed", Value::Text("slow"));
+        assert_eq!(speed(&attributes, 2).as_deref(), Some("slow"));
+        assert_eq!(speed(&attributes, 4).as_deref(), Some("fast"));
+    }
+}

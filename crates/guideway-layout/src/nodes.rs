@@ -1,0 +1,137 @@
+use guideway_spline::Point;
+
+use crate::{Attributes, TextColumn};
+
+/// A floor of a building, or one of several layouts in a file.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Level {
+    /// Identifier, as the file has it.
+    pub id: String,
+    /// A name for people.
+    pub name: Option<String>,
+    /// Height above the ground, if the file says.
+    pub elevation_m: Option<f64>,
+}
+
+/// Points where paths meet, a column an attribute.
+#[derive(Clone, Debug, Default)]
+pub struct Nodes {
+    ids: TextColumn,
+    positions_m: Vec<Point<f64>>,
+    levels: Vec<Option<u32>>,
+    /// Any further columns of the file.
+    pub attributes: Attributes,
+}
+
+impl Nodes {
+    /// Appends a node and returns its row.
+    pub fn push(&mut self, id: &str, position_m: Point<f64>, level: Option<u32>) -> u32 {
+        self.ids.push(id);
+        self.positions_m.push(position_m);
+        self.levels.push(level);
+        (self.ids.len() - 1) as u32
+    }
+
+    /// Number of nodes.
+    pub fn len(&self) -> usize {
+        self.ids.len()
+    }
+
+    /// Whether there are no nodes.
+    pub fn is_empty(&self) -> bool {
+        self.ids.is_empty()
+    }
+
+    /// Identifier of a node.
+    pub fn id(&self, node: u32) -> &str {
+        self.ids.get(node as usize)
+    }
+
+    /// Position of a node, in metres.
+    pub fn position_m(&self, node: u32) -> Point<f64> {
+        self.positions_m[node as usize]
+    }
+
+    /// Index of a node's level.
+    pub fn level(&self, node: u32) -> Option<u32> {
+        self.levels[node as usize]
+    }
+
+    /// Heap bytes held.
+    pub fn heap_bytes(&self) -> usize {
+        self.ids.heap_bytes()
+            + self.positions_m.capacity() * size_of::<Point<f64>>()
+            + self.levels.capacity() * size_of::<Option<u32>>()
+            + self.attributes.heap_bytes()
+    }
+}
+
+/// Places where vehicles do something.
+#[derive(Clone, Debug, Default)]
+pub struct Stations {
+    ids: TextColumn,
+    positions_m: Vec<Option<Point<f64>>>,
+    nodes: Vec<Vec<u32>>,
+    levels: Vec<Option<u32>>,
+    /// Any further columns of the file.
+    pub attributes: Attributes,
+}
+
+impl Stations {
+    /// Appends a station with the nodes that serve it, and returns its row.
+    pub fn push(
+        &mut self,
+        id: &str,
+        position_m: Option<Point<f64>>,
+        nodes: Vec<u32>,
+        level: Option<u32>,
+    ) -> u32 {
+        self.ids.push(id);
+        self.positions_m.push(position_m);
+        self.nodes.push(nodes);
+        self.levels.push(level);
+        (self.ids.len() - 1) as u32
+    }
+
+    /// Number of stations.
+    pub fn len(&self) -> usize {
+        self.ids.len()
+    }
+
+    /// Whether there are no stations.
+    pub fn is_empty(&self) -> bool {
+        self.ids.is_empty()
+    }
+
+    /// Identifier of a station.
+    pub fn id(&self, station: u32) -> &str {
+        self.ids.get(station as usize)
+    }
+
+    /// Position of a station, in metres, if the file gives one.
+    pub fn position_m(&self, station: u32) -> Option<Point<f64>> {
+        self.positions_m[station as usize]
+    }
+
+    /// Rows of the nodes that serve a station.
+    pub fn nodes(&self, station: u32) -> &[u32] {
+        &self.nodes[station as usize]
+    }
+
+    /// Index of a station's level.
+    pub fn level(&self, station: u32) -> Option<u32> {
+        self.levels[station as usize]
+    }
+
+    /// Heap bytes held.
+    pub fn heap_bytes(&self) -> usize {
+        self.ids.heap_bytes()
+            + self.positions_m.capacity() * size_of::<Option<Point<f64>>>()
+            + self
+                .nodes
+                .iter()
+                .map(|n| n.capacity() * size_of::<u32>())
+                .sum::<usize>()
+            + self.attributes.heap_bytes()
+    }
+}

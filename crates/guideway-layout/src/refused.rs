@@ -1,0 +1,53 @@
+use crate::{Code, TextColumn};
+
+/// Paths of the input that cannot be drawn.
+#[derive(Clone, Debug, Default)]
+pub struct Refused {
+    ids: TextColumn,
+    codes: Vec<Code>,
+    details: TextColumn,
+}
+
+/// One refused path.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RefusedPath<'a> {
+    /// Identifier, as the file has it.
+    pub id: &'a str,
+    /// Why, for programs.
+    pub code: Code,
+    /// Why, for people.
+    pub detail: &'a str,
+}
+
+impl Refused {
+    /// Records a path that cannot be drawn.
+    pub fn push(&mut self, id: &str, code: Code, detail: &str) {
+        self.ids.push(id);
+        self.codes.push(code);
+        self.details.push(detail);
+    }
+
+    /// Number of refused paths.
+    pub fn len(&self) -> usize {
+        self.codes.len()
+    }
+
+    /// Whether no path was refused.
+    pub fn is_empty(&self) -> bool {
+        self.codes.is_empty()
+    }
+
+    /// All refused paths, in file order.
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = RefusedPath<'_>> {
+        (0..self.len()).map(|row| RefusedPath {
+            id: self.ids.get(row),
+            code: self.codes[row],
+            detail: self.details.get(row),
+        })
+    }
+
+    /// Heap bytes held.
+    pub fn heap_bytes(&self) -> usize {
+        self.ids.heap_bytes() + self.details.heap_bytes() + self.codes.capacity()
+    }
+}

@@ -1,0 +1,25 @@
+//! Curve mathematics for path layouts.
+//!
+//! Everything that Guideway draws is one primitive: a *run* of uniform cubic B-spline control points.
+//! A run of n points (n >= 4) is n - 3 segments, each
+//!
+//! ```text
+//! C(t) = 1/6 [t^3 t^2 t 1] | -1  3 -3  1 | | P0 |
+//!                          |  3 -6  3  0 | | P1 |     0 <= t <= 1
+//!                          | -3  0  3  0 | | P2 |
+//!                          |  1  4  1  0 | | P3 |
+//! ```
+//!
+//! Any other curve converts to runs: exactly where it is a non-rational curve up to degree 3, within a
+//! stated tolerance otherwise.
+
+mod bounds;
+mod point;
+mod real;
+mod runs;
+pub mod uniform;
+
+pub use bounds::Bounds;
+pub use point::Point;
+pub use real::Real;
+pub use runs::Runs;

@@ -1,0 +1,108 @@
+use std::ops::{Add, Mul, Neg, Sub};
+
+use crate::Real;
+
+/// A point or vector in the plane. In layouts: metres, y up.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(C)]
+pub struct Point<T> {
+    /// To the right.
+    pub x: T,
+    /// Up.
+    pub y: T,
+}
+
+impl<T: Real> Point<T> {
+    /// The point (x, y).
+    pub const fn new(x: T, y: T) -> Self {
+        Self { x, y }
+    }
+
+    /// Whether both coordinates are finite.
+    pub fn is_finite(self) -> bool {
+        self.x.is_finite() && self.y.is_finite()
+    }
+
+    /// Scalar product.
+    pub fn dot(self, other: Self) -> T {
+        self.x * other.x + self.y * other.y
+    }
+
+    /// z component of the cross product: positive if `other` is to the left.
+    pub fn cross(self, other: Self) -> T {
+        self.x * other.y - self.y * other.x
+    }
+
+    /// Length as a vector.
+    pub fn norm(self) -> T {
+        self.x.hypot(self.y)
+    }
+
+    /// Distance to another point.
+    pub fn distance(self, other: Self) -> T {
+        (self - other).norm()
+    }
+
+    /// The point at fraction `t` of the way to `other`.
+    pub fn lerp(self, other: Self, t: T) -> Self {
+        self * (T::one() - t) + other * t
+    }
+
+    /// The same point in `f64`.
+    pub fn to_f64(self) -> Point<f64> {
+        Point {
+            x: self.x.to_f64(),
+            y: self.y.to_f64(),
+        }
+    }
+}
+
+impl Point<f64> {
+    /// The nearest point in `f32`.
+    pub fn to_f32(self) -> Point<f32> {
+        Point {
+            x: f32::of(self.x),
+            y: f32::of(self.y),
+        }
+    }
+}
+
+impl<T: Real> Add for Point<T> {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        Self {
+            x: self.x + other.x,
+            y: self.y + other.y,
+        }
+    }
+}
+
+impl<T: Real> Sub for Point<T> {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        Self {
+            x: self.x - other.x,
+            y: self.y - other.y,
+        }
+    }
+}
+
+impl<T: Real> Mul<T> for Point<T> {
+    type Output = Self;
+    fn mul(self, factor: T) -> Self {
+        Self {
+            x: self.x * factor,
+            y: self.y * factor,
+        }
+    }
+}
+
+impl<T: Real> Neg for Point<T> {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Self {
+            x: -self.x,
+            y: -self.y,
+        }
+    }
+}

@@ -1,0 +1,31 @@
+use std::fmt::Debug;
+
+/// A floating-point number: `f32` or `f64`.
+pub trait Real: num_traits::Float + Debug + Default + Send + Sync + 'static {
+    /// The nearest number to `value`.
+    fn of(value: f64) -> Self;
+    /// The same number in `f64`.
+    fn to_f64(self) -> f64;
+}
+
+impl Real for f64 {
+    fn of(value: f64) -> Self {
+        value
+    }
+    fn to_f64(self) -> f64 {
+        self
+    }
+}
+
+impl Real for f32 {
+    #[allow(
+        clippy::cast_possible_truncation,
+        reason = "rounding to f32 is what it is for"
+    )]
+    fn of(value: f64) -> Self {
+        value as Self
+    }
+    fn to_f64(self) -> f64 {
+        f64::from(self)
+    }
+}

@@ -1,0 +1,72 @@
+//! One segment of a uniform cubic B-spline: four control points (thesis eq. 3.2).
+
+use crate::{Point, Real};
+
+/// The point at parameter `t`, 0 at the start and 1 at the end.
+pub fn point<T: Real>(p: &[Point<T>; 4], t: T) -> Point<T> {
+    let one = T::one();
+    let (three, four, sixth) = (T::of(3.0), T::of(4.0), T::of(1.0 / 6.0));
+    let s = one - t;
+    let b0 = s * s * s;
+    let b1 = (three * t - T::of(6.0)) * t * t + four;
+    let b2 = ((three - three * t) * t + three) * t + one;
+    let b3 = t * t * t;
+    (p[0] * b0 + p[1] * b1 + p[2] * b2 + p[3] * b3) * sixth
+}
+
+/// Where the segment begins.
+pub fn start<T: Real>(p: &[Point<T>; 4]) -> Point<T> {
+    (p[0] + p[1] * T::of(4.0) + p[2]) * T::of(1.0 / 6.0)
+}
+
+/// Where the segment ends.
+pub fn end<T: Real>(p: &[Point<T>; 4]) -> Point<T> {
+    (p[1] + p[2] * T::of(4.0) + p[3]) * T::of(1.0 / 6.0)
+}
+
+/// The first derivative at `t`.
+pub fn derivative<T: Real>(p: &[Point<T>; 4], t: T) -> Point<T> {
+    let (half, s) = (T::of(0.5), T::one() - t);
+    let (d0, d1, d2) = (p[1] - p[0], p[2] - p[1], p[3] - p[2]);
+    let middle = T::one() + T::of(2.0) * t * s;
+    (d0 * (s * s) + d1 * middle + d2 * (t * t)) * half
+}
+
+/// The second derivative at `t`: it goes straight from `P0 - 2 P1 + P2` to `P1 - 2 P2 + P3`.
+pub fn second_derivative<T: Real>(p: &[Point<T>; 4], t: T) -> Point<T> {
+    let two = T::of(2.0);
+    (p[0] - p[1] * two + p[2]).lerp(p[1] - p[2] * two + p[3], t)
+}
+
+/// The same curve as a cubic Bezier.
+pub fn to_bezier<T: Real>(p: &[Point<T>; 4]) -> [Point<T>; 4] {
+    let third = T::of(1.0 / 3.0);
+    let two = T::of(2.0);
+    [
+        start(p),
+        (p[1] * two + p[2]) * third,
+        (p[1] + p[2] * two) * third,
+        end(p),
+    ]
+}
+
+/// The uniform cubic control points of a cubic Bezier: the exact inverse of [`to_bezier`].
+pub fn from_bezier<T: Real>(b: &[Point<T>; 4]) -> [Point<T>; 4] {
+    let (two, six, seven) = (T::of(2.0), T::of(6.0), T::of(7.0));
+    [
+        b[0] * six - b[1] * seven + b[2] * two,
+        b[1] * two - b[2],
+        b[2] * two - b[1],
+        b[3] * six - b[2] * seven + b[1] * two,
+    ]
+}
+
+/// The two halves of a segment, split at t = 1/2, each a segment of its own.
+pub fn halves<T: Real>(p: &[Point<T>; 4]) -> [[Point<T>; 4]; 2] {
+    // Knot insertion at the middle of every span (Lane-Riesenfeld subdivision).
+    let (half, eighth, six) = (T::of(0.5), T::of(0.125), T::of(6.0));
+    let mid = |i: usize| (p[i] + p[i + 1]) * half;
+    let vertex = |i: usize| (p[i - 1] + p[i] * six + p[i + 1]) * eighth;
+    let (m0, v1, m1, v2, m2) = (mid(0), vertex(1), mid(1), vertex(2), mid(2));
+    [[m0, v1, m1, v2], [v1, m1, v2, m2]]
+}
