@@ -1,1 +1,13 @@
-//! stub
+//! Layout files to and from the Guideway model.
+//!
+//! Files come from customers and from the network, so their bytes are not trusted: every reader holds
+//! to [`Limits`](guideway_layout::Limits), never panics, and either gives a layout with everything odd
+//! in its diagnostics or an error that says which file, where, what, and what to do.
+
+mod error;
+mod read;
+mod sniff;
+
+pub use error::{Problem, ReadError};
+pub use read::{Progress, ReadOptions, read_bytes, read_file};
+pub use sniff::{Format, sniff};

@@ -1,0 +1,179 @@
+use std::fs::{File, Metadata};
+use std::io::{self, Read};
+use std::path::Path;
+
+use guideway_layout::{Layout, Limits};
+
+use crate::{Format, Problem, ReadError, sniff};
+
+/// How to read.
+#[derive(Clone, Default)]
+pub struct ReadOptions<'a> {
+    /// What is too much.
+    pub limits: Limits,
+    /// Who is told how far it is, and may stop it.
+    pub progress: Option<&'a dyn Progress>,
+}
+
+/// Follows a long read, and may stop it.
+pub trait Progress: Sync {
+    /// `done` of `total` steps are done; the unit is the reader's own.
+    fn advance(&self, done: u64, total: u64) {
+        let _ = (done, total);
+    }
+
+    /// Whether to stop: the read then ends with [`Problem::Cancelled`].
+    fn cancelled(&self) -> bool {
+        false
+    }
+}
+
+/// Reads a layout file. The format is found from the content, whatever the file is called.
+///
+/// # Errors
+/// When the file cannot be read, is of no known format, or is so damaged that nothing can be drawn.
+/// What is merely odd is in [`Layout::diagnostics`].
+pub fn read_file(path: &Path, options: &ReadOptions<'_>) -> Result<Layout, ReadError> {
+    let name = path.display().to_string();
+    let fail = |problem| ReadError::new(&name, problem);
+    let mut file = open(path).map_err(fail)?;
+    let bytes = read_whole(&mut file, options).map_err(fail)?;
+    read_bytes(&name, &bytes, options)
+}
+
+/// Reads a layout from bytes; `name` stands for the file in messages.
+///
+/// # Errors
+/// As [`read_file`].
+pub fn read_bytes(
+    name: &str,
+    bytes: &[u8],
+    options: &ReadOptions<'_>,
+) -> Result<Layout, ReadError> {
+    let source = Source { name, options };
+    source.check_cancelled()?;
+    if bytes.is_empty() {
+        return Err(source.fail(Problem::Empty));
+    }
+    check_size(bytes.len() as u64, &options.limits).map_err(|p| source.fail(p))?;
+    match sniff(bytes) {
+        Some(Format::Lif | Format::OpenTcs | Format::Arrow) | None => {
+            Err(source.fail(unknown(bytes)))
+        }
+    }
+}
+
+/// What is being read, and how: handed to every reader.
+#[derive(Clone, Copy)]
+pub(crate) struct Source<'a> {
+    /// Name of the file in messages.
+    pub(crate) name: &'a str,
+    /// How to read.
+    pub(crate) options: &'a ReadOptions<'a>,
+}
+
+impl Source<'_> {
+    /// An error of this source.
+    pub(crate) fn fail(&self, problem: Problem) -> ReadError {
+        ReadError::new(self.name, problem)
+    }
+
+    /// Ends the read if the caller asked for that.
+    pub(crate) fn check_cancelled(&self) -> Result<(), ReadError> {
+        match self.options.progress {
+            Some(progress) if progress.cancelled() => Err(self.fail(Problem::Cancelled)),
+            _ => Ok(()),
+        }
+    }
+}
+
+fn open(path: &Path) -> Result<File, Problem> {
+    // Looked at before it is opened: opening a pipe would wait for a writer.
+    let metadata = std::fs::metadata(path).map_err(io_problem)?;
+    if let Some(kind) = not_a_file(&metadata) {
+        return Err(Problem::NotAFile(kind));
+    }
+    File::open(path).map_err(io_problem)
+}
+
+fn io_problem(error: io::Error) -> Problem {
+    match error.kind() {
+        io::ErrorKind::NotFound => Problem::NotFound,
+        _ => Problem::Io(error),
+    }
+}
+
+fn not_a_file(metadata: &Metadata) -> Option<&'static str> {
+    if metadata.is_file() {
+        None
+    } else if metadata.is_dir() {
+        Some("folder")
+    } else {
+        Some("pipe, socket or device")
+    }
+}
+
+fn read_whole(file: &mut File, options: &ReadOptions<'_>) -> Result<Vec<u8>, Problem> {
+    const CHUNK: u64 = 8 << 20;
+    let total = file.metadata().map_err(io_problem)?.len();
+    check_size(total, &options.limits)?;
+    let mut bytes = Vec::new();
+    bytes
+        .try_reserve_exact(usize::try_from(total).unwrap_or(usize::MAX))
+        .map_err(|_| Problem::Io(io::ErrorKind::OutOfMemory.into()))?;
+    // The file may grow while it is read, so the size is checked again as it comes.
+    while file
+        .take(CHUNK)
+        .read_to_end(&mut bytes)
+        .map_err(io_problem)?
+        > 0
+    {
+        let done = bytes.len() as u64;
+        check_size(done, &options.limits)?;
+        if let Some(progress) = options.progress {
+            progress.advance(done, total.max(done));
+            if progress.cancelled() {
+                return Err(Problem::Cancelled);
+            }
+        }
+    }
+    Ok(bytes)
+}
+
+fn check_size(actual: u64, limits: &Limits) -> Result<(), Problem> {
+    let limit = limits.file_bytes;
+    if actual <= limit {
+        return Ok(());
+    }
+    Err(Problem::LimitReached {
+        what: "bytes in the file",
+        limit,
+        actual,
+    })
+}
+
+fn unknown(bytes: &[u8]) -> Problem {
+    let detail = match bytes {
+        [0xFF, 0xFE, ..] | [0xFE, 0xFF, ..] => Some("it is UTF-16"),
+        [b'{' | b'<', 0, ..] | [0, b'{' | b'<', ..] => Some("it is UTF-16"),
+        _ => None,
+    };
+    match detail {
+        Some(detail) => Problem::NotUtf8 { at: 0, detail },
+        None => Problem::UnknownFormat {
+            first_bytes: readable(&bytes[..bytes.len().min(24)]),
+        },
+    }
+}
+
+/// Bytes in quotes if they are plain text, as hexadecimal numbers if not.
+fn readable(bytes: &[u8]) -> String {
+    let plain = |b: &u8| b.is_ascii_graphic() || matches!(b, b' ' | b'\n' | b'\r' | b'\t');
+    match std::str::from_utf8(bytes) {
+        Ok(text) if bytes.iter().all(plain) => format!("{text:?}"),
+        _ => {
+            let hex: Vec<String> = bytes.iter().take(16).map(|b| format!("{b:02X}")).collect();
+            hex.join(" ")
+        }
+    }
+}
