@@ -106,7 +106,7 @@ impl Paths {
             column.push(0);
         }
         if let Some(column) = &mut self.rank {
-            column.push(i32::try_from(row).unwrap_or(i32::MAX));
+            column.push(0);
         }
         row
     }

@@ -1,0 +1,28 @@
+use std::sync::Arc;
+
+use guideway_render::{Budget, Method, MethodInfo, Prepared, RenderError};
+use guideway_scene::Scene;
+
+/// (being written)
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Oracle;
+
+impl Method for Oracle {
+    fn info(&self) -> MethodInfo {
+        MethodInfo {
+            name: "oracle",
+            summary: "",
+            device: String::new(),
+        }
+    }
+    fn plan_bytes(&self, _scene: &Scene, _budget: &Budget) -> u64 {
+        0
+    }
+    fn prepare(
+        &self,
+        _scene: Arc<Scene>,
+        _budget: &Budget,
+    ) -> Result<Box<dyn Prepared>, RenderError> {
+        Err(RenderError::Cancelled)
+    }
+}

@@ -1,0 +1,50 @@
+use crate::FrameSize;
+
+/// Why a picture could not be made.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum RenderError {
+    /// A side of the picture is zero or too long.
+    #[error(
+        "a picture of {width} x {height} pixels cannot be made: each side takes 1 to {} pixels and both \
+         together at most {} million; ask for another size",
+        FrameSize::MAX_SIDE,
+        FrameSize::MAX_PIXELS / 1_000_000
+    )]
+    FrameSize {
+        /// Width asked for, in pixels.
+        width: u64,
+        /// Height asked for, in pixels.
+        height: u64,
+    },
+    /// The view's centre or scale is not usable.
+    #[error(
+        "the view around ({x_m}, {y_m}) at {px_per_m} pixels a metre cannot be drawn: the centre must be \
+         within 1e12 m and the scale between 1e-9 and 1e9 pixels a metre"
+    )]
+    View {
+        /// Centre asked for, in metres.
+        x_m: f64,
+        /// Centre asked for, in metres.
+        y_m: f64,
+        /// Scale asked for.
+        px_per_m: f64,
+    },
+    /// The memory allowed does not do.
+    #[error(
+        "method `{method}` needs {needed_bytes} bytes for {what}, but the budget is {budget_bytes}: \
+         raise the budget or make the picture smaller"
+    )]
+    Budget {
+        /// Name of the method.
+        method: &'static str,
+        /// What the memory is for.
+        what: &'static str,
+        /// Bytes needed.
+        needed_bytes: u64,
+        /// Bytes allowed.
+        budget_bytes: u64,
+    },
+    /// The caller asked to stop.
+    #[error("cancelled")]
+    Cancelled,
+}

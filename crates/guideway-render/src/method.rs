@@ -1,0 +1,123 @@
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use guideway_scene::{LineRule, Rgba, Scene};
+
+use crate::density::ToneMap;
+use crate::{Frame, RenderError, Report, View};
+
+/// One way of turning a scene into pixels. Immutable once made: share it between threads.
+pub trait Method: Send + Sync {
+    /// What it is called and where it runs.
+    fn info(&self) -> MethodInfo;
+
+    /// Bytes that the method would hold for a scene, itself and its largest frame, before any of it is
+    /// allocated. An estimate from above.
+    fn plan_bytes(&self, scene: &Scene, budget: &Budget) -> u64;
+
+    /// Makes a scene ready to be drawn from any view.
+    ///
+    /// # Errors
+    /// When the scene does not fit the budget.
+    fn prepare(&self, scene: Arc<Scene>, budget: &Budget)
+    -> Result<Box<dyn Prepared>, RenderError>;
+}
+
+/// A scene made ready by a [`Method`].
+pub trait Prepared: Send {
+    /// Draws a view into `frame`, which takes the view's size.
+    ///
+    /// # Errors
+    /// When the view is not usable, the budget does not do, or `cancel` was set. The frame's pixels are
+    /// then undefined.
+    fn render(
+        &mut self,
+        view: &View,
+        style: &Style,
+        cancel: &Cancel,
+        frame: &mut Frame,
+    ) -> Result<Report, RenderError>;
+}
+
+/// What a method is called and where it runs.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MethodInfo {
+    /// Stable name, as in `--method`.
+    pub name: &'static str,
+    /// One line on what it does.
+    pub summary: &'static str,
+    /// The device that it runs on.
+    pub device: String,
+}
+
+/// How the frame looks, for all paths alike.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Style {
+    /// How wide lines are.
+    pub line_rule: LineRule,
+    /// What a pixel shows.
+    pub shading: Shading,
+    /// What lies below all paths.
+    pub background: Rgba,
+}
+
+impl Default for Style {
+    fn default() -> Self {
+        Self {
+            line_rule: LineRule::default(),
+            shading: Shading::Color,
+            background: Rgba::WHITE,
+        }
+    }
+}
+
+/// What a pixel shows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Shading {
+    /// The colours of the paths.
+    #[default]
+    Color,
+    /// How many paths cover it.
+    Density(ToneMap),
+}
+
+/// What a method may use.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Budget {
+    /// Most bytes of memory for what a method makes from the scene, frames included.
+    pub memory_bytes: u64,
+    /// Threads to use; 0 means one a core.
+    pub threads: usize,
+}
+
+impl Default for Budget {
+    fn default() -> Self {
+        Self {
+            memory_bytes: 1 << 30,
+            threads: 0,
+        }
+    }
+}
+
+/// A flag that stops long work at its next step. Clones share it.
+#[derive(Clone, Debug, Default)]
+pub struct Cancel(Arc<AtomicBool>);
+
+impl Cancel {
+    /// Asks the work to stop.
+    pub fn set(&self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
+
+    /// Fails once the work was asked to stop.
+    ///
+    /// # Errors
+    /// [`RenderError::Cancelled`].
+    pub fn check(&self) -> Result<(), RenderError> {
+        if self.0.load(Ordering::Relaxed) {
+            Err(RenderError::Cancelled)
+        } else {
+            Ok(())
+        }
+    }
+}

@@ -1,0 +1,183 @@
+use std::fmt;
+use std::sync::Arc;
+
+use guideway_layout::Layout;
+use guideway_spline::Bounds;
+
+use crate::Rgba;
+use crate::color_by::{self, ColorBy, Legend};
+
+/// How a layout is to look.
+#[derive(Clone, Debug, Default)]
+pub struct SceneOptions {
+    /// Colour of paths that have none of their own; black unless set.
+    pub color: Option<Rgba>,
+    /// Colour every path by a column instead.
+    pub color_by: Option<ColorBy>,
+    /// Draw only the level of this name or id.
+    pub level: Option<String>,
+}
+
+/// What cannot be made into a scene.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum SceneError {
+    /// There is no such level.
+    UnknownLevel {
+        /// The level asked for.
+        asked: String,
+        /// Those that there are.
+        known: Vec<String>,
+    },
+    /// There is no such column to colour by.
+    UnknownColumn {
+        /// The column asked for.
+        asked: String,
+        /// Those that there are.
+        known: Vec<String>,
+    },
+}
+
+impl fmt::Display for SceneError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (what, asked, known) = match self {
+            Self::UnknownLevel { asked, known } => ("level", asked, known),
+            Self::UnknownColumn { asked, known } => ("column", asked, known),
+        };
+        if known.is_empty() {
+            write!(f, "there is no {what} `{asked}`: this layout has none")
+        } else {
+            write!(
+                f,
+                "there is no {what} `{asked}`; there is: {}",
+                known.join(", ")
+            )
+        }
+    }
+}
+
+impl std::error::Error for SceneError {}
+
+/// A layout with every path's style resolved. Immutable: share it between methods.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    layout: Arc<Layout>,
+    colors: Colors,
+    draw_order: Vec<u32>,
+    bounds: Option<Bounds<f64>>,
+    legend: Option<Legend>,
+}
+
+#[derive(Clone, Debug)]
+enum Colors {
+    One(Rgba),
+    Each(Vec<Rgba>),
+}
+
+impl Scene {
+    /// Resolves the styles of a layout.
+    ///
+    /// # Errors
+    /// When the options name a level or a column that the layout has not.
+    pub fn new(layout: Arc<Layout>, options: &SceneOptions) -> Result<Self, SceneError> {
+        let draw_order = draw_order(&layout, options.level.as_deref())?;
+        let base = options.color.unwrap_or(Rgba::BLACK);
+        let (colors, legend) = match &options.color_by {
+            Some(by) => {
+                let (colors, legend) = color_by::resolve(&layout, by, &draw_order)?;
+                (Colors::Each(colors), Some(legend))
+            }
+            None => (own_colors(&layout, base), None),
+        };
+        let bounds = draw_order
+            .iter()
+            .filter_map(|&path| layout.paths.get(path as usize).hull_bounds())
+            .reduce(Bounds::union);
+        Ok(Self {
+            layout,
+            colors,
+            draw_order,
+            bounds,
+            legend,
+        })
+    }
+
+    /// The layout that is drawn.
+    pub fn layout(&self) -> &Layout {
+        &self.layout
+    }
+
+    /// Rows of the paths that are drawn, from the lowest draw rank to the highest. Paths of other levels
+    /// are not among them.
+    pub fn draw_order(&self) -> &[u32] {
+        &self.draw_order
+    }
+
+    /// Paths of the layout that this scene hides.
+    pub fn hidden_count(&self) -> usize {
+        self.layout.paths.len() - self.draw_order.len()
+    }
+
+    /// Colour of a path.
+    pub fn color(&self, path: u32) -> Rgba {
+        match &self.colors {
+            Colors::One(color) => *color,
+            Colors::Each(colors) => colors[path as usize],
+        }
+    }
+
+    /// Whether nothing shows through any path.
+    pub fn is_opaque(&self) -> bool {
+        match &self.colors {
+            Colors::One(color) => color.is_opaque(),
+            Colors::Each(colors) => colors.iter().all(|c| c.is_opaque()),
+        }
+    }
+
+    /// Width of a path in metres, if it has one of its own.
+    pub fn width_m(&self, path: u32) -> Option<f32> {
+        let width_m = *self.layout.paths.width_m()?.get(path as usize)?;
+        (width_m.is_finite() && width_m >= 0.0).then_some(width_m)
+    }
+
+    /// Box that holds all drawn paths, in metres; none if there are none.
+    pub fn bounds(&self) -> Option<Bounds<f64>> {
+        self.bounds
+    }
+
+    /// What the colours mean, if they were chosen by a column.
+    pub fn legend(&self) -> Option<&Legend> {
+        self.legend.as_ref()
+    }
+}
+
+fn draw_order(layout: &Layout, level: Option<&str>) -> Result<Vec<u32>, SceneError> {
+    let only = match level {
+        None => None,
+        Some(asked) => Some(
+            layout
+                .level_named(asked)
+                .ok_or_else(|| SceneError::UnknownLevel {
+                    asked: asked.to_owned(),
+                    known: layout.levels.iter().map(|l| l.id.clone()).collect(),
+                })?,
+        ),
+    };
+    let mut order: Vec<u32> = (0..layout.paths.len() as u32).collect();
+    if only.is_some() {
+        order.retain(|&path| layout.paths.get(path as usize).level() == only);
+    }
+    if let Some(rank) = layout.paths.rank() {
+        order.sort_by_key(|&path| rank[path as usize]);
+    }
+    Ok(order)
+}
+
+fn own_colors(layout: &Layout, base: Rgba) -> Colors {
+    match layout.paths.color_rgba() {
+        None => Colors::One(base),
+        Some(own) => {
+            let color = |&c: &u32| if c == 0 { base } else { Rgba::from_u32(c) };
+            Colors::Each(own.iter().map(color).collect())
+        }
+    }
+}

@@ -1,0 +1,68 @@
+/// How wide lines are drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum LineRule {
+    /// A width in the world, held between a least and a greatest width in pixels.
+    World {
+        /// Width in metres of paths that have none of their own.
+        width_m: f64,
+        /// Least width in pixels.
+        min_px: f64,
+        /// Greatest width in pixels.
+        max_px: f64,
+    },
+    /// The thesis' rule: a radius of 1.5 pixels held within 2 to 150 mm, for every path. Far out a line
+    /// thins below a pixel and fades, instead of turning the sheet black.
+    Thesis,
+}
+
+impl Default for LineRule {
+    fn default() -> Self {
+        Self::World {
+            width_m: 0.1,
+            min_px: 1.5,
+            max_px: 12.0,
+        }
+    }
+}
+
+impl LineRule {
+    /// Half the stroke width in pixels, for a path with a width of its own or none.
+    pub fn radius_px(&self, width_m: Option<f32>, px_per_m: f64) -> f64 {
+        match *self {
+            Self::World {
+                width_m: common_m,
+                min_px,
+                max_px,
+            } => {
+                let width_px = width_m.map_or(common_m, f64::from) * px_per_m;
+                width_px.min(max_px).max(min_px) / 2.0
+            }
+            Self::Thesis => (1.5 / px_per_m).clamp(0.002, 0.150) * px_per_m,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn widths_are_held_between_their_limits() {
+        let rule = LineRule::World {
+            width_m: 0.5,
+            min_px: 1.0,
+            max_px: 8.0,
+        };
+        assert_eq!(rule.radius_px(None, 1.0), 0.5);
+        assert_eq!(rule.radius_px(None, 10.0), 2.5);
+        assert_eq!(rule.radius_px(None, 1000.0), 4.0);
+        assert_eq!(rule.radius_px(Some(0.25), 10.0), 1.25);
+    }
+
+    #[test]
+    fn the_thesis_rule_thins_far_out_and_grows_close_in() {
+        assert_eq!(LineRule::Thesis.radius_px(None, 1.0), 0.15);
+        assert!((LineRule::Thesis.radius_px(None, 100.0) - 1.5).abs() < 1e-12);
+        assert!((LineRule::Thesis.radius_px(None, 10_000.0) - 20.0).abs() < 1e-12);
+    }
+}
