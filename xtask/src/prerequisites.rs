@@ -1,0 +1,122 @@
+//! What the checks need beside Rust and a C compiler, and how to get it.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Result, bail};
+
+use crate::step::{cargo, command};
+
+const CARGO_DENY_VERSION: &str = "0.20.2";
+
+/// `rustfmt` and `clippy`, through rustup where they are missing.
+pub(crate) fn rust_components() -> Result<()> {
+    for (subcommand, component) in [("fmt", "rustfmt"), ("clippy", "clippy")] {
+        if cargo(&[subcommand, "--version"]).succeeds() {
+            continue;
+        }
+        if command("rustup")
+            .args(["component", "add", component])
+            .run()
+            .is_err()
+        {
+            bail!(
+                "`cargo {subcommand}` is missing: install your distribution's {component}, or use rustup"
+            );
+        }
+    }
+    Ok(())
+}
+
+/// `cargo deny`, built once into cargo's own folder.
+pub(crate) fn cargo_deny() -> Result<PathBuf> {
+    let program = PathBuf::from("cargo-deny");
+    if !command(&program).args(["--version"]).succeeds() {
+        println!("installing cargo-deny {CARGO_DENY_VERSION}, some minutes the first time");
+        cargo(&[
+            "install",
+            "cargo-deny",
+            "--locked",
+            "--quiet",
+            "--version",
+            CARGO_DENY_VERSION,
+        ])
+        .run()?;
+    }
+    if command(&program).args(["--version"]).succeeds() {
+        return Ok(program);
+    }
+    // Installed, but cargo's folder is not on the path.
+    let home = std::env::var_os("CARGO_HOME").map(PathBuf::from);
+    let home = home.or_else(|| Some(PathBuf::from(std::env::var_os("HOME")?).join(".cargo")));
+    match home {
+        Some(home) => Ok(home.join("bin").join(program)),
+        None => {
+            bail!("cargo-deny is installed but not on PATH, and neither CARGO_HOME nor HOME is set")
+        }
+    }
+}
+
+/// A Python that can `import pyarrow`, in a virtual environment under `target/`, for the tests that read
+/// and write our Arrow files from outside.
+pub(crate) fn python_with_pyarrow() -> Result<PathBuf> {
+    let workspace = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("..")
+        .canonicalize()?;
+    let folder = workspace.join("target").join("python");
+    let python = folder.join("bin").join("python3");
+    if imports_pyarrow(&python) {
+        return Ok(python);
+    }
+    let make = || command("python3").args(["-m", "venv"]).args([&folder]);
+    if !make().succeeds() {
+        apt_install(&["python3", "python3-venv"])?;
+        make().run()?;
+    }
+    command(&python)
+        .args(["-m", "pip", "install", "--quiet", "pyarrow", "polars"])
+        .run()?;
+    if !imports_pyarrow(&python) {
+        bail!(
+            "pyarrow was installed into {} but cannot be imported",
+            folder.display()
+        );
+    }
+    Ok(python)
+}
+
+fn imports_pyarrow(python: &Path) -> bool {
+    command(python)
+        .args(["-c", "import pyarrow, polars"])
+        .succeeds()
+}
+
+fn apt_install(packages: &[&str]) -> Result<()> {
+    let is_root = command("sh")
+        .args(["-c", "test \"$(id -u)\" = 0"])
+        .succeeds();
+    let apt = |args: &[&str]| {
+        let all: Vec<&str> = if is_root { vec![] } else { vec!["sudo", "-n"] };
+        let all: Vec<&str> = all
+            .into_iter()
+            .chain(["apt-get"])
+            .chain(args.iter().copied())
+            .collect();
+        command(all[0])
+            .args(&all[1..])
+            .env("DEBIAN_FRONTEND", "noninteractive")
+            .run()
+    };
+    let install: Vec<&str> = ["install", "-y", "--no-install-recommends"]
+        .into_iter()
+        .chain(packages.iter().copied())
+        .collect();
+    if apt(&["update", "-q"]).and_then(|()| apt(&install)).is_err() {
+        bail!(
+            "this needs the packages {}, and they could not be installed (no rights, or no apt): \
+             run `sudo apt-get install {}` and start again",
+            packages.join(", "),
+            packages.join(" ")
+        );
+    }
+    Ok(())
+}

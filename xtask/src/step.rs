@@ -1,0 +1,91 @@
+use std::ffi::OsStr;
+use std::path::Path;
+use std::process::Command;
+
+use anyhow::{Context, Result, bail};
+
+/// One command to run, shown before it runs.
+pub(crate) struct Step(Command);
+
+/// How a captured command ended.
+pub(crate) struct Captured {
+    pub(crate) succeeded: bool,
+    pub(crate) stderr: String,
+}
+
+pub(crate) fn heading(title: &str) {
+    println!("\n== {title}");
+}
+
+pub(crate) fn command(program: impl AsRef<OsStr>) -> Step {
+    let mut command = Command::new(program);
+    for (name, value) in shared_env() {
+        command.env(name, value);
+    }
+    Step(command)
+}
+
+pub(crate) fn cargo(args: &[&str]) -> Step {
+    command(env!("CARGO")).args(args)
+}
+
+impl Step {
+    pub(crate) fn args<A: AsRef<OsStr>>(mut self, args: impl IntoIterator<Item = A>) -> Self {
+        self.0.args(args);
+        self
+    }
+
+    pub(crate) fn env(mut self, name: &str, value: impl AsRef<OsStr>) -> Self {
+        self.0.env(name, value);
+        self
+    }
+
+    /// Runs it with its output shown; fails if it fails.
+    pub(crate) fn run(mut self) -> Result<()> {
+        println!("$ {:?}", self.0);
+        let status = self
+            .0
+            .status()
+            .with_context(|| format!("cannot start {:?}", self.0))?;
+        if !status.success() {
+            bail!("{:?} failed: {status}", self.0);
+        }
+        Ok(())
+    }
+
+    /// Runs it and keeps what it says.
+    pub(crate) fn capture(mut self) -> Result<Captured> {
+        let output = self
+            .0
+            .output()
+            .with_context(|| format!("cannot start {:?}", self.0))?;
+        let stderr = String::from_utf8_lossy(&output.stderr).into_owned();
+        Ok(Captured {
+            succeeded: output.status.success(),
+            stderr,
+        })
+    }
+
+    /// Whether it can be started and succeeds, its output unseen.
+    pub(crate) fn succeeds(self) -> bool {
+        self.capture().is_ok_and(|c| c.succeeded)
+    }
+}
+
+static SHARED_ENV: std::sync::Mutex<Vec<(String, std::path::PathBuf)>> =
+    std::sync::Mutex::new(Vec::new());
+
+/// Sets a variable for every later step.
+pub(crate) fn set_env(name: &str, value: &Path) {
+    SHARED_ENV
+        .lock()
+        .unwrap_or_else(std::sync::PoisonError::into_inner)
+        .push((name.to_owned(), value.to_owned()));
+}
+
+fn shared_env() -> Vec<(String, std::path::PathBuf)> {
+    SHARED_ENV
+        .lock()
+        .unwrap_or_else(std::sync::PoisonError::into_inner)
+        .clone()
+}
