@@ -13,13 +13,19 @@
 //! Any other curve converts to runs: exactly where it is a non-rational curve up to degree 3, within a
 //! stated tolerance otherwise.
 
+pub mod basis;
 mod bounds;
+mod convert;
+pub mod knots;
+mod nurbs;
 mod point;
 mod real;
 mod runs;
 pub mod uniform;
 
 pub use bounds::Bounds;
+pub use convert::{Conversion, MAX_HALVINGS, bezier_to_runs, nurbs_to_runs, polyline_to_runs};
+pub use nurbs::{MAX_DEGREE, Nurbs, NurbsError};
 pub use point::Point;
 pub use real::Real;
 pub use runs::Runs;

@@ -1,4 +1,4 @@
-use crate::Point;
+use crate::{Point, uniform};
 
 /// The curve of one path: runs of uniform cubic control points, one after the other.
 ///
@@ -34,6 +34,35 @@ impl Runs {
     pub fn push_line(&mut self, start: Point<f64>, end: Point<f64>) {
         let step = end - start;
         self.push(&[start - step, start, end, end + step]);
+    }
+
+    /// Appends one segment. It continues the last run if its first three points are the last three
+    /// there, which draws the same and takes a quarter of the room.
+    pub fn push_segment(&mut self, segment: &[Point<f64>; 4]) {
+        match self.ends.last_mut() {
+            Some(end) if self.points.ends_with(&segment[..3]) => {
+                self.points.push(segment[3]);
+                *end += 1;
+            }
+            _ => self.push(segment),
+        }
+    }
+
+    /// Appends a cubic Bezier curve, exactly.
+    pub fn push_bezier(&mut self, bezier: &[Point<f64>; 4]) {
+        self.push_segment(&uniform::from_bezier(bezier));
+    }
+
+    /// Appends a quadratic Bezier curve, exactly.
+    pub fn push_quadratic(&mut self, bezier: &[Point<f64>; 3]) {
+        let [start, middle, end] = *bezier;
+        let two_thirds = 2.0 / 3.0;
+        self.push_bezier(&[
+            start,
+            start.lerp(middle, two_thirds),
+            end.lerp(middle, two_thirds),
+            end,
+        ]);
     }
 
     /// All runs in order.

@@ -2,6 +2,16 @@
 
 use crate::{Point, Real};
 
+/// Segment `i` of a run: its control points `i` to `i + 3`.
+///
+/// # Panics
+/// When the run has fewer than `i + 4` points.
+pub fn segment<T>(run: &[Point<T>], i: usize) -> &[Point<T>; 4] {
+    run[i..]
+        .first_chunk()
+        .expect("four control points a segment")
+}
+
 /// The point at parameter `t`, 0 at the start and 1 at the end.
 pub fn point<T: Real>(p: &[Point<T>; 4], t: T) -> Point<T> {
     let one = T::one();
@@ -52,13 +62,24 @@ pub fn to_bezier<T: Real>(p: &[Point<T>; 4]) -> [Point<T>; 4] {
 
 /// The uniform cubic control points of a cubic Bezier: the exact inverse of [`to_bezier`].
 pub fn from_bezier<T: Real>(b: &[Point<T>; 4]) -> [Point<T>; 4] {
-    let (two, six, seven) = (T::of(2.0), T::of(6.0), T::of(7.0));
+    // Differences first: far from the origin, 6 b0 - 7 b1 + 2 b2 would lose digits.
+    let (two, five) = (T::of(2.0), T::of(5.0));
+    let (d0, d1, d2) = (b[1] - b[0], b[2] - b[1], b[3] - b[2]);
     [
-        b[0] * six - b[1] * seven + b[2] * two,
-        b[1] * two - b[2],
-        b[2] * two - b[1],
-        b[3] * six - b[2] * seven + b[1] * two,
+        b[0] - d0 * five + d1 * two,
+        b[1] - d1,
+        b[2] + d1,
+        b[3] + d2 * five - d1 * two,
     ]
+}
+
+/// Signed curvature at `t`, in one over the unit of length: positive if the curve turns left.
+///
+/// Infinite or NaN where the derivative vanishes.
+pub fn curvature<T: Real>(p: &[Point<T>; 4], t: T) -> T {
+    let velocity = derivative(p, t);
+    let speed = velocity.norm();
+    velocity.cross(second_derivative(p, t)) / (speed * speed * speed)
 }
 
 /// The two halves of a segment, split at t = 1/2, each a segment of its own.

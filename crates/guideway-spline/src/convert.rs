@@ -1,0 +1,259 @@
+//! Other curves as runs: exactly up to degree 3 without weights, within a tolerance otherwise.
+
+use crate::{MAX_DEGREE, Nurbs, NurbsError, Point, Runs, knots};
+
+/// How often one span of a curve is halved at most, to reach the tolerance.
+///
+/// Each halving takes the error to about a sixteenth, so 10 of them gain a factor of 10^12.
+pub const MAX_HALVINGS: u32 = 10;
+
+/// What a conversion did.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Conversion {
+    /// Whether the runs are the curve itself, apart from rounding.
+    pub exact: bool,
+    /// No point of either curve is farther than this from the other, apart from rounding. Zero if
+    /// exact; above the tolerance only where a limit on the number of pieces ended the conversion.
+    pub error_bound_m: f64,
+    /// Number of cubic segments appended.
+    pub pieces: usize,
+}
+
+impl Conversion {
+    fn exact(pieces: usize) -> Self {
+        Self {
+            exact: true,
+            error_bound_m: 0.0,
+            pieces,
+        }
+    }
+}
+
+/// Appends a NURBS curve, from the first to the last parameter of its domain.
+///
+/// Without weights (or with all weights equal), degrees 1 to 3 are exact. Spans of a cubic between
+/// evenly spaced knots keep their control points as they are and share one run. Everything else is
+/// approximated span by span, each by as many cubics as `tolerance_m` (metres) asks for, within
+/// [`MAX_HALVINGS`]; a tolerance below the rounding error of the span is raised to it.
+///
+/// Spans of zero width are skipped. At an inner knot of multiplicity above the degree the curve breaks,
+/// and the runs on the two sides do not meet.
+pub fn nurbs_to_runs(curve: &Nurbs, tolerance_m: f64, out: &mut Runs) -> Conversion {
+    if curve.degree() <= 3 && !curve.is_rational() {
+        let mut pieces = 0;
+        for span in curve.spans() {
+            pieces += 1;
+            push_exact(curve, span, out);
+        }
+        return Conversion::exact(pieces);
+    }
+    let mut fit = Fit {
+        degree: curve.degree(),
+        origin: curve.points()[0],
+        tolerance_m,
+        out,
+        done: Conversion {
+            exact: false,
+            ..Conversion::exact(0)
+        },
+    };
+    for span in curve.spans() {
+        // Near the origin, products lose less to rounding.
+        fit.origin = curve.points()[span];
+        let bezier = bezier_of_span(curve, span, fit.origin);
+        fit.push(&bezier, MAX_HALVINGS);
+    }
+    fit.done
+}
+
+/// Appends a Bezier curve of degree 1 to [`MAX_DEGREE`]: degrees 1 to 3 exactly, others as
+/// [`nurbs_to_runs`].
+///
+/// # Errors
+/// When there are fewer than 2 points or more than [`MAX_DEGREE`] + 1, or one is not finite.
+pub fn bezier_to_runs(
+    points: &[Point<f64>],
+    tolerance_m: f64,
+    out: &mut Runs,
+) -> Result<Conversion, NurbsError> {
+    let degree = points.len().saturating_sub(1);
+    let knots = knots::uniform_clamped(degree, points.len());
+    let curve = Nurbs::new(degree, knots, points.to_vec(), None)?;
+    Ok(nurbs_to_runs(&curve, tolerance_m, out))
+}
+
+/// Appends the straight lines from point to point, exactly. Fewer than two points append nothing.
+pub fn polyline_to_runs(points: &[Point<f64>], out: &mut Runs) -> Conversion {
+    for ends in points.windows(2) {
+        let step = ends[1] - ends[0];
+        out.push_segment(&[ends[0] - step, ends[0], ends[1], ends[1] + step]);
+    }
+    Conversion::exact(points.len().saturating_sub(1))
+}
+
+fn push_exact(curve: &Nurbs, span: usize, out: &mut Runs) {
+    let degree = curve.degree();
+    let first = span - degree;
+    if let (3, Some(own)) = (degree, curve.points()[first..].first_chunk())
+        && is_uniform(&curve.knots()[first + 1..=span + 3])
+    {
+        out.push_segment(own);
+        return;
+    }
+    let b = bezier_of_span(curve, span, Point::new(0.0, 0.0)).map(|c| c.point);
+    match degree {
+        1 => out.push_line(b[0], b[1]),
+        2 => out.push_quadratic(&[b[0], b[1], b[2]]),
+        _ => out.push_bezier(&[b[0], b[1], b[2], b[3]]),
+    }
+}
+
+/// Whether the knots of one span are evenly spaced, as near as their own rounding lets them.
+fn is_uniform(knots: &[f64]) -> bool {
+    let width = knots[3] - knots[2];
+    let greatest = knots[0].abs().max(knots[knots.len() - 1].abs());
+    let slack = (4.0 * f64::EPSILON * greatest).clamp(1e-12 * width, 1e-10 * width);
+    let mut gaps = knots.windows(2).map(|k| k[1] - k[0]);
+    gaps.all(|gap| (gap - width).abs() <= slack)
+}
+
+/// A Bernstein coefficient of a rational curve: w P and w.
+#[derive(Clone, Copy, Default)]
+struct Coefficient {
+    point: Point<f64>,
+    weight: f64,
+}
+
+impl Coefficient {
+    fn lerp(self, other: Self, t: f64) -> Self {
+        Self {
+            point: self.point.lerp(other.point, t),
+            weight: self.weight * (1.0 - t) + other.weight * t,
+        }
+    }
+
+    fn project(self) -> Point<f64> {
+        self.point * (1.0 / self.weight)
+    }
+}
+
+type Coefficients = [Coefficient; MAX_DEGREE + 1];
+
+/// The span [a, b] as a Bezier curve, points relative to `origin`, in the first p + 1 places.
+///
+/// Coefficient j is the blossom (polar form) of the span at p - j times a and j times b: what Boehm's
+/// knot insertion arrives at when a and b are p-fold (Ramshaw 1989; The NURBS Book, 5.2). Every step
+/// is a convex combination, so rounding does not grow.
+fn bezier_of_span(curve: &Nurbs, span: usize, origin: Point<f64>) -> Coefficients {
+    let (p, knots) = (curve.degree(), curve.knots());
+    let (a, b) = (knots[span], knots[span + 1]);
+    let weights = curve.weights().filter(|_| curve.is_rational());
+    let mut control = Coefficients::default();
+    for (c, i) in control.iter_mut().zip(span - p..=span) {
+        let weight = weights.map_or(1.0, |w| w[i]);
+        *c = Coefficient {
+            point: (curve.points()[i] - origin) * weight,
+            weight,
+        };
+    }
+    let mut bezier = Coefficients::default();
+    for (j, out) in bezier.iter_mut().enumerate().take(p + 1) {
+        let mut d = control;
+        for r in 1..=p {
+            let u = if r <= j { b } else { a };
+            for i in (r..=p).rev() {
+                let (low, high) = (knots[span - p + i], knots[span + 1 + i - r]);
+                d[i] = d[i - 1].lerp(d[i], (u - low) / (high - low));
+            }
+        }
+        *out = d[p];
+    }
+    bezier
+}
+
+/// Fits cubics to rational Bezier curves N/w, points relative to an origin.
+struct Fit<'a> {
+    degree: usize,
+    origin: Point<f64>,
+    tolerance_m: f64,
+    out: &'a mut Runs,
+    done: Conversion,
+}
+
+impl Fit<'_> {
+    /// Appends cubics for one curve, halving it until they are near enough.
+    fn push(&mut self, curve: &Coefficients, halvings_left: u32) {
+        let cubic = self.hermite(curve);
+        let error = self.error_bound(curve, &cubic);
+        // Rounding alone costs this much: no halving gains below it.
+        let largest = curve[..=self.degree].iter().map(|c| c.project().norm());
+        let floor = 16.0 * f64::EPSILON * largest.fold(0.0, f64::max);
+        if halvings_left > 0 && error > self.tolerance_m.max(floor) {
+            let [left, right] = self.halves(curve);
+            self.push(&left, halvings_left - 1);
+            self.push(&right, halvings_left - 1);
+            return;
+        }
+        self.out.push_bezier(&cubic.map(|p| p + self.origin));
+        self.done.error_bound_m = self.done.error_bound_m.max(error);
+        self.done.pieces += 1;
+    }
+
+    /// The cubic with the same ends and the same derivatives there: its error falls with the fourth
+    /// power of the length of the piece.
+    fn hermite(&self, curve: &Coefficients) -> [Point<f64>; 4] {
+        let p = self.degree;
+        let third = p as f64 / 3.0;
+        // C' = p (w1 / w0) (P1 - P0) at the start: The NURBS Book, eq. 4.9.
+        let inner = |end: Coefficient, next: Coefficient| {
+            let start = end.project();
+            start + (next.project() - start) * (third * next.weight / end.weight)
+        };
+        [
+            curve[0].project(),
+            inner(curve[0], curve[1]),
+            inner(curve[p], curve[p - 1]),
+            curve[p].project(),
+        ]
+    }
+
+    /// An upper bound of |N/w - Q| at equal parameters, hence of the distance between the curves.
+    ///
+    /// N/w - Q = (N - Q w)/w. The numerator is a polynomial of degree p + 3; it and w lie within the
+    /// hulls of their Bernstein coefficients. Coefficient k of it, by the Bernstein product, is the sum
+    /// over i + j = k of (N_i - Q_j w_i) C(p, i) C(3, j) / C(p + 3, k).
+    fn error_bound(&self, curve: &Coefficients, q: &[Point<f64>; 4]) -> f64 {
+        let p = self.degree;
+        let coefficient = |k: usize| {
+            let range = k.saturating_sub(3)..=k.min(p);
+            let terms = range.map(|i| {
+                let share = binomial(p, i) * binomial(3, k - i) / binomial(p + 3, k);
+                (curve[i].point - q[k - i] * curve[i].weight) * share
+            });
+            let size = terms.fold(Point::new(0.0, 0.0), |a, b| a + b).norm();
+            // An overflow must not pass for a small error.
+            if size.is_nan() { f64::INFINITY } else { size }
+        };
+        let largest = (0..=p + 3).map(coefficient).fold(0.0, f64::max);
+        let weights = curve[..=p].iter().map(|c| c.weight);
+        largest / weights.fold(f64::INFINITY, f64::min)
+    }
+
+    /// The two halves of a curve (de Casteljau).
+    fn halves(&self, curve: &Coefficients) -> [Coefficients; 2] {
+        let p = self.degree;
+        let (mut left, mut right) = (*curve, *curve);
+        for (r, kept) in left.iter_mut().enumerate().take(p + 1).skip(1) {
+            for i in 0..=p - r {
+                right[i] = right[i].lerp(right[i + 1], 0.5);
+            }
+            *kept = right[0];
+        }
+        [left, right]
+    }
+}
+
+/// n over k.
+fn binomial(n: usize, k: usize) -> f64 {
+    (0..k).fold(1.0, |b, i| b * (n - i) as f64 / (i + 1) as f64)
+}

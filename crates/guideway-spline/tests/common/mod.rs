@@ -1,0 +1,114 @@
+//! Random curves, dense sampling and the distance between two sampled curves.
+#![allow(dead_code, reason = "each test binary uses its own part")]
+
+use guideway_spline::{Nurbs, Point, knots, uniform};
+use proptest::prelude::*;
+
+pub(crate) type P = Point<f64>;
+
+pub(crate) fn point_within(reach: f64) -> impl Strategy<Value = P> {
+    (-reach..reach, -reach..reach).prop_map(|(x, y)| Point::new(x, y))
+}
+
+/// Valid curves of all kinds of knots: open, clamped, closed, and uneven with repeated ones.
+pub(crate) fn nurbs(
+    degrees: std::ops::RangeInclusive<usize>,
+    rational: impl Strategy<Value = bool>,
+) -> impl Strategy<Value = Nurbs> {
+    (degrees, 1..8usize, 0..4u8, rational)
+        .prop_flat_map(|(degree, spans, kind, rational)| {
+            let n = degree + spans;
+            let points = prop::collection::vec(point_within(50.0), n);
+            let weights = prop::collection::vec(0.2..5.0, n);
+            let gap = prop_oneof![3 => Just(0.0), 2 => Just(1.0), 2 => 0.01..3.0];
+            let gaps = prop::collection::vec(gap, n + degree + 1);
+            (Just((degree, kind, rational)), points, weights, gaps)
+        })
+        .prop_filter_map(
+            "a domain with a width",
+            |((degree, kind, rational), mut points, mut weights, gaps)| {
+                let knots = match kind {
+                    0 => knots::uniform_open(degree, points.len()),
+                    1 => knots::uniform_clamped(degree, points.len()),
+                    2 => {
+                        let distinct = points.len();
+                        points = knots::close(degree, &points);
+                        weights = knots::close(degree, &weights);
+                        knots::uniform_closed(degree, distinct)
+                    }
+                    _ => gaps
+                        .iter()
+                        .scan(-3.0, |u, gap| {
+                            *u += gap;
+                            Some(*u)
+                        })
+                        .collect(),
+                };
+                Nurbs::new(degree, knots, points, rational.then_some(weights)).ok()
+            },
+        )
+}
+
+/// Parameter ranges of the spans with a width.
+pub(crate) fn spans(curve: &Nurbs) -> Vec<(f64, f64)> {
+    let (p, n) = (curve.degree(), curve.points().len());
+    let pairs = curve.knots()[p..=n].windows(2);
+    pairs.map(|k| (k[0], k[1])).filter(|(a, b)| a < b).collect()
+}
+
+/// `count` + 1 points of a span. Its right end is taken from the left, as the curve may break there.
+pub(crate) fn span_samples(curve: &Nurbs, (a, b): (f64, f64), count: usize) -> Vec<P> {
+    let at = |i: usize| {
+        let u = a + (b - a) * (i as f64 / count as f64);
+        curve.point(if i == count { b.next_down().max(a) } else { u })
+    };
+    (0..=count).map(at).collect()
+}
+
+/// `count` points a segment, and the end.
+pub(crate) fn run_samples(run: &[P], count: usize) -> Vec<P> {
+    let mut samples = vec![uniform::start(uniform::segment(run, 0))];
+    for i in 0..run.len() - 3 {
+        let at = |k: usize| uniform::point(uniform::segment(run, i), k as f64 / count as f64);
+        samples.extend((1..=count).map(at));
+    }
+    samples
+}
+
+pub(crate) fn distance_to_line(p: P, a: P, b: P) -> f64 {
+    let (v, c) = (p - a, b - a);
+    let t = v.dot(c) / c.dot(c);
+    // NaN if a = b: clamp leaves it, max takes it out.
+    (v - c * t.clamp(0.0, 1.0).max(0.0)).norm()
+}
+
+pub(crate) fn distance_to_polyline(p: P, polyline: &[P]) -> f64 {
+    let lines = polyline.windows(2);
+    lines
+        .map(|l| distance_to_line(p, l[0], l[1]))
+        .fold(f64::INFINITY, f64::min)
+}
+
+/// The farthest that a vertex of one is from the lines of the other.
+pub(crate) fn one_way(from: &[P], to: &[P]) -> f64 {
+    from.iter()
+        .map(|p| distance_to_polyline(*p, to))
+        .fold(0.0, f64::max)
+}
+
+/// How far a densely sampled curve may be from the lines between its samples: twice the estimate
+/// h^2/8 |C''| from second differences.
+pub(crate) fn sagitta(samples: &[P]) -> f64 {
+    let bends = samples
+        .windows(3)
+        .map(|s| (s[0] - s[1] * 2.0 + s[2]).norm());
+    bends.fold(0.0, f64::max) / 4.0
+}
+
+/// An upper estimate of the largest coordinate: what relative errors relate to.
+pub(crate) fn scale(points: &[P]) -> f64 {
+    points
+        .iter()
+        .map(|p| p.x.abs().max(p.y.abs()))
+        .fold(1.0, f64::max)
+}

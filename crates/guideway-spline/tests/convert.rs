@@ -1,0 +1,318 @@
+//! Converted runs draw the curve that Cox-de Boor evaluation draws.
+
+mod common;
+
+use common::{P, nurbs, one_way, run_samples, sagitta, scale, span_samples, spans};
+use guideway_spline::{
+    Conversion, Nurbs, NurbsError, Point, Runs, basis, bezier_to_runs, knots, nurbs_to_runs,
+    polyline_to_runs, uniform,
+};
+use proptest::prelude::*;
+
+/// All segments of all runs.
+fn segments(runs: &Runs) -> Vec<[P; 4]> {
+    let of_run = |run: &[P]| {
+        (0..run.len() - 3)
+            .map(|i| *uniform::segment(run, i))
+            .collect::<Vec<_>>()
+    };
+    runs.iter().flat_map(of_run).collect()
+}
+
+/// Largest difference at equal parameters; each segment is one span.
+fn difference(curve: &Nurbs, runs: &Runs) -> f64 {
+    let (segments, spans) = (segments(runs), spans(curve));
+    assert_eq!(segments.len(), spans.len());
+    let at_span = |(segment, span): (&[P; 4], &(f64, f64))| {
+        let expected = span_samples(curve, *span, 8);
+        let at = |i: usize| uniform::point(segment, i as f64 / 8.0).distance(expected[i]);
+        (0..=8).map(at).fold(0.0, f64::max)
+    };
+    let differences = segments.iter().zip(&spans).map(at_span);
+    differences.fold(0.0, f64::max)
+}
+
+/// How far samples of either curve are from the other, less what sampling may have added.
+fn distance(curve: &Nurbs, runs: &Runs) -> f64 {
+    let samples: Vec<_> = spans(curve)
+        .into_iter()
+        .map(|s| span_samples(curve, s, 400))
+        .collect();
+    let drawn: Vec<_> = segments(runs).iter().map(|s| run_samples(s, 12)).collect();
+    let slack = samples.iter().chain(&drawn).map(|s| sagitta(s));
+    let slack = slack.fold(1e-11 * scale(curve.points()), f64::max);
+    let nearest = |from: &[P], to: &[Vec<P>]| {
+        let each = from.iter().step_by(3).map(|p| {
+            let ways = to.iter().map(|line| one_way(&[*p], line));
+            ways.fold(f64::INFINITY, f64::min)
+        });
+        each.fold(0.0, f64::max)
+    };
+    let there = samples.iter().map(|s| nearest(s, &drawn));
+    let back = drawn.iter().map(|d| nearest(d, &samples));
+    there.chain(back).fold(0.0, f64::max) - slack
+}
+
+proptest! {
+    #[test]
+    fn low_degrees_are_exact(curve in nurbs(1..=3, Just(false))) {
+        let mut runs = Runs::default();
+        let done = nurbs_to_runs(&curve, 1e-3, &mut runs);
+        prop_assert!(done.exact && done.error_bound_m == 0.0);
+        prop_assert_eq!(done.pieces, spans(&curve).len());
+        prop_assert!(difference(&curve, &runs) <= 1e-9 * scale(curve.points()));
+    }
+
+    #[test]
+    fn basis_adds_up_to_one(curve in nurbs(1..=25, Just(false)), at in 0.0..=1.0) {
+        let (first, last) = curve.domain();
+        let u = first + (last - first) * at;
+        let values = (0..curve.points().len())
+            .map(|i| basis::basis(i, curve.degree(), curve.knots(), u));
+        let values: Vec<f64> = values.collect();
+        prop_assert!(values.iter().all(|&v| v >= 0.0));
+        prop_assert!((values.iter().sum::<f64>() - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn basis_is_the_recurrence(curve in nurbs(1..=5, Just(false)), at in 0.0..1.0_f64) {
+        let (first, last) = curve.domain();
+        let u = (first + (last - first) * at).min(last.next_down());
+        for i in 0..curve.points().len() {
+            let expected = recurrence(i, curve.degree(), curve.knots(), u);
+            let actual = basis::basis(i, curve.degree(), curve.knots(), u);
+            prop_assert!((actual - expected).abs() < 1e-12, "N_{} is {}, not {}", i, actual, expected);
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    #[test]
+    fn others_are_within_their_bound(
+        curve in prop_oneof![nurbs(1..=5, Just(true)), nurbs(4..=7, Just(false))],
+        tolerance in prop_oneof![Just(1e-1), Just(1e-3)],
+    ) {
+        let mut runs = Runs::default();
+        let done = nurbs_to_runs(&curve, tolerance, &mut runs);
+        prop_assert!(!done.exact);
+        prop_assert!(done.error_bound_m <= tolerance, "{:?}", done);
+        prop_assert_eq!(done.pieces, segments(&runs).len());
+        let actual = distance(&curve, &runs);
+        prop_assert!(actual <= done.error_bound_m, "{} with {:?}", actual, done);
+    }
+}
+
+/// Thesis eq. 3.1 as written.
+fn recurrence(i: usize, p: usize, knots: &[f64], u: f64) -> f64 {
+    if p == 0 {
+        return if knots[i] <= u && u < knots[i + 1] {
+            1.0
+        } else {
+            0.0
+        };
+    }
+    let part = |above: f64, below: f64, n: f64| if below == 0.0 { 0.0 } else { above / below * n };
+    part(
+        u - knots[i],
+        knots[i + p] - knots[i],
+        recurrence(i, p - 1, knots, u),
+    ) + part(
+        knots[i + p + 1] - u,
+        knots[i + p + 1] - knots[i + 1],
+        recurrence(i + 1, p - 1, knots, u),
+    )
+}
+
+fn zigzag(count: usize) -> Vec<P> {
+    let at = |i: usize| Point::new(i as f64 * 3.0, (i % 2) as f64 * 5.0 + (i % 3) as f64);
+    (0..count).map(at).collect()
+}
+
+#[test]
+fn the_comparison_finds_a_wrong_curve() {
+    let points = zigzag(7);
+    let weights = vec![1.0, 2.0, 1.0, 0.5, 1.0, 3.0, 1.0];
+    let knots = knots::uniform_clamped(3, 7);
+    let curve = Nurbs::new(3, knots.clone(), points.clone(), Some(weights.clone())).unwrap();
+    let mut runs = Runs::default();
+    nurbs_to_runs(&curve, 1e-4, &mut runs);
+    assert!(distance(&curve, &runs) <= 1e-4);
+
+    let mut moved = points.clone();
+    moved[3].y += 0.01;
+    let moved = Nurbs::new(3, knots.clone(), moved, Some(weights)).unwrap();
+    assert!(distance(&moved, &runs) > 1e-3);
+
+    let unweighted = Nurbs::new(3, knots, points.clone(), None).unwrap();
+    assert!(distance(&unweighted, &runs) > 0.1);
+
+    // A part that is missing shows in one direction only.
+    let mut part = Runs::default();
+    runs.iter().skip(1).for_each(|run| part.push(run));
+    assert!(distance(&curve, &part) > 0.1);
+
+    let open = Nurbs::new(3, knots::uniform_open(3, 7), points.clone(), None).unwrap();
+    runs.clear();
+    runs.push(&zigzag(7));
+    assert!(difference(&open, &runs) < 1e-12);
+    let shifted: Vec<P> = points.iter().map(|p| *p + Point::new(0.0, 1e-6)).collect();
+    runs.clear();
+    runs.push(&shifted);
+    assert!(difference(&open, &runs) > 1e-7);
+}
+
+#[test]
+fn evenly_spaced_cubics_keep_their_points() {
+    let points = zigzag(9);
+    for start in [0.0, 0.1, -1e4] {
+        let knots = (0..13).map(|i| start + 0.1 * f64::from(i)).collect();
+        let curve = Nurbs::new(3, knots, points.clone(), Some(vec![2.0; 9])).unwrap();
+        let mut runs = Runs::default();
+        let done = nurbs_to_runs(&curve, 1e-3, &mut runs);
+        assert!(done.exact);
+        assert_eq!(runs.iter().collect::<Vec<_>>(), [&points[..]]);
+    }
+    let closed = Nurbs::closed(3, &points).unwrap();
+    let mut runs = Runs::default();
+    nurbs_to_runs(&closed, 1e-3, &mut runs);
+    let run = runs.iter().next().unwrap();
+    assert_eq!((runs.len(), run.len()), (1, 12));
+    let ends = (
+        uniform::start(uniform::segment(run, 0)),
+        uniform::end(uniform::segment(run, 8)),
+    );
+    assert_eq!(ends.0, ends.1);
+}
+
+#[test]
+fn a_long_clamped_curve_is_few_runs() {
+    let points = zigzag(100);
+    let curve = Nurbs::new(3, knots::uniform_clamped(3, 100), points, None).unwrap();
+    let mut runs = Runs::default();
+    assert_eq!(nurbs_to_runs(&curve, 1e-3, &mut runs).pieces, 97);
+    assert!(runs.len() <= 5, "{} runs", runs.len());
+}
+
+#[test]
+fn a_full_inner_knot_breaks_the_curve() {
+    let knots = vec![0.0, 0.0, 1.0, 1.0, 2.0, 2.0];
+    let corners = [(0.0, 0.0), (1.0, 0.0), (5.0, 5.0), (6.0, 5.0)];
+    let points = corners.map(|(x, y)| Point::new(x, y));
+    let curve = Nurbs::new(1, knots, points.to_vec(), None).unwrap();
+    let mut runs = Runs::default();
+    nurbs_to_runs(&curve, 1e-3, &mut runs);
+    let expected = [points[0], points[1], points[2], points[3]];
+    let ends: Vec<P> = segments(&runs)
+        .iter()
+        .flat_map(|s| [uniform::start(s), uniform::end(s)])
+        .collect();
+    assert!(
+        ends.iter()
+            .zip(expected)
+            .all(|(a, b)| a.distance(b) < 1e-12)
+    );
+    assert_eq!((curve.point(1.0), curve.point(2.0)), (points[2], points[3]));
+}
+
+#[test]
+fn a_limit_gives_the_best_effort_and_says_so() {
+    // One weight far above the rest bends within a sliver of the parameter range.
+    let points = zigzag(4);
+    let weights = vec![1.0, 1e15, 1e-3, 1.0];
+    let curve = Nurbs::new(3, knots::uniform_clamped(3, 4), points, Some(weights)).unwrap();
+    let mut runs = Runs::default();
+    let done = nurbs_to_runs(&curve, 1e-9, &mut runs);
+    assert!(done.error_bound_m > 1e-9 && done.pieces <= 1024, "{done:?}");
+    assert!(runs.points().iter().all(|p| p.is_finite()));
+
+    // No tolerance at all ends at the rounding error, not at the limit.
+    let quartic = zigzag(5);
+    let done = bezier_to_runs(&quartic, 0.0, &mut runs).unwrap();
+    assert!(done.error_bound_m < 1e-10, "{done:?}");
+
+    let huge = [Point::new(1e308, 0.0), Point::new(-1e308, 1e308)].repeat(3);
+    let done = bezier_to_runs(&huge, 1e-3, &mut runs).unwrap();
+    assert!(done.error_bound_m > 1e-3);
+}
+
+#[test]
+fn bezier_curves_of_any_degree() {
+    for degree in 1..=25 {
+        let points = zigzag(degree + 1);
+        let knots = knots::uniform_clamped(degree, degree + 1);
+        let curve = Nurbs::new(degree, knots, points.clone(), None).unwrap();
+        let mut runs = Runs::default();
+        let done = bezier_to_runs(&points, 1e-4, &mut runs).unwrap();
+        assert_eq!(done.exact, degree <= 3);
+        assert!(done.error_bound_m <= 1e-4, "degree {degree}: {done:?}");
+        assert!(distance(&curve, &runs) <= done.error_bound_m);
+    }
+    let too_many = bezier_to_runs(&zigzag(27), 1e-4, &mut Runs::default());
+    assert_eq!(too_many, Err(NurbsError::Degree { actual: 26 }));
+    assert!(bezier_to_runs(&[], 1e-4, &mut Runs::default()).is_err());
+}
+
+#[test]
+fn polylines_are_exact() {
+    let corners = zigzag(5);
+    let mut runs = Runs::default();
+    let done = polyline_to_runs(&corners, &mut runs);
+    assert_eq!(
+        done,
+        Conversion {
+            exact: true,
+            error_bound_m: 0.0,
+            pieces: 4
+        }
+    );
+    for (segment, ends) in segments(&runs).iter().zip(corners.windows(2)) {
+        for i in 0..=4 {
+            let t = f64::from(i) / 4.0;
+            assert!(uniform::point(segment, t).distance(ends[0].lerp(ends[1], t)) < 1e-12);
+        }
+    }
+    assert_eq!(polyline_to_runs(&corners[..1], &mut runs).pieces, 0);
+}
+
+#[test]
+fn errors_name_what_was_expected() {
+    let p = zigzag(4);
+    let new = |degree, knots: &[f64], weights: Option<&[f64]>| {
+        Nurbs::new(
+            degree,
+            knots.to_vec(),
+            p.clone(),
+            weights.map(<[f64]>::to_vec),
+        )
+        .unwrap_err()
+        .to_string()
+    };
+    let k = [0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0];
+    assert_eq!(new(0, &k, None), "degree 0 is not within 1 to 25");
+    assert_eq!(new(4, &k, None), "4 control points, at least 5 expected");
+    assert_eq!(new(3, &k[1..], None), "7 knots, 8 expected");
+    assert_eq!(new(3, &k, Some(&[1.0])), "1 weights, 4 expected");
+    assert_eq!(
+        new(3, &k, Some(&[1.0, 0.0, 1.0, 1.0])),
+        "weight 1 is 0, a finite number above zero expected"
+    );
+    let mut wrong = k;
+    wrong[7] = 0.5;
+    assert_eq!(new(3, &wrong, None), "knot 7 is 0.5, at least 1 expected");
+    wrong[7] = f64::INFINITY;
+    assert_eq!(
+        new(3, &wrong, None),
+        "knot 7 is inf, a finite number expected"
+    );
+    assert_eq!(
+        new(3, &[2.0; 8], None),
+        "the domain is from knot 2 to 2, a finite width above zero expected"
+    );
+    let infinite = Nurbs::new(3, k.to_vec(), vec![Point::new(f64::NAN, 0.0); 4], None);
+    assert_eq!(
+        infinite.unwrap_err().to_string(),
+        "control point 0 is not finite"
+    );
+}
