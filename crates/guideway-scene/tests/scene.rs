@@ -1,0 +1,149 @@
+//! What a scene makes of a layout: order, colours, levels, legends.
+
+use std::sync::Arc;
+
+use guideway_layout::{Layout, Level, NewPath, Value};
+use guideway_scene::{ColorBy, Rgba, Scene, SceneError, SceneOptions};
+use guideway_spline::{Point, Runs};
+
+fn layout(paths: usize) -> Layout {
+    let mut layout = Layout::default();
+    for level in ["ground", "upper"] {
+        layout.levels.push(Level {
+            id: level.to_owned(),
+            ..Level::default()
+        });
+    }
+    for i in 0..paths {
+        let mut runs = Runs::default();
+        runs.push_line(Point::new(i as f64, 0.0), Point::new(i as f64, 1.0));
+        let id = format!("P{i}");
+        layout.paths.push(&NewPath {
+            id: &id,
+            runs: &runs,
+            level: Some((i % 2) as u32),
+            ..NewPath::default()
+        });
+    }
+    layout
+}
+
+fn scene(layout: Layout, options: &SceneOptions) -> Scene {
+    Scene::new(Arc::new(layout), options).expect("options that fit the layout")
+}
+
+fn by(column: &str) -> SceneOptions {
+    SceneOptions {
+        color_by: Some(ColorBy {
+            column: column.to_owned(),
+        }),
+        ..SceneOptions::default()
+    }
+}
+
+#[test]
+fn draw_order_is_rank_then_file_order() {
+    let mut ranked = layout(5);
+    ranked.paths.set_rank(vec![3, -1, 0, 3, 0]);
+    assert_eq!(
+        scene(ranked, &SceneOptions::default()).draw_order(),
+        [1, 2, 4, 0, 3]
+    );
+    assert_eq!(
+        scene(layout(3), &SceneOptions::default()).draw_order(),
+        [0, 1, 2]
+    );
+}
+
+#[test]
+fn one_level_is_drawn_and_the_rest_is_hidden() {
+    let options = SceneOptions {
+        level: Some("upper".to_owned()),
+        ..SceneOptions::default()
+    };
+    let upper = scene(layout(5), &options);
+    assert_eq!(upper.draw_order(), [1, 3]);
+    assert_eq!(upper.hidden_count(), 3);
+    assert_eq!(upper.bounds().unwrap().max.x, 3.0);
+
+    let options = SceneOptions {
+        level: Some("cellar".to_owned()),
+        ..SceneOptions::default()
+    };
+    let error = Scene::new(Arc::new(layout(1)), &options).unwrap_err();
+    assert!(matches!(&error, SceneError::UnknownLevel { .. }));
+    assert!(error.to_string().contains("ground, upper"), "{error}");
+}
+
+#[test]
+fn own_colours_win_over_the_common_one() {
+    let mut colored = layout(2);
+    colored.paths.set_color_rgba(vec![0xff00_00ff, 0]);
+    let options = SceneOptions {
+        color: Some(Rgba::opaque(1, 2, 3)),
+        ..SceneOptions::default()
+    };
+    let colored = scene(colored, &options);
+    assert_eq!(colored.color(0), Rgba::opaque(255, 0, 0));
+    assert_eq!(colored.color(1), Rgba::opaque(1, 2, 3));
+    assert!(colored.is_opaque());
+}
+
+#[test]
+fn widths_that_are_none_are_left_to_the_rule() {
+    let mut wide = layout(3);
+    wide.paths.set_width_m(vec![0.5, f32::NAN, -1.0]);
+    let wide = scene(wide, &SceneOptions::default());
+    assert_eq!([0, 1, 2].map(|p| wide.width_m(p)), [Some(0.5), None, None]);
+}
+
+#[test]
+fn classes_get_a_colour_each_the_commonest_first() {
+    let mut kinds = layout(30);
+    for row in 0..29 {
+        let kind = if row < 12 {
+            "aisle".to_owned()
+        } else {
+            format!("kind {row}")
+        };
+        kinds.paths.attributes.set(row, "kind", Value::Text(&kind));
+    }
+    let scene = scene(kinds, &by("kind"));
+    let legend = scene.legend().unwrap();
+    assert_eq!(legend.entries[0].label, "aisle");
+    assert_eq!(legend.entries[0].paths, Some(12));
+    assert_eq!(legend.entries[0].color, scene.color(3));
+    let labels: Vec<_> = legend.entries.iter().map(|e| e.label.as_str()).collect();
+    assert_eq!(labels[7..], ["11 other values", "no value"]);
+    assert_eq!(
+        legend.entries.iter().filter_map(|e| e.paths).sum::<u64>(),
+        30
+    );
+}
+
+#[test]
+fn many_numbers_make_a_scale() {
+    let mut speeds = layout(20);
+    for row in 0..20 {
+        speeds
+            .paths
+            .attributes
+            .set(row, "speed", Value::Float(row as f64 / 10.0));
+    }
+    let scene = scene(speeds, &by("speed"));
+    let legend = scene.legend().unwrap();
+    assert!(legend.is_continuous);
+    assert_eq!(legend.entries[0].label, "0");
+    assert_eq!(legend.entries[4].label, "1.9");
+    assert_eq!(scene.color(19), legend.entries[4].color);
+    assert_ne!(scene.color(0), scene.color(10));
+}
+
+#[test]
+fn built_in_columns_and_unknown_ones() {
+    let levels = scene(layout(4), &by("level"));
+    assert_eq!(levels.legend().unwrap().entries.len(), 2);
+    assert_ne!(levels.color(0), levels.color(1));
+    let error = Scene::new(Arc::new(layout(1)), &by("colour of the sky")).unwrap_err();
+    assert!(error.to_string().contains("vehicle_type"), "{error}");
+}
