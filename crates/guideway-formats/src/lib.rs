@@ -4,9 +4,12 @@
 //! to [`Limits`](guideway_layout::Limits), never panics, and either gives a layout with everything odd
 //! in its diagnostics or an error that says which file, where, what, and what to do.
 
+mod builder;
 mod error;
+mod lif;
 mod read;
 mod sniff;
+mod text;
 
 pub use error::{Problem, ReadError};
 pub use read::{Progress, ReadOptions, read_bytes, read_file};

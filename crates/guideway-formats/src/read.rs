@@ -57,9 +57,8 @@ pub fn read_bytes(
     }
     check_size(bytes.len() as u64, &options.limits).map_err(|p| source.fail(p))?;
     match sniff(bytes) {
-        Some(Format::Lif | Format::OpenTcs | Format::Arrow) | None => {
-            Err(source.fail(unknown(bytes)))
-        }
+        Some(Format::Lif) => crate::lif::read(source, bytes),
+        Some(Format::OpenTcs | Format::Arrow) | None => Err(source.fail(unknown(bytes))),
     }
 }
 

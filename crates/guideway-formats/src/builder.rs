@@ -1,0 +1,223 @@
+//! What all text readers share on the way to a layout: budgets, diagnostics, straight lines.
+
+use guideway_layout::{Attributes, Code, Diagnostics, Layout, NewPath, Place, TextColumn, Value};
+use guideway_spline::{Point, Runs, uniform};
+
+use crate::{Problem, ReadError, read::Source};
+
+/// How far a curve may end from its node before that is reported, in metres.
+const NODE_GAP_M: f64 = 0.01;
+
+/// Where something is in the file. The text is only made when a finding is kept.
+pub(crate) type At<'f> = &'f dyn Fn() -> Place;
+
+/// Fills a layout within the limits.
+pub(crate) struct Builder<'a> {
+    pub(crate) source: Source<'a>,
+    pub(crate) layout: Layout,
+    text_bytes: u64,
+}
+
+/// Which table an attribute belongs to.
+#[derive(Clone, Copy)]
+pub(crate) enum Table {
+    Paths,
+    Nodes,
+    Stations,
+}
+
+impl<'a> Builder<'a> {
+    pub(crate) fn new(source: Source<'a>) -> Self {
+        let mut layout = Layout {
+            diagnostics: Diagnostics::keeping(source.options.limits.diagnostics_per_code),
+            ..Layout::default()
+        };
+        source.name.clone_into(&mut layout.provenance.source);
+        Self {
+            source,
+            layout,
+            text_bytes: 0,
+        }
+    }
+
+    /// Records a finding.
+    pub(crate) fn find(
+        &mut self,
+        code: Code,
+        at: At<'_>,
+        message: impl FnOnce() -> String,
+        remedy: &str,
+    ) {
+        self.layout.diagnostics.push(code, at, message, remedy);
+    }
+
+    /// Appends a path and returns its row.
+    pub(crate) fn push_path(&mut self, path: &NewPath<'_>) -> Result<usize, ReadError> {
+        self.charge_text(path.id)?;
+        let limits = &self.source.options.limits;
+        let geometry = self.layout.paths.geometry();
+        let points = geometry.point_count() + path.runs.points().len();
+        self.check("control points", limits.control_points, points as u64)?;
+        self.check_paths()?;
+        Ok(self.layout.paths.push(path))
+    }
+
+    /// Records a path that cannot be drawn.
+    pub(crate) fn refuse(&mut self, id: &str, code: Code, detail: &str) -> Result<(), ReadError> {
+        self.charge_text(id)?;
+        self.charge_text(detail)?;
+        self.check_paths()?;
+        self.layout.refused.push(id, code, detail);
+        Ok(())
+    }
+
+    /// Appends a node and returns its row.
+    pub(crate) fn push_node(
+        &mut self,
+        id: &str,
+        position_m: Point<f64>,
+        level: Option<u32>,
+    ) -> Result<u32, ReadError> {
+        self.charge_text(id)?;
+        Ok(self.layout.nodes.push(id, position_m, level))
+    }
+
+    /// Appends a station and returns its row.
+    pub(crate) fn push_station(
+        &mut self,
+        id: &str,
+        position_m: Option<Point<f64>>,
+        nodes: Vec<u32>,
+        level: Option<u32>,
+    ) -> Result<u32, ReadError> {
+        self.charge_text(id)?;
+        Ok(self.layout.stations.push(id, position_m, nodes, level))
+    }
+
+    /// Sets an attribute of a row.
+    pub(crate) fn set(
+        &mut self,
+        table: Table,
+        row: usize,
+        name: &str,
+        value: Value<'_>,
+    ) -> Result<(), ReadError> {
+        if let Value::Text(text) = value {
+            self.charge_text(text)?;
+        }
+        self.attributes(table).set(row, name, value);
+        Ok(())
+    }
+
+    /// The attributes of a table.
+    pub(crate) fn attributes(&mut self, table: Table) -> &mut Attributes {
+        match table {
+            Table::Paths => &mut self.layout.paths.attributes,
+            Table::Nodes => &mut self.layout.nodes.attributes,
+            Table::Stations => &mut self.layout.stations.attributes,
+        }
+    }
+
+    /// Whether a point can be drawn; says so if not.
+    pub(crate) fn check_point(&mut self, point: Point<f64>, at: At<'_>) -> bool {
+        let limit = self.source.options.limits.coordinate_m;
+        if !point.is_finite() {
+            let message = || format!("the position ({}, {}) is not finite", point.x, point.y);
+            self.find(Code::NonFinite, at, message, "Correct the position");
+            return false;
+        }
+        if point.x.abs().max(point.y.abs()) > limit {
+            let message = || {
+                format!(
+                    "the position ({} m, {} m) is beyond {limit} m",
+                    point.x, point.y
+                )
+            };
+            self.find(
+                Code::OutOfRange,
+                at,
+                message,
+                "Check the unit of the position",
+            );
+            return false;
+        }
+        true
+    }
+
+    /// Reports a curve that does not begin and end at its nodes.
+    pub(crate) fn check_ends(&mut self, runs: &Runs, nodes: [Option<Point<f64>>; 2], at: At<'_>) {
+        let ends = ends(runs);
+        let names = ["begins", "ends"];
+        for ((end, node), verb) in ends.into_iter().zip(nodes).zip(names) {
+            let (Some(end), Some(node)) = (end, node) else {
+                continue;
+            };
+            let gap = end.distance(node);
+            if gap > NODE_GAP_M {
+                let message = || format!("the curve {verb} {gap:.3} m from its node");
+                let remedy = "It is drawn as written; move the node or the end of the curve";
+                self.find(Code::NodeGap, at, message, remedy);
+            }
+        }
+    }
+
+    /// Reports a curve without length.
+    pub(crate) fn check_length(&mut self, runs: &Runs, at: At<'_>) {
+        let mut points = runs.points().iter();
+        let first = points.next();
+        if points.all(|p| Some(p) == first) {
+            let message = || "the path has no length".to_owned();
+            self.find(
+                Code::ZeroLength,
+                at,
+                message,
+                "Remove the path, or part its ends",
+            );
+        }
+    }
+
+    /// Refuses a text that is longer than any name should be.
+    pub(crate) fn check_text(&self, text: &str) -> Result<(), ReadError> {
+        let limit = self.source.options.limits.text_bytes as u64;
+        self.check("bytes in one text", limit, text.len() as u64)
+    }
+
+    /// Refuses a curve of more points or knots than any curve should have.
+    pub(crate) fn check_curve_points(&self, count: usize) -> Result<(), ReadError> {
+        let limit = self.source.options.limits.curve_points as u64;
+        self.check("control points or knots of one curve", limit, count as u64)
+    }
+
+    fn charge_text(&mut self, text: &str) -> Result<(), ReadError> {
+        // All text together stays below what one column holds, so that no column can overflow.
+        self.text_bytes += text.len() as u64;
+        let limit = TextColumn::MAX_BYTES as u64;
+        self.check("bytes of text in the layout", limit, self.text_bytes)
+    }
+
+    fn check_paths(&self) -> Result<(), ReadError> {
+        let paths = self.layout.path_count() as u64 + 1;
+        if paths.is_multiple_of(1024) {
+            self.source.check_cancelled()?;
+        }
+        self.check("paths", self.source.options.limits.paths, paths)
+    }
+
+    fn check(&self, what: &'static str, limit: u64, actual: u64) -> Result<(), ReadError> {
+        if actual <= limit {
+            return Ok(());
+        }
+        Err(self.source.fail(Problem::LimitReached {
+            what,
+            limit,
+            actual,
+        }))
+    }
+}
+
+/// Where a curve begins and where it ends.
+fn ends(runs: &Runs) -> [Option<Point<f64>>; 2] {
+    let first = runs.iter().next().and_then(|run| run.first_chunk());
+    let last = runs.iter().last().and_then(|run| run.last_chunk());
+    [first.map(uniform::start), last.map(uniform::end)]
+}

@@ -1,0 +1,219 @@
+//! From a trajectory to runs: a NURBS curve if it is one, else its control polygon.
+
+use guideway_layout::Code;
+use guideway_spline::{MAX_DEGREE, Nurbs, Point, Runs, knots, nurbs_to_runs, polyline_to_runs};
+
+use super::json::Field;
+use super::map::{Mapper, items, within};
+use super::model::Trajectory;
+use crate::ReadError;
+use crate::builder::At;
+
+/// Most control points of a curve that is approximated rather than converted exactly: each span can
+/// become a thousand cubics, so a small file could ask for more than any machine has.
+const MOST_APPROXIMATED: usize = 1_000;
+
+/// What a trajectory has once its fields are read.
+struct Control {
+    points: Vec<Point<f64>>,
+    weights: Vec<f64>,
+    /// Whether every point of the file is here.
+    whole: bool,
+}
+
+impl Mapper<'_> {
+    /// Puts a trajectory into empty `runs`. They stay empty if it has fewer than two points.
+    pub(super) fn append_curve(
+        &mut self,
+        trajectory: &Trajectory,
+        at: At<'_>,
+        runs: &mut Runs,
+    ) -> Result<(), ReadError> {
+        self.check_repeated(trajectory.repeated, at);
+        let control = self.control(trajectory, at)?;
+        let degree = self.degree(&trajectory.degree, at);
+        let curve = degree.and_then(|degree| self.curve(degree, trajectory, &control, at));
+        if let Some(curve) = curve {
+            let tolerance = self.builder.source.options.limits.conversion_tolerance_m;
+            nurbs_to_runs(&curve, tolerance, runs);
+            if runs.points().iter().all(|p| p.is_finite()) {
+                return Ok(());
+            }
+            // Knots within a hair of each other can take a cubic's control points out of all bounds.
+            runs.clear();
+            self.report_knots(at, || {
+                "the knots are too close together to compute with".into()
+            });
+        }
+        polyline_to_runs(&control.points, runs);
+        Ok(())
+    }
+
+    fn control(&mut self, trajectory: &Trajectory, at: At<'_>) -> Result<Control, ReadError> {
+        let mut control = Control {
+            points: Vec::new(),
+            weights: Vec::new(),
+            whole: true,
+        };
+        self.check_list(&trajectory.points, at, "controlPoints");
+        if trajectory.points.get().is_none() {
+            self.report_missing(&|| within(at, "controlPoints"), "a list of control points");
+        }
+        let knots = trajectory.knots.get().map_or(0, Vec::len);
+        let points = trajectory.points.get().map_or(0, Vec::len);
+        self.builder.check_curve_points(points.max(knots))?;
+        for (i, field) in items(&trajectory.points) {
+            let at_point: At<'_> = &|| within(at, &format!("controlPoints[{i}]"));
+            let point = self.record(field, at_point).and_then(|p| {
+                self.check_repeated(p.repeated, at_point);
+                let x = self.number(&p.x, &|| within(at_point, "x"));
+                let y = self.number(&p.y, &|| within(at_point, "y"));
+                Some((Point::new(x?, y?), &p.weight))
+            });
+            match point {
+                Some((point, weight)) if self.builder.check_point(point, at_point) => {
+                    control.points.push(point);
+                    control.weights.push(self.weight(weight, at_point));
+                }
+                _ => control.whole = false,
+            }
+        }
+        Ok(control)
+    }
+
+    fn weight(&mut self, field: &Field<f64>, at: At<'_>) -> f64 {
+        self.check_type(field, &|| within(at, "weight"), "a number");
+        let weight = field.get().copied().unwrap_or(1.0);
+        if weight.is_finite() && weight > 0.0 {
+            return weight;
+        }
+        let message = || format!("the weight is {weight}");
+        let remedy = "1 is used; give a number above 0";
+        self.builder.find(Code::BadWeight, at, message, remedy);
+        1.0
+    }
+
+    fn degree(&mut self, field: &Field<f64>, at: At<'_>) -> Option<usize> {
+        self.check_type(field, &|| within(at, "degree"), "a number");
+        // Both versions give 1 as the default.
+        let degree = match field {
+            Field::Absent => 1.0,
+            other => other.get().copied().unwrap_or(f64::NAN),
+        };
+        let most = MAX_DEGREE.min(self.builder.source.options.limits.degree);
+        if degree.fract() == 0.0 && (1.0..=most as f64).contains(&degree) {
+            return Some(degree as usize);
+        }
+        let message =
+            || format!("the degree is {degree}, a whole number from 1 to {most} expected");
+        let remedy = "The control polygon is drawn; correct the degree";
+        self.builder.find(Code::BadDegree, at, message, remedy);
+        None
+    }
+
+    fn curve(
+        &mut self,
+        degree: usize,
+        trajectory: &Trajectory,
+        control: &Control,
+        at: At<'_>,
+    ) -> Option<Nurbs> {
+        let count = control.points.len();
+        if !control.whole {
+            // What is wrong with a point has been said; without it there is no curve.
+            return None;
+        }
+        if count <= degree {
+            let least = degree + 1;
+            let message =
+                || format!("{count} control points, a curve of degree {degree} needs {least}");
+            let remedy = "Straight lines are drawn between those there are; lower the degree";
+            self.builder.find(Code::TooFewPoints, at, message, remedy);
+            return None;
+        }
+        let knots = self.knots(degree, count, trajectory, at)?;
+        let first = control.weights[0];
+        let rational = control.weights.iter().any(|&w| w != first);
+        if count > MOST_APPROXIMATED && (rational || degree > 3) {
+            let message = || {
+                format!(
+                    "{count} control points with weights or a degree above 3; {MOST_APPROXIMATED} at most"
+                )
+            };
+            let remedy = "The control polygon is drawn; split the curve, or lower its degree";
+            self.builder
+                .find(Code::ApproximateShape, at, message, remedy);
+            return None;
+        }
+        let weights = rational.then(|| control.weights.clone());
+        match Nurbs::new(degree, knots, control.points.clone(), weights) {
+            Ok(curve) => Some(curve),
+            Err(error) => {
+                self.report_knots(at, || error.to_string());
+                None
+            }
+        }
+    }
+
+    fn knots(
+        &mut self,
+        degree: usize,
+        points: usize,
+        trajectory: &Trajectory,
+        at: At<'_>,
+    ) -> Option<Vec<f64>> {
+        self.check_list(&trajectory.knots, at, "knotVector");
+        let mut values = Vec::new();
+        for (i, knot) in items(&trajectory.knots) {
+            values.push(self.number(knot, &|| within(at, &format!("knotVector[{i}]")))?);
+        }
+        if values.is_empty() {
+            let message = || "there are no knots".to_owned();
+            let remedy = "Evenly spaced clamped knots are used";
+            self.builder.find(Code::MissingKnots, at, message, remedy);
+            return Some(knots::uniform_clamped(degree, points));
+        }
+        let (count, expected) = (values.len(), points + degree + 1);
+        if count != expected {
+            self.report_knots(at, || {
+                let hint = match expected - count.min(expected) {
+                    1 => "; perhaps `degree` holds the order, which is one more",
+                    2 => "; perhaps the writer leaves out the first and the last knot",
+                    _ => "",
+                };
+                format!(
+                    "{count} knots; {points} control points of degree {degree} need {expected}{hint}"
+                )
+            });
+            return None;
+        }
+        self.check_shape(degree, points, &values, at);
+        Some(values)
+    }
+
+    /// Reports knots that are legal, and yet not what most curves have.
+    fn check_shape(&mut self, degree: usize, points: usize, knots: &[f64], at: At<'_>) {
+        let clamped = knots[0] == knots[degree] && knots[points] == knots[points + degree];
+        if !clamped {
+            let message = || {
+                "the first or last knots differ, so the curve does not begin and end at its outer points"
+                    .to_owned()
+            };
+            let remedy = "It is drawn as written";
+            self.builder.find(Code::UnclampedKnots, at, message, remedy);
+        }
+        let inner = knots.get(degree + 1..points).unwrap_or_default();
+        let broken = inner.windows(degree + 1).find(|w| w[0] == w[degree]);
+        if let Some(window) = broken {
+            let message = || format!("the knot {} is there more than {degree} times", window[0]);
+            let remedy = "The curve is broken there; remove the knots that are too many";
+            self.builder
+                .find(Code::KnotMultiplicity, at, message, remedy);
+        }
+    }
+
+    fn report_knots(&mut self, at: At<'_>, message: impl FnOnce() -> String) {
+        let remedy = "The control polygon is drawn; correct the knots";
+        self.builder.find(Code::BadKnots, at, message, remedy);
+    }
+}

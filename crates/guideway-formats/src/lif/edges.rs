@@ -1,0 +1,264 @@
+//! From an edge to paths: one for each distinct curve, for vehicle types may have their own.
+
+use std::collections::HashMap;
+
+use guideway_layout::{Code, NewPath, Place, Value};
+use guideway_spline::{Point, Runs};
+
+use super::json::Field;
+use super::map::{Mapper, items, within};
+use super::model::{Edge, EdgeProperties, PHYSICAL_LINE, Scalar, Trajectory};
+use crate::ReadError;
+use crate::builder::{At, Table};
+
+/// A curve of an edge, with the vehicle types that follow it. None is the straight line.
+struct Curve<'r, 'a> {
+    trajectory: Option<&'r Trajectory>,
+    place: Place,
+    types: Vec<String>,
+    properties: Vec<&'r EdgeProperties<'a>>,
+}
+
+/// A node that an edge names.
+struct End<'r> {
+    name: Option<&'r str>,
+    row: Option<u32>,
+    position: Option<Point<f64>>,
+    level: Option<u32>,
+}
+
+impl Mapper<'_> {
+    pub(super) fn map_edge(
+        &mut self,
+        edge: &Field<Edge<'_>>,
+        level: u32,
+        at: At<'_>,
+    ) -> Result<(), ReadError> {
+        let Some(edge) = self.record(edge, at) else {
+            self.count_edge(None, at);
+            let detail = "this is not an object, so there is nothing to draw";
+            return self.builder.refuse(&at().element, Code::WrongType, detail);
+        };
+        self.check_repeated(edge.repeated, at);
+        let id = self.id(&edge.id, at, "edgeId")?;
+        self.count_edge(edge.id.get().map(AsRef::as_ref), at);
+        let start = self.end(&edge.start, &id, &|| within(at, "startNodeId"))?;
+        let end = self.end(&edge.end, &id, &|| within(at, "endNodeId"))?;
+        let curves = self.curves(edge, at)?;
+        let one = curves.len() == 1;
+        for (i, curve) in curves.iter().enumerate() {
+            let name = match (one, curve.types.as_slice()) {
+                (true, _) => id.to_string(),
+                (false, []) => format!("{id} [{}]", i + 1),
+                (false, types) => format!("{id} [{}]", types.join(", ")),
+            };
+            self.map_curve(&name, curve, [&start, &end], level)?;
+        }
+        Ok(())
+    }
+
+    fn end<'r>(
+        &mut self,
+        field: &'r Field<std::borrow::Cow<'_, str>>,
+        edge: &str,
+        at: At<'_>,
+    ) -> Result<End<'r>, ReadError> {
+        let name = self.text(field, at)?;
+        if field.is_absent() {
+            self.report_missing(at, "the name of a node");
+        }
+        let row = name.and_then(|name| self.nodes.get(name).copied());
+        if let (Some(name), None) = (name, row) {
+            self.report_unknown_node(name, edge, at);
+        }
+        let nodes = &self.builder.layout.nodes;
+        Ok(End {
+            name,
+            row,
+            position: row.map(|row| nodes.position_m(row)),
+            level: row.and_then(|row| nodes.level(row)),
+        })
+    }
+
+    /// The distinct curves of an edge. All vehicle types without a trajectory share the straight line.
+    fn curves<'r, 'a>(
+        &mut self,
+        edge: &'r Edge<'a>,
+        at: At<'_>,
+    ) -> Result<Vec<Curve<'r, 'a>>, ReadError> {
+        let mut curves: Vec<Curve<'r, 'a>> = Vec::new();
+        let mut known: HashMap<Vec<u64>, usize> = HashMap::new();
+        let lists = [
+            ("vehicleTypeEdgeProperties", &edge.types_1),
+            ("mobileRobotTypeEdgeProperties", &edge.types_2),
+        ];
+        for (key, list) in lists {
+            self.check_list(list, at, key);
+            for (i, field) in items(list) {
+                let at_entry: At<'_> = &|| within(at, &format!("{key}[{i}]"));
+                let Some(entry) = self.record(field, at_entry) else {
+                    continue;
+                };
+                self.check_repeated(entry.repeated, at_entry);
+                let types =
+                    self.vehicle_types(&entry.vehicle_type, &entry.robot_types, at_entry)?;
+                let at_curve: At<'_> = &|| within(at_entry, "trajectory");
+                self.check_type(&entry.trajectory, at_curve, "an object");
+                let trajectory = entry.trajectory.get().map(AsRef::as_ref);
+                if trajectory.is_some() {
+                    self.count_trajectory();
+                }
+                let index = *known.entry(bits(trajectory)).or_insert(curves.len());
+                if index == curves.len() {
+                    curves.push(Curve {
+                        trajectory,
+                        place: at_curve(),
+                        types: Vec::new(),
+                        properties: Vec::new(),
+                    });
+                }
+                curves[index].types.extend(types);
+                curves[index].properties.push(entry);
+            }
+        }
+        if curves.is_empty() {
+            self.report_missing(&|| within(at, lists[0].0), "an entry for a vehicle type");
+            curves.push(Curve {
+                trajectory: None,
+                place: at(),
+                types: Vec::new(),
+                properties: Vec::new(),
+            });
+        }
+        Ok(curves)
+    }
+
+    fn map_curve(
+        &mut self,
+        name: &str,
+        curve: &Curve<'_, '_>,
+        ends: [&End<'_>; 2],
+        level: u32,
+    ) -> Result<(), ReadError> {
+        let at: At<'_> = &|| curve.place.clone();
+        let [start, end] = ends;
+        if start.row.is_some() && end.row.is_some() && start.level != end.level {
+            let detail = self.between_levels(start, end);
+            let message = || format!("`{name}` {detail}");
+            let remedy = "Nothing to do if this is a lift; else move the node";
+            self.builder.find(Code::CrossLevel, at, message, remedy);
+            return self.builder.refuse(name, Code::CrossLevel, &detail);
+        }
+        let mut runs = Runs::default();
+        if let Some(trajectory) = curve.trajectory {
+            self.append_curve(trajectory, at, &mut runs)?;
+            self.builder
+                .check_ends(&runs, [start.position, end.position], at);
+        }
+        if runs.is_empty() {
+            let (Some(from), Some(to)) = (start.position, end.position) else {
+                let detail = missing_ends(ends);
+                return self.builder.refuse(name, Code::UnknownNode, &detail);
+            };
+            runs.push_line(from, to);
+        }
+        self.builder.check_length(&runs, at);
+        let vehicle_types: Vec<&str> = curve.types.iter().map(String::as_str).collect();
+        let row = self.builder.push_path(&NewPath {
+            id: name,
+            runs: &runs,
+            start_node: start.row,
+            end_node: end.row,
+            level: Some(level),
+            vehicle_types: &vehicle_types,
+            ..NewPath::default()
+        })?;
+        self.set_attributes(row, curve, at)
+    }
+
+    fn between_levels(&self, start: &End<'_>, end: &End<'_>) -> String {
+        let name = |end: &End<'_>| {
+            let level = end
+                .level
+                .and_then(|l| self.builder.layout.levels.get(l as usize));
+            level.map_or_else(String::new, |l| l.id.clone())
+        };
+        format!(
+            "leads from the layout `{}` to the layout `{}`; it is not drawn across one plane",
+            name(start),
+            name(end)
+        )
+    }
+
+    fn set_attributes(
+        &mut self,
+        row: usize,
+        curve: &Curve<'_, '_>,
+        at: At<'_>,
+    ) -> Result<(), ReadError> {
+        let Some((first, others)) = curve.properties.split_first() else {
+            return Ok(());
+        };
+        for (name, field) in &first.attributes {
+            let value = match field.get() {
+                Some(Scalar::Truth(value)) => Value::Bool(*value),
+                Some(Scalar::Number(value)) => Value::Float(*value),
+                Some(Scalar::Count(value)) => Value::Int(*value),
+                Some(Scalar::Text(value)) => {
+                    self.builder.check_text(value)?;
+                    Value::Text(value)
+                }
+                None => continue,
+            };
+            self.builder.set(Table::Paths, row, name, value)?;
+        }
+        let differs = others.iter().any(|p| p.attributes != first.attributes);
+        if differs {
+            let message = || "vehicle types share this curve and differ in other things".to_owned();
+            let remedy = "The attributes of the first are shown";
+            self.builder.find(Code::Attribute, at, message, remedy);
+        }
+        let line_guided = first
+            .attributes
+            .iter()
+            .any(|(n, _)| n.starts_with(PHYSICAL_LINE));
+        if line_guided && curve.trajectory.is_none() {
+            let message =
+                || "vehicles follow a line on the floor, whose shape is not in the file".into();
+            let remedy = "A straight line is drawn";
+            self.builder
+                .find(Code::ApproximateShape, at, message, remedy);
+        }
+        Ok(())
+    }
+}
+
+/// Why no straight line can be drawn.
+fn missing_ends(ends: [&End<'_>; 2]) -> String {
+    let parts = ends.into_iter().zip(["start", "end"]);
+    let parts = parts.filter(|(end, _)| end.row.is_none());
+    let texts: Vec<String> = parts
+        .map(|(end, which)| match end.name {
+            Some(name) => format!("the {which} node `{name}` is not there or has no position"),
+            None => format!("the {which} node is not named"),
+        })
+        .collect();
+    texts.join(", and ")
+}
+
+/// All numbers of a trajectory, to tell equal curves; none for the straight line.
+fn bits(trajectory: Option<&Trajectory>) -> Vec<u64> {
+    let Some(trajectory) = trajectory else {
+        return Vec::new();
+    };
+    let number = |field: &Field<f64>| field.get().map_or(u64::MAX, |n| n.to_bits());
+    let mut bits = vec![number(&trajectory.degree)];
+    bits.extend(items(&trajectory.knots).map(|(_, knot)| number(knot)));
+    for (_, point) in items(&trajectory.points) {
+        match point.get() {
+            Some(p) => bits.extend([number(&p.x), number(&p.y), number(&p.weight)]),
+            None => bits.push(u64::MAX),
+        }
+    }
+    bits
+}

@@ -1,0 +1,324 @@
+//! From the records of a LIF file to a layout: levels, nodes, stations.
+
+use std::borrow::Cow;
+use std::collections::{HashMap, HashSet};
+
+use guideway_layout::{Code, Layout, Level, Place, Value};
+use guideway_spline::Point;
+
+use super::json::{Field, Kind};
+use super::model::{self, Node, Position, RobotType, Root, Station};
+use crate::ReadError;
+use crate::builder::{At, Builder, Table};
+use crate::read::Source;
+
+/// Fills a layout from the records of a file.
+pub(super) struct Mapper<'a> {
+    pub(super) builder: Builder<'a>,
+    pub(super) nodes: HashMap<String, u32>,
+    edges: HashSet<String>,
+    stations: HashSet<String>,
+    vehicle_types: HashSet<String>,
+    counts: Counts,
+}
+
+#[derive(Default)]
+struct Counts {
+    nodes: usize,
+    edges: usize,
+    stations: usize,
+    trajectories: usize,
+}
+
+/// One layout of the file, with its place in it.
+struct Part<'r, 'a> {
+    place: String,
+    layout: &'r model::Layout<'a>,
+}
+
+impl<'a> Mapper<'a> {
+    pub(super) fn new(source: Source<'a>) -> Self {
+        Self {
+            builder: Builder::new(source),
+            nodes: HashMap::new(),
+            edges: HashSet::new(),
+            stations: HashSet::new(),
+            vehicle_types: HashSet::new(),
+            counts: Counts::default(),
+        }
+    }
+
+    pub(super) fn map(mut self, root: &Root<'_>) -> Result<Layout, ReadError> {
+        let at_root: At<'_> = &|| Place::element("the root");
+        self.check_repeated(root.repeated, at_root);
+        self.map_version(root)?;
+        let parts = self.parts(root)?;
+        // All nodes come first, for an edge may lead to a node of a later layout.
+        for (level, part) in parts.iter().enumerate() {
+            self.map_level(part)?;
+            for (i, node) in items(&part.layout.nodes) {
+                let at = || Place::element(format!("{}.nodes[{i}]", part.place));
+                self.map_node(node, level as u32, &at)?;
+            }
+        }
+        for (level, part) in parts.iter().enumerate() {
+            for (i, edge) in items(&part.layout.edges) {
+                let at = || Place::element(format!("{}.edges[{i}]", part.place));
+                self.map_edge(edge, level as u32, &at)?;
+            }
+            for (i, station) in items(&part.layout.stations) {
+                let at = || Place::element(format!("{}.stations[{i}]", part.place));
+                self.map_station(station, level as u32, &at)?;
+            }
+        }
+        Ok(self.finish(parts.len()))
+    }
+
+    fn finish(mut self, layouts: usize) -> Layout {
+        let counts = [
+            ("layouts", layouts),
+            ("nodes", self.counts.nodes),
+            ("edges", self.counts.edges),
+            ("stations", self.counts.stations),
+            ("trajectories", self.counts.trajectories),
+            ("vehicleTypes", self.vehicle_types.len()),
+        ];
+        self.builder.layout.provenance.counts =
+            counts.map(|(name, n)| (name.to_owned(), n as u64)).to_vec();
+        self.builder.layout
+    }
+
+    fn map_version(&mut self, root: &Root<'_>) -> Result<(), ReadError> {
+        let version = if root.origins.is_absent() {
+            "1.0"
+        } else {
+            "2.0"
+        };
+        let provenance = &mut self.builder.layout.provenance;
+        crate::Format::Lif.name().clone_into(&mut provenance.format);
+        version.clone_into(&mut provenance.format_version);
+        let Some(meta) = root.meta.get() else {
+            return Ok(());
+        };
+        let at: At<'_> = &|| Place::element("metaInformation.lifVersion");
+        let stated = self.text(&meta.lif_version, at)?;
+        if let Some(stated) = stated.filter(|s| !s.starts_with(&version[..2])) {
+            let message =
+                || format!("the file states version {stated}, its structure is {version}");
+            let remedy = "Nothing to do: the structure counts";
+            self.builder.find(Code::Version, at, message, remedy);
+        }
+        Ok(())
+    }
+
+    fn parts<'r, 't>(&mut self, root: &'r Root<'t>) -> Result<Vec<Part<'r, 't>>, ReadError> {
+        let mut parts = Vec::new();
+        self.collect(&root.layouts, "layouts", &mut parts);
+        for (i, origin) in items(&root.origins) {
+            let place = format!("origins[{i}]");
+            let at: At<'_> = &|| Place::element(place.as_str());
+            if let Some(origin) = self.record(origin, at) {
+                self.check_repeated(origin.repeated, at);
+                self.check_list(&origin.layouts, at, "layouts");
+                self.collect(&origin.layouts, &format!("{place}.layouts"), &mut parts);
+            }
+        }
+        for part in &parts {
+            let at: At<'_> = &|| Place::element(part.place.as_str());
+            self.check_repeated(part.layout.repeated, at);
+            self.check_list(&part.layout.nodes, at, "nodes");
+            self.check_list(&part.layout.edges, at, "edges");
+            self.check_list(&part.layout.stations, at, "stations");
+        }
+        Ok(parts)
+    }
+
+    fn collect<'r, 't>(
+        &mut self,
+        list: &'r Field<Vec<Field<model::Layout<'t>>>>,
+        name: &str,
+        parts: &mut Vec<Part<'r, 't>>,
+    ) {
+        for (i, layout) in items(list) {
+            let place = format!("{name}[{i}]");
+            if let Some(layout) = self.record(layout, &|| Place::element(place.as_str())) {
+                parts.push(Part { place, layout });
+            }
+        }
+    }
+
+    fn map_level(&mut self, part: &Part<'_, '_>) -> Result<(), ReadError> {
+        let at: At<'_> = &|| Place::element(part.place.as_str());
+        let id = self.id(&part.layout.id, at, "layoutId")?;
+        let name = self.text(&part.layout.name, &|| within(at, "layoutName"))?;
+        let known = self.builder.layout.levels.iter().any(|l| l.id == id);
+        self.check_duplicate(known, "layoutId", &id, at);
+        self.builder.layout.levels.push(Level {
+            id: id.into_owned(),
+            name: name.map(str::to_owned),
+            elevation_m: None,
+        });
+        Ok(())
+    }
+
+    fn map_node(
+        &mut self,
+        node: &Field<Node<'_>>,
+        level: u32,
+        at: At<'_>,
+    ) -> Result<(), ReadError> {
+        self.counts.nodes += 1;
+        let Some(node) = self.record(node, at) else {
+            return Ok(());
+        };
+        self.check_repeated(node.repeated, at);
+        for (_, properties) in items(&node.types_1).chain(items(&node.types_2)) {
+            if let Some(p) = properties.get() {
+                self.vehicle_types(&p.vehicle_type, &p.robot_types, at)?;
+            }
+        }
+        let id = self.id(&node.id, at, "nodeId")?;
+        let Some(position) = self.position(&node.position, &|| within(at, "nodePosition"), true)
+        else {
+            return Ok(());
+        };
+        let row = self.builder.push_node(&id, position, Some(level))?;
+        let known = self.nodes.contains_key(id.as_ref());
+        self.check_duplicate(known, "nodeId", &id, at);
+        self.nodes.entry(id.into_owned()).or_insert(row);
+        let (name, map) = (&node.name, &node.map_id);
+        self.attribute(Table::Nodes, row as usize, "nodeName", name, at)?;
+        self.attribute(Table::Nodes, row as usize, "mapId", map, at)
+    }
+
+    fn map_station(
+        &mut self,
+        station: &Field<Station<'_>>,
+        level: u32,
+        at: At<'_>,
+    ) -> Result<(), ReadError> {
+        self.counts.stations += 1;
+        let Some(station) = self.record(station, at) else {
+            return Ok(());
+        };
+        self.check_repeated(station.repeated, at);
+        self.check_list(&station.nodes, at, "interactionNodeIds");
+        let id = self.id(&station.id, at, "stationId")?;
+        let mut nodes = Vec::new();
+        for (i, name) in items(&station.nodes) {
+            let at_name: At<'_> = &|| within(at, &format!("interactionNodeIds[{i}]"));
+            let Some(name) = self.text(name, at_name)? else {
+                continue;
+            };
+            match self.nodes.get(name) {
+                Some(&row) => nodes.push(row),
+                None => self.report_unknown_node(name, &id, at_name),
+            }
+        }
+        let at_position: At<'_> = &|| within(at, "stationPosition");
+        let position = self.position(&station.position, at_position, false);
+        let row = self
+            .builder
+            .push_station(&id, position, nodes, Some(level))? as usize;
+        let new = self.stations.insert(id.clone().into_owned());
+        self.check_duplicate(!new, "stationId", &id, at);
+        self.attribute(Table::Stations, row, "stationName", &station.name, at)?;
+        self.attribute(Table::Stations, row, "stationType", &station.kind, at)?;
+        self.check_type(&station.height, &|| within(at, "stationHeight"), "a number");
+        if let Some(&height) = station.height.get() {
+            let value = Value::Float(height);
+            self.builder
+                .set(Table::Stations, row, "stationHeight", value)?;
+        }
+        Ok(())
+    }
+
+    /// Counts an edge under its id, and reports an id that was there before.
+    pub(super) fn count_edge(&mut self, id: Option<&str>, at: At<'_>) {
+        self.counts.edges += 1;
+        if let Some(id) = id {
+            let new = self.edges.insert(id.to_owned());
+            self.check_duplicate(!new, "edgeId", id, at);
+        }
+    }
+
+    pub(super) fn count_trajectory(&mut self) {
+        self.counts.trajectories += 1;
+    }
+
+    /// The names of the vehicle types that one entry is for.
+    pub(super) fn vehicle_types(
+        &mut self,
+        vehicle_type: &Field<Cow<'_, str>>,
+        robot_types: &Field<Vec<Field<RobotType<'_>>>>,
+        at: At<'_>,
+    ) -> Result<Vec<String>, ReadError> {
+        let mut names = Vec::new();
+        if let Some(name) = self.text(vehicle_type, &|| within(at, "vehicleTypeId"))? {
+            names.push(name.to_owned());
+        }
+        for (_, robot) in items(robot_types) {
+            let Some(robot) = self.record(robot, &|| within(at, "mobileRobotTypes")) else {
+                continue;
+            };
+            let manufacturer = self.text(&robot.manufacturer, &|| within(at, "manufacturer"))?;
+            let series = self.text(&robot.series, &|| within(at, "seriesName"))?;
+            let parts: Vec<&str> = [manufacturer, series].into_iter().flatten().collect();
+            if !parts.is_empty() {
+                names.push(parts.join(" "));
+            }
+        }
+        for name in &names {
+            if !self.vehicle_types.contains(name) {
+                self.vehicle_types.insert(name.clone());
+            }
+        }
+        Ok(names)
+    }
+
+    fn position(
+        &mut self,
+        field: &Field<Position>,
+        at: At<'_>,
+        needed: bool,
+    ) -> Option<Point<f64>> {
+        if field.is_absent() && !needed {
+            return None;
+        }
+        let position = self.record(field, at)?;
+        self.check_repeated(position.repeated, at);
+        let x = self.number(&position.x, &|| within(at, "x"));
+        let y = self.number(&position.y, &|| within(at, "y"));
+        let point = Point::new(x?, y?);
+        self.builder.check_point(point, at).then_some(point)
+    }
+
+    fn attribute(
+        &mut self,
+        table: Table,
+        row: usize,
+        name: &str,
+        field: &Field<Cow<'_, str>>,
+        at: At<'_>,
+    ) -> Result<(), ReadError> {
+        match self.text(field, &|| within(at, name))? {
+            Some(text) => self.builder.set(table, row, name, Value::Text(text)),
+            None => Ok(()),
+        }
+    }
+}
+
+/// The items of a list; none if it is not a list.
+pub(super) fn items<T>(list: &Field<Vec<Field<T>>>) -> impl Iterator<Item = (usize, &Field<T>)> {
+    list.get().into_iter().flatten().enumerate()
+}
+
+/// The place of a field of an object.
+pub(super) fn within(at: At<'_>, field: &str) -> Place {
+    Place::element(format!("{}.{field}", at().element))
+}
+
+/// Name of a kind that was found, for messages.
+pub(super) fn found(kind: Kind, expected: &str) -> String {
+    format!("{expected} was expected, {kind} was found")
+}

@@ -1,0 +1,58 @@
+//! The Layout Interchange Format of the VDMA: JSON, metres, y up.
+//!
+//! 1.0 and 2.0 are told apart by their structure, for the version that files state is often not theirs:
+//! the official examples of 1.0 say 0.11.0.
+
+mod curve;
+mod edges;
+mod fields;
+mod json;
+mod map;
+mod model;
+
+use guideway_layout::{Layout, Place};
+
+use self::json::Field;
+use self::map::Mapper;
+use self::model::Root;
+use crate::read::Source;
+use crate::{Problem, ReadError, text};
+
+/// Reads a LIF file.
+pub(crate) fn read(source: Source<'_>, bytes: &[u8]) -> Result<Layout, ReadError> {
+    let text = text::decode(&source, bytes)?;
+    let root = match json::parse::<Root<'_>>(&source, text)? {
+        Field::Value(root) => root,
+        other => {
+            let found = other
+                .wrong_kind()
+                .map_or("nothing".into(), |k| k.to_string());
+            return Err(source.fail(not_lif("the root", "an object", found)));
+        }
+    };
+    for (field, wrong) in [
+        ("layouts", root.layouts.wrong_kind()),
+        ("origins", root.origins.wrong_kind()),
+    ] {
+        if let Some(kind) = wrong {
+            return Err(source.fail(not_lif(field, "a list", kind.to_string())));
+        }
+    }
+    if root.layouts.is_absent() && root.origins.is_absent() {
+        let found = match root.other_keys.as_slice() {
+            [] => "an object with neither".to_owned(),
+            keys => format!("an object with {}", keys.join(", ")),
+        };
+        let expected = "`layouts` (LIF 1.0) or `origins` (LIF 2.0)";
+        return Err(source.fail(not_lif("the root", expected, found)));
+    }
+    Mapper::new(source).map(&root)
+}
+
+fn not_lif(element: &str, expected: &str, found: String) -> Problem {
+    Problem::Structure {
+        place: Place::element(element),
+        expected: expected.into(),
+        found,
+    }
+}
