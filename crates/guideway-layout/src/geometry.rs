@@ -18,6 +18,15 @@ enum Points {
     F32(Vec<Point<f32>>),
 }
 
+impl Points {
+    fn len(&self) -> usize {
+        match self {
+            Self::F64(p) => p.len(),
+            Self::F32(p) => p.len(),
+        }
+    }
+}
+
 impl Default for Geometry {
     fn default() -> Self {
         Self {
@@ -34,13 +43,36 @@ impl Geometry {
     /// # Panics
     /// When `ends` falls, or does not end at the number of points.
     pub fn from_f32(points: Vec<Point<f32>>, ends: Vec<u32>) -> Self {
+        Self::from_points(Points::F32(points), ends)
+    }
+
+    /// As [`Self::from_f32`], in `f64`.
+    ///
+    /// # Panics
+    /// As [`Self::from_f32`].
+    pub fn from_f64(points: Vec<Point<f64>>, ends: Vec<u32>) -> Self {
+        Self::from_points(Points::F64(points), ends)
+    }
+
+    fn from_points(points: Points, ends: Vec<u32>) -> Self {
         assert!(ends.is_sorted() && ends.last().map_or(0, |&e| e as usize) == points.len());
         let path_ends = (1..=ends.len() as u32).collect();
         Self {
-            points: Points::F32(points),
+            points,
             run_ends: ends,
             path_ends,
         }
+    }
+
+    /// The same runs as other paths: path `i` has the runs up to `path_ends[i]`.
+    ///
+    /// # Panics
+    /// When `path_ends` falls, or does not end at the number of runs.
+    #[must_use]
+    pub fn with_path_ends(self, path_ends: Vec<u32>) -> Self {
+        let runs = path_ends.last().map_or(0, |&e| e as usize);
+        assert!(path_ends.is_sorted() && runs == self.run_count());
+        Self { path_ends, ..self }
     }
 
     /// Number of paths.
@@ -55,10 +87,7 @@ impl Geometry {
 
     /// Number of control points of all paths together.
     pub fn point_count(&self) -> usize {
-        match &self.points {
-            Points::F64(p) => p.len(),
-            Points::F32(p) => p.len(),
-        }
+        self.points.len()
     }
 
     /// Number of cubic segments of all paths together.
