@@ -1,4 +1,4 @@
-use crate::{Point, Real};
+use crate::{Point, Real, uniform};
 
 /// An axis-aligned box, its borders included.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,6 +15,32 @@ impl<T: Real> Bounds<T> {
         points
             .into_iter()
             .map(|p| Self { min: p, max: p })
+            .reduce(Self::union)
+    }
+
+    /// The smallest box that holds a segment of a uniform cubic B-spline, apart from rounding.
+    ///
+    /// [`Bounds::of_points`] of its control points holds it too, quicker but wider.
+    pub fn of_segment(p: &[Point<T>; 4]) -> Self {
+        let at = |point| Self {
+            min: point,
+            max: point,
+        };
+        let ends = at(uniform::start(p)).union(at(uniform::end(p)));
+        // On each axis, the extremes are at the ends or where the derivative vanishes.
+        let [x0, x1] = turns(p.map(|p| p.x));
+        let [y0, y1] = turns(p.map(|p| p.y));
+        [x0, x1, y0, y1]
+            .into_iter()
+            .filter(|&t| t > T::zero() && t < T::one())
+            .fold(ends, |bounds, t| bounds.union(at(uniform::point(p, t))))
+    }
+
+    /// The smallest box that holds a run, apart from rounding; none if it has fewer than four points.
+    pub fn of_run(points: &[Point<T>]) -> Option<Self> {
+        points
+            .array_windows()
+            .map(Self::of_segment)
             .reduce(Self::union)
     }
 
@@ -64,4 +90,15 @@ impl<T: Real> Bounds<T> {
             self.min.y * half + self.max.y * half,
         )
     }
+}
+
+/// Where one coordinate of a segment turns: roots of its derivative, NaN or infinite if there are none.
+fn turns<T: Real>(p: [T; 4]) -> [T; 2] {
+    // 2 C'(t) = c + 2 b t + a t^2
+    let (d0, d1, d2) = (p[1] - p[0], p[2] - p[1], p[3] - p[2]);
+    let (a, b, c) = (d0 - d1 - d1 + d2, d1 - d0, d0 + d1);
+    // The sum has no cancellation; the other root follows from the product c/a (Numerical Recipes, 5.6).
+    let root = (b * b - a * c).sqrt();
+    let q = -(b + root.copysign(b));
+    [q / a, c / q]
 }

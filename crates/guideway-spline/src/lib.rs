@@ -13,9 +13,11 @@
 //! Any other curve converts to runs: exactly where it is a non-rational curve up to degree 3, within a
 //! stated tolerance otherwise.
 
+mod arc;
 pub mod basis;
 mod bounds;
 mod convert;
+mod flatten;
 pub mod knots;
 mod nurbs;
 mod point;
@@ -23,8 +25,10 @@ mod real;
 mod runs;
 pub mod uniform;
 
+pub use arc::{MAX_ARC_PIECES, arc_to_runs};
 pub use bounds::Bounds;
 pub use convert::{Conversion, MAX_HALVINGS, bezier_to_runs, nurbs_to_runs, polyline_to_runs};
+pub use flatten::{MAX_LINES_PER_SEGMENT, flatten_run};
 pub use nurbs::{MAX_DEGREE, Nurbs, NurbsError};
 pub use point::Point;
 pub use real::Real;

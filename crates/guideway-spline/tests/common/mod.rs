@@ -112,3 +112,32 @@ pub(crate) fn scale(points: &[P]) -> f64 {
         .map(|p| p.x.abs().max(p.y.abs()))
         .fold(1.0, f64::max)
 }
+
+/// Runs of all shapes: free, all points equal, in line and back (cusps), loops, far from the origin.
+pub(crate) fn run() -> impl Strategy<Value = Vec<P>> {
+    let free = prop::collection::vec(point_within(20.0), 4..40);
+    let walk = prop::collection::vec((0.2..2.0, -0.6..0.6), 4..60).prop_map(|steps| {
+        let (mut at, mut heading) = (Point::new(0.0, 0.0), 0.0_f64);
+        let step = |(length, turn): (f64, f64)| {
+            heading += turn;
+            at = at + Point::new(heading.cos(), heading.sin()) * length;
+            at
+        };
+        steps.into_iter().map(step).collect::<Vec<_>>()
+    });
+    let in_line = prop::collection::vec(-9.0..9.0, 4..20).prop_map(|along: Vec<f64>| {
+        let at = |t: &f64| Point::new(t * 0.6, t * -0.8);
+        along.iter().map(at).collect::<Vec<_>>()
+    });
+    let grid = prop::collection::vec((0..3u8, 0..3u8), 4..20).prop_map(|cells| {
+        let at = |(x, y)| Point::new(f64::from(x), f64::from(y));
+        cells.into_iter().map(at).collect::<Vec<_>>()
+    });
+    let equal = (point_within(20.0), 4..9usize).prop_map(|(p, n)| vec![p; n]);
+    let shape = prop_oneof![3 => free, 3 => walk, 1 => in_line, 2 => grid, 1 => equal];
+    let offset = prop_oneof![3 => Just(0.0), 1 => Just(1e7), 1 => Just(-12345.678)];
+    (shape, offset).prop_map(|(points, by)| {
+        let by = Point::new(by, -by);
+        points.into_iter().map(|p| p + by).collect()
+    })
+}
