@@ -1,28 +1,215 @@
+//! The judge: brute force in `f64`, simple enough to be believed.
+//!
+//! Each pixel is the mean of 16 x 16 samples. Paths are laid over the samples one by one, from the lowest
+//! draw rank to the highest; a path covers a sample when one of the chords of its curve is near enough.
+//! There is no index, and no code of any other method: not even the curve mathematics.
+
+mod band;
+mod chords;
+#[cfg(test)]
+mod tests;
+
 use std::sync::Arc;
+use std::time::Instant;
 
-use guideway_render::{Budget, Method, MethodInfo, Prepared, RenderError};
-use guideway_scene::Scene;
+use guideway_render::{
+    Budget, Cancel, Frame, Method, MethodInfo, Prepared, RenderError, Report, Shading, Stage,
+    Style, View, density,
+};
+use guideway_scene::{Rgba, Scene};
+use guideway_spline::{Bounds, Point};
 
-/// (being written)
+use band::Band;
+use chords::Chords;
+
+const NAME: &str = "oracle";
+
+/// Most bytes of samples held at a time, as long as one row of pixels takes no more.
+const BAND_BYTES: u64 = 48 << 20;
+
+/// The method that all others are compared with: exact, and slow.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Oracle;
 
 impl Method for Oracle {
     fn info(&self) -> MethodInfo {
         MethodInfo {
-            name: "oracle",
-            summary: "",
-            device: String::new(),
+            name: NAME,
+            summary: "exact to 1/256 of a pixel's area by brute force; judges the other methods",
+            device: "CPU, one thread".to_owned(),
         }
     }
-    fn plan_bytes(&self, _scene: &Scene, _budget: &Budget) -> u64 {
-        0
+
+    fn plan_bytes(&self, scene: &Scene, budget: &Budget) -> u64 {
+        let strokes = scene.draw_order().len() * size_of::<Stroke>();
+        strokes as u64 + BAND_BYTES.min(budget.memory_bytes)
     }
+
     fn prepare(
         &self,
-        _scene: Arc<Scene>,
-        _budget: &Budget,
+        scene: Arc<Scene>,
+        budget: &Budget,
     ) -> Result<Box<dyn Prepared>, RenderError> {
-        Err(RenderError::Cancelled)
+        let memory_bytes = budget.memory_bytes;
+        Ok(Box::new(PreparedOracle {
+            scene,
+            memory_bytes,
+        }))
     }
+}
+
+struct PreparedOracle {
+    scene: Arc<Scene>,
+    memory_bytes: u64,
+}
+
+/// A path that may be seen.
+struct Stroke {
+    path: u32,
+    color: Rgba,
+    radius_px: f64,
+    /// Holds all that the path covers.
+    reach_px: Bounds<f64>,
+}
+
+impl Prepared for PreparedOracle {
+    fn render(
+        &mut self,
+        view: &View,
+        style: &Style,
+        cancel: &Cancel,
+        frame: &mut Frame,
+    ) -> Result<Report, RenderError> {
+        let started = Instant::now();
+        let rows_a_band = self.rows_a_band(view)?;
+        let strokes = self.strokes(view, style, cancel)?;
+        let culled_ms = elapsed_ms(started);
+
+        frame.resize(view.size());
+        let (width, height) = (view.size().width(), view.size().height());
+        let mut counts = match style.shading {
+            Shading::Color => Vec::new(),
+            Shading::Density(_) => vec![0.0; view.size().pixels()],
+        };
+        let (mut lines, mut bands, mut band_bytes) = (0, 0, 0);
+        for first_row in (0..height).step_by(rows_a_band as usize) {
+            let rows = rows_a_band.min(height - first_row);
+            let mut band = Band::new(first_row, rows, width, style.background);
+            for (order, stroke) in (1..).zip(&strokes) {
+                cancel.check()?;
+                lines += self.draw(view, stroke, order, &mut band);
+            }
+            let pixels = (first_row * width) as usize..((first_row + rows) * width) as usize;
+            match style.shading {
+                Shading::Color => band.write_colors(&mut frame.pixels_mut()[pixels]),
+                Shading::Density(_) => band.write_counts(&mut counts[pixels]),
+            }
+            band_bytes = band_bytes.max(band.heap_bytes());
+            bands += 1;
+        }
+        if let Shading::Density(tone) = style.shading {
+            density::shade(&counts, tone, style.background, frame);
+        }
+
+        let layout = self.scene.layout();
+        let drawn = strokes.len() as u64;
+        let stroke_bytes = strokes.capacity() * size_of::<Stroke>();
+        let count_bytes = counts.capacity() * size_of::<f32>();
+        Ok(Report {
+            method: NAME,
+            total: layout.path_count() as u64,
+            drawn,
+            culled: self.scene.draw_order().len() as u64 - drawn,
+            hidden: self.scene.hidden_count() as u64,
+            refused: layout.refused.len() as u64,
+            stages: vec![
+                Stage {
+                    name: "cull",
+                    elapsed_ms: culled_ms,
+                },
+                Stage {
+                    name: "sample",
+                    elapsed_ms: elapsed_ms(started) - culled_ms,
+                },
+            ],
+            lines,
+            peak_bytes: (band_bytes + stroke_bytes + count_bytes) as u64,
+            bands,
+        })
+    }
+}
+
+impl PreparedOracle {
+    fn rows_a_band(&self, view: &View) -> Result<u32, RenderError> {
+        let row_bytes = Band::BYTES_A_PIXEL * u64::from(view.size().width());
+        if row_bytes > self.memory_bytes {
+            return Err(RenderError::Budget {
+                method: NAME,
+                what: "the samples of one row of pixels",
+                needed_bytes: row_bytes,
+                budget_bytes: self.memory_bytes,
+            });
+        }
+        let rows = BAND_BYTES.min(self.memory_bytes) / row_bytes;
+        Ok(rows.clamp(1, u64::from(view.size().height())) as u32)
+    }
+
+    /// The paths that are not outside the view, in draw order.
+    fn strokes(
+        &self,
+        view: &View,
+        style: &Style,
+        cancel: &Cancel,
+    ) -> Result<Vec<Stroke>, RenderError> {
+        let seen_px = Bounds {
+            min: Point::new(0.0, 0.0),
+            max: Point::new(
+                f64::from(view.size().width()),
+                f64::from(view.size().height()),
+            ),
+        };
+        let mut strokes = Vec::new();
+        for &path in self.scene.draw_order() {
+            cancel.check()?;
+            let runs = self.scene.layout().paths.get(path as usize).runs();
+            let points_px = runs.flat_map(|run| run.iter().map(|p| view.pixel_from_world(p)));
+            let width_m = self.scene.width_m(path);
+            let radius_px = style.line_rule.radius_px(width_m, view.px_per_m());
+            let reach_px = Bounds::of_points(points_px).map(|hull| hull.inflated(radius_px));
+            if let Some(reach_px) = reach_px.filter(|reach| reach.intersects(seen_px)) {
+                strokes.push(Stroke {
+                    path,
+                    color: self.scene.color(path),
+                    radius_px,
+                    reach_px,
+                });
+            }
+        }
+        Ok(strokes)
+    }
+
+    /// Lays one path over the samples of a band, and returns the number of chords that it took.
+    fn draw(&self, view: &View, stroke: &Stroke, order: u32, band: &mut Band) -> u64 {
+        if !stroke.reach_px.intersects(band.bounds_px()) {
+            return 0;
+        }
+        let chords = Chords {
+            near_px: band.bounds_px().inflated(stroke.radius_px),
+            longest_px: stroke.radius_px.max(1.0),
+        };
+        let mut lines = 0;
+        let path = self.scene.layout().paths.get(stroke.path as usize);
+        for segment in path.runs().flat_map(|run| run.segments()) {
+            let control_px = segment.map(|p| view.pixel_from_world(p));
+            chords.of_segment(&control_px, &mut |start, end| {
+                band.cover(start, end, stroke.radius_px, order, stroke.color);
+                lines += 1;
+            });
+        }
+        lines
+    }
+}
+
+fn elapsed_ms(since: Instant) -> f64 {
+    since.elapsed().as_secs_f64() * 1e3
 }

@@ -1,0 +1,160 @@
+//! The samples of some rows of pixels.
+
+use guideway_scene::Rgba;
+use guideway_spline::{Bounds, Point};
+
+/// Samples along one side of a pixel.
+const SIDE: usize = 16;
+const SAMPLES_A_PIXEL: usize = SIDE * SIDE;
+
+/// A horizontal band of the picture, sample by sample.
+pub(super) struct Band {
+    bounds_px: Bounds<f64>,
+    columns: usize,
+    rows: usize,
+    background: Rgba,
+    samples: Vec<Sample>,
+    /// How often each pixel's samples were covered.
+    hits: Vec<u64>,
+}
+
+#[derive(Clone, Copy)]
+struct Sample {
+    /// Red, green and blue times opacity, then opacity: 0 to 255.
+    over: [f32; 4],
+    /// The last path that covered it, so that a path that meets itself covers it once; 0 for none.
+    covered_by: u32,
+}
+
+impl Band {
+    /// Memory for one pixel.
+    pub(super) const BYTES_A_PIXEL: u64 =
+        (SAMPLES_A_PIXEL * size_of::<Sample>() + size_of::<u64>()) as u64;
+
+    /// A band of `rows` rows of pixels, with nothing on the background.
+    pub(super) fn new(first_row: u32, rows: u32, width: u32, background: Rgba) -> Self {
+        let pixels = rows as usize * width as usize;
+        let empty = Sample {
+            over: premultiplied(background),
+            covered_by: 0,
+        };
+        let [top, bottom, right] = [first_row, first_row + rows, width].map(f64::from);
+        Self {
+            bounds_px: Bounds {
+                min: Point::new(0.0, top),
+                max: Point::new(right, bottom),
+            },
+            columns: width as usize * SIDE,
+            rows: rows as usize * SIDE,
+            background,
+            samples: vec![empty; pixels * SAMPLES_A_PIXEL],
+            hits: vec![0; pixels],
+        }
+    }
+
+    pub(super) fn bounds_px(&self) -> Bounds<f64> {
+        self.bounds_px
+    }
+
+    pub(super) fn heap_bytes(&self) -> usize {
+        self.samples.capacity() * size_of::<Sample>() + self.hits.capacity() * size_of::<u64>()
+    }
+
+    /// Lays `color` over every sample within the radius of the line from `start` to `end` that the path
+    /// number `order` has not covered yet.
+    pub(super) fn cover(
+        &mut self,
+        start: Point<f64>,
+        end: Point<f64>,
+        radius_px: f64,
+        order: u32,
+        color: Rgba,
+    ) {
+        let ink = premultiplied(color);
+        let shows_through = 1.0 - f32::from(color.a) / 255.0;
+        let along = end - start;
+        let length_squared = along.dot(along);
+        let origin = self.bounds_px.min;
+        let low = Point::new(start.x.min(end.x), start.y.min(end.y)) - origin;
+        let high = Point::new(start.x.max(end.x), start.y.max(end.y)) - origin;
+        let (first_row, last_row) = samples_between(low.y, high.y, radius_px, self.rows);
+        let (first_column, last_column) = samples_between(low.x, high.x, radius_px, self.columns);
+
+        for row in first_row..last_row {
+            for column in first_column..last_column {
+                let from_start = origin + Point::new(position(column), position(row)) - start;
+                // Nearest point of the line; a line of no length is a point.
+                let fraction = if length_squared > 0.0 {
+                    (from_start.dot(along) / length_squared).clamp(0.0, 1.0)
+                } else {
+                    0.0
+                };
+                let apart = from_start - along * fraction;
+                let sample = &mut self.samples[row * self.columns + column];
+                if apart.dot(apart) <= radius_px * radius_px && sample.covered_by != order {
+                    sample.covered_by = order;
+                    for (below, ink) in sample.over.iter_mut().zip(ink) {
+                        *below = ink + *below * shows_through;
+                    }
+                    self.hits[row / SIDE * (self.columns / SIDE) + column / SIDE] += 1;
+                }
+            }
+        }
+    }
+
+    /// The mean colour of each pixel, rounded to nearest.
+    pub(super) fn write_colors(&self, pixels: &mut [[u8; 4]]) {
+        let width = self.columns / SIDE;
+        for (index, pixel) in pixels.iter_mut().enumerate() {
+            let (row, column) = (index / width * SIDE, index % width * SIDE);
+            let mut sum = [0.0; 4];
+            for y in row..row + SIDE {
+                let line = &self.samples[y * self.columns + column..][..SIDE];
+                for sample in line {
+                    for (sum, channel) in sum.iter_mut().zip(sample.over) {
+                        *sum += f64::from(channel);
+                    }
+                }
+            }
+            *pixel = straight(sum.map(|s| s / SAMPLES_A_PIXEL as f64), self.background);
+        }
+    }
+
+    /// The mean number of paths that cover each pixel.
+    pub(super) fn write_counts(&self, counts: &mut [f32]) {
+        for (count, &hits) in counts.iter_mut().zip(&self.hits) {
+            *count = (hits as f64 / SAMPLES_A_PIXEL as f64) as f32;
+        }
+    }
+}
+
+/// Where a sample lies, in pixels from the first sample's pixel.
+fn position(index: usize) -> f64 {
+    (index as f64 + 0.5) / SIDE as f64
+}
+
+/// A range of samples that holds all those from `low - radius` to `high + radius`, and at most two more.
+fn samples_between(low_px: f64, high_px: f64, radius_px: f64, count: usize) -> (usize, usize) {
+    let first = ((low_px - radius_px) * SIDE as f64 - 0.5).floor();
+    let end = ((high_px + radius_px) * SIDE as f64 - 0.5).ceil() + 1.0;
+    let held = |index: f64| index.clamp(0.0, count as f64) as usize;
+    (held(first), held(end))
+}
+
+fn premultiplied(color: Rgba) -> [f32; 4] {
+    let opacity = f32::from(color.a) / 255.0;
+    [
+        f32::from(color.r) * opacity,
+        f32::from(color.g) * opacity,
+        f32::from(color.b) * opacity,
+        f32::from(color.a),
+    ]
+}
+
+/// Where nothing is, the background has the say on the colour that does not show.
+fn straight([r, g, b, a]: [f64; 4], background: Rgba) -> [u8; 4] {
+    if a == 0.0 {
+        return [background.r, background.g, background.b, 0];
+    }
+    [r * 255.0 / a, g * 255.0 / a, b * 255.0 / a, a].map(|channel| channel.round() as u8)
+}
