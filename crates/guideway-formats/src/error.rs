@@ -73,6 +73,14 @@ pub enum Problem {
         /// Which rule.
         message: String,
     },
+    /// The bytes contradict themselves.
+    #[error("{place}: the file is damaged: {detail}")]
+    Damaged {
+        /// Where.
+        place: Place,
+        /// What does not fit.
+        detail: String,
+    },
     /// Nested too deeply.
     #[error("line {line}, column {column}: nested more than {limit} levels deep")]
     TooDeep {
@@ -137,6 +145,7 @@ impl Problem {
             Self::UnknownFormat { .. } => "unknown-format",
             Self::Truncated { .. } => "truncated",
             Self::Syntax { .. } => "syntax",
+            Self::Damaged { .. } => "damaged",
             Self::TooDeep { .. } => "too-deep",
             Self::LimitReached { .. } => "limit",
             Self::NotUtf8 { .. } => "not-utf8",
@@ -156,7 +165,7 @@ impl Problem {
             Self::Io(_) => "Check that you may read the file and that its disk is there".into(),
             Self::Empty => "Export the layout again; the last export wrote nothing".into(),
             Self::UnknownFormat { .. } => format!("Guideway reads {FormatList}"),
-            Self::Truncated { .. } => {
+            Self::Truncated { .. } | Self::Damaged { .. } => {
                 "Copy or export the file again; the last copy is not whole".into()
             }
             Self::Syntax { .. } => {

@@ -4,6 +4,7 @@
 //! to [`Limits`](guideway_layout::Limits), never panics, and either gives a layout with everything odd
 //! in its diagnostics or an error that says which file, where, what, and what to do.
 
+pub mod arrow;
 mod builder;
 mod error;
 mod lif;

@@ -1,5 +1,5 @@
 use std::fs::{File, Metadata};
-use std::io::{self, Read};
+use std::io::{self, Read, Seek};
 use std::path::Path;
 
 use guideway_layout::{Layout, Limits};
@@ -37,6 +37,13 @@ pub fn read_file(path: &Path, options: &ReadOptions<'_>) -> Result<Layout, ReadE
     let name = path.display().to_string();
     let fail = |problem| ReadError::new(&name, problem);
     let mut file = open(path).map_err(fail)?;
+    if is_arrow(&mut file).map_err(fail)? {
+        let size = file.metadata().map_err(io_problem).map_err(fail)?.len();
+        check_size(size, &options.limits).map_err(fail)?;
+        let bytes = crate::arrow::load(&file).map_err(fail)?;
+        let name = &name;
+        return crate::arrow::read(Source { name, options }, &bytes);
+    }
     let bytes = read_whole(&mut file, options).map_err(fail)?;
     read_bytes(&name, &bytes, options)
 }
@@ -58,7 +65,8 @@ pub fn read_bytes(
     check_size(bytes.len() as u64, &options.limits).map_err(|p| source.fail(p))?;
     match sniff(bytes) {
         Some(Format::Lif) => crate::lif::read(source, bytes),
-        Some(Format::OpenTcs | Format::Arrow) | None => Err(source.fail(unknown(bytes))),
+        Some(Format::Arrow) => crate::arrow::read(source, &bytes.into()),
+        Some(Format::OpenTcs) | None => Err(source.fail(unknown(bytes))),
     }
 }
 
@@ -84,6 +92,16 @@ impl Source<'_> {
             _ => Ok(()),
         }
     }
+}
+
+/// Whether it is an Arrow file, which need not be read whole.
+fn is_arrow(file: &mut File) -> Result<bool, Problem> {
+    let mut first_bytes = Vec::new();
+    file.take(8)
+        .read_to_end(&mut first_bytes)
+        .map_err(io_problem)?;
+    file.rewind().map_err(io_problem)?;
+    Ok(sniff(&first_bytes) == Some(Format::Arrow))
 }
 
 fn open(path: &Path) -> Result<File, Problem> {

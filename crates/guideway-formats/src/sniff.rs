@@ -37,7 +37,8 @@ impl Format {
 /// JSON can only be LIF and XML can only be openTCS. Whether they truly are is for the reader to find,
 /// which can then say what it found instead.
 pub fn sniff(bytes: &[u8]) -> Option<Format> {
-    if bytes.starts_with(b"ARROW1") {
+    // A stream has no magic; it begins with the mark that every one of its messages begins with.
+    if bytes.starts_with(b"ARROW1") || bytes.starts_with(&[0xFF; 4]) {
         return Some(Format::Arrow);
     }
     let text = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);

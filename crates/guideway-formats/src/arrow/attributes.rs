@@ -1,0 +1,275 @@
+use std::fmt::{self, Write};
+
+use arrow_array::cast::AsArray;
+use arrow_array::types::{Float64Type, Int64Type};
+use arrow_array::{Array, ArrayRef, ArrowPrimitiveType};
+use arrow_cast::display::{ArrayFormatter, FormatOptions};
+use arrow_schema::{DataType, Field};
+use guideway_layout::{Attribute, Code, Diagnostics, Limits, Place, TextColumn, Values};
+
+use super::budget::Budget;
+use super::decode::{damaged, guarded};
+use super::schema::is_text;
+use super::table::Table;
+use super::text::Texts;
+use crate::Problem;
+
+/// What the values of a column become.
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    Bool,
+    Int,
+    Float,
+    Text,
+    /// Text made from a value of a type that layouts do not have.
+    Written,
+    /// There are no values.
+    Nothing,
+}
+
+/// Converts columns to attributes.
+pub(super) struct Converter<'a> {
+    pub(super) table: &'a Table,
+    pub(super) limits: &'a Limits,
+    pub(super) budget: &'a mut Budget,
+    pub(super) diagnostics: &'a mut Diagnostics,
+}
+
+impl Converter<'_> {
+    /// The attribute that column `index` holds, if it holds values.
+    pub(super) fn attribute(
+        &mut self,
+        index: usize,
+        field: &Field,
+    ) -> Result<Option<Attribute>, Problem> {
+        let value_type = match field.data_type() {
+            DataType::Dictionary(_, values) => values.as_ref(),
+            plain => plain,
+        };
+        let mut kind = kind(field.data_type(), value_type);
+        let mut source_type = match kind {
+            Kind::Int if *value_type != DataType::Int64 => Some(value_type.to_string()),
+            Kind::Float if *value_type != DataType::Float64 => Some(value_type.to_string()),
+            _ => None,
+        };
+        if kind == Kind::Int && *value_type == DataType::UInt64 && !self.fits_i64(index)? {
+            (kind, source_type) = (Kind::Written, None);
+        }
+        if matches!(kind, Kind::Written | Kind::Nothing) {
+            self.note(field, kind);
+        }
+        let values = match kind {
+            Kind::Bool => self.bools(index)?,
+            Kind::Int => self.ints(index)?,
+            Kind::Float => self.floats(index)?,
+            Kind::Text => self.texts(index)?,
+            Kind::Written => self.written(index)?,
+            Kind::Nothing => return Ok(None),
+        };
+        let mut attribute = Attribute::new(field.name(), values);
+        attribute.source_type = source_type;
+        Ok(Some(attribute))
+    }
+
+    fn note(&mut self, field: &Field, kind: Kind) {
+        let what = match kind {
+            Kind::Nothing => "has no values and is left out",
+            _ => "is kept as text",
+        };
+        self.diagnostics.push(
+            Code::Attribute,
+            || Place::element(format!("column {}", field.name())),
+            || format!("a column of type {} {what}", field.data_type()),
+            "Write it as bool, int, float or text to keep it as it is",
+        );
+    }
+
+    fn fits_i64(&self, index: usize) -> Result<bool, Problem> {
+        for batch in &self.table.batches {
+            let column = &batch.columns[index];
+            if cast(column, &DataType::Int64)?.logical_null_count() > column.logical_null_count() {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+
+    fn bools(&self, index: usize) -> Result<Values, Problem> {
+        let mut out = Vec::with_capacity(self.table.path_count());
+        for batch in &self.table.batches {
+            let column = cast(&batch.columns[index], &DataType::Boolean)?;
+            let column = column.as_boolean();
+            let get = |row| column.is_valid(row).then(|| column.value(row));
+            out.extend(self.table.kept_in(batch).map(get));
+        }
+        Ok(Values::Bool(out))
+    }
+
+    fn ints(&self, index: usize) -> Result<Values, Problem> {
+        let numbers = numbers::<Int64Type>(self.table, index, &DataType::Int64)?;
+        Ok(Values::Int(numbers))
+    }
+
+    fn floats(&self, index: usize) -> Result<Values, Problem> {
+        let numbers = numbers::<Float64Type>(self.table, index, &DataType::Float64)?;
+        Ok(Values::Float(numbers))
+    }
+
+    fn texts(&mut self, index: usize) -> Result<Values, Problem> {
+        let mut sink = TextSink::new(self.limits, self.table.path_count());
+        let mut present = Vec::with_capacity(self.table.path_count());
+        for batch in &self.table.batches {
+            let texts = Texts::of(&batch.columns[index])
+                .ok_or_else(|| damaged("dictionary", "its values are not text"))?;
+            for row in self.table.kept_in(batch) {
+                let text = texts.get(row);
+                present.push(text.is_some());
+                sink.push(text.unwrap_or_default(), self.budget)?;
+            }
+        }
+        let text = sink.into_column();
+        Ok(Values::Text { text, present })
+    }
+
+    fn written(&mut self, index: usize) -> Result<Values, Problem> {
+        let mut sink = TextSink::new(self.limits, self.table.path_count());
+        let mut present = Vec::with_capacity(self.table.path_count());
+        let options = FormatOptions::default();
+        for batch in &self.table.batches {
+            let column = &batch.columns[index];
+            let nulls = column.logical_nulls();
+            let budget = &mut *self.budget;
+            guarded("attribute", || {
+                let formatter = ArrayFormatter::try_new(column, &options)
+                    .map_err(|e| damaged("attribute", e.to_string()))?;
+                for row in self.table.kept_in(batch) {
+                    let here = nulls.as_ref().is_none_or(|n| n.is_valid(row));
+                    present.push(here);
+                    let mut text = Bounded::new(self.limits.text_bytes);
+                    if here && write!(text, "{}", formatter.value(row)).is_err() {
+                        return Err(text.problem("the value cannot be written as text"));
+                    }
+                    sink.push(&text.text, budget)?;
+                }
+                Ok(())
+            })?;
+        }
+        let text = sink.into_column();
+        Ok(Values::Text { text, present })
+    }
+}
+
+fn kind(data_type: &DataType, value_type: &DataType) -> Kind {
+    match value_type {
+        DataType::Null => Kind::Nothing,
+        DataType::Boolean => Kind::Bool,
+        t if t.is_integer() => Kind::Int,
+        t if t.is_floating() => Kind::Float,
+        _ if is_text(data_type) => Kind::Text,
+        _ => Kind::Written,
+    }
+}
+
+/// The values of the kept rows as numbers of one type; null where a value does not fit it.
+pub(super) fn numbers<T: ArrowPrimitiveType>(
+    table: &Table,
+    index: usize,
+    target: &DataType,
+) -> Result<Vec<Option<T::Native>>, Problem> {
+    let mut out = Vec::with_capacity(table.path_count());
+    for batch in &table.batches {
+        let column = cast(&batch.columns[index], target)?;
+        let column = column.as_primitive::<T>();
+        let get = |row| column.is_valid(row).then(|| column.value(row));
+        out.extend(table.kept_in(batch).map(get));
+    }
+    Ok(out)
+}
+
+/// The column in another type; values that do not fit it become null.
+pub(super) fn cast(column: &ArrayRef, target: &DataType) -> Result<ArrayRef, Problem> {
+    guarded("column", || {
+        arrow_cast::cast(column, target).map_err(|e| damaged("column", e.to_string()))
+    })
+}
+
+/// Collects a column of text within the limits.
+pub(super) struct TextSink<'a> {
+    column: TextColumn,
+    limits: &'a Limits,
+    bytes: usize,
+}
+
+impl<'a> TextSink<'a> {
+    pub(super) fn new(limits: &'a Limits, rows: usize) -> Self {
+        Self {
+            column: TextColumn::with_capacity(rows, 0),
+            limits,
+            bytes: 0,
+        }
+    }
+
+    pub(super) fn push(&mut self, text: &str, budget: &mut Budget) -> Result<(), Problem> {
+        if text.len() > self.limits.text_bytes {
+            return Err(too_long(self.limits.text_bytes, text.len()));
+        }
+        budget.charge(text.len() as u64)?;
+        self.bytes += text.len();
+        if self.bytes > TextColumn::MAX_BYTES {
+            return Err(Problem::LimitReached {
+                what: "bytes in a column of text",
+                limit: TextColumn::MAX_BYTES as u64,
+                actual: self.bytes as u64,
+            });
+        }
+        self.column.push(text);
+        Ok(())
+    }
+
+    pub(super) fn into_column(self) -> TextColumn {
+        self.column
+    }
+}
+
+/// Text that stops growing at a limit: nested values can be written out far larger than they are stored.
+struct Bounded {
+    text: String,
+    limit: usize,
+    full: bool,
+}
+
+impl Bounded {
+    fn new(limit: usize) -> Self {
+        Self {
+            text: String::new(),
+            limit,
+            full: false,
+        }
+    }
+
+    fn problem(&self, otherwise: &str) -> Problem {
+        if self.full {
+            return too_long(self.limit, self.limit + 1);
+        }
+        damaged("attribute", otherwise)
+    }
+}
+
+impl Write for Bounded {
+    fn write_str(&mut self, more: &str) -> fmt::Result {
+        if self.text.len() + more.len() > self.limit {
+            self.full = true;
+            return Err(fmt::Error);
+        }
+        self.text.push_str(more);
+        Ok(())
+    }
+}
+
+fn too_long(limit: usize, actual: usize) -> Problem {
+    Problem::LimitReached {
+        what: "bytes in one text",
+        limit: limit as u64,
+        actual: actual as u64,
+    }
+}

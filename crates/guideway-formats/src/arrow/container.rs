@@ -1,0 +1,222 @@
+use std::ops::Range;
+
+use arrow_buffer::Buffer;
+use arrow_ipc::{Block, Endianness, Footer, Schema as IpcSchema};
+use arrow_schema::Schema;
+use guideway_layout::Place;
+
+use super::decode::{damaged, guarded};
+use crate::Problem;
+
+/// What a message begins with since Arrow 0.15; before, with its length at once.
+const CONTINUATION_MARKER: [u8; 4] = [0xFF; 4];
+const MAGIC: &[u8] = b"ARROW1";
+/// Footer length and the closing magic.
+const TRAILER_BYTES: usize = 4 + MAGIC.len();
+/// The magic at the start, padded.
+const LEADER_BYTES: usize = 8;
+
+/// Where the messages of a file or stream lie, in the order in which they have to be decoded.
+#[derive(Debug)]
+pub(super) struct Container {
+    pub(super) schema: Schema,
+    pub(super) messages: Vec<Message>,
+}
+
+/// One message: a flatbuffer that describes it, and the buffers that it describes.
+#[derive(Clone, Debug)]
+pub(super) struct Message {
+    pub(super) header: Range<usize>,
+    pub(super) body: Range<usize>,
+}
+
+/// Finds all messages. Every range returned lies within `bytes`, and none shares a byte with another.
+pub(super) fn open(bytes: &Buffer) -> Result<Container, Problem> {
+    if bytes.starts_with(MAGIC) {
+        open_file(bytes)
+    } else {
+        open_stream(bytes)
+    }
+}
+
+fn open_file(bytes: &[u8]) -> Result<Container, Problem> {
+    let truncated = |detail: &str| Problem::Truncated {
+        at: bytes.len() as u64,
+        detail: detail.into(),
+    };
+    let trailer_at = bytes
+        .len()
+        .checked_sub(TRAILER_BYTES)
+        .filter(|&at| at >= LEADER_BYTES && bytes[at + 4..] == *MAGIC)
+        .ok_or_else(|| truncated("the footer at the end of an Arrow file is missing"))?;
+    let declared = i64::from(read_i32(bytes, trailer_at));
+    let footer_at = usize::try_from(declared)
+        .ok()
+        .and_then(|len| trailer_at.checked_sub(len))
+        .filter(|&at| at >= LEADER_BYTES)
+        .ok_or_else(|| {
+            damaged(
+                "footer",
+                format!("a length of {declared} bytes is declared"),
+            )
+        })?;
+    let footer = guarded("footer", || {
+        arrow_ipc::root_as_footer(&bytes[footer_at..trailer_at])
+            .map_err(|e| damaged("footer", e.to_string()))
+    })?;
+    let schema = footer
+        .schema()
+        .ok_or_else(|| damaged("footer", "there is no schema"))?;
+    Ok(Container {
+        schema: convert_schema(schema)?,
+        messages: file_messages(bytes, &footer, footer_at)?,
+    })
+}
+
+fn file_messages(
+    bytes: &[u8],
+    footer: &Footer<'_>,
+    footer_at: usize,
+) -> Result<Vec<Message>, Problem> {
+    let dictionaries = footer.dictionaries().into_iter().flatten();
+    let batches = footer.recordBatches().into_iter().flatten();
+    let mut messages = Vec::new();
+    for (index, block) in dictionaries.chain(batches).enumerate() {
+        let place = || format!("block {index}");
+        let (header, end) = block_range(block)
+            .filter(|(header, end)| header.start >= LEADER_BYTES && *end <= footer_at)
+            .ok_or_else(|| damaged(place(), block_text(block)))?;
+        let prefix = if bytes[header.start..].starts_with(&CONTINUATION_MARKER) {
+            8
+        } else {
+            4
+        };
+        messages.push(Message {
+            body: header.end..end,
+            header: header.start + prefix..header.end,
+        });
+    }
+    check_apart(&messages)?;
+    Ok(messages)
+}
+
+/// The range of the header, with its length prefix, and the end of the body.
+fn block_range(block: &Block) -> Option<(Range<usize>, usize)> {
+    let start = usize::try_from(block.offset()).ok()?;
+    let header_len = usize::try_from(block.metaDataLength()).ok()?;
+    let header_end = start.checked_add(header_len).filter(|_| header_len >= 8)?;
+    let end = header_end.checked_add(usize::try_from(block.bodyLength()).ok()?)?;
+    Some((start..header_end, end))
+}
+
+fn block_text(block: &Block) -> String {
+    format!(
+        "it is declared at byte {} with {} + {} bytes, which is not within the file",
+        block.offset(),
+        block.metaDataLength(),
+        block.bodyLength()
+    )
+}
+
+/// Blocks that share bytes would let a small file stand for any number of rows.
+fn check_apart(messages: &[Message]) -> Result<(), Problem> {
+    let mut order: Vec<&Message> = messages.iter().collect();
+    order.sort_unstable_by_key(|m| m.header.start);
+    for pair in order.windows(2) {
+        if pair[1].header.start < pair[0].body.end {
+            let at = pair[1].header.start;
+            return Err(damaged("footer", format!("two blocks share byte {at}")));
+        }
+    }
+    Ok(())
+}
+
+fn open_stream(bytes: &[u8]) -> Result<Container, Problem> {
+    let mut walk = Walk { bytes, at: 0 };
+    let first = walk
+        .next()?
+        .ok_or_else(|| damaged("stream", "it ends before its schema"))?;
+    let schema = guarded("stream", || {
+        let message = arrow_ipc::root_as_message(&bytes[first.header.clone()])
+            .map_err(|e| damaged("stream", e.to_string()))?;
+        message
+            .header_as_schema()
+            .ok_or_else(|| damaged("stream", "it does not begin with a schema"))
+            .and_then(convert_schema)
+    })?;
+    let mut messages = Vec::new();
+    while let Some(message) = walk.next()? {
+        messages.push(message);
+    }
+    Ok(Container { schema, messages })
+}
+
+/// Goes through the messages of a stream, one after the other.
+struct Walk<'a> {
+    bytes: &'a [u8],
+    at: usize,
+}
+
+impl Walk<'_> {
+    fn next(&mut self) -> Result<Option<Message>, Problem> {
+        if self.at == self.bytes.len() {
+            // A stream may end without its end mark.
+            return Ok(None);
+        }
+        if self.bytes[self.at..].starts_with(&CONTINUATION_MARKER) {
+            self.at += CONTINUATION_MARKER.len();
+        }
+        let declared = self.take(4)?;
+        let header_len = i64::from(read_i32(self.bytes, declared.start));
+        if header_len == 0 {
+            return Ok(None);
+        }
+        let header = self.take(header_len)?;
+        let place = || format!("message at byte {}", declared.start);
+        let body_len = guarded(&place(), || {
+            arrow_ipc::root_as_message(&self.bytes[header.clone()])
+                .map(|m| m.bodyLength())
+                .map_err(|e| damaged(place(), e.to_string()))
+        })?;
+        let body = self.take(body_len)?;
+        Ok(Some(Message { header, body }))
+    }
+
+    fn take(&mut self, len: i64) -> Result<Range<usize>, Problem> {
+        let start = self.at;
+        let len = usize::try_from(len).map_err(|_| {
+            damaged(
+                format!("message at byte {start}"),
+                format!("a length of {len} bytes is declared"),
+            )
+        })?;
+        let end = start
+            .checked_add(len)
+            .filter(|&end| end <= self.bytes.len());
+        self.at = end.ok_or_else(|| Problem::Truncated {
+            at: self.bytes.len() as u64,
+            detail: format!("{len} bytes are declared at byte {start}"),
+        })?;
+        Ok(start..self.at)
+    }
+}
+
+fn convert_schema(schema: IpcSchema<'_>) -> Result<Schema, Problem> {
+    if schema.endianness() != Endianness::Little {
+        return Err(Problem::Unsupported {
+            place: Place::element("schema"),
+            what: "big-endian byte order".into(),
+            remedy: "Write the file again on a little-endian machine".into(),
+        });
+    }
+    guarded("schema", || {
+        arrow_ipc::convert::try_fb_to_schema(schema).map_err(|e| damaged("schema", e.to_string()))
+    })
+}
+
+/// The number at `at`, which the caller knows to be within `bytes`.
+fn read_i32(bytes: &[u8], at: usize) -> i32 {
+    let mut number = [0; 4];
+    number.copy_from_slice(&bytes[at..at + 4]);
+    i32::from_le_bytes(number)
+}

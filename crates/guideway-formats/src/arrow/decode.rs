@@ -1,0 +1,173 @@
+use std::collections::HashMap;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use arrow_array::{ArrayRef, RecordBatch};
+use arrow_buffer::Buffer;
+use arrow_ipc::reader::{read_dictionary, read_record_batch};
+use arrow_ipc::{MessageHeader, RecordBatch as IpcBatch};
+use arrow_schema::{ArrowError, SchemaRef};
+use guideway_layout::Place;
+
+use super::budget::Budget;
+use super::container::Message;
+use crate::Problem;
+
+/// Turns messages into record batches; buffers that are neither compressed nor misaligned are not
+/// copied.
+pub(super) struct Decoder<'a> {
+    bytes: &'a Buffer,
+    schema: SchemaRef,
+    dictionaries: HashMap<i64, ArrayRef>,
+}
+
+impl<'a> Decoder<'a> {
+    pub(super) fn new(bytes: &'a Buffer, schema: SchemaRef) -> Self {
+        Self {
+            bytes,
+            schema,
+            dictionaries: HashMap::new(),
+        }
+    }
+
+    /// The batch that a message holds, if it holds one and not, say, a dictionary.
+    pub(super) fn decode(
+        &mut self,
+        message: &Message,
+        budget: &mut Budget,
+    ) -> Result<Option<RecordBatch>, Problem> {
+        let place = format!("message at byte {}", message.header.start);
+        guarded(&place, || self.decode_unguarded(message, &place, budget))
+    }
+
+    fn decode_unguarded(
+        &mut self,
+        message: &Message,
+        place: &str,
+        budget: &mut Budget,
+    ) -> Result<Option<RecordBatch>, Problem> {
+        let failed = |e: ArrowError| damaged(place, e.to_string());
+        let header = arrow_ipc::root_as_message(&self.bytes[message.header.clone()])
+            .map_err(|e| damaged(place, e.to_string()))?;
+        let body = self
+            .bytes
+            .slice_with_length(message.body.start, message.body.len());
+        let version = header.version();
+        match header.header_type() {
+            MessageHeader::DictionaryBatch => {
+                let dictionary = header
+                    .header_as_dictionary_batch()
+                    .ok_or_else(|| damaged(place, "the dictionary is missing"))?;
+                let batch = dictionary
+                    .data()
+                    .ok_or_else(|| damaged(place, "the dictionary is missing"))?;
+                check_batch(&batch, &body, budget).map_err(|e| e.at(place))?;
+                if dictionary.isDelta() {
+                    // Joining copies the whole dictionary, for every addition again.
+                    let known = self.dictionaries.get(&dictionary.id());
+                    budget.charge(known.map_or(0, |d| d.get_buffer_memory_size()) as u64)?;
+                }
+                let dictionaries = &mut self.dictionaries;
+                read_dictionary(&body, dictionary, &self.schema, dictionaries, &version)
+                    .map_err(failed)?;
+                Ok(None)
+            }
+            MessageHeader::RecordBatch => {
+                let batch = header
+                    .header_as_record_batch()
+                    .ok_or_else(|| damaged(place, "the record batch is missing"))?;
+                check_batch(&batch, &body, budget).map_err(|e| e.at(place))?;
+                let schema = self.schema.clone();
+                read_record_batch(&body, batch, schema, &self.dictionaries, None, &version)
+                    .map(Some)
+                    .map_err(failed)
+            }
+            MessageHeader::NONE => Ok(None),
+            other => Err(damaged(place, format!("a message of type {other:?}"))),
+        }
+    }
+}
+
+/// What is wrong with the head of a batch.
+enum Fault {
+    Lie(String),
+    Limit(Problem),
+}
+
+impl Fault {
+    fn at(self, place: &str) -> Problem {
+        match self {
+            Self::Lie(detail) => damaged(place, detail),
+            Self::Limit(problem) => problem,
+        }
+    }
+}
+
+/// Compares what the head of a batch declares with the bytes of its body: the decoder takes it on trust.
+fn check_batch(batch: &IpcBatch<'_>, body: &[u8], budget: &mut Budget) -> Result<(), Fault> {
+    let lie = |detail: String| Err(Fault::Lie(detail));
+    if batch.length() < 0 {
+        return lie(format!("{} rows are declared", batch.length()));
+    }
+    for node in batch.nodes().into_iter().flatten() {
+        let (length, nulls) = (node.length(), node.null_count());
+        if length < 0 || !(0..=length).contains(&nulls) {
+            return lie(format!(
+                "{length} values, {nulls} of them null, are declared"
+            ));
+        }
+    }
+    let mut total = 0;
+    for buffer in batch.buffers().into_iter().flatten() {
+        let (offset, length) = (buffer.offset(), buffer.length());
+        let range = usize::try_from(offset)
+            .ok()
+            .zip(usize::try_from(length).ok())
+            .and_then(|(start, len)| Some(start..start.checked_add(len)?));
+        let Some(bytes) = range.and_then(|r| body.get(r)) else {
+            return lie(format!(
+                "a buffer of {length} bytes at {offset} is declared in a body of {} bytes",
+                body.len()
+            ));
+        };
+        total += bytes.len();
+        if let (Some(_), Some(declared)) = (batch.compression(), bytes.first_chunk::<8>()) {
+            let declared = i64::from_le_bytes(*declared);
+            // -1 says that the buffer is stored as it is.
+            if declared < -1 {
+                return lie(format!("{declared} bytes are declared before compression"));
+            }
+            budget
+                .charge(declared.max(0) as u64)
+                .map_err(Fault::Limit)?;
+        }
+    }
+    if total > body.len() {
+        // Buffers that share bytes would let a small file stand for any number of columns.
+        return lie(format!(
+            "buffers of {total} bytes in all are declared in a body of {} bytes",
+            body.len()
+        ));
+    }
+    Ok(())
+}
+
+/// Runs a part of the Arrow library over bytes that are not trusted.
+///
+/// The library checks most of what it reads, and the checks here cover what it is known to take on
+/// trust. Should it panic all the same, the file is refused like any other damaged one. This is the
+/// only place where a panic is caught; nothing that the closure changes is used after one.
+pub(super) fn guarded<T>(
+    place: &str,
+    run: impl FnOnce() -> Result<T, Problem>,
+) -> Result<T, Problem> {
+    catch_unwind(AssertUnwindSafe(run))
+        .unwrap_or_else(|_| Err(damaged(place, "the Arrow library gave up on its content")))
+}
+
+/// The problem of bytes that are not sound Arrow.
+pub(super) fn damaged(place: impl Into<String>, detail: impl Into<String>) -> Problem {
+    Problem::Damaged {
+        place: Place::element(place),
+        detail: detail.into(),
+    }
+}

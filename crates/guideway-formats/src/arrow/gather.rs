@@ -1,0 +1,234 @@
+use std::ops::Range;
+
+use guideway_layout::{Geometry, Limits};
+use guideway_spline::{Point, Real};
+
+use super::polygons::{Coordinates, Fault, Polygons, points};
+use crate::Problem;
+
+/// The curves of all rows that can be drawn, joined to paths, and which rows these are.
+#[derive(Debug, Default)]
+pub(super) struct Gather {
+    points: Points,
+    run_ends: Vec<u32>,
+    /// Set from the first row on that continues another; until then every run is a path.
+    path_ends: Option<Vec<u32>>,
+    /// Rows of the table that begin a drawn path, in order.
+    pub(super) kept: Vec<Range<usize>>,
+    /// Rows of the table that begin a refused path, in order, with the reason.
+    pub(super) refused: Vec<(usize, Fault)>,
+    rows: usize,
+    last: Last,
+}
+
+#[derive(Debug, Default)]
+enum Points {
+    #[default]
+    None,
+    F32(Vec<Point<f32>>),
+    F64(Vec<Point<f64>>),
+}
+
+/// What became of the path that the last row belongs to.
+#[derive(Clone, Copy, Debug, Default)]
+enum Last {
+    #[default]
+    Nothing,
+    Drawn {
+        row: usize,
+        first_run: usize,
+    },
+    Refused,
+}
+
+impl Gather {
+    /// Makes room for about so many points in all.
+    pub(super) fn reserve(&mut self, polygons: &Polygons, points: usize) {
+        self.points = match polygons.coordinates {
+            Coordinates::F32(_) => Points::F32(Vec::with_capacity(points)),
+            Coordinates::F64(_) => Points::F64(Vec::with_capacity(points)),
+        };
+    }
+
+    /// Appends a batch whose rows are a path each.
+    pub(super) fn add(&mut self, polygons: &Polygons, limits: &Limits) -> Result<(), Problem> {
+        self.check_room(polygons, limits)?;
+        let mut from = 0;
+        for (row, fault) in polygons.faults(limits) {
+            self.add_rows(polygons, from..row);
+            self.refused.push((self.rows + row, fault));
+            self.last = Last::Refused;
+            from = row + 1;
+        }
+        self.add_rows(polygons, from..polygons.len());
+        self.rows += polygons.len();
+        Ok(())
+    }
+
+    /// Appends a batch with rows that continue the path of the row before.
+    ///
+    /// A path is refused whole if one of its rows is: half a path would mislead.
+    pub(super) fn add_parts(
+        &mut self,
+        polygons: &Polygons,
+        continues: &[bool],
+        limits: &Limits,
+    ) -> Result<(), Problem> {
+        self.check_room(polygons, limits)?;
+        if self.path_ends.is_none() {
+            self.path_ends = Some((1..=self.run_ends.len() as u32).collect());
+        }
+        let mut faults = polygons.faults(limits).into_iter().peekable();
+        for (row, &continues) in continues.iter().enumerate() {
+            let fault = faults.next_if(|f| f.0 == row).map(|f| f.1);
+            match (continues, self.last, fault) {
+                (true, Last::Refused, _) => {}
+                (
+                    true,
+                    Last::Drawn {
+                        row: first,
+                        first_run,
+                    },
+                    Some(fault),
+                ) => {
+                    self.take_back(first_run);
+                    self.refused.push((first, fault));
+                    self.last = Last::Refused;
+                }
+                (_, _, Some(fault)) => {
+                    self.refused.push((self.rows + row, fault));
+                    self.last = Last::Refused;
+                }
+                (true, Last::Drawn { .. }, None) => {
+                    self.add_run(polygons, row);
+                    if let Some(end) = self.path_ends.as_mut().and_then(|ends| ends.last_mut()) {
+                        *end += 1;
+                    }
+                }
+                (_, _, None) => self.add_rows(polygons, row..row + 1),
+            }
+        }
+        self.rows += polygons.len();
+        Ok(())
+    }
+
+    /// Rows seen so far.
+    pub(super) fn rows(&self) -> usize {
+        self.rows
+    }
+
+    pub(super) fn into_geometry(self) -> Geometry {
+        let geometry = match self.points {
+            Points::None => Geometry::default(),
+            Points::F32(points) => Geometry::from_f32(points, self.run_ends),
+            Points::F64(points) => Geometry::from_f64(points, self.run_ends),
+        };
+        match self.path_ends {
+            Some(path_ends) => geometry.with_path_ends(path_ends),
+            None => geometry,
+        }
+    }
+
+    fn check_room(&self, polygons: &Polygons, limits: &Limits) -> Result<(), Problem> {
+        let rows = (self.rows + polygons.len()) as u64;
+        let points = self.points.len() as u64 + polygons.point_count();
+        let over = |what, limit, actual| Problem::LimitReached {
+            what,
+            limit,
+            actual,
+        };
+        if rows > limits.paths.min(u64::from(u32::MAX - 1)) {
+            return Err(over("rows in the table", limits.paths, rows));
+        }
+        // Ends are kept in 32 bits.
+        let most = limits.control_points.min(u64::from(u32::MAX));
+        if points > most {
+            return Err(over("control points", most, points));
+        }
+        Ok(())
+    }
+
+    /// Appends rows that are sound and a path each.
+    fn add_rows(&mut self, polygons: &Polygons, rows: Range<usize>) {
+        if rows.is_empty() {
+            return;
+        }
+        let first_run = self.run_ends.len();
+        match polygons.range_of_rows(rows.clone()) {
+            Some(range) => {
+                // `u32` holds it: the number of points was checked.
+                let shift = self.points.len();
+                let ends = rows.clone().map(|row| polygons.range(row).end);
+                self.run_ends
+                    .extend(ends.map(|end| (end - range.start + shift) as u32));
+                self.points.extend(&polygons.coordinates, range);
+            }
+            None => rows.clone().for_each(|row| self.add_run(polygons, row)),
+        }
+        if let Some(path_ends) = &mut self.path_ends {
+            path_ends.extend(first_run as u32 + 1..=self.run_ends.len() as u32);
+        }
+        let table_rows = self.rows + rows.start..self.rows + rows.end;
+        self.last = Last::Drawn {
+            row: table_rows.end - 1,
+            first_run: self.run_ends.len() - 1,
+        };
+        match self.kept.last_mut() {
+            Some(last) if last.end == table_rows.start => last.end = table_rows.end,
+            _ => self.kept.push(table_rows),
+        }
+    }
+
+    fn add_run(&mut self, polygons: &Polygons, row: usize) {
+        self.points
+            .extend(&polygons.coordinates, polygons.range(row));
+        self.run_ends.push(self.points.len() as u32);
+    }
+
+    /// Takes back the path drawn last, which begins with this run.
+    fn take_back(&mut self, first_run: usize) {
+        self.run_ends.truncate(first_run);
+        let points = self.run_ends.last().map_or(0, |&end| end as usize);
+        self.points.truncate(points);
+        if let Some(path_ends) = &mut self.path_ends {
+            path_ends.pop();
+        }
+        if let Some(last) = self.kept.last_mut() {
+            last.end -= 1;
+            if last.start == last.end {
+                self.kept.pop();
+            }
+        }
+    }
+}
+
+impl Points {
+    fn len(&self) -> usize {
+        match self {
+            Self::None => 0,
+            Self::F32(p) => p.len(),
+            Self::F64(p) => p.len(),
+        }
+    }
+
+    fn truncate(&mut self, len: usize) {
+        match self {
+            Self::None => {}
+            Self::F32(p) => p.truncate(len),
+            Self::F64(p) => p.truncate(len),
+        }
+    }
+
+    fn extend(&mut self, coordinates: &Coordinates, range: Range<usize>) {
+        match (self, coordinates) {
+            (Self::F32(p), Coordinates::F32(c)) => extend(p, c, range),
+            (Self::F64(p), Coordinates::F64(c)) => extend(p, c, range),
+            // All batches of a file have one schema, and `reserve` saw the first of them.
+            _ => unreachable!("one schema, one precision"),
+        }
+    }
+}
+
+fn extend<T: Real>(out: &mut Vec<Point<T>>, coordinates: &[T], range: Range<usize>) {
+    out.extend(points(coordinates, range));
+}

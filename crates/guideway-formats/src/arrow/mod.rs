@@ -1,0 +1,39 @@
+//! Tables of paths in Apache Arrow IPC files (also called Feather V2) and streams.
+//!
+//! The columns are described in `docs/arrow-format.md`. What is read is not trusted: lengths and
+//! positions that a file declares are compared with the bytes there are before anything is decoded,
+//! and what a few bytes may swell to is budgeted.
+
+mod attributes;
+mod budget;
+mod container;
+mod decode;
+mod gather;
+mod load;
+mod polygons;
+mod read;
+mod schema;
+mod table;
+mod text;
+
+pub(crate) use load::load;
+pub(crate) use read::read;
+
+/// Name of the column of identifiers.
+const ID: &str = "id";
+/// Name of the column of control polygons.
+const CONTROL_POINTS: &str = "control_points";
+/// Name of the column that joins several rows to one path.
+const PART: &str = "guideway.part";
+/// Name of the column of levels.
+const LEVEL: &str = "level";
+/// Name of the column of stroke widths.
+const WIDTH: &str = "width_m";
+/// Name of the column of colours.
+const COLOR: &str = "color";
+/// Name of the column of draw ranks.
+const RANK: &str = "rank";
+/// Key of the schema's metadata that holds the version of the table.
+const VERSION_KEY: &str = "guideway.version";
+/// Newest version of the table that is known.
+const VERSION: u32 = 1;
