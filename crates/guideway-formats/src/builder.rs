@@ -16,6 +16,7 @@ pub(crate) struct Builder<'a> {
     pub(crate) source: Source<'a>,
     pub(crate) layout: Layout,
     text_bytes: u64,
+    most_text_bytes: u64,
 }
 
 /// Which table an attribute belongs to.
@@ -27,7 +28,7 @@ pub(crate) enum Table {
 }
 
 impl<'a> Builder<'a> {
-    pub(crate) fn new(source: Source<'a>) -> Self {
+    pub(crate) fn new(source: Source<'a>, file_bytes: usize) -> Self {
         let mut layout = Layout {
             diagnostics: Diagnostics::keeping(source.options.limits.diagnostics_per_code),
             ..Layout::default()
@@ -37,6 +38,7 @@ impl<'a> Builder<'a> {
             source,
             layout,
             text_bytes: 0,
+            most_text_bytes: most_text(file_bytes as u64),
         }
     }
 
@@ -189,10 +191,9 @@ impl<'a> Builder<'a> {
     }
 
     fn charge_text(&mut self, text: &str) -> Result<(), ReadError> {
-        // All text together stays below what one column holds, so that no column can overflow.
         self.text_bytes += text.len() as u64;
-        let limit = TextColumn::MAX_BYTES as u64;
-        self.check("bytes of text in the layout", limit, self.text_bytes)
+        let what = "bytes of names and attributes";
+        self.check(what, self.most_text_bytes, self.text_bytes)
     }
 
     fn check_paths(&self) -> Result<(), ReadError> {
@@ -213,6 +214,13 @@ impl<'a> Builder<'a> {
             actual,
         }))
     }
+}
+
+/// Most text that a file of this size may become. Names and reasons that a reader makes up are longer
+/// than what they are made from, but not without end; and no column can overflow.
+fn most_text(file_bytes: u64) -> u64 {
+    let most = file_bytes.saturating_mul(64).saturating_add(1 << 20);
+    most.min(TextColumn::MAX_BYTES as u64)
 }
 
 /// Where a curve begins and where it ends.

@@ -8,6 +8,7 @@ pub mod arrow;
 mod builder;
 mod error;
 mod lif;
+mod opentcs;
 mod read;
 mod sniff;
 mod text;

@@ -64,9 +64,11 @@ pub fn read_bytes(
     }
     check_size(bytes.len() as u64, &options.limits).map_err(|p| source.fail(p))?;
     match sniff(bytes) {
+        _ if is_utf16(bytes) => Err(source.fail(UTF_16)),
         Some(Format::Lif) => crate::lif::read(source, bytes),
         Some(Format::Arrow) => crate::arrow::read(source, &bytes.into()),
-        Some(Format::OpenTcs) | None => Err(source.fail(unknown(bytes))),
+        Some(Format::OpenTcs) => crate::opentcs::read(source, bytes),
+        None => Err(source.fail(unknown(bytes))),
     }
 }
 
@@ -169,17 +171,22 @@ fn check_size(actual: u64, limits: &Limits) -> Result<(), Problem> {
     })
 }
 
+const UTF_16: Problem = Problem::NotUtf8 {
+    at: 0,
+    detail: "it is UTF-16",
+};
+
+/// Whether it is UTF-16: by its mark, or because one byte of each plain character is zero.
+fn is_utf16(bytes: &[u8]) -> bool {
+    matches!(
+        bytes,
+        [0xFF, 0xFE, ..] | [0xFE, 0xFF, ..] | [b'{' | b'<', 0, ..] | [0, b'{' | b'<', ..]
+    )
+}
+
 fn unknown(bytes: &[u8]) -> Problem {
-    let detail = match bytes {
-        [0xFF, 0xFE, ..] | [0xFE, 0xFF, ..] => Some("it is UTF-16"),
-        [b'{' | b'<', 0, ..] | [0, b'{' | b'<', ..] => Some("it is UTF-16"),
-        _ => None,
-    };
-    match detail {
-        Some(detail) => Problem::NotUtf8 { at: 0, detail },
-        None => Problem::UnknownFormat {
-            first_bytes: readable(&bytes[..bytes.len().min(24)]),
-        },
+    Problem::UnknownFormat {
+        first_bytes: readable(&bytes[..bytes.len().min(24)]),
     }
 }
 

@@ -37,9 +37,9 @@ struct Part<'r, 'a> {
 }
 
 impl<'a> Mapper<'a> {
-    pub(super) fn new(source: Source<'a>) -> Self {
+    pub(super) fn new(source: Source<'a>, file_bytes: usize) -> Self {
         Self {
-            builder: Builder::new(source),
+            builder: Builder::new(source, file_bytes),
             nodes: HashMap::new(),
             edges: HashSet::new(),
             stations: HashSet::new(),

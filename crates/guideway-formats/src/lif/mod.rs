@@ -46,7 +46,7 @@ pub(crate) fn read(source: Source<'_>, bytes: &[u8]) -> Result<Layout, ReadError
         let expected = "`layouts` (LIF 1.0) or `origins` (LIF 2.0)";
         return Err(source.fail(not_lif("the root", expected, found)));
     }
-    Mapper::new(source).map(&root)
+    Mapper::new(source, bytes.len()).map(&root)
 }
 
 fn not_lif(element: &str, expected: &str, found: String) -> Problem {

@@ -1,0 +1,210 @@
+//! XML that need not be honest: looked over before it is parsed, and with the line of every element.
+
+use std::cell::OnceCell;
+
+use guideway_layout::Place;
+use roxmltree::{Document, Error, Node, ParsingOptions};
+
+use crate::read::Source;
+use crate::text::{Tally, position};
+use crate::{Problem, ReadError};
+
+/// Most attributes of one element. The parser compares each with every other; the format has 11.
+const MOST_ATTRIBUTES: u64 = 256;
+
+/// Most declarations of namespaces. The parser copies them for every level; the format has none.
+const MOST_NAMESPACES: u64 = 64;
+
+/// A parsed file.
+pub(super) struct Xml<'t> {
+    text: &'t str,
+    document: Document<'t>,
+    /// Where the lines end. Only made when a finding asks for a line.
+    line_ends: OnceCell<Vec<usize>>,
+}
+
+impl<'t> Xml<'t> {
+    pub(super) fn parse(source: &Source<'_>, text: &'t str) -> Result<Self, ReadError> {
+        check(source, text).map_err(|p| source.fail(p))?;
+        source.check_cancelled()?;
+        let limit = source.options.limits.elements;
+        let options = ParsingOptions {
+            allow_dtd: false,
+            // An element can have a text before and after it.
+            nodes_limit: u32::try_from(limit.saturating_mul(3)).unwrap_or(u32::MAX),
+            ..ParsingOptions::default()
+        };
+        let document = Document::parse_with_options(text, options)
+            .map_err(|error| source.fail(problem(&error, text, limit)))?;
+        Ok(Self {
+            text,
+            document,
+            line_ends: OnceCell::new(),
+        })
+    }
+
+    pub(super) fn root(&self) -> Node<'_, 't> {
+        self.document.root_element()
+    }
+
+    /// An element by its tag and name, with its line.
+    pub(super) fn place(&self, node: Node<'_, '_>) -> Place {
+        let tag = node.tag_name().name();
+        let name = node
+            .attribute("name")
+            .or_else(|| node.attribute("visualizedObjectName"));
+        let element = match name {
+            Some(name) => format!("{tag} \"{name}\""),
+            None => tag.to_owned(),
+        };
+        let ends = self.line_ends.get_or_init(|| {
+            let all = self.text.bytes().enumerate();
+            all.filter(|(_, b)| *b == b'\n').map(|(i, _)| i).collect()
+        });
+        let line = ends.partition_point(|&end| end < node.range().start) + 1;
+        Place {
+            element,
+            line: u32::try_from(line).ok(),
+        }
+    }
+}
+
+/// The child elements of a tag.
+pub(super) fn children<'d, 't>(
+    node: Node<'d, 't>,
+    tag: &'static str,
+) -> impl Iterator<Item = Node<'d, 't>> {
+    node.children().filter(move |n| n.has_tag_name(tag))
+}
+
+/// The first child element of a tag.
+pub(super) fn child<'d, 't>(node: Node<'d, 't>, tag: &'static str) -> Option<Node<'d, 't>> {
+    children(node, tag).next()
+}
+
+fn check(source: &Source<'_>, text: &str) -> Result<(), Problem> {
+    let mut tally = Tally::new(text, &source.options.limits);
+    let mut namespaces = 0;
+    let mut at = 0;
+    while let Some(found) = text[at..].find('<') {
+        at += found;
+        let rest = &text[at..];
+        let length = if rest.starts_with("<!--") {
+            tally.count()?;
+            through(rest, "-->")
+        } else if rest.starts_with("<![CDATA[") {
+            tally.count()?;
+            through(rest, "]]>")
+        } else if rest.starts_with("<!") {
+            return Err(doctype(text, at));
+        } else if rest.starts_with("<?") {
+            tally.count()?;
+            through(rest, "?>")
+        } else if rest.starts_with("</") {
+            tally.leave();
+            through(rest, ">")
+        } else {
+            tally.count()?;
+            let tag = Tag::scan(rest);
+            namespaces += tag.namespaces;
+            check_count("attributes of one element", MOST_ATTRIBUTES, tag.attributes)?;
+            check_count("namespaces in the file", MOST_NAMESPACES, namespaces)?;
+            if !tag.closed {
+                tally.enter(at)?;
+            }
+            tag.length
+        };
+        at += length;
+    }
+    Ok(())
+}
+
+fn check_count(what: &'static str, limit: u64, actual: u64) -> Result<(), Problem> {
+    if actual <= limit {
+        return Ok(());
+    }
+    Err(Problem::LimitReached {
+        what,
+        limit,
+        actual,
+    })
+}
+
+/// Length of a text up to and with its first `end`, or all of it.
+fn through(text: &str, end: &str) -> usize {
+    text.find(end).map_or(text.len(), |i| i + end.len())
+}
+
+/// What an opening tag has.
+struct Tag {
+    length: usize,
+    attributes: u64,
+    namespaces: u64,
+    /// Whether it has no content, as in `<a/>`.
+    closed: bool,
+}
+
+impl Tag {
+    fn scan(text: &str) -> Self {
+        let mut tag = Self {
+            length: 0,
+            attributes: 0,
+            namespaces: 0,
+            closed: false,
+        };
+        while let Some(found) = text[tag.length..].find(['"', '\'', '>']) {
+            let part = &text[tag.length..tag.length + found];
+            tag.namespaces += part.matches("xmlns").count() as u64;
+            tag.length += found + 1;
+            let stop = &text[tag.length - 1..tag.length];
+            if stop == ">" {
+                tag.closed = part.ends_with('/');
+                return tag;
+            }
+            tag.attributes += 1;
+            tag.length += through(&text[tag.length..], stop);
+        }
+        tag.length = text.len();
+        tag
+    }
+}
+
+fn doctype(text: &str, at: usize) -> Problem {
+    Problem::Unsupported {
+        place: Place {
+            element: "the head of the file".into(),
+            line: u32::try_from(position(text, at).0).ok(),
+        },
+        what: "a document type definition (<!DOCTYPE ...>)".into(),
+        remedy: "Remove it; plant models have none, and it can make a small file very large".into(),
+    }
+}
+
+fn problem(error: &Error, text: &str, elements: u64) -> Problem {
+    match error {
+        Error::UnexpectedEndOfStream | Error::UnclosedRootNode => Problem::Truncated {
+            at: text.len() as u64,
+            detail: "an element is not closed".into(),
+        },
+        Error::NoRootNode => Problem::Truncated {
+            at: text.len() as u64,
+            detail: "there is no element".into(),
+        },
+        Error::NodesLimitReached => Problem::LimitReached {
+            what: "elements in the file",
+            limit: elements,
+            actual: elements.saturating_add(1),
+        },
+        Error::DtdDetected => doctype(text, 0),
+        other => {
+            let place = other.pos();
+            let message = other.to_string();
+            let message = message.split(" at ").next().unwrap_or(&message);
+            Problem::Syntax {
+                line: place.row.into(),
+                column: place.col.into(),
+                message: message.to_owned(),
+            }
+        }
+    }
+}
