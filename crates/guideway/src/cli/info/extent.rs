@@ -1,0 +1,85 @@
+use guideway::layout::{PathRef, Paths};
+use guideway::spline::{Bounds, segment_length};
+use rayon::prelude::*;
+
+/// Largest error of a segment's length, as a fraction of its control polygon's length.
+const TOLERANCE: f64 = 1e-7;
+
+/// How long all paths are together, in metres, and the box that holds them tightly.
+pub(super) struct Extent {
+    pub(super) length_m: f64,
+    pub(super) bounds: Option<Bounds<f64>>,
+}
+
+impl Extent {
+    const NONE: Self = Self {
+        length_m: 0.0,
+        bounds: None,
+    };
+
+    pub(super) fn of(paths: &Paths) -> Self {
+        // Chunks are joined in their order, so that every run gives the same digits.
+        const CHUNK: usize = 4096;
+        let starts: Vec<usize> = (0..paths.len()).step_by(CHUNK).collect();
+        let chunks: Vec<Self> = starts
+            .into_par_iter()
+            .map(|start| {
+                let rows = start..paths.len().min(start + CHUNK);
+                rows.fold(Self::NONE, |all, row| all.with(paths.get(row)))
+            })
+            .collect();
+        chunks.into_iter().fold(Self::NONE, Self::join)
+    }
+
+    fn with(self, path: PathRef<'_>) -> Self {
+        let segments = path.runs().flat_map(|run| run.segments());
+        segments.fold(self, |all, segment| {
+            let polygon_m: f64 = segment.windows(2).map(|leg| leg[0].distance(leg[1])).sum();
+            all.join(Self {
+                length_m: segment_length(&segment, TOLERANCE * polygon_m),
+                bounds: Some(Bounds::of_segment(&segment)),
+            })
+        })
+    }
+
+    fn join(self, other: Self) -> Self {
+        let both = self.bounds.zip(other.bounds).map(|(a, b)| a.union(b));
+        Self {
+            length_m: self.length_m + other.length_m,
+            bounds: both.or(self.bounds).or(other.bounds),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use guideway::layout::{Layout, NewPath};
+    use guideway::spline::{Point, Runs};
+
+    use super::*;
+
+    #[test]
+    fn lengths_and_boxes_of_paths_add_up() {
+        let mut layout = Layout::default();
+        for x in [0.0, 1e6] {
+            let mut runs = Runs::default();
+            // y = x^2 from 0 to 1, which is sqrt(5)/2 + asinh(2)/4 long.
+            let parabola = [
+                (0.0, 0.0),
+                (1.0 / 3.0, 0.0),
+                (2.0 / 3.0, 1.0 / 3.0),
+                (1.0, 1.0),
+            ];
+            runs.push_bezier(&parabola.map(|(dx, y)| Point::new(x + dx, y)));
+            layout.paths.push(&NewPath {
+                runs: &runs,
+                ..NewPath::default()
+            });
+        }
+        let extent = Extent::of(&layout.paths);
+        let known = 2.0 * (5f64.sqrt() / 2.0 + 2f64.asinh() / 4.0);
+        assert!((extent.length_m - known).abs() < 1e-6 * known);
+        let size = extent.bounds.unwrap().size();
+        assert!((size.x - 1_000_001.0).abs() < 1e-6 && (size.y - 1.0).abs() < 1e-6);
+    }
+}

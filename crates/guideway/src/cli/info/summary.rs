@@ -1,0 +1,182 @@
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use guideway::layout::{Code, Direction, Layout};
+use serde::Serialize;
+
+use super::columns::{self, Column, Top};
+use super::extent::Extent;
+
+/// What is in a layout: the `info` report.
+#[derive(Debug, Serialize)]
+pub(super) struct Summary {
+    pub(super) file: String,
+    pub(super) file_bytes: Option<u64>,
+    pub(super) format: String,
+    pub(super) format_version: String,
+    /// Elements of the source under the format's own names.
+    pub(super) source_counts: Vec<Count>,
+    pub(super) paths: u64,
+    pub(super) two_way_paths: u64,
+    pub(super) segments: u64,
+    pub(super) control_points: u64,
+    pub(super) nodes: u64,
+    pub(super) stations: u64,
+    pub(super) levels: Vec<LevelSummary>,
+    pub(super) vehicle_types: Vec<Top>,
+    pub(super) bounds_m: Option<Box2>,
+    pub(super) length_m: f64,
+    pub(super) attributes: Tables,
+    pub(super) refused: Vec<Kind>,
+    pub(super) findings: Vec<Kind>,
+    pub(super) memory_bytes: u64,
+    pub(super) ms: Times,
+}
+
+#[derive(Debug, Serialize)]
+pub(super) struct Count {
+    pub(super) name: String,
+    pub(super) count: u64,
+}
+
+#[derive(Debug, Serialize)]
+pub(super) struct LevelSummary {
+    pub(super) id: String,
+    pub(super) name: Option<String>,
+    pub(super) elevation_m: Option<f64>,
+    pub(super) paths: u64,
+}
+
+#[derive(Debug, Serialize)]
+pub(super) struct Box2 {
+    pub(super) min: [f64; 2],
+    pub(super) max: [f64; 2],
+}
+
+#[derive(Debug, Serialize)]
+pub(super) struct Tables {
+    pub(super) paths: Vec<Column>,
+    pub(super) nodes: Vec<Column>,
+    pub(super) stations: Vec<Column>,
+}
+
+/// A kind of finding with how often it was found.
+#[derive(Debug, Serialize)]
+pub(super) struct Kind {
+    pub(super) code: &'static str,
+    pub(super) severity: String,
+    pub(super) count: u64,
+    pub(super) meaning: &'static str,
+}
+
+impl Kind {
+    fn new((code, count): (Code, u64)) -> Self {
+        Self {
+            code: code.name(),
+            severity: code.severity().to_string(),
+            count,
+            meaning: code.meaning(),
+        }
+    }
+}
+
+/// Where the time went, in milliseconds.
+#[derive(Debug, Default, Serialize)]
+pub(super) struct Times {
+    pub(super) read: f64,
+    pub(super) measure: f64,
+    pub(super) total: f64,
+}
+
+impl Summary {
+    pub(super) fn of(layout: &Layout, file: &Path) -> Self {
+        let extent = Extent::of(&layout.paths);
+        let source = &layout.provenance;
+        let geometry = layout.paths.geometry();
+        let two_way = |direction| direction == Direction::Both;
+        Self {
+            file: file.to_string_lossy().into_owned(),
+            file_bytes: std::fs::metadata(file).ok().map(|m| m.len()),
+            format: source.format.clone(),
+            format_version: source.format_version.clone(),
+            source_counts: source
+                .counts
+                .iter()
+                .map(|(name, count)| Count {
+                    name: name.clone(),
+                    count: *count,
+                })
+                .collect(),
+            paths: layout.paths.len() as u64,
+            two_way_paths: layout
+                .paths
+                .iter()
+                .filter(|p| two_way(p.direction()))
+                .count() as u64,
+            segments: geometry.segment_count() as u64,
+            control_points: geometry.point_count() as u64,
+            nodes: layout.nodes.len() as u64,
+            stations: layout.stations.len() as u64,
+            levels: levels(layout),
+            vehicle_types: vehicle_types(layout),
+            bounds_m: extent.bounds.map(|b| Box2 {
+                min: [b.min.x, b.min.y],
+                max: [b.max.x, b.max.y],
+            }),
+            length_m: extent.length_m,
+            attributes: Tables {
+                paths: columns::of_table(&layout.paths.attributes, layout.paths.len()),
+                nodes: columns::of_table(&layout.nodes.attributes, layout.nodes.len()),
+                stations: columns::of_table(&layout.stations.attributes, layout.stations.len()),
+            },
+            refused: refused(layout),
+            findings: layout.diagnostics.counts().map(Kind::new).collect(),
+            memory_bytes: layout.heap_bytes() as u64,
+            ms: Times::default(),
+        }
+    }
+
+    /// Paths of the file that cannot be drawn.
+    pub(super) fn refused_count(&self) -> u64 {
+        self.refused.iter().map(|kind| kind.count).sum()
+    }
+}
+
+fn levels(layout: &Layout) -> Vec<LevelSummary> {
+    let mut paths = vec![0; layout.levels.len()];
+    for level in layout.paths.iter().filter_map(|path| path.level()) {
+        if let Some(count) = paths.get_mut(level as usize) {
+            *count += 1;
+        }
+    }
+    let summary = |(level, paths): (&guideway::layout::Level, u64)| LevelSummary {
+        id: level.id.clone(),
+        name: level.name.clone(),
+        elevation_m: level.elevation_m,
+        paths,
+    };
+    layout.levels.iter().zip(paths).map(summary).collect()
+}
+
+fn vehicle_types(layout: &Layout) -> Vec<Top> {
+    let types = layout.paths.vehicle_types();
+    let mut counts: BTreeMap<&str, u64> = BTreeMap::new();
+    if !types.names().is_empty() {
+        for name in (0..layout.paths.len()).flat_map(|path| types.of(path)) {
+            *counts.entry(name).or_insert(0) += 1;
+        }
+    }
+    let top = |(value, count): (&str, u64)| Top {
+        value: value.to_owned(),
+        count,
+    };
+    counts.into_iter().map(top).collect()
+}
+
+fn refused(layout: &Layout) -> Vec<Kind> {
+    let mut counts: BTreeMap<Code, u64> = BTreeMap::new();
+    for path in layout.refused.iter() {
+        *counts.entry(path.code).or_insert(0) += 1;
+    }
+    counts.into_iter().map(Kind::new).collect()
+}

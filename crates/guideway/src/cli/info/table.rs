@@ -1,0 +1,156 @@
+use super::columns::{Column, Top};
+use super::summary::{Kind, Summary};
+use crate::cli::text::{bytes, count, counted, metres, plain, time};
+
+/// Longest name or value shown, in characters.
+const WIDEST: usize = 40;
+
+/// The summary as a person reads it.
+pub(super) fn text(of: &Summary) -> String {
+    let mut lines = Lines::default();
+    lines.put("file", &file(of));
+    lines.put(
+        "format",
+        format!("{} {}", of.format, of.format_version).trim_end(),
+    );
+    let parts = of.source_counts.iter();
+    lines.put(
+        "in the file",
+        &join(parts.map(|part| format!("{} {}", count(part.count), part.name))),
+    );
+    lines.put("paths", &paths(of));
+    lines.put(
+        "curves",
+        &format!(
+            "{}, {}",
+            counted(of.segments, "segment"),
+            counted(of.control_points, "control point")
+        ),
+    );
+    lines.put("length", &metres(of.length_m));
+    lines.put("bounds", &bounds(of));
+    lines.put("nodes", &count(of.nodes));
+    lines.put("stations", &count(of.stations));
+    let levels = of.levels.iter().map(|level| {
+        let name = plain(level.name.as_deref().unwrap_or(&level.id), WIDEST);
+        let height = level
+            .elevation_m
+            .map_or_else(String::new, |m| format!(" at {}", metres(m)));
+        format!("{name}{height} ({})", counted(level.paths, "path"))
+    });
+    lines.put("levels", &join(levels));
+    lines.put("vehicles", &tops(&of.vehicle_types));
+    lines.put("memory", &bytes(of.memory_bytes));
+    lines.columns("paths", &of.attributes.paths);
+    lines.columns("nodes", &of.attributes.nodes);
+    lines.columns("stations", &of.attributes.stations);
+    lines.kinds("refused", &of.refused);
+    lines.kinds("findings", &of.findings);
+    let times = &of.ms;
+    lines.0
+        + &format!(
+            "took {}: reading {}, measuring {}\n",
+            time(times.total),
+            time(times.read),
+            time(times.measure)
+        )
+}
+
+#[derive(Default)]
+struct Lines(String);
+
+impl Lines {
+    /// A line with its name; nothing if there is nothing to say.
+    fn put(&mut self, name: &str, value: &str) {
+        if !value.is_empty() {
+            self.0 += &format!("{name:<12}{value}\n");
+        }
+    }
+
+    fn columns(&mut self, table: &str, columns: &[Column]) {
+        if columns.is_empty() {
+            return;
+        }
+        self.0 += &format!("columns of {table}:\n");
+        let names = columns.iter().map(|column| plain(&column.name, WIDEST));
+        let width = names.clone().map(|n| n.chars().count()).max().unwrap_or(0);
+        for (column, name) in columns.iter().zip(names) {
+            self.0 += &format!("  {name:<width$}  {}\n", column_text(column));
+        }
+    }
+
+    fn kinds(&mut self, title: &str, kinds: &[Kind]) {
+        if kinds.is_empty() {
+            return;
+        }
+        self.0 += &format!("{title}:\n");
+        for kind in kinds {
+            let Kind {
+                code,
+                severity,
+                count: n,
+                meaning,
+            } = kind;
+            self.0 += &format!("  {:>8}  {severity} {code}: {meaning}\n", count(*n));
+        }
+    }
+}
+
+fn file(of: &Summary) -> String {
+    let size = of
+        .file_bytes
+        .map_or_else(String::new, |n| format!(" ({})", bytes(n)));
+    format!("{}{size}", plain(&of.file, 400))
+}
+
+fn paths(of: &Summary) -> String {
+    let mut text = count(of.paths);
+    if of.two_way_paths > 0 {
+        text += &format!(", {} of them two-way", count(of.two_way_paths));
+    }
+    match of.refused_count() {
+        0 => text,
+        n => text + &format!("; {} refused", count(n)),
+    }
+}
+
+fn bounds(of: &Summary) -> String {
+    let Some(bounds) = &of.bounds_m else {
+        return String::new();
+    };
+    let ([x0, y0], [x1, y1]) = (bounds.min, bounds.max);
+    format!(
+        "{} x {}, from ({x0:.3}, {y0:.3}) to ({x1:.3}, {y1:.3})",
+        metres(x1 - x0),
+        metres(y1 - y0)
+    )
+}
+
+fn column_text(column: &Column) -> String {
+    let mut text = format!("{}, {} different", column.kind, count(column.distinct));
+    if let (Some(min), Some(max)) = (column.min, column.max) {
+        text += &format!(", {min} to {max}");
+    }
+    if column.missing > 0 {
+        text += &format!(", {} without", count(column.missing));
+    }
+    if !column.top.is_empty() {
+        text += &format!(": {}", tops(&column.top));
+    }
+    let rest = column.distinct.saturating_sub(column.top.len() as u64);
+    if rest > 0 && !column.top.is_empty() {
+        text += ", ...";
+    }
+    text
+}
+
+fn tops(top: &[Top]) -> String {
+    join(
+        top.iter()
+            .map(|top| format!("{} ({})", plain(&top.value, WIDEST), count(top.count))),
+    )
+}
+
+fn join(parts: impl Iterator<Item = String>) -> String {
+    parts.collect::<Vec<_>>().join(", ")
+}

@@ -1,0 +1,95 @@
+//! `guideway render`: a layout file as a PNG picture.
+
+mod args;
+mod picture;
+mod report;
+
+use std::io::{IsTerminal, Write};
+use std::path::Path;
+use std::sync::Arc;
+
+use guideway::render::Frame;
+use guideway::scene::Scene;
+use guideway::{SaveError, save_png, write_png};
+
+pub(crate) use args::Args;
+pub(crate) use picture::{Drawn, Wishes, draw};
+pub(crate) use report::{Times, what_was_drawn};
+
+use super::{Exit, Failure, Output, input};
+
+pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, Failure> {
+    let wishes = args.wishes()?;
+    let target = Target::new(&args.output, out)?;
+    if let Target::File(path) = target {
+        input::refuse_same_file(&args.file, path)?;
+    }
+    // A name that is unknown is refused before a large file is read.
+    let method = guideway::method(&args.method)?;
+    let (layout, read_ms) = input::read(&args.file, out)?;
+    let activity = out.activity("arranging");
+    let scene = Arc::new(Scene::new(Arc::new(layout), &wishes.scene)?);
+    let scene_ms = activity.finish();
+    let drawn = draw(&*method, &scene, &wishes, out)?;
+    let activity = out.activity("writing the picture");
+    target.write(&drawn.frame)?;
+    let times = Times {
+        read: read_ms,
+        scene: scene_ms,
+        prepare: drawn.prepare_ms,
+        render: drawn.render_ms,
+        write: activity.finish(),
+    };
+    let text = || report::text(&args.output, &scene, &drawn, &times);
+    match target {
+        Target::StandardOutput => out.note(text().trim_end()),
+        Target::File(path) => {
+            let body = report::json(path, &args.file, &scene, &drawn, &times);
+            out.report("render", &body, text)?;
+        }
+    }
+    Ok(Exit::Clean)
+}
+
+/// Where the picture goes.
+enum Target<'a> {
+    StandardOutput,
+    File(&'a Path),
+}
+
+impl<'a> Target<'a> {
+    fn new(path: &'a Path, out: &Output) -> Result<Self, Failure> {
+        if path != Path::new("-") {
+            return Ok(Self::File(path));
+        }
+        if out.is_json() {
+            return Err(Failure::arguments(
+                "standard output cannot take the picture and the JSON report at once",
+                "Give the picture a file, such as `-o site.png --json`",
+            ));
+        }
+        if std::io::stdout().is_terminal() {
+            return Err(Failure::arguments(
+                "a picture is not for a terminal",
+                "Send it on, such as `guideway render site.lif.json -o - | feh -`, or give it a file",
+            ));
+        }
+        Ok(Self::StandardOutput)
+    }
+
+    fn write(&self, frame: &Frame) -> Result<(), Failure> {
+        match self {
+            Self::File(path) => Ok(save_png(frame, path)?),
+            Self::StandardOutput => {
+                let mut bytes = Vec::new();
+                write_png(frame, &mut bytes)
+                    .and_then(|()| bytes.flush())
+                    .map_err(|problem| SaveError {
+                        path: "-".into(),
+                        problem,
+                    })?;
+                super::output::print(&bytes)
+            }
+        }
+    }
+}

@@ -1,0 +1,99 @@
+//! Numbers as people read them.
+
+/// A count with its thousands apart: 1,020,350.
+pub(crate) fn count(n: u64) -> String {
+    let digits = n.to_string();
+    let mut grouped = String::with_capacity(digits.len() + digits.len() / 3);
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            grouped.push(',');
+        }
+        grouped.push(digit);
+    }
+    grouped
+}
+
+/// A count with its noun, which takes an s unless there is one: 1 path, 2 paths.
+pub(crate) fn counted(n: u64, noun: &str) -> String {
+    let plural = if n == 1 { "" } else { "s" };
+    format!("{} {noun}{plural}", count(n))
+}
+
+/// A time, to three digits.
+pub(crate) fn time(ms: f64) -> String {
+    if ms < 9.995 {
+        format!("{ms:.2} ms")
+    } else if ms < 999.5 {
+        format!("{ms:.0} ms")
+    } else {
+        format!("{:.2} s", ms / 1e3)
+    }
+}
+
+/// A number of bytes.
+pub(crate) fn bytes(n: u64) -> String {
+    const UNITS: [&str; 4] = ["kB", "MB", "GB", "TB"];
+    if n < 1000 {
+        return format!("{n} bytes");
+    }
+    let mut value = n as f64 / 1e3;
+    let mut unit = 0;
+    while value >= 999.5 && unit + 1 < UNITS.len() {
+        value /= 1e3;
+        unit += 1;
+    }
+    let digits = if value < 9.95 { 1 } else { 0 };
+    format!("{value:.digits$} {}", UNITS[unit])
+}
+
+/// A length in metres, to the millimetre, with its thousands apart.
+pub(crate) fn metres(value: f64) -> String {
+    if !value.is_finite() || value.abs() >= 1e15 {
+        return format!("{value} m");
+    }
+    let rounded = format!("{:.3}", value.abs());
+    let (whole, fraction) = rounded.split_once('.').unwrap_or((&rounded, "0"));
+    let whole = whole.parse().map_or_else(|_| whole.to_owned(), count);
+    let sign = if value < 0.0 { "-" } else { "" };
+    let fraction = fraction.trim_end_matches('0');
+    let point = if fraction.is_empty() { "" } else { "." };
+    format!("{sign}{whole}{point}{fraction} m")
+}
+
+/// Text from a file on one line of a terminal: no control characters, and not endless.
+pub(crate) fn plain(text: &str, most_chars: usize) -> String {
+    let safe = |c: char| if c.is_control() { '\u{fffd}' } else { c };
+    let mut shown: String = text.chars().take(most_chars).map(safe).collect();
+    if text.chars().nth(most_chars).is_some() {
+        shown.push('…');
+    }
+    shown
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_easy_to_read() {
+        assert_eq!(count(999), "999");
+        assert_eq!(count(1_020_350), "1,020,350");
+        assert_eq!(counted(1, "path"), "1 path");
+        assert_eq!(counted(0, "path"), "0 paths");
+        assert_eq!(time(0.1234), "0.12 ms");
+        assert_eq!(time(9.999), "10 ms");
+        assert_eq!(time(1234.5), "1.23 s");
+        assert_eq!(bytes(12), "12 bytes");
+        assert_eq!(bytes(1_250), "1.2 kB");
+        assert_eq!(bytes(999_900), "1.0 MB");
+        assert_eq!(metres(-1234.5), "-1,234.5 m");
+        assert_eq!(metres(12.0), "12 m");
+        assert_eq!(metres(0.9996), "1 m");
+    }
+
+    #[test]
+    fn text_from_a_file_cannot_command_the_terminal() {
+        assert_eq!(plain("a\u{1b}[31mb\n", 80), "a\u{fffd}[31mb\u{fffd}");
+        assert_eq!(plain("abcdef", 3), "abc…");
+    }
+}

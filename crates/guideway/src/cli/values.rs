@@ -1,0 +1,89 @@
+//! How the values of arguments are read. Each refusal shows what a good value looks like.
+
+use guideway::render::FrameSize;
+use guideway::spline::Point;
+
+/// A picture size such as `1920x1080`.
+pub(crate) fn size(text: &str) -> Result<FrameSize, String> {
+    let sides = text.split_once(['x', 'X']).and_then(|(width, height)| {
+        let width: u32 = width.trim().parse().ok()?;
+        let height: u32 = height.trim().parse().ok()?;
+        Some((width, height))
+    });
+    let Some((width, height)) = sides else {
+        return Err("write width and height in pixels, such as 1920x1080".into());
+    };
+    FrameSize::new(width, height).map_err(|_| {
+        format!(
+            "each side takes 1 to {} pixels and both together at most {} million, such as 1920x1080",
+            FrameSize::MAX_SIDE,
+            FrameSize::MAX_PIXELS / 1_000_000
+        )
+    })
+}
+
+/// A point such as `12.5,-3`.
+pub(crate) fn point(text: &str) -> Result<Point<f64>, String> {
+    let refuse = || "write x and y in metres with a comma between, such as 12.5,-3".to_owned();
+    let (x, y) = text.split_once(',').ok_or_else(refuse)?;
+    let number = |text: &str| text.trim().parse::<f64>().map_err(|_| refuse());
+    let point = Point::new(number(x)?, number(y)?);
+    if point.is_finite() {
+        Ok(point)
+    } else {
+        Err(refuse())
+    }
+}
+
+/// A number above zero, such as a scale.
+pub(crate) fn positive(text: &str) -> Result<f64, String> {
+    match text.trim().parse::<f64>() {
+        Ok(value) if value.is_finite() && value > 0.0 => Ok(value),
+        _ => Err("write a number above 0, such as 0.5 or 40".into()),
+    }
+}
+
+/// A number that is not negative, such as a width.
+pub(crate) fn not_negative(text: &str) -> Result<f64, String> {
+    match text.trim().parse::<f64>() {
+        Ok(value) if value.is_finite() && value >= 0.0 => Ok(value),
+        _ => Err("write a number from 0 up, such as 0.1 or 2".into()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn good_values_are_taken() {
+        assert_eq!(size("1920x1080").unwrap().width(), 1920);
+        assert_eq!(size("1X2").unwrap().height(), 2);
+        assert_eq!(point("-1.5, 2e3").unwrap(), Point::new(-1.5, 2000.0));
+        assert_eq!(positive("0.5"), Ok(0.5));
+        assert_eq!(not_negative("0"), Ok(0.0));
+    }
+
+    #[test]
+    fn refusals_show_a_good_value() {
+        for bad in [
+            "0x0",
+            "1e9x2",
+            "12",
+            "x",
+            "-1x5",
+            "70000x1",
+            "65535x65535",
+            "",
+        ] {
+            assert!(size(bad).unwrap_err().contains("1920x1080"), "{bad}");
+        }
+        for bad in ["1", "1;2", "a,b", "NaN,0", "1,2,3", "inf,0"] {
+            assert!(point(bad).unwrap_err().contains("12.5,-3"), "{bad}");
+        }
+        for bad in ["NaN", "inf", "-1", "0", "", "1m"] {
+            assert!(positive(bad).unwrap_err().contains("such as"), "{bad}");
+        }
+        assert!(not_negative("-0.1").is_err());
+    }
+}
