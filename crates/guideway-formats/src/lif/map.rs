@@ -18,6 +18,7 @@ pub(super) struct Mapper<'a> {
     pub(super) nodes: HashMap<String, u32>,
     edges: HashSet<String>,
     stations: HashSet<String>,
+    /// Of the edges: nodes may name types that have no path.
     vehicle_types: HashSet<String>,
     counts: Counts,
 }
@@ -172,11 +173,6 @@ impl<'a> Mapper<'a> {
             return Ok(());
         };
         self.check_repeated(node.repeated, at);
-        for (_, properties) in items(&node.types_1).chain(items(&node.types_2)) {
-            if let Some(p) = properties.get() {
-                self.vehicle_types(&p.vehicle_type, &p.robot_types, at)?;
-            }
-        }
         let id = self.id(&node.id, at, "nodeId")?;
         let Some(position) = self.position(&node.position, &|| within(at, "nodePosition"), true)
         else {

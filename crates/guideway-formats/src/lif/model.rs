@@ -79,18 +79,11 @@ record! { Node<'a> {
     name: Text<'a> = "nodeName",
     map_id: Text<'a> = "mapId",
     position: Position = "nodePosition",
-    types_1: List<NodeProperties<'a>> = "vehicleTypeNodeProperties",
-    types_2: List<NodeProperties<'a>> = "mobileRobotTypeNodeProperties",
 } }
 
 record! { Position {
     x: f64 = "x",
     y: f64 = "y",
-} }
-
-record! { NodeProperties<'a> {
-    vehicle_type: Text<'a> = "vehicleTypeId",
-    robot_types: List<RobotType<'a>> = "mobileRobotTypes",
 } }
 
 record! { RobotType<'a> {

@@ -1,0 +1,105 @@
+//! The format is found from the content, and what is no file is refused before it is opened.
+
+use std::fs;
+
+use guideway_formats::{Format, Progress, ReadOptions, read_bytes, read_file, sniff};
+use guideway_layout::Limits;
+
+const LIF: &str = r#"{"layouts": [{"layoutId": "L", "nodes": [], "edges": []}]}"#;
+
+#[test]
+fn the_beginning_tells_the_format() {
+    assert_eq!(sniff(b"{\"layouts\": []}"), Some(Format::Lif));
+    assert_eq!(sniff(b"\xEF\xBB\xBF \n {"), Some(Format::Lif));
+    assert_eq!(sniff(b"<?xml version=\"1.0\"?>"), Some(Format::OpenTcs));
+    assert_eq!(sniff(b"ARROW1\0\0"), Some(Format::Arrow));
+    for other in [
+        &b""[..],
+        b" ",
+        b"PK\x03\x04",
+        b"[1]",
+        b"ARROW",
+        b"0\nSECTION",
+    ] {
+        assert_eq!(sniff(other), None, "{other:?}");
+    }
+}
+
+#[test]
+fn the_name_of_the_file_has_no_say() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("plant.xml");
+    fs::write(&path, LIF).unwrap();
+    let layout = read_file(&path, &ReadOptions::default()).unwrap();
+    assert_eq!(layout.provenance.format, "LIF");
+    assert_eq!(layout.provenance.source, path.display().to_string());
+}
+
+#[test]
+fn what_is_not_a_file_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let error = read_file(folder.path(), &ReadOptions::default()).unwrap_err();
+    assert_eq!(error.code(), "not-a-file");
+    let error = read_file(&folder.path().join("none"), &ReadOptions::default()).unwrap_err();
+    assert_eq!(error.code(), "not-found");
+    assert!(error.to_string().contains("none"));
+}
+
+#[cfg(unix)]
+#[test]
+fn a_pipe_or_a_device_is_refused_and_not_waited_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let pipe = folder.path().join("pipe");
+    let made = std::process::Command::new("mkfifo").arg(&pipe).status();
+    for path in [pipe.as_path(), "/dev/zero".as_ref()] {
+        if path == pipe && !made.as_ref().is_ok_and(|status| status.success()) {
+            continue;
+        }
+        let error = read_file(path, &ReadOptions::default()).unwrap_err();
+        assert_eq!(error.code(), "not-a-file", "{error}");
+    }
+}
+
+#[test]
+fn a_file_above_the_limit_is_refused_with_both_numbers() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("big");
+    fs::write(&path, LIF).unwrap();
+    let options = ReadOptions {
+        limits: Limits {
+            file_bytes: 10,
+            ..Limits::default()
+        },
+        ..ReadOptions::default()
+    };
+    for error in [
+        read_file(&path, &options).unwrap_err(),
+        read_bytes("big", LIF.as_bytes(), &options).unwrap_err(),
+    ] {
+        assert_eq!(error.code(), "limit");
+        let text = error.to_string();
+        let size = LIF.len().to_string();
+        assert!(
+            text.contains("10 at most") && text.contains(&size),
+            "{text}"
+        );
+    }
+}
+
+struct Stop;
+
+impl Progress for Stop {
+    fn cancelled(&self) -> bool {
+        true
+    }
+}
+
+#[test]
+fn a_read_can_be_stopped() {
+    let options = ReadOptions {
+        progress: Some(&Stop),
+        ..ReadOptions::default()
+    };
+    let error = read_bytes("layout", LIF.as_bytes(), &options).unwrap_err();
+    assert_eq!(error.code(), "cancelled");
+}
