@@ -65,8 +65,11 @@ codes! {
     BadWeight "bad-weight" Warning "A weight is zero, negative or not finite; 1 is used.";
     UnknownNode "unknown-node" Error "A path or station names a node that does not exist.";
     NodeGap "node-gap" Warning "A path does not begin or end at its node.";
+    UnusedNode "unused-node" Info "No drawn path begins or ends at a node.";
     CrossLevel "cross-level" Info "A path leads to another level; it is not drawn across one plane.";
     Kink "kink" Warning "The direction of a path jumps.";
+    Curvature "curvature" Warning "A path is bent more tightly than the radius asked for.";
+    BrokenPath "broken-path" Warning "A path has a gap inside: one part does not begin where the last one ends.";
     ZeroLength "zero-length" Warning "A path has no length; it is drawn as a dot.";
     DuplicateId "duplicate-id" Warning "An identifier is used more than once.";
     DuplicatePath "duplicate-path" Warning "Two paths have the same curve in the same direction.";

@@ -17,6 +17,7 @@
 //! ```
 
 mod attribute;
+mod check;
 mod diagnostic;
 mod geometry;
 mod limits;
@@ -26,6 +27,7 @@ mod refused;
 mod text;
 
 pub use attribute::{Attribute, Attributes, Value, Values};
+pub use check::{CheckOptions, check};
 pub use diagnostic::{Code, Diagnostic, Diagnostics, Place, Severity};
 pub use geometry::{Geometry, RunPoints};
 pub use limits::Limits;

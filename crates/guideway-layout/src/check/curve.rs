@@ -1,0 +1,144 @@
+use guideway_spline::{Point, uniform};
+
+use crate::PathRef;
+
+/// Number of points, evenly spaced along a curve, by which two curves are compared.
+pub(super) const SAMPLES: usize = 9;
+
+/// Points of a curve at equal steps of length, both ends included.
+pub(super) type Samples = [Point<f64>; SAMPLES];
+
+type Segment = [Point<f64>; 4];
+
+/// The curve of one path; its buffers are used again for the next.
+#[derive(Debug, Default)]
+pub(super) struct Curve {
+    segments: Vec<Segment>,
+    lengths_m: Vec<f64>,
+}
+
+impl Curve {
+    /// Takes the curve of a path in place of the one before.
+    pub(super) fn load(&mut self, path: PathRef<'_>) {
+        self.segments.clear();
+        self.segments
+            .extend(path.runs().flat_map(|run| run.segments()));
+    }
+
+    /// Where it begins and ends; none if there is no curve or it is not finite.
+    pub(super) fn ends(&self) -> Option<[Point<f64>; 2]> {
+        let ends = [
+            uniform::start(self.segments.first()?),
+            uniform::end(self.segments.last()?),
+        ];
+        ends.iter().all(|p| p.is_finite()).then_some(ends)
+    }
+
+    /// Whether the control points are the same, one by one: then so is the curve.
+    pub(super) fn same_control_points(&self, other: &Self, reversed: bool, within_m: f64) -> bool {
+        let close = |a: Point<f64>, b: Point<f64>| a.distance(b) <= within_m;
+        self.segments.len() == other.segments.len()
+            && if reversed {
+                let back = other.segments.iter().rev();
+                let mut pairs = self.segments.iter().zip(back);
+                pairs.all(|(a, b)| (0..4).all(|i| close(a[i], b[3 - i])))
+            } else {
+                let mut pairs = self.segments.iter().zip(&other.segments);
+                pairs.all(|(a, b)| (0..4).all(|i| close(a[i], b[i])))
+            }
+    }
+
+    /// Points at equal steps of length, which do not depend on how the curve is put together.
+    ///
+    /// # Panics
+    /// When there is no segment.
+    pub(super) fn samples(&mut self) -> Samples {
+        self.lengths_m.clear();
+        self.lengths_m
+            .extend(self.segments.iter().map(|s| length_m(s, 0.0, 1.0)));
+        let total_m: f64 = self.lengths_m.iter().sum();
+        let mut points = [uniform::start(&self.segments[0]); SAMPLES];
+        let (mut index, mut passed_m) = (0, 0.0);
+        for (i, point) in points.iter_mut().enumerate().skip(1) {
+            let target_m = total_m * i as f64 / (SAMPLES - 1) as f64;
+            while index + 1 < self.segments.len() && passed_m + self.lengths_m[index] < target_m {
+                passed_m += self.lengths_m[index];
+                index += 1;
+            }
+            let segment = &self.segments[index];
+            let t = parameter_at(segment, target_m - passed_m, self.lengths_m[index]);
+            *point = uniform::point(segment, t);
+        }
+        points
+    }
+}
+
+/// The parameter at which a segment of `whole_m` has run `target_m`.
+fn parameter_at(segment: &Segment, target_m: f64, whole_m: f64) -> f64 {
+    if target_m >= whole_m {
+        return 1.0;
+    }
+    let (mut low, mut high) = (0.0, 1.0);
+    let mut t = target_m / whole_m;
+    for _ in 0..40 {
+        let over_m = length_m(segment, 0.0, t) - target_m;
+        if over_m.abs() <= PRECISION_M {
+            break;
+        }
+        if over_m > 0.0 {
+            high = t;
+        } else {
+            low = t;
+        }
+        let newton = t - over_m / speed(segment, t);
+        t = if low < newton && newton < high {
+            newton
+        } else {
+            0.5 * (low + high)
+        };
+    }
+    t
+}
+
+/// Lengths are found this closely: well below any tolerance that makes sense for a path.
+const PRECISION_M: f64 = 1e-6;
+
+/// Length between two parameters.
+fn length_m(segment: &Segment, from: f64, to: f64) -> f64 {
+    refine(segment, from, to, gauss(segment, from, to), 12)
+}
+
+/// Halves a piece until both ways to measure it agree; needed near a stop only.
+fn refine(segment: &Segment, from: f64, to: f64, whole_m: f64, halvings: u32) -> f64 {
+    let middle = 0.5 * (from + to);
+    let (left_m, right_m) = (gauss(segment, from, middle), gauss(segment, middle, to));
+    let sum_m = left_m + right_m;
+    // Written so that a length that is not a number ends it too.
+    let differs = (sum_m - whole_m).abs() > PRECISION_M;
+    if !differs || halvings == 0 {
+        return sum_m;
+    }
+    refine(segment, from, middle, left_m, halvings - 1)
+        + refine(segment, middle, to, right_m, halvings - 1)
+}
+
+/// Gauss-Legendre quadrature of the speed with five points.
+fn gauss(segment: &Segment, from: f64, to: f64) -> f64 {
+    const NODES: [(f64, f64); 3] = [
+        (0.0, 0.568_888_888_888_888_9),
+        (0.538_469_310_105_683_1, 0.478_628_670_499_366_47),
+        (0.906_179_845_938_664, 0.236_926_885_056_189_08),
+    ];
+    let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
+    let [(_, weight), pairs @ ..] = NODES;
+    let inner: f64 = pairs
+        .iter()
+        .map(|(x, w)| w * (speed(segment, middle - half * x) + speed(segment, middle + half * x)))
+        .sum();
+    half * (weight * speed(segment, middle) + inner)
+}
+
+fn speed(segment: &Segment, t: f64) -> f64 {
+    let d = uniform::derivative(segment, t);
+    d.dot(d).sqrt()
+}

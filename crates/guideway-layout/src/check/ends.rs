@@ -1,0 +1,76 @@
+use guideway_spline::Point;
+
+use super::CheckOptions;
+use super::place::{At, name, place};
+use crate::{Code, Diagnostics, Layout, PathRef};
+
+/// How paths and nodes fit together.
+pub(super) fn check(layout: &Layout, options: &CheckOptions, found: &mut Diagnostics) {
+    let mut used = vec![false; layout.nodes.len()];
+    for path in layout.paths.iter() {
+        for node in [path.start_node(), path.end_node()].into_iter().flatten() {
+            used[node as usize] = true;
+        }
+        if let Some((start, end)) = path.ends() {
+            let tolerance_m = options.gap_tolerance_m;
+            let mut gap = |verb, node, at| {
+                node_gap(layout, path, (verb, node, at), tolerance_m, found);
+            };
+            gap("begins", path.start_node(), start);
+            gap("ends", path.end_node(), end);
+        }
+        cross_level(layout, path, found);
+    }
+    for node in (0..used.len()).filter(|&node| !used[node]) {
+        found.push(
+            Code::UnusedNode,
+            || place("node", node, layout.nodes.id(node as u32)),
+            || "no drawn path begins or ends here".to_owned(),
+            "Connect the node, or take it out",
+        );
+    }
+}
+
+fn node_gap(
+    layout: &Layout,
+    path: PathRef<'_>,
+    (verb, node, at): (&str, Option<u32>, Point<f64>),
+    tolerance_m: f64,
+    found: &mut Diagnostics,
+) {
+    let Some(node) = node else { return };
+    let node_at = layout.nodes.position_m(node);
+    let gap_m = at.distance(node_at);
+    if gap_m > tolerance_m {
+        found.push(
+            Code::NodeGap,
+            || place("path", path.row(), path.id()),
+            || {
+                let node = name("node", node as usize, layout.nodes.id(node));
+                let (at, node_at) = (At(at), At(node_at));
+                format!("{verb} at {at}, {gap_m:.3} m from {node} at {node_at}")
+            },
+            "Move the node to the end of the curve, or the end of the curve to the node",
+        );
+    }
+}
+
+fn cross_level(layout: &Layout, path: PathRef<'_>, found: &mut Diagnostics) {
+    let level = |node: Option<u32>| node.and_then(|node| layout.nodes.level(node));
+    let levels = (level(path.start_node()), level(path.end_node()));
+    if let (Some(start), Some(end)) = levels
+        && start != end
+    {
+        found.push(
+            Code::CrossLevel,
+            || place("path", path.row(), path.id()),
+            || {
+                let id = |level: u32| layout.levels.get(level as usize).map_or("", |l| &l.id);
+                let from = name("level", start as usize, id(start));
+                let to = name("level", end as usize, id(end));
+                format!("leads from {from} to {to}, and is drawn in one plane")
+            },
+            "Nothing, if a lift or a ramp is meant",
+        );
+    }
+}

@@ -1,0 +1,238 @@
+//! Paths on the same curve are found, however the curve is put together.
+
+use std::collections::BTreeSet;
+
+use guideway_layout::{CheckOptions, Code, Direction, Layout, NewPath, check};
+use guideway_spline::{Point, Runs, uniform};
+use proptest::prelude::*;
+
+use crate::findings::{codes, found, only};
+use crate::sketch::{Sketch, line_runs, p, runs_of};
+
+fn pair(first: &Runs, second: &Runs) -> Sketch {
+    let mut sketch = Sketch::default();
+    sketch.free_path("first", first);
+    sketch.free_path("second", second);
+    sketch
+}
+
+/// The same curve from end to start.
+fn reversed(runs: &Runs) -> Runs {
+    let mut reversed = Runs::default();
+    let all: Vec<_> = runs.iter().collect();
+    for run in all.iter().rev() {
+        let points: Vec<_> = run.iter().rev().copied().collect();
+        reversed.push(&points);
+    }
+    reversed
+}
+
+/// The same curve with every segment cut in two.
+fn halved(runs: &Runs) -> Runs {
+    let mut halved = Runs::default();
+    for segment in runs.iter().flat_map(|run| run.windows(4)) {
+        let segment: &[Point<f64>; 4] = segment.try_into().expect("windows of four");
+        uniform::halves(segment)
+            .iter()
+            .for_each(|half| halved.push(half));
+    }
+    halved
+}
+
+#[test]
+fn a_line_of_two_runs_is_the_line_of_one() {
+    let whole = line_runs(p(0.0, 0.0), p(10.0, 4.0));
+    let mut parts = line_runs(p(0.0, 0.0), p(2.5, 1.0));
+    parts.push_line(p(2.5, 1.0), p(10.0, 4.0));
+    let (place, message) = only(&found(&pair(&whole, &parts)), Code::DuplicatePath);
+    assert_eq!(place, "path \"second\"");
+    assert_eq!(
+        message,
+        "has the curve of path \"first\" in the same direction"
+    );
+    let (_, message) = only(&found(&pair(&whole, &reversed(&parts))), Code::ReversePair);
+    assert_eq!(
+        message,
+        "has the curve of path \"first\" in the opposite direction"
+    );
+}
+
+#[test]
+fn a_line_with_uneven_speed_is_the_same_line() {
+    let mut eased = Runs::default();
+    let (a, b) = (p(0.0, 0.0), p(10.0, 4.0));
+    eased.push_bezier(&[a, a, b, b]);
+    only(&found(&pair(&line_runs(a, b), &eased)), Code::DuplicatePath);
+}
+
+#[test]
+fn other_curves_between_the_same_ends_are_none() {
+    let mut bow = Runs::default();
+    bow.push_bezier(&[p(0.0, 0.0), p(3.0, 0.01), p(7.0, 0.01), p(10.0, 0.0)]);
+    assert!(found(&pair(&line_runs(p(0.0, 0.0), p(10.0, 0.0)), &bow)).is_empty());
+}
+
+#[test]
+fn curves_on_two_levels_are_no_pair() {
+    let mut sketch = Sketch::default();
+    let runs = line_runs(p(0.0, 0.0), p(10.0, 0.0));
+    for level in [0, 1] {
+        let level = Some(level);
+        sketch.layout.paths.push(&NewPath {
+            runs: &runs,
+            level,
+            ..NewPath::default()
+        });
+    }
+    assert!(found(&sketch).is_empty());
+}
+
+#[test]
+fn paths_for_different_vehicle_types_do_not_meet() {
+    let runs = line_runs(p(0.0, 0.0), p(10.0, 0.0));
+    let of = |types: &[&[&str]]| {
+        let mut sketch = Sketch::default();
+        for &vehicle_types in types {
+            let path = NewPath {
+                runs: &runs,
+                vehicle_types,
+                ..NewPath::default()
+            };
+            sketch.layout.paths.push(&path);
+        }
+        found(&sketch).count(Code::DuplicatePath)
+    };
+    assert_eq!(of(&[&["tug"], &["lift"]]), 0);
+    assert_eq!(of(&[&["tug"], &["lift", "tug"]]), 1);
+    assert_eq!(of(&[&["tug"], &[], &["lift"]]), 2);
+}
+
+#[test]
+fn a_group_is_told_once_for_each_later_path() {
+    let there = line_runs(p(0.0, 0.0), p(10.0, 0.0));
+    let back = reversed(&there);
+    let mut sketch = Sketch::default();
+    for i in 0..3_000 {
+        sketch.free_path("", if i % 3 == 2 { &back } else { &there });
+    }
+    let found = found(&sketch);
+    // One reverse pair for the whole group: further ones repeat one of its two.
+    assert_eq!(
+        codes(&found),
+        [(Code::DuplicatePath, 2_998), (Code::ReversePair, 1)]
+    );
+    let others: BTreeSet<_> = found.iter().map(|d| d.message.clone()).collect();
+    assert_eq!(others.len(), 3, "{others:?}");
+}
+
+#[test]
+fn many_different_curves_between_the_same_ends_end_soon() {
+    let mut sketch = Sketch::default();
+    for i in 0..20_000 {
+        let mut runs = Runs::default();
+        let y = 1.0 + f64::from(i);
+        runs.push_bezier(&[p(0.0, 0.0), p(3.0, y), p(7.0, y), p(10.0, 0.0)]);
+        sketch.free_path("", &runs);
+    }
+    assert_eq!(found(&sketch).count(Code::DuplicatePath), 0);
+}
+
+#[test]
+fn both_directions_of_a_path_count() {
+    let (there, back) = (
+        line_runs(p(0.0, 20.0), p(9.0, 20.0)),
+        line_runs(p(9.0, 20.0), p(0.0, 20.0)),
+    );
+    let of = |direction, runs: &Runs| {
+        let mut sketch = Sketch::clean();
+        let two_way = NewPath {
+            id: "1",
+            runs: &there,
+            direction: Direction::Both,
+            ..NewPath::default()
+        };
+        sketch.layout.paths.push(&two_way);
+        sketch.layout.paths.push(&NewPath {
+            id: "2",
+            runs,
+            direction,
+            ..NewPath::default()
+        });
+        only(&found(&sketch), Code::DuplicatePath).0
+    };
+    assert_eq!(of(Direction::Forward, &back), "path \"2\"");
+    assert_eq!(of(Direction::Both, &back), "path \"2\"");
+    assert_eq!(of(Direction::Forward, &there), "path \"2\"");
+}
+
+fn points() -> impl Strategy<Value = Vec<Point<f64>>> {
+    let point = (-500.0..500.0, -500.0..500.0).prop_map(|(x, y)| p(x, y));
+    prop::collection::vec(point, 4..12)
+}
+
+/// Curves that differ, and lie on a second one where `twins` says so.
+fn layout(curves: &[(Vec<Point<f64>>, bool)]) -> Vec<(String, Runs)> {
+    let mut paths = Vec::new();
+    for (i, (points, twin)) in curves.iter().enumerate() {
+        let runs = runs_of(points);
+        if *twin {
+            paths.push((format!("{i} back"), reversed(&halved(&runs))));
+        }
+        paths.push((i.to_string(), runs));
+    }
+    paths
+}
+
+/// Which paths belong together, whatever their order.
+fn groups(paths: &[(String, Runs)]) -> BTreeSet<BTreeSet<String>> {
+    let mut layout = Layout::default();
+    for (id, runs) in paths {
+        layout.paths.push(&NewPath {
+            id,
+            runs,
+            ..NewPath::default()
+        });
+    }
+    let found = check(&layout, &CheckOptions::default());
+    let pairs = found.iter().filter(|d| d.code == Code::ReversePair);
+    let names = pairs.map(|d| {
+        let text = format!("{} {}", d.place, d.message);
+        text.split('"')
+            .skip(1)
+            .step_by(2)
+            .map(str::to_owned)
+            .collect()
+    });
+    names.collect()
+}
+
+proptest! {
+    #[test]
+    fn a_curve_cut_otherwise_and_moved_a_little_is_found(
+        points in points(),
+        back: bool,
+        offset_m in -5e-4..5e-4,
+        far_m in prop_oneof![Just(0.0), Just(5e6)],
+    ) {
+        let place = p(far_m, far_m);
+        let first = runs_of(&points.iter().map(|&at| at + place).collect::<Vec<_>>());
+        let place = place + p(offset_m, 0.0);
+        let second = runs_of(&points.iter().map(|&at| at + place).collect::<Vec<_>>());
+        let second = halved(&if back { reversed(&second) } else { second });
+        let found = found(&pair(&first, &second));
+        prop_assert_eq!(found.count(Code::ReversePair), u64::from(back));
+        prop_assert_eq!(found.count(Code::DuplicatePath), u64::from(!back));
+    }
+
+    #[test]
+    fn the_order_of_paths_does_not_matter(
+        (paths, shuffled) in prop::collection::vec((points(), any::<bool>()), 1..12)
+            .prop_map(|curves| layout(&curves))
+            .prop_flat_map(|paths| (Just(paths.clone()), Just(paths).prop_shuffle())),
+    ) {
+        let groups_found = groups(&paths);
+        let twins = paths.iter().filter(|(id, _)| id.ends_with("back")).count();
+        prop_assert_eq!(groups_found.len(), twins);
+        prop_assert_eq!(groups_found, groups(&shuffled));
+    }
+}
