@@ -97,6 +97,12 @@ impl Unfinished {
             Some(folder) if folder != Path::new("") => folder,
             _ => Path::new("."),
         };
+        if !folder.is_dir() {
+            return Err(io::Error::new(
+                io::ErrorKind::NotFound,
+                "there is no such folder",
+            ));
+        }
         let mut builder = Builder::new();
         builder.prefix(".guideway-").suffix(".part");
         #[cfg(unix)]

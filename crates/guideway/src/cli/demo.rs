@@ -6,11 +6,11 @@ use std::sync::Arc;
 use guideway::formats::{ReadOptions, read_bytes};
 use guideway::render::{Budget, FrameSize, Style};
 use guideway::save_png;
-use guideway::scene::{ColorBy, Legend, Scene, SceneOptions};
+use guideway::scene::{ColorBy, Legend, LineRule, Scene, SceneOptions};
 use serde_json::json;
 
 use super::render::{Drawn, Wishes, draw, what_was_drawn};
-use super::{Exit, Failure, Output, text};
+use super::{Exit, Failure, Output, input, text};
 
 /// A site of our own making, in the command itself so that the demo runs anywhere.
 const SITE: &[u8] = include_bytes!("../../../../examples/site.lif.json");
@@ -24,6 +24,7 @@ pub(crate) struct Args {
 }
 
 pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, Failure> {
+    input::check_output(None, &args.output)?;
     let activity = out.activity("drawing the example site");
     let layout = read_bytes(SITE_NAME, SITE, &ReadOptions::default())?;
     let name = layout.levels.first().map(|level| level.id.clone());
@@ -38,7 +39,15 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, Failure> {
             level: name,
             ..SceneOptions::default()
         },
-        style: Style::default(),
+        // A little wider than a plan would have it: the picture is for looking at.
+        style: Style {
+            line_rule: LineRule::World {
+                width_m: 0.25,
+                min_px: 2.5,
+                max_px: 12.0,
+            },
+            ..Style::default()
+        },
         budget: Budget::default(),
     };
     let scene = Arc::new(Scene::new(Arc::new(layout), &wishes.scene)?);

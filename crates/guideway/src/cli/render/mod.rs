@@ -22,7 +22,7 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, Failure> {
     let wishes = args.wishes()?;
     let target = Target::new(&args.output, out)?;
     if let Target::File(path) = target {
-        input::refuse_same_file(&args.file, path)?;
+        input::check_output(Some(&args.file), path)?;
     }
     // A name that is unknown is refused before a large file is read.
     let method = guideway::method(&args.method)?;

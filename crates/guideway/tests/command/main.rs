@@ -1,0 +1,7 @@
+//! The command as its users meet it: every test runs the real binary.
+
+#![expect(clippy::unwrap_used, reason = "helpers of tests may panic as tests do")]
+
+mod render;
+mod reports;
+mod support;

@@ -1,0 +1,258 @@
+//! `guideway info`, `check` and `methods`, and what helps with the command itself.
+
+use std::fs;
+use std::path::PathBuf;
+
+use crate::support::{command, has_keys, json as answer, names_in, run, site, stderr, stdout};
+use serde_json::{Value, json};
+
+/// A LIF file with one edge from (0, 0) to (10, 0) that is changed by `change`.
+fn lif(folder: &tempfile::TempDir, change: impl FnOnce(&mut Value)) -> PathBuf {
+    let node = |id: &str, x: f64| {
+        json!({
+            "nodeId": id,
+            "mapId": "m",
+            "nodePosition": { "x": x, "y": 0.0 },
+            "vehicleTypeNodeProperties": [{ "vehicleTypeId": "v" }],
+        })
+    };
+    let mut layout = json!({
+        "layoutId": "floor",
+        "nodes": [node("a", 0.0), node("b", 10.0)],
+        "edges": [{
+            "edgeId": "e",
+            "startNodeId": "a",
+            "endNodeId": "b",
+            "vehicleTypeEdgeProperties": [{
+                "vehicleTypeId": "v",
+                "vehicleOrientation": 0.0,
+                "orientationType": "TANGENTIAL",
+                "maxSpeed": 1.5,
+                "rotationAllowed": false,
+            }],
+        }],
+        "stations": [],
+    });
+    change(&mut layout);
+    let file = json!({
+        "metaInformation": {
+            "projectIdentification": "p",
+            "creator": "c",
+            "exportTimestamp": "2025-01-01T00:00:00Z",
+            "lifVersion": "1.0.0",
+        },
+        "layouts": [layout],
+    });
+    let path = folder.path().join("a.lif.json");
+    fs::write(&path, file.to_string()).unwrap();
+    path
+}
+
+fn on_file(args: &[&str], file: &PathBuf) -> std::process::Output {
+    command().args(args).arg(file).output().unwrap()
+}
+
+#[test]
+fn info_tells_what_is_in_the_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = lif(&folder, |_| {});
+    let said = stdout(&on_file(&["info"], &file));
+    for part in ["LIF 1.0", "10 m", "maxSpeed", "floor (1 path)", "took "] {
+        assert!(said.contains(part), "{part} in {said}");
+    }
+    let report = answer(&on_file(&["info", "--json"], &file), "info");
+    has_keys(
+        &report,
+        &[
+            "file",
+            "file_bytes",
+            "format",
+            "format_version",
+            "source_counts",
+            "paths",
+            "two_way_paths",
+            "segments",
+            "control_points",
+            "nodes",
+            "stations",
+            "levels",
+            "vehicle_types",
+            "bounds_m.min",
+            "bounds_m.max",
+            "length_m",
+            "attributes.paths",
+            "attributes.nodes",
+            "attributes.stations",
+            "refused",
+            "findings",
+            "memory_bytes",
+            "ms.read",
+            "ms.measure",
+            "ms.total",
+        ],
+    );
+    assert_eq!((&report["paths"], &report["nodes"]), (&json!(1), &json!(2)));
+    assert!((report["length_m"].as_f64().unwrap() - 10.0).abs() < 1e-5);
+    let speeds = report["attributes"]["paths"].as_array().unwrap();
+    let speed = speeds.iter().find(|c| c["name"] == "maxSpeed").unwrap();
+    has_keys(
+        speed,
+        &["type", "values", "missing", "distinct", "min", "max", "top"],
+    );
+    assert_eq!(speed["top"][0], json!({ "value": "1.5", "count": 1 }));
+}
+
+#[test]
+fn check_ends_with_0_when_nothing_is_wrong() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = lif(&folder, |_| {});
+    for args in [&["check"][..], &["check", "--strict"]] {
+        let output = on_file(args, &file);
+        assert_eq!(output.status.code(), Some(0), "{}", stdout(&output));
+    }
+    // The two-way roads of the site are worth a note, and no warning.
+    let output = on_file(&["check", "--strict"], &site());
+    assert_eq!(output.status.code(), Some(0), "{}", stdout(&output));
+}
+
+#[test]
+fn check_ends_with_1_on_warnings_only_if_strict() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = lif(&folder, |layout| {
+        let edge = layout["edges"][0].clone();
+        layout["edges"].as_array_mut().unwrap().push(edge);
+    });
+    let output = on_file(&["check"], &file);
+    assert_eq!(output.status.code(), Some(0), "{}", stdout(&output));
+    assert!(
+        stdout(&output).contains("warning: duplicate-id"),
+        "{}",
+        stdout(&output)
+    );
+    let strict = on_file(&["check", "--strict"], &file);
+    assert_eq!(strict.status.code(), Some(1));
+}
+
+#[test]
+fn check_ends_with_2_on_errors_and_says_what_to_do() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = lif(&folder, |layout| {
+        layout["edges"][0]["endNodeId"] = json!("nowhere");
+    });
+    let output = on_file(&["check"], &file);
+    assert_eq!(output.status.code(), Some(2));
+    let said = stdout(&output);
+    assert!(
+        said.contains("error: unknown-node") && said.contains("hint: "),
+        "{said}"
+    );
+
+    let output = on_file(&["check", "--json"], &file);
+    assert_eq!(output.status.code(), Some(2));
+    let report = answer(&output, "check");
+    let keys = [
+        "file",
+        "paths",
+        "errors",
+        "warnings",
+        "notes",
+        "exit_code",
+        "kinds",
+        "findings",
+    ];
+    has_keys(&report, &keys);
+    has_keys(
+        &report["kinds"][0],
+        &["code", "severity", "count", "meaning"],
+    );
+    let keys = ["code", "severity", "place", "line", "message", "remedy"];
+    has_keys(&report["findings"][0], &keys);
+    assert_eq!(report["exit_code"], 2);
+}
+
+#[test]
+fn check_takes_its_thresholds_from_the_arguments() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = lif(&folder, |layout| {
+        layout["edges"][0]["vehicleTypeEdgeProperties"][0]["trajectory"] = json!({
+            "degree": 2,
+            "knotVector": [0.0, 0.0, 0.0, 1.0, 1.0, 1.0],
+            "controlPoints": [{ "x": 0.0, "y": 0.0 }, { "x": 5.0, "y": 5.0 }, { "x": 10.0, "y": 0.0 }],
+        });
+    });
+    let kinds = |args: &[&str]| stdout(&on_file(args, &file));
+    assert!(!kinds(&["check"]).contains("curvature"));
+    assert!(!kinds(&["check", "--min-radius", "1"]).contains("curvature"));
+    assert!(kinds(&["check", "--min-radius", "8"]).contains("curvature"));
+}
+
+#[test]
+fn unreadable_files_are_errors_of_every_report() {
+    for name in ["info", "check"] {
+        let output = run([name, "there-is-no-such-file"]);
+        assert_eq!(output.status.code(), Some(2));
+        let text = stderr(&output);
+        assert!(
+            text.starts_with("error: ") && text.contains("\nhint: "),
+            "{text}"
+        );
+        let output = run([name, "there-is-no-such-file", "--json"]);
+        assert_eq!(answer(&output, "error")["error"]["code"], "not-found");
+    }
+}
+
+#[test]
+fn methods_lists_what_runs_here() {
+    assert!(stdout(&run(["methods"])).contains("cpu"));
+    let report = answer(&run(["methods", "--json"]), "methods");
+    assert!(report["auto"].is_string());
+    let keys = ["name", "summary", "device", "runs", "why_not"];
+    report["methods"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .for_each(|m| has_keys(m, &keys));
+}
+
+#[test]
+fn help_names_every_command_and_the_exit_codes() {
+    let output = run(["--help"]);
+    assert_eq!(output.status.code(), Some(0));
+    let said = stdout(&output);
+    for command in [
+        "render",
+        "info",
+        "check",
+        "methods",
+        "demo",
+        "completions",
+        "man",
+    ] {
+        assert!(
+            said.contains(&format!("\n  {command} ")),
+            "{command} in {said}"
+        );
+        let help = run([command, "--help"]);
+        assert_eq!(help.status.code(), Some(0), "{command}");
+        assert!(stdout(&help).contains("Usage: guideway"), "{command}");
+    }
+    assert!(said.contains("Exit codes: 0 "), "{said}");
+    assert_eq!(run::<&str>([]).status.code(), Some(2));
+    assert_eq!(run(["--version"]).status.code(), Some(0));
+    assert_eq!(run(["rendr"]).status.code(), Some(2));
+}
+
+#[test]
+fn shells_and_manuals_are_served() {
+    for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
+        assert!(
+            stdout(&run(["completions", shell])).contains("guideway"),
+            "{shell}"
+        );
+    }
+    assert!(stdout(&run(["man"])).contains(".TH"));
+    let folder = tempfile::tempdir().unwrap();
+    let output = command().arg("man").arg(folder.path()).output().unwrap();
+    assert_eq!(output.status.code(), Some(0));
+    assert!(names_in(folder.path()).contains(&"guideway-render.1".to_owned()));
+}
