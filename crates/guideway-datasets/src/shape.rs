@@ -1,0 +1,122 @@
+//! The curves that paths are made of, as runs of eight segments.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use guideway_spline::Point;
+
+use crate::RUN_POINTS;
+
+/// A run of control points.
+pub(crate) type Run = [Point<f64>; RUN_POINTS];
+
+const SEGMENTS: usize = RUN_POINTS - 3;
+/// Points where segments meet, the two ends included.
+const KNOTS: usize = SEGMENTS + 1;
+
+/// A straight line.
+pub(crate) fn line(start: Point<f64>, end: Point<f64>) -> Run {
+    std::array::from_fn(|i| start.lerp(end, (i as f64 - 1.0) / SEGMENTS as f64))
+}
+
+/// A quarter circle from `start`, `radius` on along `from` and as much along `to`, then straight on for
+/// `straight`. Both directions have length 1.
+pub(crate) fn turn(
+    start: Point<f64>,
+    from: Point<f64>,
+    to: Point<f64>,
+    radius: f64,
+    straight: f64,
+) -> Run {
+    let arc = radius * FRAC_PI_2;
+    let length = arc + straight;
+    at_knots(length, |distance| {
+        let angle = (distance / radius).min(FRAC_PI_2);
+        let (along, across) = (
+            radius * libm::sin(angle),
+            radius * (1.0 - libm::cos(angle)) + (distance - arc).max(0.0),
+        );
+        start + from * along + to * across
+    })
+    .fit(from, to)
+}
+
+/// A half circle from `start` that comes back `2 * radius` beside it, on the side of `across`.
+pub(crate) fn u_turn(start: Point<f64>, from: Point<f64>, across: Point<f64>, radius: f64) -> Run {
+    at_knots(radius * PI, |distance| {
+        let angle = distance / radius;
+        start + from * (radius * libm::sin(angle)) + across * (radius * (1.0 - libm::cos(angle)))
+    })
+    .fit(from, -from)
+}
+
+/// A change to the lane that lies `shift` beside, `length` further on.
+pub(crate) fn lane_change(
+    start: Point<f64>,
+    from: Point<f64>,
+    shift: Point<f64>,
+    length: f64,
+) -> Run {
+    at_knots(length, |distance| {
+        let t = distance / length;
+        // Begins and ends with no slope and no curvature.
+        let moved = t - libm::sin(2.0 * PI * t) / (2.0 * PI);
+        start + from * distance + shift * moved
+    })
+    .fit(from, from)
+}
+
+/// The same curve, run through from its end.
+pub(crate) fn reversed(mut run: Run) -> Run {
+    run.reverse();
+    run
+}
+
+/// Points evenly spaced along a curve, where the segments of its run will meet.
+struct Knots {
+    points: [Point<f64>; KNOTS],
+    step: f64,
+}
+
+fn at_knots(length: f64, curve: impl Fn(f64) -> Point<f64>) -> Knots {
+    let step = length / SEGMENTS as f64;
+    Knots {
+        points: std::array::from_fn(|i| curve(step * i as f64)),
+        step,
+    }
+}
+
+impl Knots {
+    /// The run through all points that begins and ends in the directions given, each of length 1.
+    ///
+    /// `(P[k-1] + 4 P[k] + P[k+1]) / 6` is the k-th point and `(P[2] - P[0]) / 2` the derivative at the
+    /// start. With the outer control points put in, a tridiagonal system is left.
+    fn fit(&self, start: Point<f64>, end: Point<f64>) -> Run {
+        let last = KNOTS - 1;
+        let (start, end) = (start * self.step, end * self.step);
+        let mut right = self.points.map(|p| p * 6.0);
+        right[0] = right[0] + start * 2.0;
+        right[last] = right[last] - end * 2.0;
+        let mut above = [0.0; KNOTS];
+        for k in 0..KNOTS {
+            let (before, after) = match k {
+                0 => (0.0, 2.0),
+                _ if k == last => (2.0, 0.0),
+                _ => (1.0, 1.0),
+            };
+            let previous = k
+                .checked_sub(1)
+                .map_or((0.0, Point::default()), |p| (above[p], right[p]));
+            let pivot = 4.0 - before * previous.0;
+            above[k] = after / pivot;
+            right[k] = (right[k] - previous.1 * before) * (1.0 / pivot);
+        }
+        for k in (0..last).rev() {
+            right[k] = right[k] - right[k + 1] * above[k];
+        }
+        let mut run = [Point::default(); RUN_POINTS];
+        run[1..=KNOTS].copy_from_slice(&right);
+        run[0] = run[2] - start * 2.0;
+        run[RUN_POINTS - 1] = run[RUN_POINTS - 3] + end * 2.0;
+        run
+    }
+}
