@@ -15,9 +15,15 @@ mod read;
 mod schema;
 mod table;
 mod text;
+mod write;
+mod write_columns;
+mod write_layout;
 
 pub(crate) use load::load;
 pub(crate) use read::read;
+pub use write::{ArrowWriter, Precision, WriteError, WriteProblem};
+pub use write_columns::{Column, ColumnType};
+pub use write_layout::{WriteOptions, write_layout};
 
 /// Name of the column of identifiers.
 const ID: &str = "id";

@@ -1,0 +1,246 @@
+use std::path::Path;
+
+use guideway_layout::{Attribute, Code, Diagnostics, Direction, Layout, PathRef, Place, Value};
+use guideway_spline::Point;
+
+use super::write::{ArrowWriter, Precision, WriteError};
+use super::write_columns::{Column, ColumnType};
+use super::{COLOR, CONTROL_POINTS, ID, LEVEL, PART, RANK, WIDTH};
+
+/// Coordinates are stored in `f32` if that moves none of them by more than this, in metres.
+const F32_ERROR_M: f64 = 1e-5;
+
+/// How to write a layout.
+#[derive(Clone, Debug, Default)]
+pub struct WriteOptions {
+    /// How coordinates are stored; none for `f32` where that moves no point by more than 0.01 mm.
+    pub precision: Option<Precision>,
+}
+
+/// Writes a layout as a table of its paths. What the table cannot hold is in the findings returned.
+///
+/// # Errors
+/// When the file cannot be written.
+pub fn write_layout(
+    layout: &Layout,
+    path: &Path,
+    options: &WriteOptions,
+) -> Result<Diagnostics, WriteError> {
+    let mut losses = Diagnostics::default();
+    note_losses(layout, &mut losses);
+    let sources = sources(layout, &mut losses);
+    let precision = options.precision.unwrap_or_else(|| precision_for(layout));
+    let columns = sources.iter().map(Source::column).collect();
+    let mut writer = ArrowWriter::create(path, precision, columns)?;
+    let mut points: Vec<Point<f64>> = Vec::new();
+    for path in layout.paths.iter() {
+        for (part, run) in path.runs().enumerate() {
+            points.clear();
+            points.extend(run.iter());
+            let texts: Vec<_> = sources
+                .iter()
+                .map(|s| s.value(layout, path, part))
+                .collect();
+            let values: Vec<_> = texts.iter().map(|v| v.as_ref().map(Cell::value)).collect();
+            writer.push_run(path.id(), &points, &values)?;
+        }
+    }
+    writer.finish()?;
+    Ok(losses)
+}
+
+fn precision_for(layout: &Layout) -> Precision {
+    let exact = |p: Point<f64>| {
+        let error = p - p.to_f32().to_f64();
+        error.x.abs().max(error.y.abs()) <= F32_ERROR_M
+    };
+    let mut runs = layout.paths.iter().flat_map(PathRef::runs);
+    if runs.all(|run| run.iter().all(exact)) {
+        Precision::F32
+    } else {
+        Precision::F64
+    }
+}
+
+/// Where the values of a column come from.
+enum Source<'a> {
+    Part,
+    Level,
+    Width(&'a [f32]),
+    Color(&'a [u32]),
+    Rank(&'a [i32]),
+    StartNode,
+    EndNode,
+    Direction,
+    VehicleTypes,
+    Attribute(&'a Attribute),
+}
+
+/// A value of its own, or one that a text was made for.
+enum Cell<'a> {
+    Plain(Value<'a>),
+    Text(String),
+}
+
+impl Cell<'_> {
+    fn value(&self) -> Value<'_> {
+        match self {
+            Self::Plain(value) => *value,
+            Self::Text(text) => Value::Text(text),
+        }
+    }
+}
+
+/// The columns that a layout needs; those that would be empty are left out.
+fn sources<'a>(layout: &'a Layout, losses: &mut Diagnostics) -> Vec<Source<'a>> {
+    let paths = &layout.paths;
+    let any = |test: &dyn Fn(PathRef<'_>) -> bool| paths.iter().any(test);
+    let mut sources = Vec::new();
+    let mut add = |needed: bool, source: Source<'a>| {
+        if needed {
+            sources.push(source);
+        }
+    };
+    add(any(&|p| p.runs().len() > 1), Source::Part);
+    add(any(&|p| p.level().is_some()), Source::Level);
+    let styles = [
+        paths.width_m().map(Source::Width),
+        paths.color_rgba().map(Source::Color),
+        paths.rank().map(Source::Rank),
+    ];
+    for style in styles.into_iter().flatten() {
+        add(true, style);
+    }
+    add(any(&|p| p.start_node().is_some()), Source::StartNode);
+    add(any(&|p| p.end_node().is_some()), Source::EndNode);
+    add(
+        any(&|p| p.direction() != Direction::Forward),
+        Source::Direction,
+    );
+    add(
+        any(&|p| paths.vehicle_types().of(p.row()).len() > 0),
+        Source::VehicleTypes,
+    );
+    for attribute in paths.attributes.iter() {
+        let reserved = [ID, CONTROL_POINTS, PART, LEVEL, WIDTH, COLOR, RANK];
+        let name = attribute.name.as_str();
+        if reserved.contains(&name) || sources.iter().any(|s| s.name() == name) {
+            not_stored(
+                losses,
+                format!("attribute {name}"),
+                "its name is that of a column with a meaning of its own".into(),
+            );
+        } else {
+            sources.push(Source::Attribute(attribute));
+        }
+    }
+    sources
+}
+
+impl<'a> Source<'a> {
+    fn name(&self) -> &'a str {
+        match self {
+            Self::Part => PART,
+            Self::Level => LEVEL,
+            Self::Width(_) => WIDTH,
+            Self::Color(_) => COLOR,
+            Self::Rank(_) => RANK,
+            Self::StartNode => "start_node",
+            Self::EndNode => "end_node",
+            Self::Direction => "direction",
+            Self::VehicleTypes => "vehicle_types",
+            Self::Attribute(attribute) => &attribute.name,
+        }
+    }
+
+    fn column(&self) -> Column {
+        let column_type = match self {
+            Self::Part | Self::Color(_) => ColumnType::UInt32,
+            Self::Rank(_) => ColumnType::Int32,
+            Self::Width(_) => ColumnType::Float32,
+            Self::Attribute(attribute) => return Column::of_attribute(attribute),
+            _ => ColumnType::Text,
+        };
+        Column::new(self.name(), column_type)
+    }
+
+    /// The value of a path; rows that continue a path have none but their part.
+    fn value(&self, layout: &'a Layout, path: PathRef<'a>, part: usize) -> Option<Cell<'a>> {
+        if let Self::Part = self {
+            return Some(Cell::Plain(Value::Int(part as i64)));
+        }
+        if part > 0 {
+            return None;
+        }
+        let row = path.row();
+        let node = |node: Option<u32>| Some(Cell::Plain(Value::Text(layout.nodes.id(node?))));
+        match self {
+            Self::Part => None,
+            Self::Level => {
+                let level = layout.levels.get(path.level()? as usize)?;
+                Some(Cell::Plain(Value::Text(&level.id)))
+            }
+            Self::Width(column) => {
+                let width = column[row];
+                (!width.is_nan()).then(|| Cell::Plain(Value::Float(width.into())))
+            }
+            Self::Color(column) => {
+                (column[row] != 0).then(|| Cell::Plain(Value::Int(column[row].into())))
+            }
+            Self::Rank(column) => Some(Cell::Plain(Value::Int(column[row].into()))),
+            Self::StartNode => node(path.start_node()),
+            Self::EndNode => node(path.end_node()),
+            Self::Direction => Some(Cell::Plain(Value::Text(match path.direction() {
+                Direction::Forward => "forward",
+                Direction::Both => "both",
+            }))),
+            Self::VehicleTypes => {
+                let types: Vec<&str> = layout.paths.vehicle_types().of(row).collect();
+                (!types.is_empty()).then(|| Cell::Text(types.join(", ")))
+            }
+            Self::Attribute(attribute) => attribute.values.get(row).map(Cell::Plain),
+        }
+    }
+}
+
+/// What a table of paths has no place for.
+fn note_losses(layout: &Layout, losses: &mut Diagnostics) {
+    let mut lost = |count: usize, what: &str, detail: &str| {
+        if count > 0 {
+            not_stored(losses, what.into(), format!("{count} {detail}"));
+        }
+    };
+    lost(
+        layout.nodes.len(),
+        "nodes",
+        "nodes: only the names of those where paths begin and end are kept",
+    );
+    lost(layout.stations.len(), "stations", "stations");
+    let described = layout
+        .levels
+        .iter()
+        .filter(|l| l.name.is_some() || l.elevation_m.is_some());
+    lost(
+        described.count(),
+        "levels",
+        "names or elevations of levels: only identifiers are kept",
+    );
+    lost(
+        layout.refused.len(),
+        "refused paths",
+        "paths that cannot be drawn",
+    );
+    let empty = layout.paths.iter().filter(|p| p.runs().len() == 0);
+    lost(empty.count(), "paths", "paths without a curve");
+    let findings: u64 = layout.diagnostics.counts().map(|(_, n)| n).sum();
+    lost(findings as usize, "diagnostics", "findings of the reader");
+}
+
+fn not_stored(losses: &mut Diagnostics, element: String, detail: String) {
+    losses.push(
+        Code::NotStored,
+        || Place::element(element),
+        || detail,
+        "Keep the source file for it",
+    );
+}
