@@ -1,9 +1,9 @@
-use std::fs::{self, File};
-use std::io::{self, BufWriter, Write};
+use std::fs;
+use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use tempfile::{Builder, TempPath};
+use tempfile::{Builder, TempDir};
 
 /// Why a file could not be saved.
 #[derive(Debug, thiserror::Error)]
@@ -33,7 +33,7 @@ impl SaveError {
     }
 }
 
-/// Files being written right now, under their temporary names.
+/// Folders with what is being written right now.
 static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
 fn unfinished() -> MutexGuard<'static, Vec<PathBuf>> {
@@ -41,107 +41,98 @@ fn unfinished() -> MutexGuard<'static, Vec<PathBuf>> {
     UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Writes a file so that it appears whole or not at all: under a temporary name in the same folder,
-/// then renamed. A device such as `/dev/null` is written directly.
+/// Writes a file so that it appears whole or not at all: `write` gets another path, in a temporary
+/// folder beside the target, and what it has written there is renamed. A device such as `/dev/null` is
+/// written directly.
 ///
 /// # Errors
 /// When the folder cannot be written, its disk is full, or `write` fails; then nothing is left behind
 /// and a file of the same name is as it was.
-pub fn replace_file(
+pub fn replace_file<T, E: From<SaveError>>(
     path: &Path,
-    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-) -> Result<(), SaveError> {
-    replace(path, write).map_err(|problem| SaveError {
+    write: impl FnOnce(&Path) -> Result<T, E>,
+) -> Result<T, E> {
+    let fail = |problem| SaveError {
         path: path.to_owned(),
         problem,
-    })
+    };
+    match fs::metadata(path) {
+        Ok(there) if there.is_dir() => return Err(fail(io::ErrorKind::IsADirectory.into()).into()),
+        Ok(there) if !there.is_file() => return write(path),
+        _ => {}
+    }
+    // A link stays a link: what it points to is replaced.
+    let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    let unfinished = Unfinished::begin(&target).map_err(fail)?;
+    let result = write(&unfinished.file)?;
+    unfinished.rename_to(&target).map_err(fail)?;
+    Ok(result)
 }
 
 /// Removes whatever [`replace_file`] has not finished, and keeps any file from being begun or finished
 /// from then on. For a signal handler's thread, right before it ends the process.
 pub fn remove_unfinished() {
-    let files = unfinished();
-    for file in files.iter() {
-        // Nothing can be done about a file that does not go away while the process ends.
-        let _ = fs::remove_file(file);
+    let folders = unfinished();
+    for folder in folders.iter() {
+        // Another thread may put one more file there in the meantime, so once may not do. Nothing can
+        // be done about a folder that does not go away while the process ends.
+        let mut tries = (0..3).map(|_| fs::remove_dir_all(folder));
+        let _ = tries.any(|result| result.is_ok());
     }
     // Never unlocked: whoever is about to begin or rename a file waits until the process is gone.
-    std::mem::forget(files);
+    std::mem::forget(folders);
 }
 
-fn replace(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
-    match fs::metadata(path) {
-        Ok(target) if target.is_dir() => return Err(io::ErrorKind::IsADirectory.into()),
-        Ok(target) if !target.is_file() => {
-            let mut device = BufWriter::new(File::options().write(true).open(path)?);
-            write(&mut device)?;
-            return device.flush();
-        }
-        _ => {}
-    }
-    // A link stays a link: what it points to is replaced.
-    let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
-    let (file, unfinished) = Unfinished::begin(&target)?;
-    let mut file = BufWriter::with_capacity(1 << 16, file);
-    write(&mut file)?;
-    file.into_inner().map_err(io::IntoInnerError::into_error)?;
-    unfinished.rename_to(&target)
+/// A file in a temporary folder of its own; both are gone when dropped.
+struct Unfinished {
+    folder: TempDir,
+    file: PathBuf,
 }
-
-/// A file under its temporary name; gone when dropped.
-struct Unfinished(Option<TempPath>);
 
 impl Unfinished {
-    fn begin(target: &Path) -> io::Result<(File, Self)> {
-        let folder = match target.parent() {
-            Some(folder) if folder != Path::new("") => folder,
+    fn begin(target: &Path) -> io::Result<Self> {
+        let parent = match target.parent() {
+            Some(parent) if parent != Path::new("") => parent,
             _ => Path::new("."),
         };
-        if !folder.is_dir() {
-            return Err(io::Error::new(
-                io::ErrorKind::NotFound,
-                "there is no such folder",
-            ));
+        let missing = || io::Error::new(io::ErrorKind::NotFound, "there is no such folder");
+        if !parent.is_dir() {
+            return Err(missing());
         }
-        let mut builder = Builder::new();
-        builder.prefix(".guideway-").suffix(".part");
-        #[cfg(unix)]
-        {
-            // As any new file, rather than private as a temporary one; the umask takes its part.
-            use std::os::unix::fs::PermissionsExt;
-            builder.permissions(fs::Permissions::from_mode(0o666));
-        }
-        // Locked before there is a file, so that none can escape `remove_unfinished`.
+        let name = target.file_name().ok_or_else(missing)?;
+        // Locked before there is a folder, so that none can escape `remove_unfinished`.
         let mut listed = unfinished();
-        let (file, temporary) = builder.tempfile_in(folder)?.into_parts();
-        listed.push(temporary.to_path_buf());
-        Ok((file, Self(Some(temporary))))
+        let folder = Builder::new()
+            .prefix(".guideway-")
+            .suffix(".part")
+            .tempdir_in(parent)?;
+        listed.push(folder.path().to_owned());
+        let file = folder.path().join(name);
+        Ok(Self { folder, file })
     }
 
-    fn rename_to(mut self, target: &Path) -> io::Result<()> {
-        self.end(|temporary| temporary.persist(target).map_err(|e| e.error))
-    }
-
-    fn end(&mut self, how: impl FnOnce(TempPath) -> io::Result<()>) -> io::Result<()> {
-        let Some(temporary) = self.0.take() else {
-            return Ok(());
-        };
-        let mut listed = unfinished();
-        listed.retain(|file| file != &*temporary);
-        how(temporary)
+    fn rename_to(self, target: &Path) -> io::Result<()> {
+        let _listed = unfinished();
+        fs::rename(&self.file, target)
     }
 }
 
 impl Drop for Unfinished {
     fn drop(&mut self) {
-        // Nothing can be done here about a file that does not go away.
-        let _ = self.end(TempPath::close);
+        unfinished().retain(|folder| folder != self.folder.path());
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn put(file: &Path, text: &str) -> Result<(), SaveError> {
+        fs::write(file, text).map_err(|problem| SaveError {
+            path: file.to_owned(),
+            problem,
+        })
+    }
 
     fn names(folder: &Path) -> Vec<String> {
         let name = |entry: io::Result<fs::DirEntry>| entry.unwrap().file_name();
@@ -156,7 +147,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.txt");
         for text in ["one", "two"] {
-            replace_file(&path, |file| file.write_all(text.as_bytes())).unwrap();
+            replace_file(&path, |file| put(file, text)).unwrap();
             assert_eq!(fs::read_to_string(&path).unwrap(), text);
         }
         assert_eq!(names(folder.path()), ["a.txt"]);
@@ -167,9 +158,12 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.txt");
         fs::write(&path, "old").unwrap();
-        let fail = |file: &mut dyn Write| {
-            file.write_all(b"new")?;
-            Err(io::ErrorKind::StorageFull.into())
+        let fail = |file: &Path| {
+            put(file, "new")?;
+            Err::<(), _>(SaveError {
+                path: file.to_owned(),
+                problem: io::ErrorKind::StorageFull.into(),
+            })
         };
         let error = replace_file(&path, fail).unwrap_err();
         assert!(error.remedy().contains("room"), "{error}");
@@ -180,18 +174,7 @@ mod tests {
     #[test]
     fn a_folder_is_not_replaced() {
         let folder = tempfile::tempdir().unwrap();
-        let error = replace_file(folder.path(), |_| Ok(())).unwrap_err();
+        let error = replace_file(folder.path(), |_| Ok::<(), SaveError>(())).unwrap_err();
         assert!(error.remedy().contains("folder"), "{error}");
-    }
-
-    #[cfg(unix)]
-    #[test]
-    fn a_full_device_is_an_error_and_stays_a_device() {
-        let full = Path::new("/dev/full");
-        if full.exists() {
-            let error = replace_file(full, |file| file.write_all(b"x")).unwrap_err();
-            assert_eq!(error.problem.kind(), io::ErrorKind::StorageFull);
-            assert!(full.exists());
-        }
     }
 }

@@ -1,4 +1,5 @@
-use std::io::{self, Write};
+use std::fs::File;
+use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
 use guideway_render::Frame;
@@ -10,7 +11,19 @@ use crate::{SaveError, replace_file};
 /// # Errors
 /// When the folder cannot be written, or its disk is full; then nothing is left behind.
 pub fn save_png(frame: &Frame, path: impl AsRef<Path>) -> Result<(), SaveError> {
-    replace_file(path.as_ref(), |file| write_png(frame, file))
+    let path = path.as_ref();
+    replace_file(path, |file| {
+        write_file(frame, file).map_err(|problem| SaveError {
+            path: path.to_owned(),
+            problem,
+        })
+    })
+}
+
+fn write_file(frame: &Frame, path: &Path) -> io::Result<()> {
+    let mut file = BufWriter::with_capacity(1 << 16, File::create(path)?);
+    write_png(frame, &mut file)?;
+    file.flush()
 }
 
 /// Writes a picture as PNG to anything that takes bytes.

@@ -1,9 +1,12 @@
 //! The command line: one module a subcommand, beside what they share.
 
 mod activity;
+mod arrow;
 mod check;
+mod convert;
 mod demo;
 mod failure;
+mod generate;
 mod info;
 mod input;
 mod methods;
@@ -76,6 +79,10 @@ enum Command {
     Info(info::Args),
     /// Look for mistakes in a layout file
     Check(check::Args),
+    /// Write a layout in another format
+    Convert(convert::Args),
+    /// Make a test layout of any size
+    Generate(generate::Args),
     /// List the ways of drawing, and which of them run here
     Methods,
     /// Draw the built-in example site
@@ -107,6 +114,8 @@ fn run(command: &Command, out: &Output) -> Result<Exit, Failure> {
         Command::Render(args) => render::run(args, out),
         Command::Info(args) => info::run(args, out),
         Command::Check(args) => check::run(args, out),
+        Command::Convert(args) => convert::run(args, out),
+        Command::Generate(args) => generate::run(args, out),
         Command::Methods => methods::run(out),
         Command::Demo(args) => demo::run(args, out),
         Command::Completions(args) => shell::completions(args),

@@ -1,5 +1,6 @@
 //! How the values of arguments are read. Each refusal shows what a good value looks like.
 
+use guideway::layout::Limits;
 use guideway::render::FrameSize;
 use guideway::spline::Point;
 
@@ -51,6 +52,17 @@ pub(crate) fn not_negative(text: &str) -> Result<f64, String> {
     }
 }
 
+/// A number of paths, such as 1000000 or 1_000_000.
+pub(crate) fn paths(text: &str) -> Result<usize, String> {
+    let most = Limits::default().paths;
+    match text.replace('_', "").parse::<u64>() {
+        Ok(n) if (1..=most).contains(&n) => Ok(n as usize),
+        _ => Err(format!(
+            "write a whole number from 1 to {most}, such as 1_000_000"
+        )),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -62,6 +74,7 @@ mod tests {
         assert_eq!(point("-1.5, 2e3").unwrap(), Point::new(-1.5, 2000.0));
         assert_eq!(positive("0.5"), Ok(0.5));
         assert_eq!(not_negative("0"), Ok(0.0));
+        assert_eq!(paths("1_000"), Ok(1000));
     }
 
     #[test]
@@ -85,5 +98,8 @@ mod tests {
             assert!(positive(bad).unwrap_err().contains("such as"), "{bad}");
         }
         assert!(not_negative("-0.1").is_err());
+        for bad in ["0", "-1", "1e6", "", "100000001"] {
+            assert!(paths(bad).unwrap_err().contains("such as"), "{bad}");
+        }
     }
 }

@@ -1,0 +1,201 @@
+//! `guideway convert` and `guideway generate`.
+
+use std::fs;
+use std::path::Path;
+
+use crate::support::{command, has_keys, json, names_in, site, stderr, stdout};
+
+fn generate(output: &Path, args: &[&str]) -> std::process::Output {
+    let mut all = command();
+    all.arg("generate").args(args).arg("-o").arg(output);
+    all.output().unwrap()
+}
+
+#[test]
+fn a_converted_layout_has_the_same_paths() {
+    let folder = tempfile::tempdir().unwrap();
+    let arrow = folder.path().join("site.arrow");
+    let mut convert = command();
+    convert.arg("convert").arg(site()).arg(&arrow);
+    let output = convert.output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let said = stdout(&output);
+    assert!(
+        said.contains("stations") && said.contains("took "),
+        "{said}"
+    );
+
+    let report = json(&convert.arg("--json").output().unwrap(), "convert");
+    let keys = [
+        "file",
+        "output",
+        "format",
+        "paths",
+        "bytes",
+        "not_stored",
+        "ms.read",
+        "ms.write",
+    ];
+    has_keys(&report, &keys);
+    has_keys(&report["not_stored"][0], &["place", "message"]);
+
+    let info = |file: &Path| {
+        json(
+            &command()
+                .args(["info", "--json"])
+                .arg(file)
+                .output()
+                .unwrap(),
+            "info",
+        )
+    };
+    let (before, after) = (info(&site()), info(&arrow));
+    for key in ["paths", "segments"] {
+        assert_eq!(before[key], after[key], "{key}");
+    }
+    let length = |info: &serde_json::Value| info["length_m"].as_f64().unwrap();
+    assert!((length(&before) - length(&after)).abs() < 0.01);
+    assert_eq!(names_in(folder.path()), ["site.arrow"]);
+}
+
+#[test]
+fn only_arrow_is_written_and_never_over_the_input() {
+    let folder = tempfile::tempdir().unwrap();
+    let arrow = folder.path().join("a.arrow");
+    assert_eq!(
+        generate(&arrow, &["d2", "--paths", "10"]).status.code(),
+        Some(0)
+    );
+    let before = fs::read(&arrow).unwrap();
+    for (output, said) in [
+        ("a.dxf", ".arrow"),
+        ("a", ".feather"),
+        ("a.arrow", "replace"),
+        ("no/b.arrow", "folder"),
+    ] {
+        let output = folder.path().join(output);
+        let result = command()
+            .arg("convert")
+            .arg(&arrow)
+            .arg(output)
+            .output()
+            .unwrap();
+        assert_eq!(result.status.code(), Some(2));
+        assert!(stderr(&result).contains(said), "{}", stderr(&result));
+    }
+    assert_eq!(fs::read(&arrow).unwrap(), before);
+    assert_eq!(names_in(folder.path()), ["a.arrow"]);
+}
+
+#[test]
+fn what_cannot_be_read_is_not_converted() {
+    let folder = tempfile::tempdir().unwrap();
+    let whole = folder.path().join("a.arrow");
+    assert_eq!(
+        generate(&whole, &["d1", "--paths", "500"]).status.code(),
+        Some(0)
+    );
+    let half = folder.path().join("half.arrow");
+    let bytes = fs::read(&whole).unwrap();
+    fs::write(&half, &bytes[..bytes.len() / 2]).unwrap();
+    let output = command()
+        .arg("convert")
+        .arg(&half)
+        .arg(folder.path().join("b.arrow"))
+        .output();
+    let output = output.unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(
+        stderr(&output).contains("half.arrow"),
+        "{}",
+        stderr(&output)
+    );
+    assert_eq!(names_in(folder.path()), ["a.arrow", "half.arrow"]);
+}
+
+#[test]
+fn the_same_seed_gives_the_same_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str, args: &[&str]| {
+        let path = folder.path().join(name);
+        let output = generate(&path, args);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        fs::read(&path).unwrap()
+    };
+    let first = file("a.arrow", &["d1", "--paths", "1_000"]);
+    assert_eq!(
+        first,
+        file("b.feather", &["d1", "--paths", "1000", "--seed", "1"])
+    );
+    assert_ne!(
+        first,
+        file("c.arrow", &["d1", "--paths", "1000", "--seed", "2"])
+    );
+    assert_ne!(first, file("d.arrow", &["d2", "--paths", "1000"]));
+
+    let path = folder.path().join("a.arrow");
+    let report = json(
+        &generate(&path, &["d1", "--paths", "20", "--json"]),
+        "generate",
+    );
+    has_keys(
+        &report,
+        &[
+            "dataset", "output", "paths", "segments", "seed", "bytes", "ms.total",
+        ],
+    );
+    assert_eq!(
+        (report["paths"].as_u64(), report["segments"].as_u64()),
+        (Some(20), Some(160))
+    );
+}
+
+#[test]
+fn a_number_of_paths_is_asked_for_with_an_example() {
+    let folder = tempfile::tempdir().unwrap();
+    for paths in ["0", "-5", "1e6", "many"] {
+        let output = generate(
+            &folder.path().join("a.arrow"),
+            &["d1", &format!("--paths={paths}")],
+        );
+        assert_eq!(output.status.code(), Some(2), "{paths}");
+        assert!(stderr(&output).contains("1_000_000"), "{}", stderr(&output));
+    }
+    assert!(names_in(folder.path()).is_empty());
+}
+
+#[cfg(unix)]
+#[test]
+fn ctrl_c_stops_at_once_and_leaves_nothing() {
+    use std::time::{Duration, Instant};
+
+    let folder = tempfile::tempdir().unwrap();
+    let old = folder.path().join("a.arrow");
+    fs::write(&old, "as it was").unwrap();
+    let mut child = command()
+        .args(["generate", "d1", "--paths", "100000000", "-o"])
+        .arg(&old)
+        .spawn()
+        .unwrap();
+    // Once its temporary file is there, it is well on its way.
+    let started = Instant::now();
+    while names_in(folder.path()).len() < 2 {
+        assert!(
+            started.elapsed() < Duration::from_secs(30),
+            "nothing is being written"
+        );
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    std::thread::sleep(Duration::from_millis(200));
+    let id = child.id().to_string();
+    let kill = std::process::Command::new("kill")
+        .args(["-INT", &id])
+        .status()
+        .unwrap();
+    assert!(kill.success());
+    let stopped = Instant::now();
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    assert!(stopped.elapsed() < Duration::from_secs(10));
+    assert_eq!(names_in(folder.path()), ["a.arrow"]);
+    assert_eq!(fs::read_to_string(&old).unwrap(), "as it was");
+}
