@@ -3,7 +3,7 @@
 use guideway_layout::{Attributes, Code, Diagnostics, Layout, NewPath, Place, TextColumn, Value};
 use guideway_spline::{Point, Runs, uniform};
 
-use crate::{Problem, ReadError, read::Source};
+use crate::{Problem, ReadError, read::Source, text::printable};
 
 /// How far a curve may end from its node before that is reported, in metres.
 const NODE_GAP_M: f64 = 0.01;
@@ -50,6 +50,12 @@ impl<'a> Builder<'a> {
         message: impl FnOnce() -> String,
         remedy: &str,
     ) {
+        let at = || {
+            let mut place = at();
+            place.element = printable(&place.element);
+            place
+        };
+        let message = || printable(&message());
         self.layout.diagnostics.push(code, at, message, remedy);
     }
 

@@ -22,6 +22,20 @@ pub(crate) fn decode<'b>(source: &Source<'_>, bytes: &'b [u8]) -> Result<&'b str
     Ok(text.strip_prefix('\u{FEFF}').unwrap_or(text))
 }
 
+/// Text of a file for a message: one line, no control characters, and not without end.
+pub(crate) fn printable(text: &str) -> String {
+    const MOST: usize = 500;
+    let escape = |c: char| match c.is_control() {
+        true => c.escape_default().collect(),
+        false => String::from(c),
+    };
+    let mut short: String = text.chars().take(MOST).map(escape).collect();
+    if text.chars().nth(MOST).is_some() {
+        short.push('…');
+    }
+    short
+}
+
 /// Line and column of a byte, from 1.
 pub(crate) fn position(text: &str, at: usize) -> (u64, u64) {
     let before = &text.as_bytes()[..at.min(text.len())];

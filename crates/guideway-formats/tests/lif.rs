@@ -1,5 +1,7 @@
 //! LIF: the real files, and every quirk that was seen in one.
 
+#![allow(clippy::unwrap_used, reason = "a test may fail by a panic")]
+
 mod common;
 
 use common::{assert_counts, codes, ends, read, real_layouts};

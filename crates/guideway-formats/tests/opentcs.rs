@@ -1,5 +1,7 @@
 //! openTCS: the real files, and what is easy to get wrong: units, the y axis, legacy positions.
 
+#![allow(clippy::unwrap_used, reason = "a test may fail by a panic")]
+
 mod common;
 
 use common::{assert_counts, codes, ends, read, real_layouts};

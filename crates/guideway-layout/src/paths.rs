@@ -1,3 +1,5 @@
+use std::collections::HashMap;
+
 use guideway_spline::{Bounds, Point, Runs};
 
 use crate::{Attributes, Geometry, RunPoints, TextColumn};
@@ -284,6 +286,8 @@ fn some(index: u32) -> Option<u32> {
 #[derive(Clone, Debug, Default)]
 pub struct VehicleTypes {
     names: Vec<String>,
+    /// Where each name is, for a file may have as many names as paths.
+    rows: HashMap<String, u32>,
     ends: Vec<u32>,
     members: Vec<u32>,
 }
@@ -298,12 +302,16 @@ impl VehicleTypes {
 
     fn push(&mut self, types: &[&str]) {
         for &name in types {
-            let known = self.names.iter().position(|n| n == name);
-            let index = known.unwrap_or_else(|| {
-                self.names.push(name.to_owned());
-                self.names.len() - 1
-            });
-            self.members.push(index as u32);
+            let index = match self.rows.get(name) {
+                Some(&row) => row,
+                None => {
+                    let row = self.names.len() as u32;
+                    self.names.push(name.to_owned());
+                    self.rows.insert(name.to_owned(), row);
+                    row
+                }
+            };
+            self.members.push(index);
         }
         self.ends.push(self.members.len() as u32);
     }
@@ -328,6 +336,6 @@ impl VehicleTypes {
     /// Heap bytes held.
     pub fn heap_bytes(&self) -> usize {
         (self.ends.capacity() + self.members.capacity()) * size_of::<u32>()
-            + self.names.iter().map(String::capacity).sum::<usize>()
+            + 2 * self.names.iter().map(String::capacity).sum::<usize>()
     }
 }

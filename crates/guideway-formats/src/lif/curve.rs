@@ -34,19 +34,43 @@ impl Mapper<'_> {
         let degree = self.degree(&trajectory.degree, at);
         let curve = degree.and_then(|degree| self.curve(degree, trajectory, &control, at));
         if let Some(curve) = curve {
-            let tolerance = self.builder.source.options.limits.conversion_tolerance_m;
-            nurbs_to_runs(&curve, tolerance, runs);
-            if runs.points().iter().all(|p| p.is_finite()) {
+            if self.convert(&curve, at, runs) {
                 return Ok(());
             }
-            // Knots within a hair of each other can take a cubic's control points out of all bounds.
-            runs.clear();
+            if curve.is_rational() {
+                let message = || "the weights differ too much to compute with".to_owned();
+                let remedy = "1 is used for all; give weights that are more alike";
+                self.builder.find(Code::BadWeight, at, message, remedy);
+                let (degree, knots) = (curve.degree(), curve.knots().to_vec());
+                let plain = Nurbs::new(degree, knots, control.points.clone(), None);
+                if plain.is_ok_and(|plain| self.convert(&plain, at, runs)) {
+                    return Ok(());
+                }
+            }
             self.report_knots(at, || {
                 "the knots are too close together to compute with".into()
             });
         }
         polyline_to_runs(&control.points, runs);
         Ok(())
+    }
+
+    /// Converts a curve; fails if numbers overflow on the way, and then leaves nothing.
+    fn convert(&mut self, curve: &Nurbs, at: At<'_>, runs: &mut Runs) -> bool {
+        let tolerance = self.builder.source.options.limits.conversion_tolerance_m;
+        let error = nurbs_to_runs(curve, tolerance, runs).error_bound_m;
+        if !runs.points().iter().all(|p| p.is_finite()) {
+            runs.clear();
+            return false;
+        }
+        if error > tolerance {
+            let message =
+                || format!("the curve is drawn within {error} m, not within {tolerance} m");
+            let remedy = "Split the curve, or give weights that are more alike";
+            self.builder
+                .find(Code::ApproximateShape, at, message, remedy);
+        }
+        true
     }
 
     fn control(&mut self, trajectory: &Trajectory, at: At<'_>) -> Result<Control, ReadError> {
@@ -147,7 +171,10 @@ impl Mapper<'_> {
         }
         let weights = rational.then(|| control.weights.clone());
         match Nurbs::new(degree, knots, control.points.clone(), weights) {
-            Ok(curve) => Some(curve),
+            Ok(curve) => {
+                self.check_shape(&curve, at);
+                Some(curve)
+            }
             Err(error) => {
                 self.report_knots(at, || error.to_string());
                 None
@@ -187,12 +214,12 @@ impl Mapper<'_> {
             });
             return None;
         }
-        self.check_shape(degree, points, &values, at);
         Some(values)
     }
 
     /// Reports knots that are legal, and yet not what most curves have.
-    fn check_shape(&mut self, degree: usize, points: usize, knots: &[f64], at: At<'_>) {
+    fn check_shape(&mut self, curve: &Nurbs, at: At<'_>) {
+        let (degree, knots, points) = (curve.degree(), curve.knots(), curve.points().len());
         let clamped = knots[0] == knots[degree] && knots[points] == knots[points + degree];
         if !clamped {
             let message = || {

@@ -11,7 +11,7 @@ use serde::Deserialize;
 use serde::de::{DeserializeSeed, Deserializer, IgnoredAny, MapAccess, SeqAccess, Visitor};
 
 use crate::read::Source;
-use crate::text::{Tally, position};
+use crate::text::{Tally, position, printable};
 use crate::{Problem, ReadError};
 
 /// A kind of JSON value.
@@ -331,7 +331,10 @@ fn problem(error: &serde_json::Error, text: &str) -> Problem {
     Problem::Syntax {
         line,
         column,
-        message: friendly(message, word_at(text, error.line(), error.column())),
+        message: printable(&friendly(
+            message,
+            word_at(text, error.line(), error.column()),
+        )),
     }
 }
 

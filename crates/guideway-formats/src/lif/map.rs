@@ -16,6 +16,7 @@ use crate::read::Source;
 pub(super) struct Mapper<'a> {
     pub(super) builder: Builder<'a>,
     pub(super) nodes: HashMap<String, u32>,
+    levels: HashSet<String>,
     edges: HashSet<String>,
     stations: HashSet<String>,
     /// Of the edges: nodes may name types that have no path.
@@ -42,6 +43,7 @@ impl<'a> Mapper<'a> {
         Self {
             builder: Builder::new(source, file_bytes),
             nodes: HashMap::new(),
+            levels: HashSet::new(),
             edges: HashSet::new(),
             stations: HashSet::new(),
             vehicle_types: HashSet::new(),
@@ -98,12 +100,17 @@ impl<'a> Mapper<'a> {
         let provenance = &mut self.builder.layout.provenance;
         crate::Format::Lif.name().clone_into(&mut provenance.format);
         version.clone_into(&mut provenance.format_version);
+        self.check_type(
+            &root.meta,
+            &|| Place::element("metaInformation"),
+            "an object",
+        );
         let Some(meta) = root.meta.get() else {
             return Ok(());
         };
         let at: At<'_> = &|| Place::element("metaInformation.lifVersion");
         let stated = self.text(&meta.lif_version, at)?;
-        if let Some(stated) = stated.filter(|s| !s.starts_with(&version[..2])) {
+        if let Some(stated) = stated.filter(|s| s.split('.').next() != version.split('.').next()) {
             let message =
                 || format!("the file states version {stated}, its structure is {version}");
             let remedy = "Nothing to do: the structure counts";
@@ -152,8 +159,8 @@ impl<'a> Mapper<'a> {
         let at: At<'_> = &|| Place::element(part.place.as_str());
         let id = self.id(&part.layout.id, at, "layoutId")?;
         let name = self.text(&part.layout.name, &|| within(at, "layoutName"))?;
-        let known = self.builder.layout.levels.iter().any(|l| l.id == id);
-        self.check_duplicate(known, "layoutId", &id, at);
+        let new = self.levels.insert(id.clone().into_owned());
+        self.check_duplicate(!new, "layoutId", &id, at);
         self.builder.layout.levels.push(Level {
             id: id.into_owned(),
             name: name.map(str::to_owned),

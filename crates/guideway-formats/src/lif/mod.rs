@@ -41,7 +41,7 @@ pub(crate) fn read(source: Source<'_>, bytes: &[u8]) -> Result<Layout, ReadError
     if root.layouts.is_absent() && root.origins.is_absent() {
         let found = match root.other_keys.as_slice() {
             [] => "an object with neither".to_owned(),
-            keys => format!("an object with {}", keys.join(", ")),
+            keys => format!("an object with {}", text::printable(&keys.join(", "))),
         };
         let expected = "`layouts` (LIF 1.0) or `origins` (LIF 2.0)";
         return Err(source.fail(not_lif("the root", expected, found)));

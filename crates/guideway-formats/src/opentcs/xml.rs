@@ -6,7 +6,7 @@ use guideway_layout::Place;
 use roxmltree::{Document, Error, Node, ParsingOptions};
 
 use crate::read::Source;
-use crate::text::{Tally, position};
+use crate::text::{Tally, position, printable};
 use crate::{Problem, ReadError};
 
 /// Most attributes of one element. The parser compares each with every other; the format has 11.
@@ -114,7 +114,7 @@ fn check(source: &Source<'_>, text: &str) -> Result<(), Problem> {
             }
             tag.length
         };
-        at += length;
+        at += length.ok_or_else(|| cut(text, at))?;
     }
     Ok(())
 }
@@ -130,14 +130,23 @@ fn check_count(what: &'static str, limit: u64, actual: u64) -> Result<(), Proble
     })
 }
 
-/// Length of a text up to and with its first `end`, or all of it.
-fn through(text: &str, end: &str) -> usize {
-    text.find(end).map_or(text.len(), |i| i + end.len())
+/// Length of a text up to and with its first `end`.
+fn through(text: &str, end: &str) -> Option<usize> {
+    text.find(end).map(|i| i + end.len())
+}
+
+fn cut(text: &str, at: usize) -> Problem {
+    let (line, column) = position(text, at);
+    Problem::Truncated {
+        at: text.len() as u64,
+        detail: format!("what begins at line {line}, column {column} has no end"),
+    }
 }
 
 /// What an opening tag has.
 struct Tag {
-    length: usize,
+    /// None if it does not end.
+    length: Option<usize>,
     attributes: u64,
     namespaces: u64,
     /// Whether it has no content, as in `<a/>`.
@@ -147,24 +156,28 @@ struct Tag {
 impl Tag {
     fn scan(text: &str) -> Self {
         let mut tag = Self {
-            length: 0,
+            length: None,
             attributes: 0,
             namespaces: 0,
             closed: false,
         };
-        while let Some(found) = text[tag.length..].find(['"', '\'', '>']) {
-            let part = &text[tag.length..tag.length + found];
+        let mut at = 0;
+        while let Some(found) = text[at..].find(['"', '\'', '>']) {
+            let part = &text[at..at + found];
             tag.namespaces += part.matches("xmlns").count() as u64;
-            tag.length += found + 1;
-            let stop = &text[tag.length - 1..tag.length];
+            at += found + 1;
+            let stop = &text[at - 1..at];
             if stop == ">" {
                 tag.closed = part.ends_with('/');
-                return tag;
+                tag.length = Some(at);
+                break;
             }
             tag.attributes += 1;
-            tag.length += through(&text[tag.length..], stop);
+            match through(&text[at..], stop) {
+                Some(length) => at += length,
+                None => break,
+            }
         }
-        tag.length = text.len();
         tag
     }
 }
@@ -198,12 +211,19 @@ fn problem(error: &Error, text: &str, elements: u64) -> Problem {
         Error::DtdDetected => doctype(text, 0),
         other => {
             let place = other.pos();
+            let (line, column) = position(text, text.len());
+            if (u64::from(place.row), u64::from(place.col)) == (line, column) {
+                return Problem::Truncated {
+                    at: text.len() as u64,
+                    detail: format!("the XML goes on after line {line}, column {column}"),
+                };
+            }
             let message = other.to_string();
             let message = message.split(" at ").next().unwrap_or(&message);
             Problem::Syntax {
                 line: place.row.into(),
                 column: place.col.into(),
-                message: message.to_owned(),
+                message: printable(message),
             }
         }
     }

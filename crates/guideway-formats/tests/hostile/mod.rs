@@ -1,0 +1,163 @@
+//! Files that are too large to store, or that are made from another: each under the name that the table
+//! of expectations has for it.
+
+/// A small file that all others are variations of.
+const LIF_HEAD: &str = r#"{"layouts": [{"layoutId": "L", "nodes": [
+    {"nodeId": "A", "nodePosition": {"x": 0, "y": 0}},
+    {"nodeId": "B", "nodePosition": {"x": 10, "y": 0}}], "edges": ["#;
+
+const MILLION: usize = 1_000_000;
+
+/// The file of this name in a folder of bad files.
+pub(crate) fn generate(folder: &str, name: &str) -> Option<Vec<u8>> {
+    match folder {
+        "lif" => lif(name).map(String::into_bytes),
+        "opentcs" => open_tcs(name).map(String::into_bytes),
+        "any" => any(name),
+        _ => None,
+    }
+}
+
+fn lif(name: &str) -> Option<String> {
+    Some(match name {
+        "deep-lists" => format!("{{\"layouts\": {}", "[".repeat(MILLION)),
+        "deep-objects" => format!("{{\"layouts\": {}", "{\"a\":".repeat(MILLION)),
+        "deep-unknown-key" => {
+            let (open, close) = ("[".repeat(MILLION), "]".repeat(MILLION));
+            format!("{{\"x\": {open}{close}, \"layouts\": []}}")
+        }
+        "deep-attribute" => {
+            let (open, close) = ("[".repeat(200), "]".repeat(200));
+            edge(&format!(r#"{{"maxSpeed": {open}{close}}}"#))
+        }
+        "million-empty-edges" => edges(&vec!["{}"; MILLION].join(",")),
+        "million-equal-nodes" => {
+            let node = r#"{"nodeId":"A","nodePosition":{"x":1,"y":1}}"#;
+            let nodes = vec![node; MILLION].join(",");
+            format!(r#"{{"layouts": [{{"layoutId": "L", "nodes": [{nodes}]}}]}}"#)
+        }
+        "million-layouts" => format!(r#"{{"layouts": [{}]}}"#, vec!["{}"; MILLION].join(",")),
+        "million-types-of-one-edge" => {
+            edge(&join(MILLION, |i| format!(r#"{{"vehicleTypeId":"{i}"}}"#)))
+        }
+        "curves-of-one-edge" => edge(&join(10_000, |i| {
+            format!(r#"{{"trajectory":{{"controlPoints":[{{"x":0,"y":0}},{{"x":{i},"y":9}}]}}}}"#)
+        })),
+        "long-id" => edges(&format!(r#"{{"edgeId": "{}"}}"#, "E".repeat(2 * MILLION))),
+        "long-knots" => {
+            let knots = vec!["0"; MILLION + 1].join(",");
+            edge(&format!(r#"{{"trajectory": {{"knotVector": [{knots}]}}}}"#))
+        }
+        "long-load-sets" => {
+            let sets = vec![r#""set""#; MILLION].join(",");
+            edge(&format!(
+                r#"{{"loadRestriction": {{"loadSetNames": [{sets}]}}}}"#
+            ))
+        }
+        "million-repeated-keys" => edges(&format!(
+            r#"{{{}"edgeId": "E", "startNodeId": "A", "endNodeId": "B",
+                "vehicleTypeEdgeProperties": [{{}}]}}"#,
+            r#""edgeId": "E","#.repeat(MILLION)
+        )),
+        "long-number" => edge("{}").replace("10,", &format!("9.{},", "9".repeat(MILLION))),
+        "heavy-rational" => {
+            let points = join(100_000, |i| {
+                format!(
+                    r#"{{"x":{},"y":1e8,"weight":{}}}"#,
+                    i % 2 * 100_000_000,
+                    i % 7 + 1
+                )
+            });
+            edge(&format!(
+                r#"{{"trajectory": {{"degree": 3, "knotVector": [{}],
+                "controlPoints": [{points}]}}}}"#,
+                join(100_004, |i| i.clamp(3, 100_000).to_string())
+            ))
+        }
+        _ => return None,
+    })
+}
+
+fn edges(edges: &str) -> String {
+    format!("{LIF_HEAD}{edges}]}}]}}")
+}
+
+fn edge(properties: &str) -> String {
+    edges(&format!(
+        r#"{{"edgeId": "E", "startNodeId": "A", "endNodeId": "B",
+            "vehicleTypeEdgeProperties": [{properties}]}}"#
+    ))
+}
+
+fn join(count: usize, item: impl Fn(usize) -> String) -> String {
+    (0..count).map(item).collect::<Vec<_>>().join(",")
+}
+
+fn open_tcs(name: &str) -> Option<String> {
+    let model = |content: &str| format!("<model>{content}</model>");
+    Some(match name {
+        "deep-elements" => format!("<model>{}", "<a>".repeat(MILLION)),
+        "deep-closed-elements" => model(&["<a>".repeat(MILLION), "</a>".repeat(MILLION)].concat()),
+        "many-attributes" => {
+            let attributes: String = (0..100_000).map(|i| format!(" a{i}=''")).collect();
+            format!("<model{attributes}/>")
+        }
+        "many-namespaces" => {
+            let one = |i| format!("<point xmlns:n{i}='n{i}'/>");
+            model(&(0..100_000).map(one).collect::<String>())
+        }
+        "many-equal-points" => {
+            let point = "<point name='A' positionX='1' positionY='1'/>";
+            format!("<model version='7.0.0'>{}</model>", point.repeat(300_000))
+        }
+        "many-control-points" => {
+            let control = "<controlPoint x='1' y='1'/>".repeat(MILLION + 1);
+            model(&format!(
+                "<path name='P'><pathLayout connectionType='POLYPATH'>{control}</pathLayout></path>"
+            ))
+        }
+        "million-members" => model(&format!(
+            "<block name='K'>{}</block>",
+            "<member name='P'/>".repeat(MILLION)
+        )),
+        "long-name" => {
+            let name = "A".repeat(2 * MILLION);
+            model(&format!(
+                "<point name='{name}' positionX='1' positionY='1'/>"
+            ))
+        }
+        "million-entities" => {
+            let name = "&amp;".repeat(2 * MILLION);
+            model(&format!(
+                "<point name='{name}' positionX='1' positionY='1'/>"
+            ))
+        }
+        "long-comment" => model(&format!("<!--{}-->", "<".repeat(10 * MILLION))),
+        "many-links" => {
+            let links = "<link point='Z'/>".repeat(300_000);
+            model(&format!(
+                "<location name='L' positionX='0' positionY='0'>{links}</location>"
+            ))
+        }
+        "many-empty-paths" => model(&"<path/>".repeat(300_000)),
+        _ => return None,
+    })
+}
+
+fn any(name: &str) -> Option<Vec<u8>> {
+    Some(match name {
+        "zeros" => vec![0; MILLION],
+        "spaces" => vec![b' '; MILLION],
+        "all-bytes" => (0..=255).collect(),
+        "noise" => {
+            // A linear congruential generator: the same bytes on every machine.
+            let mut state = 7_u32;
+            let mut next = || {
+                state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+                (state >> 24) as u8
+            };
+            (0..MILLION).map(|_| next()).collect()
+        }
+        _ => return None,
+    })
+}
