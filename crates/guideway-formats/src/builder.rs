@@ -72,6 +72,7 @@ impl<'a> Builder<'a> {
 
     /// Records a path that cannot be drawn.
     pub(crate) fn refuse(&mut self, id: &str, code: Code, detail: &str) -> Result<(), ReadError> {
+        let detail = &printable(detail);
         self.charge_text(id)?;
         self.charge_text(detail)?;
         self.check_paths()?;

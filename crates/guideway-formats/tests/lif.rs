@@ -357,6 +357,35 @@ fn unknown_nodes_need_a_trajectory() {
 }
 
 #[test]
+fn layouts_that_use_the_same_ids_keep_their_own_nodes() {
+    let layout = |id: &str, y: u32| {
+        format!(
+            r#"{{"layoutId": "{id}", "nodes": [
+                {{"nodeId": "A", "nodePosition": {{"x": 0, "y": {y}}}}},
+                {{"nodeId": "B", "nodePosition": {{"x": 10, "y": {y}}}}}],
+              "edges": [{{"edgeId": "E{id}", "startNodeId": "A", "endNodeId": "B",
+                "vehicleTypeEdgeProperties": [{{}}]}}]}}"#
+        )
+    };
+    let layout = read(&format!(
+        r#"{{"layouts": [{}, {}]}}"#,
+        layout("1", 0),
+        layout("2", 7)
+    ));
+    assert_eq!(codes(&layout), [Code::DuplicateId]);
+    assert_eq!(ends(&layout, "E1").0.y, 0.0);
+    assert_eq!(ends(&layout, "E2").0.y, 7.0);
+}
+
+#[test]
+fn messages_show_no_control_characters_of_the_file() {
+    let text = edge_with("{}").replace(r#""endNodeId": "B""#, r#""endNodeId": "\u001b[2J""#);
+    let layout = read(&text);
+    let message = &layout.diagnostics.iter().next().unwrap().message;
+    assert!(message.contains(r"\u{1b}[2J"), "{message}");
+}
+
+#[test]
 fn wrong_types_cost_no_more_than_they_must() {
     let text = edge_with(r#"{"vehicleTypeId": 7, "maxSpeed": "fast"}"#)
         .replace(r#""x": 10"#, r#""x": "10""#)

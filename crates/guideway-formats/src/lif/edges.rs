@@ -42,8 +42,8 @@ impl Mapper<'_> {
         self.check_repeated(edge.repeated, at);
         let id = self.id(&edge.id, at, "edgeId")?;
         self.count_edge(edge.id.get().map(AsRef::as_ref), at);
-        let start = self.end(&edge.start, &id, &|| within(at, "startNodeId"))?;
-        let end = self.end(&edge.end, &id, &|| within(at, "endNodeId"))?;
+        let start = self.end(&edge.start, &id, level, &|| within(at, "startNodeId"))?;
+        let end = self.end(&edge.end, &id, level, &|| within(at, "endNodeId"))?;
         let curves = self.curves(edge, at)?;
         let one = curves.len() == 1;
         for (i, curve) in curves.iter().enumerate() {
@@ -61,13 +61,14 @@ impl Mapper<'_> {
         &mut self,
         field: &'r Field<std::borrow::Cow<'_, str>>,
         edge: &str,
+        level: u32,
         at: At<'_>,
     ) -> Result<End<'r>, ReadError> {
         let name = self.text(field, at)?;
         if field.is_absent() {
             self.report_missing(at, "the name of a node");
         }
-        let row = name.and_then(|name| self.nodes.get(name).copied());
+        let row = name.and_then(|name| self.node(name, level));
         if let (Some(name), None) = (name, row) {
             self.report_unknown_node(name, edge, at);
         }

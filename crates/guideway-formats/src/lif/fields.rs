@@ -90,7 +90,7 @@ impl Mapper<'_> {
     pub(super) fn check_duplicate(&mut self, known: bool, key: &str, id: &str, at: At<'_>) {
         if known {
             let message = || format!("the {key} `{id}` is used more than once");
-            let remedy = "Both are kept, and references go to the first; rename one";
+            let remedy = "Both are kept, and references go to the first of the layout; rename one";
             self.builder.find(Code::DuplicateId, at, message, remedy);
         }
     }

@@ -15,7 +15,10 @@ use crate::read::Source;
 /// Fills a layout from the records of a file.
 pub(super) struct Mapper<'a> {
     pub(super) builder: Builder<'a>,
-    pub(super) nodes: HashMap<String, u32>,
+    /// The first node of each id.
+    nodes: HashMap<String, u32>,
+    /// Nodes of later layouts whose ids were used before.
+    repeated_nodes: HashMap<(u32, String), u32>,
     levels: HashSet<String>,
     edges: HashSet<String>,
     stations: HashSet<String>,
@@ -43,6 +46,7 @@ impl<'a> Mapper<'a> {
         Self {
             builder: Builder::new(source, file_bytes),
             nodes: HashMap::new(),
+            repeated_nodes: HashMap::new(),
             levels: HashSet::new(),
             edges: HashSet::new(),
             stations: HashSet::new(),
@@ -186,12 +190,31 @@ impl<'a> Mapper<'a> {
             return Ok(());
         };
         let row = self.builder.push_node(&id, position, Some(level))?;
-        let known = self.nodes.contains_key(id.as_ref());
-        self.check_duplicate(known, "nodeId", &id, at);
-        self.nodes.entry(id.into_owned()).or_insert(row);
+        let first = self.nodes.get(id.as_ref()).copied();
+        self.check_duplicate(first.is_some(), "nodeId", &id, at);
+        match first.map(|row| self.builder.layout.nodes.level(row)) {
+            None => {
+                self.nodes.insert(id.into_owned(), row);
+            }
+            Some(Some(other)) if other != level => {
+                let key = (level, id.into_owned());
+                self.repeated_nodes.entry(key).or_insert(row);
+            }
+            Some(_) => {}
+        }
         let (name, map) = (&node.name, &node.map_id);
         self.attribute(Table::Nodes, row as usize, "nodeName", name, at)?;
         self.attribute(Table::Nodes, row as usize, "mapId", map, at)
+    }
+
+    /// The row of a node. Ids should be unique in a file; where they are not, the layout's own counts.
+    pub(super) fn node(&self, id: &str, level: u32) -> Option<u32> {
+        let own = if self.repeated_nodes.is_empty() {
+            None
+        } else {
+            self.repeated_nodes.get(&(level, id.to_owned()))
+        };
+        own.or_else(|| self.nodes.get(id)).copied()
     }
 
     fn map_station(
@@ -213,8 +236,8 @@ impl<'a> Mapper<'a> {
             let Some(name) = self.text(name, at_name)? else {
                 continue;
             };
-            match self.nodes.get(name) {
-                Some(&row) => nodes.push(row),
+            match self.node(name, level) {
+                Some(row) => nodes.push(row),
                 None => self.report_unknown_node(name, &id, at_name),
             }
         }
