@@ -46,6 +46,16 @@ pub(crate) fn bytes(n: u64) -> String {
     format!("{value:.digits$} {}", UNITS[unit])
 }
 
+/// A number as it was meant: 0.3 where a file of single precision has 0.30000001192092896.
+pub(crate) fn number(value: f64) -> String {
+    let single = value as f32;
+    if f64::from(single) == value {
+        single.to_string()
+    } else {
+        value.to_string()
+    }
+}
+
 /// A length in metres, to the millimetre, with its thousands apart.
 pub(crate) fn metres(value: f64) -> String {
     if !value.is_finite() || value.abs() >= 1e15 {
@@ -89,6 +99,9 @@ mod tests {
         assert_eq!(metres(-1234.5), "-1,234.5 m");
         assert_eq!(metres(12.0), "12 m");
         assert_eq!(metres(0.9996), "1 m");
+        assert_eq!(number(f64::from(0.3_f32)), "0.3");
+        assert_eq!(number(0.1), "0.1");
+        assert_eq!(number(f64::NAN), "NaN");
     }
 
     #[test]

@@ -5,6 +5,8 @@ use guideway::layout::{Attribute, Attributes, Values};
 use rayon::prelude::*;
 use serde::Serialize;
 
+use crate::cli::text::number;
+
 /// Commonest values named for each column.
 const TOP: usize = 5;
 
@@ -58,7 +60,7 @@ fn of(attribute: &Attribute, rows: u64) -> Column {
             Column {
                 min: finite().reduce(f64::min),
                 max: finite().reduce(f64::max),
-                ..tally("number", bits, |&b| f64::from_bits(b).to_string())
+                ..tally("number", bits, |&b| number(f64::from_bits(b)))
             }
         }
         Values::Text { text, present } => {

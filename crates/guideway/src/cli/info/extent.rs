@@ -1,8 +1,8 @@
 use guideway::layout::{PathRef, Paths};
-use guideway::spline::{Bounds, segment_length};
+use guideway::spline::{Bounds, Point, segment_length};
 use rayon::prelude::*;
 
-/// Largest error of a segment's length, as a fraction of its control polygon's length.
+/// Largest error of a segment's length, as a fraction of the size of its control polygon.
 const TOLERANCE: f64 = 1e-7;
 
 /// How long all paths are together, in metres, and the box that holds them tightly.
@@ -33,13 +33,22 @@ impl Extent {
 
     fn with(self, path: PathRef<'_>) -> Self {
         let segments = path.runs().flat_map(|run| run.segments());
-        segments.fold(self, |all, segment| {
-            let polygon_m: f64 = segment.windows(2).map(|leg| leg[0].distance(leg[1])).sum();
-            all.join(Self {
-                length_m: segment_length(&segment, TOLERANCE * polygon_m),
-                bounds: Some(Bounds::of_segment(&segment)),
-            })
-        })
+        segments.fold(self, Self::with_segment)
+    }
+
+    fn with_segment(self, segment: [Point<f64>; 4]) -> Self {
+        let Some(hull) = Bounds::of_points(segment) else {
+            return self;
+        };
+        let size = hull.size();
+        let length_m = segment_length(&segment, TOLERANCE * (size.x + size.y));
+        // Few segments stick out of the box of all before them; only those need theirs found tightly.
+        let is_inside = |all: Bounds<f64>| all.contains(hull.min) && all.contains(hull.max);
+        let bounds = match self.bounds {
+            Some(all) if is_inside(all) => None,
+            _ => Some(Bounds::of_segment(&segment)),
+        };
+        self.join(Self { length_m, bounds })
     }
 
     fn join(self, other: Self) -> Self {
@@ -54,7 +63,7 @@ impl Extent {
 #[cfg(test)]
 mod tests {
     use guideway::layout::{Layout, NewPath};
-    use guideway::spline::{Point, Runs};
+    use guideway::spline::Runs;
 
     use super::*;
 

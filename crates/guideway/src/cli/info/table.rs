@@ -1,6 +1,6 @@
 use super::columns::{Column, Top};
 use super::summary::{Kind, Summary};
-use crate::cli::text::{bytes, count, counted, metres, plain, time};
+use crate::cli::text::{bytes, count, counted, metres, number, plain, time};
 
 /// Longest name or value shown, in characters.
 const WIDEST: usize = 40;
@@ -129,7 +129,7 @@ fn bounds(of: &Summary) -> String {
 fn column_text(column: &Column) -> String {
     let mut text = format!("{}, {} different", column.kind, count(column.distinct));
     if let (Some(min), Some(max)) = (column.min, column.max) {
-        text += &format!(", {min} to {max}");
+        text += &format!(", {} to {}", number(min), number(max));
     }
     if column.missing > 0 {
         text += &format!(", {} without", count(column.missing));
