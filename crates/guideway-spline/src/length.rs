@@ -1,6 +1,6 @@
 use crate::{Point, Real, uniform};
 
-/// How often a segment is halved at most. Only cusps, where the speed has a kink, come near it.
+/// How often a segment is halved at most; only parts with a cusp go on being halved.
 const MAX_HALVINGS: u32 = 24;
 
 /// Abscissas above zero and weights of 8-point Gauss-Legendre quadrature on [-1, 1] (Abramowitz &
@@ -15,13 +15,19 @@ const GAUSS: [(f64, f64); 4] = [
 /// Arc length of one segment, to within an estimated error of `tolerance` (both in the unit of the
 /// points, as are the next).
 ///
-/// The speed is integrated by Gauss-Legendre quadrature; what the two halves give tells the error of
-/// the whole, which is halved until that is small. A tolerance below rounding is raised to it.
+/// A part is taken when one of two holds, and halved otherwise:
+///
+/// - chord and control polygon, which are never longer and never shorter, differ by less than the tolerance;
+/// - all its Bezier legs point the same way within 60 degrees, so that the speed has no kink, and
+///   Gauss-Legendre quadrature of the speed gives the same for the whole as for its halves. Without the
+///   condition on the legs, a cusp can make the two agree by chance.
+///
+/// A tolerance below rounding is raised to it.
 pub fn segment_length<T: Real>(segment: &[Point<T>; 4], tolerance: f64) -> f64 {
-    let segment = segment.map(Point::to_f64);
-    let whole = gauss(&segment, 0.0, 1.0);
-    let tolerance = tolerance.max(1e-14 * whole);
-    refine(&segment, (0.0, 1.0), whole, tolerance, MAX_HALVINGS)
+    let origin = segment[0].to_f64();
+    let part = segment.map(|p| p.to_f64() - origin);
+    let size = part.iter().map(|p| p.norm()).fold(0.0, f64::max);
+    refine(&part, tolerance.max(1e-14 * size), MAX_HALVINGS)
 }
 
 /// Arc length of a run, to within an estimated error of `tolerance`; zero for fewer than four points.
@@ -31,27 +37,31 @@ pub fn run_length<T: Real>(points: &[Point<T>], tolerance: f64) -> f64 {
     lengths.sum()
 }
 
-fn refine(
-    segment: &[Point<f64>; 4],
-    (a, b): (f64, f64),
-    whole: f64,
-    tolerance: f64,
-    halvings_left: u32,
-) -> f64 {
-    let middle = 0.5 * (a + b);
-    let (left, right) = (gauss(segment, a, middle), gauss(segment, middle, b));
-    if halvings_left == 0 || (left + right - whole).abs() <= tolerance {
-        return left + right;
+fn refine(part: &[Point<f64>; 4], tolerance: f64, halvings_left: u32) -> f64 {
+    let b = uniform::to_bezier(part);
+    let legs = [b[1] - b[0], b[2] - b[1], b[3] - b[2]];
+    let [first, second, third] = legs.map(Point::norm);
+    let (chord, polygon) = (b[0].distance(b[3]), first + second + third);
+    if polygon - chord <= tolerance || halvings_left == 0 {
+        return 0.5 * (chord + polygon);
     }
-    let half = |ends, part| refine(segment, ends, part, 0.5 * tolerance, halvings_left - 1);
-    half((a, middle), left) + half((middle, b), right)
+    let halves = uniform::halves(part);
+    let same_way = legs[0].dot(legs[1]) >= 0.5 * first * second
+        && legs[1].dot(legs[2]) >= 0.5 * second * third
+        && legs[0].dot(legs[2]) >= 0.5 * first * third;
+    if same_way {
+        let length = gauss(&halves[0]) + gauss(&halves[1]);
+        if (length - gauss(part)).abs() <= tolerance {
+            return length;
+        }
+    }
+    let lengths = halves.map(|half| refine(&half, 0.5 * tolerance, halvings_left - 1));
+    lengths[0] + lengths[1]
 }
 
-/// Integral of the speed from t = a to b.
-fn gauss(segment: &[Point<f64>; 4], a: f64, b: f64) -> f64 {
-    let (middle, half) = (0.5 * (a + b), 0.5 * (b - a));
-    let speed = |t: f64| uniform::derivative(segment, t).norm();
-    let pair =
-        |&(x, weight): &(f64, f64)| weight * (speed(middle - half * x) + speed(middle + half * x));
-    half * GAUSS.iter().map(pair).sum::<f64>()
+/// Integral of the speed.
+fn gauss(part: &[Point<f64>; 4]) -> f64 {
+    let speed = |t: f64| uniform::derivative(part, t).norm();
+    let pair = |&(x, weight): &(f64, f64)| weight * (speed(0.5 - 0.5 * x) + speed(0.5 + 0.5 * x));
+    0.5 * GAUSS.iter().map(pair).sum::<f64>()
 }

@@ -30,7 +30,7 @@ fn hausdorff(run: &[P], vertices: &[P]) -> f64 {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(100))]
+    #![proptest_config(ProptestConfig::with_cases(64))]
 
     #[test]
     fn within_the_tolerance(run in run(), tolerance in prop_oneof![Just(2.0), Just(0.1), Just(2e-3)]) {

@@ -86,6 +86,17 @@ fn lengths_that_are_known() {
     runs.push_bezier(&[0.0, 1.0, 1.0, 0.0].map(|x| Point::new(x, 0.0)));
     assert!((length(&runs) - 1.5).abs() < 1e-9);
 
+    // In line, with a sharp turn where quadrature of the whole and of its halves agree by chance.
+    let along = [
+        -7.932_900_435_681_415,
+        5.713_928_133_972_491,
+        -7.777_752_419_538_123,
+        0.0,
+    ];
+    let fold = along.map(|x| Point::new(0.6 * x, -0.8 * x));
+    let most = control_polygon_length(&fold, 12);
+    assert!((run_length(&fold, 1e-9) - most).abs() < 1e-6);
+
     assert_eq!(run_length::<f64>(&[], 1e-3), 0.0);
     assert_eq!(run_length(&[Point::new(3.0, 1.0); 5], 0.0), 0.0);
 }
