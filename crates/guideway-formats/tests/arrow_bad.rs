@@ -1,0 +1,169 @@
+//! Damaged, odd and hostile Arrow files: an error or a layout, never a panic, never a great allocation.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use guideway_formats::arrow::{ArrowWriter, Column, ColumnType, Precision};
+use guideway_formats::{ReadOptions, read_bytes, read_file};
+use guideway_layout::{Layout, Value};
+use guideway_spline::Point;
+
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/bad/arrow")
+}
+
+/// What became of a file, in the words of `expect.tsv`.
+fn outcome(path: &Path) -> String {
+    match read_file(path, &ReadOptions::default()) {
+        Err(error) => {
+            let text = error.to_string();
+            assert!(text.len() < 2_000, "a message for people: {text}");
+            format!("error {}", error.code())
+        }
+        Ok(layout) => {
+            let mut words = vec![format!("drawn {}", layout.paths.len())];
+            let refused = layout
+                .refused
+                .iter()
+                .map(|r| format!("{}={}", r.id, r.code));
+            words.extend(refused);
+            let found = layout.diagnostics.counts();
+            words.extend(found.map(|(code, count)| format!("{code}*{count}")));
+            words.join(" ")
+        }
+    }
+}
+
+#[test]
+fn every_bad_file_ends_as_the_table_says() {
+    let table = fs::read_to_string(folder().join("expect.tsv")).expect("the table is there");
+    let mut rows: Vec<(&str, &str)> = Vec::new();
+    for line in table.lines().filter(|l| !l.starts_with('#')) {
+        rows.push(line.split_once('\t').expect("file, tab, outcome"));
+    }
+    let mut wrong = Vec::new();
+    for (name, expected) in &rows {
+        let actual = outcome(&folder().join(name));
+        if actual != *expected {
+            wrong.push(format!("{name}\t{actual}"));
+        }
+    }
+    assert!(
+        wrong.is_empty(),
+        "otherwise than expected:\n{}",
+        wrong.join("\n")
+    );
+
+    let files = fs::read_dir(folder()).expect("the folder is there");
+    let files = files.map(|f| f.expect("a file").file_name().into_string().expect("ASCII"));
+    for file in files.filter(|f| f.ends_with(".arrow")) {
+        assert!(
+            rows.iter().any(|r| r.0 == file),
+            "{file} is not in expect.tsv"
+        );
+    }
+}
+
+/// A small table with every kind of column.
+fn sound() -> Vec<u8> {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("sound.arrow");
+    let columns = vec![
+        Column::new("guideway.part", ColumnType::UInt32),
+        Column::new("level", ColumnType::Text),
+        Column::new("width_m", ColumnType::Float32),
+        Column::new("kind", ColumnType::Text),
+        Column::new("busy", ColumnType::Bool),
+        Column::new("count", ColumnType::Int16),
+    ];
+    let mut writer = ArrowWriter::create(&path, Precision::F32, columns).expect("a writer");
+    for row in 0..9_i64 {
+        let run: Vec<Point<f64>> = (0..5)
+            .map(|x| Point::new(f64::from(x), row as f64))
+            .collect();
+        let values = [
+            Some(Value::Int(row % 3)),
+            Some(Value::Text("ground")),
+            (row % 2 == 0).then_some(Value::Float(0.5)),
+            (row != 4).then_some(Value::Text("aisle")),
+            Some(Value::Bool(row > 2)),
+            Some(Value::Int(row)),
+        ];
+        let id = format!("path-{}", row / 3);
+        writer.push_run(&id, &run, &values).expect("a row");
+    }
+    writer.finish().expect("a file");
+    fs::read(&path).expect("the file")
+}
+
+/// Reads bytes that may be anything; a layout that comes of it must hold together.
+fn survive(bytes: &[u8]) -> Option<Layout> {
+    let layout = read_bytes("damaged", bytes, &ReadOptions::default()).ok()?;
+    for path in layout.paths.iter() {
+        assert!(path.runs().all(|run| run.len() >= 4));
+        assert!(path.runs().all(|run| run.iter().all(Point::is_finite)));
+        assert!(
+            path.level()
+                .is_none_or(|l| (l as usize) < layout.levels.len())
+        );
+    }
+    Some(layout)
+}
+
+#[test]
+fn a_file_cut_anywhere_is_refused() {
+    let bytes = sound();
+    assert_eq!(survive(&bytes).expect("sound").paths.len(), 3);
+    for len in 0..bytes.len() {
+        assert!(survive(&bytes[..len]).is_none(), "cut at {len}");
+    }
+}
+
+#[test]
+fn a_stream_cut_anywhere_has_whole_batches_or_is_refused() {
+    // A file is its magic, a stream and a footer.
+    let file = sound();
+    let bytes = &file[8..];
+    for len in 0..bytes.len() {
+        if let Some(layout) = survive(&bytes[..len]) {
+            assert!(matches!(layout.paths.len(), 0 | 3), "cut at {len}");
+        }
+    }
+}
+
+#[test]
+fn changed_bytes_never_cause_a_panic() {
+    let mut files = vec![sound()];
+    for name in [
+        "refused-rows",
+        "laughs",
+        "lz4-garbled",
+        "dictionary-key-beyond",
+    ] {
+        files.push(fs::read(folder().join(format!("{name}.arrow"))).expect("a file"));
+    }
+    let mut state = 0x9e37_79b9_7f4a_7c15_u64;
+    let mut next = |below: usize| {
+        // xorshift64: the same damage on every run.
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        (state % below as u64) as usize
+    };
+    for file in &files {
+        for _ in 0..500 {
+            let mut bytes = file.clone();
+            for _ in 0..=next(3) {
+                let at = next(bytes.len());
+                bytes[at] = match next(4) {
+                    0 => 0xFF,
+                    1 => 0,
+                    2 => bytes[at] ^ (1 << next(8)),
+                    _ => next(256) as u8,
+                };
+            }
+            survive(&bytes);
+            survive(&bytes[8..]);
+        }
+    }
+}
