@@ -1,1 +1,9 @@
-//! stub
+//! What the whole-system tests share: scenes of one behaviour each, the methods that draw them, and the
+//! comparison of their pictures with the oracle's.
+
+pub mod compare;
+pub mod evidence;
+pub mod methods;
+pub mod random;
+pub mod scenes;
+pub mod sketch;

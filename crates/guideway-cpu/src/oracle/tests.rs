@@ -133,7 +133,12 @@ fn a_path_that_crosses_itself_is_not_darker_there() {
         b: 0,
         a: 128,
     };
-    let (frame, _) = draw(layout(&[bow.clone()]), red, &view(40, 60), &wide(6.0));
+    let (frame, _) = draw(
+        layout(std::slice::from_ref(&bow)),
+        red,
+        &view(40, 60),
+        &wide(6.0),
+    );
     let inside = [255, 127, 127, 255];
     assert!(frame.pixels().contains(&inside));
     assert!(frame.pixels().iter().all(|p| p[1] >= inside[1]));

@@ -1,0 +1,60 @@
+//! The methods under test, and one way to run them all.
+
+use std::sync::Arc;
+
+use guideway_cpu::{Cpu, Oracle};
+use guideway_render::{Budget, Cancel, Frame, FrameSize, Method, RenderError, Report};
+use guideway_scene::Scene;
+
+use crate::compare::Tolerance;
+use crate::sketch::Drawing;
+
+/// A method that must agree with the oracle.
+pub struct Candidate {
+    /// The method.
+    pub method: Box<dyn Method>,
+    /// How far from the oracle it may be.
+    pub tolerance: Tolerance,
+}
+
+/// Every method but the oracle.
+pub fn methods() -> Vec<Candidate> {
+    vec![Candidate {
+        method: Box::new(Cpu),
+        tolerance: Tolerance::STANDARD,
+    }]
+}
+
+/// Draws once.
+///
+/// # Errors
+/// What the method says.
+///
+/// # Panics
+/// When the drawing's options name a level or column that it has not.
+pub fn draw(
+    method: &dyn Method,
+    drawing: &Drawing,
+    budget: &Budget,
+) -> Result<(Frame, Report), RenderError> {
+    let scene = Scene::new(Arc::new(drawing.layout.clone()), &drawing.options)
+        .expect("the options of a drawing suit its layout");
+    // One pixel: the method has to give the frame its size.
+    let mut frame = Frame::new(FrameSize::new(1, 1)?);
+    let mut prepared = method.prepare(Arc::new(scene), budget)?;
+    let report = prepared.render(
+        &drawing.view,
+        &drawing.style,
+        &Cancel::default(),
+        &mut frame,
+    )?;
+    Ok((frame, report))
+}
+
+/// Draws by the oracle.
+///
+/// # Panics
+/// When it fails: it has memory enough for every drawing here.
+pub fn judge(drawing: &Drawing) -> (Frame, Report) {
+    draw(&Oracle, drawing, &Budget::default()).expect("the oracle draws everything")
+}

@@ -1,0 +1,188 @@
+//! Every method draws every scene as the oracle does, and the same on any machine.
+
+use std::collections::HashSet;
+use std::num::NonZero;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
+
+use guideway_render::{Budget, Frame, Method, RenderError, Report};
+use guideway_tests::compare::{Difference, check};
+use guideway_tests::evidence;
+use guideway_tests::methods::{Candidate, draw, judge, methods};
+use guideway_tests::scenes::{self, SceneCase};
+use guideway_tests::sketch::Drawing;
+
+/// Small pictures need bands only when there is next to no memory.
+const TIGHT_BUDGETS_BYTES: [u64; 5] = [16 << 20, 4 << 20, 1 << 20, 256 << 10, 64 << 10];
+
+struct Outcome {
+    scene: String,
+    method: &'static str,
+    difference: Result<Difference, String>,
+    /// Most bands that the picture was drawn in.
+    bands: u32,
+}
+
+#[test]
+fn every_method_draws_every_scene_as_the_oracle_does() {
+    let cases = scenes::all();
+    let methods = methods();
+    let outcomes: Vec<Outcome> = in_parallel(&cases, |case| {
+        let drawing = case.build();
+        let (expected, report) = judge(&drawing);
+        let told = account(&report, &drawing).map(|()| Difference::default());
+        let own = Outcome {
+            scene: case.name.clone(),
+            method: "oracle",
+            difference: told,
+            bands: report.bands,
+        };
+        let judged = methods
+            .iter()
+            .map(|m| outcome(case, &drawing, &expected, m));
+        std::iter::once(own).chain(judged).collect::<Vec<_>>()
+    })
+    .into_iter()
+    .flatten()
+    .collect();
+
+    print_worst(&outcomes);
+    let failures: Vec<String> = outcomes
+        .iter()
+        .filter_map(|o| Some((o, o.difference.as_ref().err()?)))
+        .map(|(o, message)| format!("{} by {}: {message}", o.scene, o.method))
+        .collect();
+    assert!(
+        failures.is_empty(),
+        "{} of {} pictures are wrong:\n{}",
+        failures.len(),
+        outcomes.len(),
+        failures.join("\n")
+    );
+    for candidate in &methods {
+        let name = candidate.method.info().name;
+        let in_bands = outcomes.iter().any(|o| o.method == name && o.bands > 1);
+        assert!(in_bands, "{name} was never short of memory");
+    }
+}
+
+#[test]
+fn there_are_scenes_enough_and_each_has_its_own_name() {
+    let cases = scenes::all();
+    assert!(cases.len() >= 120, "{} scenes", cases.len());
+    let names: HashSet<_> = cases.iter().map(|case| case.name.as_str()).collect();
+    assert_eq!(names.len(), cases.len());
+    assert!(names.iter().all(|name| name.split('/').count() == 2));
+}
+
+fn outcome(
+    case: &SceneCase,
+    drawing: &Drawing,
+    expected: &Frame,
+    candidate: &Candidate,
+) -> Outcome {
+    let method = candidate.method.as_ref();
+    let mut bands = 0;
+    let difference = drawn_alike(method, drawing, &mut bands).and_then(|actual| {
+        check(expected, &actual, &candidate.tolerance).map_err(|message| {
+            let name = format!("{}-{}", method.info().name, case.name);
+            let written = evidence::write(&name, expected, &actual);
+            let shown = written.map_or_else(|e| e.to_string(), |file| file.display().to_string());
+            format!("{message}; see {shown}")
+        })
+    });
+    Outcome {
+        scene: case.name.clone(),
+        method: method.info().name,
+        difference,
+        bands,
+    }
+}
+
+/// Draws again and again, by any number of threads and with ever less memory: always the same bytes.
+fn drawn_alike(method: &dyn Method, drawing: &Drawing, bands: &mut u32) -> Result<Frame, String> {
+    let within = |memory_bytes, threads| Budget {
+        memory_bytes,
+        threads,
+    };
+    let plenty = Budget::default().memory_bytes;
+    let (first, report) =
+        draw(method, drawing, &within(plenty, 1)).map_err(|error| error.to_string())?;
+    account(&report, drawing)?;
+    for threads in [1, 2, 3, 8] {
+        let (again, report) =
+            draw(method, drawing, &within(plenty, threads)).map_err(|error| error.to_string())?;
+        account(&report, drawing)?;
+        if again != first {
+            return Err(format!("{threads} threads draw another picture than one"));
+        }
+    }
+    for memory_bytes in TIGHT_BUDGETS_BYTES {
+        match draw(method, drawing, &within(memory_bytes, 2)) {
+            Ok((again, report)) if again == first => *bands = report.bands.max(*bands),
+            Ok(_) => return Err(format!("another picture within {memory_bytes} bytes")),
+            Err(RenderError::Budget { .. }) => {}
+            Err(error) => return Err(error.to_string()),
+        }
+    }
+    Ok(first)
+}
+
+fn account(report: &Report, drawing: &Drawing) -> Result<(), String> {
+    let layout = &drawing.layout;
+    if report.total != layout.path_count() as u64
+        || report.refused != layout.refused.len() as u64
+        || !report.accounts_for_all()
+    {
+        return Err(format!("not every path is accounted for: {report:?}"));
+    }
+    Ok(())
+}
+
+fn print_worst(outcomes: &[Outcome]) {
+    let mut measured: Vec<_> = outcomes
+        .iter()
+        .filter(|o| o.method != "oracle")
+        .filter_map(|o| Some((o, o.difference.as_ref().ok()?)))
+        .collect();
+    measured.sort_by(|a, b| b.1.mean_abs.total_cmp(&a.1.mean_abs));
+    println!("worst scenes within the tolerance, in levels of 255:");
+    println!(
+        "{:<44} {:<8} {:>7} {:>10} {:>5}",
+        "scene", "method", "mean", "within", "max"
+    );
+    for (outcome, difference) in measured.iter().take(15) {
+        println!(
+            "{:<44} {:<8} {:>7.3} {:>8.3} % {:>5.0}",
+            outcome.scene,
+            outcome.method,
+            difference.mean_abs,
+            difference.share_within * 100.0,
+            difference.max_abs
+        );
+    }
+}
+
+fn in_parallel<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> {
+    let next = AtomicUsize::new(0);
+    let done = Mutex::new(Vec::new());
+    let threads = thread::available_parallelism().map_or(1, NonZero::get);
+    thread::scope(|scope| {
+        for _ in 0..threads {
+            scope.spawn(|| {
+                loop {
+                    let index = next.fetch_add(1, Ordering::Relaxed);
+                    let Some(item) = items.get(index) else { break };
+                    let result = work(item);
+                    done.lock()
+                        .expect("no test thread panics here")
+                        .push((index, result));
+                }
+            });
+        }
+    });
+    let mut done = done.into_inner().expect("no test thread panics here");
+    done.sort_by_key(|(index, _)| *index);
+    done.into_iter().map(|(_, result)| result).collect()
+}
