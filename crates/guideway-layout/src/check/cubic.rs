@@ -81,7 +81,8 @@ fn quadratic_roots([q0, q1, q2]: [f64; 3]) -> [f64; 2] {
     [sum / a, q0 / sum]
 }
 
-fn split(p: &[Point<f64>; 4], t: f64) -> [[Point<f64>; 4]; 2] {
+/// The parts of a Bezier curve before and after `t`.
+pub(super) fn split(p: &[Point<f64>; 4], t: f64) -> [[Point<f64>; 4]; 2] {
     let (a, b, c) = (p[0].lerp(p[1], t), p[1].lerp(p[2], t), p[2].lerp(p[3], t));
     let (d, e) = (a.lerp(b, t), b.lerp(c, t));
     let middle = d.lerp(e, t);

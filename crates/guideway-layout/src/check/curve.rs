@@ -1,5 +1,6 @@
-use guideway_spline::{Point, uniform};
+use guideway_spline::{Point, segment_length, uniform};
 
+use super::cubic;
 use crate::PathRef;
 
 /// Number of points, evenly spaced along a curve, by which two curves are compared.
@@ -48,14 +49,15 @@ impl Curve {
             }
     }
 
-    /// Points at equal steps of length, which do not depend on how the curve is put together.
+    /// Points at equal steps of length, found this closely along the curve. They do not depend on how
+    /// the curve is put together.
     ///
     /// # Panics
     /// When there is no segment.
-    pub(super) fn samples(&mut self) -> Samples {
+    pub(super) fn samples(&mut self, precision_m: f64) -> Samples {
         self.lengths_m.clear();
         self.lengths_m
-            .extend(self.segments.iter().map(|s| length_m(s, 0.0, 1.0)));
+            .extend(self.segments.iter().map(|s| segment_length(s, precision_m)));
         let total_m: f64 = self.lengths_m.iter().sum();
         let mut points = [uniform::start(&self.segments[0]); SAMPLES];
         let (mut index, mut passed_m) = (0, 0.0);
@@ -66,7 +68,12 @@ impl Curve {
                 index += 1;
             }
             let segment = &self.segments[index];
-            let t = parameter_at(segment, target_m - passed_m, self.lengths_m[index]);
+            let t = parameter_at(
+                segment,
+                target_m - passed_m,
+                self.lengths_m[index],
+                precision_m,
+            );
             *point = uniform::point(segment, t);
         }
         points
@@ -74,15 +81,17 @@ impl Curve {
 }
 
 /// The parameter at which a segment of `whole_m` has run `target_m`.
-fn parameter_at(segment: &Segment, target_m: f64, whole_m: f64) -> f64 {
+fn parameter_at(segment: &Segment, target_m: f64, whole_m: f64, precision_m: f64) -> f64 {
     if target_m >= whole_m {
         return 1.0;
     }
+    let bezier = uniform::to_bezier(segment);
     let (mut low, mut high) = (0.0, 1.0);
     let mut t = target_m / whole_m;
     for _ in 0..40 {
-        let over_m = length_m(segment, 0.0, t) - target_m;
-        if over_m.abs() <= PRECISION_M {
+        let [part, _] = cubic::split(&bezier, t);
+        let over_m = segment_length(&uniform::from_bezier(&part), precision_m) - target_m;
+        if over_m.abs() <= precision_m {
             break;
         }
         if over_m > 0.0 {
@@ -90,7 +99,7 @@ fn parameter_at(segment: &Segment, target_m: f64, whole_m: f64) -> f64 {
         } else {
             low = t;
         }
-        let newton = t - over_m / speed(segment, t);
+        let newton = t - over_m / uniform::derivative(segment, t).norm();
         t = if low < newton && newton < high {
             newton
         } else {
@@ -98,47 +107,4 @@ fn parameter_at(segment: &Segment, target_m: f64, whole_m: f64) -> f64 {
         };
     }
     t
-}
-
-/// Lengths are found this closely: well below any tolerance that makes sense for a path.
-const PRECISION_M: f64 = 1e-6;
-
-/// Length between two parameters.
-fn length_m(segment: &Segment, from: f64, to: f64) -> f64 {
-    refine(segment, from, to, gauss(segment, from, to), 12)
-}
-
-/// Halves a piece until both ways to measure it agree; needed near a stop only.
-fn refine(segment: &Segment, from: f64, to: f64, whole_m: f64, halvings: u32) -> f64 {
-    let middle = 0.5 * (from + to);
-    let (left_m, right_m) = (gauss(segment, from, middle), gauss(segment, middle, to));
-    let sum_m = left_m + right_m;
-    // Written so that a length that is not a number ends it too.
-    let differs = (sum_m - whole_m).abs() > PRECISION_M;
-    if !differs || halvings == 0 {
-        return sum_m;
-    }
-    refine(segment, from, middle, left_m, halvings - 1)
-        + refine(segment, middle, to, right_m, halvings - 1)
-}
-
-/// Gauss-Legendre quadrature of the speed with five points.
-fn gauss(segment: &Segment, from: f64, to: f64) -> f64 {
-    const NODES: [(f64, f64); 3] = [
-        (0.0, 0.568_888_888_888_888_9),
-        (0.538_469_310_105_683_1, 0.478_628_670_499_366_47),
-        (0.906_179_845_938_664, 0.236_926_885_056_189_08),
-    ];
-    let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
-    let [(_, weight), pairs @ ..] = NODES;
-    let inner: f64 = pairs
-        .iter()
-        .map(|(x, w)| w * (speed(segment, middle - half * x) + speed(segment, middle + half * x)))
-        .sum();
-    half * (weight * speed(segment, middle) + inner)
-}
-
-fn speed(segment: &Segment, t: f64) -> f64 {
-    let d = uniform::derivative(segment, t);
-    d.dot(d).sqrt()
 }

@@ -10,6 +10,9 @@ use crate::{PathRef, Paths};
 /// to compare all with all would take for ever.
 const MAX_LEADERS: u32 = 64;
 
+/// How closely curves are measured, as a part of the tolerance that decides.
+const PRECISION: f64 = 0.05;
+
 const NONE: u32 = u32::MAX;
 
 /// A path that follows the curve of another, the first of its group.
@@ -144,10 +147,11 @@ impl<'a> Groups<'a> {
         {
             return true;
         }
-        let own = *samples.get_or_insert_with(|| self.own.samples());
+        let precision_m = PRECISION * self.tolerance_m;
+        let own = *samples.get_or_insert_with(|| self.own.samples(precision_m));
         if self.leaders[leader].samples == NONE {
             self.leaders[leader].samples = self.samples.len() as u32;
-            self.samples.push(self.other.samples());
+            self.samples.push(self.other.samples(precision_m));
         }
         let theirs = &self.samples[self.leaders[leader].samples as usize];
         let last = own.len() - 1;
