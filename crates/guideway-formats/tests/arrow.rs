@@ -437,13 +437,14 @@ fn row() -> impl Strategy<Value = Row> {
 }
 
 fn layout_of(rows: &[Row]) -> Layout {
-    let mut layout = Layout::default();
-    layout.levels = ["A", "B", "C"]
-        .map(|id| Level {
-            id: id.into(),
-            ..Level::default()
-        })
-        .into();
+    let levels = ["A", "B", "C"].map(|id| Level {
+        id: id.into(),
+        ..Level::default()
+    });
+    let mut layout = Layout {
+        levels: levels.into(),
+        ..Layout::default()
+    };
     let mut runs = Runs::default();
     for (index, row) in rows.iter().enumerate() {
         runs.clear();
