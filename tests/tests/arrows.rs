@@ -11,7 +11,15 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("guideway-datasets", &["guideway-spline", "guideway-layout"]),
     ("guideway-scene", &["guideway-spline", "guideway-layout"]),
     ("guideway-render", &["guideway-spline", "guideway-scene"]),
-    ("guideway-cpu", &["guideway-spline", "guideway-layout", "guideway-scene", "guideway-render"]),
+    (
+        "guideway-cpu",
+        &[
+            "guideway-spline",
+            "guideway-layout",
+            "guideway-scene",
+            "guideway-render",
+        ],
+    ),
 ];
 
 /// Crates that only one room may name.
@@ -32,15 +40,24 @@ type Dependencies = BTreeMap<String, Vec<String>>;
 fn violations(dependencies: &Dependencies) -> Vec<String> {
     let mut found = Vec::new();
     for (krate, names) in dependencies {
-        let allowed = ALLOWED.iter().find(|(name, _)| name == krate).map(|(_, allowed)| *allowed);
+        let allowed = ALLOWED
+            .iter()
+            .find(|(name, _)| name == krate)
+            .map(|(_, allowed)| *allowed);
         for name in names {
             let inside = name.starts_with("guideway");
             if inside && allowed.is_some_and(|allowed| !allowed.contains(&name.as_str())) {
                 found.push(format!("{krate} -> {name}: this arrow is not allowed"));
             }
-            let keepers = KEPT_TO.iter().find(|(kept, _)| kept == name).map(|(_, keepers)| *keepers);
+            let keepers = KEPT_TO
+                .iter()
+                .find(|(kept, _)| kept == name)
+                .map(|(_, keepers)| *keepers);
             if keepers.is_some_and(|keepers| !keepers.split(' ').any(|k| k == krate)) {
-                found.push(format!("{krate} -> {name}: only {} may name it", keepers.unwrap_or("")));
+                found.push(format!(
+                    "{krate} -> {name}: only {} may name it",
+                    keepers.unwrap_or("")
+                ));
             }
         }
         if allowed.is_none() && !["guideway", "guideway-tests", "xtask"].contains(&krate.as_str()) {
@@ -52,7 +69,13 @@ fn violations(dependencies: &Dependencies) -> Vec<String> {
 
 fn workspace_dependencies() -> Dependencies {
     let output = Command::new(env!("CARGO"))
-        .args(["metadata", "--no-deps", "--format-version", "1", "--offline"])
+        .args([
+            "metadata",
+            "--no-deps",
+            "--format-version",
+            "1",
+            "--offline",
+        ])
         .output()
         .expect("cargo runs");
     let metadata: serde_json::Value = serde_json::from_slice(&output.stdout).expect("valid JSON");
@@ -61,7 +84,14 @@ fn workspace_dependencies() -> Dependencies {
     let is_dev = |d: &serde_json::Value| d["kind"] == "dev";
     let all = packages.iter().map(|package| {
         let dependencies = package["dependencies"].as_array().expect("a list");
-        (name(package), dependencies.iter().filter(|d| !is_dev(d)).map(name).collect())
+        (
+            name(package),
+            dependencies
+                .iter()
+                .filter(|d| !is_dev(d))
+                .map(name)
+                .collect(),
+        )
     });
     all.collect()
 }
@@ -69,30 +99,62 @@ fn workspace_dependencies() -> Dependencies {
 #[test]
 fn arrows_point_one_way() {
     let dependencies = workspace_dependencies();
-    assert!(dependencies.len() >= 9, "the workspace has members: {dependencies:?}");
+    assert!(
+        dependencies.len() >= 9,
+        "the workspace has members: {dependencies:?}"
+    );
     let found = violations(&dependencies);
     assert!(found.is_empty(), "{}", found.join("\n"));
 }
 
 #[test]
 fn wrong_arrows_are_found() {
-    let one = |krate: &str, name: &str| Dependencies::from([(krate.to_owned(), vec![name.to_owned()])]);
-    assert_eq!(violations(&one("guideway-spline", "guideway-layout")).len(), 1, "backwards");
-    assert_eq!(violations(&one("guideway-scene", "guideway-formats")).len(), 1, "siblings");
-    assert_eq!(violations(&one("guideway-cpu", "wgpu")).len(), 1, "kept to one room");
-    assert_eq!(violations(&one("guideway-new", "serde")).len(), 1, "unknown crate");
+    let one =
+        |krate: &str, name: &str| Dependencies::from([(krate.to_owned(), vec![name.to_owned()])]);
+    assert_eq!(
+        violations(&one("guideway-spline", "guideway-layout")).len(),
+        1,
+        "backwards"
+    );
+    assert_eq!(
+        violations(&one("guideway-scene", "guideway-formats")).len(),
+        1,
+        "siblings"
+    );
+    assert_eq!(
+        violations(&one("guideway-cpu", "wgpu")).len(),
+        1,
+        "kept to one room"
+    );
+    assert_eq!(
+        violations(&one("guideway-new", "serde")).len(),
+        1,
+        "unknown crate"
+    );
     assert!(violations(&one("guideway", "guideway-cpu")).is_empty());
 }
 
 #[test]
 fn the_core_needs_no_gpu_library() {
     let output = Command::new(env!("CARGO"))
-        .args(["tree", "--package", "guideway", "--edges", "normal", "--prefix", "none", "--offline"])
+        .args([
+            "tree",
+            "--package",
+            "guideway",
+            "--edges",
+            "normal",
+            "--prefix",
+            "none",
+            "--offline",
+        ])
         .output()
         .expect("cargo runs");
     let tree = String::from_utf8_lossy(&output.stdout);
     assert!(tree.contains("guideway-cpu"), "{tree}");
     for gpu in ["wgpu ", "ash ", "glow ", "khronos-egl "] {
-        assert!(!tree.lines().any(|line| line.starts_with(gpu)), "{gpu} is in the tree");
+        assert!(
+            !tree.lines().any(|line| line.starts_with(gpu)),
+            "{gpu} is in the tree"
+        );
     }
 }

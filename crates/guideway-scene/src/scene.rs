@@ -88,10 +88,7 @@ impl Scene {
             }
             None => (own_colors(&layout, base), None),
         };
-        let bounds = draw_order
-            .iter()
-            .filter_map(|&path| layout.paths.get(path as usize).hull_bounds())
-            .reduce(Bounds::union);
+        let bounds = bounds(&layout, &draw_order);
         Ok(Self {
             layout,
             colors,
@@ -180,4 +177,28 @@ fn own_colors(layout: &Layout, base: Rgba) -> Colors {
             Colors::Each(own.iter().map(color).collect())
         }
     }
+}
+
+/// The box of the curves themselves: that of their control points is up to three times as large. Only
+/// a segment whose hull reaches out of the box so far is looked at closely.
+fn bounds(layout: &Layout, drawn: &[u32]) -> Option<Bounds<f64>> {
+    let mut all: Option<Bounds<f64>> = None;
+    let paths = drawn.iter().map(|&path| layout.paths.get(path as usize));
+    for segment in paths
+        .flat_map(|path| path.runs())
+        .flat_map(|run| run.segments())
+    {
+        let hull = segment
+            .iter()
+            .map(|&p| Bounds { min: p, max: p })
+            .reduce(Bounds::union);
+        let is_inside = |hull: Bounds<f64>| {
+            all.is_some_and(|all| all.contains(hull.min) && all.contains(hull.max))
+        };
+        if !hull.is_some_and(is_inside) {
+            let tight = Bounds::of_segment(&segment);
+            all = Some(all.map_or(tight, |all| all.union(tight)));
+        }
+    }
+    all
 }
