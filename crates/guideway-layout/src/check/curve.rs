@@ -35,6 +35,23 @@ impl Curve {
         ends.iter().all(|p| p.is_finite()).then_some(ends)
     }
 
+    /// How far it swings to one side of its chord. Cheap, and the same however it is put together.
+    pub(super) fn swing(&self) -> Swing {
+        let origin = self
+            .segments
+            .first()
+            .map_or_else(Point::default, uniform::start);
+        let (mut swing, mut end) = (Swing::default(), Point::default());
+        for segment in &self.segments {
+            let b = uniform::to_bezier(segment).map(|p| p - origin);
+            // A gap between runs counts as the straight line across it.
+            swing.add(&[end, end, b[0], b[0]]);
+            swing.add(&b);
+            end = b[3];
+        }
+        swing
+    }
+
     /// Whether the control points are the same, one by one: then so is the curve.
     pub(super) fn same_control_points(&self, other: &Self, reversed: bool, within_m: f64) -> bool {
         let close = |a: Point<f64>, b: Point<f64>| a.distance(b) <= within_m;
@@ -77,6 +94,36 @@ impl Curve {
             *point = uniform::point(segment, t);
         }
         points
+    }
+}
+
+/// The area between a curve and its chord, to the left of the curve.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Swing {
+    area_m2: f64,
+    /// The curve is not longer than this.
+    reach_m: f64,
+}
+
+impl Swing {
+    /// Adds the sector from the origin to a Bezier curve.
+    fn add(&mut self, b: &Segment) {
+        let near = b[0].cross(b[1]) + b[2].cross(b[3]);
+        let far = b[0].cross(b[2]) + b[1].cross(b[2]) + b[1].cross(b[3]);
+        // Half the integral of C x C'.
+        self.area_m2 += 0.05 * (6.0 * near + 3.0 * far + b[0].cross(b[3]));
+        self.reach_m += b.windows(2).map(|leg| leg[0].distance(leg[1])).sum::<f64>();
+    }
+
+    /// Whether the two can belong to curves that are nowhere farther than this from each other.
+    pub(super) fn may_match(self, other: Self, reversed: bool, within_m: f64) -> bool {
+        let own_m2 = if reversed {
+            -self.area_m2
+        } else {
+            self.area_m2
+        };
+        // The strip between them is no longer than the two, and no wider than `within_m`.
+        (own_m2 - other.area_m2).abs() <= within_m * (self.reach_m + other.reach_m + within_m)
     }
 }
 

@@ -3,7 +3,7 @@ use std::hash::{BuildHasher, RandomState};
 
 use guideway_spline::Point;
 
-use super::curve::{Curve, Samples};
+use super::curve::{Curve, Samples, Swing};
 use crate::{PathRef, Paths};
 
 /// Most leaders with ends in one cell: more different curves between two places are no layout, and
@@ -57,6 +57,7 @@ struct Leader {
     next: u32,
     /// Number of leaders in the cell up to this one.
     depth: u32,
+    swing: Swing,
     /// Index in `samples`, once they were needed.
     samples: u32,
 }
@@ -82,6 +83,7 @@ impl<'a> Groups<'a> {
         let path = self.paths.get(row);
         self.own.load(path);
         let ends = self.own.ends()?;
+        let swing = self.own.swing();
         let mut samples = None;
         for reversed in [false, true] {
             let ends = oriented(ends, reversed);
@@ -89,19 +91,22 @@ impl<'a> Groups<'a> {
                 let key = self.key(path, cell);
                 let mut next = self.heads.get(&key).copied().unwrap_or(NONE);
                 while next != NONE {
-                    if self.matches(next as usize, ends, reversed, &mut samples) {
-                        let first = self.leaders[next as usize].row as usize;
+                    let leader = self.leaders[next as usize];
+                    if swing.may_match(leader.swing, reversed, self.tolerance_m)
+                        && self.matches(next as usize, ends, reversed, &mut samples)
+                    {
+                        let first = leader.row as usize;
                         return Some(Member {
                             first,
                             row,
                             reversed,
                         });
                     }
-                    next = self.leaders[next as usize].next;
+                    next = leader.next;
                 }
             }
         }
-        self.lead(path, ends);
+        self.lead(path, ends, swing);
         None
     }
 
@@ -109,7 +114,7 @@ impl<'a> Groups<'a> {
         self.hasher.hash_one((path.level(), cell))
     }
 
-    fn lead(&mut self, path: PathRef<'_>, ends: [Point<f64>; 2]) {
+    fn lead(&mut self, path: PathRef<'_>, ends: [Point<f64>; 2], swing: Swing) {
         let key = self.key(path, cell_of(ends, self.cell_m));
         let head = self.heads.entry(key).or_insert(NONE);
         let depth = self.leaders.get(*head as usize).map_or(1, |l| l.depth + 1);
@@ -118,6 +123,7 @@ impl<'a> Groups<'a> {
                 row: path.row() as u32,
                 next: *head,
                 depth,
+                swing,
                 samples: NONE,
             });
             *head = (self.leaders.len() - 1) as u32;
