@@ -276,16 +276,3 @@ fn too_little_memory_and_a_call_to_stop_are_told() {
     let stopped = prepared.render(&view, &style, &cancel, &mut frame);
     assert_eq!(stopped, Err(RenderError::Cancelled));
 }
-#[test]
-fn tmp_wide() {
-    let scene = colored(wandering(300, 11, 3.0, ORIGIN), |_| 255);
-    for width_px in [12.0, 90.0] {
-        for px_per_m in [0.4, 1.0, 7.0] {
-            for m in [&Cpu as &dyn Method, &Oracle] {
-                let s = std::time::Instant::now();
-                draw(m, &scene, &view(ORIGIN, px_per_m), &wide_px(width_px), &Budget::default());
-                println!("{} {width_px} {px_per_m} {:?}", m.info().name, s.elapsed());
-            }
-        }
-    }
-}
