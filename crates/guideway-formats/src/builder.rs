@@ -1,12 +1,9 @@
 //! What all text readers share on the way to a layout: budgets, diagnostics, straight lines.
 
 use guideway_layout::{Attributes, Code, Diagnostics, Layout, NewPath, Place, TextColumn, Value};
-use guideway_spline::{Point, Runs, uniform};
+use guideway_spline::Point;
 
 use crate::{Problem, ReadError, read::Source, text::printable};
-
-/// How far a curve may end from its node before that is reported, in metres.
-const NODE_GAP_M: f64 = 0.01;
 
 /// Where something is in the file. The text is only made when a finding is kept.
 pub(crate) type At<'f> = &'f dyn Fn() -> Place;
@@ -153,38 +150,6 @@ impl<'a> Builder<'a> {
         true
     }
 
-    /// Reports a curve that does not begin and end at its nodes.
-    pub(crate) fn check_ends(&mut self, runs: &Runs, nodes: [Option<Point<f64>>; 2], at: At<'_>) {
-        let ends = ends(runs);
-        let names = ["begins", "ends"];
-        for ((end, node), verb) in ends.into_iter().zip(nodes).zip(names) {
-            let (Some(end), Some(node)) = (end, node) else {
-                continue;
-            };
-            let gap = end.distance(node);
-            if gap > NODE_GAP_M {
-                let message = || format!("the curve {verb} {gap:.3} m from its node");
-                let remedy = "It is drawn as written; move the node or the end of the curve";
-                self.find(Code::NodeGap, at, message, remedy);
-            }
-        }
-    }
-
-    /// Reports a curve without length.
-    pub(crate) fn check_length(&mut self, runs: &Runs, at: At<'_>) {
-        let mut points = runs.points().iter();
-        let first = points.next();
-        if points.all(|p| Some(p) == first) {
-            let message = || "the path has no length".to_owned();
-            self.find(
-                Code::ZeroLength,
-                at,
-                message,
-                "Remove the path, or part its ends",
-            );
-        }
-    }
-
     /// Refuses a text that is longer than any name should be.
     pub(crate) fn check_text(&self, text: &str) -> Result<(), ReadError> {
         let limit = self.source.options.limits.text_bytes as u64;
@@ -228,11 +193,4 @@ impl<'a> Builder<'a> {
 fn most_text(file_bytes: u64) -> u64 {
     let most = file_bytes.saturating_mul(64).saturating_add(1 << 20);
     most.min(TextColumn::MAX_BYTES as u64)
-}
-
-/// Where a curve begins and where it ends.
-fn ends(runs: &Runs) -> [Option<Point<f64>>; 2] {
-    let first = runs.iter().next().and_then(|run| run.first_chunk());
-    let last = runs.iter().last().and_then(|run| run.last_chunk());
-    [first.map(uniform::start), last.map(uniform::end)]
 }

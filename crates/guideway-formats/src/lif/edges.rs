@@ -35,13 +35,13 @@ impl Mapper<'_> {
         at: At<'_>,
     ) -> Result<(), ReadError> {
         let Some(edge) = self.record(edge, at) else {
-            self.count_edge(None, at);
+            self.count_edge();
             let detail = "this is not an object, so there is nothing to draw";
             return self.builder.refuse(&at().element, Code::WrongType, detail);
         };
         self.check_repeated(edge.repeated, at);
         let id = self.id(&edge.id, at, "edgeId")?;
-        self.count_edge(edge.id.get().map(AsRef::as_ref), at);
+        self.count_edge();
         let start = self.end(&edge.start, &id, level, &|| within(at, "startNodeId"))?;
         let end = self.end(&edge.end, &id, level, &|| within(at, "endNodeId"))?;
         let curves = self.curves(edge, at)?;
@@ -153,8 +153,6 @@ impl Mapper<'_> {
         let mut runs = Runs::default();
         if let Some(trajectory) = curve.trajectory {
             self.append_curve(trajectory, at, &mut runs)?;
-            self.builder
-                .check_ends(&runs, [start.position, end.position], at);
         }
         if runs.is_empty() {
             let (Some(from), Some(to)) = (start.position, end.position) else {
@@ -163,7 +161,6 @@ impl Mapper<'_> {
             };
             runs.push_line(from, to);
         }
-        self.builder.check_length(&runs, at);
         let vehicle_types: Vec<&str> = curve.types.iter().map(String::as_str).collect();
         let row = self.builder.push_path(&NewPath {
             id: name,

@@ -86,15 +86,6 @@ impl Mapper<'_> {
         }
     }
 
-    /// Says if an identifier was there before.
-    pub(super) fn check_duplicate(&mut self, known: bool, key: &str, id: &str, at: At<'_>) {
-        if known {
-            let message = || format!("the {key} `{id}` is used more than once");
-            let remedy = "Both are kept, and references go to the first of the layout; rename one";
-            self.builder.find(Code::DuplicateId, at, message, remedy);
-        }
-    }
-
     /// Says that something names a node that is not there.
     pub(super) fn report_unknown_node(&mut self, node: &str, by: &str, at: At<'_>) {
         let message =

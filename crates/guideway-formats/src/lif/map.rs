@@ -20,8 +20,6 @@ pub(super) struct Mapper<'a> {
     /// Nodes of later layouts whose ids were used before.
     repeated_nodes: HashMap<(u32, String), u32>,
     levels: HashSet<String>,
-    edges: HashSet<String>,
-    stations: HashSet<String>,
     /// Of the edges: nodes may name types that have no path.
     vehicle_types: HashSet<String>,
     counts: Counts,
@@ -48,8 +46,6 @@ impl<'a> Mapper<'a> {
             nodes: HashMap::new(),
             repeated_nodes: HashMap::new(),
             levels: HashSet::new(),
-            edges: HashSet::new(),
-            stations: HashSet::new(),
             vehicle_types: HashSet::new(),
             counts: Counts::default(),
         }
@@ -164,7 +160,11 @@ impl<'a> Mapper<'a> {
         let id = self.id(&part.layout.id, at, "layoutId")?;
         let name = self.text(&part.layout.name, &|| within(at, "layoutName"))?;
         let new = self.levels.insert(id.clone().into_owned());
-        self.check_duplicate(!new, "layoutId", &id, at);
+        if !new {
+            let message = || format!("the layoutId `{id}` is used more than once");
+            let remedy = "Both are kept, and `--level` shows the first; rename one";
+            self.builder.find(Code::DuplicateId, at, message, remedy);
+        }
         self.builder.layout.levels.push(Level {
             id: id.into_owned(),
             name: name.map(str::to_owned),
@@ -191,7 +191,6 @@ impl<'a> Mapper<'a> {
         };
         let row = self.builder.push_node(&id, position, Some(level))?;
         let first = self.nodes.get(id.as_ref()).copied();
-        self.check_duplicate(first.is_some(), "nodeId", &id, at);
         match first.map(|row| self.builder.layout.nodes.level(row)) {
             None => {
                 self.nodes.insert(id.into_owned(), row);
@@ -246,8 +245,6 @@ impl<'a> Mapper<'a> {
         let row = self
             .builder
             .push_station(&id, position, nodes, Some(level))? as usize;
-        let new = self.stations.insert(id.clone().into_owned());
-        self.check_duplicate(!new, "stationId", &id, at);
         self.attribute(Table::Stations, row, "stationName", &station.name, at)?;
         self.attribute(Table::Stations, row, "stationType", &station.kind, at)?;
         self.check_type(&station.height, &|| within(at, "stationHeight"), "a number");
@@ -259,13 +256,8 @@ impl<'a> Mapper<'a> {
         Ok(())
     }
 
-    /// Counts an edge under its id, and reports an id that was there before.
-    pub(super) fn count_edge(&mut self, id: Option<&str>, at: At<'_>) {
+    pub(super) fn count_edge(&mut self) {
         self.counts.edges += 1;
-        if let Some(id) = id {
-            let new = self.edges.insert(id.to_owned());
-            self.check_duplicate(!new, "edgeId", id, at);
-        }
     }
 
     pub(super) fn count_trajectory(&mut self) {

@@ -1,7 +1,5 @@
 //! From a path of a plant model to runs.
 
-use std::collections::HashSet;
-
 use guideway_layout::{Code, Direction, NewPath, Value};
 use guideway_spline::{Point, Runs, polyline_to_runs};
 use roxmltree::Node;
@@ -30,10 +28,8 @@ impl<'d, 't> Plant<'_, 'd, 't> {
         &mut self,
         path: Node<'d, 't>,
         drawing: &Drawing<'d>,
-        known: &mut HashSet<&'d str>,
     ) -> Result<(), ReadError> {
         let name = self.name(path)?;
-        self.check_duplicate(!known.insert(name_of(path)), path);
         let shape = self.shape(path, drawing)?;
         self.count_shape(&shape);
         let ends = ["sourcePoint", "destinationPoint"].map(|key| {
@@ -56,8 +52,6 @@ impl<'d, 't> Plant<'_, 'd, 't> {
         let (from, to) = (nodes.position_m(start), nodes.position_m(end));
         let mut runs = Runs::default();
         self.append(path, &shape, [from, to], &mut runs);
-        let xml = self.xml;
-        self.builder.check_length(&runs, &|| xml.place(path));
         let reverse = self.number(path, &["maxReverseVelocity"]);
         let row = self.builder.push_path(&NewPath {
             id: &name,

@@ -63,13 +63,11 @@ impl<'a, 'd, 't> Plant<'a, 'd, 't> {
                 self.blocks.entry(member).or_default().push(name);
             }
         }
-        let mut paths = HashSet::new();
         for path in children(model, "path") {
-            self.map_path(path, drawing, &mut paths)?;
+            self.map_path(path, drawing)?;
         }
-        let mut locations = HashSet::new();
         for location in children(model, "location") {
-            self.map_location(location, drawing, &mut locations)?;
+            self.map_location(location, drawing)?;
         }
         self.report_moved();
         self.count(model);
@@ -103,8 +101,6 @@ impl<'a, 'd, 't> Plant<'a, 'd, 't> {
         };
         let row = self.builder.push_node(&name, position, None)?;
         if let Some(name) = point.attribute("name") {
-            let known = self.nodes.contains_key(name);
-            self.check_duplicate(known, point);
             self.nodes.entry(name).or_insert(row);
         }
         self.text_attribute(Table::Nodes, row as usize, "type", point.attribute("type"))?;
@@ -118,10 +114,8 @@ impl<'a, 'd, 't> Plant<'a, 'd, 't> {
         &mut self,
         location: Node<'d, 't>,
         drawing: &Drawing<'d>,
-        known: &mut HashSet<&'d str>,
     ) -> Result<(), ReadError> {
         let name = self.name(location)?;
-        self.check_duplicate(!known.insert(name_of(location)), location);
         let position = self.position(location, "locationLayout", drawing);
         let mut nodes = Vec::new();
         for link in children(location, "link") {
@@ -224,14 +218,6 @@ impl<'a, 'd, 't> Plant<'a, 'd, 't> {
         let xml = self.xml;
         self.builder
             .find(code, &|| xml.place(node), message, remedy);
-    }
-
-    pub(super) fn check_duplicate(&mut self, known: bool, node: Node<'d, 't>) {
-        if known && node.has_attribute("name") {
-            let message = || "the name is used more than once".to_owned();
-            let remedy = "Both are kept, and references go to the first; rename one";
-            self.find(Code::DuplicateId, node, message, remedy);
-        }
     }
 
     pub(super) fn report_unknown_node(&mut self, node: Node<'d, 't>, point: &str) {
