@@ -6,7 +6,7 @@ pub enum RenderError {
     /// A side of the picture is zero or too long.
     #[error(
         "a picture of {width} x {height} pixels cannot be made: each side takes 1 to {} pixels and both \
-         together at most {} million; ask for another size",
+         together at most {} million",
         FrameSize::MAX_SIDE,
         FrameSize::MAX_PIXELS / 1_000_000
     )]
@@ -31,8 +31,7 @@ pub enum RenderError {
     },
     /// The memory allowed does not do.
     #[error(
-        "method `{method}` needs {needed_bytes} bytes for {what}, but the budget is {budget_bytes}: \
-         raise the budget or make the picture smaller"
+        "method `{method}` needs {needed_bytes} bytes for {what}, but the budget is {budget_bytes}"
     )]
     Budget {
         /// Name of the method.
@@ -43,6 +42,24 @@ pub enum RenderError {
         needed_bytes: u64,
         /// Bytes allowed.
         budget_bytes: u64,
+    },
+    /// The method has no way of drawing this.
+    #[error("method `{method}` cannot draw {what}")]
+    Unsupported {
+        /// Name of the method.
+        method: &'static str,
+        /// What it cannot draw.
+        what: String,
+        /// What to ask for instead, a sentence.
+        remedy: String,
+    },
+    /// The device gave up: it was lost, or had no memory left.
+    #[error("method `{method}` was let down by its device: {what}")]
+    Device {
+        /// Name of the method.
+        method: &'static str,
+        /// What happened, at what, and what to try.
+        what: String,
     },
     /// The caller asked to stop.
     #[error("cancelled")]

@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use guideway_scene::{LineRule, Rgba, Scene};
 
 use crate::density::ToneMap;
-use crate::{Frame, RenderError, Report, View};
+use crate::{Frame, Preparation, RenderError, Report, View, Work};
 
 /// One way of turning a scene into pixels. Immutable once made: share it between threads.
 pub trait Method: Send + Sync {
@@ -37,6 +37,23 @@ pub trait Prepared: Send {
         cancel: &Cancel,
         frame: &mut Frame,
     ) -> Result<Report, RenderError>;
+
+    /// What making the scene ready took.
+    fn preparation(&self) -> &Preparation;
+
+    /// Counts the work of one frame of this view, apart from [`Prepared::render`] so that counting slows no
+    /// frame. What a method does not count is none.
+    ///
+    /// # Errors
+    /// As [`Prepared::render`].
+    fn count_work(
+        &mut self,
+        _view: &View,
+        _style: &Style,
+        _cancel: &Cancel,
+    ) -> Result<Work, RenderError> {
+        Ok(Work::default())
+    }
 }
 
 /// What a method is called and where it runs.

@@ -23,15 +23,84 @@ pub struct Report {
     pub peak_bytes: u64,
     /// Bands that the picture was drawn in; more than one where the budget did not hold all at once.
     pub bands: u32,
+    /// What is drawn otherwise than asked, a sentence each: a method of fixed line width says so here.
+    pub notes: Vec<String>,
 }
 
-/// One stage of a frame.
+/// One stage of a frame or of a preparation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stage {
     /// What it does.
     pub name: &'static str,
     /// How long it took.
     pub elapsed_ms: f64,
+    /// By whose clock.
+    pub clock: Clock,
+}
+
+impl Stage {
+    /// Name of the stage that fetches a finished picture from a device. A window has no need of it, so it
+    /// is no part of [`Report::frame_ms`].
+    pub const READ_BACK: &'static str = "read back";
+
+    /// A stage by the processor's clock.
+    pub fn host(name: &'static str, elapsed_ms: f64) -> Self {
+        Self {
+            name,
+            elapsed_ms,
+            clock: Clock::Host,
+        }
+    }
+
+    /// A stage by the device's clock.
+    pub fn device(name: &'static str, elapsed_ms: f64) -> Self {
+        Self {
+            name,
+            elapsed_ms,
+            clock: Clock::Device,
+        }
+    }
+}
+
+/// Who measured a time.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Clock {
+    /// The processor that runs the program.
+    #[default]
+    Host,
+    /// The graphics device, by timestamps around its work.
+    Device,
+}
+
+/// What making a scene ready took, and what is kept of it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Preparation {
+    /// Stages in order, with their time.
+    pub stages: Vec<Stage>,
+    /// Bytes that stay allocated from frame to frame, beside the scene.
+    pub held_bytes: u64,
+    /// Most bytes held at once on the way there.
+    pub peak_bytes: u64,
+}
+
+impl Preparation {
+    /// Time of all stages.
+    pub fn elapsed_ms(&self) -> f64 {
+        self.stages.iter().map(|s| s.elapsed_ms).sum()
+    }
+}
+
+/// Work of one frame, in numbers that any device would give. None where a method does not count it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Work {
+    /// Tests of a point against a line.
+    pub tests: Option<u64>,
+    /// Atomic operations on memory that all threads see.
+    pub atomics: Option<u64>,
+    /// Bytes that threads ask for, before any cache.
+    pub bytes_read: Option<u64>,
+    /// Bytes that threads write, before any cache.
+    pub bytes_written: Option<u64>,
 }
 
 impl Report {
@@ -43,6 +112,12 @@ impl Report {
     /// Time of all stages.
     pub fn elapsed_ms(&self) -> f64 {
         self.stages.iter().map(|s| s.elapsed_ms).sum()
+    }
+
+    /// Time until the picture is complete where it was made: all stages but [`Stage::READ_BACK`].
+    pub fn frame_ms(&self) -> f64 {
+        let drawing = self.stages.iter().filter(|s| s.name != Stage::READ_BACK);
+        drawing.map(|s| s.elapsed_ms).sum()
     }
 }
 
@@ -63,5 +138,22 @@ impl fmt::Display for Report {
             }
         }
         write!(f, ", in {:.1} ms", self.elapsed_ms())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn fetching_the_picture_is_no_part_of_a_frame() {
+        let report = Report {
+            stages: vec![
+                Stage::device("draw", 2.0),
+                Stage::host(Stage::READ_BACK, 5.0),
+            ],
+            ..Report::default()
+        };
+        assert_eq!((report.frame_ms(), report.elapsed_ms()), (2.0, 7.0));
     }
 }

@@ -3,7 +3,8 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use guideway_render::{
-    Budget, Cancel, Frame, Prepared, RenderError, Report, Shading, Stage, Style, View, density,
+    Budget, Cancel, Frame, Preparation, Prepared, RenderError, Report, Shading, Stage, Style, View,
+    density,
 };
 use guideway_scene::Scene;
 use guideway_spline::{Bounds, Point};
@@ -31,6 +32,7 @@ pub(super) struct CpuPrepared {
     pool: Option<ThreadPool>,
     clusters: Vec<Option<Bounds<f64>>>,
     widest_m: Option<f32>,
+    preparation: Preparation,
     buffers: Buffers,
 }
 
@@ -71,6 +73,10 @@ fn threads(budget: &Budget) -> usize {
     }
 }
 
+fn elapsed_ms(start: Instant) -> f64 {
+    start.elapsed().as_secs_f64() * 1e3
+}
+
 fn too_small(what: &'static str, needed_bytes: u64, budget: &Budget) -> RenderError {
     RenderError::Budget {
         method: NAME,
@@ -89,7 +95,9 @@ impl CpuPrepared {
         // If the system gives no more threads, those that the process shares do.
         let builder = ThreadPoolBuilder::new().num_threads(budget.threads);
         let pool = (budget.threads > 0).then(|| builder.build().ok()).flatten();
+        let start = Instant::now();
         let clusters = install(pool.as_ref(), || cluster_bounds(&scene));
+        let held_bytes = (clusters.len() * size_of::<Option<Bounds<f64>>>()) as u64;
         let drawn = scene.draw_order().iter();
         let widest_m = drawn
             .filter_map(|&path| scene.width_m(path))
@@ -98,6 +106,11 @@ impl CpuPrepared {
             scene,
             budget: *budget,
             pool,
+            preparation: Preparation {
+                stages: vec![Stage::host("bound", elapsed_ms(start))],
+                held_bytes,
+                peak_bytes: held_bytes,
+            },
             clusters,
             widest_m,
             buffers: Buffers::default(),
@@ -137,6 +150,7 @@ impl Prepared for CpuPrepared {
             clusters,
             widest_m,
             buffers,
+            preparation: _,
         } = self;
         let shot = Shot {
             scene,
@@ -163,7 +177,12 @@ impl Prepared for CpuPrepared {
             lines: buffers.lines.made(),
             peak_bytes: needed - (size.pixels() * size_of::<[u8; 4]>()) as u64 + buffers.peak_bytes,
             bands,
+            notes: Vec::new(),
         })
+    }
+
+    fn preparation(&self) -> &Preparation {
+        &self.preparation
     }
 }
 
@@ -177,10 +196,10 @@ impl Buffers {
     fn time<R>(&mut self, name: &'static str, work: impl FnOnce(&mut Self) -> R) -> R {
         let start = Instant::now();
         let result = work(self);
-        let elapsed_ms = start.elapsed().as_secs_f64() * 1e3;
+        let elapsed_ms = elapsed_ms(start);
         match self.stages.iter_mut().find(|s| s.name == name) {
             Some(stage) => stage.elapsed_ms += elapsed_ms,
-            None => self.stages.push(Stage { name, elapsed_ms }),
+            None => self.stages.push(Stage::host(name, elapsed_ms)),
         }
         result
     }

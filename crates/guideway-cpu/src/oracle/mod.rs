@@ -13,8 +13,8 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use guideway_render::{
-    Budget, Cancel, Frame, Method, MethodInfo, Prepared, RenderError, Report, Shading, Stage,
-    Style, View, density,
+    Budget, Cancel, Frame, Method, MethodInfo, Preparation, Prepared, RenderError, Report, Shading,
+    Stage, Style, View, density,
 };
 use guideway_scene::{Rgba, Scene};
 use guideway_spline::{Bounds, Point};
@@ -54,6 +54,7 @@ impl Method for Oracle {
         Ok(Box::new(PreparedOracle {
             scene,
             memory_bytes,
+            preparation: Preparation::default(),
         }))
     }
 }
@@ -61,6 +62,8 @@ impl Method for Oracle {
 struct PreparedOracle {
     scene: Arc<Scene>,
     memory_bytes: u64,
+    /// Nothing: there is no index.
+    preparation: Preparation,
 }
 
 /// A path that may be seen.
@@ -123,19 +126,18 @@ impl Prepared for PreparedOracle {
             hidden: self.scene.hidden_count() as u64,
             refused: layout.refused.len() as u64,
             stages: vec![
-                Stage {
-                    name: "cull",
-                    elapsed_ms: culled_ms,
-                },
-                Stage {
-                    name: "sample",
-                    elapsed_ms: elapsed_ms(started) - culled_ms,
-                },
+                Stage::host("cull", culled_ms),
+                Stage::host("sample", elapsed_ms(started) - culled_ms),
             ],
             lines,
             peak_bytes: (band_bytes + stroke_bytes + count_bytes) as u64,
             bands,
+            notes: Vec::new(),
         })
+    }
+
+    fn preparation(&self) -> &Preparation {
+        &self.preparation
     }
 }
 

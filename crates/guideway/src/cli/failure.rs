@@ -93,6 +93,11 @@ impl From<RenderError> for Failure {
                 "memory",
                 "Allow more with --memory, or ask for a smaller picture with --size",
             ),
+            RenderError::Unsupported { remedy, .. } => ("unsupported", remedy.as_str()),
+            RenderError::Device { .. } => (
+                "device",
+                "`--method cpu` needs no graphics device; `guideway methods` shows what there is",
+            ),
             RenderError::Cancelled => ("cancelled", "Run the command again"),
         };
         Self {

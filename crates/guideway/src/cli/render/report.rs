@@ -1,6 +1,7 @@
 use std::path::Path;
 
 use guideway::layout::Severity;
+use guideway::render::Clock;
 use guideway::scene::{Legend, Scene};
 use serde_json::{Value, json};
 
@@ -77,7 +78,11 @@ pub(crate) fn what_was_drawn(drawn: &Drawn) -> String {
             text += &format!(", {} {what}", text::count(count));
         }
     }
-    text + "\n"
+    text.push('\n');
+    for note in &report.notes {
+        text += &format!("note: {note}\n");
+    }
+    text
 }
 
 fn legend_text(legend: &Legend) -> String {
@@ -101,7 +106,16 @@ pub(super) fn json(path: &Path, file: &Path, scene: &Scene, drawn: &Drawn, times
     let stages: Vec<Value> = report
         .stages
         .iter()
-        .map(|stage| json!({ "name": stage.name, "ms": stage.elapsed_ms }))
+        .map(|stage| {
+            json!({
+                "name": stage.name,
+                "ms": stage.elapsed_ms,
+                "clock": match stage.clock {
+                    Clock::Host => "host",
+                    Clock::Device => "device",
+                },
+            })
+        })
         .collect();
     json!({
         "file": file.to_string_lossy(),
@@ -127,6 +141,7 @@ pub(super) fn json(path: &Path, file: &Path, scene: &Scene, drawn: &Drawn, times
         "peak_bytes": report.peak_bytes,
         "bands": report.bands,
         "stages": stages,
+        "notes": report.notes,
         "legend": scene.legend().map(legend_json),
         "findings": {
             "errors": layout.diagnostics.count_at_least(Severity::Error),
