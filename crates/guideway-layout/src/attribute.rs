@@ -230,6 +230,8 @@ impl std::fmt::Display for Value<'_> {
         match self {
             Self::Bool(v) => v.fmt(f),
             Self::Int(v) => v.fmt(f),
+            // Single precision is common in files: 0.3 must not read 0.30000001192092896.
+            Self::Float(v) if f64::from(*v as f32) == *v => (*v as f32).fmt(f),
             Self::Float(v) => v.fmt(f),
             Self::Text(v) => f.write_str(v),
         }

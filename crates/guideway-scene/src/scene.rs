@@ -1,7 +1,7 @@
 use std::fmt;
 use std::sync::Arc;
 
-use guideway_layout::Layout;
+use guideway_layout::{Layout, Level};
 use guideway_spline::Bounds;
 
 use crate::Rgba;
@@ -155,7 +155,7 @@ fn draw_order(layout: &Layout, level: Option<&str>) -> Result<Vec<u32>, SceneErr
                 .level_named(asked)
                 .ok_or_else(|| SceneError::UnknownLevel {
                     asked: asked.to_owned(),
-                    known: layout.levels.iter().map(|l| l.id.clone()).collect(),
+                    known: layout.levels.iter().map(level_label).collect(),
                 })?,
         ),
     };
@@ -167,6 +167,14 @@ fn draw_order(layout: &Layout, level: Option<&str>) -> Result<Vec<u32>, SceneErr
         order.sort_by_key(|&path| rank[path as usize]);
     }
     Ok(order)
+}
+
+/// A level as it may be asked for: by its id or its name.
+fn level_label(level: &Level) -> String {
+    match &level.name {
+        Some(name) if *name != level.id => format!("{} ({name})", level.id),
+        _ => level.id.clone(),
+    }
 }
 
 fn own_colors(layout: &Layout, base: Rgba) -> Colors {

@@ -8,7 +8,6 @@
 //! use guideway::render::{Budget, Cancel, Frame, FrameSize, Style, View};
 //! use guideway::scene::{Scene, SceneOptions};
 //!
-//! # std::env::set_current_dir("../..")?;
 //! # let folder = tempfile::tempdir()?;
 //! # let picture = folder.path().join("site.png");
 //! let layout = guideway::open("examples/site.lif.json")?;

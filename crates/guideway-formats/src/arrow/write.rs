@@ -1,5 +1,5 @@
 use std::collections::HashMap;
-use std::fs::File;
+use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -45,12 +45,10 @@ pub struct WriteError {
 #[non_exhaustive]
 pub enum WriteProblem {
     /// The operating system refused.
-    #[error(
-        "cannot write the file: {0}. Check that the folder exists, may be written to and has room"
-    )]
+    #[error("cannot write the file: {0}")]
     Io(#[from] io::Error),
     /// A curve has too few control points.
-    #[error("path {id:?} has a run of {points} control points. Give it four or more")]
+    #[error("path {id:?} has a run of {points} control points")]
     TooFewPoints {
         /// Identifier of the path.
         id: String,
@@ -58,7 +56,7 @@ pub enum WriteProblem {
         points: usize,
     },
     /// The values of a row are not those of the columns.
-    #[error("column {column:?}: {detail}. Give each row a value of the type of every column")]
+    #[error("column {column:?}: {detail}")]
     Value {
         /// Name of the column.
         column: String,
@@ -66,8 +64,20 @@ pub enum WriteProblem {
         detail: String,
     },
     /// The Arrow library refused.
-    #[error("cannot make the table: {0}. Please report this")]
+    #[error("cannot make the table: {0}")]
     Arrow(#[source] ArrowError),
+}
+
+impl WriteError {
+    /// What to do about it.
+    pub fn remedy(&self) -> &'static str {
+        match self.problem {
+            WriteProblem::Io(_) => "Check that the folder exists, may be written to and has room",
+            WriteProblem::TooFewPoints { .. } => "Give the path four or more",
+            WriteProblem::Value { .. } => "Give each row a value of the type of every column",
+            WriteProblem::Arrow(_) => "Please report this",
+        }
+    }
 }
 
 impl From<ArrowError> for WriteProblem {
@@ -240,6 +250,10 @@ impl ArrowWriter {
 
 /// A temporary file in the folder of `path`: only within one file system can it take its place at once.
 fn temporary_beside(path: &Path) -> io::Result<NamedTempFile<File>> {
+    // Renaming would put a file in the place of a device.
+    if fs::metadata(path).is_ok_and(|there| !there.is_file()) {
+        return Err(io::Error::other("there is something that is not a file"));
+    }
     let folder = match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
@@ -250,7 +264,7 @@ fn temporary_beside(path: &Path) -> io::Result<NamedTempFile<File>> {
     {
         use std::os::unix::fs::PermissionsExt;
         // As for any new file, less what the user's mask takes away.
-        builder.permissions(std::fs::Permissions::from_mode(0o666));
+        builder.permissions(fs::Permissions::from_mode(0o666));
     }
     builder.tempfile_in(folder)
 }

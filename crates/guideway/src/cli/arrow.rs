@@ -37,13 +37,16 @@ pub(crate) fn replace<T>(
     write: impl FnOnce(&Path) -> Result<T, WriteError>,
 ) -> Result<(T, u64), Failure> {
     replace_file(output, |file| {
-        let result = write(file).map_err(|error| match error.problem {
-            WriteProblem::Io(problem) => unwritten(output, problem),
-            other => Failure {
-                code: "save",
-                message: format!("{}: {other}", output.display()),
-                remedy: "`guideway check` may show what is odd about the layout".into(),
-            },
+        let result = write(file).map_err(|error| {
+            let remedy = error.remedy().into();
+            match error.problem {
+                WriteProblem::Io(problem) => unwritten(output, problem),
+                other => Failure {
+                    code: "save",
+                    message: format!("{}: {other}", output.display()),
+                    remedy,
+                },
+            }
         })?;
         let size = std::fs::metadata(file).map_err(|problem| unwritten(output, problem))?;
         Ok((result, size.len()))

@@ -13,8 +13,8 @@ use super::render::{Drawn, Wishes, draw, what_was_drawn};
 use super::{Exit, Failure, Output, input, text};
 
 /// A site of our own making, in the command itself so that the demo runs anywhere.
-const SITE: &[u8] = include_bytes!("../../../../examples/site.lif.json");
-const SITE_NAME: &str = "examples/site.lif.json";
+const SITE: &[u8] = include_bytes!("../../examples/site.lif.json");
+const SITE_NAME: &str = "crates/guideway/examples/site.lif.json";
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {

@@ -1,5 +1,7 @@
 //! Numbers as people read them.
 
+use guideway::layout::Value;
+
 /// A count with its thousands apart: 1,020,350.
 pub(crate) fn count(n: u64) -> String {
     let digits = n.to_string();
@@ -48,12 +50,7 @@ pub(crate) fn bytes(n: u64) -> String {
 
 /// A number as it was meant: 0.3 where a file of single precision has 0.30000001192092896.
 pub(crate) fn number(value: f64) -> String {
-    let single = value as f32;
-    if f64::from(single) == value {
-        single.to_string()
-    } else {
-        value.to_string()
-    }
+    Value::Float(value).to_string()
 }
 
 /// A length in metres, to the millimetre, with its thousands apart.

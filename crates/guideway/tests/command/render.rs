@@ -157,7 +157,7 @@ fn values_that_make_no_sense_are_refused_with_an_example() {
         (&["--tone", "log"], "--shade density"),
         (&["--min-px", "5", "--max-px", "2"], "--min-px 1"),
         (&["--line-rule", "thesis", "--width", "1"], "--width 0.2"),
-        (&["--level", "attic"], "hall, mezzanine"),
+        (&["--level", "attic"], "hall (Hall), mezzanine (Mezzanine)"),
         (&["--color-by", "mood"], "maxSpeed"),
         (&["--method", "magic"], "cpu"),
         (&["--memory", "0"], "--memory"),

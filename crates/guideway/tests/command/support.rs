@@ -8,7 +8,7 @@ use serde_json::Value;
 
 /// The example site, which every test may read.
 pub(crate) fn site() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/site.lif.json")
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/site.lif.json")
 }
 
 pub(crate) fn command() -> Command {

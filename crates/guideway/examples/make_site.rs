@@ -1,4 +1,4 @@
-//! Writes `site.lif.json`, the example site: `cargo run --example make_site > examples/site.lif.json`.
+//! Writes `site.lif.json`, the example site: `cargo run --example make_site > crates/guideway/examples/site.lif.json`.
 //!
 //! A distribution hall of our own design: two ring lanes in opposite directions, high-bay aisles, docks,
 //! chargers, parking, a production loop, and a mezzanine as a second layout.
@@ -390,6 +390,11 @@ fn lines(file: &Value) -> String {
 }
 
 fn main() {
+    print!("{}", site());
+}
+
+/// The whole file.
+pub(crate) fn site() -> String {
     let file = json!({
         "metaInformation": {
             "projectIdentification": "Guideway example site",
@@ -402,5 +407,5 @@ fn main() {
             layout("mezzanine", "Mezzanine", &mezzanine()),
         ],
     });
-    println!("{}", lines(&file));
+    lines(&file) + "\n"
 }
