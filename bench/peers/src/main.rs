@@ -1,7 +1,7 @@
-//! `peers METHOD FILE [PNG]` strokes a layout with one renderer and prints a line of JSON: `cpu`, ours, or
-//! `tiny-skia`. `peers compare FILE` runs both, each in a process of its own, and prints the ratio.
+//! `peers METHOD FILE [PNG]` strokes a layout with one renderer and prints a line of JSON. `peers compare
+//! FILE` runs all, each in a process of its own, and prints the ratios.
 //!
-//! Both draw every path 3 pixels wide with round caps and joins, black on white, all in view at 1920 x
+//! All draw every path 3 pixels wide with round caps and joins, black on white, all in view at 1920 x
 //! 1080. A frame's time starts from the layout in memory: what a renderer makes of it first counts too.
 
 use std::path::Path;
@@ -13,12 +13,14 @@ use std::{env, fs};
 use anyhow::{Context, Result, bail, ensure};
 use guideway_cpu::Cpu;
 use guideway_formats::{ReadOptions, read_file};
-use guideway_layout::Layout;
+use guideway_layout::{Layout, PathRef};
 use guideway_render::{Budget, Cancel, Frame, FrameSize, Method, Style, View};
 use guideway_scene::{LineRule, Scene, SceneOptions};
 use guideway_spline::uniform;
 use serde_json::{Value, json};
 
+/// Ours, and tiny-skia with paths made for each frame or kept from the first.
+const METHODS: [&str; 3] = ["cpu", "tiny-skia", "tiny-skia-kept"];
 const WIDTH_PX: f64 = 3.0;
 /// Of so many frames, the fastest counts.
 const FRAMES: usize = 3;
@@ -28,23 +30,34 @@ fn main() -> Result<()> {
     let arguments: Vec<_> = arguments.iter().map(String::as_str).collect();
     let line = match arguments[..] {
         ["compare", file] => compare(file)?,
-        [method @ ("cpu" | "tiny-skia"), file] => measure(method, file, None)?,
-        [method @ ("cpu" | "tiny-skia"), file, png] => measure(method, file, Some(png))?,
-        _ => bail!("usage: peers cpu|tiny-skia FILE [PNG] | peers compare FILE"),
+        [method, file] if METHODS.contains(&method) => measure(method, file, None)?,
+        [method, file, png] if METHODS.contains(&method) => measure(method, file, Some(png))?,
+        _ => bail!(
+            "usage: peers {} FILE [PNG] | peers compare FILE",
+            METHODS.join("|")
+        ),
     };
     println!("{line}");
     Ok(())
 }
 
 fn compare(file: &str) -> Result<Value> {
-    let ours = in_own_process("cpu", file)?;
-    let theirs = in_own_process("tiny-skia", file)?;
-    let ratio = |of: &str| Some(theirs[of].as_f64()? / ours[of].as_f64()?);
-    Ok(json!({
-        "faster_first_frame": ratio("first_frame_ms"),
-        "faster": ratio("frame_ms"),
-        "smaller": ratio("peak_rss_bytes"),
-    }))
+    let mut all = Vec::new();
+    for method in METHODS {
+        all.push((method, in_own_process(method, file)?));
+    }
+    let ours = all[0].1.clone();
+    let ratios = all[1..].iter().map(|(method, theirs)| {
+        let ratio = |of: &str| Some(theirs[of].as_f64()? / ours[of].as_f64()?);
+        json!({
+            "method": method,
+            "first_frame": ratio("first_frame_ms"),
+            "frame": ratio("frame_ms"),
+            "memory_from_file_to_picture": ratio("whole_rss_bytes"),
+            "memory_of_drawing": ratio("drawing_rss_bytes"),
+        })
+    });
+    Ok(json!({ "times_cpu": ratios.collect::<Value>() }))
 }
 
 fn in_own_process(method: &str, file: &str) -> Result<Value> {
@@ -60,14 +73,17 @@ fn in_own_process(method: &str, file: &str) -> Result<Value> {
 
 fn measure(method: &str, file: &str, png: Option<&str>) -> Result<Value> {
     let layout = Arc::new(read_file(Path::new(file), &ReadOptions::default())?);
-    let loaded_rss_bytes = peak_rss_bytes()?;
+    let loading_rss_bytes = status_bytes("VmHWM")?;
+    forget_peak_rss()?;
+    let loaded_rss_bytes = status_bytes("VmRSS")?;
     let size = FrameSize::new(1920, 1080)?;
     let view = View::fit(size, layout.paths.hull_bounds())?;
     let mut frame = Frame::new(size);
     let times_ms = match method {
         "cpu" => draw_ours(&layout, &view, &mut frame)?,
-        _ => draw_tiny_skia(&layout, &view, &mut frame)?,
+        _ => draw_tiny_skia(&layout, &view, method == "tiny-skia-kept", &mut frame)?,
     };
+    let drawing_rss_bytes = status_bytes("VmHWM")?;
     if let Some(path) = png {
         write_png(&frame, path)?;
     }
@@ -76,8 +92,9 @@ fn measure(method: &str, file: &str, png: Option<&str>) -> Result<Value> {
         "paths": layout.paths.len(),
         "first_frame_ms": times_ms[0],
         "frame_ms": times_ms.iter().copied().fold(f64::INFINITY, f64::min),
+        "whole_rss_bytes": loading_rss_bytes.max(drawing_rss_bytes),
         "loaded_rss_bytes": loaded_rss_bytes,
-        "peak_rss_bytes": peak_rss_bytes()?,
+        "drawing_rss_bytes": drawing_rss_bytes,
     }))
 }
 
@@ -108,9 +125,15 @@ fn draw_ours(layout: &Arc<Layout>, view: &View, frame: &mut Frame) -> Result<Vec
     Ok(times_ms)
 }
 
-/// A path at a time, in draw order, as a picture of many colours needs. It has no use for threads.
-fn draw_tiny_skia(layout: &Layout, view: &View, frame: &mut Frame) -> Result<Vec<f64>> {
-    use tiny_skia::{Color, LineCap, LineJoin, Paint, PathBuilder, Pixmap, Stroke, Transform};
+/// A path at a time, in draw order, as a picture of many colours needs. It has no use for threads. Paths
+/// are made for each frame and forgotten, or made once and kept, as a program would that draws again.
+fn draw_tiny_skia(
+    layout: &Layout,
+    view: &View,
+    is_kept: bool,
+    frame: &mut Frame,
+) -> Result<Vec<f64>> {
+    use tiny_skia::{Color, LineCap, LineJoin, Paint, Pixmap, Stroke, Transform};
 
     let stroke = Stroke {
         width: WIDTH_PX as f32,
@@ -123,25 +146,25 @@ fn draw_tiny_skia(layout: &Layout, view: &View, frame: &mut Frame) -> Result<Vec
         ..Paint::default()
     };
     let mut pixmap = Pixmap::new(view.size().width(), view.size().height()).context("size")?;
+    let outlines = || {
+        let paths = layout.paths.iter();
+        paths.filter_map(|path| tiny_skia_path(&path, view))
+    };
+    let mut kept = Vec::new();
     let mut times_ms = Vec::new();
-    for _ in 0..FRAMES {
+    for frame in 0..FRAMES {
         let start = Instant::now();
+        if is_kept && frame == 0 {
+            kept.extend(outlines());
+        }
         pixmap.fill(Color::WHITE);
-        for path in layout.paths.iter() {
-            let mut builder = PathBuilder::new();
-            for run in path.runs() {
-                for (i, segment) in run.segments().enumerate() {
-                    let [a, b, c, d] =
-                        uniform::to_bezier(&segment).map(|p| view.pixel_from_world(p).to_f32());
-                    if i == 0 {
-                        builder.move_to(a.x, a.y);
-                    }
-                    builder.cubic_to(b.x, b.y, c.x, c.y, d.x, d.y);
-                }
-            }
-            if let Some(path) = builder.finish() {
-                pixmap.stroke_path(&path, &paint, &stroke, Transform::identity(), None);
-            }
+        let mut draw = |path: &tiny_skia::Path| {
+            pixmap.stroke_path(path, &paint, &stroke, Transform::identity(), None);
+        };
+        if is_kept {
+            kept.iter().for_each(&mut draw);
+        } else {
+            outlines().for_each(|path| draw(&path));
         }
         times_ms.push(elapsed_ms(start));
     }
@@ -150,17 +173,37 @@ fn draw_tiny_skia(layout: &Layout, view: &View, frame: &mut Frame) -> Result<Vec
     Ok(times_ms)
 }
 
+fn tiny_skia_path(path: &PathRef<'_>, view: &View) -> Option<tiny_skia::Path> {
+    let mut builder = tiny_skia::PathBuilder::new();
+    for run in path.runs() {
+        for (i, segment) in run.segments().enumerate() {
+            let [a, b, c, d] =
+                uniform::to_bezier(&segment).map(|p| view.pixel_from_world(p).to_f32());
+            if i == 0 {
+                builder.move_to(a.x, a.y);
+            }
+            builder.cubic_to(b.x, b.y, c.x, c.y, d.x, d.y);
+        }
+    }
+    builder.finish()
+}
+
 fn elapsed_ms(start: Instant) -> f64 {
     start.elapsed().as_secs_f64() * 1e3
 }
 
-/// Most memory that this process ever held, as the system counts it.
-fn peak_rss_bytes() -> Result<u64> {
+/// Lets the system count the most memory held from now on.
+fn forget_peak_rss() -> Result<()> {
+    Ok(fs::write("/proc/self/clear_refs", "5")?)
+}
+
+/// A figure of this process: `VmHWM`, the most memory ever held, or `VmRSS`, what is held now.
+fn status_bytes(figure: &str) -> Result<u64> {
     let status = fs::read_to_string("/proc/self/status")?;
     let line = status
         .lines()
-        .find_map(|l| l.strip_prefix("VmHWM:"))
-        .context("no VmHWM")?;
+        .find_map(|l| l.strip_prefix(figure)?.strip_prefix(':'))
+        .context("no such figure")?;
     let kib: u64 = line.trim().trim_end_matches("kB").trim().parse()?;
     Ok(kib * 1024)
 }
