@@ -47,6 +47,8 @@ fn test() -> Result<()> {
     let deny = prerequisites::cargo_deny()?;
     let python = prerequisites::python_with_pyarrow()?;
     step::set_env("GUIDEWAY_PYTHON", &python);
+    prerequisites::software_devices()?;
+    step::set_env("GUIDEWAY_REQUIRE_DEVICES", "1");
     quick()?;
     heading("documentation");
     cargo(&["doc", "--workspace", "--no-deps", "--quiet"])

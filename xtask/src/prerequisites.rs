@@ -6,6 +6,12 @@ use anyhow::{Result, bail};
 
 use crate::step::{cargo, command};
 
+const SOFTWARE_DEVICES: &[&str] = &[
+    "libvulkan1",
+    "mesa-vulkan-drivers",
+    "libegl1",
+    "libgl1-mesa-dri",
+];
 const CARGO_DENY_VERSION: &str = "0.20.2";
 
 /// `rustfmt` and `clippy`, through rustup where they are missing.
@@ -82,6 +88,19 @@ pub(crate) fn python_with_pyarrow() -> Result<PathBuf> {
         );
     }
     Ok(python)
+}
+
+/// Vulkan and OpenGL on the processor, so that the methods for graphics devices are tested without one.
+pub(crate) fn software_devices() -> Result<()> {
+    if !command("dpkg").args(["--version"]).succeeds() {
+        // Another system: its own drivers do, and the tests say what they miss.
+        return Ok(());
+    }
+    let is_there = |package: &&str| command("dpkg").args(["--status", package]).succeeds();
+    if SOFTWARE_DEVICES.iter().all(is_there) {
+        return Ok(());
+    }
+    apt_install(SOFTWARE_DEVICES)
 }
 
 fn imports_pyarrow(python: &Path) -> bool {

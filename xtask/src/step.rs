@@ -1,6 +1,6 @@
-use std::ffi::OsStr;
-use std::path::Path;
+use std::ffi::{OsStr, OsString};
 use std::process::Command;
+use std::sync::{Mutex, PoisonError};
 
 use anyhow::{Context, Result, bail};
 
@@ -72,20 +72,20 @@ impl Step {
     }
 }
 
-static SHARED_ENV: std::sync::Mutex<Vec<(String, std::path::PathBuf)>> =
-    std::sync::Mutex::new(Vec::new());
+static SHARED_ENV: Mutex<Vec<(String, OsString)>> =
+    Mutex::new(Vec::new());
 
 /// Sets a variable for every later step.
-pub(crate) fn set_env(name: &str, value: &Path) {
+pub(crate) fn set_env(name: &str, value: impl Into<OsString>) {
     SHARED_ENV
         .lock()
-        .unwrap_or_else(std::sync::PoisonError::into_inner)
-        .push((name.to_owned(), value.to_owned()));
+        .unwrap_or_else(PoisonError::into_inner)
+        .push((name.to_owned(), value.into()));
 }
 
-fn shared_env() -> Vec<(String, std::path::PathBuf)> {
+fn shared_env() -> Vec<(String, OsString)> {
     SHARED_ENV
         .lock()
-        .unwrap_or_else(std::sync::PoisonError::into_inner)
+        .unwrap_or_else(PoisonError::into_inner)
         .clone()
 }
