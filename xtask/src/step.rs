@@ -72,8 +72,7 @@ impl Step {
     }
 }
 
-static SHARED_ENV: Mutex<Vec<(String, OsString)>> =
-    Mutex::new(Vec::new());
+static SHARED_ENV: Mutex<Vec<(String, OsString)>> = Mutex::new(Vec::new());
 
 /// Sets a variable for every later step.
 pub(crate) fn set_env(name: &str, value: impl Into<OsString>) {
