@@ -3,7 +3,7 @@
 use guideway_layout::{Attributes, Code, Diagnostics, Layout, NewPath, Place, TextColumn, Value};
 use guideway_spline::Point;
 
-use crate::{Problem, ReadError, read::Source, text::printable};
+use crate::{Problem, ReadError, source::Source, text::printable};
 
 /// Where something is in the file. The text is only made when a finding is kept.
 pub(crate) type At<'f> = &'f dyn Fn() -> Place;

@@ -11,8 +11,10 @@ mod lif;
 mod opentcs;
 mod read;
 mod sniff;
+mod source;
 mod text;
 
 pub use error::{Problem, ReadError};
-pub use read::{Progress, ReadOptions, read_bytes, read_file};
+pub use read::{read_bytes, read_file};
 pub use sniff::{Format, sniff};
+pub use source::{Progress, ReadOptions};

@@ -2,7 +2,7 @@
 
 use guideway_layout::Limits;
 
-use crate::{Problem, ReadError, read::Source};
+use crate::{Problem, ReadError, source::Source};
 
 /// The text of a file, without a byte order mark.
 pub(crate) fn decode<'b>(source: &Source<'_>, bytes: &'b [u8]) -> Result<&'b str, ReadError> {

@@ -1,3 +1,4 @@
+use std::cmp::Ordering;
 use std::collections::HashMap;
 
 use guideway_layout::{Direction, Layout, Values};
@@ -163,6 +164,12 @@ fn classes(layout: &Layout, by: &ColorBy, drawn: &[u32], label: Labels<'_>) -> (
     let mut by_count: Vec<(String, u64)> = counts.into_iter().collect();
     by_count.sort_by(|a, b| b.1.cmp(&a.1).then_with(|| a.0.cmp(&b.0)));
     let rest = by_count.split_off(by_count.len().min(CLASSES.len()));
+    // Numbers read from the least to the greatest.
+    let number = |value: &String| value.parse::<f64>().ok();
+    if by_count.iter().all(|(value, _)| number(value).is_some()) {
+        let by_value = |a: &String, b: &String| number(a).partial_cmp(&number(b));
+        by_count.sort_by(|a, b| by_value(&a.0, &b.0).unwrap_or(Ordering::Equal));
+    }
     let color_of: HashMap<&str, Rgba> = by_count
         .iter()
         .zip(CLASSES)

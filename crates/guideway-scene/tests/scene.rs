@@ -122,6 +122,23 @@ fn classes_get_a_colour_each_the_commonest_first() {
 }
 
 #[test]
+fn few_numbers_are_classes_from_the_least_to_the_greatest() {
+    let mut speeds = layout(6);
+    for (row, speed) in [2.0, 10.0, 2.0, 0.5, 10.0, 10.0].into_iter().enumerate() {
+        let attributes = &mut speeds.paths.attributes;
+        attributes.set(row, "speed", Value::Float(speed));
+    }
+    let scene = scene(speeds, &by("speed"));
+    let entries = &scene.legend().unwrap().entries;
+    let read: Vec<_> = entries
+        .iter()
+        .map(|e| (e.label.as_str(), e.paths))
+        .collect();
+    assert_eq!(read, [("0.5", Some(1)), ("2", Some(2)), ("10", Some(3))]);
+    assert_eq!(scene.color(3), entries[0].color);
+}
+
+#[test]
 fn many_numbers_make_a_scale() {
     let mut speeds = layout(20);
     for row in 0..20 {

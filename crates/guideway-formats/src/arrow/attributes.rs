@@ -8,7 +8,7 @@ use arrow_schema::{DataType, Field};
 use guideway_layout::{Attribute, Code, Diagnostics, Limits, Place, TextColumn, Values};
 
 use super::budget::Budget;
-use super::decode::{damaged, guarded};
+use super::guard::{damaged, guarded};
 use super::schema::is_text;
 use super::table::Table;
 use super::text::Texts;

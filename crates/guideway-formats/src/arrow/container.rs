@@ -5,7 +5,7 @@ use arrow_ipc::{Block, Endianness, Footer, Schema as IpcSchema};
 use arrow_schema::Schema;
 use guideway_layout::Place;
 
-use super::decode::{damaged, guarded};
+use super::guard::{damaged, guarded};
 use crate::Problem;
 
 /// What a message begins with since Arrow 0.15; before, with its length at once.

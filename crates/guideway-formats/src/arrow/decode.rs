@@ -1,15 +1,14 @@
 use std::collections::HashMap;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use arrow_array::{ArrayRef, RecordBatch};
 use arrow_buffer::Buffer;
 use arrow_ipc::reader::{read_dictionary, read_record_batch};
 use arrow_ipc::{MessageHeader, RecordBatch as IpcBatch};
 use arrow_schema::{ArrowError, SchemaRef};
-use guideway_layout::Place;
 
 use super::budget::Budget;
 use super::container::Message;
+use super::guard::{damaged, guarded};
 use crate::Problem;
 
 /// Turns messages into record batches; buffers that are neither compressed nor misaligned are not
@@ -149,25 +148,4 @@ fn check_batch(batch: &IpcBatch<'_>, body: &[u8], budget: &mut Budget) -> Result
         ));
     }
     Ok(())
-}
-
-/// Runs a part of the Arrow library over bytes that are not trusted.
-///
-/// The library checks most of what it reads, and the checks here cover what it is known to take on
-/// trust. Should it panic all the same, the file is refused like any other damaged one. This is the
-/// only place where a panic is caught; nothing that the closure changes is used after one.
-pub(super) fn guarded<T>(
-    place: &str,
-    run: impl FnOnce() -> Result<T, Problem>,
-) -> Result<T, Problem> {
-    catch_unwind(AssertUnwindSafe(run))
-        .unwrap_or_else(|_| Err(damaged(place, "the Arrow library gave up on its content")))
-}
-
-/// The problem of bytes that are not sound Arrow.
-pub(super) fn damaged(place: impl Into<String>, detail: impl Into<String>) -> Problem {
-    Problem::Damaged {
-        place: Place::element(place),
-        detail: detail.into(),
-    }
 }

@@ -9,6 +9,7 @@ mod budget;
 mod container;
 mod decode;
 mod gather;
+mod guard;
 mod load;
 mod polygons;
 mod read;

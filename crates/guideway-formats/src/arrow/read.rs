@@ -19,7 +19,7 @@ use super::polygons::{Coordinates, Fault, Polygons};
 use super::schema::{self, Columns};
 use super::table::{Batch, Table};
 use super::text::Texts;
-use crate::read::Source;
+use crate::source::Source;
 use crate::{Format, Problem, ReadError};
 
 /// Reads a table of paths from an Arrow IPC file or stream.

@@ -2,7 +2,7 @@ use arrow_array::cast::AsArray;
 use arrow_array::{Array, ArrayRef, LargeStringArray, StringArray, StringViewArray};
 use arrow_schema::DataType;
 
-use super::decode::{damaged, guarded};
+use super::guard::{damaged, guarded};
 use crate::Problem;
 
 /// A column of text, however it is stored.

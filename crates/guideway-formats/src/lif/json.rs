@@ -10,7 +10,7 @@ use std::marker::PhantomData;
 use serde::Deserialize;
 use serde::de::{DeserializeSeed, Deserializer, IgnoredAny, MapAccess, SeqAccess, Visitor};
 
-use crate::read::Source;
+use crate::source::Source;
 use crate::text::{Tally, position, printable};
 use crate::{Problem, ReadError};
 

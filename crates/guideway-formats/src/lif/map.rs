@@ -10,7 +10,7 @@ use super::json::{Field, Kind};
 use super::model::{self, Node, Position, RobotType, Root, Station};
 use crate::ReadError;
 use crate::builder::{At, Builder, Table};
-use crate::read::Source;
+use crate::source::Source;
 
 /// Fills a layout from the records of a file.
 pub(super) struct Mapper<'a> {

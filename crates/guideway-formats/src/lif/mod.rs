@@ -15,7 +15,7 @@ use guideway_layout::{Layout, Place};
 use self::json::Field;
 use self::map::Mapper;
 use self::model::Root;
-use crate::read::Source;
+use crate::source::Source;
 use crate::{Problem, ReadError, text};
 
 /// Reads a LIF file.

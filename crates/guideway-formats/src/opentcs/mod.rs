@@ -14,7 +14,7 @@ use guideway_layout::{Layout, Place};
 use self::drawing::Drawing;
 use self::plant::Plant;
 use self::xml::Xml;
-use crate::read::Source;
+use crate::source::Source;
 use crate::{Problem, ReadError, text};
 
 /// Reads a plant model.

@@ -10,7 +10,7 @@ use super::drawing::Drawing;
 use super::xml::{Xml, child, children};
 use crate::ReadError;
 use crate::builder::{Builder, Table};
-use crate::read::Source;
+use crate::source::Source;
 
 /// Most properties that become columns; a file could else make columns without end.
 const MOST_PROPERTIES: usize = 64;

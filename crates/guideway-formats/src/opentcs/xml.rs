@@ -5,7 +5,7 @@ use std::cell::OnceCell;
 use guideway_layout::Place;
 use roxmltree::{Document, Error, Node, ParsingOptions};
 
-use crate::read::Source;
+use crate::source::Source;
 use crate::text::{Tally, position, printable};
 use crate::{Problem, ReadError};
 
