@@ -20,6 +20,16 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "guideway-render",
         ],
     ),
+    (
+        "guideway-bench",
+        &[
+            "guideway-spline",
+            "guideway-layout",
+            "guideway-datasets",
+            "guideway-scene",
+            "guideway-render",
+        ],
+    ),
 ];
 
 /// Crates that only one room may name.
@@ -29,7 +39,7 @@ const KEPT_TO: &[(&str, &str)] = &[
     ("serde_json", "guideway-formats guideway guideway-tests"),
     ("clap", "guideway"),
     ("indicatif", "guideway"),
-    ("png", "guideway guideway-tests"),
+    ("png", "guideway guideway-bench guideway-tests"),
     ("wgpu", "guideway-gpu"),
     ("glow", "guideway-gl"),
     ("winit", "guideway-viewer"),

@@ -1,0 +1,274 @@
+use std::sync::Arc;
+
+use guideway_render::{Budget, Cancel, FrameSize, Method, RenderError, Style, View};
+use guideway_scene::Scene;
+use guideway_spline::Point;
+use serde::{Deserialize, Serialize};
+
+use crate::dataset::{moved, plain_scene};
+use crate::measured::Fault;
+use crate::runner::{Frames, Runner, Shot};
+use crate::{Machine, Motion, Outcome, Row, Start, turns};
+
+/// How far [`Motion::Edit`] moves a path, in metres.
+const EDIT_M: Point<f64> = Point { x: 0.4, y: 0.3 };
+
+/// One case in which methods are compared: all see all of the scene first.
+#[derive(Clone, Debug)]
+pub struct Contest {
+    /// What the scene is called: `d1`, `d2` or the name of a file.
+    pub name: String,
+    /// What is drawn.
+    pub scene: Arc<Scene>,
+    /// Methods with their options; ratios are to the first.
+    pub methods: Vec<String>,
+    /// Size of the picture.
+    pub size: FrameSize,
+    /// What changes from frame to frame.
+    pub motion: Motion,
+    /// Share of the paths that [`Motion::Edit`] moves, from 0 to 1.
+    pub edit_share: f64,
+    /// How it looks.
+    pub style: Style,
+    /// What each method may use.
+    pub budget: Budget,
+    /// Frames after the first that do not count.
+    pub warmup: usize,
+    /// Frames that count.
+    pub frames: usize,
+}
+
+/// What came of a [`Contest`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Comparison {
+    /// Where it was measured.
+    pub machine: Machine,
+    /// What was drawn.
+    pub scene: SceneFacts,
+    /// How the first frame saw it.
+    pub view: ViewFacts,
+    /// What changed from frame to frame.
+    pub motion: Motion,
+    /// Share of the paths that moved, with [`Motion::Edit`].
+    pub edit_share: Option<f64>,
+    /// Frames of each method after the first that do not count.
+    pub warmup: usize,
+    /// Frames of each method that count.
+    pub frames: usize,
+    /// Memory that each method was allowed.
+    pub memory_bytes: u64,
+    /// One row a method, in the order asked for.
+    pub methods: Vec<Contestant>,
+}
+
+/// One method of a [`Comparison`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Contestant {
+    /// Where the method runs; none when it does not.
+    pub device: Option<String>,
+    /// Median frame time in units of the first method's.
+    pub ratio: Option<f64>,
+    /// What was measured.
+    #[serde(flatten)]
+    pub row: Row,
+}
+
+/// What was drawn.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SceneFacts {
+    /// `d1`, `d2` or the name of a file.
+    pub name: String,
+    /// Paths of the input.
+    pub paths: usize,
+    /// Cubic segments of all paths.
+    pub segments: usize,
+}
+
+/// A view.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ViewFacts {
+    /// Width and height in pixels.
+    pub size_px: [u32; 2],
+    /// The point in the middle, in metres.
+    pub center_m: [f64; 2],
+    /// Scale in pixels a metre.
+    pub px_per_m: f64,
+}
+
+impl From<&View> for ViewFacts {
+    fn from(view: &View) -> Self {
+        Self {
+            size_px: [view.size().width(), view.size().height()],
+            center_m: [view.center_m().x, view.center_m().y],
+            px_per_m: view.px_per_m(),
+        }
+    }
+}
+
+/// Measures all methods of a contest in one run. A method that does not run gets a row that says why.
+///
+/// # Errors
+/// When the caller cancels, or the scene cannot be seen as a whole.
+pub fn compare(
+    contest: &Contest,
+    start: Start<'_>,
+    cancel: &Cancel,
+) -> Result<Comparison, RenderError> {
+    let view = View::fit(contest.size, contest.scene.bounds())?;
+    let shot = Shot {
+        view,
+        motion: contest.motion,
+        edits: (contest.motion == Motion::Edit).then(|| {
+            let after = moved(contest.scene.layout(), contest.edit_share, EDIT_M);
+            [Arc::clone(&contest.scene), plain_scene(after)]
+        }),
+        style: contest.style,
+        frames: Frames {
+            warmup: contest.warmup,
+            count: contest.frames,
+            enough_ms: f64::INFINITY,
+        },
+    };
+    let started: Vec<Result<Box<dyn Method>, String>> =
+        contest.methods.iter().map(|spec| start(spec)).collect();
+    let outcomes = outcomes(contest, &started, &shot, cancel)?;
+    let layout = contest.scene.layout();
+    Ok(Comparison {
+        machine: Machine::here(),
+        scene: SceneFacts {
+            name: contest.name.clone(),
+            paths: layout.path_count(),
+            segments: layout.paths.geometry().segment_count(),
+        },
+        view: ViewFacts::from(&view),
+        motion: contest.motion,
+        edit_share: (contest.motion == Motion::Edit).then_some(contest.edit_share),
+        warmup: contest.warmup,
+        frames: contest.frames,
+        memory_bytes: contest.budget.memory_bytes,
+        methods: contestants(contest, &started, outcomes),
+    })
+}
+
+/// One outcome a method, in the order asked for.
+fn outcomes(
+    contest: &Contest,
+    started: &[Result<Box<dyn Method>, String>],
+    shot: &Shot,
+    cancel: &Cancel,
+) -> Result<Vec<Outcome>, RenderError> {
+    let mut ready = Vec::new();
+    let mut runners = Vec::new();
+    for method in started {
+        let runner = method.as_ref().map_err(Clone::clone).and_then(|method| {
+            let runner = Runner::new(&**method, &contest.scene, contest.budget);
+            runner.map_err(|error| Fault::from(error).to_string())
+        });
+        cancel.check()?;
+        ready.push(runner.map(|runner| runners.push(runner)));
+    }
+    let mut measured = turns::measure(&mut runners, shot, cancel)?.into_iter();
+    let outcome = |ready: Result<(), String>| match ready {
+        Err(why_not) => Outcome::WhyNot(why_not),
+        Ok(()) => match measured.next() {
+            Some(result) => Outcome::from(result),
+            None => unreachable!("every runner has a result"),
+        },
+    };
+    Ok(ready.into_iter().map(outcome).collect())
+}
+
+fn contestants(
+    contest: &Contest,
+    started: &[Result<Box<dyn Method>, String>],
+    outcomes: Vec<Outcome>,
+) -> Vec<Contestant> {
+    let median_ms = |outcome: &Outcome| outcome.measured().map(|m| m.frame_ms.median);
+    let first_ms = outcomes.first().and_then(median_ms).filter(|&ms| ms > 0.0);
+    let all = contest.methods.iter().zip(started).zip(outcomes);
+    all.map(|((spec, method), outcome)| Contestant {
+        device: method.as_ref().ok().map(|method| method.info().device),
+        ratio: median_ms(&outcome)
+            .zip(first_ms)
+            .map(|(ms, first)| ms / first),
+        row: Row {
+            method: spec.clone(),
+            outcome,
+        },
+    })
+    .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use guideway_cpu::{Cpu, Oracle};
+
+    use super::*;
+
+    fn start(spec: &str) -> Result<Box<dyn Method>, String> {
+        match spec {
+            "cpu" => Ok(Box::new(Cpu)),
+            "oracle" => Ok(Box::new(Oracle)),
+            _ => Err(format!("no `{spec}` here")),
+        }
+    }
+
+    fn contest(motion: Motion, methods: &[&str]) -> Contest {
+        Contest {
+            name: "d1".into(),
+            scene: crate::Dataset::D1.scene(60),
+            methods: methods.iter().map(|&m| m.to_owned()).collect(),
+            size: FrameSize::new(64, 36).unwrap(),
+            motion,
+            edit_share: 0.1,
+            style: Style::default(),
+            budget: Budget::default(),
+            warmup: 1,
+            frames: 3,
+        }
+    }
+
+    #[test]
+    fn methods_that_run_are_measured_and_the_others_say_why_not() {
+        for motion in [Motion::Still, Motion::Pan, Motion::Zoom, Motion::Edit] {
+            let contest = contest(motion, &["cpu", "nothing", "oracle"]);
+            let comparison = compare(&contest, &start, &Cancel::default()).unwrap();
+            let [cpu, nothing, oracle] = &comparison.methods[..] else {
+                panic!("{comparison:?}");
+            };
+            assert_eq!(
+                nothing.row.outcome,
+                Outcome::WhyNot("no `nothing` here".into())
+            );
+            assert_eq!((nothing.ratio, cpu.ratio), (None, Some(1.0)));
+            for contestant in [cpu, oracle] {
+                let measured = contestant.row.measured().expect("it runs");
+                assert_eq!(measured.frame_ms.count, 3);
+                assert_eq!(measured.paths.total, 60);
+                assert_eq!(measured.update_ms.is_some(), motion == Motion::Edit);
+                assert!(contestant.device.is_some() && contestant.ratio.is_some());
+            }
+        }
+    }
+
+    #[test]
+    fn a_method_without_memory_enough_says_so_and_the_others_go_on() {
+        let mut contest = contest(Motion::Still, &["cpu", "oracle"]);
+        contest.budget.memory_bytes = 1000;
+        let comparison = compare(&contest, &start, &Cancel::default()).unwrap();
+        for contestant in &comparison.methods {
+            let Outcome::WhyNot(why) = &contestant.row.outcome else {
+                panic!("1000 bytes do: {contestant:?}");
+            };
+            assert!(why.contains("--memory"), "{why}");
+        }
+    }
+
+    #[test]
+    fn cancelling_ends_it() {
+        let cancel = Cancel::default();
+        cancel.set();
+        let result = compare(&contest(Motion::Still, &["cpu"]), &start, &cancel);
+        assert_eq!(result, Err(RenderError::Cancelled));
+    }
+}

@@ -1,0 +1,94 @@
+use std::fs;
+use std::thread;
+
+use serde::{Deserialize, Serialize};
+
+/// The computer and the program that a run was measured with. What the system does not tell is none.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Machine {
+    /// Model of the processor.
+    pub cpu: Option<String>,
+    /// Threads that the processor runs at once, as far as this program may use them.
+    pub cores: usize,
+    /// Main memory.
+    pub memory_bytes: Option<u64>,
+    /// Operating system with its version, and the processor's architecture.
+    pub os: String,
+    /// Version of Guideway.
+    pub guideway: String,
+    /// How it was compiled: `release` or `debug`.
+    pub profile: String,
+}
+
+impl Machine {
+    /// Looks at this computer.
+    pub fn here() -> Self {
+        let read = |path| fs::read_to_string(path).unwrap_or_default();
+        Self {
+            cpu: value(&read("/proc/cpuinfo"), "model name", ':'),
+            cores: thread::available_parallelism().map_or(1, usize::from),
+            memory_bytes: value(&read("/proc/meminfo"), "MemTotal", ':').and_then(|v| bytes(&v)),
+            os: os(
+                &read("/etc/os-release"),
+                &read("/proc/sys/kernel/osrelease"),
+            ),
+            guideway: env!("CARGO_PKG_VERSION").to_owned(),
+            profile: if cfg!(debug_assertions) {
+                "debug".to_owned()
+            } else {
+                "release".to_owned()
+            },
+        }
+    }
+}
+
+/// The value of the first line `key <separator> value`.
+fn value(text: &str, key: &str, separator: char) -> Option<String> {
+    let pairs = text.lines().filter_map(|line| line.split_once(separator));
+    let mut values = pairs.filter(|(name, _)| name.trim() == key);
+    let value = values.next()?.1.trim().trim_matches('"');
+    (!value.is_empty()).then(|| value.to_owned())
+}
+
+/// `1234 kB` in bytes.
+fn bytes(text: &str) -> Option<u64> {
+    let kib: u64 = text.strip_suffix("kB")?.trim().parse().ok()?;
+    kib.checked_mul(1024)
+}
+
+fn os(release: &str, kernel: &str) -> String {
+    let name =
+        value(release, "PRETTY_NAME", '=').unwrap_or_else(|| std::env::consts::OS.to_owned());
+    let kernel = match kernel.trim() {
+        "" => String::new(),
+        version => format!(", kernel {version}"),
+    };
+    format!("{name}{kernel}, {}", std::env::consts::ARCH)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_the_system_tells_is_read() {
+        let cpuinfo = "processor\t: 0\nmodel name\t: Some CPU @ 2.00GHz\nmodel name\t: other\n";
+        let model = value(cpuinfo, "model name", ':');
+        assert_eq!(model.as_deref(), Some("Some CPU @ 2.00GHz"));
+        assert_eq!(bytes("2048 kB"), Some(2_097_152));
+        assert_eq!(bytes("2048"), None);
+        let os = os("ID=x\nPRETTY_NAME=\"Some Linux 1\"\n", "6.1.0\n");
+        assert!(os.starts_with("Some Linux 1, kernel 6.1.0, "), "{os}");
+    }
+
+    #[test]
+    fn what_the_system_does_not_tell_is_none() {
+        assert_eq!(value("", "model name", ':'), None);
+        assert_eq!(value("model name :", "model name", ':'), None);
+        assert_eq!(
+            os("", ""),
+            format!("{}, {}", std::env::consts::OS, std::env::consts::ARCH)
+        );
+        assert!(Machine::here().cores >= 1);
+    }
+}

@@ -1,0 +1,58 @@
+//! Figures 5.4 and 5.5: how times grow with the number of paths, everything in view.
+
+use std::sync::Arc;
+
+use guideway_render::{RenderError, View};
+use guideway_scene::Scene;
+
+use crate::measured::Prepare;
+use crate::reproduce::lab::{Deadline, Lab};
+use crate::reproduce::run::{Reading, Results};
+use crate::{Dataset, Outcome};
+
+/// Times of making ready and of drawing against the number of paths.
+pub(crate) fn growth(lab: &Lab<'_>, time: Deadline, out: &mut Results) -> Result<(), RenderError> {
+    let (methods, sizes) = (&lab.plan.methods, &lab.plan.sizes);
+    let mut left = Dataset::ALL.len() * sizes.len() * methods.len();
+    // From few paths to many: if the time does not do, the long ones are missing.
+    for &paths in sizes {
+        for dataset in Dataset::ALL {
+            let scene = lab.scene(dataset, paths);
+            for spec in methods {
+                lab.tell(&format!(
+                    "growth: {spec} on {} with {paths} paths",
+                    dataset.name()
+                ));
+                let outcome = measure(lab, spec, &scene, time.share(left))?;
+                out.growth
+                    .push(Reading::new(dataset, paths, paths as f64, spec, outcome));
+                left -= 1;
+            }
+        }
+    }
+    Ok(())
+}
+
+fn measure(
+    lab: &Lab<'_>,
+    spec: &str,
+    scene: &Arc<Scene>,
+    time: Deadline,
+) -> Result<Outcome, RenderError> {
+    let all = View::fit(lab.size, scene.bounds())?;
+    let mut outcome = lab.measure_all(spec, scene, &[all], time)?.remove(0);
+    if let (Outcome::Measured(measured), Ok(method)) = (&mut outcome, lab.method(spec)) {
+        let mut prepares = Vec::new();
+        while prepares.len() < lab.plan.repeats && !time.is_over() {
+            lab.cancel.check()?;
+            match lab.ready(spec, &*method, scene) {
+                Ok(runner) => prepares.push(runner.preparation().clone()),
+                Err(fault) => return Ok(Outcome::WhyNot(fault.to_string())),
+            }
+        }
+        if let Some(mean) = Prepare::mean(&prepares) {
+            measured.prepare = mean;
+        }
+    }
+    Ok(outcome)
+}

@@ -1,0 +1,90 @@
+//! Every measurement of the thesis' chapter 5, on whatever device is there.
+//!
+//! [`reproduce`] follows a [`Plan`] and returns a [`Run`]: all that was measured, and under which
+//! circumstances. Parts get time by their weight; what a part leaves is for those after it.
+
+mod findings;
+mod items;
+mod lab;
+mod plan;
+mod run;
+mod search;
+pub(crate) mod thesis;
+
+use std::time::{Instant, SystemTime};
+
+use guideway_render::{Cancel, RenderError};
+
+use crate::{Machine, Start};
+use items::{borders, growth, most_paths, pictures, views};
+use lab::{Deadline, Lab};
+
+pub use findings::{Finding, Verdict, findings};
+pub use plan::{METHODS, Plan};
+pub use run::{Border, MethodFacts, MostPaths, PartFacts, Picture, Reading, Results, Run};
+pub use search::{Limit, Search, Trial};
+
+type Part = fn(&Lab<'_>, Deadline, &mut Results) -> Result<(), RenderError>;
+
+/// The parts of a run with their weights. The search, which can use any time there is, comes last.
+const PARTS: [(&str, f64, Part); 6] = [
+    ("pictures", 2.0, pictures::pictures),
+    ("coverage at the borders of cells", 1.0, borders::borders),
+    (
+        "frame time against pixels inside the grid",
+        2.0,
+        views::occupancy,
+    ),
+    ("frame time against magnification", 2.0, views::zoom),
+    ("time against number of paths", 4.0, growth::growth),
+    (
+        "most paths at 60 frames a second",
+        6.0,
+        most_paths::most_paths,
+    ),
+];
+
+/// Measures what the plan says. A method that does not run, or fails, is told of in its rows; when the
+/// caller cancels, what was measured until then is returned, marked as partial.
+///
+/// # Errors
+/// When the plan's pictures have no possible size.
+pub fn reproduce(
+    plan: &Plan,
+    start: Start<'_>,
+    cancel: &Cancel,
+    progress: &dyn Fn(&str),
+) -> Result<Run, RenderError> {
+    let (began, started) = (SystemTime::now(), Instant::now());
+    let lab = Lab::new(plan, start, cancel, progress)?;
+    let mut run = Run {
+        machine: Machine::here(),
+        started: humantime::format_rfc3339_seconds(began).to_string(),
+        elapsed_s: 0.0,
+        is_partial: false,
+        plan: plan.clone(),
+        methods: plan.methods.iter().map(|spec| lab.facts(spec)).collect(),
+        parts: Vec::new(),
+        results: Results::default(),
+    };
+    let end = started.elapsed().as_secs_f64() + plan.minutes * 60.0;
+    for (i, (name, weight, part)) in PARTS.iter().enumerate() {
+        let weights: f64 = PARTS[i..].iter().map(|(_, weight, _)| weight).sum();
+        let part_started = Instant::now();
+        let left_s = end - started.elapsed().as_secs_f64();
+        let time = Deadline::after(left_s * weight / weights);
+        let outcome = part(&lab, time, &mut run.results);
+        run.parts.push(PartFacts {
+            name: (*name).to_owned(),
+            elapsed_s: part_started.elapsed().as_secs_f64(),
+            is_cut: time.is_over(),
+            failure: outcome.as_ref().err().map(RenderError::to_string),
+        });
+        if outcome == Err(RenderError::Cancelled) {
+            run.is_partial = true;
+            break;
+        }
+    }
+    run.elapsed_s = started.elapsed().as_secs_f64();
+    Ok(run)
+}
