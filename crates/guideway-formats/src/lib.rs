@@ -7,12 +7,14 @@
 pub mod arrow;
 mod builder;
 mod error;
+mod json;
 mod lif;
 mod opentcs;
 mod read;
 mod sniff;
 mod source;
 mod text;
+mod trajectory;
 
 pub use error::{Problem, ReadError};
 pub use read::{read_bytes, read_file};

@@ -2,14 +2,15 @@
 
 use std::collections::HashMap;
 
-use guideway_layout::{Code, NewPath, Place, Value};
+use guideway_layout::{Code, NewPath, Place};
 use guideway_spline::{Point, Runs};
 
-use super::json::Field;
-use super::map::{Mapper, items, within};
-use super::model::{Edge, EdgeProperties, PHYSICAL_LINE, Scalar, Trajectory};
+use super::map::Mapper;
+use super::model::{Edge, EdgeProperties, PHYSICAL_LINE};
 use crate::ReadError;
 use crate::builder::{At, Table};
+use crate::json::{Field, items, within};
+use crate::trajectory::Trajectory;
 
 /// A curve of an edge, with the vehicle types that follow it. None is the straight line.
 struct Curve<'r, 'a> {
@@ -34,13 +35,13 @@ impl Mapper<'_> {
         level: u32,
         at: At<'_>,
     ) -> Result<(), ReadError> {
-        let Some(edge) = self.record(edge, at) else {
+        let Some(edge) = self.builder.record(edge, at) else {
             self.count_edge();
             let detail = "this is not an object, so there is nothing to draw";
             return self.builder.refuse(&at().element, Code::WrongType, detail);
         };
-        self.check_repeated(edge.repeated, at);
-        let id = self.id(&edge.id, at, "edgeId")?;
+        self.builder.check_repeated(edge.repeated, at);
+        let id = self.builder.id(&edge.id, at, "edgeId")?;
         self.count_edge();
         let start = self.end(&edge.start, &id, level, &|| within(at, "startNodeId"))?;
         let end = self.end(&edge.end, &id, level, &|| within(at, "endNodeId"))?;
@@ -64,13 +65,13 @@ impl Mapper<'_> {
         level: u32,
         at: At<'_>,
     ) -> Result<End<'r>, ReadError> {
-        let name = self.text(field, at)?;
+        let name = self.builder.text(field, at)?;
         if field.is_absent() {
-            self.report_missing(at, "the name of a node");
+            self.builder.report_missing(at, "the name of a node");
         }
         let row = name.and_then(|name| self.node(name, level));
         if let (Some(name), None) = (name, row) {
-            self.report_unknown_node(name, edge, at);
+            self.builder.report_unknown_node(name, edge, at);
         }
         let nodes = &self.builder.layout.nodes;
         Ok(End {
@@ -94,17 +95,18 @@ impl Mapper<'_> {
             ("mobileRobotTypeEdgeProperties", &edge.types_2),
         ];
         for (key, list) in lists {
-            self.check_list(list, at, key);
+            self.builder.check_list(list, at, key);
             for (i, field) in items(list) {
                 let at_entry: At<'_> = &|| within(at, &format!("{key}[{i}]"));
-                let Some(entry) = self.record(field, at_entry) else {
+                let Some(entry) = self.builder.record(field, at_entry) else {
                     continue;
                 };
-                self.check_repeated(entry.repeated, at_entry);
+                self.builder.check_repeated(entry.repeated, at_entry);
                 let types =
                     self.vehicle_types(&entry.vehicle_type, &entry.robot_types, at_entry)?;
                 let at_curve: At<'_> = &|| within(at_entry, "trajectory");
-                self.check_type(&entry.trajectory, at_curve, "an object");
+                self.builder
+                    .check_type(&entry.trajectory, at_curve, "an object");
                 let trajectory = entry.trajectory.get().map(AsRef::as_ref);
                 if trajectory.is_some() {
                     self.count_trajectory();
@@ -123,7 +125,8 @@ impl Mapper<'_> {
             }
         }
         if curves.is_empty() {
-            self.report_missing(&|| within(at, lists[0].0), "an entry for a vehicle type");
+            self.builder
+                .report_missing(&|| within(at, lists[0].0), "an entry for a vehicle type");
             curves.push(Curve {
                 trajectory: None,
                 place: at(),
@@ -152,7 +155,7 @@ impl Mapper<'_> {
         }
         let mut runs = Runs::default();
         if let Some(trajectory) = curve.trajectory {
-            self.append_curve(trajectory, at, &mut runs)?;
+            self.builder.append_trajectory(trajectory, at, &mut runs)?;
         }
         if runs.is_empty() {
             let (Some(from), Some(to)) = (start.position, end.position) else {
@@ -198,17 +201,9 @@ impl Mapper<'_> {
             return Ok(());
         };
         for (name, field) in &first.attributes {
-            let value = match field.get() {
-                Some(Scalar::Truth(value)) => Value::Bool(*value),
-                Some(Scalar::Number(value)) => Value::Float(*value),
-                Some(Scalar::Count(value)) => Value::Int(*value),
-                Some(Scalar::Text(value)) => {
-                    self.builder.check_text(value)?;
-                    Value::Text(value)
-                }
-                None => continue,
-            };
-            self.builder.set(Table::Paths, row, name, value)?;
+            if let Some(scalar) = field.get() {
+                self.builder.set_scalar(Table::Paths, row, name, scalar)?;
+            }
         }
         let differs = others.iter().any(|p| p.attributes != first.attributes);
         if differs {
@@ -243,7 +238,6 @@ fn missing_ends(ends: [&End<'_>; 2]) -> String {
         .collect();
     texts.join(", and ")
 }
-
 /// All numbers of a trajectory, to tell equal curves; none for the straight line.
 fn bits(trajectory: Option<&Trajectory>) -> Vec<u64> {
     let Some(trajectory) = trajectory else {

@@ -3,13 +3,13 @@
 use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};
 
-use guideway_layout::{Code, Layout, Level, Place, Value};
+use guideway_layout::{Code, Layout, Level, Place};
 use guideway_spline::Point;
 
-use super::json::{Field, Kind};
 use super::model::{self, Node, Position, RobotType, Root, Station};
 use crate::ReadError;
 use crate::builder::{At, Builder, Table};
+use crate::json::{Field, items, within};
 use crate::source::Source;
 
 /// Fills a layout from the records of a file.
@@ -53,7 +53,7 @@ impl<'a> Mapper<'a> {
 
     pub(super) fn map(mut self, root: &Root<'_>) -> Result<Layout, ReadError> {
         let at_root: At<'_> = &|| Place::element("the root");
-        self.check_repeated(root.repeated, at_root);
+        self.builder.check_repeated(root.repeated, at_root);
         self.map_version(root)?;
         let parts = self.parts(root)?;
         // All nodes come first, for an edge may lead to a node of a later layout.
@@ -100,7 +100,7 @@ impl<'a> Mapper<'a> {
         let provenance = &mut self.builder.layout.provenance;
         crate::Format::Lif.name().clone_into(&mut provenance.format);
         version.clone_into(&mut provenance.format_version);
-        self.check_type(
+        self.builder.check_type(
             &root.meta,
             &|| Place::element("metaInformation"),
             "an object",
@@ -109,7 +109,7 @@ impl<'a> Mapper<'a> {
             return Ok(());
         };
         let at: At<'_> = &|| Place::element("metaInformation.lifVersion");
-        let stated = self.text(&meta.lif_version, at)?;
+        let stated = self.builder.text(&meta.lif_version, at)?;
         if let Some(stated) = stated.filter(|s| s.split('.').next() != version.split('.').next()) {
             let message =
                 || format!("the file states version {stated}, its structure is {version}");
@@ -125,18 +125,19 @@ impl<'a> Mapper<'a> {
         for (i, origin) in items(&root.origins) {
             let place = format!("origins[{i}]");
             let at: At<'_> = &|| Place::element(place.as_str());
-            if let Some(origin) = self.record(origin, at) {
-                self.check_repeated(origin.repeated, at);
-                self.check_list(&origin.layouts, at, "layouts");
+            if let Some(origin) = self.builder.record(origin, at) {
+                self.builder.check_repeated(origin.repeated, at);
+                self.builder.check_list(&origin.layouts, at, "layouts");
                 self.collect(&origin.layouts, &format!("{place}.layouts"), &mut parts);
             }
         }
         for part in &parts {
             let at: At<'_> = &|| Place::element(part.place.as_str());
-            self.check_repeated(part.layout.repeated, at);
-            self.check_list(&part.layout.nodes, at, "nodes");
-            self.check_list(&part.layout.edges, at, "edges");
-            self.check_list(&part.layout.stations, at, "stations");
+            self.builder.check_repeated(part.layout.repeated, at);
+            self.builder.check_list(&part.layout.nodes, at, "nodes");
+            self.builder.check_list(&part.layout.edges, at, "edges");
+            self.builder
+                .check_list(&part.layout.stations, at, "stations");
         }
         Ok(parts)
     }
@@ -149,7 +150,10 @@ impl<'a> Mapper<'a> {
     ) {
         for (i, layout) in items(list) {
             let place = format!("{name}[{i}]");
-            if let Some(layout) = self.record(layout, &|| Place::element(place.as_str())) {
+            if let Some(layout) = self
+                .builder
+                .record(layout, &|| Place::element(place.as_str()))
+            {
                 parts.push(Part { place, layout });
             }
         }
@@ -157,8 +161,10 @@ impl<'a> Mapper<'a> {
 
     fn map_level(&mut self, part: &Part<'_, '_>) -> Result<(), ReadError> {
         let at: At<'_> = &|| Place::element(part.place.as_str());
-        let id = self.id(&part.layout.id, at, "layoutId")?;
-        let name = self.text(&part.layout.name, &|| within(at, "layoutName"))?;
+        let id = self.builder.id(&part.layout.id, at, "layoutId")?;
+        let name = self
+            .builder
+            .text(&part.layout.name, &|| within(at, "layoutName"))?;
         let new = self.levels.insert(id.clone().into_owned());
         if !new {
             let message = || format!("the layoutId `{id}` is used more than once");
@@ -180,11 +186,11 @@ impl<'a> Mapper<'a> {
         at: At<'_>,
     ) -> Result<(), ReadError> {
         self.counts.nodes += 1;
-        let Some(node) = self.record(node, at) else {
+        let Some(node) = self.builder.record(node, at) else {
             return Ok(());
         };
-        self.check_repeated(node.repeated, at);
-        let id = self.id(&node.id, at, "nodeId")?;
+        self.builder.check_repeated(node.repeated, at);
+        let id = self.builder.id(&node.id, at, "nodeId")?;
         let Some(position) = self.position(&node.position, &|| within(at, "nodePosition"), true)
         else {
             return Ok(());
@@ -202,8 +208,10 @@ impl<'a> Mapper<'a> {
             Some(_) => {}
         }
         let (name, map) = (&node.name, &node.map_id);
-        self.attribute(Table::Nodes, row as usize, "nodeName", name, at)?;
-        self.attribute(Table::Nodes, row as usize, "mapId", map, at)
+        self.builder
+            .set_text(Table::Nodes, row as usize, "nodeName", name, at)?;
+        self.builder
+            .set_text(Table::Nodes, row as usize, "mapId", map, at)
     }
 
     /// The row of a node. Ids should be unique in a file; where they are not, the layout's own counts.
@@ -223,21 +231,22 @@ impl<'a> Mapper<'a> {
         at: At<'_>,
     ) -> Result<(), ReadError> {
         self.counts.stations += 1;
-        let Some(station) = self.record(station, at) else {
+        let Some(station) = self.builder.record(station, at) else {
             return Ok(());
         };
-        self.check_repeated(station.repeated, at);
-        self.check_list(&station.nodes, at, "interactionNodeIds");
-        let id = self.id(&station.id, at, "stationId")?;
+        self.builder.check_repeated(station.repeated, at);
+        self.builder
+            .check_list(&station.nodes, at, "interactionNodeIds");
+        let id = self.builder.id(&station.id, at, "stationId")?;
         let mut nodes = Vec::new();
         for (i, name) in items(&station.nodes) {
             let at_name: At<'_> = &|| within(at, &format!("interactionNodeIds[{i}]"));
-            let Some(name) = self.text(name, at_name)? else {
+            let Some(name) = self.builder.text(name, at_name)? else {
                 continue;
             };
             match self.node(name, level) {
                 Some(row) => nodes.push(row),
-                None => self.report_unknown_node(name, &id, at_name),
+                None => self.builder.report_unknown_node(name, &id, at_name),
             }
         }
         let at_position: At<'_> = &|| within(at, "stationPosition");
@@ -245,15 +254,13 @@ impl<'a> Mapper<'a> {
         let row = self
             .builder
             .push_station(&id, position, nodes, Some(level))? as usize;
-        self.attribute(Table::Stations, row, "stationName", &station.name, at)?;
-        self.attribute(Table::Stations, row, "stationType", &station.kind, at)?;
-        self.check_type(&station.height, &|| within(at, "stationHeight"), "a number");
-        if let Some(&height) = station.height.get() {
-            let value = Value::Float(height);
-            self.builder
-                .set(Table::Stations, row, "stationHeight", value)?;
-        }
-        Ok(())
+        self.builder
+            .set_text(Table::Stations, row, "stationName", &station.name, at)?;
+        self.builder
+            .set_text(Table::Stations, row, "stationType", &station.kind, at)?;
+        let height = &station.height;
+        self.builder
+            .set_number(Table::Stations, row, "stationHeight", height, at)
     }
 
     pub(super) fn count_edge(&mut self) {
@@ -272,15 +279,25 @@ impl<'a> Mapper<'a> {
         at: At<'_>,
     ) -> Result<Vec<String>, ReadError> {
         let mut names = Vec::new();
-        if let Some(name) = self.text(vehicle_type, &|| within(at, "vehicleTypeId"))? {
+        if let Some(name) = self
+            .builder
+            .text(vehicle_type, &|| within(at, "vehicleTypeId"))?
+        {
             names.push(name.to_owned());
         }
         for (_, robot) in items(robot_types) {
-            let Some(robot) = self.record(robot, &|| within(at, "mobileRobotTypes")) else {
+            let Some(robot) = self
+                .builder
+                .record(robot, &|| within(at, "mobileRobotTypes"))
+            else {
                 continue;
             };
-            let manufacturer = self.text(&robot.manufacturer, &|| within(at, "manufacturer"))?;
-            let series = self.text(&robot.series, &|| within(at, "seriesName"))?;
+            let manufacturer = self
+                .builder
+                .text(&robot.manufacturer, &|| within(at, "manufacturer"))?;
+            let series = self
+                .builder
+                .text(&robot.series, &|| within(at, "seriesName"))?;
             let parts: Vec<&str> = [manufacturer, series].into_iter().flatten().collect();
             if !parts.is_empty() {
                 names.push(parts.join(" "));
@@ -303,40 +320,8 @@ impl<'a> Mapper<'a> {
         if field.is_absent() && !needed {
             return None;
         }
-        let position = self.record(field, at)?;
-        self.check_repeated(position.repeated, at);
-        let x = self.number(&position.x, &|| within(at, "x"));
-        let y = self.number(&position.y, &|| within(at, "y"));
-        let point = Point::new(x?, y?);
-        self.builder.check_point(point, at).then_some(point)
+        let position = self.builder.record(field, at)?;
+        self.builder.check_repeated(position.repeated, at);
+        self.builder.point(&position.x, &position.y, at)
     }
-
-    fn attribute(
-        &mut self,
-        table: Table,
-        row: usize,
-        name: &str,
-        field: &Field<Cow<'_, str>>,
-        at: At<'_>,
-    ) -> Result<(), ReadError> {
-        match self.text(field, &|| within(at, name))? {
-            Some(text) => self.builder.set(table, row, name, Value::Text(text)),
-            None => Ok(()),
-        }
-    }
-}
-
-/// The items of a list; none if it is not a list.
-pub(super) fn items<T>(list: &Field<Vec<Field<T>>>) -> impl Iterator<Item = (usize, &Field<T>)> {
-    list.get().into_iter().flatten().enumerate()
-}
-
-/// The place of a field of an object.
-pub(super) fn within(at: At<'_>, field: &str) -> Place {
-    Place::element(format!("{}.{field}", at().element))
-}
-
-/// Name of a kind that was found, for messages.
-pub(super) fn found(kind: Kind, expected: &str) -> String {
-    format!("{expected} was expected, {kind} was found")
 }

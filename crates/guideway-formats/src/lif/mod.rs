@@ -3,18 +3,15 @@
 //! 1.0 and 2.0 are told apart by their structure, for the version that files state is often not theirs:
 //! the official examples of 1.0 say 0.11.0.
 
-mod curve;
 mod edges;
-mod fields;
-mod json;
 mod map;
 mod model;
 
 use guideway_layout::{Layout, Place};
 
-use self::json::Field;
 use self::map::Mapper;
 use self::model::Root;
+use crate::json::{self, Field};
 use crate::source::Source;
 use crate::{Problem, ReadError, text};
 

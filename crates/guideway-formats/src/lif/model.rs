@@ -2,9 +2,10 @@
 
 use std::borrow::Cow;
 
-use serde::de::{IgnoredAny, MapAccess, SeqAccess};
+use serde::de::{IgnoredAny, MapAccess};
 
-use super::json::{Field, FromJson, Key, Kind, record};
+use crate::json::{Field, FromJson, Key, Scalar, record};
+use crate::trajectory::Trajectory;
 
 type Text<'a> = Cow<'a, str>;
 type List<T> = Vec<Field<T>>;
@@ -97,18 +98,6 @@ record! { Edge<'a> {
     end: Text<'a> = "endNodeId",
     types_1: List<EdgeProperties<'a>> = "vehicleTypeEdgeProperties",
     types_2: List<EdgeProperties<'a>> = "mobileRobotTypeEdgeProperties",
-} }
-
-record! { Trajectory {
-    degree: f64 = "degree",
-    knots: List<f64> = "knotVector",
-    points: List<ControlPoint> = "controlPoints",
-} }
-
-record! { ControlPoint {
-    x: f64 = "x",
-    y: f64 = "y",
-    weight: f64 = "weight",
 } }
 
 record! { Station<'a> {
@@ -269,55 +258,5 @@ impl<'a> FromJson<'a> for Group<'a> {
             }
         }
         Ok(Field::Value(Self(fields)))
-    }
-}
-
-/// The value of an attribute.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) enum Scalar<'a> {
-    Truth(bool),
-    Number(f64),
-    Text(Text<'a>),
-    /// How many objects a list has.
-    Count(i64),
-}
-
-impl<'a> FromJson<'a> for Scalar<'a> {
-    fn from_bool(value: bool) -> Field<Self> {
-        Field::Value(Self::Truth(value))
-    }
-
-    fn from_number(value: f64) -> Field<Self> {
-        Field::Value(Self::Number(value))
-    }
-
-    fn from_text(value: Text<'a>) -> Field<Self> {
-        Field::Value(Self::Text(value))
-    }
-
-    /// A list of names is one text; a list of objects, such as actions, is their number.
-    fn from_list<A: SeqAccess<'a>>(mut list: A) -> Result<Field<Self>, A::Error> {
-        let (mut text, mut objects) = (String::new(), 0);
-        while let Some(item) = list.next_element::<Field<Self>>()? {
-            let part = match item {
-                Field::Value(Self::Truth(value)) => value.to_string().into(),
-                Field::Value(Self::Number(value)) => value.to_string().into(),
-                Field::Value(Self::Text(value)) => value,
-                Field::Wrong(Kind::Object) => {
-                    objects += 1;
-                    continue;
-                }
-                _ => continue,
-            };
-            if !text.is_empty() {
-                text.push_str(", ");
-            }
-            text.push_str(&part);
-        }
-        Ok(match (text.is_empty(), objects) {
-            (false, _) => Field::Value(Self::Text(text.into())),
-            (true, 0) => Field::Absent,
-            (true, count) => Field::Value(Self::Count(count)),
-        })
     }
 }

@@ -1,7 +1,4 @@
-//! Reading JSON that need not be what the format says: every field tells what was found in its place.
-//!
-//! A wrong type must not end the read, and the file must not become a tree of values that is many times
-//! its size. So the fields that are needed are read straight into records, and the rest is skipped.
+//! What stands in the place of a field, and the records of an object's fields.
 
 use std::borrow::Cow;
 use std::fmt;
@@ -10,13 +7,9 @@ use std::marker::PhantomData;
 use serde::Deserialize;
 use serde::de::{DeserializeSeed, Deserializer, IgnoredAny, MapAccess, SeqAccess, Visitor};
 
-use crate::source::Source;
-use crate::text::{Tally, position, printable};
-use crate::{Problem, ReadError};
-
 /// A kind of JSON value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(crate) enum Kind {
     Truth,
     Number,
     Text,
@@ -38,7 +31,7 @@ impl fmt::Display for Kind {
 
 /// What was found in the place of a field.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) enum Field<T> {
+pub(crate) enum Field<T> {
     /// No such key, or null, which the format lets stand for it.
     #[default]
     Absent,
@@ -52,12 +45,12 @@ pub(super) enum Field<T> {
 
 impl<T> Field<T> {
     /// Whether there is nothing.
-    pub(super) fn is_absent(&self) -> bool {
+    pub(crate) fn is_absent(&self) -> bool {
         matches!(self, Self::Absent)
     }
 
     /// The value, of whatever type it was written.
-    pub(super) fn get(&self) -> Option<&T> {
+    pub(crate) fn get(&self) -> Option<&T> {
         match self {
             Self::Value(value) | Self::Converted(value, _) => Some(value),
             Self::Absent | Self::Wrong(_) => None,
@@ -65,7 +58,7 @@ impl<T> Field<T> {
     }
 
     /// The kind of value in the place of the field if it is not the field's.
-    pub(super) fn wrong_kind(&self) -> Option<Kind> {
+    pub(crate) fn wrong_kind(&self) -> Option<Kind> {
         match self {
             Self::Wrong(kind) | Self::Converted(_, kind) => Some(*kind),
             Self::Absent | Self::Value(_) => None,
@@ -74,7 +67,7 @@ impl<T> Field<T> {
 }
 
 /// A type that a field can have: what it makes of each kind of JSON value.
-pub(super) trait FromJson<'de>: Sized {
+pub(crate) trait FromJson<'de>: Sized {
     fn from_bool(_: bool) -> Field<Self> {
         Field::Wrong(Kind::Truth)
     }
@@ -203,7 +196,7 @@ impl<'de, T: FromJson<'de>> FromJson<'de> for Box<T> {
 }
 
 /// Reads the key of an object, without a copy of its text.
-pub(super) struct Key<F>(pub(super) F);
+pub(crate) struct Key<F>(pub(crate) F);
 
 impl<'de, K, F: FnOnce(&str) -> K> DeserializeSeed<'de> for Key<F> {
     type Value = K;
@@ -232,9 +225,9 @@ macro_rules! record {
     }) => {
         $(#[doc = $doc])*
         #[derive(Debug, Default)]
-        pub(super) struct $name $(<$life>)? {
-            $(pub(super) $field: Field<$type>,)*
-            pub(super) repeated: Option<&'static str>,
+        pub(crate) struct $name $(<$life>)? {
+            $(pub(crate) $field: Field<$type>,)*
+            pub(crate) repeated: Option<&'static str>,
         }
 
         record!(@impl $name $(<$life>)? { $($field = $key,)* });
@@ -273,95 +266,4 @@ macro_rules! record {
         }
     };
 }
-pub(super) use record;
-
-/// Parses a whole text as one value.
-pub(super) fn parse<'t, T: FromJson<'t>>(
-    source: &Source<'_>,
-    text: &'t str,
-) -> Result<Field<T>, ReadError> {
-    check_limits(source, text).map_err(|p| source.fail(p))?;
-    source.check_cancelled()?;
-    let mut parser = serde_json::Deserializer::from_str(text);
-    let value = Field::deserialize(&mut parser);
-    value
-        .and_then(|value| parser.end().map(|()| value))
-        .map_err(|error| source.fail(problem(&error, text)))
-}
-
-fn check_limits(source: &Source<'_>, text: &str) -> Result<(), Problem> {
-    let mut tally = Tally::new(text, &source.options.limits);
-    let (mut in_text, mut escaped) = (false, false);
-    for (at, byte) in text.bytes().enumerate() {
-        match byte {
-            _ if escaped => escaped = false,
-            b'\\' if in_text => escaped = true,
-            b'"' => in_text = !in_text,
-            _ if in_text => {}
-            b'{' | b'[' => {
-                tally.count()?;
-                tally.enter(at)?;
-            }
-            b',' => tally.count()?,
-            b'}' | b']' => tally.leave(),
-            _ => {}
-        }
-    }
-    Ok(())
-}
-
-fn problem(error: &serde_json::Error, text: &str) -> Problem {
-    let (line, column) = (error.line() as u64, error.column() as u64);
-    if error.is_eof() {
-        let (line, column) = position(text, text.len());
-        return Problem::Truncated {
-            at: text.len() as u64,
-            detail: format!("the JSON goes on after line {line}, column {column}"),
-        };
-    }
-    let message = error.to_string();
-    if message.starts_with("recursion limit exceeded") {
-        return Problem::TooDeep {
-            limit: 128,
-            line,
-            column,
-        };
-    }
-    let message = message.split(" at line ").next().unwrap_or(&message);
-    Problem::Syntax {
-        line,
-        column,
-        message: printable(&friendly(
-            message,
-            word_at(text, error.line(), error.column()),
-        )),
-    }
-}
-
-/// What stands at a place, as far as it is one word.
-fn word_at(text: &str, line: usize, column: usize) -> &str {
-    let line = text.lines().nth(line.saturating_sub(1)).unwrap_or("");
-    let from = line.get(column.saturating_sub(1)..).unwrap_or("");
-    let end = from.find(|c: char| !c.is_ascii_alphanumeric() && c != '-');
-    &from[..end.unwrap_or(from.len())]
-}
-
-fn friendly(message: &str, word: &str) -> String {
-    match (message, word) {
-        ("expected value", "NaN" | "Infinity" | "nan" | "inf") => {
-            format!("{word} stands where JSON wants a number; JSON has no such number")
-        }
-        ("invalid number", _) if word.contains("nfinity") => {
-            "-Infinity stands where JSON wants a number; JSON has no such number".into()
-        }
-        ("number out of range", _) => "the number is too large for any computer to hold".into(),
-        ("key must be a string", _) => {
-            "a key in quotes was expected; perhaps there is a comma too many".into()
-        }
-        ("trailing comma", _) => "there is a comma after the last value".into(),
-        ("trailing characters", _) => "there is more text after the end of the layout".into(),
-        ("expected value", "") => "a value was expected here".into(),
-        ("expected value", word) => format!("a value was expected here, not `{word}`"),
-        (other, _) => other.into(),
-    }
-}
+pub(crate) use record;

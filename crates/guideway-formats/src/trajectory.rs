@@ -1,17 +1,30 @@
-//! From a trajectory to runs: a NURBS curve if it is one, else its control polygon.
+//! The trajectory of an edge, which LIF and VDA 5050 have in common: a NURBS curve if it is one, else
+//! its control polygon.
 
 use guideway_layout::Code;
 use guideway_spline::{MAX_DEGREE, Nurbs, Point, Runs, knots, nurbs_to_runs, polyline_to_runs};
 
-use super::json::Field;
-use super::map::{Mapper, items, within};
-use super::model::Trajectory;
+use serde::de::{IgnoredAny, MapAccess};
+
 use crate::ReadError;
-use crate::builder::At;
+use crate::builder::{At, Builder};
+use crate::json::{Field, FromJson, Key, items, record, within};
 
 /// Most control points of a curve that is approximated rather than converted exactly: each span can
 /// become a thousand cubics, so a small file could ask for more than any machine has.
 const MOST_APPROXIMATED: usize = 1_000;
+
+record! { Trajectory {
+    degree: f64 = "degree",
+    knots: Vec<Field<f64>> = "knotVector",
+    points: Vec<Field<ControlPoint>> = "controlPoints",
+} }
+
+record! { ControlPoint {
+    x: f64 = "x",
+    y: f64 = "y",
+    weight: f64 = "weight",
+} }
 
 /// What a trajectory has once its fields are read.
 struct Control {
@@ -21,9 +34,9 @@ struct Control {
     whole: bool,
 }
 
-impl Mapper<'_> {
+impl Builder<'_> {
     /// Puts a trajectory into empty `runs`. They stay empty if it has fewer than two points.
-    pub(super) fn append_curve(
+    pub(crate) fn append_trajectory(
         &mut self,
         trajectory: &Trajectory,
         at: At<'_>,
@@ -40,7 +53,7 @@ impl Mapper<'_> {
             if curve.is_rational() {
                 let message = || "the weights differ too much to compute with".to_owned();
                 let remedy = "1 is used for all; give weights that are more alike";
-                self.builder.find(Code::BadWeight, at, message, remedy);
+                self.find(Code::BadWeight, at, message, remedy);
                 let (degree, knots) = (curve.degree(), curve.knots().to_vec());
                 let plain = Nurbs::new(degree, knots, control.points.clone(), None);
                 if plain.is_ok_and(|plain| self.convert(&plain, at, runs)) {
@@ -57,7 +70,7 @@ impl Mapper<'_> {
 
     /// Converts a curve; fails if numbers overflow on the way, and then leaves nothing.
     fn convert(&mut self, curve: &Nurbs, at: At<'_>, runs: &mut Runs) -> bool {
-        let tolerance = self.builder.source.options.limits.conversion_tolerance_m;
+        let tolerance = self.source.options.limits.conversion_tolerance_m;
         let error = nurbs_to_runs(curve, tolerance, runs).error_bound_m;
         if !runs.points().iter().all(|p| p.is_finite()) {
             runs.clear();
@@ -67,8 +80,7 @@ impl Mapper<'_> {
             let message =
                 || format!("the curve is drawn within {error} m, not within {tolerance} m");
             let remedy = "Split the curve, or give weights that are more alike";
-            self.builder
-                .find(Code::ApproximateShape, at, message, remedy);
+            self.find(Code::ApproximateShape, at, message, remedy);
         }
         true
     }
@@ -85,21 +97,19 @@ impl Mapper<'_> {
         }
         let knots = trajectory.knots.get().map_or(0, Vec::len);
         let points = trajectory.points.get().map_or(0, Vec::len);
-        self.builder.check_curve_points(points.max(knots))?;
+        self.check_curve_points(points.max(knots))?;
         for (i, field) in items(&trajectory.points) {
             let at_point: At<'_> = &|| within(at, &format!("controlPoints[{i}]"));
             let point = self.record(field, at_point).and_then(|p| {
                 self.check_repeated(p.repeated, at_point);
-                let x = self.number(&p.x, &|| within(at_point, "x"));
-                let y = self.number(&p.y, &|| within(at_point, "y"));
-                Some((Point::new(x?, y?), &p.weight))
+                Some((self.point(&p.x, &p.y, at_point)?, &p.weight))
             });
             match point {
-                Some((point, weight)) if self.builder.check_point(point, at_point) => {
+                Some((point, weight)) => {
                     control.points.push(point);
                     control.weights.push(self.weight(weight, at_point));
                 }
-                _ => control.whole = false,
+                None => control.whole = false,
             }
         }
         Ok(control)
@@ -113,7 +123,7 @@ impl Mapper<'_> {
         }
         let message = || format!("the weight is {weight}");
         let remedy = "1 is used; give a number above 0";
-        self.builder.find(Code::BadWeight, at, message, remedy);
+        self.find(Code::BadWeight, at, message, remedy);
         1.0
     }
 
@@ -124,14 +134,14 @@ impl Mapper<'_> {
             Field::Absent => 1.0,
             other => other.get().copied().unwrap_or(f64::NAN),
         };
-        let most = MAX_DEGREE.min(self.builder.source.options.limits.degree);
+        let most = MAX_DEGREE.min(self.source.options.limits.degree);
         if degree.fract() == 0.0 && (1.0..=most as f64).contains(&degree) {
             return Some(degree as usize);
         }
         let message =
             || format!("the degree is {degree}, a whole number from 1 to {most} expected");
         let remedy = "The control polygon is drawn; correct the degree";
-        self.builder.find(Code::BadDegree, at, message, remedy);
+        self.find(Code::BadDegree, at, message, remedy);
         None
     }
 
@@ -152,7 +162,7 @@ impl Mapper<'_> {
             let message =
                 || format!("{count} control points, a curve of degree {degree} needs {least}");
             let remedy = "Straight lines are drawn between those there are; lower the degree";
-            self.builder.find(Code::TooFewPoints, at, message, remedy);
+            self.find(Code::TooFewPoints, at, message, remedy);
             return None;
         }
         let knots = self.knots(degree, count, trajectory, at)?;
@@ -165,8 +175,7 @@ impl Mapper<'_> {
                 )
             };
             let remedy = "The control polygon is drawn; split the curve, or lower its degree";
-            self.builder
-                .find(Code::ApproximateShape, at, message, remedy);
+            self.find(Code::ApproximateShape, at, message, remedy);
             return None;
         }
         let weights = rational.then(|| control.weights.clone());
@@ -197,7 +206,7 @@ impl Mapper<'_> {
         if values.is_empty() {
             let message = || "there are no knots".to_owned();
             let remedy = "Evenly spaced clamped knots are used";
-            self.builder.find(Code::MissingKnots, at, message, remedy);
+            self.find(Code::MissingKnots, at, message, remedy);
             return Some(knots::uniform_clamped(degree, points));
         }
         let (count, expected) = (values.len(), points + degree + 1);
@@ -227,20 +236,19 @@ impl Mapper<'_> {
                     .to_owned()
             };
             let remedy = "It is drawn as written";
-            self.builder.find(Code::UnclampedKnots, at, message, remedy);
+            self.find(Code::UnclampedKnots, at, message, remedy);
         }
         let inner = knots.get(degree + 1..points).unwrap_or_default();
         let broken = inner.windows(degree + 1).find(|w| w[0] == w[degree]);
         if let Some(window) = broken {
             let message = || format!("the knot {} is there more than {degree} times", window[0]);
             let remedy = "The curve is broken there; remove the knots that are too many";
-            self.builder
-                .find(Code::KnotMultiplicity, at, message, remedy);
+            self.find(Code::KnotMultiplicity, at, message, remedy);
         }
     }
 
     fn report_knots(&mut self, at: At<'_>, message: impl FnOnce() -> String) {
         let remedy = "The control polygon is drawn; correct the knots";
-        self.builder.find(Code::BadKnots, at, message, remedy);
+        self.find(Code::BadKnots, at, message, remedy);
     }
 }

@@ -1,0 +1,109 @@
+//! Reading JSON that need not be what the format says: every field tells what was found in its place.
+//!
+//! A wrong type must not end the read, and the file must not become a tree of values that is many times
+//! its size. So the fields that are needed are read straight into records, and the rest is skipped.
+
+mod check;
+mod field;
+mod scalar;
+
+pub(crate) use self::check::{items, within};
+pub(crate) use self::field::{Field, FromJson, Key, record};
+pub(crate) use self::scalar::Scalar;
+
+use serde::Deserialize;
+
+use crate::source::Source;
+use crate::text::{Tally, position, printable};
+use crate::{Problem, ReadError};
+
+/// Parses a whole text as one value.
+pub(crate) fn parse<'t, T: FromJson<'t>>(
+    source: &Source<'_>,
+    text: &'t str,
+) -> Result<Field<T>, ReadError> {
+    check_limits(source, text).map_err(|p| source.fail(p))?;
+    source.check_cancelled()?;
+    let mut parser = serde_json::Deserializer::from_str(text);
+    let value = Field::deserialize(&mut parser);
+    value
+        .and_then(|value| parser.end().map(|()| value))
+        .map_err(|error| source.fail(problem(&error, text)))
+}
+
+fn check_limits(source: &Source<'_>, text: &str) -> Result<(), Problem> {
+    let mut tally = Tally::new(text, &source.options.limits);
+    let (mut in_text, mut escaped) = (false, false);
+    for (at, byte) in text.bytes().enumerate() {
+        match byte {
+            _ if escaped => escaped = false,
+            b'\\' if in_text => escaped = true,
+            b'"' => in_text = !in_text,
+            _ if in_text => {}
+            b'{' | b'[' => {
+                tally.count()?;
+                tally.enter(at)?;
+            }
+            b',' => tally.count()?,
+            b'}' | b']' => tally.leave(),
+            _ => {}
+        }
+    }
+    Ok(())
+}
+
+fn problem(error: &serde_json::Error, text: &str) -> Problem {
+    let (line, column) = (error.line() as u64, error.column() as u64);
+    if error.is_eof() {
+        let (line, column) = position(text, text.len());
+        return Problem::Truncated {
+            at: text.len() as u64,
+            detail: format!("the JSON goes on after line {line}, column {column}"),
+        };
+    }
+    let message = error.to_string();
+    if message.starts_with("recursion limit exceeded") {
+        return Problem::TooDeep {
+            limit: 128,
+            line,
+            column,
+        };
+    }
+    let message = message.split(" at line ").next().unwrap_or(&message);
+    Problem::Syntax {
+        line,
+        column,
+        message: printable(&friendly(
+            message,
+            word_at(text, error.line(), error.column()),
+        )),
+    }
+}
+
+/// What stands at a place, as far as it is one word.
+fn word_at(text: &str, line: usize, column: usize) -> &str {
+    let line = text.lines().nth(line.saturating_sub(1)).unwrap_or("");
+    let from = line.get(column.saturating_sub(1)..).unwrap_or("");
+    let end = from.find(|c: char| !c.is_ascii_alphanumeric() && c != '-');
+    &from[..end.unwrap_or(from.len())]
+}
+
+fn friendly(message: &str, word: &str) -> String {
+    match (message, word) {
+        ("expected value", "NaN" | "Infinity" | "nan" | "inf") => {
+            format!("{word} stands where JSON wants a number; JSON has no such number")
+        }
+        ("invalid number", _) if word.contains("nfinity") => {
+            "-Infinity stands where JSON wants a number; JSON has no such number".into()
+        }
+        ("number out of range", _) => "the number is too large for any computer to hold".into(),
+        ("key must be a string", _) => {
+            "a key in quotes was expected; perhaps there is a comma too many".into()
+        }
+        ("trailing comma", _) => "there is a comma after the last value".into(),
+        ("trailing characters", _) => "there is more text after the end of the layout".into(),
+        ("expected value", "") => "a value was expected here".into(),
+        ("expected value", word) => format!("a value was expected here, not `{word}`"),
+        (other, _) => other.into(),
+    }
+}
