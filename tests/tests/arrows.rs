@@ -21,6 +21,24 @@ const ALLOWED: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "guideway-gpu",
+        &[
+            "guideway-spline",
+            "guideway-layout",
+            "guideway-scene",
+            "guideway-render",
+        ],
+    ),
+    (
+        "guideway-gl",
+        &[
+            "guideway-spline",
+            "guideway-layout",
+            "guideway-scene",
+            "guideway-render",
+        ],
+    ),
+    (
         "guideway-bench",
         &[
             "guideway-spline",
@@ -42,6 +60,7 @@ const KEPT_TO: &[(&str, &str)] = &[
     ("png", "guideway guideway-bench guideway-tests"),
     ("wgpu", "guideway-gpu"),
     ("glow", "guideway-gl"),
+    ("khronos-egl", "guideway-gl"),
     ("winit", "guideway-viewer"),
 ];
 

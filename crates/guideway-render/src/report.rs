@@ -81,6 +81,8 @@ pub struct Preparation {
     pub held_bytes: u64,
     /// Most bytes held at once on the way there.
     pub peak_bytes: u64,
+    /// What it took, in numbers that any device would give.
+    pub work: Work,
 }
 
 impl Preparation {
@@ -90,7 +92,8 @@ impl Preparation {
     }
 }
 
-/// Work of one frame, in numbers that any device would give. None where a method does not count it.
+/// Work of a frame or of a preparation, in numbers that any device would give. None where a method does not
+/// count it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Work {
     /// Tests of a point against a line.

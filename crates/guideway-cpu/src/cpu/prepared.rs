@@ -110,6 +110,7 @@ impl CpuPrepared {
                 stages: vec![Stage::host("bound", elapsed_ms(start))],
                 held_bytes,
                 peak_bytes: held_bytes,
+                ..Preparation::default()
             },
             clusters,
             widest_m,

@@ -1,0 +1,63 @@
+//! Which adapter to use.
+
+use wgpu::{Adapter, Backends, Device, DeviceDescriptor, DeviceType, Features, Instance, Queue};
+
+use super::GpuOptions;
+
+const NONE_FOUND: &str = "no graphics adapter was found: there is no Vulkan loader, or no driver for it. \
+     On Debian or Ubuntu install `libvulkan1` and `mesa-vulkan-drivers`, which also draw without graphics \
+     hardware";
+
+/// Opens the first adapter that can be opened, hardware first.
+pub(super) fn open(options: GpuOptions) -> Result<(Adapter, Device, Queue), String> {
+    let descriptor = wgpu::InstanceDescriptor {
+        backends: Backends::PRIMARY,
+        ..wgpu::InstanceDescriptor::new_without_display_handle()
+    };
+    let instance = Instance::new(descriptor);
+    let mut adapters = pollster::block_on(instance.enumerate_adapters(Backends::PRIMARY));
+    adapters.sort_by_key(|adapter| preference(adapter.get_info().device_type));
+    let mut refusals = Vec::new();
+    for adapter in adapters {
+        match pollster::block_on(adapter.request_device(&descriptor_for(&adapter, options))) {
+            Ok((device, queue)) => return Ok((adapter, device, queue)),
+            Err(error) => refusals.push(format!("{}: {error}", adapter.get_info().name)),
+        }
+    }
+    if refusals.is_empty() {
+        Err(NONE_FOUND.to_owned())
+    } else {
+        Err(format!(
+            "no graphics adapter could be opened: {}",
+            refusals.join("; ")
+        ))
+    }
+}
+
+fn preference(kind: DeviceType) -> u8 {
+    match kind {
+        DeviceType::DiscreteGpu => 0,
+        DeviceType::IntegratedGpu => 1,
+        DeviceType::VirtualGpu => 2,
+        DeviceType::Other => 3,
+        DeviceType::Cpu => 4,
+    }
+}
+
+fn descriptor_for(adapter: &Adapter, options: GpuOptions) -> DeviceDescriptor<'static> {
+    let mut limits = adapter.limits();
+    if let Some(bytes) = options.storage_binding_bytes {
+        let binding = &mut limits.max_storage_buffer_binding_size;
+        *binding = (*binding).min(bytes.into());
+    }
+    if let Some(workgroups) = options.workgroups_per_dimension {
+        let side = &mut limits.max_compute_workgroups_per_dimension;
+        *side = (*side).min(workgroups);
+    }
+    DeviceDescriptor {
+        label: Some("guideway"),
+        required_features: adapter.features() & Features::TIMESTAMP_QUERY,
+        required_limits: limits,
+        ..DeviceDescriptor::default()
+    }
+}

@@ -1,0 +1,78 @@
+//! Compute pipelines, and what they are made of.
+
+use super::{DeviceBuffer, Gpu};
+
+/// A compute shader.
+pub(crate) struct Source {
+    /// What it does, for messages.
+    pub(crate) name: &'static str,
+    /// WGSL, with the entry point `main`.
+    pub(crate) wgsl: &'static str,
+    /// The variables that it binds, in the order of their bindings in group 0.
+    pub(crate) bindings: &'static [&'static str],
+}
+
+/// A compute pipeline.
+pub(crate) struct Kernel {
+    name: &'static str,
+    pub(super) pipeline: wgpu::ComputePipeline,
+    layout: wgpu::BindGroupLayout,
+    bindings: usize,
+}
+
+/// The buffers of one kernel, in the order of [`Source::bindings`].
+pub(crate) struct Bindings(pub(super) wgpu::BindGroup);
+
+impl Kernel {
+    /// Compiles it, with these values for its overrides.
+    pub(crate) fn new(
+        gpu: &Gpu,
+        source: &Source,
+        constants: &[(&str, f64)],
+    ) -> Result<Self, String> {
+        let what = format!("the shader `{}` cannot be compiled", source.name);
+        let device = &gpu.device;
+        gpu.checked(&what, || {
+            let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+                label: Some(source.name),
+                source: wgpu::ShaderSource::Wgsl(source.wgsl.into()),
+            });
+            let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                label: Some(source.name),
+                layout: None,
+                module: &module,
+                entry_point: Some("main"),
+                compilation_options: wgpu::PipelineCompilationOptions {
+                    constants,
+                    ..wgpu::PipelineCompilationOptions::default()
+                },
+                cache: None,
+            });
+            Self {
+                name: source.name,
+                layout: pipeline.get_bind_group_layout(0),
+                pipeline,
+                bindings: source.bindings.len(),
+            }
+        })
+    }
+
+    /// Binds buffers, one a binding.
+    pub(crate) fn bind(&self, gpu: &Gpu, buffers: &[&DeviceBuffer]) -> Result<Bindings, String> {
+        debug_assert_eq!(buffers.len(), self.bindings, "{}", self.name);
+        let entries: Vec<_> = (0..)
+            .zip(buffers)
+            .map(|(binding, buffer)| wgpu::BindGroupEntry {
+                binding,
+                resource: buffer.raw().as_entire_binding(),
+            })
+            .collect();
+        let descriptor = wgpu::BindGroupDescriptor {
+            label: Some(self.name),
+            layout: &self.layout,
+            entries: &entries,
+        };
+        let group = gpu.checked(self.name, || gpu.device.create_bind_group(&descriptor))?;
+        Ok(Bindings(group))
+    }
+}

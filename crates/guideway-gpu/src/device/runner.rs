@@ -1,0 +1,201 @@
+//! One submit at a time, and how long it took.
+
+use std::sync::Arc;
+use std::sync::mpsc::channel;
+use std::time::{Duration, Instant};
+
+use guideway_render::{Clock, RenderError, Stage};
+use wgpu::BufferUsages;
+
+use super::kernel::Bindings;
+use super::{DeviceBuffer, Gpu, Kernel, Memory};
+
+/// A device that takes longer than this for one submit is taken for dead.
+const PATIENCE: Duration = Duration::from_secs(120);
+
+/// Bytes of the two ticks around a submit.
+const TICKS_BYTES: u64 = 2 * wgpu::QUERY_SIZE as u64;
+
+/// Submits work and waits for it, so that a caller may stop between two submits and none piles up.
+pub(crate) struct Runner {
+    gpu: Arc<Gpu>,
+    clock: Option<DeviceClock>,
+}
+
+struct DeviceClock {
+    tick_ns: f64,
+    ticks: wgpu::QuerySet,
+    resolved: DeviceBuffer,
+    fetched: DeviceBuffer,
+}
+
+/// A kernel over so many workgroups.
+pub(crate) struct Dispatch<'a> {
+    pub(crate) kernel: &'a Kernel,
+    pub(crate) bindings: &'a Bindings,
+    pub(crate) workgroups: u32,
+}
+
+impl Runner {
+    pub(crate) fn new(gpu: Arc<Gpu>, memory: &mut Memory) -> Result<Self, RenderError> {
+        let clock = match gpu.tick_ns {
+            None => None,
+            Some(tick_ns) => {
+                let what = "the device's clock";
+                let descriptor = wgpu::QuerySetDescriptor {
+                    label: Some(what),
+                    ty: wgpu::QueryType::Timestamp,
+                    count: 2,
+                };
+                let ticks = gpu.checked(what, || gpu.device.create_query_set(&descriptor));
+                let resolve = BufferUsages::QUERY_RESOLVE | BufferUsages::COPY_SRC;
+                Some(DeviceClock {
+                    tick_ns,
+                    ticks: ticks.map_err(|what| memory.trouble(what))?,
+                    resolved: memory.zeros(what, TICKS_BYTES, resolve)?,
+                    fetched: memory.zeros(what, TICKS_BYTES, FETCHED)?,
+                })
+            }
+        };
+        Ok(Self { gpu, clock })
+    }
+
+    /// A stage of so many milliseconds, by the clock that times what this runs.
+    pub(crate) fn stage(&self, name: &'static str, elapsed_ms: f64) -> Stage {
+        let clock = match self.clock {
+            Some(_) => Clock::Device,
+            None => Clock::Host,
+        };
+        Stage {
+            name,
+            elapsed_ms,
+            clock,
+        }
+    }
+
+    /// Sets a buffer that shaders read, from the next submit on.
+    pub(crate) fn set<T: bytemuck::NoUninit>(&self, buffer: &DeviceBuffer, value: &T) {
+        let bytes = bytemuck::bytes_of(value);
+        self.gpu.queue.write_buffer(buffer.raw(), 0, bytes);
+    }
+
+    /// Runs dispatches one after the other, each seeing what those before it wrote. Returns milliseconds.
+    pub(crate) fn run(
+        &self,
+        what: &'static str,
+        dispatches: &[Dispatch<'_>],
+    ) -> Result<f64, String> {
+        let start = Instant::now();
+        let submission = self.gpu.checked(what, || {
+            let mut encoder = self.encoder(what);
+            let timestamp_writes = self
+                .clock
+                .as_ref()
+                .map(|c| wgpu::ComputePassTimestampWrites {
+                    query_set: &c.ticks,
+                    beginning_of_pass_write_index: Some(0),
+                    end_of_pass_write_index: Some(1),
+                });
+            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+                label: Some(what),
+                timestamp_writes,
+            });
+            let side = self
+                .gpu
+                .device
+                .limits()
+                .max_compute_workgroups_per_dimension;
+            for dispatch in dispatches.iter().filter(|d| d.workgroups > 0) {
+                pass.set_pipeline(&dispatch.kernel.pipeline);
+                pass.set_bind_group(0, &dispatch.bindings.0, &[]);
+                let columns = dispatch.workgroups.min(side);
+                pass.dispatch_workgroups(columns, dispatch.workgroups.div_ceil(columns), 1);
+            }
+            drop(pass);
+            if let Some(clock) = &self.clock {
+                let (resolved, fetched) = (clock.resolved.raw(), clock.fetched.raw());
+                encoder.resolve_query_set(&clock.ticks, 0..2, resolved, 0);
+                encoder.copy_buffer_to_buffer(resolved, 0, fetched, 0, TICKS_BYTES);
+            }
+            self.gpu.queue.submit([encoder.finish()])
+        })?;
+        let Some(clock) = &self.clock else {
+            self.wait(what, submission)?;
+            return Ok(start.elapsed().as_secs_f64() * 1e3);
+        };
+        let mut ticks = [0_u64; 2];
+        self.mapped(what, &clock.fetched, TICKS_BYTES, submission, |bytes| {
+            bytemuck::bytes_of_mut(&mut ticks).copy_from_slice(bytes);
+        })?;
+        Ok(ticks[1].saturating_sub(ticks[0]) as f64 * clock.tick_ns * 1e-6)
+    }
+
+    /// Fetches the first `bytes` of a buffer, by way of one that can be mapped.
+    pub(crate) fn fetch(
+        &self,
+        what: &'static str,
+        from: &DeviceBuffer,
+        through: &DeviceBuffer,
+        bytes: u64,
+        take: impl FnOnce(&[u8]),
+    ) -> Result<(), String> {
+        let submission = self.gpu.checked(what, || {
+            let mut encoder = self.encoder(what);
+            encoder.copy_buffer_to_buffer(from.raw(), 0, through.raw(), 0, bytes);
+            self.gpu.queue.submit([encoder.finish()])
+        })?;
+        self.mapped(what, through, bytes, submission, take)
+    }
+
+    fn encoder(&self, what: &'static str) -> wgpu::CommandEncoder {
+        let descriptor = wgpu::CommandEncoderDescriptor { label: Some(what) };
+        self.gpu.device.create_command_encoder(&descriptor)
+    }
+
+    /// Shows bytes of a buffer once a submission is through.
+    fn mapped(
+        &self,
+        what: &'static str,
+        buffer: &DeviceBuffer,
+        bytes: u64,
+        submission: wgpu::SubmissionIndex,
+        take: impl FnOnce(&[u8]),
+    ) -> Result<(), String> {
+        let (sender, receiver) = channel();
+        let slice = buffer.raw().slice(..bytes);
+        self.gpu.checked(what, || {
+            // The receiver waits below; if it is gone, nobody wants to know.
+            slice.map_async(wgpu::MapMode::Read, move |mapped| drop(sender.send(mapped)));
+        })?;
+        self.wait(what, submission)?;
+        match receiver.try_recv() {
+            Ok(Ok(())) => {}
+            Ok(Err(error)) => return Err(format!("{what} cannot be read back: {error}")),
+            Err(_) => return Err(format!("{what} cannot be read back: no answer")),
+        }
+        let view = slice.get_mapped_range();
+        let view = view.map_err(|error| format!("{what} cannot be read back: {error}"))?;
+        take(&view);
+        drop(view);
+        buffer.raw().unmap();
+        Ok(())
+    }
+
+    fn wait(&self, what: &str, submission: wgpu::SubmissionIndex) -> Result<(), String> {
+        let waited = self.gpu.device.poll(wgpu::PollType::Wait {
+            submission_index: Some(submission),
+            timeout: Some(PATIENCE),
+        });
+        self.gpu.check_alive()?;
+        match waited {
+            Ok(_) => Ok(()),
+            Err(error) => Err(format!(
+                "{what} did not end within {} s ({error}); draw fewer paths, or by another method",
+                PATIENCE.as_secs()
+            )),
+        }
+    }
+}
+
+/// How a buffer that can be mapped is used.
+pub(crate) const FETCHED: BufferUsages = BufferUsages::MAP_READ.union(BufferUsages::COPY_DST);

@@ -1,0 +1,133 @@
+//! The scene as the device sees it: in `f32` metres from the middle of its box, under a uniform grid.
+
+use guideway_scene::Scene;
+use guideway_spline::{Bounds, Point};
+
+use super::options::{Binning, GridOptions};
+use super::params::GridParams;
+
+/// How far a line with its radius is entered beyond its box, in sides of the shorter side of a cell. Where
+/// a view's lines reach farther, pixels look into the cells beside their own too.
+const BINNED_REACH_CELLS: f64 = 0.25;
+
+/// Place and size of a scene.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Local {
+    /// Where the device's coordinates have their origin.
+    center_m: Point<f64>,
+    /// Box of the curves, from there.
+    pub(super) bounds_m: Bounds<f64>,
+    /// Greatest coordinate of a control point, from there.
+    reach_m: f64,
+    /// Longest side of a segment's control points' box.
+    segment_m: f64,
+    pub(super) segments: u64,
+}
+
+impl Local {
+    pub(super) fn of(scene: &Scene) -> Self {
+        let origin = Point::new(0.0, 0.0);
+        let nowhere = Bounds {
+            min: origin,
+            max: origin,
+        };
+        let bounds = scene.bounds().unwrap_or(nowhere);
+        let center_m = bounds.center();
+        let mut local = Self {
+            center_m,
+            bounds_m: Bounds {
+                min: bounds.min - center_m,
+                max: bounds.max - center_m,
+            },
+            reach_m: 0.0,
+            segment_m: 0.0,
+            segments: 0,
+        };
+        let paths = &scene.layout().paths;
+        let drawn = scene.draw_order().iter();
+        let runs = drawn.flat_map(|&path| paths.get(path as usize).runs());
+        for segment in runs.flat_map(|run| run.segments()) {
+            if let Some(hull) = Bounds::of_points(segment.map(|p| p - center_m)) {
+                let reaches = [hull.min.x, hull.min.y, hull.max.x, hull.max.y].map(f64::abs);
+                local.reach_m = reaches.into_iter().fold(local.reach_m, f64::max);
+                local.segment_m = local.segment_m.max(hull.size().x).max(hull.size().y);
+            }
+            local.segments += 1;
+        }
+        local
+    }
+
+    /// A point as the device sees it.
+    pub(super) fn local_from_world(&self, point_m: Point<f64>) -> [f32; 2] {
+        let local = (point_m - self.center_m).to_f32();
+        [local.x, local.y]
+    }
+
+    /// How far from its place a line may appear because the device computes in `f32`, in pixels: a bound.
+    ///
+    /// With u = 2^-24, a coordinate up to X is rounded by at most u X: once as a control point, once as an
+    /// end of a line, once as the middle of the view and once as a pixel. What is computed relative to a
+    /// segment, its points and the projection on its lines, is off by at most 8 u of its size. The middle
+    /// of a view that is off the scene is at most half a picture away from any pixel that meets it, which
+    /// adds less than a hundredth of a pixel.
+    pub(super) fn rounding_px(&self, px_per_m: f64) -> f64 {
+        let unit = f64::from(f32::EPSILON) / 2.0;
+        unit * (4.0 * self.reach_m + 8.0 * self.segment_m) * px_per_m + 0.01
+    }
+
+    /// The grid over the box of the curves.
+    pub(super) fn grid(&self, options: &GridOptions) -> GridParams {
+        let cells = f64::from(options.cells);
+        let size_m = self.bounds_m.size();
+        // A side that is hardly more than rounding is one cell.
+        let least_m = cells * self.reach_m * f64::from(f32::EPSILON);
+        let cells_per_m = |side_m: f64| {
+            if side_m > least_m {
+                cells / side_m
+            } else {
+                0.0
+            }
+        };
+        let per_m = [cells_per_m(size_m.x), cells_per_m(size_m.y)];
+        let reach_m = match options.binning {
+            Binning::LineBox => 0.0,
+            Binning::LineBoxWithRadius => {
+                let most = per_m[0].max(per_m[1]);
+                if most > 0.0 {
+                    BINNED_REACH_CELLS / most
+                } else {
+                    0.0
+                }
+            }
+        };
+        GridParams {
+            origin_m: [self.bounds_m.min.x as f32, self.bounds_m.min.y as f32],
+            cells_per_m: per_m.map(|c| c as f32),
+            reach_m: reach_m as f32,
+            padding: 0,
+        }
+    }
+}
+
+/// Most cells that the lines of a segment are entered in, all lines together.
+///
+/// The derivative of a uniform cubic B-spline is a mean of the differences of its control points, so none
+/// of its lines is longer than the longest difference over the number of lines.
+pub(super) fn most_entries(
+    control_m: &[[f32; 2]; 4],
+    grid: &GridParams,
+    options: &GridOptions,
+) -> u64 {
+    let lines = f64::from(options.lines_a_segment());
+    let cells = |axis: usize| {
+        let at = control_m.map(|point| f64::from(point[axis]));
+        let steps = [at[1] - at[0], at[2] - at[1], at[3] - at[2]].map(f64::abs);
+        let step_m = steps.into_iter().fold(0.0, f64::max) / lines;
+        let low = at.into_iter().fold(f64::INFINITY, f64::min);
+        let high = at.into_iter().fold(f64::NEG_INFINITY, f64::max);
+        let box_m = step_m.min(high - low) + 2.0 * f64::from(grid.reach_m);
+        let met = (box_m * f64::from(grid.cells_per_m[axis])).floor() + 2.0;
+        met.min(f64::from(options.cells)) as u64
+    };
+    u64::from(options.lines_a_segment()) * cells(0) * cells(1)
+}

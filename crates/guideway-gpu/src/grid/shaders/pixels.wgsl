@@ -1,0 +1,83 @@
+// The picture (thesis, 4.3.6): one thread a pixel, over all the lines of its cell.
+
+// Side of a tile, a workgroup's pixels.
+override TILE_PX: u32;
+// Stop at lines that change nothing any more.
+override EARLY_EXIT: bool;
+// Count the work.
+override COUNT: bool;
+
+@group(0) @binding(2) var<storage, read> starts: array<u32>;
+@group(0) @binding(3) var<storage, read> counts: array<u32>;
+@group(0) @binding(4) var<storage, read> lists_m: array<vec4f>;
+// Between chunks what the pixel remembers, with the last its colour.
+@group(0) @binding(5) var<storage, read_write> pixels: array<u32>;
+// Tests of lines and look-ups of cells, a pixel.
+@group(0) @binding(6) var<storage, read_write> work: array<vec2u>;
+
+@compute @workgroup_size(TILE_PX, TILE_PX)
+fn main(
+    @builtin(workgroup_id) workgroup: vec3u,
+    @builtin(num_workgroups) workgroups: vec3u,
+    @builtin(local_invocation_id) thread: vec3u,
+) {
+    let tile = view.first_tile + workgroup.y * workgroups.x + workgroup.x;
+    if tile >= view.end_tile {
+        return;
+    }
+    let tiles_across = (view.width_px + TILE_PX - 1u) / TILE_PX;
+    let pixel = vec2u(tile % tiles_across, tile / tiles_across) * TILE_PX + thread.xy;
+    if pixel.x >= view.width_px || pixel.y >= view.rows {
+        return;
+    }
+    let index = pixel.y * view.width_px + pixel.x;
+    var seen = NOTHING;
+    if view.is_first_chunk == 0u {
+        seen = pixels[index];
+    }
+    var tests = 0u;
+    var looks = 0u;
+
+    let center_px = vec2f(f32(pixel.x), f32(view.first_row + pixel.y)) + 0.5;
+    let offset_m = (center_px - view.half_size_px) * view.m_per_px;
+    let point_m = view.center_m + vec2f(offset_m.x, -offset_m.y);
+    if all(point_m >= view.box_low_m) && all(point_m <= view.box_high_m) {
+        let low = cell_of(point_m - view.excess_m);
+        let high = cell_of(point_m + view.excess_m);
+        for (var y = low.y; y <= high.y; y++) {
+            for (var x = low.x; x <= high.x; x++) {
+                let cell = y * CELLS + x;
+                let end = starts[cell] + counts[cell];
+                looks += 1u;
+                for (var i = starts[cell]; i < end; i++) {
+                    if EARLY_EXIT && is_full(seen) {
+                        break;
+                    }
+                    seen = cover(seen, point_m, lists_m[i]);
+                    tests += 1u;
+                }
+            }
+        }
+    }
+
+    if COUNT {
+        let before = select(work[index], vec2u(0u), view.is_first_chunk == 1u);
+        work[index] = before + vec2u(tests, looks);
+    }
+    pixels[index] = seen;
+    if view.is_last_chunk == 1u {
+        pixels[index] = blend(coverage(seen));
+    }
+}
+
+// The colour over the background. Where nothing shows, the background has the say on the colour.
+fn blend(share: f32) -> u32 {
+    let ink = unpack4x8unorm(view.color);
+    let below = unpack4x8unorm(view.background);
+    let opacity = mix(below.a, 1.0, share);
+    if opacity == 0.0 {
+        return view.background;
+    }
+    let color = mix(below.rgb * below.a, ink.rgb, share) / opacity;
+    return pack4x8unorm(vec4f(color, opacity));
+}

@@ -1,0 +1,21 @@
+// Phase 3 as in the thesis (4.3.4, figure 4.6): every cell adds up all the cells before it.
+
+@group(0) @binding(1) var<storage, read> counts: array<u32>;
+@group(0) @binding(2) var<storage, read_write> starts: array<u32>;
+
+@compute @workgroup_size(WORKGROUP)
+fn main(
+    @builtin(workgroup_id) workgroup: vec3u,
+    @builtin(num_workgroups) workgroups: vec3u,
+    @builtin(local_invocation_index) thread: u32,
+) {
+    let cell = item_of(workgroup, workgroups, thread);
+    if cell >= items.end {
+        return;
+    }
+    var sum = 0u;
+    for (var before = 0u; before < cell; before++) {
+        sum += counts[before];
+    }
+    starts[cell] = sum;
+}

@@ -1,0 +1,39 @@
+// The work-efficient scan of Blelloch, as in Harris et al., GPU Gems 3, chapter 39: a tree of sums in the
+// memory of one workgroup. No workgroup waits for another.
+
+// Threads of a workgroup; a power of two. Each has two values of a block.
+override SCAN_THREADS: u32;
+
+var<workgroup> tree: array<u32, 2u * SCAN_THREADS>;
+
+// Turns each value of the tree into the sum of those before it, and returns the sum of all.
+fn scan(thread: u32) -> u32 {
+    // Up: every inner node becomes the sum of its leaves.
+    var stride = 1u;
+    for (var nodes = SCAN_THREADS; nodes > 0u; nodes >>= 1u) {
+        workgroupBarrier();
+        if thread < nodes {
+            let right = stride * (2u * thread + 2u) - 1u;
+            tree[right] += tree[right - stride];
+        }
+        stride <<= 1u;
+    }
+    let root = 2u * SCAN_THREADS - 1u;
+    let sum = workgroupUniformLoad(&tree[root]);
+    if thread == 0u {
+        tree[root] = 0u;
+    }
+    // Down: every node hands its left child what is before it, and its right child that and the left.
+    for (var nodes = 1u; nodes <= SCAN_THREADS; nodes <<= 1u) {
+        stride >>= 1u;
+        workgroupBarrier();
+        if thread < nodes {
+            let right = stride * (2u * thread + 2u) - 1u;
+            let left_sum = tree[right - stride];
+            tree[right - stride] = tree[right];
+            tree[right] += left_sum;
+        }
+    }
+    workgroupBarrier();
+    return sum;
+}
