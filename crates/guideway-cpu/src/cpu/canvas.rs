@@ -1,5 +1,6 @@
 use guideway_scene::Rgba;
 use guideway_spline::Point;
+use multiversion::multiversion;
 
 use super::span::{Capsule, SAMPLES, Spans, TILE_PX};
 
@@ -62,7 +63,7 @@ impl Canvas {
             if row >= height_px || seen_px == 0 {
                 self.full |= 1 << index;
             } else {
-                *block = [!low_bits(seen_px * SAMPLES); SAMPLES];
+                *block = [!low_bits((seen_px * SAMPLES) as u32); SAMPLES];
             }
         }
     }
@@ -74,15 +75,10 @@ impl Canvas {
 
     /// Adds a capsule to the shape: pixels from the tile's upper left corner.
     pub(super) fn stroke(&mut self, a: Point<f32>, b: Point<f32>, radius_px: f32) {
-        let capsule = Capsule::new(a, b, radius_px);
-        for row in capsule.pixel_rows() {
-            let blocks = row * BLOCKS_ACROSS;
-            if self.full >> blocks & 0b1111 != 0b1111 {
-                self.add(blocks, &capsule.spans(row));
-            }
-        }
+        stroke(self, a, b, radius_px);
     }
 
+    #[inline(always)]
     fn add(&mut self, blocks: usize, spans: &Spans) {
         let bits = BLOCK_PX * SAMPLES;
         let first = spans.first.iter().fold(u32::MAX, |a, &b| a.min(b)) as usize;
@@ -93,8 +89,8 @@ impl Canvas {
                 continue;
             }
             self.touched |= 1 << index;
-            let left = across * bits;
-            let within = |x: u32| (x as usize).saturating_sub(left).min(bits);
+            let left = (across * bits) as u32;
+            let within = |x: u32| x.saturating_sub(left);
             let block = &mut self.shape[index];
             for ((word, &first), &end) in block.iter_mut().zip(&spans.first).zip(&spans.end) {
                 *word |= low_bits(within(end)) & !low_bits(within(first));
@@ -191,6 +187,18 @@ impl Canvas {
     }
 }
 
+/// [`Canvas::stroke`], by the widest vectors there are: all give the same bits.
+#[multiversion(targets("x86_64+avx2", "x86_64+avx512f+avx512dq+avx512vl"))]
+fn stroke(canvas: &mut Canvas, a: Point<f32>, b: Point<f32>, radius_px: f32) {
+    let capsule = Capsule::new(a, b, radius_px);
+    for row in capsule.pixel_rows() {
+        let blocks = row * BLOCKS_ACROSS;
+        if canvas.full >> blocks & 0b1111 != 0b1111 {
+            canvas.add(blocks, &capsule.spans(row));
+        }
+    }
+}
+
 /// The mean of a pixel's samples, of which `sum` is the sum, over the background: straight alpha.
 fn over(sum: [f32; 4], background: Rgba) -> [u8; 4] {
     let below = Rgba::to_u32(background).to_be_bytes();
@@ -225,18 +233,16 @@ fn set_bits(mut bits: u64) -> impl Iterator<Item = usize> {
     })
 }
 
-/// A word with its lowest `count` bits set.
-fn low_bits(count: usize) -> u64 {
-    const TABLE: [u64; 65] = {
-        let mut table = [0; 65];
-        let mut i = 1;
-        while i < table.len() {
-            table[i] = table[i - 1] << 1 | 1;
-            i += 1;
-        }
-        table
-    };
-    TABLE[count]
+/// A word with its lowest `count` bits set: all, if that is more than it has.
+#[inline(always)]
+fn low_bits(count: u32) -> u64 {
+    let shift = u64::BITS.saturating_sub(count);
+    // As a choice between two values this is one instruction on a vector.
+    if shift < u64::BITS {
+        u64::MAX >> shift
+    } else {
+        0
+    }
 }
 
 /// How many samples are set of each pixel of a block: bits summed within bytes, then bytes within pixels.

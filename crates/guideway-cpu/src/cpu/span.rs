@@ -34,6 +34,7 @@ pub(super) struct Spans {
 
 impl Capsule {
     /// The capsule around the line from `a` to `b`, all in pixels from the tile's upper left corner.
+    #[inline(always)]
     pub(super) fn new(a: Point<f32>, b: Point<f32>, radius_px: f32) -> Self {
         // Level lines go right, so that both cases agree on which end each border leaves.
         let (upper, lower) = if (a.y, a.x) <= (b.y, b.x) {
@@ -61,6 +62,7 @@ impl Capsule {
     }
 
     /// Rows of the tile's pixels that it may touch.
+    #[inline(always)]
     pub(super) fn pixel_rows(&self) -> std::ops::Range<usize> {
         let per_px = 1.0 / SAMPLES as f32;
         let top = (self.upper.y - self.radius) * per_px;
@@ -74,6 +76,7 @@ impl Capsule {
     /// A row of samples cuts the capsule in one interval, for it is convex. Its left end lies on the disc
     /// around one point of the line: an end of the line, or the point whose normal meets the row on the
     /// left border. The clamp finds which. So for the right.
+    #[inline(always)]
     pub(super) fn spans(&self, pixel_row: usize) -> Spans {
         let mut spans = Spans {
             first: [0; SAMPLES],
@@ -95,6 +98,7 @@ impl Capsule {
     }
 
     /// The centre's x and the half chord at `y` of the disc that holds the border there.
+    #[inline(always)]
     fn disc_at(&self, y: f32, border_y: f32) -> (f32, f32) {
         let t = ((y - border_y) * self.per_row).clamp(0.0, 1.0);
         let off = (y - (self.upper.y + t * self.along.y)).abs();
@@ -105,6 +109,7 @@ impl Capsule {
 }
 
 /// The nearest whole number of samples within the tile.
+#[inline(always)]
 fn round(x: f32) -> u32 {
     (x.clamp(0.0, TILE_SAMPLES) + ROUND).to_bits() - ROUND.to_bits()
 }
