@@ -1,0 +1,6 @@
+// One colour for all.
+layout(location = 0) out vec4 rgba;
+
+void main() {
+    rgba = color;
+}

@@ -1,0 +1,6 @@
+// A control point, by the index buffer.
+layout(location = POINT) in vec2 point_m;
+
+void main() {
+    gl_Position = vec4(pixel_from_world(point_m), 0.0, 1.0);
+}

@@ -1,0 +1,49 @@
+//! The shaders, from their files.
+
+use std::rc::Rc;
+
+use super::shared::{CORNERS, source};
+use crate::options::Commands;
+use crate::sys::{Gl, Program, ShaderStage};
+
+const CULL: &str = include_str!("../shaders/cull.glsl");
+const CULL_COMMANDS: &str = include_str!("../shaders/cull_commands.comp");
+const CULL_PATCHES: &str = include_str!("../shaders/cull_patches.comp");
+const PROJECT: &str = include_str!("../shaders/project.glsl");
+const INDEXED: &str = include_str!("../shaders/indexed.vert");
+const PULLED: &str = include_str!("../shaders/pulled.vert");
+const BSPLINE: &str = include_str!("../shaders/bspline.glsl");
+const TESS_CONTROL: &str = include_str!("../shaders/segment.tesc");
+const TESS_EVALUATION: &str = include_str!("../shaders/segment.tese");
+const FRAGMENT: &str = include_str!("../shaders/color.frag");
+
+/// The pre-pass and the drawing.
+pub(super) struct Programs {
+    pub(super) cull: Program,
+    pub(super) draw: Program,
+}
+
+impl Programs {
+    pub(super) fn new(gl: &Rc<Gl>, commands: Commands) -> Result<Self, String> {
+        let (cull, vertex) = match commands {
+            Commands::PerPath => (CULL_COMMANDS, INDEXED),
+            Commands::Compact => (CULL_PATCHES, PULLED),
+        };
+        gl.patches_of(CORNERS);
+        Ok(Self {
+            cull: Program::new(gl, &[(ShaderStage::Compute, source(&[CULL, cull]))])?,
+            draw: Program::new(
+                gl,
+                &[
+                    (ShaderStage::Vertex, source(&[PROJECT, vertex])),
+                    (ShaderStage::TessControl, source(&[BSPLINE, TESS_CONTROL])),
+                    (
+                        ShaderStage::TessEvaluation,
+                        source(&[BSPLINE, TESS_EVALUATION]),
+                    ),
+                    (ShaderStage::Fragment, source(&[FRAGMENT])),
+                ],
+            )?,
+        })
+    }
+}
