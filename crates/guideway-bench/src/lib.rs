@@ -8,6 +8,7 @@ mod dataset;
 mod machine;
 mod measured;
 mod motion;
+pub mod report;
 pub mod reproduce;
 mod runner;
 mod statistics;

@@ -92,6 +92,8 @@ pub struct Prepare {
     pub wall_ms: f64,
     /// Parts of it.
     pub stages: Vec<StageTime>,
+    /// Counted work of it.
+    pub work: WorkCounts,
 }
 
 /// Times of one frame, as [`Measured::frame_ms`] and [`Measured::wall_ms`].
@@ -129,12 +131,12 @@ pub struct PathCounts {
     pub refused: u64,
 }
 
-/// Work of one frame, in numbers that any device would give; none where the method does not count it.
+/// Work in numbers that any device would give; none where the method does not count it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct WorkCounts {
     /// Tests of a point against a line.
     pub tests: Option<u64>,
-    /// The same for each pixel of the picture.
+    /// The same for each pixel of the picture; none for a preparation, which has no picture.
     pub tests_a_pixel: Option<f64>,
     /// Atomic operations on memory that all threads see.
     pub atomics: Option<u64>,
@@ -144,14 +146,24 @@ pub struct WorkCounts {
     pub bytes_written: Option<u64>,
 }
 
-impl WorkCounts {
-    pub(crate) fn new(work: Work, pixels: usize) -> Self {
+impl From<Work> for WorkCounts {
+    fn from(work: Work) -> Self {
         Self {
             tests: work.tests,
-            tests_a_pixel: work.tests.map(|tests| tests as f64 / pixels as f64),
+            tests_a_pixel: None,
             atomics: work.atomics,
             bytes_read: work.bytes_read,
             bytes_written: work.bytes_written,
+        }
+    }
+}
+
+impl WorkCounts {
+    /// The work of a frame of so many pixels.
+    pub(crate) fn of_frame(work: Work, pixels: usize) -> Self {
+        Self {
+            tests_a_pixel: work.tests.map(|tests| tests as f64 / pixels as f64),
+            ..Self::from(work)
         }
     }
 }
@@ -165,6 +177,7 @@ impl Prepare {
             stages: stages
                 .map(|stage| StageTime::new(stage.name, stage.clock, stage.elapsed_ms))
                 .collect(),
+            work: WorkCounts::from(preparation.work),
         }
     }
 
@@ -180,6 +193,7 @@ impl Prepare {
             ms: mean(&|prepare| prepare.ms),
             wall_ms: mean(&|prepare| prepare.wall_ms),
             stages: stages.collect(),
+            work: first.work,
         })
     }
 }
@@ -238,6 +252,7 @@ mod tests {
             ms,
             wall_ms: 2.0 * ms,
             stages: vec![StageTime::new("sample", Clock::Device, ms)],
+            work: WorkCounts::default(),
         };
         let mean = Prepare::mean(&[prepare(1.0), prepare(3.0)]);
         assert_eq!(mean, Some(prepare(2.0)));

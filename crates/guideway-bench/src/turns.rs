@@ -134,7 +134,7 @@ impl Track {
             bands: report.bands,
             held_bytes,
             peak_bytes: prepare_peak_bytes.max(report.peak_bytes),
-            work: WorkCounts::new(work, shot.view.size().pixels()),
+            work: WorkCounts::of_frame(work, shot.view.size().pixels()),
             notes: report.notes.clone(),
         })
     }

@@ -1,4 +1,4 @@
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::collections::HashMap;
 use std::rc::Rc;
 use std::sync::Arc;
@@ -27,6 +27,7 @@ pub(crate) struct Lab<'a> {
     progress: &'a dyn Fn(&str),
     methods: RefCell<HashMap<String, Started>>,
     scenes: RefCell<Vec<(Dataset, usize, Arc<Scene>)>>,
+    is_cut: Cell<bool>,
 }
 
 type Started = Result<Rc<dyn Method>, String>;
@@ -55,7 +56,7 @@ impl Deadline {
         Self(None)
     }
 
-    pub(crate) fn is_over(self) -> bool {
+    fn is_over(self) -> bool {
         self.0.is_some_and(|end| Instant::now() >= end)
     }
 }
@@ -75,12 +76,25 @@ impl<'a> Lab<'a> {
             progress,
             methods: RefCell::default(),
             scenes: RefCell::default(),
+            is_cut: Cell::default(),
         })
     }
 
     /// Tells what is being done.
     pub(crate) fn tell(&self, what: &str) {
         (self.progress)(what);
+    }
+
+    /// Whether the time is over, so that something has to be left out.
+    pub(crate) fn is_over(&self, time: Deadline) -> bool {
+        let is_over = time.is_over();
+        self.is_cut.set(self.is_cut.get() || is_over);
+        is_over
+    }
+
+    /// Whether something was left out since this was asked last.
+    pub(crate) fn take_is_cut(&self) -> bool {
+        self.is_cut.take()
     }
 
     /// The method of this name, started once.
@@ -160,7 +174,7 @@ impl<'a> Lab<'a> {
         time: Deadline,
     ) -> Result<Vec<Outcome>, RenderError> {
         let same = |why: String| vec![Outcome::WhyNot(why); views.len()];
-        if time.is_over() {
+        if self.is_over(time) {
             return Ok(same(OUT_OF_TIME.to_owned()));
         }
         let method = match self.method(spec) {
@@ -173,7 +187,7 @@ impl<'a> Lab<'a> {
         };
         let mut outcomes = Vec::with_capacity(views.len());
         for view in views {
-            outcomes.push(if time.is_over() {
+            outcomes.push(if self.is_over(time) {
                 Outcome::WhyNot(OUT_OF_TIME.to_owned())
             } else {
                 Outcome::from(self.measure(&mut runner, view)?)

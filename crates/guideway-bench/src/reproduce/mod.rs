@@ -4,8 +4,8 @@
 //! circumstances. Parts get time by their weight; what a part leaves is for those after it.
 
 mod findings;
-mod items;
 mod lab;
+mod parts;
 mod plan;
 mod run;
 mod search;
@@ -16,8 +16,8 @@ use std::time::{Instant, SystemTime};
 use guideway_render::{Cancel, RenderError};
 
 use crate::{Machine, Start};
-use items::{borders, growth, most_paths, pictures, views};
 use lab::{Deadline, Lab};
+use parts::{borders, growth, most_paths, pictures, views};
 
 pub use findings::{Finding, Verdict, findings};
 pub use plan::{METHODS, Plan};
@@ -77,7 +77,7 @@ pub fn reproduce(
         run.parts.push(PartFacts {
             name: (*name).to_owned(),
             elapsed_s: part_started.elapsed().as_secs_f64(),
-            is_cut: time.is_over(),
+            is_cut: lab.take_is_cut(),
             failure: outcome.as_ref().err().map(RenderError::to_string),
         });
         if outcome == Err(RenderError::Cancelled) {

@@ -32,7 +32,7 @@ fn find(
     time: Deadline,
 ) -> Result<Found<Measured>, RenderError> {
     lab.plan.search.run(
-        || time.is_over(),
+        || lab.is_over(time),
         |paths| {
             lab.tell(&format!(
                 "most paths: {spec} on {}, trying {paths}",

@@ -43,7 +43,7 @@ fn measure(
     let mut outcome = lab.measure_all(spec, scene, &[all], time)?.remove(0);
     if let (Outcome::Measured(measured), Ok(method)) = (&mut outcome, lab.method(spec)) {
         let mut prepares = Vec::new();
-        while prepares.len() < lab.plan.repeats && !time.is_over() {
+        while prepares.len() < lab.plan.repeats && !lab.is_over(time) {
             lab.cancel.check()?;
             match lab.ready(spec, &*method, scene) {
                 Ok(runner) => prepares.push(runner.preparation().clone()),
