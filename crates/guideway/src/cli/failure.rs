@@ -112,6 +112,7 @@ impl From<MethodError> for Failure {
     fn from(error: MethodError) -> Self {
         let code = match &error {
             MethodError::Unknown { .. } => "unknown-method",
+            MethodError::Option { .. } => "method-option",
             MethodError::Unavailable { .. } => "method-unavailable",
         };
         Self {

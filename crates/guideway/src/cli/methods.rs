@@ -1,7 +1,10 @@
-use guideway::{AUTO, Available};
+use guideway::{AUTO, Available, MethodOption};
 use serde_json::{Value, json};
 
 use super::{Exit, Failure, Output};
+
+/// Room for the longest name of a method.
+const INDENT: usize = 20;
 
 pub(crate) fn run(out: &Output) -> Result<Exit, Failure> {
     let all = guideway::methods();
@@ -13,14 +16,22 @@ pub(crate) fn run(out: &Output) -> Result<Exit, Failure> {
     out.report("methods", &body, || {
         let mut text = String::new();
         if let Some(method) = auto {
-            text += &format!("{AUTO:<12} chooses `{}` here\n", method.info.name);
+            text += &format!("{AUTO:<INDENT$} chooses `{}` here\n", method.info.name);
         }
-        for Available { info, why_not } in &all {
-            text += &format!("{:<12} {}\n", info.name, info.summary);
+        for method in &all {
+            let Available {
+                info,
+                options,
+                why_not,
+            } = method;
+            text += &format!("{:<INDENT$} {}\n", info.name, info.summary);
             text += &match why_not {
-                None => format!("{:<12} runs on {}\n", "", info.device),
-                Some(why) => format!("{:<12} does not run here: {why}\n", ""),
+                None => format!("{:<INDENT$} runs on {}\n", "", info.device),
+                Some(why) => format!("{:<INDENT$} does not run here: {why}\n", ""),
             };
+            for MethodOption { name, summary } in *options {
+                text += &format!("{:<INDENT$}   +{name:<16} {summary}\n", "");
+            }
         }
         text
     })?;
@@ -28,11 +39,14 @@ pub(crate) fn run(out: &Output) -> Result<Exit, Failure> {
 }
 
 fn json_of(method: &Available) -> Value {
+    let options = method.options.iter();
+    let options = options.map(|o| json!({ "name": o.name, "summary": o.summary }));
     json!({
         "name": method.info.name,
         "summary": method.info.summary,
         "device": method.why_not.is_none().then_some(&method.info.device),
         "runs": method.why_not.is_none(),
         "why_not": method.why_not,
+        "options": options.collect::<Vec<Value>>(),
     })
 }

@@ -2,6 +2,7 @@
 
 mod activity;
 mod arrow;
+mod bench;
 mod check;
 mod convert;
 mod demo;
@@ -9,9 +10,11 @@ mod failure;
 mod generate;
 mod info;
 mod input;
+mod interrupt;
 mod methods;
 mod output;
 mod render;
+mod reproduce;
 mod shell;
 mod text;
 mod values;
@@ -33,6 +36,8 @@ pub(crate) enum Exit {
     Warnings,
     /// `check` found errors.
     Errors,
+    /// Ctrl-C stopped it, and what it had is kept.
+    Interrupted,
 }
 
 impl Exit {
@@ -41,6 +46,7 @@ impl Exit {
             Self::Clean => 0,
             Self::Warnings => 1,
             Self::Errors => ERROR,
+            Self::Interrupted => INTERRUPTED as u8,
         }
     }
 }
@@ -85,6 +91,10 @@ enum Command {
     Generate(generate::Args),
     /// List the ways of drawing, and which of them run here
     Methods,
+    /// Measure ways of drawing side by side
+    Bench(Box<bench::Args>),
+    /// Measure the tables and figures of the thesis on this computer
+    Reproduce(reproduce::Args),
     /// Draw the built-in example site
     Demo(demo::Args),
     /// Print the completion script of a shell
@@ -100,7 +110,7 @@ pub(crate) fn main() -> ExitCode {
         Err(error) => return usage(&error),
     };
     let out = Output::new(cli.json, cli.quiet);
-    match interruptible().and_then(|()| run(&cli.command, &out)) {
+    match interrupt::watch().and_then(|()| run(&cli.command, &out)) {
         Ok(exit) => ExitCode::from(exit.code()),
         Err(failure) => {
             out.failure(&failure);
@@ -117,6 +127,8 @@ fn run(command: &Command, out: &Output) -> Result<Exit, Failure> {
         Command::Convert(args) => convert::run(args, out),
         Command::Generate(args) => generate::run(args, out),
         Command::Methods => methods::run(out),
+        Command::Bench(args) => bench::run(args, out),
+        Command::Reproduce(args) => reproduce::run(args, out),
         Command::Demo(args) => demo::run(args, out),
         Command::Completions(args) => shell::completions(args),
         Command::Man(args) => shell::man(args, out),
@@ -133,17 +145,4 @@ fn usage(error: &clap::Error) -> ExitCode {
         let _ = error.print();
     }
     ExitCode::from(error.exit_code() as u8)
-}
-
-/// On Ctrl-C, takes half-written files away and ends the process at once, whatever it is doing.
-fn interruptible() -> Result<(), Failure> {
-    let stop = || {
-        guideway::remove_unfinished();
-        std::process::exit(INTERRUPTED);
-    };
-    ctrlc::set_handler(stop).map_err(|error| Failure {
-        code: "signal",
-        message: format!("cannot watch for Ctrl-C: {error}"),
-        remedy: "Try again; if it stays so, the system refuses signal handlers here".into(),
-    })
 }

@@ -1,5 +1,8 @@
+use std::fs;
 use std::io::{self, ErrorKind, Write};
+use std::path::Path;
 
+use guideway::{SaveError, replace_file};
 use serde::Serialize;
 use serde_json::json;
 
@@ -7,7 +10,7 @@ use super::Failure;
 use super::activity::Activity;
 
 /// Version of every JSON report. A new key does not raise it; a changed or missing one does.
-const REPORT_VERSION: u32 = 1;
+pub(crate) const REPORT_VERSION: u32 = 1;
 
 /// Where answers go, and how.
 #[derive(Clone, Copy, Debug)]
@@ -102,6 +105,23 @@ fn envelope<T: Serialize>(name: &str, body: &T) -> Result<Vec<u8>, Failure> {
     })?;
     bytes.push(b'\n');
     Ok(bytes)
+}
+
+/// Saves a report as `--json` prints it.
+pub(crate) fn save_report<T: Serialize>(path: &Path, name: &str, body: &T) -> Result<(), Failure> {
+    let bytes = envelope(name, body)?;
+    save(path, &bytes)
+}
+
+/// Saves a file whole or not at all.
+pub(crate) fn save(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    let write = |file: &Path| {
+        fs::write(file, bytes).map_err(|problem| SaveError {
+            path: path.to_owned(),
+            problem,
+        })
+    };
+    Ok(replace_file(path, write)?)
 }
 
 /// Writes to standard output. A reader that wants no more, such as `head`, is no failure.

@@ -1,5 +1,9 @@
 //! How the values of arguments are read. Each refusal shows what a good value looks like.
 
+use std::ffi::OsStr;
+
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use guideway::AUTO;
 use guideway::layout::Limits;
 use guideway::render::FrameSize;
 use guideway::spline::Point;
@@ -63,6 +67,61 @@ pub(crate) fn paths(text: &str) -> Result<usize, String> {
     }
 }
 
+/// A number of frames, at least one.
+pub(crate) fn frames(text: &str) -> Result<usize, String> {
+    match text.parse::<usize>() {
+        Ok(n) if (1..=100_000).contains(&n) => Ok(n),
+        _ => Err("write a whole number from 1 to 100000, such as 20".into()),
+    }
+}
+
+/// A number of minutes, up to a day.
+pub(crate) fn minutes(text: &str) -> Result<f64, String> {
+    match text.trim().parse::<f64>() {
+        Ok(value) if value > 0.0 && value <= 1440.0 => Ok(value),
+        _ => Err("write a number above 0 and up to 1440, such as 9 or 0.5".into()),
+    }
+}
+
+/// A share in percent, above 0 and up to 100.
+pub(crate) fn percent(text: &str) -> Result<f64, String> {
+    match text.trim_end_matches('%').trim().parse::<f64>() {
+        Ok(value) if value > 0.0 && value <= 100.0 => Ok(value),
+        _ => Err("write a number above 0 and up to 100, such as 1, 10 or 100".into()),
+    }
+}
+
+/// A method's name, which must be known, with options, which its method looks at.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct MethodSpec;
+
+impl MethodSpec {
+    fn names() -> PossibleValuesParser {
+        PossibleValuesParser::new(std::iter::once(AUTO).chain(guideway::method_names()))
+    }
+}
+
+impl TypedValueParser for MethodSpec {
+    type Value = String;
+
+    fn parse_ref(
+        &self,
+        command: &clap::Command,
+        argument: Option<&clap::Arg>,
+        value: &OsStr,
+    ) -> Result<String, clap::Error> {
+        let spec = value.to_string_lossy();
+        let name = spec.split('+').next().unwrap_or_default();
+        Self::names().parse_ref(command, argument, OsStr::new(name))?;
+        Ok(spec.into_owned())
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        let names = std::iter::once(AUTO).chain(guideway::method_names());
+        Some(Box::new(names.map(PossibleValue::new)))
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -75,6 +134,10 @@ mod tests {
         assert_eq!(positive("0.5"), Ok(0.5));
         assert_eq!(not_negative("0"), Ok(0.0));
         assert_eq!(paths("1_000"), Ok(1000));
+        assert_eq!(frames("20"), Ok(20));
+        assert_eq!(minutes("0.5"), Ok(0.5));
+        assert_eq!(percent("1"), Ok(1.0));
+        assert_eq!(percent("100 %"), Ok(100.0));
     }
 
     #[test]
@@ -98,6 +161,15 @@ mod tests {
             assert!(positive(bad).unwrap_err().contains("such as"), "{bad}");
         }
         assert!(not_negative("-0.1").is_err());
+        for bad in ["0", "-1", "100.1", "NaN", "inf", ""] {
+            assert!(percent(bad).unwrap_err().contains("such as"), "{bad}");
+        }
+        for bad in ["0", "-1", "1441", "NaN", "inf", ""] {
+            assert!(minutes(bad).unwrap_err().contains("such as"), "{bad}");
+        }
+        for bad in ["0", "-1", "100001", "1.5"] {
+            assert!(frames(bad).unwrap_err().contains("such as"), "{bad}");
+        }
         for bad in ["0", "-1", "1e6", "", "100000001"] {
             assert!(paths(bad).unwrap_err().contains("such as"), "{bad}");
         }

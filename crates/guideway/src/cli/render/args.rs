@@ -1,7 +1,6 @@
 use std::path::PathBuf;
 
 use clap::ValueEnum;
-use clap::builder::PossibleValuesParser;
 use guideway::AUTO;
 use guideway::render::density::ToneMap;
 use guideway::render::{Budget, FrameSize, Shading, Style};
@@ -22,9 +21,12 @@ pub(crate) struct Args {
     /// PNG file to write; - for standard output
     #[arg(long, short, value_name = "PNG")]
     pub(crate) output: PathBuf,
-    /// Way of drawing; `guideway methods` shows what runs here
-    #[arg(long, default_value = AUTO, value_parser = method_names())]
-    pub(crate) method: String,
+    /// Way of drawing, with options such as `grid+scan`; `guideway methods` shows what runs here
+    #[arg(long, value_name = "NAME[+OPTION]", default_value = AUTO, value_parser = values::MethodSpec)]
+    method: String,
+    /// How edges are smoothed, with a method that has option `aa`: `--aa none` is `+aa=none`
+    #[arg(long, value_name = "KIND")]
+    aa: Option<String>,
     #[command(flatten)]
     view: ViewArgs,
     #[command(flatten)]
@@ -79,6 +81,9 @@ struct LookArgs {
     /// Colour every path by a column: `level`, `direction`, `vehicle_type` or one of the file
     #[arg(long, value_name = "COLUMN")]
     color_by: Option<String>,
+    /// Put what the colours mean into the picture too
+    #[arg(long, requires = "color_by")]
+    legend: bool,
     /// What lies below the paths [default: ffffff]
     #[arg(long, value_name = "RRGGBB")]
     background: Option<Rgba>,
@@ -102,7 +107,7 @@ struct ResourceArgs {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Rule {
+pub(crate) enum Rule {
     World,
     Thesis,
 }
@@ -120,12 +125,19 @@ enum Tone {
     Linear,
 }
 
-fn method_names() -> PossibleValuesParser {
-    let known = guideway::methods().into_iter().map(|m| m.info.name);
-    PossibleValuesParser::new(std::iter::once(AUTO).chain(known))
-}
-
 impl Args {
+    /// The method with its options.
+    pub(super) fn method(&self) -> String {
+        match &self.aa {
+            Some(aa) => format!("{}+aa={aa}", self.method),
+            None => self.method.clone(),
+        }
+    }
+
+    pub(super) fn is_with_legend(&self) -> bool {
+        self.look.legend
+    }
+
     /// What the arguments ask for together.
     pub(super) fn wishes(&self) -> Result<Wishes, Failure> {
         if self.view.fit && (self.view.center.is_some() || self.view.scale.is_some()) {

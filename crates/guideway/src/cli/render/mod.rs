@@ -1,6 +1,7 @@
 //! `guideway render`: a layout file as a PNG picture.
 
 mod args;
+mod legend;
 mod picture;
 mod report;
 
@@ -12,7 +13,7 @@ use guideway::render::Frame;
 use guideway::scene::Scene;
 use guideway::{SaveError, save_png, write_png};
 
-pub(crate) use args::Args;
+pub(crate) use args::{Args, Rule};
 pub(crate) use picture::{Drawn, Wishes, draw};
 pub(crate) use report::{Times, what_was_drawn};
 
@@ -25,12 +26,16 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, Failure> {
         input::check_output(Some(&args.file), path)?;
     }
     // A name that is unknown is refused before a large file is read.
-    let method = guideway::method(&args.method)?;
+    let method = guideway::method(&args.method())?;
     let (layout, read_ms) = input::read(&args.file, out)?;
     let activity = out.activity("arranging");
     let scene = Arc::new(Scene::new(Arc::new(layout), &wishes.scene)?);
     let scene_ms = activity.finish();
-    let drawn = draw(&*method, &scene, &wishes, out)?;
+    let mut drawn = draw(&*method, &scene, &wishes, out)?;
+    drawn.advise(&wishes.style);
+    if args.is_with_legend() {
+        drawn.stamp_legend(&scene);
+    }
     let activity = out.activity("writing the picture");
     target.write(&drawn.frame)?;
     let times = Times {

@@ -1,11 +1,12 @@
 use std::sync::Arc;
 
 use guideway::render::{
-    Budget, Cancel, Frame, FrameSize, Method, MethodInfo, RenderError, Report, Style, View,
+    Budget, Cancel, Frame, FrameSize, Method, MethodInfo, RenderError, Report, Shading, Style, View,
 };
-use guideway::scene::{Scene, SceneOptions};
+use guideway::scene::{Rgba, Scene, SceneOptions};
 use guideway::spline::Point;
 
+use super::legend;
 use crate::cli::{Failure, Output};
 
 /// What a picture is to be like.
@@ -52,6 +53,35 @@ pub(crate) fn draw(
         prepare_ms,
         render_ms: activity.finish(),
     })
+}
+
+/// Paths from which a picture that is mostly covered is a crowd.
+const CROWD: u64 = 10_000;
+
+impl Drawn {
+    /// Notes what would show more, where a crowd of paths covers the picture.
+    pub(super) fn advise(&mut self, style: &Style) {
+        let Rgba { r, g, b, a } = style.background;
+        let pixels = self.frame.pixels();
+        let bare = pixels.iter().filter(|&&p| p == [r, g, b, a]).count();
+        let is_crowd = self.report.drawn >= CROWD && bare * 2 < pixels.len();
+        if is_crowd && style.shading == Shading::Color {
+            let note =
+                "paths cover most of the picture; `--shade density` shows how many lie where";
+            self.report.notes.push(note.to_owned());
+        }
+    }
+
+    /// Puts the legend into the picture, or notes that there is no room for it.
+    pub(super) fn stamp_legend(&mut self, scene: &Scene) {
+        let fits = scene
+            .legend()
+            .is_none_or(|l| legend::stamp(&mut self.frame, l));
+        if !fits {
+            let note = "the legend is larger than the picture, so it is only in this report";
+            self.report.notes.push(note.to_owned());
+        }
+    }
 }
 
 fn view(scene: &Scene, wishes: &Wishes) -> Result<View, RenderError> {

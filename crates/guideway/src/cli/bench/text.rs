@@ -1,0 +1,150 @@
+use guideway_bench::{Comparison, Contestant, Measured, Motion, Outcome, StageTime};
+
+use crate::cli::text;
+
+const HEAD: [&str; 8] = [
+    "frame",
+    "5 to 95 %",
+    "ratio",
+    "first",
+    "prepare",
+    "wall",
+    "memory",
+    "tests/px",
+];
+
+/// The comparison as a table.
+pub(super) fn text(comparison: &Comparison) -> String {
+    let rows: Vec<(&Contestant, Vec<String>)> =
+        comparison.methods.iter().map(|c| (c, cells(c))).collect();
+    let name_width = rows.iter().map(|(c, _)| c.row.method.len()).max();
+    let name_width = name_width.unwrap_or(0).max("method".len());
+    let mut widths = HEAD.map(str::len);
+    for (_, cells) in &rows {
+        for (width, cell) in widths.iter_mut().zip(cells) {
+            *width = cell.chars().count().max(*width);
+        }
+    }
+    let line = |name: &str, cells: &[String]| {
+        let cells = cells.iter().zip(widths);
+        let cells: String = cells.map(|(c, w)| format!("  {c:>w$}")).collect();
+        format!("{name:<name_width$}{cells}\n")
+    };
+    let mut text = what(comparison);
+    text += &line("method", &HEAD.map(str::to_owned));
+    for (contestant, cells) in &rows {
+        text += &line(&contestant.row.method, cells);
+        if let Outcome::WhyNot(why_not) = &contestant.row.outcome {
+            text += &format!("  not measured: {why_not}\n");
+        }
+    }
+    for (contestant, _) in &rows {
+        text += &details(contestant);
+    }
+    text
+}
+
+fn what(comparison: &Comparison) -> String {
+    let [width, height] = comparison.view.size_px;
+    let motion = match comparison.motion {
+        Motion::Still => "nothing moves".to_owned(),
+        Motion::Pan => "the view pans".to_owned(),
+        Motion::Zoom => "the view zooms".to_owned(),
+        Motion::Edit => {
+            let percent = comparison.edit_share.unwrap_or(0.0) * 100.0;
+            format!("{percent} % of the paths move each frame")
+        }
+    };
+    format!(
+        "{}: {}, {}; {width} x {height} pixels, {motion}\n{} each after {} to warm up, in turns; \
+         times are medians, ratios of frames to the first method\n\n",
+        text::plain(&comparison.scene.name, 200),
+        text::counted(comparison.scene.paths as u64, "path"),
+        text::counted(comparison.scene.segments as u64, "segment"),
+        text::counted(comparison.frames as u64, "frame"),
+        comparison.warmup,
+    )
+}
+
+/// The cells under [`HEAD`]; none for a method that was not measured.
+fn cells(contestant: &Contestant) -> Vec<String> {
+    let Some(m) = contestant.row.measured() else {
+        return Vec::new();
+    };
+    vec![
+        text::time(m.frame_ms.median),
+        format!(
+            "{} - {}",
+            text::time(m.frame_ms.p5),
+            text::time(m.frame_ms.p95)
+        ),
+        contestant
+            .ratio
+            .map_or_else(String::new, |r| format!("{r:.2}")),
+        text::time(m.first_frame.ms),
+        text::time(m.prepare.ms),
+        text::time(m.wall_ms.median),
+        text::bytes(m.peak_bytes),
+        m.work
+            .tests_a_pixel
+            .map_or_else(|| "-".to_owned(), |t| format!("{t:.1}")),
+    ]
+}
+
+fn details(contestant: &Contestant) -> String {
+    let Some(m) = contestant.row.measured() else {
+        return String::new();
+    };
+    let device = contestant.device.as_deref().unwrap_or("");
+    let mut text = format!("\n{} on {device}\n", contestant.row.method);
+    text += &stages("preparing", &m.prepare.stages);
+    if let Some(update) = m.update_ms {
+        text += &format!(
+            "  changed scene: {} of each frame\n",
+            text::time(update.median)
+        );
+    }
+    text += &stages("drawing", &m.stages);
+    text += &counts(m);
+    for note in &m.notes {
+        text += &format!("  note: {note}\n");
+    }
+    text
+}
+
+fn stages(what: &str, stages: &[StageTime]) -> String {
+    if stages.is_empty() {
+        return String::new();
+    }
+    let one = |stage: &StageTime| format!("{} {}", stage.name, text::time(stage.ms));
+    let clock = match stages.iter().all(|stage| stage.clock == "device") {
+        true => " by the device's clock",
+        false => "",
+    };
+    let all: Vec<String> = stages.iter().map(one).collect();
+    format!("  {what}: {}{clock}\n", all.join(", "))
+}
+
+fn counts(m: &Measured) -> String {
+    let drawn = text::count(m.paths.drawn);
+    let mut text = format!(
+        "  {drawn} of {} drawn as {}; {} held\n",
+        text::counted(m.paths.total, "path"),
+        text::counted(m.lines, "line"),
+        text::bytes(m.held_bytes),
+    );
+    let work = [
+        (m.work.tests.map(text::count), "tests"),
+        (m.work.atomics.map(text::count), "atomics"),
+        (m.work.bytes_read.map(text::bytes), "read"),
+        (m.work.bytes_written.map(text::bytes), "written"),
+    ];
+    let known: Vec<String> = work
+        .into_iter()
+        .filter_map(|(count, what)| Some(format!("{} {what}", count?)))
+        .collect();
+    if !known.is_empty() {
+        text += &format!("  work of a frame: {}\n", known.join(", "));
+    }
+    text
+}

@@ -1,0 +1,97 @@
+//! `guideway reproduce`: the thesis' tables and figures, measured on this computer.
+
+mod saved;
+mod text;
+
+use std::cell::RefCell;
+use std::path::PathBuf;
+
+use guideway_bench::reproduce::{Plan, Run, reproduce};
+
+use super::activity::Activity;
+use super::{Exit, Failure, Output, interrupt, values};
+
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:\n  \
+    guideway reproduce --quick\n  \
+    guideway reproduce --out report --methods grid,grid+scan+radius,tessellation\n  \
+    guideway reproduce --from report/run.json --out again")]
+pub(crate) struct Args {
+    /// Measure in small: some ten minutes on a processor that plays the graphics device
+    #[arg(long)]
+    quick: bool,
+    /// Folder for the page, the tables and the run
+    #[arg(long, value_name = "DIR", default_value = "reproduction")]
+    out: PathBuf,
+    /// Methods with their options [default: the thesis' with their variants, and `cpu`]
+    #[arg(long, value_name = "A,B+OPTION", value_delimiter = ',', value_parser = values::MethodSpec)]
+    methods: Vec<String>,
+    /// Time for all of it; what does not fit is marked as missing [default: 60, or 9 with --quick]
+    #[arg(long, value_name = "N", value_parser = values::minutes)]
+    minutes: Option<f64>,
+    /// Memory that each method may use, in megabytes [default: 16000, or 2000 with --quick]
+    #[arg(long, value_name = "MB")]
+    memory: Option<u64>,
+    /// Make the page and the tables from the run that this file holds, and measure nothing
+    #[arg(long, value_name = "JSON", conflicts_with_all = ["quick", "methods", "minutes", "memory"])]
+    from: Option<PathBuf>,
+}
+
+pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, Failure> {
+    // A folder that cannot be written is refused before hours of work.
+    saved::make_folder(&args.out)?;
+    let run = match &args.from {
+        Some(path) => saved::read(path)?,
+        None => {
+            let run = measure(&args.plan()?, out)?;
+            saved::write_run(&args.out, &run)?;
+            run
+        }
+    };
+    saved::write_report(&args.out, &run)?;
+    text::answer(&args.out, &run, out)?;
+    Ok(if run.is_partial {
+        Exit::Interrupted
+    } else {
+        Exit::Clean
+    })
+}
+
+fn measure(plan: &Plan, out: &Output) -> Result<Run, Failure> {
+    let start = |spec: &str| guideway::method(spec).map_err(|error| error.to_string());
+    let shown: RefCell<Option<Activity>> = RefCell::default();
+    let show = |what: &str| {
+        let mut shown = shown.borrow_mut();
+        // One display at a time.
+        *shown = None;
+        *shown = Some(out.activity(what));
+    };
+    Ok(reproduce(plan, &start, &interrupt::patiently(), &show)?)
+}
+
+impl Args {
+    fn plan(&self) -> Result<Plan, Failure> {
+        let mut plan = if self.quick {
+            Plan::quick()
+        } else {
+            Plan::full()
+        };
+        if !self.methods.is_empty() {
+            self.methods.clone_into(&mut plan.methods);
+        }
+        for spec in &plan.methods {
+            // What does not run here has its row with the reason; what makes no sense is refused.
+            match guideway::method(spec) {
+                Ok(_) | Err(guideway::MethodError::Unavailable { .. }) => {}
+                Err(error) => return Err(error.into()),
+            }
+        }
+        if let Some(minutes) = self.minutes {
+            plan.minutes = minutes;
+        }
+        if let Some(mb) = self.memory {
+            plan.memory_bytes = mb.saturating_mul(1_000_000);
+        }
+        Ok(plan)
+    }
+}

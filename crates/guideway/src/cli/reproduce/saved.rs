@@ -1,0 +1,71 @@
+use std::fs::{self, File};
+use std::io::{BufReader, Read};
+use std::path::Path;
+
+use guideway::SaveError;
+use guideway_bench::report;
+use guideway_bench::reproduce::Run;
+use serde::Deserialize;
+
+use super::text::REPORT;
+use crate::cli::Failure;
+use crate::cli::output::{self, REPORT_VERSION};
+
+/// Name of the file with the run.
+pub(super) const RUN: &str = "run.json";
+/// Most bytes of a run that are read: pictures of a full run take a few megabytes.
+const MOST_BYTES: u64 = 256 << 20;
+
+/// What says what a saved report is.
+#[derive(Deserialize)]
+struct Envelope {
+    guideway: Header,
+}
+
+#[derive(Deserialize)]
+struct Header {
+    report: String,
+    version: u32,
+}
+
+pub(super) fn make_folder(folder: &Path) -> Result<(), Failure> {
+    let made = fs::create_dir_all(folder);
+    Ok(made.map_err(|problem| SaveError {
+        path: folder.to_owned(),
+        problem,
+    })?)
+}
+
+pub(super) fn write_run(folder: &Path, run: &Run) -> Result<(), Failure> {
+    output::save_report(&folder.join(RUN), REPORT, run)
+}
+
+pub(super) fn write_report(folder: &Path, run: &Run) -> Result<(), Failure> {
+    for file in report::files(run) {
+        output::save(&folder.join(&file.name), file.text.as_bytes())?;
+    }
+    Ok(())
+}
+
+/// Reads a run that [`write_run`] has written.
+pub(super) fn read(path: &Path) -> Result<Run, Failure> {
+    let refuse = |code, what: String| Failure {
+        code,
+        message: format!("{}: {what}", path.display()),
+        remedy: format!("Give the {RUN} that `guideway reproduce` has written"),
+    };
+    let mut text = String::new();
+    File::open(path)
+        .and_then(|file| BufReader::new(file.take(MOST_BYTES + 1)).read_to_string(&mut text))
+        .map_err(|problem| refuse("io", problem.to_string()))?;
+    if text.len() as u64 > MOST_BYTES {
+        return Err(refuse("limit", format!("more than {MOST_BYTES} bytes")));
+    }
+    let syntax = |error: serde_json::Error| refuse("structure", error.to_string());
+    let Envelope { guideway } = serde_json::from_str(&text).map_err(syntax)?;
+    if (guideway.report.as_str(), guideway.version) != (REPORT, REPORT_VERSION) {
+        let found = format!("{} of version {}", guideway.report, guideway.version);
+        return Err(refuse("structure", format!("this is a report `{found}`")));
+    }
+    serde_json::from_str(&text).map_err(syntax)
+}

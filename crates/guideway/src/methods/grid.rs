@@ -1,0 +1,53 @@
+use std::sync::{Arc, LazyLock};
+
+use guideway_gpu::{Gpu, Grid, GridOptions};
+use guideway_render::Method;
+
+use super::{Entry, MethodOption, Stop};
+
+pub(super) const ENTRY: Entry = Entry {
+    name: "grid",
+    summary: "The thesis' test of every pixel against the lines of its cell; one colour",
+    options: &[
+        MethodOption {
+            name: "scan",
+            summary: "prefix sum in linear work, not the quadratic one as written",
+        },
+        MethodOption {
+            name: "radius",
+            summary: "lines are listed in every cell that they cover: none is cut at a border",
+        },
+        MethodOption {
+            name: "exit",
+            summary: "a pixel stops once it is fully covered",
+        },
+        MethodOption {
+            name: "aa=none",
+            summary: "hard edges, not smooth ones",
+        },
+        MethodOption {
+            name: "aa=subpixel",
+            summary: "32 sub-samples a pixel",
+        },
+        MethodOption {
+            name: "samples=5",
+            summary: "samples a segment, 10 as written",
+        },
+        MethodOption {
+            name: "cells=256",
+            summary: "cells a side of the grid, 128 as written",
+        },
+    ],
+    is_general: false,
+    start,
+};
+
+/// Opened once, for all methods and options.
+static DEVICE: LazyLock<Result<Arc<Gpu>, String>> = LazyLock::new(Gpu::new);
+
+fn start(options: &str) -> Result<Box<dyn Method>, Stop> {
+    let options = GridOptions::parse(options).map_err(Stop::Options)?;
+    let device = DEVICE.as_ref().map_err(|why| Stop::Missing(why.clone()))?;
+    let grid = Grid::new(Arc::clone(device), options).map_err(Stop::Missing)?;
+    Ok(Box::new(grid))
+}
