@@ -15,6 +15,7 @@ mod sniff;
 mod source;
 mod text;
 mod trajectory;
+mod vda5050;
 
 pub use error::{Problem, ReadError};
 pub use read::{read_bytes, read_file};

@@ -5,19 +5,22 @@ pub enum Format {
     Lif,
     /// A plant model of openTCS, 0.0.2 to 7.0.0.
     OpenTcs,
+    /// An order of VDA 5050, 1.1 to 3.1.
+    Vda5050,
     /// A table of paths in an Apache Arrow IPC file.
     Arrow,
 }
 
 impl Format {
     /// Every format there is.
-    pub const ALL: &[Self] = &[Self::Lif, Self::OpenTcs, Self::Arrow];
+    pub const ALL: &[Self] = &[Self::Lif, Self::OpenTcs, Self::Vda5050, Self::Arrow];
 
     /// The name, as in [`guideway_layout::Provenance::format`].
     pub fn name(self) -> &'static str {
         match self {
             Self::Lif => "LIF",
             Self::OpenTcs => "openTCS",
+            Self::Vda5050 => "VDA 5050",
             Self::Arrow => "Arrow",
         }
     }
@@ -27,15 +30,17 @@ impl Format {
         match self {
             Self::Lif => "VDMA LIF 1.0 and 2.0 (JSON)",
             Self::OpenTcs => "openTCS plant models (XML)",
+            Self::Vda5050 => "VDA 5050 orders (JSON)",
             Self::Arrow => "Arrow IPC files of paths",
         }
     }
 }
 
-/// The only format that the bytes can be of, from how they begin; the file name has no say.
+/// The only format that the bytes can be of; the file name has no say.
 ///
-/// JSON can only be LIF and XML can only be openTCS. Whether they truly are is for the reader to find,
-/// which can then say what it found instead.
+/// The first byte tells JSON from XML, and the first telling key of its outermost object tells which JSON
+/// it is. XML can only be openTCS, and JSON without such a key is taken for LIF. Whether they truly are is
+/// for the reader to find, which can then say what it found instead.
 pub fn sniff(bytes: &[u8]) -> Option<Format> {
     // A stream has no magic; it begins with the mark that every one of its messages begins with.
     if bytes.starts_with(b"ARROW1") || bytes.starts_with(&[0xFF; 4]) {
@@ -43,8 +48,53 @@ pub fn sniff(bytes: &[u8]) -> Option<Format> {
     }
     let text = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
     match text.trim_ascii_start().first()? {
-        b'{' => Some(Format::Lif),
+        b'{' => Some(root_keys(text).find_map(json_of).unwrap_or(Format::Lif)),
         b'<' => Some(Format::OpenTcs),
         _ => None,
     }
+}
+
+/// The format whose root object has a key, if no other's has.
+fn json_of(key: &[u8]) -> Option<Format> {
+    match key {
+        b"layouts" | b"origins" | b"metaInformation" => Some(Format::Lif),
+        b"nodes" | b"edges" | b"orderId" | b"orderUpdateId" => Some(Format::Vda5050),
+        _ => None,
+    }
+}
+
+/// The keys of the outermost object of a JSON text, escapes as they are. Of text that is no JSON, anything.
+fn root_keys(text: &[u8]) -> impl Iterator<Item = &[u8]> {
+    let (mut at, mut depth) = (0, 0_u64);
+    std::iter::from_fn(move || {
+        while let Some(&byte) = text.get(at) {
+            at += 1;
+            match byte {
+                b'{' | b'[' => depth += 1,
+                b'}' | b']' => depth = depth.saturating_sub(1),
+                b'"' => {
+                    let content = &text[at..];
+                    let length = text_length(content);
+                    at += length + 1;
+                    let after = text.get(at..).unwrap_or_default().trim_ascii_start();
+                    if depth == 1 && after.first() == Some(&b':') {
+                        return Some(&content[..length]);
+                    }
+                }
+                _ => {}
+            }
+        }
+        None
+    })
+}
+
+/// Bytes up to the quote that ends a text.
+fn text_length(content: &[u8]) -> usize {
+    let mut escaped = false;
+    let end = content.iter().position(|&byte| {
+        let ends = byte == b'"' && !escaped;
+        escaped = byte == b'\\' && !escaped;
+        ends
+    });
+    end.unwrap_or(content.len())
 }

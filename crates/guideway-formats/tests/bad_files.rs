@@ -132,6 +132,11 @@ fn bad_open_tcs_files() {
 }
 
 #[test]
+fn bad_vda_5050_files() {
+    check_folder("vda5050");
+}
+
+#[test]
 fn bad_files_of_any_kind() {
     check_folder("any");
 }
@@ -156,10 +161,18 @@ fn a_wrong_expectation_fails() {
     assert!(check("wrong", b"{", "ok").is_err());
 }
 
+/// A sound file of each text format.
+const VALID: [&str; 4] = [
+    "lif/valid.json",
+    "opentcs/valid.xml",
+    "vda5050/valid.json",
+    "vda5050/valid-3.json",
+];
+
 /// A text that is cut anywhere is an error, and never a panic.
 #[test]
 fn every_truncation_is_an_error() {
-    for file in ["lif/valid.json", "opentcs/valid.xml"] {
+    for file in VALID {
         let whole = fs::read(bad_files().join(file)).unwrap();
         let content = whole.trim_ascii_end().len();
         for length in 0..content {
@@ -178,7 +191,7 @@ fn every_truncation_is_an_error() {
 /// One byte of a file replaced by another: whatever comes of it, it is no panic.
 #[test]
 fn no_single_byte_breaks_the_reader() {
-    for file in ["lif/valid.json", "opentcs/valid.xml"] {
+    for file in VALID {
         let whole = fs::read(bad_files().join(file)).unwrap();
         for at in 0..whole.len() {
             for byte in [0, b'"', b'<', b'&', b'-', b'9', b'{', b']', 0x80, 0xFF] {
@@ -218,10 +231,18 @@ const EVERY_FIELD: &str = r#"{
 
 #[test]
 fn no_field_of_another_type_breaks_the_reader() {
-    let whole: Value = serde_json::from_str(EVERY_FIELD).unwrap();
+    let order = fs::read_to_string(bad_files().join("vda5050/valid.json")).unwrap();
+    for (text, fields) in [(EVERY_FIELD, 60), (&order, 50)] {
+        change_every_field(text, fields);
+    }
+}
+
+/// Puts values of other types in the place of every value of a JSON text of so many or more.
+fn change_every_field(text: &str, least: usize) {
+    let whole: Value = serde_json::from_str(text).unwrap();
     let mut pointers = Vec::new();
     collect_pointers(&whole, String::new(), &mut pointers);
-    assert!(pointers.len() > 60);
+    assert!(pointers.len() > least);
     let others = [
         "null",
         "true",

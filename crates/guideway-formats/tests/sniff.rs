@@ -11,6 +11,11 @@ const LIF: &str = r#"{"layouts": [{"layoutId": "L", "nodes": [], "edges": []}]}"
 fn the_beginning_tells_the_format() {
     assert_eq!(sniff(b"{\"layouts\": []}"), Some(Format::Lif));
     assert_eq!(sniff(b"\xEF\xBB\xBF \n {"), Some(Format::Lif));
+    assert_eq!(
+        sniff(b"{}"),
+        Some(Format::Lif),
+        "which then says what is missing"
+    );
     assert_eq!(sniff(b"<?xml version=\"1.0\"?>"), Some(Format::OpenTcs));
     assert_eq!(sniff(b"ARROW1\0\0"), Some(Format::Arrow));
     for other in [
@@ -22,6 +27,26 @@ fn the_beginning_tells_the_format() {
         b"0\nSECTION",
     ] {
         assert_eq!(sniff(other), None, "{other:?}");
+    }
+}
+
+#[test]
+fn keys_of_the_outermost_object_tell_one_json_from_another() {
+    for (text, format) in [
+        (r#"{"headerId": 1, "nodes": []}"#, Format::Vda5050),
+        (r#"{"edges" : []}"#, Format::Vda5050),
+        (r#"{"x": {"nodes": 1}, "layouts": []}"#, Format::Lif),
+        (
+            r#"{"x": ["nodes"], "y": "orderId", "origins": []}"#,
+            Format::Lif,
+        ),
+        (r#"{"x": "\"nodes\": ", "layouts": []}"#, Format::Lif),
+        (r#"{"nodes\\": 1, "layouts": []}"#, Format::Lif),
+        (r#"{"nodes"#, Format::Lif),
+        (r#"{"nodes":"#, Format::Vda5050),
+        ("{\"\\", Format::Lif),
+    ] {
+        assert_eq!(sniff(text.as_bytes()), Some(format), "{text}");
     }
 }
 

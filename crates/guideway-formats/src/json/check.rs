@@ -5,8 +5,8 @@ use std::borrow::Cow;
 use guideway_layout::{Code, Place, Value};
 use guideway_spline::Point;
 
+use super::attributes::{Attributes, Scalar};
 use super::field::{Field, Kind};
-use super::scalar::Scalar;
 use crate::ReadError;
 use crate::builder::{At, Builder, Table};
 
@@ -139,24 +139,33 @@ impl Builder<'_> {
         }
     }
 
-    /// Sets an attribute of a row.
-    pub(crate) fn set_scalar(
+    /// Sets the attributes of a row.
+    pub(crate) fn set_attributes(
         &mut self,
         table: Table,
         row: usize,
-        name: &str,
-        scalar: &Scalar<'_>,
+        attributes: &Attributes<'_>,
+        at: At<'_>,
     ) -> Result<(), ReadError> {
-        let value = match scalar {
-            Scalar::Truth(value) => Value::Bool(*value),
-            Scalar::Number(value) => Value::Float(*value),
-            Scalar::Count(value) => Value::Int(*value),
-            Scalar::Text(value) => {
-                self.check_text(value)?;
-                Value::Text(value)
+        for (name, field) in attributes.iter() {
+            if let Some(kind) = field.wrong_kind() {
+                let message = || format!("the attribute is {kind}, which no column can hold");
+                let remedy = "It is left out; nothing else changes by that";
+                self.find(Code::Attribute, &|| within(at, name), message, remedy);
             }
-        };
-        self.set(table, row, name, value)
+            let value = match field.get() {
+                Some(Scalar::Truth(value)) => Value::Bool(*value),
+                Some(Scalar::Number(value)) => Value::Float(*value),
+                Some(Scalar::Count(value)) => Value::Int(*value),
+                Some(Scalar::Text(value)) => {
+                    self.check_text(value)?;
+                    Value::Text(value)
+                }
+                None => continue,
+            };
+            self.set(table, row, name, value)?;
+        }
+        Ok(())
     }
 
     pub(crate) fn report_missing(&mut self, at: At<'_>, expected: &str) {

@@ -3,13 +3,15 @@
 //! A wrong type must not end the read, and the file must not become a tree of values that is many times
 //! its size. So the fields that are needed are read straight into records, and the rest is skipped.
 
+mod attributes;
 mod check;
 mod field;
-mod scalar;
+mod record;
 
+pub(crate) use self::attributes::{AttributeKey, Attributes, HasAttributes};
 pub(crate) use self::check::{items, within};
-pub(crate) use self::field::{Field, FromJson, Key, record};
-pub(crate) use self::scalar::Scalar;
+pub(crate) use self::field::{Field, FromJson, Key};
+pub(crate) use self::record::record;
 
 use serde::Deserialize;
 

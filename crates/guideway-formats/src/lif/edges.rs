@@ -115,7 +115,7 @@ impl Mapper<'_> {
                 if index == curves.len() {
                     curves.push(Curve {
                         trajectory,
-                        place: at_curve(),
+                        place: at_entry(),
                         types: Vec::new(),
                         properties: Vec::new(),
                     });
@@ -155,7 +155,9 @@ impl Mapper<'_> {
         }
         let mut runs = Runs::default();
         if let Some(trajectory) = curve.trajectory {
-            self.builder.append_trajectory(trajectory, at, &mut runs)?;
+            let at_curve: At<'_> = &|| within(at, "trajectory");
+            self.builder
+                .append_trajectory(trajectory, at_curve, &mut runs)?;
         }
         if runs.is_empty() {
             let (Some(from), Some(to)) = (start.position, end.position) else {
@@ -200,11 +202,8 @@ impl Mapper<'_> {
         let Some((first, others)) = curve.properties.split_first() else {
             return Ok(());
         };
-        for (name, field) in &first.attributes {
-            if let Some(scalar) = field.get() {
-                self.builder.set_scalar(Table::Paths, row, name, scalar)?;
-            }
-        }
+        self.builder
+            .set_attributes(Table::Paths, row, &first.attributes, at)?;
         let differs = others.iter().any(|p| p.attributes != first.attributes);
         if differs {
             let message = || "vehicle types share this curve and differ in other things".to_owned();

@@ -40,7 +40,7 @@ pub(crate) fn read(source: Source<'_>, bytes: &[u8]) -> Result<Layout, ReadError
             [] => "an object with neither".to_owned(),
             keys => format!("an object with {}", text::printable(&keys.join(", "))),
         };
-        let expected = "`layouts` (LIF 1.0) or `origins` (LIF 2.0)";
+        let expected = "`layouts` (LIF 1.0), `origins` (LIF 2.0) or the keys of another format";
         return Err(source.fail(not_lif("the root", expected, found)));
     }
     Mapper::new(source, bytes.len()).map(&root)

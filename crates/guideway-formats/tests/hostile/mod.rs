@@ -13,6 +13,7 @@ pub(crate) fn generate(folder: &str, name: &str) -> Option<Vec<u8>> {
     match folder {
         "lif" => lif(name).map(String::into_bytes),
         "opentcs" => open_tcs(name).map(String::into_bytes),
+        "vda5050" => vda_5050(name).map(String::into_bytes),
         "any" => any(name),
         _ => None,
     }
@@ -91,6 +92,30 @@ fn edge(properties: &str) -> String {
 
 fn join(count: usize, item: impl Fn(usize) -> String) -> String {
     (0..count).map(item).collect::<Vec<_>>().join(",")
+}
+
+fn vda_5050(name: &str) -> Option<String> {
+    Some(match name {
+        "deep-actions" => {
+            let (open, close) = ("[".repeat(200), "]".repeat(200));
+            format!(r#"{{"nodes": [{{"nodeId": "A", "actions": {open}{close}}}], "edges": []}}"#)
+        }
+        "million-equal-nodes" => {
+            let node = r#"{"nodeId":"A","sequenceId":0,"nodePosition":{"x":1,"y":1}}"#;
+            format!(r#"{{"nodes": [{}]}}"#, vec![node; MILLION].join(","))
+        }
+        "million-empty-edges" => format!(r#"{{"edges": [{}]}}"#, vec!["{}"; MILLION].join(",")),
+        "million-maps" => {
+            let node = |i| {
+                let position = format!(r#"{{"x":0,"y":0,"mapId":"{i}"}}"#);
+                format!(r#"{{"nodeId":"{i}","nodePosition":{position}}}"#)
+            };
+            format!(r#"{{"nodes": [{}]}}"#, join(MILLION / 10, node))
+        }
+        // The telling key comes last, behind much that looks like keys.
+        "late-key" => format!(r#"{{{}"nodes": []}}"#, r#""a": {"b": []},"#.repeat(MILLION)),
+        _ => return None,
+    })
 }
 
 fn open_tcs(name: &str) -> Option<String> {

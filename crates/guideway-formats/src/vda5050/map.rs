@@ -1,0 +1,168 @@
+//! From the records of an order to a layout: levels and nodes.
+
+use std::collections::HashMap;
+
+use guideway_layout::{Code, Layout, Level, Place, Value};
+
+use super::model::{Node, Position, Root};
+use crate::ReadError;
+use crate::builder::{At, Builder, Table};
+use crate::json::{Field, items, within};
+use crate::source::Source;
+
+/// Fills a layout from the records of an order.
+pub(super) struct Mapper<'a> {
+    pub(super) builder: Builder<'a>,
+    /// The rows of nodes by name. An order may pass a node more than once.
+    pub(super) nodes: HashMap<String, u32>,
+    /// The rows of nodes by their place in the order.
+    pub(super) sequence: HashMap<u64, u32>,
+    /// Each map is a level.
+    maps: HashMap<String, u32>,
+}
+
+impl<'a> Mapper<'a> {
+    pub(super) fn new(source: Source<'a>, file_bytes: usize) -> Self {
+        Self {
+            builder: Builder::new(source, file_bytes),
+            nodes: HashMap::new(),
+            sequence: HashMap::new(),
+            maps: HashMap::new(),
+        }
+    }
+
+    pub(super) fn map(mut self, root: &Root<'_>) -> Result<Layout, ReadError> {
+        let at_root: At<'_> = &|| Place::element("the root");
+        self.builder.check_repeated(root.repeated, at_root);
+        self.map_version(root)?;
+        for (i, node) in items(&root.nodes) {
+            self.map_node(node, &|| Place::element(format!("nodes[{i}]")))?;
+        }
+        for (i, edge) in items(&root.edges) {
+            self.map_edge(edge, &|| Place::element(format!("edges[{i}]")))?;
+        }
+        let edges = items(&root.edges).filter_map(|(_, edge)| edge.get());
+        let counts = [
+            ("nodes", items(&root.nodes).count()),
+            ("edges", items(&root.edges).count()),
+            (
+                "trajectories",
+                edges.filter(|e| e.trajectory.get().is_some()).count(),
+            ),
+        ];
+        self.builder.layout.provenance.counts =
+            counts.map(|(name, n)| (name.to_owned(), n as u64)).to_vec();
+        Ok(self.builder.layout)
+    }
+
+    /// The version stated is taken where the keys of the edges do not tell against it.
+    fn map_version(&mut self, root: &Root<'_>) -> Result<(), ReadError> {
+        let at: At<'_> = &|| Place::element("version");
+        let stated = self.builder.text(&root.version, at)?.unwrap_or_default();
+        let edges = || items(&root.edges).filter_map(|(_, edge)| edge.get());
+        let names_nodes = edges().any(|e| !e.start.is_absent() || !e.end.is_absent());
+        let has_edges = edges().next().is_some();
+        let (majors, found): (&[&str], _) = match (names_nodes, has_edges) {
+            (true, _) => (&["1", "2"], "1.1 to 2.1"),
+            (false, true) => (&["3"], "3.0"),
+            (false, false) => (&["1", "2", "3"], "1.1 to 3.0"),
+        };
+        let fits = majors.contains(&stated.split('.').next().unwrap_or_default());
+        if !fits && !stated.is_empty() {
+            let message =
+                || format!("the order states version `{stated}`, its structure is {found}");
+            let remedy = "Nothing to do: the structure counts";
+            self.builder.find(Code::Version, at, message, remedy);
+        }
+        let provenance = &mut self.builder.layout.provenance;
+        crate::Format::Vda5050
+            .name()
+            .clone_into(&mut provenance.format);
+        let version = if fits { stated } else { found };
+        version.clone_into(&mut provenance.format_version);
+        Ok(())
+    }
+
+    fn map_node(&mut self, node: &Field<Node<'_>>, at: At<'_>) -> Result<(), ReadError> {
+        let Some(node) = self.builder.record(node, at) else {
+            return Ok(());
+        };
+        self.builder.check_repeated(node.repeated, at);
+        let id = self.builder.id(&node.id, at, "nodeId")?;
+        let at_position: At<'_> = &|| within(at, "nodePosition");
+        let Some(position) = self.builder.record(&node.position, at_position) else {
+            return Ok(());
+        };
+        self.builder.check_repeated(position.repeated, at_position);
+        let Some(point) = self.builder.point(&position.x, &position.y, at_position) else {
+            return Ok(());
+        };
+        let level = self.level(position, at_position)?;
+        let sequence = self.sequence(&node.sequence, at);
+        let known = self.nodes.get(id.as_ref()).copied();
+        let nodes = &self.builder.layout.nodes;
+        if let Some(row) = known.filter(|&row| nodes.position_m(row) == point) {
+            // The order comes by again.
+            self.sequence.extend(sequence.map(|number| (number, row)));
+            return Ok(());
+        }
+        let row = self.builder.push_node(&id, point, level)?;
+        self.nodes.entry(id.into_owned()).or_insert(row);
+        self.sequence.extend(sequence.map(|number| (number, row)));
+        let row = row as usize;
+        self.set_sequence(Table::Nodes, row, sequence)?;
+        let (own, of_position) = (&node.attributes, &position.attributes);
+        self.builder.set_attributes(Table::Nodes, row, own, at)?;
+        self.builder
+            .set_attributes(Table::Nodes, row, of_position, at_position)
+    }
+
+    fn level(&mut self, position: &Position<'_>, at: At<'_>) -> Result<Option<u32>, ReadError> {
+        let id = self
+            .builder
+            .text(&position.map_id, &|| within(at, "mapId"))?;
+        let Some(id) = id else { return Ok(None) };
+        if let Some(&level) = self.maps.get(id) {
+            return Ok(Some(level));
+        }
+        let levels = &mut self.builder.layout.levels;
+        let level = levels.len() as u32;
+        levels.push(Level {
+            id: id.to_owned(),
+            ..Level::default()
+        });
+        self.maps.insert(id.to_owned(), level);
+        Ok(Some(level))
+    }
+
+    /// A place in the order.
+    pub(super) fn sequence(&mut self, field: &Field<f64>, at: At<'_>) -> Option<u64> {
+        /// Whole numbers up to here are exact.
+        const MOST: f64 = (1_u64 << 53) as f64;
+        let at: At<'_> = &|| within(at, "sequenceId");
+        self.builder.check_type(field, at, "a whole number");
+        let &number = field.get()?;
+        if number.fract() == 0.0 && (0.0..=MOST).contains(&number) {
+            return Some(number as u64);
+        }
+        let message = || format!("the sequenceId is {number:?}, a whole number from 0 expected");
+        let remedy = "It is left out; correct the writer of the order";
+        self.builder.find(Code::UnknownValue, at, message, remedy);
+        None
+    }
+
+    pub(super) fn set_sequence(
+        &mut self,
+        table: Table,
+        row: usize,
+        sequence: Option<u64>,
+    ) -> Result<(), ReadError> {
+        match sequence {
+            Some(number) => {
+                let value = Value::Int(number as i64);
+                self.builder.set(table, row, "sequenceId", value)
+            }
+            None => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,154 @@
+//! Orders of VDA 5050: the real files, and what the versions do differently.
+
+#![allow(clippy::unwrap_used, reason = "a test may fail by a panic")]
+
+mod common;
+
+use common::{assert_counts, codes, ends, read, real_layouts};
+use guideway_formats::{ReadOptions, read_file};
+use guideway_layout::{Code, Layout};
+use guideway_spline::Point;
+
+/// Counts as the list of sources of the real layouts has them, made by another program.
+const REAL: &[(&str, &str)] = &[
+    (
+        "order_v1_1_nullOptionalFields.json",
+        "nodes 2, edges 2, trajectories 1",
+    ),
+    (
+        "order_v2_0_jsonSampleFull.json",
+        "nodes 2, edges 1, trajectories 1",
+    ),
+];
+
+fn real(file: &str) -> Option<Layout> {
+    let path = real_layouts("vda5050")?.join(file);
+    Some(read_file(&path, &ReadOptions::default()).unwrap_or_else(|e| panic!("{e}")))
+}
+
+/// Three nodes at 0, 10 and 20 m, with sequence ids 0, 2 and 4, and the edges given.
+fn order(edges: &str) -> Layout {
+    read(&format!(
+        r#"{{"orderId": "O", "version": "3.0.0", "nodes": [
+            {{"nodeId": "A", "sequenceId": 0, "nodePosition": {{"x": 0, "y": 0, "mapId": "hall"}}}},
+            {{"nodeId": "B", "sequenceId": 2, "nodePosition": {{"x": 10, "y": 0, "mapId": "hall"}}}},
+            {{"nodeId": "C", "sequenceId": 4, "nodePosition": {{"x": 20, "y": 0, "mapId": "roof"}}}}],
+          "edges": [{edges}]}}"#
+    ))
+}
+
+#[test]
+fn real_files_have_the_counts_that_others_find() {
+    let Some(folder) = real_layouts("vda5050") else {
+        return;
+    };
+    assert_eq!(folder.read_dir().unwrap().count(), REAL.len());
+    for (file, expected) in REAL {
+        let layout = real(file).unwrap();
+        assert_counts(&layout, &["nodes", "edges", "trajectories"], expected, file);
+        assert_eq!(layout.provenance.format, "VDA 5050", "{file}");
+        assert_eq!(layout.provenance.format_version, "1.1 to 2.1", "{file}");
+        assert_eq!(layout.diagnostics.count(Code::Version), 1, "`version`");
+        let edges = layout.path_count() as u64;
+        assert_eq!(edges, common::count(&layout, "edges"), "{file}");
+    }
+}
+
+#[test]
+fn a_trajectory_of_one_point_is_the_straight_line() {
+    if let Some(layout) = real("order_v2_0_jsonSampleFull.json") {
+        assert_eq!(layout.diagnostics.count(Code::TooFewPoints), 1);
+        let (start, end) = ends(&layout, "some-edge-id");
+        assert!(start.distance(Point::new(1.2, 3.4)) < 1e-12);
+        assert!(end.distance(Point::new(5.6, 7.8)) < 1e-12);
+        assert_eq!(layout.paths.get(0).level(), Some(0));
+        assert_eq!(layout.levels[0].id, "some-map-id");
+    }
+}
+
+#[test]
+fn nodes_without_a_position_leave_their_edges_undrawn() {
+    if let Some(layout) = real("order_v1_1_nullOptionalFields.json") {
+        assert_eq!((layout.nodes.len(), layout.paths.len()), (1, 0));
+        assert!(layout.refused.iter().all(|r| r.code == Code::UnknownNode));
+        assert_eq!(layout.diagnostics.count(Code::BadWeight), 1);
+    }
+}
+
+#[test]
+fn from_3_0_on_the_place_in_the_order_joins_nodes_and_edges() {
+    let layout = order(r#"{"edgeId": "E", "sequenceId": 1, "maximumSpeed": 2}"#);
+    assert_eq!(codes(&layout), []);
+    assert_eq!(layout.provenance.format_version, "3.0.0");
+    let expected = (Point::new(0.0, 0.0), Point::new(10.0, 0.0));
+    assert_eq!(ends(&layout, "E"), expected);
+    let edge = layout.paths.get(0);
+    assert_eq!((edge.start_node(), edge.end_node()), (Some(0), Some(1)));
+}
+
+#[test]
+fn up_to_2_1_names_join_nodes_and_edges_whatever_their_place() {
+    let edge = r#"{"edgeId": "E", "sequenceId": 1, "startNodeId": "B", "endNodeId": "A"}"#;
+    let layout = order(edge);
+    assert_eq!(codes(&layout), [Code::Version]);
+    let expected = (Point::new(10.0, 0.0), Point::new(0.0, 0.0));
+    assert_eq!(ends(&layout, "E"), expected);
+}
+
+#[test]
+fn a_lift_is_not_drawn_across_one_plane() {
+    let layout = order(r#"{"edgeId": "lift", "sequenceId": 3}"#);
+    let refused = layout.refused.iter().next().unwrap();
+    assert_eq!((refused.id, refused.code), ("lift", Code::CrossLevel));
+    assert!(refused.detail.contains("`hall`") && refused.detail.contains("`roof`"));
+}
+
+#[test]
+fn a_trajectory_needs_no_nodes_and_from_3_0_on_no_knots() {
+    let layout = order(
+        r#"{"edgeId": "E", "sequenceId": 7, "trajectory": {"degree": 2, "controlPoints":
+            [{"x": 0, "y": 1}, {"x": 5, "y": 9}, {"x": 10, "y": 1}]}}"#,
+    );
+    assert_eq!(codes(&layout), [Code::MissingKnots, Code::UnknownNode]);
+    let expected = (Point::new(0.0, 1.0), Point::new(10.0, 1.0));
+    assert_eq!(ends(&layout, "E"), expected);
+}
+
+#[test]
+fn attributes_of_all_versions_become_columns() {
+    let layout = order(
+        r#"{"edgeId": "E", "sequenceId": 1, "released": true, "maximumSpeed": 1.5,
+            "orientationType": "GLOBAL", "actions": [{}, {}], "direction": null,
+            "corridor": {"leftWidth": 0.4, "corridorReferencePoint": "CONTOUR"}}"#,
+    );
+    let get = |name: &str| {
+        let column = layout.paths.attributes.get(name);
+        column.and_then(|c| c.values.get(0)).map(|v| v.to_string())
+    };
+    for (name, expected) in [
+        ("sequenceId", "1"),
+        ("released", "true"),
+        ("maximumSpeed", "1.5"),
+        ("orientationType", "GLOBAL"),
+        ("actions", "2"),
+        ("corridor.leftWidth", "0.4"),
+        ("corridor.corridorReferencePoint", "CONTOUR"),
+    ] {
+        assert_eq!(get(name).as_deref(), Some(expected), "{name}");
+    }
+    assert_eq!(get("direction"), None);
+}
+
+#[test]
+fn a_node_that_is_passed_twice_is_one_node() {
+    let layout = read(
+        r#"{"nodes": [
+            {"nodeId": "A", "sequenceId": 0, "nodePosition": {"x": 0, "y": 0}},
+            {"nodeId": "B", "sequenceId": 2, "nodePosition": {"x": 10, "y": 0}},
+            {"nodeId": "A", "sequenceId": 4, "nodePosition": {"x": 0, "y": 0}}],
+          "edges": [{"edgeId": "there", "sequenceId": 1}, {"edgeId": "back", "sequenceId": 3}]}"#,
+    );
+    assert_eq!((layout.nodes.len(), layout.paths.len()), (2, 2));
+    assert_eq!(layout.paths.get(1).end_node(), Some(0));
+    assert_eq!(common::count(&layout, "nodes"), 3);
+}
