@@ -2,6 +2,7 @@
 //! comparison of their pictures with the oracle's.
 
 pub mod compare;
+pub mod devices;
 pub mod evidence;
 pub mod methods;
 pub mod random;

@@ -20,7 +20,12 @@ pub struct GpuOptions {
     pub storage_binding_bytes: Option<u32>,
     /// Most workgroups along one dimension of a dispatch; the adapter's own limit if none.
     pub workgroups_per_dimension: Option<u32>,
+    /// Most times that a thread goes round its loops; as many as are safe if none.
+    pub rounds_a_thread: Option<u32>,
 }
+
+/// Fewer rounds than this would not do for the loops of one row of cells.
+const LEAST_ROUNDS: u32 = 4096;
 
 /// A graphics device without a window.
 #[derive(Debug)]
@@ -28,6 +33,7 @@ pub struct Gpu {
     device: wgpu::Device,
     queue: wgpu::Queue,
     info: wgpu::AdapterInfo,
+    options: GpuOptions,
     /// Nanoseconds a tick of the device's clock; none if it has no clock that can be read.
     tick_ns: Option<f64>,
     /// The first thing that went wrong outside of any call that could report it.
@@ -70,6 +76,7 @@ impl Gpu {
             info: adapter.get_info(),
             device,
             queue,
+            options,
             tick_ns,
             trouble,
         }))
@@ -108,6 +115,20 @@ impl Gpu {
             DeviceType::IntegratedGpu | DeviceType::VirtualGpu | DeviceType::Other => 2_000_000_000,
             DeviceType::Cpu => 20_000_000,
         }
+    }
+
+    /// Most times that a thread may go round its loops, all loops together.
+    pub(crate) fn rounds_a_thread(&self) -> u32 {
+        let safe = if self.is_software() {
+            // Mesa's llvmpipe leaves every loop of a thread at round 65,535, without a word
+            // (`LP_MAX_TGSI_LOOP_ITERATIONS`).
+            64_000
+        } else {
+            // About a tenth of a second, if each round waits for memory.
+            1 << 22
+        };
+        let asked = self.options.rounds_a_thread.unwrap_or(safe);
+        asked.clamp(LEAST_ROUNDS, safe)
     }
 
     /// Does what may fail on the device.

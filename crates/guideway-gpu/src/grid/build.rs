@@ -12,6 +12,7 @@ use super::kernels::{Kernels, Prefix};
 use super::options::GridOptions;
 use super::pack::{Cursor, Packed, Packer};
 use super::params::{Items, LINE_BYTES, SCAN_THREADS, WORKGROUP};
+use super::pass::parts;
 use super::table::Table;
 use crate::device::{DeviceBuffer, Dispatch, FETCHED, Gpu, Held, Kernel, Memory, Runner};
 
@@ -71,6 +72,8 @@ struct Counted {
     table: Table,
     /// Lines to submit at a time.
     slices: Vec<Range<u32>>,
+    /// Rows of the cells of each line to go over at a time.
+    rows: Vec<Range<u32>>,
 }
 
 impl Builder<'_> {
@@ -172,7 +175,7 @@ impl Builder<'_> {
         scratch: &Scratch,
         phases: &mut Phases,
     ) -> Result<Counted, RenderError> {
-        let slices = packed.slices.clone();
+        let (slices, most_rows) = (packed.slices.clone(), packed.most_rows);
         let (points_m, first_points) = self.upload(packed)?;
         let line_count = self.zeros("the line counter", size_of::<u32>() as u64)?;
         let buffers = [
@@ -182,14 +185,18 @@ impl Builder<'_> {
             &line_count,
             &scratch.lines_m,
         ];
-        phases.sample += self.over("sampling", &self.kernels.sample, &buffers, &slices)?;
+        let whole = parts(1, 1);
+        phases.sample += self.over("sampling", &self.kernels.sample, &buffers, &slices, &whole)?;
 
         let counts = self.zeros("the counts of the cells", self.cell_bytes())?;
         let lines = self.options.lines_a_segment();
         let of_lines = |slice: &Range<u32>| slice.start * lines..slice.end * lines;
         let slices: Vec<_> = slices.iter().map(of_lines).collect();
+        // A row of cells is a round, and a round for each of its cells.
+        let rows_at_once = self.gpu.rounds_a_thread() / (1 + self.options.cells);
+        let rows = parts(most_rows, rows_at_once);
         let buffers = [&scratch.items, self.grid, &scratch.lines_m, &counts];
-        phases.count += self.over("counting", &self.kernels.count, &buffers, &slices)?;
+        phases.count += self.over("counting", &self.kernels.count, &buffers, &slices, &rows)?;
 
         let mut table = None;
         let (through, bytes) = (&scratch.fetched_counts, counts.bytes());
@@ -207,6 +214,7 @@ impl Builder<'_> {
             table: table.expect("what is fetched is looked at"),
             counts,
             slices,
+            rows,
         })
     }
 
@@ -231,6 +239,7 @@ impl Builder<'_> {
             counts,
             table,
             slices,
+            rows,
         } = counted;
         let table_held = self
             .memory
@@ -251,7 +260,7 @@ impl Builder<'_> {
             &filled,
             &lists_m,
         ];
-        phases.bin += self.over("binning", &self.kernels.bin, &buffers, &slices)?;
+        phases.bin += self.over("binning", &self.kernels.bin, &buffers, &slices, &rows)?;
         Ok(Chunk {
             starts,
             counts,
@@ -276,7 +285,8 @@ impl Builder<'_> {
                     cutter.push(items, u64::from(items) * u64::from(first + items));
                 }
                 let buffers = [&scratch.items, counts, starts];
-                self.over("the prefix sum", kernel, &buffers, &cutter.finish())
+                let parts = parts(cells, self.gpu.rounds_a_thread());
+                self.over("the prefix sum", kernel, &buffers, &cutter.finish(), &parts)
             }
             Prefix::Scan { blocks, sums, add } => {
                 let block_count = cells.div_ceil(2 * SCAN_THREADS);
@@ -311,20 +321,27 @@ impl Builder<'_> {
         Cutter::new(self.gpu.tests_a_submit(), most_items)
     }
 
-    /// Runs a kernel over ranges of items, one submit each, and returns milliseconds.
+    /// Runs a kernel over ranges of items and parts of their work, one submit each, and returns
+    /// milliseconds.
     fn over(
         &self,
         what: &'static str,
         kernel: &Kernel,
         buffers: &[&DeviceBuffer],
         ranges: &[Range<u32>],
+        parts: &[Range<u32>],
     ) -> Result<f64, RenderError> {
         let bindings = self.ok(kernel.bind(self.gpu, buffers))?;
         let mut elapsed_ms = 0.0;
-        for range in ranges {
+        for (part, range) in parts
+            .iter()
+            .flat_map(|part| ranges.iter().map(move |r| (part, r)))
+        {
             let items = Items {
                 first: range.start,
                 end: range.end,
+                first_part: part.start,
+                end_part: part.end,
             };
             self.runner.set(buffers[0], &items);
             let dispatch = Dispatch {

@@ -8,7 +8,7 @@ use wgpu::BufferUsages;
 use super::NAME;
 use super::build::Chunk;
 use super::kernels::Kernels;
-use super::params::{TILE_PX, ViewParams};
+use super::params::ViewParams;
 use crate::device::{Bindings, DeviceBuffer, FETCHED, Gpu, Kernel, Memory};
 
 /// Bytes of a pixel: what is remembered of it, or its colour.
@@ -128,10 +128,5 @@ impl Canvas {
             Purpose::Picture => (&self.pixels, width * PIXEL_BYTES),
             Purpose::Work => (&self.work, width * WORK_BYTES),
         }
-    }
-
-    /// Tiles across the picture.
-    pub(super) fn tiles_across(&self) -> u32 {
-        self.size.width().div_ceil(TILE_PX)
     }
 }

@@ -109,25 +109,37 @@ impl Local {
     }
 }
 
-/// Most cells that the lines of a segment are entered in, all lines together.
-///
-/// The derivative of a uniform cubic B-spline is a mean of the differences of its control points, so none
-/// of its lines is longer than the longest difference over the number of lines.
-pub(super) fn most_entries(
-    control_m: &[[f32; 2]; 4],
-    grid: &GridParams,
-    options: &GridOptions,
-) -> u64 {
-    let lines = f64::from(options.lines_a_segment());
-    let cells = |axis: usize| {
-        let at = control_m.map(|point| f64::from(point[axis]));
-        let steps = [at[1] - at[0], at[2] - at[1], at[3] - at[2]].map(f64::abs);
-        let step_m = steps.into_iter().fold(0.0, f64::max) / lines;
-        let low = at.into_iter().fold(f64::INFINITY, f64::min);
-        let high = at.into_iter().fold(f64::NEG_INFINITY, f64::max);
-        let box_m = step_m.min(high - low) + 2.0 * f64::from(grid.reach_m);
-        let met = (box_m * f64::from(grid.cells_per_m[axis])).floor() + 2.0;
-        met.min(f64::from(options.cells)) as u64
-    };
-    u64::from(options.lines_a_segment()) * cells(0) * cells(1)
+/// How many cells the lines of a segment meet: at most, but for rounding.
+pub(super) struct Met {
+    /// All lines together.
+    pub(super) entries: u64,
+    /// Rows of cells that one line meets.
+    pub(super) rows: u32,
+}
+
+impl Met {
+    /// The derivative of a uniform cubic B-spline is a mean of the differences of its control points, so
+    /// none of its lines is longer than the longest difference over the number of lines; and none meets a
+    /// cell that the box of all control points does not meet.
+    pub(super) fn by(control_m: &[[f32; 2]; 4], grid: &GridParams, options: &GridOptions) -> Self {
+        let lines = options.lines_a_segment();
+        let cells = |axis: usize| {
+            let reach_m = f64::from(grid.reach_m);
+            let per_m = f64::from(grid.cells_per_m[axis]);
+            let at = control_m.map(|point| f64::from(point[axis] - grid.origin_m[axis]));
+            let steps = [at[1] - at[0], at[2] - at[1], at[3] - at[2]].map(f64::abs);
+            let line_m = steps.into_iter().fold(0.0, f64::max) / f64::from(lines);
+            let by_length = ((line_m + 2.0 * reach_m) * per_m).floor() + 2.0;
+            let cell = |at_m: f64| (at_m * per_m).floor();
+            let low = at.into_iter().fold(f64::INFINITY, f64::min) - reach_m;
+            let high = at.into_iter().fold(f64::NEG_INFINITY, f64::max) + reach_m;
+            let by_box = cell(high) - cell(low) + 1.0;
+            by_length.min(by_box).min(f64::from(options.cells)) as u32
+        };
+        let (columns, rows) = (cells(0), cells(1));
+        Self {
+            entries: u64::from(lines) * u64::from(columns) * u64::from(rows),
+            rows,
+        }
+    }
 }

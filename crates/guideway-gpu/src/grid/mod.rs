@@ -2,7 +2,7 @@
 //! cells of a uniform grid, and every pixel tests all lines of its cell. docs/method-grid.md has the whole.
 //!
 //! The folder in the order of the data: `local` and `pack` bring the scene to the device, `build` runs the
-//! four phases, `shot` and `canvas` are a view and its pixels, `prepared` draws.
+//! four phases, `shot`, `pass` and `canvas` are a view, its work and its pixels, `prepared` draws.
 
 mod build;
 mod canvas;
@@ -12,6 +12,7 @@ mod local;
 mod options;
 mod pack;
 mod params;
+mod pass;
 mod prepared;
 mod shot;
 mod table;

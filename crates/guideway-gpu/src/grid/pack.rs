@@ -5,7 +5,7 @@ use std::ops::Range;
 use guideway_scene::Scene;
 
 use super::cut::Cutter;
-use super::local::{Local, most_entries};
+use super::local::{Local, Met};
 use super::options::GridOptions;
 use super::params::GridParams;
 
@@ -29,6 +29,8 @@ pub(super) struct Packed {
     pub(super) first_points: Vec<u32>,
     /// Segments to submit at a time.
     pub(super) slices: Vec<Range<u32>>,
+    /// Most rows of cells that one line meets.
+    pub(super) most_rows: u32,
 }
 
 impl Packed {
@@ -73,8 +75,9 @@ impl Packer<'_> {
             let local = points.map(|point| self.local.local_from_world(run.get(point)));
             packed.points_m.extend(local);
             for segment in packed.points_m[first..].array_windows() {
-                let entries = most_entries(segment, self.grid, self.options);
-                cutter.push(1, TESTS_AN_ENTRY * entries);
+                let met = Met::by(segment, self.grid, self.options);
+                cutter.push(1, TESTS_AN_ENTRY * met.entries);
+                packed.most_rows = packed.most_rows.max(met.rows);
             }
             packed
                 .first_points

@@ -13,6 +13,9 @@ pub(super) const TILE_PX: u32 = 8;
 /// Half of what an edge is smoothed over, in pixels.
 pub(super) const HALF_EDGE_PX: f32 = 0.75;
 
+/// All parts of an item's work, or all of a pixel's lines.
+pub(super) const ALL: u32 = u32::MAX;
+
 /// A line on the device: start and end.
 pub(super) const LINE_BYTES: u64 = size_of::<[f32; 4]>() as u64;
 
@@ -22,6 +25,8 @@ pub(super) const LINE_BYTES: u64 = size_of::<[f32; 4]>() as u64;
 pub(super) struct Items {
     pub(super) first: u32,
     pub(super) end: u32,
+    pub(super) first_part: u32,
+    pub(super) end_part: u32,
 }
 
 /// `Grid` of `cells.wgsl`.
@@ -53,8 +58,12 @@ pub(super) struct ViewParams {
     pub(super) rows: u32,
     pub(super) first_tile: u32,
     pub(super) end_tile: u32,
-    pub(super) is_first_chunk: u32,
-    pub(super) is_last_chunk: u32,
+    pub(super) first_cell_row: u32,
+    pub(super) end_cell_row: u32,
+    pub(super) first_line: u32,
+    pub(super) end_line: u32,
+    pub(super) is_first_pass: u32,
+    pub(super) is_last_pass: u32,
     pub(super) padding: u32,
 }
 

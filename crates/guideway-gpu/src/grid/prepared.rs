@@ -12,13 +12,14 @@ use wgpu::BufferUsages;
 use super::build::{Builder, Built, Chunk};
 use super::canvas::{Canvas, PIXEL_BYTES, Purpose};
 use super::cut::Cutter;
-use super::local::{Local, most_entries};
+use super::local::{Local, Met};
 use super::options::Binning;
 use super::pack::Packer;
 use super::params::{GridParams, LINE_BYTES, WORKGROUP};
+use super::pass::Pass;
 use super::shot::{Shot, Widths};
 use super::table::Table;
-use super::{NAME, Variant};
+use super::{NAME, Variant, pass};
 use crate::device::{DeviceBuffer, Dispatch, Memory, Runner};
 
 /// Largest frame that is planned for.
@@ -53,7 +54,8 @@ pub(super) fn plan_bytes(variant: &Variant, scene: &Scene) -> u64 {
     let runs = drawn.flat_map(|&path| paths.get(path as usize).runs());
     let segments = runs.flat_map(|run| run.segments());
     let entries: u64 = segments
-        .map(|segment| most_entries(&segment.map(|p| local.local_from_world(p)), &grid, options))
+        .map(|segment| segment.map(|point| local.local_from_world(point)))
+        .map(|segment| Met::by(&segment, &grid, options).entries)
         .sum();
     // Lists and, for a while, sampled lines and twice the control points; a picture and its way back.
     let lines = local.segments * u64::from(options.lines_a_segment());
@@ -199,17 +201,18 @@ impl PreparedGrid {
         let gpu = &self.variant.gpu;
         let kernel = canvas.purpose.kernel(&self.variant.kernels);
         let ok = |what| self.memory.trouble(what);
+        let passes = self.passes(shot);
         let (mut drawing_ms, mut fetching_ms) = (0.0, 0.0);
         for rows in canvas.bands() {
-            for (index, (chunk, bindings)) in self.chunks.iter().zip(&canvas.bindings).enumerate() {
+            for pass in &passes {
                 let cutter = Cutter::new(gpu.tests_a_submit(), gpu.most_workgroups());
-                for tiles in shot.cut(cutter, chunk, &rows, canvas.tiles_across()) {
+                for tiles in pass.cut(shot, &self.chunks[pass.chunk].table, &rows, cutter) {
                     cancel.check()?;
-                    let params = shot.params(&rows, &tiles, index, self.chunks.len());
+                    let params = shot.params(&rows, &tiles, pass);
                     self.runner.set(&canvas.view, &params);
                     let dispatch = Dispatch {
                         kernel,
-                        bindings,
+                        bindings: &canvas.bindings[pass.chunk],
                         workgroups: tiles.end - tiles.start,
                     };
                     drawing_ms += self.runner.run("the picture", &[dispatch]).map_err(ok)?;
@@ -228,6 +231,11 @@ impl PreparedGrid {
             fetching_ms += elapsed_ms(start);
         }
         Ok((drawing_ms, fetching_ms))
+    }
+
+    fn passes(&self, shot: &Shot) -> Vec<Pass> {
+        let tables = self.chunks.iter().map(|chunk| &chunk.table);
+        pass::passes(shot, tables, self.variant.gpu.rounds_a_thread())
     }
 
     fn shot(&self, view: &View, style: &Style) -> Result<Shot, RenderError> {
@@ -313,14 +321,14 @@ impl Prepared for PreparedGrid {
             })?;
         }
         let pixels = view.size().pixels() as u64;
-        let chunks = self.chunks.len() as u64;
-        // Two tables a look; what is remembered is read again by every chunk but the first.
-        let remembered = pixels * chunks.saturating_sub(1) * PIXEL_BYTES;
+        let passes = self.passes(&shot).len() as u64;
+        // Two tables a look; what is remembered is read again by every pass but the first.
+        let remembered = pixels * passes.saturating_sub(1) * PIXEL_BYTES;
         Ok(Work {
             tests: Some(tests),
             atomics: Some(0),
             bytes_read: Some(tests * LINE_BYTES + looks * 2 * 4 + remembered),
-            bytes_written: Some(pixels * chunks * PIXEL_BYTES),
+            bytes_written: Some(pixels * passes * PIXEL_BYTES),
         })
     }
 }

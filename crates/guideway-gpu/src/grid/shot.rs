@@ -1,4 +1,4 @@
-//! One view of a scene: what shaders need to know of it, and how much work it is.
+//! One view of a scene: whether it can be drawn, and what shaders need to know of it.
 
 use std::ops::Range;
 
@@ -7,28 +7,24 @@ use guideway_scene::{LineRule, Rgba};
 use guideway_spline::{Bounds, Point};
 
 use super::NAME;
-use super::build::Chunk;
-use super::cut::Cutter;
 use super::local::Local;
 use super::options::{Antialias, Binning, GridOptions};
-use super::params::{GridParams, HALF_EDGE_PX, TILE_PX, ViewParams};
+use super::params::{GridParams, HALF_EDGE_PX, ViewParams};
+use super::pass::Pass;
 
 /// Farthest that a line may be from where it belongs, in pixels.
 const MOST_ROUNDING_PX: f64 = 0.1;
-
-/// Distance tests that looking up a cell takes the time of.
-const TESTS_A_LOOK: f64 = 2.0;
 
 /// Half of a pixel's diagonal.
 const CORNER_PX: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
 /// What is seen.
 pub(super) struct Shot {
-    view: View,
-    local: Local,
-    grid: GridParams,
+    pub(super) view: View,
+    pub(super) local: Local,
+    pub(super) grid: GridParams,
     /// Along each side of the grid.
-    cells: u32,
+    pub(super) cells: u32,
     params: ViewParams,
 }
 
@@ -120,8 +116,12 @@ impl Shot {
             rows: 0,
             first_tile: 0,
             end_tile: 0,
-            is_first_chunk: 0,
-            is_last_chunk: 0,
+            first_cell_row: 0,
+            end_cell_row: 0,
+            first_line: 0,
+            end_line: 0,
+            is_first_pass: 0,
+            is_last_pass: 0,
             padding: 0,
         };
         Ok(Self {
@@ -133,65 +133,25 @@ impl Shot {
         })
     }
 
-    /// The view for one dispatch.
-    pub(super) fn params(
-        &self,
-        rows: &Range<u32>,
-        tiles: &Range<u32>,
-        chunk: usize,
-        chunks: usize,
-    ) -> ViewParams {
+    /// The view for one dispatch: these rows of pixels and tiles of them.
+    pub(super) fn params(&self, rows: &Range<u32>, tiles: &Range<u32>, pass: &Pass) -> ViewParams {
         ViewParams {
             first_row: rows.start,
             rows: rows.end - rows.start,
             first_tile: tiles.start,
             end_tile: tiles.end,
-            is_first_chunk: u32::from(chunk == 0),
-            is_last_chunk: u32::from(chunk + 1 == chunks),
+            first_cell_row: pass.cell_rows.start,
+            end_cell_row: pass.cell_rows.end,
+            first_line: pass.lines.start,
+            end_line: pass.lines.end,
+            is_first_pass: u32::from(pass.is_first),
+            is_last_pass: u32::from(pass.is_last),
             ..self.params
         }
     }
 
-    /// Cuts the tiles of a band into what is drawn at a time.
-    pub(super) fn cut(
-        &self,
-        mut cutter: Cutter,
-        chunk: &Chunk,
-        rows: &Range<u32>,
-        tiles_across: u32,
-    ) -> Vec<Range<u32>> {
-        for top in rows.clone().step_by(TILE_PX as usize) {
-            let bottom = rows.end.min(top + TILE_PX);
-            cutter.push(tiles_across, self.work(chunk, top, bottom));
-        }
-        cutter.finish()
-    }
-
-    /// Distance tests of some rows of pixels, at most; or other work of that size.
-    fn work(&self, chunk: &Chunk, top: u32, bottom: u32) -> u64 {
-        let width = f64::from(self.view.size().width());
-        let corner = |x: f64, y: u32| {
-            let point = Point::new(x, f64::from(y));
-            let local = self
-                .local
-                .local_from_world(self.view.world_from_pixel(point));
-            Point::new(f64::from(local[0]), f64::from(local[1]))
-        };
-        let seen = Bounds::of_points([corner(0.0, bottom), corner(width, top)]);
-        let Some(seen) = seen else { return 0 };
-        let pixels = width * f64::from(bottom - top);
-        if !seen.intersects(self.box_m()) {
-            return pixels as u64;
-        }
-        let across = self.axis(0, seen.min.x, seen.max.x, width);
-        let down = self.axis(1, seen.min.y, seen.max.y, f64::from(bottom - top));
-        let lines = chunk.table.within(across.cells.clone(), down.cells.clone());
-        let tests = lines as f64 * across.pixels_a_cell * down.pixels_a_cell;
-        let looks = pixels * across.cells_a_pixel * down.cells_a_pixel;
-        (tests + looks * TESTS_A_LOOK) as u64
-    }
-
-    fn box_m(&self) -> Bounds<f64> {
+    /// Corners of the box outside of which nothing is drawn, in metres from the middle of the scene.
+    pub(super) fn box_m(&self) -> Bounds<f64> {
         let point = |[x, y]: [f32; 2]| Point::new(f64::from(x), f64::from(y));
         Bounds {
             min: point(self.params.box_low_m),
@@ -199,31 +159,10 @@ impl Shot {
         }
     }
 
-    /// Which cells the pixels from `low_m` to `high_m` look into, so many pixels there are.
-    fn axis(&self, axis: usize, low_m: f64, high_m: f64, pixels: f64) -> Axis {
-        let per_m = f64::from(self.grid.cells_per_m[axis]);
-        let excess_m = f64::from(self.params.excess_m);
-        let cell = |at_m: f64| ((at_m - f64::from(self.grid.origin_m[axis])) * per_m).floor();
-        // One cell more on each side makes up for rounding.
-        let cells = f64::from(self.cells);
-        let first = (cell(low_m - excess_m) - 1.0).clamp(0.0, cells - 1.0);
-        let end = (cell(high_m + excess_m) + 2.0).clamp(1.0, cells);
-        let cell_px = self.view.px_per_m() * (1.0 / per_m + 2.0 * excess_m) + 1.0;
-        Axis {
-            cells: first as usize..end as usize,
-            pixels_a_cell: pixels.min(cell_px),
-            cells_a_pixel: (2.0 * excess_m * per_m + 1.0).min(cells),
-        }
+    /// How far beyond the cells where it is entered a line may be seen.
+    pub(super) fn excess_m(&self) -> f64 {
+        f64::from(self.params.excess_m)
     }
-}
-
-/// How pixels and cells meet along one axis.
-struct Axis {
-    cells: Range<usize>,
-    /// Most pixels that look into one cell.
-    pixels_a_cell: f64,
-    /// Most cells that one pixel looks into.
-    cells_a_pixel: f64,
 }
 
 /// A colour as it is in the bytes of a picture.

@@ -5,6 +5,7 @@ use std::ops::Range;
 /// A summed-area table of the cells' counts.
 pub(super) struct Table {
     side: usize,
+    most: u32,
     /// Of the cells left of and below each corner, rows of `side + 1`.
     sums: Vec<u64>,
 }
@@ -19,16 +20,24 @@ impl Table {
     /// From the counts as the device gives them: `u32`, row by row from the lowest.
     pub(super) fn new(counts: &[u8], side: u32) -> Self {
         let side = side as usize;
+        let mut most = 0;
         let mut sums = vec![0; (side + 1) * (side + 1)];
         let rows = counts.chunks_exact(side * size_of::<u32>());
         for (y, row) in rows.enumerate() {
             let mut of_row = 0;
             for (x, count) in row.as_chunks().0.iter().enumerate() {
-                of_row += u64::from(u32::from_le_bytes(*count));
+                let count = u32::from_le_bytes(*count);
+                most = most.max(count);
+                of_row += u64::from(count);
                 sums[(y + 1) * (side + 1) + x + 1] = sums[y * (side + 1) + x + 1] + of_row;
             }
         }
-        Self { side, sums }
+        Self { side, most, sums }
+    }
+
+    /// Lines in the cell that has most.
+    pub(super) fn most(&self) -> u32 {
+        self.most
     }
 
     /// Lines in all cells, counted once for each.

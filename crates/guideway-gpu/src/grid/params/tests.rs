@@ -6,7 +6,7 @@ use naga::{AddressSpace, Module, TypeInner};
 
 use super::*;
 
-const ALL: &[&Source] = &[
+const SHADERS: &[&Source] = &[
     &SAMPLE,
     &COUNT,
     &PREFIX_NAIVE,
@@ -53,7 +53,7 @@ fn uniform<'a>(module: &'a Module, name: &str) -> Option<(Vec<(&'a str, u32)>, u
 
 #[test]
 fn every_shader_binds_what_it_is_given() {
-    for source in ALL {
+    for source in SHADERS {
         let module = parse(source);
         let expected: Vec<_> = (0..).zip(source.bindings.iter().copied()).collect();
         assert_eq!(bindings(&module), expected, "{}", source.name);
@@ -71,7 +71,11 @@ macro_rules! members {
 #[test]
 fn uniforms_are_laid_out_alike() {
     let expected = [
-        ("items", members!(Items: first, end), size_of::<Items>()),
+        (
+            "items",
+            members!(Items: first, end, first_part, end_part),
+            size_of::<Items>(),
+        ),
         (
             "grid",
             members!(GridParams: origin_m, cells_per_m, reach_m),
@@ -81,13 +85,13 @@ fn uniforms_are_laid_out_alike() {
             "view",
             members!(ViewParams: center_m, half_size_px, box_low_m, box_high_m, excess_m, m_per_px,
                 px_per_m, radius_m, color, background, width_px, first_row, rows, first_tile, end_tile,
-                is_first_chunk, is_last_chunk),
+                first_cell_row, end_cell_row, first_line, end_line, is_first_pass, is_last_pass),
             size_of::<ViewParams>(),
         ),
     ];
     for (name, members, size) in expected {
         let mut seen = 0;
-        for source in ALL {
+        for source in SHADERS {
             let module = parse(source);
             if let Some(found) = uniform(&module, name) {
                 assert_eq!(

@@ -1,4 +1,4 @@
-// The cells that a line's box meets, grown by the reach (thesis, figures 4.4 and 4.5).
+// The cells that a line's box meets, grown by the reach (thesis, figures 4.4 and 4.5). Parts are rows of it.
 
 struct CellBox {
     low: vec2u,
@@ -10,5 +10,8 @@ struct CellBox {
 fn cells_of(line_m: vec4f) -> CellBox {
     let low_m = min(line_m.xy, line_m.zw) - grid.reach_m;
     let high_m = max(line_m.xy, line_m.zw) + grid.reach_m;
-    return CellBox(cell_of(low_m), cell_of(high_m));
+    var cells = CellBox(cell_of(low_m), cell_of(high_m));
+    cells.high.y = cells.low.y + min(cells.high.y - cells.low.y, items.end_part - 1u);
+    cells.low.y += items.first_part;
+    return cells;
 }

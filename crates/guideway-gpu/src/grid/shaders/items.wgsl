@@ -6,6 +6,9 @@ struct Items {
     first: u32,
     // Behind the last.
     end: u32,
+    // Which part of each item's work, where a thread would go round its loop too often for all of it.
+    first_part: u32,
+    end_part: u32,
 }
 
 @group(0) @binding(0) var<uniform> items: Items;

@@ -1,9 +1,11 @@
+// A line of no length is a point: its length is never nothing.
+const LEAST_SQUARED: f32 = 1.2e-38;
+
 // The square of the distance of a point to a line, by projection (thesis, equation 4.1).
 fn distance_squared(point_m: vec2f, line_m: vec4f) -> f32 {
     let along = line_m.zw - line_m.xy;
     let from_start = point_m - line_m.xy;
-    // A line of no length is a point.
-    let length_squared = max(dot(along, along), 1.2e-38);
+    let length_squared = max(dot(along, along), LEAST_SQUARED);
     let fraction = clamp(dot(from_start, along) / length_squared, 0.0, 1.0);
     let apart = from_start - along * fraction;
     return dot(apart, apart);

@@ -10,7 +10,7 @@ override COUNT: bool;
 @group(0) @binding(2) var<storage, read> starts: array<u32>;
 @group(0) @binding(3) var<storage, read> counts: array<u32>;
 @group(0) @binding(4) var<storage, read> lists_m: array<vec4f>;
-// Between chunks what the pixel remembers, with the last its colour.
+// Between passes what the pixel remembers, with the last its colour.
 @group(0) @binding(5) var<storage, read_write> pixels: array<u32>;
 // Tests of lines and look-ups of cells, a pixel.
 @group(0) @binding(6) var<storage, read_write> work: array<vec2u>;
@@ -32,7 +32,7 @@ fn main(
     }
     let index = pixel.y * view.width_px + pixel.x;
     var seen = NOTHING;
-    if view.is_first_chunk == 0u {
+    if view.is_first_pass == 0u {
         seen = pixels[index];
     }
     var tests = 0u;
@@ -44,12 +44,13 @@ fn main(
     if all(point_m >= view.box_low_m) && all(point_m <= view.box_high_m) {
         let low = cell_of(point_m - view.excess_m);
         let high = cell_of(point_m + view.excess_m);
-        for (var y = low.y; y <= high.y; y++) {
+        let end_row = low.y + min(high.y - low.y + 1u, view.end_cell_row);
+        for (var y = low.y + view.first_cell_row; y < end_row; y++) {
             for (var x = low.x; x <= high.x; x++) {
                 let cell = y * CELLS + x;
-                let end = starts[cell] + counts[cell];
+                let end = starts[cell] + min(counts[cell], view.end_line);
                 looks += 1u;
-                for (var i = starts[cell]; i < end; i++) {
+                for (var i = starts[cell] + view.first_line; i < end; i++) {
                     if EARLY_EXIT && is_full(seen) {
                         break;
                     }
@@ -61,11 +62,11 @@ fn main(
     }
 
     if COUNT {
-        let before = select(work[index], vec2u(0u), view.is_first_chunk == 1u);
+        let before = select(work[index], vec2u(0u), view.is_first_pass == 1u);
         work[index] = before + vec2u(tests, looks);
     }
     pixels[index] = seen;
-    if view.is_last_chunk == 1u {
+    if view.is_last_pass == 1u {
         pixels[index] = blend(coverage(seen));
     }
 }

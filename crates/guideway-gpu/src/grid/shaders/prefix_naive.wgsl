@@ -1,4 +1,5 @@
-// Phase 3 as in the thesis (4.3.4, figure 4.6): every cell adds up all the cells before it.
+// Phase 3 as in the thesis (4.3.4, figure 4.6): every cell adds up all the cells before it. Parts are some
+// of these.
 
 @group(0) @binding(1) var<storage, read> counts: array<u32>;
 @group(0) @binding(2) var<storage, read_write> starts: array<u32>;
@@ -14,8 +15,8 @@ fn main(
         return;
     }
     var sum = 0u;
-    for (var before = 0u; before < cell; before++) {
+    for (var before = items.first_part; before < min(cell, items.end_part); before++) {
         sum += counts[before];
     }
-    starts[cell] = sum;
+    starts[cell] += sum;
 }

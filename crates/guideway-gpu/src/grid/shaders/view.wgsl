@@ -22,9 +22,14 @@ struct View {
     // Which of the band's tiles, row by row; and behind the last.
     first_tile: u32,
     end_tile: u32,
-    // Lines come in chunks, the picture is complete with the last.
-    is_first_chunk: u32,
-    is_last_chunk: u32,
+    // Which rows of the cells that a pixel looks into, and which lines of each cell.
+    first_cell_row: u32,
+    end_cell_row: u32,
+    first_line: u32,
+    end_line: u32,
+    // A picture takes one pass or several; it is complete with the last.
+    is_first_pass: u32,
+    is_last_pass: u32,
 }
 
 @group(0) @binding(0) var<uniform> view: View;

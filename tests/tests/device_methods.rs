@@ -1,0 +1,122 @@
+//! Methods on graphics devices draw what they can as the oracle does, each within its own tolerance.
+
+use guideway_render::{Budget, Frame, RenderError, Report};
+use guideway_tests::compare::{Difference, check};
+use guideway_tests::devices::{DeviceCandidate, candidates};
+use guideway_tests::evidence;
+use guideway_tests::methods::{draw, judge};
+use guideway_tests::scenes::{self, SceneCase};
+use guideway_tests::sketch::Drawing;
+
+struct Outcome {
+    scene: String,
+    candidate: usize,
+    difference: Result<Difference, String>,
+}
+
+#[test]
+fn every_device_method_draws_what_it_can_as_the_oracle_does() {
+    let candidates = candidates();
+    if candidates.is_empty() {
+        return;
+    }
+    let outcomes: Vec<_> = scenes::all()
+        .iter()
+        .flat_map(|case| outcomes(case, &candidates))
+        .collect();
+
+    let failures: Vec<_> = outcomes
+        .iter()
+        .filter_map(|o| Some((o, o.difference.as_ref().err()?)))
+        .map(|(o, message)| format!("{} by {}: {message}", o.scene, candidates[o.candidate].name))
+        .collect();
+    for (number, candidate) in candidates.iter().enumerate() {
+        let drawn: Vec<_> = outcomes.iter().filter(|o| o.candidate == number).collect();
+        print_worst(&candidate.name, &drawn);
+        assert!(
+            drawn.len() >= candidate.least_scenes,
+            "{} draws {} scenes, and {} are asked",
+            candidate.name,
+            drawn.len(),
+            candidate.least_scenes
+        );
+    }
+    assert!(
+        failures.is_empty(),
+        "{} of {} pictures are wrong:\n{}",
+        failures.len(),
+        outcomes.len(),
+        failures.join("\n")
+    );
+}
+
+/// What the candidates make of a scene that they can draw.
+fn outcomes(case: &SceneCase, candidates: &[DeviceCandidate]) -> Vec<Outcome> {
+    let drawing = case.build();
+    let mut expected = None;
+    let mut outcomes = Vec::new();
+    for (number, candidate) in candidates.iter().enumerate() {
+        let drawn = draw(candidate.method.as_ref(), &drawing, &Budget::default());
+        let difference = match drawn {
+            Err(RenderError::Unsupported { what, remedy, .. }) => {
+                assert!(!what.is_empty() && remedy.ends_with('.'), "{what}: {remedy}");
+                continue;
+            }
+            Err(error) => Err(error.to_string()),
+            Ok((actual, report)) => {
+                let expected = expected.get_or_insert_with(|| judge(&drawing).0);
+                account(&report, &drawing)
+                    .and_then(|()| compare(&case.name, candidate, expected, &actual))
+            }
+        };
+        outcomes.push(Outcome {
+            scene: case.name.clone(),
+            candidate: number,
+            difference,
+        });
+    }
+    outcomes
+}
+
+fn compare(
+    scene: &str,
+    candidate: &DeviceCandidate,
+    expected: &Frame,
+    actual: &Frame,
+) -> Result<Difference, String> {
+    check(expected, actual, &candidate.tolerance).map_err(|message| {
+        let name = format!("{} {scene}", candidate.name);
+        let written = evidence::write(&name, expected, actual);
+        let shown = written.map_or_else(|e| e.to_string(), |file| file.display().to_string());
+        format!("{message}; see {shown}")
+    })
+}
+
+fn account(report: &Report, drawing: &Drawing) -> Result<(), String> {
+    let layout = &drawing.layout;
+    if report.total != layout.path_count() as u64
+        || report.refused != layout.refused.len() as u64
+        || !report.accounts_for_all()
+    {
+        return Err(format!("not every path is accounted for: {report:?}"));
+    }
+    Ok(())
+}
+
+fn print_worst(name: &str, drawn: &[&Outcome]) {
+    println!("{name}: {} scenes, the worst of them", drawn.len());
+    let mut measured: Vec<_> = drawn
+        .iter()
+        .filter_map(|o| Some((o, o.difference.as_ref().ok()?)))
+        .collect();
+    measured.sort_by(|a, b| b.1.mean_abs.total_cmp(&a.1.mean_abs));
+    for (outcome, difference) in measured.iter().take(5) {
+        println!(
+            "  {:<44} mean {:>6.3} {:>8.3} % within, {:>3.0} at most",
+            outcome.scene,
+            difference.mean_abs,
+            difference.share_within * 100.0,
+            difference.max_abs
+        );
+    }
+}
