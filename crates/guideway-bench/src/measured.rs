@@ -172,7 +172,8 @@ impl Prepare {
     pub(crate) fn new(preparation: &Preparation, wall_ms: f64) -> Self {
         let stages = preparation.stages.iter();
         Self {
-            ms: preparation.elapsed_ms(),
+            // The sum of no stages is negative zero.
+            ms: preparation.elapsed_ms() + 0.0,
             wall_ms,
             stages: stages
                 .map(|stage| StageTime::new(stage.name, stage.clock, stage.elapsed_ms))

@@ -31,6 +31,8 @@ pub(crate) enum Cell {
     Text(String),
     Number(f64),
     Count(u64),
+    /// A median, and the 5th and 95th percentile.
+    Range([f64; 3]),
     Nothing,
 }
 
@@ -67,6 +69,10 @@ impl Cell {
             Self::Text(text) => text.clone(),
             Self::Number(value) => digits(*value),
             Self::Count(value) => count(*value),
+            Self::Range(values) => {
+                let [median, p5, p95] = values.map(digits);
+                format!("{median} ({p5} to {p95})")
+            }
             Self::Nothing => String::new(),
         }
     }
@@ -79,6 +85,7 @@ impl Cell {
             Self::Text(text) => text.clone(),
             Self::Number(value) => value.to_string(),
             Self::Count(value) => value.to_string(),
+            Self::Range(values) => values.map(|value| value.to_string()).join(" "),
             Self::Nothing => String::new(),
         }
     }
@@ -110,17 +117,24 @@ impl Table {
         file
     }
 
-    /// The table as markup, numbers to three digits.
+    /// The table as markup, numbers to three digits. Columns with nothing in them are left out.
     pub(crate) fn html(&self) -> String {
+        let has_cells = |column: usize| {
+            let mut cells = self.rows.iter().filter_map(|row| row.get(column));
+            cells.any(|cell| *cell != Cell::Nothing)
+        };
+        let shown: Vec<(usize, &str)> = (self.columns.iter().enumerate())
+            .filter_map(|(i, column)| Some((i, column.heading.as_deref()?)))
+            .filter(|&(i, _)| has_cells(i))
+            .collect();
         let mut html = String::from("<div class=\"wide\"><table>\n<thead><tr>");
-        for heading in self.columns.iter().filter_map(|c| c.heading.as_ref()) {
+        for (_, heading) in &shown {
             html += &format!("<th scope=\"col\">{}</th>", escape(heading));
         }
         html += "</tr></thead>\n<tbody>\n";
         for row in &self.rows {
             html += "<tr>";
-            let cells = row.iter().zip(&self.columns);
-            for (cell, _) in cells.filter(|(_, column)| column.heading.is_some()) {
+            for cell in shown.iter().filter_map(|&(i, _)| row.get(i)) {
                 let class = match cell {
                     Cell::Text(_) => "",
                     _ => " class=\"number\"",
@@ -155,18 +169,26 @@ mod tests {
                 Column::in_file("mean_ms"),
                 Column::in_page("Mean (ms)"),
                 Column::new("Paths", "paths"),
+                Column::new("Not measured", "why_not"),
             ],
             rows: vec![
                 vec![
                     Cell::text("a,\"b\""),
                     Cell::Number(1.23456),
-                    Cell::Number(1.23456),
+                    Cell::Range([1.23456, 1.0, 2.0]),
                     Cell::Count(1000),
+                    Cell::Nothing,
                 ],
-                vec![Cell::text("c"), Cell::Nothing, Cell::Nothing, Cell::Nothing],
+                vec![
+                    Cell::text("c"),
+                    Cell::Nothing,
+                    Cell::Nothing,
+                    Cell::Nothing,
+                    Cell::Nothing,
+                ],
             ],
         };
-        let expected = "method,mean_ms,paths\r\n\"a,\"\"b\"\"\",1.23456,1000\r\nc,,\r\n";
+        let expected = "method,mean_ms,paths,why_not\r\n\"a,\"\"b\"\"\",1.23456,1000,\r\nc,,,\r\n";
         assert_eq!(table.csv(), expected);
         let html = table.html();
         roxmltree::Document::parse(&html).expect("well-formed");
@@ -175,7 +197,7 @@ mod tests {
             "{html}"
         );
         assert!(
-            html.contains(">1.23<") && !html.contains("mean_ms"),
+            html.contains(">1.23 (1.00 to 2.00)<") && !html.contains("Not measured"),
             "{html}"
         );
     }

@@ -15,6 +15,9 @@ use crate::{Dataset, Measured, Motion, Outcome, Start, turns};
 /// Most paths of all datasets that are kept for later.
 const KEPT_PATHS: usize = 5_000_000;
 
+/// Even shares of the time that one piece of a part may take.
+const PATIENCE: u32 = 4;
+
 /// Why there is no measurement where the time did not do.
 pub(crate) const OUT_OF_TIME: &str = "the time for this part was over";
 
@@ -42,12 +45,13 @@ impl Deadline {
         Self(wait.and_then(|wait| Instant::now().checked_add(wait)))
     }
 
-    /// The deadline of one of so many equal pieces of what is left.
+    /// The deadline of the first of so many pieces of what is left. It may take a few times its even share,
+    /// for most take less.
     pub(crate) fn share(self, pieces: usize) -> Self {
         let now = Instant::now();
         Self(self.0.map(|end| {
             let left = end.saturating_duration_since(now);
-            now + left / u32::try_from(pieces.max(1)).unwrap_or(u32::MAX)
+            now + (left * PATIENCE / u32::try_from(pieces.max(1)).unwrap_or(u32::MAX)).min(left)
         }))
     }
 

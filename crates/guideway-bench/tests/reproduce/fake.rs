@@ -10,15 +10,15 @@ use guideway_scene::Scene;
 
 /// A method whose frames take `a_ms` and `b_ms` for each path, by what it says.
 #[derive(Clone, Copy)]
-pub struct Fake {
-    pub device: &'static str,
-    pub a_ms: f64,
-    pub b_ms: f64,
+pub(crate) struct Fake {
+    pub(crate) device: &'static str,
+    pub(crate) a_ms: f64,
+    pub(crate) b_ms: f64,
     /// Paths that it has memory for.
-    pub room: usize,
+    pub(crate) room: usize,
 }
 
-pub const FAKE: Fake = Fake {
+pub(crate) const FAKE: Fake = Fake {
     device: "a made-up device",
     a_ms: 1.0,
     b_ms: 0.01,

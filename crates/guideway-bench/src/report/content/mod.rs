@@ -9,7 +9,6 @@ mod work;
 use super::chart::Chart;
 use super::table::{Cell, Column, Table};
 use crate::reproduce::{Finding, Picture, Run, findings};
-use crate::words::digits;
 use crate::{Dataset, Measured, Row, Summary};
 
 /// One section of the page.
@@ -95,10 +94,9 @@ fn pictures(run: &Run, figure: &str, caption: &str) -> Block {
     Block::Pictures(caption.to_owned(), own.cloned().collect())
 }
 
-/// Milliseconds as the page shows them: the median, and from the 5th to the 95th percentile.
+/// Milliseconds as the page shows them.
 fn median_cell(summary: &Summary) -> Cell {
-    let [median, p5, p95] = [summary.median, summary.p5, summary.p95].map(digits);
-    Cell::text(format!("{median} ({p5} to {p95})"))
+    Cell::Range([summary.median, summary.p5, summary.p95])
 }
 
 /// The frame times of one row for the file, in full.

@@ -83,7 +83,7 @@ fn limit(run: &Run, found: &MostPaths) -> String {
     let search = &run.plan.search;
     match (found.limit, &found.reason) {
         (Limit::FrameTime, _) => "frames take longer".to_owned(),
-        (Limit::Ceiling, _) => format!("{} is the most tried", count(search.ceiling as u64)),
+        (Limit::Ceiling, _) => "no more were tried".to_owned(),
         (Limit::TooSlow, _) => {
             let ms = found.trials.last().and_then(|trial| trial.frame_ms);
             let ms = ms.map_or_else(String::new, |ms| format!(" takes {} ms", digits(ms)));

@@ -3,6 +3,10 @@ use crate::report::table::{Cell, Column, Table};
 use crate::reproduce::{Border, Reading, Run};
 use crate::words::{megabytes, percent};
 
+/// Share of the coverage from which on a method that lacks it draws the wrong picture. Lines of one pixel, in
+/// place of three, lack two thirds.
+const BLIND: f64 = 0.9;
+
 /// Coverage against the oracle's.
 pub(super) fn borders(run: &Run) -> Section {
     let share = |share: Option<f64>| share.map_or(Cell::Nothing, |s| Cell::text(percent(s)));
@@ -30,19 +34,34 @@ pub(super) fn borders(run: &Run) -> Section {
         ],
         rows: run.results.borders.iter().map(row).collect(),
     };
-    Section {
-        id: "borders",
-        title: "Lines at the borders of cells",
-        blocks: vec![
-            Block::Text(
+    let mut blocks = vec![
+        Block::Text(
                 "How much of the coverage of the exact oracle each method lacks, and how much it adds. Some \
                  of both is the shape of its edges, which fade otherwise than a true area does; what the \
                  grid as written lacks beyond its mended variant is lost at the borders of cells."
                     .to_owned(),
             ),
-            Block::Table(table),
-        ],
+        Block::Table(table),
+    ];
+    blocks.extend(blind(run));
+    Section {
+        id: "borders",
+        title: "Lines at the borders of cells",
+        blocks,
     }
+}
+
+/// A warning about methods whose pictures lack nearly everything.
+fn blind(run: &Run) -> Option<Block> {
+    let borders = run.results.borders.iter();
+    let blind = borders.filter(|border| border.lost.is_some_and(|lost| lost > BLIND));
+    let names: Vec<&str> = blind.map(|border| border.method.as_str()).collect();
+    (!names.is_empty()).then(|| {
+        Block::Text(format!(
+            "Mind the times of {}: hardly anything of this picture was drawn.",
+            names.join(", ")
+        ))
+    })
 }
 
 /// Counters that need no hardware to compare.

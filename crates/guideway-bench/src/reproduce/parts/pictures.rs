@@ -12,6 +12,7 @@ use super::views::{MAGNIFICATIONS, magnified};
 use crate::Dataset;
 use crate::reproduce::lab::{Deadline, Lab};
 use crate::reproduce::run::{Picture, Results};
+use crate::words::count;
 
 /// Lines whose edges fade, as the thesis draws them, and lines whose edges do not.
 const SMOOTH: &str = "grid";
@@ -41,7 +42,10 @@ pub(crate) fn pictures(lab: &Lab<'_>, _: Deadline, out: &mut Results) -> Result<
             let percent = figure.magnification * 100.0;
             out.pictures.push(Picture {
                 figure: figure.number.to_owned(),
-                caption: format!("{shows}{dataset} at {percent:.0} %, {paths} paths, by {method}"),
+                caption: format!(
+                    "{shows}{dataset} at {percent:.0} %, {} paths, by {method}",
+                    count(paths as u64)
+                ),
                 size_px: figure.size_px,
                 enlarged: figure.enlarged,
                 png_base64: STANDARD.encode(png(&frame)),
