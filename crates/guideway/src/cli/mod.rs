@@ -34,7 +34,7 @@ pub(crate) enum Exit {
     Clean,
     /// `check --strict` found warnings.
     Warnings,
-    /// `check` found errors.
+    /// `check` found errors, or `bench` could measure nothing.
     Errors,
     /// Ctrl-C stopped it, and what it had is kept.
     Interrupted,

@@ -87,17 +87,18 @@ fn figures() -> Vec<Figure> {
     figures
 }
 
-/// The picture and the method that drew it: another one where that does not run, unless its edges are the
-/// point of the picture.
+/// The picture and the method that drew it. Where the one wanted is not to be measured or does not run, it is
+/// another, unless the edges are the point of the picture.
 fn draw(
     lab: &Lab<'_>,
     wanted: &str,
     scene: &Arc<Scene>,
     view: &View,
 ) -> Result<Option<(String, Frame)>, RenderError> {
-    let others = lab.plan.methods.iter().map(String::as_str);
-    let others = others.filter(|_| wanted != PLAIN);
-    for spec in std::iter::once(wanted).chain(others) {
+    let methods = lab.plan.methods.iter().map(String::as_str);
+    let is_asked_for = methods.clone().any(|spec| spec.starts_with(SMOOTH));
+    let own = is_asked_for.then_some(wanted);
+    for spec in own.into_iter().chain(methods.filter(|_| wanted != PLAIN)) {
         if let Ok(frame) = picture(lab, spec, scene, view)? {
             return Ok(Some((spec.to_owned(), frame)));
         }
