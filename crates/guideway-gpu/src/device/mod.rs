@@ -148,11 +148,18 @@ impl Gpu {
         self.check_alive()?;
         match errors.first() {
             None => Ok(result),
-            Some(wgpu::Error::OutOfMemory { .. }) => Err(format!(
+            Some(wgpu::Error::OutOfMemory { .. }) => Err(self.root_of(format!(
                 "there is no memory left for {what}; close other programs or draw fewer paths"
-            )),
-            Some(error) => Err(format!("{what}: {error}")),
+            ))),
+            Some(error) => Err(self.root_of(format!("{what}: {error}"))),
         }
+    }
+
+    /// Why something failed: because the device is lost, if it is; it may have had no occasion to say so.
+    fn root_of(&self, failure: String) -> String {
+        // What the poll finds is told to the callbacks, and asked for below.
+        drop(self.device.poll(wgpu::PollType::Poll));
+        self.check_alive().err().unwrap_or(failure)
     }
 
     fn check_alive(&self) -> Result<(), String> {

@@ -74,9 +74,15 @@ impl Runner {
     }
 
     /// Sets a buffer that shaders read, from the next submit on.
-    pub(crate) fn set<T: bytemuck::NoUninit>(&self, buffer: &DeviceBuffer, value: &T) {
+    pub(crate) fn set<T: bytemuck::NoUninit>(
+        &self,
+        what: &'static str,
+        buffer: &DeviceBuffer,
+        value: &T,
+    ) -> Result<(), String> {
         let bytes = bytemuck::bytes_of(value);
-        self.gpu.queue.write_buffer(buffer.raw(), 0, bytes);
+        self.gpu
+            .checked(what, || self.gpu.queue.write_buffer(buffer.raw(), 0, bytes))
     }
 
     /// Runs dispatches one after the other, each seeing what those before it wrote. Returns milliseconds.
@@ -168,10 +174,15 @@ impl Runner {
             slice.map_async(wgpu::MapMode::Read, move |mapped| drop(sender.send(mapped)));
         })?;
         self.wait(what, submission)?;
-        match receiver.try_recv() {
+        // If another thread polled first, it may still be on its way to the answer.
+        match receiver.recv_timeout(PATIENCE) {
             Ok(Ok(())) => {}
             Ok(Err(error)) => return Err(format!("{what} cannot be read back: {error}")),
-            Err(_) => return Err(format!("{what} cannot be read back: no answer")),
+            Err(_) => {
+                return Err(format!(
+                    "{what} cannot be read back: the device does not answer"
+                ));
+            }
         }
         let view = slice.get_mapped_range();
         let view = view.map_err(|error| format!("{what} cannot be read back: {error}"))?;
@@ -189,10 +200,11 @@ impl Runner {
         self.gpu.check_alive()?;
         match waited {
             Ok(_) => Ok(()),
-            Err(error) => Err(format!(
-                "{what} did not end within {} s ({error}); draw fewer paths, or by another method",
+            Err(wgpu::PollError::Timeout) => Err(format!(
+                "{what} did not end within {} s; draw fewer paths, or by another method",
                 PATIENCE.as_secs()
             )),
+            Err(error) => Err(self.gpu.root_of(format!("{what}: {error}"))),
         }
     }
 }

@@ -89,6 +89,9 @@ impl Builder<'_> {
         if most == 0 {
             return Ok(built);
         }
+        if self.cell_bytes() > self.gpu.binding_bytes() {
+            return Err(self.too_much(format!("{} cells", self.options.cell_count())));
+        }
         let scratch = self.scratch(most)?;
         let mut cursor = Cursor::default();
         loop {
@@ -103,7 +106,8 @@ impl Builder<'_> {
             let entries = counted.table.total();
             if entries * LINE_BYTES > self.gpu.binding_bytes() {
                 if segments == 1 {
-                    return Err(self.too_many_cells(entries));
+                    let what = format!("a segment whose lines meet {entries} cells");
+                    return Err(self.too_much(what));
                 }
                 most = segments / 2;
                 continue;
@@ -131,12 +135,11 @@ impl Builder<'_> {
         self.gpu.binding_bytes() / lines_bytes.max(points_bytes)
     }
 
-    fn too_many_cells(&self, entries: u64) -> RenderError {
+    fn too_much(&self, what: String) -> RenderError {
         RenderError::Unsupported {
             method: NAME,
             what: format!(
-                "a segment whose lines meet {entries} cells: the lists are longer than the {} bytes that \
-                 this device lets a shader see at once",
+                "{what}: this device lets a shader see only {} bytes at once",
                 self.gpu.binding_bytes()
             ),
             remedy: "Ask for fewer cells or samples.".to_owned(),
@@ -343,7 +346,7 @@ impl Builder<'_> {
                 first_part: part.start,
                 end_part: part.end,
             };
-            self.runner.set(buffers[0], &items);
+            self.ok(self.runner.set(what, buffers[0], &items))?;
             let dispatch = Dispatch {
                 kernel,
                 bindings: &bindings,

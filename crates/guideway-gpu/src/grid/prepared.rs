@@ -121,7 +121,8 @@ impl PreparedGrid {
         let runner = Runner::new(Arc::clone(&variant.gpu), &mut memory)?;
         let uniform = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
         let grid_buffer = memory.zeros("the grid", size_of::<GridParams>() as u64, uniform)?;
-        runner.set(&grid_buffer, &grid);
+        let set = runner.set("the grid", &grid_buffer, &grid);
+        set.map_err(|what| memory.trouble(what))?;
         let packer = Packer {
             scene: &scene,
             local: &local,
@@ -209,7 +210,9 @@ impl PreparedGrid {
                 for tiles in pass.cut(shot, &self.chunks[pass.chunk].table, &rows, cutter) {
                     cancel.check()?;
                     let params = shot.params(&rows, &tiles, pass);
-                    self.runner.set(&canvas.view, &params);
+                    self.runner
+                        .set("the view", &canvas.view, &params)
+                        .map_err(ok)?;
                     let dispatch = Dispatch {
                         kernel,
                         bindings: &canvas.bindings[pass.chunk],
