@@ -4,7 +4,7 @@ use std::rc::Rc;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use guideway_render::{Budget, Cancel, FrameSize, Method, RenderError, Style, View};
+use guideway_render::{Budget, Cancel, Frame, FrameSize, Method, RenderError, Style, View};
 use guideway_scene::{LineRule, Scene};
 
 use super::{MethodFacts, Plan};
@@ -222,5 +222,28 @@ impl<'a> Lab<'a> {
             self.methods.borrow_mut().remove(spec);
         }
         Ok(runner?)
+    }
+
+    /// One picture by one method, or why there is none.
+    ///
+    /// # Errors
+    /// Only when the caller cancels.
+    pub(crate) fn picture(
+        &self,
+        spec: &str,
+        scene: &Arc<Scene>,
+        view: &View,
+    ) -> Result<Result<Frame, String>, RenderError> {
+        self.cancel.check()?;
+        let method = match self.method(spec) {
+            Ok(method) => method,
+            Err(why) => return Ok(Err(why)),
+        };
+        let picture = self.ready(spec, &*method, scene).and_then(|mut runner| {
+            let picture = runner.picture(view, &self.style(), self.cancel);
+            Ok(picture.cloned()?)
+        });
+        self.cancel.check()?;
+        Ok(picture.map_err(|fault| fault.to_string()))
     }
 }

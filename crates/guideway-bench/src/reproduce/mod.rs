@@ -5,6 +5,7 @@
 
 mod findings;
 mod lab;
+pub(crate) mod names;
 mod parts;
 mod plan;
 mod run;

@@ -1,18 +1,19 @@
 use serde::{Deserialize, Serialize};
 
 use super::Search;
+use super::names::{GRID, GRID_MENDED, GRID_SCAN, TESSELLATION, TESSELLATION_COMPACT};
 use crate::Dataset;
 
 /// The thesis' methods and variants, in the order of the report; the first is the thesis' own.
 pub const METHODS: [&str; 9] = [
-    "grid",
-    "grid+scan",
-    "grid+scan+radius",
+    GRID,
+    GRID_SCAN,
+    GRID_MENDED,
     "grid+scan+radius+exit",
     "grid+scan+radius+exit+aa=subpixel",
-    "tessellation",
+    TESSELLATION,
     "tessellation+aa=multisample",
-    "tessellation-compact",
+    TESSELLATION_COMPACT,
     "cpu",
 ];
 

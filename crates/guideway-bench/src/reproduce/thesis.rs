@@ -1,14 +1,11 @@
 //! The thesis' own figures, measured on an Intel Core Ultra 7 155H with its integrated Arc graphics at
 //! 1920 x 1080.
 
+use super::names::{GRID, TESSELLATION};
 use crate::Dataset;
 
 /// The machine of the thesis.
 pub(crate) const MACHINE: &str = "Core Ultra 7 155H, Intel Arc";
-/// Its name of the method `grid`.
-pub(crate) const GRID: &str = "grid";
-/// Its name of the method `tessellation`.
-pub(crate) const TESSELLATION: &str = "tessellation";
 
 /// Table 5.1: dataset, method, most paths at 60 FPS, megabytes.
 pub(crate) const MOST_PATHS: [(Dataset, &str, u64, u64); 4] = [

@@ -1,19 +1,17 @@
 use super::{Block, Section, computes_only, frame_cells, frame_columns, median_cell, why_not};
 use crate::report::chart::{Chart, Series};
 use crate::report::table::{Cell, Column, Table};
+use crate::reproduce::names::{BIN, COUNT, CULL, PREFIX_SUM, SAMPLE, TESSELLATE_AND_DRAW};
 use crate::reproduce::{Reading, Results, Run};
 use crate::words::megabytes;
 use crate::{Dataset, Measured};
 
-/// Stages of tessellation, as figure 5.4 tells them apart.
-const CULL: &str = "cull";
-const DRAW: &str = "tessellate and draw";
-/// Phases of the grid's build, as figure 5.5 tells them apart.
+/// Phases of figure 5.5, with their names in the file.
 const PHASES: [(&str, &str); 4] = [
-    ("sample", "sample_ms"),
-    ("count", "count_ms"),
-    ("prefix sum", "prefix_sum_ms"),
-    ("bin", "bin_ms"),
+    (SAMPLE, "sample_ms"),
+    (COUNT, "count_ms"),
+    (PREFIX_SUM, "prefix_sum_ms"),
+    (BIN, "bin_ms"),
 ];
 
 /// Figure 5.4.
@@ -46,7 +44,7 @@ fn frame_chart(run: &Run, dataset: Dataset) -> Chart {
         };
         if curve
             .iter()
-            .any(|(_, m)| stage_ms(m, CULL).is_some() && stage_ms(m, DRAW).is_some())
+            .any(|(_, m)| stage_ms(m, CULL).is_some() && stage_ms(m, TESSELLATE_AND_DRAW).is_some())
         {
             series.push(line(format!("{method}: whole frame"), &|m| {
                 Some(m.frame_ms.mean)
@@ -107,7 +105,7 @@ fn frame_row(reading: &Reading) -> Vec<Cell> {
         Cell::text(reading.row.method.clone()),
         Cell::Count(reading.paths as u64),
         Cell::from(measured.and_then(|m| stage_ms(m, CULL))),
-        Cell::from(measured.and_then(|m| stage_ms(m, DRAW))),
+        Cell::from(measured.and_then(|m| stage_ms(m, TESSELLATE_AND_DRAW))),
         Cell::from(measured.map(|m| m.frame_ms.mean)),
         measured.map_or(Cell::Nothing, |m| median_cell(&m.frame_ms)),
         why_not(&reading.row),

@@ -8,6 +8,7 @@ mod work;
 
 use super::chart::Chart;
 use super::table::{Cell, Column, Table};
+use crate::reproduce::names::TESSELLATION;
 use crate::reproduce::{Finding, Picture, Run, findings};
 use crate::{Dataset, Measured, Row, Summary};
 
@@ -139,7 +140,7 @@ fn why_not(row: &Row) -> Cell {
 /// texture-processing clusters, of which two rasterise triangles.
 fn computes_only(run: &Run) -> Option<Block> {
     let devices = run.methods.iter().filter_map(|method| {
-        let is_raster = method.method.starts_with("tessellation");
+        let is_raster = method.method.starts_with(TESSELLATION);
         method.device.as_deref().filter(|_| is_raster)
     });
     let mut odd = devices.filter(|device| device.contains("H100") || device.contains("H200"));

@@ -4,7 +4,7 @@ use super::{
 use crate::Dataset;
 use crate::report::chart::{Chart, Series};
 use crate::report::table::{Cell, Column, Table};
-use crate::reproduce::{Reading, Results, Run, thesis};
+use crate::reproduce::{Reading, Results, Run, names, thesis};
 use crate::words::{count, percent};
 
 /// Tables 5.2 and 5.3.
@@ -53,7 +53,7 @@ fn occupancy_table(run: &Run, dataset: Dataset) -> Table {
             let theirs = theirs.and_then(|(_, ms)| ms.get(i).copied());
             rows.push(occupancy_row(
                 reading,
-                theirs.filter(|_| method == thesis::GRID),
+                theirs.filter(|_| method == names::GRID),
             ));
         }
     }

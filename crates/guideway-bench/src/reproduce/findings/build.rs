@@ -2,18 +2,10 @@
 
 use super::table::at_most_paths;
 use super::{Judgement, in_all};
-use crate::reproduce::thesis::GRID;
+use crate::reproduce::names::{BIN, COUNT, GRID, GRID_SCAN, PREFIX_SUM, SAMPLE};
 use crate::reproduce::{Results, Run};
-use crate::words::{count, digits, time, times};
+use crate::words::{count, digits, percent, time, times};
 use crate::{Dataset, Measured};
-
-/// The grid with a work-efficient prefix sum, and nothing else changed.
-const SCAN: &str = "grid+scan";
-/// The four phases, as the method names them.
-const SAMPLE: &str = "sample";
-const COUNT: &str = "count";
-const PREFIX_SUM: &str = "prefix sum";
-const BIN: &str = "bin";
 
 fn phase_ms(measured: &Measured, phase: &str) -> Option<f64> {
     let stage = measured.prepare.stages.iter().find(|s| s.name == phase)?;
@@ -87,7 +79,7 @@ pub(super) fn prefix_sum(run: &Run) -> Judgement {
 
 pub(super) fn scan(run: &Run) -> Judgement {
     in_all(Dataset::ALL.map(|dataset| {
-        let (paths, [naive, scan]) = at_most_paths(run, dataset, [GRID, SCAN])?;
+        let (paths, [naive, scan]) = at_most_paths(run, dataset, [GRID, GRID_SCAN])?;
         let (naive_ms, scan_ms) = (phase_ms(naive, PREFIX_SUM)?, phase_ms(scan, PREFIX_SUM)?);
         if scan_ms <= 0.0 || naive.prepare.ms <= 0.0 {
             return None;
@@ -100,7 +92,7 @@ pub(super) fn scan(run: &Run) -> Judgement {
             time(naive_ms),
             time(scan_ms),
             times(naive_ms / scan_ms),
-            crate::words::percent(naive_ms / naive.prepare.ms),
+            percent(naive_ms / naive.prepare.ms),
             time(naive.prepare.ms),
         );
         Some((naive_ms > scan_ms, evidence))

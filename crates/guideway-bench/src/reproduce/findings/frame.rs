@@ -2,15 +2,11 @@
 
 use super::table::at_most_paths;
 use super::{Judgement, in_all};
-use crate::reproduce::thesis::{GRID, TESSELLATION};
+use crate::reproduce::names::{CULL, GRID, GRID_MENDED, TESSELLATION, TESSELLATION_COMPACT};
 use crate::reproduce::{Results, Run};
 use crate::words::{count, percent, time, times};
 use crate::{Dataset, Measured};
 
-/// Tessellation with one draw for all patches.
-const COMPACT: &str = "tessellation-compact";
-/// The grid with every line in all cells that it reaches.
-const MENDED: &str = "grid+scan+radius";
 /// A change below this is taken for none.
 const NOTABLE: f64 = 1.1;
 
@@ -90,7 +86,7 @@ fn tests(far: &Measured, near: &Measured) -> String {
 
 pub(super) fn bottleneck(run: &Run) -> Judgement {
     in_all(Dataset::ALL.map(|dataset| {
-        let (paths, [each, one]) = at_most_paths(run, dataset, [TESSELLATION, COMPACT])?;
+        let (paths, [each, one]) = at_most_paths(run, dataset, [TESSELLATION, TESSELLATION_COMPACT])?;
         let (each_ms, one_ms) = (each.frame_ms.mean, one.frame_ms.mean);
         let holds = each_ms < one_ms * NOTABLE;
         let meaning = if holds {
@@ -112,7 +108,7 @@ pub(super) fn bottleneck(run: &Run) -> Judgement {
 pub(super) fn culling(run: &Run) -> Judgement {
     in_all(Dataset::ALL.map(|dataset| {
         let (paths, [measured]) = at_most_paths(run, dataset, [TESSELLATION])?;
-        let cull_ms = measured.stages.iter().find(|s| s.name == "cull")?.ms;
+        let cull_ms = measured.stages.iter().find(|s| s.name == CULL)?.ms;
         let share = cull_ms / measured.frame_ms.median;
         let evidence = format!(
             "{} with {} paths: culling takes {} of {}, {}.",
@@ -149,7 +145,7 @@ pub(super) fn borders(run: &Run) -> Judgement {
         let all = run.results.borders.iter();
         all.filter(|b| b.method == method).find_map(|b| b.lost)
     };
-    let (written, mended) = (lost(GRID)?, lost(MENDED)?);
+    let (written, mended) = (lost(GRID)?, lost(GRID_MENDED)?);
     // A method that hardly draws anything shows nothing about borders.
     if mended > 0.5 {
         return None;

@@ -1,8 +1,8 @@
 //! Table 5.1 and its memory.
 
 use super::{Judgement, in_all};
+use crate::reproduce::names::{GRID, TESSELLATION};
 use crate::reproduce::run::{MostPaths, Reading};
-use crate::reproduce::thesis::{GRID, TESSELLATION};
 use crate::reproduce::{Limit, Results, Run};
 use crate::words::{count, digits, megabytes, times};
 use crate::{Dataset, Measured};

@@ -2,16 +2,12 @@
 //! radius.
 
 use guideway_render::{Frame, FrameSize, RenderError, View};
-use guideway_scene::Scene;
 
 use crate::Dataset;
-use crate::measured::Fault;
 use crate::reproduce::lab::{Deadline, Lab};
+use crate::reproduce::names::ORACLE;
 use crate::reproduce::run::{Border, Results};
-use std::sync::Arc;
 
-/// The judge of all methods.
-const JUDGE: &str = "oracle";
 /// One hall, small enough for the judge; its cells are then some 20 pixels wide.
 const PATHS: usize = 1_000;
 const SIZE_PX: [u32; 2] = [480, 270];
@@ -23,37 +19,17 @@ pub(crate) fn borders(lab: &Lab<'_>, _: Deadline, out: &mut Results) -> Result<(
     let size = FrameSize::new(SIZE_PX[0], SIZE_PX[1])?;
     let center = View::fit(size, scene.bounds())?.center_m();
     let view = View::new(size, center, PX_PER_M)?;
-    let judged = picture(lab, JUDGE, &scene, &view)?;
+    let judged = lab.picture(ORACLE, &scene, &view)?;
     for spec in &lab.plan.methods {
-        lab.tell(&format!("coverage: {spec} against {JUDGE}"));
-        let drawn = picture(lab, spec, &scene, &view)?;
+        lab.tell(&format!("coverage: {spec} against {ORACLE}"));
+        let drawn = lab.picture(spec, &scene, &view)?;
         out.borders.push(match (&judged, drawn) {
             (Ok(judged), Ok(drawn)) => compared(spec, judged, &drawn),
-            (Err(why), _) => not_compared(spec, format!("{JUDGE}: {why}")),
+            (Err(why), _) => not_compared(spec, format!("{ORACLE}: {why}")),
             (_, Err(why)) => not_compared(spec, why),
         });
     }
     Ok(())
-}
-
-/// One picture by one method, or why there is none.
-pub(crate) fn picture(
-    lab: &Lab<'_>,
-    spec: &str,
-    scene: &Arc<Scene>,
-    view: &View,
-) -> Result<Result<Frame, String>, RenderError> {
-    lab.cancel.check()?;
-    let method = match lab.method(spec) {
-        Ok(method) => method,
-        Err(why) => return Ok(Err(why)),
-    };
-    let picture = lab.ready(spec, &*method, scene).and_then(|mut runner| {
-        let picture = runner.picture(view, &lab.style(), lab.cancel);
-        Ok(picture.cloned()?)
-    });
-    lab.cancel.check()?;
-    Ok(picture.map_err(|fault: Fault| fault.to_string()))
 }
 
 fn not_compared(spec: &str, why_not: String) -> Border {
@@ -74,7 +50,7 @@ fn compared(spec: &str, judged: &Frame, drawn: &Frame) -> Border {
         added += (seen - expected).max(0.0);
     }
     if all == 0.0 {
-        return not_compared(spec, format!("{JUDGE} draws nothing there"));
+        return not_compared(spec, format!("{ORACLE} draws nothing there"));
     }
     Border {
         method: spec.to_owned(),

@@ -7,16 +7,12 @@ use base64::engine::general_purpose::STANDARD;
 use guideway_render::{Frame, FrameSize, RenderError, View};
 use guideway_scene::Scene;
 
-use super::borders::picture;
 use super::views::{MAGNIFICATIONS, magnified};
 use crate::Dataset;
 use crate::reproduce::lab::{Deadline, Lab};
+use crate::reproduce::names::{GRID, GRID_HARD};
 use crate::reproduce::run::{Picture, Results};
 use crate::words::count;
-
-/// Lines whose edges fade, as the thesis draws them, and lines whose edges do not.
-const SMOOTH: &str = "grid";
-const PLAIN: &str = "grid+aa=none";
 
 /// How a figure is drawn: a part of the dataset so large that it fills the picture.
 struct Figure {
@@ -60,7 +56,7 @@ fn figures() -> Vec<Figure> {
         number,
         shows: "",
         dataset,
-        method: SMOOTH,
+        method: GRID,
         magnification: MAGNIFICATIONS[0],
         size_px: [960, 540],
         enlarged: 1,
@@ -81,8 +77,8 @@ fn figures() -> Vec<Figure> {
     let mut figures = vec![whole("5.1", Dataset::D1), whole("5.2", Dataset::D2)];
     figures.extend(zoomed);
     for (number, size_px, enlarged) in [("5.6", [480, 270], 1), ("5.7", [48, 27], 10)] {
-        figures.push(edges(number, "smooth: ", SMOOTH, size_px, enlarged));
-        figures.push(edges(number, "not smooth: ", PLAIN, size_px, enlarged));
+        figures.push(edges(number, "smooth: ", GRID, size_px, enlarged));
+        figures.push(edges(number, "not smooth: ", GRID_HARD, size_px, enlarged));
     }
     figures
 }
@@ -96,10 +92,13 @@ fn draw(
     view: &View,
 ) -> Result<Option<(String, Frame)>, RenderError> {
     let methods = lab.plan.methods.iter().map(String::as_str);
-    let is_asked_for = methods.clone().any(|spec| spec.starts_with(SMOOTH));
+    let is_asked_for = methods.clone().any(|spec| spec.starts_with(GRID));
     let own = is_asked_for.then_some(wanted);
-    for spec in own.into_iter().chain(methods.filter(|_| wanted != PLAIN)) {
-        if let Ok(frame) = picture(lab, spec, scene, view)? {
+    for spec in own
+        .into_iter()
+        .chain(methods.filter(|_| wanted != GRID_HARD))
+    {
+        if let Ok(frame) = lab.picture(spec, scene, view)? {
             return Ok(Some((spec.to_owned(), frame)));
         }
     }
