@@ -7,6 +7,7 @@
 pub mod arrow;
 mod builder;
 mod error;
+pub mod geojson;
 mod json;
 mod lif;
 mod opentcs;

@@ -7,13 +7,21 @@ pub enum Format {
     OpenTcs,
     /// An order of VDA 5050, 1.1 to 3.1.
     Vda5050,
+    /// GeoJSON, plain or a route graph of Nav2.
+    GeoJson,
     /// A table of paths in an Apache Arrow IPC file.
     Arrow,
 }
 
 impl Format {
     /// Every format there is.
-    pub const ALL: &[Self] = &[Self::Lif, Self::OpenTcs, Self::Vda5050, Self::Arrow];
+    pub const ALL: &[Self] = &[
+        Self::Lif,
+        Self::OpenTcs,
+        Self::Vda5050,
+        Self::GeoJson,
+        Self::Arrow,
+    ];
 
     /// The name, as in [`guideway_layout::Provenance::format`].
     pub fn name(self) -> &'static str {
@@ -21,6 +29,7 @@ impl Format {
             Self::Lif => "LIF",
             Self::OpenTcs => "openTCS",
             Self::Vda5050 => "VDA 5050",
+            Self::GeoJson => "GeoJSON",
             Self::Arrow => "Arrow",
         }
     }
@@ -31,6 +40,7 @@ impl Format {
             Self::Lif => "VDMA LIF 1.0 and 2.0 (JSON)",
             Self::OpenTcs => "openTCS plant models (XML)",
             Self::Vda5050 => "VDA 5050 orders (JSON)",
+            Self::GeoJson => "GeoJSON and Nav2 route graphs",
             Self::Arrow => "Arrow IPC files of paths",
         }
     }
@@ -58,6 +68,7 @@ pub fn sniff(bytes: &[u8]) -> Option<Format> {
 fn json_of(key: &[u8]) -> Option<Format> {
     match key {
         b"layouts" | b"origins" | b"metaInformation" => Some(Format::Lif),
+        b"features" | b"geometry" | b"coordinates" | b"geometries" => Some(Format::GeoJson),
         b"nodes" | b"edges" | b"orderId" | b"orderUpdateId" => Some(Format::Vda5050),
         _ => None,
     }

@@ -137,6 +137,11 @@ fn bad_vda_5050_files() {
 }
 
 #[test]
+fn bad_geojson_files() {
+    check_folder("geojson");
+}
+
+#[test]
 fn bad_files_of_any_kind() {
     check_folder("any");
 }
@@ -162,7 +167,9 @@ fn a_wrong_expectation_fails() {
 }
 
 /// A sound file of each text format.
-const VALID: [&str; 4] = [
+const VALID: [&str; 6] = [
+    "geojson/valid.geojson",
+    "geojson/valid-graph.geojson",
     "lif/valid.json",
     "opentcs/valid.xml",
     "vda5050/valid.json",
@@ -231,9 +238,13 @@ const EVERY_FIELD: &str = r#"{
 
 #[test]
 fn no_field_of_another_type_breaks_the_reader() {
-    let order = fs::read_to_string(bad_files().join("vda5050/valid.json")).unwrap();
-    for (text, fields) in [(EVERY_FIELD, 60), (&order, 50)] {
-        change_every_field(text, fields);
+    change_every_field(EVERY_FIELD, 60);
+    for (file, fields) in [
+        ("vda5050/valid.json", 50),
+        ("geojson/valid.geojson", 20),
+        ("geojson/valid-graph.geojson", 30),
+    ] {
+        change_every_field(&fs::read_to_string(bad_files().join(file)).unwrap(), fields);
     }
 }
 

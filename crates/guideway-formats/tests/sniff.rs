@@ -35,6 +35,11 @@ fn keys_of_the_outermost_object_tell_one_json_from_another() {
     for (text, format) in [
         (r#"{"headerId": 1, "nodes": []}"#, Format::Vda5050),
         (r#"{"edges" : []}"#, Format::Vda5050),
+        (
+            r#"{"type": "FeatureCollection", "features": []}"#,
+            Format::GeoJson,
+        ),
+        (r#"{"geometry": null}"#, Format::GeoJson),
         (r#"{"x": {"nodes": 1}, "layouts": []}"#, Format::Lif),
         (
             r#"{"x": ["nodes"], "y": "orderId", "origins": []}"#,

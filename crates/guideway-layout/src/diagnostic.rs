@@ -77,6 +77,7 @@ codes! {
     DuplicateKey "duplicate-key" Warning "An object has the same key twice; the last one counts.";
     ApproximateShape "approximate-shape" Info "The file does not store the exact shape of a path; a plain one is drawn.";
     LegacyPosition "legacy-position" Info "Model and layout positions differ; the layout position is drawn.";
+    AssumedUnit "assumed-unit" Info "The file does not say in what unit its positions are; one is assumed.";
     Version "version" Info "The version that a file states is not that of its structure.";
     Attribute "attribute" Info "An attribute could not be kept as it is.";
     Implausible "implausible" Warning "The values are legal but look like a mistake, such as a wrong unit.";

@@ -38,12 +38,14 @@ pub(crate) fn codes(layout: &Layout) -> Vec<Code> {
 }
 
 /// A count under the format's own name; zero if it is not counted.
+#[allow(dead_code, reason = "not every test binary counts")]
 pub(crate) fn count(layout: &Layout, name: &str) -> u64 {
     let counts = &layout.provenance.counts;
     counts.iter().find(|(n, _)| n == name).map_or(0, |c| c.1)
 }
 
 /// Checks counts written as `points 55, paths 68` against a layout; names that are absent mean zero.
+#[allow(dead_code, reason = "not every test binary counts")]
 pub(crate) fn assert_counts(layout: &Layout, all: &[&str], expected: &str, file: &str) {
     for name in all {
         let mut stated = expected.split(", ").filter_map(|c| c.split_once(' '));

@@ -13,6 +13,7 @@ pub(crate) fn generate(folder: &str, name: &str) -> Option<Vec<u8>> {
     match folder {
         "lif" => lif(name).map(String::into_bytes),
         "opentcs" => open_tcs(name).map(String::into_bytes),
+        "geojson" => geojson(name).map(String::into_bytes),
         "vda5050" => vda_5050(name).map(String::into_bytes),
         "any" => any(name),
         _ => None,
@@ -114,6 +115,43 @@ fn vda_5050(name: &str) -> Option<String> {
         }
         // The telling key comes last, behind much that looks like keys.
         "late-key" => format!(r#"{{{}"nodes": []}}"#, r#""a": {"b": []},"#.repeat(MILLION)),
+        _ => return None,
+    })
+}
+
+fn geojson(name: &str) -> Option<String> {
+    let line =
+        |coordinates: &str| format!(r#"{{"type": "LineString", "coordinates": {coordinates}}}"#);
+    let with = |properties: &str| {
+        let line = line("[[0,0],[1000,0]]");
+        format!(r#"{{"features": [{{"properties": {{{properties}}}, "geometry": {line}}}]}}"#)
+    };
+    Some(match name {
+        "deep-coordinates" => line(&["[".repeat(MILLION), "]".repeat(MILLION)].concat()),
+        "deep-properties" => with(&[r#""a":{"#.repeat(100), "}".repeat(100)].concat()),
+        "deep-collections" => r#"{"geometries":["#.repeat(MILLION),
+        "million-points" => {
+            let point = r#"{"geometry":{"type":"Point","coordinates":[1000,0]}}"#;
+            format!(
+                r#"{{"features": [{}]}}"#,
+                vec![point; MILLION / 4].join(",")
+            )
+        }
+        "million-positions" => line(&format!("[{}]", join(MILLION, |i| format!("[{i},0]")))),
+        "long-line" => line(&format!("[{}]", vec!["[0,0]"; MILLION + 1].join(","))),
+        "million-properties" => with(&join(MILLION, |i| format!(r#""p{i}":1"#))),
+        // A long name around many values would be in the name of each.
+        "long-names" => {
+            let inner = join(MILLION / 4, |i| format!(r#""{i}":1"#));
+            with(&format!(r#""{}":{{{inner}}}"#, "n".repeat(MILLION)))
+        }
+        "wide-columns" => {
+            let feature = |i| {
+                let line = line("[[0,0],[1000,0]]");
+                format!(r#"{{"properties":{{"p{i}":{i}}},"geometry":{line}}}"#)
+            };
+            format!(r#"{{"features": [{}]}}"#, join(20_000, feature))
+        }
         _ => return None,
     })
 }

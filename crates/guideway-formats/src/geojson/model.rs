@@ -1,0 +1,71 @@
+//! The records of a GeoJSON file.
+
+use std::borrow::Cow;
+
+use serde::de::{IgnoredAny, MapAccess};
+
+use super::coordinates::Coordinates;
+use super::properties::{Properties, Property};
+use crate::json::{Field, FromJson, Key, record};
+
+type Text<'a> = Cow<'a, str>;
+type List<T> = Vec<Field<T>>;
+
+record! {
+    /// The root object: a collection, one feature, or one geometry.
+    Root<'a> {
+        crs: Box<Crs<'a>> = "crs",
+        features: List<Feature<'a>> = "features",
+        id: Property<'a> = "id",
+        properties: Properties<'a> = "properties",
+        geometry: Box<Geometry<'a>> = "geometry",
+        kind: Text<'a> = "type",
+        coordinates: Coordinates = "coordinates",
+        geometries: List<Geometry<'a>> = "geometries",
+    }
+}
+
+record! { Crs<'a> {
+    properties: CrsProperties<'a> = "properties",
+} }
+
+record! { CrsProperties<'a> {
+    name: Text<'a> = "name",
+} }
+
+record! { Feature<'a> {
+    id: Property<'a> = "id",
+    properties: Properties<'a> = "properties",
+    geometry: Box<Geometry<'a>> = "geometry",
+} }
+
+record! { Geometry<'a> {
+    kind: Text<'a> = "type",
+    coordinates: Coordinates = "coordinates",
+    geometries: List<Geometry<'a>> = "geometries",
+} }
+
+impl<'a> Root<'a> {
+    /// The features of a collection, or the one feature or geometry that the file is.
+    pub(super) fn take_features(&mut self) -> List<Feature<'a>> {
+        if let Field::Value(features) = std::mem::take(&mut self.features) {
+            return features;
+        }
+        let bare = !self.coordinates.is_absent() || !self.geometries.is_absent();
+        let geometry = match bare {
+            true => Field::Value(Box::new(Geometry {
+                kind: std::mem::take(&mut self.kind),
+                coordinates: std::mem::take(&mut self.coordinates),
+                geometries: std::mem::take(&mut self.geometries),
+                repeated: None,
+            })),
+            false => std::mem::take(&mut self.geometry),
+        };
+        vec![Field::Value(Feature {
+            id: std::mem::take(&mut self.id),
+            properties: std::mem::take(&mut self.properties),
+            geometry,
+            repeated: None,
+        })]
+    }
+}

@@ -1,0 +1,333 @@
+//! GeoJSON and the route graphs of Nav2: the real files, and every quirk that was seen in one.
+
+#![allow(clippy::unwrap_used, reason = "a test may fail by a panic")]
+
+mod common;
+
+use common::{assert_counts, codes, count, ends, read, real_layouts};
+use guideway_formats::{ReadOptions, read_file};
+use guideway_layout::{CheckOptions, Code, Layout, Severity, Value, check};
+use guideway_spline::Point;
+
+/// Counts as the list of sources of the real layouts has them, made by another program.
+const GRAPHS: &[(&str, &str)] = &[
+    (
+        "aws_graph.geojson",
+        // Its one LineString is nested like a MultiLineString. The other program found one vertex there, and
+        // so 168; there are two.
+        "features 124, Point 40, MultiLineString 83, LineString 1, lineVertices 169",
+    ),
+    (
+        "no_frame.json",
+        "features 124, Point 40, MultiLineString 84, lineVertices 169",
+    ),
+    (
+        "sample_graph.geojson",
+        "features 33, Point 9, MultiLineString 24, lineVertices 48",
+    ),
+    (
+        "turtlebot3_graph.geojson",
+        "features 85, Point 20, MultiLineString 65, lineVertices 130",
+    ),
+    (
+        "warehouse_graph.geojson",
+        "features 268, Point 96, LineString 172, lineVertices 344",
+    ),
+];
+
+const ROADS: &[(&str, &str)] = &[
+    (
+        "andorra_roads_local_m.geojson",
+        "features 1617, LineString 1617, lineVertices 40681",
+    ),
+    (
+        "north-bayreuth_roads_local_m.geojson",
+        "features 2079, LineString 2079, lineVertices 17276",
+    ),
+];
+
+/// How many paths have a value in a column of the roads.
+const ROAD_COLUMNS: &[(&str, &[(&str, usize)])] = &[
+    (
+        "andorra_roads_local_m.geojson",
+        &[
+            ("osm_way", 1617),
+            ("highway", 1614),
+            ("name", 431),
+            ("oneway", 389),
+            ("maxspeed", 204),
+            ("layer", 144),
+            ("railway", 3),
+        ],
+    ),
+    (
+        "north-bayreuth_roads_local_m.geojson",
+        &[
+            ("osm_way", 2079),
+            ("highway", 2056),
+            ("name", 395),
+            ("maxspeed", 263),
+            ("oneway", 126),
+            ("layer", 53),
+            ("railway", 23),
+        ],
+    ),
+];
+
+const COUNTED: &[&str] = &[
+    "features",
+    "Point",
+    "LineString",
+    "MultiLineString",
+    "lineVertices",
+];
+
+fn real(folder: &str, file: &str) -> Option<Layout> {
+    let path = real_layouts(folder)?.join(file);
+    Some(read_file(&path, &ReadOptions::default()).unwrap_or_else(|e| panic!("{e}")))
+}
+
+/// A collection of features, in metres.
+fn collection(features: &str) -> Layout {
+    read(&format!(
+        r#"{{"type": "FeatureCollection", "crs": {{"type": "name", "properties": {{"name": "EPSG:3857"}}}},
+            "features": [{features}]}}"#
+    ))
+}
+
+fn feature(properties: &str, kind: &str, coordinates: &str) -> String {
+    format!(
+        r#"{{"type": "Feature", "properties": {{{properties}}},
+            "geometry": {{"type": "{kind}", "coordinates": {coordinates}}}}}"#
+    )
+}
+
+#[test]
+fn real_graphs_have_the_counts_that_others_find() {
+    let Some(folder) = real_layouts("nav2_geojson") else {
+        return;
+    };
+    assert_eq!(folder.read_dir().unwrap().count(), GRAPHS.len());
+    for (file, expected) in GRAPHS {
+        let layout = real("nav2_geojson", file).unwrap();
+        assert_counts(&layout, COUNTED, expected, file);
+        assert_eq!(
+            layout.provenance.format_version, "Nav2 route graph",
+            "{file}"
+        );
+        let edges = count(&layout, "features") - count(&layout, "Point");
+        assert_eq!(layout.paths.len() as u64, edges, "{file}");
+        assert_eq!(layout.nodes.len() as u64, count(&layout, "Point"), "{file}");
+        assert_eq!(
+            layout.diagnostics.count_at_least(Severity::Error),
+            0,
+            "{file}"
+        );
+        let nested = u64::from(*file == "aws_graph.geojson");
+        assert_eq!(layout.diagnostics.count(Code::WrongType), nested, "{file}");
+        let joined = |node: Option<u32>| node.is_some();
+        let mut paths = layout.paths.iter();
+        assert!(
+            paths.all(|p| joined(p.start_node()) && joined(p.end_node())),
+            "{file}"
+        );
+    }
+}
+
+#[test]
+fn real_roads_have_the_counts_that_others_find() {
+    let Some(folder) = real_layouts("geojson_roads") else {
+        return;
+    };
+    assert_eq!(folder.read_dir().unwrap().count(), ROADS.len());
+    for ((file, expected), (_, columns)) in ROADS.iter().zip(ROAD_COLUMNS) {
+        let layout = real("geojson_roads", file).unwrap();
+        assert_counts(&layout, COUNTED, expected, file);
+        assert_eq!(codes(&layout), [Code::AssumedUnit], "{file} names no crs");
+        for (name, expected) in *columns {
+            let values = &layout.paths.attributes.get(name).unwrap().values;
+            let there = (0..layout.paths.len()).filter(|&row| values.get(row).is_some());
+            assert_eq!(there.count(), *expected, "{name} of {file}");
+        }
+        // Kilometres, for these were converted to metres about their middle.
+        let bounds = layout.paths.hull_bounds().unwrap();
+        assert!(bounds.max.x - bounds.min.x > 5_000.0, "{bounds:?}");
+    }
+}
+
+#[test]
+fn what_belongs_to_an_edge_of_a_graph_becomes_columns() {
+    let Some(layout) = real("nav2_geojson", "sample_graph.geojson") else {
+        return;
+    };
+    let row = layout.paths.iter().position(|p| p.id() == "9").unwrap();
+    let value = |name: &str| {
+        let column = layout.paths.attributes.get(name);
+        column.and_then(|c| c.values.get(row))
+    };
+    assert_eq!(value("cost"), Some(Value::Float(10.0)));
+    assert_eq!(value("overridable"), Some(Value::Bool(false)));
+    assert_eq!(value("metadata.speed_limit"), Some(Value::Float(0.85)));
+    assert_eq!(value("metadata.aisle_number"), Some(Value::Int(14)));
+    let trigger = value("operations.open_door.trigger");
+    assert_eq!(trigger, Some(Value::Text("ON_ENTER")));
+    let resolution = value("operations.take_picture.metadata.resolution");
+    assert_eq!(resolution, Some(Value::Text("1080, 720")));
+    assert!(layout.paths.attributes.get("startid").is_none());
+}
+
+#[test]
+fn the_same_edge_twice_is_found() {
+    if let Some(layout) = real("nav2_geojson", "turtlebot3_graph.geojson") {
+        let found = check(&layout, &CheckOptions::default());
+        let twins: Vec<String> = found
+            .iter()
+            .filter(|d| d.code == Code::DuplicatePath)
+            .map(|d| format!("{} {}", d.place, d.message))
+            .collect();
+        let pair = |text: &String| text.contains("36") && text.contains("50");
+        assert!(twins.iter().any(pair), "{twins:?}");
+    }
+}
+
+#[test]
+fn an_edge_of_a_graph_needs_no_geometry() {
+    let layout = collection(&format!(
+        r#"{}, {},
+           {{"type": "Feature", "properties": {{"id": 3, "startid": 1, "endid": 2}}, "geometry": null}}"#,
+        feature(r#""id": 1"#, "Point", "[0, 0]"),
+        feature(r#""id": 2"#, "Point", "[4, 3]")
+    ));
+    assert_eq!(codes(&layout), []);
+    assert_eq!(ends(&layout, "3").1, Point::new(4.0, 3.0));
+}
+
+#[test]
+fn edges_of_a_graph_may_come_before_their_nodes_and_name_unknown_ones() {
+    let edge = |id: u32, end: u32| {
+        let properties = format!(r#""id": {id}, "startid": 1, "endid": {end}"#);
+        feature(&properties, "LineString", "[[0, 0], [5, 5]]")
+    };
+    let layout = collection(&format!(
+        "{}, {}, {}",
+        edge(3, 1),
+        edge(4, 9),
+        feature(r#""id": 1"#, "Point", "[0, 0]")
+    ));
+    assert_eq!(codes(&layout), [Code::UnknownNode]);
+    assert_eq!(layout.paths.len(), 2, "drawn as written");
+    assert_eq!(layout.paths.get(0).end_node(), Some(0));
+    assert_eq!(layout.paths.get(1).end_node(), None);
+}
+
+#[test]
+fn every_type_of_geometry_is_drawn() {
+    let layout = collection(&format!(
+        r#"{}, {}, {}, {}, {}, {},
+           {{"id": "C", "type": "Feature", "properties": null, "geometry": {{"type": "GeometryCollection",
+             "geometries": [{{"type": "Point", "coordinates": [7, 7]}},
+                            {{"type": "LineString", "coordinates": [[0, 0], [7, 7]]}}]}}}}"#,
+        feature(r#""id": "P""#, "Point", "[1, 2, 30]"),
+        feature(r#""id": "PP""#, "MultiPoint", "[[1, 2], [3, 4]]"),
+        feature(r#""id": "L""#, "LineString", "[[0, 0], [1, 0], [1, 1]]"),
+        feature(
+            r#""id": "LL""#,
+            "MultiLineString",
+            "[[[0, 0], [1, 0]], [[5, 0], [6, 0]]]"
+        ),
+        feature(
+            r#""id": "A""#,
+            "Polygon",
+            "[[[0, 0], [9, 0], [0, 9], [0, 0]]]"
+        ),
+        feature(
+            r#""id": "AA""#,
+            "MultiPolygon",
+            "[[[[0, 0], [9, 0], [0, 9], [0, 0]]], [[[5, 5], [6, 5], [5, 6], [5, 5]]]]"
+        ),
+    ));
+    assert_eq!(codes(&layout), [Code::Attribute], "the height");
+    let nodes: Vec<&str> = (0..layout.nodes.len() as u32)
+        .map(|n| layout.nodes.id(n))
+        .collect();
+    assert_eq!(nodes, ["P", "PP [1]", "PP [2]", "C [1]"]);
+    let paths: Vec<(&str, usize)> = layout
+        .paths
+        .iter()
+        .map(|p| (p.id(), p.runs().len()))
+        .collect();
+    let expected = [("L", 2), ("LL", 2), ("A", 3), ("AA", 6), ("C [2]", 1)];
+    assert_eq!(paths, expected);
+    assert_eq!(count(&layout, "lineVertices"), 3 + 4 + 2);
+}
+
+#[test]
+fn a_file_may_be_one_feature_or_one_geometry() {
+    let line = r#"{"type": "LineString", "coordinates": [[1000, 0], [2000, 0]]}"#;
+    for text in [
+        line.to_owned(),
+        format!(r#"{{"type": "Feature", "id": 5, "geometry": {line}}}"#),
+        format!(r#"{{"type": "GeometryCollection", "geometries": [{line}]}}"#),
+    ] {
+        let layout = read(&text);
+        assert_eq!(codes(&layout), [Code::AssumedUnit], "{text}");
+        assert_eq!(layout.paths.len(), 1);
+    }
+}
+
+#[test]
+fn degrees_become_metres_about_the_middle() {
+    // A degree of latitude at 45 degrees north is 111,131.8 m, and of longitude 78,846.8 m (WGS 84).
+    let line = feature("", "LineString", "[[10, 44.5], [10, 45.5]]");
+    let across = feature("", "LineString", "[[9.5, 45], [10.5, 45]]");
+    let crs = r#""crs": {"properties": {"name": "urn:ogc:def:crs:OGC:1.3:CRS84"}},"#;
+    for crs in ["", crs] {
+        let layout = read(&format!(r#"{{{crs} "features": [{line}, {across}]}}"#));
+        let length = |path| {
+            let (from, to) = layout.paths.get(path).ends().unwrap();
+            from.distance(to)
+        };
+        assert!((length(0) - 111_131.8).abs() < 1.0, "{}", length(0));
+        assert!((length(1) - 78_846.8).abs() < 1.0, "{}", length(1));
+        let (from, to) = layout.paths.get(0).ends().unwrap();
+        assert!(to.y > from.y && (from + to).norm() < 1e-6, "north is up");
+        assert_eq!(codes(&layout).is_empty(), !crs.is_empty());
+    }
+}
+
+#[test]
+fn positions_beyond_the_globe_are_metres() {
+    let line = feature("", "LineString", "[[0, 0], [181, 0]]");
+    for crs in ["", r#""crs": {"properties": {"name": "EPSG:4326"}},"#] {
+        let layout = read(&format!(r#"{{{crs} "features": [{line}]}}"#));
+        assert_eq!(codes(&layout), [Code::AssumedUnit]);
+        let (from, to) = layout.paths.get(0).ends().unwrap();
+        assert_eq!(from.distance(to), 181.0);
+    }
+}
+
+#[test]
+fn what_is_no_position_is_left_out_and_said() {
+    for (coordinates, paths) in [
+        (r#"[[0, 0], "x", [5, 5]]"#, 1),
+        ("[[0, 0], [null, 1], [5, 5]]", 1),
+        ("[[0, 0], [1], [5, 5]]", 1),
+        ("[[0, 0], [[7, 7]], [5, 5]]", 1),
+        ("[[0, 0], {}, true, null]", 0),
+        ("[0, 0]", 0),
+        ("[]", 0),
+        ("[[], []]", 0),
+        ("{}", 0),
+        ("[[[0, 0], [5, 5]]]", 1),
+    ] {
+        let layout = collection(&feature("", "LineString", coordinates));
+        assert_eq!(layout.paths.len(), paths, "{coordinates}");
+        assert_eq!(layout.path_count(), 1, "{coordinates}");
+        let silent = layout.diagnostics.is_empty();
+        assert!(!silent || layout.refused.len() == 1, "{coordinates}");
+        if paths == 1 {
+            let end = layout.paths.get(0).ends().unwrap().1;
+            assert_eq!(end, Point::new(5.0, 5.0), "{coordinates}");
+        }
+    }
+}
