@@ -50,7 +50,12 @@ pub(crate) fn megabytes(bytes: u64) -> f64 {
 
 /// A share as percent.
 pub(crate) fn percent(share: f64) -> String {
-    format!("{} %", digits(share * 100.0))
+    let digits = digits(share * 100.0);
+    let short = match digits.split_once('.') {
+        Some(_) => digits.trim_end_matches('0').trim_end_matches('.'),
+        None => &digits,
+    };
+    format!("{short} %")
 }
 
 #[cfg(test)]
@@ -75,6 +80,10 @@ mod tests {
         assert_eq!(time(1500.0), "1.50 s");
         assert_eq!(time(16.67), "16.7 ms");
         assert_eq!(count(1_020_350), "1,020,350");
-        assert_eq!(percent(0.123), "12.3 %");
+        let shares = [0.0, 0.00123, 0.123, 0.5, 1.0, 2.0].map(percent);
+        assert_eq!(
+            shares,
+            ["0 %", "0.123 %", "12.3 %", "50 %", "100 %", "200 %"]
+        );
     }
 }

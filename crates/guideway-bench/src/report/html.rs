@@ -57,8 +57,9 @@ fn header(run: &Run) -> String {
         );
     }
     if machine.profile != "release" {
-        html +=
-            &notice("Compiled without optimisation: times of work on the processor are too long.");
+        html += &notice(
+            "Compiled by the debug profile: work on the processor takes longer than it has to.",
+        );
     }
     let memory = machine
         .memory_bytes

@@ -78,9 +78,9 @@ impl Plan {
             is_quick: true,
             size_px: [640, 360],
             memory_bytes: 2_000_000_000,
-            view_paths: [4_000, 4_000],
-            sizes: vec![1_000, 2_000, 4_000, 6_000, 8_000],
-            repeats: 2,
+            view_paths: [8_000, 8_000],
+            sizes: vec![2_000, 4_000, 8_000, 12_000, 16_000],
+            repeats: 4,
             search: Search {
                 start: 1_000,
                 least: 100,
@@ -88,7 +88,7 @@ impl Plan {
                 ..Self::full().search
             },
             warmup: 1,
-            frames: 5,
+            frames: 9,
             enough_ms: 300.0,
             minutes: 9.0,
             ..Self::full()

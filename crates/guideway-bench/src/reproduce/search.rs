@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 /// What is searched for, and where.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Search {
-    /// Longest mean frame time that counts, in milliseconds.
+    /// Longest median frame time that counts, in milliseconds.
     pub target_ms: f64,
     /// Paths of the first trial.
     pub start: usize,
@@ -39,7 +39,7 @@ pub enum Limit {
 pub struct Trial {
     /// Paths.
     pub paths: usize,
-    /// Mean frame time in milliseconds; none when the method refused.
+    /// Median frame time in milliseconds; none when the method refused.
     pub frame_ms: Option<f64>,
 }
 
@@ -69,7 +69,7 @@ enum Next {
 }
 
 impl Search {
-    /// Runs trials until the answer is known. A trial returns the mean frame time and what to keep of it, or
+    /// Runs trials until the answer is known. A trial returns the frame time and what to keep of it, or
     /// why the method refuses; `is_over` ends the search early.
     pub(crate) fn run<T>(
         &self,

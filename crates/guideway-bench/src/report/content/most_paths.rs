@@ -7,7 +7,7 @@ use crate::words::{count, digits, megabytes};
 pub(super) fn section(run: &Run) -> Section {
     let search = &run.plan.search;
     let mut blocks = vec![Block::Text(format!(
-        "The most paths whose mean frame time is at most {} ms, all of them in view, found to {} % by \
+        "The most paths whose median frame time is at most {} ms, all of them in view, found to {} % by \
          search from {} to {} paths. Memory is what the method holds beside the layout with that many \
          paths: from frame to frame, and at its peak. The last two columns are the thesis' own, from \
          another machine ({}).",

@@ -89,8 +89,8 @@ fn occupancy_row(reading: &Reading, thesis_ms: Option<f64>) -> Vec<Cell> {
 /// Figure 5.3.
 pub(super) fn zoom(run: &Run) -> Section {
     let mut blocks = vec![Block::Text(
-        "At 10 % everything is in view; at 200 % it is 20 times as large, around the path nearest to the \
-         middle."
+        "At 10 % everything is in view; at 200 % it is 20 times as large, around the busiest place of the \
+         layout."
             .to_owned(),
     )];
     for dataset in Dataset::ALL {

@@ -3,8 +3,8 @@
 use super::table::at_most_paths;
 use super::{Judgement, in_all};
 use crate::reproduce::names::{CULL, GRID, GRID_MENDED, TESSELLATION, TESSELLATION_COMPACT};
-use crate::reproduce::{Results, Run};
-use crate::words::{count, percent, time, times};
+use crate::reproduce::{Reading, Results, Run};
+use crate::words::{count, digits, percent, time, times};
 use crate::{Dataset, Measured};
 
 /// A change below this is taken for none.
@@ -62,24 +62,26 @@ fn zoom(run: &Run, method: &str) -> Judgement {
             percent(far.0.at),
             time(near.1.frame_ms.mean),
             percent(near.0.at),
-            tests(far.1, near.1),
+            tests(far, near),
         );
         Some((holds, evidence))
     }))
 }
 
 /// What became of the work, where it is counted.
-fn tests(far: &Measured, near: &Measured) -> String {
-    match (far.work.tests_a_pixel, near.work.tests_a_pixel) {
-        (Some(far), Some(near)) => format!(
-            " Each pixel tests {} lines there and {} here: those of its cell, in view or not.",
-            count(far.round() as u64),
-            count(near.round() as u64)
+fn tests(far: &(&Reading, &Measured), near: &(&Reading, &Measured)) -> String {
+    match (far.1.work.tests_a_pixel, near.1.work.tests_a_pixel) {
+        (Some(far_tests), Some(near_tests)) => format!(
+            " A pixel tests {} lines at {} and {} at {}: all those of its cell.",
+            digits(far_tests),
+            percent(far.0.at),
+            digits(near_tests),
+            percent(near.0.at),
         ),
         _ => format!(
             " {} of {} paths are outside the view at the end.",
-            count(near.paths.outside),
-            count(near.paths.total)
+            count(near.1.paths.outside),
+            count(near.1.paths.total)
         ),
     }
 }

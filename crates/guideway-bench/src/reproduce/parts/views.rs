@@ -1,5 +1,7 @@
 //! Tables 5.2 and 5.3 and figure 5.3: one scene from several views.
 
+use std::collections::BTreeMap;
+
 use guideway_render::{FrameSize, RenderError, View};
 use guideway_scene::Scene;
 use guideway_spline::{Bounds, Point};
@@ -95,8 +97,8 @@ fn share_inside(view: &View, bounds: Bounds<f64>) -> f64 {
     (columns * rows) as f64 / size.pixels() as f64
 }
 
-/// The view of a magnification. The thesis sees most of its dataset at 10 %; here it is all, around the path
-/// that is nearest to the middle, so that there is something to see at every magnification.
+/// The view of a magnification. The thesis sees most of its dataset at 10 %; here it is all, and at any other
+/// what is around the busiest place.
 pub(crate) fn magnified(
     size: FrameSize,
     scene: &Scene,
@@ -106,17 +108,35 @@ pub(crate) fn magnified(
     if magnification <= MAGNIFICATIONS[0] {
         return Ok(all);
     }
-    let middle = all.center_m();
+    let px_per_m = all.px_per_m() * magnification / MAGNIFICATIONS[0];
+    let center = busiest(scene).unwrap_or(all.center_m());
+    View::new(size, center, px_per_m)
+}
+
+/// The middle of the path that is nearest to the middle of those in the fullest part of the box.
+fn busiest(scene: &Scene) -> Option<Point<f64>> {
+    const PARTS: f64 = 16.0;
+    let bounds = scene.bounds()?;
+    let part = |at: f64, low: f64, extent: f64| {
+        let along = (at - low) / extent.max(f64::MIN_POSITIVE) * PARTS;
+        along.clamp(0.0, PARTS - 1.0) as usize
+    };
     let hulls = scene
         .layout()
         .paths
         .iter()
         .filter_map(|path| path.hull_bounds());
-    let near = hulls
-        .map(Bounds::center)
-        .min_by(|a, b| a.distance(middle).total_cmp(&b.distance(middle)));
-    let px_per_m = all.px_per_m() * magnification / MAGNIFICATIONS[0];
-    View::new(size, near.unwrap_or(middle), px_per_m)
+    let mut parts: BTreeMap<(usize, usize), Vec<Point<f64>>> = BTreeMap::new();
+    for middle in hulls.map(Bounds::center) {
+        let column = part(middle.x, bounds.min.x, bounds.size().x);
+        let row = part(middle.y, bounds.min.y, bounds.size().y);
+        parts.entry((column, row)).or_default().push(middle);
+    }
+    let fullest = parts.into_values().max_by_key(Vec::len)?;
+    let sum = fullest.iter().copied().reduce(|a, b| a + b)?;
+    let mean = sum * (1.0 / fullest.len() as f64);
+    let nearest = |a: &Point<f64>, b: &Point<f64>| a.distance(mean).total_cmp(&b.distance(mean));
+    fullest.into_iter().min_by(nearest)
 }
 
 #[cfg(test)]
