@@ -271,7 +271,10 @@ fn what_was_measured_before_ctrl_c_is_kept() {
         .unwrap();
     let started = Instant::now();
     while !report.is_dir() {
-        assert!(started.elapsed() < Duration::from_secs(60), "it does not begin");
+        assert!(
+            started.elapsed() < Duration::from_secs(60),
+            "it does not begin"
+        );
         sleep(Duration::from_millis(10));
     }
     // Now it is at work, and would be for an hour.
