@@ -1,14 +1,14 @@
 //! The scene as the device sees it: in `f32` metres from the middle of its box, under a uniform grid.
 
-use guideway_scene::Scene;
+use guideway_render::{FrameSize, View};
+use guideway_scene::{LineRule, Scene};
 use guideway_spline::{Bounds, Point};
 
 use super::options::{Binning, GridOptions};
 use super::params::GridParams;
 
-/// How far a line with its radius is entered beyond its box, in sides of the shorter side of a cell. Where
-/// a view's lines reach farther, pixels look into the cells beside their own too.
-const BINNED_REACH_CELLS: f64 = 0.25;
+/// The picture that lists are made for: it shows the whole scene.
+const PLANNED_PX: (u32, u32) = (1920, 1080);
 
 /// Place and size of a scene.
 #[derive(Clone, Copy, Debug)]
@@ -91,14 +91,7 @@ impl Local {
         let per_m = [cells_per_m(size_m.x), cells_per_m(size_m.y)];
         let reach_m = match options.binning {
             Binning::LineBox => 0.0,
-            Binning::LineBoxWithRadius => {
-                let most = per_m[0].max(per_m[1]);
-                if most > 0.0 {
-                    BINNED_REACH_CELLS / most
-                } else {
-                    0.0
-                }
-            }
+            Binning::LineBoxWithRadius => self.binned_reach_m(per_m, options),
         };
         GridParams {
             origin_m: [self.bounds_m.min.x as f32, self.bounds_m.min.y as f32],
@@ -106,6 +99,21 @@ impl Local {
             reach_m: reach_m as f32,
             padding: 0,
         }
+    }
+
+    /// How far beyond its box a line is entered: as far as it shows by the thesis' rule in a picture of the
+    /// whole scene, and so in all closer ones, but at most a cell. Where a view's lines reach farther,
+    /// pixels look into the cells beside their own too: what is seen is the same, but takes longer.
+    fn binned_reach_m(&self, cells_per_m: [f64; 2], options: &GridOptions) -> f64 {
+        let size = FrameSize::new(PLANNED_PX.0, PLANNED_PX.1);
+        let whole = size.and_then(|size| View::fit(size, Some(self.bounds_m)));
+        let shows_m = whole.map_or(0.0, |view| {
+            let radius_px = LineRule::Thesis.radius_px(None, view.px_per_m());
+            (radius_px + options.antialias.beyond_px()) / view.px_per_m()
+        });
+        let shorter_side_m = 1.0 / cells_per_m[0].max(cells_per_m[1]);
+        // A hair more, so that rounding never takes it for less.
+        (1.001 * shows_m).min(shorter_side_m)
     }
 }
 

@@ -1,6 +1,9 @@
 //! The variants of the method.
 
+use std::f64::consts::FRAC_1_SQRT_2;
 use std::fmt;
+
+use super::params::HALF_EDGE_PX;
 
 /// Which variant of the method to use. The default is the method as the thesis writes it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,6 +53,18 @@ pub enum Antialias {
     None,
     /// By 32 samples a pixel (thesis, 6.1.2).
     Subpixel,
+}
+
+impl Antialias {
+    /// How far from a line's edge the middle of a pixel may be that the line leaves a mark on.
+    pub(super) fn beyond_px(self) -> f64 {
+        match self {
+            Self::Smooth => f64::from(HALF_EDGE_PX),
+            Self::None => 0.0,
+            // Half of a pixel's diagonal.
+            Self::Subpixel => FRAC_1_SQRT_2,
+        }
+    }
 }
 
 impl Default for GridOptions {

@@ -8,15 +8,12 @@ use guideway_spline::{Bounds, Point};
 
 use super::NAME;
 use super::local::Local;
-use super::options::{Antialias, Binning, GridOptions};
-use super::params::{GridParams, HALF_EDGE_PX, ViewParams};
+use super::options::{Binning, GridOptions};
+use super::params::{GridParams, ViewParams};
 use super::pass::Pass;
 
 /// Farthest that a line may be from where it belongs, in pixels.
 const MOST_ROUNDING_PX: f64 = 0.1;
-
-/// Half of a pixel's diagonal.
-const CORNER_PX: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
 /// What is seen.
 pub(super) struct Shot {
@@ -86,12 +83,7 @@ impl Shot {
         }
         // Nothing that `f32` can hold is as far away as this, nor does the square of it overflow.
         let radius_m = (style.line_rule.radius_px(width_m, px_per_m) / px_per_m).clamp(0.0, 1e18);
-        let beyond_px = match options.antialias {
-            Antialias::Smooth => f64::from(HALF_EDGE_PX),
-            Antialias::None => 0.0,
-            Antialias::Subpixel => CORNER_PX,
-        };
-        let reach_m = radius_m + beyond_px / px_per_m;
+        let reach_m = radius_m + options.antialias.beyond_px() / px_per_m;
         let (beyond_box_m, excess_m) = match options.binning {
             Binning::LineBox => (0.0, 0.0),
             Binning::LineBoxWithRadius => (reach_m, (reach_m - f64::from(grid.reach_m)).max(0.0)),
