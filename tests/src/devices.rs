@@ -2,7 +2,8 @@
 
 use std::sync::{Arc, LazyLock};
 
-use guideway_gpu::{Gpu, Grid, GridOptions};
+use guideway_gl::GlDevice;
+use guideway_gpu::{Gpu, Grid, GridOptions, Tiles};
 use guideway_render::Method;
 
 use crate::compare::Tolerance;
@@ -60,6 +61,12 @@ pub fn gpu() -> Result<Arc<Gpu>, String> {
     GPU.clone()
 }
 
+/// The device of [`guideway_gl`], or what is missing for it.
+pub fn gl() -> Result<Arc<GlDevice>, String> {
+    static GL: LazyLock<Result<Arc<GlDevice>, String>> = LazyLock::new(GlDevice::new);
+    GL.clone()
+}
+
 /// A variant of `grid`.
 ///
 /// # Errors
@@ -72,6 +79,14 @@ pub fn grid(variant: &str) -> Result<Grid, String> {
     Grid::new(gpu()?, options)
 }
 
+/// Method `gpu`.
+///
+/// # Errors
+/// When its device is not here.
+pub fn tiles() -> Result<Tiles, String> {
+    Tiles::new(gpu()?)
+}
+
 /// Every candidate, or what is missing for it.
 fn all() -> Vec<Result<DeviceCandidate, String>> {
     let grids = GRIDS.map(|(variant, tolerance)| {
@@ -82,7 +97,13 @@ fn all() -> Vec<Result<DeviceCandidate, String>> {
             least_scenes: 150,
         })
     });
-    grids.into()
+    let tiles = tiles().map(|tiles| DeviceCandidate {
+        name: "gpu".to_owned(),
+        method: Box::new(tiles),
+        tolerance: Tolerance::STANDARD,
+        least_scenes: 230,
+    });
+    std::iter::once(tiles).chain(grids).collect()
 }
 
 /// The candidates whose device is here.

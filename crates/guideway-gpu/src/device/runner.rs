@@ -13,8 +13,10 @@ use super::{DeviceBuffer, Gpu, Kernel, Memory};
 /// A device that takes longer than this for one submit is taken for dead.
 const PATIENCE: Duration = Duration::from_secs(120);
 
-/// Bytes of the two ticks around a submit.
-const TICKS_BYTES: u64 = 2 * wgpu::QUERY_SIZE as u64;
+/// Most stages of one submit.
+const MOST_STAGES: usize = 8;
+/// Bytes of the two ticks around each.
+const TICKS_BYTES: u64 = (MOST_STAGES * 2) as u64 * wgpu::QUERY_SIZE as u64;
 
 /// Submits work and waits for it, so that a caller may stop between two submits and none piles up.
 pub(crate) struct Runner {
@@ -45,7 +47,7 @@ impl Runner {
                 let descriptor = wgpu::QuerySetDescriptor {
                     label: Some(what),
                     ty: wgpu::QueryType::Timestamp,
-                    count: 2,
+                    count: 2 * MOST_STAGES as u32,
                 };
                 let ticks = gpu.checked(what, || gpu.device.create_query_set(&descriptor));
                 let resolve = BufferUsages::QUERY_RESOLVE | BufferUsages::COPY_SRC;
@@ -91,49 +93,83 @@ impl Runner {
         what: &'static str,
         dispatches: &[Dispatch<'_>],
     ) -> Result<f64, String> {
+        let stages = self.run_stages(what, &[], &[(what, dispatches)])?;
+        Ok(stages.iter().map(|stage| stage.elapsed_ms).sum())
+    }
+
+    /// Sets buffers to zero and runs stages of dispatches, all in one submit. Where there is no clock that
+    /// tells the stages apart, the first one has the time of all.
+    pub(crate) fn run_stages(
+        &self,
+        what: &'static str,
+        cleared: &[&DeviceBuffer],
+        stages: &[(&'static str, &[Dispatch<'_>])],
+    ) -> Result<Vec<Stage>, String> {
+        debug_assert!(stages.len() <= MOST_STAGES, "{what}");
         let start = Instant::now();
         let submission = self.gpu.checked(what, || {
             let mut encoder = self.encoder(what);
-            let timestamp_writes = self
-                .clock
-                .as_ref()
-                .map(|c| wgpu::ComputePassTimestampWrites {
-                    query_set: &c.ticks,
-                    beginning_of_pass_write_index: Some(0),
-                    end_of_pass_write_index: Some(1),
-                });
-            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
-                label: Some(what),
-                timestamp_writes,
-            });
-            let side = self
-                .gpu
-                .device
-                .limits()
-                .max_compute_workgroups_per_dimension;
-            for dispatch in dispatches.iter().filter(|d| d.workgroups > 0) {
-                pass.set_pipeline(&dispatch.kernel.pipeline);
-                pass.set_bind_group(0, &dispatch.bindings.0, &[]);
-                let columns = dispatch.workgroups.min(side);
-                pass.dispatch_workgroups(columns, dispatch.workgroups.div_ceil(columns), 1);
+            for buffer in cleared {
+                encoder.clear_buffer(buffer.raw(), 0, None);
             }
-            drop(pass);
+            for ((name, dispatches), stage) in stages.iter().zip(0..) {
+                self.encode(&mut encoder, name, dispatches, stage);
+            }
             if let Some(clock) = &self.clock {
                 let (resolved, fetched) = (clock.resolved.raw(), clock.fetched.raw());
-                encoder.resolve_query_set(&clock.ticks, 0..2, resolved, 0);
+                let ticks = 0..2 * stages.len() as u32;
+                encoder.resolve_query_set(&clock.ticks, ticks, resolved, 0);
                 encoder.copy_buffer_to_buffer(resolved, 0, fetched, 0, TICKS_BYTES);
             }
             self.gpu.queue.submit([encoder.finish()])
         })?;
-        let Some(clock) = &self.clock else {
-            self.wait(what, submission)?;
-            return Ok(start.elapsed().as_secs_f64() * 1e3);
-        };
-        let mut ticks = [0_u64; 2];
-        self.mapped(what, &clock.fetched, TICKS_BYTES, submission, |bytes| {
-            bytemuck::bytes_of_mut(&mut ticks).copy_from_slice(bytes);
-        })?;
-        Ok(ticks[1].saturating_sub(ticks[0]) as f64 * clock.tick_ns * 1e-6)
+        let mut spans_ms = vec![0.0; stages.len()];
+        match &self.clock {
+            None => {
+                self.wait(what, submission)?;
+                if let Some(first) = spans_ms.first_mut() {
+                    *first = start.elapsed().as_secs_f64() * 1e3;
+                }
+            }
+            Some(clock) => {
+                let mut ticks = [[0_u64; 2]; MOST_STAGES];
+                self.mapped(what, &clock.fetched, TICKS_BYTES, submission, |bytes| {
+                    bytemuck::bytes_of_mut(&mut ticks).copy_from_slice(bytes);
+                })?;
+                for (span_ms, [begin, end]) in spans_ms.iter_mut().zip(ticks) {
+                    *span_ms = end.saturating_sub(begin) as f64 * clock.tick_ns * 1e-6;
+                }
+            }
+        }
+        let named = stages.iter().zip(spans_ms);
+        Ok(named.map(|((name, _), ms)| self.stage(name, ms)).collect())
+    }
+
+    fn encode(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        name: &str,
+        dispatches: &[Dispatch<'_>],
+        stage: u32,
+    ) {
+        let clock = self.clock.as_ref();
+        let timestamp_writes = clock.map(|clock| wgpu::ComputePassTimestampWrites {
+            query_set: &clock.ticks,
+            beginning_of_pass_write_index: Some(2 * stage),
+            end_of_pass_write_index: Some(2 * stage + 1),
+        });
+        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+            label: Some(name),
+            timestamp_writes,
+        });
+        let limits = self.gpu.device.limits();
+        let side = limits.max_compute_workgroups_per_dimension;
+        for dispatch in dispatches.iter().filter(|d| d.workgroups > 0) {
+            pass.set_pipeline(&dispatch.kernel.pipeline);
+            pass.set_bind_group(0, &dispatch.bindings.0, &[]);
+            let columns = dispatch.workgroups.min(side);
+            pass.dispatch_workgroups(columns, dispatch.workgroups.div_ceil(columns), 1);
+        }
     }
 
     /// Fetches the first `bytes` of a buffer, by way of one that can be mapped.

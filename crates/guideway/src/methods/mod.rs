@@ -1,5 +1,5 @@
 #[cfg(feature = "gpu")]
-mod grid;
+mod gpu;
 #[cfg(feature = "gl")]
 mod tessellation;
 
@@ -97,7 +97,9 @@ const ENTRIES: &[Entry] = &[
         start: |options| without_options(options, Oracle),
     },
     #[cfg(feature = "gpu")]
-    grid::ENTRY,
+    gpu::TILES,
+    #[cfg(feature = "gpu")]
+    gpu::GRID,
     #[cfg(feature = "gl")]
     tessellation::PER_PATH,
     #[cfg(feature = "gl")]

@@ -1,11 +1,28 @@
 use std::sync::{Arc, LazyLock};
 
-use guideway_gpu::{Gpu, Grid, GridOptions};
+use guideway_gpu::{Gpu, Grid, GridOptions, Tiles};
 use guideway_render::Method;
 
 use super::{Entry, MethodOption, Stop};
 
-pub(super) const ENTRY: Entry = Entry {
+pub(super) const TILES: Entry = Entry {
+    name: "gpu",
+    summary: "Every frame from the control points, by compute shaders; every path its own colour and width",
+    options: &[],
+    is_general: true,
+    start: |options| {
+        if !options.is_empty() {
+            return Err(Stop::Options(format!(
+                "there is no option `{options}`; it has none"
+            )));
+        }
+        let device = DEVICE.as_ref().map_err(|why| Stop::Missing(why.clone()))?;
+        let tiles = Tiles::new(Arc::clone(device)).map_err(Stop::Missing)?;
+        Ok(Box::new(tiles))
+    },
+};
+
+pub(super) const GRID: Entry = Entry {
     name: "grid",
     summary: "The thesis' test of every pixel against the lines of its cell; one colour",
     options: &[

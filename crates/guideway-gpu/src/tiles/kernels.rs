@@ -1,0 +1,75 @@
+//! The shaders of a frame, compiled.
+
+use super::params::{
+    BATCH, CLUSTER_STROKES, COLUMNS, COVER, CULL, FLATTEN, LAYERS, Layers, SAMPLE_ROWS, SCATTER,
+    SORT, STARTS, STARTS_THREADS, Samples, TILE_PX, TILE_THREADS, WORKGROUP,
+};
+use crate::device::{Gpu, Kernel};
+
+pub(super) struct Kernels {
+    pub(super) cull: Kernel,
+    pub(super) flatten: Kernel,
+    pub(super) starts: Kernel,
+    pub(super) scatter: Kernel,
+    pub(super) sort: Kernel,
+    /// Coarse and fine.
+    painters: [Painters; 2],
+}
+
+/// Kernels that paint tiles, by so many samples a pixel.
+pub(super) struct Painters {
+    pub(super) cover: Kernel,
+    pub(super) opaque: Kernel,
+    pub(super) translucent: Kernel,
+    pub(super) density: Kernel,
+}
+
+impl Kernels {
+    pub(super) fn new(gpu: &Gpu) -> Result<Self, String> {
+        let workgroup = constant("WORKGROUP", WORKGROUP);
+        let strokes = constant("STROKES", CLUSTER_STROKES);
+        let tile = constant("TILE_PX", TILE_PX);
+        Ok(Self {
+            cull: Kernel::new(gpu, &CULL, &[workgroup, strokes])?,
+            flatten: Kernel::new(gpu, &FLATTEN, &[strokes, tile])?,
+            starts: Kernel::new(gpu, &STARTS, &[constant("THREADS", STARTS_THREADS)])?,
+            scatter: Kernel::new(gpu, &SCATTER, &[workgroup, tile])?,
+            sort: Kernel::new(gpu, &SORT, &[constant("THREADS", TILE_THREADS)])?,
+            painters: [
+                Painters::new(gpu, Samples::Coarse)?,
+                Painters::new(gpu, Samples::Fine)?,
+            ],
+        })
+    }
+
+    pub(super) fn painters(&self, samples: Samples) -> &Painters {
+        &self.painters[samples as usize]
+    }
+}
+
+impl Painters {
+    fn new(gpu: &Gpu, samples: Samples) -> Result<Self, String> {
+        let cover = vec![
+            constant("TILE_PX", TILE_PX),
+            constant("THREADS", TILE_THREADS),
+            constant("BATCH", BATCH),
+            constant("SAMPLE_ROWS", SAMPLE_ROWS),
+            constant("COLUMNS", COLUMNS),
+        ];
+        let layers = |layers: Layers| {
+            let mut constants = cover.clone();
+            constants.push(constant("SHADING", layers as u32));
+            Kernel::new(gpu, &LAYERS[samples as usize], &constants)
+        };
+        Ok(Self {
+            cover: Kernel::new(gpu, &COVER[samples as usize], &cover)?,
+            opaque: layers(Layers::Opaque)?,
+            translucent: layers(Layers::Translucent)?,
+            density: layers(Layers::Density)?,
+        })
+    }
+}
+
+fn constant(name: &'static str, value: u32) -> (&'static str, f64) {
+    (name, f64::from(value))
+}

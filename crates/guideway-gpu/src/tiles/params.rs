@@ -1,0 +1,205 @@
+//! What shaders and this side agree on. A test compares it with the shaders themselves.
+
+use bytemuck::{Pod, Zeroable};
+
+use crate::device::Source;
+
+/// Strokes of a cluster: a workgroup flattens one.
+pub(super) const CLUSTER_STROKES: u32 = 64;
+/// Most segments of a stroke: a bit each in one word.
+pub(super) const STROKE_SEGMENTS: usize = 32;
+/// Set in [`Stroke::segments`] of a stroke that is a whole path.
+pub(super) const WHOLE_PATH: u32 = 1 << 31;
+/// Threads of a workgroup that goes over clusters or lines.
+pub(super) const WORKGROUP: u32 = 64;
+/// Threads of the one workgroup that finds where lists start.
+pub(super) const STARTS_THREADS: u32 = 256;
+/// Side of a tile in pixels.
+pub(super) const TILE_PX: u32 = 16;
+/// Rows of samples of a pixel.
+pub(super) const SAMPLE_ROWS: u32 = 16;
+/// For each row of samples, two bits: which of the first four columns of the lattice it begins at. Each four
+/// rows have all four, so that a border in any direction meets the columns evenly.
+pub(super) const COLUMNS: u32 = columns([0, 2, 1, 3, 2, 0, 3, 1, 1, 3, 0, 2, 3, 1, 2, 0]);
+/// Threads of a tile: one for each row of samples.
+pub(super) const TILE_THREADS: u32 = TILE_PX * SAMPLE_ROWS;
+/// Lines that a tile looks at together.
+pub(super) const BATCH: u32 = 64;
+
+const fn columns(first: [u32; SAMPLE_ROWS as usize]) -> u32 {
+    let (mut packed, mut row) = (0, 0);
+    while row < first.len() {
+        packed |= first[row] << (2 * row);
+        row += 1;
+    }
+    packed
+}
+
+/// `Frame` of `frame.wgsl`.
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub(super) struct FrameParams {
+    pub(super) center_high_m: [f32; 2],
+    pub(super) center_low_m: [f32; 2],
+    pub(super) half_size_px: [f32; 2],
+    pub(super) px_per_m: f32,
+    pub(super) radius_px: f32,
+    pub(super) least_radius_px: f32,
+    pub(super) most_radius_px: f32,
+    pub(super) tolerance_px: f32,
+    pub(super) clusters: u32,
+    pub(super) strokes: u32,
+    pub(super) width_px: u32,
+    pub(super) height_px: u32,
+    pub(super) columns: u32,
+    pub(super) first_row: u32,
+    pub(super) rows: u32,
+    pub(super) line_room: u32,
+    pub(super) reference_room: u32,
+    pub(super) color: u32,
+    pub(super) background: u32,
+}
+
+/// `Cluster` of `cluster.wgsl`.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(C)]
+pub(super) struct Cluster {
+    pub(super) origin_high_m: [f32; 2],
+    pub(super) origin_low_m: [f32; 2],
+    pub(super) low_m: [f32; 2],
+    pub(super) high_m: [f32; 2],
+    pub(super) widest_m: f32,
+    pub(super) padding: u32,
+}
+
+/// `Stroke` of `stroke.wgsl`.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(C)]
+pub(super) struct Stroke {
+    pub(super) first_point: u32,
+    pub(super) segments: u32,
+    pub(super) rank: u32,
+    pub(super) color: u32,
+    pub(super) width_m: f32,
+    pub(super) padding: u32,
+}
+
+/// `Found` of `frame.wgsl`.
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+#[repr(C)]
+pub(super) struct Found {
+    pub(super) clusters: u32,
+    pub(super) lines: u32,
+    pub(super) references: u32,
+    pub(super) drawn: u32,
+}
+
+/// What a pixel of a tile with layers shows: `SHADING` of `layers.wgsl`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Layers {
+    Opaque = 0,
+    Translucent = 1,
+    Density = 2,
+}
+
+macro_rules! wgsl {
+    ($($file:literal),+) => {
+        concat!($(include_str!(concat!("shaders/", $file, ".wgsl"))),+)
+    };
+}
+
+/// Shaders that paint tiles, with so many samples in one row of a pixel.
+macro_rules! tiles {
+    ($samples:literal, $file:literal) => {
+        Source {
+            name: $file,
+            wgsl: concat!(
+                "const SAMPLES_A_ROW: u32 = ",
+                $samples,
+                "u;\n",
+                wgsl!(
+                    "frame", "view", "stroke", "width", "walk", "capsule", "tile", "blend", $file
+                )
+            ),
+            bindings: TILE_BINDINGS,
+        }
+    };
+}
+
+pub(super) const CULL: Source = Source {
+    name: "cull",
+    wgsl: wgsl!("frame", "view", "cluster", "cull"),
+    bindings: &["frame", "clusters", "found", "seen"],
+};
+
+pub(super) const FLATTEN: Source = Source {
+    name: "flatten",
+    wgsl: wgsl!(
+        "frame", "view", "cluster", "stroke", "curve", "walk", "flatten"
+    ),
+    bindings: &[
+        "frame",
+        "points_m",
+        "strokes",
+        "clusters",
+        "seen",
+        "found",
+        "lines_px",
+        "line_strokes",
+        "counts",
+    ],
+};
+
+pub(super) const STARTS: Source = Source {
+    name: "starts",
+    wgsl: wgsl!("frame", "starts"),
+    bindings: &["frame", "counts", "starts", "filled", "found"],
+};
+
+pub(super) const SCATTER: Source = Source {
+    name: "scatter",
+    wgsl: wgsl!("frame", "view", "stroke", "width", "walk", "scatter"),
+    bindings: &[
+        "frame",
+        "found",
+        "lines_px",
+        "line_strokes",
+        "strokes",
+        "filled",
+        "references",
+    ],
+};
+
+pub(super) const SORT: Source = Source {
+    name: "sort",
+    wgsl: wgsl!("frame", "stroke", "sort"),
+    bindings: &["frame", "starts", "references", "line_strokes", "strokes"],
+};
+
+const TILE_BINDINGS: &[&str] = &[
+    "frame",
+    "starts",
+    "references",
+    "lines_px",
+    "line_strokes",
+    "strokes",
+    "pixels",
+];
+
+/// How many samples a pixel has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Samples {
+    /// 64: strokes of half a pixel and more are within a few levels of the exact picture.
+    Coarse = 0,
+    /// 256, those of the exact picture: thinner strokes pass between fewer.
+    Fine = 1,
+}
+
+/// One opaque colour; by [`Samples`].
+pub(super) const COVER: [Source; 2] = [tiles!(4, "cover"), tiles!(16, "cover")];
+
+/// Anything else; by [`Samples`].
+pub(super) const LAYERS: [Source; 2] = [tiles!(4, "layers"), tiles!(16, "layers")];
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,48 @@
+//! Every shader against what this side takes it for.
+
+use super::*;
+use crate::reflection::{assert_binds_what_it_is_given, assert_laid_out, members};
+
+const SHADERS: &[&Source] = &[
+    &CULL, &FLATTEN, &STARTS, &SCATTER, &SORT, &COVER[0], &COVER[1], &LAYERS[0], &LAYERS[1],
+];
+
+#[test]
+fn every_shader_binds_what_it_is_given() {
+    for source in SHADERS {
+        assert_binds_what_it_is_given(source);
+    }
+}
+
+#[test]
+fn structures_are_laid_out_alike() {
+    let frame = members!(FrameParams: center_high_m, center_low_m, half_size_px, px_per_m, radius_px,
+        least_radius_px, most_radius_px, tolerance_px, clusters, strokes, width_px, height_px, columns,
+        first_row, rows, line_room, reference_room, color, background);
+    assert_laid_out(SHADERS, "Frame", &frame);
+    let cluster = members!(Cluster: origin_high_m, origin_low_m, low_m, high_m, widest_m);
+    assert_laid_out(SHADERS, "Cluster", &cluster);
+    let stroke = members!(Stroke: first_point, segments, rank, color, width_m);
+    assert_laid_out(SHADERS, "Stroke", &stroke);
+    let found = members!(Found: clusters, lines, references, drawn);
+    assert_laid_out(SHADERS, "Found", &found);
+    assert_laid_out(SHADERS, "FoundBefore", &found);
+}
+
+#[test]
+#[should_panic(expected = "Stroke of flatten")]
+fn another_layout_is_noticed() {
+    let stroke = members!(Stroke: first_point, segments, rank, width_m);
+    assert_laid_out(SHADERS, "Stroke", &stroke);
+}
+
+#[test]
+fn each_four_rows_of_samples_have_every_column_once() {
+    for group in 0..4 {
+        let mut columns: Vec<_> = (4 * group..4 * group + 4)
+            .map(|row| COLUMNS >> (2 * row) & 3)
+            .collect();
+        columns.sort_unstable();
+        assert_eq!(columns, [0, 1, 2, 3]);
+    }
+}

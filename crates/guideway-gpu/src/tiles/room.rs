@@ -1,0 +1,118 @@
+//! What a frame finds: lines, and which tiles they may touch.
+
+use guideway_render::RenderError;
+use wgpu::BufferUsages;
+
+use super::NAME;
+use super::params::Found;
+use crate::device::{DeviceBuffer, Gpu, Memory};
+
+const LINE_BYTES: u64 = size_of::<[f32; 4]>() as u64;
+const WORD_BYTES: u64 = size_of::<u32>() as u64;
+
+/// Buffers of a fixed size: what does not fit is counted, and drawn again with more room.
+pub(super) struct Room {
+    pub(super) lines: u32,
+    pub(super) references: u32,
+    pub(super) lines_px: DeviceBuffer,
+    pub(super) line_strokes: DeviceBuffer,
+    pub(super) reference_list: DeviceBuffer,
+}
+
+/// How much room there is to be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Size {
+    pub(super) lines: u32,
+    pub(super) references: u32,
+}
+
+impl Size {
+    /// Enough for the first look at so many strokes.
+    pub(super) fn first(strokes: u32) -> Self {
+        let lines = strokes.saturating_mul(2).saturating_add(1024);
+        Self {
+            lines,
+            references: lines.saturating_add(lines / 2),
+        }
+    }
+
+    /// As much of it as there can be.
+    pub(super) fn within(self, gpu: &Gpu, memory: &Memory) -> Self {
+        let fit = |bytes: u64| u32::try_from(gpu.binding_bytes() / bytes).unwrap_or(u32::MAX);
+        let fitted = Self {
+            lines: self.lines.min(fit(LINE_BYTES)),
+            references: self.references.min(fit(WORD_BYTES)),
+        };
+        let share = memory.spare_bytes() as f64 / fitted.bytes() as f64;
+        let scale = |n: u32| (f64::from(n) * share.min(1.0)) as u32;
+        Self {
+            lines: scale(fitted.lines).max(1),
+            references: scale(fitted.references).max(1),
+        }
+    }
+
+    /// Enough for what was found, and some more.
+    pub(super) fn for_found(self, found: &Found) -> Self {
+        let grown = |room: u32, needed: u32| {
+            if needed > room {
+                needed.saturating_add(needed / 8)
+            } else {
+                room
+            }
+        };
+        Self {
+            lines: grown(self.lines, found.lines),
+            references: grown(self.references, found.references),
+        }
+    }
+
+    pub(super) fn holds(self, found: &Found) -> bool {
+        found.lines <= self.lines && found.references <= self.references
+    }
+
+    pub(super) fn bytes(self) -> u64 {
+        u64::from(self.lines) * (LINE_BYTES + WORD_BYTES) + u64::from(self.references) * WORD_BYTES
+    }
+
+    /// Whether a shader may see each of the buffers whole.
+    pub(super) fn fits(self, gpu: &Gpu) -> bool {
+        let most = gpu.binding_bytes();
+        u64::from(self.lines) * LINE_BYTES <= most
+            && u64::from(self.references) * WORD_BYTES <= most
+    }
+
+    /// The error for a band that is too much, though it has only one row of tiles.
+    pub(super) fn refused(self, memory: &Memory) -> RenderError {
+        RenderError::Budget {
+            method: NAME,
+            what: "the lines of one row of tiles",
+            needed_bytes: memory.held_bytes() + self.bytes(),
+            budget_bytes: memory.held_bytes() + memory.spare_bytes(),
+        }
+    }
+}
+
+impl Room {
+    pub(super) fn new(memory: &mut Memory, size: Size) -> Result<Self, RenderError> {
+        let storage = BufferUsages::STORAGE;
+        let lines = u64::from(size.lines);
+        Ok(Self {
+            lines: size.lines,
+            references: size.references,
+            lines_px: memory.zeros("the lines", lines * LINE_BYTES, storage)?,
+            line_strokes: memory.zeros("the lines", lines * WORD_BYTES, storage)?,
+            reference_list: memory.zeros(
+                "the lists of the tiles",
+                u64::from(size.references) * WORD_BYTES,
+                storage,
+            )?,
+        })
+    }
+
+    pub(super) fn size(&self) -> Size {
+        Size {
+            lines: self.lines,
+            references: self.references,
+        }
+    }
+}

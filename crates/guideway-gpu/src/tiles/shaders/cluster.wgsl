@@ -1,0 +1,20 @@
+// Strokes that lie near each other, and where they are seen.
+
+override STROKES: u32;
+
+struct Cluster {
+    // Where its coordinates have their origin, in two parts.
+    origin_high_m: vec2f,
+    origin_low_m: vec2f,
+    // The box of its control points, from there.
+    low_m: vec2f,
+    high_m: vec2f,
+    // The greatest width of its strokes; below zero if none has one of its own.
+    widest_m: f32,
+    padding: u32,
+}
+
+// From the middle of the view to the origin of a cluster. Near parts cancel without loss.
+fn offset_m(cluster: Cluster) -> vec2f {
+    return (cluster.origin_high_m - frame.center_high_m) + (cluster.origin_low_m - frame.center_low_m);
+}

@@ -1,0 +1,27 @@
+// One thread a cluster: lists those that may be seen.
+
+override WORKGROUP: u32;
+
+@group(0) @binding(1) var<storage, read> clusters: array<Cluster>;
+@group(0) @binding(2) var<storage, read_write> found: Found;
+@group(0) @binding(3) var<storage, read_write> seen: array<u32>;
+
+@compute @workgroup_size(WORKGROUP)
+fn main(
+    @builtin(workgroup_id) id: vec3u,
+    @builtin(num_workgroups) count: vec3u,
+    @builtin(local_invocation_index) thread: u32,
+) {
+    let index = workgroup_index(id, count) * WORKGROUP + thread;
+    if index >= frame.clusters {
+        return;
+    }
+    let cluster = clusters[index];
+    let offset = offset_m(cluster);
+    let a = pixel_from_view(cluster.low_m + offset);
+    let b = pixel_from_view(cluster.high_m + offset);
+    let reach_px = max(frame.radius_px, radius_px(cluster.widest_m)) + 1.0;
+    if is_seen(min(a, b), max(a, b), reach_px) {
+        seen[atomicAdd(&found.clusters, 1u)] = index;
+    }
+}

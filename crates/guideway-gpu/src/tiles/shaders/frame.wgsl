@@ -1,0 +1,45 @@
+// One frame: the same for all clusters, strokes, lines and tiles of it.
+
+struct Frame {
+    // The middle of the view in two parts each, together as exact as doubles.
+    center_high_m: vec2f,
+    center_low_m: vec2f,
+    half_size_px: vec2f,
+    px_per_m: f32,
+    // Half the width of strokes that have none of their own.
+    radius_px: f32,
+    // What half the width of others is held between; none has one where the greatest is below zero.
+    least_radius_px: f32,
+    most_radius_px: f32,
+    // How far a line may be from its curve.
+    tolerance_px: f32,
+    clusters: u32,
+    strokes: u32,
+    // The picture, and the band of whole rows of tiles that is drawn of it.
+    width_px: u32,
+    height_px: u32,
+    columns: u32,
+    first_row: u32,
+    rows: u32,
+    // How many lines, and references of tiles to lines, there is room for.
+    line_room: u32,
+    reference_room: u32,
+    // Colours as in the picture's bytes, red first.
+    color: u32,
+    background: u32,
+}
+
+@group(0) @binding(0) var<uniform> frame: Frame;
+
+// What the stages of a frame find; more lines and references than there is room for are counted, too.
+struct Found {
+    clusters: atomic<u32>,
+    lines: atomic<u32>,
+    references: atomic<u32>,
+    drawn: atomic<u32>,
+}
+
+// Index of a workgroup: they are dispatched in rows.
+fn workgroup_index(id: vec3u, count: vec3u) -> u32 {
+    return id.y * count.x + id.x;
+}

@@ -1,0 +1,75 @@
+// A workgroup draws one tile, a thread for each row of its samples, from its list of lines.
+
+@group(0) @binding(1) var<storage, read> starts: array<u32>;
+@group(0) @binding(2) var<storage, read> references: array<u32>;
+@group(0) @binding(3) var<storage, read> lines_px: array<vec4f>;
+@group(0) @binding(4) var<storage, read> line_strokes: array<u32>;
+@group(0) @binding(5) var<storage, read> strokes: array<Stroke>;
+@group(0) @binding(6) var<storage, read_write> pixels: array<u32>;
+
+override THREADS: u32;
+// Lines that are looked at together.
+override BATCH: u32;
+
+var<workgroup> capsules: array<Capsule, BATCH>;
+var<workgroup> open_rows: atomic<u32>;
+var<workgroup> is_open: u32;
+
+struct Tile {
+    index: u32,
+    // Its upper left pixel.
+    left: u32,
+    top: u32,
+}
+
+fn tile_of(index: u32) -> Tile {
+    let row = frame.first_row + index / frame.columns;
+    return Tile(index, (index % frame.columns) * TILE_PX, row * TILE_PX);
+}
+
+// Samples of a row of the tile that lie beyond the picture's right border count as covered from the first,
+// as do rows below it: nothing waits for them.
+fn beyond(tile: Tile, row: u32) -> Row {
+    var inside = (frame.width_px - tile.left) * SAMPLES_A_ROW;
+    if tile.top + row / SAMPLE_ROWS >= frame.height_px {
+        inside = 0u;
+    }
+    var outside: Row;
+    for (var word = 0u; word < WORDS; word++) {
+        outside[word] = bits_between(inside, WORDS * 32u, word);
+    }
+    return outside;
+}
+
+// Brings a line of the list into the workgroup's memory.
+fn load(tile: Tile, place: u32, into: u32) {
+    let line = references[place];
+    let radius = radius_of(line_strokes[line]);
+    let corner = vec2f(f32(tile.left), f32(tile.top));
+    capsules[into] = capsule_of(lines_px[line], corner, radius);
+}
+
+// Whether any row of the tile still has samples that are not covered.
+fn any_open(thread: u32, covered: ptr<function, Row>) -> bool {
+    if thread == 0u {
+        atomicStore(&open_rows, 0u);
+    }
+    workgroupBarrier();
+    var all = ALL;
+    for (var word = 0u; word < WORDS; word++) {
+        all &= (*covered)[word];
+    }
+    if all != ALL {
+        atomicStore(&open_rows, 1u);
+    }
+    workgroupBarrier();
+    if thread == 0u {
+        is_open = atomicLoad(&open_rows);
+    }
+    return workgroupUniformLoad(&is_open) != 0u;
+}
+
+// The samples of one pixel in a word of a row.
+fn bits_of_pixel(word: u32, pixel: u32) -> u32 {
+    return (word >> (pixel * SAMPLES_A_ROW)) & ((1u << SAMPLES_A_ROW) - 1u);
+}

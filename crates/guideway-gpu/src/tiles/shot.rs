@@ -1,0 +1,147 @@
+//! One frame as the device is told of it.
+
+use std::ops::Range;
+
+use guideway_render::{RenderError, Style, View};
+use guideway_scene::{LineRule, Scene};
+use guideway_spline::{Bounds, Point};
+
+use super::NAME;
+use super::canvas::Canvas;
+use super::pack::device_color;
+use super::params::{FrameParams, Samples, TILE_PX};
+use super::prepared::Facts;
+use super::room::Room;
+
+/// Farthest that a line may be from its curve, in pixels: the borders of a stroke move by as much.
+const TOLERANCE_PX: f32 = 1.0 / 32.0;
+/// Half the width of the thinnest stroke that few samples do for, in pixels.
+const COARSE_RADIUS_PX: f64 = 0.25;
+/// Farthest that rounding may move a line, in pixels.
+const MOST_ROUNDING_PX: f64 = 0.1;
+
+/// A view of a scene.
+pub(super) struct Shot<'a> {
+    pub(super) view: &'a View,
+    pub(super) style: &'a Style,
+    scene: &'a Scene,
+    facts: Counts,
+}
+
+#[derive(Clone, Copy)]
+struct Counts {
+    strokes: u32,
+    clusters: u32,
+    has_widths: bool,
+}
+
+impl<'a> Shot<'a> {
+    pub(super) fn new(
+        view: &'a View,
+        style: &'a Style,
+        scene: &'a Scene,
+        facts: &Facts,
+    ) -> Result<Self, RenderError> {
+        // With u = 2^-24, a coordinate up to X from its cluster's origin is rounded by at most u X as a
+        // control point, as its sum with the view's offset, as a pixel, and as a vertex of the curve.
+        let unit = f64::from(f32::EPSILON) / 2.0;
+        let rounding_px = 4.0 * unit * facts.reach_m * view.px_per_m();
+        if rounding_px > MOST_ROUNDING_PX {
+            return Err(RenderError::Unsupported {
+                method: NAME,
+                what: format!(
+                    "paths {:.0} m across so large that a pixel is {:.3} mm: single precision would move \
+                     them by {rounding_px:.1} pixels",
+                    2.0 * facts.reach_m,
+                    1e3 / view.px_per_m()
+                ),
+                remedy: "Zoom out, or use `--method cpu`.".to_owned(),
+            });
+        }
+        Ok(Self {
+            view,
+            style,
+            scene,
+            facts: Counts {
+                strokes: facts.strokes,
+                clusters: facts.clusters,
+                has_widths: facts.has_widths,
+            },
+        })
+    }
+
+    fn radius_px(&self, width_m: Option<f32>) -> f64 {
+        self.style
+            .line_rule
+            .radius_px(width_m, self.view.px_per_m())
+    }
+
+    /// As many samples as the thinnest stroke needs.
+    pub(super) fn samples(&self) -> Samples {
+        let thinnest_px = match self.style.line_rule {
+            LineRule::World { min_px, .. } if self.facts.has_widths => min_px / 2.0,
+            _ => f64::INFINITY,
+        };
+        if self.radius_px(None).min(thinnest_px) < COARSE_RADIUS_PX {
+            Samples::Fine
+        } else {
+            Samples::Coarse
+        }
+    }
+
+    /// Whether something within a box, and half its width around, may leave a mark.
+    pub(super) fn is_seen(&self, hull_m: Bounds<f64>, width_m: Option<f32>) -> bool {
+        let size = self.view.size();
+        let corner = Point::new(f64::from(size.width()), f64::from(size.height()));
+        let picture = Bounds {
+            min: Point::default(),
+            max: corner,
+        };
+        let seen = picture.inflated(self.radius_px(width_m) + 1.0);
+        let corners = [hull_m.min, hull_m.max].map(|p| self.view.pixel_from_world(p));
+        Bounds::of_points(corners).is_some_and(|hull| hull.intersects(seen))
+    }
+
+    /// The rows of pixels of some rows of tiles.
+    pub(super) fn rows_px(&self, rows: &Range<u32>) -> Range<u32> {
+        rows.start * TILE_PX..self.view.size().height().min(rows.end * TILE_PX)
+    }
+
+    /// What the device reads for some rows of tiles.
+    pub(super) fn params(&self, canvas: &Canvas, room: &Room, rows: &Range<u32>) -> FrameParams {
+        let size = self.view.size();
+        let center = self.view.center_m();
+        let high = center.to_f32();
+        let low = (center - high.to_f64()).to_f32();
+        let limits_px = match self.style.line_rule {
+            LineRule::World { min_px, max_px, .. } if self.facts.has_widths => {
+                [min_px / 2.0, max_px.max(min_px) / 2.0]
+            }
+            // Nobody has a width of its own.
+            _ => [0.0, -1.0],
+        };
+        let color = self.scene.draw_order().first();
+        let color = color.map_or(0, |&path| device_color(self.scene.color(path)));
+        FrameParams {
+            center_high_m: [high.x, high.y],
+            center_low_m: [low.x, low.y],
+            half_size_px: [size.width() as f32 / 2.0, size.height() as f32 / 2.0],
+            px_per_m: self.view.px_per_m() as f32,
+            radius_px: self.radius_px(None) as f32,
+            least_radius_px: limits_px[0] as f32,
+            most_radius_px: limits_px[1] as f32,
+            tolerance_px: TOLERANCE_PX,
+            clusters: self.facts.clusters,
+            strokes: self.facts.strokes,
+            width_px: size.width(),
+            height_px: size.height(),
+            columns: canvas.columns,
+            first_row: rows.start,
+            rows: rows.end - rows.start,
+            line_room: room.lines,
+            reference_room: room.references,
+            color,
+            background: device_color(self.style.background),
+        }
+    }
+}
