@@ -1,7 +1,20 @@
 // Tiles of a scene of one opaque colour: it does not matter which line covers a sample.
 
-// Covered samples of each pixel.
-var<workgroup> sums: array<atomic<u32>, THREADS>;
+// Covered samples of all rows.
+var<workgroup> samples: array<u32, THREADS * WORDS>;
+
+// How many samples of a pixel are covered.
+fn count_of(pixel: u32) -> u32 {
+    let pixels_a_word = 32u / SAMPLES_A_ROW;
+    let x = pixel % TILE_PX;
+    let first_row = (pixel / TILE_PX) * SAMPLE_ROWS;
+    var count = 0u;
+    for (var row = first_row; row < first_row + SAMPLE_ROWS; row++) {
+        let word = samples[row * WORDS + x / pixels_a_word];
+        count += countOneBits(bits_of_pixel(word, x % pixels_a_word));
+    }
+    return count;
+}
 
 @compute @workgroup_size(THREADS)
 fn main(
@@ -16,6 +29,10 @@ fn main(
     let tile = tile_of(index);
     let start = starts[index];
     let end = min(starts[index + 1u], frame.reference_room);
+    if start >= end {
+        write(tile, thread, frame.background);
+        return;
+    }
     let outside = beyond(tile, thread);
     var covered = outside;
     for (var first = start; first < end; first += BATCH) {
@@ -31,21 +48,10 @@ fn main(
             break;
         }
     }
-    let pixels_a_word = 32u / SAMPLES_A_ROW;
     for (var word = 0u; word < WORDS; word++) {
-        let inside = covered[word] & ~outside[word];
-        for (var pixel = 0u; pixel < pixels_a_word && inside != 0u; pixel++) {
-            let place = (thread / SAMPLE_ROWS) * TILE_PX + word * pixels_a_word + pixel;
-            atomicAdd(&sums[place], countOneBits(bits_of_pixel(inside, pixel)));
-        }
+        samples[thread * WORDS + word] = covered[word] & ~outside[word];
     }
     workgroupBarrier();
-    let at = vec2u(thread % TILE_PX, thread / TILE_PX);
-    let pixel = vec2u(tile.left, tile.top) + at;
-    if pixel.x < frame.width_px && pixel.y < frame.height_px {
-        let count = atomicLoad(&sums[thread]);
-        let share = f32(count) / f32(SAMPLE_ROWS * SAMPLES_A_ROW);
-        let row = pixel.y - frame.first_row * TILE_PX;
-        pixels[row * frame.width_px + pixel.x] = over_background(channels(frame.color).rgb * share, share);
-    }
+    let share = f32(count_of(thread)) / f32(SAMPLE_ROWS * SAMPLES_A_ROW);
+    write(tile, thread, over_background(channels(frame.color).rgb * share, share));
 }

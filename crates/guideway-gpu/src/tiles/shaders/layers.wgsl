@@ -75,6 +75,10 @@ fn main(
     let tile = tile_of(index);
     let start = starts[index];
     let end = min(starts[index + 1u], frame.reference_room);
+    if start >= end {
+        write(tile, thread, select(frame.background, 0u, SHADING == DENSITY));
+        return;
+    }
     var covered = beyond(tile, thread);
     var gathered: Row;
     if SHADING == TRANSLUCENT {
@@ -109,20 +113,15 @@ fn main(
     }
     lay(thread, color, &gathered, &covered);
     workgroupBarrier();
-    let at = vec2u(thread % TILE_PX, thread / TILE_PX);
-    let pixel = vec2u(tile.left, tile.top) + at;
-    if pixel.x < frame.width_px && pixel.y < frame.height_px {
-        let place = (pixel.y - frame.first_row * TILE_PX) * frame.width_px + pixel.x;
-        let samples = f32(SAMPLE_ROWS * SAMPLES_A_ROW);
-        var sum: vec4f;
-        for (var channel = 0u; channel < 4u; channel++) {
-            sum[channel] = f32(atomicLoad(&sums[thread * 4u + channel]));
-        }
-        if SHADING == DENSITY {
-            pixels[place] = bitcast<u32>(sum.x / samples);
-        } else {
-            let shares = sum / (samples * PARTS);
-            pixels[place] = over_background(shares.rgb, shares.a / 255.0);
-        }
+    let samples = f32(SAMPLE_ROWS * SAMPLES_A_ROW);
+    var sum: vec4f;
+    for (var channel = 0u; channel < 4u; channel++) {
+        sum[channel] = f32(atomicLoad(&sums[thread * 4u + channel]));
+    }
+    if SHADING == DENSITY {
+        write(tile, thread, bitcast<u32>(sum.x / samples));
+    } else {
+        let shares = sum / (samples * PARTS);
+        write(tile, thread, over_background(shares.rgb, shares.a / 255.0));
     }
 }

@@ -27,6 +27,15 @@ fn tile_of(index: u32) -> Tile {
     return Tile(index, (index % frame.columns) * TILE_PX, row * TILE_PX);
 }
 
+// Writes the pixel of a thread, if it is part of the picture.
+fn write(tile: Tile, thread: u32, color: u32) {
+    let x = tile.left + thread % TILE_PX;
+    let y = tile.top + thread / TILE_PX;
+    if x < frame.width_px && y < frame.height_px {
+        pixels[(y - frame.first_row * TILE_PX) * frame.width_px + x] = color;
+    }
+}
+
 // Samples of a row of the tile that lie beyond the picture's right border count as covered from the first,
 // as do rows below it: nothing waits for them.
 fn beyond(tile: Tile, row: u32) -> Row {
