@@ -55,13 +55,19 @@ const GRIDS: [(&str, Tolerance); 3] = [
     ("scan+radius+aa=subpixel+samples=64", SUB_SAMPLES),
 ];
 
-/// The device of [`guideway_gpu`], or what is missing for it.
+/// The device of [`guideway_gpu`].
+///
+/// # Errors
+/// What is missing for it.
 pub fn gpu() -> Result<Arc<Gpu>, String> {
     static GPU: LazyLock<Result<Arc<Gpu>, String>> = LazyLock::new(Gpu::new);
     GPU.clone()
 }
 
-/// The device of [`guideway_gl`], or what is missing for it.
+/// The device of [`guideway_gl`].
+///
+/// # Errors
+/// What is missing for it.
 pub fn gl() -> Result<Arc<GlDevice>, String> {
     static GL: LazyLock<Result<Arc<GlDevice>, String>> = LazyLock::new(GlDevice::new);
     GL.clone()

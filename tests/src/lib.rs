@@ -4,6 +4,7 @@
 pub mod compare;
 pub mod devices;
 pub mod evidence;
+pub mod hairline;
 pub mod methods;
 pub mod random;
 pub mod scenes;

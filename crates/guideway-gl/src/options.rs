@@ -29,24 +29,22 @@ pub struct TessellationOptions {
     pub antialias: Antialias,
 }
 
-const KNOWN: &str = "commands=per-path, commands=compact, aa=none, aa=multisample";
+const KNOWN: &str = "aa=none, aa=multisample";
 
 impl TessellationOptions {
-    /// Reads options such as `aa=multisample`, with a plus sign between several; what is not named stays at its
-    /// default.
+    /// Reads what may follow the name of the method, such as `aa=multisample`, with a plus sign between
+    /// several. What is not named stays at its default; [`Commands`] are chosen by the name itself.
     ///
     /// # Errors
     /// When there is no such option: a sentence with those that there are.
     pub fn parse(text: &str) -> Result<Self, String> {
         let mut options = Self::default();
-        for option in text.split('+').map(str::trim).filter(|o| !o.is_empty()) {
-            match option {
-                "commands=per-path" => options.commands = Commands::PerPath,
-                "commands=compact" => options.commands = Commands::Compact,
-                "aa=none" => options.antialias = Antialias::None,
-                "aa=multisample" => options.antialias = Antialias::Multisample,
+        for option in text.split('+').filter(|option| !option.is_empty()) {
+            options.antialias = match option {
+                "aa=none" => Antialias::None,
+                "aa=multisample" => Antialias::Multisample,
                 _ => return Err(format!("there is no option `{option}`; there is: {KNOWN}")),
-            }
+            };
         }
         Ok(options)
     }
@@ -55,16 +53,10 @@ impl TessellationOptions {
 /// The options that are not at their default, as [`TessellationOptions::parse`] reads them.
 impl fmt::Display for TessellationOptions {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let commands = match self.commands {
-            Commands::PerPath => None,
-            Commands::Compact => Some("commands=compact"),
-        };
-        let antialias = match self.antialias {
-            Antialias::None => None,
-            Antialias::Multisample => Some("aa=multisample"),
-        };
-        let set: Vec<_> = [commands, antialias].into_iter().flatten().collect();
-        f.write_str(&set.join("+"))
+        match self.antialias {
+            Antialias::None => Ok(()),
+            Antialias::Multisample => f.write_str("aa=multisample"),
+        }
     }
 }
 
@@ -74,22 +66,21 @@ mod tests {
 
     #[test]
     fn options_are_read_as_they_are_written() {
-        let mut written = std::collections::HashSet::new();
-        for commands in [Commands::PerPath, Commands::Compact] {
-            for antialias in [Antialias::None, Antialias::Multisample] {
-                let options = TessellationOptions {
-                    commands,
-                    antialias,
-                };
-                let text = options.to_string();
-                assert_eq!(TessellationOptions::parse(&text), Ok(options));
-                assert!(written.insert(text));
-            }
+        for antialias in [Antialias::None, Antialias::Multisample] {
+            let options = TessellationOptions {
+                antialias,
+                ..TessellationOptions::default()
+            };
+            assert_eq!(
+                TessellationOptions::parse(&options.to_string()),
+                Ok(options)
+            );
         }
+        assert!(TessellationOptions::default().to_string().is_empty());
         for known in KNOWN.split(", ") {
             assert!(TessellationOptions::parse(known).is_ok(), "{known}");
         }
-        for bad in ["aa", "aa=smooth", "aa=none;", "Commands=compact"] {
+        for bad in ["aa", "aa=smooth", "aa=none;", "commands=compact"] {
             let refused = TessellationOptions::parse(bad).unwrap_err();
             assert!(
                 refused.contains(bad) && refused.contains(KNOWN),

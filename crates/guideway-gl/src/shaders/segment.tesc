@@ -18,7 +18,7 @@ void main() {
         length_px += distance(from, to);
         from = to;
     }
-    float lines = clamp(length_px, LEAST_LINES, MOST_LINES);
+    float lines = clamp(length_px / PX_PER_LINE, LEAST_LINES, MOST_LINES);
 
     // Where so many lines would show their corners, more isolines go on where one ends: n lines are within
     // bend / (8 n n) of the curve, whose second derivative is at most the greater second difference.

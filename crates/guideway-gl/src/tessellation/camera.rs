@@ -69,6 +69,7 @@ mod tests {
             reach_m,
             longest_m,
             widths: crate::tessellation::plan::Widths::default(),
+            smallest_m: 1.0,
             chunks: Vec::new(),
         }
     }

@@ -4,6 +4,7 @@
 //! the box of each path against the view and appends what to draw; the tessellator turns the patches that
 //! are drawn into as many lines as they are pixels long.
 
+mod background;
 mod camera;
 mod chunk;
 mod plan;
@@ -13,6 +14,7 @@ mod shared;
 #[cfg(test)]
 mod tests;
 mod tiles;
+mod work;
 
 use std::sync::Arc;
 

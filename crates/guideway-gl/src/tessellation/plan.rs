@@ -20,6 +20,8 @@ pub(super) struct Plan {
     /// Longest side of the box of one segment's control points.
     pub(super) longest_m: f64,
     pub(super) widths: Widths,
+    /// Longer side of the box of the smallest path's control points; infinite without paths.
+    pub(super) smallest_m: f64,
     pub(super) chunks: Vec<ChunkPlan>,
 }
 
@@ -119,6 +121,7 @@ impl Plan {
             reach_m: 0.0,
             longest_m: 0.0,
             widths: Widths::default(),
+            smallest_m: f64::INFINITY,
             chunks: Vec::new(),
         };
         let mut chunk = ChunkPlan::default();
@@ -153,6 +156,9 @@ impl Plan {
     }
 
     fn measure(&mut self, path: PathRef<'_>) {
+        if let Some(hull) = path.hull_bounds() {
+            self.smallest_m = self.smallest_m.min(hull.size().x.max(hull.size().y));
+        }
         for run in path.runs() {
             for point in run.iter() {
                 let away_m = point - self.origin_m;

@@ -2,8 +2,8 @@
 
 use std::rc::Rc;
 
-use super::shared::{CORNERS, source};
-use crate::options::Commands;
+use super::shared::{CORNERS, px_per_line, source};
+use crate::options::{Commands, TessellationOptions};
 use crate::sys::{Gl, Program, ShaderStage};
 
 const CULL: &str = include_str!("../shaders/cull.glsl");
@@ -24,8 +24,9 @@ pub(super) struct Programs {
 }
 
 impl Programs {
-    pub(super) fn new(gl: &Rc<Gl>, commands: Commands) -> Result<Self, String> {
-        let (cull, vertex) = match commands {
+    pub(super) fn new(gl: &Rc<Gl>, options: TessellationOptions) -> Result<Self, String> {
+        let px_per_line = format!("#define PX_PER_LINE {:?}\n", px_per_line(options.antialias));
+        let (cull, vertex) = match options.commands {
             Commands::PerPath => (CULL_COMMANDS, INDEXED),
             Commands::Compact => (CULL_PATCHES, PULLED),
         };
@@ -36,7 +37,10 @@ impl Programs {
                 gl,
                 &[
                     (ShaderStage::Vertex, source(&[PROJECT, vertex])),
-                    (ShaderStage::TessControl, source(&[BSPLINE, TESS_CONTROL])),
+                    (
+                        ShaderStage::TessControl,
+                        source(&[&px_per_line, BSPLINE, TESS_CONTROL]),
+                    ),
                     (
                         ShaderStage::TessEvaluation,
                         source(&[BSPLINE, TESS_EVALUATION]),

@@ -9,14 +9,16 @@ use guideway_render::{
 };
 use guideway_scene::{Rgba, Scene};
 
+use super::background::Background;
 use super::camera;
 use super::chunk::{Chunk, STAGING_BYTES, Seen};
 use super::plan::{Plan, TooLong, one_color};
 use super::programs::Programs;
-use super::shared::{self, CORNERS, DrawElements, PathRecord, VIEW};
+use super::shared::{self, VIEW};
 use super::tiles::{Tile, Tiling};
+use super::work::work;
 use crate::device::GlDevice;
-use crate::options::{Antialias, Commands, TessellationOptions};
+use crate::options::{Antialias, TessellationOptions};
 use crate::sys::{Buffer, Gl, Limits, Primitives, Target, Timeline};
 
 /// Lines may be this far off their place before a view is refused.
@@ -92,7 +94,7 @@ impl Renderer {
         let gl = Gl::new(start.device.platform).map_err(failed)?;
         #[cfg(test)]
         gl.allow_allocations(limits.allocations);
-        let programs = Programs::new(&gl, options.commands).map_err(failed)?;
+        let programs = Programs::new(&gl, options).map_err(failed)?;
         done("compile");
 
         let mut chunks = Vec::new();
@@ -150,7 +152,8 @@ impl Renderer {
             self.draw(view, style, &tile)?;
             self.finish(cancel)?;
             let started = Instant::now();
-            self.read(&tile, style.background, frame)?;
+            let background = Background::new(style.background, self.samples());
+            self.read(&tile, background, frame)?;
             read_back_ms += started.elapsed().as_secs_f64() * 1e3;
         }
         let drawn = self.chunks.iter().map(Chunk::seen_paths).sum();
@@ -175,22 +178,7 @@ impl Renderer {
         });
         self.gl.check("counting").map_err(|e| self.failed(e))?;
 
-        let index = size_of::<u32>() as u64;
-        let vertex = index + size_of::<[f32; 2]>() as u64;
-        let vertices = seen.segments * u64::from(CORNERS);
-        let (output, copied, atomics) = match self.options.commands {
-            Commands::PerPath => (seen.paths * size_of::<DrawElements>() as u64, 0, 1),
-            Commands::Compact => (seen.segments * index, seen.segments * index, 2),
-        };
-        // Patches are listed as vertices; only commands are read beside them.
-        let commands = if copied == 0 { output } else { 0 };
-        let drawn = u64::from(tiling.count()) * (commands + vertices * vertex);
-        Ok(Work {
-            tests: None,
-            atomics: Some(seen.paths * atomics),
-            bytes_read: Some(paths * size_of::<PathRecord>() as u64 + copied + drawn),
-            bytes_written: Some(output),
-        })
+        Ok(work(self.options.commands, paths, seen, tiling.count()))
     }
 
     /// How the view is cut, once it is sure that it can be drawn.
@@ -270,8 +258,8 @@ impl Renderer {
         self.mark()?;
         if let Some(target) = &self.target {
             let (x, y) = tile.viewport_middle();
-            let background = self.stored(style.background);
-            target.begin(background, x as i32, y as i32, tile.viewport_side);
+            let background = Background::new(style.background, self.samples());
+            target.begin(background.stored(), x as i32, y as i32, tile.viewport_side);
             self.primitives.during(|| {
                 for chunk in &self.chunks {
                     chunk.draw(&self.gl, &self.programs.draw);
@@ -302,38 +290,25 @@ impl Renderer {
             .map_err(|e| self.failed(e))
     }
 
-    fn read(&self, tile: &Tile, background: Rgba, frame: &mut Frame) -> Result<(), RenderError> {
+    fn read(
+        &self,
+        tile: &Tile,
+        background: Background,
+        frame: &mut Frame,
+    ) -> Result<(), RenderError> {
         let row_pixels = frame.size().width();
         let first = tile.y as usize * row_pixels as usize + tile.x as usize;
         if let Some(target) = &self.target {
             let pixels = &mut frame.pixels_mut()[first..];
             target.read(tile.width, tile.height, row_pixels, pixels);
-            if self.is_premultiplied(background) {
-                for row in pixels
-                    .chunks_mut(row_pixels as usize)
-                    .take(tile.height as usize)
-                {
-                    row[..tile.width as usize].iter_mut().for_each(straighten);
-                }
+            let rows = pixels.chunks_mut(row_pixels as usize);
+            for row in rows.take(tile.height as usize) {
+                background.restore(&mut row[..tile.width as usize]);
             }
         }
         self.gl
             .check("reading the picture")
             .map_err(|e| self.failed(e))
-    }
-
-    /// Whether colours are stored multiplied with their opacity, so that their mean is right.
-    fn is_premultiplied(&self, background: Rgba) -> bool {
-        self.samples() > 1 && !background.is_opaque()
-    }
-
-    fn stored(&self, background: Rgba) -> [f32; 4] {
-        let [r, g, b, a] = camera::rgba(background);
-        if self.is_premultiplied(background) {
-            [r * a, g * a, b * a, a]
-        } else {
-            [r, g, b, a]
-        }
     }
 
     fn report(
@@ -355,14 +330,6 @@ impl Renderer {
             clock: self.timeline.clock(),
         };
         let draw_ms = elapsed_ms[2..].iter().step_by(2).sum();
-        let mut notes = Vec::new();
-        if !self
-            .plan
-            .widths
-            .are_one_pixel(&style.line_rule, view.px_per_m())
-        {
-            notes.push("Lines are one pixel wide, whatever is asked.".to_owned());
-        }
         let target_bytes = self.target.as_ref().map_or(0, Target::bytes);
         Ok(Report {
             method: self.method,
@@ -379,8 +346,28 @@ impl Renderer {
             lines,
             peak_bytes: self.held_bytes() + target_bytes,
             bands,
-            notes,
+            notes: self.notes(view, style),
         })
+    }
+
+    /// What is drawn otherwise than asked.
+    fn notes(&self, view: &View, style: &Style) -> Vec<String> {
+        let mut notes = Vec::new();
+        let widths = &self.plan.widths;
+        if !widths.are_one_pixel(&style.line_rule, view.px_per_m()) {
+            notes.push("Lines are one pixel wide, whatever is asked.".to_owned());
+        }
+        // The control points of a straight segment reach three times as far as it does.
+        if self.plan.smallest_m * view.px_per_m() < 3.0 {
+            notes.push("Paths shorter than a pixel may leave no mark.".to_owned());
+        }
+        if self.samples() > 1 && self.gl.is_software() {
+            notes.push(
+                "Anti-aliased lines have small gaps, for the processor stands in for a graphics device here."
+                    .to_owned(),
+            );
+        }
+        notes
     }
 
     fn failed(&self, what: String) -> RenderError {
@@ -394,15 +381,5 @@ fn unsupported(method: &'static str, what: &str, remedy: &str) -> RenderError {
         method,
         what: what.to_owned(),
         remedy: remedy.to_owned(),
-    }
-}
-
-/// Divides a colour by its opacity.
-fn straighten([r, g, b, a]: &mut [u8; 4]) {
-    if *a > 0 {
-        let opacity = f32::from(*a) / 255.0;
-        for channel in [r, g, b] {
-            *channel = (f32::from(*channel) / opacity).round() as u8;
-        }
     }
 }

@@ -3,6 +3,8 @@
 
 use bytemuck::{Pod, Zeroable};
 
+use crate::options::Antialias;
+
 /// Control points of a cubic segment, which is the vertices of a patch.
 pub(super) const CORNERS: u32 = 4;
 /// Threads of a workgroup of the pre-pass, one a path.
@@ -11,6 +13,14 @@ pub(super) const WORKGROUP: u32 = 64;
 pub(super) const LENGTH_SAMPLES: u32 = 5;
 /// Least and most lines of one isoline (thesis 4.2.1; also what OpenGL has).
 pub(super) const LINES: (f32, f32) = (1.0, 64.0);
+/// Pixels along a segment that one line stands for: 1 in the thesis. With several samples a pixel it is 2, for
+/// such lines are as good, and Mesa's llvmpipe drops any that is all within one row or column of pixels.
+pub(super) const fn px_per_line(antialias: Antialias) -> f32 {
+    match antialias {
+        Antialias::None => 1.0,
+        Antialias::Multisample => 2.0,
+    }
+}
 /// How far a line may be from the curve that it stands for, in pixels.
 pub(super) const FLATNESS_PX: f32 = 0.1;
 /// Positions are rounded to this fraction of a pixel, as rasterisers do anyway: whole pixels can then be

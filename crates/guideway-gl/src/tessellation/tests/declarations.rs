@@ -8,7 +8,7 @@ use super::super::shared::{
     Tally, VIEW, View, WORKGROUP, source,
 };
 use super::device;
-use crate::options::Commands;
+use crate::options::{Commands, TessellationOptions};
 use crate::sys::reflect::{Block, Reflection};
 use crate::sys::{Gl, Program, ShaderStage};
 
@@ -92,7 +92,14 @@ fn every_shader_reads_what_the_host_writes() {
     let Some(gl) = context() else { return };
     let mut seen = Vec::new();
     for commands in [Commands::PerPath, Commands::Compact] {
-        let programs = Programs::new(&gl, commands).unwrap();
+        let programs = Programs::new(
+            &gl,
+            TessellationOptions {
+                commands,
+                ..TessellationOptions::default()
+            },
+        )
+        .unwrap();
         for program in [&programs.cull, &programs.draw] {
             for block in Reflection::new(&gl, program).blocks() {
                 assert_eq!(disagreements(&block), [""; 0]);

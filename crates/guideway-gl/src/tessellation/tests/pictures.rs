@@ -247,9 +247,12 @@ fn what_cannot_be_drawn_is_refused_with_a_remedy() {
 }
 
 #[test]
-fn other_widths_are_told_and_cancelling_stops() {
-    let scene = scene(&winding(5));
+fn what_is_drawn_otherwise_is_told_and_cancelling_stops() {
+    let mut paths = winding(5);
+    paths.push(line((50.0, 50.0), (50.0, 50.0)));
+    let scene = scene(&paths);
     for method in every_variant() {
+        let is_gapped = method.device.is_software() && method.options.antialias != Antialias::None;
         let mut prepared = method
             .prepare(Arc::clone(&scene), &Budget::default())
             .unwrap();
@@ -266,7 +269,15 @@ fn other_widths_are_told_and_cancelling_stops() {
             let report = prepared
                 .render(&view(50, 50), &style, &Cancel::default(), &mut frame)
                 .unwrap();
-            assert_eq!(report.notes.len(), notes, "{rule:?}: {:?}", report.notes);
+            let told = |about: &str| report.notes.iter().filter(|n| n.contains(about)).count();
+            assert_eq!(
+                told("one pixel wide"),
+                notes,
+                "{rule:?}: {:?}",
+                report.notes
+            );
+            assert_eq!(told("shorter than a pixel"), 1);
+            assert_eq!(told("gaps"), usize::from(is_gapped));
         }
         let cancel = Cancel::default();
         cancel.set();

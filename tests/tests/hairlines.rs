@@ -1,0 +1,238 @@
+//! Method `tessellation` draws its lines where the oracle does, over the scene suite.
+
+use std::num::NonZero;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex};
+use std::thread;
+
+use guideway_gl::{Antialias, Commands, GlDevice, Tessellation, TessellationOptions};
+use guideway_render::{Budget, Frame, RenderError, Report};
+use guideway_tests::devices::{gl, here};
+use guideway_tests::evidence;
+use guideway_tests::hairline::{Difference, Tolerance, check, drawing};
+use guideway_tests::methods::{draw, judge};
+use guideway_tests::scenes::{self, SceneCase};
+use guideway_tests::sketch::{Drawing, Sketch};
+
+/// Fewest scenes that must be drawn. The others show density, are translucent, or are too close.
+const LEAST_SCENES: usize = 200;
+
+const VARIANTS: [(Antialias, Tolerance); 2] = [
+    (Antialias::None, Tolerance::ALIASED),
+    (Antialias::Multisample, Tolerance::MULTISAMPLED),
+];
+
+/// Paths shorter than a pixel: a line that does not leave the middle of its pixel is not drawn.
+const LOST_BELOW_A_PIXEL: [&str; 5] = [
+    "crowds/short-paths-below-a-pixel",
+    "dots/row",
+    "tiles/dots-on-corners-of-16",
+    "tiles/dots-on-corners-of-32",
+    "tiles/dots-on-corners-of-64",
+];
+/// Thin pictures and lines along a border, most of which llvmpipe leaves out when there are several samples.
+const LOST_AT_BORDERS: [&str; 5] = [
+    "sizes/1x96",
+    "sizes/96x1",
+    "sizes/3x257",
+    "sizes/257x3",
+    "edges/along-all-four",
+];
+
+#[test]
+fn lines_are_where_the_oracle_has_them() {
+    let Some(device) = here(gl()) else { return };
+    let cases = scenes::all();
+    let outcomes = in_parallel(&cases, |case| outcome(case, &device));
+    let drawn: Vec<_> = outcomes.iter().flatten().collect();
+    let wrong: Vec<_> = drawn.iter().filter_map(|o| o.as_ref().err()).collect();
+    println!("{} scenes on {}", drawn.len(), device.description());
+    assert!(drawn.len() >= LEAST_SCENES, "{} scenes", drawn.len());
+    assert!(
+        wrong.is_empty(),
+        "{} scenes are wrong:\n{}",
+        wrong.len(),
+        wrong
+            .iter()
+            .map(|w| w.as_str())
+            .collect::<Vec<_>>()
+            .join("\n")
+    );
+}
+
+/// None for a scene that the method refuses.
+fn outcome(case: &SceneCase, device: &Arc<GlDevice>) -> Option<Result<(), String>> {
+    let drawing = drawing(case.sketch());
+    let mut expected = None;
+    for (antialias, tolerance) in VARIANTS {
+        let (frame, report) = match drawn_alike(device, antialias, &drawing) {
+            Ok(drawn) => drawn,
+            Err(RenderError::Unsupported { what, remedy, .. }) => {
+                let is_said = ["density", "translucent", "so close a view"];
+                assert!(is_said.iter().any(|s| what.contains(s)) && remedy.ends_with('.'));
+                return None;
+            }
+            Err(error) => return Some(Err(format!("{}: {error}", case.name))),
+        };
+        let expected = expected.get_or_insert_with(|| judge(&drawing).0);
+        let tolerance = allowed(&case.name, antialias, tolerance, &report);
+        if let Err(wrong) = compare(expected, &frame, &drawing, &tolerance) {
+            let name = format!("tessellation-{antialias:?}-{}", case.name);
+            let shown = evidence::write(&name, expected, &frame);
+            let shown = shown.map_or_else(|e| e.to_string(), |file| file.display().to_string());
+            return Some(Err(format!(
+                "{} {antialias:?}: {wrong}; see {shown}",
+                case.name
+            )));
+        }
+    }
+    Some(Ok(()))
+}
+
+/// The tolerance in a scene where paths may be lost that the method said it would lose.
+fn allowed(scene: &str, antialias: Antialias, tolerance: Tolerance, report: &Report) -> Tolerance {
+    let is_told = |about: &str| report.notes.iter().any(|note| note.contains(about));
+    let is_lossy = match antialias {
+        Antialias::None => LOST_BELOW_A_PIXEL.contains(&scene) && is_told("shorter than a pixel"),
+        Antialias::Multisample => LOST_BELOW_A_PIXEL
+            .iter()
+            .chain(&LOST_AT_BORDERS)
+            .any(|lossy| *lossy == scene && (is_told("shorter than a pixel") || is_told("gaps"))),
+    };
+    Tolerance {
+        lost: if is_lossy { 1.0 } else { tolerance.lost },
+        ..tolerance
+    }
+}
+
+fn compare(
+    expected: &Frame,
+    actual: &Frame,
+    drawing: &Drawing,
+    tolerance: &Tolerance,
+) -> Result<Difference, String> {
+    let background = drawing.style.background;
+    let background = [background.r, background.g, background.b, background.a];
+    check(expected, actual, background, tolerance)
+}
+
+/// Draws by each way of giving commands, twice: always the same bytes.
+fn drawn_alike(
+    device: &Arc<GlDevice>,
+    antialias: Antialias,
+    drawing: &Drawing,
+) -> Result<(Frame, Report), RenderError> {
+    let method = |commands| {
+        let options = TessellationOptions {
+            commands,
+            antialias,
+        };
+        Tessellation::new(Arc::clone(device), options)
+    };
+    let (frame, report) = draw(&method(Commands::PerPath), drawing, &Budget::default())?;
+    for commands in [Commands::PerPath, Commands::Compact] {
+        let (again, report_again) = draw(&method(commands), drawing, &Budget::default())?;
+        assert!(again == frame, "{commands:?}");
+        assert_eq!(
+            (report_again.drawn, report_again.lines),
+            (report.drawn, report.lines)
+        );
+    }
+    assert!(report.accounts_for_all(), "{report:?}");
+    assert_eq!(report.total, drawing.layout.path_count() as u64);
+    Ok((frame, report))
+}
+
+/// Five paths, nothing symmetric.
+fn sketch(moved: (f64, f64)) -> Sketch {
+    let at = |x: f64, y: f64| (x + moved.0, y + moved.1);
+    Sketch::new(96, 64)
+        .line(at(8.0, 52.0), at(88.0, 20.0))
+        .curve(&[
+            at(-30.0, -20.0),
+            at(20.0, 50.0),
+            at(70.0, 44.0),
+            at(120.0, -30.0),
+        ])
+        .line(at(70.0, 6.0), at(40.0, 60.0))
+        .line(at(6.3, 8.0), at(6.3, 30.0))
+        .line(at(60.0, 58.3), at(92.0, 58.3))
+}
+
+/// Whether the tolerance of either variant lets the device's picture of `actual` pass for `expected`.
+fn passes(device: &Arc<GlDevice>, expected: &Sketch, actual: &Sketch) -> [bool; 2] {
+    let (expected, _) = judge(&drawing(expected.clone()));
+    let actual = drawing(actual.clone());
+    VARIANTS.map(|(antialias, tolerance)| {
+        let (frame, _) = drawn_alike(device, antialias, &actual).expect("it can be drawn");
+        compare(&expected, &frame, &actual, &tolerance).is_ok()
+    })
+}
+
+#[test]
+fn other_pictures_fail() {
+    let Some(device) = here(gl()) else { return };
+    let right = sketch((0.0, 0.0));
+    assert_eq!(passes(&device, &right, &right), [true; 2]);
+    for moved in [(2.0, 0.0), (0.0, 2.0), (-2.0, 0.0), (0.0, -2.0)] {
+        assert_eq!(
+            passes(&device, &right, &sketch(moved)),
+            [false; 2],
+            "{moved:?}"
+        );
+    }
+    for missing in 0..right.len() {
+        let rest: Vec<_> = (0..right.len()).filter(|&i| i != missing).collect();
+        let rest = right.clone().reordered(&rest);
+        assert_eq!(passes(&device, &right, &rest), [false; 2], "{missing}");
+        assert_eq!(
+            passes(&device, &rest, &right),
+            [false; 2],
+            "{missing} too many"
+        );
+    }
+    assert_eq!(passes(&device, &right, &Sketch::new(96, 64)), [false; 2]);
+    assert_eq!(passes(&device, &Sketch::new(96, 64), &right), [false; 2]);
+}
+
+#[test]
+fn turned_and_mirrored_pictures_fail() {
+    let right = drawing(sketch((0.0, 0.0)));
+    let (expected, _) = judge(&right);
+    let (width, height) = (96, 64);
+    for from in [
+        |x: usize, y: usize| (x, 63 - y),
+        |x, y| (95 - x, y),
+        |x, y| (95 - x, 63 - y),
+    ] {
+        let mut turned = expected.clone();
+        for y in 0..height {
+            for x in 0..width {
+                let (from_x, from_y) = from(x, y);
+                turned.pixels_mut()[y * width + x] = expected.pixels()[from_y * width + from_x];
+            }
+        }
+        for (_, tolerance) in VARIANTS {
+            assert!(compare(&expected, &expected, &right, &tolerance).is_ok());
+            assert!(compare(&expected, &turned, &right, &tolerance).is_err());
+        }
+    }
+}
+
+fn in_parallel<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> {
+    let (next, done) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
+    let threads = thread::available_parallelism().map_or(1, NonZero::get);
+    thread::scope(|scope| {
+        for _ in 0..threads {
+            scope.spawn(|| {
+                while let Some(item) = items.get(next.fetch_add(1, Ordering::Relaxed)) {
+                    let result = work(item);
+                    done.lock()
+                        .expect("no test thread panics here")
+                        .push(result);
+                }
+            });
+        }
+    });
+    done.into_inner().expect("no test thread panics here")
+}
