@@ -54,9 +54,14 @@ fn descriptor_for(adapter: &Adapter, options: GpuOptions) -> DeviceDescriptor<'s
         let side = &mut limits.max_compute_workgroups_per_dimension;
         *side = (*side).min(workgroups);
     }
+    let clock = if options.without_clock {
+        Features::empty()
+    } else {
+        Features::TIMESTAMP_QUERY
+    };
     DeviceDescriptor {
         label: Some("guideway"),
-        required_features: adapter.features() & Features::TIMESTAMP_QUERY,
+        required_features: adapter.features() & clock,
         required_limits: limits,
         ..DeviceDescriptor::default()
     }

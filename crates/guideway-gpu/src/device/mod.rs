@@ -22,6 +22,8 @@ pub struct GpuOptions {
     pub workgroups_per_dimension: Option<u32>,
     /// Most times that a thread goes round its loops; as many as are safe if none.
     pub rounds_a_thread: Option<u32>,
+    /// Do not use the device's clock, as if it had none.
+    pub without_clock: bool,
 }
 
 /// Fewer rounds than this would not do for the loops of one row of cells.

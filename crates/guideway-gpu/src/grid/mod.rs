@@ -49,8 +49,10 @@ impl Grid {
     /// A variant of the method on a device.
     ///
     /// # Errors
-    /// When the device does not take the shaders: a sentence with its reason.
+    /// When a number of the options is not possible, or the device does not take the shaders: a sentence
+    /// with the reason.
     pub fn new(gpu: Arc<Gpu>, options: GridOptions) -> Result<Self, String> {
+        options.check()?;
         Ok(Self(Arc::new(Variant {
             kernels: Kernels::new(&gpu, &options)?,
             gpu,

@@ -8,9 +8,9 @@ use super::params::HALF_EDGE_PX;
 /// Which variant of the method to use. The default is the method as the thesis writes it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct GridOptions {
-    /// Samples of each segment, 2 to 64: one line less.
+    /// Samples of each segment, 2 to 64; lines are one less.
     pub samples: u32,
-    /// Cells along each side of the grid, 1 to 1024.
+    /// Cells along each side of the grid, 1 to 1024; at most 512 with the naive prefix sum.
     pub cells: u32,
     /// How the places of the cells' lists are found.
     pub prefix_sum: PrefixSum,
@@ -81,7 +81,10 @@ impl Default for GridOptions {
 }
 
 const WORDS: &str = "`naive` or `scan`, `radius`, `exit`, `aa=smooth`, `aa=none` or `aa=subpixel`, \
-     `samples=` 2 to 64 and `cells=` 1 to 1024";
+     `samples=` and a number, `cells=` and a number";
+
+/// The prefix sum as written takes half a million times a million additions for 1024 x 1024 cells.
+const MOST_NAIVE_CELLS: u32 = 512;
 
 impl GridOptions {
     /// Reads what [`fmt::Display`] writes: words joined by `+`, such as
@@ -91,55 +94,59 @@ impl GridOptions {
     /// A sentence that names the word that is wrong and those that there are.
     pub fn parse(text: &str) -> Result<Self, String> {
         let mut options = Self::default();
-        let mut given: Vec<&str> = Vec::new();
+        let mut topics: Vec<&str> = Vec::new();
         for word in text.split('+').filter(|_| !text.is_empty()) {
-            let (topic, value) = word.split_once('=').unwrap_or((word, ""));
-            let topic = match (topic, value) {
-                ("naive", "") => {
-                    options.prefix_sum = PrefixSum::Naive;
-                    "the prefix sum"
-                }
-                ("scan", "") => {
-                    options.prefix_sum = PrefixSum::Scan;
-                    "the prefix sum"
-                }
-                ("radius", "") => {
-                    options.binning = Binning::LineBoxWithRadius;
-                    "`radius`"
-                }
-                ("exit", "") => {
-                    options.early_exit = true;
-                    "`exit`"
-                }
-                ("aa", _) => {
-                    options.antialias = match value {
-                        "smooth" => Antialias::Smooth,
-                        "none" => Antialias::None,
-                        "subpixel" => Antialias::Subpixel,
-                        _ => {
-                            return Err(format!(
-                                "`{word}` is no option of `grid`; there is {WORDS}"
-                            ));
-                        }
-                    };
-                    "`aa`"
-                }
-                ("samples", _) => {
-                    options.samples = number(word, value, 2, 64)?;
-                    "`samples`"
-                }
-                ("cells", _) => {
-                    options.cells = number(word, value, 1, 1024)?;
-                    "`cells`"
-                }
+            let parts = word.split_once('=');
+            let (topic, value) = parts.map_or((word, None), |(topic, value)| (topic, Some(value)));
+            match (topic, value) {
+                ("naive", None) => options.prefix_sum = PrefixSum::Naive,
+                ("scan", None) => options.prefix_sum = PrefixSum::Scan,
+                ("radius", None) => options.binning = Binning::LineBoxWithRadius,
+                ("exit", None) => options.early_exit = true,
+                ("aa", Some("smooth")) => options.antialias = Antialias::Smooth,
+                ("aa", Some("none")) => options.antialias = Antialias::None,
+                ("aa", Some("subpixel")) => options.antialias = Antialias::Subpixel,
+                ("samples", Some(number)) => options.samples = parse_number(word, number)?,
+                ("cells", Some(number)) => options.cells = parse_number(word, number)?,
                 _ => return Err(format!("`{word}` is no option of `grid`; there is {WORDS}")),
-            };
-            if given.contains(&topic) {
-                return Err(format!("`{text}` names {topic} twice"));
             }
-            given.push(topic);
+            let topic = if topic == "naive" { "scan" } else { topic };
+            if topics.contains(&topic) {
+                return Err(format!(
+                    "`{text}`: `{word}` repeats or contradicts a word before it"
+                ));
+            }
+            topics.push(topic);
         }
+        options.check()?;
         Ok(options)
+    }
+
+    /// Whether all numbers are possible.
+    ///
+    /// # Errors
+    /// A sentence that names the one that is not, and those that are.
+    pub fn check(&self) -> Result<(), String> {
+        if !(2..=64).contains(&self.samples) {
+            return Err(format!(
+                "{} samples are not possible: 2 to 64 are",
+                self.samples
+            ));
+        }
+        if !(1..=1024).contains(&self.cells) {
+            return Err(format!(
+                "{} cells a side are not possible: 1 to 1024 are",
+                self.cells
+            ));
+        }
+        if self.prefix_sum == PrefixSum::Naive && self.cells > MOST_NAIVE_CELLS {
+            return Err(format!(
+                "the naive prefix sum takes too long for {0} x {0} cells: add `scan`, or ask for \
+                 {MOST_NAIVE_CELLS} at most",
+                self.cells
+            ));
+        }
+        Ok(())
     }
 
     /// Lines that a segment becomes.
@@ -153,11 +160,9 @@ impl GridOptions {
     }
 }
 
-fn number(word: &str, value: &str, least: u32, most: u32) -> Result<u32, String> {
-    let found = value.parse().ok().filter(|n| (least..=most).contains(n));
-    found.ok_or_else(|| {
-        format!("`{word}` is not possible: it takes a number from {least} to {most}")
-    })
+fn parse_number(word: &str, number: &str) -> Result<u32, String> {
+    let number = number.parse();
+    number.map_err(|_| format!("`{word}` is not possible: it takes a whole number"))
 }
 
 impl fmt::Display for GridOptions {
@@ -214,17 +219,18 @@ mod tests {
     #[test]
     fn what_is_wrong_is_named() {
         for (text, named) in [
-            ("scam", "`scam`"),
-            ("scan+", "``"),
-            ("scan=1", "`scan=1`"),
-            ("aa", "`aa`"),
-            ("aa=fast", "`aa=fast`"),
-            ("samples=1", "from 2 to 64"),
-            ("samples=", "`samples=`"),
-            ("cells=1025", "from 1 to 1024"),
-            ("cells=-1", "`cells=-1`"),
-            ("naive+scan", "the prefix sum twice"),
-            ("exit+exit", "`exit` twice"),
+            ("scam", "`scam` is no option"),
+            ("scan+", "`` is no option"),
+            ("scan=1", "`scan=1` is no option"),
+            ("aa", "`aa` is no option"),
+            ("aa=fast", "`aa=fast` is no option"),
+            ("samples=1", "2 to 64"),
+            ("samples=", "`samples=` is not possible"),
+            ("scan+cells=1025", "1 to 1024"),
+            ("cells=-1", "`cells=-1` is not possible"),
+            ("cells=513", "add `scan`"),
+            ("naive+scan", "`scan` repeats"),
+            ("exit+exit", "`exit` repeats"),
         ] {
             let message = GridOptions::parse(text).unwrap_err();
             assert!(message.contains(named), "{text}: {message}");

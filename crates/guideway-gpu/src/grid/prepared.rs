@@ -25,8 +25,8 @@ use crate::device::{DeviceBuffer, Dispatch, Memory, Runner};
 /// Largest frame that is planned for.
 const PLANNED_PIXELS: u64 = 3840 * 2160;
 
-const BORDERS_NOTE: &str = "Lines are entered in the cells of their middle, as the thesis writes: where \
-     they cross the border of a cell, some of their width is missing.";
+const BORDERS_NOTE: &str = "Lines are listed without their width, as the thesis writes: part of it is \
+     missing across the borders of cells. Option `radius` mends that.";
 
 /// A scene whose lines are sorted, and the buffers of the last picture.
 pub(super) struct PreparedGrid {

@@ -5,7 +5,7 @@ use std::sync::{Arc, LazyLock};
 
 use guideway_layout::{Layout, NewPath};
 use guideway_render::{
-    Budget, Cancel, Frame, FrameSize, Method, Prepared, RenderError, Report, Style, View,
+    Budget, Cancel, Clock, Frame, FrameSize, Method, Prepared, RenderError, Report, Style, View,
 };
 use guideway_scene::{LineRule, Scene, SceneOptions};
 use guideway_spline::{Point, Runs};
@@ -182,6 +182,31 @@ fn the_phases_are_timed_and_counted() {
         // A segment, and each line twice in at least one cell.
         assert!(preparation.work.atomics >= Some(30 * 6 * (1 + 2 * 9)));
     }
+}
+
+#[test]
+fn a_device_without_a_clock_is_timed_from_outside() {
+    let Some(gpu) = gpu() else { return };
+    let silent = limited(GpuOptions {
+        without_clock: true,
+        ..GpuOptions::default()
+    });
+    let view = view(70, 60, 0.8);
+    let (expected, _) = draw(&gpu, "scan", &view);
+    let (frame, report) = draw(&silent, "scan", &view);
+    assert!(frame == expected);
+    assert!(report.stages.iter().all(|stage| stage.clock == Clock::Host));
+    assert!(report.frame_ms() > 0.0);
+}
+
+#[test]
+fn impossible_options_are_refused_however_they_are_made() {
+    let Some(gpu) = gpu() else { return };
+    let options = GridOptions {
+        samples: 1,
+        ..GridOptions::default()
+    };
+    assert!(Grid::new(gpu, options).is_err());
 }
 
 #[test]
