@@ -13,7 +13,7 @@ const BOTTOM: f64 = 46.0;
 /// From this ratio of greatest to least value on, equal ratios are shown as equal distances.
 const LOG_RATIO: f64 = 60.0;
 /// Classes of lines that the style sheet tells apart.
-const STYLES: usize = 9;
+const STYLES: usize = 10;
 
 /// A line chart: values from 0 up against anything.
 #[derive(Clone, Debug)]
@@ -268,6 +268,21 @@ mod tests {
             [0.0, 0.3, 2.5, 90_000.0, 1.5e6].map(label),
             ["0", "0.3", "2.5", "90k", "1.5M"]
         );
+    }
+
+    #[test]
+    fn every_line_has_a_style_of_its_own() {
+        let sheet = include_str!("style.css");
+        assert!(STYLES >= crate::reproduce::METHODS.len());
+        for style in 0..STYLES {
+            assert!(sheet.contains(&format!("polyline.s{style} ")), "s{style}");
+            assert!(sheet.contains(&format!("circle.s{style} ")), "s{style}");
+            assert_eq!(
+                sheet.matches(&format!("--c{style}:")).count(),
+                2,
+                "light and dark"
+            );
+        }
     }
 
     #[test]

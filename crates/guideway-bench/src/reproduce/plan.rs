@@ -4,8 +4,8 @@ use super::Search;
 use super::names::{GRID, GRID_MENDED, GRID_SCAN, TESSELLATION, TESSELLATION_COMPACT};
 use crate::Dataset;
 
-/// The thesis' methods and variants, in the order of the report; the first is the thesis' own.
-pub const METHODS: [&str; 9] = [
+/// The thesis' methods and their variants, and beside them the methods that are not the thesis'.
+pub const METHODS: [&str; 10] = [
     GRID,
     GRID_SCAN,
     GRID_MENDED,
@@ -14,6 +14,7 @@ pub const METHODS: [&str; 9] = [
     TESSELLATION,
     "tessellation+aa=multisample",
     TESSELLATION_COMPACT,
+    "gpu",
     "cpu",
 ];
 

@@ -82,15 +82,15 @@ fn row(run: &Run, found: &MostPaths) -> Vec<Cell> {
 fn limit(run: &Run, found: &MostPaths) -> String {
     let search = &run.plan.search;
     match (found.limit, &found.reason) {
-        (Limit::FrameTime, _) => "frames take longer".to_owned(),
-        (Limit::Ceiling, _) => "no more were tried".to_owned(),
+        (Limit::FrameTime, _) => "frame time".to_owned(),
+        (Limit::Ceiling, _) => "not tried".to_owned(),
         (Limit::TooSlow, _) => {
             let ms = found.trials.last().and_then(|trial| trial.frame_ms);
-            let ms = ms.map_or_else(String::new, |ms| format!(" takes {} ms", digits(ms)));
-            format!("a frame of {} paths{ms}", count(search.least as u64))
+            let ms = ms.map_or_else(String::new, |ms| format!(": {} ms", digits(ms)));
+            format!("{} paths{ms}", count(search.least as u64))
         }
         (Limit::Refused, Some(reason)) => reason.clone(),
         (Limit::Refused, None) => "refused".to_owned(),
-        (Limit::Time, _) => "the time for the search was over".to_owned(),
+        (Limit::Time, _) => "the time was over".to_owned(),
     }
 }

@@ -23,7 +23,7 @@ pub(crate) struct Args {
     /// Folder for the page, the tables and the run
     #[arg(long, value_name = "DIR", default_value = "reproduction")]
     out: PathBuf,
-    /// Methods with their options [default: the thesis' with their variants, and `cpu`]
+    /// Methods with their options [default: the thesis' with their variants, `gpu` and `cpu`]
     #[arg(long, value_name = "A,B+OPTION", value_delimiter = ',', value_parser = values::MethodSpec)]
     methods: Vec<String>,
     /// Time for all of it; what does not fit is marked as missing [default: 60, or 9 with --quick]
