@@ -57,7 +57,10 @@ fn as_written_a_border_cuts_lines_and_with_the_radius_it_does_not() {
         let is_above = (58..64).contains(&y) && x >= 64;
         // Of the box's border too, where the hairs in the corners are.
         let is_outside = [0, SIDE - 1].contains(&x) || [0, SIDE - 1].contains(&y);
-        assert!(is_right || is_above || is_outside, "({x}, {y}) has lost too");
+        assert!(
+            is_right || is_above || is_outside,
+            "({x}, {y}) has lost too"
+        );
         lost += 1;
     }
     assert!(lost > 300, "{lost} pixels have lost");
