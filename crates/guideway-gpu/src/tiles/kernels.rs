@@ -52,12 +52,12 @@ impl Painters {
         let cover = vec![
             constant("TILE_PX", TILE_PX),
             constant("THREADS", TILE_THREADS),
-            constant("BATCH", BATCH),
             constant("SAMPLE_ROWS", SAMPLE_ROWS),
             constant("COLUMNS", COLUMNS),
         ];
         let layers = |layers: Layers| {
             let mut constants = cover.clone();
+            constants.push(constant("BATCH", BATCH));
             constants.push(constant("SHADING", layers as u32));
             Kernel::new(gpu, &LAYERS[samples as usize], &constants)
         };

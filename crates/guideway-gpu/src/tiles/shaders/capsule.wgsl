@@ -67,13 +67,18 @@ fn bits_between(first: u32, end: u32, word: u32) -> u32 {
     return low_bits(max(end, before) - before) & ~low_bits(max(first, before) - before);
 }
 
-// The samples of one row that are covered: from the first to behind the last.
+// The rows of a tile that may have covered samples: from the first to behind the last.
+fn rows_touched(capsule: Capsule) -> vec2u {
+    let reach = capsule.radius + SLACK;
+    let low = ceil(capsule.upper.y - reach - 0.5);
+    let high = floor(capsule.upper.y + capsule.along.y + reach - 0.5) + 1.0;
+    let most = f32(TILE_PX * SAMPLE_ROWS);
+    return vec2u(u32(clamp(low, 0.0, most)), u32(clamp(high, 0.0, most)));
+}
+
+// The samples of a row that are covered, if it may have any: from the first to behind the last.
 fn span_of(capsule: Capsule, row: u32) -> vec2u {
     let y = f32(row) + 0.5;
-    let bottom = capsule.upper.y + capsule.along.y;
-    if y < capsule.upper.y - capsule.radius - SLACK || y > bottom + capsule.radius + SLACK {
-        return vec2u(0u, 0u);
-    }
     let left = disc_at(capsule, y, capsule.left_y);
     let right = disc_at(capsule, y, capsule.right_y);
     // The first sample of the row, and its distance to the next.
@@ -83,13 +88,17 @@ fn span_of(capsule: Capsule, row: u32) -> vec2u {
     let low = ceil((left.x - left.y - SLACK - first_x) * per_step);
     let high = floor((right.x + right.y + SLACK - first_x) * per_step) + 1.0;
     let most = f32(WORDS * 32u);
-    return vec2u(u32(clamp(low, 0.0, most)), u32(clamp(high, 0.0, most)));
+    let first = u32(clamp(low, 0.0, most));
+    return vec2u(first, max(first, u32(clamp(high, 0.0, most))));
 }
 
-fn cover(row: ptr<function, Row>, span: vec2u) {
-    if span.y > span.x {
+// Adds what a line covers of a row.
+fn cover(into: ptr<function, Row>, capsule: Capsule, row: u32) {
+    let rows = rows_touched(capsule);
+    if row >= rows.x && row < rows.y {
+        let span = span_of(capsule, row);
         for (var word = 0u; word < WORDS; word++) {
-            (*row)[word] |= bits_between(span.x, span.y, word);
+            (*into)[word] |= bits_between(span.x, span.y, word);
         }
     }
 }

@@ -1,7 +1,7 @@
 // Tiles of a scene of one opaque colour: it does not matter which line covers a sample.
 
 // Covered samples of all rows.
-var<workgroup> samples: array<u32, THREADS * WORDS>;
+var<workgroup> samples: array<atomic<u32>, THREADS * WORDS>;
 
 // How many samples of a pixel are covered.
 fn count_of(pixel: u32) -> u32 {
@@ -10,10 +10,21 @@ fn count_of(pixel: u32) -> u32 {
     let first_row = (pixel / TILE_PX) * SAMPLE_ROWS;
     var count = 0u;
     for (var row = first_row; row < first_row + SAMPLE_ROWS; row++) {
-        let word = samples[row * WORDS + x / pixels_a_word];
+        let word = atomicLoad(&samples[row * WORDS + x / pixels_a_word]);
         count += countOneBits(bits_of_pixel(word, x % pixels_a_word));
     }
     return count;
+}
+
+// Covers every `parts`-th row that a line touches, from one of the first on.
+fn cover_rows(capsule: Capsule, part: u32, parts: u32) {
+    let rows = rows_touched(capsule);
+    for (var row = rows.x + part; row < rows.y; row += parts) {
+        let span = span_of(capsule, row);
+        for (var word = span.x / 32u; word * 32u < span.y; word++) {
+            atomicOr(&samples[row * WORDS + word], bits_between(span.x, span.y, word));
+        }
+    }
 }
 
 @compute @workgroup_size(THREADS)
@@ -34,24 +45,25 @@ fn main(
         return;
     }
     let outside = beyond(tile, thread);
-    var covered = outside;
-    for (var first = start; first < end; first += BATCH) {
-        let batch = min(BATCH, end - first);
-        if thread < batch {
-            load(tile, first + thread, thread);
+    for (var first = start; first < end; first += THREADS) {
+        let batch = min(THREADS, end - first);
+        // Few lines are shared out by their rows, so that all threads have work.
+        let parts = THREADS >> (32u - countLeadingZeros(batch - 1u));
+        let line = thread / parts;
+        if line < batch {
+            cover_rows(capsule_at(tile, first + line), thread % parts, parts);
         }
         workgroupBarrier();
-        for (var i = 0u; i < batch; i++) {
-            cover(&covered, span_of(capsules[i], thread));
-        }
-        if !any_open(thread, &covered) {
-            break;
+        if first + THREADS < end {
+            var row = outside;
+            for (var word = 0u; word < WORDS; word++) {
+                row[word] |= atomicLoad(&samples[thread * WORDS + word]);
+            }
+            if !any_open(thread, &row) {
+                break;
+            }
         }
     }
-    for (var word = 0u; word < WORDS; word++) {
-        samples[thread * WORDS + word] = covered[word] & ~outside[word];
-    }
-    workgroupBarrier();
     let share = f32(count_of(thread)) / f32(SAMPLE_ROWS * SAMPLES_A_ROW);
     write(tile, thread, over_background(channels(frame.color).rgb * share, share));
 }

@@ -10,6 +10,10 @@ const DENSITY: u32 = 2u;
 // Parts that one sample's share of a sum is counted in.
 const PARTS: f32 = 256.0;
 
+// Lines that are looked at together.
+override BATCH: u32;
+
+var<workgroup> capsules: array<Capsule, BATCH>;
 var<workgroup> ranks: array<u32, BATCH>;
 var<workgroup> colors: array<u32, BATCH>;
 // Red, green, blue, and how much is hidden, for each pixel.
@@ -91,7 +95,7 @@ fn main(
     for (var first = start; first < end; first += BATCH) {
         let batch = min(BATCH, end - first);
         if thread < batch {
-            load(tile, first + thread, thread);
+            capsules[thread] = capsule_at(tile, first + thread);
             let stroke = line_strokes[references[first + thread]];
             ranks[thread] = strokes[stroke].rank;
             colors[thread] = strokes[stroke].color;
@@ -103,7 +107,7 @@ fn main(
                 rank = ranks[i];
                 color = colors[i];
             }
-            cover(&gathered, span_of(capsules[i], thread));
+            cover(&gathered, capsules[i], thread);
         }
         if SHADING == DENSITY {
             workgroupBarrier();

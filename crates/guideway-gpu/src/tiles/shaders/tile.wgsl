@@ -8,10 +8,6 @@
 @group(0) @binding(6) var<storage, read_write> pixels: array<u32>;
 
 override THREADS: u32;
-// Lines that are looked at together.
-override BATCH: u32;
-
-var<workgroup> capsules: array<Capsule, BATCH>;
 var<workgroup> open_rows: atomic<u32>;
 var<workgroup> is_open: u32;
 
@@ -50,12 +46,11 @@ fn beyond(tile: Tile, row: u32) -> Row {
     return outside;
 }
 
-// Brings a line of the list into the workgroup's memory.
-fn load(tile: Tile, place: u32, into: u32) {
+// The line at a place of the lists.
+fn capsule_at(tile: Tile, place: u32) -> Capsule {
     let line = references[place];
-    let radius = radius_of(line_strokes[line]);
     let corner = vec2f(f32(tile.left), f32(tile.top));
-    capsules[into] = capsule_of(lines_px[line], corner, radius);
+    return capsule_of(lines_px[line], corner, radius_of(line_strokes[line]));
 }
 
 // Whether any row of the tile still has samples that are not covered.
