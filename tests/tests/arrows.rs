@@ -170,6 +170,7 @@ fn the_core_needs_no_gpu_library() {
             "tree",
             "--package",
             "guideway",
+            "--no-default-features",
             "--edges",
             "normal",
             "--prefix",
