@@ -22,7 +22,18 @@ struct Figure {
     method: &'static str,
     magnification: f64,
     size_px: [u32; 2],
+    /// Times that each pixel is enlarged; the picture then shows only its middle.
     enlarged: u32,
+}
+
+impl Figure {
+    /// What is seen, and in how many pixels.
+    fn view(&self, scene: &Scene) -> Result<View, RenderError> {
+        let [width, height] = self.size_px;
+        let whole = magnified(FrameSize::new(width, height)?, scene, self.magnification)?;
+        let shown = FrameSize::new(width / self.enlarged, height / self.enlarged)?;
+        View::new(shown, whole.center_m(), whole.px_per_m())
+    }
 }
 
 /// Draws every picture of the page.
@@ -31,8 +42,7 @@ pub(crate) fn pictures(lab: &Lab<'_>, _: Deadline, out: &mut Results) -> Result<
         lab.tell(&format!("picture of figure {}", figure.number));
         let paths = lab.plan.view_paths(figure.dataset);
         let scene = lab.scene(figure.dataset, paths);
-        let size = FrameSize::new(figure.size_px[0], figure.size_px[1])?;
-        let view = magnified(size, &scene, figure.magnification)?;
+        let view = figure.view(&scene)?;
         if let Some((method, frame)) = draw(lab, figure.method, &scene, &view)? {
             let (shows, dataset) = (figure.shows, figure.dataset.name());
             let percent = figure.magnification * 100.0;
@@ -42,7 +52,7 @@ pub(crate) fn pictures(lab: &Lab<'_>, _: Deadline, out: &mut Results) -> Result<
                     "{shows}{dataset} at {percent:.0} %, {} paths, by {method}",
                     count(paths as u64)
                 ),
-                size_px: figure.size_px,
+                size_px: [view.size().width(), view.size().height()],
                 enlarged: figure.enlarged,
                 png_base64: STANDARD.encode(png(&frame)),
             });
@@ -66,19 +76,19 @@ fn figures() -> Vec<Figure> {
         size_px: [480, 270],
         ..whole("5.3", Dataset::D1)
     });
-    let edges = |number, shows, method, size_px, enlarged| Figure {
+    let edges = |number, shows, method, enlarged| Figure {
         shows,
         method,
         magnification: MAGNIFICATIONS[3],
-        size_px,
+        size_px: [480, 270],
         enlarged,
         ..whole(number, Dataset::D1)
     };
     let mut figures = vec![whole("5.1", Dataset::D1), whole("5.2", Dataset::D2)];
     figures.extend(zoomed);
-    for (number, size_px, enlarged) in [("5.6", [480, 270], 1), ("5.7", [48, 27], 10)] {
-        figures.push(edges(number, "smooth: ", GRID, size_px, enlarged));
-        figures.push(edges(number, "not smooth: ", GRID_HARD, size_px, enlarged));
+    for (number, enlarged) in [("5.6", 1), ("5.7", 10)] {
+        figures.push(edges(number, "smooth: ", GRID, enlarged));
+        figures.push(edges(number, "not smooth: ", GRID_HARD, enlarged));
     }
     figures
 }
@@ -131,6 +141,23 @@ fn png(frame: &Frame) -> Vec<u8> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn figure_5_7_is_the_middle_of_figure_5_6() {
+        let scene = Dataset::D1.scene(100);
+        let views = |number| {
+            let own = figures().into_iter().filter(move |f| f.number == number);
+            let views = own.map(|figure| figure.view(&scene).unwrap());
+            views.collect::<Vec<View>>()
+        };
+        let (whole, part) = (views("5.6"), views("5.7"));
+        assert_eq!((whole.len(), part.len()), (2, 2));
+        for (whole, part) in whole.iter().zip(&part) {
+            assert_eq!(whole.center_m(), part.center_m());
+            assert_eq!(whole.px_per_m(), part.px_per_m());
+            assert_eq!((part.size().width(), part.size().height()), (48, 27));
+        }
+    }
 
     #[test]
     fn pictures_keep_their_pixels_grey_or_not() {
