@@ -6,7 +6,6 @@ use std::time::Instant;
 use guideway_render::{RenderError, Stage};
 use wgpu::BufferUsages;
 
-use super::NAME;
 use super::cut::Cutter;
 use super::kernels::{Kernels, Prefix};
 use super::options::GridOptions;
@@ -14,6 +13,7 @@ use super::pack::{Cursor, Packed, Packer};
 use super::params::{Items, LINE_BYTES, SCAN_THREADS, WORKGROUP};
 use super::pass::parts;
 use super::table::Table;
+use super::unsupported;
 use crate::device::{DeviceBuffer, Dispatch, FETCHED, Gpu, Held, Kernel, Memory, Runner};
 
 /// The lines of some of the paths, sorted into the cells of the grid.
@@ -136,14 +136,11 @@ impl Builder<'_> {
     }
 
     fn too_much(&self, what: String) -> RenderError {
-        RenderError::Unsupported {
-            method: NAME,
-            what: format!(
-                "{what}: this device lets a shader see only {} bytes at once",
-                self.gpu.binding_bytes()
-            ),
-            remedy: "Ask for fewer cells or samples.".to_owned(),
-        }
+        let most = self.gpu.binding_bytes();
+        unsupported(
+            format!("{what}: this device lets a shader see only {most} bytes at once"),
+            "Ask for fewer cells or samples.",
+        )
     }
 
     fn scratch(&mut self, most_segments: u32) -> Result<Scratch, RenderError> {
@@ -319,7 +316,7 @@ impl Builder<'_> {
     }
 
     /// Work and items of one submit.
-    pub(super) fn cutter(&self) -> Cutter {
+    fn cutter(&self) -> Cutter {
         let most_items = self.gpu.most_workgroups().saturating_mul(WORKGROUP);
         Cutter::new(self.gpu.tests_a_submit(), most_items)
     }

@@ -5,10 +5,10 @@ use std::ops::Range;
 use guideway_render::{FrameSize, RenderError};
 use wgpu::BufferUsages;
 
-use super::NAME;
 use super::build::Chunk;
 use super::kernels::Kernels;
 use super::params::ViewParams;
+use super::unsupported;
 use crate::device::{Bindings, DeviceBuffer, FETCHED, Gpu, Kernel, Memory};
 
 /// Bytes of a pixel: what is remembered of it, or its colour.
@@ -69,14 +69,13 @@ impl Canvas {
         let fit_binding = gpu.binding_bytes() / (width * fetched_bytes);
         let fit_budget = memory.spare_bytes().saturating_sub(WORK_BYTES) / (width * pixel_bytes);
         if fit_binding == 0 {
-            return Err(RenderError::Unsupported {
-                method: NAME,
-                what: format!(
-                    "rows of {width} pixels on a device that lets a shader see only {} bytes at once",
+            return Err(unsupported(
+                format!(
+                    "rows of {width} pixels: this device lets a shader see only {} bytes at once",
                     gpu.binding_bytes()
                 ),
-                remedy: "Ask for a narrower picture.".to_owned(),
-            });
+                "Ask for a narrower picture.",
+            ));
         }
         // Without room for one row, the allocations say what it would have taken.
         let rows = fit_binding.min(fit_budget.max(1)).min(size.height().into());

@@ -92,3 +92,12 @@ impl Method for Grid {
         )?))
     }
 }
+
+/// What the method cannot draw, and a sentence on what to ask for instead.
+fn unsupported(what: impl Into<String>, remedy: &str) -> RenderError {
+    RenderError::Unsupported {
+        method: NAME,
+        what: what.into(),
+        remedy: remedy.to_owned(),
+    }
+}

@@ -19,7 +19,7 @@ use super::params::{GridParams, LINE_BYTES, WORKGROUP};
 use super::pass::Pass;
 use super::shot::{Shot, Widths};
 use super::table::Table;
-use super::{NAME, Variant, pass};
+use super::{NAME, Variant, pass, unsupported};
 use crate::device::{DeviceBuffer, Dispatch, Memory, Runner};
 
 /// Largest frame that is planned for.
@@ -66,14 +66,6 @@ pub(super) fn plan_bytes(variant: &Variant, scene: &Scene) -> u64 {
         + points_bytes
         + (chunks + 2) * tables_bytes
         + 2 * PLANNED_PIXELS * PIXEL_BYTES
-}
-
-fn unsupported(what: &str, remedy: &str) -> RenderError {
-    RenderError::Unsupported {
-        method: NAME,
-        what: what.to_owned(),
-        remedy: remedy.to_owned(),
-    }
 }
 
 /// The colour of all paths.

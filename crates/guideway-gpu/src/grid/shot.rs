@@ -6,11 +6,11 @@ use guideway_render::{RenderError, Shading, Style, View};
 use guideway_scene::{LineRule, Rgba};
 use guideway_spline::{Bounds, Point};
 
-use super::NAME;
 use super::local::Local;
 use super::options::{Binning, GridOptions};
 use super::params::{GridParams, ViewParams};
 use super::pass::Pass;
+use super::unsupported;
 
 /// Farthest that a line may be from where it belongs, in pixels.
 const MOST_ROUNDING_PX: f64 = 0.1;
@@ -31,14 +31,6 @@ pub(super) enum Widths {
     /// The same for all: their own or that of the rule.
     One(Option<f32>),
     Several,
-}
-
-fn unsupported(what: impl Into<String>, remedy: impl Into<String>) -> RenderError {
-    RenderError::Unsupported {
-        method: NAME,
-        what: what.into(),
-        remedy: remedy.into(),
-    }
 }
 
 impl Shot {
