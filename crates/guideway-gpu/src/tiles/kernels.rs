@@ -54,10 +54,10 @@ impl Painters {
             constant("THREADS", TILE_THREADS),
             constant("SAMPLE_ROWS", SAMPLE_ROWS),
             constant("COLUMNS", COLUMNS),
+            constant("BATCH", BATCH),
         ];
         let layers = |layers: Layers| {
             let mut constants = cover.clone();
-            constants.push(constant("BATCH", BATCH));
             constants.push(constant("SHADING", layers as u32));
             Kernel::new(gpu, &LAYERS[samples as usize], &constants)
         };

@@ -23,7 +23,7 @@ pub(super) const SAMPLE_ROWS: u32 = 16;
 pub(super) const COLUMNS: u32 = columns([0, 2, 1, 3, 2, 0, 3, 1, 1, 3, 0, 2, 3, 1, 2, 0]);
 /// Threads of a tile: one for each row of samples.
 pub(super) const TILE_THREADS: u32 = TILE_PX * SAMPLE_ROWS;
-/// Lines that a tile with layers looks at together.
+/// Lines that a tile looks at together, unless all are of one colour and few.
 pub(super) const BATCH: u32 = 64;
 
 const fn columns(first: [u32; SAMPLE_ROWS as usize]) -> u32 {

@@ -45,8 +45,10 @@ fn main(
         return;
     }
     let outside = beyond(tile, thread);
-    for (var first = start; first < end; first += THREADS) {
-        let batch = min(THREADS, end - first);
+    // A long list is likely to cover the tile before its end: then it is worth a look more often.
+    let most = select(THREADS, BATCH, end - start > 2u * THREADS);
+    for (var first = start; first < end; first += most) {
+        let batch = min(most, end - first);
         // Few lines are shared out by their rows, so that all threads have work.
         let parts = THREADS >> (32u - countLeadingZeros(batch - 1u));
         let line = thread / parts;
@@ -54,7 +56,7 @@ fn main(
             cover_rows(capsule_at(tile, first + line), thread % parts, parts);
         }
         workgroupBarrier();
-        if first + THREADS < end {
+        if first + most < end {
             var row = outside;
             for (var word = 0u; word < WORDS; word++) {
                 row[word] |= atomicLoad(&samples[thread * WORDS + word]);

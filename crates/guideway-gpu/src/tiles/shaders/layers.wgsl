@@ -10,9 +10,6 @@ const DENSITY: u32 = 2u;
 // Parts that one sample's share of a sum is counted in.
 const PARTS: f32 = 256.0;
 
-// Lines that are looked at together.
-override BATCH: u32;
-
 var<workgroup> capsules: array<Capsule, BATCH>;
 var<workgroup> ranks: array<u32, BATCH>;
 var<workgroup> colors: array<u32, BATCH>;

@@ -8,6 +8,8 @@
 @group(0) @binding(6) var<storage, read_write> pixels: array<u32>;
 
 override THREADS: u32;
+// Lines that are looked at together; of one colour, only in long lists.
+override BATCH: u32;
 var<workgroup> open_rows: atomic<u32>;
 var<workgroup> is_open: u32;
 
