@@ -1,7 +1,8 @@
 //! Measures render methods side by side, and reproduces the thesis' tables and figures with them.
 //!
-//! [`compare`] lets methods draw the same frames in turns. No method is known
-//! by more than its name: the caller starts them ([`Start`]).
+//! [`compare`] lets methods draw the same frames in turns. [`reproduce::reproduce`] follows a plan through
+//! every measurement of the thesis and writes down a run; [`report::files`] makes the page and the tables
+//! from that alone. No method is known by more than its name: the caller starts them ([`Start`]).
 
 mod comparison;
 mod dataset;

@@ -232,6 +232,18 @@ fn the_thesis_is_reproduced_and_its_page_made_again() {
 }
 
 #[test]
+fn a_folder_that_cannot_be_written_is_refused_before_any_work() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("a file");
+    fs::write(&file, "as it was").unwrap();
+    // Without `--quick`: measuring would take far longer than the test may.
+    let output = run(["reproduce", "--json", "--out", file.to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(2));
+    assert_eq!(answer(&output, "error")["error"]["code"], "save");
+    assert_eq!(fs::read_to_string(&file).unwrap(), "as it was");
+}
+
+#[test]
 fn what_is_not_a_run_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("run.json");

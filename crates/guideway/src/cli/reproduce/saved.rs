@@ -28,12 +28,14 @@ struct Header {
     version: u32,
 }
 
+/// Makes the folder, if need be, and sees whether files can be put there.
 pub(super) fn make_folder(folder: &Path) -> Result<(), Failure> {
-    let made = fs::create_dir_all(folder);
-    Ok(made.map_err(|problem| SaveError {
+    let made = fs::create_dir_all(folder).and_then(|()| tempfile::tempfile_in(folder));
+    made.map_err(|problem| SaveError {
         path: folder.to_owned(),
         problem,
-    })?)
+    })?;
+    Ok(())
 }
 
 pub(super) fn write_run(folder: &Path, run: &Run) -> Result<(), Failure> {
