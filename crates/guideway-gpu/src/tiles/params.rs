@@ -92,6 +92,7 @@ pub(super) struct Found {
     pub(super) lines: u32,
     pub(super) references: u32,
     pub(super) drawn: u32,
+    pub(super) longest: u32,
 }
 
 /// What a pixel of a tile with layers shows: `SHADING` of `layers.wgsl`.

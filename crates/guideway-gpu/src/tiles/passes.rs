@@ -83,6 +83,14 @@ impl Paint {
         }
     }
 
+    /// Times that a thread goes round its loops for each line of its tile: at most, with some to spare.
+    pub(super) fn rounds_a_line(self) -> u32 {
+        match self {
+            Self::One => 10,
+            Self::Opaque | Self::Translucent | Self::Density => 20,
+        }
+    }
+
     fn kernel(self, painters: &Painters) -> &Kernel {
         match self {
             Self::One => &painters.cover,

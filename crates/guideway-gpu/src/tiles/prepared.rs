@@ -12,7 +12,7 @@ use wgpu::BufferUsages;
 
 use super::canvas::Canvas;
 use super::pack::Packed;
-use super::params::{Found, FrameParams, Stroke};
+use super::params::{Found, FrameParams, Stroke, TILE_PX};
 use super::passes::{Bound, Paint, Store};
 use super::room::{Room, Size};
 use super::shot::Shot;
@@ -167,7 +167,24 @@ impl PreparedTiles {
             |bytes| bytemuck::bytes_of_mut(&mut found).copy_from_slice(bytes),
         );
         fetched.map_err(trouble)?;
+        self.check_rounds(&found, paint)?;
         Ok(found)
+    }
+
+    /// Whether each thread of a tile may go on to the end of its list.
+    fn check_rounds(&self, found: &Found, paint: Paint) -> Result<(), RenderError> {
+        let most = self.shared.gpu.rounds_a_thread() / paint.rounds_a_line();
+        if found.longest <= most {
+            return Ok(());
+        }
+        Err(RenderError::Unsupported {
+            method: NAME,
+            what: format!(
+                "{} lines on {TILE_PX} x {TILE_PX} pixels: this device ends a thread after some {most}",
+                found.longest
+            ),
+            remedy: "Zoom in, or use `--method cpu`.".to_owned(),
+        })
     }
 
     /// More room for what was found, if there can be.

@@ -24,7 +24,7 @@ fn structures_are_laid_out_alike() {
     assert_laid_out(SHADERS, "Cluster", &cluster);
     let stroke = members!(Stroke: first_point, segments, rank, color, width_m);
     assert_laid_out(SHADERS, "Stroke", &stroke);
-    let found = members!(Found: clusters, lines, references, drawn);
+    let found = members!(Found: clusters, lines, references, drawn, longest);
     assert_laid_out(SHADERS, "Found", &found);
     assert_laid_out(SHADERS, "FoundBefore", &found);
 }

@@ -37,6 +37,8 @@ struct Found {
     lines: atomic<u32>,
     references: atomic<u32>,
     drawn: atomic<u32>,
+    // Length of the longest list.
+    longest: atomic<u32>,
 }
 
 // Index of a workgroup: they are dispatched in rows.

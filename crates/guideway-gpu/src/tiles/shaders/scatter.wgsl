@@ -7,6 +7,7 @@ struct FoundBefore {
     lines: u32,
     references: u32,
     drawn: u32,
+    longest: u32,
 }
 
 @group(0) @binding(1) var<storage, read> found: FoundBefore;

@@ -16,9 +16,12 @@ fn main(@builtin(local_invocation_index) thread: u32) {
     let first = min(thread * share, tiles);
     let end = min(first + share, tiles);
     var sum = 0u;
+    var longest = 0u;
     for (var tile = first; tile < end; tile++) {
         sum += counts[tile];
+        longest = max(longest, counts[tile]);
     }
+    atomicMax(&found.longest, longest);
     sums[thread] = sum;
     workgroupBarrier();
     for (var step = 1u; step < THREADS; step *= 2u) {
