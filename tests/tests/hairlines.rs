@@ -219,6 +219,21 @@ fn turned_and_mirrored_pictures_fail() {
     }
 }
 
+#[test]
+fn faded_pictures_fail() {
+    let right = drawing(sketch((0.0, 0.0)));
+    let (expected, _) = judge(&right);
+    let mut faded = expected.clone();
+    for [r, g, b, _] in faded.pixels_mut() {
+        for channel in [r, g, b] {
+            *channel = 255 - (255 - *channel) / 8;
+        }
+    }
+    for (_, tolerance) in VARIANTS {
+        assert!(compare(&expected, &faded, &right, &tolerance).is_err());
+    }
+}
+
 fn in_parallel<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> {
     let (next, done) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
     let threads = thread::available_parallelism().map_or(1, NonZero::get);

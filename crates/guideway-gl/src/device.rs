@@ -66,3 +66,39 @@ impl GlDevice {
         self.is_software
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::process::Command;
+
+    use super::*;
+
+    /// Set for the process that finds no driver.
+    const CHILD: &str = "GUIDEWAY_TEST_WITHOUT_EGL";
+
+    #[test]
+    fn without_a_driver_it_says_what_to_install() {
+        if std::env::var_os(CHILD).is_none() {
+            // libglvnd looks for drivers where this says; it is read once a process.
+            let child = Command::new(std::env::current_exe().unwrap())
+                .args([
+                    "--exact",
+                    "device::tests::without_a_driver_it_says_what_to_install",
+                ])
+                .env(CHILD, "1")
+                .env("__EGL_VENDOR_LIBRARY_DIRS", "/nowhere")
+                .env_remove("__EGL_VENDOR_LIBRARY_FILENAMES")
+                .output()
+                .unwrap();
+            assert!(child.status.success(), "{child:?}");
+            return;
+        }
+        match GlDevice::new() {
+            Err(why) => assert!(
+                why.contains("OpenGL 4.5") && why.contains("`libegl1 libgl1-mesa-dri`"),
+                "{why}"
+            ),
+            Ok(_) => println!("SKIPPED: this libEGL finds its driver wherever it is told to look"),
+        }
+    }
+}

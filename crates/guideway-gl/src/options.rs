@@ -20,6 +20,16 @@ pub enum Antialias {
     Multisample,
 }
 
+impl Antialias {
+    /// Samples a pixel on a device that has at most so many.
+    pub(crate) fn samples(self, most: u32) -> u32 {
+        match self {
+            Self::None => 1,
+            Self::Multisample => most.min(8),
+        }
+    }
+}
+
 /// How method `tessellation` draws.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct TessellationOptions {

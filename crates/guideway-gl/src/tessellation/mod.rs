@@ -25,7 +25,7 @@ use guideway_render::{
 use guideway_scene::Scene;
 
 use crate::device::GlDevice;
-use crate::options::{Antialias, Commands, TessellationOptions};
+use crate::options::{Commands, TessellationOptions};
 use crate::sys::{Limits, Target};
 use crate::worker::Worker;
 use renderer::{Renderer, Start};
@@ -84,10 +84,7 @@ impl Method for Tessellation {
             segments: u32::try_from(geometry.segment_count()).unwrap_or(u32::MAX),
             points: u32::try_from(geometry.point_count()).unwrap_or(u32::MAX),
         };
-        let samples = match self.options.antialias {
-            Antialias::None => 1,
-            Antialias::Multisample => self.limits.samples.min(8),
-        };
+        let samples = self.options.antialias.samples(self.limits.samples);
         let frame = PLANNED_PIXELS * size_of::<[u8; 4]>() as u64;
         all.bytes(self.options.commands).total()
             + frame

@@ -84,6 +84,14 @@ impl ChunkPlan {
         self.bytes(commands).largest() <= limits.buffer_bytes && u64::from(self.paths) <= most_paths
     }
 
+    /// No paths yet, from this place in the draw order on.
+    fn at(start: usize) -> Self {
+        Self {
+            order: start..start,
+            ..Self::default()
+        }
+    }
+
     /// With one more path; none if that is more than can be counted.
     fn with(&self, path: Size) -> Option<Self> {
         Some(Self {
@@ -129,18 +137,16 @@ impl Plan {
             let path = scene.layout().paths.get(row as usize);
             plan.widths.add(scene.width_m(row));
             plan.measure(path);
-            let size = size(path);
-            let alone = || ChunkPlan {
-                order: chunk.order.end..chunk.order.end,
-                ..ChunkPlan::default()
+            let with_path = |chunk: &ChunkPlan| {
+                let with = chunk.with(size(path));
+                with.filter(|with| with.fits(commands, limits))
             };
-            let fits = |with: &ChunkPlan| with.fits(commands, limits);
-            chunk = match chunk.with(size).filter(fits) {
-                Some(chunk) => chunk,
+            chunk = match with_path(&chunk) {
+                Some(larger) => larger,
                 None => {
-                    let next = alone().with(size).filter(fits).ok_or(TooLong { row })?;
+                    let next = ChunkPlan::at(chunk.order.end);
                     plan.chunks.push(chunk);
-                    next
+                    with_path(&next).ok_or(TooLong { row })?
                 }
             };
         }

@@ -18,7 +18,7 @@ use super::shared::{self, VIEW};
 use super::tiles::{Tile, Tiling};
 use super::work::work;
 use crate::device::GlDevice;
-use crate::options::{Antialias, TessellationOptions};
+use crate::options::TessellationOptions;
 use crate::sys::{Buffer, Gl, Limits, Primitives, Target, Timeline};
 
 /// Lines may be this far off their place before a view is refused.
@@ -36,7 +36,8 @@ pub(super) struct Renderer {
     programs: Programs,
     chunks: Vec<Chunk>,
     view: Buffer,
-    target: Option<Target>,
+    /// That of the last frame.
+    target: Option<Rc<Target>>,
     timeline: Timeline,
     primitives: Primitives,
 }
@@ -143,17 +144,17 @@ impl Renderer {
     ) -> Result<Report, RenderError> {
         let tiling = self.tiling(view, style)?;
         cancel.check()?;
-        self.retarget(&tiling)?;
+        let target = self.target(&tiling)?;
+        let background = Background::new(style.background, self.samples());
         frame.resize(view.size());
         self.cull(view, &tiling.first())?;
         let mut read_back_ms = 0.0;
         for tile in tiling.tiles() {
             cancel.check()?;
-            self.draw(view, style, &tile)?;
+            self.draw(view, &tile, &target, background)?;
             self.finish(cancel)?;
             let started = Instant::now();
-            let background = Background::new(style.background, self.samples());
-            self.read(&tile, background, frame)?;
+            self.read(&tile, &target, background, frame)?;
             read_back_ms += started.elapsed().as_secs_f64() * 1e3;
         }
         let drawn = self.chunks.iter().map(Chunk::seen_paths).sum();
@@ -177,7 +178,6 @@ impl Renderer {
             segments: a.segments + b.segments,
         });
         self.gl.check("counting").map_err(|e| self.failed(e))?;
-
         Ok(work(self.options.commands, paths, seen, tiling.count()))
     }
 
@@ -215,29 +215,26 @@ impl Renderer {
     }
 
     fn samples(&self) -> u32 {
-        match self.options.antialias {
-            Antialias::None => 1,
-            Antialias::Multisample => self.limits.samples.min(8),
-        }
+        self.options.antialias.samples(self.limits.samples)
     }
 
     fn held_bytes(&self) -> u64 {
         self.chunks.iter().map(Chunk::bytes).sum::<u64>() + self.view.bytes()
     }
 
-    fn retarget(&mut self, tiling: &Tiling) -> Result<(), RenderError> {
+    /// What tiles are drawn into: that of the last frame if it fits.
+    fn target(&mut self, tiling: &Tiling) -> Result<Rc<Target>, RenderError> {
         let (width, height, samples) = (tiling.width, tiling.height, self.samples());
-        if !self
-            .target
-            .as_ref()
-            .is_some_and(|t| t.is(width, height, samples))
-        {
-            // The old one goes first: both together may be more than the budget.
-            self.target = None;
-            let target = Target::new(&self.gl, width, height, samples);
-            self.target = Some(target.map_err(|e| self.failed(e))?);
-        }
-        Ok(())
+        // An old one goes before the new one comes: both together may be more than the budget.
+        let kept = self.target.take();
+        let target = match kept.filter(|target| target.is(width, height, samples)) {
+            Some(target) => target,
+            None => {
+                Rc::new(Target::new(&self.gl, width, height, samples).map_err(|e| self.failed(e))?)
+            }
+        };
+        self.target = Some(Rc::clone(&target));
+        Ok(target)
     }
 
     /// Lists what is seen of the whole view.
@@ -253,20 +250,23 @@ impl Renderer {
         self.gl.check("culling").map_err(|e| self.failed(e))
     }
 
-    fn draw(&mut self, view: &View, style: &Style, tile: &Tile) -> Result<(), RenderError> {
+    fn draw(
+        &mut self,
+        view: &View,
+        tile: &Tile,
+        target: &Target,
+        background: Background,
+    ) -> Result<(), RenderError> {
         self.look(view, tile);
         self.mark()?;
-        if let Some(target) = &self.target {
-            let (x, y) = tile.viewport_middle();
-            let background = Background::new(style.background, self.samples());
-            target.begin(background.stored(), x as i32, y as i32, tile.viewport_side);
-            self.primitives.during(|| {
-                for chunk in &self.chunks {
-                    chunk.draw(&self.gl, &self.programs.draw);
-                }
-            });
-            target.resolve();
-        }
+        let (x, y) = tile.viewport_middle();
+        target.begin(background.stored(), x as i32, y as i32, tile.viewport_side);
+        self.primitives.during(|| {
+            for chunk in &self.chunks {
+                chunk.draw(&self.gl, &self.programs.draw);
+            }
+        });
+        target.resolve();
         self.mark()?;
         self.gl.check("drawing").map_err(|e| self.failed(e))
     }
@@ -293,22 +293,20 @@ impl Renderer {
     fn read(
         &self,
         tile: &Tile,
+        target: &Target,
         background: Background,
         frame: &mut Frame,
     ) -> Result<(), RenderError> {
         let row_pixels = frame.size().width();
         let first = tile.y as usize * row_pixels as usize + tile.x as usize;
-        if let Some(target) = &self.target {
-            let pixels = &mut frame.pixels_mut()[first..];
-            target.read(tile.width, tile.height, row_pixels, pixels);
-            let rows = pixels.chunks_mut(row_pixels as usize);
-            for row in rows.take(tile.height as usize) {
-                background.restore(&mut row[..tile.width as usize]);
-            }
+        let pixels = &mut frame.pixels_mut()[first..];
+        target.read(tile.width, tile.height, row_pixels, pixels);
+        let rows = pixels.chunks_mut(row_pixels as usize);
+        for row in rows.take(tile.height as usize) {
+            background.restore(&mut row[..tile.width as usize]);
         }
-        self.gl
-            .check("reading the picture")
-            .map_err(|e| self.failed(e))
+        let read = self.gl.check("reading the picture");
+        read.map_err(|e| self.failed(e))
     }
 
     fn report(
@@ -330,7 +328,7 @@ impl Renderer {
             clock: self.timeline.clock(),
         };
         let draw_ms = elapsed_ms[2..].iter().step_by(2).sum();
-        let target_bytes = self.target.as_ref().map_or(0, Target::bytes);
+        let target_bytes = self.target.as_ref().map_or(0, |target| target.bytes());
         Ok(Report {
             method: self.method,
             total: layout.path_count() as u64,

@@ -110,10 +110,9 @@ fn bytes_are_planned_from_above_and_told_as_they_are() {
         assert!(held < method.plan_bytes(&scene, &budget));
         assert!(prepared.preparation().peak_bytes > held);
         let (_, report) = draw(&method, &scene, &view(64, 48), &budget).unwrap();
-        let samples = u64::from(method.limits.samples.min(8));
         let surfaces = match method.options.antialias {
             Antialias::None => 1,
-            Antialias::Multisample => samples + 1,
+            Antialias::Multisample => u64::from(method.limits.samples.min(8)) + 1,
         };
         assert_eq!(report.peak_bytes, held + 64 * 48 * 4 * surfaces);
     }
