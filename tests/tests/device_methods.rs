@@ -59,7 +59,10 @@ fn outcomes(case: &SceneCase, candidates: &[DeviceCandidate]) -> Vec<Outcome> {
         let drawn = draw(candidate.method.as_ref(), &drawing, &Budget::default());
         let difference = match drawn {
             Err(RenderError::Unsupported { what, remedy, .. }) => {
-                assert!(!what.is_empty() && remedy.ends_with('.'), "{what}: {remedy}");
+                assert!(
+                    !what.is_empty() && remedy.ends_with('.'),
+                    "{what}: {remedy}"
+                );
                 continue;
             }
             Err(error) => Err(error.to_string()),
