@@ -37,7 +37,7 @@ const PARTS: [(&str, f64, Part); 6] = [
         views::occupancy,
     ),
     ("frame time against magnification", 2.0, views::zoom),
-    ("time against number of paths", 4.0, growth::growth),
+    ("time against number of paths", 6.0, growth::growth),
     (
         "most paths at 60 frames a second",
         6.0,
