@@ -6,6 +6,7 @@
 
 pub mod arrow;
 mod builder;
+mod dxf;
 mod error;
 pub mod geojson;
 mod json;
@@ -14,6 +15,7 @@ mod opentcs;
 mod read;
 mod sniff;
 mod source;
+mod spline;
 mod text;
 mod trajectory;
 mod vda5050;

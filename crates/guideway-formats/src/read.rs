@@ -47,6 +47,7 @@ pub fn read_bytes(
         Some(Format::Lif) => crate::lif::read(source, bytes),
         Some(Format::Arrow) => crate::arrow::read(source, &bytes.into()),
         Some(Format::OpenTcs) => crate::opentcs::read(source, bytes),
+        Some(Format::Dxf) => crate::dxf::read(source, bytes),
         Some(Format::GeoJson) => crate::geojson::read(source, bytes),
         Some(Format::Vda5050) => crate::vda5050::read(source, bytes),
         None => Err(source.fail(unknown(bytes))),

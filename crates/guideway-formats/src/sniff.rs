@@ -9,6 +9,8 @@ pub enum Format {
     Vda5050,
     /// GeoJSON, plain or a route graph of Nav2.
     GeoJson,
+    /// A DXF drawing, ASCII or binary.
+    Dxf,
     /// A table of paths in an Apache Arrow IPC file.
     Arrow,
 }
@@ -30,6 +32,7 @@ impl Format {
             Self::OpenTcs => "openTCS",
             Self::Vda5050 => "VDA 5050",
             Self::GeoJson => "GeoJSON",
+            Self::Dxf => "DXF",
             Self::Arrow => "Arrow",
         }
     }
@@ -41,6 +44,7 @@ impl Format {
             Self::OpenTcs => "openTCS plant models (XML)",
             Self::Vda5050 => "VDA 5050 orders (JSON)",
             Self::GeoJson => "GeoJSON and Nav2 route graphs",
+            Self::Dxf => "DXF drawings",
             Self::Arrow => "Arrow IPC files of paths",
         }
     }
@@ -55,6 +59,9 @@ pub fn sniff(bytes: &[u8]) -> Option<Format> {
     // A stream has no magic; it begins with the mark that every one of its messages begins with.
     if bytes.starts_with(b"ARROW1") || bytes.starts_with(&[0xFF; 4]) {
         return Some(Format::Arrow);
+    }
+    if crate::dxf::is_dxf(bytes) {
+        return Some(Format::Dxf);
     }
     let text = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
     match text.trim_ascii_start().first()? {

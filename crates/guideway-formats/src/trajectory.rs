@@ -2,17 +2,14 @@
 //! its control polygon.
 
 use guideway_layout::Code;
-use guideway_spline::{MAX_DEGREE, Nurbs, Point, Runs, knots, nurbs_to_runs, polyline_to_runs};
+use guideway_spline::{MAX_DEGREE, Point, Runs, polyline_to_runs};
 
 use serde::de::{IgnoredAny, MapAccess};
 
 use crate::ReadError;
 use crate::builder::{At, Builder};
 use crate::json::{Field, FromJson, Key, items, record, within};
-
-/// Most control points of a curve that is approximated rather than converted exactly: each span can
-/// become a thousand cubics, so a small file could ask for more than any machine has.
-const MOST_APPROXIMATED: usize = 1_000;
+use crate::spline::Spline;
 
 record! { Trajectory {
     degree: f64 = "degree",
@@ -45,44 +42,23 @@ impl Builder<'_> {
         self.check_repeated(trajectory.repeated, at);
         let control = self.control(trajectory, at)?;
         let degree = self.degree(&trajectory.degree, at);
-        let curve = degree.and_then(|degree| self.curve(degree, trajectory, &control, at));
-        if let Some(curve) = curve {
-            if self.convert(&curve, at, runs) {
-                return Ok(());
+        let knots = self.knots(trajectory, at);
+        match (degree, knots) {
+            (Some(degree), Some(knots)) if control.whole => {
+                let spline = Spline {
+                    degree,
+                    knots,
+                    points: control.points,
+                    weights: control.weights,
+                };
+                self.append_spline(&spline, at, runs);
             }
-            if curve.is_rational() {
-                let message = || "the weights differ too much to compute with".to_owned();
-                let remedy = "1 is used for all; give weights that are more alike";
-                self.find(Code::BadWeight, at, message, remedy);
-                let (degree, knots) = (curve.degree(), curve.knots().to_vec());
-                let plain = Nurbs::new(degree, knots, control.points.clone(), None);
-                if plain.is_ok_and(|plain| self.convert(&plain, at, runs)) {
-                    return Ok(());
-                }
+            // What is wrong has been said; without it there is no curve.
+            _ => {
+                polyline_to_runs(&control.points, runs);
             }
-            self.report_knots(at, || {
-                "the knots are too close together to compute with".into()
-            });
         }
-        polyline_to_runs(&control.points, runs);
         Ok(())
-    }
-
-    /// Converts a curve; fails if numbers overflow on the way, and then leaves nothing.
-    fn convert(&mut self, curve: &Nurbs, at: At<'_>, runs: &mut Runs) -> bool {
-        let tolerance = self.source.options.limits.conversion_tolerance_m;
-        let error = nurbs_to_runs(curve, tolerance, runs).error_bound_m;
-        if !runs.points().iter().all(|p| p.is_finite()) {
-            runs.clear();
-            return false;
-        }
-        if error > tolerance {
-            let message =
-                || format!("the curve is drawn within {error} m, not within {tolerance} m");
-            let remedy = "Split the curve, or give weights that are more alike";
-            self.find(Code::ApproximateShape, at, message, remedy);
-        }
-        true
     }
 
     fn control(&mut self, trajectory: &Trajectory, at: At<'_>) -> Result<Control, ReadError> {
@@ -145,110 +121,11 @@ impl Builder<'_> {
         None
     }
 
-    fn curve(
-        &mut self,
-        degree: usize,
-        trajectory: &Trajectory,
-        control: &Control,
-        at: At<'_>,
-    ) -> Option<Nurbs> {
-        let count = control.points.len();
-        if !control.whole {
-            // What is wrong with a point has been said; without it there is no curve.
-            return None;
-        }
-        if count <= degree {
-            let least = degree + 1;
-            let message =
-                || format!("{count} control points, a curve of degree {degree} needs {least}");
-            let remedy = "Straight lines are drawn between those there are; lower the degree";
-            self.find(Code::TooFewPoints, at, message, remedy);
-            return None;
-        }
-        let knots = self.knots(degree, count, trajectory, at)?;
-        let first = control.weights[0];
-        let rational = control.weights.iter().any(|&w| w != first);
-        if count > MOST_APPROXIMATED && (rational || degree > 3) {
-            let message = || {
-                format!(
-                    "{count} control points with weights or a degree above 3; {MOST_APPROXIMATED} at most"
-                )
-            };
-            let remedy = "The control polygon is drawn; split the curve, or lower its degree";
-            self.find(Code::ApproximateShape, at, message, remedy);
-            return None;
-        }
-        let weights = rational.then(|| control.weights.clone());
-        match Nurbs::new(degree, knots, control.points.clone(), weights) {
-            Ok(curve) => {
-                self.check_shape(&curve, at);
-                Some(curve)
-            }
-            Err(error) => {
-                self.report_knots(at, || error.to_string());
-                None
-            }
-        }
-    }
-
-    fn knots(
-        &mut self,
-        degree: usize,
-        points: usize,
-        trajectory: &Trajectory,
-        at: At<'_>,
-    ) -> Option<Vec<f64>> {
+    /// The knots there are; none if one of them is no number.
+    fn knots(&mut self, trajectory: &Trajectory, at: At<'_>) -> Option<Vec<f64>> {
         self.check_list(&trajectory.knots, at, "knotVector");
-        let mut values = Vec::new();
-        for (i, knot) in items(&trajectory.knots) {
-            values.push(self.number(knot, &|| within(at, &format!("knotVector[{i}]")))?);
-        }
-        if values.is_empty() {
-            let message = || "there are no knots".to_owned();
-            let remedy = "Evenly spaced clamped knots are used";
-            self.find(Code::MissingKnots, at, message, remedy);
-            return Some(knots::uniform_clamped(degree, points));
-        }
-        let (count, expected) = (values.len(), points + degree + 1);
-        if count != expected {
-            self.report_knots(at, || {
-                let hint = match expected - count.min(expected) {
-                    1 => "; perhaps `degree` holds the order, which is one more",
-                    2 => "; perhaps the writer leaves out the first and the last knot",
-                    _ => "",
-                };
-                format!(
-                    "{count} knots; {points} control points of degree {degree} need {expected}{hint}"
-                )
-            });
-            return None;
-        }
-        Some(values)
-    }
-
-    /// Reports knots that are legal, and yet not what most curves have.
-    fn check_shape(&mut self, curve: &Nurbs, at: At<'_>) {
-        let (degree, knots, points) = (curve.degree(), curve.knots(), curve.points().len());
-        let clamped = knots[0] == knots[degree] && knots[points] == knots[points + degree];
-        if !clamped {
-            let message = || {
-                "the first or last knots differ, so the curve does not begin and end at its outer points"
-                    .to_owned()
-            };
-            let remedy = "It is drawn as written";
-            self.find(Code::UnclampedKnots, at, message, remedy);
-        }
-        let inner = knots.get(degree + 1..points).unwrap_or_default();
-        let broken = inner.windows(degree + 1).find(|w| w[0] == w[degree]);
-        if let Some(window) = broken {
-            let message = || format!("the knot {} is there more than {degree} times", window[0]);
-            let remedy = "The curve is broken there; remove the knots that are too many";
-            self.find(Code::KnotMultiplicity, at, message, remedy);
-        }
-    }
-
-    fn report_knots(&mut self, at: At<'_>, message: impl FnOnce() -> String) {
-        let remedy = "The control polygon is drawn; correct the knots";
-        self.find(Code::BadKnots, at, message, remedy);
+        items(&trajectory.knots)
+            .map(|(i, knot)| self.number(knot, &|| within(at, &format!("knotVector[{i}]"))))
+            .collect()
     }
 }

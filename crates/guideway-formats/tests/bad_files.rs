@@ -137,6 +137,11 @@ fn bad_vda_5050_files() {
 }
 
 #[test]
+fn bad_dxf_files() {
+    check_folder("dxf");
+}
+
+#[test]
 fn bad_geojson_files() {
     check_folder("geojson");
 }
@@ -166,8 +171,11 @@ fn a_wrong_expectation_fails() {
     assert!(check("wrong", b"{", "ok").is_err());
 }
 
-/// A sound file of each text format.
-const VALID: [&str; 6] = [
+/// Sound files.
+const VALID: [&str; 9] = [
+    "dxf/valid.dxf",
+    "dxf/valid-binary.dxf",
+    "dxf/valid-narrow.dxf",
     "geojson/valid.geojson",
     "geojson/valid-graph.geojson",
     "lif/valid.json",

@@ -18,13 +18,18 @@ fn the_beginning_tells_the_format() {
     );
     assert_eq!(sniff(b"<?xml version=\"1.0\"?>"), Some(Format::OpenTcs));
     assert_eq!(sniff(b"ARROW1\0\0"), Some(Format::Arrow));
+    assert_eq!(sniff(b"  0\r\nSECTION\r\n"), Some(Format::Dxf));
+    assert_eq!(sniff(b"999\nmade by\n0\nSECTION\n2"), Some(Format::Dxf));
+    assert_eq!(sniff(b"AutoCAD Binary DXF\r\n\x1a\0\0"), Some(Format::Dxf));
     for other in [
         &b""[..],
         b" ",
         b"PK\x03\x04",
         b"[1]",
         b"ARROW",
-        b"0\nSECTION",
+        b"0\nSECTIONS",
+        b"0\nEOF\n",
+        b"999\n0\n",
     ] {
         assert_eq!(sniff(other), None, "{other:?}");
     }

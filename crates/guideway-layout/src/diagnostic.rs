@@ -80,6 +80,7 @@ codes! {
     AssumedUnit "assumed-unit" Info "The file does not say in what unit its positions are; one is assumed.";
     Version "version" Info "The version that a file states is not that of its structure.";
     Attribute "attribute" Info "An attribute could not be kept as it is.";
+    NotDrawn "not-drawn" Info "An element is switched off in the file, or of a kind that is no path.";
     Implausible "implausible" Warning "The values are legal but look like a mistake, such as a wrong unit.";
     NotStored "not-stored" Info "The target format cannot hold something of the layout.";
 }

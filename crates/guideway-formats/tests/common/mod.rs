@@ -48,7 +48,7 @@ pub(crate) fn count(layout: &Layout, name: &str) -> u64 {
 #[allow(dead_code, reason = "not every test binary counts")]
 pub(crate) fn assert_counts(layout: &Layout, all: &[&str], expected: &str, file: &str) {
     for name in all {
-        let mut stated = expected.split(", ").filter_map(|c| c.split_once(' '));
+        let mut stated = expected.split(", ").filter_map(|c| c.rsplit_once(' '));
         let stated = stated.find(|(n, _)| n == name).map_or("0", |c| c.1);
         assert_eq!(count(layout, name).to_string(), stated, "{name} of {file}");
     }

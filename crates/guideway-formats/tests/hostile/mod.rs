@@ -13,6 +13,7 @@ pub(crate) fn generate(folder: &str, name: &str) -> Option<Vec<u8>> {
     match folder {
         "lif" => lif(name).map(String::into_bytes),
         "opentcs" => open_tcs(name).map(String::into_bytes),
+        "dxf" => dxf(name).map(String::into_bytes),
         "geojson" => geojson(name).map(String::into_bytes),
         "vda5050" => vda_5050(name).map(String::into_bytes),
         "any" => any(name),
@@ -115,6 +116,76 @@ fn vda_5050(name: &str) -> Option<String> {
         }
         // The telling key comes last, behind much that looks like keys.
         "late-key" => format!(r#"{{{}"nodes": []}}"#, r#""a": {"b": []},"#.repeat(MILLION)),
+        _ => return None,
+    })
+}
+
+fn dxf(name: &str) -> Option<String> {
+    let file = |blocks: &str, entities: &str| {
+        format!(
+            "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n6\n0\nENDSEC\n\
+             0\nSECTION\n2\nBLOCKS\n{blocks}0\nENDSEC\n\
+             0\nSECTION\n2\nENTITIES\n{entities}0\nENDSEC\n0\nEOF\n"
+        )
+    };
+    let block = |name: &str, content: &str| {
+        format!("0\nBLOCK\n2\n{name}\n10\n0\n20\n0\n{content}0\nENDBLK\n")
+    };
+    let insert = |name: &str| format!("0\nINSERT\n2\n{name}\n10\n1\n20\n0\n");
+    let line = "0\nLINE\n10\n0\n20\n0\n11\n1\n21\n1\n";
+    let repeat =
+        |count: usize, item: &dyn Fn(usize) -> String| -> String { (0..count).map(item).collect() };
+    Some(match name {
+        // Ten of each in the next: ten thousand million lines from a kilobyte.
+        "billion-lines" => {
+            let level =
+                |i: usize| block(&format!("{i}"), &insert(&format!("{}", i + 1)).repeat(10));
+            let blocks = repeat(10, &level) + &block("10", line);
+            file(&blocks, &insert("0"))
+        }
+        "deep-blocks" => {
+            let level = |i: usize| block(&format!("{i}"), &insert(&format!("{}", i + 1)));
+            file(&repeat(MILLION / 10, &level), &insert("0"))
+        }
+        "wide-blocks" => file(&repeat(MILLION / 10, &|i| block(&i.to_string(), line)), ""),
+        "many-inserts-of-a-ring" => {
+            let ring = block("A", &(line.repeat(MILLION / 10) + &insert("A")));
+            file(&ring, &insert("A").repeat(MILLION / 100))
+        }
+        "long-polyline" => {
+            let vertices = repeat(MILLION + 1, &|i| format!("10\n{i}\n20\n0\n"));
+            file("", &format!("0\nLWPOLYLINE\n{vertices}"))
+        }
+        "long-spline" => file("", &format!("0\nSPLINE\n{}", "40\n0\n".repeat(8 * MILLION))),
+        "many-kinds" => file("", &repeat(MILLION / 10, &|i| format!("0\nK{i}\n"))),
+        "many-layers" => {
+            let on = |i| format!("0\nLINE\n8\nL{i}\n10\n0\n20\n0\n11\n1\n21\n{i}\n");
+            file("", &repeat(MILLION / 100, &on))
+        }
+        "long-layer" => {
+            let name = "L".repeat(2 * MILLION);
+            file(
+                "",
+                &format!("0\nLINE\n8\n{name}\n10\n0\n20\n0\n11\n1\n21\n1\n"),
+            )
+        }
+        // Arcs of the greatest radius, which become most control points.
+        "circles-of-one-block" => {
+            let circle = "0\nCIRCLE\n10\n0\n20\n0\n40\n9e8\n";
+            let array = format!("{}70\n100\n71\n900\n", insert("A"));
+            file(&block("A", circle), &array)
+        }
+        "heavy-splines" => {
+            let knots = repeat(104, &|i| format!("40\n{}\n", i.clamp(3, 100)));
+            let points = |i| format!("10\n{}\n20\n9e8\n41\n{}\n", i % 2 * 900_000_000, i % 7 + 1);
+            let spline = format!("0\nSPLINE\n71\n3\n{knots}{}", repeat(100, &points));
+            let array = format!("{}70\n200\n71\n100\n", insert("A"));
+            file(&block("A", &spline), &array)
+        }
+        "noise-after-section" => {
+            let noise: String = any("noise")?.into_iter().map(char::from).collect();
+            format!("0\nSECTION\n{noise}")
+        }
         _ => return None,
     })
 }
