@@ -404,6 +404,41 @@ fn blocks_within_themselves_are_refused_and_the_rest_is_drawn() {
 }
 
 #[test]
+fn blocks_may_be_nested_as_deep_as_the_limit() {
+    let depth = 127;
+    let level = |i: usize| {
+        let inner = i + 1;
+        format!("0 BLOCK\n2 {i}\n10 0\n20 0\n0 INSERT\n5 I{i}\n2 {inner}\n10 1\n20 0\n0 ENDBLK\n")
+    };
+    let chain: String = (0..depth - 1).map(level).collect();
+    let last = depth - 1;
+    let blocks = format!("{chain}0 BLOCK\n2 {last}\n10 0\n20 0\n{LINE}0 ENDBLK\n");
+    let layout = drawing("", &blocks, "0 INSERT\n5 C\n2 0\n10 0\n20 0\n");
+    let (start, _) = layout.paths.get(0).ends().unwrap();
+    assert_near(start, 1.0 + (depth - 1) as f64, 0.0);
+}
+
+#[test]
+fn a_small_file_does_not_become_more_than_its_share() {
+    // Half circles across the whole plane, which take the most pieces.
+    let bend = |i: usize| format!("10 {}\n20 0\n42 1\n", (i % 2) as f64 * 9e8);
+    let vertices: String = (0..200_000).map(bend).collect();
+    let polyline = format!("0 LWPOLYLINE\n5 A\n{vertices}");
+    let layout = drawing("", "", &format!("{polyline}{LINE}"));
+    assert_eq!((layout.paths.len(), layout.refused.len()), (0, 2));
+    assert_eq!(codes(&layout), [Code::Implausible]);
+    // A bulge without end needs no drawing to be seen.
+    let bend = |i: usize| format!("10 {i}\n20 0\n42 1e300\n");
+    let vertices: String = (0..200_000).map(bend).collect();
+    let polyline = format!("0 LWPOLYLINE\n5 B\n{vertices}");
+    let layout = drawing("", "", &format!("{polyline}{LINE}"));
+    assert_eq!(
+        (layout.paths.len(), codes(&layout)),
+        (1, vec![Code::OutOfRange])
+    );
+}
+
+#[test]
 fn colours_come_from_the_entity_its_layer_or_its_block() {
     let tables = "0 LAYER\n2 red\n70 0\n62 1\n0 LAYER\n2 green\n70 0\n62 3\n";
     let line = |handle: &str, layer: &str, color: &str| {

@@ -5,17 +5,18 @@ use guideway_spline::Runs;
 
 use super::drawing::Drawing;
 use super::entity::{Entity, Insert, Shape};
-use super::shapes::{append_arc, append_polyline, append_spline};
+use super::shapes::{Bounds, Excess, append_arc, append_polyline, append_spline};
 use super::space::{Affine, Vector};
 use super::style::{Color, decoded, on_paper};
 use crate::ReadError;
 use crate::builder::{At, Builder, Table};
 
-/// So many entities and control points may come from references to blocks, beside some for each byte of the
-/// file: a small file could else ask for more than any machine has.
+/// So many entities may come from references to blocks, and so many control points from all entities, beside
+/// some for each byte of the file: a small file could else ask for more than any machine has.
 const MOST_ENTITIES: u64 = 1 << 20;
-const MOST_POINTS: u64 = 4 << 20;
 const BYTES_AN_ENTITY: u64 = 16;
+const MOST_POINTS: u64 = 4 << 20;
+const POINTS_A_BYTE: u64 = 4;
 
 /// Where a block is put, and what its entities take from the reference to it.
 #[derive(Clone, Copy)]
@@ -34,8 +35,9 @@ pub(super) struct Painter<'a, 'd, 'b> {
     pub(super) drawing: &'d Drawing<'b>,
     /// The colour of every path.
     pub(super) colors: Vec<u32>,
-    /// How many more entities and control points references may make.
+    /// How many more entities references may make.
     entities_left: u64,
+    /// How many more control points all may become.
     points_left: u64,
 }
 
@@ -46,7 +48,7 @@ impl<'a, 'd, 'b> Painter<'a, 'd, 'b> {
             drawing,
             colors: Vec::new(),
             entities_left: MOST_ENTITIES + file_bytes as u64 / BYTES_AN_ENTITY,
-            points_left: MOST_POINTS + file_bytes as u64,
+            points_left: MOST_POINTS + file_bytes as u64 * POINTS_A_BYTE,
         }
     }
 
@@ -85,50 +87,33 @@ impl<'a, 'd, 'b> Painter<'a, 'd, 'b> {
         if let Some(detail) = detail {
             return self.refuse(entity, around, Code::NotDrawn, &detail, at);
         }
-        if around.depth > 0 && !is_insert && self.points_left == 0 {
-            let detail = "blocks are repeated so often that they have too many control points";
-            return self.refuse(entity, around, Code::Implausible, detail, at);
+        if let Shape::Insert(insert) = &entity.shape {
+            let inner = Around {
+                layer: Some(layer),
+                color,
+                ..*around
+            };
+            return self.insert(entity, insert, around, &inner, at);
+        }
+        if let Shape::Broken(code, detail) = &entity.shape {
+            return self.refuse(entity, around, *code, detail, at);
         }
         let mut runs = Runs::default();
-        let tolerance_m = self.builder.source.options.limits.conversion_tolerance_m;
-        match &entity.shape {
-            Shape::Insert(insert) => {
-                let inner = Around {
-                    layer: Some(layer),
-                    color,
-                    ..*around
-                };
-                return self.insert(entity, insert, around, &inner, at);
-            }
-            Shape::Broken(code, detail) => return self.refuse(entity, around, *code, detail, at),
-            Shape::Line(ends) => {
-                let [start, end] = ends.map(|end| around.map.point(end).flat());
-                runs.push_line(start, end);
-            }
-            Shape::Arc(arc) => append_arc(arc, &around.map, tolerance_m, &mut runs),
-            Shape::Polyline(polyline) => {
-                self.builder.check_curve_points(polyline.vertices.len())?;
-                append_polyline(polyline, &around.map, tolerance_m, &mut runs);
-            }
-            Shape::Spline(spline) => {
-                append_spline(&mut self.builder, spline, &around.map, at, &mut runs)?;
-            }
+        if let Err(excess) = self.append(&entity.shape, &around.map, at, &mut runs)? {
+            let (code, detail) = match excess {
+                Excess::Far => (Code::OutOfRange, "it goes beyond the largest coordinate"),
+                Excess::Points => (
+                    Code::Implausible,
+                    "the drawing becomes too many control points for a file of its size",
+                ),
+            };
+            return self.refuse(entity, around, code, detail, at);
         }
         if runs.is_empty() {
             let detail = "it has fewer than two points";
             return self.refuse(entity, around, Code::TooFewPoints, detail, at);
         }
-        let limit = self.builder.source.options.limits.coordinate_m;
-        let inside = |v: f64| v.abs() <= limit;
-        if !runs.points().iter().all(|p| inside(p.x) && inside(p.y)) {
-            let detail = format!("it goes beyond {limit} m");
-            return self.refuse(entity, around, Code::OutOfRange, &detail, at);
-        }
-        if around.depth > 0 {
-            // The last one may go beyond.
-            let points = runs.points().len() as u64;
-            self.points_left = self.points_left.saturating_sub(points);
-        }
+        self.points_left -= runs.points().len() as u64;
         let id = name(entity, around);
         self.builder.check_text(&id)?;
         self.builder.check_text(&of_layer.name)?;
@@ -142,6 +127,48 @@ impl<'a, 'd, 'b> Painter<'a, 'd, 'b> {
         self.builder.set(Table::Paths, row, "layer", layer)?;
         let kind = Value::Text(entity.kind);
         self.builder.set(Table::Paths, row, "entity", kind)
+    }
+
+    /// Puts a shape into empty `runs`, if it is within bounds.
+    fn append(
+        &mut self,
+        shape: &Shape,
+        map: &Affine,
+        at: At<'_>,
+        runs: &mut Runs,
+    ) -> Result<Result<(), Excess>, ReadError> {
+        let limits = &self.builder.source.options.limits;
+        let bounds = Bounds {
+            tolerance_m: limits.conversion_tolerance_m,
+            coordinate_m: limits.coordinate_m,
+            points: self.points_left,
+        };
+        if bounds.points == 0 {
+            return Ok(Err(Excess::Points));
+        }
+        let appended = match shape {
+            Shape::Line(ends) => {
+                let [start, end] = ends.map(|end| map.point(end).flat());
+                runs.push_line(start, end);
+                Ok(())
+            }
+            Shape::Arc(arc) => append_arc(arc, map, &bounds, runs),
+            Shape::Polyline(polyline) => {
+                self.builder.check_curve_points(polyline.vertices.len())?;
+                append_polyline(polyline, map, &bounds, runs)
+            }
+            Shape::Spline(spline) => {
+                append_spline(&mut self.builder, spline, map, at, runs)?;
+                Ok(())
+            }
+            Shape::Insert(_) | Shape::Broken(..) => Ok(()),
+        };
+        let checked = appended.and_then(|()| bounds.check(runs));
+        if checked == Err(Excess::Points) {
+            // There is no room for this one, and looking for one that still fits could take for ever.
+            self.points_left = 0;
+        }
+        Ok(checked)
     }
 
     fn insert(

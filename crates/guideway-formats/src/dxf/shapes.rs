@@ -11,31 +11,74 @@ use crate::{ReadError, spline};
 /// Bulges below this are straight: on 100 m of way, such an arc is 5 micrometres high.
 const LEAST_BULGE: f64 = 1e-7;
 
+/// Why a shape is not drawn, although its numbers are sound.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Excess {
+    /// It goes beyond the largest coordinate.
+    Far,
+    /// It becomes more control points than there is room for.
+    Points,
+}
+
+/// What holds for every shape.
+#[derive(Clone, Copy)]
+pub(super) struct Bounds {
+    /// How far a curve may be from its shape, in metres.
+    pub(super) tolerance_m: f64,
+    /// Largest absolute coordinate, in metres.
+    pub(super) coordinate_m: f64,
+    /// Most control points.
+    pub(super) points: u64,
+}
+
+impl Bounds {
+    pub(super) fn check(&self, runs: &Runs) -> Result<(), Excess> {
+        let inside = |v: f64| v.abs() <= self.coordinate_m;
+        if runs.points().len() as u64 > self.points {
+            return Err(Excess::Points);
+        }
+        match runs.points().iter().all(|p| inside(p.x) && inside(p.y)) {
+            true => Ok(()),
+            false => Err(Excess::Far),
+        }
+    }
+}
+
 /// Appends an arc that a map puts into place.
 ///
 /// A uniform B-spline is mapped by mapping its control points, so an arc of the unit circle serves for all.
 /// The map stretches no direction more than by (|u|^2 + |v|^2)^(1/2), and so does not the error either.
-pub(super) fn append_arc(arc: &Arc, map: &Affine, tolerance_m: f64, runs: &mut Runs) {
+pub(super) fn append_arc(
+    arc: &Arc,
+    map: &Affine,
+    bounds: &Bounds,
+    runs: &mut Runs,
+) -> Result<(), Excess> {
     let center = map.point(arc.center).flat();
     let [u, v] = [arc.u, arc.v].map(|axis| map.direction(axis).flat());
     let stretch = u.norm().hypot(v.norm());
+    // Seen before it is drawn: the farther away, the more pieces.
+    if !(stretch <= 2.0 * bounds.coordinate_m && arc.start.is_finite()) {
+        return Err(Excess::Far);
+    }
     let mut unit = Runs::default();
     let origin = Point::new(0.0, 0.0);
-    let tolerance = tolerance_m / stretch.max(tolerance_m);
+    let tolerance = bounds.tolerance_m / stretch.max(bounds.tolerance_m);
     arc_to_runs(origin, 1.0, arc.start, arc.sweep, tolerance, &mut unit);
     for run in unit.iter() {
         let mapped: Vec<Point<f64>> = run.iter().map(|p| center + u * p.x + v * p.y).collect();
         runs.push(&mapped);
     }
+    Ok(())
 }
 
 /// Appends a polyline, its bulges as arcs.
 pub(super) fn append_polyline(
     polyline: &Polyline,
     map: &Affine,
-    tolerance_m: f64,
+    bounds: &Bounds,
     runs: &mut Runs,
-) {
+) -> Result<(), Excess> {
     let map = map.after(&polyline.plane);
     let vertices = &polyline.vertices;
     let first = vertices
@@ -44,13 +87,17 @@ pub(super) fn append_polyline(
     let next = vertices.iter().skip(1).chain(first);
     for (from, to) in vertices.iter().zip(next) {
         match bent(from, to) {
-            Some(arc) => append_arc(&arc, &map, tolerance_m, runs),
+            Some(arc) => append_arc(&arc, &map, bounds, runs)?,
             None => {
                 let ends = [from, to].map(|vertex| map.point(vertex.position).flat());
                 runs.push_line(ends[0], ends[1]);
             }
         }
+        if runs.points().len() as u64 > bounds.points {
+            return Err(Excess::Points);
+        }
     }
+    Ok(())
 }
 
 /// The arc from a vertex to the next, if its bulge b makes one: it turns by 4 atan b, and its centre lies
