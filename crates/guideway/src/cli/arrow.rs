@@ -9,7 +9,7 @@ use guideway::{SaveError, replace_file};
 use super::{Failure, input};
 
 /// Endings of the names of the files that can be written.
-const ENDINGS: [&str; 2] = ["arrow", "feather"];
+pub(crate) const ENDINGS: [&str; 2] = ["arrow", "feather"];
 
 /// Refuses what cannot be an Arrow output, before any long work is done.
 pub(crate) fn check_output(input: Option<&Path>, output: &Path) -> Result<(), Failure> {

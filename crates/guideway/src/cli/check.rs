@@ -13,7 +13,7 @@ use super::{Exit, Failure, Output, input, text, values};
     1 warnings under --strict, 2 errors."
 )]
 pub(crate) struct Args {
-    /// Layout file: LIF, openTCS or Arrow, found from its content
+    /// Layout file: LIF, VDA 5050, openTCS, DXF, GeoJSON or Arrow, found from its content
     file: PathBuf,
     /// End with exit code 1 when there are warnings
     #[arg(long)]

@@ -1,27 +1,97 @@
 //! `guideway convert`: a layout in another format.
 
-use std::path::PathBuf;
+use std::fs::File;
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
 
-use guideway::formats::arrow::{WriteOptions, write_layout};
+use guideway::formats::{arrow as arrow_format, geojson};
+use guideway::layout::{Diagnostics, Layout};
+use guideway::{SaveError, replace_file};
 use serde_json::{Value, json};
 
 use super::{Exit, Failure, Output, arrow, input, text};
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
-    /// Layout file: LIF, openTCS or Arrow, found from its content
+    /// Layout file: LIF, VDA 5050, openTCS, DXF, GeoJSON or Arrow, found from its content
     input: PathBuf,
-    /// File to write; its name ends in .arrow or .feather
+    /// File to write; its name ends in .arrow, .feather or .geojson
     output: PathBuf,
 }
 
+/// What can be written.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Target {
+    Arrow,
+    GeoJson,
+}
+
+impl Target {
+    fn of(output: &Path) -> Result<Self, Failure> {
+        let ending = output.extension().unwrap_or_default();
+        if ending.eq_ignore_ascii_case("geojson") {
+            return Ok(Self::GeoJson);
+        }
+        if arrow::ENDINGS
+            .iter()
+            .any(|e| ending.eq_ignore_ascii_case(e))
+        {
+            return Ok(Self::Arrow);
+        }
+        Err(Failure {
+            code: "target-format",
+            message: format!(
+                "{}: what can be written ends in .arrow, .feather or .geojson",
+                output.display()
+            ),
+            remedy: "Name the output so, such as `site.arrow`; for a picture use `guideway render`"
+                .into(),
+        })
+    }
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Arrow => "Arrow",
+            Self::GeoJson => "GeoJSON",
+        }
+    }
+
+    fn check_output(self, input: &Path, output: &Path) -> Result<(), Failure> {
+        match self {
+            Self::Arrow => arrow::check_output(Some(input), output),
+            Self::GeoJson => input::check_output(Some(input), output),
+        }
+    }
+
+    /// Writes the file whole or not at all; returns what it cannot hold, and its size.
+    fn write(self, layout: &Layout, output: &Path) -> Result<(Diagnostics, u64), Failure> {
+        match self {
+            Self::Arrow => arrow::replace(output, |file| {
+                arrow_format::write_layout(layout, file, &arrow_format::WriteOptions::default())
+            }),
+            Self::GeoJson => Ok(replace_file(output, |file| {
+                write_geojson(layout, file).map_err(|problem| SaveError {
+                    path: output.to_owned(),
+                    problem,
+                })
+            })?),
+        }
+    }
+}
+
+fn write_geojson(layout: &Layout, file: &Path) -> io::Result<(Diagnostics, u64)> {
+    let mut out = BufWriter::new(File::create(file)?);
+    let losses = geojson::write_layout(layout, &mut out, &geojson::WriteOptions::default())?;
+    out.flush()?;
+    Ok((losses, out.get_ref().metadata()?.len()))
+}
+
 pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, Failure> {
-    arrow::check_output(Some(&args.input), &args.output)?;
+    let target = Target::of(&args.output)?;
+    target.check_output(&args.input, &args.output)?;
     let (layout, read_ms) = input::read(&args.input, out)?;
     let activity = out.activity(format!("writing {}", args.output.display()));
-    let (losses, bytes) = arrow::replace(&args.output, |file| {
-        write_layout(&layout, file, &WriteOptions::default())
-    })?;
+    let (losses, bytes) = target.write(&layout, &args.output)?;
     let write_ms = activity.finish();
 
     let lost: Vec<Value> = losses
@@ -31,7 +101,7 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, Failure> {
     let body = json!({
         "file": args.input.to_string_lossy(),
         "output": args.output.to_string_lossy(),
-        "format": "Arrow",
+        "format": target.name(),
         "paths": layout.paths.len(),
         "bytes": bytes,
         "not_stored": lost,
@@ -45,7 +115,10 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, Failure> {
             text::bytes(bytes)
         );
         if !losses.is_empty() {
-            text += "what an Arrow file cannot hold, so keep the source:\n";
+            text += &format!(
+                "what a file of {} cannot hold, so keep the source:\n",
+                target.name()
+            );
         }
         for loss in losses.iter() {
             let place = text::plain(&loss.place.element, 80);

@@ -95,7 +95,7 @@ fn speeds(legend: &Legend) -> String {
 fn next(drawn: &Drawn) -> String {
     let center = drawn.view.center_m();
     format!(
-        "Now try it on a file of your own (LIF, openTCS or Arrow):\n  \
+        "Now try it on a file of your own (LIF, VDA 5050, openTCS, DXF, GeoJSON or Arrow):\n  \
            guideway info site.lif.json\n  \
            guideway check site.lif.json\n  \
            guideway render site.lif.json -o site.png\n  \

@@ -88,6 +88,29 @@ fn only_arrow_is_written_and_never_over_the_input() {
 }
 
 #[test]
+fn geojson_has_every_path_too_and_other_endings_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let target = folder.path().join("site.geojson");
+    let convert = |target: &std::path::Path| {
+        let mut convert = command();
+        convert.arg("convert").arg(site()).arg(target);
+        convert.output().unwrap()
+    };
+    let output = convert(&target);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let paths = |file: &std::path::Path| {
+        let info = command().arg("info").arg(file).arg("--json").output();
+        json(&info.unwrap(), "info")["paths"].clone()
+    };
+    assert_eq!(paths(&target), paths(&site()));
+
+    let output = convert(&folder.path().join("site.svg"));
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains(".geojson"), "{}", stderr(&output));
+    assert_eq!(names_in(folder.path()), ["site.geojson"]);
+}
+
+#[test]
 fn what_cannot_be_read_is_not_converted() {
     let folder = tempfile::tempdir().unwrap();
     let whole = folder.path().join("a.arrow");

@@ -13,7 +13,7 @@ use super::{Exit, Failure, Output, input};
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
-    /// Layout file: LIF, openTCS or Arrow, found from its content
+    /// Layout file: LIF, VDA 5050, openTCS, DXF, GeoJSON or Arrow, found from its content
     file: PathBuf,
 }
 

@@ -16,7 +16,7 @@ use crate::cli::{Failure, values};
     guideway render site.lif.json -o dock.png --center 12.5,-3 --scale 40\n  \
     guideway render site.lif.json -o speed.png --color-by maxSpeed")]
 pub(crate) struct Args {
-    /// Layout file: LIF, openTCS or Arrow, found from its content
+    /// Layout file: LIF, VDA 5050, openTCS, DXF, GeoJSON or Arrow, found from its content
     pub(crate) file: PathBuf,
     /// PNG file to write; - for standard output
     #[arg(long, short, value_name = "PNG")]
