@@ -27,7 +27,7 @@ pub use search::{Limit, Search, Trial};
 
 type Part = fn(&Lab<'_>, Deadline, &mut Results) -> Result<(), RenderError>;
 
-/// The parts of a run with their weights. The search, which can use any time there is, comes last.
+/// The parts of a run with their weights: shares of the time that the parts before left over.
 const PARTS: [(&str, f64, Part); 6] = [
     ("pictures", 2.0, pictures::pictures),
     ("coverage at the borders of cells", 1.0, borders::borders),
@@ -37,12 +37,12 @@ const PARTS: [(&str, f64, Part); 6] = [
         views::occupancy,
     ),
     ("frame time against magnification", 2.0, views::zoom),
-    ("time against number of paths", 6.0, growth::growth),
     (
         "most paths at 60 frames a second",
         6.0,
         most_paths::most_paths,
     ),
+    ("time against number of paths", 6.0, growth::growth),
 ];
 
 /// Measures what the plan says. A method that does not run, or fails, is told of in its rows; when the

@@ -91,14 +91,14 @@ fn only_arrow_is_written_and_never_over_the_input() {
 fn geojson_has_every_path_too_and_other_endings_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     let target = folder.path().join("site.geojson");
-    let convert = |target: &std::path::Path| {
+    let convert = |target: &Path| {
         let mut convert = command();
         convert.arg("convert").arg(site()).arg(target);
         convert.output().unwrap()
     };
     let output = convert(&target);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    let paths = |file: &std::path::Path| {
+    let paths = |file: &Path| {
         let info = command().arg("info").arg(file).arg("--json").output();
         json(&info.unwrap(), "info")["paths"].clone()
     };
