@@ -58,3 +58,18 @@ pub fn draw(
 pub fn judge(drawing: &Drawing) -> (Frame, Report) {
     draw(&Oracle, drawing, &Budget::default()).expect("the oracle draws everything")
 }
+
+/// Whether a report accounts for every path of its drawing.
+///
+/// # Errors
+/// When it does not: a sentence with the report.
+pub fn account(report: &Report, drawing: &Drawing) -> Result<(), String> {
+    let layout = &drawing.layout;
+    if report.total != layout.path_count() as u64
+        || report.refused != layout.refused.len() as u64
+        || !report.accounts_for_all()
+    {
+        return Err(format!("not every path is accounted for: {report:?}"));
+    }
+    Ok(())
+}

@@ -1,12 +1,11 @@
 //! Methods on graphics devices draw what they can as the oracle does, each within its own tolerance.
 
-use guideway_render::{Budget, Frame, RenderError, Report};
+use guideway_render::{Budget, Frame, RenderError};
 use guideway_tests::compare::{Difference, check};
 use guideway_tests::devices::{DeviceCandidate, candidates};
 use guideway_tests::evidence;
-use guideway_tests::methods::{draw, judge};
+use guideway_tests::methods::{account, draw, judge};
 use guideway_tests::scenes::{self, SceneCase};
-use guideway_tests::sketch::Drawing;
 
 struct Outcome {
     scene: String,
@@ -93,17 +92,6 @@ fn compare(
         let shown = written.map_or_else(|e| e.to_string(), |file| file.display().to_string());
         format!("{message}; see {shown}")
     })
-}
-
-fn account(report: &Report, drawing: &Drawing) -> Result<(), String> {
-    let layout = &drawing.layout;
-    if report.total != layout.path_count() as u64
-        || report.refused != layout.refused.len() as u64
-        || !report.accounts_for_all()
-    {
-        return Err(format!("not every path is accounted for: {report:?}"));
-    }
-    Ok(())
 }
 
 fn print_worst(name: &str, drawn: &[&Outcome]) {

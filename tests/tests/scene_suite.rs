@@ -6,10 +6,10 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
-use guideway_render::{Budget, Frame, Method, RenderError, Report};
+use guideway_render::{Budget, Frame, Method, RenderError};
 use guideway_tests::compare::{Difference, check};
 use guideway_tests::evidence;
-use guideway_tests::methods::{Candidate, draw, judge, methods};
+use guideway_tests::methods::{Candidate, account, draw, judge, methods};
 use guideway_tests::scenes::{self, SceneCase};
 use guideway_tests::sketch::Drawing;
 
@@ -127,17 +127,6 @@ fn drawn_alike(method: &dyn Method, drawing: &Drawing, bands: &mut u32) -> Resul
         }
     }
     Ok(first)
-}
-
-fn account(report: &Report, drawing: &Drawing) -> Result<(), String> {
-    let layout = &drawing.layout;
-    if report.total != layout.path_count() as u64
-        || report.refused != layout.refused.len() as u64
-        || !report.accounts_for_all()
-    {
-        return Err(format!("not every path is accounted for: {report:?}"));
-    }
-    Ok(())
 }
 
 fn print_worst(outcomes: &[Outcome]) {

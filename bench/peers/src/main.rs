@@ -14,7 +14,7 @@ use anyhow::{Context, Result, bail, ensure};
 use guideway_cpu::Cpu;
 use guideway_formats::{ReadOptions, read_file};
 use guideway_layout::{Layout, PathRef};
-use guideway_render::{Budget, Cancel, Frame, FrameSize, Method, Style, View};
+use guideway_render::{Budget, Cancel, Frame, FrameSize, Method, Style, View, elapsed_ms};
 use guideway_scene::{LineRule, Scene, SceneOptions};
 use guideway_spline::uniform;
 use serde_json::{Value, json};
@@ -186,10 +186,6 @@ fn tiny_skia_path(path: &PathRef<'_>, view: &View) -> Option<tiny_skia::Path> {
         }
     }
     builder.finish()
-}
-
-fn elapsed_ms(start: Instant) -> f64 {
-    start.elapsed().as_secs_f64() * 1e3
 }
 
 /// Lets the system count the most memory held from now on.

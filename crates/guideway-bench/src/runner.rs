@@ -3,6 +3,7 @@ use std::time::Instant;
 
 use guideway_render::{
     Budget, Cancel, Frame, FrameSize, Method, Prepared, RenderError, Report, Style, View, Work,
+    elapsed_ms,
 };
 use guideway_scene::Scene;
 
@@ -141,8 +142,4 @@ fn prepare(
     let prepared = method.prepare(Arc::clone(scene), budget)?;
     let prepare = Prepare::new(prepared.preparation(), elapsed_ms(started));
     Ok((prepared, prepare))
-}
-
-pub(crate) fn elapsed_ms(since: Instant) -> f64 {
-    since.elapsed().as_secs_f64() * 1e3
 }

@@ -2,11 +2,11 @@
 
 use std::time::Instant;
 
-use guideway_render::{Cancel, Clock, RenderError, Report};
+use guideway_render::{Cancel, Clock, RenderError, Report, elapsed_ms};
 
 use crate::Summary;
 use crate::measured::{Fault, FrameTime, Measured, PathCounts, StageTime, WorkCounts};
-use crate::runner::{Frames, Runner, Sample, Shot, elapsed_ms};
+use crate::runner::{Frames, Runner, Sample, Shot};
 
 /// Draws a shot with every runner and returns one result for each.
 ///

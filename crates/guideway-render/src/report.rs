@@ -1,4 +1,7 @@
 use std::fmt;
+use std::time::Instant;
+
+use guideway_scene::Scene;
 
 /// What became of every path, and where the time went.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -62,6 +65,11 @@ impl Stage {
     }
 }
 
+/// Milliseconds since then, by the processor's clock.
+pub fn elapsed_ms(since: Instant) -> f64 {
+    since.elapsed().as_secs_f64() * 1e3
+}
+
 /// Who measured a time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Clock {
@@ -107,6 +115,21 @@ pub struct Work {
 }
 
 impl Report {
+    /// A report that accounts for every path of a scene, of which so many were drawn; the rest of the fields
+    /// is empty.
+    pub fn of(method: &'static str, scene: &Scene, drawn: u64) -> Self {
+        let layout = scene.layout();
+        Self {
+            method,
+            total: layout.path_count() as u64,
+            drawn,
+            culled: scene.draw_order().len() as u64 - drawn,
+            hidden: scene.hidden_count() as u64,
+            refused: layout.refused.len() as u64,
+            ..Self::default()
+        }
+    }
+
     /// Whether drawn + culled + hidden + refused = total: nothing was lost.
     pub fn accounts_for_all(&self) -> bool {
         self.drawn + self.culled + self.hidden + self.refused == self.total

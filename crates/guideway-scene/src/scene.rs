@@ -122,6 +122,14 @@ impl Scene {
         }
     }
 
+    /// The colour of all drawn paths, if they have one in common; black if there are none.
+    pub fn common_color(&self) -> Option<Rgba> {
+        let mut colors = self.draw_order.iter().map(|&path| self.color(path));
+        let first = colors.next().unwrap_or(Rgba::BLACK);
+        let is_common = matches!(self.colors, Colors::One(_)) || colors.all(|c| c == first);
+        is_common.then_some(first)
+    }
+
     /// Whether nothing shows through any path.
     pub fn is_opaque(&self) -> bool {
         match &self.colors {

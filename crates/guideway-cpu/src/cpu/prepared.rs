@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use guideway_render::{
     Budget, Cancel, Frame, Preparation, Prepared, RenderError, Report, Shading, Stage, Style, View,
-    density,
+    density, elapsed_ms,
 };
 use guideway_scene::Scene;
 use guideway_spline::{Bounds, Point};
@@ -71,10 +71,6 @@ fn threads(budget: &Budget) -> usize {
     } else {
         rayon::current_num_threads()
     }
-}
-
-fn elapsed_ms(start: Instant) -> f64 {
-    start.elapsed().as_secs_f64() * 1e3
 }
 
 fn too_small(what: &'static str, needed_bytes: u64, budget: &Budget) -> RenderError {
@@ -166,19 +162,12 @@ impl Prepared for CpuPrepared {
             buffers.draw(&shot, groups, spare_bytes, budget, frame)
         })?;
         let drawn = buffers.lines.drawn();
-        let layout = scene.layout();
         Ok(Report {
-            method: NAME,
-            total: layout.path_count() as u64,
-            drawn,
-            culled: scene.draw_order().len() as u64 - drawn,
-            hidden: scene.hidden_count() as u64,
-            refused: layout.refused.len() as u64,
             stages: std::mem::take(&mut buffers.stages),
             lines: buffers.lines.made(),
             peak_bytes: needed - (size.pixels() * size_of::<[u8; 4]>()) as u64 + buffers.peak_bytes,
             bands,
-            notes: Vec::new(),
+            ..Report::of(NAME, scene, drawn)
         })
     }
 

@@ -14,7 +14,7 @@ use std::time::Instant;
 
 use guideway_render::{
     Budget, Cancel, Frame, Method, MethodInfo, Preparation, Prepared, RenderError, Report, Shading,
-    Stage, Style, View, density,
+    Stage, Style, View, density, elapsed_ms,
 };
 use guideway_scene::{Rgba, Scene};
 use guideway_spline::{Bounds, Point};
@@ -114,17 +114,10 @@ impl Prepared for PreparedOracle {
             density::shade(&counts, tone, style.background, frame);
         }
 
-        let layout = self.scene.layout();
         let drawn = strokes.len() as u64;
         let stroke_bytes = strokes.capacity() * size_of::<Stroke>();
         let count_bytes = counts.capacity() * size_of::<f32>();
         Ok(Report {
-            method: NAME,
-            total: layout.path_count() as u64,
-            drawn,
-            culled: self.scene.draw_order().len() as u64 - drawn,
-            hidden: self.scene.hidden_count() as u64,
-            refused: layout.refused.len() as u64,
             stages: vec![
                 Stage::host("cull", culled_ms),
                 Stage::host("sample", elapsed_ms(started) - culled_ms),
@@ -132,7 +125,7 @@ impl Prepared for PreparedOracle {
             lines,
             peak_bytes: (band_bytes + stroke_bytes + count_bytes) as u64,
             bands,
-            notes: Vec::new(),
+            ..Report::of(NAME, &self.scene, drawn)
         })
     }
 
@@ -210,8 +203,4 @@ impl PreparedOracle {
         }
         lines
     }
-}
-
-fn elapsed_ms(since: Instant) -> f64 {
-    since.elapsed().as_secs_f64() * 1e3
 }

@@ -212,13 +212,9 @@ impl Widths {
 
 /// The one opaque colour of a scene's paths, black if there are none; or what it has instead.
 pub(super) fn one_color(scene: &Scene) -> Result<Rgba, &'static str> {
-    let mut colors = scene.draw_order().iter().map(|&path| scene.color(path));
-    let color = colors.next().unwrap_or(Rgba::BLACK);
-    if colors.any(|other| other != color) {
-        return Err("paths of several colours");
+    match scene.common_color() {
+        None => Err("paths of several colours"),
+        Some(color) if !color.is_opaque() => Err("translucent paths"),
+        Some(color) => Ok(color),
     }
-    if !color.is_opaque() {
-        return Err("translucent paths");
-    }
-    Ok(color)
 }

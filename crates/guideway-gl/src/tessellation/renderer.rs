@@ -6,6 +6,7 @@ use std::time::Instant;
 
 use guideway_render::{
     Budget, Cancel, Frame, Preparation, RenderError, Report, Shading, Stage, Style, View, Work,
+    elapsed_ms,
 };
 use guideway_scene::{Rgba, Scene};
 
@@ -69,7 +70,7 @@ impl Renderer {
         let mut stages = Vec::new();
         let mut since = Instant::now();
         let mut done = |name| {
-            stages.push(Stage::host(name, since.elapsed().as_secs_f64() * 1e3));
+            stages.push(Stage::host(name, elapsed_ms(since)));
             since = Instant::now();
         };
         let plan = Plan::new(&scene, options.commands, &limits).map_err(|TooLong { row }| {
@@ -155,7 +156,7 @@ impl Renderer {
             self.finish(cancel)?;
             let started = Instant::now();
             self.read(&tile, &target, background, frame)?;
-            read_back_ms += started.elapsed().as_secs_f64() * 1e3;
+            read_back_ms += elapsed_ms(started);
         }
         let drawn = self.chunks.iter().map(Chunk::seen_paths).sum();
         self.report(view, style, drawn, tiling.count(), read_back_ms)
@@ -317,7 +318,6 @@ impl Renderer {
         bands: u32,
         read_back_ms: f64,
     ) -> Result<Report, RenderError> {
-        let layout = self.scene.layout();
         let elapsed_ms = self.timeline.elapsed_ms();
         let lines = self.primitives.count();
         self.gl.check("measuring").map_err(|e| self.failed(e))?;
@@ -330,12 +330,6 @@ impl Renderer {
         let draw_ms = elapsed_ms[2..].iter().step_by(2).sum();
         let target_bytes = self.target.as_ref().map_or(0, |target| target.bytes());
         Ok(Report {
-            method: self.method,
-            total: layout.path_count() as u64,
-            drawn,
-            culled: self.scene.draw_order().len() as u64 - drawn,
-            hidden: self.scene.hidden_count() as u64,
-            refused: layout.refused.len() as u64,
             stages: vec![
                 stage("cull", elapsed_ms[0]),
                 stage("tessellate and draw", draw_ms),
@@ -345,6 +339,7 @@ impl Renderer {
             peak_bytes: self.held_bytes() + target_bytes,
             bands,
             notes: self.notes(view, style),
+            ..Report::of(self.method, &self.scene, drawn)
         })
     }
 

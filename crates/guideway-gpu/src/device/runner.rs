@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::sync::mpsc::channel;
 use std::time::{Duration, Instant};
 
-use guideway_render::{Clock, RenderError, Stage};
+use guideway_render::{Clock, RenderError, Stage, elapsed_ms};
 use wgpu::BufferUsages;
 
 use super::kernel::Bindings;
@@ -128,7 +128,7 @@ impl Runner {
             None => {
                 self.wait(what, submission)?;
                 if let Some(first) = spans_ms.first_mut() {
-                    *first = start.elapsed().as_secs_f64() * 1e3;
+                    *first = elapsed_ms(start);
                 }
             }
             Some(clock) => {

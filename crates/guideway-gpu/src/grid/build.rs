@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::time::Instant;
 
-use guideway_render::{RenderError, Stage};
+use guideway_render::{RenderError, Stage, elapsed_ms};
 use wgpu::BufferUsages;
 
 use super::cut::Cutter;
@@ -97,7 +97,7 @@ impl Builder<'_> {
         loop {
             let start = Instant::now();
             let (packed, next) = packer.pack(cursor, most);
-            phases.pack += start.elapsed().as_secs_f64() * 1e3;
+            phases.pack += elapsed_ms(start);
             let segments = packed.segments();
             if segments == 0 {
                 break;

@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use guideway_render::{
     Budget, Cancel, Frame, FrameSize, Preparation, Prepared, RenderError, Report, Stage, Style,
-    View, Work,
+    View, Work, elapsed_ms,
 };
 use guideway_scene::{Rgba, Scene};
 use wgpu::BufferUsages;
@@ -70,21 +70,17 @@ pub(super) fn plan_bytes(variant: &Variant, scene: &Scene) -> u64 {
 
 /// The colour of all paths.
 fn one_color(scene: &Scene) -> Result<Rgba, RenderError> {
-    let mut colors = scene.draw_order().iter().map(|&path| scene.color(path));
-    let first = colors.next().unwrap_or(Rgba::BLACK);
-    if colors.any(|color| color != first) {
-        return Err(unsupported(
+    match scene.common_color() {
+        None => Err(unsupported(
             "paths of several colours",
             "Leave --color-by out, or use `--method cpu`.",
-        ));
-    }
-    if !first.is_opaque() {
-        return Err(unsupported(
+        )),
+        Some(color) if !color.is_opaque() => Err(unsupported(
             "translucent paths",
             "Ask for an opaque colour, or use `--method cpu`.",
-        ));
+        )),
+        Some(color) => Ok(color),
     }
-    Ok(first)
 }
 
 fn widths(scene: &Scene) -> Widths {
@@ -273,15 +269,8 @@ impl Prepared for PreparedGrid {
             stages.push(Stage::host(Stage::READ_BACK, fetching_ms));
             self.canvas = Some(canvas);
         }
-        let layout = self.scene.layout();
         let loses_borders = self.variant.options.binning == Binning::LineBox;
         Ok(Report {
-            method: NAME,
-            total: layout.path_count() as u64,
-            drawn: self.scene.draw_order().len() as u64,
-            culled: 0,
-            hidden: self.scene.hidden_count() as u64,
-            refused: layout.refused.len() as u64,
             stages,
             lines: self.local.segments * u64::from(self.variant.options.lines_a_segment()),
             peak_bytes: self.memory.take_peak_bytes(),
@@ -291,6 +280,7 @@ impl Prepared for PreparedGrid {
             } else {
                 Vec::new()
             },
+            ..Report::of(NAME, &self.scene, self.scene.draw_order().len() as u64)
         })
     }
 
@@ -326,8 +316,4 @@ impl Prepared for PreparedGrid {
             bytes_written: Some(pixels * passes * PIXEL_BYTES),
         })
     }
-}
-
-fn elapsed_ms(since: Instant) -> f64 {
-    since.elapsed().as_secs_f64() * 1e3
 }

@@ -72,11 +72,9 @@ pub(super) enum Paint {
 impl Paint {
     /// What the colours of a scene make necessary.
     pub(super) fn of(scene: &Scene) -> Self {
-        let mut colors = scene.draw_order().iter().map(|&path| scene.color(path));
-        let first = colors.next();
         if !scene.is_opaque() {
             Self::Translucent
-        } else if colors.all(|color| Some(color) == first) {
+        } else if scene.common_color().is_some() {
             Self::One
         } else {
             Self::Opaque
@@ -187,7 +185,7 @@ impl<'a> Bound<'a> {
         add(
             "list",
             &kernels.scatter,
-            rounds(room.lines.div_ceil(WORKGROUP)),
+            rounds(room.size.lines.div_ceil(WORKGROUP)),
             &[
                 frame,
                 found,

@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use guideway_render::{
     Budget, Cancel, Frame, Preparation, Prepared, RenderError, Report, Shading, Stage, Style, View,
-    density,
+    density, elapsed_ms,
 };
 use guideway_scene::Scene;
 use guideway_spline::Bounds;
@@ -33,19 +33,21 @@ pub(super) struct PreparedTiles {
     found: DeviceBuffer,
     found_fetched: DeviceBuffer,
     paint: Paint,
-    packed: Facts,
+    facts: Facts,
+    /// Paths of several strokes, which the device does not count.
+    parted: Vec<u32>,
     room: Option<Room>,
     canvas: Option<Canvas>,
     preparation: Preparation,
 }
 
 /// What the processor needs to know of what it packed.
+#[derive(Clone, Copy)]
 pub(super) struct Facts {
     pub(super) strokes: u32,
     pub(super) clusters: u32,
     pub(super) reach_m: f64,
     pub(super) has_widths: bool,
-    parted: Vec<u32>,
 }
 
 /// See [`guideway_render::Method::plan_bytes`].
@@ -57,10 +59,6 @@ pub(super) fn plan_bytes(scene: &Scene, budget: &Budget) -> u64 {
     let room = Size::first(u32::try_from(paths).unwrap_or(u32::MAX)).bytes();
     let pixels = 2 * PLANNED_PIXELS * size_of::<u32>() as u64;
     (points + strokes + room + pixels).min(budget.memory_bytes)
-}
-
-fn elapsed_ms(since: Instant) -> f64 {
-    since.elapsed().as_secs_f64() * 1e3
 }
 
 impl PreparedTiles {
@@ -83,13 +81,13 @@ impl PreparedTiles {
         let found_fetched = memory.zeros("the counters", found_bytes, FETCHED)?;
         Ok(Self {
             paint: Paint::of(&scene),
-            packed: Facts {
+            facts: Facts {
                 strokes: packed.strokes.len() as u32,
                 clusters: packed.clusters.len() as u32,
                 reach_m: packed.reach_m,
                 has_widths: packed.has_widths,
-                parted: packed.parted,
             },
+            parted: packed.parted,
             shared,
             scene,
             preparation: Preparation {
@@ -119,7 +117,7 @@ impl PreparedTiles {
             self.canvas = Some(Canvas::new(gpu, &mut self.memory, view.size())?);
         }
         if self.room.is_none() {
-            let size = Size::first(self.packed.strokes).within(gpu, &self.memory);
+            let size = Size::first(self.facts.strokes).within(gpu, &self.memory);
             self.room = Some(Room::new(&mut self.memory, size)?);
         }
         Ok(())
@@ -192,7 +190,7 @@ impl PreparedTiles {
         let Some(room) = self.room.take() else {
             return Ok(false);
         };
-        let (old, size) = (room.size(), room.size().for_found(found));
+        let (old, size) = (room.size, room.size.for_found(found));
         drop(room);
         let fits = size.fits(&self.shared.gpu) && size.bytes() <= self.memory.spare_bytes();
         let size = if fits { size } else { old };
@@ -241,7 +239,7 @@ impl PreparedTiles {
             cancel.check()?;
             let rows = first..all_rows.min(first + band_rows);
             let found = self.draw(shot, &rows, stages)?;
-            if self.room.as_ref().is_some_and(|r| !r.size().holds(&found)) {
+            if self.room.as_ref().is_some_and(|r| !r.size.holds(&found)) {
                 if !self.grow(&found)? {
                     if band_rows == 1 {
                         let size = Size::first(0).for_found(&found);
@@ -256,7 +254,6 @@ impl PreparedTiles {
                 take(rows_px, bytes);
             })?;
             in_all.lines += found.lines;
-            in_all.references += found.references;
             in_all.drawn = found.drawn;
             first = rows.end;
             bands += 1;
@@ -271,7 +268,7 @@ impl PreparedTiles {
             let hull = paths.get(**path as usize).hull_bounds();
             hull.is_some_and(|hull: Bounds<f64>| shot.is_seen(hull, self.scene.width_m(**path)))
         };
-        self.packed.parted.iter().filter(is_seen).count() as u64
+        self.parted.iter().filter(is_seen).count() as u64
     }
 }
 
@@ -294,7 +291,7 @@ impl Prepared for PreparedTiles {
         frame: &mut Frame,
     ) -> Result<Report, RenderError> {
         let scene = Arc::clone(&self.scene);
-        let shot = Shot::new(view, style, &scene, &self.packed)?;
+        let shot = Shot::new(view, style, &scene, self.facts)?;
         let size = view.size();
         frame.resize(size);
         let mut stages = Vec::new();
@@ -327,20 +324,13 @@ impl Prepared for PreparedTiles {
             density::shade(&counts, tone, style.background, frame);
             stages.push(Stage::host("shade", elapsed_ms(start)));
         }
-        let layout = scene.layout();
         let drawn = u64::from(found.drawn) + self.parted_drawn(&shot);
         Ok(Report {
-            method: NAME,
-            total: layout.path_count() as u64,
-            drawn,
-            culled: scene.draw_order().len() as u64 - drawn,
-            hidden: scene.hidden_count() as u64,
-            refused: layout.refused.len() as u64,
             stages,
             lines: u64::from(found.lines),
             peak_bytes: self.memory.take_peak_bytes(),
             bands,
-            notes: Vec::new(),
+            ..Report::of(NAME, &scene, drawn)
         })
     }
 

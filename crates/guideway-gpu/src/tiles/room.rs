@@ -12,8 +12,7 @@ const WORD_BYTES: u64 = size_of::<u32>() as u64;
 
 /// Buffers of a fixed size: what does not fit is counted, and drawn again with more room.
 pub(super) struct Room {
-    pub(super) lines: u32,
-    pub(super) references: u32,
+    pub(super) size: Size,
     pub(super) lines_px: DeviceBuffer,
     pub(super) line_strokes: DeviceBuffer,
     pub(super) reference_list: DeviceBuffer,
@@ -97,8 +96,7 @@ impl Room {
         let storage = BufferUsages::STORAGE;
         let lines = u64::from(size.lines);
         Ok(Self {
-            lines: size.lines,
-            references: size.references,
+            size,
             lines_px: memory.zeros("the lines", lines * LINE_BYTES, storage)?,
             line_strokes: memory.zeros("the lines", lines * WORD_BYTES, storage)?,
             reference_list: memory.zeros(
@@ -107,12 +105,5 @@ impl Room {
                 storage,
             )?,
         })
-    }
-
-    pub(super) fn size(&self) -> Size {
-        Size {
-            lines: self.lines,
-            references: self.references,
-        }
     }
 }

@@ -25,14 +25,7 @@ pub(super) struct Shot<'a> {
     pub(super) view: &'a View,
     pub(super) style: &'a Style,
     scene: &'a Scene,
-    facts: Counts,
-}
-
-#[derive(Clone, Copy)]
-struct Counts {
-    strokes: u32,
-    clusters: u32,
-    has_widths: bool,
+    facts: Facts,
 }
 
 impl<'a> Shot<'a> {
@@ -40,7 +33,7 @@ impl<'a> Shot<'a> {
         view: &'a View,
         style: &'a Style,
         scene: &'a Scene,
-        facts: &Facts,
+        facts: Facts,
     ) -> Result<Self, RenderError> {
         // With u = 2^-24, a coordinate up to X from its cluster's origin is rounded by at most u X as a
         // control point, as its sum with the view's offset, as a pixel, and as a vertex of the curve.
@@ -62,11 +55,7 @@ impl<'a> Shot<'a> {
             view,
             style,
             scene,
-            facts: Counts {
-                strokes: facts.strokes,
-                clusters: facts.clusters,
-                has_widths: facts.has_widths,
-            },
+            facts,
         })
     }
 
@@ -138,8 +127,8 @@ impl<'a> Shot<'a> {
             columns: canvas.columns,
             first_row: rows.start,
             rows: rows.end - rows.start,
-            line_room: room.lines,
-            reference_room: room.references,
+            line_room: room.size.lines,
+            reference_room: room.size.references,
             color,
             background: device_color(self.style.background),
         }

@@ -9,12 +9,17 @@ use guideway::{SaveError, replace_file};
 use super::{Failure, input};
 
 /// Endings of the names of the files that can be written.
-pub(crate) const ENDINGS: [&str; 2] = ["arrow", "feather"];
+const ENDINGS: [&str; 2] = ["arrow", "feather"];
+
+/// Whether the name of a file is that of an Arrow file.
+pub(crate) fn has_ending(output: &Path) -> bool {
+    let ending = output.extension().unwrap_or_default();
+    ENDINGS.iter().any(|e| ending.eq_ignore_ascii_case(e))
+}
 
 /// Refuses what cannot be an Arrow output, before any long work is done.
 pub(crate) fn check_output(input: Option<&Path>, output: &Path) -> Result<(), Failure> {
-    let ending = output.extension().unwrap_or_default().to_string_lossy();
-    if !ENDINGS.contains(&ending.to_ascii_lowercase().as_str()) {
+    if !has_ending(output) {
         return Err(Failure {
             code: "target-format",
             message: format!(

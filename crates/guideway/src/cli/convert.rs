@@ -32,10 +32,7 @@ impl Target {
         if ending.eq_ignore_ascii_case("geojson") {
             return Ok(Self::GeoJson);
         }
-        if arrow::ENDINGS
-            .iter()
-            .any(|e| ending.eq_ignore_ascii_case(e))
-        {
+        if arrow::has_ending(output) {
             return Ok(Self::Arrow);
         }
         Err(Failure {
