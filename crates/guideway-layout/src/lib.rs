@@ -25,6 +25,7 @@ mod nodes;
 mod paths;
 mod refused;
 mod text;
+mod vehicle_types;
 
 pub use attribute::{Attribute, Attributes, Value, Values};
 pub use check::{CheckOptions, check};
@@ -32,9 +33,10 @@ pub use diagnostic::{Code, Diagnostic, Diagnostics, Place, Severity};
 pub use geometry::{Geometry, RunPoints};
 pub use limits::Limits;
 pub use nodes::{Level, Nodes, Stations};
-pub use paths::{Direction, NewPath, PathRef, Paths, VehicleTypes};
+pub use paths::{Direction, NewPath, OwnStyle, PathRef, Paths};
 pub use refused::{Refused, RefusedPath};
 pub use text::TextColumn;
+pub use vehicle_types::VehicleTypes;
 
 /// A whole layout, as read from one file.
 #[derive(Clone, Debug, Default)]

@@ -1,7 +1,6 @@
-use std::collections::HashMap;
+use guideway_spline::{Affine, Bounds, Point, Runs};
 
-use guideway_spline::{Bounds, Point, Runs};
-
+use crate::vehicle_types::VehicleTypes;
 use crate::{Attributes, Geometry, RunPoints, TextColumn};
 
 const NONE: u32 = u32::MAX;
@@ -160,6 +159,46 @@ impl Paths {
         &self.geometry
     }
 
+    /// Maps the curve of a path: see [`Geometry::transform`].
+    pub fn transform(&mut self, path: usize, by: Affine) {
+        self.geometry.transform(path, by);
+    }
+
+    /// Gives a path another curve: see [`Geometry::replace`].
+    pub fn replace_curve(&mut self, path: usize, with: &Geometry, from: usize) {
+        self.geometry.replace(path, with, from);
+    }
+
+    /// Sets what a path brings of its own look; whatever is none, the view's rule decides.
+    ///
+    /// # Panics
+    /// When `path` is not below [`Self::len`].
+    pub fn set_own_style(&mut self, path: usize, style: OwnStyle) {
+        let rows = self.len();
+        let width_m = style.width_m.unwrap_or(f32::NAN);
+        if let Some(column) = column_for(&mut self.width_m, rows, f32::NAN, style.width_m.is_some())
+        {
+            column[path] = width_m;
+        }
+        let color = style.color_rgba.unwrap_or(0);
+        if let Some(column) = column_for(&mut self.color_rgba, rows, 0, color != 0) {
+            column[path] = color;
+        }
+    }
+
+    /// What a path brings of its own look.
+    ///
+    /// # Panics
+    /// When `path` is not below [`Self::len`].
+    pub fn own_style(&self, path: usize) -> OwnStyle {
+        let width_m = self.width_m.as_ref().map(|column| column[path]);
+        let color = self.color_rgba.as_ref().map(|column| column[path]);
+        OwnStyle {
+            width_m: width_m.filter(|width_m| width_m.is_finite() && *width_m >= 0.0),
+            color_rgba: color.filter(|color| *color != 0),
+        }
+    }
+
     /// Stroke widths in metres, if the file gives any; NaN where it does not.
     pub fn width_m(&self) -> Option<&[f32]> {
         self.width_m.as_deref()
@@ -216,6 +255,28 @@ impl Paths {
             + self.vehicle_types.heap_bytes()
             + self.attributes.heap_bytes()
     }
+}
+
+/// A column that may not be there: made if it has to hold something.
+fn column_for<T: Clone>(
+    column: &mut Option<Vec<T>>,
+    rows: usize,
+    none: T,
+    is_needed: bool,
+) -> Option<&mut Vec<T>> {
+    if is_needed {
+        column.get_or_insert_with(|| vec![none; rows]);
+    }
+    column.as_mut()
+}
+
+/// What a path brings of its own look.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct OwnStyle {
+    /// Stroke width in metres: zero or more.
+    pub width_m: Option<f32>,
+    /// Colour 0xRRGGBBAA; not 0, which stands for none in [`Paths::color_rgba`].
+    pub color_rgba: Option<u32>,
 }
 
 /// One path of a [`Paths`] table.
@@ -280,62 +341,4 @@ impl<'a> PathRef<'a> {
 
 fn some(index: u32) -> Option<u32> {
     (index != NONE).then_some(index)
-}
-
-/// Sets of vehicle types, one a path, with each name held once.
-#[derive(Clone, Debug, Default)]
-pub struct VehicleTypes {
-    names: Vec<String>,
-    /// Where each name is, for a file may have as many names as paths.
-    rows: HashMap<String, u32>,
-    ends: Vec<u32>,
-    members: Vec<u32>,
-}
-
-impl VehicleTypes {
-    fn all(rows: usize) -> Self {
-        Self {
-            ends: vec![0; rows],
-            ..Self::default()
-        }
-    }
-
-    fn push(&mut self, types: &[&str]) {
-        for &name in types {
-            let index = match self.rows.get(name) {
-                Some(&row) => row,
-                None => {
-                    let row = self.names.len() as u32;
-                    self.names.push(name.to_owned());
-                    self.rows.insert(name.to_owned(), row);
-                    row
-                }
-            };
-            self.members.push(index);
-        }
-        self.ends.push(self.members.len() as u32);
-    }
-
-    /// The names of all vehicle types, in order of first use.
-    pub fn names(&self) -> &[String] {
-        &self.names
-    }
-
-    /// The types of one path; none means that any may use it.
-    pub fn of(&self, path: usize) -> impl ExactSizeIterator<Item = &str> {
-        let start = if path == 0 {
-            0
-        } else {
-            self.ends[path - 1] as usize
-        };
-        self.members[start..self.ends[path] as usize]
-            .iter()
-            .map(|&m| self.names[m as usize].as_str())
-    }
-
-    /// Heap bytes held.
-    pub fn heap_bytes(&self) -> usize {
-        (self.ends.capacity() + self.members.capacity()) * size_of::<u32>()
-            + 2 * self.names.iter().map(String::capacity).sum::<usize>()
-    }
 }

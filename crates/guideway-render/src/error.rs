@@ -1,3 +1,5 @@
+use guideway_scene::EditError;
+
 use crate::FrameSize;
 
 /// Why a picture could not be made.
@@ -61,6 +63,9 @@ pub enum RenderError {
         /// What happened, at what, and what to try.
         what: String,
     },
+    /// The scene cannot be changed like this.
+    #[error(transparent)]
+    Edit(EditError),
     /// The caller asked to stop.
     #[error("cancelled")]
     Cancelled,

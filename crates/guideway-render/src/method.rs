@@ -1,7 +1,7 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use guideway_scene::{LineRule, Rgba, Scene};
+use guideway_scene::{Edit, LineRule, Rgba, Scene};
 
 use crate::density::ToneMap;
 use crate::{Frame, Preparation, RenderError, Report, View, Work};
@@ -38,6 +38,15 @@ pub trait Prepared: Send {
         frame: &mut Frame,
     ) -> Result<Report, RenderError>;
 
+    /// Changes the scene; the next frame shows it, at a cost that goes with what the edit touches.
+    ///
+    /// # Errors
+    /// [`RenderError::Edit`] when the edit cannot be done; the scene is then as it was. [`RenderError::Budget`]
+    /// or [`RenderError::Device`] when there is no room for it: what was made ready is then of no more use.
+    fn edit(&mut self, _edit: &Edit) -> Result<Edited, RenderError> {
+        Ok(Edited::NotInPlace)
+    }
+
     /// What making the scene ready took.
     fn preparation(&self) -> &Preparation;
 
@@ -54,6 +63,18 @@ pub trait Prepared: Send {
     ) -> Result<Work, RenderError> {
         Ok(Work::default())
     }
+}
+
+/// What became of an edit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Edited {
+    /// The next frame shows it.
+    InPlace {
+        /// Bytes brought to the device for it; none if the method works on the scene itself.
+        moved_bytes: u64,
+    },
+    /// Nothing: this method takes a changed scene only by [`Method::prepare`].
+    NotInPlace,
 }
 
 /// What a method is called and where it runs.

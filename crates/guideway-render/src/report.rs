@@ -121,7 +121,7 @@ impl Report {
         let layout = scene.layout();
         Self {
             method,
-            total: layout.path_count() as u64,
+            total: scene.path_count() as u64,
             drawn,
             culled: scene.draw_order().len() as u64 - drawn,
             hidden: scene.hidden_count() as u64,

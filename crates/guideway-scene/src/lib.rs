@@ -6,10 +6,12 @@
 
 mod color;
 mod color_by;
+mod edit;
 mod scene;
 mod width;
 
 pub use color::Rgba;
 pub use color_by::{ColorBy, Legend, LegendEntry};
-pub use scene::{Scene, SceneError, SceneOptions};
+pub use edit::{Edit, EditError, Insertion};
+pub use scene::{PathState, Scene, SceneError, SceneOptions};
 pub use width::LineRule;

@@ -1,7 +1,7 @@
 use std::fmt;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
-use guideway_layout::{Layout, Level};
+use guideway_layout::{Layout, Level, PathRef};
 use guideway_spline::Bounds;
 
 use crate::Rgba;
@@ -57,18 +57,36 @@ impl fmt::Display for SceneError {
 
 impl std::error::Error for SceneError {}
 
-/// A layout with every path's style resolved. Immutable: share it between methods.
+/// A layout with every path's style resolved. It changes by [`Scene::edit`] alone.
 #[derive(Clone, Debug)]
 pub struct Scene {
-    layout: Arc<Layout>,
-    colors: Colors,
+    pub(crate) layout: Arc<Layout>,
+    pub(crate) colors: Colors,
+    /// Colour of paths that have none of their own.
+    base: Rgba,
+    /// One a path; empty while all are shown.
+    pub(crate) states: Vec<PathState>,
+    removed_count: usize,
     draw_order: Vec<u32>,
-    bounds: Option<Bounds<f64>>,
+    /// Found when it is first asked for.
+    bounds: OnceLock<Option<Bounds<f64>>>,
     legend: Option<Legend>,
 }
 
+/// Whether a path is drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum PathState {
+    /// It is.
+    #[default]
+    Shown,
+    /// It is not, but belongs to the layout: a report counts it as hidden.
+    Hidden,
+    /// It is no longer part of the layout, though its row is kept, so that no other row changes.
+    Removed,
+}
+
 #[derive(Clone, Debug)]
-enum Colors {
+pub(crate) enum Colors {
     One(Rgba),
     Each(Vec<Rgba>),
 }
@@ -79,7 +97,8 @@ impl Scene {
     /// # Errors
     /// When the options name a level or a column that the layout has not.
     pub fn new(layout: Arc<Layout>, options: &SceneOptions) -> Result<Self, SceneError> {
-        let draw_order = draw_order(&layout, options.level.as_deref())?;
+        let states = states(&layout, options.level.as_deref())?;
+        let draw_order = draw_order(&layout, &states);
         let base = options.color.unwrap_or(Rgba::BLACK);
         let (colors, legend) = match &options.color_by {
             Some(by) => {
@@ -88,12 +107,14 @@ impl Scene {
             }
             None => (own_colors(&layout, base), None),
         };
-        let bounds = bounds(&layout, &draw_order);
         Ok(Self {
             layout,
             colors,
+            base,
+            states,
+            removed_count: 0,
             draw_order,
-            bounds,
+            bounds: OnceLock::new(),
             legend,
         })
     }
@@ -109,9 +130,24 @@ impl Scene {
         &self.draw_order
     }
 
+    /// Rows of paths, removed ones among them.
+    pub fn row_count(&self) -> usize {
+        self.layout.paths.len()
+    }
+
+    /// Paths of the layout, refused ones among them and removed ones not.
+    pub fn path_count(&self) -> usize {
+        self.layout.path_count() - self.removed_count
+    }
+
     /// Paths of the layout that this scene hides.
     pub fn hidden_count(&self) -> usize {
-        self.layout.paths.len() - self.draw_order.len()
+        self.row_count() - self.removed_count - self.draw_order.len()
+    }
+
+    /// Whether a path is drawn.
+    pub fn state(&self, path: u32) -> PathState {
+        self.states.get(path as usize).copied().unwrap_or_default()
     }
 
     /// Colour of a path.
@@ -144,37 +180,67 @@ impl Scene {
         (width_m.is_finite() && width_m >= 0.0).then_some(width_m)
     }
 
-    /// Box that holds all drawn paths, in metres; none if there are none.
+    /// Box that holds all drawn paths, in metres; none if there are none. Found when it is first asked for
+    /// after a change.
     pub fn bounds(&self) -> Option<Bounds<f64>> {
-        self.bounds
+        *self
+            .bounds
+            .get_or_init(|| bounds(&self.layout, &self.draw_order))
     }
 
     /// What the colours mean, if they were chosen by a column.
     pub fn legend(&self) -> Option<&Legend> {
         self.legend.as_ref()
     }
+
+    /// Colour of a path without a column that decides.
+    pub(crate) fn own_color(&self, path: u32) -> Rgba {
+        let own = self.layout.paths.own_style(path as usize).color_rgba;
+        own.map_or(self.base, Rgba::from_u32)
+    }
+
+    /// After curves have changed.
+    pub(crate) fn forget_bounds(&mut self) {
+        self.bounds = OnceLock::new();
+    }
+
+    /// After rows or states have changed.
+    pub(crate) fn order_anew(&mut self) {
+        let is_removed = |state: &&PathState| **state == PathState::Removed;
+        self.removed_count = self.states.iter().filter(is_removed).count();
+        self.draw_order = draw_order(&self.layout, &self.states);
+        self.forget_bounds();
+    }
 }
 
-fn draw_order(layout: &Layout, level: Option<&str>) -> Result<Vec<u32>, SceneError> {
-    let only = match level {
-        None => None,
-        Some(asked) => Some(
-            layout
-                .level_named(asked)
-                .ok_or_else(|| SceneError::UnknownLevel {
-                    asked: asked.to_owned(),
-                    known: layout.levels.iter().map(level_label).collect(),
-                })?,
-        ),
+/// Paths of other levels than the one asked for are hidden.
+fn states(layout: &Layout, level: Option<&str>) -> Result<Vec<PathState>, SceneError> {
+    let Some(asked) = level else {
+        return Ok(Vec::new());
     };
+    let only = layout.level_named(asked);
+    if only.is_none() {
+        return Err(SceneError::UnknownLevel {
+            asked: asked.to_owned(),
+            known: layout.levels.iter().map(level_label).collect(),
+        });
+    }
+    let state = |path: PathRef<'_>| match path.level() == only {
+        true => PathState::Shown,
+        false => PathState::Hidden,
+    };
+    Ok(layout.paths.iter().map(state).collect())
+}
+
+fn draw_order(layout: &Layout, states: &[PathState]) -> Vec<u32> {
     let mut order: Vec<u32> = (0..layout.paths.len() as u32).collect();
-    if only.is_some() {
-        order.retain(|&path| layout.paths.get(path as usize).level() == only);
+    if !states.is_empty() {
+        order.retain(|&path| states[path as usize] == PathState::Shown);
     }
     if let Some(rank) = layout.paths.rank() {
         order.sort_by_key(|&path| rank[path as usize]);
     }
-    Ok(order)
+    order
 }
 
 /// A level as it may be asked for: by its id or its name.

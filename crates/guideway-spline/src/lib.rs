@@ -13,6 +13,7 @@
 //! Any other curve converts to runs: exactly where it is a non-rational curve up to degree 3, within a
 //! stated tolerance otherwise.
 
+mod affine;
 mod arc;
 pub mod basis;
 mod bounds;
@@ -27,6 +28,7 @@ mod real;
 mod runs;
 pub mod uniform;
 
+pub use affine::Affine;
 pub use arc::{MAX_ARC_PIECES, arc_to_runs};
 pub use bounds::Bounds;
 pub use convert::{Conversion, MAX_HALVINGS, bezier_to_runs, nurbs_to_runs, polyline_to_runs};

@@ -13,10 +13,10 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use guideway_render::{
-    Budget, Cancel, Frame, Method, MethodInfo, Preparation, Prepared, RenderError, Report, Shading,
-    Stage, Style, View, density, elapsed_ms,
+    Budget, Cancel, Edited, Frame, Method, MethodInfo, Preparation, Prepared, RenderError, Report,
+    Shading, Stage, Style, View, density, elapsed_ms,
 };
-use guideway_scene::{Rgba, Scene};
+use guideway_scene::{Edit, Rgba, Scene};
 use guideway_spline::{Bounds, Point};
 
 use band::Band;
@@ -127,6 +127,12 @@ impl Prepared for PreparedOracle {
             bands,
             ..Report::of(NAME, &self.scene, drawn)
         })
+    }
+
+    fn edit(&mut self, edit: &Edit) -> Result<Edited, RenderError> {
+        let scene = Arc::make_mut(&mut self.scene);
+        scene.edit(edit).map_err(RenderError::Edit)?;
+        Ok(Edited::InPlace { moved_bytes: 0 })
     }
 
     fn preparation(&self) -> &Preparation {

@@ -1,0 +1,305 @@
+//! Changes of a scene. Each costs as much as it touches, but for one pass over a number a path where the draw
+//! order changes.
+
+use std::fmt;
+use std::sync::Arc;
+
+use guideway_layout::{Direction, Geometry, Layout, NewPath, OwnStyle};
+use guideway_spline::{Affine, Point, Runs};
+
+use crate::scene::Colors;
+use crate::{PathState, Rgba, Scene};
+
+/// A change of a scene. Rows stay what they are: a removed path keeps its row, an inserted one gets a new one.
+#[derive(Clone, Debug)]
+pub enum Edit {
+    /// Maps the curves of paths: moves, turns, mirrors or scales them.
+    Transform {
+        /// Rows of paths.
+        paths: Arc<[u32]>,
+        /// Where each of their points goes.
+        by: Affine,
+    },
+    /// Gives paths other curves. Costs least where the numbers of control points stay.
+    Reshape {
+        /// Rows of paths.
+        paths: Arc<[u32]>,
+        /// Their new curves, in the same order.
+        curves: Arc<Geometry>,
+    },
+    /// Gives paths another width and colour of their own. A scene coloured by a column keeps its colours.
+    Restyle(Arc<[(u32, OwnStyle)]>),
+    /// Shows, hides, removes or brings back paths.
+    SetStates(Arc<[(u32, PathState)]>),
+    /// Adds paths behind the last row, drawn above all others of their rank.
+    Insert(Arc<[Insertion]>),
+}
+
+/// A path to be added.
+#[derive(Clone, Debug, Default)]
+pub struct Insertion {
+    /// Identifier.
+    pub id: String,
+    /// The curve, in metres.
+    pub runs: Runs,
+    /// Row of the node where it begins.
+    pub start_node: Option<u32>,
+    /// Row of the node where it ends.
+    pub end_node: Option<u32>,
+    /// Which way vehicles go.
+    pub direction: Direction,
+    /// Index in [`Layout::levels`].
+    pub level: Option<u32>,
+    /// Vehicle types that may use it; none means all.
+    pub vehicle_types: Vec<String>,
+    /// Width and colour of its own.
+    pub style: OwnStyle,
+}
+
+/// Why an edit cannot be done. The scene is then as it was.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum EditError {
+    /// There is no such row.
+    UnknownPath {
+        /// The row asked for.
+        path: u32,
+        /// Number of rows.
+        rows: usize,
+    },
+    /// A curve would have a point that is not finite, or too far away to be one of a layout.
+    Misplaced {
+        /// The path, or none where it is not a path of the scene yet.
+        path: Option<u32>,
+    },
+    /// There is no such level or node.
+    UnknownPart {
+        /// `level` or `node`.
+        what: &'static str,
+        /// The row asked for.
+        row: u32,
+    },
+    /// An edit brings as many curves as it names paths.
+    Count,
+}
+
+impl fmt::Display for EditError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::UnknownPath { path, rows } => {
+                write!(f, "there is no path in row {path}: there are {rows} rows")
+            }
+            Self::Misplaced { path: Some(path) } => {
+                write!(
+                    f,
+                    "the path in row {path} would leave what a layout may reach"
+                )
+            }
+            Self::Misplaced { path: None } => {
+                write!(f, "a new path lies outside of what a layout may reach")
+            }
+            Self::UnknownPart { what, row } => write!(f, "there is no {what} in row {row}"),
+            Self::Count => write!(f, "there are not as many curves as paths"),
+        }
+    }
+}
+
+impl std::error::Error for EditError {}
+
+/// Farthest that an edit may put a control point from the origin, in metres.
+const REACH_M: f64 = 1e9;
+
+impl Edit {
+    /// Rows of existing paths that it changes.
+    pub fn paths(&self) -> Vec<u32> {
+        match self {
+            Self::Transform { paths, .. } | Self::Reshape { paths, .. } => paths.to_vec(),
+            Self::Restyle(styles) => styles.iter().map(|(path, _)| *path).collect(),
+            Self::SetStates(states) => states.iter().map(|(path, _)| *path).collect(),
+            Self::Insert(_) => Vec::new(),
+        }
+    }
+
+    fn check(&self, scene: &Scene) -> Result<(), EditError> {
+        let rows = scene.row_count();
+        if let Some(&path) = self.paths().iter().find(|&&path| path as usize >= rows) {
+            return Err(EditError::UnknownPath { path, rows });
+        }
+        let geometry = scene.layout().paths.geometry();
+        match self {
+            Self::Transform { paths, by } => {
+                let misplaced = paths.iter().find(|&&path| {
+                    let points = geometry.runs(path as usize).flat_map(|run| run.iter());
+                    !is_placed(points.map(|p| by.apply(p)))
+                });
+                misplaced.map_or(Ok(()), |&path| {
+                    Err(EditError::Misplaced { path: Some(path) })
+                })
+            }
+            Self::Reshape { paths, curves } => {
+                if paths.len() != curves.path_count() {
+                    return Err(EditError::Count);
+                }
+                let misplaced = paths.iter().zip(0..).find(|(_, from)| {
+                    let runs = curves.runs(*from);
+                    runs.len() == 0 || !is_placed(runs.flat_map(|run| run.iter()))
+                });
+                misplaced.map_or(Ok(()), |(&path, _)| {
+                    Err(EditError::Misplaced { path: Some(path) })
+                })
+            }
+            Self::Insert(paths) => paths.iter().try_for_each(|path| path.check(scene.layout())),
+            Self::Restyle(_) | Self::SetStates(_) => Ok(()),
+        }
+    }
+}
+
+impl Insertion {
+    fn check(&self, layout: &Layout) -> Result<(), EditError> {
+        let mut runs = self.runs.iter().peekable();
+        if runs.peek().is_none() || !is_placed(runs.flatten().copied()) {
+            return Err(EditError::Misplaced { path: None });
+        }
+        let parts = [
+            ("level", self.level, layout.levels.len()),
+            ("node", self.start_node, layout.nodes.len()),
+            ("node", self.end_node, layout.nodes.len()),
+        ];
+        for (what, row, rows) in parts {
+            if let Some(row) = row.filter(|row| *row as usize >= rows) {
+                return Err(EditError::UnknownPart { what, row });
+            }
+        }
+        Ok(())
+    }
+}
+
+fn is_placed(mut points: impl Iterator<Item = Point<f64>>) -> bool {
+    points.all(|p| p.x.abs() <= REACH_M && p.y.abs() <= REACH_M)
+}
+
+impl Scene {
+    /// What undoes an edit that is still to be done. Holds as much as the edit changes.
+    ///
+    /// # Errors
+    /// As [`Self::edit`].
+    pub fn undo_of(&self, edit: &Edit) -> Result<Edit, EditError> {
+        edit.check(self)?;
+        Ok(match edit {
+            Edit::Transform { paths, .. } | Edit::Reshape { paths, .. } => {
+                let rows = paths.iter().map(|&path| path as usize);
+                Edit::Reshape {
+                    paths: Arc::clone(paths),
+                    curves: Arc::new(self.layout.paths.geometry().select(rows)),
+                }
+            }
+            Edit::Restyle(styles) => {
+                let own_style = |path: u32| self.layout.paths.own_style(path as usize);
+                Edit::Restyle(
+                    styles
+                        .iter()
+                        .map(|&(path, _)| (path, own_style(path)))
+                        .collect(),
+                )
+            }
+            Edit::SetStates(states) => {
+                let before = states.iter().map(|&(path, _)| (path, self.state(path)));
+                Edit::SetStates(before.collect())
+            }
+            Edit::Insert(paths) => {
+                let first = self.row_count() as u32;
+                let rows = first..first + paths.len() as u32;
+                Edit::SetStates(rows.map(|path| (path, PathState::Removed)).collect())
+            }
+        })
+    }
+
+    /// Changes the scene. The layout is copied first if others hold it.
+    ///
+    /// # Errors
+    /// When the edit names what is not there, or would put a path where none may be; nothing is changed then.
+    pub fn edit(&mut self, edit: &Edit) -> Result<(), EditError> {
+        edit.check(self)?;
+        match edit {
+            Edit::Transform { paths, by } => {
+                let layout = Arc::make_mut(&mut self.layout);
+                for &path in paths.iter() {
+                    layout.paths.transform(path as usize, *by);
+                }
+                self.forget_bounds();
+            }
+            Edit::Reshape { paths, curves } => {
+                let layout = Arc::make_mut(&mut self.layout);
+                for (&path, from) in paths.iter().zip(0..) {
+                    layout.paths.replace_curve(path as usize, curves, from);
+                }
+                self.forget_bounds();
+            }
+            Edit::Restyle(styles) => self.restyle(styles),
+            Edit::SetStates(states) => self.set_states(states),
+            Edit::Insert(paths) => self.insert(paths),
+        }
+        Ok(())
+    }
+
+    fn restyle(&mut self, styles: &[(u32, OwnStyle)]) {
+        let layout = Arc::make_mut(&mut self.layout);
+        for &(path, style) in styles {
+            layout.paths.set_own_style(path as usize, style);
+        }
+        if self.legend().is_none() {
+            for &(path, _) in styles {
+                self.set_color(path, self.own_color(path));
+            }
+        }
+    }
+
+    fn set_color(&mut self, path: u32, color: Rgba) {
+        let rows = self.row_count();
+        match &mut self.colors {
+            Colors::One(one) if *one == color => {}
+            Colors::One(one) => {
+                let mut colors = vec![*one; rows];
+                colors[path as usize] = color;
+                self.colors = Colors::Each(colors);
+            }
+            Colors::Each(colors) => colors[path as usize] = color,
+        }
+    }
+
+    fn set_states(&mut self, states: &[(u32, PathState)]) {
+        self.states.resize(self.row_count(), PathState::Shown);
+        for &(path, state) in states {
+            self.states[path as usize] = state;
+        }
+        self.order_anew();
+    }
+
+    fn insert(&mut self, paths: &[Insertion]) {
+        let first = self.row_count() as u32;
+        let layout = Arc::make_mut(&mut self.layout);
+        for path in paths {
+            let vehicle_types: Vec<&str> = path.vehicle_types.iter().map(String::as_str).collect();
+            let row = layout.paths.push(&NewPath {
+                id: &path.id,
+                runs: &path.runs,
+                start_node: path.start_node,
+                end_node: path.end_node,
+                direction: path.direction,
+                level: path.level,
+                vehicle_types: &vehicle_types,
+            });
+            layout.paths.set_own_style(row, path.style);
+        }
+        let rows = self.row_count();
+        if let Colors::Each(colors) = &mut self.colors {
+            colors.resize(rows, Rgba::BLACK);
+        }
+        for path in first..rows as u32 {
+            self.set_color(path, self.own_color(path));
+        }
+        if !self.states.is_empty() {
+            self.states.resize(rows, PathState::Shown);
+        }
+        self.order_anew();
+    }
+}
