@@ -39,6 +39,25 @@ const ALLOWED: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "guideway-document",
+        &[
+            "guideway-spline",
+            "guideway-layout",
+            "guideway-scene",
+            "guideway-render",
+        ],
+    ),
+    (
+        "guideway-viewer",
+        &[
+            "guideway-spline",
+            "guideway-layout",
+            "guideway-scene",
+            "guideway-render",
+            "guideway-document",
+        ],
+    ),
+    (
         "guideway-bench",
         &[
             "guideway-spline",
@@ -62,6 +81,9 @@ const KEPT_TO: &[(&str, &str)] = &[
     ("glow", "guideway-gl"),
     ("khronos-egl", "guideway-gl"),
     ("winit", "guideway-viewer"),
+    ("eframe", "guideway-viewer"),
+    ("rstar", "guideway-document"),
+    ("roaring", "guideway-document"),
 ];
 
 type Dependencies = BTreeMap<String, Vec<String>>;

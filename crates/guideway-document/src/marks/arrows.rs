@@ -1,0 +1,73 @@
+use guideway_layout::{Direction, PathRef};
+use guideway_render::View;
+use guideway_spline::{Bounds, Point, nearest_on_run, segment_length, uniform};
+
+use super::Arrow;
+
+/// One arrow for so much of a path.
+const SPACING_PX: f64 = 160.0;
+/// A path shorter than this has none.
+const LEAST_PX: f64 = 24.0;
+/// Most arrows of one segment in a view; those nearest to the middle of the view.
+const MOST_A_SEGMENT: f64 = 64.0;
+
+/// The arrows of one path in a view, evenly along it, so that they stay on their places as the view moves.
+pub(super) fn along(path: PathRef<'_>, view: &View) -> Vec<Arrow> {
+    let seen = view.world_bounds();
+    let tolerance_m = 0.5 / view.px_per_m();
+    let segments: Vec<_> = path.runs().flat_map(|run| run.segments()).collect();
+    let lengths_m = segments.iter().map(|s| segment_length(s, tolerance_m));
+    let lengths_m: Vec<f64> = lengths_m.collect();
+    let length_m: f64 = lengths_m.iter().sum();
+    let length_px = length_m * view.px_per_m();
+    if length_px < LEAST_PX {
+        return Vec::new();
+    }
+    let spacing_m = length_m / (length_px / SPACING_PX).round().max(1.0);
+    let is_two_way = path.direction() == Direction::Both;
+    let mut arrows = Vec::new();
+    let mut from_m = 0.0;
+    for (segment, segment_m) in segments.iter().zip(lengths_m) {
+        let to_m = from_m + segment_m;
+        if segment_m > 0.0 && Bounds::of_segment(segment).intersects(seen) {
+            let ordinal = |along_m: f64| (along_m / spacing_m - 0.5).ceil();
+            let (mut first, mut end) = (ordinal(from_m), ordinal(to_m));
+            if end - first > MOST_A_SEGMENT {
+                let middle = nearest_on_run(segment, view.center_m(), tolerance_m);
+                let middle = ordinal(from_m + middle.map_or(0.0, |near| near.t) * segment_m);
+                first = first.max(middle - MOST_A_SEGMENT / 2.0);
+                end = end.min(middle + MOST_A_SEGMENT / 2.0);
+            }
+            for k in first as i64..end as i64 {
+                let t = (((k as f64 + 0.5) * spacing_m - from_m) / segment_m).clamp(0.0, 1.0);
+                arrows.extend(arrow(segment, t, view, is_two_way));
+            }
+        }
+        from_m = to_m;
+    }
+    arrows
+}
+
+fn arrow(segment: &[Point<f64>; 4], t: f64, view: &View, is_two_way: bool) -> Option<Arrow> {
+    let at = uniform::point(segment, t);
+    let velocity = uniform::derivative(segment, t);
+    let speed = velocity.norm();
+    let is_seen = view.world_bounds().contains(at) && speed > 0.0;
+    is_seen.then(|| Arrow {
+        at_px: view.pixel_from_world(at),
+        direction: Point::new(velocity.x / speed, -velocity.y / speed),
+        is_two_way,
+    })
+}
+
+/// Where the name of a path goes: on its middle segment; none if the path is too short for one or that is not
+/// in the view.
+pub(super) fn middle(path: PathRef<'_>, view: &View) -> Option<Point<f64>> {
+    let size_px = path.hull_bounds()?.size() * view.px_per_m();
+    let count: usize = path.runs().map(|run| run.segments().len()).sum();
+    let segment = path.runs().flat_map(|run| run.segments()).nth(count / 2)?;
+    let t = if count.is_multiple_of(2) { 0.0 } else { 0.5 };
+    let at = uniform::point(&segment, t);
+    let fits = size_px.norm() >= 2.0 * LEAST_PX && view.world_bounds().contains(at);
+    fits.then(|| view.pixel_from_world(at))
+}

@@ -1,0 +1,124 @@
+//! What is drawn over the picture, in pixels: arrows, symbols, names and outlines.
+//!
+//! All of it is bounded by what a screen can show, however many paths there are: where a view holds more than
+//! can be told apart there are no marks, and [`Marks::left_out`] says so.
+
+mod arrows;
+mod labels;
+mod outline;
+
+use guideway_layout::Layout;
+use guideway_render::View;
+use guideway_scene::{PathState, Scene};
+use guideway_spline::Point;
+
+use crate::Index;
+
+pub use labels::{Label, LabelSize};
+pub use outline::{Outline, outline};
+
+/// Most paths, nodes or stations of a view that still has marks for them.
+pub const MOST_MARKED: usize = 2_000;
+
+/// What is wanted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MarkOptions {
+    /// Which way vehicles go.
+    pub arrows: bool,
+    /// Nodes and stations.
+    pub symbols: bool,
+    /// Names of paths, nodes and stations, of this size.
+    pub labels: Option<LabelSize>,
+}
+
+/// An arrow on a path.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Arrow {
+    /// Its middle, in pixels.
+    pub at_px: Point<f64>,
+    /// Where it points; of length 1, y down.
+    pub direction: Point<f64>,
+    /// Whether it points back as well.
+    pub is_two_way: bool,
+}
+
+/// Everything drawn over a view.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Marks {
+    /// Arrows along paths.
+    pub arrows: Vec<Arrow>,
+    /// Nodes, in pixels.
+    pub nodes: Vec<Point<f64>>,
+    /// Stations, in pixels.
+    pub stations: Vec<Point<f64>>,
+    /// Names, none over another.
+    pub labels: Vec<Label>,
+    /// Whether there are more paths or nodes in the view than can be told apart, so that theirs are left out.
+    pub left_out: bool,
+}
+
+/// The marks of a view, for the paths that are shown.
+pub fn marks(scene: &Scene, index: &Index, view: &View, options: &MarkOptions) -> Marks {
+    let layout = scene.layout();
+    let is_shown = |path: &u32| scene.state(*path) == PathState::Shown;
+    let seen = view.world_bounds();
+    let shown = index.paths_in(seen).filter(is_shown);
+    let mut paths: Vec<u32> = shown.take(MOST_MARKED + 1).collect();
+    let mut nodes: Vec<u32> = index.nodes_in(seen).take(MOST_MARKED + 1).collect();
+    let all_stations = 0..layout.stations.len() as u32;
+    let position = |station| station_position_m(layout, station);
+    let mut stations: Vec<(u32, Point<f64>)> = all_stations
+        .filter_map(|station| Some((station, position(station)?)))
+        .filter(|&(_, at)| seen.contains(at))
+        .take(MOST_MARKED + 1)
+        .collect();
+    let left_out = [paths.len(), nodes.len(), stations.len()]
+        .iter()
+        .any(|&count| count > MOST_MARKED);
+    for list in [&mut paths, &mut nodes] {
+        if list.len() > MOST_MARKED {
+            list.clear();
+        }
+        list.sort_unstable();
+    }
+    if stations.len() > MOST_MARKED {
+        stations.clear();
+    }
+    let pixel = |at| view.pixel_from_world(at);
+    let mut marks = Marks {
+        left_out,
+        ..Marks::default()
+    };
+    if options.arrows {
+        let of = |&path: &u32| arrows::along(layout.paths.get(path as usize), view);
+        marks.arrows = paths.iter().flat_map(of).take(2 * MOST_MARKED).collect();
+    }
+    if options.symbols {
+        marks.nodes = nodes
+            .iter()
+            .map(|&n| pixel(layout.nodes.position_m(n)))
+            .collect();
+        marks.stations = stations.iter().map(|&(_, at)| pixel(at)).collect();
+    }
+    if let Some(size) = options.labels {
+        let stations = stations
+            .iter()
+            .map(|&(s, at)| (layout.stations.id(s), pixel(at)));
+        let nodes = nodes
+            .iter()
+            .map(|&n| (layout.nodes.id(n), pixel(layout.nodes.position_m(n))));
+        let middles = paths.iter().filter_map(|&path| {
+            let path = layout.paths.get(path as usize);
+            Some((path.id(), arrows::middle(path, view)?))
+        });
+        marks.labels = labels::place(stations.chain(nodes).chain(middles), size, view.size());
+    }
+    marks
+}
+
+/// Where a station is: where the file says, or at the first node that serves it.
+pub fn station_position_m(layout: &Layout, station: u32) -> Option<Point<f64>> {
+    let stations = &layout.stations;
+    let at_node = || Some(layout.nodes.position_m(*stations.nodes(station).first()?));
+    stations.position_m(station).or_else(at_node)
+}

@@ -1,0 +1,124 @@
+use std::collections::BTreeSet;
+
+use guideway_layout::Layout;
+use guideway_render::View;
+use guideway_spline::{Bounds, Point, uniform};
+
+use crate::index::curve_bounds;
+
+/// Most points of all lines together.
+const MOST_POINTS: usize = 60_000;
+/// Side of a cell, where there is too much for lines.
+const CELL_PX: f64 = 6.0;
+/// Greatest deviation of a line from its curve.
+const TOLERANCE_PX: f64 = 0.25;
+/// How often a segment is halved at most.
+const MOST_HALVINGS: u32 = 48;
+
+/// Chosen paths, to be drawn over a picture.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Outline {
+    /// The centre lines of the paths, in pixels, as far as they are near the view.
+    Lines(Vec<Vec<Point<f64>>>),
+    /// Where there are too many for lines: the upper left corners of the cells of a grid that the boxes of
+    /// the paths have their middle in, and the side of a cell, in pixels.
+    Cells(Vec<Point<f64>>, f64),
+}
+
+/// Outlines paths of a layout.
+pub fn outline(layout: &Layout, paths: impl Iterator<Item = u32> + Clone, view: &View) -> Outline {
+    let mut pen = Pen::new(view);
+    for path in paths.clone() {
+        let path = layout.paths.get(path as usize);
+        if !path
+            .hull_bounds()
+            .is_some_and(|hull| hull.intersects(pen.seen))
+        {
+            continue;
+        }
+        for segment in path.runs().flat_map(|run| run.segments()) {
+            pen.draw(&segment, MOST_HALVINGS);
+            if pen.points > MOST_POINTS {
+                return Outline::Cells(cells(layout, paths, view), CELL_PX);
+            }
+        }
+    }
+    Outline::Lines(pen.lines)
+}
+
+fn cells(layout: &Layout, paths: impl Iterator<Item = u32>, view: &View) -> Vec<Point<f64>> {
+    let seen = view.world_bounds();
+    let boxes = paths.filter_map(|path| curve_bounds(layout.paths.get(path as usize)));
+    let middles = boxes
+        .map(Bounds::center)
+        .filter(|&middle| seen.contains(middle));
+    let cell = |middle| {
+        let pixel = view.pixel_from_world(middle);
+        ((pixel.x / CELL_PX) as i32, (pixel.y / CELL_PX) as i32)
+    };
+    let cells: BTreeSet<(i32, i32)> = middles.map(cell).collect();
+    let corner = |(x, y)| Point::new(f64::from(x) * CELL_PX, f64::from(y) * CELL_PX);
+    cells.into_iter().map(corner).collect()
+}
+
+/// Draws segments as lines, and only what is near the view: at a great scale a path is as long as a street.
+struct Pen<'a> {
+    view: &'a View,
+    /// The view, and some more on each side.
+    seen: Bounds<f64>,
+    /// No line longer than this goes to the screen, whose coordinates are `f32`.
+    longest_m: f64,
+    lines: Vec<Vec<Point<f64>>>,
+    points: usize,
+    last_m: Option<Point<f64>>,
+}
+
+impl<'a> Pen<'a> {
+    fn new(view: &'a View) -> Self {
+        let seen = view.world_bounds();
+        let size_m = seen.size().norm();
+        Self {
+            view,
+            seen: seen.inflated(size_m / 16.0),
+            longest_m: size_m,
+            lines: Vec::new(),
+            points: 0,
+            last_m: None,
+        }
+    }
+
+    fn draw(&mut self, segment: &[Point<f64>; 4], halvings_left: u32) {
+        let [start, first, second, end] = uniform::to_bezier(segment);
+        let hull = [start, first, second, end].map(|p| Bounds { min: p, max: p });
+        let is_seen = |hull: Bounds<f64>| hull.intersects(self.seen);
+        if !hull.into_iter().reduce(Bounds::union).is_some_and(is_seen) {
+            return;
+        }
+        // A cubic is within 3/4 of the farther inner Bezier point from the points at thirds of its chord.
+        let off = |p: Point<f64>, t| p.distance(start.lerp(end, t));
+        let off_m = off(first, 1.0 / 3.0).max(off(second, 2.0 / 3.0));
+        let is_flat = off_m * self.view.px_per_m() <= TOLERANCE_PX;
+        if halvings_left == 0 || (is_flat && start.distance(end) <= self.longest_m) {
+            self.line(start, end);
+            return;
+        }
+        for half in uniform::halves(segment) {
+            self.draw(&half, halvings_left - 1);
+        }
+    }
+
+    fn line(&mut self, start: Point<f64>, end: Point<f64>) {
+        // Halves meet but for rounding.
+        let joins = |last: Point<f64>| last.distance(start) * self.view.px_per_m() < TOLERANCE_PX;
+        let pixel = |p| self.view.pixel_from_world(p);
+        match self.lines.last_mut() {
+            Some(line) if self.last_m.is_some_and(joins) => line.push(pixel(end)),
+            _ => {
+                self.lines.push(vec![pixel(start), pixel(end)]);
+                self.points += 1;
+            }
+        }
+        self.points += 1;
+        self.last_m = Some(end);
+    }
+}

@@ -1,0 +1,180 @@
+use guideway_layout::Layout;
+
+use super::column::Column;
+use super::{Comparison, Condition, Operator, QueryError};
+
+/// Parentheses and `not` nest no deeper than this: each level takes a call.
+const MOST_DEPTH: usize = 100;
+
+#[derive(Clone, Debug, PartialEq)]
+enum Token {
+    /// `and`, `or`, `not`, a column or a value.
+    Word(String),
+    /// A column or a value, and never a keyword.
+    Quoted(String),
+    Operator(Operator),
+    Open,
+    Close,
+}
+
+pub(super) fn parse(text: &str, layout: &Layout) -> Result<Condition, QueryError> {
+    let tokens = tokens(text)?;
+    let mut parser = Parser {
+        end: text.chars().count() + 1,
+        tokens: &tokens,
+        layout,
+    };
+    let condition = parser.condition(0)?;
+    match parser.tokens.first() {
+        None => Ok(condition),
+        Some(_) => Err(parser.fail("join conditions by `and` or `or`")),
+    }
+}
+
+fn tokens(text: &str) -> Result<Vec<(usize, Token)>, QueryError> {
+    let mut tokens = Vec::new();
+    let mut rest = text.chars().enumerate().peekable();
+    while let Some((index, c)) = rest.next() {
+        let at = index + 1;
+        let mut and_equal =
+            |with: Operator, without: Operator| match rest.next_if(|&(_, c)| c == '=') {
+                Some(_) => Token::Operator(with),
+                None => Token::Operator(without),
+            };
+        let token = match c {
+            ' ' | '\t' | '\n' | '\r' => continue,
+            '(' => Token::Open,
+            ')' => Token::Close,
+            '~' => Token::Operator(Operator::Contains),
+            '=' => and_equal(Operator::Equal, Operator::Equal),
+            '<' => and_equal(Operator::AtMost, Operator::Less),
+            '>' => and_equal(Operator::AtLeast, Operator::Greater),
+            '!' if rest.next_if(|&(_, c)| c == '=').is_some() => {
+                Token::Operator(Operator::NotEqual)
+            }
+            '"' | '\'' => {
+                let mut quoted = String::new();
+                let is_closed = loop {
+                    match rest.next() {
+                        Some((_, end)) if end == c => break true,
+                        Some((_, c)) => quoted.push(c),
+                        None => break false,
+                    }
+                };
+                if !is_closed {
+                    let what = format!("the quote {c} is not closed");
+                    return Err(QueryError { at, what });
+                }
+                Token::Quoted(quoted)
+            }
+            _ => {
+                let mut word = String::from(c);
+                let is_part = |c: char| !c.is_whitespace() && !"()~=<>!\"'".contains(c);
+                while let Some((_, c)) = rest.next_if(|&(_, c)| is_part(c)) {
+                    word.push(c);
+                }
+                Token::Word(word)
+            }
+        };
+        tokens.push((at, token));
+    }
+    Ok(tokens)
+}
+
+struct Parser<'a> {
+    tokens: &'a [(usize, Token)],
+    end: usize,
+    layout: &'a Layout,
+}
+
+impl Parser<'_> {
+    fn condition(&mut self, depth: usize) -> Result<Condition, QueryError> {
+        let mut terms = vec![self.term(depth)?];
+        while self.take_keyword("or") {
+            terms.push(self.term(depth)?);
+        }
+        Ok(Condition::Any(terms))
+    }
+
+    fn term(&mut self, depth: usize) -> Result<Condition, QueryError> {
+        let mut factors = vec![self.factor(depth)?];
+        while self.take_keyword("and") {
+            factors.push(self.factor(depth)?);
+        }
+        Ok(Condition::All(factors))
+    }
+
+    fn factor(&mut self, depth: usize) -> Result<Condition, QueryError> {
+        if depth > MOST_DEPTH {
+            return Err(self.fail(format!("conditions nest deeper than {MOST_DEPTH}")));
+        }
+        if self.take_keyword("not") {
+            return Ok(Condition::Not(Box::new(self.factor(depth + 1)?)));
+        }
+        if self.take(&Token::Open) {
+            let inner = self.condition(depth + 1)?;
+            if !self.take(&Token::Close) {
+                return Err(self.fail("a parenthesis is not closed"));
+            }
+            return Ok(inner);
+        }
+        self.comparison().map(Condition::Is)
+    }
+
+    fn comparison(&mut self) -> Result<Comparison, QueryError> {
+        let expected_column = "a column is expected here, such as `id`";
+        let Some((_, Token::Word(name) | Token::Quoted(name))) = self.tokens.first() else {
+            return Err(self.fail(expected_column));
+        };
+        let Some(column) = Column::named(name, self.layout) else {
+            let known = Column::names(self.layout).join(", ");
+            return Err(self.fail(format!("there is no column `{name}`; there is: {known}")));
+        };
+        self.advance();
+        let Some((_, Token::Operator(operator))) = self.tokens.first() else {
+            return Err(self.fail("an operator is expected here: =, !=, <, <=, >, >= or ~"));
+        };
+        self.advance();
+        let Some((_, Token::Word(text) | Token::Quoted(text))) = self.tokens.first() else {
+            return Err(self.fail("a value is expected here, such as 1.5 or \"A 3\""));
+        };
+        self.advance();
+        Ok(Comparison {
+            column,
+            operator: *operator,
+            number: text.parse().ok(),
+            text: text.clone(),
+        })
+    }
+
+    fn take(&mut self, wanted: &Token) -> bool {
+        let is_there = self
+            .tokens
+            .first()
+            .is_some_and(|(_, token)| token == wanted);
+        if is_there {
+            self.advance();
+        }
+        is_there
+    }
+
+    fn take_keyword(&mut self, keyword: &str) -> bool {
+        let is_it = |word: &str| word.eq_ignore_ascii_case(keyword);
+        let is_there = matches!(self.tokens.first(), Some((_, Token::Word(word))) if is_it(word));
+        if is_there {
+            self.advance();
+        }
+        is_there
+    }
+
+    fn advance(&mut self) {
+        self.tokens = &self.tokens[1..];
+    }
+
+    fn fail(&self, what: impl Into<String>) -> QueryError {
+        QueryError {
+            at: self.tokens.first().map_or(self.end, |&(at, _)| at),
+            what: what.into(),
+        }
+    }
+}

@@ -1,0 +1,6 @@
+//! Finding, choosing, measuring and marking paths, without any window.
+
+mod find;
+mod marks;
+mod query;
+mod site;

@@ -1,0 +1,1 @@
+//! The window in which layouts are looked at and edited.
