@@ -22,11 +22,13 @@ fn scene() -> Scene {
             ..NewPath::default()
         });
     }
-    Scene::new(Arc::new(layout), &SceneOptions::default()).unwrap()
+    Scene::new(Arc::new(layout), &SceneOptions::default()).expect("options that fit any layout")
 }
 
-/// All that a renderer sees.
-fn look(scene: &Scene) -> Vec<(u32, Vec<Point<f64>>, Rgba, Option<f32>)> {
+/// All that a renderer sees of a path: its row, control points, colour and width.
+type Look = (u32, Vec<Point<f64>>, Rgba, Option<f32>);
+
+fn look(scene: &Scene) -> Vec<Look> {
     let path = |&path: &u32| {
         let runs = scene.layout().paths.get(path as usize).runs();
         let points = runs.flat_map(|run| run.iter()).collect();
