@@ -4,8 +4,8 @@ use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 
 type Corner = [f64; 2];
-type PathBox = GeomWithData<Rectangle<Corner>, u32>;
-type NodePoint = GeomWithData<Corner, u32>;
+pub(crate) type PathBox = GeomWithData<Rectangle<Corner>, u32>;
+pub(crate) type NodePoint = GeomWithData<Corner, u32>;
 
 /// Where the paths and nodes of a layout are, to find those near a place without looking at all.
 ///
@@ -19,15 +19,33 @@ pub struct Index {
 impl Index {
     /// The index of a whole layout.
     pub fn new(layout: &Layout) -> Self {
-        let paths = layout.paths.iter().filter_map(path_box).collect();
         let nodes = &layout.nodes;
-        let points = (0..nodes.len() as u32)
-            .map(|node| NodePoint::new(corner(nodes.position_m(node)), node))
-            .collect();
+        let node = |node| node_entry(node, nodes.position_m(node));
         Self {
-            paths: RTree::bulk_load(paths),
-            nodes: RTree::bulk_load(points),
+            paths: RTree::bulk_load(layout.paths.iter().filter_map(path_box).collect()),
+            nodes: RTree::bulk_load((0..nodes.len() as u32).map(node).collect()),
         }
+    }
+
+    /// Puts paths to their new places, among them rows that are new. `old` is what [`path_boxes`] said before.
+    pub(crate) fn update(&mut self, old: Vec<PathBox>, changed: &[u32], layout: &Layout) {
+        // Beyond this many it takes longer to move entries one by one than to begin anew.
+        if changed.len() > self.paths.size() / 8 + 1 {
+            let paths = layout.paths.iter().filter_map(path_box).collect();
+            self.paths = RTree::bulk_load(paths);
+            return;
+        }
+        for entry in old {
+            self.paths.remove(&entry);
+        }
+        for entry in path_boxes(layout, changed.iter().copied()) {
+            self.paths.insert(entry);
+        }
+    }
+
+    pub(crate) fn move_node(&mut self, old: &NodePoint, new: NodePoint) {
+        self.nodes.remove(old);
+        self.nodes.insert(new);
     }
 
     /// Paths whose box meets `bounds`, in no order.
@@ -49,6 +67,18 @@ pub(crate) fn curve_bounds(path: PathRef<'_>) -> Option<Bounds<f64>> {
         .flat_map(|run| run.segments())
         .map(|segment| Bounds::of_segment(&segment))
         .reduce(Bounds::union)
+}
+
+/// The entries of some paths.
+pub(crate) fn path_boxes(layout: &Layout, paths: impl Iterator<Item = u32>) -> Vec<PathBox> {
+    paths
+        .filter_map(|path| path_box(layout.paths.get(path as usize)))
+        .collect()
+}
+
+/// The entry of a node.
+pub(crate) fn node_entry(node: u32, at_m: Point<f64>) -> NodePoint {
+    NodePoint::new(corner(at_m), node)
 }
 
 fn path_box(path: PathRef<'_>) -> Option<PathBox> {

@@ -1,22 +1,30 @@
 //! A layout that is being looked at and edited, free of any window.
 //!
+//! A [`Document`] holds what is shown, what is selected and what was done, so that it can be undone.
 //! [`Index`] finds what is near a place, [`pick`] the path that a person points at, [`Query`] and [`search`]
 //! paths by what is known of them; [`measure`] takes lengths and bends, and [`marks`] places what is drawn
 //! over a picture by what a screen can show.
 
+mod document;
+mod edit;
 mod index;
 pub mod marks;
 pub mod measure;
 mod pick;
 mod query;
+mod save;
 mod search;
+mod snap;
 mod steps;
 mod trail;
 
+pub use document::{Combine, Document};
+pub use edit::{Change, NodeMoves, PointRef};
 pub use index::Index;
 pub use pick::{Hit, nearest, pick};
 pub use query::{Query, QueryError};
 pub use roaring::RoaringBitmap as Rows;
 pub use search::{Found, search};
+pub use snap::Snap;
 pub use steps::round_step;
 pub use trail::Trail;

@@ -124,6 +124,11 @@ impl Scene {
         &self.layout
     }
 
+    /// The same, for another scene of it.
+    pub fn shared_layout(&self) -> Arc<Layout> {
+        Arc::clone(&self.layout)
+    }
+
     /// Rows of the paths that are drawn, from the lowest draw rank to the highest. Paths of other levels
     /// are not among them.
     pub fn draw_order(&self) -> &[u32] {

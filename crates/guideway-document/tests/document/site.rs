@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use guideway_document::Document;
 use guideway_layout::{Direction, Layout, NewPath, Value};
 use guideway_render::{FrameSize, View};
 use guideway_scene::{Scene, SceneOptions};
@@ -42,6 +43,16 @@ pub(crate) fn lanes(count: usize) -> Layout {
 
 pub(crate) fn scene_of(layout: Layout) -> Scene {
     Scene::new(Arc::new(layout), &SceneOptions::default()).expect("no level or column is asked for")
+}
+
+pub(crate) fn document_of(layout: Layout) -> Document {
+    let layout = Arc::new(layout);
+    Document::new(layout, &SceneOptions::default()).expect("no level or column is asked for")
+}
+
+/// A document of some [`lanes`].
+pub(crate) fn document(count: usize) -> Document {
+    document_of(lanes(count))
 }
 
 pub(crate) fn view(center: Point<f64>, px_per_m: f64) -> View {

@@ -1,0 +1,250 @@
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use guideway_layout::Layout;
+use guideway_scene::{Edit, LineRule, PathState, Scene, SceneError, SceneOptions};
+use guideway_spline::{Bounds, Point};
+
+use crate::edit::History;
+use crate::index::curve_bounds;
+use crate::{Hit, Index, Query, QueryError, Rows, pick};
+
+/// A layout that is being looked at and edited: what is shown of it, what is selected, and what was done.
+///
+/// Rows are those of the scene; see [`Edit`] for what becomes of them.
+#[derive(Clone, Debug)]
+pub struct Document {
+    pub(crate) scene: Scene,
+    pub(crate) index: Index,
+    pub(crate) selection: Rows,
+    /// Nodes that are not where the layout of the scene has them.
+    pub(crate) moved_nodes: BTreeMap<u32, Point<f64>>,
+    /// Rows of which others are copies: their attributes are theirs.
+    pub(crate) origins: BTreeMap<u32, u32>,
+    pub(crate) history: History,
+    /// Edits of the scene since they were last taken, for a renderer that has a scene of its own.
+    pub(crate) news: Vec<Edit>,
+}
+
+/// What a selection does with the one before.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Combine {
+    /// It takes its place.
+    #[default]
+    Replace,
+    /// It is added.
+    Add,
+    /// It is taken away.
+    Remove,
+}
+
+impl Document {
+    /// A document of a layout, in the colours that the options say.
+    ///
+    /// # Errors
+    /// When the options name a level or a column that the layout has not.
+    pub fn new(layout: Arc<Layout>, options: &SceneOptions) -> Result<Self, SceneError> {
+        let scene = Scene::new(layout, options)?;
+        Ok(Self {
+            index: Index::new(scene.layout()),
+            scene,
+            selection: Rows::new(),
+            moved_nodes: BTreeMap::new(),
+            origins: BTreeMap::new(),
+            history: History::default(),
+            news: Vec::new(),
+        })
+    }
+
+    /// What is drawn.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// The layout; nodes are where [`Self::node_position_m`] says.
+    pub fn layout(&self) -> &Layout {
+        self.scene.layout()
+    }
+
+    /// Where its paths are.
+    pub fn index(&self) -> &Index {
+        &self.index
+    }
+
+    /// Where a node is now.
+    ///
+    /// # Panics
+    /// When there is no such node.
+    pub fn node_position_m(&self, node: u32) -> Point<f64> {
+        let moved = self.moved_nodes.get(&node).copied();
+        moved.unwrap_or_else(|| self.layout().nodes.position_m(node))
+    }
+
+    /// Row whose attributes a path has: its own, or that of the path that it was copied from.
+    pub fn attribute_row(&self, path: u32) -> u32 {
+        self.origins.get(&path).copied().unwrap_or(path)
+    }
+
+    /// Edits of the scene since this was last asked, in order. A renderer that does them shows this scene.
+    pub fn take_news(&mut self) -> Vec<Edit> {
+        std::mem::take(&mut self.news)
+    }
+
+    /// Gives all paths other colours.
+    ///
+    /// # Errors
+    /// As [`Self::new`]; nothing is changed then.
+    pub fn recolor(&mut self, options: &SceneOptions) -> Result<(), SceneError> {
+        let old = &self.scene;
+        let mut scene = Scene::new(old.shared_layout(), options)?;
+        let rows = 0..old.row_count() as u32;
+        let states = rows.map(|path| (path, old.state(path)));
+        let not_shown: Arc<[_]> = states.filter(|(_, s)| *s != PathState::Shown).collect();
+        if !not_shown.is_empty() {
+            // It names rows of the scene itself.
+            let _ = scene.edit(&Edit::SetStates(not_shown));
+        }
+        self.scene = scene;
+        Ok(())
+    }
+
+    /// The path that a person points at: see [`pick`].
+    pub fn pick(
+        &self,
+        rule: LineRule,
+        px_per_m: f64,
+        at_m: Point<f64>,
+        reach_px: f64,
+    ) -> Option<Hit> {
+        pick((&self.scene, &self.index), rule, px_per_m, at_m, reach_px)
+    }
+
+    /// Rows of the selected paths.
+    pub fn selection(&self) -> &Rows {
+        &self.selection
+    }
+
+    /// Selects paths; those that are not shown are left out.
+    pub fn select(&mut self, paths: Rows, how: Combine) {
+        let shown: Rows = paths
+            .into_iter()
+            .filter(|&path| self.is_shown(path))
+            .collect();
+        match how {
+            Combine::Replace => self.selection = shown,
+            Combine::Add => self.selection |= shown,
+            Combine::Remove => self.selection -= shown,
+        }
+    }
+
+    /// Selects the paths whose curve is inside a box or, if they may reach out of it, meets it.
+    pub fn select_in(&mut self, bounds: Bounds<f64>, may_reach_out: bool, how: Combine) {
+        let meets = |path: &u32| {
+            let path = self.layout().paths.get(*path as usize);
+            if may_reach_out {
+                return meets(path, bounds);
+            }
+            let is_in = |b: Bounds<f64>| bounds.contains(b.min) && bounds.contains(b.max);
+            curve_bounds(path).is_some_and(is_in)
+        };
+        let found = self.index.paths_in(bounds).filter(meets).collect();
+        self.select(found, how);
+    }
+
+    /// Selects the paths that meet a query.
+    ///
+    /// # Errors
+    /// When the query cannot be understood; the selection is then as it was.
+    pub fn select_where(&mut self, query: &str, how: Combine) -> Result<(), QueryError> {
+        let query = Query::parse(query, self.layout())?;
+        self.select(query.rows(self.layout()), how);
+        Ok(())
+    }
+
+    /// Selects everything that is shown.
+    pub fn select_all(&mut self) {
+        self.selection = self.scene.draw_order().iter().copied().collect();
+    }
+
+    /// The box of the selected curves; none if nothing is selected.
+    pub fn selection_bounds(&self) -> Option<Bounds<f64>> {
+        let paths = self
+            .selection
+            .iter()
+            .map(|path| self.layout().paths.get(path as usize));
+        paths.filter_map(curve_bounds).reduce(Bounds::union)
+    }
+
+    /// Hides the selected paths. It changes what is seen, not the layout, so it is not undone.
+    pub fn hide_selection(&mut self) {
+        let paths = std::mem::take(&mut self.selection);
+        self.set_hidden(paths.iter(), PathState::Hidden);
+    }
+
+    /// Hides everything but the selected paths.
+    pub fn isolate_selection(&mut self) {
+        let all = self.scene.draw_order().iter().copied();
+        let others: Vec<u32> = all.filter(|&path| !self.selection.contains(path)).collect();
+        self.set_hidden(others.into_iter(), PathState::Hidden);
+    }
+
+    /// Shows only the paths of a level, or those of all.
+    pub fn show_level(&mut self, level: Option<u32>) {
+        self.show_all();
+        if level.is_some() {
+            let all = self.scene.draw_order().iter().copied();
+            let is_elsewhere =
+                |&path: &u32| self.layout().paths.get(path as usize).level() != level;
+            let others: Vec<u32> = all.filter(is_elsewhere).collect();
+            self.set_hidden(others.into_iter(), PathState::Hidden);
+        }
+        let selection = std::mem::take(&mut self.selection);
+        self.select(selection, Combine::Replace);
+    }
+
+    /// Shows everything again.
+    pub fn show_all(&mut self) {
+        let rows = 0..self.scene.row_count() as u32;
+        let hidden = rows.filter(|&path| self.scene.state(path) == PathState::Hidden);
+        let hidden: Vec<u32> = hidden.collect();
+        self.set_hidden(hidden.into_iter(), PathState::Shown);
+    }
+
+    fn set_hidden(&mut self, paths: impl Iterator<Item = u32>, state: PathState) {
+        let states: Arc<[_]> = paths.map(|path| (path, state)).collect();
+        let edit = Edit::SetStates(states);
+        // It names rows of the scene itself.
+        if !edit.paths().is_empty() && self.scene.edit(&edit).is_ok() {
+            self.news.push(edit);
+        }
+    }
+
+    pub(crate) fn is_shown(&self, path: u32) -> bool {
+        (path as usize) < self.scene.row_count() && self.scene.state(path) == PathState::Shown
+    }
+}
+
+/// Whether a curve meets a box: some part of it that is small against the box, or inside of it, does.
+fn meets(path: guideway_layout::PathRef<'_>, bounds: Bounds<f64>) -> bool {
+    let mut parts: Vec<_> = path
+        .runs()
+        .flat_map(|run| run.segments())
+        .map(|s| (s, 0))
+        .collect();
+    let size_m = bounds.size().norm();
+    while let Some((part, halvings)) = parts.pop() {
+        let part_bounds = Bounds::of_segment(&part);
+        if !part_bounds.intersects(bounds) {
+            continue;
+        }
+        let is_small = part_bounds.size().norm() <= size_m / 256.0;
+        if is_small
+            || halvings == 40
+            || bounds.contains(part_bounds.min) && bounds.contains(part_bounds.max)
+        {
+            return true;
+        }
+        parts.extend(guideway_spline::uniform::halves(&part).map(|half| (half, halvings + 1)));
+    }
+    false
+}

@@ -1,0 +1,193 @@
+//! Changes of a document, and how they are undone.
+
+mod operations;
+mod shape;
+
+use std::sync::Arc;
+
+use guideway_scene::{Edit, EditError, PathState};
+use guideway_spline::Point;
+
+use crate::index::{node_entry, path_boxes};
+use crate::{Document, Rows};
+
+pub use operations::PointRef;
+
+/// One change; several make a step.
+#[derive(Clone, Debug)]
+pub enum Change {
+    /// Of the scene.
+    Scene(Edit),
+    /// Nodes to other places, in metres.
+    MoveNodes(NodeMoves),
+}
+
+/// Rows of nodes, and where they go.
+pub type NodeMoves = Arc<[(u32, Point<f64>)]>;
+
+/// What was done, as what undoes it; and what was undone, as what does it again.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct History {
+    done: Vec<Step>,
+    undone: Vec<Step>,
+    /// Number of the newest step.
+    newest: u64,
+    /// Number of the last step done when the layout was saved; none if that can no longer be reached.
+    saved: u64,
+}
+
+/// The changes that lead from one state to the next, and the selection there.
+#[derive(Clone, Debug)]
+struct Step {
+    name: &'static str,
+    number: u64,
+    changes: Vec<Change>,
+    selection: Rows,
+}
+
+impl Document {
+    /// Does changes, all or none, as one step that can be undone. `name` says what it is, for people.
+    ///
+    /// # Errors
+    /// When one of them cannot be done; nothing is changed then.
+    pub fn perform(&mut self, name: &'static str, changes: Vec<Change>) -> Result<(), EditError> {
+        if changes.is_empty() {
+            return Ok(());
+        }
+        let selection = self.selection.clone();
+        let inverse = self.apply(&changes)?;
+        self.history.newest += 1;
+        self.history.undone.clear();
+        self.history.done.push(Step {
+            name,
+            number: self.history.newest,
+            changes: inverse,
+            selection,
+        });
+        Ok(())
+    }
+
+    /// Undoes the last step; returns its name, or none if there is none.
+    pub fn undo(&mut self) -> Option<&'static str> {
+        let step = self.history.done.pop()?;
+        let (name, undone) = self.turn(step);
+        self.history.undone.extend(undone);
+        Some(name)
+    }
+
+    /// Does again what was undone last; returns its name, or none if there is none.
+    pub fn redo(&mut self) -> Option<&'static str> {
+        let step = self.history.undone.pop()?;
+        let (name, done) = self.turn(step);
+        self.history.done.extend(done);
+        Some(name)
+    }
+
+    /// What [`Self::undo`] and [`Self::redo`] would undo and do again.
+    pub fn steps(&self) -> (Option<&'static str>, Option<&'static str>) {
+        let name = |steps: &[Step]| steps.last().map(|step| step.name);
+        (name(&self.history.done), name(&self.history.undone))
+    }
+
+    /// Whether it differs from what was last saved.
+    pub fn is_changed(&self) -> bool {
+        self.history.now() != self.history.saved
+    }
+
+    /// Takes the present state as saved.
+    pub fn set_saved(&mut self) {
+        self.history.saved = self.history.now();
+    }
+
+    /// Does the changes of a step, and returns the step that takes them back.
+    fn turn(&mut self, step: Step) -> (&'static str, Option<Step>) {
+        let selection = std::mem::replace(&mut self.selection, step.selection);
+        // They were found when the document was just so, hence they can be done.
+        let inverse = self.apply(&step.changes).ok();
+        let Step { name, number, .. } = step;
+        let step = inverse.map(|changes| Step {
+            name,
+            number,
+            changes,
+            selection,
+        });
+        (name, step)
+    }
+
+    /// Does changes and returns those that undo them, in the order in which they must be done.
+    fn apply(&mut self, changes: &[Change]) -> Result<Vec<Change>, EditError> {
+        let mut inverse = Vec::new();
+        for change in changes {
+            match self.apply_one(change) {
+                Ok(undo) => inverse.push(undo),
+                Err(error) => {
+                    for undo in inverse.iter().rev() {
+                        self.apply_one(undo)?;
+                    }
+                    return Err(error);
+                }
+            }
+        }
+        inverse.reverse();
+        let is_shown = |path: &u32| self.is_shown(*path);
+        self.selection = self.selection.iter().filter(is_shown).collect();
+        Ok(inverse)
+    }
+
+    fn apply_one(&mut self, change: &Change) -> Result<Change, EditError> {
+        match change {
+            Change::Scene(edit) => self.edit_scene(edit).map(Change::Scene),
+            Change::MoveNodes(to) => self.move_nodes(to).map(Change::MoveNodes),
+        }
+    }
+
+    fn edit_scene(&mut self, edit: &Edit) -> Result<Edit, EditError> {
+        let undo = self.scene.undo_of(edit)?;
+        let changes_curves = matches!(edit, Edit::Transform { .. } | Edit::Reshape { .. });
+        let paths = if changes_curves {
+            edit.paths()
+        } else {
+            Vec::new()
+        };
+        let old_boxes = path_boxes(self.layout(), paths.iter().copied());
+        let first_new = self.scene.row_count() as u32;
+        self.scene.edit(edit)?;
+        self.news.push(edit.clone());
+        let new_rows = first_new..self.scene.row_count() as u32;
+        let changed: Vec<u32> = paths.into_iter().chain(new_rows).collect();
+        self.index.update(old_boxes, &changed, self.scene.layout());
+        Ok(undo)
+    }
+
+    fn move_nodes(&mut self, to: &NodeMoves) -> Result<NodeMoves, EditError> {
+        let rows = self.layout().nodes.len();
+        if let Some(&(row, _)) = to.iter().find(|(node, _)| *node as usize >= rows) {
+            return Err(EditError::UnknownPart { what: "node", row });
+        }
+        if to.iter().any(|(_, at)| !at.is_finite()) {
+            return Err(EditError::Misplaced { path: None });
+        }
+        let from = to
+            .iter()
+            .map(|&(node, _)| (node, self.node_position_m(node)))
+            .collect();
+        for &(node, at) in to.iter() {
+            let was = self.node_position_m(node);
+            self.index
+                .move_node(&node_entry(node, was), node_entry(node, at));
+            self.moved_nodes.insert(node, at);
+        }
+        Ok(from)
+    }
+
+    /// Changes the states of paths.
+    fn states_of(paths: impl Iterator<Item = u32>, state: PathState) -> Change {
+        Change::Scene(Edit::SetStates(paths.map(|path| (path, state)).collect()))
+    }
+}
+
+impl History {
+    fn now(&self) -> u64 {
+        self.done.last().map_or(0, |step| step.number)
+    }
+}

@@ -1,0 +1,97 @@
+use guideway_document::{Combine, Document};
+use guideway_scene::{ColorBy, PathState, SceneOptions};
+use guideway_spline::Bounds;
+
+use crate::site::{document, lanes, p};
+
+fn rows(document: &Document) -> Vec<u32> {
+    document.selection().iter().collect()
+}
+
+#[test]
+fn a_box_selects_what_is_inside_or_what_it_meets() {
+    let mut document = document(5);
+    let bounds = Bounds {
+        min: p(-1.0, 0.5),
+        max: p(9.0, 3.5),
+    };
+    document.select_in(bounds, false, Combine::Replace);
+    assert_eq!(rows(&document), [], "all reach out of it");
+    document.select_in(bounds, true, Combine::Replace);
+    assert_eq!(rows(&document), [1, 2, 3]);
+    document.select_in(bounds.inflated(1.1), false, Combine::Remove);
+    assert_eq!(rows(&document), []);
+}
+
+#[test]
+fn selections_combine_and_leave_out_what_is_hidden() {
+    let mut document = document(6);
+    document
+        .select_where("speed > 1", Combine::Replace)
+        .unwrap();
+    document.select([0].into_iter().collect(), Combine::Add);
+    document.select([3, 4].into_iter().collect(), Combine::Remove);
+    assert_eq!(rows(&document), [0, 5]);
+    document.hide_selection();
+    assert_eq!(rows(&document), []);
+    document.select_all();
+    assert_eq!(rows(&document), [1, 2, 3, 4]);
+    document.select([0, 1, 99].into_iter().collect(), Combine::Replace);
+    assert_eq!(rows(&document), [1]);
+    assert!(
+        document
+            .select_where("spede > 1", Combine::Replace)
+            .is_err()
+    );
+    assert_eq!(rows(&document), [1]);
+    document.isolate_selection();
+    assert_eq!(document.scene().draw_order(), [1]);
+    document.show_all();
+    assert_eq!(document.scene().draw_order().len(), 6);
+    assert!(!document.is_changed(), "hiding is no edit");
+}
+
+#[test]
+fn other_colours_bring_nothing_hidden_back() {
+    let mut document = document(6);
+    document.select([2].into_iter().collect(), Combine::Replace);
+    document.hide_selection();
+    document.select([3].into_iter().collect(), Combine::Replace);
+    document.delete_selection().unwrap();
+    let by_speed = SceneOptions {
+        color_by: Some(ColorBy {
+            column: "speed".into(),
+        }),
+        ..SceneOptions::default()
+    };
+    document.recolor(&by_speed).unwrap();
+    assert!(document.scene().legend().is_some());
+    assert_eq!(document.scene().draw_order(), [0, 1, 4, 5]);
+    assert_eq!(document.scene().state(3), PathState::Removed);
+    let unknown = SceneOptions {
+        level: Some("none".into()),
+        ..SceneOptions::default()
+    };
+    assert!(document.recolor(&unknown).is_err());
+    assert!(document.scene().legend().is_some(), "as it was");
+}
+
+#[test]
+fn a_curve_that_goes_round_a_box_does_not_meet_it() {
+    let mut layout = lanes(0);
+    let mut runs = guideway_spline::Runs::default();
+    runs.push_bezier(&[p(0.0, 0.0), p(0.0, 10.0), p(10.0, 10.0), p(10.0, 0.0)]);
+    layout.paths.push(&guideway_layout::NewPath {
+        runs: &runs,
+        ..Default::default()
+    });
+    let mut document = crate::site::document_of(layout);
+    let inner = Bounds {
+        min: p(3.0, 0.0),
+        max: p(7.0, 5.0),
+    };
+    document.select_in(inner, true, Combine::Replace);
+    assert_eq!(rows(&document), []);
+    document.select_in(inner.inflated(3.0), true, Combine::Replace);
+    assert_eq!(rows(&document), [0]);
+}
