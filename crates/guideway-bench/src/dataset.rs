@@ -43,6 +43,15 @@ impl Dataset {
     pub fn scene(self, paths: usize) -> Arc<Scene> {
         plain_scene(self.layout(paths))
     }
+
+    /// The same as [`Self::scene`] in less time, where a larger scene has it inside. D1 plans its halls for
+    /// the whole number of paths, D2 throws one path after the other.
+    pub(crate) fn part(self, larger: &Scene, paths: usize) -> Option<Arc<Scene>> {
+        match self {
+            Self::D1 => None,
+            Self::D2 => Some(plain_scene(first(larger.layout(), paths))),
+        }
+    }
 }
 
 /// A scene with the layout's own colours and every path shown.
@@ -60,6 +69,23 @@ fn collect(paths: impl Iterator<Item = GeneratedPath>) -> Layout {
     }
     Layout {
         paths: Paths::from_columns(ids, Geometry::from_f32(points, ends)),
+        ..Layout::default()
+    }
+}
+
+/// The first paths of a layout that [`collect`] has made.
+fn first(layout: &Layout, paths: usize) -> Layout {
+    let own = || layout.paths.iter().take(paths);
+    let mut points = Vec::with_capacity(own().len() * RUN_POINTS);
+    for run in own().flat_map(|path| path.runs()) {
+        points.extend(run.iter().map(Point::to_f32));
+    }
+    let ends = (1..=own().len()).map(|row| (row * RUN_POINTS) as u32);
+    Layout {
+        paths: Paths::from_columns(
+            own().map(|path| path.id()).collect(),
+            Geometry::from_f32(points, ends.collect()),
+        ),
         ..Layout::default()
     }
 }
@@ -109,6 +135,8 @@ pub(crate) fn moved(layout: &Layout, share: f64, by_m: Point<f64>) -> Layout {
 
 #[cfg(test)]
 mod tests {
+    use guideway_layout::PathRef;
+
     use super::*;
 
     fn starts(layout: &Layout) -> Vec<Point<f64>> {
@@ -123,6 +151,27 @@ mod tests {
             assert_eq!(scene.draw_order().len(), 123);
             assert_eq!(scene.layout().paths.geometry().segment_count(), 123 * 8);
         }
+    }
+
+    #[test]
+    fn a_part_of_a_scene_is_the_smaller_scene() {
+        let larger = Dataset::D2.scene(300);
+        let (part, whole) = (Dataset::D2.part(&larger, 123), Dataset::D2.scene(123));
+        let of = |scene: &Scene| {
+            let paths = scene.layout().paths.iter();
+            let path = |p: PathRef<'_>| {
+                let points = p.runs().flat_map(|run| run.iter().collect::<Vec<_>>());
+                (p.id().to_owned(), points.collect::<Vec<_>>())
+            };
+            paths.map(path).collect::<Vec<_>>()
+        };
+        let part = part.unwrap();
+        assert_eq!(of(&part), of(&whole));
+        assert_eq!(part.bounds(), whole.bounds());
+        let run = part.layout().paths.get(0).runs().next();
+        assert!(matches!(run, Some(RunPoints::F32(_))));
+        // Not so where all depends on the number of paths.
+        assert!(Dataset::D1.part(&Dataset::D1.scene(300), 123).is_none());
     }
 
     #[test]

@@ -18,7 +18,8 @@ const LENGTH_PX: (f64, f64) = (20.5, 114.5);
 /// Curves of the shapes of [`crate::d1`] turned, stretched and thrown over one field of 16:9.
 ///
 /// Each is 20 to 115 pixels long when the field fills 1920 x 1080, and all lie within it. At 756,000
-/// paths every pixel lies under many, which no site does: it is the hard case for a renderer.
+/// paths every pixel lies under many, which no site does: it is the hard case for a renderer. The first
+/// paths of a larger set are those of the smaller one.
 pub fn d2(paths: usize, seed: u64) -> impl Iterator<Item = GeneratedPath> {
     let shapes = shapes();
     // Far from the streams of the halls of the other dataset.

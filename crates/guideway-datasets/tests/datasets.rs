@@ -51,6 +51,13 @@ fn there_are_exactly_as_many_paths_as_asked_for_and_no_name_twice() {
 }
 
 #[test]
+fn the_second_dataset_grows_at_its_end() {
+    assert!(d2(300, 3).take(123).eq(d2(123, 3)));
+    // The first plans its halls for all paths.
+    assert!(!d1(3_000, 3).take(1_230).eq(d1(1_230, 3)));
+}
+
+#[test]
 fn a_hall_has_about_a_thousand_paths_and_every_kind() {
     let paths: Vec<_> = d1(20_300, 5).collect();
     let mut halls: BTreeMap<u32, BTreeMap<&str, usize>> = BTreeMap::new();

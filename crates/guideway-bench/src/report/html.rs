@@ -2,6 +2,7 @@
 
 use super::content::{Block, Section};
 use super::xml::{element, escape};
+use crate::Machine;
 use crate::reproduce::{Finding, Picture, Run, Verdict};
 use crate::words::{count, time};
 
@@ -42,7 +43,6 @@ pub(super) fn page(run: &Run, sections: &[Section]) -> String {
 }
 
 fn header(run: &Run) -> String {
-    let machine = &run.machine;
     let mut html = String::new();
     if run.is_partial {
         html += &notice(
@@ -56,49 +56,68 @@ fn header(run: &Run) -> String {
              each other, not with the thesis'.",
         );
     }
-    if machine.profile != "release" {
+    let machines = || run.sittings.iter().map(|sitting| &sitting.machine);
+    if machines().any(|machine| machine.profile != "release") {
         html += &notice(
             "Compiled by the debug profile: work on the processor takes longer than it has to.",
         );
     }
-    let memory = machine
-        .memory_bytes
-        .map(|b| format!(", {} GB of memory", count(b / 1_000_000_000)));
+    let processors = distinct(machines().map(processor));
+    if processors.len() > 1 {
+        html += &notice(
+            "Its sittings had different processors: times that the processor takes part in do not all compare.",
+        );
+    }
+    let devices = run.methods.iter().filter_map(|m| m.device.clone());
     html += "<dl>\n";
-    for (name, value) in [
-        (
-            "Measured",
-            format!("{}, in {}", run.started, time(run.elapsed_s * 1e3)),
-        ),
-        (
-            "Processor",
-            format!(
-                "{}, {} threads{}",
-                machine.cpu.as_deref().unwrap_or("unknown"),
-                machine.cores,
-                memory.unwrap_or_default()
-            ),
-        ),
-        ("System", machine.os.clone()),
-        ("Devices", devices(run)),
-        (
-            "Guideway",
-            format!("{}, {} build", machine.guideway, machine.profile),
-        ),
+    for (name, values) in [
+        ("Measured", vec![measured(run)]),
+        ("Processor", processors),
+        ("System", distinct(machines().map(|m| m.os.clone()))),
+        ("Devices", distinct(devices)),
+        ("Guideway", distinct(machines().map(build))),
     ] {
-        html += &format!("<dt>{name}</dt><dd>{}</dd>\n", escape(&value));
+        let value = escape(&values.join("; "));
+        html += &format!("<dt>{name}</dt><dd>{value}</dd>\n");
     }
     html + "</dl>\n"
 }
 
-fn devices(run: &Run) -> String {
-    let mut devices: Vec<&str> = Vec::new();
-    for device in run.methods.iter().filter_map(|m| m.device.as_deref()) {
-        if !devices.contains(&device) {
-            devices.push(device);
+fn measured(run: &Run) -> String {
+    let started: Vec<&str> = run.sittings.iter().map(|s| s.started.as_str()).collect();
+    let sittings = match started.len() {
+        0 | 1 => String::new(),
+        several => format!(", {several} sittings"),
+    };
+    let elapsed = time(run.elapsed_s() * 1e3);
+    format!("{}{sittings}, in {elapsed}", started.join("; "))
+}
+
+fn processor(machine: &Machine) -> String {
+    let memory = machine
+        .memory_bytes
+        .map(|b| format!(", {} GB of memory", count(b / 1_000_000_000)));
+    format!(
+        "{}, {} threads{}",
+        machine.cpu.as_deref().unwrap_or("unknown"),
+        machine.cores,
+        memory.unwrap_or_default()
+    )
+}
+
+fn build(machine: &Machine) -> String {
+    format!("{}, {} build", machine.guideway, machine.profile)
+}
+
+/// Every value once, in the order of their first places.
+fn distinct(values: impl Iterator<Item = String>) -> Vec<String> {
+    let mut distinct = Vec::new();
+    for value in values {
+        if !distinct.contains(&value) {
+            distinct.push(value);
         }
     }
-    devices.join("; ")
+    distinct
 }
 
 fn notice(text: &str) -> String {

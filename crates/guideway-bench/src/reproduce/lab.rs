@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 use guideway_render::{Budget, Cancel, Frame, FrameSize, Method, RenderError, Style, View};
 use guideway_scene::{LineRule, Scene};
 
+use super::run::OUT_OF_TIME;
 use super::{MethodFacts, Plan};
 use crate::measured::Fault;
 use crate::runner::{Frames, Runner, Shot};
@@ -17,9 +18,6 @@ const KEPT_PATHS: usize = 5_000_000;
 
 /// Even shares of the time that one piece of a part may take.
 const PATIENCE: u32 = 4;
-
-/// Why there is no measurement where the time did not do.
-pub(crate) const OUT_OF_TIME: &str = "the time for this part was over";
 
 /// What every part of a run measures with.
 pub(crate) struct Lab<'a> {
@@ -110,16 +108,31 @@ impl<'a> Lab<'a> {
             .clone()
     }
 
+    /// Every dataset with every method of the plan.
+    pub(crate) fn cases(&self) -> impl Iterator<Item = (Dataset, &'a str)> + use<'a> {
+        let methods = &self.plan.methods;
+        let with_all = |dataset| methods.iter().map(move |spec| (dataset, spec.as_str()));
+        Dataset::ALL.into_iter().flat_map(with_all)
+    }
+
     /// A dataset of so many paths, from memory if it was used lately.
     pub(crate) fn scene(&self, dataset: Dataset, paths: usize) -> Arc<Scene> {
         let mut scenes = self.scenes.borrow_mut();
         let place = scenes.iter().position(|s| (s.0, s.1) == (dataset, paths));
-        let found = match place {
-            Some(place) => scenes.remove(place),
-            None => (dataset, paths, dataset.scene(paths)),
+        let scene = match place {
+            Some(place) => scenes.remove(place).2,
+            None => {
+                let larger = scenes.iter().position(|s| s.0 == dataset && s.1 > paths);
+                let part = larger.and_then(|place| {
+                    let part = dataset.part(&scenes[place].2, paths)?;
+                    // It was of use, so it is kept.
+                    scenes[place..].rotate_left(1);
+                    Some(part)
+                });
+                part.unwrap_or_else(|| dataset.scene(paths))
+            }
         };
-        let scene = Arc::clone(&found.2);
-        scenes.push(found);
+        scenes.push((dataset, paths, Arc::clone(&scene)));
         while scenes.len() > 1 && scenes.iter().map(|s| s.1).sum::<usize>() > KEPT_PATHS {
             scenes.remove(0);
         }
@@ -200,14 +213,16 @@ impl<'a> Lab<'a> {
         Ok(outcomes)
     }
 
-    /// Whether a method runs, and where.
-    pub(crate) fn facts(&self, spec: &str) -> MethodFacts {
-        let started = self.method(spec);
-        MethodFacts {
-            method: spec.to_owned(),
-            device: started.as_ref().ok().map(|method| method.info().device),
-            why_not: started.err(),
-        }
+    /// Which methods of the plan run, and where.
+    pub(crate) fn facts(&self) -> impl Iterator<Item = MethodFacts> {
+        self.plan.methods.iter().map(|spec| {
+            let started = self.method(spec);
+            MethodFacts {
+                method: spec.clone(),
+                device: started.as_ref().ok().map(|method| method.info().device),
+                why_not: started.err(),
+            }
+        })
     }
 
     /// Makes a scene ready. A method whose device gave up is started anew the next time.

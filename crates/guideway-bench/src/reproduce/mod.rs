@@ -1,13 +1,15 @@
 //! Every measurement of the thesis' chapter 5, on whatever device is there.
 //!
 //! [`reproduce`] follows a [`Plan`] and returns a [`Run`]: all that was measured, and under which
-//! circumstances. Parts get time by their weight; what a part leaves is for those after it.
+//! circumstances. Parts get time by their weight; what a part leaves is for those after it. [`resume`] measures
+//! what a run lacks.
 
 mod findings;
 mod lab;
 pub(crate) mod names;
 mod parts;
 mod plan;
+mod resume;
 mod run;
 mod search;
 pub(crate) mod thesis;
@@ -22,13 +24,18 @@ use parts::{borders, growth, most_paths, pictures, views};
 
 pub use findings::{Finding, Verdict, findings};
 pub use plan::{METHODS, Plan};
-pub use run::{Border, MethodFacts, MostPaths, PartFacts, Picture, Reading, Results, Run};
+pub use resume::{ResumeError, resume};
+pub use run::{Border, MethodFacts, MostPaths, PartFacts, Picture, Reading, Results, Run, Sitting};
 pub use search::{Limit, Search, Trial};
 
-type Part = fn(&Lab<'_>, Deadline, &mut Results) -> Result<(), RenderError>;
+type Part = (
+    &'static str,
+    f64,
+    fn(&Lab<'_>, Deadline, &mut Results) -> Result<(), RenderError>,
+);
 
 /// The parts of a run with their weights: shares of the time that the parts before left over.
-const PARTS: [(&str, f64, Part); 6] = [
+const PARTS: [Part; 6] = [
     ("pictures", 2.0, pictures::pictures),
     ("coverage at the borders of cells", 1.0, borders::borders),
     (
@@ -56,27 +63,41 @@ pub fn reproduce(
     cancel: &Cancel,
     progress: &dyn Fn(&str),
 ) -> Result<Run, RenderError> {
-    let (began, started) = (SystemTime::now(), Instant::now());
     let lab = Lab::new(plan, start, cancel, progress)?;
-    let mut run = Run {
-        machine: Machine::here(),
-        started: humantime::format_rfc3339_seconds(began).to_string(),
-        elapsed_s: 0.0,
+    let run = Run {
+        sittings: Vec::new(),
         is_partial: false,
         plan: plan.clone(),
-        methods: plan.methods.iter().map(|spec| lab.facts(spec)).collect(),
+        methods: lab.facts().collect(),
         parts: Vec::new(),
         results: Results::default(),
     };
-    let end = started.elapsed().as_secs_f64() + plan.minutes * 60.0;
-    for (i, (name, weight, part)) in PARTS.iter().enumerate() {
-        let weights: f64 = PARTS[i..].iter().map(|(_, weight, _)| weight).sum();
+    Ok(measure(run, &lab))
+}
+
+/// The parts that a run lacks, or lacks something of.
+fn pending(run: &Run) -> Vec<Part> {
+    let is_pending = |(name, ..): &Part| !run.has(name);
+    PARTS.into_iter().filter(is_pending).collect()
+}
+
+/// One sitting: measures what the run lacks, as far as the time does.
+fn measure(mut run: Run, lab: &Lab<'_>) -> Run {
+    let (began, started) = (SystemTime::now(), Instant::now());
+    let parts = pending(&run);
+    if parts.is_empty() {
+        return run;
+    }
+    run.is_partial = false;
+    let end_s = run.plan.minutes * 60.0;
+    for (i, &(name, weight, part)) in parts.iter().enumerate() {
+        let weights: f64 = parts[i..].iter().map(|(_, weight, _)| weight).sum();
         let part_started = Instant::now();
-        let left_s = end - started.elapsed().as_secs_f64();
+        let left_s = end_s - started.elapsed().as_secs_f64();
         let time = Deadline::after(left_s * weight / weights);
-        let outcome = part(&lab, time, &mut run.results);
-        run.parts.push(PartFacts {
-            name: (*name).to_owned(),
+        let outcome = part(lab, time, &mut run.results);
+        run.note(PartFacts {
+            name: name.to_owned(),
             elapsed_s: part_started.elapsed().as_secs_f64(),
             is_cut: lab.take_is_cut(),
             failure: outcome.as_ref().err().map(RenderError::to_string),
@@ -86,6 +107,10 @@ pub fn reproduce(
             break;
         }
     }
-    run.elapsed_s = started.elapsed().as_secs_f64();
-    Ok(run)
+    run.sittings.push(Sitting {
+        machine: Machine::here(),
+        started: humantime::format_rfc3339_seconds(began).to_string(),
+        elapsed_s: started.elapsed().as_secs_f64(),
+    });
+    run
 }

@@ -43,7 +43,7 @@ pub struct Plan {
     pub frames: usize,
     /// Once a method has drawn a view for so long, one frame that counts is enough.
     pub enough_ms: f64,
-    /// Time for all of it.
+    /// Time for one sitting, of the last one where they differ.
     pub minutes: f64,
 }
 

@@ -2,19 +2,18 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Limit, Plan, Trial};
+use super::{Limit, Plan, Trial, pending};
 use crate::{Dataset, Machine, Measured, Outcome, Row};
+
+/// Why there is no measurement where the time did not do; a run that goes on measures such rows.
+pub(crate) const OUT_OF_TIME: &str = "the time for this part was over";
 
 /// One run of `guideway reproduce`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Run {
-    /// Where it was measured.
-    pub machine: Machine,
-    /// When it began, RFC 3339 in UTC.
-    pub started: String,
-    /// How long it took.
-    pub elapsed_s: f64,
-    /// Whether it was stopped before its end.
+    /// When and where it was measured: once, and once more each time that it went on.
+    pub sittings: Vec<Sitting>,
+    /// Whether its last sitting was stopped before its end.
     pub is_partial: bool,
     /// What was to be measured.
     pub plan: Plan,
@@ -24,6 +23,17 @@ pub struct Run {
     pub parts: Vec<PartFacts>,
     /// What was measured.
     pub results: Results,
+}
+
+/// What was measured at a time.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Sitting {
+    /// Where it was measured.
+    pub machine: Machine,
+    /// When it began, RFC 3339 in UTC.
+    pub started: String,
+    /// How long it took.
+    pub elapsed_s: f64,
 }
 
 /// One method of a run.
@@ -42,7 +52,7 @@ pub struct MethodFacts {
 pub struct PartFacts {
     /// What was measured in it.
     pub name: String,
-    /// How long it took.
+    /// How long it took, in all sittings together.
     pub elapsed_s: f64,
     /// Whether its time was over before its end.
     pub is_cut: bool,
@@ -128,6 +138,36 @@ pub struct Picture {
     pub png_base64: String,
 }
 
+impl Run {
+    /// How long all sittings took.
+    pub fn elapsed_s(&self) -> f64 {
+        self.sittings.iter().map(|sitting| sitting.elapsed_s).sum()
+    }
+
+    /// Whether nothing is left that [`super::resume`] would measure.
+    pub fn is_whole(&self) -> bool {
+        pending(self).is_empty()
+    }
+
+    /// Whether a part was measured to its end.
+    pub(super) fn has(&self, part: &str) -> bool {
+        let is_whole = |facts: &PartFacts| !facts.is_cut && facts.failure.is_none();
+        let mut own = self.parts.iter().filter(|facts| facts.name == part);
+        own.any(is_whole)
+    }
+
+    /// Writes down what became of a part.
+    pub(super) fn note(&mut self, facts: PartFacts) {
+        match self.parts.iter_mut().find(|old| old.name == facts.name) {
+            Some(old) => {
+                let elapsed_s = old.elapsed_s + facts.elapsed_s;
+                *old = PartFacts { elapsed_s, ..facts };
+            }
+            None => self.parts.push(facts),
+        }
+    }
+}
+
 impl Results {
     /// The readings of one method and dataset, by where they are on the axis.
     pub(crate) fn curve<'a>(
@@ -160,6 +200,32 @@ impl Reading {
                 method: method.to_owned(),
                 outcome,
             },
+        }
+    }
+
+    fn is_of(&self, dataset: Dataset, paths: usize, method: &str) -> bool {
+        (self.dataset, self.paths, self.row.method.as_str()) == (dataset, paths, method)
+    }
+
+    /// How many readings of one method and scene there are that a longer time would not change.
+    pub(crate) fn settled(rows: &[Self], dataset: Dataset, paths: usize, method: &str) -> usize {
+        let is_settled = |row: &&Self| {
+            let left_out = matches!(&row.row.outcome, Outcome::WhyNot(why) if why == OUT_OF_TIME);
+            row.is_of(dataset, paths, method) && !left_out
+        };
+        rows.iter().filter(is_settled).count()
+    }
+
+    /// Puts a reading where one was left out before, or at the end.
+    pub(crate) fn put(self, rows: &mut Vec<Self>) {
+        let has_my_place = |row: &&mut Self| {
+            // Not by its bits, which a file may have rounded.
+            let is_at = (row.at - self.at).abs() < 1e-9;
+            is_at && row.is_of(self.dataset, self.paths, &self.row.method)
+        };
+        match rows.iter_mut().find(has_my_place) {
+            Some(row) => *row = self,
+            None => rows.push(self),
         }
     }
 }

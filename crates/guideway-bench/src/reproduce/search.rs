@@ -56,11 +56,16 @@ pub(crate) struct Found<T> {
     pub(crate) trials: Vec<Trial>,
 }
 
-/// Where the answer lies: `low` is within the target, `high` is not.
-#[derive(Default)]
-struct Bracket {
-    low: Option<(usize, f64)>,
-    high: Option<(usize, Option<f64>)>,
+impl<T> Found<T> {
+    /// What a search begins with.
+    pub(crate) fn nothing() -> Self {
+        Self {
+            best: None,
+            limit: Limit::Time,
+            reason: None,
+            trials: Vec::new(),
+        }
+    }
 }
 
 enum Next {
@@ -69,22 +74,20 @@ enum Next {
 }
 
 impl Search {
-    /// Runs trials until the answer is known. A trial returns the frame time and what to keep of it, or
-    /// why the method refuses; `is_over` ends the search early.
+    /// Runs trials until the answer is known, after those of a search that ended early. A trial returns the
+    /// frame time and what to keep of it, or why the method refuses; `is_over` ends the search early.
     pub(crate) fn run<T>(
         &self,
+        mut found: Found<T>,
         is_over: impl Fn() -> bool,
         mut trial: impl FnMut(usize) -> Result<Result<(f64, T), String>, RenderError>,
     ) -> Result<Found<T>, RenderError> {
-        let mut bracket = Bracket::default();
-        let mut found = Found {
-            best: None,
-            limit: Limit::Time,
-            reason: None,
-            trials: Vec::new(),
-        };
-        let mut paths = self.start.clamp(self.least, self.ceiling);
-        while !is_over() {
+        found.limit = loop {
+            let paths = match self.next(&found.trials) {
+                Next::Try(_) if is_over() => break Limit::Time,
+                Next::Try(paths) => paths,
+                Next::End(limit) => break limit,
+            };
             let (frame_ms, kept) = match trial(paths)? {
                 Ok((frame_ms, kept)) => (Some(frame_ms), Some(kept)),
                 Err(reason) => {
@@ -93,32 +96,37 @@ impl Search {
                 }
             };
             found.trials.push(Trial { paths, frame_ms });
-            match (frame_ms, kept) {
-                (Some(ms), Some(kept)) if ms <= self.target_ms => {
-                    bracket.low = Some((paths, ms));
-                    found.best = Some((paths, kept));
-                }
-                _ => bracket.high = Some((paths, frame_ms)),
+            if let Some(kept) = kept
+                && self.is_within(frame_ms)
+            {
+                found.best = Some((paths, kept));
             }
-            match self.next(&bracket, found.trials.len()) {
-                Next::Try(next) => paths = next,
-                Next::End(limit) => {
-                    found.limit = limit;
-                    break;
-                }
-            }
-        }
-        if found.limit != Limit::Refused {
+        };
+        // Of a search that may go on, the refusal may yet be the answer.
+        if !matches!(found.limit, Limit::Refused | Limit::Time) {
             found.reason = None;
         }
         Ok(found)
     }
 
-    fn next(&self, bracket: &Bracket, trials: usize) -> Next {
+    fn is_within(&self, frame_ms: Option<f64>) -> bool {
+        frame_ms.is_some_and(|ms| ms <= self.target_ms)
+    }
+
+    fn next(&self, trials: &[Trial]) -> Next {
+        // The answer lies between the last count within the target and the last beyond.
+        let last = |is_low| {
+            let mut own = trials
+                .iter()
+                .filter(|t| self.is_within(t.frame_ms) == is_low);
+            own.next_back()
+        };
+        let low = last(true).and_then(|t| Some((t.paths, t.frame_ms?)));
+        let high = last(false).map(|t| (t.paths, t.frame_ms));
         // A count that is far off is left by larger steps.
         let step = |nearness: f64| if nearness < 0.2 { 4 } else { 2 };
-        match (bracket.low, bracket.high) {
-            (None, None) => Next::Try(self.start),
+        match (low, high) {
+            (None, None) => Next::Try(self.start.clamp(self.least, self.ceiling)),
             (Some((low, _)), None) if low >= self.ceiling => Next::End(Limit::Ceiling),
             (Some((low, ms)), None) => {
                 let next = low.saturating_mul(step(ms / self.target_ms));
@@ -133,7 +141,7 @@ impl Search {
                 Next::Try((high / step(nearness)).max(self.least))
             }
             (Some((low, low_ms)), Some((high, high_ms))) => {
-                let width = high - low;
+                let width = high.saturating_sub(low);
                 if width <= 1 || width as f64 <= low as f64 * self.tolerance {
                     return Next::End(match high_ms {
                         Some(_) => Limit::FrameTime,
@@ -142,7 +150,7 @@ impl Search {
                 }
                 let fraction = match high_ms {
                     // Times grow about in line with paths; every third step halves, in case they do not.
-                    Some(high_ms) if !trials.is_multiple_of(3) && high_ms > low_ms => {
+                    Some(high_ms) if !trials.len().is_multiple_of(3) && high_ms > low_ms => {
                         let guess = (self.target_ms - low_ms) / (high_ms - low_ms);
                         // A little to the far side of the guess, so that the bracket closes from there too.
                         let nudge = 0.4 * self.tolerance * low as f64 / width as f64;
@@ -182,7 +190,7 @@ mod tests {
                 Ok((a_ms + b_ms * paths as f64, paths))
             })
         };
-        SEARCH.run(|| false, trial).unwrap()
+        SEARCH.run(Found::nothing(), || false, trial).unwrap()
     }
 
     #[test]
@@ -246,11 +254,33 @@ mod tests {
             trials.set(trials.get() + 1);
             Ok(Ok((paths as f64 * 1e-5, ())))
         };
-        let found = SEARCH.run(|| trials.get() >= 2, count).unwrap();
+        let nothing = Found::nothing();
+        let found = SEARCH.run(nothing, || trials.get() >= 2, count).unwrap();
         assert_eq!((found.trials.len(), found.limit), (2, Limit::Time));
         assert!(found.best.is_some());
-        let cancelled = SEARCH.run::<()>(|| false, |_| Err(RenderError::Cancelled));
+        let nothing = Found::<()>::nothing();
+        let cancelled = SEARCH.run(nothing, || false, |_| Err(RenderError::Cancelled));
         assert_eq!(cancelled, Err(RenderError::Cancelled));
+    }
+
+    #[test]
+    fn a_search_that_goes_on_tries_nothing_twice() {
+        let whole = search(1.0, 1e-6, 500_000);
+        for cut in 0..=whole.trials.len() {
+            let left = std::cell::Cell::new(cut);
+            let trial = |paths: usize| {
+                left.set(left.get().saturating_sub(1));
+                Ok(if paths > 500_000 {
+                    Err("no memory".to_owned())
+                } else {
+                    Ok((1.0 + 1e-6 * paths as f64, paths))
+                })
+            };
+            let is_over = || left.get() == 0;
+            let part = SEARCH.run(Found::nothing(), is_over, trial).unwrap();
+            assert_eq!(part.trials, whole.trials[..cut]);
+            assert_eq!(SEARCH.run(part, || false, trial).unwrap(), whole);
+        }
     }
 
     #[test]
@@ -261,7 +291,7 @@ mod tests {
             let noise = 0.8 + 0.4 * f64::from(random >> 16) / 65_536.0;
             Ok(Ok((paths as f64 * 3e-5 * noise, ())))
         };
-        let found = SEARCH.run(|| false, noisy).unwrap();
+        let found = SEARCH.run(Found::nothing(), || false, noisy).unwrap();
         assert_eq!(found.limit, Limit::FrameTime);
         assert!(found.trials.len() < 30, "{:?}", found.trials);
     }

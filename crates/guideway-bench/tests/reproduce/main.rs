@@ -4,6 +4,7 @@
 
 mod fake;
 mod page;
+mod resume;
 
 use std::cell::RefCell;
 

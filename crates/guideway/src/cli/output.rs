@@ -9,7 +9,7 @@ use serde_json::json;
 use super::Failure;
 use super::activity::Activity;
 
-/// Version of every JSON report. A new key does not raise it; a changed or missing one does.
+/// Version of the JSON answers. A new key does not raise it; a changed or missing one does.
 pub(crate) const REPORT_VERSION: u32 = 1;
 
 /// Where answers go, and how.
@@ -55,7 +55,7 @@ impl Output {
         text: impl FnOnce() -> String,
     ) -> Result<(), Failure> {
         if self.json {
-            print(&envelope(name, body)?)
+            print(&envelope(name, REPORT_VERSION, body)?)
         } else if self.quiet {
             Ok(())
         } else {
@@ -80,7 +80,7 @@ impl Output {
         } = failure;
         if self.json {
             let error = json!({ "code": code, "message": message, "remedy": remedy });
-            if let Ok(bytes) = envelope("error", &json!({ "error": error })) {
+            if let Ok(bytes) = envelope("error", REPORT_VERSION, &json!({ "error": error })) {
                 // The exit code says the same to a reader that has gone away.
                 let _ = print(&bytes);
             }
@@ -90,11 +90,11 @@ impl Output {
     }
 }
 
-fn envelope<T: Serialize>(name: &str, body: &T) -> Result<Vec<u8>, Failure> {
+fn envelope<T: Serialize>(name: &str, version: u32, body: &T) -> Result<Vec<u8>, Failure> {
     let whole = Envelope {
         guideway: Header {
             report: name,
-            version: REPORT_VERSION,
+            version,
         },
         body,
     };
@@ -107,9 +107,14 @@ fn envelope<T: Serialize>(name: &str, body: &T) -> Result<Vec<u8>, Failure> {
     Ok(bytes)
 }
 
-/// Saves a report as `--json` prints it.
-pub(crate) fn save_report<T: Serialize>(path: &Path, name: &str, body: &T) -> Result<(), Failure> {
-    let bytes = envelope(name, body)?;
+/// Saves a report in the form that `--json` prints.
+pub(crate) fn save_report<T: Serialize>(
+    path: &Path,
+    name: &str,
+    version: u32,
+    body: &T,
+) -> Result<(), Failure> {
+    let bytes = envelope(name, version, body)?;
     save(path, &bytes)
 }
 

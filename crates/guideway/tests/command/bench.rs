@@ -146,6 +146,9 @@ fn what_makes_no_sense_is_refused() {
         &["reproduce", "--methods", "nothing"],
         &["reproduce", "--methods", "cpu+nothing"],
         &["reproduce", "--from", "run.json", "--quick"],
+        &["reproduce", "--continue", "--methods", "cpu"],
+        &["reproduce", "--continue", "--from", "run.json"],
+        &["reproduce", "--continue"],
         &["reproduce", "--minutes", "0"],
     ] {
         let folder = tempfile::tempdir().unwrap();
@@ -163,6 +166,7 @@ fn what_makes_no_sense_is_refused() {
                 .is_some_and(|r| !r.is_empty()),
             "{error}"
         );
+        assert!(names_in(folder.path()).is_empty(), "{args:?}");
     }
 }
 
@@ -202,7 +206,15 @@ fn the_thesis_is_reproduced_and_its_page_made_again() {
     let report = answer(&output, "reproduce");
     has_keys(
         &report,
-        &["page", "run", "is_partial", "findings", "parts", "ms.total"],
+        &[
+            "page",
+            "run",
+            "is_partial",
+            "is_whole",
+            "findings",
+            "parts",
+            "ms.total",
+        ],
     );
     let names = names_in(&first);
     for name in ["index.html", "run.json", "table-5.1.csv", "figure-5.5.csv"] {
@@ -232,6 +244,54 @@ fn the_thesis_is_reproduced_and_its_page_made_again() {
 }
 
 #[test]
+fn a_run_goes_on_where_its_time_was_over() {
+    let folder = tempfile::tempdir().unwrap();
+    let reproduce = |args: &[&str]| {
+        let mut command = command();
+        command.args(["reproduce", "--json", "--minutes", "0.001"]);
+        command.args(args).arg("--out").arg(folder.path());
+        command.output().unwrap()
+    };
+    let path = folder.path().join("run.json");
+    let saved = || -> Value { serde_json::from_str(&fs::read_to_string(&path).unwrap()).unwrap() };
+
+    let first = answer(
+        &reproduce(&["--quick", "--methods", "cpu,oracle"]),
+        "reproduce",
+    );
+    assert_eq!(first["is_whole"], false);
+    let before = saved();
+    let output = reproduce(&["--continue"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let after = saved();
+    assert_eq!(after["sittings"].as_array().unwrap().len(), 2);
+    assert_eq!(after["sittings"][0], before["sittings"][0]);
+    assert_eq!(after["plan"], before["plan"]);
+    for list in ["pictures", "borders"] {
+        assert_eq!(after["results"][list], before["results"][list]);
+    }
+
+    let mut elsewhere = after;
+    elsewhere["methods"][0]["device"] = "another".into();
+    let text = elsewhere.to_string();
+    fs::write(&path, &text).unwrap();
+    let output = reproduce(&["--continue"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert_eq!(answer(&output, "error")["error"]["code"], "other-device");
+    elsewhere["methods"][0]["device"] = "CPU".into();
+    elsewhere["plan"]["sizes"][0] = 0.into();
+    fs::write(&path, elsewhere.to_string()).unwrap();
+    let output = reproduce(&["--continue"]);
+    let error = answer(&output, "error");
+    assert_eq!(error["error"]["code"], "structure");
+    let message = error["error"]["message"].as_str().unwrap();
+    assert!(
+        message.contains("run.json: ") && message.contains("0 paths"),
+        "{message}"
+    );
+}
+
+#[test]
 fn a_folder_that_cannot_be_written_is_refused_before_any_work() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("a file");
@@ -252,8 +312,9 @@ fn what_is_not_a_run_is_refused() {
         "[]",
         "{}",
         r#"{"guideway":{"report":"bench","version":1}}"#,
+        r#"{"guideway":{"report":"reproduce","version":1}}"#,
         r#"{"guideway":{"report":"reproduce","version":2}}"#,
-        r#"{"guideway":{"report":"reproduce","version":1},"results":3}"#,
+        r#"{"guideway":{"report":"reproduce","version":2},"results":3}"#,
     ] {
         fs::write(&path, text).unwrap();
         let output = command()
@@ -265,7 +326,7 @@ fn what_is_not_a_run_is_refused() {
             .unwrap();
         let error = answer(&output, "error");
         assert_eq!(error["error"]["code"], "structure", "{text}");
-        assert!(names_in(&folder.path().join("out")).is_empty());
+        assert!(!folder.path().join("out").exists());
     }
 }
 

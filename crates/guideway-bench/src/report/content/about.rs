@@ -21,14 +21,18 @@ pub(super) fn section(run: &Run) -> Section {
         digits(plan.enough_ms / 1e3),
         count(megabytes(plan.memory_bytes) as u64),
     );
+    let mut blocks = vec![Block::Text(how)];
+    if run.sittings.len() > 1 {
+        let sittings = run.sittings.len();
+        blocks.push(Block::Text(format!(
+            "It took {sittings} sittings on the same devices; each measured what those before it had left out."
+        )));
+    }
+    blocks.extend([Block::Table(methods(run)), Block::Table(parts(run))]);
     Section {
         id: "about",
         title: "How it was measured",
-        blocks: vec![
-            Block::Text(how),
-            Block::Table(methods(run)),
-            Block::Table(parts(run)),
-        ],
+        blocks,
     }
 }
 

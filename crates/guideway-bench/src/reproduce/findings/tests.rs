@@ -3,13 +3,11 @@ use guideway_render::Clock;
 use super::*;
 use crate::measured::WorkCounts;
 use crate::reproduce::{Border, Limit, MostPaths, Plan, Reading, Results};
-use crate::{Dataset, Machine, Measured, Outcome, Prepare, Row, StageTime, Summary};
+use crate::{Dataset, Measured, Outcome, Prepare, Row, StageTime, Summary};
 
 fn run(results: Results) -> Run {
     Run {
-        machine: Machine::default(),
-        started: String::new(),
-        elapsed_s: 0.0,
+        sittings: Vec::new(),
         is_partial: false,
         plan: Plan::quick(),
         methods: Vec::new(),

@@ -21,6 +21,9 @@ pub(crate) fn borders(lab: &Lab<'_>, _: Deadline, out: &mut Results) -> Result<(
     let view = View::new(size, center, PX_PER_M)?;
     let judged = lab.picture(ORACLE, &scene, &view)?;
     for spec in &lab.plan.methods {
+        if out.borders.iter().any(|border| border.method == *spec) {
+            continue;
+        }
         lab.tell(&format!("coverage: {spec} against {ORACLE}"));
         let drawn = lab.picture(spec, &scene, &view)?;
         out.borders.push(match (&judged, drawn) {

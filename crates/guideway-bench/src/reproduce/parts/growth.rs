@@ -5,31 +5,29 @@ use std::sync::Arc;
 use guideway_render::{RenderError, View};
 use guideway_scene::Scene;
 
+use crate::Outcome;
 use crate::measured::Prepare;
 use crate::reproduce::lab::{Deadline, Lab};
 use crate::reproduce::names::SAMPLE;
 use crate::reproduce::run::{Reading, Results};
-use crate::{Dataset, Outcome};
 
 /// Times of making ready and of drawing against the number of paths.
 pub(crate) fn growth(lab: &Lab<'_>, time: Deadline, out: &mut Results) -> Result<(), RenderError> {
-    let (methods, sizes) = (&lab.plan.methods, &lab.plan.sizes);
-    let mut left = Dataset::ALL.len() * sizes.len() * methods.len();
+    let of_size = |&paths: &usize| {
+        lab.cases()
+            .map(move |(dataset, spec)| (paths, dataset, spec))
+    };
     // From few paths to many: if the time does not do, the long ones are missing.
-    for &paths in sizes {
-        for dataset in Dataset::ALL {
-            let scene = lab.scene(dataset, paths);
-            for spec in methods {
-                lab.tell(&format!(
-                    "growth: {spec} on {} with {paths} paths",
-                    dataset.name()
-                ));
-                let outcome = measure(lab, spec, &scene, time.share(left))?;
-                out.growth
-                    .push(Reading::new(dataset, paths, paths as f64, spec, outcome));
-                left -= 1;
-            }
-        }
+    let mut open: Vec<_> = lab.plan.sizes.iter().flat_map(of_size).collect();
+    open.retain(|&(paths, dataset, spec)| Reading::settled(&out.growth, dataset, paths, spec) == 0);
+    for (i, &(paths, dataset, spec)) in open.iter().enumerate() {
+        lab.tell(&format!(
+            "growth: {spec} on {} with {paths} paths",
+            dataset.name()
+        ));
+        let scene = lab.scene(dataset, paths);
+        let outcome = measure(lab, spec, &scene, time.share(open.len() - i))?;
+        Reading::new(dataset, paths, paths as f64, spec, outcome).put(&mut out.growth);
     }
     Ok(())
 }

@@ -3,8 +3,8 @@
 use guideway_render::{RenderError, View};
 
 use crate::reproduce::Limit;
-use crate::reproduce::lab::{Deadline, Lab, OUT_OF_TIME};
-use crate::reproduce::run::{MostPaths, Results};
+use crate::reproduce::lab::{Deadline, Lab};
+use crate::reproduce::run::{MostPaths, OUT_OF_TIME, Results};
 use crate::reproduce::search::Found;
 use crate::{Dataset, Measured, Outcome, Row};
 
@@ -14,24 +14,48 @@ pub(crate) fn most_paths(
     time: Deadline,
     out: &mut Results,
 ) -> Result<(), RenderError> {
-    let methods = &lab.plan.methods;
-    for (i, dataset) in Dataset::ALL.into_iter().enumerate() {
-        for (j, spec) in methods.iter().enumerate() {
-            let left = (Dataset::ALL.len() - i) * methods.len() - j;
-            let found = find(lab, dataset, spec, time.share(left))?;
-            out.most_paths.push(row(dataset, spec, found));
+    let rows = &mut out.most_paths;
+    let mut open: Vec<_> = lab.cases().collect();
+    open.retain(|&(dataset, spec)| {
+        place(rows, dataset, spec).is_none_or(|place| rows[place].limit == Limit::Time)
+    });
+    for (i, &(dataset, spec)) in open.iter().enumerate() {
+        let place = place(rows, dataset, spec);
+        let begun = place.map_or_else(Found::nothing, |place| begun(&rows[place]));
+        let found = find(lab, dataset, spec, begun, time.share(open.len() - i))?;
+        let row = row(dataset, spec, found);
+        match place {
+            Some(place) => rows[place] = row,
+            None => rows.push(row),
         }
     }
     Ok(())
+}
+
+fn place(rows: &[MostPaths], dataset: Dataset, spec: &str) -> Option<usize> {
+    let is_own = |row: &MostPaths| row.dataset == dataset && row.row.method == spec;
+    rows.iter().position(is_own)
+}
+
+/// A search as far as it went.
+fn begun(row: &MostPaths) -> Found<Measured> {
+    Found {
+        best: row.paths.zip(row.row.measured().cloned()),
+        limit: row.limit,
+        reason: row.reason.clone(),
+        trials: row.trials.clone(),
+    }
 }
 
 fn find(
     lab: &Lab<'_>,
     dataset: Dataset,
     spec: &str,
+    begun: Found<Measured>,
     time: Deadline,
 ) -> Result<Found<Measured>, RenderError> {
     lab.plan.search.run(
+        begun,
         || lab.is_over(time),
         |paths| {
             lab.tell(&format!(
@@ -56,8 +80,8 @@ fn row(dataset: Dataset, spec: &str, found: Found<Measured>) -> MostPaths {
         Some((paths, measured)) => (Some(paths), Outcome::Measured(Box::new(measured))),
         None => {
             let why = match (found.limit, &found.reason) {
+                (Limit::Time, _) => OUT_OF_TIME,
                 (_, Some(reason)) => reason,
-                (Limit::Time, None) => OUT_OF_TIME,
                 (_, None) => "even the fewest paths that were tried take too long",
             };
             (None, Outcome::WhyNot(why.to_owned()))

@@ -36,6 +36,7 @@ pub(crate) fn occupancy(
         time,
         "pixels inside the grid",
         &mut out.occupancy,
+        SHARES.len(),
         views,
     )
 }
@@ -46,28 +47,46 @@ pub(crate) fn zoom(lab: &Lab<'_>, time: Deadline, out: &mut Results) -> Result<(
         let view = |magnification| Ok((magnification, magnified(lab.size, scene, magnification)?));
         MAGNIFICATIONS.into_iter().map(view).collect()
     };
-    sweep(lab, time, "magnification", &mut out.zoom, views)
+    let count = MAGNIFICATIONS.len();
+    sweep(lab, time, "magnification", &mut out.zoom, count, views)
 }
 
 fn sweep(
     lab: &Lab<'_>,
     time: Deadline,
     what: &str,
-    out: &mut Vec<Reading>,
+    rows: &mut Vec<Reading>,
+    count: usize,
     views: impl Fn(&Scene) -> Result<Vec<(f64, View)>, RenderError>,
 ) -> Result<(), RenderError> {
-    let methods = &lab.plan.methods;
-    for (i, dataset) in Dataset::ALL.into_iter().enumerate() {
-        let paths = lab.plan.view_paths(dataset);
-        let scene = lab.scene(dataset, paths);
+    let paths = |dataset| lab.plan.view_paths(dataset);
+    // The time runs out but once, so what a case lacks are its last views.
+    let settled = |rows: &[Reading], (dataset, spec)| {
+        Reading::settled(rows, dataset, paths(dataset), spec).min(count)
+    };
+    let mut open: Vec<_> = lab.cases().collect();
+    open.retain(|&case| settled(rows, case) < count);
+    let mut left = open.len();
+    for dataset in Dataset::ALL {
+        let open: Vec<_> = open.iter().filter(|case| case.0 == dataset).collect();
+        if open.is_empty() {
+            continue;
+        }
+        let scene = lab.scene(dataset, paths(dataset));
         let (places, views): (Vec<f64>, Vec<View>) = views(&scene)?.into_iter().unzip();
-        for (j, spec) in methods.iter().enumerate() {
+        for &&(_, spec) in &open {
             lab.tell(&format!("{what}: {spec} on {}", dataset.name()));
-            let left = (Dataset::ALL.len() - i) * methods.len() - j;
-            let outcomes = lab.measure_all(spec, &scene, &views, time.share(left))?;
-            for (&at, outcome) in places.iter().zip(outcomes) {
-                out.push(Reading::new(dataset, paths, at, spec, outcome));
+            let done = settled(rows, (dataset, spec));
+            let outcomes = lab.measure_all(
+                spec,
+                &scene,
+                views.get(done..).unwrap_or_default(),
+                time.share(left),
+            )?;
+            for (&at, outcome) in places.iter().skip(done).zip(outcomes) {
+                Reading::new(dataset, paths(dataset), at, spec, outcome).put(rows);
             }
+            left -= 1;
         }
     }
     Ok(())

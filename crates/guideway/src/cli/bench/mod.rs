@@ -8,7 +8,8 @@ use guideway_bench::{Contestant, compare};
 
 pub(crate) use args::Args;
 
-use super::{Exit, Failure, Output, input, output};
+use super::output::{self, REPORT_VERSION};
+use super::{Exit, Failure, Output, input};
 
 /// Name of the report, in the answer and in the file.
 const REPORT: &str = "bench";
@@ -24,7 +25,7 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, Failure> {
     let comparison = compare(&contest, &start, &Cancel::default())?;
     drop(activity);
     if let Some(path) = &args.output {
-        output::save_report(path, REPORT, &comparison)?;
+        output::save_report(path, REPORT, REPORT_VERSION, &comparison)?;
     }
     out.report(REPORT, &comparison, || text::text(&comparison))?;
     let is_measured = |contestant: &Contestant| contestant.row.measured().is_some();

@@ -18,9 +18,10 @@ pub(super) fn answer(folder: &Path, run: &Run, out: &Output) -> Result<(), Failu
         "page": page.to_string_lossy(),
         "run": folder.join(RUN).to_string_lossy(),
         "is_partial": run.is_partial,
+        "is_whole": run.is_whole(),
         "findings": findings,
         "parts": run.parts,
-        "ms": { "total": run.elapsed_s * 1e3 },
+        "ms": { "total": run.elapsed_s() * 1e3 },
     });
     out.report(REPORT, &body, || {
         let mut answer = format!("The report is in {}\n", page.display());
@@ -29,7 +30,7 @@ pub(super) fn answer(folder: &Path, run: &Run, out: &Output) -> Result<(), Failu
         }
         answer += &findings.iter().map(finding).collect::<String>();
         answer += &run.parts.iter().map(part).collect::<String>();
-        answer + &format!("took {}\n", text::time(run.elapsed_s * 1e3))
+        answer + &format!("took {}\n", text::time(run.elapsed_s() * 1e3))
     })
 }
 
