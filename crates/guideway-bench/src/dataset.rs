@@ -78,7 +78,10 @@ fn first(layout: &Layout, paths: usize) -> Layout {
     let own = || layout.paths.iter().take(paths);
     let mut points = Vec::with_capacity(own().len() * RUN_POINTS);
     for run in own().flat_map(|path| path.runs()) {
-        points.extend(run.iter().map(Point::to_f32));
+        match run {
+            RunPoints::F32(run) => points.extend_from_slice(run),
+            RunPoints::F64(run) => points.extend(run.iter().map(|p| p.to_f32())),
+        }
     }
     let ends = (1..=own().len()).map(|row| (row * RUN_POINTS) as u32);
     Layout {

@@ -85,12 +85,12 @@ fn header(run: &Run) -> String {
 
 fn measured(run: &Run) -> String {
     let started: Vec<&str> = run.sittings.iter().map(|s| s.started.as_str()).collect();
-    let sittings = match started.len() {
-        0 | 1 => String::new(),
-        several => format!(", {several} sittings"),
-    };
     let elapsed = time(run.elapsed_s() * 1e3);
-    format!("{}{sittings}, in {elapsed}", started.join("; "))
+    let took = match started.len() {
+        0 | 1 => elapsed,
+        several => format!("{several} sittings of {elapsed} together"),
+    };
+    format!("{}, in {took}", started.join("; "))
 }
 
 fn processor(machine: &Machine) -> String {

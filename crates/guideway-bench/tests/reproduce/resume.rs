@@ -247,7 +247,7 @@ fn the_page_tells_of_all_sittings() {
     assert!(!page(&run).contains("sittings"));
     run.sittings.push(run.sittings[0].clone());
     let same = page(&run);
-    assert!(same.contains(", 2 sittings, in ") && same.contains("It took 2 sittings"));
+    assert!(same.contains(", in 2 sittings of ") && same.contains("It took 2 sittings"));
     assert!(!same.contains("different processors"));
     run.sittings[1].machine.cpu = Some("Another <CPU>".to_owned());
     let other = page(&run);
