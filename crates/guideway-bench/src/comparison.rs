@@ -2,16 +2,12 @@ use std::sync::Arc;
 
 use guideway_render::{Budget, Cancel, FrameSize, Method, RenderError, Style, View};
 use guideway_scene::Scene;
-use guideway_spline::Point;
 use serde::{Deserialize, Serialize};
 
-use crate::dataset::{moved, plain_scene};
+use crate::edits::Edits;
 use crate::measured::Fault;
 use crate::runner::{Frames, Runner, Shot};
 use crate::{Machine, Motion, Outcome, Row, Start, turns};
-
-/// How far [`Motion::Edit`] moves a path, in metres.
-const EDIT_M: Point<f64> = Point { x: 0.4, y: 0.3 };
 
 /// One case in which methods are compared: all see all of the scene first.
 #[derive(Clone, Debug)]
@@ -49,8 +45,10 @@ pub struct Comparison {
     pub view: ViewFacts,
     /// What changed from frame to frame.
     pub motion: Motion,
-    /// Share of the paths that moved, with [`Motion::Edit`].
+    /// Share of the paths that were to move, with [`Motion::Edit`].
     pub edit_share: Option<f64>,
+    /// Paths that moved: one at the least.
+    pub edit_paths: Option<usize>,
     /// Frames of each method after the first that do not count.
     pub warmup: usize,
     /// Frames of each method that count.
@@ -115,13 +113,11 @@ pub fn compare(
     cancel: &Cancel,
 ) -> Result<Comparison, RenderError> {
     let view = View::fit(contest.size, contest.scene.bounds())?;
+    let is_edited = contest.motion == Motion::Edit;
     let shot = Shot {
         view,
         motion: contest.motion,
-        edits: (contest.motion == Motion::Edit).then(|| {
-            let after = moved(contest.scene.layout(), contest.edit_share, EDIT_M);
-            [Arc::clone(&contest.scene), plain_scene(after)]
-        }),
+        edits: is_edited.then(|| Edits::new(&contest.scene, contest.edit_share)),
         style: contest.style,
         frames: Frames {
             warmup: contest.warmup,
@@ -142,7 +138,8 @@ pub fn compare(
         },
         view: ViewFacts::from(&view),
         motion: contest.motion,
-        edit_share: (contest.motion == Motion::Edit).then_some(contest.edit_share),
+        edit_share: is_edited.then_some(contest.edit_share),
+        edit_paths: shot.edits.as_ref().map(Edits::path_count),
         warmup: contest.warmup,
         frames: contest.frames,
         memory_bytes: contest.budget.memory_bytes,
@@ -245,7 +242,9 @@ mod tests {
                 let measured = contestant.row.measured().expect("it runs");
                 assert_eq!(measured.frame_ms.count, 3);
                 assert_eq!(measured.paths.total, 60);
-                assert_eq!(measured.update_ms.is_some(), motion == Motion::Edit);
+                let is_edited = motion == Motion::Edit;
+                assert_eq!(measured.update_ms.is_some(), is_edited);
+                assert_eq!(measured.first_frame.update_ms.is_some(), is_edited);
                 assert!(contestant.device.is_some() && contestant.ratio.is_some());
             }
         }

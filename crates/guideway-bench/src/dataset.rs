@@ -3,7 +3,6 @@ use std::sync::Arc;
 use guideway_datasets::{GeneratedPath, RUN_POINTS, d1, d2};
 use guideway_layout::{Geometry, Layout, Paths, RunPoints, TextColumn};
 use guideway_scene::{Scene, SceneOptions};
-use guideway_spline::Point;
 use serde::{Deserialize, Serialize};
 
 /// Seed of the datasets: every run measures the same paths.
@@ -93,59 +92,11 @@ fn first(layout: &Layout, paths: usize) -> Layout {
     }
 }
 
-/// A copy of a layout in which a share of the paths, evenly among all, lies elsewhere.
-pub(crate) fn moved(layout: &Layout, share: f64, by_m: Point<f64>) -> Layout {
-    let old = &layout.paths;
-    let is_moved = |row: usize| (row as f64 * share).floor() < ((row + 1) as f64 * share).floor();
-    let (mut points, mut run_ends, mut path_ends) = (Vec::new(), Vec::new(), Vec::new());
-    let mut is_single = true;
-    for path in old.iter() {
-        let shift = if is_moved(path.row()) {
-            by_m
-        } else {
-            Point::new(0.0, 0.0)
-        };
-        for run in path.runs() {
-            is_single &= matches!(run, RunPoints::F32(_));
-            points.extend(run.iter().map(|p| p + shift));
-            run_ends.push(points.len() as u32);
-        }
-        path_ends.push(run_ends.len() as u32);
-    }
-    // In the precision of the original, so that a method reads as many bytes as before.
-    let geometry = if is_single {
-        Geometry::from_f32(points.iter().map(|p| p.to_f32()).collect(), run_ends)
-    } else {
-        Geometry::from_f64(points, run_ends)
-    };
-    let ids = old.iter().map(|path| path.id()).collect();
-    let mut paths = Paths::from_columns(ids, geometry.with_path_ends(path_ends));
-    if let Some(width_m) = old.width_m() {
-        paths.set_width_m(width_m.to_vec());
-    }
-    if let Some(color_rgba) = old.color_rgba() {
-        paths.set_color_rgba(color_rgba.to_vec());
-    }
-    if let Some(rank) = old.rank() {
-        paths.set_rank(rank.to_vec());
-    }
-    Layout {
-        paths,
-        refused: layout.refused.clone(),
-        ..Layout::default()
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use guideway_layout::PathRef;
 
     use super::*;
-
-    fn starts(layout: &Layout) -> Vec<Point<f64>> {
-        let first = |row| layout.paths.get(row).ends().expect("a curve").0;
-        (0..layout.paths.len()).map(first).collect()
-    }
 
     #[test]
     fn datasets_have_as_many_paths_as_asked_for() {
@@ -175,22 +126,5 @@ mod tests {
         assert!(matches!(run, Some(RunPoints::F32(_))));
         // Not so where all depends on the number of paths.
         assert!(Dataset::D1.part(&Dataset::D1.scene(300), 123).is_none());
-    }
-
-    #[test]
-    fn the_share_that_was_asked_for_moves_and_nothing_else() {
-        let mut before = Dataset::D1.layout(200);
-        before.paths.set_rank((0..200).rev().collect());
-        for (share, expected) in [(0.01, 2), (0.1, 20), (1.0, 200)] {
-            let after = moved(&before, share, Point::new(2.0, -1.0));
-            let pairs = starts(&before).into_iter().zip(starts(&after));
-            let shifts: Vec<f64> = pairs.map(|(a, b)| a.distance(b)).collect();
-            let far = shifts.iter().filter(|&&s| s > 2.2 && s < 2.3).count();
-            let near = shifts.iter().filter(|&&s| s == 0.0).count();
-            assert_eq!((far, near), (expected, 200 - expected));
-            assert_eq!(after.paths.rank(), before.paths.rank());
-            let run = after.paths.get(0).runs().next();
-            assert!(matches!(run, Some(RunPoints::F32(_))));
-        }
     }
 }

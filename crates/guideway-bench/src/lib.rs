@@ -6,6 +6,7 @@
 
 mod comparison;
 mod dataset;
+mod edits;
 mod machine;
 mod measured;
 mod motion;

@@ -65,6 +65,8 @@ pub struct Measured {
     pub wall_ms: Summary,
     /// Making the changed scene ready, with [`crate::Motion::Edit`].
     pub update_ms: Option<Summary>,
+    /// Bytes brought to the device by the last edit; none without one, or where all was made ready anew.
+    pub update_bytes: Option<u64>,
     /// Parts of the frames.
     pub stages: Vec<StageTime>,
     /// What became of the paths in the last frame.
@@ -96,13 +98,15 @@ pub struct Prepare {
     pub work: WorkCounts,
 }
 
-/// Times of one frame, as [`Measured::frame_ms`] and [`Measured::wall_ms`].
+/// Times of one frame, each as in [`Measured`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct FrameTime {
     /// Until the picture was complete where it was made.
     pub ms: f64,
     /// Seen from outside.
     pub wall_ms: f64,
+    /// Making the changed scene ready, with [`crate::Motion::Edit`].
+    pub update_ms: Option<f64>,
 }
 
 /// Time of one part; the median where there were several.

@@ -9,7 +9,7 @@ pub enum Motion {
     /// Nothing.
     #[default]
     Still,
-    /// The view moves sideways, by whole pixels and by parts of one in turn.
+    /// The view moves by whole pixels, as when a person drags it.
     Pan,
     /// The view comes a little nearer each frame, and goes away again.
     Zoom,
@@ -19,8 +19,13 @@ pub enum Motion {
 
 /// Frames until a motion turns back, so that it never loses sight of where it began.
 const TURN: usize = 32;
-/// Steps of [`Motion::Pan`], one after the other. The first leaves pixels where they were.
-const PAN_PX: [f64; 2] = [5.0, 2.375];
+/// Steps of [`Motion::Pan`], one after the other and again.
+const PAN_PX: [Point<f64>; 4] = [
+    Point { x: 5.0, y: 0.0 },
+    Point { x: 3.0, y: 0.0 },
+    Point { x: 5.0, y: 2.0 },
+    Point { x: 0.0, y: 3.0 },
+];
 /// Growth of the scale each frame of [`Motion::Zoom`].
 const ZOOM: f64 = 1.02;
 
@@ -36,10 +41,9 @@ impl Motion {
         match self {
             Self::Still | Self::Edit => Ok(*start),
             Self::Pan => {
-                let whole = steps.div_ceil(2) as f64 * PAN_PX[0];
-                let shift_px = whole + (steps / 2) as f64 * PAN_PX[1];
-                let center = Point::new(center.x + shift_px / scale, center.y);
-                View::new(start.size(), center, scale)
+                let all = PAN_PX.iter().cycle().take(steps);
+                let shift_px = all.fold(Point::new(0.0, 0.0), |sum, &step| sum + step);
+                View::new(start.size(), center + shift_px * (1.0 / scale), scale)
             }
             Self::Zoom => View::new(start.size(), center, scale * ZOOM.powi(steps as i32)),
         }
@@ -57,14 +61,21 @@ mod tests {
     }
 
     #[test]
-    fn panning_goes_by_whole_and_part_pixels_and_comes_back() {
+    fn panning_goes_by_whole_pixels_both_ways_and_comes_back() {
         let shift_px = |frame| {
             let view = Motion::Pan.view(&start(), frame).unwrap();
-            (view.center_m().x - 3.0) * 2.0
+            let shift = (view.center_m() - start().center_m()) * start().px_per_m();
+            (shift.x, shift.y)
         };
-        assert_eq!([0, 1, 2, 3].map(shift_px), [0.0, 5.0, 7.375, 12.375]);
-        assert_eq!(shift_px(2 * TURN), 0.0);
+        let expected = [(0.0, 0.0), (5.0, 0.0), (8.0, 0.0), (13.0, 2.0), (13.0, 5.0)];
+        assert_eq!([0, 1, 2, 3, 4].map(shift_px), expected);
+        assert_eq!(shift_px(5), (18.0, 5.0));
+        assert_eq!(shift_px(2 * TURN), (0.0, 0.0));
         assert_eq!(shift_px(TURN + 1), shift_px(TURN - 1));
+        // Whoever keeps a picture by its view alone finds none before the turn.
+        for frame in 1..=TURN {
+            assert!((0..frame).all(|before| shift_px(before) != shift_px(frame)));
+        }
     }
 
     #[test]

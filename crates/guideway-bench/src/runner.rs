@@ -2,12 +2,13 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use guideway_render::{
-    Budget, Cancel, Frame, FrameSize, Method, Prepared, RenderError, Report, Style, View, Work,
-    elapsed_ms,
+    Budget, Cancel, Edited, Frame, FrameSize, Method, Prepared, RenderError, Report, Style, View,
+    Work, elapsed_ms,
 };
 use guideway_scene::Scene;
 
 use crate::Motion;
+use crate::edits::Edits;
 use crate::measured::Prepare;
 
 /// A method with a scene made ready.
@@ -26,8 +27,8 @@ pub(crate) struct Shot {
     pub(crate) view: View,
     /// What changes from frame to frame.
     pub(crate) motion: Motion,
-    /// The scene before and after an edit, which [`Motion::Edit`] shows in turn.
-    pub(crate) edits: Option<[Arc<Scene>; 2]>,
+    /// What [`Motion::Edit`] changes.
+    pub(crate) edits: Option<Edits>,
     /// How it looks.
     pub(crate) style: Style,
     /// How often.
@@ -47,14 +48,22 @@ pub(crate) struct Frames {
 
 /// One drawn frame.
 pub(crate) struct Sample {
-    /// Until the picture was complete where it was made, with `update_ms`.
+    /// Until the picture was complete where it was made, with the update.
     pub(crate) frame_ms: f64,
     /// Seen from outside.
     pub(crate) wall_ms: f64,
     /// Making the changed scene ready.
-    pub(crate) update_ms: Option<f64>,
+    pub(crate) update: Option<Update>,
     /// What the method says.
     pub(crate) report: Report,
+}
+
+/// Making a changed scene ready.
+#[derive(Clone, Copy)]
+pub(crate) struct Update {
+    pub(crate) ms: f64,
+    /// Brought to the device; none where all of the scene was made ready anew.
+    pub(crate) bytes: Option<u64>,
 }
 
 impl<'m> Runner<'m> {
@@ -106,24 +115,33 @@ impl<'m> Runner<'m> {
         cancel.check()?;
         let view = shot.motion.view(&shot.view, number)?;
         let started = Instant::now();
-        let update_ms = match &shot.edits {
-            // No method takes a changed scene yet: all of it is made ready again.
-            Some(scenes) => {
-                let scene = &scenes[(number + 1) % scenes.len()];
-                let (prepared, prepare) = prepare(self.method, scene, &self.budget)?;
-                self.prepared = prepared;
-                Some(prepare.ms)
-            }
-            None => None,
-        };
+        let edits = shot.edits.as_ref();
+        let update = edits.map(|edits| self.update(edits, number)).transpose()?;
         let report = self
             .prepared
             .render(&view, &shot.style, cancel, &mut self.frame)?;
         Ok(Sample {
-            frame_ms: report.frame_ms() + update_ms.unwrap_or(0.0),
+            frame_ms: report.frame_ms() + update.map_or(0.0, |update| update.ms),
             wall_ms: elapsed_ms(started),
-            update_ms,
+            update,
             report,
+        })
+    }
+
+    /// Changes the scene in place, or makes the changed one ready if the method cannot do that.
+    fn update(&mut self, edits: &Edits, number: usize) -> Result<Update, RenderError> {
+        let started = Instant::now();
+        if let Edited::InPlace { moved_bytes } = self.prepared.edit(edits.edit(number))? {
+            return Ok(Update {
+                ms: elapsed_ms(started),
+                bytes: Some(moved_bytes),
+            });
+        }
+        let (prepared, prepare) = prepare(self.method, edits.scene(number)?, &self.budget)?;
+        self.prepared = prepared;
+        Ok(Update {
+            ms: prepare.ms,
+            bytes: None,
         })
     }
 
@@ -142,4 +160,81 @@ fn prepare(
     let prepared = method.prepare(Arc::clone(scene), budget)?;
     let prepare = Prepare::new(prepared.preparation(), elapsed_ms(started));
     Ok((prepared, prepare))
+}
+
+#[cfg(test)]
+mod tests {
+    use guideway_cpu::Oracle;
+    use guideway_render::{MethodInfo, Preparation};
+
+    use super::*;
+    use crate::Dataset;
+
+    /// A method that takes a changed scene only by preparing it.
+    struct Anew;
+    struct PreparedAnew(Box<dyn Prepared>);
+
+    impl Method for Anew {
+        fn info(&self) -> MethodInfo {
+            Oracle.info()
+        }
+
+        fn plan_bytes(&self, scene: &Scene, budget: &Budget) -> u64 {
+            Oracle.plan_bytes(scene, budget)
+        }
+
+        fn prepare(
+            &self,
+            scene: Arc<Scene>,
+            budget: &Budget,
+        ) -> Result<Box<dyn Prepared>, RenderError> {
+            Ok(Box::new(PreparedAnew(Oracle.prepare(scene, budget)?)))
+        }
+    }
+
+    impl Prepared for PreparedAnew {
+        fn render(
+            &mut self,
+            view: &View,
+            style: &Style,
+            cancel: &Cancel,
+            frame: &mut Frame,
+        ) -> Result<Report, RenderError> {
+            self.0.render(view, style, cancel, frame)
+        }
+
+        fn preparation(&self) -> &Preparation {
+            self.0.preparation()
+        }
+    }
+
+    #[test]
+    fn an_edit_shows_in_turn_in_place_and_anew() {
+        let scene = Dataset::D1.scene(30);
+        let size = FrameSize::new(96, 54).unwrap();
+        let shot = Shot {
+            view: View::fit(size, scene.bounds()).unwrap(),
+            motion: Motion::Edit,
+            edits: Some(Edits::new(&scene, 0.5)),
+            style: Style::default(),
+            frames: Frames {
+                warmup: 0,
+                count: 1,
+                enough_ms: f64::INFINITY,
+            },
+        };
+        let cancel = Cancel::default();
+        let runner = |method| Runner::new(method, &scene, Budget::default()).unwrap();
+        let (mut in_place, mut anew) = (runner(&Oracle), runner(&Anew));
+        let before = in_place.picture(&shot.view, &shot.style, &cancel).unwrap();
+        let before = before.clone();
+        for number in 0..4 {
+            let sample = in_place.draw(&shot, number, &cancel).unwrap();
+            assert_eq!(sample.update.unwrap().bytes, Some(0));
+            let sample = anew.draw(&shot, number, &cancel).unwrap();
+            assert_eq!(sample.update.unwrap().bytes, None);
+            assert_eq!(in_place.frame == before, number % 2 == 1);
+            assert!(in_place.frame == anew.frame, "frame {number}");
+        }
+    }
 }

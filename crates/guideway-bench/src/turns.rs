@@ -54,6 +54,7 @@ struct Track {
     frame_ms: Vec<f64>,
     wall_ms: Vec<f64>,
     update_ms: Vec<f64>,
+    update_bytes: Option<u64>,
     stages: Vec<(&'static str, Clock, Vec<f64>)>,
     last: Report,
 }
@@ -76,6 +77,7 @@ impl Track {
             self.first = FrameTime {
                 ms: sample.frame_ms,
                 wall_ms: sample.wall_ms,
+                update_ms: sample.update.map(|update| update.ms),
             };
         } else if self.drawn > shot.frames.warmup || self.spent_ms > shot.frames.enough_ms {
             self.keep(sample);
@@ -88,7 +90,8 @@ impl Track {
     fn keep(&mut self, sample: Sample) {
         self.frame_ms.push(sample.frame_ms);
         self.wall_ms.push(sample.wall_ms);
-        self.update_ms.extend(sample.update_ms);
+        self.update_ms.extend(sample.update.map(|update| update.ms));
+        self.update_bytes = sample.update.and_then(|update| update.bytes);
         for stage in &sample.report.stages {
             let known = self
                 .stages
@@ -128,6 +131,7 @@ impl Track {
             frame_ms: summary(&self.frame_ms)?,
             wall_ms: summary(&self.wall_ms)?,
             update_ms: Summary::of(&self.update_ms),
+            update_bytes: self.update_bytes,
             stages: stages.collect::<Result<_, Fault>>()?,
             paths: PathCounts::from(report),
             lines: report.lines,

@@ -98,6 +98,10 @@ impl From<RenderError> for Failure {
                 "device",
                 "`--method cpu` needs no graphics device; `guideway methods` shows what there is",
             ),
+            RenderError::Edit(_) => (
+                "edit",
+                "`guideway check` names the paths that lie too far out to be moved",
+            ),
             RenderError::Cancelled => ("cancelled", "Run the command again"),
         };
         Self {

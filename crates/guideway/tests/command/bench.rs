@@ -68,6 +68,21 @@ fn methods_are_compared_in_text() {
 }
 
 #[test]
+fn edits_move_the_share_asked_for_and_one_path_at_the_least() {
+    for (moved, paths) in [(None, 1), (Some("10"), 6), (Some("100"), 60)] {
+        let mut args = vec!["--methods", "oracle", "--motion", "edit"];
+        args.extend(moved.iter().flat_map(|moved| ["--moved", moved]));
+        let said = stdout(&tiny(&args));
+        let counted = if paths == 1 { "path" } else { "paths" };
+        assert!(
+            said.contains(&format!(", {paths} {counted} moved each frame")),
+            "{said}"
+        );
+        assert!(said.contains("of the first; in place"), "{said}");
+    }
+}
+
+#[test]
 fn the_report_is_documented_and_the_same_in_a_file() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("bench.json");
@@ -91,6 +106,7 @@ fn the_report_is_documented_and_the_same_in_a_file() {
                 "view.px_per_m",
                 "memory_bytes",
                 "edit_share",
+                "edit_paths",
             ],
         );
         assert_eq!(report["motion"], motion);
@@ -100,11 +116,13 @@ fn the_report_is_documented_and_the_same_in_a_file() {
             assert_eq!(method["method"], name);
             assert_eq!(method["measured"]["frame_ms"]["count"], 2);
             assert_eq!(method["measured"]["paths"]["total"], 60);
-            assert_eq!(
-                method["measured"]["update_ms"].is_object(),
-                motion == "edit"
-            );
+            let (measured, is_edited) = (&method["measured"], motion == "edit");
+            assert_eq!(measured["update_ms"].is_object(), is_edited);
+            assert_eq!(measured["first_frame"]["update_ms"].is_number(), is_edited);
         }
+        // The oracle works on the scene itself: nothing is brought anywhere.
+        let bytes = methods[1]["measured"]["update_bytes"].as_u64();
+        assert_eq!(bytes, (motion == "edit").then_some(0));
         assert_eq!(methods[0]["ratio"], 1.0);
         let saved: Value = serde_json::from_str(&fs::read_to_string(&file).unwrap()).unwrap();
         assert_eq!(saved, report);
@@ -139,8 +157,8 @@ fn what_makes_no_sense_is_refused() {
     let file = file.to_str().unwrap();
     for args in [
         &["bench", file, "--paths", "5"][..],
-        &["bench", "--edit-share", "5"],
-        &["bench", "--motion", "edit", "--edit-share", "0"],
+        &["bench", "--moved", "5"],
+        &["bench", "--motion", "edit", "--moved", "0"],
         &["bench", "--methods", "nothing"],
         &["bench", "--frames", "0"],
         &["reproduce", "--methods", "nothing"],

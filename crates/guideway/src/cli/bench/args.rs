@@ -10,11 +10,14 @@ use crate::cli::{Failure, Output, input, values};
 
 /// Paths of a dataset unless told.
 const PATHS: usize = 10_000;
+/// Share of the paths that move unless told.
+const MOVED_PERCENT: f64 = 1.0;
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:\n  \
     guideway bench d1 --paths 100000 --methods grid,cpu\n  \
     guideway bench site.lif.json --motion pan --json\n  \
+    guideway bench d1 --paths 100000 --motion edit --moved 10\n  \
     guideway bench d2 --methods grid,grid+scan+radius+exit,tessellation --frames 60 -o d2.json")]
 pub(crate) struct Args {
     /// Layout file, or one of the datasets `d1` and `d2`
@@ -36,9 +39,9 @@ pub(crate) struct Args {
     /// What changes from frame to frame
     #[arg(long, default_value = "still")]
     motion: Move,
-    /// Share of the paths that `--motion edit` moves each frame, in percent [default: 10]
+    /// Share of the paths that `--motion edit` moves each frame, in percent [default: 1]
     #[arg(long, value_name = "PERCENT", value_parser = values::percent)]
-    edit_share: Option<f64>,
+    moved: Option<f64>,
     /// Size of the picture in pixels
     #[arg(long, value_name = "WxH", default_value = "1920x1080", value_parser = values::size)]
     size: FrameSize,
@@ -60,7 +63,7 @@ pub(crate) struct Args {
 enum Move {
     /// Nothing
     Still,
-    /// The view moves sideways, by whole and by part pixels
+    /// The view moves by whole pixels, as when it is dragged
     Pan,
     /// The view comes a little nearer each frame, and goes away again
     Zoom,
@@ -90,10 +93,10 @@ impl Args {
                 "Leave --paths out, or measure a dataset, such as `guideway bench d1 --paths 100000`",
             ));
         }
-        if self.edit_share.is_some() && self.motion != Move::Edit {
+        if self.moved.is_some() && self.motion != Move::Edit {
             return Err(Failure::arguments(
-                "--edit-share says how many paths move, which needs --motion edit",
-                "Add it, such as `--motion edit --edit-share 1`",
+                "--moved says how many paths move, which needs --motion edit",
+                "Add it, such as `--motion edit --moved 10`",
             ));
         }
         let scene = match self.dataset() {
@@ -114,7 +117,7 @@ impl Args {
                 Move::Zoom => Motion::Zoom,
                 Move::Edit => Motion::Edit,
             },
-            edit_share: self.edit_share.unwrap_or(10.0) / 100.0,
+            edit_share: self.moved.unwrap_or(MOVED_PERCENT) / 100.0,
             style: Style {
                 line_rule: match self.line_rule {
                     Rule::World => LineRule::default(),

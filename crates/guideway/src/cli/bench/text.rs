@@ -51,8 +51,8 @@ fn what(comparison: &Comparison) -> String {
         Motion::Pan => "the view pans".to_owned(),
         Motion::Zoom => "the view zooms".to_owned(),
         Motion::Edit => {
-            let percent = comparison.edit_share.unwrap_or(0.0) * 100.0;
-            format!("{percent} % of the paths move each frame")
+            let moved = comparison.edit_paths.unwrap_or(0) as u64;
+            format!("{} moved each frame", text::counted(moved, "path"))
         }
     };
     format!(
@@ -98,18 +98,29 @@ fn details(contestant: &Contestant) -> String {
     let device = contestant.device.as_deref().unwrap_or("");
     let mut text = format!("\n{} on {device}\n", contestant.row.method);
     text += &stages("preparing", &m.prepare.stages);
-    if let Some(update) = m.update_ms {
-        text += &format!(
-            "  changed scene: {} of each frame\n",
-            text::time(update.median)
-        );
-    }
+    text += &update(m);
     text += &stages("drawing", &m.stages);
     text += &counts(m);
     for note in &m.notes {
         text += &format!("  note: {note}\n");
     }
     text
+}
+
+fn update(m: &Measured) -> String {
+    let (Some(each), Some(first_ms)) = (m.update_ms, m.first_frame.update_ms) else {
+        return String::new();
+    };
+    let how = match m.update_bytes {
+        None => "made ready anew".to_owned(),
+        Some(0) => "in place".to_owned(),
+        Some(bytes) => format!("in place, {} brought to the device", text::bytes(bytes)),
+    };
+    format!(
+        "  changed scene: {} of each frame, {} of the first; {how}\n",
+        text::time(each.median),
+        text::time(first_ms)
+    )
 }
 
 fn stages(what: &str, stages: &[StageTime]) -> String {
