@@ -3,7 +3,7 @@
 use std::sync::{Arc, LazyLock};
 
 use guideway_gl::GlDevice;
-use guideway_gpu::{Gpu, Grid, GridOptions, Tiles};
+use guideway_gpu::{Gpu, Grid, GridOptions, Tiles, TilesOptions};
 use guideway_render::Method;
 
 use crate::compare::Tolerance;
@@ -90,7 +90,7 @@ pub fn grid(variant: &str) -> Result<Grid, String> {
 /// # Errors
 /// When its device is not here.
 pub fn tiles() -> Result<Tiles, String> {
-    Tiles::new(gpu()?)
+    Tiles::new(gpu()?, TilesOptions::default())
 }
 
 /// Every candidate, or what is missing for it.

@@ -11,4 +11,4 @@ mod tiles;
 
 pub use device::{Gpu, GpuOptions};
 pub use grid::{Antialias, Binning, Grid, GridOptions, PrefixSum};
-pub use tiles::Tiles;
+pub use tiles::{Tiles, TilesOptions};

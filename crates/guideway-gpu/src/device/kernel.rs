@@ -33,10 +33,7 @@ impl Kernel {
         let what = format!("the shader `{}` cannot be compiled", source.name);
         let device = &gpu.device;
         gpu.checked(&what, || {
-            let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-                label: Some(source.name),
-                source: wgpu::ShaderSource::Wgsl(source.wgsl.into()),
-            });
+            let module = module(gpu, source);
             let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
                 label: Some(source.name),
                 layout: None,
@@ -74,5 +71,29 @@ impl Kernel {
         };
         let group = gpu.checked(self.name, || gpu.device.create_bind_group(&descriptor))?;
         Ok(Bindings(group))
+    }
+}
+
+/// Compiles a shader, without checks of every access while it runs: they cost a fifth of a frame
+/// (docs/performance.md).
+#[allow(
+    unsafe_code,
+    reason = "wgpu trusts a shader only so: those of this crate bound every index by a count that they are \
+              given or have found themselves, and every loop by such a count, and a test draws the same bits \
+              with all checks"
+)]
+fn module(gpu: &Gpu, source: &Source) -> wgpu::ShaderModule {
+    let descriptor = wgpu::ShaderModuleDescriptor {
+        label: Some(source.name),
+        source: wgpu::ShaderSource::Wgsl(source.wgsl.into()),
+    };
+    if gpu.options.has_checked_shaders {
+        return gpu.device.create_shader_module(descriptor);
+    }
+    let unchecked = wgpu::ShaderRuntimeChecks::unchecked();
+    // SAFETY: see above; shaders are constants of this crate, none comes from outside.
+    unsafe {
+        gpu.device
+            .create_shader_module_trusted(descriptor, unchecked)
     }
 }

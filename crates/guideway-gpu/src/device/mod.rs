@@ -3,6 +3,7 @@
 mod adapter;
 mod kernel;
 mod memory;
+mod patch;
 mod runner;
 
 use std::sync::{Arc, Mutex, PoisonError};
@@ -11,6 +12,7 @@ use wgpu::{DeviceType, ErrorFilter};
 
 pub(crate) use kernel::{Bindings, Kernel, Source};
 pub(crate) use memory::{DeviceBuffer, Held, Memory};
+pub(crate) use patch::{Patch, Patcher};
 pub(crate) use runner::{Dispatch, FETCHED, Runner};
 
 /// What a device is asked to do with less than it could: for tests, and to stand in for a weaker one.
@@ -22,6 +24,8 @@ pub struct GpuOptions {
     pub workgroups_per_dimension: Option<u32>,
     /// Most times that a thread goes round its loops; as many as are safe if none.
     pub rounds_a_thread: Option<u32>,
+    /// Have every access of a shader checked while it runs.
+    pub has_checked_shaders: bool,
     /// Do not use the device's clock, as if it had none.
     pub without_clock: bool,
 }

@@ -82,9 +82,32 @@ impl Runner {
         buffer: &DeviceBuffer,
         value: &T,
     ) -> Result<(), String> {
-        let bytes = bytemuck::bytes_of(value);
+        self.set_all(what, buffer, std::slice::from_ref(value))
+    }
+
+    /// As [`Self::set`], for the first of many values.
+    pub(crate) fn set_all<T: bytemuck::NoUninit>(
+        &self,
+        what: &'static str,
+        buffer: &DeviceBuffer,
+        values: &[T],
+    ) -> Result<(), String> {
+        let bytes = bytemuck::cast_slice(values);
         self.gpu
             .checked(what, || self.gpu.queue.write_buffer(buffer.raw(), 0, bytes))
+    }
+
+    /// Submits dispatches without waiting for them: what is submitted later comes after them.
+    pub(crate) fn start(
+        &self,
+        what: &'static str,
+        dispatches: &[Dispatch<'_>],
+    ) -> Result<(), String> {
+        self.gpu.checked(what, || {
+            let mut encoder = self.encoder(what);
+            self.encode(&mut encoder, what, dispatches, None);
+            self.gpu.queue.submit([encoder.finish()]);
+        })
     }
 
     /// Runs dispatches one after the other, each seeing what those before it wrote. Returns milliseconds.
@@ -113,7 +136,7 @@ impl Runner {
                 encoder.clear_buffer(buffer.raw(), 0, None);
             }
             for ((name, dispatches), stage) in stages.iter().zip(0..) {
-                self.encode(&mut encoder, name, dispatches, stage);
+                self.encode(&mut encoder, name, dispatches, Some(stage));
             }
             if let Some(clock) = &self.clock {
                 let (resolved, fetched) = (clock.resolved.raw(), clock.fetched.raw());
@@ -150,10 +173,10 @@ impl Runner {
         encoder: &mut wgpu::CommandEncoder,
         name: &str,
         dispatches: &[Dispatch<'_>],
-        stage: u32,
+        timed: Option<u32>,
     ) {
-        let clock = self.clock.as_ref();
-        let timestamp_writes = clock.map(|clock| wgpu::ComputePassTimestampWrites {
+        let clock = self.clock.as_ref().zip(timed);
+        let timestamp_writes = clock.map(|(clock, stage)| wgpu::ComputePassTimestampWrites {
             query_set: &clock.ticks,
             beginning_of_pass_write_index: Some(2 * stage),
             end_of_pass_write_index: Some(2 * stage + 1),

@@ -35,8 +35,8 @@ impl Canvas {
             size.width().div_ceil(TILE_PX),
             size.height().div_ceil(TILE_PX),
         );
-        let row_pixels = u64::from(size.width()) * u64::from(TILE_PX);
-        let fit = gpu.binding_bytes() / (row_pixels * WORD_BYTES).max(1);
+        let row_bytes = u64::from(size.width()) * u64::from(TILE_PX) * WORD_BYTES;
+        let fit = gpu.binding_bytes() / row_bytes.max(1);
         let fit = fit.min(u64::from(gpu.most_workgroups() / columns));
         if fit == 0 {
             return Err(RenderError::Unsupported {
@@ -47,10 +47,10 @@ impl Canvas {
         }
         let band_rows = rows.min(u32::try_from(fit).unwrap_or(u32::MAX));
         let tiles = u64::from(columns) * u64::from(band_rows);
-        let pixels_bytes = row_pixels * u64::from(band_rows) * WORD_BYTES;
         let uniform = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
         let storage = BufferUsages::STORAGE;
         let list = "the list of tiles";
+        let fetched_bytes = row_bytes * u64::from(band_rows);
         Ok(Self {
             size,
             columns,
@@ -60,12 +60,24 @@ impl Canvas {
             counts: memory.zeros(list, tiles * WORD_BYTES, storage | BufferUsages::COPY_DST)?,
             starts: memory.zeros(list, (tiles + 1) * WORD_BYTES, storage)?,
             filled: memory.zeros(list, tiles * WORD_BYTES, storage)?,
-            pixels: memory.zeros(
-                "the picture",
-                pixels_bytes,
-                storage | BufferUsages::COPY_SRC,
-            )?,
-            fetched: memory.zeros("the picture", pixels_bytes, FETCHED)?,
+            pixels: pixels(memory, size, band_rows)?,
+            fetched: memory.zeros("the picture", fetched_bytes, FETCHED)?,
         })
     }
+
+    /// Whether all of the picture is held at once.
+    pub(super) fn is_whole(&self) -> bool {
+        self.band_rows == self.rows
+    }
+
+    /// Another buffer for the pixels.
+    pub(super) fn more_pixels(&self, memory: &mut Memory) -> Result<DeviceBuffer, RenderError> {
+        pixels(memory, self.size, self.band_rows)
+    }
+}
+
+fn pixels(memory: &mut Memory, size: FrameSize, rows: u32) -> Result<DeviceBuffer, RenderError> {
+    let pixels = u64::from(size.width()) * u64::from(TILE_PX) * u64::from(rows);
+    let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC;
+    memory.zeros("the picture", pixels * WORD_BYTES, usage)
 }

@@ -1,8 +1,9 @@
 //! The shaders of a frame, compiled.
 
 use super::params::{
-    BATCH, CLUSTER_STROKES, COLUMNS, COVER, CULL, FLATTEN, LAYERS, Layers, SAMPLE_ROWS, SCATTER,
-    SORT, STARTS, STARTS_THREADS, Samples, TILE_PX, TILE_THREADS, WORKGROUP,
+    BATCH, CLUSTER_POINTS, CLUSTER_STROKES, COLUMNS, COVER, CULL, FLATTEN, LAYERS, Layers,
+    SAMPLE_ROWS, SCATTER, SHIFT, SORT, STARTS, STARTS_THREADS, Samples, TILE_PX, TILE_THREADS,
+    WORKGROUP,
 };
 use crate::device::{Gpu, Kernel};
 
@@ -12,6 +13,7 @@ pub(super) struct Kernels {
     pub(super) starts: Kernel,
     pub(super) scatter: Kernel,
     pub(super) sort: Kernel,
+    pub(super) shift: Kernel,
     /// Coarse and fine.
     painters: [Painters; 2],
 }
@@ -26,15 +28,19 @@ pub(super) struct Painters {
 
 impl Kernels {
     pub(super) fn new(gpu: &Gpu) -> Result<Self, String> {
+        let tile = constant("TILE_PX", TILE_PX);
         let workgroup = constant("WORKGROUP", WORKGROUP);
         let strokes = constant("STROKES", CLUSTER_STROKES);
-        let tile = constant("TILE_PX", TILE_PX);
+        let points = constant("POINTS", CLUSTER_POINTS);
+        let starts_threads = constant("THREADS", STARTS_THREADS);
+        let tile_threads = constant("THREADS", TILE_THREADS);
         Ok(Self {
-            cull: Kernel::new(gpu, &CULL, &[workgroup, strokes])?,
-            flatten: Kernel::new(gpu, &FLATTEN, &[strokes, tile])?,
-            starts: Kernel::new(gpu, &STARTS, &[constant("THREADS", STARTS_THREADS)])?,
-            scatter: Kernel::new(gpu, &SCATTER, &[workgroup, tile])?,
-            sort: Kernel::new(gpu, &SORT, &[constant("THREADS", TILE_THREADS)])?,
+            cull: Kernel::new(gpu, &CULL, &[tile, workgroup])?,
+            flatten: Kernel::new(gpu, &FLATTEN, &[tile, strokes, points])?,
+            starts: Kernel::new(gpu, &STARTS, &[tile, starts_threads])?,
+            scatter: Kernel::new(gpu, &SCATTER, &[tile, workgroup])?,
+            sort: Kernel::new(gpu, &SORT, &[tile, tile_threads])?,
+            shift: Kernel::new(gpu, &SHIFT, &[constant("THREADS", WORKGROUP)])?,
             painters: [
                 Painters::new(gpu, Samples::Coarse)?,
                 Painters::new(gpu, Samples::Fine)?,

@@ -1,17 +1,24 @@
 //! Every frame from the control points: curves become lines by an error bound, lines are listed by the tiles
 //! that they touch, and each tile finds which of its samples are covered. docs/method-gpu.md has the whole.
 //!
-//! The folder in the order of the data: `pack` brings the scene to the device, `shot` is a view, `room` holds the
-//! lines that a frame finds, `canvas` its tiles and pixels, `passes` the work between them, `prepared` draws.
+//! The folder in the order of the data: `pack` makes of the scene what the device reads, `store` holds it there and
+//! `edit` changes it, `shot` is a view and `window` a part of its picture, `room` holds the lines that a frame
+//! finds, `canvas` its tiles and pixels, `bound` the work between them, `prepared` draws, and `kept` is what it need
+//! not draw again.
 
+mod bound;
 mod canvas;
+mod edit;
+mod kept;
 mod kernels;
 mod pack;
 mod params;
-mod passes;
 mod prepared;
+mod ranks;
 mod room;
 mod shot;
+mod store;
+mod window;
 
 use std::sync::Arc;
 
@@ -28,10 +35,24 @@ const NAME: &str = "gpu";
 #[derive(Clone)]
 pub struct Tiles(Arc<Shared>);
 
+/// What may be left out, for comparison.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TilesOptions {
+    /// Whether finished pixels are kept from frame to frame where they are still right.
+    pub keeps: bool,
+}
+
+impl Default for TilesOptions {
+    fn default() -> Self {
+        Self { keeps: true }
+    }
+}
+
 /// What all scenes share.
 struct Shared {
     gpu: Arc<Gpu>,
     kernels: Kernels,
+    options: TilesOptions,
 }
 
 impl Tiles {
@@ -39,10 +60,11 @@ impl Tiles {
     ///
     /// # Errors
     /// When the device does not take the shaders: a sentence with its reason.
-    pub fn new(gpu: Arc<Gpu>) -> Result<Self, String> {
+    pub fn new(gpu: Arc<Gpu>, options: TilesOptions) -> Result<Self, String> {
         Ok(Self(Arc::new(Shared {
             kernels: Kernels::new(&gpu)?,
             gpu,
+            options,
         })))
     }
 }

@@ -4,12 +4,16 @@ use bytemuck::{Pod, Zeroable};
 
 use crate::device::Source;
 
-/// Strokes of a cluster: a workgroup flattens one.
+/// Most strokes of a cluster: a workgroup flattens one, a thread a stroke.
 pub(super) const CLUSTER_STROKES: u32 = 64;
+/// Most control points of a cluster: they are held where the workgroup shares them.
+pub(super) const CLUSTER_POINTS: u32 = 1024;
 /// Most segments of a stroke: a bit each in one word.
 pub(super) const STROKE_SEGMENTS: usize = 32;
-/// Set in [`Stroke::segments`] of a stroke that is a whole path.
+/// Set in [`Stroke::extent`] of a stroke that is a whole path.
 pub(super) const WHOLE_PATH: u32 = 1 << 31;
+/// Where the number of segments begins in [`Stroke::extent`].
+pub(super) const SEGMENTS_BIT: u32 = 16;
 /// Threads of a workgroup that goes over clusters or lines.
 pub(super) const WORKGROUP: u32 = 64;
 /// Threads of the one workgroup that finds where lists start.
@@ -48,20 +52,40 @@ pub(super) struct FrameParams {
     pub(super) most_radius_px: f32,
     pub(super) tolerance_px: f32,
     pub(super) clusters: u32,
-    pub(super) strokes: u32,
+    pub(super) styles: u32,
     pub(super) width_px: u32,
     pub(super) height_px: u32,
+    pub(super) first_column: u32,
     pub(super) columns: u32,
     pub(super) first_row: u32,
     pub(super) rows: u32,
+    pub(super) pixels_row: u32,
     pub(super) line_room: u32,
     pub(super) reference_room: u32,
     pub(super) color: u32,
     pub(super) background: u32,
 }
 
+/// `Chunk` of `flatten.wgsl`.
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub(super) struct ChunkParams {
+    pub(super) first_cluster: u32,
+    pub(super) end_cluster: u32,
+}
+
+/// `Shift` of `shift.wgsl`.
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub(super) struct ShiftParams {
+    pub(super) width_px: u32,
+    pub(super) height_px: u32,
+    pub(super) right_px: i32,
+    pub(super) down_px: i32,
+}
+
 /// `Cluster` of `cluster.wgsl`.
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 #[repr(C)]
 pub(super) struct Cluster {
     pub(super) origin_high_m: [f32; 2],
@@ -69,22 +93,46 @@ pub(super) struct Cluster {
     pub(super) low_m: [f32; 2],
     pub(super) high_m: [f32; 2],
     pub(super) widest_m: f32,
+    pub(super) first_point: u32,
+    pub(super) points: u32,
+    pub(super) first_stroke: u32,
+    pub(super) strokes: u32,
     pub(super) padding: u32,
 }
 
 /// `Stroke` of `stroke.wgsl`.
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub(super) struct Stroke {
-    pub(super) first_point: u32,
-    pub(super) segments: u32,
+    pub(super) extent: u32,
     pub(super) rank: u32,
-    pub(super) color: u32,
-    pub(super) width_m: f32,
-    pub(super) padding: u32,
 }
 
-/// `Found` of `frame.wgsl`.
+impl Stroke {
+    pub(super) fn first_point(self) -> u32 {
+        self.extent & 0xffff
+    }
+
+    /// Whether it is all of a path that is drawn.
+    pub(super) fn is_whole_path(self) -> bool {
+        self.extent & WHOLE_PATH != 0
+    }
+
+    /// Control points of a stroke that is drawn.
+    pub(super) fn points(self) -> u32 {
+        ((self.extent & !WHOLE_PATH) >> SEGMENTS_BIT) + 3
+    }
+}
+
+/// `Style` of `style.wgsl`.
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub(super) struct PathStyle {
+    pub(super) color: u32,
+    pub(super) width_m: f32,
+}
+
+/// `Counters` of `frame.wgsl`.
 #[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
 #[repr(C)]
 pub(super) struct Found {
@@ -119,7 +167,7 @@ macro_rules! tiles {
                 $samples,
                 "u;\n",
                 wgsl!(
-                    "frame", "view", "stroke", "width", "walk", "capsule", "tile", "blend", $file
+                    "frame", "view", "style", "walk", "capsule", "tile", "blend", $file
                 )
             ),
             bindings: TILE_BINDINGS,
@@ -130,23 +178,24 @@ macro_rules! tiles {
 pub(super) const CULL: Source = Source {
     name: "cull",
     wgsl: wgsl!("frame", "view", "cluster", "cull"),
-    bindings: &["frame", "clusters", "found", "seen"],
+    bindings: &["frame", "clusters", "found"],
 };
 
 pub(super) const FLATTEN: Source = Source {
     name: "flatten",
     wgsl: wgsl!(
-        "frame", "view", "cluster", "stroke", "curve", "walk", "flatten"
+        "frame", "view", "cluster", "stroke", "style", "curve", "walk", "flatten"
     ),
     bindings: &[
         "frame",
+        "chunk",
         "points_m",
         "strokes",
         "clusters",
-        "seen",
+        "styles",
         "found",
         "lines_px",
-        "line_strokes",
+        "line_ranks",
         "counts",
     ],
 };
@@ -159,13 +208,13 @@ pub(super) const STARTS: Source = Source {
 
 pub(super) const SCATTER: Source = Source {
     name: "scatter",
-    wgsl: wgsl!("frame", "view", "stroke", "width", "walk", "scatter"),
+    wgsl: wgsl!("frame", "view", "style", "walk", "scatter"),
     bindings: &[
         "frame",
         "found",
         "lines_px",
-        "line_strokes",
-        "strokes",
+        "line_ranks",
+        "styles",
         "filled",
         "references",
     ],
@@ -173,8 +222,14 @@ pub(super) const SCATTER: Source = Source {
 
 pub(super) const SORT: Source = Source {
     name: "sort",
-    wgsl: wgsl!("frame", "stroke", "sort"),
-    bindings: &["frame", "starts", "references", "line_strokes", "strokes"],
+    wgsl: wgsl!("frame", "sort"),
+    bindings: &["frame", "starts", "references", "line_ranks"],
+};
+
+pub(super) const SHIFT: Source = Source {
+    name: "shift",
+    wgsl: wgsl!("shift"),
+    bindings: &["shift", "old_pixels", "pixels"],
 };
 
 const TILE_BINDINGS: &[&str] = &[
@@ -182,8 +237,8 @@ const TILE_BINDINGS: &[&str] = &[
     "starts",
     "references",
     "lines_px",
-    "line_strokes",
-    "strokes",
+    "line_ranks",
+    "styles",
     "pixels",
 ];
 

@@ -1,53 +1,82 @@
+use std::collections::BTreeSet;
 use std::ops::Range;
 use std::sync::Arc;
 use std::time::Instant;
 
 use guideway_render::{
-    Budget, Cancel, Frame, Preparation, Prepared, RenderError, Report, Shading, Stage, Style, View,
-    density, elapsed_ms,
+    Budget, Cancel, Edited, Frame, Preparation, Prepared, RenderError, Report, Shading, Stage,
+    Style, View, density, elapsed_ms,
 };
-use guideway_scene::Scene;
+use guideway_scene::{Edit, Scene};
 use guideway_spline::Bounds;
-use wgpu::BufferUsages;
 
+use super::bound::{Bound, Buffers, Paint};
 use super::canvas::Canvas;
+use super::edit::Places;
+use super::kept::{Kept, Shifter};
 use super::pack::Packed;
-use super::params::{Found, FrameParams, Stroke, TILE_PX};
-use super::passes::{Bound, Paint, Store};
+use super::params::{Found, Stroke, TILE_PX};
+use super::ranks::Ranks;
 use super::room::{Room, Size};
 use super::shot::Shot;
+use super::store::{Store, all_parts, is_plain};
+use super::window::Window;
 use super::{NAME, Shared};
-use crate::device::{DeviceBuffer, FETCHED, Memory, Runner};
+use crate::device::{DeviceBuffer, FETCHED, Memory, Patcher, Runner};
 
 /// Largest frame that is planned for.
 const PLANNED_PIXELS: u64 = 3840 * 2160;
 
 /// A scene on the device, and the buffers of the last frame.
 pub(super) struct PreparedTiles {
-    shared: Arc<Shared>,
-    scene: Arc<Scene>,
-    memory: Memory,
-    runner: Runner,
+    pub(super) shared: Arc<Shared>,
+    pub(super) scene: Arc<Scene>,
+    pub(super) memory: Memory,
+    pub(super) runner: Runner,
     /// None if nothing is drawn.
-    store: Option<Store>,
-    found: DeviceBuffer,
+    pub(super) store: Option<Store>,
     found_fetched: DeviceBuffer,
-    paint: Paint,
-    facts: Facts,
+    pub(super) facts: Facts,
     /// Paths of several strokes, which the device does not count.
-    parted: Vec<u32>,
+    pub(super) parted: BTreeSet<u32>,
+    /// Where paths are; found out when one changes.
+    pub(super) places: Option<Places>,
+    pub(super) patcher: Option<Patcher>,
     room: Option<Room>,
-    canvas: Option<Canvas>,
+    pub(super) canvas: Option<Canvas>,
+    /// For the buffers above; none once one of them is another.
+    pub(super) bound: Option<Bound>,
+    /// What the canvas shows, if it is a finished picture of the scene as it is.
+    pub(super) kept: Option<Kept>,
+    pub(super) shifter: Option<Shifter>,
     preparation: Preparation,
 }
 
-/// What the processor needs to know of what it packed.
+/// What the processor needs to know of the scene in every frame.
 #[derive(Clone, Copy)]
 pub(super) struct Facts {
-    pub(super) strokes: u32,
     pub(super) clusters: u32,
+    pub(super) styles: u32,
+    /// Greatest distance of a control point from its cluster's origin, along an axis.
     pub(super) reach_m: f64,
     pub(super) has_widths: bool,
+    /// One colour, and no widths.
+    pub(super) is_plain: bool,
+    paint: Paint,
+}
+
+impl Facts {
+    fn of(scene: &Scene) -> Self {
+        let drawn = scene.draw_order().iter();
+        Self {
+            clusters: 0,
+            styles: 0,
+            reach_m: 0.0,
+            has_widths: drawn.into_iter().any(|&path| scene.width_m(path).is_some()),
+            is_plain: is_plain(scene),
+            paint: Paint::of(scene),
+        }
+    }
 }
 
 /// See [`guideway_render::Method::plan_bytes`].
@@ -69,65 +98,123 @@ impl PreparedTiles {
     ) -> Result<Self, RenderError> {
         let mut memory = Memory::new(Arc::clone(&shared.gpu), NAME, budget);
         let runner = Runner::new(Arc::clone(&shared.gpu), &mut memory)?;
-        let start = Instant::now();
-        let packed = Packed::of(&scene);
-        let packed_ms = elapsed_ms(start);
-        let start = Instant::now();
-        let store = Store::new(&shared.gpu, &mut memory, &packed)?;
-        let uploaded_ms = elapsed_ms(start);
         let found_bytes = size_of::<Found>() as u64;
-        let counters = BufferUsages::STORAGE | BufferUsages::COPY_SRC | BufferUsages::COPY_DST;
-        let found = memory.zeros("the counters", found_bytes, counters)?;
         let found_fetched = memory.zeros("the counters", found_bytes, FETCHED)?;
-        Ok(Self {
-            paint: Paint::of(&scene),
-            facts: Facts {
-                strokes: packed.strokes.len() as u32,
-                clusters: packed.clusters.len() as u32,
-                reach_m: packed.reach_m,
-                has_widths: packed.has_widths,
-            },
-            parted: packed.parted,
+        let mut prepared = Self {
+            facts: Facts::of(&scene),
+            parted: BTreeSet::new(),
+            places: None,
+            patcher: None,
             shared,
             scene,
-            preparation: Preparation {
-                stages: vec![
-                    Stage::host("pack", packed_ms),
-                    Stage::host("upload", uploaded_ms),
-                ],
-                held_bytes: memory.held_bytes(),
-                peak_bytes: memory.take_peak_bytes(),
-                ..Preparation::default()
-            },
+            preparation: Preparation::default(),
             memory,
             runner,
-            store,
-            found,
+            store: None,
             found_fetched,
             room: None,
             canvas: None,
-        })
+            bound: None,
+            kept: None,
+            shifter: None,
+        };
+        prepared.bring()?;
+        Ok(prepared)
+    }
+
+    /// Brings the scene to the device, in place of what is there.
+    pub(super) fn bring(&mut self) -> Result<(), RenderError> {
+        (self.store, self.places) = (None, None);
+        self.unbind();
+        self.facts = Facts::of(&self.scene);
+        let start = Instant::now();
+        let ranks = Ranks::of(&self.scene);
+        let parts = all_parts(&self.scene, &ranks);
+        self.parted = parts
+            .iter()
+            .filter(|p| !p.is_whole)
+            .map(|p| p.path)
+            .collect();
+        let packed = Packed::of(&self.scene, parts);
+        let reach_m = packed.clusters.iter().map(|c| f64::from(c.reach_m()));
+        self.facts.reach_m = reach_m.fold(0.0, f64::max);
+        let packed_ms = elapsed_ms(start);
+        let start = Instant::now();
+        let gpu = &self.shared.gpu;
+        self.store = Store::new(gpu, &mut self.memory, &self.scene, packed, ranks)?;
+        if let Some(store) = &self.store {
+            self.facts.clusters = store.cluster_list.len() as u32;
+            self.facts.styles = store.style_count;
+        }
+        self.set_chunks()?;
+        self.preparation = Preparation {
+            stages: vec![
+                Stage::host("pack", packed_ms),
+                Stage::host("upload", elapsed_ms(start)),
+            ],
+            held_bytes: self.memory.held_bytes(),
+            peak_bytes: self.memory.take_peak_bytes(),
+            ..Preparation::default()
+        };
+        Ok(())
+    }
+
+    /// Tells the device which clusters each chunk has.
+    pub(super) fn set_chunks(&self) -> Result<(), RenderError> {
+        for chunk in self.store.iter().flat_map(|store| &store.chunks) {
+            let set = self
+                .runner
+                .set("the clusters", &chunk.params, &chunk.params());
+            set.map_err(|what| self.memory.trouble(what))?;
+        }
+        Ok(())
+    }
+
+    /// After colours, widths or states have changed.
+    pub(super) fn look_anew(&mut self) {
+        let facts = Facts::of(&self.scene);
+        self.facts = Facts {
+            clusters: self.facts.clusters,
+            styles: self.facts.styles,
+            reach_m: self.facts.reach_m,
+            ..facts
+        };
+    }
+
+    /// After one of the buffers that a frame binds has become another.
+    pub(super) fn unbind(&mut self) {
+        self.bound = None;
+        if let Some(shifter) = &mut self.shifter {
+            shifter.bound = None;
+        }
     }
 
     /// Has buffers for pictures of this size, and room for lines.
     fn make_ready(&mut self, view: &View) -> Result<(), RenderError> {
-        let gpu = &self.shared.gpu;
         if self.canvas.as_ref().is_none_or(|c| c.size != view.size()) {
-            self.canvas = None;
+            (self.canvas, self.kept, self.shifter) = (None, None, None);
+            self.unbind();
+            let gpu = &self.shared.gpu;
             self.canvas = Some(Canvas::new(gpu, &mut self.memory, view.size())?);
         }
         if self.room.is_none() {
-            let size = Size::first(self.facts.strokes).within(gpu, &self.memory);
+            self.unbind();
+            let strokes = self
+                .store
+                .as_ref()
+                .map_or(0, |s| s.stroke_list.len() as u32);
+            let size = Size::first(strokes).within(&self.shared.gpu, &self.memory);
             self.room = Some(Room::new(&mut self.memory, size)?);
         }
         Ok(())
     }
 
-    /// Draws rows of tiles, and says what was found: all of it may not have fitted.
+    /// Draws a window of tiles, and says what was found: all of it may not have fitted.
     fn draw(
-        &self,
+        &mut self,
         shot: &Shot<'_>,
-        rows: &Range<u32>,
+        window: &Window,
+        first_row: u32,
         stages: &mut Vec<Stage>,
     ) -> Result<Found, RenderError> {
         let (Some(store), Some(room), Some(canvas)) = (&self.store, &self.room, &self.canvas)
@@ -135,36 +222,41 @@ impl PreparedTiles {
             return Ok(Found::default());
         };
         let trouble = |what| self.memory.trouble(what);
-        let gpu = &self.shared.gpu;
-        let params: FrameParams = shot.params(canvas, room, rows);
-        let bound = Bound {
-            gpu,
+        let params = shot.params(canvas, room, window, first_row);
+        let buffers = Buffers {
+            gpu: &self.shared.gpu,
             kernels: &self.shared.kernels,
             store,
             room,
             canvas,
-            found: &self.found,
         };
         let paint = match shot.style.shading {
-            Shading::Color => self.paint,
+            Shading::Color => self.facts.paint,
             Shading::Density(_) => Paint::Density,
+        };
+        let samples = shot.samples();
+        let bound = match self
+            .bound
+            .take()
+            .filter(|bound| bound.is_for(paint, samples))
+        {
+            Some(bound) => bound,
+            None => Bound::new(&buffers, paint, samples).map_err(trouble)?,
         };
         let set = self.runner.set("the view", &canvas.frame, &params);
         set.map_err(trouble)?;
-        let passes = bound
-            .passes(&params, paint, shot.samples())
-            .map_err(trouble)?;
-        let run = passes.run(&self.runner, &[&self.found, &canvas.counts]);
+        let run = bound.run(&buffers, &params, &self.runner);
         merge(stages, run.map_err(trouble)?);
         let mut found = Found::default();
         let fetched = self.runner.fetch(
             "the counters",
-            &self.found,
+            &store.found,
             &self.found_fetched,
             size_of::<Found>() as u64,
             |bytes| bytemuck::bytes_of_mut(&mut found).copy_from_slice(bytes),
         );
         fetched.map_err(trouble)?;
+        self.bound = Some(bound);
         self.check_rounds(&found, paint)?;
         Ok(found)
     }
@@ -190,6 +282,7 @@ impl PreparedTiles {
         let Some(room) = self.room.take() else {
             return Ok(false);
         };
+        self.unbind();
         let (old, size) = (room.size, room.size.for_found(found));
         drop(room);
         let fits = size.fits(&self.shared.gpu) && size.bytes() <= self.memory.spare_bytes();
@@ -198,6 +291,36 @@ impl PreparedTiles {
         Ok(fits)
     }
 
+    /// Draws windows, the first ones first, in halves where there is no room for all that is found.
+    fn draw_windows(
+        &mut self,
+        shot: &Shot<'_>,
+        mut windows: Vec<Window>,
+        first_row: u32,
+        cancel: &Cancel,
+        drawing: &mut Drawing,
+    ) -> Result<(), RenderError> {
+        windows.reverse();
+        while let Some(window) = windows.pop() {
+            cancel.check()?;
+            let found = self.draw(shot, &window, first_row, &mut drawing.stages)?;
+            if self.room.as_ref().is_some_and(|r| r.size.holds(&found)) {
+                drawing.lines += u64::from(found.lines);
+                drawing.drawn = found.drawn;
+                drawing.windows += 1;
+            } else if self.grow(&found)? {
+                windows.push(window);
+            } else if let Some([first, second]) = window.halves() {
+                windows.extend([second, first]);
+            } else {
+                let size = Size::first(0).for_found(&found);
+                return Err(size.refused(&self.memory));
+            }
+        }
+        Ok(())
+    }
+
+    /// Fetches the first rows of pixels of the canvas.
     fn fetch(
         &self,
         rows_px: u32,
@@ -214,66 +337,86 @@ impl PreparedTiles {
             .runner
             .fetch(what, &canvas.pixels, &canvas.fetched, bytes, take);
         fetched.map_err(|what| self.memory.trouble(what))?;
-        merge(
-            stages,
-            vec![Stage::host(Stage::READ_BACK, elapsed_ms(start))],
-        );
+        let read = Stage::host(Stage::READ_BACK, elapsed_ms(start));
+        merge(stages, vec![read]);
         Ok(())
     }
 
-    /// Draws all rows of tiles, in as many bands as it takes; `take` gets the bytes of the rows of pixels of
-    /// each. Returns what the first band found, and the number of bands.
-    fn draw_bands(
+    /// Draws the picture, or what of it came into view; `take` gets the bytes of rows of pixels.
+    fn draw_all(
         &mut self,
         shot: &Shot<'_>,
         cancel: &Cancel,
-        stages: &mut Vec<Stage>,
-        mut take: impl FnMut(Range<u32>, &[u8]),
-    ) -> Result<(Found, u32), RenderError> {
-        let (all_rows, mut band_rows) = match &self.canvas {
-            Some(canvas) => (canvas.rows, canvas.band_rows),
-            None => (0, 1),
+        mut take: impl FnMut(Range<usize>, &[u8]),
+    ) -> Result<Drawing, RenderError> {
+        let mut drawing = Drawing::default();
+        let Some(canvas) = &self.canvas else {
+            return Ok(drawing);
         };
-        let (mut first, mut bands, mut in_all) = (0, 0, Found::default());
-        while first < all_rows {
-            cancel.check()?;
-            let rows = first..all_rows.min(first + band_rows);
-            let found = self.draw(shot, &rows, stages)?;
-            if self.room.as_ref().is_some_and(|r| !r.size.holds(&found)) {
-                if !self.grow(&found)? {
-                    if band_rows == 1 {
-                        let size = Size::first(0).for_found(&found);
-                        return Err(size.refused(&self.memory));
-                    }
-                    band_rows = band_rows.min(rows.end - rows.start).div_ceil(2);
-                }
-                continue;
+        let (columns, rows, band_rows) = (canvas.columns, canvas.rows, canvas.band_rows);
+        let size = shot.view.size();
+        let moved = self.move_kept(shot, &mut drawing.stages)?;
+        let mut next = Kept::new(shot.view, shot.style);
+        for first_row in (0..rows).step_by(band_rows as usize) {
+            let end_row = rows.min(first_row + band_rows);
+            let mut windows = vec![Window {
+                columns: 0..columns,
+                rows: first_row..end_row,
+            }];
+            if let Some(moved) = &moved {
+                (windows, next) = (moved.windows.clone(), moved.kept);
+                drawing.is_part = true;
             }
-            let rows_px = shot.rows_px(&rows);
-            self.fetch(rows_px.end - rows_px.start, stages, |bytes| {
-                take(rows_px, bytes);
+            self.draw_windows(shot, windows, first_row, cancel, &mut drawing)?;
+            let rows_px = first_row * TILE_PX..size.height().min(end_row * TILE_PX);
+            let pixels =
+                (rows_px.start * size.width()) as usize..(rows_px.end * size.width()) as usize;
+            self.fetch(rows_px.len() as u32, &mut drawing.stages, |bytes| {
+                take(pixels, bytes);
             })?;
-            in_all.lines += found.lines;
-            in_all.drawn = found.drawn;
-            first = rows.end;
-            bands += 1;
         }
-        Ok((in_all, bands))
+        if self.shared.options.keeps {
+            self.kept = Some(next);
+        }
+        Ok(drawing)
     }
 
-    /// Paths of several strokes that are not proven to be outside the view; the device counts the others.
-    fn parted_drawn(&self, shot: &Shot<'_>) -> u64 {
+    /// Paths that are not proven to be outside the view.
+    fn count_drawn(&self, shot: &Shot<'_>, drawing: &Drawing) -> u64 {
+        let bands = self
+            .canvas
+            .as_ref()
+            .map_or(1, |c| c.rows.div_ceil(c.band_rows));
+        let is_counted = !drawing.is_part && drawing.windows == bands;
+        let alone = match &self.store {
+            Some(_) if is_counted => u64::from(drawing.drawn),
+            // Of windows, the device counts what each sees; clusters are a little less exact.
+            Some(store) => store.whole_paths_seen(|bounds, width_m| shot.is_seen(bounds, width_m)),
+            None => 0,
+        };
         let paths = &self.scene.layout().paths;
         let is_seen = |path: &&u32| {
             let hull = paths.get(**path as usize).hull_bounds();
             hull.is_some_and(|hull: Bounds<f64>| shot.is_seen(hull, self.scene.width_m(**path)))
         };
-        self.parted.iter().filter(is_seen).count() as u64
+        alone + self.parted.iter().filter(is_seen).count() as u64
     }
 }
 
+/// What became of one picture.
+#[derive(Default)]
+struct Drawing {
+    stages: Vec<Stage>,
+    lines: u64,
+    /// Paths that the last window's device has counted.
+    drawn: u32,
+    windows: u32,
+    /// Whether the rest was kept from before.
+    is_part: bool,
+}
+
 /// Adds stages to those of the same name.
-fn merge(stages: &mut Vec<Stage>, more: Vec<Stage>) {
+pub(super) fn merge(stages: &mut Vec<Stage>, more: Vec<Stage>) {
     for stage in more {
         match stages.iter_mut().find(|s| s.name == stage.name) {
             Some(same) => same.elapsed_ms += stage.elapsed_ms,
@@ -294,26 +437,23 @@ impl Prepared for PreparedTiles {
         let shot = Shot::new(view, style, &scene, self.facts)?;
         let size = view.size();
         frame.resize(size);
-        let mut stages = Vec::new();
-        let (mut found, mut bands) = (Found::default(), 1);
         let mut counts = Vec::new();
         if style.shading != Shading::Color {
             counts.resize(size.pixels(), 0.0_f32);
         }
+        let mut drawing = Drawing::default();
         if self.store.is_none() {
             let background = style.background;
             let pixel = [background.r, background.g, background.b, background.a];
             frame.pixels_mut().fill(pixel);
         } else {
             self.make_ready(view)?;
-            let width = size.width() as usize;
-            (found, bands) = self.draw_bands(&shot, cancel, &mut stages, |rows, bytes| {
-                let band = rows.start as usize * width..rows.end as usize * width;
+            drawing = self.draw_all(&shot, cancel, |pixels, bytes| {
                 let words = bytes.as_chunks().0;
                 if counts.is_empty() {
-                    frame.pixels_mut()[band].copy_from_slice(words);
+                    frame.pixels_mut()[pixels].copy_from_slice(words);
                 } else {
-                    for (count, word) in counts[band].iter_mut().zip(words) {
+                    for (count, word) in counts[pixels].iter_mut().zip(words) {
                         *count = f32::from_le_bytes(*word);
                     }
                 }
@@ -322,16 +462,20 @@ impl Prepared for PreparedTiles {
         if let Shading::Density(tone) = style.shading {
             let start = Instant::now();
             density::shade(&counts, tone, style.background, frame);
-            stages.push(Stage::host("shade", elapsed_ms(start)));
+            drawing.stages.push(Stage::host("shade", elapsed_ms(start)));
         }
-        let drawn = u64::from(found.drawn) + self.parted_drawn(&shot);
+        let drawn = self.count_drawn(&shot, &drawing);
         Ok(Report {
-            stages,
-            lines: u64::from(found.lines),
+            lines: drawing.lines,
+            stages: drawing.stages,
             peak_bytes: self.memory.take_peak_bytes(),
-            bands,
+            bands: drawing.windows.max(1),
             ..Report::of(NAME, &scene, drawn)
         })
+    }
+
+    fn edit(&mut self, edit: &Edit) -> Result<Edited, RenderError> {
+        self.change(edit)
     }
 
     fn preparation(&self) -> &Preparation {

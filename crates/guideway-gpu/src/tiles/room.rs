@@ -14,7 +14,7 @@ const WORD_BYTES: u64 = size_of::<u32>() as u64;
 pub(super) struct Room {
     pub(super) size: Size,
     pub(super) lines_px: DeviceBuffer,
-    pub(super) line_strokes: DeviceBuffer,
+    pub(super) line_ranks: DeviceBuffer,
     pub(super) reference_list: DeviceBuffer,
 }
 
@@ -98,7 +98,7 @@ impl Room {
         Ok(Self {
             size,
             lines_px: memory.zeros("the lines", lines * LINE_BYTES, storage)?,
-            line_strokes: memory.zeros("the lines", lines * WORD_BYTES, storage)?,
+            line_ranks: memory.zeros("the lines", lines * WORD_BYTES, storage)?,
             reference_list: memory.zeros(
                 "the lists of the tiles",
                 u64::from(size.references) * WORD_BYTES,

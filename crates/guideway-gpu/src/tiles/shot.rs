@@ -1,7 +1,5 @@
 //! One frame as the device is told of it.
 
-use std::ops::Range;
-
 use guideway_render::{RenderError, Style, View};
 use guideway_scene::{LineRule, Scene};
 use guideway_spline::{Bounds, Point};
@@ -12,6 +10,7 @@ use super::pack::device_color;
 use super::params::{FrameParams, Samples, TILE_PX};
 use super::prepared::Facts;
 use super::room::Room;
+use super::window::Window;
 
 /// Farthest that a line may be from its curve, in pixels: the borders of a stroke move by as much.
 const TOLERANCE_PX: f32 = 1.0 / 32.0;
@@ -91,13 +90,14 @@ impl<'a> Shot<'a> {
         Bounds::of_points(corners).is_some_and(|hull| hull.intersects(seen))
     }
 
-    /// The rows of pixels of some rows of tiles.
-    pub(super) fn rows_px(&self, rows: &Range<u32>) -> Range<u32> {
-        rows.start * TILE_PX..self.view.size().height().min(rows.end * TILE_PX)
-    }
-
-    /// What the device reads for some rows of tiles.
-    pub(super) fn params(&self, canvas: &Canvas, room: &Room, rows: &Range<u32>) -> FrameParams {
+    /// What the device reads for a window of the picture, if its buffer of pixels begins with a row of tiles.
+    pub(super) fn params(
+        &self,
+        canvas: &Canvas,
+        room: &Room,
+        window: &Window,
+        first_row: u32,
+    ) -> FrameParams {
         let size = self.view.size();
         let center = self.view.center_m();
         let high = center.to_f32();
@@ -121,12 +121,14 @@ impl<'a> Shot<'a> {
             most_radius_px: limits_px[1] as f32,
             tolerance_px: TOLERANCE_PX,
             clusters: self.facts.clusters,
-            strokes: self.facts.strokes,
-            width_px: size.width(),
-            height_px: size.height(),
-            columns: canvas.columns,
-            first_row: rows.start,
-            rows: rows.end - rows.start,
+            styles: self.facts.styles,
+            width_px: canvas.size.width(),
+            height_px: canvas.size.height(),
+            first_column: window.columns.start,
+            columns: window.columns.len() as u32,
+            first_row: window.rows.start,
+            rows: window.rows.len() as u32,
+            pixels_row: first_row * TILE_PX,
             line_room: room.size.lines,
             reference_room: room.size.references,
             color,

@@ -1,6 +1,6 @@
 use std::sync::{Arc, LazyLock};
 
-use guideway_gpu::{Gpu, Grid, GridOptions, Tiles};
+use guideway_gpu::{Gpu, Grid, GridOptions, Tiles, TilesOptions};
 use guideway_render::Method;
 
 use super::{Entry, MethodOption, Stop};
@@ -8,17 +8,23 @@ use super::{Entry, MethodOption, Stop};
 pub(super) const TILES: Entry = Entry {
     name: "gpu",
     summary: "Every frame from the control points, by compute shaders; every path its own colour and width",
-    options: &[],
+    options: &[MethodOption {
+        name: "rebuild",
+        summary: "keeps nothing from frame to frame, to measure what that costs",
+    }],
     is_general: true,
     start: |options| {
-        if !options.is_empty() {
-            return Err(Stop::Options(format!(
-                "there is no option `{options}`; it has none"
-            )));
-        }
+        let keeps = match options {
+            "" => true,
+            "rebuild" => false,
+            _ => {
+                let what = format!("there is no option `{options}`; there is: rebuild");
+                return Err(Stop::Options(what));
+            }
+        };
         let device = DEVICE.as_ref().map_err(|why| Stop::Missing(why.clone()))?;
-        let tiles = Tiles::new(Arc::clone(device)).map_err(Stop::Missing)?;
-        Ok(Box::new(tiles))
+        let tiles = Tiles::new(Arc::clone(device), TilesOptions { keeps });
+        Ok(Box::new(tiles.map_err(Stop::Missing)?))
     },
 };
 

@@ -4,7 +4,7 @@ use super::*;
 use crate::reflection::{assert_binds_what_it_is_given, assert_laid_out, members};
 
 const SHADERS: &[&Source] = &[
-    &CULL, &FLATTEN, &STARTS, &SCATTER, &SORT, &COVER[0], &COVER[1], &LAYERS[0], &LAYERS[1],
+    &CULL, &FLATTEN, &SHIFT, &STARTS, &SCATTER, &SORT, &COVER[0], &COVER[1], &LAYERS[0], &LAYERS[1],
 ];
 
 #[test]
@@ -17,22 +17,30 @@ fn every_shader_binds_what_it_is_given() {
 #[test]
 fn structures_are_laid_out_alike() {
     let frame = members!(FrameParams: center_high_m, center_low_m, half_size_px, px_per_m, radius_px,
-        least_radius_px, most_radius_px, tolerance_px, clusters, strokes, width_px, height_px, columns,
-        first_row, rows, line_room, reference_room, color, background);
+        least_radius_px, most_radius_px, tolerance_px, clusters, styles, width_px, height_px, first_column,
+        columns, first_row, rows, pixels_row, line_room, reference_room, color, background);
     assert_laid_out(SHADERS, "Frame", &frame);
-    let cluster = members!(Cluster: origin_high_m, origin_low_m, low_m, high_m, widest_m);
+    assert_laid_out(
+        SHADERS,
+        "Chunk",
+        &members!(ChunkParams: first_cluster, end_cluster),
+    );
+    let cluster = members!(Cluster: origin_high_m, origin_low_m, low_m, high_m, widest_m, first_point, points,
+        first_stroke, strokes);
     assert_laid_out(SHADERS, "Cluster", &cluster);
-    let stroke = members!(Stroke: first_point, segments, rank, color, width_m);
-    assert_laid_out(SHADERS, "Stroke", &stroke);
+    let shift = members!(ShiftParams: width_px, height_px, right_px, down_px);
+    assert_laid_out(SHADERS, "Shift", &shift);
+    assert_laid_out(SHADERS, "Stroke", &members!(Stroke: extent, rank));
+    assert_laid_out(SHADERS, "Style", &members!(PathStyle: color, width_m));
     let found = members!(Found: clusters, lines, references, drawn, longest);
-    assert_laid_out(SHADERS, "Found", &found);
-    assert_laid_out(SHADERS, "FoundBefore", &found);
+    assert_laid_out(SHADERS, "Counters", &found);
+    assert_laid_out(SHADERS, "CountersBefore", &found);
 }
 
 #[test]
 #[should_panic(expected = "Stroke of flatten")]
 fn another_layout_is_noticed() {
-    let stroke = members!(Stroke: first_point, segments, rank, width_m);
+    let stroke = members!(Stroke: extent);
     assert_laid_out(SHADERS, "Stroke", &stroke);
 }
 

@@ -1,7 +1,5 @@
 // Strokes that lie near each other, and where they are seen.
 
-override STROKES: u32;
-
 struct Cluster {
     // Where its coordinates have their origin, in two parts.
     origin_high_m: vec2f,
@@ -11,6 +9,11 @@ struct Cluster {
     high_m: vec2f,
     // The greatest width of its strokes; below zero if none has one of its own.
     widest_m: f32,
+    // Its control points, in their buffer, and its strokes.
+    first_point: u32,
+    points: u32,
+    first_stroke: u32,
+    strokes: u32,
     padding: u32,
 }
 

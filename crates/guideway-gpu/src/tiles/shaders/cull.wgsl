@@ -2,9 +2,13 @@
 
 override WORKGROUP: u32;
 
+struct Found {
+    counters: Counters,
+    seen: array<u32>,
+}
+
 @group(0) @binding(1) var<storage, read> clusters: array<Cluster>;
 @group(0) @binding(2) var<storage, read_write> found: Found;
-@group(0) @binding(3) var<storage, read_write> seen: array<u32>;
 
 @compute @workgroup_size(WORKGROUP)
 fn main(
@@ -22,6 +26,6 @@ fn main(
     let b = pixel_from_view(cluster.high_m + offset);
     let reach_px = max(frame.radius_px, radius_px(cluster.widest_m)) + 1.0;
     if is_seen(min(a, b), max(a, b), reach_px) {
-        seen[atomicAdd(&found.clusters, 1u)] = index;
+        found.seen[atomicAdd(&found.counters.clusters, 1u)] = index;
     }
 }

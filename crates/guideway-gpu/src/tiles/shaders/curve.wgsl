@@ -1,15 +1,18 @@
 // Points of a stroke's curve, in pixels, and lines that are near enough to it.
 
-@group(0) @binding(1) var<storage, read> points_m: array<vec2f>;
+// Most control points of a cluster.
+override POINTS: u32;
+
+// Those of the cluster that the workgroup is at.
+var<workgroup> points_px: array<vec2f, POINTS>;
 
 // The stroke that a thread works on.
 struct Curve {
     first_point: u32,
-    offset_m: vec2f,
 }
 
 fn control_px(curve: Curve, index: u32) -> vec2f {
-    return pixel_from_view(points_m[curve.first_point + index] + curve.offset_m);
+    return points_px[curve.first_point + index];
 }
 
 // Where a segment begins: the thesis' equation 3.2 at t = 0.

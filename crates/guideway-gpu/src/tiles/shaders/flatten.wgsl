@@ -1,16 +1,31 @@
 // A workgroup for one cluster after the other, a thread a stroke: turns curves into lines, and counts how
 // many touch each tile.
 
-@group(0) @binding(2) var<storage, read> strokes: array<Stroke>;
-@group(0) @binding(3) var<storage, read> clusters: array<Cluster>;
-@group(0) @binding(4) var<storage, read> seen: array<u32>;
-@group(0) @binding(5) var<storage, read_write> found: Found;
-@group(0) @binding(6) var<storage, read_write> lines_px: array<vec4f>;
-@group(0) @binding(7) var<storage, read_write> line_strokes: array<u32>;
-@group(0) @binding(8) var<storage, read_write> counts: array<atomic<u32>>;
+override STROKES: u32;
+
+// The clusters whose control points the bound buffer holds.
+struct Chunk {
+    first_cluster: u32,
+    end_cluster: u32,
+}
+
+struct Found {
+    counters: Counters,
+    seen: array<u32>,
+}
+
+@group(0) @binding(1) var<uniform> chunk: Chunk;
+@group(0) @binding(2) var<storage, read> points_m: array<vec2f>;
+@group(0) @binding(3) var<storage, read> strokes: array<Stroke>;
+@group(0) @binding(4) var<storage, read> clusters: array<Cluster>;
+@group(0) @binding(5) var<storage, read> styles: array<Style>;
+@group(0) @binding(6) var<storage, read_write> found: Found;
+@group(0) @binding(7) var<storage, read_write> lines_px: array<vec4f>;
+@group(0) @binding(8) var<storage, read_write> line_ranks: array<u32>;
+@group(0) @binding(9) var<storage, read_write> counts: array<atomic<u32>>;
 
 var<workgroup> clusters_seen: u32;
-var<workgroup> sums: array<u32, STROKES>;
+var<workgroup> group_lines: atomic<u32>;
 var<workgroup> first_line: u32;
 
 // The ends of the pieces of a stroke, a bit a segment, and the lines of all pieces together.
@@ -53,8 +68,9 @@ fn is_out(curve: Curve, segments: u32, reach_px: f32) -> bool {
 // The part of a line that is within reach of the picture (Liang and Barsky 1984): from x to y of its length,
 // none if x is more than y. It is cut a pixel outside of what is seen, so that no cap shows where it is cut.
 fn within_reach(a: vec2f, b: vec2f, reach_px: f32) -> vec2f {
-    let low = vec2f(-reach_px);
-    let high = vec2f(f32(frame.width_px), f32(frame.height_px)) + reach_px;
+    let window = window();
+    let low = window.low_px - reach_px;
+    let high = window.high_px + reach_px;
     let along = b - a;
     var part = vec2f(0.0, 1.0);
     for (var axis = 0u; axis < 2u; axis++) {
@@ -71,13 +87,13 @@ fn within_reach(a: vec2f, b: vec2f, reach_px: f32) -> vec2f {
     return part;
 }
 
-fn emit(slot: u32, stroke: u32, a: vec2f, b: vec2f, radius: f32) {
+fn emit(slot: u32, rank: u32, a: vec2f, b: vec2f, radius: f32) {
     if slot >= frame.line_room {
         return;
     }
     let part = within_reach(a, b, radius + 1.0);
     if part.x > part.y {
-        line_strokes[slot] = NO_STROKE;
+        line_ranks[slot] = NO_RANK;
         return;
     }
     // Ends inside stay as they are, to the bit.
@@ -85,7 +101,7 @@ fn emit(slot: u32, stroke: u32, a: vec2f, b: vec2f, radius: f32) {
     let end = select(b, a + (b - a) * part.y, part.y < 1.0);
     let line = vec4f(start, end);
     lines_px[slot] = line;
-    line_strokes[slot] = stroke;
+    line_ranks[slot] = rank;
     let reach = radius + MARGIN_PX;
     let rows = rows_of(line, reach);
     for (var row = rows.x; row < rows.y; row++) {
@@ -96,7 +112,7 @@ fn emit(slot: u32, stroke: u32, a: vec2f, b: vec2f, radius: f32) {
     }
 }
 
-fn emit_all(first_slot: u32, stroke: u32, curve: Curve, segments: u32, ends: u32, radius: f32) {
+fn emit_all(first_slot: u32, rank: u32, curve: Curve, segments: u32, ends: u32, radius: f32) {
     var slot = first_slot;
     var first = 0u;
     var a = vertex_px(curve, 0u);
@@ -107,15 +123,23 @@ fn emit_all(first_slot: u32, stroke: u32, curve: Curve, segments: u32, ends: u32
             let steps = steps_of(curve, first);
             for (var step = 1u; step < steps; step++) {
                 let b = point_px(curve, first, f32(step) / f32(steps));
-                emit(slot, stroke, a, b, radius);
+                emit(slot, rank, a, b, radius);
                 slot++;
                 a = b;
             }
         }
-        emit(slot, stroke, a, last, radius);
+        emit(slot, rank, a, last, radius);
         slot++;
         a = last;
         first += count;
+    }
+}
+
+// Brings the control points of a cluster to the picture.
+fn load(cluster: Cluster, thread: u32) {
+    let offset = offset_m(cluster);
+    for (var i = thread; i < cluster.points; i += STROKES) {
+        points_px[i] = pixel_from_view(points_m[cluster.first_point + i] + offset);
     }
 }
 
@@ -126,46 +150,46 @@ fn main(
     @builtin(local_invocation_index) thread: u32,
 ) {
     if thread == 0u {
-        clusters_seen = atomicLoad(&found.clusters);
+        clusters_seen = atomicLoad(&found.counters.clusters);
     }
     let all = workgroupUniformLoad(&clusters_seen);
     for (var i = workgroup_index(id, count); i < all; i += count.x * count.y) {
-        let cluster = seen[i];
-        let index = cluster * STROKES + thread;
+        let index = found.seen[i];
+        let cluster = clusters[index];
+        let is_here = index >= chunk.first_cluster && index < chunk.end_cluster;
+        if is_here {
+            load(cluster, thread);
+        }
+        if thread == 0u {
+            atomicStore(&group_lines, 0u);
+        }
+        workgroupBarrier();
         var plan = Plan(0u, 0u);
         var curve: Curve;
+        var rank = 0u;
         var segments = 0u;
         var radius = 0.0;
-        if index < frame.strokes {
-            let stroke = strokes[index];
-            curve = Curve(stroke.first_point, offset_m(clusters[cluster]));
-            segments = stroke.segments & ~WHOLE_PATH;
-            radius = radius_px(stroke.width_m);
-            if !is_out(curve, segments, radius + 1.0) {
+        if is_here && thread < cluster.strokes {
+            let stroke = strokes[cluster.first_stroke + thread];
+            rank = stroke.rank;
+            curve = Curve(first_point_of(stroke));
+            segments = segments_of(stroke);
+            radius = radius_of(rank);
+            if segments > 0u && !is_out(curve, segments, radius + 1.0) {
                 plan = plan_of(curve, segments);
-                if (stroke.segments & WHOLE_PATH) != 0u {
-                    atomicAdd(&found.drawn, 1u);
+                if (stroke.extent & WHOLE_PATH) != 0u {
+                    atomicAdd(&found.counters.drawn, 1u);
                 }
             }
         }
-        // Inclusive sums over the workgroup (Hillis and Steele 1986).
-        sums[thread] = plan.lines;
+        let before = atomicAdd(&group_lines, plan.lines);
         workgroupBarrier();
-        for (var step = 1u; step < STROKES; step *= 2u) {
-            var more = 0u;
-            if thread >= step {
-                more = sums[thread - step];
-            }
-            workgroupBarrier();
-            sums[thread] += more;
-            workgroupBarrier();
-        }
-        if thread == STROKES - 1u {
-            first_line = atomicAdd(&found.lines, sums[thread]);
+        if thread == 0u {
+            first_line = atomicAdd(&found.counters.lines, atomicLoad(&group_lines));
         }
         let first = workgroupUniformLoad(&first_line);
         if plan.lines > 0u {
-            emit_all(first + sums[thread] - plan.lines, index, curve, segments, plan.ends, radius);
+            emit_all(first + before, rank, curve, segments, plan.ends, radius);
         }
         workgroupBarrier();
     }

@@ -1,5 +1,8 @@
 // One frame: the same for all clusters, strokes, lines and tiles of it.
 
+// Side of a tile in pixels.
+override TILE_PX: u32;
+
 struct Frame {
     // The middle of the view in two parts each, together as exact as doubles.
     center_high_m: vec2f,
@@ -14,13 +17,17 @@ struct Frame {
     // How far a line may be from its curve.
     tolerance_px: f32,
     clusters: u32,
-    strokes: u32,
-    // The picture, and the band of whole rows of tiles that is drawn of it.
+    // Styles there are; one that stands for all if there is one.
+    styles: u32,
+    // The picture, and the window of tiles that is drawn of it.
     width_px: u32,
     height_px: u32,
+    first_column: u32,
     columns: u32,
     first_row: u32,
     rows: u32,
+    // The picture's row of pixels that the buffer of pixels begins with.
+    pixels_row: u32,
     // How many lines, and references of tiles to lines, there is room for.
     line_room: u32,
     reference_room: u32,
@@ -32,7 +39,7 @@ struct Frame {
 @group(0) @binding(0) var<uniform> frame: Frame;
 
 // What the stages of a frame find; more lines and references than there is room for are counted, too.
-struct Found {
+struct Counters {
     clusters: atomic<u32>,
     lines: atomic<u32>,
     references: atomic<u32>,

@@ -93,9 +93,9 @@ fn main(
         let batch = min(BATCH, end - first);
         if thread < batch {
             capsules[thread] = capsule_at(tile, first + thread);
-            let stroke = line_strokes[references[first + thread]];
-            ranks[thread] = strokes[stroke].rank;
-            colors[thread] = strokes[stroke].color;
+            let rank = line_ranks[references[first + thread]];
+            ranks[thread] = rank;
+            colors[thread] = style_of(rank).color;
         }
         workgroupBarrier();
         for (var i = 0u; i < batch; i++) {

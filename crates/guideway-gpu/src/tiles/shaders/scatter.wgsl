@@ -2,7 +2,7 @@
 
 override WORKGROUP: u32;
 
-struct FoundBefore {
+struct CountersBefore {
     clusters: u32,
     lines: u32,
     references: u32,
@@ -10,10 +10,10 @@ struct FoundBefore {
     longest: u32,
 }
 
-@group(0) @binding(1) var<storage, read> found: FoundBefore;
+@group(0) @binding(1) var<storage, read> found: CountersBefore;
 @group(0) @binding(2) var<storage, read> lines_px: array<vec4f>;
-@group(0) @binding(3) var<storage, read> line_strokes: array<u32>;
-@group(0) @binding(4) var<storage, read> strokes: array<Stroke>;
+@group(0) @binding(3) var<storage, read> line_ranks: array<u32>;
+@group(0) @binding(4) var<storage, read> styles: array<Style>;
 @group(0) @binding(5) var<storage, read_write> filled: array<atomic<u32>>;
 @group(0) @binding(6) var<storage, read_write> references: array<u32>;
 
@@ -29,12 +29,12 @@ fn main(
     }
     let threads = count.x * count.y * WORKGROUP;
     for (var i = workgroup_index(id, count) * WORKGROUP + thread; i < found.lines; i += threads) {
-        let stroke = line_strokes[i];
-        if stroke == NO_STROKE {
+        let rank = line_ranks[i];
+        if rank == NO_RANK {
             continue;
         }
         let line = lines_px[i];
-        let reach = radius_of(stroke) + MARGIN_PX;
+        let reach = radius_of(rank) + MARGIN_PX;
         let rows = rows_of(line, reach);
         for (var row = rows.x; row < rows.y; row++) {
             let columns = columns_of(line, reach, row);

@@ -6,11 +6,10 @@ override THREADS: u32;
 
 @group(0) @binding(1) var<storage, read> starts: array<u32>;
 @group(0) @binding(2) var<storage, read_write> references: array<u32>;
-@group(0) @binding(3) var<storage, read> line_strokes: array<u32>;
-@group(0) @binding(4) var<storage, read> strokes: array<Stroke>;
+@group(0) @binding(3) var<storage, read> line_ranks: array<u32>;
 
 fn rank_of(place: u32) -> u32 {
-    return strokes[line_strokes[references[place]]].rank;
+    return line_ranks[references[place]];
 }
 
 fn order(a: u32, b: u32) {

@@ -5,7 +5,7 @@ override THREADS: u32;
 @group(0) @binding(1) var<storage, read> counts: array<u32>;
 @group(0) @binding(2) var<storage, read_write> starts: array<u32>;
 @group(0) @binding(3) var<storage, read_write> filled: array<u32>;
-@group(0) @binding(4) var<storage, read_write> found: Found;
+@group(0) @binding(4) var<storage, read_write> found: Counters;
 
 var<workgroup> sums: array<u32, THREADS>;
 

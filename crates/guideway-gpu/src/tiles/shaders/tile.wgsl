@@ -3,8 +3,8 @@
 @group(0) @binding(1) var<storage, read> starts: array<u32>;
 @group(0) @binding(2) var<storage, read> references: array<u32>;
 @group(0) @binding(3) var<storage, read> lines_px: array<vec4f>;
-@group(0) @binding(4) var<storage, read> line_strokes: array<u32>;
-@group(0) @binding(5) var<storage, read> strokes: array<Stroke>;
+@group(0) @binding(4) var<storage, read> line_ranks: array<u32>;
+@group(0) @binding(5) var<storage, read> styles: array<Style>;
 @group(0) @binding(6) var<storage, read_write> pixels: array<u32>;
 
 override THREADS: u32;
@@ -22,7 +22,8 @@ struct Tile {
 
 fn tile_of(index: u32) -> Tile {
     let row = frame.first_row + index / frame.columns;
-    return Tile(index, (index % frame.columns) * TILE_PX, row * TILE_PX);
+    let column = frame.first_column + index % frame.columns;
+    return Tile(index, column * TILE_PX, row * TILE_PX);
 }
 
 // Writes the pixel of a thread, if it is part of the picture.
@@ -30,7 +31,7 @@ fn write(tile: Tile, thread: u32, color: u32) {
     let x = tile.left + thread % TILE_PX;
     let y = tile.top + thread / TILE_PX;
     if x < frame.width_px && y < frame.height_px {
-        pixels[(y - frame.first_row * TILE_PX) * frame.width_px + x] = color;
+        pixels[(y - frame.pixels_row) * frame.width_px + x] = color;
     }
 }
 
@@ -52,7 +53,7 @@ fn beyond(tile: Tile, row: u32) -> Row {
 fn capsule_at(tile: Tile, place: u32) -> Capsule {
     let line = references[place];
     let corner = vec2f(f32(tile.left), f32(tile.top));
-    return capsule_of(lines_px[line], corner, radius_of(line_strokes[line]));
+    return capsule_of(lines_px[line], corner, radius_of(line_ranks[line]));
 }
 
 // Whether any row of the tile still has samples that are not covered.

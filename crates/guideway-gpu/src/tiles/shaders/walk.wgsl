@@ -1,7 +1,5 @@
 // Which tiles a line may touch.
 
-override TILE_PX: u32;
-
 // What rounding may do to a place in the picture.
 const MARGIN_PX: f32 = 1.0 / 64.0;
 
@@ -33,9 +31,9 @@ fn columns_of(line: vec4f, reach_px: f32, row: u32) -> vec2u {
     }
     let low = min(ends.x, ends.y) - reach_px;
     let high = max(ends.x, ends.y) + reach_px;
-    return tiles_between(low, high, 0u, frame.columns);
+    return tiles_between(low, high, frame.first_column, frame.first_column + frame.columns);
 }
 
 fn tile_index(row: u32, column: u32) -> u32 {
-    return (row - frame.first_row) * frame.columns + column;
+    return (row - frame.first_row) * frame.columns + column - frame.first_column;
 }

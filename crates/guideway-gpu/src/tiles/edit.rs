@@ -1,0 +1,410 @@
+//! Changes of the scene on the device, in place where they can be.
+
+use std::collections::{BTreeMap, HashMap};
+use std::sync::Arc;
+
+use guideway_layout::Layout;
+use guideway_render::{Edited, RenderError};
+use guideway_scene::{Edit, PathState};
+
+use super::pack::{Local, Packed, Part, style};
+use super::params::{Cluster, PathStyle, Stroke};
+use super::prepared::PreparedTiles;
+use super::store::Store;
+use crate::device::{Patch, Patcher};
+
+const POINT_WORDS: usize = 2;
+const STROKE_WORDS: usize = size_of::<Stroke>() / 4;
+const CLUSTER_WORDS: usize = size_of::<Cluster>() / 4;
+const STYLE_WORDS: usize = size_of::<PathStyle>() / 4;
+/// How many points may lie unused before all is packed anew: so many, and a quarter of all.
+const MOST_UNUSED_POINTS: usize = 1 << 16;
+const NO_STROKE: u32 = u32::MAX;
+
+/// Where the strokes of each path are, and what the boxes of clusters were when they were packed.
+pub(super) struct Places {
+    /// The stroke of each row, if it has one alone.
+    first: Vec<u32>,
+    /// Strokes of the other paths.
+    more: HashMap<u32, Vec<u32>>,
+    homes: Vec<[[f32; 2]; 2]>,
+    unused_points: usize,
+}
+
+impl Places {
+    fn of(store: &Store, rows: usize) -> Self {
+        let mut places = Self {
+            first: Vec::new(),
+            more: HashMap::new(),
+            homes: Vec::new(),
+            unused_points: 0,
+        };
+        places.add(store, 0, 0, rows);
+        places
+    }
+
+    /// Learns of strokes and clusters from these on.
+    fn add(&mut self, store: &Store, first_stroke: usize, first_cluster: usize, rows: usize) {
+        self.first.resize(rows, NO_STROKE);
+        for (stroke, index) in store.stroke_list.iter().zip(0..).skip(first_stroke) {
+            let row = store.ranks.row(stroke.rank);
+            let first = &mut self.first[row as usize];
+            if *first == NO_STROKE {
+                *first = index;
+            } else {
+                let more = self.more.entry(row).or_insert_with(|| vec![*first]);
+                more.push(index);
+            }
+        }
+        let clusters = store.cluster_list[first_cluster..].iter();
+        self.homes.extend(clusters.map(|c| [c.low_m, c.high_m]));
+    }
+
+    fn strokes(&self, row: u32) -> &[u32] {
+        match self.more.get(&row) {
+            Some(strokes) => strokes,
+            None => match self.first.get(row as usize) {
+                Some(first) if *first != NO_STROKE => std::slice::from_ref(first),
+                _ => &[],
+            },
+        }
+    }
+
+    fn forget(&mut self, store: &Store, row: u32) {
+        let rooms = self
+            .strokes(row)
+            .iter()
+            .map(|&stroke| room_of(store, stroke) as usize);
+        self.unused_points += rooms.sum::<usize>();
+        self.more.remove(&row);
+        if let Some(first) = self.first.get_mut(row as usize) {
+            *first = NO_STROKE;
+        }
+    }
+
+    /// Whether a cluster's points may go there: farther away would make its box too large to be of use.
+    fn is_home(&self, cluster: usize, [x, y]: [f32; 2]) -> bool {
+        let [low, high] = self.homes[cluster];
+        let near = |v: f32, axis: usize| {
+            let room = (high[axis] - low[axis]).max(1.0);
+            v >= low[axis] - room && v <= high[axis] + room
+        };
+        near(x, 0) && near(y, 1)
+    }
+}
+
+/// What has to be sent.
+#[derive(Default)]
+struct Changes {
+    /// By chunk.
+    points: BTreeMap<usize, Patch>,
+    strokes: Vec<u32>,
+    /// Whether a cluster has changed, by its number; those behind have not.
+    clusters: Vec<bool>,
+    loose: Vec<Part>,
+    /// The points of one path.
+    scratch: Vec<[f32; 2]>,
+}
+
+impl Changes {
+    fn add_cluster(&mut self, cluster: usize) {
+        if self.clusters.len() <= cluster {
+            self.clusters.resize(cluster + 1, false);
+        }
+        self.clusters[cluster] = true;
+    }
+
+    fn changed_clusters(&self) -> impl Iterator<Item = usize> {
+        let marked = self.clusters.iter().enumerate();
+        marked.filter_map(|(cluster, &is_changed)| is_changed.then_some(cluster))
+    }
+}
+
+impl PreparedTiles {
+    /// See [`guideway_render::Prepared::edit`].
+    pub(super) fn change(&mut self, edit: &Edit) -> Result<Edited, RenderError> {
+        let first_new = self.scene.row_count() as u32;
+        let scene = Arc::make_mut(&mut self.scene);
+        scene.edit(edit).map_err(RenderError::Edit)?;
+        self.kept = None;
+        let mut rows = edit.paths();
+        rows.extend(first_new..self.scene.row_count() as u32);
+        let keeps_looks = matches!(edit, Edit::Transform { .. } | Edit::Reshape { .. });
+        if !keeps_looks {
+            self.look_anew();
+        }
+        let has_ranks = |store: &Store| rows.iter().all(|&row| store.ranks.rank(row).is_some());
+        if !self.store.as_ref().is_some_and(has_ranks) {
+            return self.pack_anew();
+        }
+        let mut moved_bytes = 0;
+        if !keeps_looks {
+            moved_bytes += self.send_styles(&rows)?;
+        }
+        if !matches!(edit, Edit::Restyle(_)) {
+            let Some(bytes) = self.send_curves(&rows)? else {
+                return self.pack_anew();
+            };
+            moved_bytes += bytes;
+        }
+        Ok(Edited::InPlace { moved_bytes })
+    }
+
+    fn pack_anew(&mut self) -> Result<Edited, RenderError> {
+        self.bring()?;
+        let held = |store: &Store| {
+            let points: u64 = store.chunks.iter().map(|c| c.points_m.bytes()).sum();
+            points + store.strokes.bytes() + store.clusters.bytes() + store.styles.bytes()
+        };
+        Ok(Edited::InPlace {
+            moved_bytes: self.store.as_ref().map_or(0, held),
+        })
+    }
+
+    /// Sends colours and widths of these rows.
+    fn send_styles(&mut self, rows: &[u32]) -> Result<u64, RenderError> {
+        let Some(store) = &mut self.store else {
+            return Ok(0);
+        };
+        let gpu = &self.shared.gpu;
+        let needed = if self.facts.is_plain {
+            1
+        } else {
+            store.ranks.count(&self.scene)
+        };
+        if needed == 1 || needed as u64 * size_of::<PathStyle>() as u64 > store.styles.bytes() {
+            let bytes = store.renew_styles(gpu, &mut self.memory, &self.scene)?;
+            self.facts.styles = store.style_count;
+            self.unbind();
+            return Ok(bytes);
+        }
+        let mut patch = Patch::default();
+        let mut changes = Changes::default();
+        let places = self
+            .places
+            .get_or_insert_with(|| Places::of(store, self.scene.row_count()));
+        for &row in rows {
+            let Some(rank) = store.ranks.rank(row) else {
+                continue;
+            };
+            let style = style(&self.scene, row);
+            patch.set(rank as usize * STYLE_WORDS, &style);
+            for &stroke in places.strokes(row) {
+                let cluster = cluster_of(store, stroke);
+                let widest_m = &mut store.cluster_list[cluster].widest_m;
+                if style.width_m > *widest_m {
+                    *widest_m = style.width_m;
+                    changes.add_cluster(cluster);
+                }
+            }
+        }
+        self.send_patches(&[(Target::Styles, &patch)])?;
+        Ok(patch.bytes() + self.send(changes)?)
+    }
+
+    /// Sends curves of these rows, or none if it is better to pack all of them anew.
+    fn send_curves(&mut self, rows: &[u32]) -> Result<Option<u64>, RenderError> {
+        let Some(store) = &mut self.store else {
+            return Ok(None);
+        };
+        let scene = &self.scene;
+        let places = self
+            .places
+            .get_or_insert_with(|| Places::of(store, scene.row_count()));
+        let mut changes = Changes::default();
+        let mut parts = Vec::new();
+        for &row in rows {
+            parts.clear();
+            if scene.state(row) == PathState::Shown
+                && let Some(rank) = store.ranks.rank(row)
+            {
+                Part::of_path(scene.layout(), row, rank, &mut parts);
+            }
+            if parts.len() > 1 {
+                self.parted.insert(row);
+            } else if !self.parted.is_empty() {
+                self.parted.remove(&row);
+            }
+            if set_in_place(store, places, scene.layout(), &parts, row, &mut changes) {
+                continue;
+            }
+            for &stroke in places.strokes(row) {
+                let old = &mut store.stroke_list[stroke as usize];
+                old.extent = old.first_point();
+                changes.strokes.push(stroke);
+            }
+            if !parts.is_empty() {
+                places.forget(store, row);
+                changes.loose.extend_from_slice(&parts);
+            }
+        }
+        let points: u64 = store.chunks.iter().map(|c| c.points_m.bytes() / 8).sum();
+        if places.unused_points > MOST_UNUSED_POINTS.max(points as usize / 4) {
+            return Ok(None);
+        }
+        self.send(changes).map(Some)
+    }
+
+    /// Sends changes; returns how many bytes they took.
+    fn send(&mut self, mut changes: Changes) -> Result<u64, RenderError> {
+        let (Some(store), Some(places)) = (&mut self.store, &mut self.places) else {
+            return Ok(0);
+        };
+        let gpu = &self.shared.gpu;
+        let mut are_renewed = false;
+        let has_new_buffers = !changes.loose.is_empty();
+        if has_new_buffers {
+            let packed = Packed::of(&self.scene, std::mem::take(&mut changes.loose));
+            let (strokes, clusters) = (store.stroke_list.len(), store.cluster_list.len());
+            let chunk = store.add(gpu, &mut self.memory, &packed)?;
+            places.add(store, strokes, clusters, self.scene.row_count());
+            let first_point = store.cluster_list[clusters].first_point as usize;
+            let patch = changes.points.entry(chunk).or_default();
+            for (point, index) in packed.points_m.iter().zip(first_point..) {
+                patch.set(index * POINT_WORDS, point);
+            }
+            are_renewed = store.make_room(gpu, &mut self.memory)?;
+            changes
+                .strokes
+                .extend(strokes as u32..store.stroke_list.len() as u32);
+            (clusters..store.cluster_list.len()).for_each(|cluster| changes.add_cluster(cluster));
+        }
+        let (mut strokes, mut clusters) = (Patch::default(), Patch::default());
+        if !are_renewed {
+            for &stroke in &changes.strokes {
+                let at = stroke as usize;
+                strokes.set(at * STROKE_WORDS, &store.stroke_list[at]);
+            }
+            for cluster in changes.changed_clusters() {
+                clusters.set(cluster * CLUSTER_WORDS, &store.cluster_list[cluster]);
+            }
+        }
+        for cluster in changes.changed_clusters() {
+            let reach_m = f64::from(store.cluster_list[cluster].reach_m());
+            self.facts.reach_m = self.facts.reach_m.max(reach_m);
+        }
+        self.facts.clusters = store.cluster_list.len() as u32;
+        let mut patches = vec![(Target::Strokes, &strokes), (Target::Clusters, &clusters)];
+        patches.extend(
+            changes
+                .points
+                .iter()
+                .map(|(&chunk, patch)| (Target::Points(chunk), patch)),
+        );
+        let mut bytes = patches.iter().map(|(_, patch)| patch.bytes()).sum();
+        if are_renewed {
+            bytes += store.strokes.bytes() + store.clusters.bytes();
+        }
+        self.send_patches(&patches)?;
+        if has_new_buffers {
+            self.unbind();
+        }
+        Ok(bytes)
+    }
+
+    fn send_patches(&mut self, patches: &[(Target, &Patch)]) -> Result<(), RenderError> {
+        self.make_patcher()?;
+        let (Some(store), Some(patcher)) = (&self.store, &self.patcher) else {
+            return Ok(());
+        };
+        for (target, patch) in patches {
+            let buffer = match target {
+                Target::Points(chunk) => &store.chunks[*chunk].points_m,
+                Target::Strokes => &store.strokes,
+                Target::Clusters => &store.clusters,
+                Target::Styles => &store.styles,
+            };
+            let sent = patcher.apply(&self.shared.gpu, &self.runner, patch, buffer);
+            sent.map_err(|what| self.memory.trouble(what))?;
+        }
+        self.set_chunks()
+    }
+
+    fn make_patcher(&mut self) -> Result<(), RenderError> {
+        if self.patcher.is_none() {
+            self.patcher = Some(Patcher::new(&self.shared.gpu, &mut self.memory)?);
+        }
+        Ok(())
+    }
+}
+
+/// A buffer that changes.
+#[derive(Clone, Copy)]
+enum Target {
+    Points(usize),
+    Strokes,
+    Clusters,
+    Styles,
+}
+
+fn cluster_of(store: &Store, stroke: u32) -> usize {
+    let behind = store
+        .cluster_list
+        .partition_point(|c| c.first_stroke <= stroke);
+    behind - 1
+}
+
+/// Points that a stroke has room for.
+fn room_of(store: &Store, stroke: u32) -> u32 {
+    let cluster = &store.cluster_list[cluster_of(store, stroke)];
+    let first = store.stroke_list[stroke as usize].first_point();
+    let next = stroke + 1;
+    let end = if next < cluster.first_stroke + cluster.strokes {
+        store.stroke_list[next as usize].first_point()
+    } else {
+        cluster.points
+    };
+    end - first
+}
+
+/// Gives the strokes of a path new points where the old ones are, unless they do not fit there.
+fn set_in_place(
+    store: &mut Store,
+    places: &Places,
+    layout: &Layout,
+    parts: &[Part],
+    row: u32,
+    changes: &mut Changes,
+) -> bool {
+    let strokes = places.strokes(row);
+    if parts.is_empty() || parts.len() != strokes.len() {
+        return false;
+    }
+    changes.scratch.clear();
+    for (part, &stroke) in parts.iter().zip(strokes) {
+        let cluster = cluster_of(store, stroke);
+        let local = Local::of(&store.cluster_list[cluster]);
+        let first = changes.scratch.len();
+        let points = part.points(layout).map(|p| local.of_world(p));
+        changes.scratch.extend(points);
+        let points = &changes.scratch[first..];
+        let is_home = points.iter().all(|&p| places.is_home(cluster, p));
+        if !is_home || room_of(store, stroke) as usize != points.len() {
+            return false;
+        }
+    }
+    let mut points = changes.scratch.iter();
+    for (part, &stroke) in parts.iter().zip(strokes) {
+        let at = cluster_of(store, stroke);
+        let index = at as u32;
+        let chunk = store.chunks.partition_point(|c| c.clusters.end <= index);
+        let cluster = &mut store.cluster_list[at];
+        let old = &mut store.stroke_list[stroke as usize];
+        let new = part.stroke(old.first_point());
+        if *old != new {
+            *old = new;
+            changes.strokes.push(stroke);
+        }
+        let first = (cluster.first_point + new.first_point()) as usize;
+        let patch = changes.points.entry(chunk).or_default();
+        for (p, place) in points.by_ref().take(new.points() as usize).zip(first..) {
+            cluster.hold(*p);
+            patch.set(place * POINT_WORDS, p);
+        }
+        if changes.clusters.len() <= at {
+            changes.clusters.resize(at + 1, false);
+        }
+        changes.clusters[at] = true;
+    }
+    true
+}
