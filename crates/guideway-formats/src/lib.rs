@@ -6,11 +6,13 @@
 
 pub mod arrow;
 mod builder;
-mod dxf;
+mod clamped;
+pub mod dxf;
 mod error;
 pub mod geojson;
 mod json;
-mod lif;
+pub mod lif;
+mod losses;
 mod opentcs;
 mod read;
 mod sniff;
@@ -21,6 +23,7 @@ mod trajectory;
 mod vda5050;
 
 pub use error::{Problem, ReadError};
+pub use losses::{Loss, Losses};
 pub use read::{read_bytes, read_file};
 pub use sniff::{Format, sniff};
 pub use source::{Progress, ReadOptions};

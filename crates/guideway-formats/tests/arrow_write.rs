@@ -123,8 +123,8 @@ fn what_a_table_cannot_hold_is_said() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("paths.arrow");
     let losses = write_layout(&layout, &path, &WriteOptions::default()).expect("a file");
-    let said: Vec<_> = losses.iter().map(|d| d.place.element.as_str()).collect();
-    assert_eq!(said, ["nodes", "levels", "refused paths", "attribute rank"]);
+    let said: Vec<_> = losses.iter().map(|loss| loss.what.as_str()).collect();
+    assert_eq!(said, ["refused paths", "nodes", "levels", "column rank"]);
     let back = read_file(&path, &ReadOptions::default()).expect("a layout");
     for (name, value) in [
         ("start_node", "N1"),

@@ -17,7 +17,7 @@ fn written(layout: &Layout) -> (String, Vec<String>) {
     let losses = write_layout(layout, &mut bytes, &WriteOptions::default()).unwrap();
     (
         String::from_utf8(bytes).unwrap(),
-        losses.iter().map(|loss| loss.place.to_string()).collect(),
+        losses.iter().map(|loss| loss.what.clone()).collect(),
     )
 }
 
@@ -101,7 +101,7 @@ fn what_cannot_be_held_is_listed() {
     layout.stations.push("S", None, Vec::new(), None);
     layout.refused.push("R", Code::UnknownNode, "no nodes");
     let (text, losses) = written(&layout);
-    let expected = ["widths", "id", "stations", "refused paths", "curves"];
+    let expected = ["refused paths", "widths", "column id", "stations", "curves"];
     assert_eq!(losses, expected);
     let again = read(&text);
     let types = again.paths.attributes.get("vehicle_types").unwrap();

@@ -32,6 +32,17 @@ impl Attributes {
         values.set(row, value);
     }
 
+    /// Appends the values of another table: its first row becomes row `first_row`.
+    pub(crate) fn extend(&mut self, first_row: usize, other: &Self) {
+        for column in other.iter() {
+            for row in 0..column.values.len() {
+                if let Some(value) = column.values.get(row) {
+                    self.set(first_row + row, &column.name, value);
+                }
+            }
+        }
+    }
+
     /// The column of this name.
     pub fn get(&self, name: &str) -> Option<&Attribute> {
         self.columns.iter().find(|c| c.name == name)

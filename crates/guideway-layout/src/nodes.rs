@@ -1,4 +1,4 @@
-use guideway_spline::Point;
+use guideway_spline::{Affine, Point};
 
 use crate::{Attributes, TextColumn};
 
@@ -50,6 +50,11 @@ impl Nodes {
     /// Position of a node, in metres.
     pub fn position_m(&self, node: u32) -> Point<f64> {
         self.positions_m[node as usize]
+    }
+
+    /// Maps the positions of all.
+    pub(crate) fn transform(&mut self, by: Affine) {
+        self.positions_m.iter_mut().for_each(|p| *p = by.apply(*p));
     }
 
     /// Index of a node's level.
@@ -111,6 +116,12 @@ impl Stations {
     /// Position of a station, in metres, if the file gives one.
     pub fn position_m(&self, station: u32) -> Option<Point<f64>> {
         self.positions_m[station as usize]
+    }
+
+    /// Maps the positions of all.
+    pub(crate) fn transform(&mut self, by: Affine) {
+        let there = self.positions_m.iter_mut().flatten();
+        there.for_each(|p| *p = by.apply(*p));
     }
 
     /// Rows of the nodes that serve a station.

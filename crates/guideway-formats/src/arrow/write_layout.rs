@@ -1,11 +1,12 @@
 use std::path::Path;
 
-use guideway_layout::{Attribute, Code, Diagnostics, Direction, Layout, PathRef, Place, Value};
+use guideway_layout::{Attribute, Direction, Layout, PathRef, Value};
 use guideway_spline::Point;
 
 use super::write::{ArrowWriter, Precision, WriteError};
 use super::write_columns::{Column, ColumnType};
 use super::{COLOR, CONTROL_POINTS, ID, LEVEL, PART, RANK, WIDTH};
+use crate::Losses;
 
 /// Coordinates are stored in `f32` if that moves none of them by more than this, in metres.
 const F32_ERROR_M: f64 = 1e-5;
@@ -17,7 +18,7 @@ pub struct WriteOptions {
     pub precision: Option<Precision>,
 }
 
-/// Writes a layout as a table of its paths. What the table cannot hold is in the findings returned.
+/// Writes a layout as a table of its paths. Returns what the table cannot hold.
 ///
 /// # Errors
 /// When the file cannot be written.
@@ -25,10 +26,9 @@ pub fn write_layout(
     layout: &Layout,
     path: &Path,
     options: &WriteOptions,
-) -> Result<Diagnostics, WriteError> {
-    let mut losses = Diagnostics::default();
-    note_losses(layout, &mut losses);
-    let sources = sources(layout, &mut losses);
+) -> Result<Losses, WriteError> {
+    let sources = sources(layout);
+    let losses = losses(layout, &sources);
     let precision = options.precision.unwrap_or_else(|| precision_for(layout));
     let columns = sources.iter().map(Source::column).collect();
     let mut writer = ArrowWriter::create(path, precision, columns)?;
@@ -92,11 +92,11 @@ impl Cell<'_> {
 }
 
 /// The columns that a layout needs; those that would be empty are left out.
-fn sources<'a>(layout: &'a Layout, losses: &mut Diagnostics) -> Vec<Source<'a>> {
+fn sources(layout: &Layout) -> Vec<Source<'_>> {
     let paths = &layout.paths;
     let any = |test: &dyn Fn(PathRef<'_>) -> bool| paths.iter().any(test);
     let mut sources = Vec::new();
-    let mut add = |needed: bool, source: Source<'a>| {
+    let mut add = |needed: bool, source| {
         if needed {
             sources.push(source);
         }
@@ -124,13 +124,7 @@ fn sources<'a>(layout: &'a Layout, losses: &mut Diagnostics) -> Vec<Source<'a>> 
     for attribute in paths.attributes.iter() {
         let reserved = [ID, CONTROL_POINTS, PART, LEVEL, WIDTH, COLOR, RANK];
         let name = attribute.name.as_str();
-        if reserved.contains(&name) || sources.iter().any(|s| s.name() == name) {
-            not_stored(
-                losses,
-                format!("attribute {name}"),
-                "its name is that of a column with a meaning of its own".into(),
-            );
-        } else {
+        if !reserved.contains(&name) && sources.iter().all(|s| s.name() != name) {
             sources.push(Source::Attribute(attribute));
         }
     }
@@ -204,43 +198,22 @@ impl<'a> Source<'a> {
 }
 
 /// What a table of paths has no place for.
-fn note_losses(layout: &Layout, losses: &mut Diagnostics) {
-    let mut lost = |count: usize, what: &str, detail: &str| {
-        if count > 0 {
-            not_stored(losses, what.into(), format!("{count} {detail}"));
-        }
+fn losses(layout: &Layout, sources: &[Source<'_>]) -> Losses {
+    let mut losses = Losses::of(layout);
+    let detail = "nodes: only the names of those where paths begin and end are kept";
+    losses.add("nodes", layout.nodes.len(), detail);
+    losses.stations(layout);
+    let described = layout.levels.iter();
+    let described = described.filter(|l| l.name.is_some() || l.elevation_m.is_some());
+    let detail = "names or elevations of levels: only identifiers are kept";
+    losses.add("levels", described.count(), detail);
+    // One whose name is that of a column with a meaning of its own is not among the sources.
+    let is_held = |name: &str| {
+        let is_it = |s: &Source<'_>| matches!(s, Source::Attribute(a) if a.name == name);
+        sources.iter().any(is_it)
     };
-    lost(
-        layout.nodes.len(),
-        "nodes",
-        "nodes: only the names of those where paths begin and end are kept",
-    );
-    lost(layout.stations.len(), "stations", "stations");
-    let described = layout
-        .levels
-        .iter()
-        .filter(|l| l.name.is_some() || l.elevation_m.is_some());
-    lost(
-        described.count(),
-        "levels",
-        "names or elevations of levels: only identifiers are kept",
-    );
-    lost(
-        layout.refused.len(),
-        "refused paths",
-        "paths that cannot be drawn",
-    );
-    let empty = layout.paths.iter().filter(|p| p.runs().len() == 0);
-    lost(empty.count(), "paths", "paths without a curve");
+    losses.columns(&layout.paths.attributes, "paths", is_held);
     let findings: u64 = layout.diagnostics.counts().map(|(_, n)| n).sum();
-    lost(findings as usize, "diagnostics", "findings of the reader");
-}
-
-fn not_stored(losses: &mut Diagnostics, element: String, detail: String) {
-    losses.push(
-        Code::NotStored,
-        || Place::element(element),
-        || detail,
-        "Keep the source file for it",
-    );
+    losses.add("diagnostics", findings as usize, "findings of the reader");
+    losses
 }

@@ -247,10 +247,11 @@ impl<'a, 'd, 'b> Painter<'a, 'd, 'b> {
 
 /// The identifier of an entity: the handles of all references around it and its own. Old files have none.
 fn name(entity: &Entity<'_>, around: &Around<'_>) -> String {
-    let own = match (entity.handle, entity.line) {
-        (b"", Some(line)) => format!("line {line}"),
-        (b"", None) => entity.kind.to_owned(),
-        (handle, _) => decoded(handle),
+    let own = match (&entity.id, entity.handle, entity.line) {
+        (Some(id), ..) => id.clone(),
+        (None, b"", Some(line)) => format!("line {line}"),
+        (None, b"", None) => entity.kind.to_owned(),
+        (None, handle, _) => decoded(handle),
     };
     format!("{}{own}", around.handles)
 }

@@ -7,6 +7,7 @@ use guideway_layout::Code;
 use super::records::Record;
 use super::space::{Affine, Vector};
 use super::style::{Color, Layers, decoded};
+use super::write::APPLICATION;
 
 /// An entity, with what all have.
 #[derive(Debug)]
@@ -14,6 +15,8 @@ pub(super) struct Entity<'b> {
     pub(super) kind: &'static str,
     /// Its handle, which is its identifier in the file.
     pub(super) handle: &'b [u8],
+    /// The identifier of the path that it was written for.
+    pub(super) id: Option<String>,
     pub(super) line: Option<u32>,
     pub(super) layer: u32,
     pub(super) color: Color,
@@ -125,6 +128,7 @@ impl<'b> Entity<'b> {
         Self {
             kind,
             handle: record.text(5).unwrap_or_default(),
+            id: written_id(record),
             line: record.line,
             layer,
             color,
@@ -143,6 +147,14 @@ impl<'b> Entity<'b> {
             _ => 1,
         }
     }
+}
+
+/// The identifier that the writer of this project leaves in the extended data of an entity.
+fn written_id(record: &Record<'_>) -> Option<String> {
+    let mut pairs = record.pairs.iter();
+    pairs.find(|pair| pair.code == 1001 && pair.text() == APPLICATION.as_bytes())?;
+    let texts = pairs.take_while(|pair| pair.code == 1000);
+    Some(texts.map(|pair| decoded(pair.text())).collect())
 }
 
 /// The shape of a record of a known kind but POLYLINE and INSERT.

@@ -11,6 +11,11 @@ mod records;
 mod shapes;
 mod space;
 mod style;
+mod write;
+mod write_frame;
+mod write_pairs;
+
+pub use self::write::write_layout;
 
 use std::collections::HashSet;
 

@@ -1,17 +1,14 @@
 use std::collections::HashSet;
 use std::io::{self, Write};
 
-use guideway_layout::{
-    Attributes, Code, Diagnostics, Direction, Layout, PathRef, Place, RunPoints, Value,
-};
+use guideway_layout::{Attributes, Direction, Layout, PathRef, RunPoints, Value};
 use guideway_spline::{Point, flatten_run};
+
+use crate::Losses;
+use crate::clamped::{SAME_POSITION_M, rounded};
 
 /// The properties that mean something to a reader.
 const RESERVED: [&str; 3] = ["id", "startid", "endid"];
-
-/// Ends of lines this near meet, in metres. It is also the step to which positions are rounded, so that a
-/// sum that went 1e-16 wrong does not take twenty digits.
-const SAME_POSITION_M: f64 = 1e-6;
 
 /// How to write a layout.
 #[derive(Clone, Debug)]
@@ -27,8 +24,8 @@ impl Default for WriteOptions {
 }
 
 /// Writes a layout as GeoJSON: nodes as points, paths as lines, columns as properties; positions in metres,
-/// to a micrometre. Where paths have nodes it is a route graph as Nav2 reads it. What the format cannot
-/// hold is in the findings returned.
+/// to a micrometre. Where paths have nodes it is a route graph as Nav2 reads it. Returns what the format
+/// cannot hold.
 ///
 /// # Errors
 /// When `out` fails.
@@ -36,8 +33,9 @@ pub fn write_layout(
     layout: &Layout,
     out: &mut impl Write,
     options: &WriteOptions,
-) -> io::Result<Diagnostics> {
-    let mut losses = Losses::of(layout);
+) -> io::Result<Losses> {
+    let mut losses = losses_of(layout);
+    let mut curves = 0;
     // What Nav2 and those who draw its graphs in QGIS write: a plane in metres.
     out.write_all(
         br#"{"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::3857"}},"features":["#,
@@ -52,7 +50,7 @@ pub fn write_layout(
         if path.runs().len() == 0 {
             continue;
         }
-        losses.curves += usize::from(!path.runs().all(is_line));
+        curves += usize::from(!path.runs().all(is_line));
         feature.begin(path.id())?;
         for (name, node) in [("startid", path.start_node()), ("endid", path.end_node())] {
             if let Some(node) = node {
@@ -64,7 +62,10 @@ pub fn write_layout(
         feature.lines(&lines(path, options.tolerance_m))?;
     }
     out.write_all(b"\n]}\n")?;
-    Ok(losses.finish(layout, options))
+    let tolerance_m = options.tolerance_m;
+    let detail = format!("paths that are curves: they become lines within {tolerance_m} m");
+    losses.add("curves", curves, detail);
+    Ok(losses)
 }
 
 /// Writes features one after the other.
@@ -168,9 +169,7 @@ impl<W: Write> Feature<'_, W> {
     }
 
     fn position(&mut self, position: Point<f64>) -> io::Result<()> {
-        let steps = 1.0 / SAME_POSITION_M;
-        // Adding zero turns -0 into 0.
-        let [x, y] = [position.x, position.y].map(|v| (v * steps).round() / steps + 0.0);
+        let [x, y] = [position.x, position.y].map(rounded);
         write!(self.out, "[")?;
         self.json(&x)?;
         write!(self.out, ",")?;
@@ -214,75 +213,22 @@ fn is_line(run: RunPoints<'_>) -> bool {
 }
 
 /// What GeoJSON has no place for.
-struct Losses {
-    curves: usize,
-    others: Diagnostics,
-}
-
-impl Losses {
-    fn of(layout: &Layout) -> Self {
-        let mut losses = Self {
-            curves: 0,
-            others: Diagnostics::default(),
-        };
-        let paths = &layout.paths;
-        for (has, what) in [
-            (paths.width_m().is_some(), "widths"),
-            (paths.color_rgba().is_some(), "colours"),
-            (paths.rank().is_some(), "draw ranks"),
-        ] {
-            losses.add(usize::from(has) * paths.len(), what, "of paths");
-        }
-        let reserved = [&paths.attributes, &layout.nodes.attributes];
-        let reserved = reserved.into_iter().flat_map(Attributes::iter);
-        for attribute in reserved.filter(|a| RESERVED.contains(&a.name.as_str())) {
-            losses.add(
-                1,
-                &attribute.name,
-                "column: its name has a meaning of its own",
-            );
-        }
-        let ids: HashSet<&str> = (0..layout.nodes.len() as u32)
-            .map(|node| layout.nodes.id(node))
-            .collect();
-        let repeated = layout.nodes.len() - ids.len();
-        losses.add(
-            repeated,
-            "nodes",
-            "nodes: paths will be joined to others of the same name",
-        );
-        losses.add(layout.stations.len(), "stations", "stations");
-        losses.add(
-            layout.levels.len(),
-            "levels",
-            "levels: only their names are kept, of paths",
-        );
-        losses.add(
-            layout.refused.len(),
-            "refused paths",
-            "paths that cannot be drawn",
-        );
-        let empty = paths.iter().filter(|p| p.runs().len() == 0).count();
-        losses.add(empty, "paths", "paths without a curve");
-        losses
-    }
-
-    fn add(&mut self, count: usize, what: &str, detail: &str) {
-        if count > 0 {
-            let place = || Place::element(what);
-            let message = || format!("{count} {detail}");
-            let remedy = "Keep the source file for it";
-            self.others.push(Code::NotStored, place, message, remedy);
-        }
-    }
-
-    fn finish(mut self, layout: &Layout, options: &WriteOptions) -> Diagnostics {
-        let detail = format!(
-            "of {} paths are curves: they become lines within {} m",
-            layout.paths.len(),
-            options.tolerance_m
-        );
-        self.add(self.curves, "curves", &detail);
-        self.others
-    }
+fn losses_of(layout: &Layout) -> Losses {
+    let mut losses = Losses::of(layout);
+    losses.widths(layout);
+    losses.colors(layout);
+    losses.ranks(layout);
+    let is_held = |name: &str| !RESERVED.contains(&name);
+    losses.columns(&layout.paths.attributes, "paths", is_held);
+    losses.columns(&layout.nodes.attributes, "nodes", is_held);
+    let ids: HashSet<&str> = (0..layout.nodes.len() as u32)
+        .map(|node| layout.nodes.id(node))
+        .collect();
+    let repeated = layout.nodes.len() - ids.len();
+    let detail = "nodes with a name used before: paths will be joined to the first";
+    losses.add("nodes", repeated, detail);
+    losses.stations(layout);
+    let detail = "levels: only their names are kept, of paths";
+    losses.add("levels", layout.levels.len(), detail);
+    losses
 }

@@ -298,7 +298,8 @@ impl<'a> Mapper<'a> {
             let series = self
                 .builder
                 .text(&robot.series, &|| within(at, "seriesName"))?;
-            let parts: Vec<&str> = [manufacturer, series].into_iter().flatten().collect();
+            let parts = [manufacturer, series].into_iter().flatten();
+            let parts: Vec<&str> = parts.filter(|part| !part.is_empty()).collect();
             if !parts.is_empty() {
                 names.push(parts.join(" "));
             }

@@ -6,6 +6,13 @@
 mod edges;
 mod map;
 mod model;
+mod write;
+mod write_columns;
+mod write_edges;
+mod write_network;
+
+pub use self::write::{WriteOptions, write_layout};
+pub use self::write_columns::Version;
 
 use guideway_layout::{Layout, Place};
 

@@ -7,6 +7,7 @@ use guideway_layout::{Code, Layout};
 use guideway_spline::Point;
 
 /// The folder of real layouts, which lies beside the repository. It is not part of it, for licences.
+#[allow(dead_code, reason = "not every test binary reads real files")]
 pub(crate) fn real_layouts(format: &str) -> Option<PathBuf> {
     let shared = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/layouts");
     let folder = shared.join(format);

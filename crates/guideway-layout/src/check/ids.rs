@@ -1,4 +1,4 @@
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use super::place::place;
 use crate::{Code, Diagnostics, Layout};
@@ -45,4 +45,37 @@ fn report(kind: &str, id: &str, rows: &[usize], found: &mut Diagnostics) {
         },
         "Give each an identifier of its own",
     );
+}
+
+/// What an earlier layout has too, for each; what one has several times is told once.
+pub(super) fn check_across(layouts: &[&Layout]) -> Vec<Diagnostics> {
+    let mut first_layouts: HashMap<(&str, &str), usize> = HashMap::new();
+    let mut found = Vec::with_capacity(layouts.len());
+    for (own, layout) in layouts.iter().enumerate() {
+        let mut of_layout = Diagnostics::default();
+        let mut told = HashSet::new();
+        for (kind, row, id) in ids(layout).filter(|(_, _, id)| !id.is_empty()) {
+            let first = *first_layouts.entry((kind, id)).or_insert(own);
+            if first != own && told.insert((kind, id)) {
+                let source = &layouts[first].provenance.source;
+                of_layout.push(
+                    Code::DuplicateId,
+                    || place(kind, row, id),
+                    || format!("`{source}` has this identifier too"),
+                    "Give each an identifier of its own",
+                );
+            }
+        }
+        found.push(of_layout);
+    }
+    found
+}
+
+/// Every identifier with its kind and row.
+fn ids(layout: &Layout) -> impl Iterator<Item = (&'static str, usize, &str)> {
+    let (paths, nodes, stations) = (&layout.paths, &layout.nodes, &layout.stations);
+    let paths = (0..paths.len()).map(|row| ("path", row, paths.id(row)));
+    let nodes = (0..nodes.len()).map(|row| ("node", row, nodes.id(row as u32)));
+    let stations = (0..stations.len()).map(|row| ("station", row, stations.id(row as u32)));
+    paths.chain(nodes).chain(stations)
 }

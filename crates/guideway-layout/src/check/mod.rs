@@ -82,3 +82,9 @@ pub fn check(layout: &Layout, options: &CheckOptions) -> Diagnostics {
     extent::check(layout, options, &mut found);
     found
 }
+
+/// Looks for identifiers that several layouts have, which tools that read them together take for one thing.
+/// Returns the findings of each: what an earlier one has too.
+pub fn check_across(layouts: &[&Layout]) -> Vec<Diagnostics> {
+    ids::check_across(layouts)
+}

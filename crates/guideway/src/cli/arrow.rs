@@ -18,7 +18,7 @@ pub(crate) fn has_ending(output: &Path) -> bool {
 }
 
 /// Refuses what cannot be an Arrow output, before any long work is done.
-pub(crate) fn check_output(input: Option<&Path>, output: &Path) -> Result<(), Failure> {
+pub(crate) fn check_output(output: &Path) -> Result<(), Failure> {
     if !has_ending(output) {
         return Err(Failure {
             code: "target-format",
@@ -33,7 +33,7 @@ pub(crate) fn check_output(input: Option<&Path>, output: &Path) -> Result<(), Fa
     if output.exists() && !output.is_file() {
         return Err(unwritten(output, ErrorKind::IsADirectory.into()));
     }
-    input::check_output(input, output)
+    input::check_output(None, output)
 }
 
 /// Lets `write` make an Arrow file that appears whole or not at all, and returns its size too.

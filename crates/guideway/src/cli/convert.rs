@@ -3,105 +3,144 @@
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
+use std::time::SystemTime;
 
-use guideway::formats::{arrow as arrow_format, geojson};
-use guideway::layout::{Diagnostics, Layout};
+use clap::ValueEnum;
+use guideway::formats::lif::{self, Version};
+use guideway::formats::{Losses, arrow as arrow_format, dxf, geojson};
+use guideway::layout::Layout;
 use guideway::{SaveError, replace_file};
 use serde_json::{Value, json};
 
-use super::{Exit, Failure, Output, arrow, input, text};
+use super::input::{self, Input};
+use super::{Exit, Failure, Output, arrow, text};
 
 #[derive(Debug, clap::Args)]
+#[command(after_help = input::PLACEMENT_HELP)]
 pub(crate) struct Args {
-    /// Layout file: LIF, VDA 5050, openTCS, DXF, GeoJSON or Arrow, found from its content
-    input: PathBuf,
-    /// File to write; its name ends in .arrow, .feather or .geojson
+    /// Layout files of any format that is read, found from their content
+    #[arg(required = true, value_name = "FILE", value_parser = Input::parser())]
+    inputs: Vec<Input>,
+    /// File to write; the ending of its name is that of a format below, unless --to says which
     output: PathBuf,
+    /// Format to write
+    #[arg(long, value_name = "FORMAT")]
+    to: Option<Target>,
 }
 
 /// What can be written.
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Target {
+    /// A table of paths for Apache Arrow: .arrow, .feather
     Arrow,
-    GeoJson,
+    /// A drawing for CAD programs: .dxf
+    Dxf,
+    /// GeoJSON; a route graph of Nav2 if there are nodes: .geojson
+    Geojson,
+    /// VDMA LIF 1.0: .lif.json, .lif
+    Lif,
+    /// VDMA LIF 2.0
+    Lif2,
 }
 
 impl Target {
+    /// The format of a file of this name.
     fn of(output: &Path) -> Result<Self, Failure> {
-        let ending = output.extension().unwrap_or_default();
-        if ending.eq_ignore_ascii_case("geojson") {
-            return Ok(Self::GeoJson);
-        }
-        if arrow::has_ending(output) {
-            return Ok(Self::Arrow);
-        }
-        Err(Failure {
-            code: "target-format",
-            message: format!(
-                "{}: what can be written ends in .arrow, .feather or .geojson",
-                output.display()
-            ),
-            remedy: "Name the output so, such as `site.arrow`; for a picture use `guideway render`"
-                .into(),
+        let name = output.file_name().unwrap_or_default().to_string_lossy();
+        let name = name.to_lowercase();
+        let endings = [
+            (".arrow", Self::Arrow),
+            (".feather", Self::Arrow),
+            (".geojson", Self::Geojson),
+            (".lif.json", Self::Lif),
+            (".lif", Self::Lif),
+            (".dxf", Self::Dxf),
+        ];
+        let known = endings.iter().find(|(ending, _)| name.ends_with(ending));
+        known.map(|(_, target)| *target).ok_or_else(|| {
+            let endings = endings.map(|(ending, _)| ending).join(", ");
+            Failure {
+                code: "target-format",
+                message: format!(
+                    "{}: what can be written ends in {endings}",
+                    output.display()
+                ),
+                remedy:
+                    "Name the output so, or say which it is, such as `--to lif2`; for a picture \
+                    use `guideway render`"
+                        .into(),
+            }
         })
     }
 
     fn name(self) -> &'static str {
         match self {
             Self::Arrow => "Arrow",
-            Self::GeoJson => "GeoJSON",
-        }
-    }
-
-    fn check_output(self, input: &Path, output: &Path) -> Result<(), Failure> {
-        match self {
-            Self::Arrow => arrow::check_output(Some(input), output),
-            Self::GeoJson => input::check_output(Some(input), output),
+            Self::Dxf => "DXF",
+            Self::Geojson => "GeoJSON",
+            Self::Lif => "LIF 1.0",
+            Self::Lif2 => "LIF 2.0",
         }
     }
 
     /// Writes the file whole or not at all; returns what it cannot hold, and its size.
-    fn write(self, layout: &Layout, output: &Path) -> Result<(Diagnostics, u64), Failure> {
-        match self {
-            Self::Arrow => arrow::replace(output, |file| {
-                arrow_format::write_layout(layout, file, &arrow_format::WriteOptions::default())
-            }),
-            Self::GeoJson => Ok(replace_file(output, |file| {
-                write_geojson(layout, file).map_err(|problem| SaveError {
-                    path: output.to_owned(),
-                    problem,
-                })
-            })?),
-        }
+    fn write(self, layout: &Layout, output: &Path) -> Result<(Losses, u64), Failure> {
+        let write: TextWriter = match self {
+            Self::Arrow => {
+                return arrow::replace(output, |file| {
+                    arrow_format::write_layout(layout, file, &arrow_format::WriteOptions::default())
+                });
+            }
+            Self::Dxf => |layout, out| dxf::write_layout(layout, out),
+            Self::Geojson => {
+                |layout, out| geojson::write_layout(layout, out, &geojson::WriteOptions::default())
+            }
+            Self::Lif => |layout, out| lif::write_layout(layout, out, &lif_options(Version::V1)),
+            Self::Lif2 => |layout, out| lif::write_layout(layout, out, &lif_options(Version::V2)),
+        };
+        let write = |file: &Path| {
+            let mut out = BufWriter::with_capacity(1 << 16, File::create(file)?);
+            let losses = write(layout, &mut out)?;
+            out.flush()?;
+            Ok((losses, out.get_ref().metadata()?.len()))
+        };
+        Ok(replace_file(output, |file| {
+            write(file).map_err(|problem| SaveError {
+                path: output.to_owned(),
+                problem,
+            })
+        })?)
     }
 }
 
-fn write_geojson(layout: &Layout, file: &Path) -> io::Result<(Diagnostics, u64)> {
-    let mut out = BufWriter::new(File::create(file)?);
-    let losses = geojson::write_layout(layout, &mut out, &geojson::WriteOptions::default())?;
-    out.flush()?;
-    Ok((losses, out.get_ref().metadata()?.len()))
+/// Writes a layout as text of some format.
+type TextWriter = fn(&Layout, &mut BufWriter<File>) -> io::Result<Losses>;
+
+fn lif_options(version: Version) -> lif::WriteOptions {
+    lif::WriteOptions {
+        version,
+        exported: SystemTime::now(),
+    }
 }
 
 pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, Failure> {
-    let target = Target::of(&args.output)?;
-    target.check_output(&args.input, &args.output)?;
-    let (layout, read_ms) = input::read(&args.input, out)?;
+    let target = args.to.map_or_else(|| Target::of(&args.output), Ok)?;
+    input::check_output(args.inputs.iter().map(|i| i.path.as_path()), &args.output)?;
+    let (layout, read_ms) = input::read_all(&args.inputs, out)?;
     let activity = out.activity(format!("writing {}", args.output.display()));
     let (losses, bytes) = target.write(&layout, &args.output)?;
     let write_ms = activity.finish();
 
-    let lost: Vec<Value> = losses
-        .iter()
-        .map(|loss| json!({ "place": loss.place.element, "message": loss.message }))
-        .collect();
+    let lost = losses.iter().map(
+        |loss| json!({ "place": loss.what, "count": loss.count, "message": loss.to_string() }),
+    );
     let body = json!({
-        "file": args.input.to_string_lossy(),
+        "file": input::names(&args.inputs),
         "output": args.output.to_string_lossy(),
         "format": target.name(),
         "paths": layout.paths.len(),
         "bytes": bytes,
-        "not_stored": lost,
+        "not_stored": lost.collect::<Vec<Value>>(),
         "ms": { "read": read_ms, "write": write_ms, "total": read_ms + write_ms },
     });
     out.report("convert", &body, || {
@@ -112,14 +151,11 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, Failure> {
             text::bytes(bytes)
         );
         if !losses.is_empty() {
-            text += &format!(
-                "what a file of {} cannot hold, so keep the source:\n",
-                target.name()
-            );
+            text += &format!("what a file of {} has not or otherwise:\n", target.name());
         }
         for loss in losses.iter() {
-            let place = text::plain(&loss.place.element, 80);
-            text += &format!("  {place}: {}\n", text::plain(&loss.message, 200));
+            let (what, count) = (text::plain(&loss.what, 80), text::count(loss.count));
+            text += &format!("  {what}: {count} {}\n", text::plain(&loss.detail, 200));
         }
         text + &format!(
             "took {}: reading {}, writing {}\n",

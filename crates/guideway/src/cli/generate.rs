@@ -39,7 +39,7 @@ enum Dataset {
 }
 
 pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, Failure> {
-    arrow::check_output(None, &args.output)?;
+    arrow::check_output(&args.output)?;
     let activity = out.activity(format!("writing {}", args.output.display()));
     let ((), bytes) = arrow::replace(&args.output, |file| match args.dataset {
         Dataset::D1 => write(file, d1(args.paths, args.seed), args.paths, &activity),

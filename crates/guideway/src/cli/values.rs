@@ -48,6 +48,14 @@ pub(crate) fn positive(text: &str) -> Result<f64, String> {
     }
 }
 
+/// An angle in degrees.
+pub(crate) fn degrees(text: &str) -> Result<f64, String> {
+    match text.trim().parse::<f64>() {
+        Ok(value) if value.is_finite() => Ok(value),
+        _ => Err("write an angle in degrees, such as 90 or -12.5".into()),
+    }
+}
+
 /// A number that is not negative, such as a width.
 pub(crate) fn not_negative(text: &str) -> Result<f64, String> {
     match text.trim().parse::<f64>() {

@@ -59,7 +59,7 @@ fn a_converted_layout_has_the_same_paths() {
 }
 
 #[test]
-fn only_arrow_is_written_and_never_over_the_input() {
+fn unknown_endings_are_refused_and_so_is_the_input() {
     let folder = tempfile::tempdir().unwrap();
     let arrow = folder.path().join("a.arrow");
     assert_eq!(
@@ -68,7 +68,7 @@ fn only_arrow_is_written_and_never_over_the_input() {
     );
     let before = fs::read(&arrow).unwrap();
     for (output, said) in [
-        ("a.dxf", ".arrow"),
+        ("a.dwg", ".arrow"),
         ("a", ".feather"),
         ("a.arrow", "replace"),
         ("no/b.arrow", "folder"),
@@ -104,7 +104,7 @@ fn geojson_has_every_path_too_and_other_endings_are_refused() {
     };
     assert_eq!(paths(&target), paths(&site()));
 
-    let output = convert(&folder.path().join("site.svg"));
+    let output = convert(&folder.path().join("site.dwg"));
     assert_eq!(output.status.code(), Some(2));
     assert!(stderr(&output).contains(".geojson"), "{}", stderr(&output));
     assert_eq!(names_in(folder.path()), ["site.geojson"]);

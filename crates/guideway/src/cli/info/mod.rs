@@ -5,22 +5,23 @@ mod extent;
 mod summary;
 mod table;
 
-use std::path::PathBuf;
-
 use summary::Summary;
 
-use super::{Exit, Failure, Output, input};
+use super::input::{self, Input};
+use super::{Exit, Failure, Output};
 
 #[derive(Debug, clap::Args)]
+#[command(after_help = input::PLACEMENT_HELP)]
 pub(crate) struct Args {
-    /// Layout file: LIF, VDA 5050, openTCS, DXF, GeoJSON or Arrow, found from its content
-    file: PathBuf,
+    /// Layout files of any format that is read, found from their content
+    #[arg(required = true, value_name = "FILE", value_parser = Input::parser())]
+    inputs: Vec<Input>,
 }
 
 pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, Failure> {
-    let (layout, read_ms) = input::read(&args.file, out)?;
+    let (layout, read_ms) = input::read_all(&args.inputs, out)?;
     let activity = out.activity("measuring");
-    let mut summary = Summary::of(&layout, &args.file);
+    let mut summary = Summary::of(&layout, &args.inputs);
     summary.ms.read = read_ms;
     summary.ms.measure = activity.finish();
     summary.ms.total = summary.ms.read + summary.ms.measure;

@@ -1,11 +1,11 @@
 use std::collections::BTreeMap;
-use std::path::Path;
 
 use guideway::layout::{Code, Direction, Layout};
 use serde::Serialize;
 
 use super::columns::{self, Column, Top};
 use super::extent::Extent;
+use crate::cli::input::{self, Input};
 
 /// What is in a layout: the `info` report.
 #[derive(Debug, Serialize)]
@@ -89,14 +89,14 @@ pub(super) struct Times {
 }
 
 impl Summary {
-    pub(super) fn of(layout: &Layout, file: &Path) -> Self {
+    pub(super) fn of(layout: &Layout, inputs: &[Input]) -> Self {
         let extent = Extent::of(&layout.paths);
         let source = &layout.provenance;
         let geometry = layout.paths.geometry();
         let two_way = |direction| direction == Direction::Both;
         Self {
-            file: file.to_string_lossy().into_owned(),
-            file_bytes: std::fs::metadata(file).ok().map(|m| m.len()),
+            file: input::names(inputs),
+            file_bytes: inputs.iter().map(size).sum(),
             format: source.format.clone(),
             format_version: source.format_version.clone(),
             source_counts: source
@@ -179,4 +179,8 @@ fn refused(layout: &Layout) -> Vec<Kind> {
         *counts.entry(path.code).or_insert(0) += 1;
     }
     counts.into_iter().map(Kind::new).collect()
+}
+
+fn size(input: &Input) -> Option<u64> {
+    std::fs::metadata(&input.path).ok().map(|m| m.len())
 }

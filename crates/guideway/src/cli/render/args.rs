@@ -8,16 +8,19 @@ use guideway::scene::{ColorBy, LineRule, Rgba, SceneOptions};
 use guideway::spline::Point;
 
 use super::Wishes;
+use crate::cli::input::{Input, PLACEMENT_HELP};
 use crate::cli::{Failure, values};
 
 #[derive(Debug, clap::Args)]
-#[command(after_help = "Examples:\n  \
+#[command(after_help = format!("Examples:\n  \
     guideway render site.lif.json -o site.png\n  \
     guideway render site.lif.json -o dock.png --center 12.5,-3 --scale 40\n  \
-    guideway render site.lif.json -o speed.png --color-by maxSpeed")]
+    guideway render site.lif.json -o speed.png --color-by maxSpeed\n  \
+    guideway render hall.lif.json annex.dxf@offset=80,0 -o both.png\n\n{}", PLACEMENT_HELP))]
 pub(crate) struct Args {
-    /// Layout file: LIF, VDA 5050, openTCS, DXF, GeoJSON or Arrow, found from its content
-    pub(crate) file: PathBuf,
+    /// Layout files of any format that is read, found from their content
+    #[arg(required = true, value_name = "FILE", value_parser = Input::parser())]
+    pub(crate) inputs: Vec<Input>,
     /// PNG file to write; - for standard output
     #[arg(long, short, value_name = "PNG")]
     pub(crate) output: PathBuf,

@@ -23,11 +23,11 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, Failure> {
     let wishes = args.wishes()?;
     let target = Target::new(&args.output, out)?;
     if let Target::File(path) = target {
-        input::check_output(Some(&args.file), path)?;
+        input::check_output(args.inputs.iter().map(|i| i.path.as_path()), path)?;
     }
     // A name that is unknown is refused before a large file is read.
     let method = guideway::method(&args.method())?;
-    let (layout, read_ms) = input::read(&args.file, out)?;
+    let (layout, read_ms) = input::read_all(&args.inputs, out)?;
     let activity = out.activity("arranging");
     let scene = Arc::new(Scene::new(Arc::new(layout), &wishes.scene)?);
     let scene_ms = activity.finish();
@@ -49,7 +49,7 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, Failure> {
     match target {
         Target::StandardOutput => out.note(text().trim_end()),
         Target::File(path) => {
-            let body = report::json(path, &args.file, &scene, &drawn, &times);
+            let body = report::json(path, &args.inputs, &scene, &drawn, &times);
             out.report("render", &body, text)?;
         }
     }

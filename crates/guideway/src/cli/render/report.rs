@@ -6,6 +6,7 @@ use guideway::scene::{Legend, Scene};
 use serde_json::{Value, json};
 
 use super::Drawn;
+use crate::cli::input::{self, Input};
 use crate::cli::text;
 
 /// Where the time went, in milliseconds.
@@ -98,7 +99,13 @@ fn legend_text(legend: &Legend) -> String {
     text
 }
 
-pub(super) fn json(path: &Path, file: &Path, scene: &Scene, drawn: &Drawn, times: &Times) -> Value {
+pub(super) fn json(
+    path: &Path,
+    inputs: &[Input],
+    scene: &Scene,
+    drawn: &Drawn,
+    times: &Times,
+) -> Value {
     let report = &drawn.report;
     let (view, size) = (&drawn.view, drawn.view.size());
     let seen = view.world_bounds();
@@ -118,7 +125,7 @@ pub(super) fn json(path: &Path, file: &Path, scene: &Scene, drawn: &Drawn, times
         })
         .collect();
     json!({
-        "file": file.to_string_lossy(),
+        "file": input::names(inputs),
         "output": path.to_string_lossy(),
         "format": layout.provenance.format,
         "format_version": layout.provenance.format_version,

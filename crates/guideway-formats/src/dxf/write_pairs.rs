@@ -1,0 +1,75 @@
+//! Group codes with their values, as they are written.
+
+use std::io::{self, Write};
+
+/// Handle of the block that entities of the model are in.
+pub(super) const MODEL_SPACE: u64 = 0x1F;
+
+pub(super) struct Pairs<'w, W> {
+    out: &'w mut W,
+    next_handle: u64,
+}
+
+impl<'w, W: Write> Pairs<'w, W> {
+    pub(super) fn new(out: &'w mut W) -> Self {
+        Self {
+            out,
+            next_handle: 0,
+        }
+    }
+
+    /// Entities get handles from here up.
+    pub(super) fn set_next_handle(&mut self, handle: u64) {
+        self.next_handle = handle;
+    }
+
+    /// A text, whatever is in it.
+    pub(super) fn text(&mut self, code: u32, text: &str) -> io::Result<()> {
+        writeln!(self.out, "{code}")?;
+        let mut rest = text;
+        while let Some(at) = rest.find(|c: char| c.is_control() || c == '\\') {
+            let (plain, special) = rest.split_at(at);
+            let c = special.chars().next().unwrap_or_default();
+            // A backslash only means something before U+, so that names of files stay as they are.
+            match c == '\\' && !special.starts_with(r"\U+") {
+                true => write!(self.out, "{plain}{c}")?,
+                false => write!(self.out, r"{plain}\U+{:04X}", u32::from(c))?,
+            }
+            rest = &special[c.len_utf8()..];
+        }
+        writeln!(self.out, "{rest}")
+    }
+
+    pub(super) fn whole(&mut self, code: u32, value: u64) -> io::Result<()> {
+        writeln!(self.out, "{code}\n{value}")
+    }
+
+    pub(super) fn real(&mut self, code: u32, value: f64) -> io::Result<()> {
+        writeln!(self.out, "{code}\n{value}")
+    }
+
+    pub(super) fn handle(&mut self, code: u32, handle: u64) -> io::Result<()> {
+        writeln!(self.out, "{code}\n{handle:X}")
+    }
+
+    /// A point whose x has a code; those of y and z are 10 and 20 above it.
+    pub(super) fn point(&mut self, code: u32, [x, y]: [f64; 2], has_z: bool) -> io::Result<()> {
+        self.real(code, x)?;
+        self.real(code + 10, y)?;
+        if has_z {
+            self.real(code + 20, 0.0)
+        } else {
+            Ok(())
+        }
+    }
+
+    /// Begins an entity of the model.
+    pub(super) fn entity(&mut self, kind: &str, layer: &str) -> io::Result<()> {
+        self.text(0, kind)?;
+        self.handle(5, self.next_handle)?;
+        self.next_handle += 1;
+        self.handle(330, MODEL_SPACE)?;
+        self.text(100, "AcDbEntity")?;
+        self.text(8, layer)
+    }
+}

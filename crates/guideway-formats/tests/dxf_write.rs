@@ -1,0 +1,147 @@
+//! What is written as DXF comes back as it was, but for what a drawing cannot hold.
+
+#![allow(clippy::unwrap_used, reason = "a test may fail by a panic")]
+
+mod common;
+mod same;
+
+use common::{codes, count, read};
+use guideway_formats::Losses;
+use guideway_formats::dxf::write_layout;
+use guideway_layout::{Direction, Layout, NewPath, Value};
+use guideway_spline::{Point, Runs, polyline_to_runs};
+use proptest::prelude::*;
+use same::{arbitrary_layout, assert_same_curves, assert_same_ids};
+
+fn written(layout: &Layout) -> (String, Losses) {
+    let mut bytes = Vec::new();
+    let losses = write_layout(layout, &mut bytes).unwrap();
+    (String::from_utf8(bytes).unwrap(), losses)
+}
+
+fn lost(losses: &Losses) -> Vec<(&str, u64)> {
+    losses
+        .iter()
+        .map(|loss| (loss.what.as_str(), loss.count))
+        .collect()
+}
+
+fn layer(layout: &Layout, path: usize) -> Value<'_> {
+    let column = layout.paths.attributes.get("layer").unwrap();
+    column.values.get(path).unwrap()
+}
+
+fn push(layout: &mut Layout, id: &str, points: &[(f64, f64)]) {
+    let points: Vec<_> = points.iter().map(|&(x, y)| Point::new(x, y)).collect();
+    let mut runs = Runs::default();
+    polyline_to_runs(&points, &mut runs);
+    layout.paths.push(&NewPath {
+        id,
+        runs: &runs,
+        ..NewPath::default()
+    });
+}
+
+proptest! {
+    #[test]
+    fn any_layout_comes_back(layout in arbitrary_layout(), colors in prop::collection::vec(any::<u32>(), 7)) {
+        let mut layout = layout;
+        // Opaque, and not white.
+        let color = |i: usize| (colors[i] & 0x7FFF_FF00) | 0xFF;
+        layout.paths.set_color_rgba((0..layout.paths.len()).map(color).collect());
+        let (text, losses) = written(&layout);
+        let what = ["nodes", "vehicle types", "column maxSpeed", "levels"];
+        prop_assert_eq!(losses.iter().map(|l| &l.what).collect::<Vec<_>>(), what);
+        let again = read(&text);
+        assert_same_curves(&layout, &again, "DXF");
+        assert_same_ids(&layout, &again, "DXF");
+        prop_assert_eq!(layout.paths.color_rgba(), again.paths.color_rgba());
+        for path in layout.paths.iter() {
+            let level = &layout.levels[path.level().unwrap() as usize].id;
+            prop_assert_eq!(layer(&again, path.row()), Value::Text(level));
+        }
+        prop_assert!(codes(&again).is_empty(), "{:?}", codes(&again));
+    }
+}
+
+#[test]
+fn straight_paths_are_lines_and_corners_polylines() {
+    let mut layout = Layout::default();
+    push(&mut layout, "line", &[(0.0, 0.0), (4.0, 3.0)]);
+    push(&mut layout, "corner", &[(0.0, 0.0), (4.0, 0.0), (4.0, 3.0)]);
+    let mut runs = Runs::default();
+    runs.push(&[(0.0, 0.0), (1.0, 2.0), (3.0, 2.0), (4.0, 0.0)].map(|(x, y)| Point::new(x, y)));
+    layout.paths.push(&NewPath {
+        id: "bow",
+        runs: &runs,
+        ..NewPath::default()
+    });
+    let again = read(&written(&layout).0);
+    for kind in ["LINE", "LWPOLYLINE", "SPLINE"] {
+        assert_eq!(count(&again, kind), 1, "{kind}");
+    }
+    assert_eq!(again.provenance.format_version, "2007 (AC1021)");
+}
+
+#[test]
+fn names_are_kept_whatever_is_in_them() {
+    let long = "ä".repeat(600);
+    let names = [
+        "A --- B",
+        "\\U+00E4",
+        "C:\\temp\n1",
+        &long,
+        "",
+        "漢 \u{1F69A}",
+    ];
+    let mut layout = Layout::default();
+    for name in names {
+        push(&mut layout, name, &[(0.0, 0.0), (4.0, 3.0)]);
+    }
+    let again = read(&written(&layout).0);
+    let read: Vec<&str> = again.paths.iter().map(|p| p.id()).collect();
+    assert_eq!(read, names);
+}
+
+#[test]
+fn layers_that_no_drawing_can_have_are_changed_and_said() {
+    let mut layout = Layout::default();
+    for name in ["Wände", "WÄNDE", "a/b", "0", ""] {
+        push(&mut layout, "p", &[(0.0, 0.0), (4.0, 3.0)]);
+        let row = layout.paths.len() - 1;
+        layout.paths.attributes.set(row, "layer", Value::Text(name));
+    }
+    let (text, losses) = written(&layout);
+    assert_eq!(lost(&losses), [("layers", 3)]);
+    let again = read(&text);
+    let layers: Vec<String> = (0..5).map(|p| layer(&again, p).to_string()).collect();
+    assert_eq!(layers, ["Wände", "Wände", "a_b", "0", "0"]);
+}
+
+#[test]
+fn what_has_no_place_is_listed() {
+    let mut layout = Layout::default();
+    let mut runs = Runs::default();
+    runs.push_line(Point::new(0.0, 0.0), Point::new(1.0, 0.0));
+    runs.push_line(Point::new(5.0, 0.0), Point::new(6.0, 0.0));
+    layout.paths.push(&NewPath {
+        id: "E",
+        runs: &runs,
+        direction: Direction::Both,
+        ..NewPath::default()
+    });
+    layout.paths.set_color_rgba(vec![0xFFFF_FF80]);
+    layout.paths.set_rank(vec![3]);
+    let (text, losses) = written(&layout);
+    let expected = [
+        ("colours", 1),
+        ("colours", 1),
+        ("draw ranks", 1),
+        ("directions", 1),
+        ("broken paths", 1),
+    ];
+    assert_eq!(lost(&losses), expected);
+    let again = read(&text);
+    let ids: Vec<&str> = again.paths.iter().map(|p| p.id()).collect();
+    assert_eq!(ids, ["E", "E~2"]);
+}

@@ -1,0 +1,233 @@
+//! What is written as LIF 1.0 and 2.0 comes back as it was, but for what the format cannot hold.
+
+#![allow(clippy::unwrap_used, reason = "a test may fail by a panic")]
+
+mod common;
+mod same;
+
+use std::time::{Duration, SystemTime};
+
+use common::{codes, read};
+use guideway_formats::Losses;
+use guideway_formats::lif::{Version, WriteOptions, write_layout};
+use guideway_layout::{Code, Direction, Layout, NewPath, Value};
+use guideway_spline::{Point, Runs};
+use proptest::prelude::*;
+use same::{arbitrary_layout, assert_same_curves, assert_same_ids, assert_same_network};
+
+const VERSIONS: [Version; 2] = [Version::V1, Version::V2];
+
+fn written(layout: &Layout, version: Version) -> (String, Losses) {
+    let mut bytes = Vec::new();
+    let exported = SystemTime::UNIX_EPOCH + Duration::from_millis(1_700_000_000_120);
+    let losses = write_layout(layout, &mut bytes, &WriteOptions { version, exported });
+    (String::from_utf8(bytes).unwrap(), losses.unwrap())
+}
+
+fn lost(losses: &Losses) -> Vec<(&str, u64)> {
+    losses
+        .iter()
+        .map(|loss| (loss.what.as_str(), loss.count))
+        .collect()
+}
+
+fn types(layout: &Layout, path: usize) -> Vec<&str> {
+    layout.paths.vehicle_types().of(path).collect()
+}
+
+fn column<'a>(layout: &'a Layout, name: &str, path: usize) -> Option<Value<'a>> {
+    layout.paths.attributes.get(name)?.values.get(path)
+}
+
+proptest! {
+    #[test]
+    fn any_layout_comes_back(layout in arbitrary_layout()) {
+        for (version, speed) in [(Version::V1, "maxSpeed"), (Version::V2, "maximumSpeed")] {
+            let (text, losses) = written(&layout, version);
+            prop_assert!(losses.is_empty(), "{losses:?}");
+            let again = read(&text);
+            assert_same_curves(&layout, &again, "LIF");
+            assert_same_ids(&layout, &again, "LIF");
+            assert_same_network(&layout, &again, "LIF");
+            for path in 0..layout.paths.len() {
+                prop_assert_eq!(types(&again, path), types(&layout, path));
+                prop_assert_eq!(column(&again, speed, path), column(&layout, "maxSpeed", path));
+            }
+            // Nothing odd is written, but that curves are not where their nodes are.
+            prop_assert!(codes(&again).is_empty(), "{:?} in {text}", codes(&again));
+        }
+    }
+}
+
+/// Four paths without nodes: three in a row, the last of them two-way, and one apart.
+fn bare() -> Layout {
+    let mut layout = Layout::default();
+    for (id, from, to, direction) in [
+        ("a", (0.0, 0.0), (5.0, 0.0), Direction::Forward),
+        ("b", (5.0, 0.0005), (5.0, 5.0), Direction::Forward),
+        ("b", (5.0, 5.0), (0.0, 5.0), Direction::Both),
+        ("c", (9.0, 9.0), (9.0, 12.0), Direction::Forward),
+    ] {
+        let mut runs = Runs::default();
+        runs.push_line(Point::new(from.0, from.1), Point::new(to.0, to.1));
+        layout.paths.push(&NewPath {
+            id,
+            runs: &runs,
+            direction,
+            ..NewPath::default()
+        });
+    }
+    layout
+}
+
+#[test]
+fn paths_without_nodes_get_them_and_share_those_that_meet() {
+    for version in VERSIONS {
+        let (text, losses) = written(&bare(), version);
+        let expected = [
+            ("levels", 4),
+            ("nodes", 6),
+            ("vehicle types", 4),
+            ("directions", 1),
+        ];
+        assert_eq!(lost(&losses), expected);
+        let again = read(&text);
+        assert_eq!((again.nodes.len(), again.paths.len()), (6, 5));
+        let ids: Vec<&str> = again.paths.iter().map(|p| p.id()).collect();
+        assert_eq!(ids, ["a", "b", "b", "b~2", "c"]);
+        let ends: Vec<_> = again
+            .paths
+            .iter()
+            .map(|p| (p.start_node(), p.end_node()))
+            .collect();
+        assert_eq!(ends[0].1, ends[1].0);
+        assert_eq!((ends[3].0, ends[3].1), (ends[2].1, ends[2].0));
+        assert_eq!(types(&again, 0), ["any"]);
+        assert_eq!(again.levels[0].id, "layout");
+        assert_eq!(codes(&again), []);
+    }
+}
+
+#[test]
+fn a_curve_back_is_the_curve_reversed() {
+    let mut layout = Layout::default();
+    let mut runs = Runs::default();
+    runs.push(
+        &[(0.0, 0.0), (1.0, 2.0), (3.0, 2.0), (4.0, -1.0), (7.0, 0.0)]
+            .map(|(x, y)| Point::new(x, y)),
+    );
+    layout.paths.push(&NewPath {
+        id: "bow",
+        runs: &runs,
+        direction: Direction::Both,
+        ..NewPath::default()
+    });
+    let again = read(&written(&layout, Version::V1).0);
+    let (there, back) = (again.paths.get(0), again.paths.get(1));
+    assert!(same::apart_m(there, back) < 1e-6);
+    let ((start, end), (back_start, back_end)) = (there.ends().unwrap(), back.ends().unwrap());
+    assert!(start.distance(back_end) < 1e-6 && end.distance(back_start) < 1e-6);
+    assert!(start.distance(end) > 1.0);
+}
+
+#[test]
+fn names_are_made_unique_and_what_has_no_place_is_listed() {
+    let mut layout = bare();
+    for _ in 0..2 {
+        layout.nodes.push("N", Point::new(1.0, 1.0), None);
+    }
+    layout.nodes.push("N~2", Point::new(2.0, 1.0), None);
+    layout.stations.push("S", None, vec![1], None);
+    layout
+        .stations
+        .attributes
+        .set(0, "stationType", Value::Text("dock"));
+    layout.paths.set_width_m(vec![f32::NAN, 0.5, 0.5, f32::NAN]);
+    layout.refused.push("x", Code::NonFinite, "");
+    let attributes = &mut layout.paths.attributes;
+    attributes.set(1, "mood", Value::Int(3));
+    attributes.set(0, "maxSpeed", Value::Text("fast"));
+    attributes.set(2, "maxSpeed", Value::Text("1.5"));
+    let (text, losses) = written(&layout, Version::V1);
+    for expected in [
+        ("refused paths", 1),
+        ("widths", 2),
+        ("column stationType", 1),
+        ("nodes", 1),
+        ("column mood", 1),
+        ("column maxSpeed", 1),
+    ] {
+        assert!(
+            lost(&losses).contains(&expected),
+            "{expected:?} in {losses:?}"
+        );
+    }
+    let again = read(&text);
+    let nodes: Vec<&str> = (0..3).map(|n| again.nodes.id(n)).collect();
+    assert_eq!(nodes, ["N", "N~3", "N~2"]);
+    assert_eq!(again.stations.nodes(0), [1]);
+    assert_eq!(column(&again, "maxSpeed", 2), Some(Value::Float(1.5)));
+}
+
+#[test]
+fn the_versions_translate_into_each_other() {
+    let mut layout = bare();
+    let attributes = &mut layout.paths.attributes;
+    attributes.set(0, "rotationAllowed", Value::Bool(true));
+    attributes.set(0, "vehicleOrientation", Value::Float(0.5));
+    attributes.set(0, "loadRestriction.unloaded", Value::Bool(true));
+    attributes.set(0, "loadRestriction.loaded", Value::Bool(false));
+    attributes.set(0, "loadRestriction.loadSetNames", Value::Text("EPAL, box"));
+    let second = read(&written(&layout, Version::V2).0);
+    assert_eq!(second.provenance.format_version, "2.0");
+    let renamed = column(&second, "reachOrientationBeforeEntering", 0);
+    assert_eq!(renamed, Some(Value::Bool(false)));
+    let first = read(&written(&second, Version::V1).0);
+    assert_eq!(first.provenance.format_version, "1.0");
+    assert_eq!(
+        column(&first, "rotationAllowed", 0),
+        Some(Value::Bool(true))
+    );
+    assert_eq!(
+        column(&first, "vehicleOrientation", 0),
+        Some(Value::Float(0.5))
+    );
+    let sets = column(&first, "loadRestriction.loadSetNames", 0);
+    assert_eq!(sets, Some(Value::Text("EPAL, box")));
+}
+
+#[test]
+fn a_broken_path_stays_broken() {
+    let mut layout = Layout::default();
+    let mut runs = Runs::default();
+    runs.push_line(Point::new(0.0, 0.0), Point::new(1.0, 0.0));
+    runs.push_line(Point::new(5.0, 0.0), Point::new(6.0, 0.0));
+    layout.paths.push(&NewPath {
+        id: "E",
+        runs: &runs,
+        ..NewPath::default()
+    });
+    let again = read(&written(&layout, Version::V1).0);
+    assert_same_curves(&layout, &again, "broken");
+    assert_eq!(codes(&again), [Code::KnotMultiplicity]);
+}
+
+#[test]
+#[should_panic(expected = "m off")]
+fn a_curve_that_differs_is_told_apart() {
+    let mut other = bare();
+    other.paths = read(&written(&bare(), Version::V1).0).paths;
+    let mut moved = Layout::default();
+    for path in other.paths.iter() {
+        let mut runs = Runs::default();
+        for run in path.runs() {
+            let points: Vec<_> = run.iter().map(|p| p + Point::new(0.0, 2e-4)).collect();
+            runs.push(&points);
+        }
+        moved.paths.push(&NewPath {
+            runs: &runs,
+            ..NewPath::default()
+        });
+    }
+    assert_same_curves(&other, &moved, "moved");
+}

@@ -1,0 +1,154 @@
+//! Whether two layouts are the same, and layouts to try it on: what the tests of writers share.
+
+#![allow(dead_code, reason = "not every test binary needs all of it")]
+
+use guideway_layout::{Direction, Layout, Level, NewPath, PathRef, Value};
+use guideway_spline::{Point, Runs, nearest_on_run, polyline_to_runs, uniform};
+use proptest::prelude::*;
+
+/// How far a curve may be from what it was before it was written, in metres.
+pub(crate) const TOLERANCE_M: f64 = 1e-4;
+
+/// How far two curves are apart: from above if they have the same segments, else at many points.
+pub(crate) fn apart_m(a: PathRef<'_>, b: PathRef<'_>) -> f64 {
+    let beziers = |p: PathRef<'_>| -> Vec<[Point<f64>; 4]> {
+        let segments = p.runs().flat_map(|run| run.segments());
+        segments.map(|s| uniform::to_bezier(&s)).collect()
+    };
+    let (of_a, of_b) = (beziers(a), beziers(b));
+    if of_a.len() == of_b.len() {
+        // A Bezier curve stays as near to another as its points do.
+        let pairs = of_a.iter().flatten().zip(of_b.iter().flatten());
+        let most = pairs.map(|(p, q)| p.distance(*q)).fold(0.0, f64::max);
+        if most <= TOLERANCE_M {
+            return most;
+        }
+    }
+    farthest_m(a, b).max(farthest_m(b, a))
+}
+
+/// The greatest distance of many points of one curve from another.
+fn farthest_m(from: PathRef<'_>, to: PathRef<'_>) -> f64 {
+    const STEPS: u32 = 16;
+    let to: Vec<Vec<Point<f64>>> = to.runs().map(|run| run.iter().collect()).collect();
+    let near = |p: Point<f64>| {
+        let runs = to.iter().filter_map(|run| nearest_on_run(run, p, 1e-7));
+        runs.map(|n| n.distance).fold(f64::INFINITY, f64::min)
+    };
+    let segments = from.runs().flat_map(|run| run.segments());
+    let steps = |s| (0..=STEPS).map(move |i| uniform::point(&s, f64::from(i) / f64::from(STEPS)));
+    segments.flat_map(steps).map(near).fold(0.0, f64::max)
+}
+
+pub(crate) fn assert_same_curves(a: &Layout, b: &Layout, what: &str) {
+    assert_eq!(a.paths.len(), b.paths.len(), "{what}: number of paths");
+    for (p, q) in a.paths.iter().zip(b.paths.iter()) {
+        let apart = apart_m(p, q);
+        assert!(
+            apart <= TOLERANCE_M,
+            "{what}: path {} is {apart} m off",
+            p.id()
+        );
+    }
+}
+
+pub(crate) fn assert_same_ids(a: &Layout, b: &Layout, what: &str) {
+    for (p, q) in a.paths.iter().zip(b.paths.iter()) {
+        assert_eq!(p.id(), q.id(), "{what}");
+    }
+}
+
+/// Nodes, levels, and how paths refer to them.
+pub(crate) fn assert_same_network(a: &Layout, b: &Layout, what: &str) {
+    assert_eq!(a.levels, b.levels, "{what}");
+    let nodes = |layout: &Layout| -> Vec<(String, Option<u32>)> {
+        let nodes = &layout.nodes;
+        let all = 0..nodes.len() as u32;
+        all.map(|n| (nodes.id(n).to_owned(), nodes.level(n)))
+            .collect()
+    };
+    assert_eq!(nodes(a), nodes(b), "{what}");
+    for node in 0..a.nodes.len() as u32 {
+        let apart = a.nodes.position_m(node).distance(b.nodes.position_m(node));
+        assert!(apart <= TOLERANCE_M, "{what}: node {node} is {apart} m off");
+    }
+    for (p, q) in a.paths.iter().zip(b.paths.iter()) {
+        let refers = |p: PathRef<'_>| (p.start_node(), p.end_node(), p.level(), p.direction());
+        assert_eq!(refers(p), refers(q), "{what}: path {}", p.id());
+    }
+}
+
+/// A path to be: its identifier, its shape, where its ends are among the nodes, its level.
+type Draft = (String, Vec<Vec<Point<f64>>>, (usize, usize), usize);
+
+fn point() -> impl Strategy<Value = Point<f64>> {
+    (-2e3..2e3, -2e3..2e3).prop_map(|(x, y)| Point::new(x, y))
+}
+
+/// Curves, lines, corners, gaps, dots.
+fn shape() -> impl Strategy<Value = Vec<Vec<Point<f64>>>> {
+    let curve = prop::collection::vec(point(), 4..9).prop_map(|run| vec![run]);
+    let runs_of = |runs: &Runs| runs.iter().map(<[_]>::to_vec).collect::<Vec<_>>();
+    let lines = prop::collection::vec(point(), 2..6).prop_map(move |points| {
+        let mut runs = Runs::default();
+        polyline_to_runs(&points, &mut runs);
+        runs_of(&runs)
+    });
+    let beziers = prop::collection::vec(point(), 7).prop_map(move |b| {
+        let mut runs = Runs::default();
+        runs.push_bezier(&[b[0], b[1], b[2], b[3]]);
+        runs.push_bezier(&[b[3], b[4], b[5], b[6]]);
+        runs_of(&runs)
+    });
+    let dot = point().prop_map(|p| vec![vec![p; 4]]);
+    prop_oneof![4 => curve, 3 => lines, 3 => beziers, 1 => dot]
+}
+
+fn draft() -> impl Strategy<Value = Draft> {
+    (
+        "[ -~äé漢]{1,9}",
+        shape(),
+        (0..5_usize, 0..5_usize),
+        0..2_usize,
+    )
+}
+
+/// A layout of two levels with nodes, types and columns; every path hangs together.
+pub(crate) fn arbitrary_layout() -> impl Strategy<Value = Layout> {
+    prop::collection::vec(draft(), 1..7).prop_map(|mut drafts| {
+        // Formats that keep levels apart keep the order of paths on each.
+        drafts.sort_by_key(|draft| draft.3);
+        let mut layout = Layout::default();
+        for (id, name) in [("ground", Some("Halle <1>")), ("upper", None)] {
+            layout.levels.push(Level {
+                id: id.to_owned(),
+                name: name.map(str::to_owned),
+                elevation_m: None,
+            });
+        }
+        // Five nodes on each level.
+        for node in 0..10_u32 {
+            let position = Point::new(f64::from(node) * 1.25, -0.1 * f64::from(node));
+            layout
+                .nodes
+                .push(&format!("N {node}"), position, Some(node / 5));
+        }
+        for (id, shape, ends, level) in &drafts {
+            let mut runs = Runs::default();
+            shape.iter().for_each(|run| runs.push(run));
+            let node = |i: usize| Some((level * 5 + i) as u32);
+            let row = layout.paths.push(&NewPath {
+                id,
+                runs: &runs,
+                start_node: node(ends.0),
+                end_node: node(ends.1),
+                direction: Direction::Forward,
+                level: Some(*level as u32),
+                vehicle_types: &["tugger", "Acme fork lift"],
+            });
+            let speed = Value::Float(ends.0 as f64 + 0.5);
+            layout.paths.attributes.set(row, "maxSpeed", speed);
+        }
+        layout
+    })
+}

@@ -1,0 +1,130 @@
+//! Findings for code review tools: the Static Analysis Results Interchange Format, SARIF 2.1.0
+//! (<https://docs.oasis-open.org/sarif/sarif/v2.1.0/sarif-v2.1.0.html>).
+
+use guideway::layout::{Code, Diagnostic, Severity};
+use serde_json::{Value, json};
+
+use super::{Checked, kinds};
+use crate::cli::{Exit, Failure};
+
+const SCHEMA: &str =
+    "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json";
+
+pub(super) fn bytes(files: &[Checked], exit: Exit) -> Result<Vec<u8>, Failure> {
+    let kinds = kinds(files);
+    let rules: Vec<Value> = kinds.iter().map(|(code, _)| rule(*code)).collect();
+    let rule_index = |code: Code| kinds.iter().position(|(known, _)| *known == code);
+    let results = files.iter().enumerate().flat_map(|(i, file)| {
+        let result = move |finding| result(finding, &file.file, i, rule_index(finding.code));
+        file.found.iter().map(result)
+    });
+    let all: u64 = kinds.iter().map(|(_, count)| count).sum();
+    let kept: usize = files.iter().map(|file| file.found.iter().count()).sum();
+    let mut invocation = json!({ "executionSuccessful": true, "exitCode": exit.code() });
+    if all > kept as u64 {
+        let text = format!(
+            "{} findings of kinds that occur very often are left out",
+            all - kept as u64
+        );
+        let note = json!({ "level": "note", "message": { "text": text } });
+        invocation["toolExecutionNotifications"] = json!([note]);
+    }
+    let artifact = |file: &Checked| json!({ "location": { "uri": uri(&file.file) } });
+    let log = json!({
+        "$schema": SCHEMA,
+        "version": "2.1.0",
+        "runs": [{
+            "tool": {
+                "driver": {
+                    "name": "Guideway",
+                    "semanticVersion": env!("CARGO_PKG_VERSION"),
+                    "informationUri": env!("CARGO_PKG_REPOSITORY"),
+                    "rules": rules,
+                },
+            },
+            "invocations": [invocation],
+            "artifacts": files.iter().map(artifact).collect::<Vec<Value>>(),
+            "results": results.collect::<Vec<Value>>(),
+        }],
+    });
+    let mut bytes = serde_json::to_vec_pretty(&log).map_err(|error| Failure {
+        code: "json",
+        message: format!("cannot write the findings as SARIF: {error}"),
+        remedy: "Use another --format".into(),
+    })?;
+    bytes.push(b'\n');
+    Ok(bytes)
+}
+
+fn rule(code: Code) -> Value {
+    let page = concat!(
+        env!("CARGO_PKG_REPOSITORY"),
+        "/blob/main/docs/diagnostics.md"
+    );
+    json!({
+        "id": code.name(),
+        "shortDescription": { "text": code.meaning() },
+        "helpUri": format!("{page}#{}-{}", code.name(), code.severity()),
+        "defaultConfiguration": { "level": level(code.severity()) },
+    })
+}
+
+fn result(finding: &Diagnostic, file: &str, index: usize, rule: Option<usize>) -> Value {
+    let Diagnostic {
+        code,
+        place,
+        message,
+        remedy,
+    } = finding;
+    let mut physical = json!({ "artifactLocation": { "uri": uri(file), "index": index } });
+    if let Some(line) = place.line.filter(|&line| line > 0) {
+        physical["region"] = json!({ "startLine": line });
+    }
+    json!({
+        "ruleId": code.name(),
+        "ruleIndex": rule,
+        "level": level(code.severity()),
+        "message": { "text": format!("{}: {message}. {remedy}.", place.element) },
+        "locations": [{
+            "physicalLocation": physical,
+            "logicalLocations": [{ "fullyQualifiedName": place.element, "kind": "element" }],
+        }],
+    })
+}
+
+fn level(severity: Severity) -> &'static str {
+    match severity {
+        Severity::Info => "note",
+        Severity::Warning => "warning",
+        Severity::Error => "error",
+    }
+}
+
+/// A file name as a URI reference (RFC 3986): relative ones stay so, as tools want them.
+fn uri(file: &str) -> String {
+    let mut uri = String::new();
+    for byte in file.bytes() {
+        match byte {
+            b'\\' if cfg!(windows) => uri.push('/'),
+            b'A'..=b'Z' | b'a'..=b'z' | b'0'..=b'9' | b'-' | b'.' | b'_' | b'~' | b'/' => {
+                uri.push(char::from(byte));
+            }
+            _ => uri += &format!("%{byte:02X}"),
+        }
+    }
+    match uri.starts_with('/') {
+        true => format!("file://{uri}"),
+        false => uri,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn file_names_become_uris() {
+        assert_eq!(uri("a b/hälle.json"), "a%20b/h%C3%A4lle.json");
+        assert_eq!(uri("/tmp/x#1.dxf"), "file:///tmp/x%231.dxf");
+    }
+}

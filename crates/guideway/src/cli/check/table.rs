@@ -1,0 +1,42 @@
+//! Findings for people.
+
+use guideway::layout::Code;
+
+use super::{Checked, Tally};
+use crate::cli::text;
+
+/// The findings of a file by kind, the worst kinds first, and how many there are.
+pub(super) fn text(file: &Checked, shown_of_each: usize) -> String {
+    let found = &file.found;
+    let mut kinds: Vec<(Code, u64)> = found.counts().collect();
+    kinds.sort_by_key(|(code, _)| (std::cmp::Reverse(code.severity()), *code));
+    let mut text = String::new();
+    for (code, count) in kinds {
+        text += &format!(
+            "{}: {code} ({})\n  {}\n",
+            code.severity(),
+            text::count(count),
+            code.meaning()
+        );
+        let of_kind = || found.iter().filter(|finding| finding.code == code);
+        let mut last_remedy = "";
+        for finding in of_kind().take(shown_of_each) {
+            let place = text::plain(&finding.place.to_string(), 200);
+            let message = text::plain(&finding.message, 400);
+            text += &format!("  - {place}: {message}\n");
+            // Findings of a kind mostly share their remedy: said once, it is read.
+            if finding.remedy != last_remedy {
+                text += &format!("    hint: {}\n", text::plain(&finding.remedy, 400));
+                last_remedy = &finding.remedy;
+            }
+        }
+        let rest = count - (of_kind().count().min(shown_of_each) as u64);
+        if rest > 0 {
+            text += &format!("  - and {} more\n", text::count(rest));
+        }
+        text.push('\n');
+    }
+    let paths = text::counted(file.paths, "path");
+    let tally = Tally::of(std::iter::once(found)).text();
+    text + &format!("{}: {paths}, {tally}\n", file.file)
+}
