@@ -1,7 +1,7 @@
 //! Density shading: from how many paths cover a pixel, on average over its square, to a colour.
 //!
 //! With a million paths on two million pixels a linear scale shows either the crowd or the single path;
-//! the logarithm shows both.
+//! the logarithm shows both, and equalising the histogram spends the colours where the pixels are.
 
 use guideway_scene::Rgba;
 
@@ -15,6 +15,10 @@ pub enum ToneMap {
     /// By the logarithm of one plus the count.
     #[default]
     Log,
+    /// By how many of the pixels under more than one path have no larger count, so that each colour shows
+    /// on as many. As datashader's `eq_hist` (<https://datashader.org>), but that one path and less share
+    /// the first colour: their opacity tells them apart already.
+    Equalised,
 }
 
 /// Steps from few to many, dark to light on any background: lightness rises evenly.
@@ -28,23 +32,88 @@ const STEPS: [Rgba; 6] = [
 ];
 
 /// Colours a frame from `counts`, the mean number of covering paths of each pixel. The largest count gets
-/// the last colour; below one path the background shows through.
+/// the last colour, unless nothing is above one path and the histogram is equalised; below one path the
+/// background shows through.
 ///
 /// # Panics
 /// When there is not one count a pixel.
 pub fn shade(counts: &[f32], tone: ToneMap, background: Rgba, frame: &mut Frame) {
     assert_eq!(counts.len(), frame.pixels().len(), "one count a pixel");
-    let curve = |count: f32| match tone {
-        ToneMap::Linear => f64::from(count),
-        ToneMap::Log => f64::from(count).ln_1p(),
-    };
     let most = counts.iter().copied().fold(1.0, f32::max);
+    match tone {
+        ToneMap::Linear => {
+            let most = f64::from(most);
+            paint(counts, background, frame, |count| f64::from(count) / most);
+        }
+        ToneMap::Log => {
+            let most = f64::from(most).ln_1p();
+            paint(counts, background, frame, |count| {
+                f64::from(count).ln_1p() / most
+            });
+        }
+        ToneMap::Equalised => {
+            let histogram = Histogram::of(counts);
+            // At least one pixel, for there may be none.
+            let most = histogram.up_to(most).max(1.0);
+            paint(counts, background, frame, |count| {
+                histogram.up_to(count) / most
+            });
+        }
+    }
+}
+
+/// Colours pixels by how far along the steps their count is, from 0 to 1.
+fn paint(counts: &[f32], background: Rgba, frame: &mut Frame, along: impl Fn(f32) -> f64) {
     for (pixel, &count) in frame.pixels_mut().iter_mut().zip(counts) {
-        let along = curve(count) / curve(most) * (STEPS.len() - 1) as f64;
+        let along = along(count) * (STEPS.len() - 1) as f64;
         let below = (along as usize).min(STEPS.len() - 2);
         let color = STEPS[below].lerp(STEPS[below + 1], along - below as f64);
         let shown = background.lerp(color, f64::from(count.min(1.0)));
         *pixel = [shown.r, shown.g, shown.b, shown.a];
+    }
+}
+
+/// How many pixels have how large a count, among those under more than one path.
+struct Histogram {
+    /// Pixels of each bin and all below.
+    up_to: Vec<u32>,
+}
+
+impl Histogram {
+    /// Bins from one power of two to the next. Whole counts up to twice as many lie in the middle of one,
+    /// and bins are wide enough that a count has the same colour however a method samples it.
+    const A_DOUBLING: u32 = 8;
+
+    fn of(counts: &[f32]) -> Self {
+        let mut up_to = vec![0];
+        for &count in counts {
+            let bin = Self::place(count).round() as usize;
+            if up_to.len() <= bin {
+                up_to.resize(bin + 1, 0);
+            }
+            up_to[bin] += u32::from(bin > 0);
+        }
+        for bin in 1..up_to.len() {
+            up_to[bin] += up_to[bin - 1];
+        }
+        Self { up_to }
+    }
+
+    /// Where a count lies, in bins beyond one path. The bits of a number go up evenly from one power of two
+    /// to the next, as a logarithm by straight lines.
+    fn place(count: f32) -> f64 {
+        let beyond_one = count.max(1.0).to_bits() - 1_f32.to_bits();
+        let a_doubling = 2_f32.to_bits() - 1_f32.to_bits();
+        f64::from(beyond_one) / f64::from(a_doubling / Self::A_DOUBLING)
+    }
+
+    /// Pixels with at most this count, by a straight line from the middle of one bin to that of the next.
+    fn up_to(&self, count: f32) -> f64 {
+        let place = Self::place(count);
+        let last = self.up_to.len() - 1;
+        let pixels = |bin: usize| f64::from(self.up_to[bin.min(last)]);
+        let bin = place as usize;
+        pixels(bin) + (pixels(bin + 1) - pixels(bin)) * place.fract()
     }
 }
 
@@ -56,10 +125,55 @@ mod tests {
     #[test]
     fn nothing_shows_the_background_and_most_the_last_step() {
         let mut frame = Frame::new(FrameSize::new(3, 1).unwrap());
-        for tone in [ToneMap::Linear, ToneMap::Log] {
+        for tone in [ToneMap::Linear, ToneMap::Log, ToneMap::Equalised] {
             shade(&[0.0, 10.0, 1000.0], tone, Rgba::WHITE, &mut frame);
             assert_eq!(frame.pixels()[0], [255; 4]);
             assert_eq!(frame.pixels()[2], [250, 240, 150, 255]);
+        }
+    }
+
+    fn colors(counts: &[f32], tone: ToneMap) -> Vec<[u8; 4]> {
+        let size = FrameSize::new(counts.len() as u32, 1).unwrap();
+        let mut frame = Frame::new(size);
+        shade(counts, tone, Rgba::WHITE, &mut frame);
+        frame.pixels().to_vec()
+    }
+
+    fn step(index: usize) -> [u8; 4] {
+        let Rgba { r, g, b, a } = STEPS[index];
+        [r, g, b, a]
+    }
+
+    #[test]
+    fn equalising_gives_every_fifth_of_the_crowded_pixels_a_step() {
+        let counts = [3.0, 1.0, 1024.0, 8.0, 0.5, 2.0, 3.5];
+        let shown = colors(&counts, ToneMap::Equalised);
+        let half = Rgba::WHITE.lerp(STEPS[0], 0.5);
+        let mut expected = [2, 0, 5, 4, 0, 1, 3].map(step);
+        expected[4] = [half.r, half.g, half.b, half.a];
+        assert_eq!(shown, expected);
+    }
+
+    #[test]
+    fn many_equal_pixels_take_many_steps() {
+        let shown = colors(&[2.0, 2.0, 4.0, 2.0, 2.0], ToneMap::Equalised);
+        assert_eq!(shown, [4, 4, 5, 4, 4].map(step));
+    }
+
+    #[test]
+    fn nothing_beyond_one_path_has_the_first_colour() {
+        let shown = colors(&[1.0, 1.0, 0.0], ToneMap::Equalised);
+        assert_eq!(shown[..2], [0; 2].map(step));
+        assert_eq!(shown[2], [255; 4]);
+    }
+
+    #[test]
+    fn a_count_that_is_sampled_a_little_otherwise_looks_much_the_same() {
+        let crowd: Vec<f32> = (0..1000).map(|i| 2.0 + (i % 4) as f32).collect();
+        let histogram = Histogram::of(&crowd);
+        for count in [1.0, 2.0, 3.0, 4.0] {
+            let apart = histogram.up_to(count * 1.01) - histogram.up_to(count);
+            assert!((0.0..30.0).contains(&apart), "{count}: {apart}");
         }
     }
 }

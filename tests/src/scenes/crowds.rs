@@ -139,7 +139,11 @@ pub(super) fn cases() -> Vec<SceneCase> {
             short_paths(Sketch::new(96, 64).density(ToneMap::Linear), 1000, 16)
         }),
     ];
-    for (name, tone) in [("linear", ToneMap::Linear), ("log", ToneMap::Log)] {
+    for (name, tone) in [
+        ("linear", ToneMap::Linear),
+        ("log", ToneMap::Log),
+        ("equalised", ToneMap::Equalised),
+    ] {
         cases.push(case(format!("density/site-{name}"), move || {
             site(Sketch::new(160, 120).width(1.5), 600, 17).density(tone)
         }));

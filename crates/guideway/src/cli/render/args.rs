@@ -126,6 +126,7 @@ enum Shade {
 enum Tone {
     Log,
     Linear,
+    Equalised,
 }
 
 impl Args {
@@ -224,8 +225,11 @@ impl LookArgs {
                 "--tone says how the number of paths becomes a colour, which needs --shade density",
                 "Add it, such as `--shade density --tone linear`",
             )),
-            (Shade::Density, None | Some(Tone::Log)) => Ok(Shading::Density(ToneMap::Log)),
-            (Shade::Density, Some(Tone::Linear)) => Ok(Shading::Density(ToneMap::Linear)),
+            (Shade::Density, tone) => Ok(Shading::Density(match tone {
+                None | Some(Tone::Log) => ToneMap::Log,
+                Some(Tone::Linear) => ToneMap::Linear,
+                Some(Tone::Equalised) => ToneMap::Equalised,
+            })),
         }
     }
 }
