@@ -19,6 +19,6 @@ mod view;
 
 pub use error::RenderError;
 pub use frame::{Frame, FrameSize};
-pub use method::{Budget, Cancel, Edited, Method, MethodInfo, Prepared, Shading, Style};
+pub use method::{Budget, Cancel, Edited, Method, MethodInfo, NO_PATH, Prepared, Shading, Style};
 pub use report::{Clock, Preparation, Report, Stage, Work, elapsed_ms};
 pub use view::View;

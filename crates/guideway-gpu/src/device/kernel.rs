@@ -12,7 +12,8 @@ pub(crate) struct Source {
     pub(crate) bindings: &'static [&'static str],
 }
 
-/// A compute pipeline.
+/// A compute pipeline. Clones share it.
+#[derive(Clone)]
 pub(crate) struct Kernel {
     name: &'static str,
     pub(super) pipeline: wgpu::ComputePipeline,
@@ -41,7 +42,8 @@ impl Kernel {
                 entry_point: Some("main"),
                 compilation_options: wgpu::PipelineCompilationOptions {
                     constants,
-                    ..wgpu::PipelineCompilationOptions::default()
+                    // Shaders set what they share themselves, with all threads of a workgroup.
+                    zero_initialize_workgroup_memory: false,
                 },
                 cache: None,
             });

@@ -14,7 +14,7 @@ use super::{DeviceBuffer, Gpu, Kernel, Memory};
 const PATIENCE: Duration = Duration::from_secs(120);
 
 /// Most stages of one submit.
-const MOST_STAGES: usize = 8;
+const MOST_STAGES: usize = 12;
 /// Bytes of the two ticks around each.
 const TICKS_BYTES: u64 = (MOST_STAGES * 2) as u64 * wgpu::QUERY_SIZE as u64;
 

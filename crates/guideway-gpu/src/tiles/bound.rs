@@ -4,7 +4,7 @@ use guideway_render::Stage;
 use guideway_scene::Scene;
 
 use super::canvas::Canvas;
-use super::kernels::{Kernels, Painters};
+use super::kernels::Kernels;
 use super::params::{FrameParams, Samples, WORKGROUP};
 use super::room::Room;
 use super::store::Store;
@@ -21,6 +21,10 @@ pub(super) enum Paint {
     Opaque,
     Translucent,
     Density,
+    /// Not colours, but which path lies on top.
+    Ids,
+    /// No pixels at all: marks the paths that reach into the picture.
+    Touch,
 }
 
 impl Paint {
@@ -39,16 +43,24 @@ impl Paint {
     pub(super) fn rounds_a_line(self) -> u32 {
         match self {
             Self::One => 10,
-            Self::Opaque | Self::Translucent | Self::Density => 20,
+            Self::Touch => 0,
+            Self::Opaque | Self::Translucent | Self::Density | Self::Ids => 20,
         }
     }
 
-    fn kernel(self, painters: &Painters) -> &Kernel {
+    fn needs_order(self) -> bool {
+        matches!(self, Self::Opaque | Self::Translucent | Self::Density)
+    }
+
+    fn kernel(self, kernels: &Kernels, samples: Samples) -> &Kernel {
+        let painters = kernels.painters(samples);
         match self {
             Self::One => &painters.cover,
             Self::Opaque => &painters.opaque,
             Self::Translucent => &painters.translucent,
             Self::Density => &painters.density,
+            Self::Ids => &painters.ids,
+            Self::Touch => &kernels.touch,
         }
     }
 }
@@ -60,91 +72,151 @@ pub(super) struct Buffers<'a> {
     pub(super) store: &'a Store,
     pub(super) room: &'a Room,
     pub(super) canvas: &'a Canvas,
+    /// A bit a path, where paths are only to be marked.
+    pub(super) marks: Option<&'a DeviceBuffer>,
 }
 
-/// What each stage binds.
+/// The stages of a frame, with all that they bind.
 pub(super) struct Bound {
     paint: Paint,
     samples: Samples,
-    cull: Bindings,
-    /// One a chunk of the scene.
-    flatten: Vec<Bindings>,
-    starts: Bindings,
-    list: Bindings,
-    /// None where order does not matter.
-    sort: Option<Bindings>,
-    cover: Bindings,
+    is_in_rounds: bool,
+    stages: Vec<(&'static str, Vec<Step>)>,
+}
+
+/// A kernel with its buffers.
+struct Step {
+    kernel: Kernel,
+    bindings: Bindings,
+    over: Over,
+}
+
+/// What a kernel has workgroups for.
+#[derive(Clone, Copy)]
+enum Over {
+    /// Threads for all clusters.
+    Clusters,
+    /// Workgroups for clusters in turn.
+    ClustersSeen,
+    /// Threads for lines in turn.
+    Lines,
+    Tiles,
+    /// One workgroup.
+    All,
 }
 
 impl Bound {
-    pub(super) fn new(b: &Buffers<'_>, paint: Paint, samples: Samples) -> Result<Self, String> {
-        let (kernels, store, room, canvas) = (b.kernels, b.store, b.room, b.canvas);
-        let bind = |kernel: &Kernel, buffers: &[&DeviceBuffer]| kernel.bind(b.gpu, buffers);
-        let (frame, found) = (&canvas.frame, &store.found);
-        let (lines_px, ranks) = (&room.lines_px, &room.line_ranks);
-        let flatten = store.chunks.iter().map(|chunk| {
-            let scene = [
-                &chunk.params,
-                &chunk.points_m,
-                &store.strokes,
-                &store.clusters,
-            ];
-            let [params, points_m, strokes, clusters] = scene;
-            let all = [
-                frame,
-                params,
-                points_m,
-                strokes,
-                clusters,
-                &store.styles,
-                found,
-                lines_px,
-                ranks,
-                &canvas.counts,
-            ];
-            bind(&kernels.flatten, &all)
-        });
-        let sorted = [frame, &canvas.starts, &room.reference_list, ranks];
-        let sort = (paint != Paint::One).then(|| bind(&kernels.sort, &sorted));
-        Ok(Self {
+    pub(super) fn new(
+        b: &Buffers<'_>,
+        paint: Paint,
+        samples: Samples,
+        is_in_rounds: bool,
+    ) -> Result<Self, String> {
+        let mut bound = Self {
             paint,
             samples,
-            cull: bind(&kernels.cull, &[frame, &store.clusters, found])?,
-            flatten: flatten.collect::<Result<_, _>>()?,
-            starts: bind(
-                &kernels.starts,
-                &[frame, &canvas.counts, &canvas.starts, &canvas.filled, found],
-            )?,
-            list: bind(
-                &kernels.scatter,
-                &[
-                    frame,
-                    found,
-                    lines_px,
-                    ranks,
-                    &store.styles,
-                    &canvas.filled,
-                    &room.reference_list,
-                ],
-            )?,
-            sort: sort.transpose()?,
-            cover: bind(
-                paint.kernel(kernels.painters(samples)),
-                &[
-                    frame,
-                    &canvas.starts,
-                    &room.reference_list,
-                    lines_px,
-                    ranks,
-                    &store.styles,
-                    &canvas.pixels,
-                ],
-            )?,
-        })
+            is_in_rounds,
+            stages: Vec::new(),
+        };
+        let (kernels, found) = (b.kernels, &b.store.found);
+        let cull = [&b.canvas.frame, &b.store.clusters, found];
+        bound.add("cull", b, &kernels.cull, Over::Clusters, &cull)?;
+        if is_in_rounds {
+            bound.add_round(b, 1)?;
+            bound.add_round(b, 2)?;
+        } else {
+            bound.add_round(b, 0)?;
+        }
+        Ok(bound)
     }
 
-    pub(super) fn is_for(&self, paint: Paint, samples: Samples) -> bool {
-        (self.paint, self.samples) == (paint, samples)
+    /// Adds the stages from curves to pixels.
+    fn add_round(&mut self, b: &Buffers<'_>, round: usize) -> Result<(), String> {
+        let (kernels, paint) = (b.kernels, self.paint);
+        let (
+            Store {
+                strokes,
+                clusters,
+                styles,
+                found,
+                ..
+            },
+            Room {
+                lines_px,
+                line_ranks,
+                ..
+            },
+        ) = (b.store, b.room);
+        let Canvas {
+            frame,
+            counts,
+            starts,
+            filled,
+            pixels,
+            ..
+        } = b.canvas;
+        let references = &b.room.reference_list;
+        for chunk in &b.store.chunks {
+            let buffers = [
+                frame,
+                &chunk.params[round],
+                &chunk.points_m,
+                strokes,
+                clusters,
+                styles,
+                found,
+                lines_px,
+                line_ranks,
+                counts,
+            ];
+            self.add("flatten", b, &kernels.flatten, Over::ClustersSeen, &buffers)?;
+        }
+        let last = paint.kernel(kernels, self.samples);
+        if let Some(marks) = b.marks {
+            let buffers = [frame, found, lines_px, line_ranks, styles, marks];
+            return self.add("mark", b, last, Over::Lines, &buffers);
+        }
+        let buffers = [frame, counts, starts, filled, found];
+        self.add("starts", b, &kernels.starts, Over::All, &buffers)?;
+        let buffers = [
+            frame, found, lines_px, line_ranks, styles, filled, references,
+        ];
+        self.add("list", b, &kernels.scatter, Over::Lines, &buffers)?;
+        if paint.needs_order() {
+            let buffers = [frame, starts, references, line_ranks];
+            self.add("sort", b, &kernels.sort, Over::Tiles, &buffers)?;
+        }
+        let mut buffers = vec![
+            frame, starts, references, lines_px, line_ranks, styles, pixels,
+        ];
+        if paint == Paint::One {
+            buffers.extend([counts, found]);
+        }
+        self.add("cover", b, last, Over::Tiles, &buffers)
+    }
+
+    fn add(
+        &mut self,
+        name: &'static str,
+        b: &Buffers<'_>,
+        kernel: &Kernel,
+        over: Over,
+        buffers: &[&DeviceBuffer],
+    ) -> Result<(), String> {
+        let step = Step {
+            kernel: kernel.clone(),
+            bindings: kernel.bind(b.gpu, buffers)?,
+            over,
+        };
+        match self.stages.last_mut() {
+            Some((last, steps)) if *last == name => steps.push(step),
+            _ => self.stages.push((name, vec![step])),
+        }
+        Ok(())
+    }
+
+    pub(super) fn is_for(&self, paint: Paint, samples: Samples, is_in_rounds: bool) -> bool {
+        (self.paint, self.samples, self.is_in_rounds) == (paint, samples, is_in_rounds)
     }
 
     /// Runs all stages one after the other.
@@ -154,38 +226,32 @@ impl Bound {
         params: &FrameParams,
         runner: &Runner,
     ) -> Result<Vec<Stage>, String> {
-        let kernels = b.kernels;
-        let rounds = |items: u32| items.clamp(1, MOST_ROUNDS_GROUPS.min(b.gpu.most_workgroups()));
-        let tiles = params.columns * params.rows;
-        let dispatch = |kernel, bindings, workgroups| Dispatch {
-            kernel,
-            bindings,
-            workgroups,
+        let in_turn = |items: u32| items.clamp(1, MOST_ROUNDS_GROUPS.min(b.gpu.most_workgroups()));
+        let workgroups = |over| match over {
+            Over::Clusters => params.clusters.div_ceil(WORKGROUP),
+            Over::ClustersSeen => in_turn(params.clusters),
+            Over::Lines => in_turn(b.room.size.lines.div_ceil(WORKGROUP)),
+            Over::Tiles => params.columns * params.rows,
+            Over::All => 1,
         };
-        let clusters = params.clusters.div_ceil(WORKGROUP);
-        let cull = [dispatch(&kernels.cull, &self.cull, clusters)];
-        let flatten: Vec<_> = self
-            .flatten
+        let dispatches: Vec<Vec<_>> = self
+            .stages
             .iter()
-            .map(|bindings| dispatch(&kernels.flatten, bindings, rounds(params.clusters)))
+            .map(|(_, steps)| {
+                let dispatch = |step| dispatch(step, workgroups(step.over));
+                steps.iter().map(dispatch).collect()
+            })
             .collect();
-        let starts = [dispatch(&kernels.starts, &self.starts, 1)];
-        let listed = rounds(b.room.size.lines.div_ceil(WORKGROUP));
-        let list = [dispatch(&kernels.scatter, &self.list, listed)];
-        let sorted = self.sort.as_ref();
-        let sort = sorted.map(|bindings| [dispatch(&kernels.sort, bindings, tiles)]);
-        let painter = self.paint.kernel(kernels.painters(self.samples));
-        let cover = [dispatch(painter, &self.cover, tiles)];
-        let mut stages: Vec<(&'static str, &[Dispatch<'_>])> = vec![
-            ("cull", &cull),
-            ("flatten", &flatten),
-            ("starts", &starts),
-            ("list", &list),
-        ];
-        if let Some(sort) = &sort {
-            stages.push(("sort", sort));
-        }
-        stages.push(("cover", &cover));
+        let names = self.stages.iter().map(|(name, _)| *name);
+        let stages: Vec<_> = names.zip(dispatches.iter().map(Vec::as_slice)).collect();
         runner.run_stages("the frame", &[&b.store.found, &b.canvas.counts], &stages)
+    }
+}
+
+fn dispatch(step: &Step, workgroups: u32) -> Dispatch<'_> {
+    Dispatch {
+        kernel: &step.kernel,
+        bindings: &step.bindings,
+        workgroups,
     }
 }

@@ -126,7 +126,7 @@ impl PreparedTiles {
         let first_new = self.scene.row_count() as u32;
         let scene = Arc::make_mut(&mut self.scene);
         scene.edit(edit).map_err(RenderError::Edit)?;
-        self.kept = None;
+        self.easel.kept = None;
         let mut rows = edit.paths();
         rows.extend(first_new..self.scene.row_count() as u32);
         let keeps_looks = matches!(edit, Edit::Transform { .. } | Edit::Reshape { .. });

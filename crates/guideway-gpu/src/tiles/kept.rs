@@ -127,13 +127,13 @@ impl PreparedTiles {
         shot: &Shot<'_>,
         stages: &mut Vec<Stage>,
     ) -> Result<Option<Move>, RenderError> {
-        let (Some(kept), Some(canvas)) = (self.kept.take(), &mut self.canvas) else {
+        let (Some(kept), Some(canvas)) = (self.easel.kept.take(), &mut self.easel.canvas) else {
             return Ok(None);
         };
         let Some(moved) = kept.moved_to(shot.view, shot.style, canvas) else {
             return Ok(None);
         };
-        let shifter = match &mut self.shifter {
+        let shifter = match &mut self.easel.shifter {
             Some(shifter) => shifter,
             None if canvas.pixels.bytes() > self.memory.spare_bytes() => return Ok(None),
             empty => {
@@ -147,7 +147,7 @@ impl PreparedTiles {
             }
         };
         std::mem::swap(&mut canvas.pixels, &mut shifter.pixels);
-        std::mem::swap(&mut self.bound, &mut shifter.bound);
+        std::mem::swap(&mut self.easel.bound, &mut shifter.bound);
         let gpu = &self.shared.gpu;
         let kernel = &self.shared.kernels.shift;
         let run = || {

@@ -1,9 +1,9 @@
 //! The shaders of a frame, compiled.
 
 use super::params::{
-    BATCH, CLUSTER_POINTS, CLUSTER_STROKES, COLUMNS, COVER, CULL, FLATTEN, LAYERS, Layers,
+    BATCH, CLUSTER_POINTS, CLUSTER_STROKES, COLUMNS, COVER, CULL, FLATTEN, IDS, LAYERS, Layers,
     SAMPLE_ROWS, SCATTER, SHIFT, SORT, STARTS, STARTS_THREADS, Samples, TILE_PX, TILE_THREADS,
-    WORKGROUP,
+    TOUCH, WORKGROUP,
 };
 use crate::device::{Gpu, Kernel};
 
@@ -14,6 +14,7 @@ pub(super) struct Kernels {
     pub(super) scatter: Kernel,
     pub(super) sort: Kernel,
     pub(super) shift: Kernel,
+    pub(super) touch: Kernel,
     /// Coarse and fine.
     painters: [Painters; 2],
 }
@@ -24,6 +25,7 @@ pub(super) struct Painters {
     pub(super) opaque: Kernel,
     pub(super) translucent: Kernel,
     pub(super) density: Kernel,
+    pub(super) ids: Kernel,
 }
 
 impl Kernels {
@@ -41,6 +43,7 @@ impl Kernels {
             scatter: Kernel::new(gpu, &SCATTER, &[tile, workgroup])?,
             sort: Kernel::new(gpu, &SORT, &[tile, tile_threads])?,
             shift: Kernel::new(gpu, &SHIFT, &[constant("THREADS", WORKGROUP)])?,
+            touch: Kernel::new(gpu, &TOUCH, &[tile, workgroup])?,
             painters: [
                 Painters::new(gpu, Samples::Coarse)?,
                 Painters::new(gpu, Samples::Fine)?,
@@ -72,6 +75,7 @@ impl Painters {
             opaque: layers(Layers::Opaque)?,
             translucent: layers(Layers::Translucent)?,
             density: layers(Layers::Density)?,
+            ids: Kernel::new(gpu, &IDS[samples as usize], &cover)?,
         })
     }
 }

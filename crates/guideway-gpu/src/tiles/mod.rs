@@ -6,6 +6,7 @@
 //! finds, `canvas` its tiles and pixels, `bound` the work between them, `prepared` draws, and `kept` is what it need
 //! not draw again.
 
+mod ask;
 mod bound;
 mod canvas;
 mod edit;
@@ -94,3 +95,6 @@ impl Method for Tiles {
         )?))
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -72,6 +72,8 @@ pub(super) struct FrameParams {
 pub(super) struct ChunkParams {
     pub(super) first_cluster: u32,
     pub(super) end_cluster: u32,
+    pub(super) round: u32,
+    pub(super) padding: u32,
 }
 
 /// `Shift` of `shift.wgsl`.
@@ -141,6 +143,7 @@ pub(super) struct Found {
     pub(super) references: u32,
     pub(super) drawn: u32,
     pub(super) longest: u32,
+    pub(super) full_tiles: u32,
 }
 
 /// What a pixel of a tile with layers shows: `SHADING` of `layers.wgsl`.
@@ -159,7 +162,7 @@ macro_rules! wgsl {
 
 /// Shaders that paint tiles, with so many samples in one row of a pixel.
 macro_rules! tiles {
-    ($samples:literal, $file:literal) => {
+    ($samples:literal, $file:literal, $bindings:expr) => {
         Source {
             name: $file,
             wgsl: concat!(
@@ -170,7 +173,7 @@ macro_rules! tiles {
                     "frame", "view", "style", "walk", "capsule", "tile", "blend", $file
                 )
             ),
-            bindings: TILE_BINDINGS,
+            bindings: $bindings,
         }
     };
 }
@@ -208,7 +211,7 @@ pub(super) const STARTS: Source = Source {
 
 pub(super) const SCATTER: Source = Source {
     name: "scatter",
-    wgsl: wgsl!("frame", "view", "style", "walk", "scatter"),
+    wgsl: wgsl!("frame", "before", "view", "style", "walk", "scatter"),
     bindings: &[
         "frame",
         "found",
@@ -232,6 +235,18 @@ pub(super) const SHIFT: Source = Source {
     bindings: &["shift", "old_pixels", "pixels"],
 };
 
+const COVER_BINDINGS: &[&str] = &[
+    "frame",
+    "starts",
+    "references",
+    "lines_px",
+    "line_ranks",
+    "styles",
+    "pixels",
+    "counts",
+    "found",
+];
+
 const TILE_BINDINGS: &[&str] = &[
     "frame",
     "starts",
@@ -251,11 +266,36 @@ pub(super) enum Samples {
     Fine = 1,
 }
 
+pub(super) const TOUCH: Source = Source {
+    name: "touch",
+    wgsl: wgsl!("frame", "before", "view", "style", "touch"),
+    bindings: &[
+        "frame",
+        "found",
+        "lines_px",
+        "line_ranks",
+        "styles",
+        "marks",
+    ],
+};
+
+/// Which path lies on top; by [`Samples`].
+pub(super) const IDS: [Source; 2] = [
+    tiles!(4, "ids", TILE_BINDINGS),
+    tiles!(16, "ids", TILE_BINDINGS),
+];
+
 /// One opaque colour; by [`Samples`].
-pub(super) const COVER: [Source; 2] = [tiles!(4, "cover"), tiles!(16, "cover")];
+pub(super) const COVER: [Source; 2] = [
+    tiles!(4, "cover", COVER_BINDINGS),
+    tiles!(16, "cover", COVER_BINDINGS),
+];
 
 /// Anything else; by [`Samples`].
-pub(super) const LAYERS: [Source; 2] = [tiles!(4, "layers"), tiles!(16, "layers")];
+pub(super) const LAYERS: [Source; 2] = [
+    tiles!(4, "layers", TILE_BINDINGS),
+    tiles!(16, "layers", TILE_BINDINGS),
+];
 
 #[cfg(test)]
 mod tests;

@@ -42,14 +42,36 @@ pub(super) struct PreparedTiles {
     /// Where paths are; found out when one changes.
     pub(super) places: Option<Places>,
     pub(super) patcher: Option<Patcher>,
-    room: Option<Room>,
+    pub(super) easel: Easel,
+    /// For questions about a few pixels, so that the picture stays.
+    pub(super) probe: Easel,
+    /// A bit a path, while paths are marked.
+    pub(super) marks: Option<DeviceBuffer>,
+    preparation: Preparation,
+}
+
+/// What a picture is made with.
+#[derive(Default)]
+pub(super) struct Easel {
+    pub(super) room: Option<Room>,
     pub(super) canvas: Option<Canvas>,
     /// For the buffers above; none once one of them is another.
     pub(super) bound: Option<Bound>,
     /// What the canvas shows, if it is a finished picture of the scene as it is.
     pub(super) kept: Option<Kept>,
     pub(super) shifter: Option<Shifter>,
-    preparation: Preparation,
+    /// Whether so much was full that it is worth to find out first what is hidden.
+    pub(super) is_in_rounds: bool,
+}
+
+impl Easel {
+    /// After one of the buffers that a frame binds has become another.
+    fn unbind(&mut self) {
+        self.bound = None;
+        if let Some(shifter) = &mut self.shifter {
+            shifter.bound = None;
+        }
+    }
 }
 
 /// What the processor needs to know of the scene in every frame.
@@ -112,11 +134,9 @@ impl PreparedTiles {
             runner,
             store: None,
             found_fetched,
-            room: None,
-            canvas: None,
-            bound: None,
-            kept: None,
-            shifter: None,
+            easel: Easel::default(),
+            probe: Easel::default(),
+            marks: None,
         };
         prepared.bring()?;
         Ok(prepared)
@@ -162,10 +182,12 @@ impl PreparedTiles {
     /// Tells the device which clusters each chunk has.
     pub(super) fn set_chunks(&self) -> Result<(), RenderError> {
         for chunk in self.store.iter().flat_map(|store| &store.chunks) {
-            let set = self
-                .runner
-                .set("the clusters", &chunk.params, &chunk.params());
-            set.map_err(|what| self.memory.trouble(what))?;
+            for (params, round) in chunk.params.iter().zip(0..) {
+                let set = self
+                    .runner
+                    .set("the clusters", params, &chunk.params_of(round));
+                set.map_err(|what| self.memory.trouble(what))?;
+            }
         }
         Ok(())
     }
@@ -181,30 +203,25 @@ impl PreparedTiles {
         };
     }
 
-    /// After one of the buffers that a frame binds has become another.
+    /// After a buffer of the scene has become another.
     pub(super) fn unbind(&mut self) {
-        self.bound = None;
-        if let Some(shifter) = &mut self.shifter {
-            shifter.bound = None;
-        }
+        self.easel.unbind();
+        self.probe.unbind();
     }
 
-    /// Has buffers for pictures of this size, and room for lines.
-    fn make_ready(&mut self, view: &View) -> Result<(), RenderError> {
-        if self.canvas.as_ref().is_none_or(|c| c.size != view.size()) {
-            (self.canvas, self.kept, self.shifter) = (None, None, None);
-            self.unbind();
-            let gpu = &self.shared.gpu;
-            self.canvas = Some(Canvas::new(gpu, &mut self.memory, view.size())?);
+    /// Has buffers for pictures of this size, and room for the lines of so many strokes at first.
+    pub(super) fn make_ready(&mut self, view: &View, strokes: u32) -> Result<(), RenderError> {
+        let gpu = &self.shared.gpu;
+        let easel = &mut self.easel;
+        if easel.canvas.as_ref().is_none_or(|c| c.size != view.size()) {
+            (easel.canvas, easel.kept, easel.shifter) = (None, None, None);
+            easel.unbind();
+            easel.canvas = Some(Canvas::new(gpu, &mut self.memory, view.size())?);
         }
-        if self.room.is_none() {
-            self.unbind();
-            let strokes = self
-                .store
-                .as_ref()
-                .map_or(0, |s| s.stroke_list.len() as u32);
-            let size = Size::first(strokes).within(&self.shared.gpu, &self.memory);
-            self.room = Some(Room::new(&mut self.memory, size)?);
+        if easel.room.is_none() {
+            easel.unbind();
+            let size = Size::first(strokes).within(gpu, &self.memory);
+            easel.room = Some(Room::new(&mut self.memory, size)?);
         }
         Ok(())
     }
@@ -213,11 +230,13 @@ impl PreparedTiles {
     fn draw(
         &mut self,
         shot: &Shot<'_>,
+        paint: Paint,
         window: &Window,
         first_row: u32,
         stages: &mut Vec<Stage>,
     ) -> Result<Found, RenderError> {
-        let (Some(store), Some(room), Some(canvas)) = (&self.store, &self.room, &self.canvas)
+        let easel = &mut self.easel;
+        let (Some(store), Some(room), Some(canvas)) = (&self.store, &easel.room, &easel.canvas)
         else {
             return Ok(Found::default());
         };
@@ -229,19 +248,14 @@ impl PreparedTiles {
             store,
             room,
             canvas,
-        };
-        let paint = match shot.style.shading {
-            Shading::Color => self.facts.paint,
-            Shading::Density(_) => Paint::Density,
+            marks: self.marks.as_ref(),
         };
         let samples = shot.samples();
-        let bound = match self
-            .bound
-            .take()
-            .filter(|bound| bound.is_for(paint, samples))
-        {
+        let in_rounds = easel.is_in_rounds && paint == Paint::One;
+        let is_alike = |bound: &Bound| bound.is_for(paint, samples, in_rounds);
+        let bound = match easel.bound.take().filter(is_alike) {
             Some(bound) => bound,
-            None => Bound::new(&buffers, paint, samples).map_err(trouble)?,
+            None => Bound::new(&buffers, paint, samples, in_rounds).map_err(trouble)?,
         };
         let set = self.runner.set("the view", &canvas.frame, &params);
         set.map_err(trouble)?;
@@ -256,45 +270,35 @@ impl PreparedTiles {
             |bytes| bytemuck::bytes_of_mut(&mut found).copy_from_slice(bytes),
         );
         fetched.map_err(trouble)?;
-        self.bound = Some(bound);
-        self.check_rounds(&found, paint)?;
+        self.easel.bound = Some(bound);
         Ok(found)
     }
 
-    /// Whether each thread of a tile may go on to the end of its list.
-    fn check_rounds(&self, found: &Found, paint: Paint) -> Result<(), RenderError> {
-        let most = self.shared.gpu.rounds_a_thread() / paint.rounds_a_line();
-        if found.longest <= most {
-            return Ok(());
-        }
-        Err(RenderError::Unsupported {
-            method: NAME,
-            what: format!(
-                "{} lines on {TILE_PX} x {TILE_PX} pixels: this device ends a thread after some {most}",
-                found.longest
-            ),
-            remedy: "Zoom in, or use `--method cpu`.".to_owned(),
-        })
+    /// Whether a thread of a tile may not go on to the end of its list.
+    fn is_too_long(&self, found: &Found, paint: Paint) -> bool {
+        u64::from(found.longest) * u64::from(paint.rounds_a_line())
+            > u64::from(self.shared.gpu.rounds_a_thread())
     }
 
     /// More room for what was found, if there can be.
     fn grow(&mut self, found: &Found) -> Result<bool, RenderError> {
-        let Some(room) = self.room.take() else {
+        let Some(room) = self.easel.room.take() else {
             return Ok(false);
         };
-        self.unbind();
+        self.easel.unbind();
         let (old, size) = (room.size, room.size.for_found(found));
         drop(room);
         let fits = size.fits(&self.shared.gpu) && size.bytes() <= self.memory.spare_bytes();
         let size = if fits { size } else { old };
-        self.room = Some(Room::new(&mut self.memory, size)?);
+        self.easel.room = Some(Room::new(&mut self.memory, size)?);
         Ok(fits)
     }
 
     /// Draws windows, the first ones first, in halves where there is no room for all that is found.
-    fn draw_windows(
+    pub(super) fn draw_windows(
         &mut self,
         shot: &Shot<'_>,
+        paint: Paint,
         mut windows: Vec<Window>,
         first_row: u32,
         cancel: &Cancel,
@@ -303,11 +307,20 @@ impl PreparedTiles {
         windows.reverse();
         while let Some(window) = windows.pop() {
             cancel.check()?;
-            let found = self.draw(shot, &window, first_row, &mut drawing.stages)?;
-            if self.room.as_ref().is_some_and(|r| r.size.holds(&found)) {
+            let found = self.draw(shot, paint, &window, first_row, &mut drawing.stages)?;
+            let holds = |room: &Room| room.size.holds(&found);
+            let is_too_long = self.is_too_long(&found, paint);
+            if !is_too_long && self.easel.room.as_ref().is_some_and(holds) {
+                self.easel.is_in_rounds = is_worth_rounds(&window, &found, self.easel.is_in_rounds);
                 drawing.lines += u64::from(found.lines);
                 drawing.drawn = found.drawn;
                 drawing.windows += 1;
+            } else if paint == Paint::One && !self.easel.is_in_rounds {
+                // Perhaps most of it is hidden.
+                self.easel.is_in_rounds = true;
+                windows.push(window);
+            } else if is_too_long {
+                return Err(too_long(&found));
             } else if self.grow(&found)? {
                 windows.push(window);
             } else if let Some([first, second]) = window.halves() {
@@ -327,7 +340,7 @@ impl PreparedTiles {
         stages: &mut Vec<Stage>,
         take: impl FnOnce(&[u8]),
     ) -> Result<(), RenderError> {
-        let Some(canvas) = &self.canvas else {
+        let Some(canvas) = &self.easel.canvas else {
             return Ok(());
         };
         let start = Instant::now();
@@ -343,14 +356,15 @@ impl PreparedTiles {
     }
 
     /// Draws the picture, or what of it came into view; `take` gets the bytes of rows of pixels.
-    fn draw_all(
+    pub(super) fn draw_all(
         &mut self,
         shot: &Shot<'_>,
+        paint: Paint,
         cancel: &Cancel,
         mut take: impl FnMut(Range<usize>, &[u8]),
     ) -> Result<Drawing, RenderError> {
         let mut drawing = Drawing::default();
-        let Some(canvas) = &self.canvas else {
+        let Some(canvas) = &self.easel.canvas else {
             return Ok(drawing);
         };
         let (columns, rows, band_rows) = (canvas.columns, canvas.rows, canvas.band_rows);
@@ -367,7 +381,7 @@ impl PreparedTiles {
                 (windows, next) = (moved.windows.clone(), moved.kept);
                 drawing.is_part = true;
             }
-            self.draw_windows(shot, windows, first_row, cancel, &mut drawing)?;
+            self.draw_windows(shot, paint, windows, first_row, cancel, &mut drawing)?;
             let rows_px = first_row * TILE_PX..size.height().min(end_row * TILE_PX);
             let pixels =
                 (rows_px.start * size.width()) as usize..(rows_px.end * size.width()) as usize;
@@ -376,17 +390,15 @@ impl PreparedTiles {
             })?;
         }
         if self.shared.options.keeps {
-            self.kept = Some(next);
+            self.easel.kept = Some(next);
         }
         Ok(drawing)
     }
 
     /// Paths that are not proven to be outside the view.
     fn count_drawn(&self, shot: &Shot<'_>, drawing: &Drawing) -> u64 {
-        let bands = self
-            .canvas
-            .as_ref()
-            .map_or(1, |c| c.rows.div_ceil(c.band_rows));
+        let canvas = self.easel.canvas.as_ref();
+        let bands = canvas.map_or(1, |c| c.rows.div_ceil(c.band_rows));
         let is_counted = !drawing.is_part && drawing.windows == bands;
         let alone = match &self.store {
             Some(_) if is_counted => u64::from(drawing.drawn),
@@ -405,7 +417,7 @@ impl PreparedTiles {
 
 /// What became of one picture.
 #[derive(Default)]
-struct Drawing {
+pub(super) struct Drawing {
     stages: Vec<Stage>,
     lines: u64,
     /// Paths that the last window's device has counted.
@@ -413,6 +425,26 @@ struct Drawing {
     windows: u32,
     /// Whether the rest was kept from before.
     is_part: bool,
+}
+
+fn too_long(found: &Found) -> RenderError {
+    RenderError::Unsupported {
+        method: NAME,
+        what: format!(
+            "{} lines on {TILE_PX} x {TILE_PX} pixels, for this device ends a thread that takes so long",
+            found.longest
+        ),
+        remedy: "Zoom in, or use `--method cpu`.".to_owned(),
+    }
+}
+
+/// Whether the next frame should first find out what is hidden: where a quarter of the tiles is full, and by so
+/// many lines that it takes less time than it saves. Rounds make lines fewer, so they end by the first alone.
+fn is_worth_rounds(window: &Window, found: &Found, is_in_rounds: bool) -> bool {
+    const FEWEST_LINES_A_TILE: u64 = 512;
+    let tiles = window.columns.len() as u64 * window.rows.len() as u64;
+    let is_crowded = is_in_rounds || u64::from(found.lines) >= FEWEST_LINES_A_TILE * tiles;
+    is_crowded && 4 * u64::from(found.full_tiles) >= tiles
 }
 
 /// Adds stages to those of the same name.
@@ -447,8 +479,16 @@ impl Prepared for PreparedTiles {
             let pixel = [background.r, background.g, background.b, background.a];
             frame.pixels_mut().fill(pixel);
         } else {
-            self.make_ready(view)?;
-            drawing = self.draw_all(&shot, cancel, |pixels, bytes| {
+            let strokes = self
+                .store
+                .as_ref()
+                .map_or(0, |s| s.stroke_list.len() as u32);
+            self.make_ready(view, strokes)?;
+            let paint = match style.shading {
+                Shading::Color => self.facts.paint,
+                Shading::Density(_) => Paint::Density,
+            };
+            drawing = self.draw_all(&shot, paint, cancel, |pixels, bytes| {
                 let words = bytes.as_chunks().0;
                 if counts.is_empty() {
                     frame.pixels_mut()[pixels].copy_from_slice(words);
@@ -476,6 +516,24 @@ impl Prepared for PreparedTiles {
 
     fn edit(&mut self, edit: &Edit) -> Result<Edited, RenderError> {
         self.change(edit)
+    }
+
+    fn top_paths(
+        &mut self,
+        view: &View,
+        style: &Style,
+        cancel: &Cancel,
+    ) -> Result<Option<Vec<u32>>, RenderError> {
+        self.tops(view, style, cancel).map(Some)
+    }
+
+    fn paths_in(
+        &mut self,
+        view: &View,
+        style: &Style,
+        cancel: &Cancel,
+    ) -> Result<Option<Vec<u32>>, RenderError> {
+        self.touching(view, style, cancel).map(Some)
     }
 
     fn preparation(&self) -> &Preparation {

@@ -17,6 +17,9 @@ const POINT_BYTES: u64 = size_of::<[f32; 2]>() as u64;
 /// Fewest points that a chunk made for changes has room for.
 const LEAST_LOOSE_POINTS: u32 = 1 << 14;
 
+/// All clusters at once; and those of a first round, and the others after it.
+const ROUNDS: usize = 3;
+
 /// The scene's buffers, and copies of those that are small.
 pub(super) struct Store {
     pub(super) chunks: Vec<Chunk>,
@@ -33,7 +36,8 @@ pub(super) struct Store {
 
 /// Control points that a shader sees at once.
 pub(super) struct Chunk {
-    pub(super) params: DeviceBuffer,
+    /// For each of [`ROUNDS`].
+    pub(super) params: [DeviceBuffer; ROUNDS],
     pub(super) points_m: DeviceBuffer,
     /// Whose points they are.
     pub(super) clusters: Range<u32>,
@@ -45,10 +49,12 @@ impl Chunk {
         (self.points_m.bytes() / POINT_BYTES) as u32 - self.used_points
     }
 
-    pub(super) fn params(&self) -> ChunkParams {
+    pub(super) fn params_of(&self, round: u32) -> ChunkParams {
         ChunkParams {
             first_cluster: self.clusters.start,
             end_cluster: self.clusters.end,
+            round,
+            padding: 0,
         }
     }
 }
@@ -258,9 +264,10 @@ fn chunks_of(clusters: &[Cluster], most_points: u32) -> Vec<Range<u32>> {
     chunks
 }
 
-fn chunk_params(memory: &mut Memory) -> Result<DeviceBuffer, RenderError> {
+fn chunk_params(memory: &mut Memory) -> Result<[DeviceBuffer; ROUNDS], RenderError> {
     let usage = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
-    memory.zeros("the clusters", size_of::<ChunkParams>() as u64, usage)
+    let mut one = || memory.zeros("the clusters", size_of::<ChunkParams>() as u64, usage);
+    Ok([one()?, one()?, one()?])
 }
 
 fn found(memory: &mut Memory, clusters: usize) -> Result<DeviceBuffer, RenderError> {

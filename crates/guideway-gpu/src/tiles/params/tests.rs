@@ -4,7 +4,8 @@ use super::*;
 use crate::reflection::{assert_binds_what_it_is_given, assert_laid_out, members};
 
 const SHADERS: &[&Source] = &[
-    &CULL, &FLATTEN, &SHIFT, &STARTS, &SCATTER, &SORT, &COVER[0], &COVER[1], &LAYERS[0], &LAYERS[1],
+    &CULL, &FLATTEN, &SHIFT, &TOUCH, &IDS[0], &IDS[1], &STARTS, &SCATTER, &SORT, &COVER[0],
+    &COVER[1], &LAYERS[0], &LAYERS[1],
 ];
 
 #[test]
@@ -23,7 +24,7 @@ fn structures_are_laid_out_alike() {
     assert_laid_out(
         SHADERS,
         "Chunk",
-        &members!(ChunkParams: first_cluster, end_cluster),
+        &members!(ChunkParams: first_cluster, end_cluster, round),
     );
     let cluster = members!(Cluster: origin_high_m, origin_low_m, low_m, high_m, widest_m, first_point, points,
         first_stroke, strokes);
@@ -32,7 +33,7 @@ fn structures_are_laid_out_alike() {
     assert_laid_out(SHADERS, "Shift", &shift);
     assert_laid_out(SHADERS, "Stroke", &members!(Stroke: extent, rank));
     assert_laid_out(SHADERS, "Style", &members!(PathStyle: color, width_m));
-    let found = members!(Found: clusters, lines, references, drawn, longest);
+    let found = members!(Found: clusters, lines, references, drawn, longest, full_tiles);
     assert_laid_out(SHADERS, "Counters", &found);
     assert_laid_out(SHADERS, "CountersBefore", &found);
 }

@@ -1,5 +1,9 @@
 // Tiles of a scene of one opaque colour: it does not matter which line covers a sample.
 
+@group(0) @binding(7) var<storage, read_write> counts: array<u32>;
+@group(0) @binding(8) var<storage, read_write> found: Counters;
+
+var<workgroup> was_full: u32;
 // Covered samples of all rows.
 var<workgroup> samples: array<atomic<u32>, THREADS * WORDS>;
 
@@ -14,6 +18,14 @@ fn count_of(pixel: u32) -> u32 {
         count += countOneBits(bits_of_pixel(word, x % pixels_a_word));
     }
     return count;
+}
+
+// Whether any pixel of the tile that is part of the picture has samples that are not covered.
+fn any_open_pixel(tile: Tile, thread: u32, covered: u32) -> bool {
+    let x = tile.left + thread % TILE_PX;
+    let y = tile.top + thread / TILE_PX;
+    let is_inside = x < frame.width_px && y < frame.height_px;
+    return any_of(thread, is_inside && covered < SAMPLE_ROWS * SAMPLES_A_ROW);
 }
 
 // Covers every `parts`-th row that a line touches, from one of the first on.
@@ -38,12 +50,23 @@ fn main(
         return;
     }
     let tile = tile_of(index);
+    if thread == 0u {
+        was_full = counts[index] & FULL;
+    }
+    // Its pixels are written already.
+    if workgroupUniformLoad(&was_full) != 0u {
+        return;
+    }
     let start = starts[index];
     let end = min(starts[index + 1u], frame.reference_room);
     if start >= end {
         write(tile, thread, frame.background);
         return;
     }
+    for (var word = 0u; word < WORDS; word++) {
+        atomicStore(&samples[thread * WORDS + word], 0u);
+    }
+    workgroupBarrier();
     let outside = beyond(tile, thread);
     // A long list is likely to cover the tile before its end: then it is worth a look more often.
     let most = select(THREADS, BATCH, end - start > 2u * THREADS);
@@ -66,6 +89,12 @@ fn main(
             }
         }
     }
-    let share = f32(count_of(thread)) / f32(SAMPLE_ROWS * SAMPLES_A_ROW);
+    let count_here = count_of(thread);
+    let is_full = !any_open_pixel(tile, thread, count_here);
+    if is_full && thread == 0u {
+        counts[index] |= FULL;
+        atomicAdd(&found.full_tiles, 1u);
+    }
+    let share = f32(count_here) / f32(SAMPLE_ROWS * SAMPLES_A_ROW);
     write(tile, thread, over_background(channels(frame.color).rgb * share, share));
 }

@@ -7,7 +7,15 @@ override STROKES: u32;
 struct Chunk {
     first_cluster: u32,
     end_cluster: u32,
+    // 0: all of them. 1: some, so that tiles may become full. 2: the others, where tiles are not full.
+    round: u32,
+    padding: u32,
 }
+
+// Every so many clusters are of the first round.
+const STRIDE: u32 = 8u;
+// Most tiles of a stroke's box that are looked at.
+const MOST_LOOKS: u32 = 256u;
 
 struct Found {
     counters: Counters,
@@ -53,8 +61,8 @@ fn plan_of(curve: Curve, segments: u32) -> Plan {
     return plan;
 }
 
-// Whether all control points of a stroke, and what is as far around, miss the picture.
-fn is_out(curve: Curve, segments: u32, reach_px: f32) -> bool {
+// The box of all control points of a stroke: upper left and lower right corner.
+fn box_of(curve: Curve, segments: u32) -> vec4f {
     var low = control_px(curve, 0u);
     var high = low;
     for (var i = 1u; i < segments + 3u; i++) {
@@ -62,7 +70,28 @@ fn is_out(curve: Curve, segments: u32, reach_px: f32) -> bool {
         low = min(low, p);
         high = max(high, p);
     }
-    return !is_seen(low, high, reach_px);
+    return vec4f(low, high);
+}
+
+fn is_full(tile: u32) -> bool {
+    return (atomicLoad(&counts[tile]) & FULL) != 0u;
+}
+
+// Whether all tiles that a box reaches into are full.
+fn is_hidden(box: vec4f, reach_px: f32) -> bool {
+    let rows = rows_of(box, reach_px);
+    let columns = columns_between(box.x - reach_px, box.z + reach_px);
+    if (rows.y - rows.x) * (columns.y - columns.x) > MOST_LOOKS {
+        return false;
+    }
+    for (var row = rows.x; row < rows.y; row++) {
+        for (var column = columns.x; column < columns.y; column++) {
+            if !is_full(tile_index(row, column)) {
+                return false;
+            }
+        }
+    }
+    return true;
 }
 
 // The part of a line that is within reach of the picture (Liang and Barsky 1984): from x to y of its length,
@@ -107,7 +136,10 @@ fn emit(slot: u32, rank: u32, a: vec2f, b: vec2f, radius: f32) {
     for (var row = rows.x; row < rows.y; row++) {
         let columns = columns_of(line, reach, row);
         for (var column = columns.x; column < columns.y; column++) {
-            atomicAdd(&counts[tile_index(row, column)], 1u);
+            let tile = tile_index(row, column);
+            if chunk.round < 2u || !is_full(tile) {
+                atomicAdd(&counts[tile], 1u);
+            }
         }
     }
 }
@@ -156,7 +188,8 @@ fn main(
     for (var i = workgroup_index(id, count); i < all; i += count.x * count.y) {
         let index = found.seen[i];
         let cluster = clusters[index];
-        let is_here = index >= chunk.first_cluster && index < chunk.end_cluster;
+        let is_of_round = chunk.round == 0u || (index % STRIDE == 0u) == (chunk.round == 1u);
+        let is_here = index >= chunk.first_cluster && index < chunk.end_cluster && is_of_round;
         if is_here {
             load(cluster, thread);
         }
@@ -175,8 +208,11 @@ fn main(
             curve = Curve(first_point_of(stroke));
             segments = segments_of(stroke);
             radius = radius_of(rank);
-            if segments > 0u && !is_out(curve, segments, radius + 1.0) {
-                plan = plan_of(curve, segments);
+            let box = box_of(curve, segments);
+            if segments > 0u && is_seen(box.xy, box.zw, radius + 1.0) {
+                if chunk.round < 2u || !is_hidden(box, radius + MARGIN_PX) {
+                    plan = plan_of(curve, segments);
+                }
                 if (stroke.extent & WHOLE_PATH) != 0u {
                     atomicAdd(&found.counters.drawn, 1u);
                 }

@@ -46,7 +46,12 @@ struct Counters {
     drawn: atomic<u32>,
     // Length of the longest list.
     longest: atomic<u32>,
+    // Tiles all of whose samples are covered.
+    full_tiles: atomic<u32>,
 }
+
+// Set in the count of a tile that is full: what lies there changes nothing.
+const FULL: u32 = 0x80000000u;
 
 // Index of a workgroup: they are dispatched in rows.
 fn workgroup_index(id: vec3u, count: vec3u) -> u32 {

@@ -80,6 +80,10 @@ fn main(
         write(tile, thread, select(frame.background, 0u, SHADING == DENSITY));
         return;
     }
+    for (var channel = 0u; channel < 4u; channel++) {
+        atomicStore(&sums[thread * 4u + channel], 0u);
+    }
+    workgroupBarrier();
     var covered = beyond(tile, thread);
     var gathered: Row;
     if SHADING == TRANSLUCENT {

@@ -2,14 +2,6 @@
 
 override WORKGROUP: u32;
 
-struct CountersBefore {
-    clusters: u32,
-    lines: u32,
-    references: u32,
-    drawn: u32,
-    longest: u32,
-}
-
 @group(0) @binding(1) var<storage, read> found: CountersBefore;
 @group(0) @binding(2) var<storage, read> lines_px: array<vec4f>;
 @group(0) @binding(3) var<storage, read> line_ranks: array<u32>;
@@ -39,7 +31,10 @@ fn main(
         for (var row = rows.x; row < rows.y; row++) {
             let columns = columns_of(line, reach, row);
             for (var column = columns.x; column < columns.y; column++) {
-                references[atomicAdd(&filled[tile_index(row, column)], 1u)] = i;
+                let place = atomicAdd(&filled[tile_index(row, column)], 1u);
+                if place < FULL {
+                    references[place] = i;
+                }
             }
         }
     }

@@ -9,6 +9,11 @@ override THREADS: u32;
 
 var<workgroup> sums: array<u32, THREADS>;
 
+// A full tile needs no list.
+fn count_of(tile: u32) -> u32 {
+    return select(counts[tile], 0u, (counts[tile] & FULL) != 0u);
+}
+
 @compute @workgroup_size(THREADS)
 fn main(@builtin(local_invocation_index) thread: u32) {
     let tiles = frame.columns * frame.rows;
@@ -18,8 +23,9 @@ fn main(@builtin(local_invocation_index) thread: u32) {
     var sum = 0u;
     var longest = 0u;
     for (var tile = first; tile < end; tile++) {
-        sum += counts[tile];
-        longest = max(longest, counts[tile]);
+        let count = count_of(tile);
+        sum += count;
+        longest = max(longest, count);
     }
     atomicMax(&found.longest, longest);
     sums[thread] = sum;
@@ -36,11 +42,11 @@ fn main(@builtin(local_invocation_index) thread: u32) {
     var start = sums[thread] - sum;
     for (var tile = first; tile < end; tile++) {
         starts[tile] = start;
-        filled[tile] = start;
-        start += counts[tile];
+        filled[tile] = start | (counts[tile] & FULL);
+        start += count_of(tile);
     }
     if thread == THREADS - 1u {
         starts[tiles] = start;
-        atomicStore(&found.references, start);
+        atomicMax(&found.references, start);
     }
 }

@@ -10,8 +10,8 @@
 override THREADS: u32;
 // Lines that are looked at together; of one colour, only in long lists.
 override BATCH: u32;
-var<workgroup> open_rows: atomic<u32>;
-var<workgroup> is_open: u32;
+var<workgroup> any_holds: atomic<u32>;
+var<workgroup> does_any: u32;
 
 struct Tile {
     index: u32,
@@ -56,24 +56,29 @@ fn capsule_at(tile: Tile, place: u32) -> Capsule {
     return capsule_of(lines_px[line], corner, radius_of(line_ranks[line]));
 }
 
-// Whether any row of the tile still has samples that are not covered.
-fn any_open(thread: u32, covered: ptr<function, Row>) -> bool {
+// Whether something holds for any thread.
+fn any_of(thread: u32, holds: bool) -> bool {
     if thread == 0u {
-        atomicStore(&open_rows, 0u);
+        atomicStore(&any_holds, 0u);
     }
     workgroupBarrier();
+    if holds {
+        atomicStore(&any_holds, 1u);
+    }
+    workgroupBarrier();
+    if thread == 0u {
+        does_any = atomicLoad(&any_holds);
+    }
+    return workgroupUniformLoad(&does_any) != 0u;
+}
+
+// Whether any row of the tile still has samples that are not covered.
+fn any_open(thread: u32, covered: ptr<function, Row>) -> bool {
     var all = ALL;
     for (var word = 0u; word < WORDS; word++) {
         all &= (*covered)[word];
     }
-    if all != ALL {
-        atomicStore(&open_rows, 1u);
-    }
-    workgroupBarrier();
-    if thread == 0u {
-        is_open = atomicLoad(&open_rows);
-    }
-    return workgroupUniformLoad(&is_open) != 0u;
+    return any_of(thread, all != ALL);
 }
 
 // The samples of one pixel in a word of a row.

@@ -18,6 +18,10 @@ fn rows_of(line: vec4f, reach_px: f32) -> vec2u {
     return tiles_between(top, bottom, frame.first_row, frame.first_row + frame.rows);
 }
 
+fn columns_between(low_px: f32, high_px: f32) -> vec2u {
+    return tiles_between(low_px, high_px, frame.first_column, frame.first_column + frame.columns);
+}
+
 // The tiles of one row: those near the part of the line that is within reach of the row.
 fn columns_of(line: vec4f, reach_px: f32, row: u32) -> vec2u {
     var ends = line.xz;
@@ -31,7 +35,7 @@ fn columns_of(line: vec4f, reach_px: f32, row: u32) -> vec2u {
     }
     let low = min(ends.x, ends.y) - reach_px;
     let high = max(ends.x, ends.y) + reach_px;
-    return tiles_between(low, high, frame.first_column, frame.first_column + frame.columns);
+    return columns_between(low, high);
 }
 
 fn tile_index(row: u32, column: u32) -> u32 {

@@ -1,0 +1,10 @@
+// What the stages before have found.
+
+struct CountersBefore {
+    clusters: u32,
+    lines: u32,
+    references: u32,
+    drawn: u32,
+    longest: u32,
+    full_tiles: u32,
+}

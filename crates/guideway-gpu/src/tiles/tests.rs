@@ -1,0 +1,351 @@
+//! What must hold on any device, and for any limits that it has. Whole pictures are compared with the
+//! oracle's in `tests/tests/device_methods.rs`.
+
+use std::sync::{Arc, LazyLock};
+
+use guideway_layout::{Layout, NewPath, OwnStyle};
+use guideway_render::{
+    Budget, Cancel, Frame, FrameSize, Method, NO_PATH, Prepared, Report, Shading, Style, View,
+    density::ToneMap,
+};
+use guideway_scene::{LineRule, Scene, SceneOptions};
+use guideway_spline::{Point, Runs};
+
+use super::room::{Room, Size};
+use super::*;
+use crate::GpuOptions;
+
+/// The method of all tests here, for its shaders take long to compile; none where there is no device.
+static TILES: LazyLock<Result<Tiles, String>> =
+    LazyLock::new(|| Tiles::new(Gpu::new()?, TilesOptions::default()));
+
+fn tiles() -> Option<Tiles> {
+    match &*TILES {
+        Ok(tiles) => Some(tiles.clone()),
+        Err(why) => {
+            let is_required =
+                std::env::var_os("GUIDEWAY_REQUIRE_DEVICES").is_some_and(|v| v == "1");
+            assert!(!is_required, "{why}");
+            println!("SKIPPED: {why}");
+            None
+        }
+    }
+}
+
+fn limited(options: GpuOptions) -> Tiles {
+    Tiles::new(Gpu::with_options(options).unwrap(), TilesOptions::default()).unwrap()
+}
+
+/// Bent paths of two segments, each `reach_m` long, over 100 m x 60 m.
+fn layout(paths: u32, reach_m: f64) -> Layout {
+    let mut layout = Layout::default();
+    for path in 0..paths {
+        let f = f64::from(path);
+        let at = Point::new(
+            (f * 0.618_034).fract() * 100.0,
+            (f * 0.754_878).fract() * 60.0,
+        );
+        let turn = f * 2.399_963;
+        let control: Vec<_> = (0..5)
+            .map(|i| {
+                let bend = turn + 0.5 * f64::from(i);
+                at + Point::new(bend.cos(), bend.sin()) * (reach_m * f64::from(i) / 3.0)
+            })
+            .collect();
+        let mut runs = Runs::default();
+        runs.push(&control);
+        layout.paths.push(&NewPath {
+            runs: &runs,
+            ..NewPath::default()
+        });
+    }
+    layout
+}
+
+fn plain(paths: u32, reach_m: f64) -> Arc<Scene> {
+    let layout = Arc::new(layout(paths, reach_m));
+    Arc::new(Scene::new(layout, &SceneOptions::default()).unwrap())
+}
+
+/// Each path with a colour, some with a width, a few translucent.
+fn mixed(paths: u32, reach_m: f64) -> Arc<Scene> {
+    let mut layout = layout(paths, reach_m);
+    for path in 0..paths {
+        let opacity = if path % 7 == 0 { 0x90 } else { 0xff };
+        let style = OwnStyle {
+            width_m: (path % 3 == 0).then_some(0.4),
+            color_rgba: Some(path.wrapping_mul(0x9e37_79b9) & 0xffff_ff00 | opacity),
+        };
+        layout.paths.set_own_style(path as usize, style);
+    }
+    Arc::new(Scene::new(Arc::new(layout), &SceneOptions::default()).unwrap())
+}
+
+fn prepared(tiles: &Tiles, scene: &Arc<Scene>) -> PreparedTiles {
+    PreparedTiles::new(Arc::clone(&tiles.0), Arc::clone(scene), &Budget::default()).unwrap()
+}
+
+fn view(center: [f64; 2], px_per_m: f64) -> View {
+    let size = FrameSize::new(210, 130).unwrap();
+    View::new(size, Point::new(center[0], center[1]), px_per_m).unwrap()
+}
+
+fn all() -> View {
+    view([50.0, 30.0], 2.0)
+}
+
+fn style(shading: Shading) -> Style {
+    Style {
+        shading,
+        ..Style::default()
+    }
+}
+
+fn picture(prepared: &mut dyn Prepared, view: &View, style: &Style) -> (Frame, Report) {
+    let mut frame = Frame::new(FrameSize::new(1, 1).unwrap());
+    let report = prepared.render(view, style, &Cancel::default(), &mut frame);
+    let report = report.unwrap();
+    assert!(report.accounts_for_all(), "{report}");
+    (frame, report)
+}
+
+#[test]
+fn the_limits_of_a_device_change_no_bit() {
+    let Some(tiles) = tiles() else { return };
+    let small = limited(GpuOptions {
+        storage_binding_bytes: Some(64 << 10),
+        ..GpuOptions::default()
+    });
+    let narrow = limited(GpuOptions {
+        workgroups_per_dimension: Some(12),
+        ..GpuOptions::default()
+    });
+    let checked = limited(GpuOptions {
+        has_checked_shaders: true,
+        ..GpuOptions::default()
+    });
+    for (scene, shading) in [
+        (plain(3000, 8.0), Shading::Color),
+        (mixed(3000, 8.0), Shading::Color),
+        (plain(3000, 8.0), Shading::Density(ToneMap::Log)),
+    ] {
+        let style = style(shading);
+        let (expected, report) = picture(&mut prepared(&tiles, &scene), &all(), &style);
+        assert_eq!(report.bands, 1);
+        for (name, device, has_bands) in [
+            ("small", &small, true),
+            ("narrow", &narrow, false),
+            ("checked", &checked, false),
+        ] {
+            let mut prepared = prepared(device, &scene);
+            for _ in 0..2 {
+                let (frame, report) = picture(&mut prepared, &all(), &style);
+                assert!(frame.pixels() == expected.pixels(), "{name} {shading:?}");
+                assert_eq!(report.bands > 1, has_bands, "{name} {shading:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_small_budget_draws_the_same_in_more_windows() {
+    let Some(tiles) = tiles() else { return };
+    let scene = mixed(3000, 8.0);
+    let (expected, report) = picture(&mut prepared(&tiles, &scene), &all(), &Style::default());
+    let budget = Budget {
+        memory_bytes: report.peak_bytes * 2 / 5,
+        ..Budget::default()
+    };
+    let mut prepared = tiles.prepare(Arc::clone(&scene), &budget).unwrap();
+    let (frame, report) = picture(prepared.as_mut(), &all(), &Style::default());
+    assert!(frame.pixels() == expected.pixels());
+    assert!(
+        report.bands > 1 && report.peak_bytes <= budget.memory_bytes,
+        "{report:?}"
+    );
+}
+
+/// Level lines that together cover the whole picture of [`all`], each so often that it fills eight clusters.
+fn crowd() -> Arc<Scene> {
+    let mut layout = Layout::default();
+    for level in 0..34 {
+        let mut runs = Runs::default();
+        let y_m = -3.0 + 2.0 * f64::from(level);
+        runs.push_line(Point::new(-10.0, y_m), Point::new(110.0, y_m));
+        for _ in 0..512 {
+            layout.paths.push(&NewPath {
+                runs: &runs,
+                ..NewPath::default()
+            });
+        }
+    }
+    Arc::new(Scene::new(Arc::new(layout), &SceneOptions::default()).unwrap())
+}
+
+#[test]
+fn what_is_hidden_is_left_out_and_changes_no_bit() {
+    let Some(tiles) = tiles() else { return };
+    let style = Style {
+        line_rule: LineRule::World {
+            width_m: 4.0,
+            min_px: 0.0,
+            max_px: 8.0,
+        },
+        ..Style::default()
+    };
+    // Where all is full but for a corner, and where nothing is.
+    let corner = view([95.0, 55.0], 2.0);
+    for (scene, view) in [
+        (crowd(), all()),
+        (crowd(), corner),
+        (plain(3000, 8.0), all()),
+    ] {
+        let mut at_once = prepared(&tiles, &scene);
+        // So much that it need not look for what is hidden first.
+        let room = Size {
+            lines: 1 << 18,
+            references: 1 << 20,
+        };
+        at_once.easel.room = Some(Room::new(&mut at_once.memory, room).unwrap());
+        let (expected, whole) = picture(&mut at_once, &view, &style);
+        let mut in_rounds = prepared(&tiles, &scene);
+        in_rounds.easel.is_in_rounds = true;
+        let (frame, some) = picture(&mut in_rounds, &view, &style);
+        assert!(frame.pixels() == expected.pixels());
+        assert_eq!(some.drawn, whole.drawn);
+        if view == all() && scene.row_count() > 3000 {
+            assert_eq!(8 * some.lines, whole.lines);
+        }
+    }
+}
+
+#[test]
+fn a_picture_moved_by_whole_pixels_is_that_of_the_view() {
+    let Some(tiles) = tiles() else { return };
+    for scene in [plain(2000, 4.0), mixed(2000, 4.0)] {
+        let style = Style::default();
+        let mut kept = prepared(&tiles, &scene);
+        picture(&mut kept, &all(), &style);
+        let mut moves = 0;
+        for [x_px, y_px] in [
+            [5.0, 0.0],
+            [12.0, -20.0],
+            [-40.0, 3.0],
+            [-40.0, 130.0],
+            [0.5, 0.0],
+        ] {
+            let moved = view([50.0 + x_px / 2.0, 30.0 + y_px / 2.0], 2.0);
+            let (frame, report) = picture(&mut kept, &moved, &style);
+            let (expected, _) = picture(&mut prepared(&tiles, &scene), &moved, &style);
+            // Rounding differs by the place in the picture: a sample here and there.
+            let worst = frame.pixels().iter().zip(expected.pixels()).map(|(a, b)| {
+                let channels = a.iter().zip(b).map(|(a, b)| a.abs_diff(*b));
+                channels.max().unwrap_or(0)
+            });
+            assert!(worst.max().unwrap_or(0) <= 8, "{x_px} {y_px}");
+            moves += usize::from(report.stages.iter().any(|stage| stage.name == "move"));
+        }
+        // Not the one out of sight of the one before, nor the one by half a pixel.
+        assert_eq!(moves, 4);
+    }
+}
+
+/// Least and greatest distance of a path's curve from a pixel, near enough.
+fn distance_px(scene: &Scene, path: u32, view: &View, pixel: [u32; 2]) -> f64 {
+    let low = pixel.map(f64::from);
+    let segments = scene.layout().paths.get(path as usize).runs();
+    let points = segments.flat_map(|run| run.segments()).flat_map(|segment| {
+        (0..=64).map(move |i| guideway_spline::uniform::point(&segment, f64::from(i) / 64.0))
+    });
+    let distances = points.map(|p| {
+        let p = view.pixel_from_world(p);
+        let nearest = Point::new(
+            p.x.clamp(low[0], low[0] + 1.0),
+            p.y.clamp(low[1], low[1] + 1.0),
+        );
+        p.distance(nearest)
+    });
+    distances.fold(f64::INFINITY, f64::min)
+}
+
+#[test]
+fn questions_find_what_lies_there() {
+    let Some(tiles) = tiles() else { return };
+    let scene = mixed(400, 6.0);
+    let (style, cancel) = (Style::default(), Cancel::default());
+    let whole = view([50.0, 30.0], 4.0);
+    let mut prepared = prepared(&tiles, &scene);
+    let (before, _) = picture(&mut prepared, &whole, &style);
+    // A window of whole pixels of that view.
+    let size = FrameSize::new(24, 18).unwrap();
+    let center = whole.world_from_pixel(Point::new(80.0 + 12.0, 60.0 + 9.0));
+    let probe = View::new(size, center, 4.0).unwrap();
+    let tops = prepared
+        .top_paths(&probe, &style, &cancel)
+        .unwrap()
+        .unwrap();
+    let here = prepared.paths_in(&probe, &style, &cancel).unwrap().unwrap();
+    assert!(here.is_sorted() && here.len() > 3, "{here:?}");
+    let radius_px = |path| style.line_rule.radius_px(scene.width_m(path), 4.0);
+    let mut expected_here = Vec::new();
+    let mut nearest = vec![f64::INFINITY; 400];
+    for (index, &top) in (0..).zip(&tops) {
+        let pixel = [index % 24, index / 24];
+        for path in 0..400 {
+            let beyond_px = distance_px(&scene, path, &probe, pixel) - radius_px(path);
+            nearest[path as usize] = nearest[path as usize].min(beyond_px);
+            // A pixel's samples keep an eighth of it away from its corners.
+            if beyond_px < -0.25 {
+                assert!(
+                    top != NO_PATH && top >= path,
+                    "{path} covers {pixel:?}, on top is {top}"
+                );
+            }
+            assert!(
+                top != path || beyond_px < 0.05,
+                "{path} at {pixel:?}: {beyond_px}"
+            );
+        }
+    }
+    for (path, beyond_px) in (0..).zip(nearest) {
+        if beyond_px < -0.05 {
+            expected_here.push(path);
+        }
+        assert!(
+            !here.contains(&path) || beyond_px < 0.05,
+            "{path}: {beyond_px}"
+        );
+    }
+    assert!(expected_here.iter().all(|path| here.contains(path)));
+    // The picture is not touched by what is asked.
+    let (after, _) = picture(&mut prepared, &whole, &style);
+    assert!(before.pixels() == after.pixels());
+    let nowhere = view([1e4, 1e4], 4.0);
+    let none = prepared
+        .top_paths(&nowhere, &style, &cancel)
+        .unwrap()
+        .unwrap();
+    assert!(none.iter().all(|&path| path == NO_PATH));
+    assert_eq!(
+        prepared.paths_in(&nowhere, &style, &cancel).unwrap(),
+        Some(vec![])
+    );
+}
+
+#[test]
+fn thin_lines_of_the_thesis_are_found_too() {
+    let Some(tiles) = tiles() else { return };
+    let thesis = Style {
+        line_rule: LineRule::Thesis,
+        ..Style::default()
+    };
+    let mut prepared = prepared(&tiles, &plain(200, 6.0));
+    let tops = prepared.top_paths(&all(), &thesis, &Cancel::default());
+    let found = tops
+        .unwrap()
+        .unwrap()
+        .into_iter()
+        .filter(|&p| p != NO_PATH)
+        .count();
+    assert!(found > 1000, "{found}");
+}
