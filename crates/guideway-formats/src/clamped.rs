@@ -7,6 +7,10 @@ use guideway_spline::{Point, uniform};
 /// that a sum that went 1e-16 wrong does not take twenty digits.
 pub(crate) const SAME_POSITION_M: f64 = 1e-6;
 
+/// Runs of a path this near are joined, in metres: in single precision, those that meet do so no better. It is
+/// half of what a curve may be off.
+const JOINED_M: f64 = 5e-5;
+
 /// A coordinate as it is written.
 pub(crate) fn rounded(metres: f64) -> f64 {
     let steps = 1.0 / SAME_POSITION_M;
@@ -46,9 +50,8 @@ impl Clamped {
     }
 
     fn of(runs: &[RunPoints<'_>]) -> Self {
-        let is_straight = runs
-            .iter()
-            .all(|run| run.segments().all(|s| is_straight(&s)));
+        let mut segments = runs.iter().flat_map(|run| run.segments());
+        let is_straight = segments.all(|s| is_straight(&uniform::to_bezier(&s), SAME_POSITION_M));
         let degree = if is_straight { 1 } else { 3 };
         let mut curve = Self {
             degree,
@@ -86,7 +89,7 @@ impl Clamped {
 }
 
 fn meets(a: Point<f64>, b: Point<f64>) -> bool {
-    a.distance(b) <= SAME_POSITION_M
+    a.distance(b) <= JOINED_M
 }
 
 fn start(run: RunPoints<'_>) -> Point<f64> {
@@ -115,19 +118,19 @@ fn clamped(run: RunPoints<'_>) -> Vec<Point<f64>> {
     points
 }
 
-/// Whether a segment is the straight line between its ends, passed once.
-fn is_straight(segment: &[Point<f64>; 4]) -> bool {
-    let [start, first, second, end] = uniform::to_bezier(segment);
+/// Whether a Bezier curve is the straight line between its ends, passed once, apart from `step`.
+pub(crate) fn is_straight(bezier: &[Point<f64>; 4], step: f64) -> bool {
+    let [start, first, second, end] = *bezier;
     let chord = end - start;
     let length = chord.norm();
     let inner = [first - start, second - start];
-    if length <= SAME_POSITION_M {
-        return inner.iter().all(|p| p.norm() <= SAME_POSITION_M);
+    if length <= step {
+        return inner.iter().all(|p| p.norm() <= step);
     }
     let along = inner.map(|p| p.dot(chord) / length);
     let aside = inner.map(|p| p.cross(chord).abs() / length);
     let steps = [along[0], along[1] - along[0], length - along[1]];
-    aside.iter().all(|&d| d <= SAME_POSITION_M) && steps.iter().all(|&s| s >= -SAME_POSITION_M)
+    aside.iter().all(|&d| d <= step) && steps.iter().all(|&s| s >= -step)
 }
 
 #[cfg(test)]

@@ -18,6 +18,7 @@ mod read;
 mod sniff;
 mod source;
 mod spline;
+pub mod svg;
 mod text;
 mod trajectory;
 mod vda5050;

@@ -82,7 +82,6 @@ codes! {
     Attribute "attribute" Info "An attribute could not be kept as it is.";
     NotDrawn "not-drawn" Info "An element is switched off in the file, or of a kind that is no path.";
     Implausible "implausible" Warning "The values are legal but look like a mistake, such as a wrong unit.";
-    NotStored "not-stored" Info "The target format cannot hold something of the layout.";
 }
 
 impl fmt::Display for Code {

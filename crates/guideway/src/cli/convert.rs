@@ -7,7 +7,7 @@ use std::time::SystemTime;
 
 use clap::ValueEnum;
 use guideway::formats::lif::{self, Version};
-use guideway::formats::{Losses, arrow as arrow_format, dxf, geojson};
+use guideway::formats::{Losses, arrow as arrow_format, dxf, geojson, svg};
 use guideway::layout::Layout;
 use guideway::{SaveError, replace_file};
 use serde_json::{Value, json};
@@ -30,7 +30,7 @@ pub(crate) struct Args {
 
 /// What can be written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Target {
+pub(super) enum Target {
     /// A table of paths for Apache Arrow: .arrow, .feather
     Arrow,
     /// A drawing for CAD programs: .dxf
@@ -41,11 +41,13 @@ enum Target {
     Lif,
     /// VDMA LIF 2.0
     Lif2,
+    /// A drawing of the layout with true curves: .svg
+    Svg,
 }
 
 impl Target {
     /// The format of a file of this name.
-    fn of(output: &Path) -> Result<Self, Failure> {
+    pub(super) fn of(output: &Path) -> Result<Self, Failure> {
         let name = output.file_name().unwrap_or_default().to_string_lossy();
         let name = name.to_lowercase();
         let endings = [
@@ -55,6 +57,7 @@ impl Target {
             (".lif.json", Self::Lif),
             (".lif", Self::Lif),
             (".dxf", Self::Dxf),
+            (".svg", Self::Svg),
         ];
         let known = endings.iter().find(|(ending, _)| name.ends_with(ending));
         known.map(|(_, target)| *target).ok_or_else(|| {
@@ -80,11 +83,12 @@ impl Target {
             Self::Geojson => "GeoJSON",
             Self::Lif => "LIF 1.0",
             Self::Lif2 => "LIF 2.0",
+            Self::Svg => "SVG",
         }
     }
 
     /// Writes the file whole or not at all; returns what it cannot hold, and its size.
-    fn write(self, layout: &Layout, output: &Path) -> Result<(Losses, u64), Failure> {
+    pub(super) fn write(self, layout: &Layout, output: &Path) -> Result<(Losses, u64), Failure> {
         let write: TextWriter = match self {
             Self::Arrow => {
                 return arrow::replace(output, |file| {
@@ -97,6 +101,7 @@ impl Target {
             }
             Self::Lif => |layout, out| lif::write_layout(layout, out, &lif_options(Version::V1)),
             Self::Lif2 => |layout, out| lif::write_layout(layout, out, &lif_options(Version::V2)),
+            Self::Svg => |layout, out| svg::write_layout(layout, out),
         };
         let write = |file: &Path| {
             let mut out = BufWriter::with_capacity(1 << 16, File::create(file)?);
@@ -151,7 +156,10 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, Failure> {
             text::bytes(bytes)
         );
         if !losses.is_empty() {
-            text += &format!("what a file of {} has not or otherwise:\n", target.name());
+            text += &format!(
+                "not in a file of {}, or otherwise than before:\n",
+                target.name()
+            );
         }
         for loss in losses.iter() {
             let (what, count) = (text::plain(&loss.what, 80), text::count(loss.count));

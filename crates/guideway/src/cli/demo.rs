@@ -52,7 +52,7 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, Failure> {
     };
     let scene = Arc::new(Scene::new(Arc::new(layout), &wishes.scene)?);
     let method = guideway::method("cpu")?;
-    let drawn = draw(&*method, &scene, &wishes, out)?;
+    let drawn = draw(&*method, &scene, None, &wishes, out)?;
     save_png(&drawn.frame, &args.output)?;
     let took_ms = activity.finish();
     let place = args

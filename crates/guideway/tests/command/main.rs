@@ -6,4 +6,5 @@ mod arrow;
 mod bench;
 mod render;
 mod reports;
+mod several;
 mod support;

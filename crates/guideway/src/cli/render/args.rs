@@ -1,4 +1,4 @@
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 use guideway::AUTO;
@@ -21,8 +21,8 @@ pub(crate) struct Args {
     /// Layout files of any format that is read, found from their content
     #[arg(required = true, value_name = "FILE", value_parser = Input::parser())]
     pub(crate) inputs: Vec<Input>,
-    /// PNG file to write; - for standard output
-    #[arg(long, short, value_name = "PNG")]
+    /// PNG or SVG file to write; - for PNG on standard output
+    #[arg(long, short, value_name = "FILE")]
     pub(crate) output: PathBuf,
     /// Way of drawing, with options such as `grid+scan`; `guideway methods` shows what runs here
     #[arg(long, value_name = "NAME[+OPTION]", default_value = AUTO, value_parser = values::MethodSpec)]
@@ -56,6 +56,10 @@ struct ViewArgs {
     /// Draw only the level of this name or id
     #[arg(long, value_name = "NAME")]
     level: Option<String>,
+    /// What lies below: paths of another layout or drawing, pale, or a PNG image whose lower left corner is
+    /// at offset, such as `hall.png@px-per-m=20,offset=-3,-2`
+    #[arg(long, value_name = "FILE", value_parser = Input::parser())]
+    floor_plan: Option<Input>,
 }
 
 #[derive(Debug, clap::Args)]
@@ -136,6 +140,27 @@ impl Args {
             Some(aa) => format!("{}+aa={aa}", self.method),
             None => self.method.clone(),
         }
+    }
+
+    pub(super) fn floor_plan(&self) -> Option<&Input> {
+        self.view.floor_plan.as_ref()
+    }
+
+    /// All files that are read.
+    pub(super) fn files(&self) -> impl Iterator<Item = &Path> {
+        let inputs = self.inputs.iter().chain(self.floor_plan());
+        inputs.map(|input| input.path.as_path())
+    }
+
+    /// Refuses what no SVG picture can have.
+    pub(super) fn check_vector(&self) -> Result<(), Failure> {
+        if self.method != AUTO || self.aa.is_some() {
+            return Err(Failure::arguments(
+                "an SVG picture holds the curves themselves: no method draws it",
+                "Leave --method and --aa out, or save the picture as PNG",
+            ));
+        }
+        Ok(())
     }
 
     pub(super) fn is_with_legend(&self) -> bool {

@@ -1,9 +1,11 @@
-//! `guideway render`: a layout file as a PNG picture.
+//! `guideway render`: layout files as a picture, PNG or SVG.
 
 mod args;
+mod floor_plan;
 mod legend;
 mod picture;
 mod report;
+mod vector;
 
 use std::io::{IsTerminal, Write};
 use std::path::Path;
@@ -16,40 +18,69 @@ use guideway::{SaveError, save_png, write_png};
 pub(crate) use args::{Args, Rule};
 pub(crate) use picture::{Drawn, Wishes, draw};
 pub(crate) use report::{Times, what_was_drawn};
+#[cfg(feature = "viewer")]
+pub(crate) use vector::draw as draw_vector;
 
 use super::{Exit, Failure, Output, input};
+use floor_plan::FloorPlan;
 
 pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, Failure> {
     let wishes = args.wishes()?;
     let target = Target::new(&args.output, out)?;
     if let Target::File(path) = target {
-        input::check_output(args.inputs.iter().map(|i| i.path.as_path()), path)?;
+        input::check_output(args.files(), path)?;
     }
     // A name that is unknown is refused before a large file is read.
-    let method = guideway::method(&args.method())?;
+    let method = match vector::is_wanted(&args.output) {
+        true => {
+            args.check_vector()?;
+            None
+        }
+        false => Some(guideway::method(&args.method())?),
+    };
+    let below = args.floor_plan().map(|plan| FloorPlan::read(plan, out));
+    let below = below.transpose()?;
     let (layout, read_ms) = input::read_all(&args.inputs, out)?;
     let activity = out.activity("arranging");
     let scene = Arc::new(Scene::new(Arc::new(layout), &wishes.scene)?);
-    let scene_ms = activity.finish();
-    let mut drawn = draw(&*method, &scene, &wishes, out)?;
+    let mut times = Times {
+        read: read_ms,
+        scene: activity.finish(),
+        ..Times::default()
+    };
+    let Some(method) = method else {
+        let activity = out.activity("writing the picture");
+        let (output, legend) = (&args.output, args.is_with_legend());
+        let drawn = vector::draw(output, &scene, below.as_ref(), &wishes, legend)?;
+        times.write = activity.finish();
+        return tell(args, &target, &scene, &drawn, &times, out);
+    };
+    let mut drawn = draw(&*method, &scene, below.as_ref(), &wishes, out)?;
     drawn.advise(&wishes.style);
     if args.is_with_legend() {
         drawn.stamp_legend(&scene);
     }
     let activity = out.activity("writing the picture");
     target.write(&drawn.frame)?;
-    let times = Times {
-        read: read_ms,
-        scene: scene_ms,
-        prepare: drawn.prepare_ms,
-        render: drawn.render_ms,
-        write: activity.finish(),
-    };
-    let text = || report::text(&args.output, &scene, &drawn, &times);
+    times.prepare = drawn.prepare_ms;
+    times.render = drawn.render_ms;
+    times.write = activity.finish();
+    tell(args, &target, &scene, &drawn, &times, out)
+}
+
+fn tell<F>(
+    args: &Args,
+    target: &Target<'_>,
+    scene: &Scene,
+    drawn: &Drawn<F>,
+    times: &Times,
+    out: &Output,
+) -> Result<Exit, Failure> {
+    let text = || report::text(&args.output, scene, drawn, times);
     match target {
         Target::StandardOutput => out.note(text().trim_end()),
-        Target::File(path) => {
-            let body = report::json(path, &args.inputs, &scene, &drawn, &times);
+        Target::File(_) => {
+            let body = report::json(args, scene, drawn, times);
             out.report("render", &body, text)?;
         }
     }

@@ -4,8 +4,9 @@ use guideway::render::{
     Budget, Cancel, Frame, FrameSize, Method, MethodInfo, RenderError, Report, Shading, Style, View,
 };
 use guideway::scene::{Rgba, Scene, SceneOptions};
-use guideway::spline::Point;
+use guideway::spline::{Bounds, Point};
 
+use super::floor_plan::{self, FloorPlan};
 use super::legend;
 use crate::cli::{Failure, Output};
 
@@ -22,8 +23,8 @@ pub(crate) struct Wishes {
 }
 
 /// A picture with what became of every path.
-pub(crate) struct Drawn {
-    pub(crate) frame: Frame,
+pub(crate) struct Drawn<F = Frame> {
+    pub(crate) frame: F,
     pub(crate) view: View,
     pub(crate) report: Report,
     pub(crate) method: MethodInfo,
@@ -31,20 +32,30 @@ pub(crate) struct Drawn {
     pub(crate) render_ms: f64,
 }
 
-/// Draws a scene, showing that it is being drawn.
+/// Draws a scene over a floor plan, showing that it is being drawn.
 pub(crate) fn draw(
     method: &dyn Method,
     scene: &Arc<Scene>,
+    below: Option<&FloorPlan>,
     wishes: &Wishes,
     out: &Output,
 ) -> Result<Drawn, Failure> {
-    let view = view(scene, wishes)?;
+    let view = view(scene, below, wishes)?;
     let activity = out.activity("preparing");
+    let mut style = wishes.style;
+    let below = below.map(|below| below.draw(&view, style.background, &wishes.budget));
+    let below = below.transpose()?;
+    if below.is_some() {
+        style.background.a = 0;
+    }
     let mut prepared = method.prepare(Arc::clone(scene), &wishes.budget)?;
     let prepare_ms = activity.finish();
     let activity = out.activity("drawing");
     let mut frame = Frame::new(view.size());
-    let report = prepared.render(&view, &wishes.style, &Cancel::default(), &mut frame)?;
+    let report = prepared.render(&view, &style, &Cancel::default(), &mut frame)?;
+    if let Some(below) = &below {
+        floor_plan::lay_over(below, &mut frame);
+    }
     Ok(Drawn {
         frame,
         view,
@@ -84,8 +95,15 @@ impl Drawn {
     }
 }
 
-fn view(scene: &Scene, wishes: &Wishes) -> Result<View, RenderError> {
-    let all = View::fit(wishes.size, scene.bounds())?;
+/// The view that is wished for; unless said otherwise it shows everything, the floor plan too.
+pub(super) fn view(
+    scene: &Scene,
+    below: Option<&FloorPlan>,
+    wishes: &Wishes,
+) -> Result<View, RenderError> {
+    let bounds = [scene.bounds(), below.and_then(FloorPlan::bounds)];
+    let bounds = bounds.into_iter().flatten().reduce(Bounds::union);
+    let all = View::fit(wishes.size, bounds)?;
     View::new(
         wishes.size,
         wishes.center_m.unwrap_or(all.center_m()),

@@ -5,11 +5,12 @@ use guideway::render::Clock;
 use guideway::scene::{Legend, Scene};
 use serde_json::{Value, json};
 
-use super::Drawn;
-use crate::cli::input::{self, Input};
+use super::{Args, Drawn};
+use crate::cli::input;
 use crate::cli::text;
 
 /// Where the time went, in milliseconds.
+#[derive(Default)]
 pub(crate) struct Times {
     pub(crate) read: f64,
     pub(crate) scene: f64,
@@ -24,7 +25,7 @@ impl Times {
     }
 }
 
-pub(super) fn text(path: &Path, scene: &Scene, drawn: &Drawn, times: &Times) -> String {
+pub(super) fn text<F>(path: &Path, scene: &Scene, drawn: &Drawn<F>, times: &Times) -> String {
     let size = drawn.view.size();
     let mut text = String::new();
     if path != Path::new("-") {
@@ -62,7 +63,7 @@ pub(super) fn text(path: &Path, scene: &Scene, drawn: &Drawn, times: &Times) -> 
 }
 
 /// What became of every path, in one line.
-pub(crate) fn what_was_drawn(drawn: &Drawn) -> String {
+pub(crate) fn what_was_drawn<F>(drawn: &Drawn<F>) -> String {
     let report = &drawn.report;
     let mut text = format!(
         "{} of {} drawn by {}",
@@ -99,13 +100,7 @@ fn legend_text(legend: &Legend) -> String {
     text
 }
 
-pub(super) fn json(
-    path: &Path,
-    inputs: &[Input],
-    scene: &Scene,
-    drawn: &Drawn,
-    times: &Times,
-) -> Value {
+pub(super) fn json<F>(args: &Args, scene: &Scene, drawn: &Drawn<F>, times: &Times) -> Value {
     let report = &drawn.report;
     let (view, size) = (&drawn.view, drawn.view.size());
     let seen = view.world_bounds();
@@ -125,8 +120,9 @@ pub(super) fn json(
         })
         .collect();
     json!({
-        "file": input::names(inputs),
-        "output": path.to_string_lossy(),
+        "file": input::names(&args.inputs),
+        "floor_plan": args.floor_plan().map(|plan| plan.path.to_string_lossy()),
+        "output": args.output.to_string_lossy(),
         "format": layout.provenance.format,
         "format_version": layout.provenance.format_version,
         "size_px": [size.width(), size.height()],

@@ -1,0 +1,152 @@
+//! A view as SVG: the same paths in the same order, colours and widths, as true curves.
+
+use std::fs::File;
+use std::io::{self, BufWriter, Write};
+use std::path::Path;
+
+use guideway::formats::svg::{Outline, Page, Stroke};
+use guideway::layout::PathRef;
+use guideway::render::{MethodInfo, Report, Shading, View};
+use guideway::scene::{Legend, Scene};
+use guideway::spline::{Bounds, Point};
+use guideway::{SaveError, replace_file};
+
+use super::floor_plan::FloorPlan;
+use super::{Drawn, Wishes, picture};
+use crate::cli::Failure;
+
+/// Steps of coordinates, in pixels.
+const STEP_PX: f64 = 1e-3;
+
+/// Ending of the names of such files.
+const ENDING: &str = "svg";
+
+pub(super) fn is_wanted(output: &Path) -> bool {
+    let ending = output.extension().unwrap_or_default();
+    ending.eq_ignore_ascii_case(ENDING)
+}
+
+/// Writes a view of a scene as a file.
+pub(crate) fn draw(
+    output: &Path,
+    scene: &Scene,
+    below: Option<&FloorPlan>,
+    wishes: &Wishes,
+    has_legend: bool,
+) -> Result<Drawn<()>, Failure> {
+    if wishes.style.shading != Shading::Color {
+        return Err(Failure::arguments(
+            "an SVG picture has the colours of paths, not how many there are",
+            "Leave --shade out, or save the picture as PNG",
+        ));
+    }
+    let view = picture::view(scene, below, wishes)?;
+    let legend = scene.legend().filter(|_| has_legend);
+    let drawn = replace_file(output, |file| {
+        let written = File::create(file).and_then(|file| {
+            let mut out = BufWriter::with_capacity(1 << 16, file);
+            let drawn = write(&mut out, scene, &view, below, legend, wishes)?;
+            out.flush()?;
+            Ok(drawn)
+        });
+        written.map_err(|problem| SaveError {
+            path: output.to_owned(),
+            problem,
+        })
+    })?;
+    Ok(Drawn {
+        frame: (),
+        view,
+        report: Report::of(ENDING, scene, drawn),
+        method: MethodInfo {
+            name: ENDING,
+            summary: "curves, for whatever shows them to draw",
+            device: "none".to_owned(),
+        },
+        prepare_ms: 0.0,
+        render_ms: 0.0,
+    })
+}
+
+/// Writes all; returns how many paths can be seen.
+fn write(
+    out: &mut impl Write,
+    scene: &Scene,
+    view: &View,
+    below: Option<&FloorPlan>,
+    legend: Option<&Legend>,
+    wishes: &Wishes,
+) -> io::Result<u64> {
+    let size = view.size();
+    let (width, height) = (f64::from(size.width()), f64::from(size.height()));
+    let rule = wishes.style.line_rule;
+    let width_px = |path| 2.0 * rule.radius_px(scene.width_m(path), view.px_per_m());
+    let first = scene.draw_order().first();
+    let common = first.map_or(Stroke::of(0xFF, 1.0), |&path| {
+        Stroke::of(scene.color(path).to_u32(), width_px(path))
+    });
+    let attributes = format!(r#"width="{width}" height="{height}""#);
+    let mut page = Page::begin(out, [0.0, 0.0, width, height], &attributes, &common)?;
+    let background = wishes.style.background;
+    if background.a > 0 {
+        page.area([0.0, 0.0, width, height], background.to_u32())?;
+    }
+    if let Some(below) = below {
+        below.write(view, &mut page)?;
+    }
+    let mut drawn = 0;
+    for &path in scene.draw_order() {
+        let width_px = width_px(path);
+        let outline = outline(scene, path, view, width_px);
+        drawn += u64::from(!outline.is_empty());
+        let stroke = Stroke::of(scene.color(path).to_u32(), width_px);
+        page.path(scene.layout().paths.id(path as usize), &outline, &stroke)?;
+    }
+    if let Some(legend) = legend {
+        write_legend(legend, &mut page)?;
+    }
+    page.end()?;
+    Ok(drawn)
+}
+
+/// What of a path may leave a mark in a view, in its pixels.
+pub(super) fn outline(scene: &Scene, path: u32, view: &View, width_px: f64) -> Outline {
+    let size = view.size();
+    let seen = Bounds {
+        min: Point::default(),
+        max: Point::new(f64::from(size.width()), f64::from(size.height())),
+    };
+    let seen = seen.inflated(width_px / 2.0);
+    let mut outline = Outline::new(STEP_PX);
+    let path: PathRef<'_> = scene.layout().paths.get(path as usize);
+    for segment in path.runs().flat_map(|run| run.segments()) {
+        let segment = segment.map(|p| view.pixel_from_world(p));
+        let hull = Bounds::of_points(segment);
+        if hull.is_some_and(|hull| hull.intersects(seen)) {
+            outline.push(&segment);
+        }
+    }
+    outline
+}
+
+/// What the colours mean, in the upper left.
+fn write_legend(legend: &Legend, page: &mut Page<'_, impl Write>) -> io::Result<()> {
+    const LINE_PX: f64 = 18.0;
+    const TEXT_PX: f64 = 13.0;
+    let longest = legend.entries.iter().map(|e| e.label.chars().count());
+    let longest = longest
+        .chain([legend.column.chars().count()])
+        .max()
+        .unwrap_or(0);
+    // A letter is hardly wider than this share of its height.
+    let width = 44.0 + 0.6 * TEXT_PX * longest as f64;
+    let height = LINE_PX * (legend.entries.len() + 1) as f64 + 10.0;
+    page.area([8.0, 8.0, width, height], 0xFFFF_FFE0)?;
+    page.text([16.0, 8.0 + LINE_PX], TEXT_PX, &legend.column)?;
+    for (i, entry) in legend.entries.iter().enumerate() {
+        let top = 14.0 + LINE_PX * (i + 1) as f64;
+        page.area([16.0, top, 14.0, 12.0], entry.color.to_u32())?;
+        page.text([36.0, top + 11.0], TEXT_PX, &entry.label)?;
+    }
+    Ok(())
+}
