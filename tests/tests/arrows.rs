@@ -73,6 +73,8 @@ const ALLOWED: &[(&str, &[&str])] = &[
 const KEPT_TO: &[(&str, &str)] = &[
     ("arrow-ipc", "guideway-formats"),
     ("roxmltree", "guideway-formats"),
+    ("saphyr-parser", "guideway-formats"),
+    ("svgtypes", "guideway-formats"),
     ("serde_json", "guideway-formats guideway guideway-tests"),
     ("clap", "guideway"),
     ("indicatif", "guideway"),

@@ -1,17 +1,28 @@
 //! What all text readers share on the way to a layout: budgets, diagnostics, straight lines.
 
 use guideway_layout::{Attributes, Code, Diagnostics, Layout, NewPath, Place, TextColumn, Value};
-use guideway_spline::Point;
+use guideway_spline::{Point, Runs};
 
 use crate::{Problem, ReadError, source::Source, text::printable};
 
 /// Where something is in the file. The text is only made when a finding is kept.
 pub(crate) type At<'f> = &'f dyn Fn() -> Place;
 
+/// So many control points may a file become, and so many more for each of its bytes: a few weighted curves,
+/// or things that refer to others, could else become more than any machine holds.
+const LEAST_POINTS: u64 = 1 << 18;
+pub(crate) const POINTS_A_BYTE: u64 = 4;
+
+/// Why a curve has no room.
+pub(crate) const NO_ROOM: &str =
+    "the file becomes too many control points for its size, of which this would be more";
+
 /// Fills a layout within the limits.
 pub(crate) struct Builder<'a> {
     pub(crate) source: Source<'a>,
     pub(crate) layout: Layout,
+    /// How many more control points the file may become.
+    pub(crate) points_left: u64,
     text_bytes: u64,
     most_text_bytes: u64,
 }
@@ -34,6 +45,7 @@ impl<'a> Builder<'a> {
         Self {
             source,
             layout,
+            points_left: LEAST_POINTS + file_bytes as u64 * POINTS_A_BYTE,
             text_bytes: 0,
             most_text_bytes: most_text(file_bytes as u64),
         }
@@ -64,7 +76,26 @@ impl<'a> Builder<'a> {
         let points = geometry.point_count() + path.runs.points().len();
         self.check("control points", limits.control_points, points as u64)?;
         self.check_paths()?;
+        let points = path.runs.points().len() as u64;
+        self.points_left = self.points_left.saturating_sub(points);
         Ok(self.layout.paths.push(path))
+    }
+
+    /// Whether a curve fits into what the file may become. From the first that does not, none does: looking
+    /// for one that still fits could take for ever.
+    pub(crate) fn has_room(&mut self, runs: &Runs) -> bool {
+        let fits = self.points_left > 0 && runs.points().len() as u64 <= self.points_left;
+        if !fits {
+            self.points_left = 0;
+        }
+        fits
+    }
+
+    /// Whether a curve can be drawn: no part of it is beyond the largest coordinate, or not finite.
+    pub(crate) fn is_within_reach(&self, runs: &Runs) -> bool {
+        let most = self.source.options.limits.coordinate_m;
+        let mut points = runs.points().iter();
+        points.all(|p| p.x.abs() <= most && p.y.abs() <= most)
     }
 
     /// Records a path that cannot be drawn.

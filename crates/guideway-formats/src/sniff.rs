@@ -11,6 +11,14 @@ pub enum Format {
     GeoJson,
     /// A DXF drawing, ASCII or binary.
     Dxf,
+    /// A drawing in SVG.
+    Svg,
+    /// A building or a navigation graph of Open-RMF.
+    Rmf,
+    /// Roads of ASAM OpenDRIVE.
+    OpenDrive,
+    /// A map of Lanelet2.
+    Lanelet2,
     /// A table of paths in an Apache Arrow IPC file.
     Arrow,
 }
@@ -22,6 +30,11 @@ impl Format {
         Self::OpenTcs,
         Self::Vda5050,
         Self::GeoJson,
+        Self::Dxf,
+        Self::Svg,
+        Self::Rmf,
+        Self::OpenDrive,
+        Self::Lanelet2,
         Self::Arrow,
     ];
 
@@ -33,6 +46,10 @@ impl Format {
             Self::Vda5050 => "VDA 5050",
             Self::GeoJson => "GeoJSON",
             Self::Dxf => "DXF",
+            Self::Svg => "SVG",
+            Self::Rmf => "Open-RMF",
+            Self::OpenDrive => "OpenDRIVE",
+            Self::Lanelet2 => "Lanelet2",
             Self::Arrow => "Arrow",
         }
     }
@@ -45,6 +62,10 @@ impl Format {
             Self::Vda5050 => "VDA 5050 orders (JSON)",
             Self::GeoJson => "GeoJSON and Nav2 route graphs",
             Self::Dxf => "DXF drawings",
+            Self::Svg => "SVG drawings",
+            Self::Rmf => "Open-RMF buildings and navigation graphs (YAML)",
+            Self::OpenDrive => "OpenDRIVE roads (XML)",
+            Self::Lanelet2 => "Lanelet2 maps (OSM XML)",
             Self::Arrow => "Arrow IPC files of paths",
         }
     }
@@ -53,8 +74,9 @@ impl Format {
 /// The only format that the bytes can be of; the file name has no say.
 ///
 /// The first byte tells JSON from XML, and the first telling key of its outermost object tells which JSON
-/// it is. XML can only be openTCS, and JSON without such a key is taken for LIF. Whether they truly are is
-/// for the reader to find, which can then say what it found instead.
+/// it is; of XML, the outermost element. JSON without such a key is taken for LIF, and XML with another
+/// element for openTCS. Whether they truly are is for the reader to find, which can then say what it found
+/// instead. YAML has no mark: it is what has the key `levels` at the beginning of a line.
 pub fn sniff(bytes: &[u8]) -> Option<Format> {
     // A stream has no magic; it begins with the mark that every one of its messages begins with.
     if bytes.starts_with(b"ARROW1") || bytes.starts_with(&[0xFF; 4]) {
@@ -66,8 +88,52 @@ pub fn sniff(bytes: &[u8]) -> Option<Format> {
     let text = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
     match text.trim_ascii_start().first()? {
         b'{' => Some(root_keys(text).find_map(json_of).unwrap_or(Format::Lif)),
-        b'<' => Some(Format::OpenTcs),
-        _ => None,
+        b'<' => Some(match root_tag(text) {
+            b"svg" => Format::Svg,
+            b"OpenDRIVE" => Format::OpenDrive,
+            b"osm" => Format::Lanelet2,
+            _ => Format::OpenTcs,
+        }),
+        _ => crate::rmf::is_rmf(text).then_some(Format::Rmf),
+    }
+}
+
+/// The name of the outermost element of an XML text, without its prefix. Of text that is no XML, anything.
+fn root_tag(mut text: &[u8]) -> &[u8] {
+    loop {
+        let Some(start) = text.iter().position(|&byte| byte == b'<') else {
+            return b"";
+        };
+        text = &text[start + 1..];
+        let end = match text.first() {
+            Some(b'?') => "?>",
+            Some(b'!') if text.starts_with(b"!--") => "-->",
+            // Its declarations hold brackets of both kinds.
+            Some(b'!')
+                if text
+                    .split(|&b| b == b'>')
+                    .next()
+                    .is_some_and(|t| t.contains(&b'[')) =>
+            {
+                "]"
+            }
+            Some(b'!') => ">",
+            _ => break,
+        };
+        let found = text
+            .windows(end.len())
+            .position(|window| window == end.as_bytes());
+        text = &text[found.map_or(text.len(), |at| at + end.len())..];
+    }
+    let is_name = |byte: &u8| byte.is_ascii_alphanumeric() || b"-_.:".contains(byte);
+    let length = text
+        .iter()
+        .position(|byte| !is_name(byte))
+        .unwrap_or(text.len());
+    let name = &text[..length];
+    match name.iter().position(|&byte| byte == b':') {
+        Some(colon) => &name[colon + 1..],
+        None => name,
     }
 }
 

@@ -3,7 +3,7 @@
 use guideway_layout::Code;
 use guideway_spline::{Nurbs, Point, Runs, knots, nurbs_to_runs, polyline_to_runs};
 
-use crate::builder::{At, Builder};
+use crate::builder::{At, Builder, NO_ROOM};
 
 /// Most control points of a curve that is approximated rather than converted exactly: each span can
 /// become a thousand cubics, so a small file could ask for more than any machine has.
@@ -48,7 +48,16 @@ impl Builder<'_> {
     /// Converts a curve; fails if numbers overflow on the way, and then leaves nothing.
     fn convert(&mut self, curve: &Nurbs, at: At<'_>, runs: &mut Runs) -> bool {
         let tolerance = self.source.options.limits.conversion_tolerance_m;
-        let error = nurbs_to_runs(curve, tolerance, runs).error_bound_m;
+        let done = nurbs_to_runs(curve, tolerance, runs);
+        // What is exact is as large as in the file; what is not can be a thousand times as large.
+        if !done.exact && !self.has_room(runs) {
+            let remedy = "The control polygon is drawn; split the file, or lower the degree";
+            self.find(Code::ApproximateShape, at, || NO_ROOM.to_owned(), remedy);
+            runs.clear();
+            polyline_to_runs(curve.points(), runs);
+            return true;
+        }
+        let error = done.error_bound_m;
         if !runs.points().iter().all(|p| p.is_finite()) {
             runs.clear();
             return false;

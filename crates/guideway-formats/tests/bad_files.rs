@@ -147,6 +147,26 @@ fn bad_geojson_files() {
 }
 
 #[test]
+fn bad_rmf_files() {
+    check_folder("rmf");
+}
+
+#[test]
+fn bad_svg_files() {
+    check_folder("svg");
+}
+
+#[test]
+fn bad_opendrive_files() {
+    check_folder("opendrive");
+}
+
+#[test]
+fn bad_lanelet2_files() {
+    check_folder("lanelet2");
+}
+
+#[test]
 fn bad_files_of_any_kind() {
     check_folder("any");
 }
@@ -172,14 +192,17 @@ fn a_wrong_expectation_fails() {
 }
 
 /// Sound files.
-const VALID: [&str; 9] = [
+const VALID: [&str; 12] = [
     "dxf/valid.dxf",
     "dxf/valid-binary.dxf",
     "dxf/valid-narrow.dxf",
     "geojson/valid.geojson",
     "geojson/valid-graph.geojson",
+    "lanelet2/valid.osm",
     "lif/valid.json",
+    "opendrive/valid.xodr",
     "opentcs/valid.xml",
+    "svg/valid.svg",
     "vda5050/valid.json",
     "vda5050/valid-3.json",
 ];
@@ -203,13 +226,28 @@ fn every_truncation_is_an_error() {
     }
 }
 
+/// A YAML text that is cut may be a sound one that is shorter.
+const VALID_YAML: [&str; 2] = ["rmf/valid.yaml", "rmf/valid-graph.yaml"];
+
+#[test]
+fn no_truncation_of_yaml_breaks_the_reader() {
+    for file in VALID_YAML {
+        let whole = fs::read(bad_files().join(file)).unwrap();
+        for length in 0..whole.len() {
+            check_any(file, &whole[..length]);
+        }
+    }
+}
+
 /// One byte of a file replaced by another: whatever comes of it, it is no panic.
 #[test]
 fn no_single_byte_breaks_the_reader() {
-    for file in VALID {
+    for file in VALID.into_iter().chain(VALID_YAML) {
         let whole = fs::read(bad_files().join(file)).unwrap();
         for at in 0..whole.len() {
-            for byte in [0, b'"', b'<', b'&', b'-', b'9', b'{', b']', 0x80, 0xFF] {
+            for byte in [
+                0, b'"', b'<', b'&', b'-', b'9', b'{', b']', b'*', b' ', 0x80, 0xFF,
+            ] {
                 let mut bytes = whole.clone();
                 bytes[at] = byte;
                 check_any(file, &bytes);
@@ -304,8 +342,19 @@ fn collect_pointers(value: &Value, at: String, all: &mut Vec<String>) {
 
 #[test]
 fn no_attribute_of_another_value_breaks_the_reader() {
-    let whole = fs::read_to_string(bad_files().join("opentcs/valid.xml")).unwrap();
-    let quotes: Vec<usize> = whole.match_indices('"').map(|(at, _)| at).collect();
+    for file in [
+        "opentcs/valid.xml",
+        "svg/valid.svg",
+        "opendrive/valid.xodr",
+        "lanelet2/valid.osm",
+    ] {
+        let whole = fs::read_to_string(bad_files().join(file)).unwrap();
+        change_every_attribute(&whole);
+    }
+}
+
+fn change_every_attribute(whole: &str) {
+    let quotes: Vec<usize> = whole.match_indices(['"', '\'']).map(|(at, _)| at).collect();
     assert!(quotes.len() > 30);
     for ends in quotes.chunks_exact(2) {
         for other in [

@@ -403,3 +403,36 @@ fn numbers_are_read_to_the_last_bit() {
     let layout = read(&edge_with("{}").replace(r#""x": 10"#, &format!(r#""x": {x:?}"#)));
     assert_eq!(layout.nodes.position_m(1).x.to_bits(), x.to_bits());
 }
+
+#[test]
+fn a_weighted_curve_becomes_no_more_than_its_share_of_control_points() {
+    // So far away that the tolerance is out of reach: each span would become a thousand cubics.
+    let curve = |weights: i64| {
+        let points: Vec<String> = (0..1_000)
+            .map(|i| {
+                let (x, weight) = (i % 2 * 900_000_000, i % weights + 1);
+                format!(r#"{{"x":{x},"y":9e8,"weight":{weight}}}"#)
+            })
+            .collect();
+        let knots: Vec<String> = (0..1_004_i64)
+            .map(|i| i.clamp(3, 1_000).to_string())
+            .collect();
+        format!(
+            r#""degree": 3, "knotVector": [{}], "controlPoints": [{}]"#,
+            knots.join(","),
+            points.join(",")
+        )
+    };
+    let layout = trajectory(&curve(7));
+    assert!(codes(&layout).contains(&Code::ApproximateShape));
+    assert_eq!(
+        layout.paths.geometry().segment_count(),
+        999,
+        "the control polygon"
+    );
+    let layout = trajectory(&curve(1));
+    assert!(
+        codes(&layout).is_empty(),
+        "one without weights is exact and small"
+    );
+}

@@ -21,8 +21,13 @@ fn the_beginning_tells_the_format() {
     assert_eq!(sniff(b"  0\r\nSECTION\r\n"), Some(Format::Dxf));
     assert_eq!(sniff(b"999\nmade by\n0\nSECTION\n2"), Some(Format::Dxf));
     assert_eq!(sniff(b"AutoCAD Binary DXF\r\n\x1a\0\0"), Some(Format::Dxf));
+    assert_eq!(sniff(b"# by hand\nlevels:\n  L1: {}\n"), Some(Format::Rmf));
+    assert_eq!(sniff(b"name: x\r\nlevels: {}\r\n"), Some(Format::Rmf));
     for other in [
         &b""[..],
+        b" levels:\n",
+        b"sublevels:\n",
+        b"levels:x\n",
         b" ",
         b"PK\x03\x04",
         b"[1]",
@@ -32,6 +37,27 @@ fn the_beginning_tells_the_format() {
         b"999\n0\n",
     ] {
         assert_eq!(sniff(other), None, "{other:?}");
+    }
+}
+
+#[test]
+fn the_outermost_element_tells_one_xml_from_another() {
+    for (text, format) in [
+        ("<svg>", Format::Svg),
+        (
+            "<?xml version='1.0'?>\n<!-- <osm> -->\n<s:svg xmlns:s='x'/>",
+            Format::Svg,
+        ),
+        ("<!DOCTYPE svg PUBLIC 'a' 'b'><svg", Format::Svg),
+        ("<!DOCTYPE svg [<!ENTITY a '<osm>'>]><svg/>", Format::Svg),
+        ("\u{FEFF}<OpenDRIVE>", Format::OpenDrive),
+        ("<osm version='0.6'>", Format::Lanelet2),
+        ("<osmChange>", Format::OpenTcs),
+        ("<model><svg/></model>", Format::OpenTcs),
+        ("<!--", Format::OpenTcs),
+        ("<", Format::OpenTcs),
+    ] {
+        assert_eq!(sniff(text.as_bytes()), Some(format), "{text}");
     }
 }
 

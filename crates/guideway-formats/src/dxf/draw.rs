@@ -9,14 +9,14 @@ use super::shapes::{Bounds, Excess, append_arc, append_polyline, append_spline};
 use super::space::{Affine, Vector};
 use super::style::{Color, decoded, on_paper};
 use crate::ReadError;
-use crate::builder::{At, Builder, Table};
+use crate::builder::{At, Builder, NO_ROOM, POINTS_A_BYTE, Table};
 
-/// So many entities may come from references to blocks, and so many control points from all entities, beside
-/// some for each byte of the file: a small file could else ask for more than any machine has.
+/// So many entities may come from references to blocks, beside some for each byte of the file, and so many
+/// control points instead of what other files may become: a small file could else ask for more than any
+/// machine has.
 const MOST_ENTITIES: u64 = 1 << 20;
 const BYTES_AN_ENTITY: u64 = 16;
-const MOST_POINTS: u64 = 4 << 20;
-const POINTS_A_BYTE: u64 = 4;
+const LEAST_POINTS: u64 = 4 << 20;
 
 /// Where a block is put, and what its entities take from the reference to it.
 #[derive(Clone, Copy)]
@@ -37,18 +37,20 @@ pub(super) struct Painter<'a, 'd, 'b> {
     pub(super) colors: Vec<u32>,
     /// How many more entities references may make.
     entities_left: u64,
-    /// How many more control points all may become.
-    points_left: u64,
 }
 
 impl<'a, 'd, 'b> Painter<'a, 'd, 'b> {
-    pub(super) fn new(builder: Builder<'a>, drawing: &'d Drawing<'b>, file_bytes: usize) -> Self {
+    pub(super) fn new(
+        mut builder: Builder<'a>,
+        drawing: &'d Drawing<'b>,
+        file_bytes: usize,
+    ) -> Self {
+        builder.points_left = LEAST_POINTS + file_bytes as u64 * POINTS_A_BYTE;
         Self {
             builder,
             drawing,
             colors: Vec::new(),
             entities_left: MOST_ENTITIES + file_bytes as u64 / BYTES_AN_ENTITY,
-            points_left: MOST_POINTS + file_bytes as u64 * POINTS_A_BYTE,
         }
     }
 
@@ -102,10 +104,7 @@ impl<'a, 'd, 'b> Painter<'a, 'd, 'b> {
         if let Err(excess) = self.append(&entity.shape, &around.map, at, &mut runs)? {
             let (code, detail) = match excess {
                 Excess::Far => (Code::OutOfRange, "it goes beyond the largest coordinate"),
-                Excess::Points => (
-                    Code::Implausible,
-                    "the drawing becomes too many control points for a file of its size",
-                ),
+                Excess::Points => (Code::Implausible, NO_ROOM),
             };
             return self.refuse(entity, around, code, detail, at);
         }
@@ -113,7 +112,6 @@ impl<'a, 'd, 'b> Painter<'a, 'd, 'b> {
             let detail = "it has fewer than two points";
             return self.refuse(entity, around, Code::TooFewPoints, detail, at);
         }
-        self.points_left -= runs.points().len() as u64;
         let id = name(entity, around);
         self.builder.check_text(&id)?;
         self.builder.check_text(&of_layer.name)?;
@@ -141,7 +139,7 @@ impl<'a, 'd, 'b> Painter<'a, 'd, 'b> {
         let bounds = Bounds {
             tolerance_m: limits.conversion_tolerance_m,
             coordinate_m: limits.coordinate_m,
-            points: self.points_left,
+            points: self.builder.points_left,
         };
         if bounds.points == 0 {
             return Ok(Err(Excess::Points));
@@ -166,7 +164,7 @@ impl<'a, 'd, 'b> Painter<'a, 'd, 'b> {
         let checked = appended.and_then(|()| bounds.check(runs));
         if checked == Err(Excess::Points) {
             // There is no room for this one, and looking for one that still fits could take for ever.
-            self.points_left = 0;
+            self.builder.points_left = 0;
         }
         Ok(checked)
     }

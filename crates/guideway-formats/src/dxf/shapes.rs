@@ -1,12 +1,12 @@
 //! From shapes to runs, in metres and as seen from above.
 
 use guideway_layout::Code;
-use guideway_spline::{MAX_DEGREE, Point, Runs, arc_to_runs};
+use guideway_spline::{MAX_DEGREE, Point, Runs};
 
 use super::entity::{Arc, Polyline, Spline, Vertex};
 use super::space::{Affine, Vector};
 use crate::builder::{At, Builder};
-use crate::{ReadError, spline};
+use crate::{ReadError, ellipse, spline};
 
 /// Bulges below this are straight: on 100 m of way, such an arc is 5 micrometres high.
 const LEAST_BULGE: f64 = 1e-7;
@@ -45,31 +45,20 @@ impl Bounds {
 }
 
 /// Appends an arc that a map puts into place.
-///
-/// A uniform B-spline is mapped by mapping its control points, so an arc of the unit circle serves for all.
-/// The map stretches no direction more than by (|u|^2 + |v|^2)^(1/2), and so does not the error either.
 pub(super) fn append_arc(
     arc: &Arc,
     map: &Affine,
     bounds: &Bounds,
     runs: &mut Runs,
 ) -> Result<(), Excess> {
-    let center = map.point(arc.center).flat();
-    let [u, v] = [arc.u, arc.v].map(|axis| map.direction(axis).flat());
-    let stretch = u.norm().hypot(v.norm());
-    // Seen before it is drawn: the farther away, the more pieces.
-    if !(stretch <= 2.0 * bounds.coordinate_m && arc.start.is_finite()) {
-        return Err(Excess::Far);
+    let [x, y] = [arc.u, arc.v].map(|axis| map.direction(axis).flat());
+    let origin = map.point(arc.center).flat();
+    let ellipse = guideway_spline::Affine { x, y, origin };
+    let (tolerance_m, most_m) = (bounds.tolerance_m, bounds.coordinate_m);
+    match ellipse::append_arc(ellipse, arc.start, arc.sweep, tolerance_m, most_m, runs) {
+        true => Ok(()),
+        false => Err(Excess::Far),
     }
-    let mut unit = Runs::default();
-    let origin = Point::new(0.0, 0.0);
-    let tolerance = bounds.tolerance_m / stretch.max(bounds.tolerance_m);
-    arc_to_runs(origin, 1.0, arc.start, arc.sweep, tolerance, &mut unit);
-    for run in unit.iter() {
-        let mapped: Vec<Point<f64>> = run.iter().map(|p| center + u * p.x + v * p.y).collect();
-        runs.push(&mapped);
-    }
-    Ok(())
 }
 
 /// Appends a polyline, its bulges as arcs.

@@ -7,7 +7,7 @@ use guideway_spline::Point;
 use roxmltree::Node;
 
 use super::plant::Plant;
-use super::xml::{child, children};
+use crate::xml::{child, children};
 
 /// Millimetres a layout unit where the file does not say; the editor always writes this.
 const DEFAULT_SCALE: f64 = 50.0;

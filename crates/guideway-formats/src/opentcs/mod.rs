@@ -7,20 +7,19 @@
 mod drawing;
 mod paths;
 mod plant;
-mod xml;
 
 use guideway_layout::{Layout, Place};
 
 use self::drawing::Drawing;
 use self::plant::Plant;
-use self::xml::Xml;
 use crate::source::Source;
+use crate::xml::{Doctype, Xml};
 use crate::{Problem, ReadError, text};
 
 /// Reads a plant model.
 pub(crate) fn read(source: Source<'_>, bytes: &[u8]) -> Result<Layout, ReadError> {
     let text = text::decode(&source, bytes)?;
-    let xml = Xml::parse(&source, text)?;
+    let xml = Xml::parse(&source, text, Doctype::Refused)?;
     let model = xml.root();
     if model.tag_name().name() != "model" {
         let tag: String = model.tag_name().name().chars().take(40).collect();

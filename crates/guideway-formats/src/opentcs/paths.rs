@@ -6,9 +6,9 @@ use roxmltree::Node;
 
 use super::drawing::Drawing;
 use super::plant::{Plant, name_of};
-use super::xml::{child, children};
 use crate::ReadError;
 use crate::builder::Table;
+use crate::xml::{child, children};
 
 /// How many connection types are counted by name; the format knows seven.
 const MOST_CONNECTION_TYPES: usize = 16;

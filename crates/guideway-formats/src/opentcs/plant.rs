@@ -7,10 +7,10 @@ use guideway_spline::Point;
 use roxmltree::Node;
 
 use super::drawing::Drawing;
-use super::xml::{Xml, child, children};
 use crate::ReadError;
 use crate::builder::{Builder, Table};
 use crate::source::Source;
+use crate::xml::{Xml, child, children};
 
 /// Most properties that become columns; a file could else make columns without end.
 const MOST_PROPERTIES: usize = 64;

@@ -1,6 +1,8 @@
 //! Files that are too large to store, or that are made from another: each under the name that the table
 //! of expectations has for it.
 
+mod roads;
+
 /// A small file that all others are variations of.
 const LIF_HEAD: &str = r#"{"layouts": [{"layoutId": "L", "nodes": [
     {"nodeId": "A", "nodePosition": {"x": 0, "y": 0}},
@@ -16,6 +18,10 @@ pub(crate) fn generate(folder: &str, name: &str) -> Option<Vec<u8>> {
         "dxf" => dxf(name).map(String::into_bytes),
         "geojson" => geojson(name).map(String::into_bytes),
         "vda5050" => vda_5050(name).map(String::into_bytes),
+        "rmf" => roads::rmf(name).map(String::into_bytes),
+        "svg" => roads::svg(name).map(String::into_bytes),
+        "opendrive" => roads::opendrive(name).map(String::into_bytes),
+        "lanelet2" => roads::lanelet2(name).map(String::into_bytes),
         "any" => any(name),
         _ => None,
     }

@@ -9,14 +9,27 @@ use crate::source::Source;
 use crate::text::{Tally, position, printable};
 use crate::{Problem, ReadError};
 
-/// Most attributes of one element. The parser compares each with every other; the format has 11.
+/// Most attributes of one element. The parser compares each with every other; no format has half of it.
 const MOST_ATTRIBUTES: u64 = 256;
 
-/// Most declarations of namespaces. The parser copies them for every level; the format has none.
-const MOST_NAMESPACES: u64 = 64;
+/// Most declarations of namespaces. The parser copies them for every level; drawing programs write some
+/// on one element or on a few.
+const MOST_NAMESPACES: u64 = 4096;
+
+/// Most bytes that all entities of a file may become together.
+const MOST_ENTITY_BYTES: u64 = 16 << 20;
+
+/// What becomes of a document type definition, whose entities can make a small file very large.
+#[derive(Clone, Copy, PartialEq)]
+pub(crate) enum Doctype {
+    /// It is an error: no file of the format has one.
+    Refused,
+    /// It may be there, and its entities too if they hold plain text and little of it.
+    Bounded,
+}
 
 /// A parsed file.
-pub(super) struct Xml<'t> {
+pub(crate) struct Xml<'t> {
     text: &'t str,
     document: Document<'t>,
     /// Where the lines end. Only made when a finding asks for a line.
@@ -24,12 +37,16 @@ pub(super) struct Xml<'t> {
 }
 
 impl<'t> Xml<'t> {
-    pub(super) fn parse(source: &Source<'_>, text: &'t str) -> Result<Self, ReadError> {
-        check(source, text).map_err(|p| source.fail(p))?;
+    pub(crate) fn parse(
+        source: &Source<'_>,
+        text: &'t str,
+        doctype: Doctype,
+    ) -> Result<Self, ReadError> {
+        check(source, text, doctype).map_err(|p| source.fail(p))?;
         source.check_cancelled()?;
         let limit = source.options.limits.elements;
         let options = ParsingOptions {
-            allow_dtd: false,
+            allow_dtd: doctype == Doctype::Bounded,
             // An element can have a text before and after it.
             nodes_limit: u32::try_from(limit.saturating_mul(3)).unwrap_or(u32::MAX),
             ..ParsingOptions::default()
@@ -43,34 +60,37 @@ impl<'t> Xml<'t> {
         })
     }
 
-    pub(super) fn root(&self) -> Node<'_, 't> {
+    pub(crate) fn root(&self) -> Node<'_, 't> {
         self.document.root_element()
     }
 
-    /// An element by its tag and name, with its line.
-    pub(super) fn place(&self, node: Node<'_, '_>) -> Place {
+    /// An element by its tag and its name or identifier, with its line.
+    pub(crate) fn place(&self, node: Node<'_, '_>) -> Place {
         let tag = node.tag_name().name();
-        let name = node
-            .attribute("name")
-            .or_else(|| node.attribute("visualizedObjectName"));
+        let mut names = ["name", "visualizedObjectName", "id"].into_iter();
+        let name = names.find_map(|key| node.attribute(key).filter(|name| !name.is_empty()));
         let element = match name {
             Some(name) => format!("{tag} \"{name}\""),
             None => tag.to_owned(),
         };
+        Place {
+            element,
+            line: u32::try_from(self.line(node)).ok(),
+        }
+    }
+
+    /// The line that an element begins on, from 1.
+    pub(crate) fn line(&self, node: Node<'_, '_>) -> usize {
         let ends = self.line_ends.get_or_init(|| {
             let all = self.text.bytes().enumerate();
             all.filter(|(_, b)| *b == b'\n').map(|(i, _)| i).collect()
         });
-        let line = ends.partition_point(|&end| end < node.range().start) + 1;
-        Place {
-            element,
-            line: u32::try_from(line).ok(),
-        }
+        ends.partition_point(|&end| end < node.range().start) + 1
     }
 }
 
 /// The child elements of a tag.
-pub(super) fn children<'d, 't>(
+pub(crate) fn children<'d, 't>(
     node: Node<'d, 't>,
     tag: &'static str,
 ) -> impl Iterator<Item = Node<'d, 't>> {
@@ -78,11 +98,11 @@ pub(super) fn children<'d, 't>(
 }
 
 /// The first child element of a tag.
-pub(super) fn child<'d, 't>(node: Node<'d, 't>, tag: &'static str) -> Option<Node<'d, 't>> {
+pub(crate) fn child<'d, 't>(node: Node<'d, 't>, tag: &'static str) -> Option<Node<'d, 't>> {
     children(node, tag).next()
 }
 
-fn check(source: &Source<'_>, text: &str) -> Result<(), Problem> {
+fn check(source: &Source<'_>, text: &str, mut doctype: Doctype) -> Result<(), Problem> {
     let mut tally = Tally::new(text, &source.options.limits);
     let mut namespaces = 0;
     let mut at = 0;
@@ -96,7 +116,14 @@ fn check(source: &Source<'_>, text: &str) -> Result<(), Problem> {
             tally.count()?;
             through(rest, "]]>")
         } else if rest.starts_with("<!") {
-            return Err(doctype(text, at));
+            if doctype == Doctype::Refused {
+                return Err(no_doctype(text, at));
+            }
+            // There is one at most.
+            doctype = Doctype::Refused;
+            let definition = definition_length(rest).map(|length| &rest[..length]);
+            check_entities(text, at, definition.unwrap_or_default())?;
+            definition.map(str::len)
         } else if rest.starts_with("<?") {
             tally.count()?;
             through(rest, "?>")
@@ -182,14 +209,42 @@ impl Tag {
     }
 }
 
-fn doctype(text: &str, at: usize) -> Problem {
+/// Length of a document type definition, its declarations in brackets included.
+fn definition_length(text: &str) -> Option<usize> {
+    let end = text.find('>')?;
+    match text[..end].contains('[') {
+        true => {
+            let inner = text.find(']')?;
+            through(&text[inner..], ">").map(|length| inner + length)
+        }
+        false => Some(end + 1),
+    }
+}
+
+/// Bounds what entities can become: each reference at most all that the definition holds.
+fn check_entities(text: &str, at: usize, definition: &str) -> Result<(), Problem> {
+    if !definition.contains("<!ENTITY") {
+        return Ok(());
+    }
+    let references = text.matches('&').count() as u64;
+    // Only declarations may begin in it: an entity that holds elements could nest them without bound.
+    let holds_elements = definition.replace("<!", "").contains('<');
+    if definition.contains(['&', '%']) || holds_elements {
+        return Err(no_doctype(text, at));
+    }
+    let bytes = references.saturating_mul(definition.len() as u64);
+    check_count("bytes that entities stand for", MOST_ENTITY_BYTES, bytes)
+}
+
+fn no_doctype(text: &str, at: usize) -> Problem {
     Problem::Unsupported {
         place: Place {
             element: "the head of the file".into(),
             line: u32::try_from(position(text, at).0).ok(),
         },
-        what: "a document type definition (<!DOCTYPE ...>)".into(),
-        remedy: "Remove it; plant models have none, and it can make a small file very large".into(),
+        what: "a document type definition (<!DOCTYPE ...>), or one whose entities hold more than text,"
+            .into(),
+        remedy: "Remove it; it is not needed, and it can make a small file very large".into(),
     }
 }
 
@@ -208,7 +263,7 @@ fn problem(error: &Error, text: &str, elements: u64) -> Problem {
             limit: elements,
             actual: elements.saturating_add(1),
         },
-        Error::DtdDetected => doctype(text, 0),
+        Error::DtdDetected => no_doctype(text, 0),
         other => {
             let place = other.pos();
             let (line, column) = position(text, text.len());

@@ -1,0 +1,240 @@
+//! From the positions of a level to metres with y up, the levels of a building above each other.
+//!
+//! Source: `building.py`, `level.py` and `transform.py` of
+//! [`rmf_building_map_tools`](https://github.com/open-rmf/rmf_traffic_editor).
+
+use guideway_layout::{Code, Place};
+use guideway_spline::{Affine, Bounds, Point};
+
+use super::level::Level;
+use crate::builder::{At, Builder};
+use crate::wgs84::{LocalDegrees, is_on_earth};
+
+/// Metres a pixel where nothing was measured: what the editor begins with.
+const ASSUMED_SCALE: f64 = 0.05;
+
+/// Radius of the sphere of web Mercator, in metres.
+const MERCATOR_RADIUS_M: f64 = 6_378_137.0;
+
+/// What the positions of a file are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Coordinates {
+    /// Pixels of a floor plan, y down.
+    Image,
+    /// Metres, y up.
+    Metres,
+    /// Longitude and latitude.
+    Degrees,
+    /// Metres of web Mercator, which are too long away from the equator.
+    Mercator,
+}
+
+/// How the positions of one level become metres.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Frame {
+    Plane(Affine),
+    Degrees(LocalDegrees),
+}
+
+impl Frame {
+    pub(super) fn to_metres(self, position: Point<f64>) -> Point<f64> {
+        match self {
+            Self::Plane(affine) => affine.apply(position),
+            Self::Degrees(degrees) => degrees.to_metres(position),
+        }
+    }
+}
+
+/// The frame of every level. `reference` is the level that the others are laid over.
+pub(super) fn frames(
+    builder: &mut Builder<'_>,
+    coordinates: Coordinates,
+    levels: &[Level<'_>],
+    reference: usize,
+) -> Vec<Frame> {
+    let positions = levels.iter().flat_map(|level| &level.positions).flatten();
+    let same = match coordinates {
+        Coordinates::Image => return image_frames(builder, levels, reference),
+        Coordinates::Metres => Frame::Plane(Affine::IDENTITY),
+        Coordinates::Degrees => {
+            let sound = positions.copied().filter(|&p| is_on_earth(p));
+            let bounds = Bounds::of_points(sound);
+            bounds.map_or(Frame::Plane(Affine::IDENTITY), |bounds| {
+                Frame::Degrees(LocalDegrees::about(bounds))
+            })
+        }
+        Coordinates::Mercator => {
+            let bounds = Bounds::of_points(positions.copied().filter(|p| p.is_finite()));
+            let middle = bounds.map_or(Point::new(0.0, 0.0), |b| b.min.lerp(b.max, 0.5));
+            // A metre at a latitude is 1 / cos of it long, which is cosh(y / R).
+            let scale = 1.0 / (middle.y / MERCATOR_RADIUS_M).cosh();
+            let to_origin = Affine::translation(-middle);
+            Frame::Plane(to_origin.then(Affine::scale(scale, scale, Point::new(0.0, 0.0))))
+        }
+    };
+    vec![same; levels.len()]
+}
+
+fn image_frames(builder: &mut Builder<'_>, levels: &[Level<'_>], reference: usize) -> Vec<Frame> {
+    let Some(reference_level) = levels.get(reference) else {
+        return Vec::new();
+    };
+    let reference_scale = measured_scale(builder, reference_level).unwrap_or_else(|| {
+        if reference_level.positions.is_empty() {
+            return ASSUMED_SCALE;
+        }
+        let message = || {
+            format!(
+                "no distance was measured: a pixel of the floor plan is read as {ASSUMED_SCALE} m"
+            )
+        };
+        let remedy = "Measure a distance in the editor; all lengths depend on it";
+        let at: At<'_> = &|| reference_level.place("measurements");
+        builder.find(Code::AssumedUnit, at, message, remedy);
+        ASSUMED_SCALE
+    });
+    let frame = |(index, level): (usize, &Level<'_>)| {
+        if index == reference {
+            return similarity(reference_scale, 0.0, Point::new(0.0, 0.0));
+        }
+        let pairs = common_fiducials(reference_level, level);
+        match alignment(&pairs, reference_scale) {
+            Some(frame) => frame,
+            None if level.positions.is_empty() => {
+                similarity(reference_scale, 0.0, Point::new(0.0, 0.0))
+            }
+            None => {
+                let message = || {
+                    format!(
+                        "fiducials in common with level `{}`: {}, two are needed to lay one over the other",
+                        reference_level.name,
+                        pairs.len()
+                    )
+                };
+                let remedy =
+                    "It is drawn where its own floor plan has it; add fiducials in the editor";
+                let at: At<'_> = &|| level.place("fiducials");
+                builder.find(Code::AssumedUnit, at, message, remedy);
+                let scale = measured_scale(builder, level).unwrap_or(reference_scale);
+                similarity(scale, 0.0, Point::new(0.0, 0.0))
+            }
+        }
+    };
+    levels.iter().enumerate().map(frame).collect()
+}
+
+/// Pixels with y down, turned, scaled and then moved.
+fn similarity(scale: f64, angle_rad: f64, offset_m: Point<f64>) -> Frame {
+    let origin = Point::new(0.0, 0.0);
+    let affine = Affine::scale(scale, -scale, origin)
+        .then(Affine::rotation(angle_rad, origin))
+        .then(Affine::translation(offset_m));
+    Frame::Plane(affine)
+}
+
+/// The mean of metres a pixel over all distances measured on a level.
+fn measured_scale(builder: &mut Builder<'_>, level: &Level<'_>) -> Option<f64> {
+    let mut scales = Vec::new();
+    for (index, measured) in level.measurements.iter().enumerate() {
+        let ends = measured.ends.map(|end| level.position(end));
+        let scale = match ends {
+            [Some(a), Some(b)] => measured.distance_m / a.distance(b),
+            _ => f64::NAN,
+        };
+        if scale.is_finite() && scale > 0.0 {
+            scales.push(scale);
+            continue;
+        }
+        let message = || {
+            format!(
+                "{} m between two vertices that are {}",
+                measured.distance_m,
+                {
+                    match ends {
+                        [Some(a), Some(b)] => format!("{} pixels apart", a.distance(b)),
+                        _ => "not there".to_owned(),
+                    }
+                }
+            )
+        };
+        let remedy = "It is left out; measure the distance again in the editor";
+        let at: At<'_> = &|| Place {
+            line: Some(measured.line),
+            ..level.place(&format!("measurements[{index}]"))
+        };
+        builder.find(Code::Implausible, at, message, remedy);
+    }
+    let count = scales.len() as f64;
+    (count > 0.0).then(|| scales.iter().sum::<f64>() / count)
+}
+
+/// The pixels of the fiducials that two levels have, those of the reference first.
+fn common_fiducials(reference: &Level<'_>, level: &Level<'_>) -> Vec<[Point<f64>; 2]> {
+    /// The pairs are compared with each other.
+    const MOST: usize = 100;
+    let others = &level.fiducials;
+    let pairs = reference.fiducials.iter().filter_map(|&(name, here)| {
+        let found = others.iter().find(|(other, _)| *other == name)?;
+        // Bearings are those of y up.
+        Some([here, found.1].map(|p| Point::new(p.x, -p.y)))
+    });
+    pairs.take(MOST).collect()
+}
+
+/// Lays a level over the reference: means of the angles and of the ratios of all distances between two
+/// fiducials, and then of what is left between them. None if no two fiducials are apart.
+fn alignment(pairs: &[[Point<f64>; 2]], reference_scale: f64) -> Option<Frame> {
+    let (mut sum, mut ratios) = (Point::new(0.0, 0.0), Vec::new());
+    for (i, a) in pairs.iter().enumerate() {
+        for b in &pairs[i + 1..] {
+            let [here, there] = [b[0] - a[0], b[1] - a[1]];
+            let ratio = there.norm() / here.norm();
+            if ratio.is_finite() && ratio > 0.0 {
+                ratios.push(ratio);
+                let unit = 1.0 / (here.norm() * there.norm());
+                sum = sum + Point::new(there.dot(here), there.cross(here)) * unit;
+            }
+        }
+    }
+    if ratios.is_empty() {
+        return None;
+    }
+    let ratio = ratios.iter().sum::<f64>() / ratios.len() as f64;
+    let scale = reference_scale / ratio;
+    let angle_rad = sum.y.atan2(sum.x);
+    let turn = Affine::rotation(angle_rad, Point::new(0.0, 0.0));
+    let left = pairs
+        .iter()
+        .map(|[here, there]| *here * reference_scale - turn.apply(*there * scale));
+    let sum = left.fold(Point::new(0.0, 0.0), |a, b| a + b);
+    Some(similarity(
+        scale,
+        angle_rad,
+        sum * (1.0 / pairs.len() as f64),
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn fiducials_lay_a_turned_and_scaled_level_over_another() {
+        // The other plan has twice the pixels, is turned by a quarter, and is moved.
+        let other = |p: Point<f64>| Point::new(-p.y * 2.0 + 30.0, p.x * 2.0 - 7.0);
+        let here = [(0.0, 0.0), (10.0, 2.0), (3.0, 8.0)].map(|(x, y)| Point::new(x, y));
+        let pairs = here.map(|p| [p, other(p)]);
+        let Some(Frame::Plane(affine)) = alignment(&pairs, 0.5) else {
+            panic!("no frame");
+        };
+        for [here, there] in pairs {
+            let pixel = Point::new(there.x, -there.y);
+            assert!(affine.apply(pixel).distance(here * 0.5) < 1e-12);
+        }
+        assert!(alignment(&pairs[..1], 0.5).is_none(), "one is not enough");
+        assert!(
+            alignment(&[pairs[0], pairs[0]], 0.5).is_none(),
+            "nor one twice"
+        );
+    }
+}

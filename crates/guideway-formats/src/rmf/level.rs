@@ -1,0 +1,141 @@
+//! What a level of a file holds, before its positions are metres.
+
+use guideway_layout::{Code, Place};
+use guideway_spline::Point;
+
+use crate::ReadError;
+use crate::builder::{At, Builder};
+use crate::yaml::Item;
+
+/// One level, its vertices in the unit of the file.
+pub(super) struct Level<'y> {
+    pub(super) name: &'y str,
+    pub(super) content: Item<'y>,
+    /// None for a vertex that is none.
+    pub(super) positions: Vec<Option<Point<f64>>>,
+    pub(super) measurements: Vec<Measurement>,
+    pub(super) fiducials: Vec<(&'y str, Point<f64>)>,
+}
+
+/// A distance that somebody measured.
+pub(super) struct Measurement {
+    pub(super) ends: [usize; 2],
+    pub(super) distance_m: f64,
+    pub(super) line: u32,
+}
+
+impl<'y> Level<'y> {
+    pub(super) fn read(
+        builder: &mut Builder<'_>,
+        name: &'y str,
+        content: Item<'y>,
+    ) -> Result<Self, ReadError> {
+        builder.check_text(name)?;
+        if !content.is_map() {
+            let at: At<'_> = &|| Place {
+                element: format!("levels.{name}"),
+                line: Some(content.line()),
+            };
+            let message = || format!("an object was expected, {} was found", content.kind());
+            let remedy = "The level is empty; give it vertices and lanes";
+            builder.find(Code::WrongType, at, message, remedy);
+        }
+        let mut level = Self {
+            name,
+            content,
+            positions: Vec::new(),
+            measurements: Vec::new(),
+            fiducials: Vec::new(),
+        };
+        for (index, vertex) in level.list(builder, "vertices").enumerate() {
+            let position = position(vertex);
+            if position.is_none() {
+                let at: At<'_> = &|| level.item_place("vertices", index, vertex);
+                let message = || {
+                    format!(
+                        "a list that begins with x and y expected, {} found",
+                        vertex.kind()
+                    )
+                };
+                let remedy = "Write it as [x, y, ...]; what begins or ends there is not drawn";
+                builder.find(Code::MissingField, at, message, remedy);
+            }
+            level.positions.push(position);
+        }
+        for measured in level.list(builder, "measurements") {
+            let distance = measured.item(2).and_then(|p| p.get("distance"));
+            level.measurements.push(Measurement {
+                ends: ends(measured).unwrap_or([usize::MAX; 2]),
+                distance_m: distance
+                    .and_then(|d| d.item(1))
+                    .and_then(Item::number)
+                    .unwrap_or(f64::NAN),
+                line: measured.line(),
+            });
+        }
+        for fiducial in level.list(builder, "fiducials") {
+            let name = fiducial.item(2).and_then(Item::text);
+            level.fiducials.extend(name.zip(position(fiducial)));
+        }
+        Ok(level)
+    }
+
+    /// A list of the level. Where something else is in its place, it says so.
+    pub(super) fn list(
+        &self,
+        builder: &mut Builder<'_>,
+        key: &str,
+    ) -> impl Iterator<Item = Item<'y>> + use<'y> {
+        let found = self.content.get(key);
+        // Empty ones are written as nothing or as {}.
+        let odd =
+            found.filter(|f| !f.is_list() && f.entries().next().is_some() || f.value().is_some());
+        if let Some(odd) = odd {
+            let at: At<'_> = &|| self.place(key);
+            let message = || format!("a list was expected, {} was found", odd.kind());
+            builder.find(
+                Code::WrongType,
+                at,
+                message,
+                "It is left out; make it a list",
+            );
+        }
+        found.into_iter().flat_map(Item::items)
+    }
+
+    /// How many items a list or an object of the level has.
+    pub(super) fn count(&self, key: &str) -> u64 {
+        let found = self.content.get(key);
+        found.map_or(0, |f| (f.items().len() + f.entries().count()) as u64)
+    }
+
+    pub(super) fn position(&self, vertex: usize) -> Option<Point<f64>> {
+        self.positions.get(vertex).copied().flatten()
+    }
+
+    pub(super) fn place(&self, key: &str) -> Place {
+        let found = self.content.get(key).unwrap_or(self.content);
+        Place {
+            element: format!("levels.{}.{key}", self.name),
+            line: Some(found.line()),
+        }
+    }
+
+    /// The place of an item of a list.
+    pub(super) fn item_place(&self, key: &str, index: usize, item: Item<'_>) -> Place {
+        Place {
+            line: Some(item.line()),
+            ..self.place(&format!("{key}[{index}]"))
+        }
+    }
+}
+
+/// The vertices that a lane, a wall or a measurement is between.
+pub(super) fn ends(edge: Item<'_>) -> Option<[usize; 2]> {
+    let vertex = |index| usize::try_from(edge.item(index)?.text()?.parse::<u64>().ok()?).ok();
+    Some([vertex(0)?, vertex(1)?])
+}
+
+fn position(list: Item<'_>) -> Option<Point<f64>> {
+    Some(Point::new(list.item(0)?.number()?, list.item(1)?.number()?))
+}

@@ -1,0 +1,151 @@
+//! Lanelet2: the real map, and the middle between bounds.
+
+#![allow(clippy::unwrap_used, reason = "a test may fail by a panic")]
+
+mod common;
+
+use common::{assert_counts, codes, ends, read, real_layouts};
+use guideway_formats::{ReadOptions, read_file};
+use guideway_layout::{Code, Direction, Layout, Value};
+use guideway_spline::Point;
+
+#[test]
+fn the_real_map_has_the_counts_of_its_source() {
+    let Some(folder) = real_layouts("lanelet2") else {
+        return;
+    };
+    let layout = read_file(&folder.join("mapping_example.osm"), &ReadOptions::default()).unwrap();
+    let expected = "nodes 2258, ways 1141, lanelets 371";
+    assert_counts(
+        &layout,
+        &["nodes", "ways", "lanelets"],
+        expected,
+        "mapping_example.osm",
+    );
+    assert_eq!(layout.path_count(), 1141 + 371);
+    // One way is marked as deleted in the editor.
+    assert_eq!(layout.refused.len(), 1);
+    assert_eq!(layout.refused.iter().next().unwrap().code, Code::NotDrawn);
+}
+
+/// A map in local metres of nodes at positions, ways of nodes, and one lanelet.
+fn map(nodes: &[(f64, f64)], ways: &[&[usize]], members: &str, tags: &str) -> Layout {
+    let node = |(i, (x, y)): (usize, &(f64, f64))| {
+        format!("<node id='{i}'><tag k='local_x' v='{x}'/><tag k='local_y' v='{y}'/></node>")
+    };
+    let nodes: String = nodes.iter().enumerate().map(node).collect();
+    let way = |(i, nodes): (usize, &&[usize])| {
+        let references: String = nodes.iter().map(|n| format!("<nd ref='{n}'/>")).collect();
+        format!("<way id='w{i}'>{references}</way>")
+    };
+    let ways: String = ways.iter().enumerate().map(way).collect();
+    read(&format!(
+        "<osm version='0.6'>{nodes}{ways}<relation id='L'>{members}<tag k='type' v='lanelet'/>{tags}</relation></osm>"
+    ))
+}
+
+const BOUNDS: &str =
+    "<member type='way' ref='w0' role='left'/><member type='way' ref='w1' role='right'/>";
+
+#[test]
+fn a_lanelet_goes_with_its_left_bound_on_the_left() {
+    let nodes = [(0.0, 4.0), (9.0, 4.0), (0.0, 0.0), (9.0, 0.0)];
+    // However the ways are drawn.
+    for ways in [
+        [[0, 1], [2, 3]],
+        [[1, 0], [2, 3]],
+        [[0, 1], [3, 2]],
+        [[1, 0], [3, 2]],
+    ] {
+        let layout = map(&nodes, &[&ways[0], &ways[1]], BOUNDS, "");
+        let found = ends(&layout, "L");
+        assert_eq!(
+            found,
+            (Point::new(0.0, 2.0), Point::new(9.0, 2.0)),
+            "{ways:?}"
+        );
+    }
+    let other =
+        "<member type='way' ref='w1' role='left'/><member type='way' ref='w0' role='right'/>";
+    let layout = map(&nodes, &[&[0, 1], &[2, 3]], other, "");
+    assert_eq!(
+        ends(&layout, "L"),
+        (Point::new(9.0, 2.0), Point::new(0.0, 2.0))
+    );
+    assert!(codes(&layout).is_empty());
+}
+
+#[test]
+fn a_centre_line_that_somebody_drew_counts() {
+    let nodes = [
+        (0.0, 4.0),
+        (9.0, 4.0),
+        (0.0, 0.0),
+        (9.0, 0.0),
+        (0.0, 3.0),
+        (9.0, 3.0),
+    ];
+    let members = format!("{BOUNDS}<member type='way' ref='w2' role='centerline'/>");
+    let layout = map(&nodes, &[&[0, 1], &[2, 3], &[4, 5]], &members, "");
+    assert_eq!(
+        ends(&layout, "L"),
+        (Point::new(0.0, 3.0), Point::new(9.0, 3.0))
+    );
+}
+
+#[test]
+fn tags_become_columns_and_directions() {
+    let nodes = [(0.0, 4.0), (9.0, 4.0), (0.0, 0.0), (9.0, 0.0)];
+    let tags = "<tag k='one_way' v='no'/><tag k='subtype' v='road'/>";
+    let layout = map(&nodes, &[&[0, 1], &[2, 3]], BOUNDS, tags);
+    let lanelet = layout.paths.iter().find(|path| path.id() == "L").unwrap();
+    assert_eq!(lanelet.direction(), Direction::Both);
+    let value = |name| {
+        layout
+            .paths
+            .attributes
+            .get(name)
+            .unwrap()
+            .values
+            .get(lanelet.row())
+    };
+    assert_eq!(value("subtype"), Some(Value::Text("road")));
+    assert_eq!(value("element"), Some(Value::Text("lanelet")));
+    let layout = map(&nodes, &[&[0, 1], &[2, 3]], BOUNDS, "");
+    assert_eq!(
+        layout.paths.get(2).direction(),
+        Direction::Forward,
+        "one way unless it says so"
+    );
+}
+
+#[test]
+fn degrees_become_metres_about_the_middle_and_it_is_said() {
+    let layout = read(
+        "<osm version='0.6'><node id='1' lat='49' lon='8.4'/><node id='2' lat='49' lon='8.41'/>\
+         <way id='w'><nd ref='1'/><nd ref='2'/></way></osm>",
+    );
+    let (start, end) = ends(&layout, "w");
+    // A hundredth of a degree of longitude at 49 degrees north, on the ellipsoid.
+    assert!(
+        (start.distance(end) - 731.74).abs() < 0.05,
+        "{}",
+        start.distance(end)
+    );
+    assert_eq!(
+        codes(&layout),
+        [Code::AssumedUnit, Code::Implausible],
+        "and there is no lanelet"
+    );
+}
+
+#[test]
+fn a_lanelet_without_a_bound_is_refused() {
+    let nodes = [(0.0, 4.0), (9.0, 4.0)];
+    let layout = map(&nodes, &[&[0, 1]], BOUNDS, "");
+    assert_eq!(layout.paths.len(), 1);
+    assert_eq!(
+        layout.refused.iter().next().unwrap().code,
+        Code::UnknownNode
+    );
+}

@@ -1,0 +1,281 @@
+//! Open-RMF: the real files, and what is easy to get wrong: pixels, scale, levels, types of parameters.
+
+#![allow(clippy::unwrap_used, reason = "a test may fail by a panic")]
+
+mod common;
+
+use common::{assert_counts, codes, ends, read, real_layouts};
+use guideway_formats::{ReadOptions, read_file};
+use guideway_layout::{Code, Direction, Layout, Value};
+use guideway_spline::Point;
+
+/// Counts as the list of sources of the real layouts has them, made by another program.
+const REAL: &[(&str, &str)] = &[
+    (
+        "airport_terminal.building.yaml",
+        "levels 1, vertices 1297, lanes 223, walls 464, doors 5, measurements 1, floors 75, models 282, \
+         bidirectional 223, lanes of graph 0 17, lanes of graph 1 51, lanes of graph 2 139, \
+         lanes of graph 4 16",
+    ),
+    (
+        "campus.building.yaml",
+        "levels 1, vertices 157, lanes 154, models 1, bidirectional 27, lanes of graph 0 154",
+    ),
+    (
+        "hotel.building.yaml",
+        "levels 3, vertices 353, lanes 122, walls 254, doors 19, measurements 3, floors 13, models 175, \
+         fiducials 9, bidirectional 122, lanes of graph 0 52, lanes of graph 1 19, lanes of graph 2 51, \
+         lifts 2",
+    ),
+    (
+        "office.building.yaml",
+        "levels 1, vertices 73, lanes 30, walls 33, doors 3, measurements 3, floors 4, models 79, \
+         bidirectional 30, lanes of graph 0 30",
+    ),
+    (
+        "triple_H.building.yaml",
+        "levels 1, vertices 51, lanes 22, walls 28, measurements 1, floors 1, bidirectional 22, \
+         lanes of graph 0 22",
+    ),
+];
+
+const COUNTED: &[&str] = &[
+    "levels",
+    "vertices",
+    "lanes",
+    "walls",
+    "doors",
+    "measurements",
+    "floors",
+    "models",
+    "fiducials",
+    "bidirectional",
+    "lanes of graph 0",
+    "lanes of graph 1",
+    "lanes of graph 2",
+    "lanes of graph 4",
+    "lifts",
+];
+
+fn real(file: &str) -> Option<Layout> {
+    let path = real_layouts("rmf_building")?.join(file);
+    Some(read_file(&path, &ReadOptions::default()).unwrap_or_else(|e| panic!("{e}")))
+}
+
+fn assert_near(found: Point<f64>, x: f64, y: f64) {
+    let expected = Point::new(x, y);
+    assert!(
+        found.distance(expected) < 1e-9,
+        "{found:?} is not {expected:?}"
+    );
+}
+
+#[test]
+fn real_files_have_the_counts_of_their_sources() {
+    for (file, expected) in REAL {
+        let Some(layout) = real(file) else { return };
+        assert_eq!(layout.provenance.format, "Open-RMF");
+        assert_counts(&layout, COUNTED, expected, file);
+        let count = |name| common::count(&layout, name);
+        let edges = ["lanes", "human_lanes", "walls", "doors"]
+            .map(count)
+            .iter()
+            .sum::<u64>();
+        assert_eq!(layout.paths.len() as u64, edges, "{file}");
+        assert!(layout.refused.is_empty(), "{file}");
+        assert_eq!(layout.nodes.len() as u64, count("vertices"), "{file}");
+    }
+}
+
+#[test]
+fn the_airport_is_as_long_as_it_was_measured() {
+    let Some(layout) = real("airport_terminal.building.yaml") else {
+        return;
+    };
+    // 0.0821 m a pixel; the vertices of lanes and walls span 282 m by 83 m.
+    let ends = layout.paths.iter().flat_map(|path| {
+        let (start, end) = path.ends().unwrap();
+        [start, end]
+    });
+    let bounds = guideway_spline::Bounds::of_points(ends).unwrap();
+    let size = bounds.max - bounds.min;
+    assert!(
+        (size.x - 282.0).abs() < 1.0 && (size.y - 65.0).abs() < 20.0,
+        "{size:?}"
+    );
+}
+
+#[test]
+fn the_levels_of_the_hotel_lie_over_each_other() {
+    let Some(layout) = real("hotel.building.yaml") else {
+        return;
+    };
+    assert_eq!(layout.levels[2].elevation_m, Some(16.0));
+    // A lift goes straight up: on every level there is a vertex in it.
+    for station in 0..layout.stations.len() as u32 {
+        let lift = layout.stations.position_m(station).unwrap();
+        for level in 0..3 {
+            let nodes =
+                (0..layout.nodes.len() as u32).filter(|&n| layout.nodes.level(n) == Some(level));
+            let distances = nodes.map(|n| layout.nodes.position_m(n).distance(lift));
+            let nearest = distances.fold(f64::INFINITY, f64::min);
+            assert!(
+                nearest < 1.5,
+                "{nearest} m from lift {station} on level {level}"
+            );
+        }
+    }
+}
+
+/// A building of one level, 10 pixels a metre.
+fn building(head: &str, vertices: &str, lanes: &str) -> Layout {
+    read(&format!(
+        "{head}\nlevels:\n  L1:\n    vertices: [[0, 0, 0, a], [100, 0, 0, b], {vertices}]\n    \
+         measurements: [[0, 1, {{distance: [3, 10]}}]]\n    lanes: [{lanes}]\n"
+    ))
+}
+
+#[test]
+fn pixels_become_metres_and_y_turns_up() {
+    let layout = building("", "[50, 20, 0, c]", "[0, 2, {}]");
+    let (start, end) = ends(&layout, "L1.lanes[0]");
+    assert_near(start, 0.0, 0.0);
+    assert_near(end, 5.0, -2.0);
+    assert!(codes(&layout).is_empty());
+}
+
+#[test]
+fn metres_stay_as_they_are() {
+    let layout = building(
+        "coordinate_system: cartesian_meters",
+        "[50, 20, 0, c]",
+        "[0, 2, {}]",
+    );
+    assert_near(ends(&layout, "L1.lanes[0]").1, 50.0, 20.0);
+}
+
+#[test]
+fn degrees_become_metres_about_their_middle() {
+    let layout = read(
+        "coordinate_system: wgs84\nlevels:\n  L1:\n    \
+         vertices: [[103.78, 1.3, 0, a], [103.79, 1.3, 0, b]]\n    lanes: [[0, 1, {}]]\n",
+    );
+    let (start, end) = ends(&layout, "L1.lanes[0]");
+    // A hundredth of a degree at 1.3 degrees north.
+    assert!(
+        (start.distance(end) - 1112.9).abs() < 0.2,
+        "{}",
+        start.distance(end)
+    );
+    assert!((start + end).norm() < 1e-6, "about the middle");
+}
+
+#[test]
+fn mercator_metres_shrink_with_the_latitude() {
+    // y = R ln tan(45 + 60 / 2 degrees) is 60 degrees north, where metres are twice as long.
+    let y = 6_378_137.0 * (75_f64.to_radians()).tan().ln();
+    let layout = read(&format!(
+        "coordinate_system: web_mercator\nlevels:\n  L1:\n    \
+         vertices: [[0, {y}, 0, a], [100, {y}, 0, b]]\n    lanes: [[0, 1, {{}}]]\n"
+    ));
+    let (start, end) = ends(&layout, "L1.lanes[0]");
+    assert!((start.distance(end) - 50.0).abs() < 1e-6);
+}
+
+#[test]
+fn without_a_measurement_the_scale_is_assumed_and_said() {
+    let layout = read("levels:\n  L1:\n    vertices: [[0, 0], [100, 0, 0, b]]\n");
+    assert!(
+        !codes(&layout).contains(&Code::AssumedUnit),
+        "a graph has metres"
+    );
+    let layout = read("levels:\n  L1:\n    vertices: [[0, 0, 0, a], [100, 0, 0, b]]\n");
+    assert_eq!(codes(&layout), [Code::AssumedUnit]);
+    assert_near(layout.nodes.position_m(1), 5.0, 0.0);
+}
+
+#[test]
+fn another_level_is_laid_over_the_reference() {
+    let text = |second: &str| {
+        format!(
+            "levels:\n  L1:\n    vertices: [[0, 0, 0, a], [100, 0, 0, b]]\n    \
+             measurements: [[0, 1, {{distance: [3, 10]}}]]\n    \
+             fiducials: [[0, 0, one], [100, 0, two]]\n  L2:\n    elevation: 4\n    \
+             vertices: [[7, 7, 0, c], [7, 207, 0, d]]\n    lanes: [[0, 1, {{}}]]\n{second}"
+        )
+    };
+    // The plan above has half the metres a pixel, is turned by a quarter, and is moved.
+    let layout = read(&text("    fiducials: [[7, 7, one], [7, 207, two]]\n"));
+    let (start, end) = ends(&layout, "L2.lanes[0]");
+    assert_near(start, 0.0, 0.0);
+    assert_near(end, 10.0, 0.0);
+    assert_eq!(layout.paths.get(0).level(), Some(1));
+    assert_eq!(layout.levels[1].elevation_m, Some(4.0));
+    let layout = read(&text(""));
+    assert_eq!(
+        codes(&layout),
+        [Code::AssumedUnit],
+        "and without fiducials it is said"
+    );
+}
+
+#[test]
+fn parameters_become_columns_by_their_types() {
+    let layout = building(
+        "",
+        "[9, 9, 0, \"\", {is_charger: [4, true], dock_name: [1, 007]}]",
+        "[0, 1, {bidirectional: [4, true], graph_idx: [2, 3], speed_limit: [3, 0.5], orientation: [1, \"\"]}], \
+         [1, 0, {bidirectional: [4, false]}]",
+    );
+    let directions: Vec<_> = layout.paths.iter().map(|path| path.direction()).collect();
+    assert_eq!(directions, [Direction::Both, Direction::Forward]);
+    let value = |name| {
+        layout
+            .paths
+            .attributes
+            .get(name)
+            .and_then(|a| a.values.get(0))
+    };
+    assert_eq!(value("graph_idx"), Some(Value::Int(3)));
+    assert_eq!(value("speed_limit"), Some(Value::Float(0.5)));
+    assert_eq!(value("element"), Some(Value::Text("lane")));
+    assert_eq!(value("orientation"), None, "what was never filled in");
+    assert!(layout.paths.vehicle_types().of(0).eq(["graph 3"]));
+    assert_eq!(
+        layout.nodes.id(2),
+        "L1.vertices[2]",
+        "a vertex without a name has its place"
+    );
+    let docks = layout.nodes.attributes.get("dock_name").unwrap();
+    assert_eq!(docks.values.get(2), Some(Value::Text("007")));
+}
+
+#[test]
+fn navigation_graphs_have_bare_parameters_and_metres() {
+    let layout = read(
+        "building_name: site\nlevels:\n  L1:\n    lanes:\n    - - 0\n      - 1\n      - {graph_idx: 0, speed_limit: 1.5}\n    \
+         vertices:\n    - [1, 2, {name: dock, is_charger: true}]\n    - [4, 6, {name: ''}]\nlifts:\n  lift: {position: [1, 2, 0]}\n",
+    );
+    assert_eq!(layout.provenance.format_version, "navigation graph");
+    let (start, end) = ends(&layout, "L1.lanes[0]");
+    assert_near(start, 1.0, 2.0);
+    assert_near(end, 4.0, 6.0);
+    assert_eq!(layout.nodes.id(0), "dock");
+    let charger = layout.nodes.attributes.get("is_charger").unwrap();
+    assert_eq!(charger.values.get(0), Some(Value::Bool(true)));
+    assert_near(layout.stations.position_m(0).unwrap(), 1.0, 2.0);
+    assert!(codes(&layout).is_empty());
+}
+
+#[test]
+fn a_lane_without_its_vertex_is_refused_with_its_line() {
+    let layout = building("", "[50, 20, 0, c]", "[0, 2, {}], [0, 9, {}]");
+    assert_eq!(layout.paths.len(), 1);
+    let refused = layout.refused.iter().next().unwrap();
+    assert_eq!(
+        (refused.id, refused.code),
+        ("L1.lanes[1]", Code::UnknownNode)
+    );
+    let finding = layout.diagnostics.iter().next().unwrap();
+    assert_eq!(finding.place.line, Some(6));
+}
