@@ -159,7 +159,7 @@ impl Layers {
         let mut changed = 0;
         for path in layout.paths.iter() {
             let own = column.and_then(|c| c.values.get(path.row()));
-            let level = || Some(layout.levels[path.level()? as usize].id.as_str());
+            let level = || Some(layout.levels.get(path.level()? as usize)?.id.as_str());
             let name = match own {
                 Some(Value::Text(name)) => Cow::Borrowed(name),
                 Some(other) => Cow::Owned(other.to_string()),

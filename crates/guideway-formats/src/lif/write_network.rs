@@ -78,7 +78,8 @@ impl<'a> Network<'a> {
 
     /// The index of a level here; what is on none is on the last.
     fn level(&self, level: Option<u32>) -> usize {
-        level.map_or(self.levels.len() - 1, |level| level as usize)
+        let last = self.levels.len() - 1;
+        level.map_or(last, |level| last.min(level as usize))
     }
 
     fn push_node(&mut self, id: Cow<'a, str>, position_m: Point<f64>, level: usize) -> u32 {

@@ -46,7 +46,7 @@ pub fn write_layout(layout: &Layout, out: &mut impl Write) -> io::Result<Losses>
     }
     for path in order.into_iter().map(|row| layout.paths.get(row)) {
         let own = column.and_then(|c| c.values.get(path.row()));
-        let level = || Some(layout.levels[path.level()? as usize].id.clone());
+        let level = || Some(layout.levels.get(path.level()? as usize)?.id.clone());
         let group = own.map(|value: Value<'_>| value.to_string()).or_else(level);
         if group != current {
             if current.is_some() {

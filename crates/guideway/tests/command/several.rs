@@ -161,6 +161,7 @@ fn every_format_is_written_and_read_again() {
         ("a.geojson", "GeoJSON", &[]),
         ("a.lif.json", "LIF", &[]),
         ("b.json", "LIF", &["--to", "lif2"]),
+        ("a.svg", "SVG", &[]),
     ] {
         let target = folder.path().join(name);
         let site = site();

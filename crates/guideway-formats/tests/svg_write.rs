@@ -1,0 +1,165 @@
+//! What is written as SVG comes back as it was, but for what a drawing cannot hold.
+
+#![allow(clippy::unwrap_used, reason = "a test may fail by a panic")]
+
+mod common;
+mod same;
+
+use common::{codes, read};
+use guideway_formats::Losses;
+use guideway_formats::svg::{Outline, Page, Stroke, write_layout};
+use guideway_layout::{Code, Direction, Layout, NewPath, Value};
+use guideway_spline::{Point, Runs};
+use proptest::prelude::*;
+use same::{arbitrary_layout, assert_same_curves, assert_same_ids};
+
+fn written(layout: &Layout) -> (String, Losses) {
+    let mut bytes = Vec::new();
+    let losses = write_layout(layout, &mut bytes).unwrap();
+    (String::from_utf8(bytes).unwrap(), losses)
+}
+
+fn line(id: &str) -> Layout {
+    let mut layout = Layout::default();
+    push(&mut layout, id, (0.0, 0.0), (40.0, 30.0));
+    layout
+}
+
+fn push(layout: &mut Layout, id: &str, start: (f64, f64), end: (f64, f64)) {
+    let mut runs = Runs::default();
+    runs.push_line(Point::new(start.0, start.1), Point::new(end.0, end.1));
+    layout.paths.push(&NewPath {
+        id,
+        runs: &runs,
+        ..NewPath::default()
+    });
+}
+
+proptest! {
+    #[test]
+    fn any_layout_comes_back(
+        layout in arbitrary_layout(),
+        colors in prop::collection::vec(any::<u32>(), 7),
+        widths in prop::collection::vec(0.01_f32..2.0, 7),
+    ) {
+        let mut layout = layout;
+        let count = layout.paths.len();
+        layout.paths.set_color_rgba(colors[..count].iter().map(|c| c | 1).collect());
+        layout.paths.set_width_m(widths[..count].to_vec());
+        let (text, losses) = written(&layout);
+        let what = ["nodes", "vehicle types", "column maxSpeed", "levels"];
+        prop_assert_eq!(losses.iter().map(|l| &l.what).collect::<Vec<_>>(), what);
+        let again = read(&text);
+        assert_same_curves(&layout, &again, "SVG");
+        assert_same_ids(&layout, &again, "SVG");
+        prop_assert_eq!(layout.paths.color_rgba(), again.paths.color_rgba());
+        for path in layout.paths.iter() {
+            let width_m = again.paths.width_m().unwrap()[path.row()];
+            prop_assert!((width_m - widths[path.row()]).abs() < 1e-5);
+            let level = &layout.levels[path.level().unwrap() as usize].id;
+            let group = again.paths.attributes.get("group").unwrap();
+            prop_assert_eq!(group.values.get(path.row()), Some(Value::Text(level)));
+        }
+        prop_assert!(codes(&again).is_empty(), "{:?} in {text}", codes(&again));
+    }
+}
+
+#[test]
+fn a_broken_path_stays_broken_and_lines_are_lines() {
+    let mut layout = Layout::default();
+    let mut runs = Runs::default();
+    runs.push_line(Point::new(0.0, 0.0), Point::new(1.0, 0.0));
+    runs.push_line(Point::new(5.0, 0.0), Point::new(6.0, 2.0));
+    layout.paths.push(&NewPath {
+        id: "E",
+        runs: &runs,
+        ..NewPath::default()
+    });
+    let (text, _) = written(&layout);
+    assert!(text.contains(r#"d="M0 0L1 0M5 0L6 -2""#), "{text}");
+    assert_same_curves(&layout, &read(&text), "broken");
+}
+
+#[test]
+fn names_are_kept_if_xml_has_room_for_them() {
+    let mut layout = Layout::default();
+    for id in [
+        "A --- B",
+        "a<b & \"c\">",
+        "tab\tand\nline",
+        "漢 \u{1F69A}",
+        "bell\u{7}",
+        "",
+    ] {
+        push(&mut layout, id, (0.0, 0.0), (1.0, 1.0));
+    }
+    let (text, losses) = written(&layout);
+    let lost: Vec<_> = losses.iter().map(|l| (l.what.as_str(), l.count)).collect();
+    assert_eq!(lost, [("identifiers", 2)]);
+    let again = read(&text);
+    let ids: Vec<&str> = again.paths.iter().map(|p| p.id()).collect();
+    assert_eq!(
+        ids[..5],
+        [
+            "A --- B",
+            "a<b & \"c\">",
+            "tab\tand\nline",
+            "漢 \u{1F69A}",
+            "bell_"
+        ]
+    );
+}
+
+#[test]
+fn the_page_is_as_large_as_the_site() {
+    let (text, _) = written(&line("a"));
+    // 40 m and 30 m, with 2 % of the larger on each side.
+    assert!(text.contains(r#"viewBox="-0.8 -30.8 41.6 31.6""#), "{text}");
+    assert!(
+        text.contains(r#"width="41600mm" height="31600mm""#),
+        "{text}"
+    );
+    let (empty, _) = written(&Layout::default());
+    assert!(empty.contains(r#"viewBox="-0.5 -0.5 1 1""#), "{empty}");
+}
+
+#[test]
+fn what_has_no_place_is_listed_and_ranks_become_the_order() {
+    let mut layout = line("low");
+    push(&mut layout, "high", (0.0, 5.0), (9.0, 5.0));
+    layout.paths.set_rank(vec![3, -1]);
+    layout.refused.push("R", Code::NonFinite, "");
+    layout.stations.push("S", None, Vec::new(), None);
+    let (text, losses) = written(&layout);
+    let lost: Vec<_> = losses.iter().map(|l| (l.what.as_str(), l.count)).collect();
+    assert_eq!(
+        lost,
+        [("refused paths", 1), ("draw ranks", 2), ("stations", 1)]
+    );
+    assert!(text.find("high").unwrap() < text.find("low").unwrap());
+    assert_eq!(read(&text).paths.get(0).direction(), Direction::Both);
+}
+
+#[test]
+fn only_what_differs_from_the_page_is_said_of_a_path() {
+    let mut out = Vec::new();
+    let common = Stroke::of(0x0000_0080, 1.0);
+    let mut page = Page::begin(&mut out, [0.0, 0.0, 9.0, 9.0], "", &common).unwrap();
+    let mut outline = Outline::new(1e-3);
+    let mut runs = Runs::default();
+    runs.push_line(Point::new(0.0, 0.0), Point::new(1.0, 0.12345));
+    outline.push(runs.points().first_chunk().unwrap());
+    page.path("a", &outline, &common).unwrap();
+    page.path("b", &outline, &Stroke::of(0xFF00_00FF, f64::from(0.3_f32)))
+        .unwrap();
+    page.path("c", &Outline::new(1.0), &common).unwrap();
+    page.end().unwrap();
+    let text = String::from_utf8(out).unwrap();
+    assert!(
+        text.contains("<path id=\"a\" d=\"M0 0L1 0.123\"/>"),
+        "{text}"
+    );
+    let b = r##"d="M0 0L1 0.123" stroke="#ff0000" stroke-opacity="1" stroke-width="0.3"/>"##;
+    assert!(text.contains(b), "{text}");
+    assert!(!text.contains("\"c\""));
+}
