@@ -12,6 +12,8 @@ const SOFTWARE_DEVICES: &[&str] = &[
     "libegl1",
     "libgl1-mesa-dri",
 ];
+/// A screen that nobody sees, and hands for it: for the tests of the window.
+const SCREEN: &[&str] = &["xvfb", "xdotool", "libxkbcommon-x11-0"];
 const CARGO_DENY_VERSION: &str = "0.20.2";
 
 /// `rustfmt` and `clippy`, through rustup where they are missing.
@@ -90,17 +92,19 @@ pub(crate) fn python_with_pyarrow() -> Result<PathBuf> {
     Ok(python)
 }
 
-/// Vulkan and OpenGL on the processor, so that the methods for graphics devices are tested without one.
+/// Vulkan and OpenGL on the processor, and a screen, so that the methods for graphics devices and the window are
+/// tested without any.
 pub(crate) fn software_devices() -> Result<()> {
     if !command("dpkg").args(["--version"]).succeeds() {
         // Another system: its own drivers do, and the tests say what they miss.
         return Ok(());
     }
     let is_there = |package: &&str| command("dpkg").args(["--status", package]).succeeds();
-    if SOFTWARE_DEVICES.iter().all(is_there) {
+    let packages = [SOFTWARE_DEVICES, SCREEN].concat();
+    if packages.iter().all(is_there) {
         return Ok(());
     }
-    apt_install(SOFTWARE_DEVICES)
+    apt_install(&packages)
 }
 
 fn imports_pyarrow(python: &Path) -> bool {

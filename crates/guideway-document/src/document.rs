@@ -7,7 +7,7 @@ use guideway_spline::{Bounds, Point};
 
 use crate::edit::History;
 use crate::index::curve_bounds;
-use crate::{Hit, Index, Query, QueryError, Rows, pick};
+use crate::{Act, Hit, Index, Query, QueryError, Rows, pick};
 
 /// A layout that is being looked at and edited: what is shown of it, what is selected, and what was done.
 ///
@@ -24,6 +24,10 @@ pub struct Document {
     pub(crate) history: History,
     /// Edits of the scene since they were last taken, for a renderer that has a scene of its own.
     pub(crate) news: Vec<Edit>,
+    /// What was done since it was last taken, for a journal.
+    pub(crate) acts: Vec<Act>,
+    /// Changes with everything that can be seen.
+    pub(crate) revision: u64,
 }
 
 /// What a selection does with the one before.
@@ -44,8 +48,12 @@ impl Document {
     /// # Errors
     /// When the options name a level or a column that the layout has not.
     pub fn new(layout: Arc<Layout>, options: &SceneOptions) -> Result<Self, SceneError> {
-        let scene = Scene::new(layout, options)?;
-        Ok(Self {
+        Ok(Self::from_scene(Scene::new(layout, options)?))
+    }
+
+    /// A document of a scene.
+    pub fn from_scene(scene: Scene) -> Self {
+        Self {
             index: Index::new(scene.layout()),
             scene,
             selection: Rows::new(),
@@ -53,7 +61,9 @@ impl Document {
             origins: BTreeMap::new(),
             history: History::default(),
             news: Vec::new(),
-        })
+            acts: Vec::new(),
+            revision: 0,
+        }
     }
 
     /// What is drawn.
@@ -80,6 +90,16 @@ impl Document {
         moved.unwrap_or_else(|| self.layout().nodes.position_m(node))
     }
 
+    /// Where a station is: where the file says, or at the first node that serves it.
+    ///
+    /// # Panics
+    /// When there is no such station.
+    pub fn station_position_m(&self, station: u32) -> Option<Point<f64>> {
+        let stations = &self.layout().stations;
+        let at_node = || Some(self.node_position_m(*stations.nodes(station).first()?));
+        stations.position_m(station).or_else(at_node)
+    }
+
     /// Row whose attributes a path has: its own, or that of the path that it was copied from.
     pub fn attribute_row(&self, path: u32) -> u32 {
         self.origins.get(&path).copied().unwrap_or(path)
@@ -88,6 +108,16 @@ impl Document {
     /// Edits of the scene since this was last asked, in order. A renderer that does them shows this scene.
     pub fn take_news(&mut self) -> Vec<Edit> {
         std::mem::take(&mut self.news)
+    }
+
+    /// What was done since this was last asked, for a journal: see [`replay`](crate::replay).
+    pub fn take_acts(&mut self) -> Vec<Act> {
+        std::mem::take(&mut self.acts)
+    }
+
+    /// A number that is another one after any change of what can be seen, the selection included.
+    pub fn revision(&self) -> u64 {
+        self.revision
     }
 
     /// Gives all paths other colours.
@@ -105,6 +135,7 @@ impl Document {
             let _ = scene.edit(&Edit::SetStates(not_shown));
         }
         self.scene = scene;
+        self.revision += 1;
         Ok(())
     }
 
@@ -115,8 +146,10 @@ impl Document {
         px_per_m: f64,
         at_m: Point<f64>,
         reach_px: f64,
+        most: usize,
     ) -> Option<Hit> {
-        pick((&self.scene, &self.index), rule, px_per_m, at_m, reach_px)
+        let place = (&self.scene, &self.index);
+        pick(place, rule, px_per_m, at_m, reach_px, most)
     }
 
     /// Rows of the selected paths.
@@ -126,6 +159,7 @@ impl Document {
 
     /// Selects paths; those that are not shown are left out.
     pub fn select(&mut self, paths: Rows, how: Combine) {
+        self.revision += 1;
         let shown: Rows = paths
             .into_iter()
             .filter(|&path| self.is_shown(path))
@@ -163,6 +197,7 @@ impl Document {
 
     /// Selects everything that is shown.
     pub fn select_all(&mut self) {
+        self.revision += 1;
         self.selection = self.scene.draw_order().iter().copied().collect();
     }
 
@@ -211,6 +246,7 @@ impl Document {
     }
 
     fn set_hidden(&mut self, paths: impl Iterator<Item = u32>, state: PathState) {
+        self.revision += 1;
         let states: Arc<[_]> = paths.map(|path| (path, state)).collect();
         let edit = Edit::SetStates(states);
         // It names rows of the scene itself.

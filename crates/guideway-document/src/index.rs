@@ -54,6 +54,19 @@ impl Index {
         found.map(|path| path.data)
     }
 
+    /// The same, with their boxes.
+    pub fn boxes_in(&self, bounds: Bounds<f64>) -> impl Iterator<Item = (u32, Bounds<f64>)> {
+        let found = self.paths.locate_in_envelope_intersecting(envelope(bounds));
+        let point = |[x, y]: Corner| Point::new(x, y);
+        found.map(move |path| {
+            let bounds = Bounds {
+                min: point(path.geom().lower()),
+                max: point(path.geom().upper()),
+            };
+            (path.data, bounds)
+        })
+    }
+
     /// Nodes inside `bounds`, in no order.
     pub fn nodes_in(&self, bounds: Bounds<f64>) -> impl Iterator<Item = u32> {
         let found = self.nodes.locate_in_envelope(envelope(bounds));

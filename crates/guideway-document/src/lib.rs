@@ -8,6 +8,8 @@
 mod document;
 mod edit;
 mod index;
+mod journal;
+mod locate;
 pub mod marks;
 pub mod measure;
 mod pick;
@@ -21,6 +23,8 @@ mod trail;
 pub use document::{Combine, Document};
 pub use edit::{Change, NodeMoves, PointRef};
 pub use index::Index;
+pub use journal::{Act, Replayed, replay};
+pub use locate::locate;
 pub use pick::{Hit, nearest, pick};
 pub use query::{Query, QueryError};
 pub use roaring::RoaringBitmap as Rows;

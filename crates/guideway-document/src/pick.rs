@@ -22,13 +22,15 @@ pub struct Hit {
 }
 
 /// The path that a person means who points at `point_m` in a picture of `px_per_m`: the one drawn last of
-/// those whose line covers the point; where none does, the nearest within `reach_px`.
+/// those whose line covers the point; where none does, the nearest within `reach_px`. None if more than `most` paths may
+/// be near: looking at them all takes too long to do with every movement of a hand.
 pub fn pick(
     (scene, index): (&Scene, &Index),
     line_rule: LineRule,
     px_per_m: f64,
     point_m: Point<f64>,
     reach_px: f64,
+    most: usize,
 ) -> Option<Hit> {
     let reach_m = reach_px / px_per_m;
     let radius_m = |path| line_rule.radius_px(scene.width_m(path), px_per_m) / px_per_m;
@@ -41,7 +43,11 @@ pub fn pick(
         (rank.map_or(0, |rank| rank[path as usize]), path)
     };
     let mut best: Option<(Hit, bool)> = None;
-    for path in index.paths_in(spot.inflated(reach_m)) {
+    let spot = spot.inflated(reach_m);
+    if most < usize::MAX && index.paths_in(spot).nth(most).is_some() {
+        return None;
+    }
+    for path in index.paths_in(spot) {
         if scene.state(path) != PathState::Shown {
             continue;
         }

@@ -12,35 +12,31 @@ pub enum Found {
 }
 
 /// Paths, nodes and stations whose identifier contains `text`, whatever the case: those that are called
-/// exactly so first, at most `most` of each.
+/// exactly so first; at most `most` of each table, and as many again that are called exactly so.
 pub fn search(layout: &Layout, text: &str, most: usize) -> Vec<Found> {
     if text.is_empty() {
         return Vec::new();
     }
     let wanted = text.to_lowercase();
-    let mut found = Vec::new();
-    let mut look = |count: usize, id: &dyn Fn(u32) -> String, of: fn(u32) -> Found| {
-        let rows = (0..count as u32).filter(|&row| id(row).to_lowercase().contains(&wanted));
-        found.extend(rows.take(most).map(of));
-    };
-    let Layout {
-        paths,
-        nodes,
-        stations,
-        ..
-    } = layout;
-    look(nodes.len(), &|row| nodes.id(row).to_owned(), Found::Node);
-    look(
-        stations.len(),
-        &|row| stations.id(row).to_owned(),
-        Found::Station,
-    );
-    look(
-        paths.len(),
-        &|row| paths.id(row as usize).to_owned(),
-        Found::Path,
-    );
-    found.sort_by_key(|what| what.id(layout) != text);
+    let tables: [(usize, fn(u32) -> Found); 3] = [
+        (layout.nodes.len(), Found::Node),
+        (layout.stations.len(), Found::Station),
+        (layout.paths.len(), Found::Path),
+    ];
+    let rows = tables.map(|(count, of)| (0..count as u32).map(of));
+    let is_exact = |what: &Found| what.id(layout) == text;
+    let is_like = |what: &Found| what.id(layout).to_lowercase().contains(&wanted);
+    let exact = rows
+        .clone()
+        .into_iter()
+        .flat_map(|all| all.filter(is_exact).take(most));
+    let mut found: Vec<Found> = exact.collect();
+    for all in rows {
+        found.extend(
+            all.filter(|what| is_like(what) && !is_exact(what))
+                .take(most),
+        );
+    }
     found
 }
 

@@ -1,1 +1,57 @@
 //! The window in which layouts are looked at and edited.
+//!
+//! It shows and asks, and holds no algorithm: what is edited is a
+//! [`Document`](guideway_document::Document), what draws is a [`Method`](guideway_render::Method), and files are
+//! the business of its [`Host`]. Reading, drawing and saving happen beside the window: it shows the last picture
+//! where it now belongs, until the next one is there.
+
+mod app;
+mod camera;
+mod host;
+#[cfg(test)]
+mod tests;
+mod ui;
+mod work;
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use eframe::egui::{Ui, ViewportBuilder};
+
+pub use app::App;
+pub use host::{Host, Load, MethodChoice, Trouble};
+
+/// Opens the window with these files, and returns when it is closed. Must be called from the main thread.
+///
+/// # Errors
+/// When there is no desktop to show a window on, or no graphics adapter that can fill it.
+pub fn run(host: Arc<dyn Host>, files: Vec<PathBuf>, method: &str) -> Result<(), Trouble> {
+    let options = eframe::NativeOptions {
+        viewport: ViewportBuilder::default()
+            .with_inner_size([1280.0, 800.0])
+            .with_min_inner_size([320.0, 240.0])
+            .with_drag_and_drop(true),
+        ..eframe::NativeOptions::default()
+    };
+    let method = method.to_owned();
+    let create: eframe::AppCreator<'_> = Box::new(move |context| {
+        let app = App::new(&context.egui_ctx, host, files, &method);
+        Ok(Box::new(Shell(app)))
+    });
+    eframe::run_native("Guideway", options, create).map_err(|error| Trouble {
+        message: format!("no window can be shown: {error}"),
+        remedy: "A window needs a desktop (X11 or Wayland on Linux) and a graphics adapter for it; on Debian or \
+                 Ubuntu `libvulkan1` and `mesa-vulkan-drivers` bring one that needs no hardware. \
+                 `guideway render` needs neither"
+            .into(),
+    })
+}
+
+/// What the window calls.
+struct Shell(App);
+
+impl eframe::App for Shell {
+    fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
+        self.0.show(ui);
+    }
+}

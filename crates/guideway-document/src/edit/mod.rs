@@ -9,7 +9,7 @@ use guideway_scene::{Edit, EditError, PathState};
 use guideway_spline::Point;
 
 use crate::index::{node_entry, path_boxes};
-use crate::{Document, Rows};
+use crate::{Act, Document, Rows};
 
 pub use operations::PointRef;
 
@@ -20,20 +20,22 @@ pub enum Change {
     Scene(Edit),
     /// Nodes to other places, in metres.
     MoveNodes(NodeMoves),
+    /// Rows of copies, and the rows that their attributes are those of.
+    SetOrigins(Arc<[(u32, u32)]>),
 }
 
 /// Rows of nodes, and where they go.
 pub type NodeMoves = Arc<[(u32, Point<f64>)]>;
 
 /// What was done, as what undoes it; and what was undone, as what does it again.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(crate) struct History {
     done: Vec<Step>,
     undone: Vec<Step>,
     /// Number of the newest step.
     newest: u64,
-    /// Number of the last step done when the layout was saved; none if that can no longer be reached.
-    saved: u64,
+    /// Number of the last step done when the layout was saved; none if it never was.
+    saved: Option<u64>,
 }
 
 /// The changes that lead from one state to the next, and the selection there.
@@ -56,6 +58,7 @@ impl Document {
         }
         let selection = self.selection.clone();
         let inverse = self.apply(&changes)?;
+        self.acts.push(Act::Do(changes));
         self.history.newest += 1;
         self.history.undone.clear();
         self.history.done.push(Step {
@@ -70,6 +73,7 @@ impl Document {
     /// Undoes the last step; returns its name, or none if there is none.
     pub fn undo(&mut self) -> Option<&'static str> {
         let step = self.history.done.pop()?;
+        self.acts.push(Act::Undo);
         let (name, undone) = self.turn(step);
         self.history.undone.extend(undone);
         Some(name)
@@ -78,6 +82,7 @@ impl Document {
     /// Does again what was undone last; returns its name, or none if there is none.
     pub fn redo(&mut self) -> Option<&'static str> {
         let step = self.history.undone.pop()?;
+        self.acts.push(Act::Redo);
         let (name, done) = self.turn(step);
         self.history.done.extend(done);
         Some(name)
@@ -91,12 +96,17 @@ impl Document {
 
     /// Whether it differs from what was last saved.
     pub fn is_changed(&self) -> bool {
-        self.history.now() != self.history.saved
+        Some(self.history.now()) != self.history.saved
     }
 
     /// Takes the present state as saved.
     pub fn set_saved(&mut self) {
-        self.history.saved = self.history.now();
+        self.history.saved = Some(self.history.now());
+    }
+
+    /// Takes the present state as one that was never saved: saving it failed.
+    pub fn set_unsaved(&mut self) {
+        self.history.saved = None;
     }
 
     /// Does the changes of a step, and returns the step that takes them back.
@@ -116,6 +126,7 @@ impl Document {
 
     /// Does changes and returns those that undo them, in the order in which they must be done.
     fn apply(&mut self, changes: &[Change]) -> Result<Vec<Change>, EditError> {
+        self.revision += 1;
         let mut inverse = Vec::new();
         for change in changes {
             match self.apply_one(change) {
@@ -138,6 +149,11 @@ impl Document {
         match change {
             Change::Scene(edit) => self.edit_scene(edit).map(Change::Scene),
             Change::MoveNodes(to) => self.move_nodes(to).map(Change::MoveNodes),
+            // Undoing a copy removes its row, and then it does not matter what that is a copy of.
+            Change::SetOrigins(origins) => {
+                self.origins.extend(origins.iter().copied());
+                Ok(change.clone())
+            }
         }
     }
 
@@ -183,6 +199,17 @@ impl Document {
     /// Changes the states of paths.
     fn states_of(paths: impl Iterator<Item = u32>, state: PathState) -> Change {
         Change::Scene(Edit::SetStates(paths.map(|path| (path, state)).collect()))
+    }
+}
+
+impl Default for History {
+    fn default() -> Self {
+        Self {
+            done: Vec::new(),
+            undone: Vec::new(),
+            newest: 0,
+            saved: Some(0),
+        }
     }
 }
 

@@ -156,16 +156,22 @@ impl Document {
         for number in 1..=count {
             let shift = step_m * f64::from(number);
             for path in self.selected_paths() {
+                origins.push((
+                    first + copies.len() as u32,
+                    self.attribute_row(path.row() as u32),
+                ));
                 copies.push(self.copy_of(path, shift, number));
-                origins.push(self.attribute_row(path.row() as u32));
             }
         }
         if copies.is_empty() {
             return Ok(());
         }
         let rows = first..first + copies.len() as u32;
-        self.perform("copy", vec![Change::Scene(Edit::Insert(copies.into()))])?;
-        self.origins.extend(rows.clone().zip(origins));
+        let changes = vec![
+            Change::Scene(Edit::Insert(copies.into())),
+            Change::SetOrigins(origins.into()),
+        ];
+        self.perform("copy", changes)?;
         self.selection = rows.collect();
         Ok(())
     }

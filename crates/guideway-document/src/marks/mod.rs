@@ -4,16 +4,17 @@
 //! can be told apart there are no marks, and [`Marks::left_out`] says so.
 
 mod arrows;
+mod handles;
 mod labels;
 mod outline;
 
-use guideway_layout::Layout;
 use guideway_render::View;
-use guideway_scene::{PathState, Scene};
+use guideway_scene::PathState;
 use guideway_spline::Point;
 
-use crate::Index;
+use crate::Document;
 
+pub use handles::{Handle, handles};
 pub use labels::{Label, LabelSize};
 pub use outline::{Outline, outline};
 
@@ -58,15 +59,15 @@ pub struct Marks {
 }
 
 /// The marks of a view, for the paths that are shown.
-pub fn marks(scene: &Scene, index: &Index, view: &View, options: &MarkOptions) -> Marks {
-    let layout = scene.layout();
+pub fn marks(document: &Document, view: &View, options: &MarkOptions) -> Marks {
+    let (scene, index, layout) = (document.scene(), document.index(), document.layout());
     let is_shown = |path: &u32| scene.state(*path) == PathState::Shown;
     let seen = view.world_bounds();
     let shown = index.paths_in(seen).filter(is_shown);
     let mut paths: Vec<u32> = shown.take(MOST_MARKED + 1).collect();
     let mut nodes: Vec<u32> = index.nodes_in(seen).take(MOST_MARKED + 1).collect();
     let all_stations = 0..layout.stations.len() as u32;
-    let position = |station| station_position_m(layout, station);
+    let position = |station| document.station_position_m(station);
     let mut stations: Vec<(u32, Point<f64>)> = all_stations
         .filter_map(|station| Some((station, position(station)?)))
         .filter(|&(_, at)| seen.contains(at))
@@ -96,7 +97,7 @@ pub fn marks(scene: &Scene, index: &Index, view: &View, options: &MarkOptions) -
     if options.symbols {
         marks.nodes = nodes
             .iter()
-            .map(|&n| pixel(layout.nodes.position_m(n)))
+            .map(|&n| pixel(document.node_position_m(n)))
             .collect();
         marks.stations = stations.iter().map(|&(_, at)| pixel(at)).collect();
     }
@@ -106,7 +107,7 @@ pub fn marks(scene: &Scene, index: &Index, view: &View, options: &MarkOptions) -
             .map(|&(s, at)| (layout.stations.id(s), pixel(at)));
         let nodes = nodes
             .iter()
-            .map(|&n| (layout.nodes.id(n), pixel(layout.nodes.position_m(n))));
+            .map(|&n| (layout.nodes.id(n), pixel(document.node_position_m(n))));
         let middles = paths.iter().filter_map(|&path| {
             let path = layout.paths.get(path as usize);
             Some((path.id(), arrows::middle(path, view)?))
@@ -114,11 +115,4 @@ pub fn marks(scene: &Scene, index: &Index, view: &View, options: &MarkOptions) -
         marks.labels = labels::place(stations.chain(nodes).chain(middles), size, view.size());
     }
     marks
-}
-
-/// Where a station is: where the file says, or at the first node that serves it.
-pub fn station_position_m(layout: &Layout, station: u32) -> Option<Point<f64>> {
-    let stations = &layout.stations;
-    let at_node = || Some(layout.nodes.position_m(*stations.nodes(station).first()?));
-    stations.position_m(station).or_else(at_node)
 }

@@ -1,10 +1,9 @@
 use std::collections::BTreeSet;
 
-use guideway_layout::Layout;
 use guideway_render::View;
 use guideway_spline::{Bounds, Point, uniform};
 
-use crate::index::curve_bounds;
+use crate::{Document, Rows};
 
 /// Most points of all lines together.
 const MOST_POINTS: usize = 60_000;
@@ -25,32 +24,39 @@ pub enum Outline {
     Cells(Vec<Point<f64>>, f64),
 }
 
-/// Outlines paths of a layout.
-pub fn outline(layout: &Layout, paths: impl Iterator<Item = u32> + Clone, view: &View) -> Outline {
+/// Outlines paths of a document.
+pub fn outline(document: &Document, paths: &Rows, view: &View) -> Outline {
     let mut pen = Pen::new(view);
-    for path in paths.clone() {
-        let path = layout.paths.get(path as usize);
-        if !path
-            .hull_bounds()
-            .is_some_and(|hull| hull.intersects(pen.seen))
-        {
-            continue;
-        }
+    for path in near(document, paths, pen.seen) {
+        let path = document.layout().paths.get(path as usize);
         for segment in path.runs().flat_map(|run| run.segments()) {
             pen.draw(&segment, MOST_HALVINGS);
             if pen.points > MOST_POINTS {
-                return Outline::Cells(cells(layout, paths, view), CELL_PX);
+                return Outline::Cells(cells(document, paths, view), CELL_PX);
             }
         }
     }
     Outline::Lines(pen.lines)
 }
 
-fn cells(layout: &Layout, paths: impl Iterator<Item = u32>, view: &View) -> Vec<Point<f64>> {
+/// Those of `paths` that may be near a box, without a look at each of them where they are many.
+pub(super) fn near(document: &Document, paths: &Rows, bounds: Bounds<f64>) -> Vec<u32> {
+    const FEW: u64 = 2_000;
+    if paths.len() <= FEW {
+        return paths.iter().collect();
+    }
+    let near = document.index().paths_in(bounds);
+    near.filter(|&path| paths.contains(path)).collect()
+}
+
+fn cells(document: &Document, paths: &Rows, view: &View) -> Vec<Point<f64>> {
     let seen = view.world_bounds();
-    let boxes = paths.filter_map(|path| curve_bounds(layout.paths.get(path as usize)));
-    let middles = boxes
-        .map(Bounds::center)
+    let near = document
+        .index()
+        .boxes_in(seen)
+        .filter(|(path, _)| paths.contains(*path));
+    let middles = near
+        .map(|(_, bounds)| bounds.center())
         .filter(|&middle| seen.contains(middle));
     let cell = |middle| {
         let pixel = view.pixel_from_world(middle);

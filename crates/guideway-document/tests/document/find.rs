@@ -1,6 +1,6 @@
 use guideway_document::measure::{bends, length_m, tightest_radius_m};
-use guideway_document::{Found, Index, nearest, pick, search};
-use guideway_layout::{Layout, NewPath};
+use guideway_document::{Found, Index, locate, nearest, pick, search};
+use guideway_layout::{Layout, NewPath, Place};
 use guideway_scene::LineRule;
 use guideway_spline::{Bounds, Runs};
 use proptest::prelude::*;
@@ -35,13 +35,16 @@ fn the_index_finds_what_looking_at_all_finds() {
 fn the_nearest_path_within_reach_is_picked() {
     let scene = scene_of(lanes(5));
     let index = Index::new(scene.layout());
-    let at = |x, y| pick((&scene, &index), RULE, 10.0, p(x, y), 4.0);
+    let at = |x, y| pick((&scene, &index), RULE, 10.0, p(x, y), 4.0, usize::MAX);
     let hit = at(3.0, 2.3).unwrap();
     assert_eq!(hit.path, 2);
     assert!((hit.distance_m - 0.3).abs() < 1e-6, "{hit:?}");
     assert!(hit.point_m.distance(p(3.0, 2.0)) < 1e-6);
     assert_eq!(at(3.0, 2.5), None, "both are 5 px away");
     assert_eq!(at(-1.0, 2.0), None);
+    let crowded = |most| pick((&scene, &index), RULE, 10.0, p(3.0, 2.0), 15.0, most);
+    assert_eq!(crowded(2), None, "three are near");
+    assert_eq!(crowded(3).map(|hit| hit.path), Some(2));
 }
 
 #[test]
@@ -60,8 +63,28 @@ fn of_paths_over_each_other_the_one_drawn_last_is_picked() {
         let scene = scene_of(layout);
         let index = Index::new(scene.layout());
         // Nearer to the lower one in one of the two cases.
-        let hit = pick((&scene, &index), RULE, 100.0, p(5.0, 0.02), 6.0).unwrap();
+        let hit = pick((&scene, &index), RULE, 100.0, p(5.0, 0.02), 6.0, usize::MAX).unwrap();
         assert_eq!(hit.path, top);
+    }
+}
+
+#[test]
+fn findings_are_located_by_name_or_number() {
+    let layout = lanes(12);
+    for (element, expected) in [
+        ("path \"path-7\"", Some(Found::Path(7))),
+        ("node \"node-3\"", Some(Found::Node(3))),
+        ("path number 12", Some(Found::Path(11))),
+        ("path number 13", None),
+        ("path number 0", None),
+        ("station \"s\"", None),
+        ("layouts[0].edges[3]", None),
+    ] {
+        assert_eq!(
+            locate(&layout, &Place::element(element)),
+            expected,
+            "{element}"
+        );
     }
 }
 
@@ -70,7 +93,7 @@ fn exact_names_come_first_and_few_of_each_kind() {
     let layout = lanes(30);
     let found = search(&layout, "path-1", 5);
     assert_eq!(found[0], Found::Path(1));
-    assert_eq!(found.len(), 5);
+    assert_eq!(found.len(), 6, "five more beside the one that is called so");
     assert!(found.iter().all(|what| what.id(&layout).contains("path-1")));
     assert_eq!(search(&layout, "NODE-7", 5), [Found::Node(7)]);
     assert_eq!(search(&layout, "", 5), []);

@@ -1,10 +1,10 @@
-use guideway_document::Index;
+use guideway_document::Rows;
 use guideway_document::marks::{LabelSize, MOST_MARKED, MarkOptions, Outline, marks, outline};
 use guideway_layout::{Layout, NewPath};
 use guideway_render::View;
 use guideway_spline::{Point, Runs};
 
-use crate::site::{lanes, p, scene_of, view};
+use crate::site::{document_of, lanes, p, view};
 
 const ALL: MarkOptions = MarkOptions {
     arrows: true,
@@ -16,8 +16,7 @@ const ALL: MarkOptions = MarkOptions {
 };
 
 fn marks_of(layout: Layout, view: &View) -> guideway_document::marks::Marks {
-    let index = Index::new(&layout);
-    marks(&scene_of(layout), &index, view, &ALL)
+    marks(&document_of(layout), view, &ALL)
 }
 
 #[test]
@@ -75,7 +74,7 @@ fn a_long_path_seen_close_has_few_arrows_and_a_short_outline() {
         "{}",
         marks.arrows.len()
     );
-    let Outline::Lines(lines) = outline(&layout, [0].into_iter(), &view) else {
+    let Outline::Lines(lines) = outline(&document_of(layout), &Rows::from_iter([0]), &view) else {
         panic!("one path is drawn as lines");
     };
     let points: usize = lines.iter().map(Vec::len).sum();
@@ -95,10 +94,10 @@ fn distance(line: &[Point<f64>], to: Point<f64>) -> f64 {
 
 #[test]
 fn an_outline_of_very_many_paths_is_their_cells() {
-    let layout = lanes(100_000);
-    let all = 0..100_000;
+    let mut document = document_of(lanes(100_000));
+    document.select_all();
     let view = view(p(5.0, 50_000.0), 0.005);
-    let Outline::Cells(cells, side) = outline(&layout, all, &view) else {
+    let Outline::Cells(cells, side) = outline(&document, document.selection(), &view) else {
         panic!("too many for lines");
     };
     assert!(

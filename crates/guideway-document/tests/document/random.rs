@@ -1,6 +1,6 @@
 //! A long day of editing: whatever is done, undone and done again, nothing is lost.
 
-use guideway_document::{Combine, Document, PointRef};
+use guideway_document::{Act, Combine, Document, PointRef, replay};
 use guideway_scene::PathState;
 use guideway_spline::{Affine, Bounds, Point};
 use proptest::prelude::*;
@@ -8,7 +8,7 @@ use proptest::prelude::*;
 use crate::site::{document, p, scene_of};
 
 #[derive(Clone, Debug)]
-enum Act {
+enum Deed {
     SelectBox(Point<f64>, Point<f64>),
     SelectRow(u32),
     Move(Point<f64>),
@@ -32,30 +32,30 @@ fn place() -> impl Strategy<Value = Point<f64>> {
     (-20.0..20.0, -20.0..20.0).prop_map(|(x, y)| p(x, y))
 }
 
-fn act() -> impl Strategy<Value = Act> {
+fn deed() -> impl Strategy<Value = Deed> {
     prop_oneof![
-        (place(), place()).prop_map(|(a, b)| Act::SelectBox(a, b)),
-        (0..12u32).prop_map(Act::SelectRow),
-        place().prop_map(Act::Move),
-        (-3.0..3.0).prop_map(Act::Turn),
-        Just(Act::Mirror),
-        (1..3u32).prop_map(Act::Copy),
-        Just(Act::Delete),
-        Just(Act::Refine),
-        (0..12u32, place()).prop_map(|(node, to)| Act::MoveNode(node, to)),
+        (place(), place()).prop_map(|(a, b)| Deed::SelectBox(a, b)),
+        (0..12u32).prop_map(Deed::SelectRow),
+        place().prop_map(Deed::Move),
+        (-3.0..3.0).prop_map(Deed::Turn),
+        Just(Deed::Mirror),
+        (1..3u32).prop_map(Deed::Copy),
+        Just(Deed::Delete),
+        Just(Deed::Refine),
+        (0..12u32, place()).prop_map(|(node, to)| Deed::MoveNode(node, to)),
         (0..12u32, 0..6usize, place())
-            .prop_map(|(path, point, to)| Act::MovePoint(path, point, to)),
-        (0..12u32, 0..6usize).prop_map(|(path, point)| Act::InsertPoint(path, point)),
-        (0..12u32, 0..6usize).prop_map(|(path, point)| Act::RemovePoint(path, point)),
-        prop::collection::vec(place(), 0..5).prop_map(Act::Draw),
-        Just(Act::Hide),
-        Just(Act::ShowAll),
-        Just(Act::Undo),
-        Just(Act::Redo),
+            .prop_map(|(path, point, to)| Deed::MovePoint(path, point, to)),
+        (0..12u32, 0..6usize).prop_map(|(path, point)| Deed::InsertPoint(path, point)),
+        (0..12u32, 0..6usize).prop_map(|(path, point)| Deed::RemovePoint(path, point)),
+        prop::collection::vec(place(), 0..5).prop_map(Deed::Draw),
+        Just(Deed::Hide),
+        Just(Deed::ShowAll),
+        Just(Deed::Undo),
+        Just(Deed::Redo),
     ]
 }
 
-fn perform(document: &mut Document, act: &Act) {
+fn perform(document: &mut Document, deed: &Deed) {
     let center = p(1.0, 2.0);
     let at = |path, point| PointRef {
         path,
@@ -63,44 +63,44 @@ fn perform(document: &mut Document, act: &Act) {
         point,
     };
     // What cannot be done is refused, and must change nothing: the end of the test would tell.
-    let _ = match act {
-        Act::SelectBox(a, b) => {
+    let _ = match deed {
+        Deed::SelectBox(a, b) => {
             if let Some(bounds) = Bounds::of_points([*a, *b]) {
                 document.select_in(bounds, true, Combine::Replace);
             }
             Ok(())
         }
-        Act::SelectRow(row) => {
+        Deed::SelectRow(row) => {
             document.select([*row].into_iter().collect(), Combine::Add);
             Ok(())
         }
-        Act::Move(by) => document.transform_selection("move", Affine::translation(*by)),
-        Act::Turn(angle) => document.transform_selection("turn", Affine::rotation(*angle, center)),
-        Act::Mirror => document.transform_selection("mirror", Affine::mirror(center, center)),
+        Deed::Move(by) => document.transform_selection("move", Affine::translation(*by)),
+        Deed::Turn(angle) => document.transform_selection("turn", Affine::rotation(*angle, center)),
+        Deed::Mirror => document.transform_selection("mirror", Affine::mirror(center, center)),
         // Doubling for ever would fill any memory.
-        Act::Copy(_) if document.scene().row_count() > 500 => Ok(()),
-        Act::Copy(count) => document.copy_selection(*count, center),
-        Act::Delete => document.delete_selection(),
-        Act::Refine if document.layout().paths.geometry().point_count() > 20_000 => Ok(()),
-        Act::Refine => document.refine_selection(),
-        Act::MoveNode(node, to) => document.move_node(*node, *to),
-        Act::MovePoint(path, point, to) => document.move_point(at(*path, *point), *to),
-        Act::InsertPoint(path, point) => document.insert_point(at(*path, *point)),
-        Act::RemovePoint(path, point) => document.remove_point(at(*path, *point)),
-        Act::Draw(points) => document.draw_path("drawn".into(), points, 0.5),
-        Act::Hide => {
+        Deed::Copy(_) if document.scene().row_count() > 500 => Ok(()),
+        Deed::Copy(count) => document.copy_selection(*count, center),
+        Deed::Delete => document.delete_selection(),
+        Deed::Refine if document.layout().paths.geometry().point_count() > 20_000 => Ok(()),
+        Deed::Refine => document.refine_selection(),
+        Deed::MoveNode(node, to) => document.move_node(*node, *to),
+        Deed::MovePoint(path, point, to) => document.move_point(at(*path, *point), *to),
+        Deed::InsertPoint(path, point) => document.insert_point(at(*path, *point)),
+        Deed::RemovePoint(path, point) => document.remove_point(at(*path, *point)),
+        Deed::Draw(points) => document.draw_path("drawn".into(), points, 0.5),
+        Deed::Hide => {
             document.hide_selection();
             Ok(())
         }
-        Act::ShowAll => {
+        Deed::ShowAll => {
             document.show_all();
             Ok(())
         }
-        Act::Undo => {
+        Deed::Undo => {
             document.undo();
             Ok(())
         }
-        Act::Redo => {
+        Deed::Redo => {
             document.redo();
             Ok(())
         }
@@ -128,19 +128,26 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(400))]
 
     #[test]
-    fn everything_can_be_undone_and_done_again(acts in prop::collection::vec(act(), 1..150)) {
+    fn everything_can_be_undone_and_done_again(deeds in prop::collection::vec(deed(), 1..150)) {
         let mut document = document(8);
         let untouched = content(&document);
         // A renderer that has a scene of its own and hears of edits alone.
         let mut replica = scene_of(document.to_layout());
-        for act in &acts {
-            perform(&mut document, act);
+        for deed in &deeds {
+            perform(&mut document, deed);
             for edit in document.take_news() {
                 replica.edit(&edit).unwrap();
             }
             let all_shown = |&row: &u32| document.scene().state(row) == PathState::Shown;
             prop_assert!(document.selection().iter().all(|row| all_shown(&row)));
         }
+        // What a journal gives back is what was done: whole, and as far as it goes where it was cut off.
+        let journal: Vec<u8> = document.take_acts().iter().flat_map(Act::to_record).collect();
+        let mut recovered = crate::site::document(8);
+        prop_assert_eq!(replay(&journal, &mut recovered).bytes, journal.len());
+        prop_assert_eq!(content(&recovered), content(&document));
+        let mut cut = crate::site::document(8);
+        prop_assert!(replay(&journal[..journal.len() / 2], &mut cut).bytes <= journal.len() / 2);
         prop_assert_eq!(replica.draw_order(), document.scene().draw_order());
         for &row in replica.draw_order() {
             let points = |layout: &guideway_layout::Layout| -> Vec<_> {
@@ -156,5 +163,27 @@ proptest! {
             document.redo();
         }
         prop_assert_eq!(content(&document), end);
+    }
+}
+
+proptest! {
+    #[test]
+    fn no_bytes_are_a_journal_that_breaks_it(
+        deeds in prop::collection::vec(deed(), 1..10),
+        damage in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..5),
+        noise in prop::collection::vec(any::<u8>(), 0..100),
+    ) {
+        let mut document = document(8);
+        deeds.iter().for_each(|deed| perform(&mut document, deed));
+        let mut journal: Vec<u8> = document.take_acts().iter().flat_map(Act::to_record).collect();
+        for (at, byte) in damage {
+            if !journal.is_empty() {
+                *at.get_mut(&mut journal) = byte;
+            }
+        }
+        for bytes in [journal, noise] {
+            let mut recovered = crate::site::document(8);
+            prop_assert!(replay(&bytes, &mut recovered).bytes <= bytes.len());
+        }
     }
 }

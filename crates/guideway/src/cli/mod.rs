@@ -18,6 +18,8 @@ mod reproduce;
 mod shell;
 mod text;
 mod values;
+#[cfg(feature = "viewer")]
+mod view;
 
 use std::ffi::OsStr;
 use std::process::ExitCode;
@@ -79,6 +81,9 @@ struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    /// Look at layout files in a window, and edit them
+    #[cfg(feature = "viewer")]
+    View(view::Args),
     /// Draw a layout file as a PNG picture
     Render(Box<render::Args>),
     /// Show what is in a layout file
@@ -121,6 +126,8 @@ pub(crate) fn main() -> ExitCode {
 
 fn run(command: &Command, out: &Output) -> Result<Exit, Failure> {
     match command {
+        #[cfg(feature = "viewer")]
+        Command::View(args) => view::run(args, out),
         Command::Render(args) => render::run(args, out),
         Command::Info(args) => info::run(args, out),
         Command::Check(args) => check::run(args, out),

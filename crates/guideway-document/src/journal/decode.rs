@@ -1,0 +1,161 @@
+use std::sync::Arc;
+
+use guideway_layout::{Direction, Geometry, OwnStyle};
+use guideway_scene::{Edit, Insertion, PathState};
+use guideway_spline::{Affine, Point, Runs};
+
+use super::{Act, tag};
+use crate::Change;
+
+/// The act of a record; none if it is not one.
+pub(super) fn act(bytes: &[u8]) -> Option<Act> {
+    let mut input = In(bytes);
+    let act = match input.byte()? {
+        tag::DO => Act::Do(input.list(In::change)?),
+        tag::UNDO => Act::Undo,
+        tag::REDO => Act::Redo,
+        _ => return None,
+    };
+    input.0.is_empty().then_some(act)
+}
+
+struct In<'a>(&'a [u8]);
+
+impl In<'_> {
+    fn take<const N: usize>(&mut self) -> Option<[u8; N]> {
+        let (bytes, rest) = self.0.split_first_chunk()?;
+        self.0 = rest;
+        Some(*bytes)
+    }
+
+    fn byte(&mut self) -> Option<u8> {
+        self.take::<1>().map(|[byte]| byte)
+    }
+
+    fn number(&mut self) -> Option<u32> {
+        self.take().map(u32::from_le_bytes)
+    }
+
+    fn point(&mut self) -> Option<Point<f64>> {
+        let x = f64::from_le_bytes(self.take()?);
+        let y = f64::from_le_bytes(self.take()?);
+        Some(Point::new(x, y))
+    }
+
+    fn text(&mut self) -> Option<String> {
+        let len = self.number()? as usize;
+        let (text, rest) = self.0.split_at_checked(len)?;
+        self.0 = rest;
+        String::from_utf8(text.to_vec()).ok()
+    }
+
+    fn optional(&mut self) -> Option<Option<u32>> {
+        let is_there = self.byte()? != 0;
+        let value = self.number()?;
+        Some(is_there.then_some(value))
+    }
+
+    /// No list takes more memory than a few times the bytes that are there: it grows item by item, and each takes
+    /// some.
+    fn list<T>(&mut self, mut item: impl FnMut(&mut Self) -> Option<T>) -> Option<Vec<T>> {
+        let count = self.number()?;
+        let mut items = Vec::new();
+        for _ in 0..count {
+            items.push(item(self)?);
+        }
+        Some(items)
+    }
+
+    fn rows(&mut self) -> Option<Arc<[u32]>> {
+        self.list(Self::number).map(Arc::from)
+    }
+
+    fn change(&mut self) -> Option<Change> {
+        let edit = match self.byte()? {
+            tag::TRANSFORM => Edit::Transform {
+                paths: self.rows()?,
+                by: Affine {
+                    x: self.point()?,
+                    y: self.point()?,
+                    origin: self.point()?,
+                },
+            },
+            tag::RESHAPE => Edit::Reshape {
+                paths: self.rows()?,
+                curves: Arc::new(self.geometry()?),
+            },
+            tag::RESTYLE => {
+                let style = |input: &mut Self| Some((input.number()?, input.style()?));
+                Edit::Restyle(self.list(style)?.into())
+            }
+            tag::SET_STATES => {
+                let state = |input: &mut Self| Some((input.number()?, input.state()?));
+                Edit::SetStates(self.list(state)?.into())
+            }
+            tag::INSERT => Edit::Insert(self.list(Self::insertion)?.into()),
+            tag::MOVE_NODES => {
+                let node = |input: &mut Self| Some((input.number()?, input.point()?));
+                return Some(Change::MoveNodes(self.list(node)?.into()));
+            }
+            tag::ORIGINS => {
+                let origin = |input: &mut Self| Some((input.number()?, input.number()?));
+                return Some(Change::SetOrigins(self.list(origin)?.into()));
+            }
+            _ => return None,
+        };
+        Some(Change::Scene(edit))
+    }
+
+    fn state(&mut self) -> Option<PathState> {
+        match self.byte()? {
+            0 => Some(PathState::Shown),
+            1 => Some(PathState::Hidden),
+            2 => Some(PathState::Removed),
+            _ => None,
+        }
+    }
+
+    fn style(&mut self) -> Option<OwnStyle> {
+        Some(OwnStyle {
+            width_m: self.optional()?.map(f32::from_bits),
+            color_rgba: self.optional()?,
+        })
+    }
+
+    fn insertion(&mut self) -> Option<Insertion> {
+        Some(Insertion {
+            id: self.text()?,
+            runs: self.runs()?,
+            start_node: self.optional()?,
+            end_node: self.optional()?,
+            direction: match self.byte()? {
+                0 => Direction::Forward,
+                1 => Direction::Both,
+                _ => return None,
+            },
+            level: self.optional()?,
+            vehicle_types: self.list(Self::text)?,
+            style: self.style()?,
+        })
+    }
+
+    fn runs(&mut self) -> Option<Runs> {
+        let mut runs = Runs::default();
+        for _ in 0..self.number()? {
+            let points = self.list(Self::point)?;
+            if points.len() < 4 {
+                return None;
+            }
+            runs.push(&points);
+        }
+        Some(runs)
+    }
+
+    fn geometry(&mut self) -> Option<Geometry> {
+        let mut geometry = Geometry::default();
+        for _ in 0..self.number()? {
+            geometry.push(&self.runs()?);
+        }
+        Some(geometry)
+    }
+}

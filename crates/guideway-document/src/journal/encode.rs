@@ -1,0 +1,145 @@
+use guideway_layout::{Direction, Geometry, OwnStyle, RunPoints};
+use guideway_scene::{Edit, Insertion, PathState};
+use guideway_spline::Point;
+
+use super::{Act, tag};
+use crate::Change;
+
+pub(super) fn act(act: &Act) -> Vec<u8> {
+    let mut out = Out::default();
+    match act {
+        Act::Do(changes) => {
+            out.byte(tag::DO);
+            out.list(changes, |out, change| out.change(change));
+        }
+        Act::Undo => out.byte(tag::UNDO),
+        Act::Redo => out.byte(tag::REDO),
+    }
+    out.0
+}
+
+#[derive(Default)]
+struct Out(Vec<u8>);
+
+impl Out {
+    fn byte(&mut self, value: u8) {
+        self.0.push(value);
+    }
+
+    fn number(&mut self, value: u32) {
+        self.0.extend(value.to_le_bytes());
+    }
+
+    fn point(&mut self, at: Point<f64>) {
+        self.0.extend(at.x.to_le_bytes());
+        self.0.extend(at.y.to_le_bytes());
+    }
+
+    fn text(&mut self, text: &str) {
+        self.number(text.len() as u32);
+        self.0.extend(text.as_bytes());
+    }
+
+    fn optional(&mut self, value: Option<u32>) {
+        self.byte(u8::from(value.is_some()));
+        self.number(value.unwrap_or(0));
+    }
+
+    fn list<T>(&mut self, items: &[T], mut put: impl FnMut(&mut Self, &T)) {
+        self.number(items.len() as u32);
+        items.iter().for_each(|item| put(self, item));
+    }
+
+    fn change(&mut self, change: &Change) {
+        match change {
+            Change::Scene(edit) => self.edit(edit),
+            Change::MoveNodes(nodes) => {
+                self.byte(tag::MOVE_NODES);
+                self.list(nodes, |out, &(node, at)| {
+                    out.number(node);
+                    out.point(at);
+                });
+            }
+            Change::SetOrigins(origins) => {
+                self.byte(tag::ORIGINS);
+                self.list(origins, |out, &(path, origin)| {
+                    out.number(path);
+                    out.number(origin);
+                });
+            }
+        }
+    }
+
+    fn edit(&mut self, edit: &Edit) {
+        match edit {
+            Edit::Transform { paths, by } => {
+                self.byte(tag::TRANSFORM);
+                self.list(paths, |out, &path| out.number(path));
+                [by.x, by.y, by.origin]
+                    .into_iter()
+                    .for_each(|p| self.point(p));
+            }
+            Edit::Reshape { paths, curves } => {
+                self.byte(tag::RESHAPE);
+                self.list(paths, |out, &path| out.number(path));
+                self.geometry(curves);
+            }
+            Edit::Restyle(styles) => {
+                self.byte(tag::RESTYLE);
+                self.list(styles, |out, &(path, style)| {
+                    out.number(path);
+                    out.style(style);
+                });
+            }
+            Edit::SetStates(states) => {
+                self.byte(tag::SET_STATES);
+                self.list(states, |out, &(path, state)| {
+                    out.number(path);
+                    out.byte(match state {
+                        PathState::Shown => 0,
+                        PathState::Hidden => 1,
+                        PathState::Removed => 2,
+                    });
+                });
+            }
+            Edit::Insert(paths) => {
+                self.byte(tag::INSERT);
+                self.list(paths, Self::insertion);
+            }
+        }
+    }
+
+    fn insertion(&mut self, path: &Insertion) {
+        self.text(&path.id);
+        self.number(path.runs.len() as u32);
+        for run in path.runs.iter() {
+            self.list(run, |out, &point| out.point(point));
+        }
+        self.optional(path.start_node);
+        self.optional(path.end_node);
+        self.byte(match path.direction {
+            Direction::Forward => 0,
+            Direction::Both => 1,
+        });
+        self.optional(path.level);
+        self.list(&path.vehicle_types, |out, name| out.text(name));
+        self.style(path.style);
+    }
+
+    fn style(&mut self, style: OwnStyle) {
+        self.optional(style.width_m.map(f32::to_bits));
+        self.optional(style.color_rgba);
+    }
+
+    fn geometry(&mut self, curves: &Geometry) {
+        self.number(curves.path_count() as u32);
+        for path in 0..curves.path_count() {
+            let runs = curves.runs(path);
+            self.number(runs.len() as u32);
+            for run in runs {
+                let points: Vec<_> = RunPoints::iter(run).collect();
+                self.list(&points, |out, &point| out.point(point));
+            }
+        }
+    }
+}

@@ -1,0 +1,317 @@
+use eframe::egui::Modifiers;
+use guideway_document::marks::{Handle, handles};
+use guideway_document::{Combine, Document, Hit, PointRef, Rows, Snap, round_step};
+use guideway_render::View;
+use guideway_spline::{Affine, Bounds, Point};
+
+use super::App;
+
+/// How near the pointer must be to what it means.
+pub(crate) const REACH_PX: f64 = 8.0;
+/// Where more paths than this are near the pointer, it takes a click to choose one.
+const MOST_HOVERED: usize = 3_000;
+/// With Shift held, lines and moves go in one of so many directions.
+const DIRECTIONS: u32 = 24;
+
+/// What the pointer does.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Tool {
+    /// Selects paths and moves them.
+    #[default]
+    Select,
+    /// Moves nodes and control points.
+    Points,
+    /// Draws a path, click by click.
+    Draw,
+    /// Measures, click by click.
+    Measure,
+}
+
+/// What the pointer is doing. Positions on the screen are pixels from the picture's upper left corner.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) enum Gesture {
+    #[default]
+    None,
+    /// Moves the view.
+    Pan,
+    /// Draws a box to select by.
+    Box {
+        from_px: Point<f64>,
+        to_px: Point<f64>,
+    },
+    /// Moves the selection, which shows as an outline until it is let go.
+    Move {
+        from_m: Point<f64>,
+        by_m: Point<f64>,
+    },
+    /// Moves a node; the layout follows at once.
+    Node { node: u32, has_moved: bool },
+    /// Moves a control point; the layout follows at once.
+    Handle { point: PointRef, has_moved: bool },
+    /// Points of a path, or of what is measured.
+    Points(Vec<Point<f64>>),
+}
+
+impl App {
+    /// The pointer is here, and no button is held.
+    pub(crate) fn hover(&mut self, at_px: Option<Point<f64>>) {
+        self.hover = at_px.and_then(|at_px| self.pick(at_px, MOST_HOVERED));
+    }
+
+    fn pick(&self, at_px: Point<f64>, most: usize) -> Option<Hit> {
+        let view = self.camera.view()?;
+        let at_m = view.world_from_pixel(at_px);
+        let rule = self.look.line_rule();
+        self.document()?
+            .pick(rule, view.px_per_m(), at_m, REACH_PX, most)
+    }
+
+    /// A button goes down here, and the pointer moves.
+    pub(crate) fn begin_drag(&mut self, at_px: Point<f64>) {
+        let (Some(view), Some(document)) = (self.camera.view(), self.document()) else {
+            self.gesture = Gesture::Pan;
+            return;
+        };
+        let at_m = view.world_from_pixel(at_px);
+        let begin_box = Gesture::Box {
+            from_px: at_px,
+            to_px: at_px,
+        };
+        self.gesture = match self.tool {
+            Tool::Draw | Tool::Measure => return,
+            Tool::Select => match self.pick(at_px, usize::MAX) {
+                Some(hit) if document.selection().contains(hit.path) => Gesture::Move {
+                    from_m: hit.point_m,
+                    by_m: Point::new(0.0, 0.0),
+                },
+                _ => begin_box,
+            },
+            Tool::Points => {
+                let handle = nearest_handle(document, &view, at_px);
+                let node = document.node_near(at_m, REACH_PX / view.px_per_m());
+                match (handle, node) {
+                    (Some(handle), _) => Gesture::Handle {
+                        point: handle.point,
+                        has_moved: false,
+                    },
+                    (None, Some(node)) => Gesture::Node {
+                        node,
+                        has_moved: false,
+                    },
+                    (None, None) => begin_box,
+                }
+            }
+        };
+    }
+
+    /// The pointer is here with the button held.
+    pub(crate) fn drag(&mut self, at_px: Point<f64>, modifiers: Modifiers) {
+        let Some(view) = self.camera.view() else {
+            return;
+        };
+        let at_m = view.world_from_pixel(at_px);
+        match &mut self.gesture {
+            Gesture::None | Gesture::Pan | Gesture::Points(_) => {}
+            Gesture::Box { to_px, .. } => *to_px = at_px,
+            Gesture::Move { from_m, .. } => {
+                let from_m = *from_m;
+                let by_m = self.move_by(&view, from_m, at_m, modifiers);
+                self.gesture = Gesture::Move { from_m, by_m };
+            }
+            Gesture::Node { node, has_moved } => {
+                let (node, undo_first) = (*node, std::mem::replace(has_moved, true));
+                let to_m = self.snap_to_grid(at_m);
+                self.edit_again(undo_first, |document| document.move_node(node, to_m));
+            }
+            Gesture::Handle { point, has_moved } => {
+                let (point, undo_first) = (*point, std::mem::replace(has_moved, true));
+                let to_m = self.snap_to_grid(at_m);
+                self.edit_again(undo_first, |document| document.move_point(point, to_m));
+            }
+        }
+    }
+
+    /// The button goes up.
+    pub(crate) fn end_drag(&mut self, modifiers: Modifiers) {
+        let gesture = std::mem::take(&mut self.gesture);
+        let Some(view) = self.camera.view() else {
+            return;
+        };
+        match gesture {
+            Gesture::Box { from_px, to_px } => {
+                let corners = [from_px, to_px].map(|pixel| view.world_from_pixel(pixel));
+                // From the right to the left it takes what it meets, else what is inside: as CAD has it.
+                let may_reach_out = to_px.x < from_px.x;
+                if let (Some(bounds), Some(document)) =
+                    (Bounds::of_points(corners), self.document_mut())
+                {
+                    document.select_in(bounds, may_reach_out, combine(modifiers));
+                }
+            }
+            Gesture::Move { by_m, .. } if by_m.norm() > 0.0 => {
+                let by = Affine::translation(by_m);
+                self.edit(|document| document.transform_selection("move", by));
+            }
+            // A path that is being drawn goes on.
+            gesture @ Gesture::Points(_) => self.gesture = gesture,
+            _ => {}
+        }
+    }
+
+    /// A click here.
+    pub(crate) fn click(&mut self, at_px: Point<f64>, modifiers: Modifiers) {
+        let Some(view) = self.camera.view() else {
+            return;
+        };
+        let at_m = view.world_from_pixel(at_px);
+        match self.tool {
+            Tool::Select | Tool::Points => {
+                let hit = self.pick(at_px, usize::MAX);
+                if let Some(document) = self.document_mut() {
+                    let rows: Rows = hit.iter().map(|hit| hit.path).collect();
+                    document.select(rows, combine(modifiers));
+                }
+            }
+            Tool::Draw | Tool::Measure => {
+                let place = self.snapped(&view, at_m, modifiers);
+                match &mut self.gesture {
+                    Gesture::Points(points) => points.push(place),
+                    gesture => *gesture = Gesture::Points(vec![place]),
+                }
+            }
+        }
+    }
+
+    /// A second click at the same place.
+    pub(crate) fn double_click(&mut self) {
+        match self.tool {
+            Tool::Draw => self.finish_path(),
+            Tool::Measure => self.gesture = Gesture::None,
+            Tool::Select if self.hover.is_some() => self.set_tool(Tool::Points),
+            Tool::Select | Tool::Points => {}
+        }
+    }
+
+    /// Puts a control point beside the one under the pointer, or takes that one away.
+    pub(crate) fn change_points(&mut self, at_px: Point<f64>, inserts: bool) {
+        let (Some(view), Some(document)) = (self.camera.view(), self.document()) else {
+            return;
+        };
+        if let Some(handle) = nearest_handle(document, &view, at_px) {
+            self.edit(|document| match inserts {
+                true => document.insert_point(handle.point),
+                false => document.remove_point(handle.point),
+            });
+        }
+    }
+
+    /// The path that is being drawn is whole.
+    pub(crate) fn finish_path(&mut self) {
+        if self.tool != Tool::Draw {
+            return;
+        }
+        let Gesture::Points(mut points) = std::mem::take(&mut self.gesture) else {
+            return;
+        };
+        // A double click leaves the last point twice.
+        points.dedup();
+        let Some(view) = self.camera.view() else {
+            return;
+        };
+        let reach_m = REACH_PX / view.px_per_m();
+        self.edit(|document| {
+            let id = format!("drawn {}", document.scene().row_count() + 1);
+            document.draw_path(id, &points, reach_m)
+        });
+    }
+
+    /// Where a click here means: at a node near by, in a direction with Shift, on the grid if that is asked for,
+    /// and just here with Alt.
+    pub(crate) fn snapped(
+        &self,
+        view: &View,
+        at_m: Point<f64>,
+        modifiers: Modifiers,
+    ) -> Point<f64> {
+        let Some(document) = self.document() else {
+            return at_m;
+        };
+        if modifiers.alt {
+            return at_m;
+        }
+        let snap = Snap {
+            node_reach_m: Some(REACH_PX / view.px_per_m()),
+            grid_m: self.snaps_to_grid.then(|| grid_step_m(view)),
+            directions: modifiers.shift.then_some(DIRECTIONS),
+        };
+        let from_m = match &self.gesture {
+            Gesture::Points(points) => points.last().copied(),
+            _ => None,
+        };
+        document.snap(&snap, at_m, from_m)
+    }
+
+    fn move_by(
+        &self,
+        view: &View,
+        from_m: Point<f64>,
+        at_m: Point<f64>,
+        modifiers: Modifiers,
+    ) -> Point<f64> {
+        let zero = Point::new(0.0, 0.0);
+        let snap = Snap {
+            node_reach_m: None,
+            grid_m: self.snaps_to_grid.then(|| grid_step_m(view)),
+            directions: modifiers.shift.then_some(DIRECTIONS),
+        };
+        let by_m = at_m - from_m;
+        self.document()
+            .map_or(by_m, |document| document.snap(&snap, by_m, Some(zero)))
+    }
+
+    fn snap_to_grid(&self, at_m: Point<f64>) -> Point<f64> {
+        let (Some(view), Some(document)) = (self.camera.view(), self.document()) else {
+            return at_m;
+        };
+        let snap = Snap {
+            grid_m: self.snaps_to_grid.then(|| grid_step_m(&view)),
+            ..Snap::default()
+        };
+        document.snap(&snap, at_m, None)
+    }
+
+    /// Does an edit that takes the place of the one before: a whole drag is one step to undo.
+    fn edit_again<E: std::fmt::Display>(
+        &mut self,
+        undo_first: bool,
+        edit: impl FnOnce(&mut Document) -> Result<(), E>,
+    ) {
+        if undo_first && let Some(document) = self.document_mut() {
+            document.undo();
+        }
+        self.edit(edit);
+    }
+}
+
+/// Distance between lines of the grid, round and never too near on the screen.
+pub(crate) fn grid_step_m(view: &View) -> f64 {
+    const LEAST_PX: f64 = 24.0;
+    round_step(LEAST_PX / view.px_per_m())
+}
+
+fn combine(modifiers: Modifiers) -> Combine {
+    if modifiers.shift {
+        Combine::Add
+    } else if modifiers.alt || modifiers.command {
+        Combine::Remove
+    } else {
+        Combine::Replace
+    }
+}
+
+fn nearest_handle(document: &Document, view: &View, at_px: Point<f64>) -> Option<Handle> {
+    let near = handles(document, view).into_iter();
+    let near = near.map(|handle| (handle.at_px.distance(at_px), handle));
+    let nearest = near.min_by(|a, b| a.0.total_cmp(&b.0))?;
+    (nearest.0 <= REACH_PX).then_some(nearest.1)
+}

@@ -1,0 +1,249 @@
+//! What the viewer knows and does, whatever window shows it.
+
+pub(crate) mod command;
+mod files;
+mod gesture;
+pub(crate) mod layer;
+pub(crate) mod look;
+mod overlay;
+mod perform;
+mod recovery;
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::mpsc::{self, Receiver};
+use std::thread;
+
+use eframe::egui::{Context, Pos2, ViewportCommand};
+use guideway_document::{Document, Found, Hit};
+
+pub(crate) use self::files::{Prompt, PromptKind};
+pub(crate) use self::gesture::{Gesture, Tool};
+pub(crate) use self::layer::{Layer, LayerNews};
+pub(crate) use self::look::Look;
+use crate::camera::Camera;
+use crate::host::{Host, MethodChoice};
+use crate::work::Wake;
+use crate::work::saver::Saver;
+use crate::work::watcher::Watcher;
+
+/// The viewer.
+pub struct App {
+    pub(crate) host: Arc<dyn Host>,
+    pub(crate) wake: Wake,
+    pub(crate) layers: Vec<Layer>,
+    /// The layer that is edited.
+    pub(crate) active: usize,
+    pub(crate) camera: Camera,
+    pub(crate) look: Look,
+    /// The ways of drawing, once it is known which of them run here.
+    pub(crate) methods: Vec<MethodChoice>,
+    /// The way of drawing, by its name.
+    pub(crate) method: String,
+    pub(crate) tool: Tool,
+    pub(crate) gesture: Gesture,
+    /// Upper left corner of the picture in the window.
+    pub(crate) canvas_min: Pos2,
+    /// Where the pointer is in the picture.
+    pub(crate) pointer_px: Option<guideway_spline::Point<f64>>,
+    /// What lies under the pointer.
+    pub(crate) hover: Option<Hit>,
+    pub(crate) prompt: Option<Prompt>,
+    pub(crate) notices: Vec<String>,
+    pub(crate) find: Find,
+    pub(crate) numbers: Numbers,
+    /// Whether what is drawn and moved goes to the grid.
+    pub(crate) snaps_to_grid: bool,
+    pub(crate) shows_keys: bool,
+    pub(crate) asks_to_quit: bool,
+    /// Whether the person has decided to leave changes behind.
+    pub(crate) quits_anyway: bool,
+    /// What is being written, and the file if it is a layout.
+    saver: Option<(Saver, Option<files::Saving>)>,
+    watcher: Watcher,
+    has_new_files: bool,
+    method_finder: Receiver<Vec<MethodChoice>>,
+}
+
+/// What is being looked for.
+#[derive(Default)]
+pub(crate) struct Find {
+    pub(crate) text: String,
+    pub(crate) found: Vec<Found>,
+    pub(crate) query: String,
+    pub(crate) query_trouble: Option<String>,
+    /// Whether the field is to have the keyboard.
+    pub(crate) wants_focus: bool,
+}
+
+/// Fields for exact changes.
+pub(crate) struct Numbers {
+    pub(crate) by_x_m: f64,
+    pub(crate) by_y_m: f64,
+    pub(crate) angle_deg: f64,
+    pub(crate) copies: u32,
+}
+
+/// Notices kept; older ones are forgotten.
+const MOST_NOTICES: usize = 5;
+
+impl App {
+    /// A viewer of these files.
+    pub fn new(ctx: &Context, host: Arc<dyn Host>, files: Vec<PathBuf>, method: &str) -> Self {
+        let for_wake = ctx.clone();
+        let wake: Wake = Arc::new(move || for_wake.request_repaint());
+        let mut app = Self {
+            methods: Vec::new(),
+            method_finder: find_methods(&host, &wake),
+            method: method.to_owned(),
+            watcher: Watcher::start(Arc::clone(&wake)),
+            host,
+            wake,
+            layers: Vec::new(),
+            active: 0,
+            camera: Camera::new(),
+            look: Look::default(),
+            tool: Tool::Select,
+            gesture: Gesture::None,
+            canvas_min: Pos2::ZERO,
+            pointer_px: None,
+            hover: None,
+            prompt: None,
+            notices: Vec::new(),
+            find: Find::default(),
+            numbers: Numbers {
+                by_x_m: 1.0,
+                by_y_m: 0.0,
+                angle_deg: 90.0,
+                copies: 1,
+            },
+            snaps_to_grid: false,
+            shows_keys: false,
+            asks_to_quit: false,
+            quits_anyway: false,
+            saver: None,
+            has_new_files: false,
+        };
+        app.apply_theme(ctx);
+        for file in files {
+            app.open(file);
+        }
+        app
+    }
+
+    /// Takes in what the threads and the window have brought.
+    pub(crate) fn poll(&mut self, ctx: &Context) {
+        for index in 0..self.layers.len() {
+            for news in self.layers[index].poll(ctx, &self.host, &self.wake) {
+                match news {
+                    LayerNews::Appeared(bounds) => {
+                        // The first file says where to look; another one joins it.
+                        if let (0, Some(bounds)) = (index, bounds) {
+                            self.camera.fit(bounds);
+                        }
+                    }
+                    LayerNews::IsRead => self.recolor_if_stale(index),
+                    LayerNews::Notice(text) => self.notify(text),
+                }
+            }
+        }
+        if let Ok(methods) = self.method_finder.try_recv() {
+            self.methods = methods;
+        }
+        self.poll_files(ctx);
+    }
+
+    /// The document that is edited, once it is there.
+    pub(crate) fn document(&self) -> Option<&Document> {
+        self.layers.get(self.active)?.document.as_ref()
+    }
+
+    pub(crate) fn document_mut(&mut self) -> Option<&mut Document> {
+        self.layers.get_mut(self.active)?.document.as_mut()
+    }
+
+    /// Tells the person something.
+    pub(crate) fn notify(&mut self, text: impl Into<String>) {
+        if self.notices.len() == MOST_NOTICES {
+            self.notices.remove(0);
+        }
+        self.notices.push(text.into());
+    }
+
+    /// Does an edit, or says why it cannot be done.
+    pub(crate) fn edit<E: std::fmt::Display>(
+        &mut self,
+        edit: impl FnOnce(&mut Document) -> Result<(), E>,
+    ) {
+        if let Some(document) = self.document_mut()
+            && let Err(error) = edit(document)
+        {
+            self.notify(error.to_string());
+        }
+    }
+
+    /// After the look has changed in what a scene is made with.
+    pub(crate) fn recolor(&mut self) {
+        (0..self.layers.len()).for_each(|index| self.recolor_if_stale(index));
+    }
+
+    fn recolor_if_stale(&mut self, index: usize) {
+        let options = self.look.scene_options();
+        if let Err(trouble) = self.layers[index].recolor(options) {
+            self.notify(trouble);
+        }
+    }
+
+    pub(crate) fn set_method(&mut self, name: &str) {
+        name.clone_into(&mut self.method);
+        for layer in &mut self.layers {
+            layer.set_method(name);
+        }
+    }
+
+    pub(crate) fn apply_theme(&self, ctx: &Context) {
+        ctx.set_theme(if self.look.is_dark {
+            eframe::egui::Theme::Dark
+        } else {
+            eframe::egui::Theme::Light
+        });
+    }
+
+    /// Looks at something of the document.
+    pub(crate) fn fly_to(&mut self, what: Found) {
+        let Some(document) = self.document_mut() else {
+            return;
+        };
+        if let Found::Path(path) = what {
+            document.select([path].into_iter().collect(), Default::default());
+        }
+        if let Some(bounds) = document.bounds_of(what) {
+            self.camera.fly_to(bounds);
+        }
+    }
+
+    /// Ends the program, or asks first where something is not saved.
+    pub(crate) fn quit(&mut self, ctx: &Context) {
+        if self.is_unsaved() {
+            self.asks_to_quit = true;
+        } else {
+            ctx.send_viewport_cmd(ViewportCommand::Close);
+        }
+    }
+
+    pub(crate) fn is_unsaved(&self) -> bool {
+        self.layers.iter().any(Layer::is_changed)
+    }
+}
+
+/// Looks which ways of drawing run here: starting each may take a driver a second.
+fn find_methods(host: &Arc<dyn Host>, wake: &Wake) -> Receiver<Vec<MethodChoice>> {
+    let (sender, receiver) = mpsc::channel();
+    let (host, wake) = (Arc::clone(host), Arc::clone(wake));
+    thread::spawn(move || {
+        // Nobody hears it if the window was closed in the meantime.
+        let _ = sender.send(host.methods());
+        wake();
+    });
+    receiver
+}

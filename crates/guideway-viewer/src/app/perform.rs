@@ -1,0 +1,191 @@
+use std::f64::consts::FRAC_PI_2;
+
+use eframe::egui::Context;
+use guideway_document::{Combine, Document, Rows};
+use guideway_spline::{Affine, Point};
+
+use super::command::Command;
+use super::{App, Gesture, PromptKind, Tool};
+
+/// How far one press of a key goes.
+const PAN_PX: f64 = 80.0;
+const ZOOM: f64 = 1.25;
+
+impl App {
+    /// Does what a key or a menu asks for.
+    pub(crate) fn perform(&mut self, command: Command, ctx: &Context) {
+        match command {
+            Command::Open => self.ask_for(PromptKind::Open),
+            Command::Reload => self.reload(self.active),
+            Command::Save => {
+                if let Some(layer) = self.layers.get(self.active) {
+                    self.save(layer.path.clone());
+                }
+            }
+            Command::SaveAs => self.ask_for(PromptKind::SaveAs),
+            Command::ExportPicture => self.ask_for(PromptKind::Picture),
+            Command::ExportDrawing => self.ask_for(PromptKind::Drawing),
+            Command::CopyPicture => self.copy_picture(ctx),
+            Command::Close => self.close_active(),
+            Command::Quit => self.quit(ctx),
+            Command::NextFile => self.active = (self.active + 1) % self.layers.len().max(1),
+            Command::Find => self.find.wants_focus = true,
+            Command::Keys => self.shows_keys = !self.shows_keys,
+            Command::Stop => self.stop(),
+            Command::Finish => self.finish_path(),
+            Command::Undo => self.step(Document::undo, "undo"),
+            Command::Redo => self.step(Document::redo, "do again"),
+            Command::SelectAll
+            | Command::SelectNone
+            | Command::Delete
+            | Command::Duplicate
+            | Command::TurnLeft
+            | Command::MirrorAcross
+            | Command::MirrorUp
+            | Command::Refine
+            | Command::Hide
+            | Command::Isolate
+            | Command::ShowAll => self.perform_on_selection(command),
+            Command::ToolSelect => self.set_tool(Tool::Select),
+            Command::ToolPoints => self.set_tool(Tool::Points),
+            Command::ToolDraw => self.set_tool(Tool::Draw),
+            Command::ToolMeasure => self.set_tool(Tool::Measure),
+            Command::Fit
+            | Command::FitSelection
+            | Command::ZoomIn
+            | Command::ZoomOut
+            | Command::PanLeft
+            | Command::PanRight
+            | Command::PanUp
+            | Command::PanDown
+            | Command::Back
+            | Command::Forward => self.perform_on_view(command),
+            Command::Arrows => self.look.has_arrows ^= true,
+            Command::Symbols => self.look.has_symbols ^= true,
+            Command::Labels => self.look.has_labels ^= true,
+            Command::Grid => self.look.has_grid ^= true,
+            Command::Density => self.look.is_density ^= true,
+            Command::ThesisRule => self.look.is_thesis_rule ^= true,
+            Command::Dark => {
+                self.look.is_dark ^= true;
+                self.apply_theme(ctx);
+                self.recolor();
+            }
+        }
+    }
+
+    fn perform_on_selection(&mut self, command: Command) {
+        let Some(document) = self.document_mut() else {
+            return;
+        };
+        let center = document.selection_bounds().map(|bounds| bounds.center());
+        let center = center.unwrap_or(Point::new(0.0, 0.0));
+        let transform =
+            |name, by| move |document: &mut Document| document.transform_selection(name, by);
+        match command {
+            Command::SelectAll => document.select_all(),
+            Command::SelectNone => document.select(Rows::new(), Combine::Replace),
+            Command::Hide => document.hide_selection(),
+            Command::Isolate => document.isolate_selection(),
+            Command::ShowAll => document.show_all(),
+            Command::Delete => self.edit(Document::delete_selection),
+            Command::Refine => self.edit(Document::refine_selection),
+            Command::Duplicate => self.duplicate(),
+            Command::TurnLeft => self.edit(transform("turn", Affine::rotation(FRAC_PI_2, center))),
+            Command::MirrorAcross => {
+                self.edit(transform(
+                    "mirror",
+                    Affine::mirror(center, Point::new(0.0, 1.0)),
+                ));
+            }
+            Command::MirrorUp => {
+                self.edit(transform(
+                    "mirror",
+                    Affine::mirror(center, Point::new(1.0, 0.0)),
+                ));
+            }
+            _ => {}
+        }
+    }
+
+    /// Copies the selection a little aside, so that the copy can be seen.
+    fn duplicate(&mut self) {
+        let aside_m = self
+            .camera
+            .view()
+            .map_or(1.0, |view| 24.0 / view.px_per_m());
+        self.edit(|document| document.copy_selection(1, Point::new(aside_m, -aside_m)));
+    }
+
+    fn perform_on_view(&mut self, command: Command) {
+        let zero = 0.0;
+        match command {
+            Command::Fit => {
+                let shown = self.layers.iter().filter(|layer| layer.is_visible);
+                let bounds = shown.filter_map(|layer| layer.document.as_ref()?.scene().bounds());
+                if let Some(all) = bounds.reduce(guideway_spline::Bounds::union) {
+                    self.camera.fit(all);
+                }
+            }
+            Command::FitSelection => {
+                if let Some(bounds) = self.document().and_then(Document::selection_bounds) {
+                    self.camera.fly_to(bounds);
+                }
+            }
+            Command::ZoomIn => self.camera.zoom_center(ZOOM),
+            Command::ZoomOut => self.camera.zoom_center(1.0 / ZOOM),
+            Command::PanLeft => self.camera.pan(Point::new(PAN_PX, zero)),
+            Command::PanRight => self.camera.pan(Point::new(-PAN_PX, zero)),
+            Command::PanUp => self.camera.pan(Point::new(zero, PAN_PX)),
+            Command::PanDown => self.camera.pan(Point::new(zero, -PAN_PX)),
+            Command::Back => self.camera.back(),
+            Command::Forward => self.camera.forward(),
+            _ => {}
+        }
+    }
+
+    fn step(&mut self, step: fn(&mut Document) -> Option<&'static str>, what: &str) {
+        self.gesture = Gesture::None;
+        if let Some(document) = self.document_mut()
+            && step(document).is_none()
+        {
+            self.notify(format!("there is nothing to {what}"));
+        }
+    }
+
+    fn close_active(&mut self) {
+        if self.active >= self.layers.len() {
+            return;
+        }
+        if self.layers[self.active].is_changed() {
+            self.notify("this file has changes: save them, or undo them, before you close it");
+        } else {
+            self.close(self.active);
+        }
+    }
+
+    pub(crate) fn set_tool(&mut self, tool: Tool) {
+        self.gesture = Gesture::None;
+        self.tool = tool;
+    }
+
+    /// The way out of everything.
+    fn stop(&mut self) {
+        self.prompt = None;
+        self.shows_keys = false;
+        self.asks_to_quit = false;
+        self.notices.clear();
+        if !matches!(self.gesture, Gesture::None) {
+            self.gesture = Gesture::None;
+        } else if self.tool != Tool::Select {
+            self.set_tool(Tool::Select);
+        } else if let Some(document) = self.document_mut() {
+            document.select(Rows::new(), Combine::Replace);
+        }
+        for layer in &mut self.layers {
+            if layer.load().is_some() {
+                layer.cancel_load();
+            }
+        }
+    }
+}

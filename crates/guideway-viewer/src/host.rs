@@ -1,0 +1,109 @@
+use std::fmt;
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+
+use guideway_layout::Layout;
+use guideway_render::{Frame, Method, Style, View};
+use guideway_scene::Scene;
+
+/// What the viewer needs of the program around it: files and ways of drawing. Called from several threads.
+pub trait Host: Send + Sync {
+    /// Reads a layout file. Asks `load` whether to go on, and tells it how far it is.
+    ///
+    /// # Errors
+    /// When the file cannot be read, or the load was cancelled.
+    fn open(&self, path: &Path, load: &Load) -> Result<Layout, Trouble>;
+
+    /// Writes a layout file, whole or not at all, in the format that its name says. Returns what the format
+    /// cannot hold, a sentence each.
+    ///
+    /// # Errors
+    /// When the format is not one that can be written, or the file cannot be.
+    fn save(&self, layout: &Layout, path: &Path) -> Result<Vec<String>, Trouble>;
+
+    /// Writes a picture as PNG, whole or not at all.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    fn save_picture(&self, frame: &Frame, path: &Path) -> Result<(), Trouble>;
+
+    /// Writes a view as SVG with true curves, whole or not at all.
+    ///
+    /// # Errors
+    /// When the file cannot be written, or a drawing cannot look as the style says.
+    fn save_drawing(
+        &self,
+        scene: &Scene,
+        view: &View,
+        style: &Style,
+        path: &Path,
+    ) -> Result<(), Trouble>;
+
+    /// The ways of drawing, the best first.
+    fn methods(&self) -> Vec<MethodChoice>;
+
+    /// Starts a way of drawing by its name.
+    ///
+    /// # Errors
+    /// When it does not run on this computer.
+    fn method(&self, name: &str) -> Result<Box<dyn Method>, Trouble>;
+}
+
+/// A way of drawing that may be chosen.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MethodChoice {
+    /// What it is started by.
+    pub name: String,
+    /// One line on what it does.
+    pub summary: String,
+    /// Why it does not run here, if so.
+    pub why_not: Option<String>,
+}
+
+/// What went wrong, and what to do about it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Trouble {
+    /// What happened, where.
+    pub message: String,
+    /// What to do.
+    pub remedy: String,
+}
+
+impl fmt::Display for Trouble {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}. {}", self.message, self.remedy)
+    }
+}
+
+/// A load under way, seen from both of its ends.
+#[derive(Debug, Default)]
+pub struct Load {
+    done: AtomicU64,
+    total: AtomicU64,
+    is_cancelled: AtomicBool,
+}
+
+impl Load {
+    /// `done` of `total` steps are done.
+    pub fn advance(&self, done: u64, total: u64) {
+        self.done.store(done, Ordering::Relaxed);
+        self.total.store(total, Ordering::Relaxed);
+    }
+
+    /// How much is done, from 0 to 1; none as long as nobody knows.
+    pub fn fraction(&self) -> Option<f32> {
+        let total = self.total.load(Ordering::Relaxed);
+        let done = self.done.load(Ordering::Relaxed);
+        (total > 0).then(|| (done as f32 / total as f32).min(1.0))
+    }
+
+    /// Asks it to stop.
+    pub fn cancel(&self) {
+        self.is_cancelled.store(true, Ordering::Relaxed);
+    }
+
+    /// Whether it was asked to stop.
+    pub fn is_cancelled(&self) -> bool {
+        self.is_cancelled.load(Ordering::Relaxed)
+    }
+}

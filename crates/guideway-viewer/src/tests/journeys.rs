@@ -1,0 +1,290 @@
+use eframe::egui::{Key, Modifiers, Pos2, Vec2};
+use egui_kittest::kittest::Queryable;
+use guideway_cpu::Cpu;
+use guideway_render::{Budget, Cancel, Frame, Method};
+use guideway_spline::Point;
+
+use super::desk::Desk;
+use super::table::{Table, lanes};
+use crate::app::Tool;
+use crate::work::renderer::{Outcome, Renderer, Shot};
+
+const NONE: Modifiers = Modifiers::NONE;
+const CTRL: Modifiers = Modifiers::COMMAND;
+
+#[test]
+fn a_file_is_shown_whole_and_accounted_for() {
+    let mut desk = Desk::looking_at(lanes(5));
+    let view = desk.app().camera.view().unwrap();
+    let bounds = desk.document().scene().bounds().unwrap();
+    assert!(view.world_bounds().contains(bounds.min) && view.world_bounds().contains(bounds.max));
+    let report = &desk.app().layers[0].shown.as_ref().unwrap().report;
+    assert_eq!((report.total, report.drawn), (5, 5));
+    desk.wait(|app| app.layers[0].findings.is_some());
+}
+
+#[test]
+fn the_picture_is_the_one_that_the_method_draws() {
+    let layout = std::sync::Arc::new(lanes(7));
+    let options = crate::app::Look::default().scene_options();
+    let scene = guideway_scene::Scene::new(layout, &options).unwrap();
+    let size = guideway_render::FrameSize::new(300, 200).unwrap();
+    let shot = Shot {
+        view: guideway_render::View::fit(size, scene.bounds()).unwrap(),
+        style: crate::app::Look::default().style(),
+    };
+    let scene = std::sync::Arc::new(scene);
+    let host = Table::with([]);
+    let renderer = Renderer::start(host, "cpu", std::sync::Arc::new(|| {}));
+    renderer.set_scene(std::sync::Arc::clone(&scene));
+    renderer.ask(shot);
+    let picture = (0..5_000).find_map(|_| {
+        std::thread::sleep(std::time::Duration::from_millis(2));
+        match renderer.outcome() {
+            Ok(Outcome::Picture(picture)) => Some(picture),
+            _ => None,
+        }
+    });
+    let picture = picture.expect("a picture comes");
+    let mut frame = Frame::new(size);
+    let mut prepared = Cpu.prepare(scene, &Budget::default()).unwrap();
+    prepared
+        .render(&shot.view, &shot.style, &Cancel::default(), &mut frame)
+        .unwrap();
+    let bytes: Vec<[u8; 4]> = picture.image.pixels.iter().map(|p| p.to_array()).collect();
+    assert_eq!(bytes, frame.pixels());
+    assert!(
+        bytes.iter().any(|pixel| pixel[3] > 128),
+        "something is drawn"
+    );
+}
+
+#[test]
+fn clicks_and_boxes_select() {
+    let mut desk = Desk::looking_at(lanes(5));
+    let at = desk.at(5.0, 4.0);
+    desk.click(at);
+    assert_eq!(desk.selected(), [2]);
+    let at = desk.at(5.0, 6.0);
+    desk.click_with(at, Modifiers::SHIFT);
+    assert_eq!(desk.selected(), [2, 3]);
+    desk.click_with(at, Modifiers::ALT);
+    assert_eq!(desk.selected(), [2]);
+    let at = desk.at(5.0, 5.0);
+    desk.click(at);
+    assert_eq!(desk.selected(), [], "there is nothing");
+    // From the left only what is inside, from the right all that it meets.
+    let (left, right) = (desk.at(-0.5, 3.0), desk.at(9.0, 7.0));
+    desk.drag(left, right);
+    assert_eq!(desk.selected(), []);
+    desk.drag(right, left);
+    assert_eq!(desk.selected(), [2, 3]);
+    desk.key(CTRL, Key::A);
+    assert_eq!(desk.selected().len(), 5);
+    desk.key(NONE, Key::Escape);
+    assert_eq!(desk.selected(), []);
+}
+
+#[test]
+fn a_selection_is_dragged_and_the_drag_undone() {
+    let mut desk = Desk::looking_at(lanes(5));
+    let from = desk.at(5.0, 4.0);
+    desk.click(from);
+    let to = desk.at(6.0, 5.0);
+    desk.drag(from, to);
+    let start = |desk: &mut Desk| desk.document().layout().paths.get(2).ends().unwrap().0;
+    assert!(start(&mut desk).distance(Point::new(1.0, 5.0)) < 1e-6);
+    assert!(desk.document().is_changed());
+    desk.wait(|app| app.layers[0].shown.is_some());
+    desk.key(CTRL, Key::Z);
+    assert_eq!(start(&mut desk), Point::new(0.0, 4.0));
+    assert!(!desk.document().is_changed());
+    desk.key(CTRL | Modifiers::SHIFT, Key::Z);
+    assert!(desk.document().is_changed());
+}
+
+#[test]
+fn a_node_is_dragged_in_one_step_and_its_path_follows() {
+    let mut desk = Desk::looking_at(lanes(3));
+    desk.key(NONE, Key::P);
+    assert_eq!(desk.app().tool, Tool::Points);
+    let (from, to) = (desk.at(10.0, 2.0), desk.at(12.0, 3.0));
+    desk.drag(from, to);
+    let end = desk.document().layout().paths.get(1).ends().unwrap().1;
+    assert!(end.distance(Point::new(12.0, 3.0)) < 0.05, "{end:?}");
+    desk.key(CTRL, Key::Z);
+    let end = desk.document().layout().paths.get(1).ends().unwrap().1;
+    assert_eq!(end, Point::new(10.0, 2.0));
+    assert!(!desk.document().is_changed(), "the drag was one step");
+}
+
+#[test]
+fn a_path_is_drawn_click_by_click() {
+    let mut desk = Desk::looking_at(lanes(3));
+    desk.key(NONE, Key::D);
+    for (x, y) in [(10.0, 0.0), (13.0, 2.0), (10.0, 4.0)] {
+        let at = desk.at(x, y);
+        desk.click(at);
+    }
+    desk.key(NONE, Key::Enter);
+    assert_eq!(desk.selected(), [3]);
+    let path = desk.document().layout().paths.get(3);
+    assert_eq!(
+        (path.start_node(), path.end_node()),
+        (Some(1), Some(5)),
+        "at the nodes there"
+    );
+}
+
+#[test]
+fn the_view_moves_by_wheel_keys_and_hand() {
+    let mut desk = Desk::looking_at(lanes(5));
+    let scale = |desk: &mut Desk| desk.app().camera.view().unwrap().px_per_m();
+    let fitted = scale(&mut desk);
+    let at = desk.at(2.0, 2.0);
+    desk.wheel(at, 3.0);
+    assert!(scale(&mut desk) > 1.5 * fitted);
+    let now = desk.at(2.0, 2.0);
+    assert!(now.distance(at) < 0.1, "the place under the pointer stays");
+    desk.key(NONE, Key::F);
+    assert!((scale(&mut desk) / fitted - 1.0).abs() < 0.02);
+    desk.key(Modifiers::ALT, Key::ArrowLeft);
+    assert!(scale(&mut desk) > 1.5 * fitted, "back to where it was");
+    desk.key(NONE, Key::Minus);
+    desk.key(NONE, Key::ArrowRight);
+    let (from, to) = (desk.at(5.0, 5.0), desk.at(5.0, 5.0) + Vec2::new(40.0, 30.0));
+    desk.key(NONE, Key::M);
+    desk.drag(from, to);
+    let moved = desk.at(5.0, 5.0);
+    assert!(moved.distance(to) < 2.0, "{moved:?} {to:?}");
+}
+
+#[test]
+fn a_query_selects_and_a_wrong_one_says_why() {
+    let mut desk = Desk::looking_at(lanes(6));
+    desk.harness.get_by_label("Query").click();
+    desk.harness.run_steps(2);
+    desk.harness.get_by_label("Query").type_text("speed >= 2");
+    desk.harness.run_steps(2);
+    desk.key(NONE, Key::Enter);
+    assert_eq!(desk.selected(), [4, 5]);
+    desk.app().find.query = "spede > 2".into();
+    desk.harness.run_steps(2);
+    desk.harness.get_by_label("Select these").click();
+    desk.harness.run_steps(3);
+    assert!(
+        desk.app()
+            .find
+            .query_trouble
+            .as_ref()
+            .unwrap()
+            .contains("speed")
+    );
+    assert_eq!(desk.selected(), [4, 5], "as before");
+}
+
+#[test]
+fn a_file_is_saved_and_a_full_disk_loses_nothing() {
+    let mut desk = Desk::looking_at(lanes(4));
+    let at = desk.at(5.0, 2.0);
+    desk.click(at);
+    desk.key(NONE, Key::Delete);
+    *desk.table.is_full.lock().unwrap() = true;
+    desk.key(CTRL, Key::S);
+    desk.wait(|app| {
+        app.notices
+            .iter()
+            .any(|notice| notice.contains("disk is full"))
+    });
+    assert!(desk.document().is_changed());
+    *desk.table.is_full.lock().unwrap() = false;
+    desk.key(CTRL, Key::S);
+    desk.wait(|app| app.notices.iter().any(|notice| notice.contains("is saved")));
+    assert!(!desk.document().is_changed());
+    let saved = desk.table.files.lock().unwrap()[std::path::Path::new("site.arrow")].clone();
+    let ids: Vec<&str> = saved.paths.iter().map(|path| path.id()).collect();
+    assert_eq!(ids, ["lane 0", "lane 2", "lane 3"]);
+}
+
+#[test]
+fn a_lost_device_is_replaced_by_the_processor() {
+    let table = Table::with([("site.arrow", lanes(3))]);
+    let mut desk = Desk::with(&table, &["site.arrow"], "broken");
+    desk.wait(|app| app.layers[0].shown.is_some());
+    let notices = desk.app().notices.clone();
+    assert!(
+        notices
+            .iter()
+            .any(|n| n.contains("device was lost") && n.contains("cpu")),
+        "{notices:?}"
+    );
+    let report = &desk.app().layers[0].shown.as_ref().unwrap().report;
+    assert_eq!(report.method, "cpu");
+}
+
+#[test]
+fn one_bad_file_does_not_keep_others_from_opening() {
+    let table = Table::with([("b.arrow", lanes(3))]);
+    let mut desk = Desk::with(&table, &["a.arrow", "b.arrow"], "cpu");
+    desk.wait(|app| app.layers[0].trouble.is_some() && app.layers[1].shown.is_some());
+    let trouble = desk.app().layers[0].trouble.clone().unwrap();
+    assert!(trouble.contains("no such file"), "{trouble}");
+}
+
+#[test]
+fn what_is_hidden_and_how_it_looks_is_redrawn() {
+    let mut desk = Desk::looking_at(lanes(6));
+    let at = desk.at(5.0, 2.0);
+    desk.click(at);
+    desk.key(NONE, Key::H);
+    let drawn = |app: &crate::App, count| {
+        app.layers[0]
+            .shown
+            .as_ref()
+            .is_some_and(|shown| shown.report.drawn == count)
+    };
+    desk.wait(|app| drawn(app, 5));
+    desk.key(NONE, Key::U);
+    desk.wait(|app| drawn(app, 6));
+    for key in [Key::B, Key::Y, Key::T, Key::G, Key::A, Key::L, Key::N] {
+        desk.key(NONE, key);
+    }
+    assert!(desk.app().look.is_dark && desk.app().look.is_density);
+    desk.app().look.color_by = Some("speed".into());
+    desk.app().recolor();
+    assert!(desk.document().scene().legend().is_some());
+    desk.wait(|app| drawn(app, 6));
+}
+
+#[test]
+fn unsaved_changes_are_asked_about() {
+    let mut desk = Desk::looking_at(lanes(3));
+    desk.key(CTRL, Key::A);
+    desk.key(NONE, Key::Delete);
+    desk.key(CTRL, Key::W);
+    assert_eq!(desk.app().layers.len(), 1, "it stays open");
+    desk.key(CTRL, Key::Q);
+    assert!(desk.harness.query_by_label("Quit without saving").is_some());
+    desk.harness.get_by_label("Stay").click();
+    desk.harness.run_steps(3);
+    assert!(desk.harness.query_by_label("Quit without saving").is_none());
+}
+
+#[test]
+fn the_keys_are_shown_and_put_away() {
+    let mut desk = Desk::looking_at(lanes(1));
+    desk.key(NONE, Key::F1);
+    assert!(
+        desk.harness
+            .query_by_label_contains("Wheel: zoom")
+            .is_some()
+    );
+    desk.key(NONE, Key::Escape);
+    desk.harness.run_steps(8);
+    assert!(
+        desk.harness
+            .query_by_label_contains("Wheel: zoom")
+            .is_none()
+    );
+    assert_ne!(desk.at(0.0, 0.0), Pos2::ZERO);
+}

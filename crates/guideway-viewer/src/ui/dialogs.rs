@@ -1,0 +1,156 @@
+use eframe::egui::{
+    Align2, Context, DragValue, Grid, Id, Key, Modal, ScrollArea, TextEdit, Ui, Vec2,
+    ViewportCommand, Window,
+};
+
+use crate::app::command::ENTRIES;
+use crate::app::{App, Layer, PromptKind};
+
+impl App {
+    /// What lies over everything else: questions, notices, help.
+    pub(super) fn dialogs(&mut self, ctx: &Context) {
+        self.ask_prompt(ctx);
+        self.ask_to_quit(ctx);
+        self.ask_to_recover(ctx);
+        self.show_notices(ctx);
+        if self.shows_keys {
+            let mut is_open = true;
+            Window::new("Keys").open(&mut is_open).show(ctx, |ui| {
+                ScrollArea::vertical().show(ui, keys);
+            });
+            self.shows_keys = is_open;
+        }
+    }
+
+    fn ask_prompt(&mut self, ctx: &Context) {
+        let Some(mut prompt) = self.prompt.take() else {
+            return;
+        };
+        let mut is_answered = false;
+        let mut is_over = false;
+        let modal = Modal::new(Id::unique("prompt")).show(ctx, |ui| {
+            let title = match prompt.kind {
+                PromptKind::Open => "Open which file?",
+                PromptKind::SaveAs => "Save as which file? Its ending says the format.",
+                PromptKind::Picture => "Write the picture to which PNG file?",
+                PromptKind::Drawing => "Write the drawing to which SVG file?",
+            };
+            let title = ui.label(title);
+            let field = TextEdit::singleline(&mut prompt.text).desired_width(480.0);
+            let field = ui.add(field).labelled_by(title.id);
+            if std::mem::take(&mut prompt.is_new) {
+                field.request_focus();
+            }
+            if prompt.kind == PromptKind::Picture {
+                ui.horizontal(|ui| {
+                    ui.label("Width");
+                    ui.add(
+                        DragValue::new(&mut prompt.width_px)
+                            .range(1..=65_535)
+                            .suffix(" px"),
+                    );
+                });
+            }
+            ui.horizontal(|ui| {
+                let enters = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+                is_answered = ui.button("OK").clicked() || enters;
+                is_over = ui.button("Cancel").clicked();
+            });
+        });
+        if is_answered {
+            self.answer(&prompt);
+        } else if !is_over && !modal.should_close() {
+            self.prompt = Some(prompt);
+        }
+    }
+
+    fn ask_to_quit(&mut self, ctx: &Context) {
+        let is_closing = ctx.input(|input| input.viewport().close_requested());
+        if is_closing && self.is_unsaved() && !self.quits_anyway {
+            ctx.send_viewport_cmd(ViewportCommand::CancelClose);
+            self.asks_to_quit = true;
+        }
+        if !self.asks_to_quit {
+            return;
+        }
+        Modal::new(Id::unique("quit")).show(ctx, |ui| {
+            ui.label("There are changes that are not saved:");
+            for layer in self.layers.iter().filter(|layer| layer.is_changed()) {
+                ui.label(layer.path.display().to_string());
+            }
+            ui.horizontal(|ui| {
+                if ui.button("Quit without saving").clicked() {
+                    self.quits_anyway = true;
+                    ctx.send_viewport_cmd(ViewportCommand::Close);
+                }
+                if ui.button("Stay").clicked() {
+                    self.asks_to_quit = false;
+                }
+            });
+        });
+    }
+
+    fn ask_to_recover(&mut self, ctx: &Context) {
+        let Some(index) = self.layers.iter().position(Layer::has_found_work) else {
+            return;
+        };
+        let name = self.layers[index].name();
+        let (mut takes, mut drops) = (false, false);
+        Modal::new(Id::unique("recover")).show(ctx, |ui| {
+            ui.label(format!(
+                "Work on {name} was not saved when the viewer last ended."
+            ));
+            ui.horizontal(|ui| {
+                takes = ui.button("Do it again").clicked();
+                drops = ui.button("Forget it").clicked();
+            });
+        });
+        if takes {
+            let options = self.look.scene_options();
+            self.layers[index].recover(&self.host, options, &self.wake);
+        } else if drops {
+            self.layers[index].drop_journal();
+        }
+    }
+
+    fn show_notices(&mut self, ctx: &Context) {
+        if self.notices.is_empty() {
+            return;
+        }
+        let mut is_read = false;
+        Window::new("Notices")
+            .title_bar(false)
+            .resizable(false)
+            .anchor(Align2::LEFT_BOTTOM, Vec2::new(12.0, -64.0))
+            .show(ctx, |ui| {
+                ui.set_max_width(520.0);
+                for notice in &self.notices {
+                    ui.label(notice);
+                }
+                is_read = ui.button("Dismiss").clicked();
+            });
+        if is_read {
+            self.notices.clear();
+        }
+    }
+}
+
+fn keys(ui: &mut Ui) {
+    Grid::new("keys")
+        .num_columns(2)
+        .striped(true)
+        .show(ui, |ui| {
+            for entry in ENTRIES {
+                ui.monospace(ui.ctx().format_shortcut(&entry.shortcut));
+                ui.label(entry.label);
+                ui.end_row();
+            }
+        });
+    ui.separator();
+    ui.label("Wheel: zoom at the pointer. Middle or right button, or Space and the left one: move the view.");
+    ui.label("Shift while selecting adds, Ctrl or Alt takes away.");
+    ui.label("Shift while drawing or moving keeps to steps of 15°; Alt turns snapping off.");
+    ui.label(
+        "A box drawn from the right takes what it meets, one from the left what is inside of it.",
+    );
+}

@@ -1,0 +1,349 @@
+use eframe::egui::{
+    Align2, Color32, FontId, Mesh, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, Ui, Vec2, pos2,
+};
+use guideway_document::marks::{LabelSize, Marks, Outline, handles, outline};
+use guideway_document::{Rows, round_step};
+use guideway_render::View;
+use guideway_scene::Rgba;
+use guideway_spline::Point;
+
+use super::canvas::Screen;
+use crate::app::{App, Gesture, Tool};
+
+const SELECTED: Color32 = Color32::from_rgb(30, 120, 255);
+const HOVERED: Color32 = Color32::from_rgb(255, 140, 0);
+const NODE: Color32 = Color32::from_rgb(0, 140, 90);
+const STATION: Color32 = Color32::from_rgb(200, 40, 120);
+/// Size of the names in the picture.
+const LABEL_POINTS: f32 = 11.0;
+
+impl App {
+    pub(super) fn paint(&mut self, ui: &Ui, screen: Screen, view: &View, is_moving: bool) {
+        let painter = ui.painter_at(screen.rect);
+        painter.rect_filled(screen.rect, 0.0, color(self.look.paper()));
+        if self.look.has_grid {
+            self.paint_grid(&painter, screen, view);
+        }
+        for layer in self.layers.iter().filter(|layer| layer.is_visible) {
+            if let Some(shown) = &layer.shown {
+                // What was last drawn, where it is now: at once, and sharp when the new picture comes.
+                let place = mapped(screen, &shown.view, view);
+                let all = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+                painter.image(shown.texture.id(), place, all, Color32::WHITE);
+            }
+        }
+        self.paint_overlay(&painter, screen, view, is_moving);
+        self.paint_gesture(&painter, screen, view);
+        self.paint_scale(&painter, screen, view);
+        self.paint_legend(&painter, screen);
+        self.paint_troubles(&painter, screen);
+    }
+
+    fn ink(&self) -> Color32 {
+        Color32::from_gray(if self.look.is_dark { 220 } else { 40 })
+    }
+
+    fn paint_grid(&self, painter: &Painter, screen: Screen, view: &View) {
+        const LEAST_PX: f64 = 96.0;
+        let step_m = round_step(LEAST_PX / view.px_per_m());
+        let seen = view.world_bounds();
+        let stroke = Stroke::new(1.0, self.ink().gamma_multiply(0.12));
+        let first = |from: f64| (from / step_m).ceil();
+        let lines = |from: f64, to: f64| {
+            // Beyond 2^53 steps from the origin there are no lines that could be told apart.
+            let count = ((to - from) / step_m) as usize + 1;
+            (0..count.min(1000)).map(move |i| (first(from) + i as f64) * step_m)
+        };
+        for x in lines(seen.min.x, seen.max.x) {
+            let at = screen.point(view.pixel_from_world(Point::new(x, seen.min.y)));
+            painter.vline(at.x, screen.rect.y_range(), stroke);
+        }
+        for y in lines(seen.min.y, seen.max.y) {
+            let at = screen.point(view.pixel_from_world(Point::new(seen.min.x, y)));
+            painter.hline(screen.rect.x_range(), at.y, stroke);
+        }
+    }
+
+    fn paint_overlay(&mut self, painter: &Painter, screen: Screen, view: &View, is_moving: bool) {
+        let scale = f64::from(screen.px_per_point);
+        let label_size = LabelSize {
+            char_px: f64::from(LABEL_POINTS) * 0.6 * scale,
+            line_px: f64::from(LABEL_POINTS) * 1.2 * scale,
+        };
+        let options = self.look.marks(label_size);
+        let ink = self.ink();
+        let paper = color(self.look.paper());
+        let Some(layer) = self.layers.get_mut(self.active) else {
+            return;
+        };
+        let Some(document) = layer.document.as_ref().filter(|_| layer.is_visible) else {
+            return;
+        };
+        let made = layer.overlay.of(document, view, &options, is_moving);
+        let now = |pixel: Point<f64>| {
+            if made.view == *view {
+                return screen.point(pixel);
+            }
+            screen.point(view.pixel_from_world(made.view.world_from_pixel(pixel)))
+        };
+        paint_outline(painter, &made.selection, SELECTED, now);
+        if let Gesture::Move { by_m, .. } = self.gesture {
+            let by_px = Vec2::new(by_m.x as f32, -by_m.y as f32) * (view.px_per_m() / scale) as f32;
+            paint_outline(painter, &made.selection, HOVERED, |pixel| {
+                now(pixel) + by_px
+            });
+        }
+        if let Some(hit) = &self.hover {
+            let lines = outline(document, &Rows::from_iter([hit.path]), view);
+            paint_outline(painter, &lines, HOVERED, |pixel| screen.point(pixel));
+        }
+        paint_marks(painter, &made.marks, (ink, paper), now);
+        if self.tool == Tool::Points {
+            paint_handles(painter, screen, &handles(document, view));
+        }
+    }
+
+    fn paint_gesture(&self, painter: &Painter, screen: Screen, view: &View) {
+        match &self.gesture {
+            Gesture::Box { from_px, to_px } => {
+                let rect = Rect::from_two_pos(screen.point(*from_px), screen.point(*to_px));
+                painter.rect_filled(rect, 0.0, SELECTED.gamma_multiply(0.12));
+                painter.rect_stroke(rect, 0.0, Stroke::new(1.0, SELECTED), StrokeKind::Middle);
+            }
+            Gesture::Points(points) => {
+                let next = self.pointer_px.map(|at| view.world_from_pixel(at));
+                let modifiers = painter.ctx().input(|input| input.modifiers);
+                let next = next.map(|at_m| self.snapped(view, at_m, modifiers));
+                let all: Vec<Point<f64>> = points.iter().copied().chain(next).collect();
+                let line = |&at| screen.point(view.pixel_from_world(at));
+                let line: Vec<Pos2> = all.iter().map(line).collect();
+                if self.tool == Tool::Measure
+                    && let Some(last) = line.last()
+                {
+                    self.write(painter, *last + Vec2::new(12.0, -12.0), &measured(&all));
+                }
+                for at in &line {
+                    painter.circle_filled(*at, 3.0, HOVERED);
+                }
+                painter.line(line, Stroke::new(1.5, HOVERED));
+            }
+            _ => {}
+        }
+    }
+
+    fn paint_scale(&self, painter: &Painter, screen: Screen, view: &View) {
+        const LEAST_PX: f64 = 80.0;
+        let length_m = round_step(LEAST_PX / view.px_per_m());
+        let length = (length_m * view.px_per_m()) as f32 / screen.px_per_point;
+        let left = screen.rect.left_bottom() + Vec2::new(16.0, -16.0);
+        let right = left + Vec2::new(length, 0.0);
+        let stroke = Stroke::new(2.0, self.ink());
+        painter.line_segment([left, right], stroke);
+        for end in [left, right] {
+            painter.line_segment([end, end - Vec2::new(0.0, 6.0)], stroke);
+        }
+        self.write(
+            painter,
+            left + Vec2::new(4.0, -12.0),
+            &length_text(length_m),
+        );
+    }
+
+    fn paint_legend(&self, painter: &Painter, screen: Screen) {
+        let Some(legend) = self
+            .document()
+            .and_then(|document| document.scene().legend())
+        else {
+            return;
+        };
+        let line = 18.0;
+        let corner = screen.rect.min + Vec2::splat(12.0);
+        let size = Vec2::new(220.0, line * (legend.entries.len() + 1) as f32 + 12.0);
+        let paper = color(self.look.paper()).gamma_multiply(0.85);
+        painter.rect_filled(Rect::from_min_size(corner, size), 4.0, paper);
+        let mut at = corner + Vec2::new(8.0, 6.0 + line / 2.0);
+        self.write(painter, at, &legend.column);
+        for entry in &legend.entries {
+            at.y += line;
+            let swatch = Rect::from_center_size(at + Vec2::new(12.0, 0.0), Vec2::new(24.0, 8.0));
+            painter.rect_filled(swatch, 1.0, color(entry.color));
+            let label = match entry.paths {
+                Some(paths) => format!("{} ({paths})", shortened(&entry.label)),
+                None => shortened(&entry.label),
+            };
+            self.write(painter, at + Vec2::new(32.0, 0.0), &label);
+        }
+    }
+
+    fn paint_troubles(&self, painter: &Painter, screen: Screen) {
+        let troubles = self.layers.iter().filter_map(|layer| {
+            let trouble = layer.trouble.as_ref()?;
+            Some(format!("{}: {trouble}", layer.name()))
+        });
+        let greeting = "Drop a layout file here, or open one with Ctrl+O";
+        let nothing = self.layers.is_empty().then(|| greeting.to_owned());
+        let width = screen.rect.width() - 32.0;
+        let mut at = screen.rect.center_top() + Vec2::new(0.0, 40.0);
+        for text in nothing.into_iter().chain(troubles) {
+            let font = FontId::proportional(15.0);
+            let galley = painter.layout(text, font, self.ink(), width.max(50.0));
+            let corner = at - Vec2::new(galley.size().x / 2.0, 0.0);
+            let back = Rect::from_min_size(corner, galley.size()).expand(8.0);
+            painter.rect_filled(back, 4.0, color(self.look.paper()));
+            at.y += galley.size().y + 20.0;
+            painter.galley(corner, galley, self.ink());
+        }
+    }
+
+    fn write(&self, painter: &Painter, left_middle: Pos2, text: &str) {
+        let font = FontId::proportional(13.0);
+        painter.text(left_middle, Align2::LEFT_CENTER, text, font, self.ink());
+    }
+}
+
+/// Where a picture of one view lies on the screen that shows another.
+fn mapped(screen: Screen, of: &View, on: &View) -> Rect {
+    let bounds = of.world_bounds();
+    let corner = |at| screen.point(on.pixel_from_world(at));
+    Rect::from_two_pos(corner(bounds.min), corner(bounds.max))
+}
+
+fn paint_outline(
+    painter: &Painter,
+    outline: &Outline,
+    color: Color32,
+    to_screen: impl Fn(Point<f64>) -> Pos2,
+) {
+    match outline {
+        Outline::Lines(lines) => {
+            let shape = |line: &Vec<Point<f64>>| {
+                let points: Vec<Pos2> = line.iter().map(|&p| to_screen(p)).collect();
+                Shape::line(points, Stroke::new(2.5, color))
+            };
+            painter.extend(lines.iter().map(shape));
+        }
+        Outline::Cells(cells, side) => {
+            let mut mesh = Mesh::default();
+            let far = Point::new(*side, *side);
+            for &cell in cells {
+                let rect = Rect::from_two_pos(to_screen(cell), to_screen(cell + far));
+                mesh.add_colored_rect(rect, color.gamma_multiply(0.5));
+            }
+            painter.add(mesh);
+        }
+    }
+}
+
+/// All arrows and symbols in one mesh each.
+fn paint_marks(
+    painter: &Painter,
+    marks: &Marks,
+    (ink, paper): (Color32, Color32),
+    to_screen: impl Fn(Point<f64>) -> Pos2,
+) {
+    let mut mesh = Mesh::default();
+    let mut triangle = |corners: [Pos2; 3], color| {
+        let first = mesh.vertices.len() as u32;
+        corners
+            .into_iter()
+            .for_each(|corner| mesh.colored_vertex(corner, color));
+        mesh.add_triangle(first, first + 1, first + 2);
+    };
+    for arrow in &marks.arrows {
+        let at = to_screen(arrow.at_px);
+        let ahead = Vec2::new(arrow.direction.x as f32, arrow.direction.y as f32);
+        let heads = if arrow.is_two_way {
+            &[1.0, -1.0][..]
+        } else {
+            &[1.0]
+        };
+        for sign in heads {
+            let (tip, side) = (ahead * *sign, ahead.rot90());
+            // Ahead of the middle, so that the arrows of two opposite paths are not one over the other.
+            let base = at + tip * 2.0;
+            triangle(
+                [base + tip * 9.0, base + side * 4.0, base - side * 4.0],
+                ink,
+            );
+        }
+    }
+    for &node in &marks.nodes {
+        let at = to_screen(node);
+        let corners = [(0.0, -4.0), (4.0, 0.0), (0.0, 4.0), (-4.0, 0.0)];
+        let [a, b, c, d] = corners.map(|(x, y)| at + Vec2::new(x, y));
+        triangle([a, b, c], NODE);
+        triangle([a, c, d], NODE);
+    }
+    for &station in &marks.stations {
+        let at = to_screen(station);
+        let corners = [(-6.0, -6.0), (6.0, -6.0), (6.0, 6.0), (-6.0, 6.0)];
+        let [a, b, c, d] = corners.map(|(x, y)| at + Vec2::new(x, y));
+        triangle([a, b, c], STATION);
+        triangle([a, c, d], STATION);
+    }
+    painter.add(mesh);
+    let font = FontId::monospace(LABEL_POINTS);
+    for label in &marks.labels {
+        let galley = painter.layout_no_wrap(label.text.clone(), font.clone(), ink);
+        let corner = to_screen(label.at_px) - Vec2::new(0.0, galley.size().y / 2.0);
+        let back = Rect::from_min_size(corner, galley.size());
+        painter.rect_filled(back, 2.0, paper.gamma_multiply(0.75));
+        painter.galley(corner, galley, ink);
+    }
+}
+
+fn paint_handles(painter: &Painter, screen: Screen, handles: &[guideway_document::marks::Handle]) {
+    for [before, after] in handles.array_windows() {
+        if after.follows {
+            let ends = [before, after].map(|handle| screen.point(handle.at_px));
+            painter.line_segment(ends, Stroke::new(1.0, SELECTED.gamma_multiply(0.5)));
+        }
+    }
+    for handle in handles {
+        let rect = Rect::from_center_size(screen.point(handle.at_px), Vec2::splat(7.0));
+        painter.rect(
+            rect,
+            1.0,
+            Color32::WHITE,
+            Stroke::new(1.5, SELECTED),
+            StrokeKind::Middle,
+        );
+    }
+}
+
+fn measured(points: &[Point<f64>]) -> String {
+    let lengths = points.array_windows().map(|[a, b]| a.distance(*b));
+    let (last_m, all_m) = lengths.fold((0.0, 0.0), |(_, all), length| (length, all + length));
+    let Some([a, b]) = points.last_chunk() else {
+        return String::new();
+    };
+    let way = *b - *a;
+    let angle = way.y.atan2(way.x).to_degrees();
+    let last = format!("{} at {angle:.1}°", length_text(last_m));
+    if points.len() > 2 {
+        format!("{last}, {} in all", length_text(all_m))
+    } else {
+        last
+    }
+}
+
+pub(super) fn length_text(length_m: f64) -> String {
+    match length_m {
+        m if m >= 10_000.0 => format!("{} km", rounded(m / 1000.0)),
+        m if m >= 1.0 => format!("{} m", rounded(m)),
+        m => format!("{} mm", rounded(m * 1000.0)),
+    }
+}
+
+/// To a thousandth, without zeros at the end.
+fn rounded(value: f64) -> f64 {
+    (value * 1e3).round() / 1e3
+}
+
+fn shortened(label: &str) -> String {
+    label.chars().take(24).collect()
+}
+
+fn color(rgba: Rgba) -> Color32 {
+    Color32::from_rgba_unmultiplied(rgba.r, rgba.g, rgba.b, rgba.a)
+}

@@ -1,0 +1,97 @@
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::mpsc::{self, Receiver, TryIter};
+use std::thread;
+
+use guideway_document::Document;
+use guideway_layout::{CheckOptions, Diagnostics, Layout, check};
+use guideway_scene::{Scene, SceneOptions};
+
+use super::Wake;
+use crate::host::{Host, Load, Trouble};
+
+/// A file being read.
+pub(crate) struct Loader {
+    load: Arc<Load>,
+    news: Receiver<Loaded>,
+}
+
+/// What a loader has, piece by piece in this order.
+pub(crate) enum Loaded {
+    /// It can be drawn.
+    Scene(Arc<Scene>),
+    /// It can be edited.
+    Document(Box<Document>),
+    /// What is odd in it.
+    Findings(Diagnostics),
+    /// There is nothing, and this is why.
+    Failed(Trouble),
+}
+
+impl Loader {
+    pub(crate) fn start(
+        host: Arc<dyn Host>,
+        path: PathBuf,
+        options: SceneOptions,
+        wake: Wake,
+    ) -> Self {
+        let load = Arc::<Load>::default();
+        let (sender, news) = mpsc::channel();
+        let watched = Arc::clone(&load);
+        thread::spawn(move || {
+            let tell = |piece| {
+                // Nobody hears it if the file was closed in the meantime.
+                let _ = sender.send(piece);
+                wake();
+            };
+            let layout = match host.open(&path, &watched) {
+                Ok(layout) => layout,
+                Err(trouble) => return tell(Loaded::Failed(trouble)),
+            };
+            let layout = Arc::new(layout);
+            // A colour that another file has columns for need not be one of this file.
+            let scene = Scene::new(Arc::clone(&layout), &options)
+                .or_else(|_| Scene::new(Arc::clone(&layout), &without_column(&options)));
+            match scene {
+                Ok(scene) => {
+                    tell(Loaded::Scene(Arc::new(scene.clone())));
+                    tell(Loaded::Document(Box::new(Document::from_scene(scene))));
+                    tell(Loaded::Findings(findings(&layout)));
+                }
+                Err(error) => tell(Loaded::Failed(Trouble {
+                    message: error.to_string(),
+                    remedy: "Open the file again".into(),
+                })),
+            }
+        });
+        Self { load, news }
+    }
+
+    pub(crate) fn load(&self) -> &Load {
+        &self.load
+    }
+
+    pub(crate) fn news(&self) -> TryIter<'_, Loaded> {
+        self.news.try_iter()
+    }
+}
+
+impl Drop for Loader {
+    fn drop(&mut self) {
+        self.load.cancel();
+    }
+}
+
+/// What the reader found, and what is odd in the layout as it is.
+pub(crate) fn findings(layout: &Layout) -> Diagnostics {
+    let mut found = layout.diagnostics.clone();
+    found.append(check(layout, &CheckOptions::default()));
+    found
+}
+
+fn without_column(options: &SceneOptions) -> SceneOptions {
+    SceneOptions {
+        color_by: None,
+        ..options.clone()
+    }
+}

@@ -1,0 +1,130 @@
+//! `guideway view`: the window.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use guideway::formats::{Progress, ReadOptions, read_file};
+use guideway::layout::Layout;
+use guideway::render::{Budget, Frame, Method, Style, View};
+use guideway::scene::{Scene, SceneOptions};
+use guideway::{AUTO, save_png};
+use guideway_viewer::{Host, Load, MethodChoice, Trouble};
+
+use super::convert::Target;
+use super::render::{Wishes, draw_vector};
+use super::{Exit, Failure, Output, values};
+
+#[derive(Debug, clap::Args)]
+#[command(
+    after_help = "F1 in the window shows what each key does. Files can be dropped on it too."
+)]
+pub(crate) struct Args {
+    /// Layout files of any format that is read, found from their content
+    #[arg(value_name = "FILE")]
+    files: Vec<PathBuf>,
+    /// Way of drawing; `guideway methods` shows what runs here
+    #[arg(long, value_name = "NAME[+OPTION]", default_value = AUTO, value_parser = values::MethodSpec)]
+    method: String,
+}
+
+pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, Failure> {
+    if out.is_json() {
+        return Err(Failure::arguments(
+            "a window has nothing to say as JSON",
+            "Leave --json out; `guideway info` and `guideway check` report as JSON",
+        ));
+    }
+    guideway_viewer::run(Arc::new(Desk), args.files.clone(), &args.method)?;
+    Ok(Exit::Clean)
+}
+
+/// Files and ways of drawing, for the window.
+struct Desk;
+
+impl Host for Desk {
+    fn open(&self, path: &Path, load: &Load) -> Result<Layout, Trouble> {
+        let options = ReadOptions {
+            progress: Some(&Followed(load)),
+            ..ReadOptions::default()
+        };
+        Ok(read_file(path, &options).map_err(Failure::from)?)
+    }
+
+    fn save(&self, layout: &Layout, path: &Path) -> Result<Vec<String>, Trouble> {
+        let (losses, _) = Target::of(path)?.write(layout, path)?;
+        Ok(losses.iter().map(|loss| loss.to_string()).collect())
+    }
+
+    fn save_picture(&self, frame: &Frame, path: &Path) -> Result<(), Trouble> {
+        Ok(save_png(frame, path).map_err(Failure::from)?)
+    }
+
+    fn save_drawing(
+        &self,
+        scene: &Scene,
+        view: &View,
+        style: &Style,
+        path: &Path,
+    ) -> Result<(), Trouble> {
+        let wishes = Wishes {
+            size: view.size(),
+            center_m: Some(view.center_m()),
+            px_per_m: Some(view.px_per_m()),
+            scene: SceneOptions::default(),
+            style: *style,
+            budget: Budget::default(),
+        };
+        draw_vector(path, scene, None, &wishes, scene.legend().is_some())?;
+        Ok(())
+    }
+
+    fn methods(&self) -> Vec<MethodChoice> {
+        let automatic = MethodChoice {
+            name: AUTO.to_owned(),
+            summary: "The best one that runs here".to_owned(),
+            why_not: None,
+        };
+        let listed = guideway::methods().into_iter().map(|method| MethodChoice {
+            name: method.info.name.to_owned(),
+            summary: method.info.summary.to_owned(),
+            why_not: method.why_not,
+        });
+        std::iter::once(automatic).chain(listed).collect()
+    }
+
+    fn method(&self, name: &str) -> Result<Box<dyn Method>, Trouble> {
+        Ok(guideway::method(name).map_err(Failure::from)?)
+    }
+}
+
+/// A load, as a reader follows it.
+struct Followed<'a>(&'a Load);
+
+impl Progress for Followed<'_> {
+    fn advance(&self, done: u64, total: u64) {
+        self.0.advance(done, total);
+    }
+
+    fn cancelled(&self) -> bool {
+        self.0.is_cancelled()
+    }
+}
+
+impl From<Failure> for Trouble {
+    fn from(failure: Failure) -> Self {
+        Self {
+            message: failure.message,
+            remedy: failure.remedy,
+        }
+    }
+}
+
+impl From<Trouble> for Failure {
+    fn from(trouble: Trouble) -> Self {
+        Self {
+            code: "window",
+            message: trouble.message,
+            remedy: trouble.remedy,
+        }
+    }
+}
