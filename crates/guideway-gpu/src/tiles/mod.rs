@@ -17,6 +17,7 @@ mod params;
 mod prepared;
 mod ranks;
 mod room;
+mod rounds;
 mod shot;
 mod store;
 mod window;

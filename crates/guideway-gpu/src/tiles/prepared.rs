@@ -18,6 +18,7 @@ use super::pack::Packed;
 use super::params::{Found, Stroke, TILE_PX};
 use super::ranks::Ranks;
 use super::room::{Room, Size};
+use super::rounds::Rounds;
 use super::shot::Shot;
 use super::store::{Store, all_parts, is_plain};
 use super::window::Window;
@@ -60,8 +61,7 @@ pub(super) struct Easel {
     /// What the canvas shows, if it is a finished picture of the scene as it is.
     pub(super) kept: Option<Kept>,
     pub(super) shifter: Option<Shifter>,
-    /// Whether so much was full that it is worth to find out first what is hidden.
-    pub(super) is_in_rounds: bool,
+    pub(super) rounds: Rounds,
 }
 
 impl Easel {
@@ -251,7 +251,7 @@ impl PreparedTiles {
             marks: self.marks.as_ref(),
         };
         let samples = shot.samples();
-        let in_rounds = easel.is_in_rounds && paint == Paint::One;
+        let in_rounds = easel.rounds.are_on && paint == Paint::One;
         let is_alike = |bound: &Bound| bound.is_for(paint, samples, in_rounds);
         let bound = match easel.bound.take().filter(is_alike) {
             Some(bound) => bound,
@@ -311,13 +311,13 @@ impl PreparedTiles {
             let holds = |room: &Room| room.size.holds(&found);
             let is_too_long = self.is_too_long(&found, paint);
             if !is_too_long && self.easel.room.as_ref().is_some_and(holds) {
-                self.easel.is_in_rounds = is_worth_rounds(&window, &found, self.easel.is_in_rounds);
+                if paint == Paint::One {
+                    self.easel.rounds.learn(&window, &found);
+                }
                 drawing.lines += u64::from(found.lines);
                 drawing.drawn = found.drawn;
                 drawing.windows += 1;
-            } else if paint == Paint::One && !self.easel.is_in_rounds {
-                // Perhaps most of it is hidden.
-                self.easel.is_in_rounds = true;
+            } else if paint == Paint::One && self.easel.rounds.may_help(&found) {
                 windows.push(window);
             } else if is_too_long {
                 return Err(too_long(&found));
@@ -436,15 +436,6 @@ fn too_long(found: &Found) -> RenderError {
         ),
         remedy: "Zoom in, or use `--method cpu`.".to_owned(),
     }
-}
-
-/// Whether the next frame should first find out what is hidden: where a quarter of the tiles is full, and by so
-/// many lines that it takes less time than it saves. Rounds make lines fewer, so they end by the first alone.
-fn is_worth_rounds(window: &Window, found: &Found, is_in_rounds: bool) -> bool {
-    const FEWEST_LINES_A_TILE: u64 = 512;
-    let tiles = window.columns.len() as u64 * window.rows.len() as u64;
-    let is_crowded = is_in_rounds || u64::from(found.lines) >= FEWEST_LINES_A_TILE * tiles;
-    is_crowded && 4 * u64::from(found.full_tiles) >= tiles
 }
 
 /// Adds stages to those of the same name.

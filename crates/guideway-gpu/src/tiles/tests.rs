@@ -165,14 +165,14 @@ fn a_small_budget_draws_the_same_in_more_windows() {
     );
 }
 
-/// Level lines that together cover the whole picture of [`all`], each so often that it fills eight clusters.
+/// Level lines that together cover the whole picture of [`all`], each so often that it fills four clusters.
 fn crowd() -> Arc<Scene> {
     let mut layout = Layout::default();
     for level in 0..34 {
         let mut runs = Runs::default();
         let y_m = -3.0 + 2.0 * f64::from(level);
         runs.push_line(Point::new(-10.0, y_m), Point::new(110.0, y_m));
-        for _ in 0..512 {
+        for _ in 0..256 {
             layout.paths.push(&NewPath {
                 runs: &runs,
                 ..NewPath::default()
@@ -209,12 +209,12 @@ fn what_is_hidden_is_left_out_and_changes_no_bit() {
         at_once.easel.room = Some(Room::new(&mut at_once.memory, room).unwrap());
         let (expected, whole) = picture(&mut at_once, &view, &style);
         let mut in_rounds = prepared(&tiles, &scene);
-        in_rounds.easel.is_in_rounds = true;
+        in_rounds.easel.rounds.are_on = true;
         let (frame, some) = picture(&mut in_rounds, &view, &style);
         assert!(frame.pixels() == expected.pixels());
         assert_eq!(some.drawn, whole.drawn);
         if view == all() && scene.row_count() > 3000 {
-            assert_eq!(8 * some.lines, whole.lines);
+            assert_eq!(4 * some.lines, whole.lines);
         }
     }
 }

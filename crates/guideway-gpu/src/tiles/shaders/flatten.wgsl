@@ -13,7 +13,7 @@ struct Chunk {
 }
 
 // Every so many clusters are of the first round.
-const STRIDE: u32 = 8u;
+const STRIDE: u32 = 4u;
 // Most tiles of a stroke's box that are looked at.
 const MOST_LOOKS: u32 = 256u;
 
@@ -34,6 +34,7 @@ struct Found {
 
 var<workgroup> clusters_seen: u32;
 var<workgroup> group_lines: atomic<u32>;
+var<workgroup> group_drawn: atomic<u32>;
 var<workgroup> first_line: u32;
 
 // The ends of the pieces of a stroke, a bit a segment, and the lines of all pieces together.
@@ -195,6 +196,7 @@ fn main(
         }
         if thread == 0u {
             atomicStore(&group_lines, 0u);
+            atomicStore(&group_drawn, 0u);
         }
         workgroupBarrier();
         var plan = Plan(0u, 0u);
@@ -214,7 +216,7 @@ fn main(
                     plan = plan_of(curve, segments);
                 }
                 if (stroke.extent & WHOLE_PATH) != 0u {
-                    atomicAdd(&found.counters.drawn, 1u);
+                    atomicAdd(&group_drawn, 1u);
                 }
             }
         }
@@ -222,6 +224,7 @@ fn main(
         workgroupBarrier();
         if thread == 0u {
             first_line = atomicAdd(&found.counters.lines, atomicLoad(&group_lines));
+            atomicAdd(&found.counters.drawn, atomicLoad(&group_drawn));
         }
         let first = workgroupUniformLoad(&first_line);
         if plan.lines > 0u {

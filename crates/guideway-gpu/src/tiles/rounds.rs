@@ -1,0 +1,96 @@
+//! Whether a frame first finds out what is hidden: it draws some clusters, and of the others only what reaches a
+//! tile that is not full yet. The picture is the same either way.
+
+use super::params::Found;
+use super::window::Window;
+
+/// Fewest lines a tile for which looking takes less time than it saves.
+const FEWEST_LINES_A_TILE: u64 = 512;
+
+/// What was learnt from the frames before.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Rounds {
+    pub(super) are_on: bool,
+    /// Lines of a frame that left nothing out.
+    lines_at_once: u32,
+    /// As many lines as that, when rounds left out too few.
+    in_vain_at: u32,
+}
+
+impl Rounds {
+    /// After a frame of which all was drawn.
+    pub(super) fn learn(&mut self, window: &Window, found: &Found) {
+        if self.are_on {
+            // The second look at each tile costs about what half of the lines do.
+            self.are_on = found.lines <= self.lines_at_once / 2;
+            if !self.are_on {
+                self.in_vain_at = self.lines_at_once;
+            }
+            return;
+        }
+        self.lines_at_once = found.lines;
+        let tiles = window.columns.len() as u64 * window.rows.len() as u64;
+        let is_crowded = u64::from(found.lines) >= FEWEST_LINES_A_TILE * tiles;
+        self.are_on = is_crowded && 4 * u64::from(found.full_tiles) >= tiles && !self.was_in_vain();
+    }
+
+    /// After a frame that found more than there is room for: whether it should be drawn again in rounds.
+    pub(super) fn may_help(&mut self, found: &Found) -> bool {
+        if self.are_on {
+            return false;
+        }
+        self.lines_at_once = found.lines;
+        self.are_on = !self.was_in_vain();
+        self.are_on
+    }
+
+    /// Whether they were of no use for about as many lines.
+    fn was_in_vain(&self) -> bool {
+        let near = self.in_vain_at / 2..=self.in_vain_at.saturating_mul(2);
+        self.in_vain_at > 0 && near.contains(&self.lines_at_once)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const WINDOW: Window = Window {
+        columns: 0..10,
+        rows: 0..10,
+    };
+
+    fn found(lines: u32, full_tiles: u32) -> Found {
+        Found {
+            lines,
+            full_tiles,
+            ..Found::default()
+        }
+    }
+
+    #[test]
+    fn they_begin_in_a_crowd_and_go_on_while_they_help() {
+        let mut rounds = Rounds::default();
+        for few in [found(50_000, 90), found(60_000, 20)] {
+            rounds.learn(&WINDOW, &few);
+            assert!(!rounds.are_on);
+        }
+        rounds.learn(&WINDOW, &found(60_000, 30));
+        assert!(rounds.are_on);
+        rounds.learn(&WINDOW, &found(20_000, 30));
+        assert!(rounds.are_on);
+    }
+
+    #[test]
+    fn they_are_not_tried_again_where_they_did_not_help() {
+        let mut rounds = Rounds::default();
+        assert!(rounds.may_help(&found(60_000, 0)));
+        assert!(!rounds.may_help(&found(60_000, 0)));
+        rounds.learn(&WINDOW, &found(40_000, 90));
+        assert!(!rounds.are_on);
+        rounds.learn(&WINDOW, &found(61_000, 90));
+        assert!(!rounds.are_on);
+        rounds.learn(&WINDOW, &found(300_000, 90));
+        assert!(rounds.are_on);
+    }
+}
