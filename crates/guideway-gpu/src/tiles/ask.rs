@@ -4,7 +4,8 @@ use guideway_render::{Cancel, NO_PATH, RenderError, Style, View};
 use wgpu::BufferUsages;
 
 use super::bound::Paint;
-use super::prepared::{Drawing, PreparedTiles};
+use super::draw::Drawing;
+use super::prepared::PreparedTiles;
 use super::shot::Shot;
 use super::window::Window;
 use crate::device::FETCHED;

@@ -1,6 +1,6 @@
 //! Changes of the scene on the device, in place where they can be.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use guideway_layout::Layout;
@@ -9,6 +9,7 @@ use guideway_scene::{Edit, PathState};
 
 use super::pack::{Local, Packed, Part, style};
 use super::params::{Cluster, PathStyle, Stroke};
+use super::places::{Places, cluster_of, room_of};
 use super::prepared::PreparedTiles;
 use super::store::Store;
 use crate::device::{Patch, Patcher};
@@ -19,79 +20,6 @@ const CLUSTER_WORDS: usize = size_of::<Cluster>() / 4;
 const STYLE_WORDS: usize = size_of::<PathStyle>() / 4;
 /// How many points may lie unused before all is packed anew: so many, and a quarter of all.
 const MOST_UNUSED_POINTS: usize = 1 << 16;
-const NO_STROKE: u32 = u32::MAX;
-
-/// Where the strokes of each path are, and what the boxes of clusters were when they were packed.
-pub(super) struct Places {
-    /// The stroke of each row, if it has one alone.
-    first: Vec<u32>,
-    /// Strokes of the other paths.
-    more: HashMap<u32, Vec<u32>>,
-    homes: Vec<[[f32; 2]; 2]>,
-    unused_points: usize,
-}
-
-impl Places {
-    fn of(store: &Store, rows: usize) -> Self {
-        let mut places = Self {
-            first: Vec::new(),
-            more: HashMap::new(),
-            homes: Vec::new(),
-            unused_points: 0,
-        };
-        places.add(store, 0, 0, rows);
-        places
-    }
-
-    /// Learns of strokes and clusters from these on.
-    fn add(&mut self, store: &Store, first_stroke: usize, first_cluster: usize, rows: usize) {
-        self.first.resize(rows, NO_STROKE);
-        for (stroke, index) in store.stroke_list.iter().zip(0..).skip(first_stroke) {
-            let row = store.ranks.row(stroke.rank);
-            let first = &mut self.first[row as usize];
-            if *first == NO_STROKE {
-                *first = index;
-            } else {
-                let more = self.more.entry(row).or_insert_with(|| vec![*first]);
-                more.push(index);
-            }
-        }
-        let clusters = store.cluster_list[first_cluster..].iter();
-        self.homes.extend(clusters.map(|c| [c.low_m, c.high_m]));
-    }
-
-    fn strokes(&self, row: u32) -> &[u32] {
-        match self.more.get(&row) {
-            Some(strokes) => strokes,
-            None => match self.first.get(row as usize) {
-                Some(first) if *first != NO_STROKE => std::slice::from_ref(first),
-                _ => &[],
-            },
-        }
-    }
-
-    fn forget(&mut self, store: &Store, row: u32) {
-        let rooms = self
-            .strokes(row)
-            .iter()
-            .map(|&stroke| room_of(store, stroke) as usize);
-        self.unused_points += rooms.sum::<usize>();
-        self.more.remove(&row);
-        if let Some(first) = self.first.get_mut(row as usize) {
-            *first = NO_STROKE;
-        }
-    }
-
-    /// Whether a cluster's points may go there: farther away would make its box too large to be of use.
-    fn is_home(&self, cluster: usize, [x, y]: [f32; 2]) -> bool {
-        let [low, high] = self.homes[cluster];
-        let near = |v: f32, axis: usize| {
-            let room = (high[axis] - low[axis]).max(1.0);
-            v >= low[axis] - room && v <= high[axis] + room
-        };
-        near(x, 0) && near(y, 1)
-    }
-}
 
 /// What has to be sent.
 #[derive(Default)]
@@ -335,26 +263,6 @@ enum Target {
     Strokes,
     Clusters,
     Styles,
-}
-
-fn cluster_of(store: &Store, stroke: u32) -> usize {
-    let behind = store
-        .cluster_list
-        .partition_point(|c| c.first_stroke <= stroke);
-    behind - 1
-}
-
-/// Points that a stroke has room for.
-fn room_of(store: &Store, stroke: u32) -> u32 {
-    let cluster = &store.cluster_list[cluster_of(store, stroke)];
-    let first = store.stroke_list[stroke as usize].first_point();
-    let next = stroke + 1;
-    let end = if next < cluster.first_stroke + cluster.strokes {
-        store.stroke_list[next as usize].first_point()
-    } else {
-        cluster.points
-    };
-    end - first
 }
 
 /// Gives the strokes of a path new points where the old ones are, unless they do not fit there.

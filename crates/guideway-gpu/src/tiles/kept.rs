@@ -5,8 +5,9 @@ use wgpu::BufferUsages;
 
 use super::bound::Bound;
 use super::canvas::Canvas;
+use super::draw::merge;
 use super::params::{ShiftParams, TILE_PX, WORKGROUP};
-use super::prepared::{PreparedTiles, merge};
+use super::prepared::PreparedTiles;
 use super::shot::Shot;
 use super::window::Window;
 use crate::device::{DeviceBuffer, Dispatch};

@@ -1,19 +1,21 @@
 //! Every frame from the control points: curves become lines by an error bound, lines are listed by the tiles
 //! that they touch, and each tile finds which of its samples are covered. docs/method-gpu.md has the whole.
 //!
-//! The folder in the order of the data: `pack` makes of the scene what the device reads, `store` holds it there and
-//! `edit` changes it, `shot` is a view and `window` a part of its picture, `room` holds the lines that a frame
-//! finds, `canvas` its tiles and pixels, `bound` the work between them, `prepared` draws, and `kept` is what it need
-//! not draw again.
+//! The folder in the order of the data: `pack` makes of the scene what the device reads, `store` holds it there,
+//! `places` knows where and `edit` changes it; `shot` is a view, `window` a part of its picture, `room` holds the lines
+//! that a frame finds, `canvas` its tiles and pixels, `bound` the work between them; `draw` does it, in `rounds` where
+//! that saves work, `kept` is what it need not draw again; `prepared` answers for all of it, and `ask` says what is where.
 
 mod ask;
 mod bound;
 mod canvas;
+mod draw;
 mod edit;
 mod kept;
 mod kernels;
 mod pack;
 mod params;
+mod places;
 mod prepared;
 mod ranks;
 mod room;

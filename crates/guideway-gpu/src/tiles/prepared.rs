@@ -1,5 +1,4 @@
 use std::collections::BTreeSet;
-use std::ops::Range;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -8,20 +7,16 @@ use guideway_render::{
     Style, View, density, elapsed_ms,
 };
 use guideway_scene::{Edit, Scene};
-use guideway_spline::Bounds;
 
-use super::bound::{Bound, Buffers, Paint};
-use super::canvas::Canvas;
-use super::edit::Places;
-use super::kept::{Kept, Shifter};
+use super::bound::Paint;
+use super::draw::{Drawing, Easel};
 use super::pack::Packed;
-use super::params::{Found, Stroke, TILE_PX};
+use super::params::{Found, Stroke};
+use super::places::Places;
 use super::ranks::Ranks;
-use super::room::{Room, Size};
-use super::rounds::Rounds;
+use super::room::Size;
 use super::shot::Shot;
 use super::store::{Store, all_parts, is_plain};
-use super::window::Window;
 use super::{NAME, Shared};
 use crate::device::{DeviceBuffer, FETCHED, Memory, Patcher, Runner};
 
@@ -36,7 +31,7 @@ pub(super) struct PreparedTiles {
     pub(super) runner: Runner,
     /// None if nothing is drawn.
     pub(super) store: Option<Store>,
-    found_fetched: DeviceBuffer,
+    pub(super) found_fetched: DeviceBuffer,
     pub(super) facts: Facts,
     /// Paths of several strokes, which the device does not count.
     pub(super) parted: BTreeSet<u32>,
@@ -51,29 +46,6 @@ pub(super) struct PreparedTiles {
     preparation: Preparation,
 }
 
-/// What a picture is made with.
-#[derive(Default)]
-pub(super) struct Easel {
-    pub(super) room: Option<Room>,
-    pub(super) canvas: Option<Canvas>,
-    /// For the buffers above; none once one of them is another.
-    pub(super) bound: Option<Bound>,
-    /// What the canvas shows, if it is a finished picture of the scene as it is.
-    pub(super) kept: Option<Kept>,
-    pub(super) shifter: Option<Shifter>,
-    pub(super) rounds: Rounds,
-}
-
-impl Easel {
-    /// After one of the buffers that a frame binds has become another.
-    fn unbind(&mut self) {
-        self.bound = None;
-        if let Some(shifter) = &mut self.shifter {
-            shifter.bound = None;
-        }
-    }
-}
-
 /// What the processor needs to know of the scene in every frame.
 #[derive(Clone, Copy)]
 pub(super) struct Facts {
@@ -84,7 +56,7 @@ pub(super) struct Facts {
     pub(super) has_widths: bool,
     /// One colour, and no widths.
     pub(super) is_plain: bool,
-    paint: Paint,
+    pub(super) paint: Paint,
 }
 
 impl Facts {
@@ -207,244 +179,6 @@ impl PreparedTiles {
     pub(super) fn unbind(&mut self) {
         self.easel.unbind();
         self.probe.unbind();
-    }
-
-    /// Has buffers for pictures of this size, and room for the lines of so many strokes at first.
-    pub(super) fn make_ready(&mut self, view: &View, strokes: u32) -> Result<(), RenderError> {
-        let gpu = &self.shared.gpu;
-        let easel = &mut self.easel;
-        if easel.canvas.as_ref().is_none_or(|c| c.size != view.size()) {
-            (easel.canvas, easel.kept, easel.shifter) = (None, None, None);
-            easel.unbind();
-            easel.canvas = Some(Canvas::new(gpu, &mut self.memory, view.size())?);
-        }
-        if easel.room.is_none() {
-            easel.unbind();
-            let size = Size::first(strokes).within(gpu, &self.memory);
-            easel.room = Some(Room::new(&mut self.memory, size)?);
-        }
-        Ok(())
-    }
-
-    /// Draws a window of tiles, and says what was found: all of it may not have fitted.
-    fn draw(
-        &mut self,
-        shot: &Shot<'_>,
-        paint: Paint,
-        window: &Window,
-        first_row: u32,
-        stages: &mut Vec<Stage>,
-    ) -> Result<Found, RenderError> {
-        let easel = &mut self.easel;
-        let (Some(store), Some(room), Some(canvas)) = (&self.store, &easel.room, &easel.canvas)
-        else {
-            return Ok(Found::default());
-        };
-        let trouble = |what| self.memory.trouble(what);
-        let params = shot.params(canvas, room, window, first_row);
-        let buffers = Buffers {
-            gpu: &self.shared.gpu,
-            kernels: &self.shared.kernels,
-            store,
-            room,
-            canvas,
-            marks: self.marks.as_ref(),
-        };
-        let samples = shot.samples();
-        let in_rounds = easel.rounds.are_on && paint == Paint::One;
-        let is_alike = |bound: &Bound| bound.is_for(paint, samples, in_rounds);
-        let bound = match easel.bound.take().filter(is_alike) {
-            Some(bound) => bound,
-            None => Bound::new(&buffers, paint, samples, in_rounds).map_err(trouble)?,
-        };
-        let set = self.runner.set("the view", &canvas.frame, &params);
-        set.map_err(trouble)?;
-        let run = bound.run(&buffers, &params, &self.runner);
-        merge(stages, run.map_err(trouble)?);
-        let mut found = Found::default();
-        let fetched = self.runner.fetch(
-            "the counters",
-            &store.found,
-            &self.found_fetched,
-            size_of::<Found>() as u64,
-            |bytes| bytemuck::bytes_of_mut(&mut found).copy_from_slice(bytes),
-        );
-        fetched.map_err(trouble)?;
-        self.easel.bound = Some(bound);
-        Ok(found)
-    }
-
-    /// Whether a thread of a tile may not go on to the end of its list.
-    fn is_too_long(&self, found: &Found, paint: Paint) -> bool {
-        u64::from(found.longest) * u64::from(paint.rounds_a_line())
-            > u64::from(self.shared.gpu.rounds_a_thread())
-    }
-
-    /// More room for what was found, if there can be.
-    fn grow(&mut self, found: &Found) -> Result<bool, RenderError> {
-        let Some(room) = self.easel.room.take() else {
-            return Ok(false);
-        };
-        self.easel.unbind();
-        let (old, size) = (room.size, room.size.for_found(found));
-        drop(room);
-        let fits = size.fits(&self.shared.gpu) && size.bytes() <= self.memory.spare_bytes();
-        let size = if fits { size } else { old };
-        self.easel.room = Some(Room::new(&mut self.memory, size)?);
-        Ok(fits)
-    }
-
-    /// Draws windows, the first ones first, in halves where there is no room for all that is found.
-    pub(super) fn draw_windows(
-        &mut self,
-        shot: &Shot<'_>,
-        paint: Paint,
-        mut windows: Vec<Window>,
-        first_row: u32,
-        cancel: &Cancel,
-        drawing: &mut Drawing,
-    ) -> Result<(), RenderError> {
-        windows.reverse();
-        while let Some(window) = windows.pop() {
-            cancel.check()?;
-            let found = self.draw(shot, paint, &window, first_row, &mut drawing.stages)?;
-            let holds = |room: &Room| room.size.holds(&found);
-            let is_too_long = self.is_too_long(&found, paint);
-            if !is_too_long && self.easel.room.as_ref().is_some_and(holds) {
-                if paint == Paint::One {
-                    self.easel.rounds.learn(&window, &found);
-                }
-                drawing.lines += u64::from(found.lines);
-                drawing.drawn = found.drawn;
-                drawing.windows += 1;
-            } else if paint == Paint::One && self.easel.rounds.may_help(&found) {
-                windows.push(window);
-            } else if is_too_long {
-                return Err(too_long(&found));
-            } else if self.grow(&found)? {
-                windows.push(window);
-            } else if let Some([first, second]) = window.halves() {
-                windows.extend([second, first]);
-            } else {
-                let size = Size::first(0).for_found(&found);
-                return Err(size.refused(&self.memory));
-            }
-        }
-        Ok(())
-    }
-
-    /// Fetches the first rows of pixels of the canvas.
-    fn fetch(
-        &self,
-        rows_px: u32,
-        stages: &mut Vec<Stage>,
-        take: impl FnOnce(&[u8]),
-    ) -> Result<(), RenderError> {
-        let Some(canvas) = &self.easel.canvas else {
-            return Ok(());
-        };
-        let start = Instant::now();
-        let bytes = u64::from(rows_px) * u64::from(canvas.size.width()) * size_of::<u32>() as u64;
-        let what = "the picture";
-        let fetched = self
-            .runner
-            .fetch(what, &canvas.pixels, &canvas.fetched, bytes, take);
-        fetched.map_err(|what| self.memory.trouble(what))?;
-        let read = Stage::host(Stage::READ_BACK, elapsed_ms(start));
-        merge(stages, vec![read]);
-        Ok(())
-    }
-
-    /// Draws the picture, or what of it came into view; `take` gets the bytes of rows of pixels.
-    pub(super) fn draw_all(
-        &mut self,
-        shot: &Shot<'_>,
-        paint: Paint,
-        cancel: &Cancel,
-        mut take: impl FnMut(Range<usize>, &[u8]),
-    ) -> Result<Drawing, RenderError> {
-        let mut drawing = Drawing::default();
-        let Some(canvas) = &self.easel.canvas else {
-            return Ok(drawing);
-        };
-        let (columns, rows, band_rows) = (canvas.columns, canvas.rows, canvas.band_rows);
-        let size = shot.view.size();
-        let moved = self.move_kept(shot, &mut drawing.stages)?;
-        let mut next = Kept::new(shot.view, shot.style);
-        for first_row in (0..rows).step_by(band_rows as usize) {
-            let end_row = rows.min(first_row + band_rows);
-            let mut windows = vec![Window {
-                columns: 0..columns,
-                rows: first_row..end_row,
-            }];
-            if let Some(moved) = &moved {
-                (windows, next) = (moved.windows.clone(), moved.kept);
-                drawing.is_part = true;
-            }
-            self.draw_windows(shot, paint, windows, first_row, cancel, &mut drawing)?;
-            let rows_px = first_row * TILE_PX..size.height().min(end_row * TILE_PX);
-            let pixels =
-                (rows_px.start * size.width()) as usize..(rows_px.end * size.width()) as usize;
-            self.fetch(rows_px.len() as u32, &mut drawing.stages, |bytes| {
-                take(pixels, bytes);
-            })?;
-        }
-        if self.shared.options.keeps {
-            self.easel.kept = Some(next);
-        }
-        Ok(drawing)
-    }
-
-    /// Paths that are not proven to be outside the view.
-    fn count_drawn(&self, shot: &Shot<'_>, drawing: &Drawing) -> u64 {
-        let canvas = self.easel.canvas.as_ref();
-        let bands = canvas.map_or(1, |c| c.rows.div_ceil(c.band_rows));
-        let is_counted = !drawing.is_part && drawing.windows == bands;
-        let alone = match &self.store {
-            Some(_) if is_counted => u64::from(drawing.drawn),
-            // Of windows, the device counts what each sees; clusters are a little less exact.
-            Some(store) => store.whole_paths_seen(|bounds, width_m| shot.is_seen(bounds, width_m)),
-            None => 0,
-        };
-        let paths = &self.scene.layout().paths;
-        let is_seen = |path: &&u32| {
-            let hull = paths.get(**path as usize).hull_bounds();
-            hull.is_some_and(|hull: Bounds<f64>| shot.is_seen(hull, self.scene.width_m(**path)))
-        };
-        alone + self.parted.iter().filter(is_seen).count() as u64
-    }
-}
-
-/// What became of one picture.
-#[derive(Default)]
-pub(super) struct Drawing {
-    stages: Vec<Stage>,
-    lines: u64,
-    /// Paths that the last window's device has counted.
-    drawn: u32,
-    windows: u32,
-    /// Whether the rest was kept from before.
-    is_part: bool,
-}
-
-fn too_long(found: &Found) -> RenderError {
-    RenderError::Unsupported {
-        method: NAME,
-        what: format!(
-            "{} lines on {TILE_PX} x {TILE_PX} pixels, for this device ends a thread that takes so long",
-            found.longest
-        ),
-        remedy: "Zoom in, or use `--method cpu`.".to_owned(),
-    }
-}
-
-/// Adds stages to those of the same name.
-pub(super) fn merge(stages: &mut Vec<Stage>, more: Vec<Stage>) {
-    for stage in more {
-        match stages.iter_mut().find(|s| s.name == stage.name) {
-            Some(same) => same.elapsed_ms += stage.elapsed_ms,
-            None => stages.push(stage),
-        }
     }
 }
 
