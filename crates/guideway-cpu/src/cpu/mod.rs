@@ -1,26 +1,35 @@
-//! Method `cpu`: lines by tile, covered from the top down, in parallel.
+//! Method `cpu`: lines by tile, covered until nothing is left to be covered, in parallel.
 //!
-//! A frame goes through four stages. `cull` leaves out clusters of paths that are out of sight; `flatten`
-//! turns the rest into lines; `bin` lists the lines of each tile of 16 x 16 pixels in draw order; `cover`
-//! finds for each tile which of its 65,536 samples, those of the oracle, each path covers. All that is
-//! added up is a whole number or added in draw order, so the picture is the same on every run, with any
-//! number of threads and in any number of bands.
+//! Paths that are near each other form clusters, once. A frame goes through four stages: `cull` finds the
+//! clusters in sight; `flatten` turns their curves into lines, unless those of an earlier frame will do; `bin`
+//! lists the clusters of each tile of 32 x 32 pixels; `cover` finds which samples of each tile the lines cover.
+//! Coverage is an OR of bits, and all that is added up is a whole number or added in draw order, so the picture
+//! is the same on every run, with any number of threads, any vector instructions and in any number of bands.
 
-mod bin;
 mod canvas;
-mod cover;
-mod cull;
+mod cluster;
 mod flatten;
-mod lines;
+mod index;
+mod paint;
+mod polylines;
 mod prepared;
+mod seen;
+mod shot;
+mod simplify;
 mod span;
+mod stroke;
 #[cfg(test)]
 mod tests;
+mod tiles;
 
 use std::sync::Arc;
 
 use guideway_render::{Budget, Method, MethodInfo, Prepared, RenderError};
 use guideway_scene::Scene;
+
+/// Lanes that work beside each other: rows of samples of a pixel, or lines. One vector of AVX-512, two of
+/// AVX2, four of SSE and NEON.
+const LANES: usize = 16;
 
 /// Draws on all cores, without a GPU.
 #[derive(Clone, Copy, Debug, Default)]

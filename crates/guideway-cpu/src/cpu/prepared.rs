@@ -1,28 +1,28 @@
 use std::ops::Range;
-use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
 use guideway_render::{
-    Budget, Cancel, Frame, Preparation, Prepared, RenderError, Report, Shading, Stage, Style, View,
-    density, elapsed_ms,
+    Budget, Cancel, Edited, Frame, Preparation, Prepared, RenderError, Report, Shading, Stage,
+    Style, View, density, elapsed_ms,
 };
-use guideway_scene::Scene;
-use guideway_spline::{Bounds, Point};
+use guideway_scene::{Edit, Scene};
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::NAME;
-use super::bin::{Bins, Grid};
-use super::canvas::Canvas;
-use super::cover::Band;
-use super::cull::{CLUSTER_PATHS, cluster_bounds, cluster_paths};
-use super::lines::{Line, Lines, Shot, TooMuch};
-use super::span::TILE_PX;
+use super::canvas::TILE_PX;
+use super::cluster::{CLUSTER_PATHS, Cluster, Lines, Scratch};
+use super::index::Index;
+use super::paint::{Band, Painter};
+use super::shot::{LaneWidth, Shot};
+use super::tiles::{Bins, Grid};
 
-/// Groups of lines a thread: enough that none waits long for the last.
-const GROUPS_A_THREAD: usize = 4;
 /// Largest frame that is planned for.
 const PLANNED_PIXELS: u64 = 3840 * 2160;
+/// Bytes that a path's lines take where all are seen, about: more are there only for fewer paths.
+const PLANNED_PATH_BYTES: u64 = 100;
 
 /// A scene with what stays the same from frame to frame, and the buffers of the last one.
 pub(super) struct CpuPrepared {
@@ -30,39 +30,40 @@ pub(super) struct CpuPrepared {
     budget: Budget,
     /// None for the threads that the process shares.
     pool: Option<ThreadPool>,
-    clusters: Vec<Option<Bounds<f64>>>,
-    widest_m: Option<f32>,
+    index: Index,
     preparation: Preparation,
     buffers: Buffers,
+    pub(super) lane_width: LaneWidth,
 }
 
 /// What a frame needs; kept for the next.
-#[derive(Default)]
 struct Buffers {
-    visible: Vec<u32>,
-    lines: Lines,
     bins: Bins,
     counts: Vec<f32>,
+    scratches: Vec<Mutex<Scratch>>,
+    painters: Vec<Mutex<Painter>>,
     stages: Vec<Stage>,
     peak_bytes: u64,
+    drawn: u64,
+    made: u64,
 }
+
+/// There is more than the memory allowed: so many bytes, at least.
+struct TooMuch(u64);
 
 /// See [`guideway_render::Method::plan_bytes`].
 pub(super) fn plan_bytes(scene: &Scene, budget: &Budget) -> u64 {
-    // Two lines a segment on three tiles each are far more than a view of all paths takes; closer views
-    // have more lines of fewer paths. Whatever it is, bands keep it within the budget.
-    let segments = scene.layout().paths.geometry().segment_count() as u64;
-    let a_line = Lines::bytes_for(1) + 3 * size_of::<u32>() as u64;
     let frame = PLANNED_PIXELS * size_of::<[u8; 4]>() as u64;
-    let all = fixed_bytes(scene, budget) + 2 * frame + 2 * segments * a_line;
+    let lines = scene.row_count() as u64 * PLANNED_PATH_BYTES;
+    let all = fixed_bytes(scene, budget) + 2 * frame + lines;
     all.min(budget.memory_bytes)
 }
 
 /// Bytes that are needed however small the picture.
 fn fixed_bytes(scene: &Scene, budget: &Budget) -> u64 {
-    let clusters = scene.draw_order().len().div_ceil(CLUSTER_PATHS) as u64;
-    let a_cluster = size_of::<Option<Bounds<f64>>>() + size_of::<u32>();
-    clusters * a_cluster as u64 + threads(budget) as u64 * Canvas::bytes()
+    let clusters = scene.row_count().div_ceil(CLUSTER_PATHS) * size_of::<Cluster>();
+    let rows = scene.row_count() * 3 * size_of::<u32>();
+    (clusters + rows) as u64 + threads(budget) as u64 * Painter::bytes(scene.is_opaque())
 }
 
 fn threads(budget: &Budget) -> usize {
@@ -92,25 +93,22 @@ impl CpuPrepared {
         let builder = ThreadPoolBuilder::new().num_threads(budget.threads);
         let pool = (budget.threads > 0).then(|| builder.build().ok()).flatten();
         let start = Instant::now();
-        let clusters = install(pool.as_ref(), || cluster_bounds(&scene));
-        let held_bytes = (clusters.len() * size_of::<Option<Bounds<f64>>>()) as u64;
-        let drawn = scene.draw_order().iter();
-        let widest_m = drawn
-            .filter_map(|&path| scene.width_m(path))
-            .reduce(f32::max);
+        let index = install(pool.as_ref(), || Index::new(&scene));
+        let held_bytes = index.bytes();
+        let threads = threads(budget);
         Ok(Self {
             scene,
             budget: *budget,
             pool,
+            index,
             preparation: Preparation {
-                stages: vec![Stage::host("bound", elapsed_ms(start))],
+                stages: vec![Stage::host("sort", elapsed_ms(start))],
                 held_bytes,
                 peak_bytes: held_bytes,
                 ..Preparation::default()
             },
-            clusters,
-            widest_m,
-            buffers: Buffers::default(),
+            buffers: Buffers::new(threads),
+            lane_width: LaneWidth::default(),
         })
     }
 }
@@ -131,9 +129,10 @@ impl Prepared for CpuPrepared {
         frame: &mut Frame,
     ) -> Result<Report, RenderError> {
         let size = view.size();
+        let is_density = style.shading != Shading::Color;
         let mut needed = fixed_bytes(&self.scene, &self.budget);
         needed += (size.pixels() * size_of::<[u8; 4]>()) as u64;
-        if style.shading != Shading::Color {
+        if is_density {
             needed += (size.pixels() * size_of::<f32>()) as u64;
         }
         let Some(spare_bytes) = self.budget.memory_bytes.checked_sub(needed) else {
@@ -144,31 +143,76 @@ impl Prepared for CpuPrepared {
             scene,
             budget,
             pool,
-            clusters,
-            widest_m,
+            index,
             buffers,
-            preparation: _,
+            lane_width,
+            ..
         } = self;
         let shot = Shot {
             scene,
             view,
             style,
             cancel,
+            widths: index.widths,
+            lane_width: *lane_width,
+            solid: index.solid.filter(|_| !is_density),
         };
-        let groups = GROUPS_A_THREAD * threads(budget);
-        buffers.start();
+        buffers.start(if is_density { size.pixels() } else { 0 });
         let bands = install(pool.as_ref(), || {
-            buffers.time("cull", |b| b.cull(&shot, clusters, *widest_m));
-            buffers.draw(&shot, groups, spare_bytes, budget, frame)
+            buffers.time("cull", |_| {
+                index
+                    .clusters
+                    .par_iter_mut()
+                    .for_each(|cluster| cluster.look(&shot));
+            });
+            let rows = Grid::whole(size).rows;
+            let bands = buffers.draw(&shot, index, rows, spare_bytes, frame)?;
+            bands.map_err(|TooMuch(bytes)| {
+                too_small("the lines of one row of tiles", needed + bytes, budget)
+            })
         })?;
-        let drawn = buffers.lines.drawn();
+        if let Shading::Density(tone) = style.shading {
+            buffers.time("shade", |b| {
+                density::shade(&b.counts, tone, style.background, frame);
+            });
+        }
         Ok(Report {
             stages: std::mem::take(&mut buffers.stages),
-            lines: buffers.lines.made(),
+            lines: buffers.made,
             peak_bytes: needed - (size.pixels() * size_of::<[u8; 4]>()) as u64 + buffers.peak_bytes,
             bands,
-            ..Report::of(NAME, scene, drawn)
+            ..Report::of(NAME, scene, buffers.drawn)
         })
+    }
+
+    fn edit(&mut self, edit: &Edit) -> Result<Edited, RenderError> {
+        let Self {
+            scene,
+            budget,
+            pool,
+            index,
+            ..
+        } = self;
+        Arc::make_mut(scene).edit(edit).map_err(RenderError::Edit)?;
+        let fixed = fixed_bytes(scene, budget);
+        if fixed > budget.memory_bytes {
+            return Err(too_small("the index of the paths", fixed, budget));
+        }
+        install(pool.as_ref(), || match edit {
+            Edit::Transform { paths, .. } | Edit::Reshape { paths, .. } => {
+                index.touch(scene, paths);
+            }
+            Edit::Restyle(_) => index.order_anew(scene),
+            Edit::SetStates(_) => {
+                index.touch(scene, &edit.paths());
+                index.order_anew(scene);
+            }
+            Edit::Insert(_) => {
+                index.append(scene);
+                index.order_anew(scene);
+            }
+        });
+        Ok(Edited::InPlace { moved_bytes: 0 })
     }
 
     fn preparation(&self) -> &Preparation {
@@ -177,9 +221,23 @@ impl Prepared for CpuPrepared {
 }
 
 impl Buffers {
-    fn start(&mut self) {
+    fn new(threads: usize) -> Self {
+        Self {
+            bins: Bins::default(),
+            counts: Vec::new(),
+            scratches: (0..threads).map(|_| Mutex::default()).collect(),
+            painters: (0..threads).map(|_| Mutex::new(Painter::new())).collect(),
+            stages: Vec::new(),
+            peak_bytes: 0,
+            drawn: 0,
+            made: 0,
+        }
+    }
+
+    fn start(&mut self, counted_pixels: usize) {
         self.stages.clear();
-        self.peak_bytes = 0;
+        (self.peak_bytes, self.drawn, self.made) = (0, 0, 0);
+        self.counts.resize(counted_pixels, 0.0);
     }
 
     /// Does one stage, and adds its time to what it took in other bands.
@@ -194,166 +252,134 @@ impl Buffers {
         result
     }
 
-    /// Finds the clusters that may leave a mark.
-    fn cull(&mut self, shot: &Shot<'_>, clusters: &[Option<Bounds<f64>>], widest_m: Option<f32>) {
-        let px_per_m = shot.view.px_per_m();
-        let radius = |width_m| shot.style.line_rule.radius_px(width_m, px_per_m);
-        let seen = shot.seen(radius(None).max(radius(widest_m)));
-        let is_seen = |bounds: Bounds<f64>| {
-            let corners = [bounds.min, bounds.max].map(|p| shot.view.pixel_from_world(p));
-            Bounds::of_points(corners).is_some_and(|b| b.intersects(seen))
-        };
-        let in_sight = clusters
-            .iter()
-            .zip(0..)
-            .filter(|(b, _)| b.is_some_and(is_seen));
-        self.visible.clear();
-        self.visible.extend(in_sight.map(|(_, cluster)| cluster));
-    }
-
-    /// Draws the picture in as many bands as the memory makes necessary, and says how many.
+    /// Draws some rows of tiles, at once or, if that takes too much memory, one half after the other; says
+    /// in how many bands.
     fn draw(
         &mut self,
         shot: &Shot<'_>,
-        groups: usize,
-        spare_bytes: u64,
-        budget: &Budget,
+        index: &mut Index,
+        rows: Range<usize>,
+        limit_bytes: u64,
         frame: &mut Frame,
-    ) -> Result<u32, RenderError> {
-        let whole = Grid::whole(shot.view.size());
-        let is_density = shot.style.shading != Shading::Color;
-        let mut counts = std::mem::take(&mut self.counts);
-        counts.resize(
-            if is_density {
-                shot.view.size().pixels()
-            } else {
-                0
-            },
-            0.0,
-        );
-        let mut bands = 1;
-        if self
-            .band(shot, groups, &whole, spare_bytes, frame, &mut counts)?
-            .is_err()
-        {
-            let costs = self.time("plan", |b| b.row_costs(shot, groups, &whole))?;
-            let planned = plan_bands(&costs, spare_bytes);
-            let planned = planned.map_err(|needed| {
-                let fixed = budget.memory_bytes - spare_bytes;
-                too_small("the lines of one row of tiles", fixed + needed, budget)
-            })?;
-            bands = planned.len() as u32;
-            for rows in planned {
-                let grid = Grid { rows, ..whole };
-                let done = self.band(shot, groups, &grid, spare_bytes, frame, &mut counts)?;
-                debug_assert!(done.is_ok(), "the plan counts everything");
+    ) -> Result<Result<u32, TooMuch>, RenderError> {
+        let drawn = self.band(shot, index, rows.clone(), limit_bytes, frame)?;
+        if drawn.is_ok() || rows.len() == 1 {
+            return Ok(drawn.map(|()| 1));
+        }
+        let middle = rows.start + rows.len() / 2;
+        let mut bands = 0;
+        for half in [rows.start..middle, middle..rows.end] {
+            match self.draw(shot, index, half, limit_bytes, frame)? {
+                Ok(of_half) => bands += of_half,
+                Err(too_much) => return Ok(Err(too_much)),
             }
         }
-        if let Shading::Density(tone) = shot.style.shading {
-            let background = shot.style.background;
-            self.time("shade", |_| {
-                density::shade(&counts, tone, background, frame);
-            });
-        }
-        self.counts = counts;
-        Ok(bands)
+        Ok(Ok(bands))
     }
 
     /// Draws one band, unless it takes too much memory.
     fn band(
         &mut self,
         shot: &Shot<'_>,
-        groups: usize,
-        grid: &Grid,
+        index: &mut Index,
+        rows: Range<usize>,
         limit_bytes: u64,
         frame: &mut Frame,
-        counts: &mut [f32],
     ) -> Result<Result<(), TooMuch>, RenderError> {
-        // What another band or view left behind may be large in other places than this one.
-        self.lines.shrink(limit_bytes / 4);
-        self.bins.shrink(limit_bytes / 4);
-        let flattened = self.time("flatten", |b| {
-            b.lines.fill(shot, &b.visible, groups, grid, limit_bytes)
-        })?;
-        if flattened.is_err() {
-            return Ok(flattened);
+        let size = shot.view.size();
+        let grid = Grid {
+            rows: rows.clone(),
+            ..Grid::whole(size)
+        };
+        let flattened = self.time("flatten", |b| b.flatten(shot, index, &rows, limit_bytes))?;
+        let lines_bytes = match flattened {
+            Ok(bytes) => bytes,
+            Err(too_much) => return Ok(Err(too_much)),
+        };
+        let spare_bytes = limit_bytes - lines_bytes;
+        if let Err(needed) = self.time("bin", |b| b.bins.fill(&index.clusters, &grid, spare_bytes))
+        {
+            return Ok(Err(TooMuch(lines_bytes + needed)));
         }
-        let binned = self.time("bin", |b| b.bins.fill(shot, &b.lines, grid, limit_bytes))?;
-        self.peak_bytes = self.peak_bytes.max(self.lines.bytes() + self.bins.bytes());
-        if binned.is_err() {
-            return Ok(binned);
+        self.peak_bytes = self.peak_bytes.max(lines_bytes + self.bins.bytes());
+        for sight in index.clusters.iter().filter_map(|c| c.sight.as_ref()) {
+            // Each cluster is counted with the band where it begins.
+            if rows.contains(&sight.rows.start) {
+                self.drawn += u64::from(sight.drawn);
+                self.made += u64::from(sight.made);
+            }
         }
         self.time("cover", |b| {
+            let mut counts = std::mem::take(&mut b.counts);
             let band = Band {
                 shot,
-                grid,
-                lines: &b.lines,
+                grid: &grid,
+                paths: &index.paths,
+                clusters: &index.clusters,
                 bins: &b.bins,
+                ranks: index.ranks.as_deref(),
+                common_radius_px: shot.common_radius_px(),
+                widest_px: shot.widest_px(),
+                painters: &b.painters,
             };
-            let size = shot.view.size();
             let row_px = size.width() as usize * TILE_PX;
-            let end = size.pixels().min(grid.rows.end * row_px);
-            let within = grid.rows.start * row_px..end;
-            match shot.style.shading {
-                Shading::Color => band.color(&mut frame.pixels_mut()[within]),
+            let within = rows.start * row_px..size.pixels().min(rows.end * row_px);
+            let done = match shot.style.shading {
+                Shading::Color => band.color(&mut frame.pixels_mut()[within], shot.solid),
                 Shading::Density(_) => band.density(&mut counts[within]),
-            }
+            };
+            b.counts = counts;
+            done
         })?;
         Ok(Ok(()))
     }
 
-    /// Bytes that the lines of each row of tiles take.
-    fn row_costs(
-        &self,
+    /// Makes the lines of a band; says how many bytes all lines take.
+    fn flatten(
+        &mut self,
         shot: &Shot<'_>,
-        groups: usize,
-        whole: &Grid,
-    ) -> Result<Vec<u64>, RenderError> {
-        let tables = Bins::table_bytes(groups, whole.columns);
-        let none = || vec![0; whole.rows.len()];
-        let per_group = self.visible.len().div_ceil(groups).max(1);
-        let lines = self.visible.par_chunks(per_group).map(|clusters| {
-            let mut costs = none();
-            let mut points: Vec<Point<f64>> = Vec::new();
-            for &cluster in clusters {
-                shot.cancel.check()?;
-                for &path in cluster_paths(shot.scene, cluster) {
-                    shot.flatten(path, &mut points, |line, radius_px| {
-                        add_cost(&mut costs, whole, &line, radius_px);
-                    });
+        index: &mut Index,
+        rows: &Range<usize>,
+        limit_bytes: u64,
+    ) -> Result<Result<u64, TooMuch>, RenderError> {
+        let is_in_band = |cluster: &Cluster| {
+            let sight = cluster.sight.as_ref();
+            sight.is_some_and(|s| s.rows.start < rows.end && rows.start < s.rows.end)
+        };
+        let mut held: u64 = index.clusters.par_iter().map(Cluster::bytes).sum();
+        if held > limit_bytes / 2 {
+            let others = index.clusters.par_iter_mut().filter(|c| !is_in_band(c));
+            others.for_each(|cluster| cluster.lines = Lines::None);
+            held = index.clusters.par_iter().map(Cluster::bytes).sum();
+        }
+        let total = AtomicU64::new(held);
+        let scratches = &self.scratches;
+        let paths = index.paths.par_chunks(CLUSTER_PATHS);
+        index
+            .clusters
+            .par_iter_mut()
+            .zip(paths)
+            .try_for_each(|(cluster, paths)| {
+                if !is_in_band(cluster) || total.load(Ordering::Relaxed) > limit_bytes {
+                    return Ok(());
                 }
-            }
-            Ok(costs)
-        });
-        let add = |a: Vec<u64>, b: Vec<u64>| a.iter().zip(b).map(|(a, b)| a + b).collect();
-        let mut costs = lines.try_reduce(none, |a, b| Ok(add(a, b)))?;
-        costs.iter_mut().for_each(|cost| *cost += tables);
-        Ok(costs)
-    }
-}
-
-fn add_cost(costs: &mut [u64], grid: &Grid, line: &Line, radius_px: f32) {
-    for row in grid.rows_of(line, radius_px) {
-        let tiles = grid.columns_of(line, radius_px, row).len();
-        costs[row] += Lines::bytes_for(1) + (tiles * size_of::<u32>()) as u64;
-    }
-}
-
-/// Bands of rows, as few as a greedy search finds, that each cost no more than the limit; or what a row
-/// costs that alone is too much.
-fn plan_bands(costs: &[u64], limit_bytes: u64) -> Result<Vec<Range<usize>>, u64> {
-    let mut bands = Vec::new();
-    let (mut start, mut held) = (0, 0);
-    for (row, &cost) in costs.iter().enumerate() {
-        if cost > limit_bytes {
-            return Err(cost);
+                shot.cancel.check()?;
+                let scratch =
+                    &scratches[rayon::current_thread_index().unwrap_or(0) % scratches.len()];
+                let mut scratch = scratch.lock().unwrap_or_else(PoisonError::into_inner);
+                let before = cluster.bytes();
+                cluster.flatten(shot, paths, rows, &mut scratch);
+                total.fetch_add(cluster.bytes().wrapping_sub(before), Ordering::Relaxed);
+                Ok(())
+            })?;
+        let total = total.into_inner();
+        if total > limit_bytes {
+            index
+                .clusters
+                .par_iter_mut()
+                .for_each(|cluster| cluster.lines = Lines::None);
+            return Ok(Err(TooMuch(total)));
         }
-        if held + cost > limit_bytes {
-            bands.push(start..row);
-            (start, held) = (row, 0);
-        }
-        held += cost;
+        Ok(Ok(total))
     }
-    bands.push(start..costs.len());
-    Ok(bands)
 }

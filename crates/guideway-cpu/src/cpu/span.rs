@@ -1,122 +1,241 @@
-use guideway_spline::Point;
+use super::LANES;
 
-/// Samples along each side of a pixel.
-pub(super) const SAMPLES: usize = 16;
-/// Pixels along each side of a tile.
-pub(super) const TILE_PX: usize = 16;
-/// Samples along each side of a tile.
-const TILE_SAMPLES: f32 = (TILE_PX * SAMPLES) as f32;
+/// Rows of samples of a pixel.
+pub(super) const ROWS: usize = LANES;
+/// Samples of each of them where colours or paths are told apart: those of the oracle.
+pub(super) const LAYERED: usize = 16;
+/// Samples of each of them where all is one colour. Every other row is shifted by half their distance, so that
+/// upright borders are told apart as finely as level ones.
+pub(super) const SOLID: usize = 8;
 
-/// How far a sample may lie outside and still count as covered, in samples: a ten-thousandth of a pixel.
-/// It makes a border through a row of samples cover that row, as it does in exact arithmetic.
-const SLACK: f32 = 1.0 / 512.0;
 /// Adding this rounds a small number to the nearest integer, in the low bits of the sum.
 const ROUND: f32 = (1 << 23) as f32;
 
-/// A line with round caps, in samples from a tile's upper left corner.
+/// The samples of a pixel: `C` in each row, a column apart. Columns are the unit of all lengths here, so that a
+/// circle is one.
+struct Samples<const C: usize>;
+
+impl<const C: usize> Samples<C> {
+    /// From one row to the next.
+    const ROW_STEP: f32 = C as f32 / ROWS as f32;
+    /// How far a sample may lie outside and still count as covered: a ten-thousandth of a pixel. It makes a
+    /// border through a row of samples cover that row, as it does in exact arithmetic.
+    const SLACK: f32 = C as f32 / 8192.0;
+
+    /// Where the rows lie below the upper border.
+    const ROW_Y: [f32; LANES] = {
+        let mut y = [0.0; LANES];
+        let mut i = 0;
+        while i < LANES {
+            y[i] = (i as f32 + 0.5) * Self::ROW_STEP;
+            i += 1;
+        }
+        y
+    };
+
+    /// What to add to a position so that it rounds to the first sample at or behind it.
+    const TO_SAMPLE: [f32; LANES] = {
+        let shifts = ROWS / C;
+        let mut to_sample = [0.0; LANES];
+        let mut i = 0;
+        while i < LANES {
+            to_sample[i] = 0.5 - ((i % shifts) as f32 + 0.5) / shifts as f32;
+            i += 1;
+        }
+        to_sample
+    };
+}
+
+/// Fractions of the distance between rows of samples that the centres of discs are rounded to: 1/128 of a
+/// pixel.
+const PHASES: i32 = 8;
+/// Half a chord where there is none: far to the other side.
+const NONE: f32 = -1e9;
+/// The radius up to which half chords are kept, in pixels: larger discs are found as they are needed.
+const MOST_KEPT_PX: usize = 32;
+
+/// A disc of one radius around any centre: half of each chord that a row of samples cuts from it.
+#[derive(Debug, Default)]
+pub(super) struct Disc<const C: usize> {
+    pub(super) radius: f32,
+    /// For each phase of the centre, half chords from far above it to far below; none of a large disc.
+    halves: Vec<f32>,
+    /// Rows of a phase, and those before the one at the centre.
+    rows: i32,
+    rows_above: i32,
+}
+
+impl<const C: usize> Disc<C> {
+    /// Becomes a disc of another radius.
+    pub(super) fn resize(&mut self, radius: f32) {
+        if self.radius == radius {
+            return;
+        }
+        self.radius = radius;
+        self.halves.clear();
+        if radius > (MOST_KEPT_PX * C) as f32 {
+            return;
+        }
+        self.rows_above = (radius / Samples::<C>::ROW_STEP) as i32 + 2 + LANES as i32;
+        self.rows = 2 * self.rows_above + 1;
+        for phase in 0..PHASES {
+            let rows = (-self.rows_above..=self.rows_above).map(|row| row * PHASES - phase);
+            self.halves
+                .extend(rows.map(|off| half_chord::<C>(radius, off)));
+        }
+    }
+
+    /// Most bytes that one holds.
+    pub(super) fn bytes() -> u64 {
+        let rows = 2 * (MOST_KEPT_PX * ROWS + 2 + LANES) + 1;
+        (rows * PHASES as usize * size_of::<f32>()) as u64
+    }
+
+    /// Half chords of a row of pixels, when the centre is so many phases below the first row of all.
+    #[inline(always)]
+    fn half_chords(&self, center: i32, pixel_row: usize) -> [f32; LANES] {
+        let first_row = (pixel_row * LANES) as i32;
+        if self.halves.is_empty() {
+            let mut halves = [0.0; LANES];
+            for (half, row) in halves.iter_mut().zip(first_row..) {
+                *half = half_chord::<C>(self.radius, row * PHASES - center);
+            }
+            return halves;
+        }
+        let (row, phase) = (center.div_euclid(PHASES), center.rem_euclid(PHASES));
+        let above = (first_row - row + self.rows_above).clamp(0, self.rows - LANES as i32);
+        let from = self.halves.get((phase * self.rows + above) as usize..);
+        from.and_then(<[f32]>::first_chunk)
+            .map_or([NONE; LANES], |halves| *halves)
+    }
+}
+
+/// Half the chord of a disc so many phases from its centre.
+#[inline(always)]
+fn half_chord<const C: usize>(radius: f32, off_phases: i32) -> f32 {
+    let off = off_phases as f32 * (Samples::<C>::ROW_STEP / PHASES as f32);
+    let square = (radius - off) * (radius + off);
+    let half = clamp(square, f32::MAX).sqrt();
+    let is_beside = off.abs() > radius + Samples::<C>::SLACK;
+    if is_beside { NONE } else { half }
+}
+
+/// The centre of a disc in phases from the first row of samples, for `y` in columns.
+#[inline(always)]
+pub(super) fn phases<const C: usize>(y: f32) -> i32 {
+    // Beyond what a float can be rounded to by addition nothing is in sight.
+    const MOST: f32 = (1 << 21) as f32;
+    const ROUND: f32 = 1.5 * (1 << 23) as f32;
+    let per_row = 1.0 / Samples::<C>::ROW_STEP;
+    let phases = (y * per_row - 0.5) * PHASES as f32;
+    let phases = clamp(phases + MOST, 2.0 * MOST) - MOST;
+    (phases + ROUND).to_bits() as i32 - ROUND.to_bits() as i32
+}
+
+/// A line with round caps, from a tile's upper left corner.
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Capsule {
-    /// The end of lesser y.
-    upper: Point<f32>,
-    /// From there to the other end.
-    along: Point<f32>,
-    per_row: f32,
-    /// Where the left and the right border leave the upper cap.
-    left_y: f32,
-    right_y: f32,
-    radius: f32,
+    /// The end of lesser y, and the other.
+    pub(super) x: [f32; 2],
+    pub(super) y: [f32; 2],
+    /// Their `y` by [`phases`].
+    pub(super) phases: [i32; 2],
+    /// From one row to the next, in x.
+    pub(super) slope: f32,
+    /// Half of what a row cuts from the stroke between its caps.
+    pub(super) half: f32,
+    /// How far below an end the left border leaves its cap, and the right one above. NaN of level lines:
+    /// their borders are in no row.
+    pub(super) lean: f32,
 }
 
 /// For each row of samples of one row of pixels, the first sample covered and the one after the last.
 pub(super) struct Spans {
-    pub(super) first: [u32; SAMPLES],
-    pub(super) end: [u32; SAMPLES],
+    pub(super) first: [u32; LANES],
+    pub(super) end: [u32; LANES],
 }
 
 impl Capsule {
-    /// The capsule around the line from `a` to `b`, all in pixels from the tile's upper left corner.
-    #[inline(always)]
-    pub(super) fn new(a: Point<f32>, b: Point<f32>, radius_px: f32) -> Self {
-        // Level lines go right, so that both cases agree on which end each border leaves.
-        let (upper, lower) = if (a.y, a.x) <= (b.y, b.x) {
-            (a, b)
-        } else {
-            (b, a)
-        };
-        let scale = SAMPLES as f32;
-        let (upper, radius) = (upper * scale, radius_px * scale);
-        let along = lower * scale - upper;
-        let length = along.dot(along).sqrt();
-        let lean = if length > 0.0 {
-            radius * along.x / length
-        } else {
-            0.0
-        };
-        Self {
-            upper,
-            along,
-            per_row: 1.0 / along.y.max(1e-20),
-            left_y: upper.y + lean + SLACK,
-            right_y: upper.y - lean - SLACK,
-            radius,
-        }
+    /// A level line.
+    #[cfg(test)]
+    pub(super) fn level<const C: usize>(x: [f32; 2], y: f32) -> Self {
+        super::stroke::capsule::<C>([x[0], y], [x[1], y], 1.0)
     }
 
-    /// Rows of the tile's pixels that it may touch.
-    #[inline(always)]
-    pub(super) fn pixel_rows(&self) -> std::ops::Range<usize> {
-        let per_px = 1.0 / SAMPLES as f32;
-        let top = (self.upper.y - self.radius) * per_px;
-        let bottom = (self.upper.y + self.along.y + self.radius) * per_px;
-        // A float below zero becomes 0: that is the clamp to the tile.
-        top as usize..((bottom + 1.0) as usize).min(TILE_PX)
-    }
-
-    /// The samples covered in one row of the tile's pixels.
+    /// The samples covered in one row of pixels, of `columns` in all.
     ///
-    /// A row of samples cuts the capsule in one interval, for it is convex. Its left end lies on the disc
-    /// around one point of the line: an end of the line, or the point whose normal meets the row on the
-    /// left border. The clamp finds which. So for the right.
+    /// A row of samples cuts the capsule in one interval, for it is convex: from the leftmost point of both
+    /// discs and the left border to the rightmost.
     #[inline(always)]
-    pub(super) fn spans(&self, pixel_row: usize) -> Spans {
+    pub(super) fn spans<const C: usize>(
+        &self,
+        disc: &Disc<C>,
+        pixel_row: usize,
+        columns: f32,
+    ) -> Spans {
         let mut spans = Spans {
-            first: [0; SAMPLES],
-            end: [0; SAMPLES],
+            first: [0; LANES],
+            end: [0; LANES],
         };
-        let top = self.upper.y - self.radius - SLACK;
-        let bottom = self.upper.y + self.along.y + self.radius + SLACK;
-        let first_y = (pixel_row * SAMPLES) as f32 + 0.5;
-        for i in 0..SAMPLES {
-            let y = first_y + i as f32;
-            let (left_x, left) = self.disc_at(y, self.left_y);
-            let (right_x, right) = self.disc_at(y, self.right_y);
-            let first = round(left_x - left - SLACK);
-            let end = round(right_x + right + SLACK);
-            spans.first[i] = first;
-            spans.end[i] = if y >= top && y <= bottom { end } else { first };
+        let row_y = (pixel_row * C) as f32;
+        let upper = disc.half_chords(self.phases[0], pixel_row);
+        let lower = disc.half_chords(self.phases[1], pixel_row);
+        for i in 0..LANES {
+            let y = row_y + Samples::<C>::ROW_Y[i];
+            let to_sample = Samples::<C>::TO_SAMPLE[i];
+            let middle = self.x[0] + (y - self.y[0]) * self.slope;
+            let is_between = |lean| (y >= self.y[0] + lean) & (y <= self.y[1] + lean);
+            let left = min(self.x[0] - upper[i], self.x[1] - lower[i]);
+            let right = max(self.x[0] + upper[i], self.x[1] + lower[i]);
+            let left_border = if is_between(self.lean) {
+                middle - self.half
+            } else {
+                -NONE
+            };
+            let right_border = if is_between(-self.lean) {
+                middle + self.half
+            } else {
+                NONE
+            };
+            spans.first[i] = round(
+                min(left, left_border) + (to_sample - Samples::<C>::SLACK),
+                columns,
+            );
+            spans.end[i] = round(
+                max(right, right_border) + (to_sample + Samples::<C>::SLACK),
+                columns,
+            );
         }
         spans
     }
-
-    /// The centre's x and the half chord at `y` of the disc that holds the border there.
-    #[inline(always)]
-    fn disc_at(&self, y: f32, border_y: f32) -> (f32, f32) {
-        let t = ((y - border_y) * self.per_row).clamp(0.0, 1.0);
-        let off = (y - (self.upper.y + t * self.along.y)).abs();
-        let square = (self.radius - off) * (self.radius + off);
-        let half = if square > 0.0 { square } else { 0.0 }.sqrt();
-        (self.upper.x + t * self.along.x, half)
-    }
 }
 
-/// The nearest whole number of samples within the tile.
+/// The nearest whole number from 0 to `most`.
 #[inline(always)]
-fn round(x: f32) -> u32 {
-    (x.clamp(0.0, TILE_SAMPLES) + ROUND).to_bits() - ROUND.to_bits()
+pub(super) fn round(x: f32, most: f32) -> u32 {
+    (clamp(x, most) + ROUND).to_bits() - ROUND.to_bits()
+}
+
+/// As `f32::clamp` from 0, in two instructions: it may lose a NaN.
+#[inline(always)]
+fn clamp(x: f32, most: f32) -> f32 {
+    min(max(x, 0.0), most)
+}
+
+#[inline(always)]
+pub(super) fn min(a: f32, b: f32) -> f32 {
+    if a < b { a } else { b }
+}
+
+#[inline(always)]
+pub(super) fn max(a: f32, b: f32) -> f32 {
+    if a > b { a } else { b }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cpu::stroke::capsule;
 
     /// Numbers between 0 and 1, the same on every run.
     fn numbers() -> impl FnMut() -> f32 {
@@ -129,32 +248,36 @@ mod tests {
         }
     }
 
-    fn distance(p: Point<f64>, a: Point<f64>, b: Point<f64>) -> f64 {
-        let along = b - a;
-        let square = along.dot(along);
-        let t = if square > 0.0 {
-            ((p - a).dot(along) / square).clamp(0.0, 1.0)
-        } else {
-            0.0
-        };
-        p.distance(a + along * t)
+    fn distance(p: [f32; 2], a: [f32; 2], b: [f32; 2]) -> f32 {
+        let [p, along] = [p, b].map(|p| [p[0] - a[0], p[1] - a[1]]);
+        let square = along[0] * along[0] + along[1] * along[1];
+        let t = (p[0] * along[0] + p[1] * along[1]) / square.max(1e-20);
+        let t = t.clamp(0.0, 1.0);
+        (p[0] - t * along[0]).hypot(p[1] - t * along[1])
     }
 
+    /// Compares with the distance of each sample, in pixels.
     #[track_caller]
-    fn check(a: Point<f32>, b: Point<f32>, radius: f32) {
-        let capsule = Capsule::new(a, b, radius);
-        let rows = capsule.pixel_rows();
-        for y in 0..256 {
-            let spans = rows.contains(&(y / 16)).then(|| capsule.spans(y / 16));
-            for x in 0..256 {
-                let at = Point::new(f64::from(x) + 0.5, y as f64 + 0.5) * (1.0 / 16.0);
-                let beyond = distance(at, a.to_f64(), b.to_f64()) - f64::from(radius);
-                let covered = spans
-                    .as_ref()
-                    .is_some_and(|s| (s.first[y % 16]..s.end[y % 16]).contains(&(x as u32)));
-                // Within the slack, and a little rounding, either answer is right.
-                if beyond.abs() > 5e-4 {
-                    assert_eq!(covered, beyond < 0.0, "{a:?} {b:?} {radius} at {at:?}");
+    fn check<const C: usize>(a: [f32; 2], b: [f32; 2], radius: f32) {
+        let unit = C as f32;
+        let mut disc = Disc::<C>::default();
+        disc.resize(radius * unit);
+        let capsule = capsule::<C>(a.map(|v| v * unit), b.map(|v| v * unit), radius * unit);
+        for row in 0..32 * ROWS {
+            let spans = capsule.spans(&disc, row / ROWS, 32.0 * unit);
+            let shift = Samples::<C>::TO_SAMPLE[row % ROWS];
+            for column in 0..32 * C {
+                let x = (column as f32 + 0.5 - shift) / unit;
+                let at = [x, (row as f32 + 0.5) / ROWS as f32];
+                let beyond = distance(at, a, b) - radius;
+                let span = spans.first[row % ROWS]..spans.end[row % ROWS];
+                // Caps are rounded to 1/128 of a pixel.
+                if beyond.abs() > 5e-3 {
+                    assert_eq!(
+                        span.contains(&(column as u32)),
+                        beyond < 0.0,
+                        "{a:?} {b:?} {radius} at {at:?}"
+                    );
                 }
             }
         }
@@ -163,35 +286,33 @@ mod tests {
     #[test]
     fn spans_hold_the_samples_within_the_radius() {
         let mut next = numbers();
-        for i in 0..300 {
-            let mut point = || Point::new(next() * 32.0 - 8.0, next() * 32.0 - 8.0);
+        for i in 0..100 {
+            let mut point = || [next() * 48.0 - 8.0, next() * 48.0 - 8.0];
             let (a, b) = (point(), point());
-            check(a, b, [0.01, 0.3, 0.75, 1.5, 6.0, 40.0][i % 6]);
+            let radius = [0.01, 0.3, 0.75, 1.5, 6.0, 40.0][i % 6];
+            check::<SOLID>(a, b, radius);
+            check::<LAYERED>(a, b, radius);
         }
     }
 
     #[test]
     fn level_upright_and_vanishing_lines_are_no_exceptions() {
-        let p = Point::new;
         for radius in [0.05, 0.75, 3.0] {
-            check(p(3.1, 8.2), p(12.7, 8.2), radius);
-            check(p(12.7, 8.2), p(3.1, 8.2), radius);
-            check(p(3.1, 2.2), p(3.1, 12.9), radius);
-            check(p(3.1, 2.2), p(3.1, 2.2), radius);
-            check(p(3.1, 8.2), p(12.7, 8.200_01), radius);
-            check(p(-300.0, 8.2), p(300.0, 8.3), radius);
+            check::<LAYERED>([3.1, 8.2], [12.7, 8.2], radius);
+            check::<LAYERED>([12.7, 8.2], [3.1, 8.2], radius);
+            check::<SOLID>([3.1, 2.2], [3.1, 12.9], radius);
+            check::<SOLID>([3.1, 2.2], [3.1, 2.2], radius);
+            check::<SOLID>([3.1, 8.2], [12.7, 8.200_01], radius);
+            check::<SOLID>([-300.0, 8.2], [300.0, 8.3], radius);
         }
     }
 
     #[test]
     fn a_border_through_samples_covers_them() {
-        let row = 8.0 + 1.0 / 32.0;
-        let spans = Capsule::new(
-            Point::new(-9.0, row + 1.0),
-            Point::new(30.0, row + 1.0),
-            1.0,
-        )
-        .spans(8);
-        assert_eq!((spans.first[0], spans.end[0]), (0, 256));
+        let mut disc = Disc::<LAYERED>::default();
+        disc.resize(16.0);
+        let spans = Capsule::level::<LAYERED>([-144.0, 480.0], 8.5 + 144.0).spans(&disc, 8, 256.0);
+        assert_eq!((spans.first[8], spans.end[8]), (0, 256));
+        assert_eq!((spans.first[7], spans.end[7]), (256, 0));
     }
 }

@@ -2,15 +2,18 @@
 
 use std::sync::Arc;
 
-use guideway_layout::{Layout, NewPath};
+use guideway_layout::{Layout, NewPath, OwnStyle};
 use guideway_render::density::ToneMap;
 use guideway_render::{
-    Budget, Cancel, Frame, FrameSize, Method, RenderError, Report, Shading, Style, View,
+    Budget, Cancel, Edited, Frame, FrameSize, Method, Prepared, RenderError, Report, Shading,
+    Style, View,
 };
-use guideway_scene::{LineRule, Rgba, Scene, SceneOptions};
-use guideway_spline::{Point, Runs};
+use guideway_scene::{Edit, Insertion, LineRule, PathState, Rgba, Scene, SceneOptions};
+use guideway_spline::{Affine, Point, Runs};
 
 use super::Cpu;
+use super::prepared::CpuPrepared;
+use super::shot::LaneWidth;
 use crate::Oracle;
 
 /// Numbers below 1 in magnitude, the same on every run.
@@ -107,7 +110,7 @@ fn check(scene: &Arc<Scene>, view: &View, style: &Style) {
     let mean = errors.iter().map(|&e| f64::from(e)).sum::<f64>() / errors.len() as f64;
     let far = errors.iter().filter(|&&e| e > 16).count();
     let most = errors.iter().max().unwrap();
-    let is_near = mean <= 0.5 && far * 2000 <= errors.len() && *most <= 64;
+    let is_near = mean <= 0.75 && far * 2000 <= errors.len() && *most <= 64;
     assert!(
         is_near,
         "mean {mean}, {far} of {} above 16, most {most}",
@@ -236,8 +239,10 @@ fn threads_bands_and_earlier_frames_do_not_show() {
                 .unwrap();
         }
         assert_eq!(frame, expected);
+        // A little less than all at once takes, the picture included.
+        let whole = report.peak_bytes + 4 * view.size().pixels() as u64;
         let little = Budget {
-            memory_bytes: 1_000_000,
+            memory_bytes: whole - 50_000,
             threads: 1,
         };
         let (banded, in_bands) = draw(&Cpu, &scene, &view, &style, &little);
@@ -263,7 +268,7 @@ fn too_little_memory_and_a_call_to_stop_are_told() {
         Err(RenderError::Budget { .. })
     ));
     let mut frame = Frame::new(FrameSize::new(1, 1).unwrap());
-    let mut prepared = Cpu.prepare(Arc::clone(&scene), &budget(550_000)).unwrap();
+    let mut prepared = Cpu.prepare(Arc::clone(&scene), &budget(300_000)).unwrap();
     let cancel = Cancel::default();
     let (view, style) = (view(ORIGIN, 0.8), wide_px(1.5));
     let refused = prepared.render(&view, &style, &cancel, &mut frame);
@@ -275,4 +280,79 @@ fn too_little_memory_and_a_call_to_stop_are_told() {
     let mut prepared = Cpu.prepare(scene, &Budget::default()).unwrap();
     let stopped = prepared.render(&view, &style, &cancel, &mut frame);
     assert_eq!(stopped, Err(RenderError::Cancelled));
+}
+
+#[test]
+fn vector_instructions_do_not_show() {
+    let scene = colored(wandering(1000, 30, 2.0, ORIGIN), |i| [255, 255, 200][i % 3]);
+    let plain = self::scene(wandering(1000, 30, 2.0, ORIGIN));
+    for (scene, style) in [
+        (&scene, wide_px(1.5)),
+        (&plain, wide_px(2.5)),
+        (&plain, Style::default()),
+    ] {
+        for px_per_m in [0.8, 40.0] {
+            let pictures =
+                [LaneWidth::Baseline, LaneWidth::Eight, LaneWidth::Widest].map(|lane_width| {
+                    let mut frame = Frame::new(FrameSize::new(1, 1).unwrap());
+                    let mut prepared =
+                        CpuPrepared::new(Arc::clone(scene), &Budget::default()).unwrap();
+                    prepared.lane_width = lane_width;
+                    let view = view(ORIGIN, px_per_m);
+                    prepared
+                        .render(&view, &style, &Cancel::default(), &mut frame)
+                        .unwrap();
+                    frame
+                });
+            assert!(pictures.iter().all(|picture| *picture == pictures[0]));
+        }
+    }
+}
+
+#[test]
+fn an_edited_scene_looks_as_one_made_so() {
+    let before = colored(wandering(500, 11, 3.0, ORIGIN), |i| [255, 120][i % 2]);
+    let moved: Arc<[u32]> = (0..500).step_by(7).collect();
+    let hidden: Arc<[_]> = (0..500)
+        .step_by(11)
+        .map(|i| (i, PathState::Hidden))
+        .collect();
+    let mut runs = Runs::default();
+    runs.push_line(Point::new(-80.0, -3.0), Point::new(70.0, 5.0));
+    let own = OwnStyle {
+        width_m: Some(9.0),
+        color_rgba: Some(0xff00_40ff),
+    };
+    let inserted = Insertion {
+        runs,
+        ..Insertion::default()
+    };
+    let edits = [
+        Edit::Transform {
+            paths: moved,
+            by: Affine::translation(Point::new(4.0, -30.0)),
+        },
+        Edit::SetStates(hidden),
+        Edit::Insert(Arc::new([inserted])),
+        Edit::Restyle(Arc::new([(3, own), (4, own)])),
+    ];
+    let mut prepared = Cpu
+        .prepare(Arc::clone(&before), &Budget::default())
+        .unwrap();
+    let mut scene = Scene::clone(&before);
+    let (view, style) = (view(ORIGIN, 0.8), Style::default());
+    let mut frame = Frame::new(view.size());
+    prepared
+        .render(&view, &style, &Cancel::default(), &mut frame)
+        .unwrap();
+    for edit in edits {
+        scene.edit(&edit).unwrap();
+        assert_eq!(prepared.edit(&edit), Ok(Edited::InPlace { moved_bytes: 0 }));
+        let report = prepared
+            .render(&view, &style, &Cancel::default(), &mut frame)
+            .unwrap();
+        assert!(report.accounts_for_all(), "{report:?}");
+        let edited = Arc::new(scene.clone());
+        check(&edited, &view, &style);
+    }
 }

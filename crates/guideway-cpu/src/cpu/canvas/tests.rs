@@ -1,0 +1,81 @@
+use super::*;
+use crate::cpu::span::LAYERED;
+
+type Layers = Canvas<LAYERED>;
+
+/// Strokes a level line, in pixels.
+fn stroke<const C: usize>(canvas: &mut Canvas<C>, from: f32, to: f32, y: f32, radius: f32) {
+    let mut disc = Disc::default();
+    disc.resize(radius * C as f32);
+    let capsule = Capsule::level::<C>([from, to].map(|x| x * C as f32), y * C as f32);
+    canvas.stroke(&capsule, &disc, 0..=TILE_PX - 1, u32::MAX);
+}
+
+fn pixel(canvas: &Layers, x: usize, y: usize, background: Rgba) -> [u8; 4] {
+    let mut pixels = vec![[0; 4]; TILE_PX];
+    canvas.row_over(y, background, &mut pixels);
+    pixels[x]
+}
+
+#[test]
+fn bits_are_counted_by_pixel() {
+    let mut block = [0; ROWS];
+    assert_eq!(pixel_counts::<SOLID>(&block), [0; 4]);
+    block[3] = 0x01_80_ff_13;
+    assert_eq!(pixel_counts::<SOLID>(&block), [3, 8, 1, 1]);
+    assert_eq!(pixel_counts::<LAYERED>(&block)[..2], [11, 2]);
+    assert_eq!(pixel_counts::<SOLID>(&[u32::MAX; ROWS]), [128; 4]);
+    assert_eq!(pixel_counts::<LAYERED>(&[u32::MAX; ROWS])[..2], [256; 2]);
+}
+
+#[test]
+fn what_is_laid_first_hides_what_comes_after() {
+    let mut canvas = Layers::new();
+    canvas.begin_layers(32, 32);
+    let (red, blue) = (Rgba::opaque(255, 0, 0), Rgba::opaque(0, 0, 255));
+    stroke(&mut canvas, 0.0, 16.0, 4.5, 0.5);
+    canvas.fill(red);
+    stroke(&mut canvas, 0.0, 16.0, 5.0, 0.25);
+    canvas.fill(blue);
+    assert_eq!(pixel(&canvas, 8, 4, Rgba::WHITE), [255, 0, 0, 255]);
+    assert_eq!(pixel(&canvas, 8, 5, Rgba::WHITE), [191, 191, 255, 255]);
+}
+
+#[test]
+fn translucent_paths_are_composited_a_sample_at_a_time() {
+    let mut canvas = Layers::new();
+    canvas.begin_layers(32, 32);
+    for _ in 0..2 {
+        stroke(&mut canvas, 0.0, 16.0, 4.5, 0.25);
+        canvas.fill(Rgba::from_u32(0x0000_0080));
+    }
+    stroke(&mut canvas, 0.0, 16.0, 4.5, 9.0);
+    canvas.fill(Rgba::opaque(0, 255, 0));
+    let clear = (1.0 - 128.0 / 255.0_f64).powi(2);
+    let green = (255.0 * (0.5 + 0.5 * clear)).round() as u8;
+    assert_eq!(pixel(&canvas, 8, 4, Rgba::WHITE), [0, green, 0, 255]);
+}
+
+#[test]
+fn a_translucent_background_shows_through_with_straight_alpha() {
+    let background = Rgba::from_u32(0xff00_0080);
+    let mut canvas = Layers::new();
+    canvas.begin_layers(32, 32);
+    stroke(&mut canvas, 0.0, 16.0, 4.5, 0.25);
+    canvas.fill(Rgba::opaque(0, 0, 255));
+    assert_eq!(pixel(&canvas, 0, 0, background), [255, 0, 0, 128]);
+    // Half opaque blue, and a quarter red.
+    assert_eq!(pixel(&canvas, 8, 4, background), [85, 0, 170, 192]);
+}
+
+#[test]
+fn a_tile_is_full_when_all_that_is_seen_is_covered() {
+    let mut canvas = Canvas::<SOLID>::new();
+    canvas.begin(5, 3);
+    stroke(&mut canvas, 0.0, 0.0, 1.5, 4.5);
+    assert!(!canvas.is_full());
+    assert!(canvas.is_open(Point::new(4.0, 0.0), Point::new(9.0, 9.0)));
+    assert!(!canvas.is_open(Point::new(-1e9, 0.0), Point::new(3.0, 1e9)));
+    stroke(&mut canvas, 4.5, 4.5, 1.5, 2.5);
+    assert!(canvas.is_full());
+}

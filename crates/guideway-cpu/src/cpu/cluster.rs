@@ -1,0 +1,366 @@
+use std::ops::Range;
+
+use guideway_layout::{Layout, RunPoints};
+use guideway_scene::{PathState, Scene};
+use guideway_spline::{Bounds, Point};
+use multiversion::multiversion;
+use rayon::prelude::*;
+
+use super::LANES;
+use super::canvas::{TILE_PX, set_bits};
+use super::flatten::flatten;
+use super::polylines::{Pen, Polylines, ROUNDS};
+use super::shot::{LaneWidth, Shot};
+use super::simplify::simplify;
+
+/// Paths, near each other, that are culled and kept together.
+pub(super) const CLUSTER_PATHS: usize = 64;
+/// Farthest from its middle, in units, that a cluster whose lines are kept may reach: rounding to `i16`
+/// stays within.
+const MOST_UNITS: f64 = 32_000.0;
+
+/// Paths near each other, and the lines that they were last drawn as.
+#[derive(Debug, Default)]
+pub(super) struct Cluster {
+    /// Where the control points lie, in metres; none if there are none.
+    pub(super) bounds: Option<Bounds<f64>>,
+    pub(super) lines: Lines,
+    /// Whether paths have changed since.
+    pub(super) is_stale: bool,
+    pub(super) sight: Option<Sight>,
+}
+
+/// What a frame sees of a cluster.
+#[derive(Clone, Debug)]
+pub(super) struct Sight {
+    /// Where its middle lies, in pixels.
+    pub(super) middle_px: Point<f64>,
+    /// Pixels that it may leave a mark on.
+    pub(super) reach_px: Bounds<f32>,
+    /// Whether all of it is within the picture.
+    is_whole: bool,
+    /// Tiles that it may leave a mark on.
+    pub(super) columns: Range<usize>,
+    pub(super) rows: Range<usize>,
+    /// Paths that may leave a mark on the picture, and their lines.
+    pub(super) drawn: u32,
+    pub(super) made: u32,
+}
+
+/// Lines of a cluster.
+#[derive(Debug, Default)]
+pub(super) enum Lines {
+    #[default]
+    None,
+    /// In units of so many metres from the middle of the cluster: good for every view of that unit.
+    Kept(f64, Polylines<i16>),
+    /// In pixels of one frame, cut where they leave the picture: of what is too large for the other.
+    Cut(Polylines<f32>),
+}
+
+/// Buffers to make lines in.
+#[derive(Default)]
+pub(super) struct Scratch {
+    kept: Polylines<i16>,
+    cut: Polylines<f32>,
+    local: Vec<Point<f32>>,
+    vertices: Vec<Point<f32>>,
+    /// The round, the member and the end of the points of each run.
+    runs: Vec<(usize, u8, usize)>,
+    pixels: Vec<Point<f64>>,
+}
+
+/// The order in which the paths of a cluster are drawn. They are sorted along a curve that fills the plane,
+/// so with the bits of their numbers reversed the first spread over all of the cluster, and most of what
+/// comes later is covered before.
+fn spread_out(round: usize, paths: usize) -> impl Iterator<Item = usize> {
+    let reversed = |i: usize| (usize::from((i as u8).reverse_bits()) * CLUSTER_PATHS) >> u8::BITS;
+    let numbers = round * CLUSTER_PATHS / ROUNDS..(round + 1) * CLUSTER_PATHS / ROUNDS;
+    numbers.map(reversed).filter(move |&i| i < paths)
+}
+
+/// All rows of a scene, sorted so that near ones are near each other.
+pub(super) fn sorted_rows(scene: &Scene) -> Vec<u32> {
+    let layout = scene.layout();
+    let rows = 0..layout.paths.len() as u32;
+    let centers: Vec<_> = rows
+        .into_par_iter()
+        .map(|row| center(layout, row))
+        .collect();
+    let placed = centers
+        .par_iter()
+        .flatten()
+        .map(|&p| Bounds { min: p, max: p });
+    let Some(all) = placed.reduce_with(Bounds::union) else {
+        return (0..centers.len() as u32).collect();
+    };
+    let size = all.size();
+    let scale = f64::from(u16::MAX) / size.x.max(size.y).max(f64::MIN_POSITIVE);
+    let place = |p: Point<f64>| {
+        let [x, y] = [(p.x - all.min.x) * scale, (p.y - all.min.y) * scale];
+        u64::from(spread(x as u16) | spread(y as u16) << 1)
+    };
+    let keys = centers
+        .par_iter()
+        .enumerate()
+        .map(|(row, center)| center.map_or(u64::from(u32::MAX), place) << 32 | row as u64);
+    let mut keys: Vec<u64> = keys.collect();
+    keys.par_sort_unstable();
+    keys.par_iter().map(|&key| key as u32).collect()
+}
+
+fn center(layout: &Layout, row: u32) -> Option<Point<f64>> {
+    let bounds = layout.paths.get(row as usize).hull_bounds();
+    bounds.map(Bounds::center)
+}
+
+/// The bits with a gap behind each.
+fn spread(bits: u16) -> u32 {
+    let mut bits = u32::from(bits);
+    for (shift, mask) in [
+        (8, 0x00ff_00ff),
+        (4, 0x0f0f_0f0f),
+        (2, 0x3333_3333),
+        (1, 0x5555_5555),
+    ] {
+        bits = (bits | bits << shift) & mask;
+    }
+    bits
+}
+
+/// Where the control points of paths lie, in metres.
+pub(super) fn hull_bounds(layout: &Layout, paths: &[u32]) -> Option<Bounds<f64>> {
+    let hulls = paths
+        .iter()
+        .filter_map(|&path| layout.paths.get(path as usize).hull_bounds());
+    hulls.reduce(Bounds::union)
+}
+
+impl Cluster {
+    /// Finds what the frame sees of it.
+    pub(super) fn look(&mut self, shot: &Shot<'_>) {
+        let picture = shot.picture_px();
+        let reach = self.bounds.map(|bounds| (bounds, shot.reach_px(bounds)));
+        let in_sight = reach.filter(|(_, reach)| reach.intersects(picture));
+        self.sight = in_sight.map(|(bounds, reach)| {
+            let tiles = |min: f64, max: f64, side_px: f64| {
+                let end = (max.min(side_px) / TILE_PX as f64).ceil();
+                (min.max(0.0) / TILE_PX as f64) as usize..(end as usize).max(1)
+            };
+            Sight {
+                middle_px: shot.view.pixel_from_world(bounds.center()),
+                reach_px: Bounds {
+                    min: reach.min.to_f32(),
+                    max: reach.max.to_f32(),
+                },
+                is_whole: picture.contains(reach.min) && picture.contains(reach.max),
+                columns: tiles(reach.min.x, reach.max.x, picture.max.x),
+                rows: tiles(reach.min.y, reach.max.y, picture.max.y),
+                drawn: 0,
+                made: 0,
+            }
+        });
+    }
+
+    /// Makes the lines that a frame needs within some rows of tiles, unless they are there.
+    pub(super) fn flatten(
+        &mut self,
+        shot: &Shot<'_>,
+        paths: &[u32],
+        rows: &Range<usize>,
+        scratch: &mut Scratch,
+    ) {
+        let (Some(sight), Some(bounds)) = (&mut self.sight, self.bounds) else {
+            return;
+        };
+        let unit_m = shot.unit_m();
+        let size = bounds.size();
+        if size.x.max(size.y) > 2.0 * MOST_UNITS * unit_m {
+            (sight.drawn, sight.made) = scratch.cut(shot, paths, rows);
+            if !matches!(self.lines, Lines::Cut(_)) {
+                self.lines = Lines::Cut(Polylines::default());
+            }
+            if let Lines::Cut(lines) = &mut self.lines {
+                lines.copy_from(&scratch.cut);
+            }
+            return;
+        }
+        if self.is_stale || !matches!(self.lines, Lines::Kept(unit, _) if unit == unit_m) {
+            self.is_stale = false;
+            scratch.keep(shot, paths, bounds.center(), unit_m);
+            let mut lines = match std::mem::take(&mut self.lines) {
+                Lines::Kept(_, lines) => lines,
+                Lines::None | Lines::Cut(_) => Polylines::default(),
+            };
+            lines.copy_from(&scratch.kept);
+            self.lines = Lines::Kept(unit_m, lines);
+        }
+        if let Lines::Kept(_, lines) = &self.lines {
+            (sight.drawn, sight.made) = if sight.is_whole {
+                lines.paths_and_lines()
+            } else {
+                count(lines, &within_units(shot, sight.middle_px, unit_m))
+            };
+        }
+    }
+
+    /// Bytes of the lines.
+    pub(super) fn bytes(&self) -> u64 {
+        match &self.lines {
+            Lines::None => 0,
+            Lines::Kept(_, lines) => lines.bytes(),
+            Lines::Cut(lines) => lines.bytes(),
+        }
+    }
+}
+
+/// Where centre lines leave a mark, in units from the middle of a cluster, y down.
+fn within_units(shot: &Shot<'_>, middle: Point<f64>, unit_m: f64) -> Bounds<f32> {
+    let per_px = 1.0 / (shot.view.px_per_m() * unit_m);
+    let seen = shot.seen_px();
+    Bounds {
+        min: ((seen.min - middle) * per_px).to_f32(),
+        max: ((seen.max - middle) * per_px).to_f32(),
+    }
+}
+
+/// Paths and lines of the pieces within a box.
+fn count(lines: &Polylines<i16>, within: &Bounds<f32>) -> (u32, u32) {
+    let (mut drawn, mut made, mut last) = (0, 0, None);
+    let pieces = 0..lines.pieces();
+    for first in pieces.clone().step_by(LANES) {
+        for lane in set_bits(lines.hit_bits(first, pieces.end, within)) {
+            let piece = first + lane;
+            made += lines.lines(piece) as u32;
+            drawn += u32::from(last != Some(lines.member(piece)));
+            last = Some(lines.member(piece));
+        }
+    }
+    (drawn, made)
+}
+
+impl Scratch {
+    /// Lines of all paths that are shown, in units from `middle_m`.
+    fn keep(&mut self, shot: &Shot<'_>, paths: &[u32], middle_m: Point<f64>, unit_m: f64) {
+        let scene = shot.scene;
+        let Self {
+            kept, local, runs, ..
+        } = self;
+        kept.clear();
+        let per_m = 1.0 / unit_m;
+        let place = |p: Point<f64>| {
+            Point::new((p.x - middle_m.x) * per_m, (middle_m.y - p.y) * per_m).to_f32()
+        };
+        // All points first: they lie anywhere, and so their ways through the caches go side by side.
+        local.clear();
+        runs.clear();
+        for round in 0..ROUNDS {
+            for member in spread_out(round, paths.len()) {
+                let path = paths[member];
+                if scene.state(path) == PathState::Shown {
+                    for run in scene.layout().paths.geometry().runs(path as usize) {
+                        match run {
+                            RunPoints::F64(run) => local.extend(run.iter().map(|&p| place(p))),
+                            RunPoints::F32(run) => {
+                                local.extend(run.iter().map(|p| place(p.to_f64())));
+                            }
+                        }
+                        runs.push((round, member as u8, local.len()));
+                    }
+                }
+            }
+        }
+        let tolerance = shot.tolerance_units();
+        match shot.lane_width {
+            LaneWidth::Widest => simplify_widest(self, tolerance),
+            LaneWidth::Eight => simplify_eight(self, tolerance),
+            LaneWidth::Baseline => simplify_all(self, tolerance),
+        }
+    }
+
+    /// Lines within some rows of tiles, and how many paths and lines there are in all of the picture.
+    fn cut(&mut self, shot: &Shot<'_>, paths: &[u32], rows: &Range<usize>) -> (u32, u32) {
+        let Self { cut, pixels, .. } = self;
+        cut.clear();
+        let (seen, reach) = (shot.seen_px(), shot.widest_px() + 1.0);
+        let top = (rows.start * TILE_PX) as f64 - reach;
+        let bottom = (rows.end * TILE_PX) as f64 + reach;
+        let mut pen = Pen::new();
+        let (mut drawn, mut made) = (0, 0);
+        for (member, &path) in paths.iter().enumerate() {
+            if shot.scene.state(path) != PathState::Shown {
+                continue;
+            }
+            let before = made;
+            for run in shot.scene.layout().paths.geometry().runs(path as usize) {
+                pixels.clear();
+                pixels.extend(run.iter().map(|p| shot.view.pixel_from_world(p)));
+                let mut last = None;
+                flatten(pixels, seen, &mut |start: Point<f64>, end: Point<f64>| {
+                    made += 1;
+                    if start.y.max(end.y) < top || start.y.min(end.y) > bottom {
+                        return;
+                    }
+                    if last != Some(start) {
+                        pen.lift(cut);
+                        pen.set(member as u8, start.to_f32());
+                    }
+                    pen.draw(end.to_f32(), cut);
+                    last = Some(end);
+                });
+                pen.lift(cut);
+            }
+            drawn += u32::from(made > before);
+        }
+        (0..ROUNDS).for_each(|round| cut.end_round(round));
+        cut.finish();
+        (drawn, made)
+    }
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512dq+avx512vl", "x86_64+avx2"))]
+fn simplify_widest(scratch: &mut Scratch, tolerance: f32) {
+    simplify_all(scratch, tolerance);
+}
+
+#[multiversion(targets("x86_64+avx2"))]
+fn simplify_eight(scratch: &mut Scratch, tolerance: f32) {
+    simplify_all(scratch, tolerance);
+}
+
+/// Makes kept lines of all runs.
+#[inline(always)]
+fn simplify_all(scratch: &mut Scratch, tolerance: f32) {
+    /// Adding this to a number of less than 16 bits rounds it to the nearest integer, in the low bits.
+    const ROUND: f32 = 1.5 * (1 << 23) as f32;
+    let Scratch {
+        kept,
+        local,
+        runs,
+        vertices,
+        ..
+    } = scratch;
+    let round = |x: f32| (x + ROUND).to_bits() as i16;
+    let mut pen = Pen::new();
+    let (mut first, mut ended) = (0, 0);
+    for &(round_number, member, end) in runs.iter() {
+        (ended..round_number).for_each(|round| kept.end_round(round));
+        ended = round_number;
+        simplify(&local[first..end], tolerance, vertices);
+        for (i, vertex) in vertices.iter().enumerate() {
+            let vertex = Point {
+                x: round(vertex.x),
+                y: round(vertex.y),
+            };
+            if i == 0 {
+                pen.set(member, vertex);
+            } else {
+                pen.draw(vertex, kept);
+            }
+        }
+        pen.lift(kept);
+        first = end;
+    }
+    (ended..ROUNDS).for_each(|round| kept.end_round(round));
+    kept.finish();
+}

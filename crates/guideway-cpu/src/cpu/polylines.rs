@@ -1,0 +1,279 @@
+use std::ops::Range;
+
+use guideway_spline::{Bounds, Point};
+
+use super::LANES;
+
+/// Pieces are drawn in so many rounds.
+pub(super) const ROUNDS: usize = 8;
+
+/// A number that vertices are kept in.
+pub(super) trait Coordinate: Copy + Default + PartialOrd + Into<f32> {}
+
+impl Coordinate for i16 {}
+impl Coordinate for f32 {}
+
+/// Lines of some paths: vertices, each joined with the next unless a piece ends between them.
+///
+/// A piece is a stretch of one path of at most as many lines as there are lanes.
+#[derive(Debug, Default)]
+pub(super) struct Polylines<T> {
+    /// Vertices, and lanes enough behind the last that each can be the first of a batch.
+    pub(super) x: Vec<T>,
+    pub(super) y: Vec<T>,
+    /// A bit for each vertex: whether a line begins there.
+    begins: Vec<u16>,
+    /// The first vertex of each piece, and the end of the last.
+    firsts: Vec<u32>,
+    /// Whose each piece is, as a number among the paths.
+    members: Vec<u8>,
+    /// The box of each piece: least x and y, greatest x and y.
+    boxes: [Vec<T>; 4],
+    /// Where each round of pieces ends.
+    rounds: [u32; ROUNDS],
+    /// Number of paths and of lines.
+    counts: (u32, u32),
+}
+
+impl<T: Coordinate> Polylines<T> {
+    /// Lets go of all lines, not of the memory.
+    pub(super) fn clear(&mut self) {
+        let Self {
+            x,
+            y,
+            begins,
+            firsts,
+            members,
+            boxes,
+            rounds: _,
+            counts,
+        } = self;
+        *counts = (0, 0);
+        x.clear();
+        y.clear();
+        begins.clear();
+        firsts.clear();
+        members.clear();
+        boxes.iter_mut().for_each(Vec::clear);
+    }
+
+    /// Adds a piece: the vertices of as many lines as there are lanes, or fewer. It begins where the last one
+    /// of the same path ended, or anywhere.
+    #[inline(always)]
+    pub(super) fn push(&mut self, member: u8, vertices: &[Point<T>]) {
+        let first = self.x.len();
+        self.counts.0 += u32::from(self.members.last() != Some(&member));
+        self.counts.1 += vertices.len() as u32 - 1;
+        self.firsts.push(first as u32);
+        self.members.push(member);
+        self.x.extend(vertices.iter().map(|v| v.x));
+        self.y.extend(vertices.iter().map(|v| v.y));
+        self.begins.resize(self.x.len().div_ceil(LANES), 0);
+        let bits = ((1_u32 << (vertices.len() - 1)) - 1) << (first % LANES);
+        self.begins[first / LANES] |= bits as u16;
+        if let Some(next) = self.begins.get_mut(first / LANES + 1) {
+            *next |= (bits >> LANES) as u16;
+        }
+        let (mut least, mut most) = (vertices[0], vertices[0]);
+        for v in vertices {
+            least = Point {
+                x: lesser(least.x, v.x),
+                y: lesser(least.y, v.y),
+            };
+            most = Point {
+                x: greater(most.x, v.x),
+                y: greater(most.y, v.y),
+            };
+        }
+        for (side, value) in self
+            .boxes
+            .iter_mut()
+            .zip([least.x, least.y, most.x, most.y])
+        {
+            side.push(value);
+        }
+    }
+
+    /// Ends a round.
+    pub(super) fn end_round(&mut self, round: usize) {
+        self.rounds[round] = self.members.len() as u32;
+    }
+
+    /// The pieces of a round.
+    pub(super) fn round(&self, round: usize) -> Range<usize> {
+        let start = if round == 0 {
+            0
+        } else {
+            self.rounds[round - 1]
+        };
+        start as usize..self.rounds[round] as usize
+    }
+
+    /// Ends the list.
+    pub(super) fn finish(&mut self) {
+        self.firsts.push(self.x.len() as u32);
+        let padded = self.x.len() + LANES;
+        self.x.resize(padded, T::default());
+        self.y.resize(padded, T::default());
+        self.begins.resize(self.begins.len() + 2, 0);
+        for side in &mut self.boxes {
+            side.resize(self.members.len() + LANES, T::default());
+        }
+    }
+
+    /// Becomes a copy that takes no more memory than it has to.
+    pub(super) fn copy_from(&mut self, other: &Self) {
+        copy(&mut self.x, &other.x);
+        copy(&mut self.y, &other.y);
+        copy(&mut self.begins, &other.begins);
+        copy(&mut self.firsts, &other.firsts);
+        copy(&mut self.members, &other.members);
+        for (to, from) in self.boxes.iter_mut().zip(&other.boxes) {
+            copy(to, from);
+        }
+        (self.rounds, self.counts) = (other.rounds, other.counts);
+    }
+
+    /// Number of paths and of lines.
+    pub(super) fn paths_and_lines(&self) -> (u32, u32) {
+        self.counts
+    }
+
+    /// Number of pieces.
+    pub(super) fn pieces(&self) -> usize {
+        self.members.len()
+    }
+
+    /// Whose a piece is.
+    pub(super) fn member(&self, piece: usize) -> u8 {
+        self.members[piece]
+    }
+
+    /// Number of lines of a piece.
+    pub(super) fn lines(&self, piece: usize) -> usize {
+        self.begins_of(piece..piece + 1).len()
+    }
+
+    /// The vertices where the lines of some pieces begin, and some between where none does.
+    pub(super) fn begins_of(&self, pieces: Range<usize>) -> Range<usize> {
+        let end = self.firsts[pieces.end] as usize;
+        self.firsts[pieces.start] as usize..end.saturating_sub(1)
+    }
+
+    /// Whether a line begins at each of a lane's number of vertices from `first` on: a bit each.
+    #[inline(always)]
+    pub(super) fn begin_bits(&self, first: usize) -> u32 {
+        let word = first / LANES;
+        let bits = u32::from(self.begins[word]) | u32::from(self.begins[word + 1]) << LANES;
+        bits >> (first % LANES) & 0xffff
+    }
+
+    /// Which of a lane's number of pieces from `first` on, and before `end`, have a box that meets another:
+    /// a bit each.
+    #[inline(always)]
+    pub(super) fn hit_bits(&self, first: usize, end: usize, within: &Bounds<f32>) -> u32 {
+        let sides = self
+            .boxes
+            .each_ref()
+            .map(|side| side[first..].first_chunk::<LANES>());
+        let [Some(left), Some(top), Some(right), Some(bottom)] = sides else {
+            return 0;
+        };
+        let mut bits = [0; LANES];
+        for i in 0..LANES {
+            // No shortcuts: they would be branches.
+            let meets = (left[i].into() <= within.max.x)
+                & (top[i].into() <= within.max.y)
+                & (right[i].into() >= within.min.x)
+                & (bottom[i].into() >= within.min.y);
+            bits[i] = if meets { 1 << i } else { 0 };
+        }
+        let all: u32 = bits.iter().fold(0, |all, bit| all | bit);
+        all & bits_below(end - first)
+    }
+
+    /// Bytes held.
+    pub(super) fn bytes(&self) -> u64 {
+        let boxes: usize = self.boxes.iter().map(Vec::capacity).sum();
+        let coordinates = self.x.capacity() + self.y.capacity() + boxes;
+        let bytes = coordinates * size_of::<T>()
+            + self.begins.capacity() * size_of::<u16>()
+            + self.firsts.capacity() * size_of::<u32>()
+            + self.members.capacity();
+        bytes as u64
+    }
+}
+
+/// A bit for each lane below a number.
+#[inline(always)]
+pub(super) fn bits_below(lane: usize) -> u32 {
+    if lane < LANES {
+        (1 << lane) - 1
+    } else {
+        (1 << LANES) - 1
+    }
+}
+
+#[inline(always)]
+fn lesser<T: PartialOrd>(a: T, b: T) -> T {
+    if b < a { b } else { a }
+}
+
+#[inline(always)]
+fn greater<T: PartialOrd>(a: T, b: T) -> T {
+    if b > a { b } else { a }
+}
+
+/// Vertices on their way into [`Polylines`], until there are enough for a piece.
+pub(super) struct Pen<T> {
+    vertices: [Point<T>; LANES + 1],
+    len: usize,
+    member: u8,
+}
+
+impl<T: Coordinate> Pen<T> {
+    pub(super) fn new() -> Self {
+        Self {
+            vertices: [Point {
+                x: T::default(),
+                y: T::default(),
+            }; LANES + 1],
+            len: 0,
+            member: 0,
+        }
+    }
+
+    /// Begins at a vertex of a path.
+    #[inline(always)]
+    pub(super) fn set(&mut self, member: u8, vertex: Point<T>) {
+        (self.member, self.len) = (member, 1);
+        self.vertices[0] = vertex;
+    }
+
+    /// Draws a line.
+    #[inline(always)]
+    pub(super) fn draw(&mut self, vertex: Point<T>, lines: &mut Polylines<T>) {
+        if self.len > LANES {
+            lines.push(self.member, &self.vertices);
+            self.vertices[0] = self.vertices[LANES];
+            self.len = 1;
+        }
+        self.vertices[self.len] = vertex;
+        self.len += 1;
+    }
+
+    /// Ends the lines of a path.
+    #[inline(always)]
+    pub(super) fn lift(&mut self, lines: &mut Polylines<T>) {
+        if self.len > 1 {
+            lines.push(self.member, &self.vertices[..self.len]);
+        }
+        self.len = 0;
+    }
+}
+
+fn copy<T: Copy>(to: &mut Vec<T>, from: &[T]) {
+    to.clear();
+    to.reserve_exact(from.len());
+    to.extend_from_slice(from);
+}

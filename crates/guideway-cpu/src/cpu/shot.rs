@@ -1,0 +1,136 @@
+use guideway_render::{Cancel, Style, View};
+use guideway_scene::{Rgba, Scene};
+use guideway_spline::{Bounds, Point};
+
+/// How exactly lines are kept.
+#[derive(Clone, Copy)]
+struct Grain {
+    /// Units of a pixel, at least; at most twice as many.
+    units_a_px: f64,
+    /// Farthest that a line may be from its curve, in units.
+    tolerance: f32,
+}
+
+/// Where all is one colour, borders of strokes are seen alone: at most a ninth of a pixel off.
+const SOLID: Grain = Grain {
+    units_a_px: 64.0,
+    tolerance: 7.0,
+};
+/// Where many strokes share a pixel, their errors add up: at most a 32nd of a pixel.
+const LAYERED: Grain = Grain {
+    units_a_px: 256.0,
+    tolerance: 8.0,
+};
+/// How far from its curve's control points a line may be drawn beside its width, in pixels.
+const MARGIN_PX: f64 = 1.0 / 16.0;
+
+/// Which vector instructions to use. All give the same bits.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(not(test), expect(dead_code, reason = "tests force each, and compare"))]
+pub(super) enum LaneWidth {
+    /// The widest that there are.
+    #[default]
+    Widest,
+    /// None beyond what every processor of this kind has.
+    Baseline,
+    /// Eight lanes, where there are.
+    Eight,
+}
+
+/// One scene, as one frame sees it.
+#[derive(Clone, Copy)]
+pub(super) struct Shot<'a> {
+    pub(super) scene: &'a Scene,
+    pub(super) view: &'a View,
+    pub(super) style: &'a Style,
+    pub(super) cancel: &'a Cancel,
+    pub(super) widths: Widths,
+    pub(super) lane_width: LaneWidth,
+    /// The colour of all that is drawn, if it is one and opaque.
+    pub(super) solid: Option<Rgba>,
+}
+
+/// The least and the greatest width of paths that have one of their own, in metres; none if none has.
+pub(super) type Widths = Option<(f32, f32)>;
+
+/// Widths of all paths that are drawn.
+pub(super) fn widths(scene: &Scene) -> Widths {
+    scene.layout().paths.width_m()?;
+    let own = scene
+        .draw_order()
+        .iter()
+        .filter_map(|&path| scene.width_m(path));
+    own.map(|width_m| (width_m, width_m))
+        .reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
+}
+
+impl Shot<'_> {
+    /// Half the stroke width of a path.
+    pub(super) fn radius_px(&self, path: u32) -> f64 {
+        self.radius_of(self.scene.width_m(path))
+    }
+
+    /// Half the stroke width of the widest path.
+    pub(super) fn widest_px(&self) -> f64 {
+        let own = self.widths.map(|(_, most)| self.radius_of(Some(most)));
+        self.radius_of(None).max(own.unwrap_or(0.0))
+    }
+
+    /// Half the stroke width, if it is that of all paths.
+    pub(super) fn common_radius_px(&self) -> Option<f64> {
+        let common = self.radius_of(None);
+        let is_common = |width_m| self.radius_of(Some(width_m)) == common;
+        let is_so = self
+            .widths
+            .is_none_or(|(least, most)| is_common(least) && is_common(most));
+        is_so.then_some(common)
+    }
+
+    fn radius_of(&self, width_m: Option<f32>) -> f64 {
+        self.style
+            .line_rule
+            .radius_px(width_m, self.view.px_per_m())
+    }
+
+    /// What vertices that are kept are rounded to: the greatest power of two that is at most a given part
+    /// of a pixel. It changes only where the scale has doubled.
+    pub(super) fn unit_m(&self) -> f64 {
+        const EXPONENT: u64 = 0x7ff << 52;
+        let most_m = 1.0 / (self.grain().units_a_px * self.view.px_per_m());
+        f64::from_bits(most_m.to_bits() & EXPONENT)
+    }
+
+    /// Farthest that a kept line may be from its curve, in units of [`Self::unit_m`].
+    pub(super) fn tolerance_units(&self) -> f32 {
+        self.grain().tolerance
+    }
+
+    fn grain(&self) -> Grain {
+        if self.solid.is_some() { SOLID } else { LAYERED }
+    }
+
+    /// Where in the picture a box of control points may leave a mark.
+    pub(super) fn reach_px(&self, bounds: Bounds<f64>) -> Bounds<f64> {
+        let [a, b] = [bounds.min, bounds.max].map(|p| self.view.pixel_from_world(p));
+        let corners = Bounds {
+            min: Point::new(a.x, b.y),
+            max: Point::new(b.x, a.y),
+        };
+        corners.inflated(self.widest_px() + MARGIN_PX)
+    }
+
+    /// The picture, in pixels.
+    pub(super) fn picture_px(&self) -> Bounds<f64> {
+        let size = self.view.size();
+        Bounds {
+            min: Point::default(),
+            max: Point::new(f64::from(size.width()), f64::from(size.height())),
+        }
+    }
+
+    /// Where centre lines leave a mark. A pixel is added so that the caps of lines that are cut there stay
+    /// out of sight.
+    pub(super) fn seen_px(&self) -> Bounds<f64> {
+        self.picture_px().inflated(self.widest_px() + 1.0)
+    }
+}

@@ -1,0 +1,237 @@
+use guideway_spline::{Point, uniform};
+
+use super::LANES;
+use super::span::{max, min};
+
+/// Joints of a stretch that is simplified at once.
+const MOST: usize = LANES;
+
+/// Some joints between the segments of a run, and how far the segments there may bend away from straight
+/// lines between them.
+struct Joints {
+    count: usize,
+    x: [f32; LANES],
+    y: [f32; LANES],
+    bend: [f32; LANES],
+}
+
+/// Draws a run of control points as straight lines, no point of either farther than `tolerance` from the
+/// other: gives the vertices in order.
+///
+/// A line from joint to joint is taken if all joints between are near enough. Between two joints, a curve
+/// leaves their chord by at most max |C''| / 8, and C'' is linear, so its greatest length is at a joint. The
+/// points that near to a line form a convex set, so it holds all chords of joints that it holds.
+#[inline(always)]
+pub(super) fn simplify(run: &[Point<f32>], tolerance: f32, vertices: &mut Vec<Point<f32>>) {
+    vertices.clear();
+    let Some(first) = run.first_chunk() else {
+        return;
+    };
+    vertices.push(uniform::start(first));
+    let mut rest = run;
+    while rest.len() >= 4 {
+        let part = &rest[..rest.len().min(MOST + 2)];
+        let joints = Joints::new(part);
+        let mut kept = joints.kept(tolerance);
+        let mut last = 0;
+        // What ends with a part may go on behind it: then all but the first line waits for the next part.
+        if part.len() < rest.len() && kept.count_ones() > 2 {
+            kept &= !(1 << (joints.count - 1));
+        }
+        kept &= !1;
+        while kept != 0 {
+            let joint = kept.trailing_zeros() as usize;
+            kept &= kept - 1;
+            if joint == last + 1 {
+                let bend = joints.bend_between(last, joint);
+                cut(uniform::segment(part, last), bend, tolerance, vertices);
+            }
+            vertices.push(joints.at(joint));
+            last = joint;
+        }
+        rest = &rest[last..];
+    }
+}
+
+/// Adds the inner vertices of a segment that is bent too much for one line, at equal parts of its
+/// parameter: n parts are n^2 times as straight.
+fn cut(segment: &[Point<f32>; 4], bend: f32, tolerance: f32, vertices: &mut Vec<Point<f32>>) {
+    if bend > tolerance {
+        let parts = (bend / tolerance).sqrt().ceil();
+        for i in 1..parts as u32 {
+            vertices.push(uniform::point(segment, i as f32 / parts));
+        }
+    }
+}
+
+impl Joints {
+    /// The joints of a run of at most as many segments as fit.
+    #[inline(always)]
+    fn new(run: &[Point<f32>]) -> Self {
+        let (mut px, mut py) = ([0.0; LANES + 2], [0.0; LANES + 2]);
+        for (p, (x, y)) in run.iter().zip(px.iter_mut().zip(&mut py)) {
+            (*x, *y) = (p.x, p.y);
+        }
+        let mut joints = Self {
+            count: run.len() - 2,
+            x: [0.0; LANES],
+            y: [0.0; LANES],
+            bend: [0.0; LANES],
+        };
+        for i in 0..LANES {
+            joints.x[i] = (px[i] + px[i + 1] * 4.0 + px[i + 2]) * (1.0 / 6.0);
+            joints.y[i] = (py[i] + py[i + 1] * 4.0 + py[i + 2]) * (1.0 / 6.0);
+            let x = px[i] - px[i + 1] * 2.0 + px[i + 2];
+            let y = py[i] - py[i + 1] * 2.0 + py[i + 2];
+            joints.bend[i] = (x * x + y * y).sqrt() * 0.125;
+        }
+        joints
+    }
+
+    fn at(&self, joint: usize) -> Point<f32> {
+        Point::new(self.x[joint], self.y[joint])
+    }
+
+    /// How far a segment may bend away from its chord.
+    fn bend_between(&self, first: usize, last: usize) -> f32 {
+        max(self.bend[first], self.bend[last])
+    }
+
+    /// Which joints to keep, a bit each: the first, the last, and where a line would be too far off, that
+    /// farthest from it (Douglas and Peucker 1973).
+    #[inline(always)]
+    fn kept(&self, tolerance: f32) -> u32 {
+        let last = self.count - 1;
+        let mut kept = 1 | 1 << last;
+        let mut open = [(0, 0); LANES];
+        open[0] = (0, last);
+        let mut count = 1;
+        while count > 0 {
+            count -= 1;
+            let (from, to) = open[count];
+            if to - from < 2 {
+                continue;
+            }
+            let (off, farthest, bend) = farthest(self, from, to);
+            if off.sqrt() + bend > tolerance {
+                kept |= 1 << farthest;
+                open[count] = (farthest, to);
+                open[count + 1] = (from, farthest);
+                count += 2;
+            }
+        }
+        kept
+    }
+}
+
+/// The joint between two that is farthest from the line between them, its distance squared, and how far the
+/// curve may bend beside the joints.
+#[inline(always)]
+fn farthest(joints: &Joints, from: usize, to: usize) -> (f32, usize, f32) {
+    const LANE_BITS: u32 = LANES as u32 - 1;
+    let start = joints.at(from);
+    let along = joints.at(to) - start;
+    let square = along.dot(along);
+    let per_square = if square > 0.0 { 1.0 / square } else { 0.0 };
+    let mut keys = [0; LANES];
+    let mut bends = [0.0; LANES];
+    for i in 0..LANES {
+        let (x, y) = (joints.x[i] - start.x, joints.y[i] - start.y);
+        let t = min(max((x * along.x + y * along.y) * per_square, 0.0), 1.0);
+        let (x, y) = (x - t * along.x, y - t * along.y);
+        // Floats that are not negative are in the order of their bits; the lowest make room for the lane.
+        let key = (x * x + y * y).to_bits() & !LANE_BITS | i as u32;
+        keys[i] = if (i > from) & (i < to) { key } else { 0 };
+        bends[i] = if (i >= from) & (i <= to) {
+            joints.bend[i]
+        } else {
+            0.0
+        };
+    }
+    let key = keys.iter().fold(0, |most, &key| most.max(key));
+    let bend = bends.iter().fold(0.0, |most, &bend| max(most, bend));
+    (
+        f32::from_bits(key & !LANE_BITS),
+        (key & LANE_BITS) as usize,
+        bend,
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn simplified(run: &[Point<f32>], tolerance: f32) -> Vec<Point<f32>> {
+        let mut vertices = Vec::new();
+        simplify(run, tolerance, &mut vertices);
+        vertices
+    }
+
+    fn distance(p: Point<f32>, a: Point<f32>, b: Point<f32>) -> f32 {
+        let along = b - a;
+        let t = (p - a).dot(along) / along.dot(along).max(1e-30);
+        p.distance(a + along * t.clamp(0.0, 1.0))
+    }
+
+    #[test]
+    fn lines_and_curve_stay_within_the_tolerance_of_each_other() {
+        let mut state = 5_u32;
+        let mut next = move || {
+            state = state.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
+            (state >> 8) as f32 / (1 << 24) as f32 - 0.5
+        };
+        for (points, step) in [
+            (4, 40.0),
+            (5, 3.0),
+            (11, 10.0),
+            (18, 9.0),
+            (19, 9.0),
+            (60, 2.0),
+            (60, 200.0),
+        ] {
+            let (mut at, mut heading) = (Point::new(0.0, 0.0), 0.0_f32);
+            let run: Vec<_> = (0..points)
+                .map(|_| {
+                    heading += 2.0 * next();
+                    at = at + Point::new(heading.cos(), heading.sin()) * step;
+                    at
+                })
+                .collect();
+            let vertices = simplified(&run, 1.0);
+            let curve: Vec<_> = run
+                .array_windows()
+                .flat_map(|segment| (0..=50).map(|i| uniform::point(segment, i as f32 / 50.0)))
+                .collect();
+            for &p in &curve {
+                let near = vertices.array_windows().map(|&[a, b]| distance(p, a, b));
+                assert!(
+                    near.fold(f32::INFINITY, f32::min) <= 1.001,
+                    "{points} {step}"
+                );
+            }
+            for vertex in &vertices {
+                let near = curve.iter().map(|p| p.distance(*vertex));
+                assert!(
+                    near.fold(f32::INFINITY, f32::min) <= step * 0.05,
+                    "{points} {step}"
+                );
+            }
+            assert!(vertices.len() <= 2 + points * (2.0 + step.sqrt()) as usize);
+        }
+    }
+
+    #[test]
+    fn straight_runs_are_few_lines_and_a_point_is_one() {
+        let run: Vec<_> = (0..11)
+            .map(|i| Point::new(i as f32, 0.5 * i as f32))
+            .collect();
+        assert_eq!(
+            simplified(&run, 0.1),
+            [Point::new(1.0, 0.5), Point::new(9.0, 4.5)]
+        );
+        let run: Vec<_> = (0..100).map(|i| Point::new(i as f32, 7.0)).collect();
+        assert!(simplified(&run, 0.1).len() < 10);
+        assert_eq!(simplified(&[Point::new(2.0, 3.0); 4], 0.1).len(), 2);
+        assert!(simplified(&run[..3], 0.1).is_empty());
+    }
+}

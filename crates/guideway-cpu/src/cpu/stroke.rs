@@ -1,0 +1,216 @@
+use std::ops::Range;
+
+use guideway_spline::Point;
+
+use super::LANES;
+use super::canvas::{Canvas, TILE_PX};
+use super::polylines::{Coordinate, Polylines, bits_below};
+use super::span::{Capsule, Disc, max, min, phases, round};
+
+/// Polylines as they lie in one tile: in columns from its upper left corner.
+pub(super) struct Placed<'a, T> {
+    pub(super) lines: &'a Polylines<T>,
+    pub(super) scale: f32,
+    pub(super) offset: Point<f32>,
+}
+
+/// Lines side by side, one a lane.
+struct Batch {
+    /// The end of lesser y, and the other.
+    x: [[f32; LANES]; 2],
+    y: [[f32; LANES]; 2],
+    radius: f32,
+}
+
+/// What a capsule has beside its ends.
+struct Slopes {
+    phases: [[i32; LANES]; 2],
+    slope: [f32; LANES],
+    half: [f32; LANES],
+    lean: [f32; LANES],
+}
+
+/// The pixels that each line may touch: rows and columns, the last ones included.
+struct Boxes {
+    first_row: [u32; LANES],
+    last_row: [u32; LANES],
+    first_column: [u32; LANES],
+    last_column: [u32; LANES],
+    /// All bits, or none if the line does not touch the tile.
+    inside: [u32; LANES],
+}
+
+impl<T: Coordinate> Placed<'_, T> {
+    /// Adds the lines that begin at the vertices of `range` to the shape of a canvas.
+    #[inline(always)]
+    pub(super) fn stroke<const C: usize>(
+        &self,
+        canvas: &mut Canvas<C>,
+        range: Range<usize>,
+        disc: &Disc<C>,
+    ) {
+        for first in range.clone().step_by(LANES) {
+            let Some(batch) = self.batch(first, disc.radius) else {
+                return;
+            };
+            let boxes = batch.boxes::<C>();
+            let begins = self.lines.begin_bits(first) & bits_below(range.end - first);
+            let mut todo = begins & boxes.visible(canvas.open());
+            if todo == 0 {
+                continue;
+            }
+            let slopes = batch.slopes::<C>();
+            while todo != 0 {
+                let lane = todo.trailing_zeros() as usize % LANES;
+                todo &= todo - 1;
+                let capsule = batch.capsule(&slopes, lane);
+                let rows = boxes.first_row[lane] as usize..=boxes.last_row[lane] as usize;
+                let pixels = u32::MAX << boxes.first_column[lane]
+                    & u32::MAX >> (TILE_PX as u32 - 1 - boxes.last_column[lane]);
+                canvas.stroke(&capsule, disc, rows, pixels);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn batch(&self, first: usize, radius: f32) -> Option<Batch> {
+        let (x0, x1) = self.ends(&self.lines.x, first, self.offset.x)?;
+        let (y0, y1) = self.ends(&self.lines.y, first, self.offset.y)?;
+        let mut batch = Batch {
+            x: [x0, x1],
+            y: [y0, y1],
+            radius,
+        };
+        for i in 0..LANES {
+            let is_up = y1[i] < y0[i];
+            batch.x[0][i] = choose(is_up, x1[i], x0[i]);
+            batch.x[1][i] = choose(is_up, x0[i], x1[i]);
+            batch.y[0][i] = min(y0[i], y1[i]);
+            batch.y[1][i] = max(y0[i], y1[i]);
+        }
+        Some(batch)
+    }
+
+    /// One coordinate of both ends of each line.
+    #[inline(always)]
+    fn ends(&self, of: &[T], first: usize, offset: f32) -> Option<([f32; LANES], [f32; LANES])> {
+        let starts: &[T; LANES] = of.get(first..)?.first_chunk()?;
+        let ends: &[T; LANES] = of.get(first + 1..)?.first_chunk()?;
+        let place = |v: &T| (*v).into() * self.scale + offset;
+        Some((starts.each_ref().map(place), ends.each_ref().map(place)))
+    }
+}
+
+impl Batch {
+    #[inline(always)]
+    fn capsule(&self, slopes: &Slopes, lane: usize) -> Capsule {
+        Capsule {
+            x: self.x.map(|x| x[lane]),
+            y: self.y.map(|y| y[lane]),
+            phases: slopes.phases.map(|phases| phases[lane]),
+            slope: slopes.slope[lane],
+            half: slopes.half[lane],
+            lean: slopes.lean[lane],
+        }
+    }
+
+    #[inline(always)]
+    fn boxes<const C: usize>(&self) -> Boxes {
+        let side = (TILE_PX * C) as f32;
+        let mut boxes = Boxes {
+            first_row: [0; LANES],
+            last_row: [0; LANES],
+            first_column: [0; LANES],
+            last_column: [0; LANES],
+            inside: [0; LANES],
+        };
+        for i in 0..LANES {
+            let left = min(self.x[0][i], self.x[1][i]) - self.radius;
+            let right = max(self.x[0][i], self.x[1][i]) + self.radius;
+            let top = self.y[0][i] - self.radius;
+            let bottom = self.y[1][i] + self.radius;
+            let is_inside = (right > 0.0) & (left < side) & (bottom > 0.0) & (top < side);
+            boxes.inside[i] = if is_inside { u32::MAX } else { 0 };
+            boxes.first_row[i] = pixel_at::<C>(top);
+            boxes.last_row[i] = pixel_at::<C>(bottom);
+            boxes.first_column[i] = pixel_at::<C>(left);
+            boxes.last_column[i] = pixel_at::<C>(right);
+        }
+        boxes
+    }
+
+    #[inline(always)]
+    fn slopes<const C: usize>(&self) -> Slopes {
+        /// Lines less high than this, in columns, have no borders apart from their caps.
+        const LEVEL: f32 = 1.0 / 64.0;
+        let mut slopes = Slopes {
+            phases: [[0; LANES]; 2],
+            slope: [0.0; LANES],
+            half: [0.0; LANES],
+            lean: [0.0; LANES],
+        };
+        for i in 0..LANES {
+            let (dx, dy) = (self.x[1][i] - self.x[0][i], self.y[1][i] - self.y[0][i]);
+            let length = (dx * dx + dy * dy).sqrt();
+            let height = max(dy, LEVEL);
+            slopes.slope[i] = dx / height;
+            slopes.half[i] = self.radius * length / height;
+            let lean = self.radius * dx / max(length, LEVEL);
+            slopes.lean[i] = choose(dy < LEVEL, f32::NAN, lean);
+            slopes.phases[0][i] = phases::<C>(self.y[0][i]);
+            slopes.phases[1][i] = phases::<C>(self.y[1][i]);
+        }
+        slopes
+    }
+}
+
+/// The capsule around one line.
+#[cfg(test)]
+pub(super) fn capsule<const C: usize>(a: [f32; 2], b: [f32; 2], radius: f32) -> Capsule {
+    let [upper, lower] = if b[1] < a[1] { [b, a] } else { [a, b] };
+    let batch = Batch {
+        x: [[upper[0]; LANES], [lower[0]; LANES]],
+        y: [[upper[1]; LANES], [lower[1]; LANES]],
+        radius,
+    };
+    batch.capsule(&batch.slopes::<C>(), 0)
+}
+
+impl Boxes {
+    /// Which lines may cover samples of blocks that are open: a bit each.
+    #[inline(always)]
+    fn visible<const C: usize>(&self, open: &[u32; C]) -> u32 {
+        let window_px = Canvas::<C>::WINDOW_PX as u32;
+        let mut bits = [0; LANES];
+        for (i, bit) in bits.iter_mut().enumerate() {
+            let rows =
+                u32::MAX << self.first_row[i] & u32::MAX >> (TILE_PX as u32 - 1 - self.last_row[i]);
+            let mut open_rows = 0;
+            for (window, &open) in open.iter().enumerate() {
+                let left = window as u32 * window_px;
+                let is_touched =
+                    (self.first_column[i] < left + window_px) & (self.last_column[i] >= left);
+                open_rows |= if is_touched { open } else { 0 };
+            }
+            *bit = if open_rows & rows & self.inside[i] != 0 {
+                1 << i
+            } else {
+                0
+            };
+        }
+        bits.iter().fold(0, |all, bit| all | bit)
+    }
+}
+
+/// The pixel of the tile that is nearest to a position; one on a border may give that before it.
+#[inline(always)]
+fn pixel_at<const C: usize>(x: f32) -> u32 {
+    round(x * (1.0 / C as f32) - 0.5, TILE_PX as f32 - 1.0)
+}
+
+/// As bits, for a choice of two values may become two stores.
+#[inline(always)]
+fn choose(is_first: bool, first: f32, second: f32) -> f32 {
+    let mask = u32::from(is_first).wrapping_neg();
+    f32::from_bits(first.to_bits() & mask | second.to_bits() & !mask)
+}
