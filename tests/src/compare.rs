@@ -36,6 +36,12 @@ impl Tolerance {
         within: (32.0, 0.999),
         max: 128.0,
     };
+    /// For two pictures that are the same, bit for bit.
+    pub const NONE: Self = Self {
+        mean: 0.0,
+        within: (0.0, 1.0),
+        max: 0.0,
+    };
     /// For two pictures that differ by nothing but the rounding of coordinates.
     pub const ROUNDING: Self = Self {
         mean: 0.1,

@@ -3,6 +3,7 @@
 
 pub mod compare;
 pub mod devices;
+pub mod edits;
 pub mod evidence;
 pub mod hairline;
 pub mod methods;

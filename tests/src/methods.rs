@@ -3,8 +3,9 @@
 use std::sync::Arc;
 
 use guideway_cpu::{Cpu, Oracle};
-use guideway_render::{Budget, Cancel, Frame, FrameSize, Method, RenderError, Report};
-use guideway_scene::Scene;
+use guideway_render::{
+    Budget, Cancel, Frame, FrameSize, Method, Prepared, RenderError, Report, Style, View,
+};
 
 use crate::compare::Tolerance;
 use crate::sketch::Drawing;
@@ -37,17 +38,22 @@ pub fn draw(
     drawing: &Drawing,
     budget: &Budget,
 ) -> Result<(Frame, Report), RenderError> {
-    let scene = Scene::new(Arc::new(drawing.layout.clone()), &drawing.options)
-        .expect("the options of a drawing suit its layout");
+    let mut prepared = method.prepare(Arc::new(drawing.scene()), budget)?;
+    show(prepared.as_mut(), &drawing.view, &drawing.style)
+}
+
+/// Draws a view of a scene that was made ready.
+///
+/// # Errors
+/// What the method says.
+pub fn show(
+    prepared: &mut dyn Prepared,
+    view: &View,
+    style: &Style,
+) -> Result<(Frame, Report), RenderError> {
     // One pixel: the method has to give the frame its size.
     let mut frame = Frame::new(FrameSize::new(1, 1)?);
-    let mut prepared = method.prepare(Arc::new(scene), budget)?;
-    let report = prepared.render(
-        &drawing.view,
-        &drawing.style,
-        &Cancel::default(),
-        &mut frame,
-    )?;
+    let report = prepared.render(view, style, &Cancel::default(), &mut frame)?;
     Ok((frame, report))
 }
 

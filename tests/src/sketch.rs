@@ -1,9 +1,11 @@
 //! Scenes in few words: lengths in pixels, y up, the origin in the lower left corner of the picture.
 
+use std::sync::Arc;
+
 use guideway_layout::{Code, Geometry, Layout, Level, NewPath, Paths, TextColumn};
 use guideway_render::density::ToneMap;
 use guideway_render::{FrameSize, Shading, Style, View};
-use guideway_scene::{LineRule, Rgba, SceneOptions};
+use guideway_scene::{LineRule, Rgba, Scene, SceneOptions};
 use guideway_spline::{Point, Runs};
 
 /// Everything that a method needs for one picture.
@@ -17,6 +19,17 @@ pub struct Drawing {
     pub style: Style,
     /// What is seen of it.
     pub view: View,
+}
+
+impl Drawing {
+    /// The paths with their styles.
+    ///
+    /// # Panics
+    /// When the options name a level or column that the layout has not.
+    pub fn scene(&self) -> Scene {
+        Scene::new(Arc::new(self.layout.clone()), &self.options)
+            .expect("the options of a drawing suit its layout")
+    }
 }
 
 /// A drawing being described.

@@ -1,0 +1,187 @@
+//! Edits of every kind, by chance but the same on every machine.
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use guideway_layout::{Geometry, OwnStyle};
+use guideway_render::View;
+use guideway_scene::{Edit, Insertion, PathState, Scene};
+use guideway_spline::{Affine, Point, Runs};
+
+use crate::random::Lcg;
+
+/// Where curves are put.
+pub struct Area {
+    low: Point<f64>,
+    size: Point<f64>,
+}
+
+impl Area {
+    /// All that a view shows.
+    pub fn of(view: &View) -> Self {
+        let seen = view.world_bounds();
+        Self {
+            low: seen.min,
+            size: seen.size(),
+        }
+    }
+
+    fn point(&self, lcg: &mut Lcg) -> Point<f64> {
+        let (x, y) = (lcg.between(-0.1, 1.1), lcg.between(-0.1, 1.1));
+        self.low + Point::new(x * self.size.x, y * self.size.y)
+    }
+
+    /// A step of up to a share of the area.
+    fn step(&self, share: f64, lcg: &mut Lcg) -> Point<f64> {
+        let mut along = |side: f64| lcg.between(-share, share) * side;
+        Point::new(along(self.size.x), along(self.size.y))
+    }
+
+    /// A curve of a few runs that hang together by nothing.
+    fn curve(&self, lcg: &mut Lcg) -> Runs {
+        let mut runs = Runs::default();
+        for _ in 0..1 + lcg.below(3) {
+            let mut at = self.point(lcg);
+            let points = 4 + lcg.below(12);
+            let run: Vec<_> = (0..points)
+                .map(|_| {
+                    at = at + self.step(0.05, lcg);
+                    at
+                })
+                .collect();
+            runs.push(&run);
+        }
+        runs
+    }
+}
+
+/// Makes an edit that a scene can take.
+pub type Kind = fn(&Scene, &Area, &mut Lcg) -> Edit;
+
+/// One kind of edit after the other, by what becomes of the paths.
+pub const KINDS: [(&str, Kind); 9] = [
+    ("turned and moved", |scene, area, lcg| {
+        let turn = Affine::rotation(lcg.between(-0.3, 0.3), area.point(lcg));
+        let shift = Affine::translation(area.step(0.2, lcg));
+        Edit::Transform {
+            paths: rows(scene, lcg),
+            by: turn.then(shift),
+        }
+    }),
+    // Some so far that they come back only when all is undone.
+    ("moved far away", |scene, area, lcg| Edit::Transform {
+        paths: rows(scene, lcg),
+        by: Affine::translation(area.step(1.0, lcg) * 10_f64.powi(lcg.below(5) as i32)),
+    }),
+    // As many points as before.
+    ("bent", |scene, area, lcg| {
+        let paths = rows(scene, lcg);
+        let geometry = scene.layout().paths.geometry();
+        let mut curves = Geometry::default();
+        for &path in paths.iter() {
+            let mut runs = Runs::default();
+            for run in geometry.runs(path as usize) {
+                let bent: Vec<_> = run.iter().map(|p| p + area.step(0.02, lcg)).collect();
+                runs.push(&bent);
+            }
+            curves.push(&runs);
+        }
+        Edit::Reshape {
+            paths,
+            curves: Arc::new(curves),
+        }
+    }),
+    ("given other curves", |scene, area, lcg| {
+        let paths = rows(scene, lcg);
+        let mut curves = Geometry::default();
+        paths.iter().for_each(|_| curves.push(&area.curve(lcg)));
+        Edit::Reshape {
+            paths,
+            curves: Arc::new(curves),
+        }
+    }),
+    ("restyled", |scene, area, lcg| {
+        let styles = rows(scene, lcg)
+            .iter()
+            .map(|&path| (path, own_style(area, lcg)))
+            .collect();
+        Edit::Restyle(styles)
+    }),
+    ("hidden", |scene, _, lcg| {
+        set_states(scene, PathState::Hidden, lcg)
+    }),
+    ("removed", |scene, _, lcg| {
+        set_states(scene, PathState::Removed, lcg)
+    }),
+    ("brought back", |scene, _, lcg| {
+        let gone =
+            (0..scene.row_count() as u32).filter(|&row| scene.state(row) != PathState::Shown);
+        let back = gone.filter(|_| lcg.unit() < 0.5);
+        Edit::SetStates(back.map(|row| (row, PathState::Shown)).collect())
+    }),
+    ("inserted", |_, area, lcg| {
+        let insertions = (0..1 + lcg.below(6)).map(|number| Insertion {
+            id: format!("N{number}"),
+            runs: area.curve(lcg),
+            style: own_style(area, lcg),
+            ..Insertion::default()
+        });
+        Edit::Insert(insertions.collect())
+    }),
+];
+
+/// A few rows, removed ones among them.
+fn rows(scene: &Scene, lcg: &mut Lcg) -> Arc<[u32]> {
+    let all = scene.row_count();
+    let count = 1 + lcg.below(all / 20 + 1);
+    let some: BTreeSet<u32> = (0..count).map(|_| lcg.below(all) as u32).collect();
+    some.into_iter().collect()
+}
+
+fn set_states(scene: &Scene, state: PathState, lcg: &mut Lcg) -> Edit {
+    Edit::SetStates(rows(scene, lcg).iter().map(|&row| (row, state)).collect())
+}
+
+fn own_style(area: &Area, lcg: &mut Lcg) -> OwnStyle {
+    let opacity = if lcg.below(4) == 0 { 0x90 } else { 0xff };
+    let color = (lcg.below(0x100_0000) as u32) << 8 | opacity;
+    let width_m = lcg.between(0.0, 0.03) * area.size.x;
+    OwnStyle {
+        width_m: (lcg.below(2) == 0).then_some(width_m as f32),
+        color_rgba: (lcg.below(3) > 0).then_some(color),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use guideway_cpu::Oracle;
+    use guideway_render::{Budget, Frame, Method};
+
+    use super::*;
+    use crate::methods::show;
+    use crate::scenes::site;
+    use crate::sketch::Sketch;
+
+    #[test]
+    fn every_kind_shows() {
+        let drawing = site(Sketch::new(48, 32), 40, 1).build();
+        let picture = |scene: &Scene| -> Frame {
+            let prepared = Oracle.prepare(Arc::new(scene.clone()), &Budget::default());
+            let shown = show(
+                prepared.expect("memory enough").as_mut(),
+                &drawing.view,
+                &drawing.style,
+            );
+            shown.expect("the oracle draws everything").0
+        };
+        let area = Area::of(&drawing.view);
+        let mut scene = drawing.scene();
+        let mut lcg = Lcg::new(2);
+        for (what, kind) in KINDS {
+            let before = picture(&scene);
+            let edit = kind(&scene, &area, &mut lcg);
+            scene.edit(&edit).expect("an edit that can be done");
+            assert!(before != picture(&scene), "{what}");
+        }
+    }
+}

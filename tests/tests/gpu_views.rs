@@ -1,0 +1,212 @@
+//! Method `gpu` draws large layouts as `cpu` does, from anywhere: all of them in view to 400 times as near.
+//!
+//! `GUIDEWAY_LARGE_VIEWS=1` takes layouts of up to a million paths at 1920 x 1080, for a real graphics card.
+//! The worst of each view is printed with `--nocapture`.
+
+use std::sync::Arc;
+
+use guideway_cpu::Cpu;
+use guideway_datasets::{GeneratedPath, RUN_POINTS, d1, d2};
+use guideway_layout::{Geometry, Layout, Paths};
+use guideway_render::{Budget, Frame, FrameSize, Method, Prepared, Style, View};
+use guideway_scene::{LineRule, Scene, SceneOptions};
+use guideway_spline::Point;
+use guideway_tests::compare::{Tolerance, check};
+use guideway_tests::devices::{here, tiles};
+use guideway_tests::evidence;
+use guideway_tests::methods::show;
+use guideway_tests::random::Lcg;
+
+/// Views of each layout.
+const VIEWS: usize = 5;
+/// How many times as near as with all in view the nearest may be.
+const MOST_ZOOM: f64 = 400.0;
+
+#[derive(Clone, Copy)]
+enum Dataset {
+    D1,
+    D2,
+}
+use Dataset::{D1, D2};
+
+/// What is drawn, and how large.
+struct Plan {
+    layouts: [(Dataset, usize); 4],
+    size: (u32, u32),
+}
+
+const SMALL: Plan = Plan {
+    layouts: [(D1, 2_000), (D2, 1_000), (D1, 10_000), (D2, 3_000)],
+    size: (640, 360),
+};
+const LARGE: Plan = Plan {
+    layouts: [
+        (D1, 10_000),
+        (D2, 100_000),
+        (D1, 1_000_000),
+        (D2, 1_000_000),
+    ],
+    size: (1920, 1080),
+};
+
+#[test]
+fn random_views_of_large_layouts_are_drawn_alike() {
+    let Some(gpu) = here(tiles()) else { return };
+    let is_large = std::env::var("GUIDEWAY_LARGE_VIEWS").is_ok_and(|v| v == "1");
+    let plan = if is_large { LARGE } else { SMALL };
+    println!("on {}", gpu.info().device);
+    let mut wrong = Vec::new();
+    for (seed, (dataset, paths)) in (1..).zip(plan.layouts) {
+        let name = match dataset {
+            D1 => format!("d1 {paths}"),
+            D2 => format!("d2 {paths}"),
+        };
+        let scene = Arc::new(scene(dataset, paths));
+        let shots = shots(&scene, plan.size, seed);
+        wrong.extend(compare(&name, &gpu, &scene, &shots));
+    }
+    assert!(wrong.is_empty(), "wrong views:\n{}", wrong.join("\n"));
+}
+
+/// What is wrong with the views of one layout.
+fn compare(name: &str, gpu: &dyn Method, scene: &Arc<Scene>, shots: &[Shot]) -> Vec<String> {
+    let mut judge = prepare(&Cpu, scene);
+    let mut prepared = prepare(gpu, scene);
+    let mut wrong = Vec::new();
+    let mut pictures = Vec::new();
+    for (number, shot) in shots.iter().enumerate() {
+        let what = format!("{name} view {number}, {shot}");
+        let judged = shot.draw(judge.as_mut());
+        let pair = judged.and_then(|judged| Ok((judged, shot.draw(prepared.as_mut())?)));
+        let difference = pair.and_then(|(judged, drawn)| {
+            let difference = difference(&what, &judged, &drawn);
+            pictures.push((shot, drawn));
+            difference
+        });
+        println!(
+            "{what}: {}",
+            difference.as_ref().unwrap_or_else(|error| error)
+        );
+        wrong.extend(difference.err().map(|error| format!("{what}: {error}")));
+    }
+    // Backwards, so that what a method keeps of the view before is another view's.
+    for (shot, first) in pictures.iter().rev() {
+        if shot.draw(prepared.as_mut()).as_ref() != Ok(first) {
+            wrong.push(format!("{name}, {shot}: another picture the second time"));
+        }
+    }
+    wrong
+}
+
+/// How far a picture is from the judge's: a sentence, or too far.
+fn difference(what: &str, judged: &Frame, drawn: &Frame) -> Result<String, String> {
+    let background = Style::default().background;
+    let background = [background.r, background.g, background.b, background.a];
+    let covered = judged.pixels().iter().filter(|pixel| **pixel != background);
+    let share = covered.count() as f64 / judged.pixels().len() as f64;
+    match check(judged, drawn, &Tolerance::STANDARD) {
+        Ok(found) => Ok(format!(
+            "{:.1} % covered, mean {:.3}, {:.3} % within, {:.0} at most",
+            share * 100.0,
+            found.mean_abs,
+            found.share_within * 100.0,
+            found.max_abs
+        )),
+        Err(error) => {
+            let written = evidence::write(what, judged, drawn);
+            let shown = written.map_or_else(|e| e.to_string(), |file| file.display().to_string());
+            Err(format!("{error}; see {shown}"))
+        }
+    }
+}
+
+fn prepare(method: &dyn Method, scene: &Arc<Scene>) -> Box<dyn Prepared> {
+    let budget = Budget {
+        memory_bytes: 16_000_000_000,
+        ..Budget::default()
+    };
+    let prepared = method.prepare(Arc::clone(scene), &budget);
+    prepared.expect("there is memory enough")
+}
+
+fn scene(dataset: Dataset, paths: usize) -> Scene {
+    let layout = match dataset {
+        D1 => layout(d1(paths, 1)),
+        D2 => layout(d2(paths, 1)),
+    };
+    let scene = Scene::new(Arc::new(layout), &SceneOptions::default());
+    scene.expect("options that fit any layout")
+}
+
+fn layout(paths: impl Iterator<Item = GeneratedPath>) -> Layout {
+    let (ids, runs): (Vec<String>, Vec<_>) = paths.map(|path| (path.id, path.run)).unzip();
+    let ends = (1..=runs.len()).map(|row| (row * RUN_POINTS) as u32);
+    let geometry = Geometry::from_f32(runs.concat(), ends.collect());
+    Layout {
+        paths: Paths::from_columns(ids.iter().map(String::as_str).collect(), geometry),
+        ..Layout::default()
+    }
+}
+
+/// A view and how it looks.
+struct Shot {
+    view: View,
+    style: Style,
+    zoom: f64,
+}
+
+impl Shot {
+    fn draw(&self, prepared: &mut dyn Prepared) -> Result<Frame, String> {
+        let drawn = show(prepared, &self.view, &self.style);
+        drawn
+            .map(|(frame, _)| frame)
+            .map_err(|error| error.to_string())
+    }
+}
+
+impl std::fmt::Display for Shot {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Point { x, y } = self.view.center_m();
+        let rule = match self.style.line_rule {
+            LineRule::Thesis => "thesis",
+            LineRule::World { .. } => "world",
+        };
+        write!(
+            f,
+            "{:.1} times as near, at ({x:.1}, {y:.1}), {rule}",
+            self.zoom
+        )
+    }
+}
+
+/// All in view first, then from near beside some path, by both rules in turn.
+fn shots(scene: &Scene, (width, height): (u32, u32), seed: u64) -> Vec<Shot> {
+    let mut lcg = Lcg::new(seed);
+    let size = FrameSize::new(width, height).expect("a picture has pixels");
+    let all = View::fit(size, scene.bounds()).expect("the view is usable");
+    let mut shot = |number: usize| {
+        let (mut center, mut zoom) = (all.center_m(), 1.0);
+        if number > 0 {
+            zoom = lcg.between(0.0, MOST_ZOOM.ln()).exp();
+            let path = scene.layout().paths.get(lcg.below(scene.row_count()));
+            // So little aside that its end is seen.
+            let most_m = 0.4 * f64::from(height) / (all.px_per_m() * zoom);
+            let mut aside = || lcg.between(-most_m, most_m);
+            let aside = Point::new(aside(), aside());
+            center = path.ends().expect("a path has a curve").0 + aside;
+        }
+        let line_rule = match (seed as usize + number) % 2 {
+            0 => LineRule::default(),
+            _ => LineRule::Thesis,
+        };
+        Shot {
+            view: View::new(size, center, all.px_per_m() * zoom).expect("the view is usable"),
+            style: Style {
+                line_rule,
+                ..Style::default()
+            },
+            zoom,
+        }
+    };
+    (0..VIEWS).map(&mut shot).collect()
+}
