@@ -11,6 +11,9 @@ pub enum Found {
     Station(u32),
 }
 
+/// Number of rows, and what a row is.
+type Table = (usize, fn(u32) -> Found);
+
 /// Paths, nodes and stations whose identifier contains `text`, whatever the case: those that are called
 /// exactly so first; at most `most` of each table, and as many again that are called exactly so.
 pub fn search(layout: &Layout, text: &str, most: usize) -> Vec<Found> {
@@ -18,7 +21,7 @@ pub fn search(layout: &Layout, text: &str, most: usize) -> Vec<Found> {
         return Vec::new();
     }
     let wanted = text.to_lowercase();
-    let tables: [(usize, fn(u32) -> Found); 3] = [
+    let tables: [Table; 3] = [
         (layout.nodes.len(), Found::Node),
         (layout.stations.len(), Found::Station),
         (layout.paths.len(), Found::Path),

@@ -24,10 +24,11 @@ pub struct Label {
     pub at_px: Point<f64>,
 }
 
-/// Puts names beside their places, earlier ones first; one that would lie over another, or out of the picture,
-/// is left out.
+/// Puts names beside their places, earlier ones first; one that would lie over another, over a symbol, or out of
+/// the picture, is left out.
 pub(super) fn place<'a>(
     names: impl Iterator<Item = (&'a str, Point<f64>)>,
+    symbols: impl Iterator<Item = Point<f64>>,
     size: LabelSize,
     picture: FrameSize,
 ) -> Vec<Label> {
@@ -36,7 +37,8 @@ pub(super) fn place<'a>(
         max: Point::new(f64::from(picture.width()), f64::from(picture.height())),
     };
     let mut labels = Vec::new();
-    let mut taken: Vec<Bounds<f64>> = Vec::new();
+    let symbol = |at: Point<f64>| Bounds { min: at, max: at }.inflated(size.line_px / 2.1);
+    let mut taken: Vec<Bounds<f64>> = symbols.map(symbol).collect();
     for (name, place_px) in names {
         if labels.len() == MOST {
             break;

@@ -112,7 +112,9 @@ pub fn marks(document: &Document, view: &View, options: &MarkOptions) -> Marks {
             let path = layout.paths.get(path as usize);
             Some((path.id(), arrows::middle(path, view)?))
         });
-        marks.labels = labels::place(stations.chain(nodes).chain(middles), size, view.size());
+        let symbols = marks.stations.iter().copied();
+        let names = stations.chain(nodes).chain(middles);
+        marks.labels = labels::place(names, symbols, size, view.size());
     }
     marks
 }

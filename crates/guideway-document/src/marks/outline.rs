@@ -1,5 +1,3 @@
-use std::collections::BTreeSet;
-
 use guideway_render::View;
 use guideway_spline::{Bounds, Point, uniform};
 
@@ -27,14 +25,19 @@ pub enum Outline {
 /// Outlines paths of a document.
 pub fn outline(document: &Document, paths: &Rows, view: &View) -> Outline {
     let mut pen = Pen::new(view);
-    for path in near(document, paths, pen.seen) {
+    let near = near(document, paths, pen.seen);
+    // A path takes a point at least, so very many need not be tried.
+    let mut is_too_much = near.len() > MOST_POINTS;
+    let mut paths_left = near.iter();
+    while let Some(&path) = paths_left.next().filter(|_| !is_too_much) {
         let path = document.layout().paths.get(path as usize);
         for segment in path.runs().flat_map(|run| run.segments()) {
             pen.draw(&segment, MOST_HALVINGS);
-            if pen.points > MOST_POINTS {
-                return Outline::Cells(cells(document, paths, view), CELL_PX);
-            }
         }
+        is_too_much = pen.points > MOST_POINTS;
+    }
+    if is_too_much {
+        return Outline::Cells(cells(document, paths, view), CELL_PX);
     }
     Outline::Lines(pen.lines)
 }
@@ -58,13 +61,25 @@ fn cells(document: &Document, paths: &Rows, view: &View) -> Vec<Point<f64>> {
     let middles = near
         .map(|(_, bounds)| bounds.center())
         .filter(|&middle| seen.contains(middle));
-    let cell = |middle| {
-        let pixel = view.pixel_from_world(middle);
-        ((pixel.x / CELL_PX) as i32, (pixel.y / CELL_PX) as i32)
-    };
-    let cells: BTreeSet<(i32, i32)> = middles.map(cell).collect();
-    let corner = |(x, y)| Point::new(f64::from(x) * CELL_PX, f64::from(y) * CELL_PX);
-    cells.into_iter().map(corner).collect()
+    let size = view.size();
+    let columns = (f64::from(size.width()) / CELL_PX) as usize + 1;
+    let rows = (f64::from(size.height()) / CELL_PX) as usize + 1;
+    let mut is_taken = vec![false; columns * rows];
+    for middle in middles {
+        let pixel = view.pixel_from_world(middle) * (1.0 / CELL_PX);
+        // A middle on the border may be rounded over it.
+        let (column, row) = (
+            (pixel.x as usize).min(columns - 1),
+            (pixel.y as usize).min(rows - 1),
+        );
+        is_taken[row * columns + column] = true;
+    }
+    let corner = |at: usize| Point::new((at % columns) as f64, (at / columns) as f64) * CELL_PX;
+    let taken = is_taken
+        .iter()
+        .enumerate()
+        .filter(|(_, is_taken)| **is_taken);
+    taken.map(|(at, _)| corner(at)).collect()
 }
 
 /// Draws segments as lines, and only what is near the view: at a great scale a path is as long as a street.
@@ -94,6 +109,9 @@ impl<'a> Pen<'a> {
     }
 
     fn draw(&mut self, segment: &[Point<f64>; 4], halvings_left: u32) {
+        if self.points > MOST_POINTS {
+            return;
+        }
         let [start, first, second, end] = uniform::to_bezier(segment);
         let hull = [start, first, second, end].map(|p| Bounds { min: p, max: p });
         let is_seen = |hull: Bounds<f64>| hull.intersects(self.seen);

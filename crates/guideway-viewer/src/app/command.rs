@@ -159,7 +159,7 @@ pub(crate) const ENTRIES: &[Entry] = &[
     ),
     entry("View", "Show everything", Command::Fit, NONE, Key::F),
     entry("View", "Zoom in", Command::ZoomIn, NONE, Key::Plus),
-    entry("View", "Zoom in ", Command::ZoomIn, NONE, Key::Equals),
+    entry("View", "Zoom in, too", Command::ZoomIn, NONE, Key::Equals),
     entry("View", "Zoom out", Command::ZoomOut, NONE, Key::Minus),
     entry("View", "Back", Command::Back, ALT, Key::ArrowLeft),
     entry("View", "Forward", Command::Forward, ALT, Key::ArrowRight),

@@ -315,10 +315,9 @@ impl Worker {
     }
 }
 
-/// A frame over an opaque background, or over nothing: then its colours are already those of the paths by how
-/// much of a pixel they cover.
+/// A frame has straight alpha, a texture of egui premultiplied.
 fn pixels(frame: &Frame) -> Vec<Color32> {
-    let color = |&[r, g, b, a]: &[u8; 4]| Color32::from_rgba_premultiplied(r, g, b, a);
+    let color = |&[r, g, b, a]: &[u8; 4]| Color32::from_rgba_unmultiplied(r, g, b, a);
     frame.pixels().iter().map(color).collect()
 }
 

@@ -105,7 +105,7 @@ mod tests {
         assert!(watch.look().is_empty());
         fs::write(&file, "12").unwrap();
         assert!(watch.look().is_empty(), "it may still be written");
-        assert_eq!(watch.look(), [file.clone()]);
+        assert_eq!(watch.look(), std::slice::from_ref(&file));
         assert!(watch.look().is_empty(), "told once");
         fs::remove_file(&file).unwrap();
         assert!(
