@@ -22,6 +22,22 @@ fn picture(method: &dyn Method, sketch: &Sketch) -> Frame {
     drawn.expect("there is memory enough").0
 }
 
+/// For two pictures whose paths are in other clusters: `cpu` rounds lines to a grid of their cluster, which moves
+/// a border by up to an eighth of a pixel (20 levels were seen).
+const OTHER_CLUSTERS: Tolerance = Tolerance {
+    mean: 0.5,
+    within: (8.0, 0.99),
+    max: 40.0,
+};
+
+/// What a path may change of others.
+fn beside_others(method: &dyn Method) -> Tolerance {
+    match method.info().name {
+        "oracle" => Tolerance::NONE,
+        _ => OTHER_CLUSTERS,
+    }
+}
+
 /// A few paths of any kind.
 fn any_sketch() -> impl Strategy<Value = Sketch> {
     (0..3, 0..1000_u64, 0.1..6.0).prop_map(|(kind, seed, width)| {
@@ -73,8 +89,12 @@ proptest! {
         let fewer = sketch.clone().first(sketch.len() - 1);
         for method in all_methods() {
             let (with, without) = (picture(method.as_ref(), &sketch), picture(method.as_ref(), &fewer));
-            let mut pairs = with.pixels().iter().zip(without.pixels());
-            prop_assert!(pairs.all(|(w, wo)| w[0] <= wo[0]), "{}", method.info().name);
+            let mut lighter = without.clone();
+            for (pixel, with) in lighter.pixels_mut().iter_mut().zip(with.pixels()) {
+                pixel[0] = pixel[0].max(with[0]);
+            }
+            let outcome = check(&without, &lighter, &beside_others(method.as_ref()));
+            prop_assert!(outcome.is_ok(), "{}: {outcome:?}", method.info().name);
         }
     }
 
@@ -86,7 +106,9 @@ proptest! {
         let drawing = more.build();
         for method in all_methods() {
             let (with, report) = draw(method.as_ref(), &drawing, &Budget::default()).unwrap();
-            prop_assert!(with == picture(method.as_ref(), &sketch), "{}", method.info().name);
+            let without = picture(method.as_ref(), &sketch);
+            let outcome = check(&without, &with, &beside_others(method.as_ref()));
+            prop_assert!(outcome.is_ok(), "{}: {outcome:?}", method.info().name);
             prop_assert!(report.accounts_for_all());
         }
     }
