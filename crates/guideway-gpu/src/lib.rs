@@ -7,6 +7,8 @@ mod device;
 mod grid;
 #[cfg(test)]
 mod reflection;
+#[cfg(test)]
+mod testing;
 mod tiles;
 
 pub use device::{Gpu, GpuOptions};

@@ -2,7 +2,7 @@ use std::ops::Range;
 
 use guideway_layout::{Layout, RunPoints};
 use guideway_scene::{PathState, Scene};
-use guideway_spline::{Bounds, Point};
+use guideway_spline::{Bounds, Point, morton};
 use multiversion::multiversion;
 use rayon::prelude::*;
 
@@ -94,12 +94,7 @@ pub(super) fn sorted_rows(scene: &Scene) -> Vec<u32> {
     let Some(all) = placed.reduce_with(Bounds::union) else {
         return (0..centers.len() as u32).collect();
     };
-    let size = all.size();
-    let scale = f64::from(u16::MAX) / size.x.max(size.y).max(f64::MIN_POSITIVE);
-    let place = |p: Point<f64>| {
-        let [x, y] = [(p.x - all.min.x) * scale, (p.y - all.min.y) * scale];
-        u64::from(spread(x as u16) | spread(y as u16) << 1)
-    };
+    let place = |p: Point<f64>| u64::from(morton(p, all));
     let keys = centers
         .par_iter()
         .enumerate()
@@ -112,20 +107,6 @@ pub(super) fn sorted_rows(scene: &Scene) -> Vec<u32> {
 fn center(layout: &Layout, row: u32) -> Option<Point<f64>> {
     let bounds = layout.paths.get(row as usize).hull_bounds();
     bounds.map(Bounds::center)
-}
-
-/// The bits with a gap behind each.
-fn spread(bits: u16) -> u32 {
-    let mut bits = u32::from(bits);
-    for (shift, mask) in [
-        (8, 0x00ff_00ff),
-        (4, 0x0f0f_0f0f),
-        (2, 0x3333_3333),
-        (1, 0x5555_5555),
-    ] {
-        bits = (bits | bits << shift) & mask;
-    }
-    bits
 }
 
 /// Where the control points of paths lie, in metres.

@@ -12,22 +12,14 @@ use guideway_spline::{Point, Runs};
 
 use super::*;
 use crate::GpuOptions;
+use crate::testing::here;
 
 /// The device of all tests here; none where there is none.
 static GPU: LazyLock<Result<Arc<Gpu>, String>> = LazyLock::new(Gpu::new);
 
 /// A device, unless the test has to be skipped.
 fn gpu() -> Option<Arc<Gpu>> {
-    match &*GPU {
-        Ok(gpu) => Some(Arc::clone(gpu)),
-        Err(why) => {
-            let is_required =
-                std::env::var_os("GUIDEWAY_REQUIRE_DEVICES").is_some_and(|v| v == "1");
-            assert!(!is_required, "{why}");
-            println!("SKIPPED: {why}");
-            None
-        }
-    }
+    here(&GPU)
 }
 
 /// Wavy paths over about 100 m, many of which cross.

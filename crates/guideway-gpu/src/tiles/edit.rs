@@ -180,8 +180,8 @@ impl PreparedTiles {
         };
         let gpu = &self.shared.gpu;
         let mut are_renewed = false;
-        let has_new_buffers = !changes.loose.is_empty();
-        if has_new_buffers {
+        let has_loose = !changes.loose.is_empty();
+        if has_loose {
             let packed = Packed::of(&self.scene, std::mem::take(&mut changes.loose));
             let (strokes, clusters) = (store.stroke_list.len(), store.cluster_list.len());
             let chunk = store.add(gpu, &mut self.memory, &packed)?;
@@ -224,7 +224,8 @@ impl PreparedTiles {
             bytes += store.strokes.bytes() + store.clusters.bytes();
         }
         self.send_patches(&patches)?;
-        if has_new_buffers {
+        if has_loose {
+            self.set_chunks()?;
             self.unbind();
         }
         Ok(bytes)
@@ -245,7 +246,7 @@ impl PreparedTiles {
             let sent = patcher.apply(&self.shared.gpu, &self.runner, patch, buffer);
             sent.map_err(|what| self.memory.trouble(what))?;
         }
-        self.set_chunks()
+        Ok(())
     }
 
     fn make_patcher(&mut self) -> Result<(), RenderError> {
@@ -291,7 +292,8 @@ fn set_in_place(
             return false;
         }
     }
-    let mut points = changes.scratch.iter();
+    let scratch = std::mem::take(&mut changes.scratch);
+    let mut points = scratch.iter();
     for (part, &stroke) in parts.iter().zip(strokes) {
         let at = cluster_of(store, stroke);
         let index = at as u32;
@@ -309,10 +311,8 @@ fn set_in_place(
             cluster.hold(*p);
             patch.set(place * POINT_WORDS, p);
         }
-        if changes.clusters.len() <= at {
-            changes.clusters.resize(at + 1, false);
-        }
-        changes.clusters[at] = true;
+        changes.add_cluster(at);
     }
+    changes.scratch = scratch;
     true
 }

@@ -2,7 +2,7 @@
 
 use guideway_layout::Layout;
 use guideway_scene::Scene;
-use guideway_spline::{Bounds, Point};
+use guideway_spline::{Bounds, Point, morton};
 
 use super::params::{
     CLUSTER_POINTS, CLUSTER_STROKES, Cluster, PathStyle, SEGMENTS_BIT, STROKE_SEGMENTS, Stroke,
@@ -193,46 +193,16 @@ pub(super) fn device_color(color: guideway_scene::Rgba) -> u32 {
     u32::from_le_bytes([color.r, color.g, color.b, color.a])
 }
 
-/// Sorts parts along a curve that keeps neighbours together (Morton 1966): by the middle of their ends.
+/// Sorts parts so that neighbours stay together: by the middle of their ends.
 fn sort_by_place(scene: &Scene, parts: &mut [Part]) {
     let Some(bounds) = scene.bounds() else {
         return;
     };
-    let size = bounds.size();
-    let per_m = f64::from(u16::MAX) / size.x.max(size.y).max(f64::MIN_POSITIVE);
     let layout = scene.layout();
     parts.sort_by_cached_key(|part| {
         let mut points = part.points(layout);
         let first = points.next().unwrap_or_default();
         let last = points.last().unwrap_or(first);
-        let middle = (first + (last - first) * 0.5 - bounds.min) * per_m;
-        // A float beyond the range becomes its nearest end.
-        spread(middle.x as u16) | spread(middle.y as u16) << 1
+        morton(first + (last - first) * 0.5, bounds)
     });
-}
-
-/// A zero after each bit.
-fn spread(value: u16) -> u32 {
-    let mut bits = u32::from(value);
-    for (shift, mask) in [
-        (8, 0x00ff_00ff),
-        (4, 0x0f0f_0f0f),
-        (2, 0x3333_3333),
-        (1, 0x5555_5555),
-    ] {
-        bits = (bits | bits << shift) & mask;
-    }
-    bits
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn bits_are_spread() {
-        assert_eq!(spread(0), 0);
-        assert_eq!(spread(0b1011), 0b100_0101);
-        assert_eq!(spread(u16::MAX), 0x5555_5555);
-    }
 }

@@ -14,22 +14,14 @@ use guideway_spline::{Point, Runs};
 use super::room::{Room, Size};
 use super::*;
 use crate::GpuOptions;
+use crate::testing::here;
 
 /// The method of all tests here, for its shaders take long to compile; none where there is no device.
 static TILES: LazyLock<Result<Tiles, String>> =
     LazyLock::new(|| Tiles::new(Gpu::new()?, TilesOptions::default()));
 
 fn tiles() -> Option<Tiles> {
-    match &*TILES {
-        Ok(tiles) => Some(tiles.clone()),
-        Err(why) => {
-            let is_required =
-                std::env::var_os("GUIDEWAY_REQUIRE_DEVICES").is_some_and(|v| v == "1");
-            assert!(!is_required, "{why}");
-            println!("SKIPPED: {why}");
-            None
-        }
-    }
+    here(&TILES)
 }
 
 fn limited(options: GpuOptions) -> Tiles {

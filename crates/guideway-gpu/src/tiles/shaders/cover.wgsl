@@ -57,8 +57,9 @@ fn main(
     if workgroupUniformLoad(&was_full) != 0u {
         return;
     }
-    let start = starts[index];
-    let end = min(starts[index + 1u], frame.reference_room);
+    let list = list_of(index);
+    let start = list.x;
+    let end = list.y;
     if start >= end {
         write(tile, thread, frame.background);
         return;

@@ -28,8 +28,9 @@ fn main(
         return;
     }
     let tile = tile_of(index);
-    let start = starts[index];
-    let end = min(starts[index + 1u], frame.reference_room);
+    let list = list_of(index);
+    let start = list.x;
+    let end = list.y;
     atomicStore(&tops[thread], 0u);
     for (var first = start; first < end; first += BATCH) {
         let batch = min(BATCH, end - first);

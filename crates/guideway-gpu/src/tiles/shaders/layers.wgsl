@@ -74,8 +74,9 @@ fn main(
         return;
     }
     let tile = tile_of(index);
-    let start = starts[index];
-    let end = min(starts[index + 1u], frame.reference_room);
+    let list = list_of(index);
+    let start = list.x;
+    let end = list.y;
     if start >= end {
         write(tile, thread, select(frame.background, 0u, SHADING == DENSITY));
         return;

@@ -49,6 +49,11 @@ fn beyond(tile: Tile, row: u32) -> Row {
     return outside;
 }
 
+// Where the list of a tile begins, and where it ends as far as there is room for it.
+fn list_of(tile: u32) -> vec2u {
+    return vec2u(starts[tile], min(starts[tile + 1u], frame.reference_room));
+}
+
 // The line at a place of the lists.
 fn capsule_at(tile: Tile, place: u32) -> Capsule {
     let line = references[place];
