@@ -10,6 +10,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("guideway-formats", &["guideway-spline", "guideway-layout"]),
     ("guideway-datasets", &["guideway-spline", "guideway-layout"]),
     ("guideway-scene", &["guideway-spline", "guideway-layout"]),
+    ("guideway-envelope", &["guideway-spline", "guideway-layout"]),
     ("guideway-render", &["guideway-spline", "guideway-scene"]),
     (
         "guideway-cpu",

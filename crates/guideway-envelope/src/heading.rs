@@ -1,0 +1,75 @@
+use std::f64::consts::PI;
+
+use guideway_layout::{Direction, Layout, Value};
+
+use crate::Body;
+
+/// Where a vehicle heads on a path.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Heading {
+    /// At this angle to the way that the path goes, counter-clockwise: 0 is forwards, half a turn backwards,
+    /// anything else the crab's way. It drives on in reverse after a cusp.
+    Tangential(f64),
+    /// At this angle to the x axis, all the way.
+    Fixed(f64),
+}
+
+impl Heading {
+    pub(crate) fn is_tangential(self) -> bool {
+        matches!(self, Self::Tangential(_))
+    }
+}
+
+/// Where the headings of paths are in a file: VDA 5050 up to 3.1, LIF 1.0, LIF 2.0 (a list).
+const ORIENTATION: [&str; 3] = [
+    "orientation",
+    "vehicleOrientation",
+    "mobileRobotOrientations",
+];
+const ORIENTATION_TYPE: &str = "orientationType";
+
+/// The headings that a file gives for a path: `orientationType` and the orientation of LIF and VDA 5050; forwards
+/// along the path without. On a path that goes both ways, vehicles may drive either way round.
+pub fn headings(layout: &Layout, path: usize, body: &Body) -> Vec<Heading> {
+    let value = |name: &str| layout.paths.attributes.get(name)?.values.get(path);
+    let angles = ORIENTATION.into_iter().find_map(value).map(angles);
+    let mut angles = angles
+        .filter(|a| !a.is_empty())
+        .unwrap_or_else(|| vec![0.0]);
+    let is_fixed = match value(ORIENTATION_TYPE) {
+        Some(Value::Text(text)) => text.eq_ignore_ascii_case("GLOBAL"),
+        // Version 1.1 of VDA 5050 knows no other orientation.
+        _ => {
+            let provenance = &layout.provenance;
+            provenance.format == "VDA 5050"
+                && provenance.format_version.starts_with("1.")
+                && value(ORIENTATION[0]).is_some()
+        }
+    };
+    if is_fixed {
+        return angles.into_iter().map(Heading::Fixed).collect();
+    }
+    if layout.paths.get(path).direction() == Direction::Both {
+        angles = angles.iter().flat_map(|&a| [a, a + PI]).collect();
+    }
+    let mut headings: Vec<Heading> = Vec::new();
+    for angle in angles {
+        let is_like = |known: &Heading| {
+            let &(Heading::Tangential(other) | Heading::Fixed(other)) = known;
+            let period = if body.is_symmetric() { PI } else { 2.0 * PI };
+            let turns = (angle - other) / period;
+            (turns - turns.round()).abs() < 1e-9
+        };
+        if !headings.iter().any(is_like) {
+            headings.push(Heading::Tangential(angle));
+        }
+    }
+    headings
+}
+
+/// One number, or a list of them as text.
+fn angles(value: Value<'_>) -> Vec<f64> {
+    let text = value.to_string();
+    let numbers = text.split(',').filter_map(|part| part.trim().parse().ok());
+    numbers.filter(|angle: &f64| angle.is_finite()).collect()
+}

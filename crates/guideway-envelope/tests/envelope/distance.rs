@@ -1,0 +1,128 @@
+use guideway_envelope::{Heading, Meeting, Nearest, Question, Tree};
+use proptest::prelude::*;
+
+use crate::brute::{Pose, apart, poses};
+use crate::random::{Case, Curve, P, case, p};
+
+const TOLERANCE_M: f64 = 0.02;
+const STEP_M: f64 = 0.1;
+
+fn nearest(a: &Case, b: &Case, below_m: f64, meetings: &[Meeting]) -> Option<Nearest> {
+    let (a, b) = (a.sweep(), b.sweep());
+    let question = Question {
+        below_m,
+        tolerance_m: TOLERANCE_M,
+        meetings,
+    };
+    Tree::new(&a).nearest(&mut Tree::new(&b), &question, &mut 0)
+}
+
+fn moved(case: &Case, by: P) -> Case {
+    let curve = case.curve.0.iter().map(|b| b.map(|p| p + by)).collect();
+    Case {
+        curve: Curve(curve),
+        ..case.clone()
+    }
+}
+
+/// The least distance of poses of two vehicles, which `counts` says which of.
+fn brute(a: &Case, b: &Case, counts: impl Fn(Pose, Pose) -> bool) -> f64 {
+    let (pa, pb) = (poses(a, STEP_M), poses(b, STEP_M));
+    let pairs = pa.iter().flat_map(|&p| pb.iter().map(move |&q| (p, q)));
+    let counted = pairs.filter(|&(p, q)| counts(p, q));
+    let each = counted.map(|(p, q)| apart((&a.body, p), (&b.body, q)));
+    each.fold(f64::INFINITY, f64::min)
+}
+
+/// Whether an answer can be that of vehicles whose poses, a step apart each, come this near.
+fn agrees(answer: Option<Nearest>, brute_m: f64, below_m: f64) -> bool {
+    match answer {
+        // Polygons hold the vehicles, so they are never farther.
+        Some(Nearest { distance_m, .. }) => {
+            distance_m <= brute_m + 1e-6 && brute_m <= distance_m + TOLERANCE_M + 2.0 * STEP_M
+        }
+        None => brute_m >= below_m - 1e-6,
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(32))]
+
+    #[test]
+    fn sweeps_are_as_near_as_their_vehicles(a in case(), b in case(), x in 0.0..14.0, below in 0.0..4.0) {
+        let b = moved(&b, p(x, 0.0));
+        let brute_m = brute(&a, &b, |_, _| true);
+        let answer = nearest(&a, &b, below, &[]);
+        prop_assert!(agrees(answer, brute_m, below), "{:?} {}", answer, brute_m);
+    }
+
+    #[test]
+    fn near_a_meeting_nothing_counts(a in case(), b in case(), below in 0.0..2.0, radius in 0.5..4.0) {
+        let start = |case: &Case| case.curve.0[0][0];
+        let b = moved(&b, start(&a) - start(&b));
+        let centre = start(&a);
+        let meeting = Meeting { centers_m: [centre; 2], radius_m: radius };
+        let answer = nearest(&a, &b, below, &[meeting]);
+        let beyond = |radius: f64| {
+            move |p: Pose, q: Pose| p.at.distance(centre) > radius || q.at.distance(centre) > radius
+        };
+        // A pose is in place within a step, and stretches are cut within the tolerance.
+        let (all, sure) = (
+            brute(&a, &b, beyond(radius - TOLERANCE_M - STEP_M)),
+            brute(&a, &b, beyond(radius + TOLERANCE_M)),
+        );
+        if let Some(found) = answer {
+            prop_assert!(all <= found.distance_m + TOLERANCE_M + 2.0 * STEP_M, "{:?} {}", found, all);
+            prop_assert!(found.distance_m <= sure + 1e-6);
+        } else {
+            prop_assert!(sure >= below - 1e-6, "{}", sure);
+        }
+    }
+}
+
+fn straight(from: P, to: P) -> Case {
+    let line = [from, from.lerp(to, 1.0 / 3.0), from.lerp(to, 2.0 / 3.0), to];
+    Case {
+        curve: Curve(vec![line]),
+        body: guideway_envelope::Body::vehicle(2.0, 1.0, 1.0),
+        heading: Heading::Tangential(0.0),
+    }
+}
+
+#[test]
+fn parallel_paths_are_as_far_apart_as_their_sides() {
+    let (a, b) = (
+        straight(p(0.0, 0.0), p(20.0, 0.0)),
+        straight(p(30.0, 1.3), p(5.0, 1.3)),
+    );
+    let found = nearest(&a, &b, 0.5, &[]).expect("they are 0.3 m apart");
+    assert!((found.distance_m - 0.3).abs() < 1e-9);
+    assert_eq!(nearest(&a, &b, 0.29, &[]), None);
+}
+
+#[test]
+fn it_tells_where_paths_cross() {
+    let (a, b) = (
+        straight(p(0.0, 0.0), p(40.0, 0.0)),
+        straight(p(31.0, -30.0), p(31.0, 30.0)),
+    );
+    let found = nearest(&a, &b, 0.0, &[]).expect("they cross");
+    assert_eq!(found.distance_m, 0.0);
+    for place in found.places {
+        assert!(place.distance(p(31.0, 0.0)) < 4.0, "{place:?}");
+    }
+}
+
+#[test]
+fn the_comparison_finds_wrong_answers() {
+    let said = |distance_m| {
+        Some(Nearest {
+            distance_m,
+            places: [p(0.0, 0.0); 2],
+        })
+    };
+    assert!(agrees(said(0.3), 0.3, 0.5) && agrees(None, 0.6, 0.5));
+    assert!(!agrees(said(0.4), 0.3, 0.5), "too far");
+    assert!(!agrees(said(0.0), 0.3, 0.5), "too near");
+    assert!(!agrees(None, 0.4, 0.5), "missed");
+}

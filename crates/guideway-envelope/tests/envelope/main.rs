@@ -1,0 +1,7 @@
+//! Swept areas and distances against brute force.
+
+mod brute;
+mod convex;
+mod distance;
+mod random;
+mod swept;

@@ -1,0 +1,190 @@
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use guideway_envelope::{Body, Convex, Heading};
+use proptest::prelude::*;
+
+use crate::brute::{body_point, distance_from, poses};
+use crate::random::{Case, Curve, P, case, p};
+
+fn polygons(case: &Case, tolerance_m: f64) -> Vec<Convex> {
+    let mut polygons = Vec::new();
+    let sweep = case.sweep();
+    sweep.polygons(tolerance_m, None, &mut |polygon| {
+        polygons.push(polygon.clone());
+    });
+    polygons
+}
+
+/// Rounding of everything here.
+const ROUNDING_M: f64 = 1e-6;
+
+/// A point of the vehicle at one of its poses that no polygon holds.
+fn outside(case: &Case, polygons: &[Convex]) -> Option<P> {
+    let grown = |polygon: &Convex, q: P| {
+        let around = |i: i32| p(f64::from(i % 3 - 1), f64::from(i / 3 - 1)) * ROUNDING_M;
+        (0..9).any(|i| polygon.contains(q + around(i)))
+    };
+    let marks = [-1.0, 0.1, 1.0];
+    let places = marks.iter().flat_map(|&x| marks.map(|y| (x, y)));
+    let points = poses(case, 0.1).into_iter().flat_map(|pose| {
+        let point = move |(x, y)| body_point(&case.body, pose, x, y);
+        places.clone().map(point)
+    });
+    points
+        .into_iter()
+        .find(|&q| !polygons.iter().any(|polygon| grown(polygon, q)))
+}
+
+/// How far the farthest point of the polygons is from the vehicle, whichever of its poses is nearest. Poses are
+/// `step` apart, so that it may be this much less.
+fn farthest_m(case: &Case, polygons: &[Convex], step: f64) -> f64 {
+    let poses = poses(case, step);
+    let from_all = |q: P| {
+        let each = poses.iter().map(|&pose| distance_from(&case.body, pose, q));
+        each.fold(f64::INFINITY, f64::min)
+    };
+    let of_polygon = |polygon: &Convex| {
+        let corners = polygon.points();
+        let share = 1.0 / corners.len() as f64;
+        let center = corners.iter().fold(p(0.0, 0.0), |sum, &c| sum + c * share);
+        let edges = corners.iter().zip(corners.iter().cycle().skip(1));
+        let middles = edges.map(|(a, b)| a.lerp(*b, 0.5));
+        let points = corners.iter().copied().chain(middles).chain([center]);
+        points.map(from_all).fold(0.0, f64::max)
+    };
+    polygons.iter().map(of_polygon).fold(0.0, f64::max)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(32))]
+
+    #[test]
+    fn polygons_hold_the_vehicle_everywhere(case in case(), tolerance in prop_oneof![Just(0.5), Just(0.05)]) {
+        let polygons = polygons(&case, tolerance);
+        prop_assert_eq!(outside(&case, &polygons), None);
+    }
+
+    #[test]
+    fn polygons_are_near_the_vehicle_everywhere(case in case(), tolerance in prop_oneof![Just(0.5), Just(0.08)]) {
+        let (polygons, step) = (polygons(&case, tolerance), 0.02);
+        let farthest = farthest_m(&case, &polygons, step);
+        prop_assert!(farthest <= tolerance + step + ROUNDING_M, "{}", farthest);
+    }
+
+    #[test]
+    fn what_is_outside_of_the_box_is_left_out_and_nothing_else(case in case(), x in -3.0..3.0, y in -3.0..3.0) {
+        let within = guideway_spline::Bounds { min: p(x, y), max: p(x + 1.0, y + 1.0) };
+        let mut some = Vec::new();
+        case.sweep().polygons(0.05, Some(within), &mut |polygon| some.push(polygon.clone()));
+        let all = polygons(&case, 0.05);
+        let seen = all.iter().filter(|polygon| polygon.bounds().intersects(within));
+        prop_assert_eq!(seen.cloned().collect::<Vec<_>>(), some);
+    }
+}
+
+fn line(from: P, to: P) -> [P; 4] {
+    [from, from.lerp(to, 1.0 / 3.0), from.lerp(to, 2.0 / 3.0), to]
+}
+
+fn case_of(curve: Vec<[P; 4]>, heading: Heading) -> Case {
+    Case {
+        curve: Curve(curve),
+        body: Body::vehicle(2.0, 1.0, 0.5),
+        heading,
+    }
+}
+
+fn covers(polygons: &[Convex], x: f64, y: f64) -> bool {
+    polygons.iter().any(|polygon| polygon.contains(p(x, y)))
+}
+
+#[test]
+fn a_straight_path_is_one_polygon_with_the_vehicle_at_both_ends() {
+    let way = vec![line(p(0.0, 0.0), p(10.0, 0.0))];
+    for (heading, low, high) in [
+        (Heading::Tangential(0.0), p(-0.5, -0.5), p(11.5, 0.5)),
+        (Heading::Tangential(PI), p(-1.5, -0.5), p(10.5, 0.5)),
+        (Heading::Tangential(FRAC_PI_2), p(-0.5, -0.5), p(10.5, 1.5)),
+        (Heading::Fixed(FRAC_PI_2), p(-0.5, -0.5), p(10.5, 1.5)),
+    ] {
+        let polygons = polygons(&case_of(way.clone(), heading), 0.01);
+        assert_eq!(polygons.len(), 1, "{heading:?}");
+        let bounds = polygons[0].bounds();
+        assert!(bounds.min.distance(low) < 1e-9, "{heading:?} {bounds:?}");
+        assert!(bounds.max.distance(high) < 1e-9, "{heading:?} {bounds:?}");
+    }
+}
+
+#[test]
+fn at_a_kink_the_vehicle_turns_on_the_spot_and_at_a_cusp_it_does_not() {
+    let corner = vec![
+        line(p(0.0, 0.0), p(5.0, 0.0)),
+        line(p(5.0, 0.0), p(5.0, 5.0)),
+    ];
+    let turned = polygons(&case_of(corner.clone(), Heading::Tangential(0.0)), 0.01);
+    // The front right corner reaches the farthest, at 1.5 and 0.5 from the reference point.
+    let (reach, half) = (1.5_f64.hypot(0.5), (0.5_f64).atan2(1.5));
+    for direction in [-half + 0.05, 0.3, FRAC_PI_2 - half] {
+        let at = p(5.0 + reach * direction.cos(), reach * direction.sin()) - p(1e-3, 1e-3);
+        assert!(covers(&turned, at.x, at.y), "{direction}");
+    }
+    assert!(!covers(&turned, 5.0 + reach + 0.02, 0.0));
+    let fixed = polygons(&case_of(corner, Heading::Fixed(0.0)), 0.01);
+    assert!(!covers(&fixed, 5.0, -0.52) && covers(&fixed, 6.4, 4.0));
+
+    let back = vec![
+        line(p(0.0, 0.0), p(5.0, 0.0)),
+        line(p(5.0, 0.0), p(-3.0, 0.0)),
+    ];
+    let reversed = polygons(&case_of(back, Heading::Tangential(0.0)), 0.01);
+    // As it goes back it still shows its rear to the left.
+    assert!(covers(&reversed, -3.45, 0.0) && !covers(&reversed, -3.55, 0.0));
+    assert!(!covers(&reversed, 5.0, 0.55), "it does not turn");
+}
+
+#[test]
+fn a_path_without_a_direction_has_an_area_only_if_the_heading_is_fixed() {
+    let mut runs = guideway_spline::Runs::default();
+    runs.push_bezier(&[p(1.0, 1.0); 4]);
+    let mut layout = guideway_layout::Layout::default();
+    layout.paths.push(&guideway_layout::NewPath {
+        runs: &runs,
+        ..guideway_layout::NewPath::default()
+    });
+    let body = Body::vehicle(2.0, 1.0, 0.5);
+    let sweep = |heading| guideway_envelope::Sweep::new(layout.paths.get(0), body, &[heading]);
+    assert!(sweep(Heading::Tangential(0.0)).is_none());
+    let there = sweep(Heading::Fixed(0.0)).unwrap().bounds();
+    assert!(there.max.distance(p(2.5, 1.5)) < 1e-9);
+}
+
+#[test]
+fn the_comparison_finds_wrong_polygons() {
+    let bend = vec![[p(0.0, 0.0), p(3.0, 0.0), p(4.0, 1.0), p(4.0, 4.0)]];
+    let case = case_of(bend, Heading::Tangential(0.0));
+    let good = polygons(&case, 0.05);
+    assert_eq!(outside(&case, &good), None);
+    assert!(farthest_m(&case, &good, 0.02) <= 0.07);
+
+    let mut gone = good.clone();
+    gone.remove(good.len() / 2);
+    let hidden = gone.len() == good.len();
+    let thin: Vec<Convex> = good.iter().map(|polygon| shrunk(polygon, 0.9)).collect();
+    assert!(!hidden && outside(&case, &thin).is_some());
+    assert!(outside(&case, &good[..good.len() - 1]).is_some());
+    let thick: Vec<Convex> = good.iter().map(|polygon| shrunk(polygon, 1.2)).collect();
+    assert!(farthest_m(&case, &thick, 0.02) > 0.07);
+
+    let mirrored = Case {
+        heading: Heading::Tangential(PI),
+        ..case.clone()
+    };
+    assert!(outside(&mirrored, &good).is_some(), "the rear is shorter");
+    assert!(farthest_m(&mirrored, &good, 0.02) > 0.07);
+}
+
+fn shrunk(polygon: &Convex, by: f64) -> Convex {
+    let center = polygon.bounds().center();
+    let points = polygon.points().iter();
+    Convex::hull(points.map(|&p| center + (p - center) * by)).expect("corners")
+}
