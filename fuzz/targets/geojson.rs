@@ -1,3 +1,3 @@
 #![no_main]
 
-libfuzzer_sys::fuzz_target!(|bytes: &[u8]| guideway_fuzz::read(bytes));
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| guideway_laws::read(bytes));

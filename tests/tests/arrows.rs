@@ -59,6 +59,16 @@ const ALLOWED: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "guideway-laws",
+        &[
+            "guideway-spline",
+            "guideway-layout",
+            "guideway-formats",
+            "guideway-scene",
+            "guideway-document",
+        ],
+    ),
+    (
         "guideway-bench",
         &[
             "guideway-spline",

@@ -13,14 +13,18 @@ use step::{cargo, heading};
 const HELP: &str = "\
 cargo xtask test        everything: format, lints, all tests, docs, licences (what CI runs)
 cargo xtask quick       format, lints and tests, without installing anything
+cargo xtask fuzz [MINUTES [TARGET...]]
+                        each fuzz target for so long (1 unless said); needs a nightly compiler
 ";
 
 fn main() -> ExitCode {
     let started = Instant::now();
-    let task = std::env::args().nth(1).unwrap_or_default();
-    let outcome = match task.as_str() {
-        "test" => test(),
-        "quick" => quick(),
+    let args: Vec<String> = std::env::args().skip(1).collect();
+    let task = args.first().map_or("", String::as_str);
+    let outcome = match (task, &args.get(1..).unwrap_or_default()) {
+        ("test", []) => test(),
+        ("quick", []) => quick(),
+        ("fuzz", rest) => fuzz(rest),
         _ => {
             print!("{HELP}");
             return ExitCode::from(2);
@@ -45,7 +49,7 @@ fn test() -> Result<()> {
     heading("what is needed");
     prerequisites::rust_components()?;
     let deny = prerequisites::cargo_deny()?;
-    let python = prerequisites::python_with_pyarrow()?;
+    let python = prerequisites::python()?;
     step::set_env("GUIDEWAY_PYTHON", &python);
     prerequisites::software_devices()?;
     step::set_env("GUIDEWAY_REQUIRE_DEVICES", "1");
@@ -74,6 +78,21 @@ fn test() -> Result<()> {
         }
     }
     Ok(())
+}
+
+fn fuzz(args: &[String]) -> Result<()> {
+    prerequisites::cargo_fuzz()?;
+    cargo(&[
+        "run",
+        "--quiet",
+        "--package",
+        "guideway-laws",
+        "--example",
+        "fuzz",
+        "--",
+    ])
+    .args(args)
+    .run()
 }
 
 fn quick() -> Result<()> {

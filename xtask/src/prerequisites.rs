@@ -15,6 +15,7 @@ const SOFTWARE_DEVICES: &[&str] = &[
 /// A screen that nobody sees, and hands for it: for the tests of the window.
 const SCREEN: &[&str] = &["xvfb", "xdotool", "libxkbcommon-x11-0"];
 const CARGO_DENY_VERSION: &str = "0.20.2";
+const CARGO_FUZZ_VERSION: &str = "0.13.1";
 
 /// `rustfmt` and `clippy`, through rustup where they are missing.
 pub(crate) fn rust_components() -> Result<()> {
@@ -64,15 +65,33 @@ pub(crate) fn cargo_deny() -> Result<PathBuf> {
     }
 }
 
-/// A Python that can `import pyarrow`, in a virtual environment under `target/`, for the tests that read
-/// and write our Arrow files from outside.
-pub(crate) fn python_with_pyarrow() -> Result<PathBuf> {
+/// A nightly compiler, and `cargo fuzz`, built once into cargo's own folder.
+pub(crate) fn cargo_fuzz() -> Result<()> {
+    let nightly =
+        |args: &[&str]| command("rustup").args([&["run", "nightly", "cargo"], args].concat());
+    if !nightly(&["--version"]).succeeds() {
+        let args = ["toolchain", "install", "nightly", "--profile", "minimal"];
+        command("rustup").args(args).run()?;
+    }
+    if nightly(&["fuzz", "--version"]).succeeds() {
+        return Ok(());
+    }
+    println!("installing cargo-fuzz {CARGO_FUZZ_VERSION}, a minute or two the first time");
+    let version = ["--version", CARGO_FUZZ_VERSION];
+    cargo(&["install", "cargo-fuzz", "--locked", "--quiet"])
+        .args(version)
+        .run()
+}
+
+/// A Python that can import pyarrow, polars and jsonschema, in a virtual environment under `target/`, for the tests
+/// that look at our files from outside.
+pub(crate) fn python() -> Result<PathBuf> {
     let workspace = Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("..")
         .canonicalize()?;
     let folder = workspace.join("target").join("python");
     let python = folder.join("bin").join("python3");
-    if imports_pyarrow(&python) {
+    if imports_all(&python) {
         return Ok(python);
     }
     let make = || command("python3").args(["-m", "venv"]).args([&folder]);
@@ -81,11 +100,19 @@ pub(crate) fn python_with_pyarrow() -> Result<PathBuf> {
         make().run()?;
     }
     command(&python)
-        .args(["-m", "pip", "install", "--quiet", "pyarrow", "polars"])
+        .args([
+            "-m",
+            "pip",
+            "install",
+            "--quiet",
+            "pyarrow",
+            "polars",
+            "jsonschema",
+        ])
         .run()?;
-    if !imports_pyarrow(&python) {
+    if !imports_all(&python) {
         bail!(
-            "pyarrow was installed into {} but cannot be imported",
+            "pyarrow, polars and jsonschema were installed into {} but cannot be imported",
             folder.display()
         );
     }
@@ -107,9 +134,9 @@ pub(crate) fn software_devices() -> Result<()> {
     apt_install(&packages)
 }
 
-fn imports_pyarrow(python: &Path) -> bool {
+fn imports_all(python: &Path) -> bool {
     command(python)
-        .args(["-c", "import pyarrow, polars"])
+        .args(["-c", "import pyarrow, polars, jsonschema"])
         .succeeds()
 }
 

@@ -1,0 +1,80 @@
+//! Writes the seeds that no person can: journals and Arrow files, into `fuzz/seeds`.
+
+use std::error::Error;
+use std::fs;
+use std::path::Path;
+use std::sync::Arc;
+
+use guideway_document::{Act, Combine, Document, PointRef};
+use guideway_formats::arrow::{self, Precision, WriteOptions};
+use guideway_laws::document;
+use guideway_spline::{Affine, Point};
+
+/// Something that a person does.
+type Deed = fn(&mut Document) -> Result<(), Box<dyn Error>>;
+
+const JOURNALS: [(&str, Deed); 5] = [
+    ("move", |document| {
+        document.select([1, 2].into_iter().collect(), Combine::Replace);
+        let by = Affine::translation(Point::new(1.0, 2.0));
+        document.transform_selection("move", by)?;
+        document.undo();
+        document.redo();
+        Ok(())
+    }),
+    ("copy-and-delete", |document| {
+        document.select([3].into_iter().collect(), Combine::Replace);
+        document.copy_selection(2, Point::new(0.0, 9.0))?;
+        document.delete_selection()?;
+        Ok(())
+    }),
+    ("draw", |document| {
+        let points = [(0.0, 0.0), (3.0, 1.0), (5.0, 4.0)].map(|(x, y)| Point::new(x, y));
+        document.draw_path("drawn".into(), &points, 0.5)?;
+        Ok(())
+    }),
+    ("nodes-and-points", |document| {
+        document.move_node(0, Point::new(-1.0, 0.5))?;
+        let point = PointRef {
+            path: 4,
+            run: 0,
+            point: 1,
+        };
+        document.insert_point(point)?;
+        document.move_point(point, Point::new(2.0, 7.0))?;
+        document.undo();
+        Ok(())
+    }),
+    ("refine", |document| {
+        document.select([5, 6].into_iter().collect(), Combine::Replace);
+        document.refine_selection()?;
+        Ok(())
+    }),
+];
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let seeds = Path::new(env!("CARGO_MANIFEST_DIR")).join("../seeds");
+    let (journals, arrows) = (seeds.join("journal"), seeds.join("arrow"));
+    fs::create_dir_all(&journals)?;
+    fs::create_dir_all(&arrows)?;
+    let mut last = document();
+    for (name, deed) in JOURNALS {
+        let mut document = document();
+        deed(&mut document)?;
+        let records = document
+            .take_acts()
+            .iter()
+            .flat_map(Act::to_record)
+            .collect::<Vec<u8>>();
+        fs::write(journals.join(name), records)?;
+        last = document;
+    }
+    let layout = Arc::new(last.to_layout());
+    for (name, precision) in [("f32.arrow", Precision::F32), ("f64.arrow", Precision::F64)] {
+        let options = WriteOptions {
+            precision: Some(precision),
+        };
+        arrow::write_layout(&layout, &arrows.join(name), &options)?;
+    }
+    Ok(())
+}

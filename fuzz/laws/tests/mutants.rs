@@ -1,0 +1,80 @@
+//! Every law over every seed, and over some thousand mutants of them: what a fuzzer would try first, on any
+//! compiler and the same in every run.
+
+#![allow(clippy::unwrap_used, reason = "a test may fail by a panic")]
+
+mod mutate;
+
+use std::fs;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+use std::thread;
+
+use guideway_laws::{TARGETS, Target, journal};
+use mutate::Mutator;
+
+const MUTANTS: usize = 5_000;
+
+/// Larger seeds are for the tests of bad files; mutants of them only take long.
+const MOST_BYTES: usize = 1 << 16;
+
+fn seeds(target: &Target) -> Vec<Vec<u8>> {
+    let files = target.seed_folders().flat_map(|folder| {
+        let entries = fs::read_dir(&folder).unwrap_or_else(|e| panic!("{}: {e}", folder.display()));
+        entries.map(|entry| entry.unwrap().path())
+    });
+    let mut files: Vec<_> = files.filter(|f| !f.ends_with("expect.tsv")).collect();
+    files.sort();
+    let seeds = files.into_iter().map(|file| fs::read(file).unwrap());
+    seeds.filter(|bytes| bytes.len() <= MOST_BYTES).collect()
+}
+
+/// The first bytes that break a law, if any do.
+fn breaks(law: fn(&[u8]), seeds: &[Vec<u8>]) -> Option<Vec<u8>> {
+    let mut mutator = Mutator::new(seeds);
+    let mutants = (0..MUTANTS).map(|_| mutator.mutant());
+    let mut all = seeds.iter().cloned().chain(mutants);
+    all.find(|bytes| catch_unwind(AssertUnwindSafe(|| law(bytes))).is_err())
+}
+
+#[test]
+fn no_seed_and_no_mutant_breaks_a_law() {
+    let broken = thread::scope(|scope| {
+        let run = |target: &'static Target| {
+            move || {
+                let seeds = seeds(target);
+                assert!(!seeds.is_empty(), "{} has no seeds", target.name);
+                let bytes = breaks(target.law, &seeds)?;
+                let file = Path::new(env!("CARGO_TARGET_TMPDIR")).join(target.name);
+                fs::write(&file, bytes).unwrap();
+                Some(format!("{}: broken by {}", target.name, file.display()))
+            }
+        };
+        let threads: Vec<_> = TARGETS.iter().map(|t| scope.spawn(run(t))).collect();
+        let ends = threads.into_iter().map(|thread| thread.join().unwrap());
+        ends.flatten().collect::<Vec<String>>()
+    });
+    assert!(broken.is_empty(), "{}", broken.join("\n"));
+}
+
+#[test]
+fn a_broken_law_is_found() {
+    let seeds = [b"[1, 2, 3]".to_vec(), b"{\"x\": 4}".to_vec()];
+    let law = |bytes: &[u8]| assert!(!bytes.starts_with(b"[") || bytes.contains(&b'2'));
+    assert!(breaks(law, &seeds).is_some());
+    assert!(breaks(|_| {}, &seeds).is_none());
+}
+
+/// What is done in the seeds can be done: they were not made for another version of journals.
+#[test]
+fn seeds_of_journals_are_whole() {
+    let target = TARGETS.iter().find(|t| t.name == "journal").unwrap();
+    for bytes in seeds(target) {
+        journal(&bytes);
+        let mut document = guideway_laws::document();
+        assert_eq!(
+            guideway_document::replay(&bytes, &mut document).bytes,
+            bytes.len()
+        );
+    }
+}

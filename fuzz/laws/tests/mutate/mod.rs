@@ -1,0 +1,92 @@
+use rand_core::Rng;
+use rand_pcg::Pcg64Mcg;
+
+/// Values that readers stumble over.
+const ODD: [&[u8]; 16] = [
+    b"",
+    b"0",
+    b"-1",
+    b"1e999",
+    b"-0.0",
+    b"NaN",
+    b"1e-320",
+    b"4294967296",
+    b"9223372036854775808",
+    b"null",
+    b"[]",
+    b"{}",
+    b"\"",
+    b"\n",
+    b"\0\0\0\0",
+    b"\xFF\xFF\xFF\xFF",
+];
+
+/// Makes mutants of seeds, the same in every run.
+pub(crate) struct Mutator<'a> {
+    seeds: &'a [Vec<u8>],
+    random: Pcg64Mcg,
+}
+
+impl<'a> Mutator<'a> {
+    pub(crate) fn new(seeds: &'a [Vec<u8>]) -> Self {
+        Self {
+            seeds,
+            random: Pcg64Mcg::new(0x6775_6964_6577_6179),
+        }
+    }
+
+    /// A seed after one to four changes.
+    pub(crate) fn mutant(&mut self) -> Vec<u8> {
+        let mut bytes = self.seed().to_vec();
+        for _ in 0..=self.below(4) {
+            self.change(&mut bytes);
+        }
+        bytes
+    }
+
+    fn change(&mut self, bytes: &mut Vec<u8>) {
+        let (start, len) = self.range(bytes.len());
+        let part = start..start + len;
+        match self.below(6) {
+            0 => drop(bytes.drain(part)),
+            1 => {
+                let again = bytes[part].to_vec();
+                bytes.splice(start..start, again);
+            }
+            2 => {
+                let odd = ODD[self.below(ODD.len())];
+                bytes.splice(part, odd.iter().copied());
+            }
+            3 => {
+                let other = self.seed();
+                let (from, count) = self.range(other.len());
+                bytes.splice(part, other[from..from + count].iter().copied());
+            }
+            4 => bytes.truncate(start),
+            _ => {
+                if let Some(byte) = bytes.get_mut(start) {
+                    *byte ^= 1 << (self.random.next_u32() % 8);
+                }
+            }
+        }
+    }
+
+    /// A part of so many bytes, mostly a short one.
+    fn range(&mut self, of: usize) -> (usize, usize) {
+        let start = self.below(of + 1);
+        let most = match self.below(4) {
+            0 => of,
+            _ => 16,
+        };
+        (start, self.below(most.min(of - start) + 1))
+    }
+
+    fn seed(&mut self) -> &'a [u8] {
+        let index = self.below(self.seeds.len());
+        &self.seeds[index]
+    }
+
+    fn below(&mut self, count: usize) -> usize {
+        (self.random.next_u64() % count as u64) as usize
+    }
+}
