@@ -9,9 +9,9 @@ use common::{codes, count, read};
 use guideway_formats::Losses;
 use guideway_formats::dxf::write_layout;
 use guideway_layout::{Direction, Layout, NewPath, Value};
-use guideway_spline::{Point, Runs, polyline_to_runs};
+use guideway_spline::{Point, Runs};
 use proptest::prelude::*;
-use same::{arbitrary_layout, assert_same_curves, assert_same_ids};
+use same::{arbitrary_layout, assert_same_curves, assert_same_ids, lost, push_lines};
 
 fn written(layout: &Layout) -> (String, Losses) {
     let mut bytes = Vec::new();
@@ -19,27 +19,9 @@ fn written(layout: &Layout) -> (String, Losses) {
     (String::from_utf8(bytes).unwrap(), losses)
 }
 
-fn lost(losses: &Losses) -> Vec<(&str, u64)> {
-    losses
-        .iter()
-        .map(|loss| (loss.what.as_str(), loss.count))
-        .collect()
-}
-
 fn layer(layout: &Layout, path: usize) -> Value<'_> {
     let column = layout.paths.attributes.get("layer").unwrap();
     column.values.get(path).unwrap()
-}
-
-fn push(layout: &mut Layout, id: &str, points: &[(f64, f64)]) {
-    let points: Vec<_> = points.iter().map(|&(x, y)| Point::new(x, y)).collect();
-    let mut runs = Runs::default();
-    polyline_to_runs(&points, &mut runs);
-    layout.paths.push(&NewPath {
-        id,
-        runs: &runs,
-        ..NewPath::default()
-    });
 }
 
 proptest! {
@@ -67,8 +49,8 @@ proptest! {
 #[test]
 fn straight_paths_are_lines_and_corners_polylines() {
     let mut layout = Layout::default();
-    push(&mut layout, "line", &[(0.0, 0.0), (4.0, 3.0)]);
-    push(&mut layout, "corner", &[(0.0, 0.0), (4.0, 0.0), (4.0, 3.0)]);
+    push_lines(&mut layout, "line", &[(0.0, 0.0), (4.0, 3.0)]);
+    push_lines(&mut layout, "corner", &[(0.0, 0.0), (4.0, 0.0), (4.0, 3.0)]);
     let mut runs = Runs::default();
     runs.push(&[(0.0, 0.0), (1.0, 2.0), (3.0, 2.0), (4.0, 0.0)].map(|(x, y)| Point::new(x, y)));
     layout.paths.push(&NewPath {
@@ -96,7 +78,7 @@ fn names_are_kept_whatever_is_in_them() {
     ];
     let mut layout = Layout::default();
     for name in names {
-        push(&mut layout, name, &[(0.0, 0.0), (4.0, 3.0)]);
+        push_lines(&mut layout, name, &[(0.0, 0.0), (4.0, 3.0)]);
     }
     let again = read(&written(&layout).0);
     let read: Vec<&str> = again.paths.iter().map(|p| p.id()).collect();
@@ -107,7 +89,7 @@ fn names_are_kept_whatever_is_in_them() {
 fn layers_that_no_drawing_can_have_are_changed_and_said() {
     let mut layout = Layout::default();
     for name in ["Wände", "WÄNDE", "a/b", "0", ""] {
-        push(&mut layout, "p", &[(0.0, 0.0), (4.0, 3.0)]);
+        push_lines(&mut layout, "p", &[(0.0, 0.0), (4.0, 3.0)]);
         let row = layout.paths.len() - 1;
         layout.paths.attributes.set(row, "layer", Value::Text(name));
     }

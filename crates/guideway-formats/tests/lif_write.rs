@@ -13,7 +13,7 @@ use guideway_formats::lif::{Version, WriteOptions, write_layout};
 use guideway_layout::{Code, Direction, Layout, NewPath, Value};
 use guideway_spline::{Point, Runs};
 use proptest::prelude::*;
-use same::{arbitrary_layout, assert_same_curves, assert_same_ids, assert_same_network};
+use same::{arbitrary_layout, assert_same_curves, assert_same_ids, assert_same_network, lost};
 
 const VERSIONS: [Version; 2] = [Version::V1, Version::V2];
 
@@ -22,13 +22,6 @@ fn written(layout: &Layout, version: Version) -> (String, Losses) {
     let exported = SystemTime::UNIX_EPOCH + Duration::from_millis(1_700_000_000_120);
     let losses = write_layout(layout, &mut bytes, &WriteOptions { version, exported });
     (String::from_utf8(bytes).unwrap(), losses.unwrap())
-}
-
-fn lost(losses: &Losses) -> Vec<(&str, u64)> {
-    losses
-        .iter()
-        .map(|loss| (loss.what.as_str(), loss.count))
-        .collect()
 }
 
 fn types(layout: &Layout, path: usize) -> Vec<&str> {

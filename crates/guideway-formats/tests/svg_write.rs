@@ -11,7 +11,7 @@ use guideway_formats::svg::{Outline, Page, Stroke, write_layout};
 use guideway_layout::{Code, Direction, Layout, NewPath, Value};
 use guideway_spline::{Point, Runs};
 use proptest::prelude::*;
-use same::{arbitrary_layout, assert_same_curves, assert_same_ids};
+use same::{arbitrary_layout, assert_same_curves, assert_same_ids, lost, push_lines};
 
 fn written(layout: &Layout) -> (String, Losses) {
     let mut bytes = Vec::new();
@@ -21,18 +21,8 @@ fn written(layout: &Layout) -> (String, Losses) {
 
 fn line(id: &str) -> Layout {
     let mut layout = Layout::default();
-    push(&mut layout, id, (0.0, 0.0), (40.0, 30.0));
+    push_lines(&mut layout, id, &[(0.0, 0.0), (40.0, 30.0)]);
     layout
-}
-
-fn push(layout: &mut Layout, id: &str, start: (f64, f64), end: (f64, f64)) {
-    let mut runs = Runs::default();
-    runs.push_line(Point::new(start.0, start.1), Point::new(end.0, end.1));
-    layout.paths.push(&NewPath {
-        id,
-        runs: &runs,
-        ..NewPath::default()
-    });
 }
 
 proptest! {
@@ -91,11 +81,10 @@ fn names_are_kept_if_xml_has_room_for_them() {
         "bell\u{7}",
         "",
     ] {
-        push(&mut layout, id, (0.0, 0.0), (1.0, 1.0));
+        push_lines(&mut layout, id, &[(0.0, 0.0), (1.0, 1.0)]);
     }
     let (text, losses) = written(&layout);
-    let lost: Vec<_> = losses.iter().map(|l| (l.what.as_str(), l.count)).collect();
-    assert_eq!(lost, [("identifiers", 2)]);
+    assert_eq!(lost(&losses), [("identifiers", 2)]);
     let again = read(&text);
     let ids: Vec<&str> = again.paths.iter().map(|p| p.id()).collect();
     assert_eq!(
@@ -126,18 +115,24 @@ fn the_page_is_as_large_as_the_site() {
 #[test]
 fn what_has_no_place_is_listed_and_ranks_become_the_order() {
     let mut layout = line("low");
-    push(&mut layout, "high", (0.0, 5.0), (9.0, 5.0));
+    push_lines(&mut layout, "high", &[(0.0, 5.0), (9.0, 5.0)]);
     layout.paths.set_rank(vec![3, -1]);
     layout.refused.push("R", Code::NonFinite, "");
     layout.stations.push("S", None, Vec::new(), None);
     let (text, losses) = written(&layout);
-    let lost: Vec<_> = losses.iter().map(|l| (l.what.as_str(), l.count)).collect();
     assert_eq!(
-        lost,
+        lost(&losses),
         [("refused paths", 1), ("draw ranks", 2), ("stations", 1)]
     );
     assert!(text.find("high").unwrap() < text.find("low").unwrap());
     assert_eq!(read(&text).paths.get(0).direction(), Direction::Both);
+}
+
+#[test]
+fn a_path_of_no_width_is_still_there() {
+    let mut layout = line("a");
+    layout.paths.set_width_m(vec![0.0]);
+    assert_same_curves(&layout, &read(&written(&layout).0), "no width");
 }
 
 #[test]

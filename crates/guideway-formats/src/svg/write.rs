@@ -73,7 +73,9 @@ pub fn write_layout(layout: &Layout, out: &mut impl Write) -> io::Result<Losses>
 
 fn stroke(layout: &Layout, path: PathRef<'_>) -> Stroke {
     let own = layout.paths.own_style(path.row());
-    let width_m = own.width_m.map_or(WIDTH_M, f64::from);
+    // A stroke of no width is not drawn by anyone else.
+    let width_m = own.width_m.map(f64::from).filter(|&w| w > 0.0);
+    let width_m = width_m.unwrap_or(WIDTH_M);
     Stroke::of(own.color_rgba.unwrap_or(0x0000_00FF), width_m)
 }
 

@@ -2,6 +2,7 @@
 
 #![allow(dead_code, reason = "not every test binary needs all of it")]
 
+use guideway_formats::Losses;
 use guideway_layout::{Direction, Layout, Level, NewPath, PathRef, Value};
 use guideway_spline::{Point, Runs, nearest_on_run, polyline_to_runs, uniform};
 use proptest::prelude::*;
@@ -38,6 +39,24 @@ fn farthest_m(from: PathRef<'_>, to: PathRef<'_>) -> f64 {
     let segments = from.runs().flat_map(|run| run.segments());
     let steps = |s| (0..=STEPS).map(move |i| uniform::point(&s, f64::from(i) / f64::from(STEPS)));
     segments.flat_map(steps).map(near).fold(0.0, f64::max)
+}
+
+/// What a written file does not have, and how many of it.
+pub(crate) fn lost(losses: &Losses) -> Vec<(&str, u64)> {
+    let lost = losses.iter();
+    lost.map(|loss| (loss.what.as_str(), loss.count)).collect()
+}
+
+/// Adds a path of straight lines.
+pub(crate) fn push_lines(layout: &mut Layout, id: &str, points: &[(f64, f64)]) {
+    let points: Vec<_> = points.iter().map(|&(x, y)| Point::new(x, y)).collect();
+    let mut runs = Runs::default();
+    polyline_to_runs(&points, &mut runs);
+    layout.paths.push(&NewPath {
+        id,
+        runs: &runs,
+        ..NewPath::default()
+    });
 }
 
 pub(crate) fn assert_same_curves(a: &Layout, b: &Layout, what: &str) {
