@@ -25,6 +25,9 @@ pub(crate) struct Builder<'a> {
     pub(crate) points_left: u64,
     text_bytes: u64,
     most_text_bytes: u64,
+    file_bytes: u64,
+    /// How much of the file is read, for readers that go through it once.
+    read_bytes: u64,
 }
 
 /// Which table an attribute belongs to.
@@ -48,7 +51,23 @@ impl<'a> Builder<'a> {
             points_left: LEAST_POINTS + file_bytes as u64 * POINTS_A_BYTE,
             text_bytes: 0,
             most_text_bytes: most_text(file_bytes as u64),
+            file_bytes: file_bytes as u64,
+            read_bytes: 0,
         }
+    }
+
+    /// So many more bytes of the file are read. Tells whoever follows now and then.
+    pub(crate) fn advance(&mut self, bytes: usize) -> Result<(), ReadError> {
+        const STEP: u64 = 1 << 20;
+        let before = self.read_bytes / STEP;
+        self.read_bytes += bytes as u64;
+        if self.read_bytes / STEP == before {
+            return Ok(());
+        }
+        if let Some(progress) = self.source.options.progress {
+            progress.advance(self.read_bytes, self.file_bytes.max(self.read_bytes));
+        }
+        self.source.check_cancelled()
     }
 
     /// Records a finding.

@@ -14,6 +14,7 @@ pub mod geojson;
 mod json;
 mod lanelet2;
 pub mod lif;
+mod load;
 mod losses;
 mod opendrive;
 mod opentcs;

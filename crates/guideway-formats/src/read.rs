@@ -4,8 +4,13 @@ use std::path::Path;
 
 use guideway_layout::{Layout, Limits};
 
+use crate::load::load;
 use crate::source::{ReadOptions, Source};
 use crate::{Format, Problem, ReadError, sniff};
+
+/// Text files of this size and more are mapped, so that they take no memory of their own. Smaller ones are read: one
+/// that another program is just writing then cannot do harm.
+const MAPPED_FROM_BYTES: u64 = 64 << 20;
 
 /// Reads a layout file. The format is found from the content, whatever the file is called.
 ///
@@ -16,12 +21,16 @@ pub fn read_file(path: &Path, options: &ReadOptions<'_>) -> Result<Layout, ReadE
     let name = path.display().to_string();
     let fail = |problem| ReadError::new(&name, problem);
     let mut file = open(path).map_err(fail)?;
-    if is_arrow(&mut file).map_err(fail)? {
-        let size = file.metadata().map_err(io_problem).map_err(fail)?.len();
-        check_size(size, &options.limits).map_err(fail)?;
-        let bytes = crate::arrow::load(&file).map_err(fail)?;
+    let is_arrow = is_arrow(&mut file).map_err(fail)?;
+    let size = file.metadata().map_err(io_problem).map_err(fail)?.len();
+    check_size(size, &options.limits).map_err(fail)?;
+    if is_arrow {
+        let bytes = load(&file).map_err(fail)?;
         let name = &name;
         return crate::arrow::read(Source { name, options }, &bytes);
+    }
+    if size >= MAPPED_FROM_BYTES {
+        return read_bytes(&name, &load(&file).map_err(fail)?, options);
     }
     let bytes = read_whole(&mut file, options).map_err(fail)?;
     read_bytes(&name, &bytes, options)

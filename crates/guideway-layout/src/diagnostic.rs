@@ -200,6 +200,11 @@ impl Diagnostics {
         self.kept.iter()
     }
 
+    /// Findings kept whole, for what is only known of them later.
+    pub fn iter_mut(&mut self) -> impl Iterator<Item = &mut Diagnostic> {
+        self.kept.iter_mut()
+    }
+
     /// Exact number of findings of each kind.
     pub fn counts(&self) -> impl Iterator<Item = (Code, u64)> {
         self.counts.iter().map(|(&code, &count)| (code, count))

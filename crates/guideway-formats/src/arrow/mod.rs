@@ -10,7 +10,6 @@ mod container;
 mod decode;
 mod gather;
 mod guard;
-mod load;
 mod polygons;
 mod read;
 mod schema;
@@ -20,7 +19,6 @@ mod write;
 mod write_columns;
 mod write_layout;
 
-pub(crate) use load::load;
 pub(crate) use read::read;
 pub use write::{ArrowWriter, Precision, WriteError, WriteProblem};
 pub use write_columns::{Column, ColumnType};

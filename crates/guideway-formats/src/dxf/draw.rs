@@ -30,25 +30,19 @@ pub(super) struct Around<'a> {
 }
 
 /// Makes the paths of a drawing.
-pub(super) struct Painter<'a, 'd, 'b> {
+pub(super) struct Painter<'a> {
     pub(super) builder: Builder<'a>,
-    pub(super) drawing: &'d Drawing<'b>,
     /// The colour of every path.
     pub(super) colors: Vec<u32>,
     /// How many more entities references may make.
     entities_left: u64,
 }
 
-impl<'a, 'd, 'b> Painter<'a, 'd, 'b> {
-    pub(super) fn new(
-        mut builder: Builder<'a>,
-        drawing: &'d Drawing<'b>,
-        file_bytes: usize,
-    ) -> Self {
+impl<'a> Painter<'a> {
+    pub(super) fn new(mut builder: Builder<'a>, file_bytes: usize) -> Self {
         builder.points_left = LEAST_POINTS + file_bytes as u64 * POINTS_A_BYTE;
         Self {
             builder,
-            drawing,
             colors: Vec::new(),
             entities_left: MOST_ENTITIES + file_bytes as u64 / BYTES_AN_ENTITY,
         }
@@ -56,10 +50,10 @@ impl<'a, 'd, 'b> Painter<'a, 'd, 'b> {
 
     pub(super) fn draw(
         &mut self,
-        entity: &Entity<'b>,
+        drawing: &Drawing<'_>,
+        entity: &Entity<'_>,
         around: &Around<'_>,
     ) -> Result<(), ReadError> {
-        let drawing = self.drawing;
         let at: At<'_> = &|| Place {
             element: format!("{} {}", entity.kind, name(entity, around)),
             line: entity.line,
@@ -95,7 +89,7 @@ impl<'a, 'd, 'b> Painter<'a, 'd, 'b> {
                 color,
                 ..*around
             };
-            return self.insert(entity, insert, around, &inner, at);
+            return self.insert(drawing, (entity, insert), around, &inner, at);
         }
         if let Shape::Broken(code, detail) = &entity.shape {
             return self.refuse(entity, around, *code, detail, at);
@@ -171,13 +165,12 @@ impl<'a, 'd, 'b> Painter<'a, 'd, 'b> {
 
     fn insert(
         &mut self,
-        entity: &Entity<'b>,
-        insert: &Insert,
+        drawing: &Drawing<'_>,
+        (entity, insert): (&Entity<'_>, &Insert),
         around: &Around<'_>,
         inner: &Around<'_>,
         at: At<'_>,
     ) -> Result<(), ReadError> {
-        let drawing = self.drawing;
         let block = &drawing.blocks[insert.block as usize];
         let Some(base) = block.base else {
             let detail = "the block that it refers to is not there";
@@ -219,7 +212,7 @@ impl<'a, 'd, 'b> Painter<'a, 'd, 'b> {
                     ..*inner
                 };
                 for entity in &block.entities {
-                    self.draw(entity, &inner)?;
+                    self.draw(drawing, entity, &inner)?;
                 }
             }
         }
@@ -228,7 +221,7 @@ impl<'a, 'd, 'b> Painter<'a, 'd, 'b> {
 
     fn refuse(
         &mut self,
-        entity: &Entity<'b>,
+        entity: &Entity<'_>,
         around: &Around<'_>,
         code: Code,
         detail: &str,

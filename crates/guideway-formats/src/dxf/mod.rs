@@ -63,20 +63,7 @@ pub(crate) fn read(source: Source<'_>, bytes: &[u8]) -> Result<Layout, ReadError
 
     let mut counts = Counts::default();
     let mut layers = HashSet::new();
-    let mut entities = Vec::new();
-    let wanted = |kind: &[u8], code| code == 8 || known_kind(kind).is_some();
-    for mut records in std::mem::take(&mut drawing.entities) {
-        let mut record = Record::default();
-        while section_goes_on(&records) {
-            let read = records.read(&mut record, wanted);
-            read.map_err(|p| source.fail(p))?;
-            counts.add(record.kind);
-            layers.insert(record.text(8).unwrap_or_default());
-            let entity = drawing.entity(&mut records, &mut record, &mut counts);
-            entities.extend(entity.map_err(|p| source.fail(p))?);
-        }
-    }
-    let mut painter = Painter::new(builder, &drawing, bytes.len());
+    let mut painter = Painter::new(builder, bytes.len());
     let around = Around {
         map: Affine::scale(unit_m, unit_m, unit_m),
         layer: None,
@@ -84,8 +71,22 @@ pub(crate) fn read(source: Source<'_>, bytes: &[u8]) -> Result<Layout, ReadError
         handles: "",
         depth: 0,
     };
-    for entity in &entities {
-        painter.draw(entity, &around)?;
+    let wanted = |kind: &[u8], code| code == 8 || known_kind(kind).is_some();
+    for mut records in std::mem::take(&mut drawing.entities) {
+        let mut record = Record::default();
+        let mut at = records.position();
+        while section_goes_on(&records) {
+            let read = records.read(&mut record, wanted);
+            read.map_err(|p| source.fail(p))?;
+            counts.add(record.kind);
+            layers.insert(record.text(8).unwrap_or_default());
+            let entity = drawing.entity(&mut records, &mut record, &mut counts);
+            if let Some(entity) = entity.map_err(|p| source.fail(p))? {
+                painter.draw(&drawing, &entity, &around)?;
+            }
+            let before = std::mem::replace(&mut at, records.position());
+            painter.builder.advance(at - before)?;
+        }
     }
     let (mut builder, colors) = (painter.builder, painter.colors);
     if colors.iter().any(|&color| color != 0) {

@@ -98,6 +98,10 @@ impl<'b> Pairs<'b> {
         self.form != Form::Text
     }
 
+    pub(super) fn position(&self) -> usize {
+        self.at
+    }
+
     /// The next pair; none where the bytes end before a pair does.
     pub(super) fn next(&mut self) -> Result<Option<Pair<'b>>, Problem> {
         let pair = match self.form {

@@ -112,6 +112,11 @@ impl<'b> Records<'b> {
         self.pairs.is_binary()
     }
 
+    /// Number of bytes before what was not read yet.
+    pub(super) fn position(&self) -> usize {
+        self.pairs.position()
+    }
+
     /// Reads the next record; false if the file ends before it begins. Of its pairs those are kept whose
     /// code is `wanted` of a record of its kind.
     pub(super) fn read(

@@ -45,5 +45,7 @@ pub(crate) fn read(source: Source<'_>, bytes: &[u8]) -> Result<Layout, ReadError
         let expected = "`features`, `geometry` or `coordinates` of GeoJSON";
         return Err(fail("the root", expected, "an object with none".into()));
     }
-    Mapper::new(source, bytes.len()).map(root)
+    let mut layout = Mapper::new(source, bytes.len()).map(root)?;
+    json::add_lines(&mut layout, text);
+    Ok(layout)
 }

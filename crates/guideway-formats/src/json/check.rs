@@ -61,7 +61,7 @@ impl Builder<'_> {
     }
 
     /// Says if a list is something else.
-    pub(crate) fn check_list<T>(&mut self, field: &Field<Vec<T>>, at: At<'_>, key: &str) {
+    pub(crate) fn check_list<T>(&mut self, field: &Field<T>, at: At<'_>, key: &str) {
         self.check_type(field, &|| within(at, key), "a list");
     }
 

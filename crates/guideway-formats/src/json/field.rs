@@ -68,6 +68,11 @@ impl<T> Field<T> {
 
 /// A type that a field can have: what it makes of each kind of JSON value.
 pub(crate) trait FromJson<'de>: Sized {
+    /// Reads whatever stands in the place of a field.
+    fn field<D: Deserializer<'de>>(deserializer: D) -> Result<Field<Self>, D::Error> {
+        deserializer.deserialize_any(FieldVisitor(PhantomData))
+    }
+
     fn from_bool(_: bool) -> Field<Self> {
         Field::Wrong(Kind::Truth)
     }
@@ -97,7 +102,7 @@ pub(crate) trait FromJson<'de>: Sized {
 
 impl<'de, T: FromJson<'de>> Deserialize<'de> for Field<T> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_any(FieldVisitor(PhantomData))
+        T::field(deserializer)
     }
 }
 

@@ -6,11 +6,15 @@
 mod attributes;
 mod check;
 mod field;
+mod later;
+mod lines;
 mod record;
 
 pub(crate) use self::attributes::{AttributeKey, Attributes, HasAttributes};
 pub(crate) use self::check::{items, within};
 pub(crate) use self::field::{Field, FromJson, Key};
+pub(crate) use self::later::Later;
+pub(crate) use self::lines::add_lines;
 pub(crate) use self::record::record;
 
 use serde::Deserialize;
@@ -30,7 +34,7 @@ pub(crate) fn parse<'t, T: FromJson<'t>>(
     let value = Field::deserialize(&mut parser);
     value
         .and_then(|value| parser.end().map(|()| value))
-        .map_err(|error| source.fail(problem(&error, text)))
+        .map_err(|error| source.fail(problem(&error, text, 0)))
 }
 
 fn check_limits(source: &Source<'_>, text: &str) -> Result<(), Problem> {
@@ -54,8 +58,16 @@ fn check_limits(source: &Source<'_>, text: &str) -> Result<(), Problem> {
     Ok(())
 }
 
-fn problem(error: &serde_json::Error, text: &str) -> Problem {
-    let (line, column) = (error.line() as u64, error.column() as u64);
+/// What is wrong with a text, of which the part from byte `at` on was parsed.
+fn problem(error: &serde_json::Error, text: &str, at: usize) -> Problem {
+    let (line, column) = match (
+        position(text, at),
+        error.line() as u64,
+        error.column() as u64,
+    ) {
+        ((line, column), 0 | 1, within) => (line, (column + within).saturating_sub(1)),
+        ((line, _), lines, within) => (line + lines - 1, within),
+    };
     if error.is_eof() {
         let (line, column) = position(text, text.len());
         return Problem::Truncated {
@@ -77,7 +89,7 @@ fn problem(error: &serde_json::Error, text: &str) -> Problem {
         column,
         message: printable(&friendly(
             message,
-            word_at(text, error.line(), error.column()),
+            word_at(&text[at..], error.line(), error.column()),
         )),
     }
 }

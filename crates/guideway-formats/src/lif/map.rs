@@ -51,7 +51,7 @@ impl<'a> Mapper<'a> {
         }
     }
 
-    pub(super) fn map(mut self, root: &Root<'_>) -> Result<Layout, ReadError> {
+    pub(super) fn map<'t>(mut self, root: &Root<'t>, file: &'t str) -> Result<Layout, ReadError> {
         let at_root: At<'_> = &|| Place::element("the root");
         self.builder.check_repeated(root.repeated, at_root);
         self.map_version(root)?;
@@ -59,19 +59,22 @@ impl<'a> Mapper<'a> {
         // All nodes come first, for an edge may lead to a node of a later layout.
         for (level, part) in parts.iter().enumerate() {
             self.map_level(part)?;
-            for (i, node) in items(&part.layout.nodes) {
+            let mut nodes = part.layout.nodes.items(file);
+            while let Some((i, node)) = nodes.next(&mut self.builder)? {
                 let at = || Place::element(format!("{}.nodes[{i}]", part.place));
-                self.map_node(node, level as u32, &at)?;
+                self.map_node(&node, level as u32, &at)?;
             }
         }
         for (level, part) in parts.iter().enumerate() {
-            for (i, edge) in items(&part.layout.edges) {
+            let mut edges = part.layout.edges.items(file);
+            while let Some((i, edge)) = edges.next(&mut self.builder)? {
                 let at = || Place::element(format!("{}.edges[{i}]", part.place));
-                self.map_edge(edge, level as u32, &at)?;
+                self.map_edge(&edge, level as u32, &at)?;
             }
-            for (i, station) in items(&part.layout.stations) {
+            let mut stations = part.layout.stations.items(file);
+            while let Some((i, station)) = stations.next(&mut self.builder)? {
                 let at = || Place::element(format!("{}.stations[{i}]", part.place));
-                self.map_station(station, level as u32, &at)?;
+                self.map_station(&station, level as u32, &at)?;
             }
         }
         Ok(self.finish(parts.len()))

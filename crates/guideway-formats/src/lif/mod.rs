@@ -50,7 +50,9 @@ pub(crate) fn read(source: Source<'_>, bytes: &[u8]) -> Result<Layout, ReadError
         let expected = "`layouts` (LIF 1.0), `origins` (LIF 2.0) or the keys of another format";
         return Err(source.fail(not_lif("the root", expected, found)));
     }
-    Mapper::new(source, bytes.len()).map(&root)
+    let mut layout = Mapper::new(source, bytes.len()).map(&root, text)?;
+    json::add_lines(&mut layout, text);
+    Ok(layout)
 }
 
 fn not_lif(element: &str, expected: &str, found: String) -> Problem {

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use serde::de::{IgnoredAny, MapAccess};
 
-use crate::json::{Field, FromJson, Key, record};
+use crate::json::{Field, FromJson, Key, Later, record};
 use crate::trajectory::Trajectory;
 
 type Text<'a> = Cow<'a, str>;
@@ -70,9 +70,9 @@ record! { Origin<'a> {
 record! { Layout<'a> {
     id: Text<'a> = "layoutId",
     name: Text<'a> = "layoutName",
-    nodes: List<Node<'a>> = "nodes",
-    edges: List<Edge<'a>> = "edges",
-    stations: List<Station<'a>> = "stations",
+    nodes: Later<'a, Node<'a>> = "nodes",
+    edges: Later<'a, Edge<'a>> = "edges",
+    stations: Later<'a, Station<'a>> = "stations",
 } }
 
 record! { Node<'a> {

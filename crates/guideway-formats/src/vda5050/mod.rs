@@ -34,7 +34,9 @@ pub(crate) fn read(source: Source<'_>, bytes: &[u8]) -> Result<Layout, ReadError
         let expected = "`nodes` and `edges` of a VDA 5050 order";
         return Err(source.fail(not_an_order("the root", expected, "an object with neither")));
     }
-    Mapper::new(source, bytes.len()).map(&root)
+    let mut layout = Mapper::new(source, bytes.len()).map(&root)?;
+    json::add_lines(&mut layout, text);
+    Ok(layout)
 }
 
 fn not_an_order(element: &str, expected: &str, found: &str) -> Problem {

@@ -19,7 +19,7 @@ pub(crate) fn load(file: &File) -> Result<Buffer, Problem> {
     }
     // SAFETY: the map is read-only and lives only as long as this read, which copies all that it
     // keeps. It relies, as every program that maps a file must, on no other process changing the file
-    // in that time; `docs/arrow-format.md` tells writers to replace files rather than to change them.
+    // in that time; `docs/formats.md` tells writers to replace files rather than to change them.
     let map = unsafe { memmap2::Mmap::map(file)? };
     let (start, len) = (map.as_ptr().cast_mut(), map.len());
     let start = NonNull::new(start).ok_or(Problem::Empty)?;
