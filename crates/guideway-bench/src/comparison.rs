@@ -6,20 +6,25 @@ use serde::{Deserialize, Serialize};
 
 use crate::edits::Edits;
 use crate::measured::Fault;
+use crate::near::near;
 use crate::runner::{Frames, Runner, Shot};
-use crate::{Machine, Motion, Outcome, Row, Start, turns};
+use crate::{Dress, Machine, Motion, Outcome, Row, Start, turns};
 
-/// One case in which methods are compared: all see all of the scene first.
+/// One case in which methods are compared.
 #[derive(Clone, Debug)]
 pub struct Contest {
     /// What the scene is called: `d1`, `d2` or the name of a file.
     pub name: String,
     /// What is drawn.
     pub scene: Arc<Scene>,
+    /// How it was dressed, for the record.
+    pub dress: Dress,
     /// Methods with their options; ratios are to the first.
     pub methods: Vec<String>,
     /// Size of the picture.
     pub size: FrameSize,
+    /// How many times nearer the busiest place than where all is seen; 1 to see all.
+    pub magnify: f64,
     /// What changes from frame to frame.
     pub motion: Motion,
     /// Share of the paths that [`Motion::Edit`] moves, from 0 to 1.
@@ -41,6 +46,9 @@ pub struct Comparison {
     pub machine: Machine,
     /// What was drawn.
     pub scene: SceneFacts,
+    /// What its paths look like.
+    #[serde(default)]
+    pub dress: Dress,
     /// How the first frame saw it.
     pub view: ViewFacts,
     /// What changed from frame to frame.
@@ -106,13 +114,13 @@ impl From<&View> for ViewFacts {
 /// Measures all methods of a contest in one run. A method that does not run gets a row that says why.
 ///
 /// # Errors
-/// When the caller cancels, or the scene cannot be seen as a whole.
+/// When the caller cancels, or there is no such view.
 pub fn compare(
     contest: &Contest,
     start: Start<'_>,
     cancel: &Cancel,
 ) -> Result<Comparison, RenderError> {
-    let view = View::fit(contest.size, contest.scene.bounds())?;
+    let view = near(contest.size, &contest.scene, contest.magnify)?;
     let is_edited = contest.motion == Motion::Edit;
     let shot = Shot {
         view,
@@ -136,6 +144,7 @@ pub fn compare(
             paths: layout.path_count(),
             segments: layout.paths.geometry().segment_count(),
         },
+        dress: contest.dress,
         view: ViewFacts::from(&view),
         motion: contest.motion,
         edit_share: is_edited.then_some(contest.edit_share),
@@ -214,8 +223,10 @@ mod tests {
         Contest {
             name: "d1".into(),
             scene: crate::Dataset::D1.scene(60),
+            dress: Dress::Own,
             methods: methods.iter().map(|&m| m.to_owned()).collect(),
             size: FrameSize::new(64, 36).unwrap(),
+            magnify: 1.0,
             motion,
             edit_share: 0.1,
             style: Style::default(),
@@ -248,6 +259,17 @@ mod tests {
                 assert!(contestant.device.is_some() && contestant.ratio.is_some());
             }
         }
+    }
+
+    #[test]
+    fn what_is_magnified_is_seen_from_nearer() {
+        let mut contest = contest(Motion::Still, &["cpu"]);
+        let all = compare(&contest, &start, &Cancel::default()).unwrap();
+        contest.magnify = 20.0;
+        let near = compare(&contest, &start, &Cancel::default()).unwrap();
+        assert!((near.view.px_per_m / all.view.px_per_m - 20.0).abs() < 1e-9);
+        let drawn = |of: &Comparison| of.methods[0].row.measured().map(|m| m.paths.drawn);
+        assert!(drawn(&near) > Some(0) && drawn(&near) < drawn(&all));
     }
 
     #[test]

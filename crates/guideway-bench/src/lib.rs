@@ -6,10 +6,12 @@
 
 mod comparison;
 mod dataset;
+mod dress;
 mod edits;
 mod machine;
 mod measured;
 mod motion;
+mod near;
 pub mod report;
 pub mod reproduce;
 mod runner;
@@ -21,6 +23,7 @@ use guideway_render::Method;
 
 pub use comparison::{Comparison, Contest, Contestant, SceneFacts, ViewFacts, compare};
 pub use dataset::{Dataset, plain_scene};
+pub use dress::Dress;
 pub use machine::Machine;
 pub use measured::{FrameTime, Measured, Outcome, PathCounts, Prepare, Row, StageTime, WorkCounts};
 pub use motion::Motion;

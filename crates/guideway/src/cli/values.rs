@@ -99,6 +99,14 @@ pub(crate) fn percent(text: &str) -> Result<f64, String> {
     }
 }
 
+/// How many times nearer, 1 or more.
+pub(crate) fn times(text: &str) -> Result<f64, String> {
+    match text.trim().parse::<f64>() {
+        Ok(value) if (1.0..=1e9).contains(&value) => Ok(value),
+        _ => Err("write a number from 1 to 1e9, such as 20".into()),
+    }
+}
+
 /// A method's name, which must be known, with options, which its method looks at.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct MethodSpec;

@@ -131,6 +131,25 @@ fn the_report_is_documented_and_the_same_in_a_file() {
 }
 
 #[test]
+fn a_scene_is_dressed_and_seen_from_nearer() {
+    let px_per_m = |options: &[&str]| {
+        let report = answer(
+            &tiny(&[&["--methods", "cpu", "--json"], options].concat()),
+            "bench",
+        );
+        assert_eq!(report["methods"][0]["measured"]["paths"]["total"], 60);
+        (
+            report["view"]["px_per_m"].as_f64().unwrap(),
+            report["dress"].clone(),
+        )
+    };
+    let (all, own) = px_per_m(&[]);
+    let (near, mixed) = px_per_m(&["--magnify", "20", "--dress", "mixed"]);
+    assert!((near / all - 20.0).abs() < 1e-6);
+    assert_eq!([own, mixed], ["own", "mixed"]);
+}
+
+#[test]
 fn a_file_is_measured_as_it_is() {
     let output = command()
         .args([

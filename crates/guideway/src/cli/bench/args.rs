@@ -3,7 +3,7 @@ use std::path::{Path, PathBuf};
 use clap::ValueEnum;
 use guideway::render::{Budget, FrameSize, Style};
 use guideway::scene::LineRule;
-use guideway_bench::{Contest, Dataset, Motion, plain_scene};
+use guideway_bench::{Contest, Dataset, Dress, Motion, plain_scene};
 
 use crate::cli::render::Rule;
 use crate::cli::{Failure, Output, input, values};
@@ -18,6 +18,7 @@ const MOVED_PERCENT: f64 = 1.0;
     guideway bench d1 --paths 100000 --methods grid,cpu\n  \
     guideway bench site.lif.json --motion pan --json\n  \
     guideway bench d1 --paths 100000 --motion edit --moved 10\n  \
+    guideway bench d1 --paths 1000000 --methods gpu,cpu --magnify 20 --dress mixed\n  \
     guideway bench d2 --methods grid,grid+scan+radius+exit,tessellation --frames 60 -o d2.json")]
 pub(crate) struct Args {
     /// Layout file, or one of the datasets `d1` and `d2`
@@ -36,6 +37,12 @@ pub(crate) struct Args {
     /// Frames of each method that are drawn before and do not count
     #[arg(long, value_name = "N", default_value_t = 3)]
     warmup: usize,
+    /// Come so many times nearer to the busiest place; 1 sees all
+    #[arg(long, value_name = "TIMES", default_value = "1", value_parser = values::times)]
+    magnify: f64,
+    /// What paths look like
+    #[arg(long, default_value = "own")]
+    dress: Look,
     /// What changes from frame to frame
     #[arg(long, default_value = "still")]
     motion: Move,
@@ -69,6 +76,16 @@ enum Move {
     Zoom,
     /// Some paths move
     Edit,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Look {
+    /// As the layout says; a dataset is black
+    Own,
+    /// Each path has a colour of its own, and one of four widths
+    Mixed,
+    /// The same, half of them translucent
+    Translucent,
 }
 
 impl Args {
@@ -106,11 +123,18 @@ impl Args {
             }
             None => plain_scene(input::read(&self.subject, out)?.0),
         };
+        let dress = match self.dress {
+            Look::Own => Dress::Own,
+            Look::Mixed => Dress::Mixed,
+            Look::Translucent => Dress::Translucent,
+        };
         Ok(Contest {
             name: self.subject.to_string_lossy().into_owned(),
-            scene,
+            scene: dress.scene(scene),
+            dress,
             methods: self.specs(),
             size: self.size,
+            magnify: self.magnify,
             motion: match self.motion {
                 Move::Still => Motion::Still,
                 Move::Pan => Motion::Pan,

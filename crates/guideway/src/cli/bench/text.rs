@@ -1,4 +1,4 @@
-use guideway_bench::{Comparison, Contestant, Measured, Motion, Outcome, StageTime};
+use guideway_bench::{Comparison, Contestant, Dress, Measured, Motion, Outcome, StageTime};
 
 use crate::cli::text;
 
@@ -55,12 +55,18 @@ fn what(comparison: &Comparison) -> String {
             format!("{} moved each frame", text::counted(moved, "path"))
         }
     };
+    let dress = match comparison.dress {
+        Dress::Own => "",
+        Dress::Mixed => ", in many colours",
+        Dress::Translucent => ", in many colours, half of them translucent",
+    };
     format!(
-        "{}: {}, {}; {width} x {height} pixels, {motion}\n{} each after {} to warm up, in turns; \
+        "{}: {}, {}{dress}; {width} x {height} pixels at {:.4} pixels a metre, {motion}\n{} each after {} to warm up, in turns; \
          times are medians, ratios of frames to the first method\n\n",
         text::plain(&comparison.scene.name, 200),
         text::counted(comparison.scene.paths as u64, "path"),
         text::counted(comparison.scene.segments as u64, "segment"),
+        comparison.view.px_per_m,
         text::counted(comparison.frames as u64, "frame"),
         comparison.warmup,
     )
