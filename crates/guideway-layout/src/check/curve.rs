@@ -52,18 +52,24 @@ impl Curve {
         swing
     }
 
-    /// Whether the control points are the same, one by one: then so is the curve.
-    pub(super) fn same_control_points(&self, other: &Self, reversed: bool, within_m: f64) -> bool {
+    /// Whether the control points are those of a path, one by one: then so is the curve.
+    pub(super) fn has_points_of(&self, path: PathRef<'_>, reversed: bool, within_m: f64) -> bool {
+        if path.runs().map(|run| run.segments().len()).sum::<usize>() != self.segments.len() {
+            return false;
+        }
         let close = |a: Point<f64>, b: Point<f64>| a.distance(b) <= within_m;
-        self.segments.len() == other.segments.len()
-            && if reversed {
-                let back = other.segments.iter().rev();
-                let mut pairs = self.segments.iter().zip(back);
-                pairs.all(|(a, b)| (0..4).all(|i| close(a[i], b[3 - i])))
-            } else {
-                let mut pairs = self.segments.iter().zip(&other.segments);
-                pairs.all(|(a, b)| (0..4).all(|i| close(a[i], b[i])))
-            }
+        let mut theirs = path.runs().flat_map(|run| run.segments());
+        if reversed {
+            let mut pairs = self.segments.iter().rev().zip(theirs);
+            pairs.all(|(a, b)| (0..4).all(|i| close(a[i], b[3 - i])))
+        } else {
+            let mut own = self.segments.iter();
+            own.all(|a| {
+                theirs
+                    .next()
+                    .is_some_and(|b| (0..4).all(|i| close(a[i], b[i])))
+            })
+        }
     }
 
     /// Points at equal steps of length, found this closely along the curve. They do not depend on how

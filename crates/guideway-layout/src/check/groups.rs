@@ -57,6 +57,7 @@ struct Leader {
     next: u32,
     /// Number of leaders in the cell up to this one.
     depth: u32,
+    ends: [Point<f64>; 2],
     swing: Swing,
     /// Index in `samples`, once they were needed.
     samples: u32,
@@ -123,6 +124,7 @@ impl<'a> Groups<'a> {
                 row: path.row() as u32,
                 next: *head,
                 depth,
+                ends,
                 swing,
                 samples: NONE,
             });
@@ -139,24 +141,23 @@ impl<'a> Groups<'a> {
         samples: &mut Option<Samples>,
     ) -> bool {
         let near = |a: Point<f64>, b: Point<f64>| a.distance(b) <= self.tolerance_m;
-        let row = self.leaders[leader].row as usize;
-        self.other.load(self.paths.get(row));
-        let Some(leader_ends) = self.other.ends() else {
-            return false;
-        };
+        let Leader {
+            row,
+            ends: leader_ends,
+            ..
+        } = self.leaders[leader];
         if !(near(ends[0], leader_ends[0]) && near(ends[1], leader_ends[1])) {
             return false;
         }
-        if self
-            .own
-            .same_control_points(&self.other, reversed, self.tolerance_m)
-        {
+        let path = self.paths.get(row as usize);
+        if self.own.has_points_of(path, reversed, self.tolerance_m) {
             return true;
         }
         let precision_m = PRECISION * self.tolerance_m;
         let own = *samples.get_or_insert_with(|| self.own.samples(precision_m));
         if self.leaders[leader].samples == NONE {
             self.leaders[leader].samples = self.samples.len() as u32;
+            self.other.load(path);
             self.samples.push(self.other.samples(precision_m));
         }
         let theirs = &self.samples[self.leaders[leader].samples as usize];
