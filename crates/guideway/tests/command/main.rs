@@ -6,5 +6,6 @@ mod arrow;
 mod bench;
 mod render;
 mod reports;
+mod sarif;
 mod several;
 mod support;

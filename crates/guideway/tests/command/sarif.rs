@@ -1,0 +1,98 @@
+//! SARIF against its schema. Needs Python with jsonschema; `GUIDEWAY_PYTHON` names the interpreter.
+
+use std::io::Write;
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+use serde_json::{Value, json};
+
+use crate::support::{run, site, stderr};
+
+const SCHEMA: &str = concat!(
+    env!("CARGO_MANIFEST_DIR"),
+    "/tests/schemas/sarif-2.1.0.json"
+);
+
+const VALIDATE: &str = "\
+import json, sys, jsonschema
+schema = json.load(open(sys.argv[1]))
+errors = jsonschema.Draft7Validator(schema).iter_errors(json.load(sys.stdin))
+errors = [f'{error.json_path}: {error.message}' for error in errors]
+print('\\n'.join(errors))
+";
+
+/// What is wrong with a log, a line each; none where Python cannot tell, which is said.
+fn errors(log: &Value) -> Option<String> {
+    let interpreter = std::env::var("GUIDEWAY_PYTHON").unwrap_or_else(|_| "python3".into());
+    let python = |code| {
+        let mut command = Command::new(&interpreter);
+        command.args(["-c", code, SCHEMA]);
+        command
+    };
+    let can = python("import jsonschema").output();
+    if !can.is_ok_and(|output| output.status.success()) {
+        println!("SKIPPED: {interpreter} cannot import jsonschema; set GUIDEWAY_PYTHON");
+        return None;
+    }
+    let mut command = python(VALIDATE);
+    let piped = command.stdin(Stdio::piped()).stdout(Stdio::piped());
+    let mut validator = piped.spawn().unwrap();
+    let mut stdin = validator.stdin.take().unwrap();
+    stdin.write_all(log.to_string().as_bytes()).unwrap();
+    drop(stdin);
+    let output = validator.wait_with_output().unwrap();
+    assert!(output.status.success(), "{}", stderr(&output));
+    Some(String::from_utf8(output.stdout).unwrap().trim().to_owned())
+}
+
+fn log_of(files: &[&Path]) -> Value {
+    let flags = ["check", "--format", "sarif"].map(Path::new);
+    let output = run(flags.iter().chain(files));
+    serde_json::from_slice(&output.stdout).unwrap_or_else(|e| panic!("{e}: {}", stderr(&output)))
+}
+
+#[test]
+fn every_log_is_sound_by_the_schema() {
+    let bad = Path::new(env!("CARGO_MANIFEST_DIR")).join("../guideway-formats/tests/bad");
+    // With lines and without; with errors, warnings and notes; several files.
+    let files = [
+        "lif/knots-object.json",
+        "dxf/insert-unknown-block.dxf",
+        "opentcs/valid.xml",
+        "geojson/valid-graph.geojson",
+    ]
+    .map(|file| bad.join(file));
+    let mut logs: Vec<Value> = files.iter().map(|file| log_of(&[file.as_path()])).collect();
+    logs.push(log_of(&[site().as_path(), files[0].as_path()]));
+    for log in logs {
+        if let Some(errors) = errors(&log) {
+            assert_eq!(errors, "", "{log:#}");
+        }
+    }
+}
+
+#[test]
+fn a_log_that_breaks_the_schema_is_found() {
+    let mut log = log_of(&[site().as_path()]);
+    log["runs"][0]["results"][0]["level"] = json!("grave");
+    log["runs"][0]["tool"]["driver"]["name"] = Value::Null;
+    if let Some(errors) = errors(&log) {
+        assert!(
+            errors.contains("grave") && errors.contains("name"),
+            "{errors}"
+        );
+    }
+}
+
+#[test]
+fn findings_in_json_files_have_lines() {
+    let bad = Path::new(env!("CARGO_MANIFEST_DIR")).join("../guideway-formats/tests/bad");
+    let log = log_of(&[bad.join("lif/knots-object.json").as_path()]);
+    let results = log["runs"][0]["results"].as_array().unwrap();
+    let wrong = results
+        .iter()
+        .find(|r| r["ruleId"] == "wrong-type")
+        .unwrap();
+    let region = &wrong["locations"][0]["physicalLocation"]["region"];
+    assert!(region["startLine"].as_u64().unwrap() > 0, "{wrong:#}");
+}
