@@ -12,19 +12,16 @@ pub struct Convex {
 }
 
 impl Convex {
-    /// The smallest that holds all points; none if there are none. What rounding may have made of one point, or
-    /// of points in line, is one: edges too short to have a direction would not be in its order.
+    /// The smallest that holds all points; none if there are none. Corners that only rounding tells apart are one:
+    /// the edge between them would have no direction, and the order of edges is that of their directions.
     ///
     /// Source: Andrew's monotone chain (1979).
     pub fn hull(points: impl IntoIterator<Item = P>) -> Option<Self> {
-        let mut sorted: Vec<P> = points.into_iter().collect();
+        // Adding zero leaves one of the two zeros.
+        let points = points.into_iter().map(|p| p + P::default());
+        let mut sorted: Vec<P> = points.collect();
         sorted.sort_unstable_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
-        let far = |m: f64, p: &P| m.max(p.x.abs()).max(p.y.abs());
-        let noise_m = 32.0 * f64::EPSILON * sorted.iter().fold(0.0, far);
-        sorted.dedup_by(|p, kept| p.distance(*kept) <= noise_m);
-        if sorted.len() < 3 {
-            return (!sorted.is_empty()).then_some(Self { points: sorted });
-        }
+        sorted.dedup();
         let mut hull: Vec<P> = Vec::with_capacity(sorted.len() + 1);
         let lower = sorted.iter();
         let upper = sorted.iter().rev().skip(1);
@@ -35,14 +32,25 @@ impl Convex {
             }
             while let [.., a, b] = hull[..]
                 && hull.len() > kept
-                && (b - a).cross(p - b) <= noise_m * a.distance(p)
+                && (b - a).cross(p - b) <= 0.0
             {
                 hull.pop();
             }
             hull.push(p);
         }
-        hull.pop();
-        Some(Self { points: hull })
+        // The first comes again at the end, if there is another.
+        if hull.len() > 1 {
+            hull.pop();
+        }
+        let far = |m: f64, p: &P| m.max(p.x.abs()).max(p.y.abs());
+        let noise_m = 32.0 * f64::EPSILON * sorted.iter().fold(0.0, far);
+        hull.dedup_by(|p, kept| p.distance(*kept) <= noise_m);
+        if let [first, .., last] = hull[..]
+            && first.distance(last) <= noise_m
+        {
+            hull.pop();
+        }
+        (!hull.is_empty()).then_some(Self { points: hull })
     }
 
     /// The corners.
@@ -74,7 +82,8 @@ impl Convex {
         let mut points = Vec::with_capacity(self.points.len() + other.points.len());
         let second = Ring::new(&other.points);
         Ring::new(&self.points).add(second, |p| points.push(p));
-        Self { points }
+        // Rounding may have made another corner the leftmost.
+        Self::hull(points).expect("there are corners")
     }
 
     /// How far it is from another, zero if they meet: the distance of the origin from their difference.

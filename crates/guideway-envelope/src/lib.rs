@@ -24,15 +24,19 @@
 //! ```
 
 mod body;
+mod clearance;
 mod convex;
 mod follow;
 mod heading;
 mod nearest;
+mod source;
 mod step;
 mod sweep;
 
 pub use body::Body;
+pub use clearance::{Clearance, ClearanceOptions, ClearanceWork, Walls, check_clearance};
 pub use convex::Convex;
 pub use heading::{Heading, headings};
 pub use nearest::{Meeting, Nearest, Question, Tree};
+pub use source::{Source, Without};
 pub use sweep::{LEAST_TOLERANCE_M, Sweep};

@@ -37,19 +37,19 @@ pub struct Question<'q> {
 
 /// A sweep that is halved where it is looked at closely. What was halved stays so for the next look.
 #[derive(Debug)]
-pub struct Tree<'s> {
-    sweep: &'s Sweep,
+pub struct Tree {
+    sweep: Sweep,
     nodes: Vec<Stretch>,
     /// Of each node, the first of its two halves; 0 if it was not halved yet.
     halves: Vec<u32>,
 }
 
-impl<'s> Tree<'s> {
+impl Tree {
     /// Nothing is halved yet.
-    pub fn new(sweep: &'s Sweep) -> Self {
+    pub fn new(sweep: Sweep) -> Self {
         Self {
+            nodes: vec![Stretch::whole(&sweep)],
             sweep,
-            nodes: vec![Stretch::whole(sweep)],
             halves: vec![0],
         }
     }
@@ -62,7 +62,7 @@ impl<'s> Tree<'s> {
         let index = node as usize;
         if self.halves[index] == 0 {
             self.halves[index] = self.nodes.len() as u32;
-            let halves = self.nodes[index].halves(self.sweep);
+            let halves = self.nodes[index].halves(&self.sweep);
             self.nodes.extend(halves);
             self.halves.extend([0; 2]);
         }
@@ -124,14 +124,14 @@ impl Ord for Pair {
     }
 }
 
-struct Search<'t, 's, 'q> {
-    trees: [&'t mut Tree<'s>; 2],
+struct Search<'t, 'q> {
+    trees: [&'t mut Tree; 2],
     question: &'q Question<'q>,
     open: BinaryHeap<Pair>,
-    tests: &'q mut u64,
+    tests: &'t mut u64,
 }
 
-impl Search<'_, '_, '_> {
+impl Search<'_, '_> {
     fn stretches(&self, nodes: [u32; 2]) -> [&Stretch; 2] {
         [0, 1].map(|side| self.trees[side].node(nodes[side]))
     }

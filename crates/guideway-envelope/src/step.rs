@@ -137,31 +137,40 @@ pub(crate) struct Hull {
 }
 
 impl Hull {
-    /// The hull of the curve, and at each of its points the hull of the body at all headings.
+    /// Of each part, the hull of the curve, and at each of its points the hull of the body at all headings.
     ///
     /// Let the Bezier points be within f of the chord. Then so is all of their hull, and every point of the
     /// chord is within f of the curve (see [`guideway_spline::flatten_run`]); so a point of the hull of the curve
     /// is within 2 f of the curve. With the body at the heading there, see [`Body::turned`].
     pub(crate) fn of_drives(body: &Body, drives: &[Drive]) -> Option<Self> {
+        let mut parts = drives.chunk_by(|_, next| !next.is_apart);
+        let (mut outer, error_m) = Self::of_part(body, parts.next()?)?;
+        let mut hull = Self {
+            bounds: outer.bounds(),
+            places: Bounds::of_points(drives.iter().flat_map(|drive| drive.points))?,
+            error_m,
+            outer,
+        };
+        for part in parts {
+            (outer, _) = Self::of_part(body, part)?;
+            let both = [&hull.outer, &outer].map(Convex::points);
+            hull.outer = Convex::hull(both.into_iter().flatten().copied())?;
+            hull.bounds = hull.bounds.union(outer.bounds());
+            hull.error_m = f64::INFINITY;
+        }
+        Some(hull)
+    }
+
+    /// Of drives that go on from each other, with the error.
+    fn of_part(body: &Body, drives: &[Drive]) -> Option<(Convex, f64)> {
         let headings = drives.iter().map(|drive| drive.headings);
         let headings = headings.reduce(|[a, b], [low, high]| [a.min(low), b.max(high)])?;
         let points = || drives.iter().flat_map(|drive| drive.points);
-        let places = Bounds::of_points(points())?;
         let outer = Convex::hull(points())?.sum(&body.turned(headings));
-        let is_broken = drives.iter().skip(1).any(|drive| drive.is_apart);
-        let error_m = if is_broken {
-            f64::INFINITY
-        } else {
-            let ends = [drives.first()?.points[0], drives.last()?.points[3]];
-            let flatness_m = points().map(|p| distance_from(ends, p)).fold(0.0, f64::max);
-            2.0 * flatness_m + body.turning_error_m(headings[1] - headings[0])
-        };
-        Some(Self {
-            bounds: outer.bounds(),
-            outer,
-            places,
-            error_m,
-        })
+        let ends = [drives.first()?.points[0], drives.last()?.points[3]];
+        let flatness_m = points().map(|p| distance_from(ends, p)).fold(0.0, f64::max);
+        let error_m = 2.0 * flatness_m + body.turning_error_m(headings[1] - headings[0]);
+        Some((outer, error_m))
     }
 
     /// The hull of several areas; of one, the area itself.

@@ -53,6 +53,14 @@ impl Sweep {
         })
     }
 
+    /// How far the body reaches from the path; of areas that are given, half the diagonal of the box around them.
+    pub fn reach_m(&self) -> f64 {
+        match self.steps[0] {
+            Step::Drive(_) => self.body.reach_m(),
+            Step::Still(_) => self.bounds().size().norm() / 2.0,
+        }
+    }
+
     /// A box that holds all of it.
     pub fn bounds(&self) -> Bounds<f64> {
         Stretch::whole(self).hull.bounds

@@ -81,6 +81,8 @@ codes! {
     Version "version" Info "The version that a file states is not that of its structure.";
     Attribute "attribute" Info "An attribute could not be kept as it is.";
     NotDrawn "not-drawn" Info "An element is switched off in the file, or of a kind that is no path.";
+    Clearance "clearance" Warning "Vehicles on two paths come nearer to each other than the clearance asked for.";
+    WallClearance "wall-clearance" Warning "A vehicle comes nearer to the floor plan than the clearance asked for.";
     Implausible "implausible" Warning "The values are legal but look like a mistake, such as a wrong unit.";
 }
 

@@ -29,7 +29,10 @@ mod text;
 mod vehicle_types;
 
 pub use attribute::{Attribute, Attributes, Value, Values};
-pub use check::{CheckOptions, check, check_across};
+pub use check::{
+    At, CheckOptions, check, check_across, name as element_name, place as element_place,
+    same_curves,
+};
 pub use diagnostic::{Code, Diagnostic, Diagnostics, Place, Severity};
 pub use geometry::{Geometry, RunPoints};
 pub use limits::Limits;

@@ -24,7 +24,7 @@
 //! ```
 //!
 //! This crate only puts the others within reach: [`layout`] is the model, [`formats`] reads and writes
-//! files, [`scene`] decides colours and order, [`render`] is what every method agrees on, and
+//! files, [`envelope`] finds what vehicles sweep, [`scene`] decides colours and order, [`render`] is what every method agrees on, and
 //! [`methods`] lists what can draw on this computer. The command `guideway` is built on the same calls.
 
 mod files;
@@ -34,6 +34,7 @@ mod picture;
 use std::path::Path;
 
 pub use guideway_cpu as cpu;
+pub use guideway_envelope as envelope;
 pub use guideway_formats as formats;
 pub use guideway_layout as layout;
 pub use guideway_render as render;

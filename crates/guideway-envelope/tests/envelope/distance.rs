@@ -14,7 +14,7 @@ fn nearest(a: &Case, b: &Case, below_m: f64, meetings: &[Meeting]) -> Option<Nea
         tolerance_m: TOLERANCE_M,
         meetings,
     };
-    Tree::new(&a).nearest(&mut Tree::new(&b), &question, &mut 0)
+    Tree::new(a).nearest(&mut Tree::new(b), &question, &mut 0)
 }
 
 fn moved(case: &Case, by: P) -> Case {

@@ -44,6 +44,16 @@ impl Outline {
         self.end = Some(bezier[3]);
     }
 
+    fn polygon(&mut self, corners: &[Point<f64>]) {
+        if let Some((first, others)) = corners.split_first() {
+            self.put("M", std::slice::from_ref(first));
+            others
+                .iter()
+                .for_each(|p| self.put("L", std::slice::from_ref(p)));
+            self.data.push('Z');
+        }
+    }
+
     /// Whether there is nothing.
     pub fn is_empty(&self) -> bool {
         self.data.is_empty()
@@ -181,6 +191,35 @@ impl<'w, W: Write> Page<'w, W> {
         let fill = paint("fill", rgba);
         let place = format!(r#"x="{x}" y="{y}" width="{width}" height="{height}""#);
         writeln!(self.out, r#"<rect {place} stroke="none"{fill}/>"#)
+    }
+
+    /// A layer of one colour 0xRRGGBBAA, which counts once wherever some of its areas lie on each other. Each area
+    /// is a path of convex polygons that go the same way round, rounded to multiples of `step`.
+    ///
+    /// # Errors
+    /// When the target fails.
+    pub fn areas<A: AsRef<[Point<f64>]>>(
+        &mut self,
+        label: &str,
+        rgba: u32,
+        step: f64,
+        areas: impl IntoIterator<Item = impl IntoIterator<Item = A>>,
+    ) -> io::Result<()> {
+        let (label, fill) = (escaped(label), paint("fill", rgba | 0xFF));
+        let opacity = f64::from(rgba & 0xFF) / 255.0;
+        writeln!(
+            self.out,
+            r#"<g inkscape:groupmode="layer" inkscape:label="{label}" opacity="{opacity:.4}" stroke="none"{fill}>"#
+        )?;
+        for area in areas {
+            let mut outline = Outline::new(step);
+            area.into_iter()
+                .for_each(|polygon| outline.polygon(polygon.as_ref()));
+            if !outline.is_empty() {
+                writeln!(self.out, r#"<path d="{}"/>"#, outline.data)?;
+            }
+        }
+        self.end_group()
     }
 
     /// A black text that begins at a point, with the height of its letters.

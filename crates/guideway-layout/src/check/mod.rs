@@ -11,7 +11,9 @@ mod place;
 mod shape;
 mod worst;
 
-use crate::{Diagnostics, Layout, Limits};
+pub use place::{At, name, place};
+
+use crate::{Diagnostics, Layout, Limits, Paths};
 
 /// What counts as a finding.
 #[derive(Clone, Debug, PartialEq)]
@@ -87,4 +89,14 @@ pub fn check(layout: &Layout, options: &CheckOptions) -> Diagnostics {
 /// Returns the findings of each: what an earlier one has too.
 pub fn check_across(layouts: &[&Layout]) -> Vec<Diagnostics> {
     ids::check_across(layouts)
+}
+
+/// For each path the row of the first one with the same curve and level, whichever way it goes; its own if there is
+/// none. Curves are the same if no point of one is farther than `tolerance_m` from the other.
+pub fn same_curves(paths: &Paths, tolerance_m: f64) -> Vec<u32> {
+    let mut first: Vec<u32> = (0..paths.len() as u32).collect();
+    for member in groups::members(paths, tolerance_m) {
+        first[member.row] = member.first as u32;
+    }
+    first
 }

@@ -5,12 +5,12 @@ use guideway_spline::Point;
 use crate::Place;
 
 /// Where a finding is: `path "A"`, or its number in the table where it has no name.
-pub(super) fn place(kind: &str, row: usize, id: &str) -> Place {
+pub fn place(kind: &str, row: usize, id: &str) -> Place {
     Place::element(name(kind, row, id))
 }
 
 /// The element as text, for messages.
-pub(super) fn name(kind: &str, row: usize, id: &str) -> String {
+pub fn name(kind: &str, row: usize, id: &str) -> String {
     if id.is_empty() {
         format!("{kind} number {}", row + 1)
     } else {
@@ -19,7 +19,8 @@ pub(super) fn name(kind: &str, row: usize, id: &str) -> String {
 }
 
 /// A position in metres, to the millimetre.
-pub(super) struct At(pub(super) Point<f64>);
+#[derive(Clone, Copy, Debug)]
+pub struct At(pub Point<f64>);
 
 impl fmt::Display for At {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -9,7 +9,7 @@ use guideway::save_png;
 use guideway::scene::{ColorBy, Legend, LineRule, Scene, SceneOptions};
 use serde_json::json;
 
-use super::render::{Drawn, Wishes, draw, what_was_drawn};
+use super::render::{Below, Drawn, Wishes, draw, what_was_drawn};
 use super::{Exit, Failure, Output, input, text};
 
 /// A site of our own making, in the command itself so that the demo runs anywhere.
@@ -52,7 +52,7 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, Failure> {
     };
     let scene = Arc::new(Scene::new(Arc::new(layout), &wishes.scene)?);
     let method = guideway::method("cpu")?;
-    let drawn = draw(&*method, &scene, None, &wishes, out)?;
+    let drawn = draw(&*method, &scene, &Below::default(), &wishes, out)?;
     save_png(&drawn.frame, &args.output)?;
     let took_ms = activity.finish();
     let place = args

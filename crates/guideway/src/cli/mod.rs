@@ -6,6 +6,7 @@ mod bench;
 mod check;
 mod convert;
 mod demo;
+mod envelope;
 mod failure;
 mod generate;
 mod info;

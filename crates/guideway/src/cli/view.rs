@@ -11,7 +11,7 @@ use guideway::{AUTO, save_png};
 use guideway_viewer::{Host, Load, MethodChoice, Trouble};
 
 use super::convert::Target;
-use super::render::{Wishes, draw_vector};
+use super::render::{Below, Wishes, draw_vector};
 use super::{Exit, Failure, Output, values};
 
 #[derive(Debug, clap::Args)]
@@ -74,7 +74,13 @@ impl Host for Desk {
             style: *style,
             budget: Budget::default(),
         };
-        draw_vector(path, scene, None, &wishes, scene.legend().is_some())?;
+        draw_vector(
+            path,
+            scene,
+            &Below::default(),
+            &wishes,
+            scene.legend().is_some(),
+        )?;
         Ok(())
     }
 

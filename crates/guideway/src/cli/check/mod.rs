@@ -1,9 +1,11 @@
 //! `guideway check`: everything odd in layout files, with what to do about it.
 
+mod clearance;
 mod sarif;
 mod table;
 
 use clap::ValueEnum;
+use guideway::envelope::ClearanceWork;
 use guideway::layout::{
     CheckOptions, Code, Diagnostic, Diagnostics, Severity, check, check_across,
 };
@@ -39,6 +41,8 @@ pub(crate) struct Args {
     /// Tightest bend that vehicles can drive; not looked at unless given
     #[arg(long, value_name = "METRES", value_parser = values::positive, allow_hyphen_values = true)]
     min_radius: Option<f64>,
+    #[command(flatten)]
+    clearance: clearance::Args,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -65,6 +69,8 @@ struct Checked {
     file: String,
     paths: u64,
     found: Diagnostics,
+    /// What looking for vehicles that are too near took, if that was asked for.
+    clearance: Option<ClearanceWork>,
 }
 
 pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, Failure> {
@@ -93,21 +99,25 @@ struct Times {
 /// Each file by itself, and then against those before it.
 fn checked(args: &Args, out: &Output) -> Result<(Vec<Checked>, Times), Failure> {
     let (mut layouts, read_ms) = input::read_each(&args.inputs, out)?;
+    let question = args.clearance.question(out)?;
     let activity = out.activity("checking");
     let options = args.options();
     let across = check_across(&layouts.iter().collect::<Vec<_>>());
-    let files = args.inputs.iter().zip(&mut layouts).zip(across);
-    let files = files.map(|((input, layout), across)| {
+    let mut files = Vec::with_capacity(layouts.len());
+    for ((input, layout), across) in args.inputs.iter().zip(&mut layouts).zip(across) {
         let mut found = std::mem::take(&mut layout.diagnostics);
         found.append(check(layout, &options));
         found.append(across);
-        Checked {
+        let clearance = question
+            .as_ref()
+            .map(|question| question.ask(layout, &mut found));
+        files.push(Checked {
             file: input.path.to_string_lossy().into_owned(),
             paths: layout.path_count() as u64,
             found,
-        }
-    });
-    let files = files.collect();
+            clearance: clearance.transpose()?,
+        });
+    }
     let check_ms = activity.finish();
     Ok((files, Times { read_ms, check_ms }))
 }
@@ -135,6 +145,7 @@ fn answer(
         "exit_code": tally.exit(args.strict).code(),
         "kinds": kinds(files).into_iter().map(kind_json).collect::<Vec<Value>>(),
         "findings": found().map(|(file, f)| finding_json(&file.file, f)).collect::<Vec<Value>>(),
+        "clearance": clearance::json(&args.clearance, files),
         "ms": { "read": times.read_ms, "check": times.check_ms, "total": total_ms },
     });
     out.report("check", &body, || {
@@ -143,6 +154,7 @@ fn answer(
         if files.len() > 1 {
             text += &format!("all files: {}\n", tally.text());
         }
+        text += &clearance::text(files);
         text + &format!("took {}\n", text::time(total_ms))
     })
 }

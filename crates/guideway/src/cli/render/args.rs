@@ -2,6 +2,7 @@ use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 use guideway::AUTO;
+use guideway::envelope::Source;
 use guideway::render::density::ToneMap;
 use guideway::render::{Budget, FrameSize, Shading, Style};
 use guideway::scene::{ColorBy, LineRule, Rgba, SceneOptions};
@@ -9,7 +10,7 @@ use guideway::spline::Point;
 
 use super::Wishes;
 use crate::cli::input::{Input, PLACEMENT_HELP};
-use crate::cli::{Failure, values};
+use crate::cli::{Failure, envelope, values};
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = format!("Examples:\n  \
@@ -60,6 +61,10 @@ struct ViewArgs {
     /// at offset, such as `hall.png@px-per-m=20,offset=-3,-2`
     #[arg(long, value_name = "FILE", value_parser = Input::parser())]
     floor_plan: Option<Input>,
+    /// The areas that a vehicle sweeps, under the paths: its length and width in metres, and how far its reference
+    /// point is from its rear end (the middle unless given); or `file` for the corridors that the file gives
+    #[arg(long, value_name = "LENGTHxWIDTH[,REAR]", value_parser = envelope::source)]
+    envelope: Option<Source>,
 }
 
 #[derive(Debug, clap::Args)]
@@ -144,6 +149,10 @@ impl Args {
 
     pub(super) fn floor_plan(&self) -> Option<&Input> {
         self.view.floor_plan.as_ref()
+    }
+
+    pub(super) fn envelope(&self) -> Option<Source> {
+        self.view.envelope
     }
 
     /// All files that are read.

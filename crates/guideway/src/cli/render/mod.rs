@@ -1,10 +1,12 @@
 //! `guideway render`: layout files as a picture, PNG or SVG.
 
 mod args;
+mod below;
 mod floor_plan;
 mod legend;
 mod picture;
 mod report;
+mod swept;
 mod vector;
 
 use std::io::{IsTerminal, Write};
@@ -16,6 +18,7 @@ use guideway::scene::Scene;
 use guideway::{SaveError, save_png, write_png};
 
 pub(crate) use args::{Args, Rule};
+pub(crate) use below::Below;
 pub(crate) use picture::{Drawn, Wishes, draw};
 pub(crate) use report::{Times, what_was_drawn};
 #[cfg(feature = "viewer")]
@@ -38,8 +41,11 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, Failure> {
         }
         false => Some(guideway::method(&args.method())?),
     };
-    let below = args.floor_plan().map(|plan| FloorPlan::read(plan, out));
-    let below = below.transpose()?;
+    let plan = args.floor_plan().map(|plan| FloorPlan::read(plan, out));
+    let below = Below {
+        floor_plan: plan.transpose()?,
+        envelope: args.envelope(),
+    };
     let (layout, read_ms) = input::read_all(&args.inputs, out)?;
     let activity = out.activity("arranging");
     let scene = Arc::new(Scene::new(Arc::new(layout), &wishes.scene)?);
@@ -51,11 +57,11 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, Failure> {
     let Some(method) = method else {
         let activity = out.activity("writing the picture");
         let (output, legend) = (&args.output, args.is_with_legend());
-        let drawn = vector::draw(output, &scene, below.as_ref(), &wishes, legend)?;
+        let drawn = vector::draw(output, &scene, &below, &wishes, legend)?;
         times.write = activity.finish();
         return tell(args, &target, &scene, &drawn, &times, out);
     };
-    let mut drawn = draw(&*method, &scene, below.as_ref(), &wishes, out)?;
+    let mut drawn = draw(&*method, &scene, &below, &wishes, out)?;
     drawn.advise(&wishes.style);
     if args.is_with_legend() {
         drawn.stamp_legend(&scene);

@@ -6,8 +6,9 @@ use guideway::render::{
 use guideway::scene::{Rgba, Scene, SceneOptions};
 use guideway::spline::{Bounds, Point};
 
-use super::floor_plan::{self, FloorPlan};
-use super::legend;
+use super::below::Below;
+use super::swept::SweptReport;
+use super::{floor_plan, legend};
 use crate::cli::{Failure, Output};
 
 /// What a picture is to be like.
@@ -28,23 +29,25 @@ pub(crate) struct Drawn<F = Frame> {
     pub(crate) view: View,
     pub(crate) report: Report,
     pub(crate) method: MethodInfo,
+    /// What became of the swept areas, if there are any.
+    pub(crate) swept: Option<SweptReport>,
     pub(crate) prepare_ms: f64,
     pub(crate) render_ms: f64,
 }
 
-/// Draws a scene over a floor plan, showing that it is being drawn.
+/// Draws a scene over what lies below it, showing that it is being drawn.
 pub(crate) fn draw(
     method: &dyn Method,
     scene: &Arc<Scene>,
-    below: Option<&FloorPlan>,
+    below: &Below,
     wishes: &Wishes,
     out: &Output,
 ) -> Result<Drawn, Failure> {
     let view = view(scene, below, wishes)?;
     let activity = out.activity("preparing");
     let mut style = wishes.style;
-    let below = below.map(|below| below.draw(&view, style.background, &wishes.budget));
-    let below = below.transpose()?;
+    let seen = below.seen(scene, &view)?;
+    let below = seen.draw(&view, style.background, &wishes.budget)?;
     if below.is_some() {
         style.background.a = 0;
     }
@@ -61,6 +64,7 @@ pub(crate) fn draw(
         view,
         report,
         method: method.info(),
+        swept: seen.report(),
         prepare_ms,
         render_ms: activity.finish(),
     })
@@ -95,13 +99,12 @@ impl Drawn {
     }
 }
 
-/// The view that is wished for; unless said otherwise it shows everything, the floor plan too.
-pub(super) fn view(
-    scene: &Scene,
-    below: Option<&FloorPlan>,
-    wishes: &Wishes,
-) -> Result<View, RenderError> {
-    let bounds = [scene.bounds(), below.and_then(FloorPlan::bounds)];
+/// The view that is wished for; unless said otherwise it shows everything, what lies below too.
+pub(super) fn view(scene: &Scene, below: &Below, wishes: &Wishes) -> Result<View, RenderError> {
+    if let (Some(center_m), Some(px_per_m)) = (wishes.center_m, wishes.px_per_m) {
+        return View::new(wishes.size, center_m, px_per_m);
+    }
+    let bounds = [scene.bounds(), below.bounds(scene)];
     let bounds = bounds.into_iter().flatten().reduce(Bounds::union);
     let all = View::fit(wishes.size, bounds)?;
     View::new(

@@ -5,6 +5,7 @@ use guideway::render::Clock;
 use guideway::scene::{Legend, Scene};
 use serde_json::{Value, json};
 
+use super::swept::SweptReport;
 use super::{Args, Drawn};
 use crate::cli::input;
 use crate::cli::text;
@@ -37,6 +38,10 @@ pub(super) fn text<F>(path: &Path, scene: &Scene, drawn: &Drawn<F>, times: &Time
         );
     }
     text += &what_was_drawn(drawn);
+    text += &drawn
+        .swept
+        .as_ref()
+        .map_or_else(String::new, SweptReport::text);
     text += &format!(
         "took {}: reading {}, drawing {}, writing {}\n",
         text::time(times.total()),
@@ -140,6 +145,7 @@ pub(super) fn json<F>(args: &Args, scene: &Scene, drawn: &Drawn<F>, times: &Time
             "hidden": report.hidden,
             "refused": report.refused,
         },
+        "envelopes": drawn.swept.as_ref().map(SweptReport::json),
         "lines": report.lines,
         "peak_bytes": report.peak_bytes,
         "bands": report.bands,

@@ -11,7 +11,7 @@ use guideway::scene::{Legend, Scene};
 use guideway::spline::{Bounds, Point};
 use guideway::{SaveError, replace_file};
 
-use super::floor_plan::FloorPlan;
+use super::below::{Below, Seen};
 use super::{Drawn, Wishes, picture};
 use crate::cli::Failure;
 
@@ -30,7 +30,7 @@ pub(super) fn is_wanted(output: &Path) -> bool {
 pub(crate) fn draw(
     output: &Path,
     scene: &Scene,
-    below: Option<&FloorPlan>,
+    below: &Below,
     wishes: &Wishes,
     has_legend: bool,
 ) -> Result<Drawn<()>, Failure> {
@@ -41,11 +41,12 @@ pub(crate) fn draw(
         ));
     }
     let view = picture::view(scene, below, wishes)?;
+    let seen = below.seen(scene, &view)?;
     let legend = scene.legend().filter(|_| has_legend);
     let drawn = replace_file(output, |file| {
         let written = File::create(file).and_then(|file| {
             let mut out = BufWriter::with_capacity(1 << 16, file);
-            let drawn = write(&mut out, scene, &view, below, legend, wishes)?;
+            let drawn = write(&mut out, scene, &view, &seen, legend, wishes)?;
             out.flush()?;
             Ok(drawn)
         });
@@ -63,6 +64,7 @@ pub(crate) fn draw(
             summary: "curves, for whatever shows them to draw",
             device: "none".to_owned(),
         },
+        swept: seen.report(),
         prepare_ms: 0.0,
         render_ms: 0.0,
     })
@@ -73,7 +75,7 @@ fn write(
     out: &mut impl Write,
     scene: &Scene,
     view: &View,
-    below: Option<&FloorPlan>,
+    below: &Seen<'_>,
     legend: Option<&Legend>,
     wishes: &Wishes,
 ) -> io::Result<u64> {
@@ -91,9 +93,7 @@ fn write(
     if background.a > 0 {
         page.area([0.0, 0.0, width, height], background.to_u32())?;
     }
-    if let Some(below) = below {
-        below.write(view, &mut page)?;
-    }
+    below.write(view, STEP_PX, &mut page)?;
     let mut drawn = 0;
     for &path in scene.draw_order() {
         let width_px = width_px(path);

@@ -1,0 +1,215 @@
+//! Areas of one colour: pixels by the samples that any of them covers, as the oracle has it.
+
+use std::ops::Range;
+
+use guideway_render::{Frame, View};
+use guideway_scene::Rgba;
+use guideway_spline::Point;
+use rayon::prelude::*;
+
+/// Samples along each side of a pixel.
+const SAMPLES: usize = 16;
+/// Rows of pixels that are drawn at once.
+const BAND_PX: usize = 8;
+/// Samples of a row in one word.
+const WORD: usize = u64::BITS as usize;
+
+/// Convex polygons in metres, that together are one area.
+#[derive(Clone, Debug, Default)]
+pub struct Areas {
+    points: Vec<Point<f64>>,
+    ends: Vec<usize>,
+}
+
+impl Areas {
+    /// Adds a convex polygon, its corners in order either way round.
+    pub fn push(&mut self, corners: &[Point<f64>]) {
+        self.points.extend_from_slice(corners);
+        self.ends.push(self.points.len());
+    }
+
+    /// Number of polygons.
+    pub fn len(&self) -> usize {
+        self.ends.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.ends.is_empty()
+    }
+
+    /// The corners of each polygon.
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = &[Point<f64>]> {
+        (0..self.len()).map(|i| self.corners(i))
+    }
+
+    fn corners(&self, polygon: usize) -> &[Point<f64>] {
+        let start = polygon.checked_sub(1).map_or(0, |before| self.ends[before]);
+        &self.points[start..self.ends[polygon]]
+    }
+}
+
+/// Lays areas over a picture of the view, which keeps what shines through: where several of them are, the colour
+/// counts once.
+///
+/// # Panics
+/// When the picture has not the size of the view.
+pub fn lay_areas(areas: &Areas, view: &View, color: Rgba, frame: &mut Frame) {
+    assert_eq!(frame.size(), view.size(), "the picture is that of the view");
+    let (width, height) = (view.size().width() as usize, view.size().height() as usize);
+    let bands = bands(areas, view, height.div_ceil(BAND_PX));
+    let rows = frame.pixels_mut().par_chunks_mut(width * BAND_PX);
+    rows.enumerate()
+        .zip(bands)
+        .for_each(|((band, pixels), polygons)| {
+            if polygons.is_empty() {
+                return;
+            }
+            let mut samples = Samples::new(width, band * BAND_PX);
+            for polygon in polygons {
+                let corners = areas.corners(polygon as usize).iter();
+                let corners: Vec<_> = corners.map(|&p| view.pixel_from_world(p)).collect();
+                samples.cover(&corners);
+            }
+            samples.lay(color, pixels);
+        });
+}
+
+/// The polygons that may cover a sample of each band.
+fn bands(areas: &Areas, view: &View, count: usize) -> Vec<Vec<u32>> {
+    let mut bands = vec![Vec::new(); count];
+    for (i, corners) in areas.iter().enumerate() {
+        let rows = corners
+            .iter()
+            .map(|&p| view.pixel_from_world(p).y / BAND_PX as f64);
+        let (top, bottom) = rows.fold((f64::INFINITY, f64::NEG_INFINITY), |(top, bottom), y| {
+            (top.min(y), bottom.max(y))
+        });
+        // Out of range saturates; NaN is 0.
+        let (first, end) = (top.max(0.0) as usize, (bottom + 1.0).max(0.0) as usize);
+        for band in &mut bands[first.min(count)..end.min(count).max(first.min(count))] {
+            band.push(i as u32);
+        }
+    }
+    bands
+}
+
+/// The samples of a band, a bit each.
+struct Samples {
+    width_px: usize,
+    top_px: usize,
+    words: usize,
+    bits: Vec<u64>,
+}
+
+impl Samples {
+    fn new(width_px: usize, top_px: usize) -> Self {
+        let words = (width_px * SAMPLES).div_ceil(WORD);
+        Self {
+            width_px,
+            top_px,
+            words,
+            bits: vec![0; words * BAND_PX * SAMPLES],
+        }
+    }
+
+    /// Marks the samples in a convex polygon, in pixels.
+    fn cover(&mut self, corners: &[Point<f64>]) {
+        let (top, bottom) = corners
+            .iter()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), p| {
+                (a.min(p.y), b.max(p.y))
+            });
+        let top_px = self.top_px as f64;
+        for row in samples_between(top - top_px, bottom - top_px, BAND_PX * SAMPLES) {
+            let y = top_px + (row as f64 + 0.5) / SAMPLES as f64;
+            let (left, right) = cut(corners, y);
+            let columns = samples_between(left, right, self.width_px * SAMPLES);
+            self.mark(row, columns);
+        }
+    }
+
+    fn mark(&mut self, row: usize, columns: Range<usize>) {
+        if columns.is_empty() {
+            return;
+        }
+        let row = &mut self.bits[row * self.words..][..self.words];
+        let (first, last) = (columns.start / WORD, (columns.end - 1) / WORD);
+        let from = u64::MAX << (columns.start % WORD);
+        let to = u64::MAX >> (WORD - 1 - (columns.end - 1) % WORD);
+        if first == last {
+            row[first] |= from & to;
+        } else {
+            row[first] |= from;
+            row[first + 1..last].fill(u64::MAX);
+            row[last] |= to;
+        }
+    }
+
+    /// Lays the colour over each pixel for its share of samples.
+    fn lay(&self, color: Rgba, pixels: &mut [[u8; 4]]) {
+        let mut covered = vec![0_u32; self.width_px];
+        for (row, pixels) in pixels.chunks_exact_mut(self.width_px).enumerate() {
+            covered.fill(0);
+            let rows = self.bits[row * SAMPLES * self.words..].chunks_exact(self.words);
+            for bits in rows.take(SAMPLES) {
+                for (word, &bits) in bits.iter().enumerate().filter(|(_, bits)| **bits != 0) {
+                    let pixels = covered[word * WORD / SAMPLES..].iter_mut();
+                    for (i, covered) in pixels.take(WORD / SAMPLES).enumerate() {
+                        let samples = bits >> (i * SAMPLES) & 0xFFFF;
+                        *covered += samples.count_ones();
+                    }
+                }
+            }
+            for (pixel, &covered) in pixels.iter_mut().zip(&covered) {
+                if covered > 0 {
+                    let share = f64::from(covered) / (SAMPLES * SAMPLES) as f64;
+                    *pixel = mixed(*pixel, color, share);
+                }
+            }
+        }
+    }
+}
+
+/// Indices of the samples of a side from one place to another, in pixels; samples are in the middle of their squares.
+fn samples_between(from: f64, to: f64, count: usize) -> Range<usize> {
+    let side = SAMPLES as f64;
+    // Out of range saturates.
+    let first = (from * side - 0.5).ceil().max(0.0) as usize;
+    let end = ((to * side - 0.5).floor() + 1.0).max(0.0) as usize;
+    first..end.min(count)
+}
+
+/// From where to where a horizontal line is in a convex polygon; backwards if it is not.
+fn cut(corners: &[Point<f64>], y: f64) -> (f64, f64) {
+    let (mut left, mut right) = (f64::INFINITY, f64::NEG_INFINITY);
+    let next = corners.iter().cycle().skip(1);
+    for (a, b) in corners.iter().zip(next) {
+        if (a.y <= y) != (b.y <= y) {
+            let x = a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y));
+            (left, right) = (left.min(x), right.max(x));
+        }
+    }
+    (left, right)
+}
+
+/// The mean of a pixel of which a share lies under a colour, both with straight alpha.
+fn mixed(below: [u8; 4], color: Rgba, share: f64) -> [u8; 4] {
+    let [opacity, b] = [color.a, below[3]].map(|alpha| f64::from(alpha) / 255.0);
+    let a = opacity * share;
+    let shines = b * (1.0 - a);
+    let alpha = a + shines;
+    if alpha <= 0.0 {
+        return below;
+    }
+    let mix = |above: u8, below: u8| (f64::from(above) * a + f64::from(below) * shines) / alpha;
+    let [r, g, b] = [
+        mix(color.r, below[0]),
+        mix(color.g, below[1]),
+        mix(color.b, below[2]),
+    ];
+    [r, g, b, alpha * 255.0].map(|v| v.round() as u8)
+}
+
+#[cfg(test)]
+mod tests;

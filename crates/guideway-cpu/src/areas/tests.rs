@@ -1,0 +1,116 @@
+use guideway_render::FrameSize;
+
+use super::*;
+
+const INK: Rgba = Rgba {
+    r: 200,
+    g: 40,
+    b: 0,
+    a: 128,
+};
+
+fn view(px_per_m: f64) -> View {
+    View::new(
+        FrameSize::new(70, 21).unwrap(),
+        Point::new(1000.0, -7.0),
+        px_per_m,
+    )
+    .unwrap()
+}
+
+fn drawn(areas: &Areas, view: &View) -> Frame {
+    let mut frame = Frame::new(view.size());
+    frame.pixels_mut().fill([255; 4]);
+    lay_areas(areas, view, INK, &mut frame);
+    frame
+}
+
+/// Sample by sample, polygon by polygon.
+fn expected(areas: &Areas, view: &View) -> Vec<[u8; 4]> {
+    let is_in = |corners: &[Point<f64>], p: Point<f64>| {
+        let side = |i: usize| {
+            let (a, b) = (corners[i], corners[(i + 1) % corners.len()]);
+            (b - a).cross(p - a)
+        };
+        let sides = || (0..corners.len()).map(side);
+        // A point has no area.
+        let has_area = corners.len() > 2;
+        has_area && (sides().all(|s| s >= 0.0) || sides().all(|s| s <= 0.0))
+    };
+    let pixel = |x: u32, y: u32| {
+        let samples = (0..256).filter(|i| {
+            let at = |k: u32| (f64::from(k) + 0.5) / 16.0;
+            let px = Point::new(f64::from(x) + at(i % 16), f64::from(y) + at(i / 16));
+            let p = view.world_from_pixel(px);
+            areas.iter().any(|corners| is_in(corners, p))
+        });
+        let a = samples.count() as f64 / 256.0 * 128.0 / 255.0;
+        let mix = |v: f64| (v * a + 255.0 * (1.0 - a)).round() as u8;
+        [mix(200.0), mix(40.0), mix(0.0), 255]
+    };
+    let rows = 0..view.size().height();
+    rows.flat_map(|y| (0..view.size().width()).map(move |x| (x, y)))
+        .map(|(x, y)| pixel(x, y))
+        .collect()
+}
+
+/// Pixels in which the two differ.
+fn different(areas: &Areas, expected: &[[u8; 4]], view: &View) -> usize {
+    let frame = drawn(areas, view);
+    let pairs = frame.pixels().iter().zip(expected);
+    pairs.filter(|(a, b)| a != b).count()
+}
+
+fn polygon(sides: u32, center: Point<f64>, radius_m: f64) -> Vec<Point<f64>> {
+    let corner = |i: u32| {
+        let angle = 0.3 + f64::from(i) * std::f64::consts::TAU / f64::from(sides);
+        center + Point::new(angle.cos(), angle.sin()) * radius_m
+    };
+    (0..sides).map(corner).collect()
+}
+
+fn some_areas() -> Areas {
+    let mut areas = Areas::default();
+    let at = |x: f64, y: f64| Point::new(1000.0 + x, -7.0 + y);
+    areas.push(&polygon(5, at(0.0, 0.0), 0.8));
+    areas.push(&polygon(3, at(0.7, 0.2), 1.1));
+    let mut clockwise = polygon(4, at(-2.0, 0.3), 0.6);
+    clockwise.reverse();
+    areas.push(&clockwise);
+    // Far larger than the picture, thinner than a pixel, beside it, and nothing at all.
+    areas.push(&[at(-900.0, 502.0), at(900.0, 501.9), at(-903.0, -498.1)]);
+    areas.push(&[at(2.0, -3.0), at(2.03, -3.0), at(2.02, 3.0)]);
+    areas.push(&polygon(6, at(50.0, 50.0), 3.0));
+    areas.push(&[at(1.0, 1.0)]);
+    areas
+}
+
+#[test]
+fn each_pixel_is_the_share_of_its_samples_that_any_area_covers() {
+    for scale in [0.01, 3.0, 10.0, 4000.0] {
+        let (areas, view) = (some_areas(), view(scale));
+        let expected = expected(&areas, &view);
+        assert_eq!(different(&areas, &expected, &view), 0, "{scale}");
+    }
+}
+
+#[test]
+fn the_comparison_finds_what_is_missing() {
+    let (areas, view) = (some_areas(), view(10.0));
+    let expected = expected(&areas, &view);
+    for left_out in [0, 1, 2, 3, 4] {
+        let mut fewer = Areas::default();
+        let kept = areas.iter().enumerate().filter(|(i, _)| *i != left_out);
+        kept.for_each(|(_, corners)| fewer.push(corners));
+        assert!(different(&fewer, &expected, &view) > 0, "{left_out}");
+    }
+}
+
+#[test]
+fn over_nothing_the_colour_itself_is_seen() {
+    let view = view(10.0);
+    let mut frame = Frame::new(view.size());
+    lay_areas(&some_areas(), &view, INK, &mut frame);
+    assert!(frame.pixels().contains(&[200, 40, 0, 128]));
+    assert!(frame.pixels().contains(&[0; 4]));
+}

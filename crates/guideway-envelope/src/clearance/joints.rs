@@ -1,0 +1,170 @@
+use std::collections::HashMap;
+
+use guideway_layout::{Layout, PathRef};
+use guideway_spline::Point;
+
+use crate::Meeting;
+
+type P = Point<f64>;
+
+/// Where paths begin and end: ends at one place are one joint, whether the file has a node there or not.
+pub(super) struct Joints {
+    ends: Vec<Option<[End; 2]>>,
+    /// Of each joint, the others that one path leads to, and how long that is.
+    ways: Vec<Vec<(u32, f64)>>,
+}
+
+#[derive(Clone, Copy)]
+struct End {
+    joint: u32,
+    at: P,
+}
+
+/// A joint that can be got to from an end of a path.
+#[derive(Clone, Copy)]
+pub(super) struct Reached {
+    from: P,
+    joint: u32,
+    way_m: f64,
+}
+
+impl Joints {
+    pub(super) fn new(layout: &Layout, tolerance_m: f64) -> Self {
+        let mut places = Places::new(tolerance_m);
+        let mut joints = Self {
+            ends: Vec::with_capacity(layout.paths.len()),
+            ways: Vec::new(),
+        };
+        for path in layout.paths.iter() {
+            let ends = path.ends().map(|(start, end)| {
+                let joint = |at: P, node: Option<u32>| {
+                    let node_at = node.map(|node| layout.nodes.position_m(node));
+                    End {
+                        joint: places.joint(node_at.unwrap_or(at), path.level()),
+                        at,
+                    }
+                };
+                let mut joint = joint;
+                [joint(start, path.start_node()), joint(end, path.end_node())]
+            });
+            joints.ways.resize_with(places.count as usize, Vec::new);
+            if let Some([start, end]) = ends {
+                let length_m = polygon_m(path);
+                joints.ways[start.joint as usize].push((end.joint, length_m));
+                joints.ways[end.joint as usize].push((start.joint, length_m));
+            }
+            joints.ends.push(ends);
+        }
+        joints
+    }
+
+    /// What can be got to from the ends of a path by ways not longer than this, the ends themselves first.
+    pub(super) fn reached(&self, path: usize, most_m: f64) -> Vec<Reached> {
+        let mut all = Vec::new();
+        for end in self.ends[path].iter().flatten() {
+            let first = all.len();
+            all.push(Reached {
+                from: end.at,
+                joint: end.joint,
+                way_m: 0.0,
+            });
+            // Few are so near: a list does.
+            let mut next = first;
+            while let Some(&Reached { joint, way_m, .. }) = all.get(next) {
+                next += 1;
+                for &(joint, length_m) in &self.ways[joint as usize] {
+                    let way_m = way_m + length_m;
+                    let known = all[first..].iter().position(|r| r.joint == joint);
+                    let is_nearer = known.is_none_or(|known| way_m < all[first + known].way_m);
+                    if way_m <= most_m && is_nearer && all.len() < MOST_REACHED {
+                        all.push(Reached {
+                            from: end.at,
+                            joint,
+                            way_m,
+                        });
+                    }
+                }
+            }
+        }
+        all
+    }
+
+    /// Where a path meets another, from what can be got to from its ends.
+    pub(super) fn meetings(
+        &self,
+        reached: &[Reached],
+        other: usize,
+        near_joint_m: f64,
+        most_way_m: f64,
+    ) -> Vec<Meeting> {
+        let ends = self.ends[other].iter().flatten();
+        let pairs = ends.flat_map(|end| {
+            let here = reached.iter().filter(|r| r.joint == end.joint);
+            here.map(move |r| (r, end.at))
+        });
+        let meeting = |(reached, at): (&Reached, P)| Meeting {
+            centers_m: [reached.from, at],
+            radius_m: match reached.way_m {
+                0.0 => near_joint_m,
+                _ => most_way_m,
+            },
+        };
+        pairs.map(meeting).collect()
+    }
+}
+
+/// Beyond so many joints within the length of a vehicle, the others do not count as joined.
+const MOST_REACHED: usize = 256;
+
+/// Length of the control polygons, a little more than that of the curve.
+fn polygon_m(path: PathRef<'_>) -> f64 {
+    let legs = path.runs().flat_map(|run| run.segments());
+    legs.map(|p| {
+        let b = guideway_spline::uniform::to_bezier(&p);
+        b.windows(2).map(|leg| leg[0].distance(leg[1])).sum::<f64>()
+    })
+    .sum()
+}
+
+/// Column, row and level.
+type Cell = (i64, i64, Option<u32>);
+
+/// Joints by the cells of a grid.
+struct Places {
+    tolerance_m: f64,
+    cells: HashMap<Cell, Vec<(P, u32)>>,
+    count: u32,
+}
+
+impl Places {
+    fn new(tolerance_m: f64) -> Self {
+        Self {
+            tolerance_m,
+            cells: HashMap::new(),
+            count: 0,
+        }
+    }
+
+    /// The joint at a place, a new one if there is none near enough.
+    fn joint(&mut self, at: P, level: Option<u32>) -> u32 {
+        let cell_m = self.tolerance_m.max(1e-6);
+        let cell = |v: f64| (v / cell_m).floor() as i64;
+        let (x, y) = (cell(at.x), cell(at.y));
+        for (i, j) in (-1..=1).flat_map(|i| (-1..=1).map(move |j| (i, j))) {
+            let there = self.cells.get(&(x + i, y + j, level));
+            let known = there.into_iter().flatten();
+            for &(other, joint) in known {
+                if other.distance(at) <= self.tolerance_m {
+                    return joint;
+                }
+            }
+        }
+        let joint = self.count;
+        self.count += 1;
+        self.cells
+            .entry((x, y, level))
+            .or_default()
+            .push((at, joint));
+        joint
+    }
+}

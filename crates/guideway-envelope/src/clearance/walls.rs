@@ -1,0 +1,199 @@
+use guideway_layout::{
+    At, Code, Diagnostics, Layout, RunPoints, TextColumn, element_name, element_place,
+};
+use guideway_spline::{Bounds, Point, flatten_run};
+use rayon::prelude::*;
+use rstar::primitives::{GeomWithData, Rectangle};
+use rstar::{AABB, RTree};
+
+use super::pairs::how_near;
+use super::{ClearanceOptions, ClearanceWork};
+use crate::{Convex, Nearest, Question, Source, Sweep, Tree};
+
+type P = Point<f64>;
+type Entry = GeomWithData<Rectangle<[f64; 2]>, u32>;
+
+/// How far lines are from the curves that they stand for.
+const FLATNESS_M: f64 = 1e-3;
+
+/// The lines of a floor plan, that no vehicle should touch.
+#[derive(Clone, Debug)]
+pub struct Walls {
+    lines: Vec<[P; 2]>,
+    /// Of each line, the path of the floor plan.
+    paths: Vec<u32>,
+    ids: TextColumn,
+    index: RTree<Entry>,
+}
+
+/// The wall that is nearest to a path.
+struct TooNear {
+    row: usize,
+    line: u32,
+    nearest: Nearest,
+    /// Paths of the floor plan that are too near.
+    walls: usize,
+}
+
+impl Walls {
+    /// The curves of some paths of a floor plan, as lines within a millimetre.
+    pub fn new(plan: &Layout, is_wall: impl Fn(usize) -> bool) -> Self {
+        let (mut lines, mut paths, mut ids) = (Vec::new(), Vec::new(), TextColumn::default());
+        for path in plan.paths.iter() {
+            ids.push(path.id());
+            if !is_wall(path.row()) {
+                continue;
+            }
+            for run in path.runs() {
+                let mut last: Option<P> = None;
+                let mut line = |p: P| {
+                    lines.extend(last.map(|last| [last, p]));
+                    last = Some(p);
+                };
+                match run {
+                    RunPoints::F64(points) => flatten_run(points, FLATNESS_M, &mut line),
+                    RunPoints::F32(points) => {
+                        let points: Vec<P> = points.iter().map(|p| p.to_f64()).collect();
+                        flatten_run(&points, FLATNESS_M, &mut line);
+                    }
+                }
+            }
+            paths.resize(lines.len(), path.row() as u32);
+        }
+        let entry = |(i, line): (usize, &[P; 2])| {
+            let [from, to] = line.map(|p| [p.x, p.y]);
+            Entry::new(Rectangle::from_corners(from, to), i as u32)
+        };
+        Self {
+            index: RTree::bulk_load(lines.iter().enumerate().map(entry).collect()),
+            lines,
+            paths,
+            ids,
+        }
+    }
+
+    /// Number of lines.
+    pub fn len(&self) -> usize {
+        self.lines.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.lines.is_empty()
+    }
+
+    pub(super) fn check(
+        &self,
+        layout: &Layout,
+        source: Source,
+        options: &ClearanceOptions,
+        found: &mut Diagnostics,
+    ) -> ClearanceWork {
+        let rows = (0..layout.paths.len()).into_par_iter();
+        let of_rows: Vec<_> = rows
+            .map(|row| {
+                let mut work = ClearanceWork::default();
+                let sweep = source.sweep(layout, row).ok();
+                let too_near = sweep.and_then(|s| self.too_near(row, s, options, &mut work));
+                (too_near, work)
+            })
+            .collect();
+        let mut work = ClearanceWork::default();
+        for (too_near, of_row) in of_rows {
+            work = work.plus(of_row);
+            if let Some(too_near) = too_near {
+                self.report(&too_near, layout, found);
+            }
+        }
+        work
+    }
+
+    fn too_near(
+        &self,
+        row: usize,
+        sweep: Sweep,
+        options: &ClearanceOptions,
+        work: &mut ClearanceWork,
+    ) -> Option<TooNear> {
+        let lines = self.lines_near(&sweep, options.clearance_m + FLATNESS_M);
+        work.candidates += lines.len() as u64;
+        let question = Question {
+            below_m: options.clearance_m,
+            tolerance_m: options.tolerance_m,
+            meetings: &[],
+        };
+        let mut tree = Tree::new(sweep);
+        let mut best: Option<TooNear> = None;
+        let mut walls = Vec::new();
+        for line in lines {
+            let area = Convex::hull(self.lines[line as usize]);
+            let Some(wall) = Sweep::of_areas(area) else {
+                continue;
+            };
+            let mut wall = Tree::new(wall);
+            let Some(nearest) = tree.nearest(&mut wall, &question, &mut work.tests) else {
+                continue;
+            };
+            walls.push(self.paths[line as usize]);
+            if best
+                .as_ref()
+                .is_none_or(|b| nearest.distance_m < b.nearest.distance_m)
+            {
+                best = Some(TooNear {
+                    row,
+                    line,
+                    nearest,
+                    walls: 0,
+                });
+            }
+        }
+        walls.sort_unstable();
+        walls.dedup();
+        best.map(|best| TooNear {
+            walls: walls.len(),
+            ..best
+        })
+    }
+
+    /// Lines whose boxes are near some part of a sweep, each once.
+    fn lines_near(&self, sweep: &Sweep, within_m: f64) -> Vec<u32> {
+        let mut lines = Vec::new();
+        let coarsely_m = sweep.reach_m();
+        sweep.polygons(coarsely_m, None, &mut |polygon| {
+            let Bounds { min, max } = polygon.bounds().inflated(within_m);
+            let near = AABB::from_corners([min.x, min.y], [max.x, max.y]);
+            let found = self.index.locate_in_envelope_intersecting(near);
+            lines.extend(found.map(|entry| entry.data));
+        });
+        lines.sort_unstable();
+        lines.dedup();
+        lines
+    }
+
+    fn report(&self, too_near: &TooNear, layout: &Layout, found: &mut Diagnostics) {
+        let TooNear {
+            row,
+            line,
+            nearest,
+            walls,
+        } = *too_near;
+        let id = layout.paths.id(row);
+        found.push(
+            Code::WallClearance,
+            || element_place("path", row, id),
+            || {
+                let wall = self.paths[line as usize] as usize;
+                let wall = element_name("path", wall, self.ids.get(wall));
+                let how = how_near(nearest.distance_m);
+                let here = At(nearest.places[0]);
+                let others = match walls {
+                    1 => String::new(),
+                    2 => ", and another line is too near".to_owned(),
+                    n => format!(", and {} other lines are too near", n - 1),
+                };
+                format!("vehicles {how} {wall} of the floor plan, while they are at {here}{others}")
+            },
+            "Move the path away from it; if it is no wall, check with those layers of the floor plan only that are",
+        );
+    }
+}

@@ -1,0 +1,160 @@
+//! The areas that vehicles sweep, under the paths.
+
+use std::io::{self, Write};
+
+use guideway::cpu::{Areas, lay_areas};
+use guideway::envelope::{Convex, LEAST_TOLERANCE_M, Source, Without};
+use guideway::formats::svg::Page;
+use guideway::render::{Frame, View};
+use guideway::scene::{Rgba, Scene};
+use guideway::spline::{Bounds, Point};
+use rayon::prelude::*;
+use serde_json::{Value, json};
+
+use crate::cli::{Failure, envelope, text};
+
+/// The colour of all areas together.
+const COLOR: Rgba = Rgba {
+    r: 0xF2,
+    g: 0x8C,
+    b: 0x28,
+    a: 0x55,
+};
+
+/// How far they may be drawn too large, in pixels.
+const TOLERANCE_PX: f64 = 0.25;
+
+/// What became of the envelope of every path that is drawn.
+#[derive(Debug)]
+pub(crate) struct SweptReport {
+    source: Source,
+    drawn: u64,
+    outside: u64,
+    without: [u64; Without::ALL.len()],
+    polygons: u64,
+    tolerance_m: f64,
+}
+
+/// Swept areas in a view: of each path the convex polygons that are seen.
+pub(super) struct Swept {
+    areas: Vec<Vec<Convex>>,
+    pub(super) report: SweptReport,
+}
+
+/// The box of all swept areas.
+pub(super) fn bounds(scene: &Scene, source: Source) -> Option<Bounds<f64>> {
+    let paths = scene.draw_order().par_iter();
+    let boxes =
+        paths.filter_map(|&path| Some(source.sweep(scene.layout(), path as usize).ok()?.bounds()));
+    boxes.reduce_with(Bounds::union)
+}
+
+impl Swept {
+    /// # Errors
+    /// When no path has an envelope.
+    pub(super) fn new(scene: &Scene, source: Source, view: &View) -> Result<Self, Failure> {
+        let tolerance_m = (TOLERANCE_PX / view.px_per_m()).max(LEAST_TOLERANCE_M);
+        let seen = view.world_bounds();
+        let paths = scene.draw_order().par_iter();
+        let of_paths: Vec<_> = paths
+            .map(|&path| {
+                let sweep = source.sweep(scene.layout(), path as usize)?;
+                let mut polygons = Vec::new();
+                sweep.polygons(tolerance_m, Some(seen), &mut |polygon| {
+                    polygons.push(polygon.clone());
+                });
+                Ok(polygons)
+            })
+            .collect();
+        let mut swept = Self {
+            areas: Vec::with_capacity(of_paths.len()),
+            report: SweptReport {
+                source,
+                drawn: 0,
+                outside: 0,
+                without: [0; Without::ALL.len()],
+                polygons: 0,
+                tolerance_m,
+            },
+        };
+        for of_path in of_paths {
+            swept.add(of_path);
+        }
+        let report = &swept.report;
+        envelope::need_some(report.drawn + report.outside, &report.without)?;
+        Ok(swept)
+    }
+
+    fn add(&mut self, of_path: Result<Vec<Convex>, Without>) {
+        let report = &mut self.report;
+        match of_path {
+            Ok(polygons) if polygons.is_empty() => report.outside += 1,
+            Ok(polygons) => {
+                report.drawn += 1;
+                report.polygons += polygons.len() as u64;
+                self.areas.push(polygons);
+            }
+            Err(why) => report.without[why as usize] += 1,
+        }
+    }
+
+    pub(super) fn draw(&self, view: &View, frame: &mut Frame) {
+        let mut areas = Areas::default();
+        let polygons = self.areas.iter().flatten();
+        polygons.for_each(|polygon| areas.push(polygon.points()));
+        lay_areas(&areas, view, COLOR, frame);
+    }
+
+    pub(super) fn write(
+        &self,
+        view: &View,
+        step_px: f64,
+        page: &mut Page<'_, impl Write>,
+    ) -> io::Result<()> {
+        let on_page = |polygon: &Convex| -> Vec<Point<f64>> {
+            let corners = polygon.points().iter();
+            corners.map(|&p| view.pixel_from_world(p)).collect()
+        };
+        let areas = self
+            .areas
+            .iter()
+            .map(|polygons| polygons.iter().map(on_page));
+        page.areas("swept areas", COLOR.to_u32(), step_px, areas)
+    }
+}
+
+impl SweptReport {
+    pub(super) fn text(&self) -> String {
+        let mut text = format!(
+            "swept areas ({}): {} drawn as {}",
+            envelope::name(self.source),
+            text::count(self.drawn),
+            text::counted(self.polygons, "polygon"),
+        );
+        if self.outside > 0 {
+            text += &format!(", {} outside the view", text::count(self.outside));
+        }
+        text.push('\n');
+        for line in envelope::lacking(&self.without) {
+            text += &format!("note: {line}\n");
+        }
+        text
+    }
+
+    pub(super) fn json(&self) -> Value {
+        let without = Without::ALL
+            .into_iter()
+            .filter(|&why| self.without[why as usize] > 0);
+        let without: Vec<Value> = without
+            .map(|why| json!({ "paths": self.without[why as usize], "why": why.to_string() }))
+            .collect();
+        json!({
+            "source": envelope::name(self.source),
+            "drawn": self.drawn,
+            "outside": self.outside,
+            "without": without,
+            "polygons": self.polygons,
+            "tolerance_m": self.tolerance_m,
+        })
+    }
+}
