@@ -4,6 +4,7 @@
 
 mod arrow;
 mod bench;
+mod envelope;
 mod render;
 mod reports;
 mod sarif;

@@ -12,7 +12,7 @@ use crate::cli::{Failure, Output, envelope, text, values};
 
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "How near vehicles come")]
-pub(super) struct Args {
+pub(super) struct ClearanceArgs {
     /// Least distance of vehicles on two paths, and from the floor plan; 0 finds what overlaps. Not looked at
     /// unless given
     #[arg(long, value_name = "METRES", value_parser = values::not_negative, allow_hyphen_values = true)]
@@ -43,7 +43,7 @@ pub(super) struct Question {
 /// The column of the layers of a drawing.
 const LAYER: &str = "layer";
 
-impl Args {
+impl ClearanceArgs {
     /// What is asked, with the floor plan read; nothing without a clearance.
     pub(super) fn question(&self, out: &Output) -> Result<Option<Question>, Failure> {
         let Some(clearance_m) = self.clearance else {
@@ -126,7 +126,7 @@ pub(super) fn text(files: &[Checked]) -> String {
     text
 }
 
-pub(super) fn json(args: &Args, files: &[Checked]) -> Value {
+pub(super) fn json(args: &ClearanceArgs, files: &[Checked]) -> Value {
     let works = files.iter().filter_map(|file| file.clearance);
     let sum = |of: fn(ClearanceWork) -> u64| works.clone().map(of).sum::<u64>();
     args.clearance.map_or(Value::Null, |clearance_m| {

@@ -42,7 +42,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "METRES", value_parser = values::positive, allow_hyphen_values = true)]
     min_radius: Option<f64>,
     #[command(flatten)]
-    clearance: clearance::Args,
+    clearance: clearance::ClearanceArgs,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

@@ -1,0 +1,185 @@
+//! What vehicles sweep: drawn, and checked for what is too near.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Output;
+
+use serde_json::Value;
+
+use crate::support::{command, json, site, stderr, stdout};
+
+fn guideway(args: &[&str]) -> Output {
+    command().args(args).output().expect("the command starts")
+}
+
+fn text(path: &Path) -> &str {
+    path.to_str().expect("a plain path")
+}
+
+/// Lines of a route graph, each from one node of its own to another.
+fn graph(folder: &Path, name: &str, lines: &[[f64; 4]]) -> PathBuf {
+    let mut features = Vec::new();
+    for (i, [x0, y0, x1, y1]) in lines.iter().enumerate() {
+        features.push(format!(
+            r#"{{"type":"Feature","properties":{{"id":"e{i}"}},"geometry":{{"type":"LineString","coordinates":[[{x0},{y0}],[{x1},{y1}]]}}}}"#
+        ));
+    }
+    let crs = r#""crs":{"type":"name","properties":{"name":"EPSG:3857"}}"#;
+    let file = folder.join(name);
+    let features = features.join(",");
+    fs::write(
+        &file,
+        format!(r#"{{"type":"FeatureCollection",{crs},"features":[{features}]}}"#),
+    )
+    .unwrap();
+    file
+}
+
+#[test]
+fn swept_areas_are_drawn_below_and_accounted_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let (plain, with) = (folder.path().join("a.png"), folder.path().join("b.png"));
+    let render = |picture: &Path, more: &[&str]| {
+        let (site, all) = (
+            site(),
+            ["--size", "400x300", "--center", "50,30", "--scale", "4"],
+        );
+        let args = [
+            &[
+                "render",
+                text(&site),
+                "-o",
+                text(picture),
+                "--method",
+                "cpu",
+                "--json",
+            ],
+            &all[..],
+            more,
+        ];
+        json(&guideway(&args.concat()), "render")
+    };
+    assert!(render(&plain, &[])["envelopes"].is_null());
+    let report = render(&with, &["--envelope", "3x1.4,1"]);
+    let swept = &report["envelopes"];
+    let count = |key: &str| swept[key].as_u64().unwrap();
+    assert_eq!(swept["source"], "3x1.4,1");
+    let paths = &report["paths"];
+    let shown = paths["drawn"].as_u64().unwrap() + paths["outside"].as_u64().unwrap();
+    assert_eq!(count("drawn") + count("outside"), shown);
+    assert!(count("drawn") > 0 && count("polygons") >= count("drawn"));
+    assert_eq!(swept["without"], Value::Array(Vec::new()));
+    let bytes = |path: &Path| fs::read(path).unwrap();
+    assert_ne!(bytes(&plain), bytes(&with));
+
+    let vector = folder.path().join("c.svg");
+    let site = site();
+    let output = guideway(&[
+        "render",
+        text(&site),
+        "-o",
+        text(&vector),
+        "--envelope",
+        "3x1.4",
+    ]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert!(
+        stdout(&output).contains("swept areas (3x1.4,1.5)"),
+        "{}",
+        stdout(&output)
+    );
+    assert!(fs::read_to_string(&vector).unwrap().contains("swept areas"));
+}
+
+#[test]
+fn a_vehicle_that_makes_no_sense_and_a_file_without_envelopes_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let (site, picture) = (site(), folder.path().join("a.png"));
+    for (bad, said) in [("2x0", "2x1.2,0.5"), ("file", "no path has an envelope")] {
+        let output = guideway(&[
+            "render",
+            text(&site),
+            "-o",
+            text(&picture),
+            "--envelope",
+            bad,
+        ]);
+        assert_eq!(output.status.code(), Some(2), "{bad}");
+        assert!(stderr(&output).contains(said), "{bad}: {}", stderr(&output));
+        assert!(!picture.exists());
+    }
+    let output = guideway(&["check", text(&site), "--clearance", "0.3"]);
+    assert!(
+        stderr(&output).contains("--envelope 2x1.2"),
+        "{}",
+        stderr(&output)
+    );
+    let output = guideway(&["check", text(&site), "--envelope", "2x1"]);
+    assert!(
+        stderr(&output).contains("--clearance"),
+        "{}",
+        stderr(&output)
+    );
+}
+
+#[test]
+fn paths_and_walls_too_near_are_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let crossing = [
+        [0.0, 0.0, 40.0, 0.0],
+        [20.0, -20.0, 20.0, 20.0],
+        [0.0, 1.5, 15.0, 1.5],
+    ];
+    let layout = graph(folder.path(), "layout.geojson", &crossing);
+    let plan = graph(folder.path(), "plan.geojson", &[[25.0, 0.8, 40.0, 0.8]]);
+    let check = |more: &[&str]| {
+        let args = [
+            &["check", text(&layout), "--json", "--envelope", "2x1"],
+            more,
+        ];
+        json(&guideway(&args.concat()), "check")
+    };
+    let of_kind = |report: &Value, code: &str| {
+        let findings = report["findings"].as_array().unwrap().clone();
+        findings.into_iter().filter(|f| f["code"] == code).count()
+    };
+    let overlaps = check(&["--clearance", "0"]);
+    assert_eq!(of_kind(&overlaps, "clearance"), 1);
+    assert_eq!(overlaps["clearance"]["envelopes"], 3);
+    assert!(overlaps["clearance"]["distances"].as_u64().unwrap() > 0);
+    let near = check(&["--clearance", "0.6", "--floor-plan", text(&plan)]);
+    assert_eq!(
+        (
+            of_kind(&near, "clearance"),
+            of_kind(&near, "wall-clearance")
+        ),
+        (2, 1)
+    );
+    let output = guideway(&[
+        "check",
+        text(&layout),
+        "--envelope",
+        "2x1",
+        "--clearance",
+        "0.6",
+        "--floor-plan",
+        text(&plan),
+        "--wall-layer",
+        "WALLS",
+    ]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(
+        stderr(&output).contains("layer `WALLS`"),
+        "{}",
+        stderr(&output)
+    );
+    let plain = guideway(&[
+        "check",
+        text(&layout),
+        "--envelope",
+        "2x1",
+        "--clearance",
+        "0.6",
+    ]);
+    assert!(stdout(&plain).contains("3 envelopes"), "{}", stdout(&plain));
+}
