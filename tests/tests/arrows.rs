@@ -95,7 +95,7 @@ const KEPT_TO: &[(&str, &str)] = &[
     ("khronos-egl", "guideway-gl"),
     ("winit", "guideway-viewer"),
     ("eframe", "guideway-viewer"),
-    ("rstar", "guideway-document guideway-envelope"),
+    ("rstar", "guideway-envelope"),
     ("roaring", "guideway-document"),
 ];
 

@@ -169,7 +169,7 @@ impl Contender {
         for (number, step) in story.steps.iter().enumerate() {
             self.take(step, &story.style, prepared.as_mut())
                 .map_err(|error| {
-                    let paths = step.edit.paths();
+                    let paths: Vec<u32> = step.edit.paths().collect();
                     format!("step {number}, {}, {paths:?}: {error}", step.what)
                 })?;
         }

@@ -15,6 +15,8 @@ cargo xtask test        everything: format, lints, all tests, docs, licences (wh
 cargo xtask quick       format, lints and tests, without installing anything
 cargo xtask fuzz [MINUTES [TARGET...]]
                         each fuzz target for so long (1 unless said); needs a nightly compiler
+cargo xtask soak [MINUTES [SEED [FILE]]]
+                        the viewer under hands that do anything for so long (1 unless said); writes a record
 ";
 
 fn main() -> ExitCode {
@@ -25,6 +27,7 @@ fn main() -> ExitCode {
         ("test", []) => test(),
         ("quick", []) => quick(),
         ("fuzz", rest) => fuzz(rest),
+        ("soak", rest) => soak(rest),
         _ => {
             print!("{HELP}");
             return ExitCode::from(2);
@@ -93,6 +96,26 @@ fn fuzz(args: &[String]) -> Result<()> {
     ])
     .args(args)
     .run()
+}
+
+/// What is asked goes to the test that does it by its environment.
+fn soak(args: &[String]) -> Result<()> {
+    let names = [
+        "GUIDEWAY_SOAK_MINUTES",
+        "GUIDEWAY_SOAK_SEED",
+        "GUIDEWAY_SOAK_RECORD",
+    ];
+    if args.len() > names.len() {
+        bail!("write minutes, a seed and a file, such as `60 7 target/soak.txt`");
+    }
+    for (name, value) in names.into_iter().zip(args) {
+        step::set_env(name, value);
+    }
+    let test = "tests::soak::a_day_of_anything";
+    let run = ["--ignored", "--exact", test, "--nocapture"];
+    cargo(&["test", "-p", "guideway-viewer", "--lib", "--"])
+        .args(run)
+        .run()
 }
 
 fn quick() -> Result<()> {

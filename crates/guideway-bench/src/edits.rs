@@ -35,7 +35,7 @@ impl Edits {
 
     /// Paths that each edit moves.
     pub(crate) fn path_count(&self) -> usize {
-        self.there_and_back[0].paths().len()
+        self.there_and_back[0].paths().count()
     }
 
     /// What frame number `frame` changes.

@@ -6,8 +6,7 @@ use guideway_scene::{Edit, LineRule, PathState, Scene, SceneError, SceneOptions}
 use guideway_spline::{Bounds, Point};
 
 use crate::edit::History;
-use crate::index::curve_bounds;
-use crate::{Act, Hit, Index, Query, QueryError, Rows, pick};
+use crate::{Act, Hit, Index, Rows, pick};
 
 /// A layout that is being looked at and edited: what is shown of it, what is selected, and what was done.
 ///
@@ -16,11 +15,10 @@ use crate::{Act, Hit, Index, Query, QueryError, Rows, pick};
 pub struct Document {
     pub(crate) scene: Scene,
     pub(crate) index: Index,
-    pub(crate) selection: Rows,
+    /// Shared with the steps that can be undone, for it stays the same through most of them.
+    pub(crate) selection: Arc<Rows>,
     /// Nodes that are not where the layout of the scene has them.
     pub(crate) moved_nodes: BTreeMap<u32, Point<f64>>,
-    /// Rows of which others are copies: their attributes are theirs.
-    pub(crate) origins: BTreeMap<u32, u32>,
     pub(crate) history: History,
     /// Edits of the scene since they were last taken, for a renderer that has a scene of its own.
     pub(crate) news: Vec<Edit>,
@@ -56,9 +54,8 @@ impl Document {
         Self {
             index: Index::new(scene.layout()),
             scene,
-            selection: Rows::new(),
+            selection: Arc::default(),
             moved_nodes: BTreeMap::new(),
-            origins: BTreeMap::new(),
             history: History::default(),
             news: Vec::new(),
             acts: Vec::new(),
@@ -100,11 +97,6 @@ impl Document {
         stations.position_m(station).or_else(at_node)
     }
 
-    /// Row whose attributes a path has: its own, or that of the path that it was copied from.
-    pub fn attribute_row(&self, path: u32) -> u32 {
-        self.origins.get(&path).copied().unwrap_or(path)
-    }
-
     /// Edits of the scene since this was last asked, in order. A renderer that does them shows this scene.
     pub fn take_news(&mut self) -> Vec<Edit> {
         std::mem::take(&mut self.news)
@@ -120,13 +112,13 @@ impl Document {
         self.revision
     }
 
-    /// Gives all paths other colours.
-    ///
-    /// # Errors
-    /// As [`Self::new`]; nothing is changed then.
-    pub fn recolor(&mut self, options: &SceneOptions) -> Result<(), SceneError> {
+    /// Takes the colours of another scene of the same layout; false, and nothing is changed, if that is of another
+    /// one: the layout was edited since.
+    pub fn take_colors(&mut self, mut scene: Scene) -> bool {
         let old = &self.scene;
-        let mut scene = Scene::new(old.shared_layout(), options)?;
+        if !Arc::ptr_eq(&old.shared_layout(), &scene.shared_layout()) {
+            return false;
+        }
         let rows = 0..old.row_count() as u32;
         let states = rows.map(|path| (path, old.state(path)));
         let not_shown: Arc<[_]> = states.filter(|(_, s)| *s != PathState::Shown).collect();
@@ -136,7 +128,7 @@ impl Document {
         }
         self.scene = scene;
         self.revision += 1;
-        Ok(())
+        true
     }
 
     /// The path that a person points at: see [`pick`].
@@ -164,50 +156,45 @@ impl Document {
             .into_iter()
             .filter(|&path| self.is_shown(path))
             .collect();
-        match how {
-            Combine::Replace => self.selection = shown,
-            Combine::Add => self.selection |= shown,
-            Combine::Remove => self.selection -= shown,
-        }
+        self.selection = Arc::new(match how {
+            Combine::Replace => shown,
+            Combine::Add => &*self.selection | shown,
+            Combine::Remove => &*self.selection - shown,
+        });
     }
 
     /// Selects the paths whose curve is inside a box or, if they may reach out of it, meets it.
     pub fn select_in(&mut self, bounds: Bounds<f64>, may_reach_out: bool, how: Combine) {
-        let meets = |path: &u32| {
-            let path = self.layout().paths.get(*path as usize);
-            if may_reach_out {
-                return meets(path, bounds);
-            }
-            let is_in = |b: Bounds<f64>| bounds.contains(b.min) && bounds.contains(b.max);
-            curve_bounds(path).is_some_and(is_in)
+        let is_chosen = |&(path, of_path): &(u32, Bounds<f64>)| {
+            let is_inside = bounds.contains(of_path.min) && bounds.contains(of_path.max);
+            let path = self.layout().paths.get(path as usize);
+            is_inside || (may_reach_out && meets(path, bounds))
         };
-        let found = self.index.paths_in(bounds).filter(meets).collect();
+        let found = self.index.boxes_in(bounds).filter(is_chosen);
+        let found = found.map(|(path, _)| path).collect();
         self.select(found, how);
-    }
-
-    /// Selects the paths that meet a query.
-    ///
-    /// # Errors
-    /// When the query cannot be understood; the selection is then as it was.
-    pub fn select_where(&mut self, query: &str, how: Combine) -> Result<(), QueryError> {
-        let query = Query::parse(query, self.layout())?;
-        self.select(query.rows(self.layout()), how);
-        Ok(())
     }
 
     /// Selects everything that is shown.
     pub fn select_all(&mut self) {
         self.revision += 1;
-        self.selection = self.scene.draw_order().iter().copied().collect();
+        self.selection = Arc::new(self.scene.draw_order().iter().copied().collect());
     }
 
     /// The box of the selected curves; none if nothing is selected.
     pub fn selection_bounds(&self) -> Option<Bounds<f64>> {
-        let paths = self
+        let boxes = self
             .selection
             .iter()
-            .map(|path| self.layout().paths.get(path as usize));
-        paths.filter_map(curve_bounds).reduce(Bounds::union)
+            .filter_map(|path| self.index.path_bounds(path));
+        boxes.reduce(Bounds::union)
+    }
+
+    /// The box of all curves that are shown; none if there are none.
+    pub fn bounds(&self) -> Option<Bounds<f64>> {
+        let shown = self.scene.draw_order().iter();
+        let boxes = shown.filter_map(|&path| self.index.path_bounds(path));
+        boxes.reduce(Bounds::union)
     }
 
     /// Hides the selected paths. It changes what is seen, not the layout, so it is not undone.
@@ -233,8 +220,7 @@ impl Document {
             let others: Vec<u32> = all.filter(is_elsewhere).collect();
             self.set_hidden(others.into_iter(), PathState::Hidden);
         }
-        let selection = std::mem::take(&mut self.selection);
-        self.select(selection, Combine::Replace);
+        self.drop_hidden_from_selection();
     }
 
     /// Shows everything again.
@@ -250,8 +236,17 @@ impl Document {
         let states: Arc<[_]> = paths.map(|path| (path, state)).collect();
         let edit = Edit::SetStates(states);
         // It names rows of the scene itself.
-        if !edit.paths().is_empty() && self.scene.edit(&edit).is_ok() {
+        if edit.paths().next().is_some() && self.scene.edit(&edit).is_ok() {
             self.news.push(edit);
+        }
+    }
+
+    /// Only what is shown is selected.
+    pub(crate) fn drop_hidden_from_selection(&mut self) {
+        if !self.selection.iter().all(|path| self.is_shown(path)) {
+            let selection = std::mem::take(&mut self.selection);
+            let shown = selection.iter().filter(|&path| self.is_shown(path));
+            self.selection = Arc::new(shown.collect());
         }
     }
 

@@ -21,13 +21,14 @@ mod steps;
 mod trail;
 
 pub use document::{Combine, Document};
-pub use edit::{Change, NodeMoves, PointRef};
+pub use edit::{Change, NodeMoves, PointRef, Saved};
 pub use index::Index;
 pub use journal::{Act, Replayed, replay};
 pub use locate::locate;
 pub use pick::{Hit, nearest, pick};
 pub use query::{Query, QueryError};
 pub use roaring::RoaringBitmap as Rows;
+pub use save::Snapshot;
 pub use search::{Found, search};
 pub use snap::Snap;
 pub use steps::round_step;

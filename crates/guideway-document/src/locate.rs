@@ -1,7 +1,6 @@
 use guideway_layout::{Layout, Place};
 use guideway_spline::Bounds;
 
-use crate::index::curve_bounds;
 use crate::{Document, Found};
 
 /// What a finding of [`guideway_layout::check`] is about: the path, node or station of the name that its place
@@ -27,7 +26,7 @@ impl Document {
     /// Where something is; none if it is nowhere.
     pub fn bounds_of(&self, what: Found) -> Option<Bounds<f64>> {
         let spot = match what {
-            Found::Path(path) => return curve_bounds(self.layout().paths.get(path as usize)),
+            Found::Path(path) => return self.index.path_bounds(path),
             Found::Node(node) => self.node_position_m(node),
             Found::Station(station) => self.station_position_m(station)?,
         };

@@ -1,31 +1,64 @@
-use guideway_layout::{Attribute, Attributes, Layout, NewPath, Nodes, Paths, Value, Values};
+use std::collections::BTreeMap;
+use std::sync::Arc;
 
-use crate::Document;
+use guideway_layout::{Attribute, Attributes, Layout, NewPath, Nodes, Paths, Value, Values};
+use guideway_scene::PathState;
+use guideway_spline::{Point, Runs};
+
+use crate::{Document, Rows};
+
+/// A document as it was at one moment, to be written while it is edited on.
+#[derive(Clone, Debug)]
+pub struct Snapshot {
+    layout: Arc<Layout>,
+    removed: Rows,
+    moved_nodes: BTreeMap<u32, Point<f64>>,
+}
 
 impl Document {
-    /// The layout as it is now: removed paths left out, moved nodes at their places, rows numbered anew.
+    /// What there is now. It takes next to no time; the first edit after it takes a copy of the layout, unless
+    /// the snapshot is gone by then.
+    pub fn snapshot(&self) -> Snapshot {
+        let rows = 0..self.scene.row_count() as u32;
+        let is_removed = |&row: &u32| self.scene.state(row) == PathState::Removed;
+        Snapshot {
+            layout: self.scene.shared_layout(),
+            removed: rows.filter(is_removed).collect(),
+            moved_nodes: self.moved_nodes.clone(),
+        }
+    }
+
+    /// The layout as it is now: see [`Snapshot::to_layout`].
     pub fn to_layout(&self) -> Layout {
-        let old = self.layout();
+        self.snapshot().to_layout()
+    }
+}
+
+impl Snapshot {
+    /// The layout: removed paths left out, moved nodes at their places, rows numbered anew.
+    pub fn to_layout(&self) -> Layout {
+        let old = &*self.layout;
         Layout {
             provenance: old.provenance.clone(),
-            paths: self.paths_now(),
+            paths: self.paths(),
             refused: old.refused.clone(),
-            nodes: self.nodes_now(),
+            nodes: self.nodes(),
             stations: old.stations.clone(),
             levels: old.levels.clone(),
             diagnostics: old.diagnostics.clone(),
         }
     }
 
-    fn paths_now(&self) -> Paths {
-        let old = &self.layout().paths;
-        let rows: Vec<usize> = self.existing_paths().map(|path| path.row()).collect();
-        if rows.len() == old.len() && self.origins.is_empty() {
+    fn paths(&self) -> Paths {
+        let old = &self.layout.paths;
+        if self.removed.is_empty() {
             return old.clone();
         }
+        let is_there = |&row: &usize| !self.removed.contains(row as u32);
+        let rows: Vec<usize> = (0..old.len()).filter(is_there).collect();
         let mut paths = Paths::default();
-        let mut runs = guideway_spline::Runs::default();
-        for path in self.existing_paths() {
+        let mut runs = Runs::default();
+        for path in rows.iter().map(|&row| old.get(row)) {
             runs.clear();
             for run in path.runs() {
                 runs.push(&run.iter().collect::<Vec<_>>());
@@ -50,37 +83,36 @@ impl Document {
         if let Some(rank) = old.rank() {
             paths.set_rank(rows.iter().map(|&row| rank[row]).collect());
         }
-        paths.attributes = self.attributes_now(&rows);
+        paths.attributes = of_rows(&old.attributes, &rows);
         paths
     }
 
-    fn attributes_now(&self, rows: &[usize]) -> Attributes {
-        let sources: Vec<usize> = rows
-            .iter()
-            .map(|&row| self.attribute_row(row as u32) as usize)
-            .collect();
-        let mut attributes = Attributes::default();
-        for column in self.layout().paths.attributes.iter() {
-            attributes.insert(Attribute {
-                values: chosen(&column.values, &sources),
-                ..column.clone()
-            });
-        }
-        attributes
-    }
-
-    fn nodes_now(&self) -> Nodes {
-        let old = &self.layout().nodes;
+    fn nodes(&self) -> Nodes {
+        let old = &self.layout.nodes;
         if self.moved_nodes.is_empty() {
             return old.clone();
         }
         let mut nodes = Nodes::default();
         for node in 0..old.len() as u32 {
-            nodes.push(old.id(node), self.node_position_m(node), old.level(node));
+            let moved = self.moved_nodes.get(&node).copied();
+            let at_m = moved.unwrap_or_else(|| old.position_m(node));
+            nodes.push(old.id(node), at_m, old.level(node));
         }
         nodes.attributes = old.attributes.clone();
         nodes
     }
+}
+
+/// The attributes of some rows, in this order.
+fn of_rows(all: &Attributes, rows: &[usize]) -> Attributes {
+    let mut attributes = Attributes::default();
+    for column in all.iter() {
+        attributes.insert(Attribute {
+            values: chosen(&column.values, rows),
+            ..column.clone()
+        });
+    }
+    attributes
 }
 
 /// The values of some rows, in this order.

@@ -32,6 +32,22 @@ impl Attributes {
         values.set(row, value);
     }
 
+    /// Gives a row the values of another one.
+    pub fn copy_row(&mut self, from: usize, to: usize) {
+        for Attribute { values, .. } in &mut self.columns {
+            match values.get(from) {
+                None => {}
+                Some(Value::Bool(value)) => values.set(to, Value::Bool(value)),
+                Some(Value::Int(value)) => values.set(to, Value::Int(value)),
+                Some(Value::Float(value)) => values.set(to, Value::Float(value)),
+                Some(Value::Text(text)) => {
+                    let text = text.to_owned();
+                    values.set(to, Value::Text(&text));
+                }
+            }
+        }
+    }
+
     /// Appends the values of another table: its first row becomes row `first_row`.
     pub(crate) fn extend(&mut self, first_row: usize, other: &Self) {
         for column in other.iter() {
@@ -252,6 +268,27 @@ impl std::fmt::Display for Value<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_row_takes_the_values_of_another() {
+        let mut attributes = Attributes::default();
+        let values = [
+            ("is_wide", Value::Bool(true)),
+            ("lanes", Value::Int(2)),
+            ("speed", Value::Float(0.5)),
+            ("zone", Value::Text("Hall A")),
+        ];
+        for (name, value) in values {
+            attributes.set(1, name, value);
+        }
+        attributes.copy_row(1, 4);
+        attributes.copy_row(0, 5);
+        for (name, value) in values {
+            let column = &attributes.get(name).unwrap().values;
+            assert_eq!(column.get(4), Some(value));
+            assert_eq!((column.get(3), column.get(5)), (None, None));
+        }
+    }
 
     #[test]
     fn a_column_widens_to_hold_what_comes() {

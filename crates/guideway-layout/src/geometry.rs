@@ -163,29 +163,73 @@ impl Geometry {
     /// When one is not below [`Self::path_count`].
     #[must_use]
     pub fn select(&self, paths: impl IntoIterator<Item = usize>) -> Self {
-        let mut some = Self {
+        let mut some = self.none_of_its_kind();
+        paths.into_iter().for_each(|path| some.append(self, path));
+        some
+    }
+
+    /// No paths, in the precision held here.
+    fn none_of_its_kind(&self) -> Self {
+        Self {
             points: match &self.points {
                 Points::F64(_) => Points::F64(Vec::new()),
                 Points::F32(_) => Points::F32(Vec::new()),
             },
             ..Self::default()
-        };
-        for path in paths {
-            let runs = self.runs_of(path);
-            let range = self.points_of_runs(&runs);
-            let base = some.points.len();
-            match (&mut some.points, &self.points) {
-                (Points::F64(to), Points::F64(from)) => to.extend_from_slice(&from[range.clone()]),
-                (Points::F32(to), Points::F32(from)) => to.extend_from_slice(&from[range.clone()]),
-                _ => unreachable!("made of the same kind above"),
-            }
-            let ends = self.run_ends[runs]
-                .iter()
-                .map(|&end| end as usize - range.start + base);
-            some.run_ends.extend(ends.map(index));
-            some.path_ends.push(some.run_ends.len() as u32);
         }
-        some
+    }
+
+    /// Appends a path of another geometry, in the precision held here.
+    fn append(&mut self, other: &Self, path: usize) {
+        let runs = other.runs_of(path);
+        let range = other.points_of_runs(&runs);
+        let base = self.points.len();
+        match (&mut self.points, &other.points) {
+            (Points::F64(to), Points::F64(from)) => to.extend_from_slice(&from[range.clone()]),
+            (Points::F32(to), Points::F32(from)) => to.extend_from_slice(&from[range.clone()]),
+            (Points::F64(to), Points::F32(from)) => {
+                to.extend(from[range.clone()].iter().map(|p| p.to_f64()));
+            }
+            (Points::F32(to), Points::F64(from)) => {
+                to.extend(from[range.clone()].iter().map(|p| p.to_f32()));
+            }
+        }
+        let ends = other.run_ends[runs]
+            .iter()
+            .map(|&end| end as usize - range.start + base);
+        self.run_ends.extend(ends.map(index));
+        self.path_ends.push(self.run_ends.len() as u32);
+    }
+
+    /// Gives paths the curves of another geometry, one after the other, in the precision held here. It costs no
+    /// more than their points if the numbers of points are those of before, else as much as all paths at most.
+    ///
+    /// # Panics
+    /// When there are more `paths` than curves, one is not there, or there would be more than 2^32 control points.
+    pub fn replace_all(&mut self, paths: &[u32], with: &Self) {
+        let has_same_lens = |(&path, from): (&u32, usize)| {
+            let old = self.runs(path as usize).map(|run| run.len());
+            old.eq(with.runs(from).map(|run| run.len()))
+        };
+        // Each one of another length moves all that lies behind it.
+        if paths.len() == 1 || paths.iter().zip(0..).all(has_same_lens) {
+            for (&path, from) in paths.iter().zip(0..) {
+                self.replace(path as usize, with, from);
+            }
+            return;
+        }
+        let mut sources: Vec<Option<usize>> = vec![None; self.path_count()];
+        for (&path, from) in paths.iter().zip(0..) {
+            sources[path as usize] = Some(from);
+        }
+        let mut all = self.none_of_its_kind();
+        for (path, source) in sources.into_iter().enumerate() {
+            match source {
+                Some(from) => all.append(with, from),
+                None => all.append(self, path),
+            }
+        }
+        *self = all;
     }
 
     /// Gives a path the curve of a path of another geometry, in the precision held here. It costs no more
@@ -193,7 +237,7 @@ impl Geometry {
     ///
     /// # Panics
     /// When either path is not there, or there would be more than 2^32 control points.
-    pub fn replace(&mut self, path: usize, with: &Self, from: usize) {
+    fn replace(&mut self, path: usize, with: &Self, from: usize) {
         let runs = self.runs_of(path);
         let range = self.points_of_runs(&runs);
         let new_points = || with.runs(from).flat_map(RunPoints::iter);
@@ -344,6 +388,23 @@ mod tests {
             // And back.
             geometry.replace(path, &three(), path);
             assert_eq!(shape(&geometry), shape(&three()));
+        }
+    }
+
+    #[test]
+    fn many_paths_take_other_curves_as_one_after_the_other() {
+        let other = Geometry::from_f64(points(100, 13), vec![5, 9, 13]).with_path_ends(vec![2, 3]);
+        let narrow = points(0, 19).iter().map(|p| p.to_f32()).collect();
+        let narrow = Geometry::from_f32(narrow, vec![4, 9, 13, 19]).with_path_ends(vec![1, 3, 4]);
+        for paths in [[2, 0], [1, 0], [1, 1]] {
+            for mut geometry in [three(), narrow.clone()] {
+                let mut one_by_one = geometry.clone();
+                for (&path, from) in paths.iter().zip(0..) {
+                    one_by_one.replace(path as usize, &other, from);
+                }
+                geometry.replace_all(&paths, &other);
+                assert_eq!(shape(&geometry), shape(&one_by_one), "{paths:?}");
+            }
         }
     }
 

@@ -164,9 +164,9 @@ impl Paths {
         self.geometry.transform(path, by);
     }
 
-    /// Gives a path another curve: see [`Geometry::replace`].
-    pub fn replace_curve(&mut self, path: usize, with: &Geometry, from: usize) {
-        self.geometry.replace(path, with, from);
+    /// Gives paths other curves: see [`Geometry::replace_all`].
+    pub fn replace_curves(&mut self, paths: &[u32], with: &Geometry) {
+        self.geometry.replace_all(paths, with);
     }
 
     /// Sets what a path brings of its own look; whatever is none, the view's rule decides.

@@ -54,6 +54,8 @@ pub struct Insertion {
     pub vehicle_types: Vec<String>,
     /// Width and colour of its own.
     pub style: OwnStyle,
+    /// Row of the path whose attributes it gets; none if it has none.
+    pub attributes_of: Option<u32>,
 }
 
 /// Why an edit cannot be done. The scene is then as it was.
@@ -110,18 +112,35 @@ const REACH_M: f64 = 1e9;
 
 impl Edit {
     /// Rows of existing paths that it changes.
-    pub fn paths(&self) -> Vec<u32> {
+    pub fn paths(&self) -> impl Iterator<Item = u32> {
+        let (paths, styles, states): (&[u32], &[_], &[_]) = match self {
+            Self::Transform { paths, .. } | Self::Reshape { paths, .. } => (paths, &[], &[]),
+            Self::Restyle(styles) => (&[], styles, &[]),
+            Self::SetStates(states) => (&[], &[], states),
+            Self::Insert(_) => (&[], &[], &[]),
+        };
+        let styled = styles.iter().map(|(path, _)| *path);
+        let set = states.iter().map(|(path, _)| *path);
+        paths.iter().copied().chain(styled).chain(set)
+    }
+
+    /// Heap bytes held; clones share them.
+    pub fn heap_bytes(&self) -> usize {
         match self {
-            Self::Transform { paths, .. } | Self::Reshape { paths, .. } => paths.to_vec(),
-            Self::Restyle(styles) => styles.iter().map(|(path, _)| *path).collect(),
-            Self::SetStates(states) => states.iter().map(|(path, _)| *path).collect(),
-            Self::Insert(_) => Vec::new(),
+            Self::Transform { paths, .. } => size_of_val(&**paths),
+            Self::Reshape { paths, curves } => size_of_val(&**paths) + curves.heap_bytes(),
+            Self::Restyle(styles) => size_of_val(&**styles),
+            Self::SetStates(states) => size_of_val(&**states),
+            Self::Insert(paths) => {
+                let all = paths.iter().map(Insertion::heap_bytes).sum::<usize>();
+                size_of_val(&**paths) + all
+            }
         }
     }
 
     fn check(&self, scene: &Scene) -> Result<(), EditError> {
         let rows = scene.row_count();
-        if let Some(&path) = self.paths().iter().find(|&&path| path as usize >= rows) {
+        if let Some(path) = self.paths().find(|&path| path as usize >= rows) {
             return Err(EditError::UnknownPath { path, rows });
         }
         let geometry = scene.layout().paths.geometry();
@@ -154,6 +173,12 @@ impl Edit {
 }
 
 impl Insertion {
+    fn heap_bytes(&self) -> usize {
+        let points: usize = self.runs.iter().map(size_of_val).sum();
+        let types: usize = self.vehicle_types.iter().map(String::capacity).sum();
+        self.id.capacity() + points + types
+    }
+
     fn check(&self, layout: &Layout) -> Result<(), EditError> {
         let mut runs = self.runs.iter().peekable();
         if runs.peek().is_none() || !is_placed(runs.flatten().copied()) {
@@ -169,7 +194,11 @@ impl Insertion {
                 return Err(EditError::UnknownPart { what, row });
             }
         }
-        Ok(())
+        let rows = layout.paths.len();
+        match self.attributes_of.filter(|path| *path as usize >= rows) {
+            Some(path) => Err(EditError::UnknownPath { path, rows }),
+            None => Ok(()),
+        }
     }
 }
 
@@ -229,9 +258,7 @@ impl Scene {
             }
             Edit::Reshape { paths, curves } => {
                 let layout = Arc::make_mut(&mut self.layout);
-                for (&path, from) in paths.iter().zip(0..) {
-                    layout.paths.replace_curve(path as usize, curves, from);
-                }
+                layout.paths.replace_curves(paths, curves);
                 self.forget_bounds();
             }
             Edit::Restyle(styles) => self.restyle(styles),
@@ -289,13 +316,21 @@ impl Scene {
                 vehicle_types: &vehicle_types,
             });
             layout.paths.set_own_style(row, path.style);
+            if let Some(from) = path.attributes_of {
+                layout.paths.attributes.copy_row(from as usize, row);
+            }
         }
         let rows = self.row_count();
         if let Colors::Each(colors) = &mut self.colors {
             colors.resize(rows, Rgba::BLACK);
         }
-        for path in first..rows as u32 {
-            self.set_color(path, self.own_color(path));
+        for (row, path) in (first..).zip(paths) {
+            // What decides the colours decides them of a copy as well.
+            let color = match path.attributes_of.filter(|_| self.legend().is_some()) {
+                Some(from) => self.color(from),
+                None => self.own_color(row),
+            };
+            self.set_color(row, color);
         }
         if !self.states.is_empty() {
             self.states.resize(rows, PathState::Shown);

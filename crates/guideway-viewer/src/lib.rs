@@ -21,11 +21,16 @@ use eframe::egui::{Ui, ViewportBuilder};
 pub use app::App;
 pub use host::{Host, Load, MethodChoice, Trouble};
 
-/// Opens the window with these files, and returns when it is closed. Must be called from the main thread.
+/// Opens the window with these files, drawn by the method of this name (by the best one that runs here if none),
+/// and returns when it is closed. Must be called from the main thread.
 ///
 /// # Errors
 /// When there is no desktop to show a window on, or no graphics adapter that can fill it.
-pub fn run(host: Arc<dyn Host>, files: Vec<PathBuf>, method: &str) -> Result<(), Trouble> {
+pub fn run(
+    host: Arc<dyn Host>,
+    files: Vec<PathBuf>,
+    method: Option<String>,
+) -> Result<(), Trouble> {
     let options = eframe::NativeOptions {
         viewport: ViewportBuilder::default()
             .with_inner_size([1280.0, 800.0])
@@ -33,9 +38,8 @@ pub fn run(host: Arc<dyn Host>, files: Vec<PathBuf>, method: &str) -> Result<(),
             .with_drag_and_drop(true),
         ..eframe::NativeOptions::default()
     };
-    let method = method.to_owned();
     let create: eframe::AppCreator<'_> = Box::new(move |context| {
-        let app = App::new(&context.egui_ctx, host, files, &method);
+        let app = App::new(&context.egui_ctx, host, files, method);
         Ok(Box::new(Shell(app)))
     });
     eframe::run_native("Guideway", options, create).map_err(|error| Trouble {

@@ -42,7 +42,9 @@ pub use guideway_scene as scene;
 pub use guideway_spline as spline;
 
 pub use files::{SaveError, remove_unfinished, replace_file};
-pub use methods::{AUTO, Available, MethodError, MethodOption, method, method_names, methods};
+pub use methods::{
+    AUTO, Available, MethodError, MethodOption, live_method, method, method_names, methods,
+};
 pub use picture::{save_png, write_png};
 
 /// Reads a layout file of any known format with the default limits.

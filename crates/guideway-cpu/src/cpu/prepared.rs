@@ -204,7 +204,7 @@ impl Prepared for CpuPrepared {
             }
             Edit::Restyle(_) => index.order_anew(scene),
             Edit::SetStates(_) => {
-                index.touch(scene, &edit.paths());
+                index.touch(scene, &edit.paths().collect::<Vec<_>>());
                 index.order_anew(scene);
             }
             Edit::Insert(_) => {

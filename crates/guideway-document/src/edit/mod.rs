@@ -3,12 +3,12 @@
 mod operations;
 mod shape;
 
+use std::collections::HashSet;
 use std::sync::Arc;
 
 use guideway_scene::{Edit, EditError, PathState};
 use guideway_spline::Point;
 
-use crate::index::{node_entry, path_boxes};
 use crate::{Act, Document, Rows};
 
 pub use operations::PointRef;
@@ -20,23 +20,25 @@ pub enum Change {
     Scene(Edit),
     /// Nodes to other places, in metres.
     MoveNodes(NodeMoves),
-    /// Rows of copies, and the rows that their attributes are those of.
-    SetOrigins(Arc<[(u32, u32)]>),
 }
 
 /// Rows of nodes, and where they go.
 pub type NodeMoves = Arc<[(u32, Point<f64>)]>;
 
 /// What was done, as what undoes it; and what was undone, as what does it again.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct History {
     done: Vec<Step>,
     undone: Vec<Step>,
     /// Number of the newest step.
     newest: u64,
-    /// Number of the last step done when the layout was saved; none if it never was.
-    saved: Option<u64>,
+    /// Number of the last step done when the layout was saved, or read.
+    saved: u64,
 }
+
+/// A state that was saved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Saved(u64);
 
 /// The changes that lead from one state to the next, and the selection there.
 #[derive(Clone, Debug)]
@@ -44,7 +46,7 @@ struct Step {
     name: &'static str,
     number: u64,
     changes: Vec<Change>,
-    selection: Rows,
+    selection: Arc<Rows>,
 }
 
 impl Document {
@@ -56,7 +58,7 @@ impl Document {
         if changes.is_empty() {
             return Ok(());
         }
-        let selection = self.selection.clone();
+        let selection = Arc::clone(&self.selection);
         let inverse = self.apply(&changes)?;
         self.acts.push(Act::Do(changes));
         self.history.newest += 1;
@@ -94,19 +96,25 @@ impl Document {
         (name(&self.history.done), name(&self.history.undone))
     }
 
+    /// Bytes held so that what was done can be undone, and done again.
+    pub fn history_bytes(&self) -> u64 {
+        self.history.bytes()
+    }
+
     /// Whether it differs from what was last saved.
     pub fn is_changed(&self) -> bool {
-        Some(self.history.now()) != self.history.saved
+        self.history.now() != self.history.saved
     }
 
-    /// Takes the present state as saved.
-    pub fn set_saved(&mut self) {
-        self.history.saved = Some(self.history.now());
+    /// Takes the present state as saved. Returns what was taken so before.
+    pub fn set_saved(&mut self) -> Saved {
+        let now = self.history.now();
+        Saved(std::mem::replace(&mut self.history.saved, now))
     }
 
-    /// Takes the present state as one that was never saved: saving it failed.
-    pub fn set_unsaved(&mut self) {
-        self.history.saved = None;
+    /// Takes a state as saved that was before: saving another one failed.
+    pub fn set_saved_as_before(&mut self, before: Saved) {
+        self.history.saved = before.0;
     }
 
     /// Does the changes of a step, and returns the step that takes them back.
@@ -140,8 +148,7 @@ impl Document {
             }
         }
         inverse.reverse();
-        let is_shown = |path: &u32| self.is_shown(*path);
-        self.selection = self.selection.iter().filter(is_shown).collect();
+        self.drop_hidden_from_selection();
         Ok(inverse)
     }
 
@@ -149,29 +156,18 @@ impl Document {
         match change {
             Change::Scene(edit) => self.edit_scene(edit).map(Change::Scene),
             Change::MoveNodes(to) => self.move_nodes(to).map(Change::MoveNodes),
-            // Undoing a copy removes its row, and then it does not matter what that is a copy of.
-            Change::SetOrigins(origins) => {
-                self.origins.extend(origins.iter().copied());
-                Ok(change.clone())
-            }
         }
     }
 
     fn edit_scene(&mut self, edit: &Edit) -> Result<Edit, EditError> {
         let undo = self.scene.undo_of(edit)?;
-        let changes_curves = matches!(edit, Edit::Transform { .. } | Edit::Reshape { .. });
-        let paths = if changes_curves {
-            edit.paths()
-        } else {
-            Vec::new()
-        };
-        let old_boxes = path_boxes(self.layout(), paths.iter().copied());
-        let first_new = self.scene.row_count() as u32;
         self.scene.edit(edit)?;
         self.news.push(edit.clone());
-        let new_rows = first_new..self.scene.row_count() as u32;
-        let changed: Vec<u32> = paths.into_iter().chain(new_rows).collect();
-        self.index.update(old_boxes, &changed, self.scene.layout());
+        let changed: &[u32] = match edit {
+            Edit::Transform { paths, .. } | Edit::Reshape { paths, .. } => paths,
+            Edit::Restyle(_) | Edit::SetStates(_) | Edit::Insert(_) => &[],
+        };
+        self.index.update(changed, self.scene.layout());
         Ok(undo)
     }
 
@@ -187,12 +183,8 @@ impl Document {
             .iter()
             .map(|&(node, _)| (node, self.node_position_m(node)))
             .collect();
-        for &(node, at) in to.iter() {
-            let was = self.node_position_m(node);
-            self.index
-                .move_node(&node_entry(node, was), node_entry(node, at));
-            self.moved_nodes.insert(node, at);
-        }
+        self.index.move_nodes(to);
+        self.moved_nodes.extend(to.iter().copied());
         Ok(from)
     }
 
@@ -202,19 +194,36 @@ impl Document {
     }
 }
 
-impl Default for History {
-    fn default() -> Self {
-        Self {
-            done: Vec::new(),
-            undone: Vec::new(),
-            newest: 0,
-            saved: Some(0),
-        }
-    }
-}
-
 impl History {
     fn now(&self) -> u64 {
         self.done.last().map_or(0, |step| step.number)
+    }
+
+    fn bytes(&self) -> u64 {
+        let mut seen = HashSet::new();
+        let steps = self.done.iter().chain(&self.undone);
+        steps
+            .map(|step| {
+                let changes: usize = step.changes.iter().map(Change::heap_bytes).sum();
+                // Steps in a row mostly share one selection.
+                let is_new = seen.insert(Arc::as_ptr(&step.selection));
+                let selection = if is_new {
+                    step.selection.serialized_size()
+                } else {
+                    0
+                };
+                (size_of::<Step>() + changes + selection) as u64
+            })
+            .sum()
+    }
+}
+
+impl Change {
+    fn heap_bytes(&self) -> usize {
+        size_of::<Self>()
+            + match self {
+                Self::Scene(edit) => edit.heap_bytes(),
+                Self::MoveNodes(nodes) => size_of_val(&**nodes),
+            }
     }
 }

@@ -6,6 +6,7 @@ use guideway_spline::{Affine, Point, Runs};
 
 use super::Change;
 use super::shape::{geometry_of, refined, runs_of, through_ends, with_ends_moved, with_run};
+use crate::index::nodes_of;
 use crate::{Document, Rows};
 
 /// A control point of a path.
@@ -57,12 +58,11 @@ impl Document {
         let shift = |end: Option<u32>| if end == Some(node) { by } else { zero };
         let mut paths = Vec::new();
         let mut curves = Vec::new();
-        for path in self.existing_paths() {
-            if path.start_node() == Some(node) || path.end_node() == Some(node) {
-                let (start_by, end_by) = (shift(path.start_node()), shift(path.end_node()));
-                paths.push(path.row() as u32);
-                curves.push(with_ends_moved(&runs_of(path), start_by, end_by));
-            }
+        for row in self.existing_paths_at(node) {
+            let path = self.layout().paths.get(row as usize);
+            let (start_by, end_by) = (shift(path.start_node()), shift(path.end_node()));
+            paths.push(row);
+            curves.push(with_ends_moved(&runs_of(path), start_by, end_by));
         }
         let mut changes = vec![Change::MoveNodes([(node, to_m)].into())];
         if !paths.is_empty() {
@@ -151,28 +151,18 @@ impl Document {
     /// As [`Self::transform_selection`].
     pub fn copy_selection(&mut self, count: u32, step_m: Point<f64>) -> Result<(), EditError> {
         let first = self.scene.row_count() as u32;
-        let mut origins = Vec::new();
         let mut copies = Vec::new();
         for number in 1..=count {
             let shift = step_m * f64::from(number);
-            for path in self.selected_paths() {
-                origins.push((
-                    first + copies.len() as u32,
-                    self.attribute_row(path.row() as u32),
-                ));
-                copies.push(self.copy_of(path, shift, number));
-            }
+            let selected = self.selected_paths();
+            copies.extend(selected.map(|path| self.copy_of(path, shift, number)));
         }
         if copies.is_empty() {
             return Ok(());
         }
         let rows = first..first + copies.len() as u32;
-        let changes = vec![
-            Change::Scene(Edit::Insert(copies.into())),
-            Change::SetOrigins(origins.into()),
-        ];
-        self.perform("copy", changes)?;
-        self.selection = rows.collect();
+        self.perform("copy", vec![Change::Scene(Edit::Insert(copies.into()))])?;
+        self.selection = Arc::new(rows.collect());
         Ok(())
     }
 
@@ -202,7 +192,7 @@ impl Document {
             "draw path",
             vec![Change::Scene(Edit::Insert([path].into()))],
         )?;
-        self.selection = Rows::from_iter([row]);
+        self.selection = Arc::new(Rows::from_iter([row]));
         Ok(())
     }
 
@@ -222,6 +212,7 @@ impl Document {
             level: path.level(),
             vehicle_types: paths.vehicle_types().of(row).map(str::to_owned).collect(),
             style: paths.own_style(row),
+            attributes_of: Some(row as u32),
         }
     }
 
@@ -247,28 +238,23 @@ impl Document {
 
     /// Nodes of which all paths are selected.
     fn nodes_of_selection_alone(&self) -> Rows {
-        let ends = |path: PathRef<'_>| [path.start_node(), path.end_node()].into_iter().flatten();
-        let mut nodes: Rows = self.selected_paths().flat_map(ends).collect();
-        for path in self.existing_paths() {
-            if !self.selection.contains(path.row() as u32) {
-                for node in ends(path) {
-                    nodes.remove(node);
-                }
-            }
-        }
-        nodes
+        let nodes: Rows = self.selected_paths().flat_map(nodes_of).collect();
+        let is_alone = |&node: &u32| {
+            let mut paths = self.existing_paths_at(node);
+            paths.all(|path| self.selection.contains(path))
+        };
+        nodes.iter().filter(is_alone).collect()
+    }
+
+    /// Paths that begin or end at a node, but the removed ones.
+    fn existing_paths_at(&self, node: u32) -> impl Iterator<Item = u32> {
+        let is_there = |&path: &u32| self.scene.state(path) != PathState::Removed;
+        self.index.paths_at(node).filter(is_there)
     }
 
     fn selected_paths(&self) -> impl Iterator<Item = PathRef<'_>> {
         let rows = self.selection.iter();
         rows.map(|path| self.layout().paths.get(path as usize))
-    }
-
-    /// All paths but the removed ones.
-    pub(crate) fn existing_paths(&self) -> impl Iterator<Item = PathRef<'_>> {
-        let is_there =
-            |path: &PathRef<'_>| self.scene.state(path.row() as u32) != PathState::Removed;
-        self.layout().paths.iter().filter(is_there)
     }
 }
 

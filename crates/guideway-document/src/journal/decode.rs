@@ -97,10 +97,6 @@ impl In<'_> {
                 let node = |input: &mut Self| Some((input.number()?, input.point()?));
                 return Some(Change::MoveNodes(self.list(node)?.into()));
             }
-            tag::ORIGINS => {
-                let origin = |input: &mut Self| Some((input.number()?, input.number()?));
-                return Some(Change::SetOrigins(self.list(origin)?.into()));
-            }
             _ => return None,
         };
         Some(Change::Scene(edit))
@@ -136,6 +132,7 @@ impl In<'_> {
             level: self.optional()?,
             vehicle_types: self.list(Self::text)?,
             style: self.style()?,
+            attributes_of: self.optional()?,
         })
     }
 

@@ -60,13 +60,6 @@ impl Out {
                     out.point(at);
                 });
             }
-            Change::SetOrigins(origins) => {
-                self.byte(tag::ORIGINS);
-                self.list(origins, |out, &(path, origin)| {
-                    out.number(path);
-                    out.number(origin);
-                });
-            }
         }
     }
 
@@ -124,6 +117,7 @@ impl Out {
         self.optional(path.level);
         self.list(&path.vehicle_types, |out, name| out.text(name));
         self.style(path.style);
+        self.optional(path.attributes_of);
     }
 
     fn style(&mut self, style: OwnStyle) {

@@ -94,7 +94,6 @@ mod tag {
     pub(super) const SET_STATES: u8 = 14;
     pub(super) const INSERT: u8 = 15;
     pub(super) const MOVE_NODES: u8 = 16;
-    pub(super) const ORIGINS: u8 = 17;
 }
 
 #[cfg(test)]
@@ -122,6 +121,7 @@ mod tests {
             direction: Direction::Both,
             vehicle_types: vec!["a".into(), "b".into()],
             style,
+            attributes_of: Some(7),
             ..Insertion::default()
         };
         let edits = [
@@ -139,7 +139,6 @@ mod tests {
         ];
         let mut changes: Vec<Change> = edits.into_iter().map(Change::Scene).collect();
         changes.push(Change::MoveNodes([(1, Point::new(5.0, 6.0))].into()));
-        changes.push(Change::SetOrigins([(9, 1)].into()));
         Act::Do(changes)
     }
 

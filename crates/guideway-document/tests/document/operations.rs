@@ -248,6 +248,74 @@ fn an_edit_that_cannot_be_done_changes_nothing() {
 }
 
 #[test]
+fn what_undo_takes_goes_with_the_change_and_not_with_the_layout() {
+    let bytes_after = |paths: usize, moved: u32, steps: usize| {
+        let mut document = document(paths);
+        document.select_all();
+        let all_selected = document.history_bytes();
+        for step in 0..steps {
+            let point = PointRef {
+                path: step as u32 % moved,
+                run: 0,
+                point: 0,
+            };
+            document.move_point(point, p(step as f64, 0.0)).unwrap();
+        }
+        assert_eq!(all_selected, 0);
+        document.history_bytes()
+    };
+    let small = bytes_after(100, 1, 1_000);
+    // The selection is of every path, and kept once.
+    let large = bytes_after(20_000, 1, 1_000);
+    assert!(large < small + 10_000, "{small} and {large} bytes");
+    let twice = bytes_after(100, 1, 2_000);
+    assert!((1.9..2.1).contains(&(twice as f64 / small as f64)));
+    let mut document = document(5_000);
+    select(&mut document, 0..1);
+    let by = Affine::translation(p(1.0, 0.0));
+    document.transform_selection("move", by).unwrap();
+    let one = document.history_bytes();
+    document.select_all();
+    document.transform_selection("move", by).unwrap();
+    let all = document.history_bytes() - one;
+    assert!(
+        all > 1_000 * one / 2,
+        "{one} for one, {all} for 5,000: it counts"
+    );
+    document.undo();
+    assert!(document.history_bytes() > all / 2, "it can be done again");
+}
+
+#[test]
+fn many_paths_take_other_numbers_of_points_at_once() {
+    let mut document = document(3_000);
+    document.select_all();
+    for _ in 0..4 {
+        document.refine_selection().unwrap();
+    }
+    assert_eq!(document.layout().paths.geometry().point_count(), 3_000 * 19);
+    for _ in 0..4 {
+        document.undo();
+    }
+    assert_eq!(document.layout().paths.geometry().point_count(), 3_000 * 4);
+}
+
+#[test]
+fn paths_that_come_later_follow_their_nodes_and_removed_ones_do_not() {
+    let mut document = two_joined();
+    let points = [p(0.0, 0.0), p(5.0, 8.0), p(20.0, 0.0)];
+    document.draw_path("new".into(), &points, 0.5).unwrap();
+    select(&mut document, [0]);
+    document.delete_selection().unwrap();
+    document.move_node(0, p(-3.0, 1.0)).unwrap();
+    assert!(is_near(ends(&document, 2).0, p(-3.0, 1.0)));
+    assert!(is_near(ends(&document, 0).0, p(0.0, 0.0)), "it is removed");
+    let mut at: Vec<u32> = document.index().paths_at(2).collect();
+    at.sort_unstable();
+    assert_eq!(at, [1, 2]);
+}
+
+#[test]
 fn the_index_follows_edits() {
     let mut document = document(40);
     select(&mut document, 0..3);

@@ -1,6 +1,6 @@
-use guideway_document::{Combine, Document};
-use guideway_scene::{ColorBy, PathState, SceneOptions};
-use guideway_spline::Bounds;
+use guideway_document::{Combine, Document, Query};
+use guideway_scene::{ColorBy, PathState, Scene, SceneOptions};
+use guideway_spline::{Affine, Bounds};
 
 use crate::site::{document, lanes, p};
 
@@ -26,9 +26,8 @@ fn a_box_selects_what_is_inside_or_what_it_meets() {
 #[test]
 fn selections_combine_and_leave_out_what_is_hidden() {
     let mut document = document(6);
-    document
-        .select_where("speed > 1", Combine::Replace)
-        .unwrap();
+    let query = Query::parse("speed > 1", document.layout()).unwrap();
+    document.select(query.rows(document.layout()), Combine::Replace);
     document.select([0].into_iter().collect(), Combine::Add);
     document.select([3, 4].into_iter().collect(), Combine::Remove);
     assert_eq!(rows(&document), [0, 5]);
@@ -37,12 +36,6 @@ fn selections_combine_and_leave_out_what_is_hidden() {
     document.select_all();
     assert_eq!(rows(&document), [1, 2, 3, 4]);
     document.select([0, 1, 99].into_iter().collect(), Combine::Replace);
-    assert_eq!(rows(&document), [1]);
-    assert!(
-        document
-            .select_where("spede > 1", Combine::Replace)
-            .is_err()
-    );
     assert_eq!(rows(&document), [1]);
     document.isolate_selection();
     assert_eq!(document.scene().draw_order(), [1]);
@@ -64,16 +57,35 @@ fn other_colours_bring_nothing_hidden_back() {
         }),
         ..SceneOptions::default()
     };
-    document.recolor(&by_speed).unwrap();
+    let by_speed = Scene::new(document.scene().shared_layout(), &by_speed).unwrap();
+    assert!(document.take_colors(by_speed.clone()));
     assert!(document.scene().legend().is_some());
     assert_eq!(document.scene().draw_order(), [0, 1, 4, 5]);
     assert_eq!(document.scene().state(3), PathState::Removed);
-    let unknown = SceneOptions {
-        level: Some("none".into()),
+    document.undo();
+    document.select_all();
+    let up = Affine::translation(p(0.0, 1.0));
+    document.transform_selection("move", up).unwrap();
+    assert!(!document.take_colors(by_speed), "of the layout before that");
+}
+
+#[test]
+fn a_copy_is_asked_about_and_coloured_as_what_it_was_copied_from() {
+    let mut document = document(12);
+    let by_speed = SceneOptions {
+        color_by: Some(ColorBy {
+            column: "speed".into(),
+        }),
         ..SceneOptions::default()
     };
-    assert!(document.recolor(&unknown).is_err());
-    assert!(document.scene().legend().is_some(), "as it was");
+    let by_speed = Scene::new(document.scene().shared_layout(), &by_speed).unwrap();
+    document.take_colors(by_speed);
+    document.select([9].into_iter().collect(), Combine::Replace);
+    document.copy_selection(1, p(100.0, 0.0)).unwrap();
+    assert_eq!(document.scene().color(12), document.scene().color(9));
+    let query = Query::parse("speed = 4.5", document.layout()).unwrap();
+    let found: Vec<u32> = query.rows(document.layout()).iter().collect();
+    assert_eq!(found, [9, 12]);
 }
 
 #[test]

@@ -55,8 +55,8 @@ impl PreparedTiles {
         let scene = Arc::make_mut(&mut self.scene);
         scene.edit(edit).map_err(RenderError::Edit)?;
         self.easel.kept = None;
-        let mut rows = edit.paths();
-        rows.extend(first_new..self.scene.row_count() as u32);
+        let new_rows = first_new..self.scene.row_count() as u32;
+        let rows: Vec<u32> = edit.paths().chain(new_rows).collect();
         let keeps_looks = matches!(edit, Edit::Transform { .. } | Edit::Reshape { .. });
         if !keeps_looks {
             self.look_anew();

@@ -1,12 +1,14 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use eframe::egui::{Color32, ColorImage, Context};
-use guideway_render::{Budget, Cancel, Frame, FrameSize, Style, View};
+use eframe::egui::Context;
+use guideway_render::{Budget, Cancel, Frame, FrameSize, RenderError, Style, View};
 
+use super::layer::changed_on_disk;
 use super::{App, Layer, LayerNews};
 use crate::host::Trouble;
-use crate::work::saver::Saver;
+use crate::work::renderer::color_image;
+use crate::work::task::Task;
 
 /// A question that takes a line of text.
 pub(crate) struct Prompt {
@@ -16,6 +18,9 @@ pub(crate) struct Prompt {
     pub(crate) width_px: u32,
     pub(crate) is_new: bool,
 }
+
+/// Something being written, which says in a sentence what was done; and which file, if it is a layout.
+pub(super) type Saver = (Task<Result<String, Trouble>>, Option<Saving>);
 
 /// A layout being written: the path that it has, and the one that it gets.
 pub(super) struct Saving {
@@ -38,7 +43,8 @@ impl App {
             return;
         }
         let options = self.look.scene_options();
-        let layer = Layer::open(path, &self.host, &self.method, options, &self.wake);
+        let method = self.drawing.method();
+        let layer = Layer::open(path, &self.host, method, options, &self.wake);
         self.layers.push(layer);
         self.active = self.layers.len() - 1;
         self.has_new_files = true;
@@ -65,17 +71,26 @@ impl App {
             };
             let name = self.layers[index].name();
             if self.layers[index].is_changed() {
-                self.notify(format!(
-                    "{name} has changed on disk; File > Read again takes it and drops your changes"
-                ));
+                self.notify(changed_on_disk(&name));
             } else {
-                self.reload(index);
+                self.reload(index, false);
                 self.notify(format!("{name} has changed on disk and is read again"));
             }
         }
         let outcome = self.saver.as_ref().and_then(|(saver, _)| saver.outcome());
         if let Some(outcome) = outcome {
-            self.saved(outcome);
+            self.saved(outcome.flatten());
+        }
+        let copied = self.copying.as_ref().and_then(Task::outcome);
+        if let Some(copied) = copied {
+            self.copying = None;
+            match copied.flatten() {
+                Ok(image) => {
+                    ctx.copy_image(image);
+                    self.notify("the picture is on the clipboard");
+                }
+                Err(trouble) => self.notify(trouble.to_string()),
+            }
         }
     }
 
@@ -84,10 +99,12 @@ impl App {
         self.watcher.set_files(files);
     }
 
-    pub(crate) fn reload(&mut self, index: usize) {
+    pub(crate) fn reload(&mut self, index: usize, drops_changes: bool) {
         let options = self.look.scene_options();
+        // As it is now it is read, so that is no change to tell of.
+        self.has_new_files = true;
         if let Some(layer) = self.layers.get_mut(index) {
-            layer.reload(&self.host, options, &self.wake);
+            layer.reload(&self.host, options, drops_changes, &self.wake);
         }
     }
 
@@ -125,6 +142,12 @@ impl App {
         }
     }
 
+    /// Whether a file is being written.
+    #[cfg(test)]
+    pub(crate) fn is_writing(&self) -> bool {
+        self.saver.is_some()
+    }
+
     /// Whether nothing is being written; says so if something is.
     fn is_free_to_write(&mut self) -> bool {
         let is_free = self.saver.is_none();
@@ -142,13 +165,13 @@ impl App {
             return;
         };
         let from = layer.path.clone();
-        let Some(layout) = layer.begin_saving() else {
+        let Some(snapshot) = layer.begin_saving() else {
             return;
         };
         let host = Arc::clone(&self.host);
         let to = path.clone();
-        let saver = Saver::start(Arc::clone(&self.wake), move || {
-            let lost = host.save(&layout, &path)?;
+        let saver = Task::start(&self.wake, move || {
+            let lost = host.save(&snapshot.to_layout(), &path)?;
             let mut text = format!("{} is saved", path.display());
             if !lost.is_empty() {
                 text += &format!("; its format cannot hold: {}", lost.join("; "));
@@ -188,9 +211,9 @@ impl App {
         if !self.is_free_to_write() {
             return;
         }
-        let (host, method) = (Arc::clone(&self.host), self.method.clone());
-        let saver = Saver::start(Arc::clone(&self.wake), move || {
-            let fail = |error: guideway_render::RenderError| Trouble {
+        let (host, method) = (Arc::clone(&self.host), self.drawing.method().to_owned());
+        let saver = Task::start(&self.wake, move || {
+            let fail = |error: RenderError| Trouble {
                 message: error.to_string(),
                 remedy: "Ask for a smaller picture, or another way of drawing".into(),
             };
@@ -229,15 +252,15 @@ impl App {
             return;
         }
         let host = Arc::clone(&self.host);
-        let saver = Saver::start(Arc::clone(&self.wake), move || {
+        let saver = Task::start(&self.wake, move || {
             host.save_drawing(&scene, &view, &style, &path)?;
             Ok(format!("{} is written", path.display()))
         });
         self.saver = Some((saver, None));
     }
 
-    /// The picture of the active layer as it is on the screen, for the clipboard.
-    pub(crate) fn copy_picture(&mut self, ctx: &Context) {
+    /// Has the picture of the active layer made as it is on the screen, for the clipboard.
+    pub(crate) fn copy_picture(&mut self) {
         let (Some(view), Some(document)) = (self.camera.view(), self.document()) else {
             return;
         };
@@ -246,30 +269,18 @@ impl App {
             ..self.look.style()
         };
         let scene = Arc::new(document.scene().clone());
-        let mut frame = Frame::new(view.size());
-        let drawn = self.host.method(&self.method).and_then(|method| {
-            let fail = |error: guideway_render::RenderError| Trouble {
+        let (host, method) = (Arc::clone(&self.host), self.drawing.method().to_owned());
+        self.copying = Some(Task::start(&self.wake, move || {
+            let fail = |error: RenderError| Trouble {
                 message: error.to_string(),
                 remedy: "Choose another way of drawing".into(),
             };
+            let method = host.method(&method)?;
             let mut prepared = method.prepare(scene, &Budget::default()).map_err(fail)?;
-            let cancel = Cancel::default();
-            prepared
-                .render(&view, &style, &cancel, &mut frame)
-                .map_err(fail)
-        });
-        match drawn {
-            Ok(_) => {
-                let size = [
-                    frame.size().width() as usize,
-                    frame.size().height() as usize,
-                ];
-                let color = |&[r, g, b, a]: &[u8; 4]| Color32::from_rgba_unmultiplied(r, g, b, a);
-                let pixels = frame.pixels().iter().map(color).collect();
-                ctx.copy_image(ColorImage::new(size, pixels));
-                self.notify("the picture is on the clipboard");
-            }
-            Err(trouble) => self.notify(trouble.to_string()),
-        }
+            let (mut frame, cancel) = (Frame::new(view.size()), Cancel::default());
+            let drawn = prepared.render(&view, &style, &cancel, &mut frame);
+            drawn.map_err(fail)?;
+            Ok(color_image(&frame))
+        }));
     }
 }

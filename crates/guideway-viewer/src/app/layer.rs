@@ -4,10 +4,10 @@ use std::sync::Arc;
 use std::sync::mpsc::TryRecvError;
 
 use eframe::egui::{Context, TextureHandle, TextureOptions};
-use guideway_document::{Document, replay};
-use guideway_layout::{Diagnostics, Layout};
+use guideway_document::{Combine, Document, Query, QueryError, Rows, Saved, Snapshot, replay};
+use guideway_layout::Diagnostics;
 use guideway_render::{Report, View};
-use guideway_scene::SceneOptions;
+use guideway_scene::{Scene, SceneError, SceneOptions};
 use guideway_spline::Bounds;
 
 use super::overlay::Overlay;
@@ -16,6 +16,7 @@ use crate::host::{Host, Load};
 use crate::work::Wake;
 use crate::work::loader::{Loaded, Loader};
 use crate::work::renderer::{FALLBACK, Outcome, Picture, Renderer, Shot};
+use crate::work::task::Task;
 
 /// One open file.
 pub(crate) struct Layer {
@@ -31,14 +32,21 @@ pub(crate) struct Layer {
     /// The last picture, and what it shows.
     pub(crate) shown: Option<Shown>,
     loader: Option<Loader>,
+    /// Other colours on their way.
+    coloring: Option<Task<Result<Scene, SceneError>>>,
+    /// What a query asks for, and what the selection does with it.
+    selecting: Option<(Task<Rows>, Combine)>,
     renderer: Renderer,
     asked: Option<Shot>,
     /// The journal; none until there is a document, or where it cannot be written.
     recovery: Option<Recovery>,
     /// Acts to be done with the document that is being read.
     to_replay: Option<Vec<u8>>,
-    /// While it is, nothing is written to the journal: it would be of neither state.
-    is_saving: bool,
+    /// Whether the document that is being read takes the place of changes.
+    drops_changes: bool,
+    /// What was saved before that which is being saved. Meanwhile nothing is written to the journal: it would be of
+    /// neither state.
+    saving: Option<Saved>,
 }
 
 pub(crate) struct Shown {
@@ -54,6 +62,8 @@ pub(crate) enum LayerNews {
     Appeared(Option<Bounds<f64>>),
     /// Its document is there.
     IsRead,
+    /// Its way of drawing was let down by its device: what happened, in a sentence.
+    FellBack(String),
     /// To be told to the person.
     Notice(String),
 }
@@ -91,10 +101,13 @@ impl Layer {
             overlay: Overlay::default(),
             trouble: None,
             shown: None,
+            coloring: None,
+            selecting: None,
             asked: None,
             recovery: None,
             to_replay: None,
-            is_saving: false,
+            drops_changes: false,
+            saving: None,
         }
     }
 
@@ -106,6 +119,17 @@ impl Layer {
 
     pub(crate) fn is_changed(&self) -> bool {
         self.document.as_ref().is_some_and(Document::is_changed)
+    }
+
+    /// Whether there is a picture of it, or a reason why there is none.
+    pub(crate) fn has_settled(&self) -> bool {
+        self.shown.is_some() || self.trouble.is_some()
+    }
+
+    /// Whether the file is being read, or looked through.
+    #[cfg(test)]
+    pub(crate) fn is_reading(&self) -> bool {
+        self.loader.is_some()
     }
 
     /// The load under way, if there is one.
@@ -121,9 +145,17 @@ impl Layer {
         }
     }
 
-    /// Reads the file again. The old layout stays until the new one is there.
-    pub(crate) fn reload(&mut self, host: &Arc<dyn Host>, options: SceneOptions, wake: &Wake) {
+    /// Reads the file again. The old layout stays until the new one is there, and for good if it has changes by
+    /// then that are not to be dropped.
+    pub(crate) fn reload(
+        &mut self,
+        host: &Arc<dyn Host>,
+        options: SceneOptions,
+        drops_changes: bool,
+        wake: &Wake,
+    ) {
         let (host, wake) = (Arc::clone(host), Arc::clone(wake));
+        self.drops_changes = drops_changes;
         self.options = options.clone();
         self.loader = Some(Loader::start(host, self.path.clone(), options, wake));
     }
@@ -133,22 +165,70 @@ impl Layer {
         self.asked = None;
     }
 
-    /// Gives the paths other colours, unless they have them.
-    ///
-    /// # Errors
-    /// A sentence on why they cannot have them; the old ones stay.
-    pub(crate) fn recolor(&mut self, options: SceneOptions) -> Result<(), String> {
+    /// Gives the paths other colours, unless they have them, or get them already.
+    pub(crate) fn recolor(&mut self, options: SceneOptions, wake: &Wake) {
         let is_same =
             self.options.color == options.color && self.options.color_by == options.color_by;
-        let name = self.name();
-        let Some(document) = self.document.as_mut().filter(|_| !is_same) else {
-            return Ok(());
-        };
-        let outcome = document.recolor(&options);
-        // Asked for once, whatever came of it.
-        self.options = options;
-        self.send_scene();
-        outcome.map_err(|error| format!("{name}: {error}"))
+        if let Some(document) = self.document.as_ref().filter(|_| !is_same) {
+            self.options = options.clone();
+            let layout = document.scene().shared_layout();
+            self.coloring = Some(Task::start(wake, move || Scene::new(layout, &options)));
+        }
+    }
+
+    /// Whether other colours, or what a query asks for, are on their way.
+    pub(crate) fn is_busy(&self) -> bool {
+        self.coloring.is_some() || self.selecting.is_some()
+    }
+
+    /// Selects the paths that meet a query, once they are found.
+    ///
+    /// # Errors
+    /// When the query cannot be understood; the selection is then as it was.
+    pub(crate) fn select_where(
+        &mut self,
+        query: &str,
+        how: Combine,
+        wake: &Wake,
+    ) -> Result<(), QueryError> {
+        if let Some(document) = &self.document {
+            let query = Query::parse(query, document.layout())?;
+            let layout = document.scene().shared_layout();
+            let task = Task::start(wake, move || query.rows(&layout));
+            self.selecting = Some((task, how));
+        }
+        Ok(())
+    }
+
+    /// Takes what was asked of the layout as it was then.
+    fn take_answers(&mut self, wake: &Wake) -> Option<LayerNews> {
+        let document = self.document.as_mut()?;
+        let selecting = self.selecting.as_ref();
+        let selected = selecting.and_then(|(task, how)| Some((task.outcome()?, *how)));
+        if let Some((rows, how)) = selected {
+            self.selecting = None;
+            match rows {
+                Ok(rows) => document.select(rows, how),
+                Err(trouble) => return Some(LayerNews::Notice(trouble.to_string())),
+            }
+        }
+        let colored = self.coloring.as_ref().and_then(Task::outcome)?;
+        self.coloring = None;
+        match colored {
+            Ok(Ok(scene)) => {
+                if document.take_colors(scene) {
+                    self.send_scene();
+                } else {
+                    // The layout has changed since.
+                    let layout = document.scene().shared_layout();
+                    let options = self.options.clone();
+                    self.coloring = Some(Task::start(wake, move || Scene::new(layout, &options)));
+                }
+                None
+            }
+            Ok(Err(error)) => Some(LayerNews::Notice(format!("{}: {error}", self.name()))),
+            Err(trouble) => Some(LayerNews::Notice(trouble.to_string())),
+        }
     }
 
     /// Has the renderer draw the document's scene as it is now.
@@ -181,6 +261,7 @@ impl Layer {
     ) -> Vec<LayerNews> {
         let mut news = Vec::new();
         news.extend(self.record());
+        news.extend(self.take_answers(wake));
         let loaded: Vec<Loaded> = self.loader.iter().flat_map(Loader::news).collect();
         for piece in loaded {
             self.take(piece, &mut news);
@@ -189,13 +270,13 @@ impl Layer {
             match self.renderer.outcome() {
                 Ok(Outcome::Picture(picture)) => self.show(ctx, *picture),
                 Ok(Outcome::NeedsScene) => self.send_scene(),
-                Ok(Outcome::Notice(text)) => news.push(LayerNews::Notice(text)),
+                Ok(Outcome::FellBack(why)) => news.push(LayerNews::FellBack(why)),
                 Ok(Outcome::Failed(why)) => self.trouble = Some(why),
                 Err(TryRecvError::Empty) => return news,
                 Err(TryRecvError::Disconnected) => {
-                    news.push(LayerNews::Notice(format!(
-                        "drawing {} stopped; it goes on by {FALLBACK}",
-                        self.name()
+                    let name = self.name();
+                    news.push(LayerNews::FellBack(format!(
+                        "drawing {name} stopped; it goes on by {FALLBACK}"
                     )));
                     self.renderer = Renderer::start(Arc::clone(host), FALLBACK, Arc::clone(wake));
                     self.send_scene();
@@ -218,6 +299,15 @@ impl Layer {
             }
             Loaded::Document(document) => {
                 let is_again = self.document.is_some();
+                if self.is_changed() && self.to_replay.is_none() && !self.drops_changes {
+                    self.loader = None;
+                    news.push(LayerNews::Notice(changed_on_disk(&self.name())));
+                    return;
+                }
+                if is_again && self.to_replay.is_none() {
+                    // What was done with the layout before goes with it.
+                    self.drop_journal();
+                }
                 let document = self.document.insert(*document);
                 if let Some(acts) = self.to_replay.take() {
                     let done = replay(&acts, document);
@@ -275,33 +365,32 @@ impl Layer {
     /// Writes down what was done, against a crash. Says once if that cannot be.
     fn record(&mut self) -> Option<LayerNews> {
         let (document, recovery) = (self.document.as_mut()?, self.recovery.as_mut()?);
-        if self.is_saving {
+        if self.saving.is_some() {
             return None;
         }
         let outcome = recovery.record(document, &self.path);
         self.with_journal(outcome)
     }
 
-    /// The layout as it is to be written.
-    pub(crate) fn begin_saving(&mut self) -> Option<Layout> {
+    /// What is to be written.
+    pub(crate) fn begin_saving(&mut self) -> Option<Snapshot> {
         self.record();
         let document = self.document.as_mut()?;
-        let layout = document.to_layout();
+        let snapshot = document.snapshot();
         // From here on it may differ from what is written.
-        document.set_saved();
-        self.is_saving = true;
+        self.saving = Some(document.set_saved());
         if let Some(recovery) = &self.recovery {
             let outcome = recovery.keep_base(&self.path);
             self.with_journal(outcome);
         }
-        Some(layout)
+        Some(snapshot)
     }
 
     /// The layout is written, at this path; or it could not be.
     pub(crate) fn end_saving(&mut self, path: Option<PathBuf>) -> Option<LayerNews> {
-        self.is_saving = false;
+        let before = self.saving.take()?;
         let Some(path) = path else {
-            self.document.as_mut()?.set_unsaved();
+            self.document.as_mut()?.set_saved_as_before(before);
             return None;
         };
         self.path = path;
@@ -343,7 +432,13 @@ impl Layer {
         });
     }
 
+    /// Whether a file is this one.
     pub(crate) fn is_at(&self, path: &Path) -> bool {
         self.path == path
     }
+}
+
+/// What to say of a file that others have changed, and the person too.
+pub(crate) fn changed_on_disk(name: &str) -> String {
+    format!("{name} has changed on disk; File > Read again takes it and drops your changes")
 }

@@ -1,30 +1,31 @@
 //! What the viewer knows and does, whatever window shows it.
 
 pub(crate) mod command;
+mod drawing;
 mod files;
 mod gesture;
 pub(crate) mod layer;
 pub(crate) mod look;
 mod overlay;
 mod perform;
-mod recovery;
+pub(crate) mod recovery;
 
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::sync::mpsc::{self, Receiver};
-use std::thread;
 
-use eframe::egui::{Context, Pos2, ViewportCommand};
+use eframe::egui::{ColorImage, Context, Pos2, ViewportCommand};
 use guideway_document::{Document, Found, Hit};
 
+pub(crate) use self::drawing::Drawing;
 pub(crate) use self::files::{Prompt, PromptKind};
 pub(crate) use self::gesture::{Gesture, Tool};
 pub(crate) use self::layer::{Layer, LayerNews};
 pub(crate) use self::look::Look;
+pub(crate) use self::perform::leave_field;
 use crate::camera::Camera;
-use crate::host::{Host, MethodChoice};
+use crate::host::{Host, Trouble};
 use crate::work::Wake;
-use crate::work::saver::Saver;
+use crate::work::task::Task;
 use crate::work::watcher::Watcher;
 
 /// The viewer.
@@ -36,10 +37,7 @@ pub struct App {
     pub(crate) active: usize,
     pub(crate) camera: Camera,
     pub(crate) look: Look,
-    /// The ways of drawing, once it is known which of them run here.
-    pub(crate) methods: Vec<MethodChoice>,
-    /// The way of drawing, by its name.
-    pub(crate) method: String,
+    pub(crate) drawing: Drawing,
     pub(crate) tool: Tool,
     pub(crate) gesture: Gesture,
     /// Upper left corner of the picture in the window.
@@ -59,10 +57,11 @@ pub struct App {
     /// Whether the person has decided to leave changes behind.
     pub(crate) quits_anyway: bool,
     /// What is being written, and the file if it is a layout.
-    saver: Option<(Saver, Option<files::Saving>)>,
+    saver: Option<files::Saver>,
+    /// The picture that is being made for the clipboard.
+    copying: Option<Task<Result<ColorImage, Trouble>>>,
     watcher: Watcher,
     has_new_files: bool,
-    method_finder: Receiver<Vec<MethodChoice>>,
 }
 
 /// What is being looked for.
@@ -70,6 +69,10 @@ pub struct App {
 pub(crate) struct Find {
     pub(crate) text: String,
     pub(crate) found: Vec<Found>,
+    /// The search under way, which brings what is found next.
+    pub(crate) search: Option<Task<Vec<Found>>>,
+    /// Whether to go to the first that is found.
+    pub(crate) goes_there: bool,
     pub(crate) query: String,
     pub(crate) query_trouble: Option<String>,
     /// Whether the field is to have the keyboard.
@@ -88,14 +91,17 @@ pub(crate) struct Numbers {
 const MOST_NOTICES: usize = 5;
 
 impl App {
-    /// A viewer of these files.
-    pub fn new(ctx: &Context, host: Arc<dyn Host>, files: Vec<PathBuf>, method: &str) -> Self {
+    /// A viewer of these files, drawn by the method of this name; by the best one that runs here if none.
+    pub fn new(
+        ctx: &Context,
+        host: Arc<dyn Host>,
+        files: Vec<PathBuf>,
+        method: Option<String>,
+    ) -> Self {
         let for_wake = ctx.clone();
         let wake: Wake = Arc::new(move || for_wake.request_repaint());
         let mut app = Self {
-            methods: Vec::new(),
-            method_finder: find_methods(&host, &wake),
-            method: method.to_owned(),
+            drawing: Drawing::new(method),
             watcher: Watcher::start(Arc::clone(&wake)),
             host,
             wake,
@@ -122,6 +128,7 @@ impl App {
             asks_to_quit: false,
             quits_anyway: false,
             saver: None,
+            copying: None,
             has_new_files: false,
         };
         app.apply_theme(ctx);
@@ -143,13 +150,13 @@ impl App {
                         }
                     }
                     LayerNews::IsRead => self.recolor_if_stale(index),
+                    LayerNews::FellBack(why) => self.fall_back(why),
                     LayerNews::Notice(text) => self.notify(text),
                 }
             }
         }
-        if let Ok(methods) = self.method_finder.try_recv() {
-            self.methods = methods;
-        }
+        self.poll_methods();
+        self.poll_search();
         self.poll_files(ctx);
     }
 
@@ -189,16 +196,7 @@ impl App {
 
     fn recolor_if_stale(&mut self, index: usize) {
         let options = self.look.scene_options();
-        if let Err(trouble) = self.layers[index].recolor(options) {
-            self.notify(trouble);
-        }
-    }
-
-    pub(crate) fn set_method(&mut self, name: &str) {
-        name.clone_into(&mut self.method);
-        for layer in &mut self.layers {
-            layer.set_method(name);
-        }
+        self.layers[index].recolor(options, &self.wake);
     }
 
     pub(crate) fn apply_theme(&self, ctx: &Context) {
@@ -234,16 +232,4 @@ impl App {
     pub(crate) fn is_unsaved(&self) -> bool {
         self.layers.iter().any(Layer::is_changed)
     }
-}
-
-/// Looks which ways of drawing run here: starting each may take a driver a second.
-fn find_methods(host: &Arc<dyn Host>, wake: &Wake) -> Receiver<Vec<MethodChoice>> {
-    let (sender, receiver) = mpsc::channel();
-    let (host, wake) = (Arc::clone(host), Arc::clone(wake));
-    thread::spawn(move || {
-        // Nobody hears it if the window was closed in the meantime.
-        let _ = sender.send(host.methods());
-        wake();
-    });
-    receiver
 }

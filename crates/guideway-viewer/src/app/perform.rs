@@ -11,12 +11,19 @@ use super::{App, Gesture, PromptKind, Tool};
 const PAN_PX: f64 = 80.0;
 const ZOOM: f64 = 1.25;
 
+/// What is typed next is meant for the picture, and no longer for a field of text.
+pub(crate) fn leave_field(ctx: &Context) {
+    if let Some(field) = ctx.memory(|memory| memory.focused()) {
+        ctx.memory_mut(|memory| memory.surrender_focus(field));
+    }
+}
+
 impl App {
     /// Does what a key or a menu asks for.
     pub(crate) fn perform(&mut self, command: Command, ctx: &Context) {
         match command {
             Command::Open => self.ask_for(PromptKind::Open),
-            Command::Reload => self.reload(self.active),
+            Command::Reload => self.reload(self.active, true),
             Command::Save => {
                 if let Some(layer) = self.layers.get(self.active) {
                     self.save(layer.path.clone());
@@ -25,13 +32,13 @@ impl App {
             Command::SaveAs => self.ask_for(PromptKind::SaveAs),
             Command::ExportPicture => self.ask_for(PromptKind::Picture),
             Command::ExportDrawing => self.ask_for(PromptKind::Drawing),
-            Command::CopyPicture => self.copy_picture(ctx),
+            Command::CopyPicture => self.copy_picture(),
             Command::Close => self.close_active(),
             Command::Quit => self.quit(ctx),
             Command::NextFile => self.active = (self.active + 1) % self.layers.len().max(1),
             Command::Find => self.find.wants_focus = true,
             Command::Keys => self.shows_keys = !self.shows_keys,
-            Command::Stop => self.stop(),
+            Command::Stop => self.stop(ctx),
             Command::Finish => self.finish_path(),
             Command::Undo => self.step(Document::undo, "undo"),
             Command::Redo => self.step(Document::redo, "do again"),
@@ -78,10 +85,12 @@ impl App {
         let Some(document) = self.document_mut() else {
             return;
         };
-        let center = document.selection_bounds().map(|bounds| bounds.center());
-        let center = center.unwrap_or(Point::new(0.0, 0.0));
-        let transform =
-            |name, by| move |document: &mut Document| document.transform_selection(name, by);
+        let transform = |name, about: fn(Point<f64>) -> Affine| {
+            move |document: &mut Document| match document.selection_bounds() {
+                Some(bounds) => document.transform_selection(name, about(bounds.center())),
+                None => Ok(()),
+            }
+        };
         match command {
             Command::SelectAll => document.select_all(),
             Command::SelectNone => document.select(Rows::new(), Combine::Replace),
@@ -91,18 +100,20 @@ impl App {
             Command::Delete => self.edit(Document::delete_selection),
             Command::Refine => self.edit(Document::refine_selection),
             Command::Duplicate => self.duplicate(),
-            Command::TurnLeft => self.edit(transform("turn", Affine::rotation(FRAC_PI_2, center))),
+            Command::TurnLeft => {
+                self.edit(transform("turn", |center| {
+                    Affine::rotation(FRAC_PI_2, center)
+                }));
+            }
             Command::MirrorAcross => {
-                self.edit(transform(
-                    "mirror",
-                    Affine::mirror(center, Point::new(0.0, 1.0)),
-                ));
+                self.edit(transform("mirror", |center| {
+                    Affine::mirror(center, Point::new(0.0, 1.0))
+                }));
             }
             Command::MirrorUp => {
-                self.edit(transform(
-                    "mirror",
-                    Affine::mirror(center, Point::new(1.0, 0.0)),
-                ));
+                self.edit(transform("mirror", |center| {
+                    Affine::mirror(center, Point::new(1.0, 0.0))
+                }));
             }
             _ => {}
         }
@@ -122,7 +133,7 @@ impl App {
         match command {
             Command::Fit => {
                 let shown = self.layers.iter().filter(|layer| layer.is_visible);
-                let bounds = shown.filter_map(|layer| layer.document.as_ref()?.scene().bounds());
+                let bounds = shown.filter_map(|layer| layer.document.as_ref()?.bounds());
                 if let Some(all) = bounds.reduce(guideway_spline::Bounds::union) {
                     self.camera.fit(all);
                 }
@@ -170,7 +181,8 @@ impl App {
     }
 
     /// The way out of everything.
-    fn stop(&mut self) {
+    fn stop(&mut self, ctx: &Context) {
+        leave_field(ctx);
         self.prompt = None;
         self.shows_keys = false;
         self.asks_to_quit = false;

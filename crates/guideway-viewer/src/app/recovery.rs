@@ -6,7 +6,7 @@ use std::time::UNIX_EPOCH;
 use guideway_document::{Act, Document};
 
 /// Begins every journal file; the digit is the version of what follows.
-const MAGIC: &[u8; 8] = b"GWJRNAL1";
+const MAGIC: &[u8; 8] = b"GWJRNAL2";
 /// Magic; size and time of the layout file; bytes of the journal that are saved in that.
 const HEADER_BYTES: usize = 8 + 8 + 16 + 8;
 
@@ -128,6 +128,20 @@ impl Recovery {
             let _ = fs::remove_file(path);
         }
     }
+}
+
+/// All that a journal holds, and the file that it began with; none if there is no journal.
+#[cfg(test)]
+pub(crate) fn written(layout_file: &Path) -> Option<(Vec<u8>, PathBuf)> {
+    let mut journal = fs::read(beside(layout_file, "journal")).ok()?;
+    let acts = journal.split_off(HEADER_BYTES);
+    let base = beside(layout_file, "base");
+    let file = if base.exists() {
+        base
+    } else {
+        layout_file.to_owned()
+    };
+    Some((acts, file))
 }
 
 fn begin(journal: &Path, layout_file: &Path) -> io::Result<File> {

@@ -9,6 +9,7 @@ use guideway_spline::Point;
 
 use super::table::Table;
 use crate::app::App;
+use crate::host::Host;
 
 /// A viewer at which a person sits.
 pub(super) struct Desk {
@@ -20,14 +21,27 @@ pub(super) struct Desk {
 const MOST_LOOKS: u32 = 5_000;
 
 impl Desk {
-    pub(super) fn with(table: &Arc<Table>, files: &[&str], method: &'static str) -> Self {
-        let mut start = Some((Arc::clone(table), files.iter().map(Into::into).collect()));
+    pub(super) fn with(table: &Arc<Table>, files: &[&str], method: Option<&str>) -> Self {
+        let host: Arc<dyn Host> = table.clone();
+        Self::of(host, table, files, method)
+    }
+
+    /// With files of a host of its own.
+    pub(super) fn of(
+        host: Arc<dyn Host>,
+        table: &Arc<Table>,
+        files: &[&str],
+        method: Option<&str>,
+    ) -> Self {
+        let files = files.iter().map(Into::into).collect();
+        let method = method.map(str::to_owned);
+        let mut start = Some((host, files, method));
         let harness = Harness::builder()
             .with_size(Vec2::new(1200.0, 800.0))
             .with_max_steps(64)
             .build_ui_state(
                 move |ui, app: &mut Option<App>| {
-                    if let Some((host, files)) = start.take() {
+                    if let Some((host, files, method)) = start.take() {
                         *app = Some(App::new(ui.ctx(), host, files, method));
                     }
                     if let Some(app) = app {
@@ -45,7 +59,7 @@ impl Desk {
     /// With one file open, and its picture there.
     pub(super) fn looking_at(layout: guideway_layout::Layout) -> Self {
         let table = Table::with([("site.arrow", layout)]);
-        let mut desk = Self::with(&table, &["site.arrow"], "cpu");
+        let mut desk = Self::with(&table, &["site.arrow"], Some("cpu"));
         desk.wait(|app| app.document().is_some() && app.layers[0].shown.is_some());
         desk
     }
@@ -75,8 +89,18 @@ impl Desk {
             thread::sleep(Duration::from_millis(2));
         }
         let app = self.app();
-        let troubles: Vec<_> = app.layers.iter().map(|layer| &layer.trouble).collect();
-        panic!("it did not come; {:?} {troubles:?}", app.notices);
+        let layers = app.layers.iter().map(|layer| {
+            let shown = layer
+                .shown
+                .as_ref()
+                .map(|shown| (&shown.report, shown.view));
+            (layer.is_visible, &layer.trouble, shown)
+        });
+        let layers: Vec<_> = layers.collect();
+        panic!(
+            "it did not come; {:?} {layers:?} {:?}",
+            app.notices, app.camera
+        );
     }
 
     /// Where a place of the world is in the window.

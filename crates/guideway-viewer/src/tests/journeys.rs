@@ -1,4 +1,4 @@
-use eframe::egui::{Key, Modifiers, Pos2, Vec2};
+use eframe::egui::{Event, Key, Modifiers, Pos2, Vec2};
 use egui_kittest::kittest::Queryable;
 use guideway_cpu::Cpu;
 use guideway_render::{Budget, Cancel, Frame, Method};
@@ -182,6 +182,10 @@ fn a_query_selects_and_a_wrong_one_says_why() {
     desk.harness.get_by_label("Query").type_text("speed >= 2");
     desk.harness.run_steps(2);
     desk.key(NONE, Key::Enter);
+    desk.wait(|app| {
+        app.document()
+            .is_some_and(|document| document.selection().len() == 2)
+    });
     assert_eq!(desk.selected(), [4, 5]);
     desk.app().find.query = "spede > 2".into();
     desk.harness.run_steps(2);
@@ -196,6 +200,55 @@ fn a_query_selects_and_a_wrong_one_says_why() {
             .contains("speed")
     );
     assert_eq!(desk.selected(), [4, 5], "as before");
+}
+
+#[test]
+fn a_name_is_looked_for_and_flown_to() {
+    let mut desk = Desk::looking_at(lanes(50));
+    desk.key(CTRL, Key::F);
+    desk.harness.event(Event::Text("LANE 37".into()));
+    desk.harness.run_steps(2);
+    desk.key(NONE, Key::Enter);
+    desk.wait(|app| {
+        app.document()
+            .is_some_and(|document| !document.selection().is_empty())
+    });
+    assert_eq!(desk.selected(), [37]);
+    let seen = desk.app().camera.view().unwrap().world_bounds();
+    desk.key(CTRL, Key::F);
+    desk.key(NONE, Key::Escape);
+    desk.key(NONE, Key::P);
+    assert_eq!(desk.app().tool, Tool::Points, "Escape leaves the field");
+    assert!(seen.contains(Point::new(5.0, 74.0)) && !seen.contains(Point::new(5.0, 0.0)));
+}
+
+#[test]
+fn colours_asked_for_while_the_layout_is_edited_come_all_the_same() {
+    let mut desk = Desk::looking_at(lanes(6));
+    desk.app().look.color_by = Some("speed".into());
+    desk.app().recolor();
+    desk.document().select_all();
+    desk.document()
+        .copy_selection(1, Point::new(0.0, 50.0))
+        .unwrap();
+    desk.wait(|app| {
+        app.document()
+            .is_some_and(|document| document.scene().legend().is_some())
+    });
+    let scene = desk.document().scene();
+    assert_eq!(
+        scene.color(3),
+        scene.color(9),
+        "a copy has the colour of its path"
+    );
+    desk.app().look.color_by = Some("no such column".into());
+    desk.app().recolor();
+    desk.wait(|app| {
+        app.notices
+            .iter()
+            .any(|notice| notice.contains("no such column"))
+    });
+    assert!(desk.document().scene().legend().is_some(), "as it was");
 }
 
 #[test]
@@ -221,26 +274,49 @@ fn a_file_is_saved_and_a_full_disk_loses_nothing() {
     assert_eq!(ids, ["lane 0", "lane 2", "lane 3"]);
 }
 
+/// What drew the picture of the first file.
+fn drawn_by(app: &crate::App) -> Option<&'static str> {
+    Some(app.layers[0].shown.as_ref()?.report.method)
+}
+
 #[test]
-fn a_lost_device_is_replaced_by_the_processor() {
+fn the_best_way_of_drawing_is_found_and_another_is_a_click_away() {
     let table = Table::with([("site.arrow", lanes(3))]);
-    let mut desk = Desk::with(&table, &["site.arrow"], "broken");
-    desk.wait(|app| app.layers[0].shown.is_some());
-    let notices = desk.app().notices.clone();
-    assert!(
-        notices
-            .iter()
-            .any(|n| n.contains("device was lost") && n.contains("cpu")),
-        "{notices:?}"
-    );
-    let report = &desk.app().layers[0].shown.as_ref().unwrap().report;
-    assert_eq!(report.method, "cpu");
+    let mut desk = Desk::with(&table, &["site.arrow"], None);
+    desk.wait(|app| drawn_by(app) == Some("device"));
+    assert_eq!(desk.app().drawing.method(), "device");
+    desk.harness.get_by_label("Drawing").click();
+    desk.harness.run_steps(8);
+    desk.harness.get_by_label("Way of drawing").click();
+    desk.harness.run_steps(8);
+    desk.harness.get_by_label("cpu").click();
+    desk.wait(|app| drawn_by(app) == Some("cpu"));
+}
+
+#[test]
+fn a_device_that_is_lost_is_replaced_by_the_processor_for_all_files() {
+    let table = Table::with([("a.arrow", lanes(3)), ("b.arrow", lanes(4))]);
+    let mut desk = Desk::with(&table, &["a.arrow", "b.arrow"], None);
+    desk.wait(|app| drawn_by(app) == Some("device") && app.layers[1].shown.is_some());
+    desk.key(CTRL, Key::A);
+    desk.key(NONE, Key::R);
+    table.lose_device();
+    desk.key(NONE, Key::Plus);
+    desk.wait(|app| drawn_by(app) == Some("cpu"));
+    let app = desk.app();
+    assert_eq!(app.drawing.method(), "cpu");
+    let said = app
+        .notices
+        .iter()
+        .filter(|n| n.contains("device was lost") && n.contains("cpu"));
+    assert_eq!(said.count(), 1, "{:?}", app.notices);
+    assert!(app.layers[1].is_changed(), "what was done is still there");
 }
 
 #[test]
 fn one_bad_file_does_not_keep_others_from_opening() {
     let table = Table::with([("b.arrow", lanes(3))]);
-    let mut desk = Desk::with(&table, &["a.arrow", "b.arrow"], "cpu");
+    let mut desk = Desk::with(&table, &["a.arrow", "b.arrow"], Some("cpu"));
     desk.wait(|app| app.layers[0].trouble.is_some() && app.layers[1].shown.is_some());
     let trouble = desk.app().layers[0].trouble.clone().unwrap();
     assert!(trouble.contains("no such file"), "{trouble}");
@@ -267,7 +343,10 @@ fn what_is_hidden_and_how_it_looks_is_redrawn() {
     assert!(desk.app().look.is_dark && desk.app().look.is_density);
     desk.app().look.color_by = Some("speed".into());
     desk.app().recolor();
-    assert!(desk.document().scene().legend().is_some());
+    desk.wait(|app| {
+        app.document()
+            .is_some_and(|document| document.scene().legend().is_some())
+    });
     desk.wait(|app| drawn(app, 6));
 }
 

@@ -1,6 +1,9 @@
 //! The viewer driven as a person drives it, by mouse and keys, without a window.
 
+mod content;
 mod desk;
+mod hand;
 mod journeys;
 mod random;
+mod soak;
 pub(crate) mod table;

@@ -1,14 +1,15 @@
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
 
 use guideway_cpu::Cpu;
 use guideway_layout::{Layout, NewPath, Value};
 use guideway_render::{
-    Budget, Cancel, Frame, Method, MethodInfo, Preparation, Prepared, RenderError, Report, Style,
-    View,
+    Budget, Cancel, Edited, Frame, Method, MethodInfo, Preparation, Prepared, RenderError, Report,
+    Style, View,
 };
-use guideway_scene::Scene;
+use guideway_scene::{Edit, Scene};
 use guideway_spline::{Point, Runs};
 
 use crate::host::{Host, Load, MethodChoice, Trouble};
@@ -19,10 +20,23 @@ pub(super) struct Table {
     pub(super) files: Mutex<HashMap<PathBuf, Layout>>,
     /// Whether the disk is full.
     pub(super) is_full: Mutex<bool>,
+    /// Whether the graphics device is lost; another one takes its place when one is asked for.
+    is_device_lost: Mutex<Arc<AtomicBool>>,
 }
 
-/// A method that is let down by its device with every frame.
-struct Broken;
+/// The method of the graphics device, which is better than the processor.
+const DEVICE: &str = "device";
+
+/// A graphics device that can be lost. It draws as the processor does.
+struct Device {
+    is_lost: Arc<AtomicBool>,
+}
+
+/// A scene on it.
+struct OnDevice {
+    is_lost: Arc<AtomicBool>,
+    prepared: Box<dyn Prepared>,
+}
 
 impl Table {
     pub(super) fn with(files: impl IntoIterator<Item = (&'static str, Layout)>) -> Arc<Self> {
@@ -32,8 +46,24 @@ impl Table {
             .collect();
         Arc::new(Self {
             files: Mutex::new(files),
-            is_full: Mutex::new(false),
+            ..Self::default()
         })
+    }
+
+    /// Takes the graphics device away, as a driver that crashed does.
+    pub(super) fn lose_device(&self) {
+        let lost = self.is_device_lost.lock();
+        let lost = lost.expect("no test panics while it holds this");
+        lost.store(true, Ordering::Relaxed);
+    }
+
+    fn device(&self) -> Device {
+        let lost = self.is_device_lost.lock();
+        let mut lost = lost.expect("no test panics while it holds this");
+        *lost = Arc::default();
+        Device {
+            is_lost: Arc::clone(&lost),
+        }
     }
 
     fn trouble(message: &str) -> Trouble {
@@ -110,53 +140,76 @@ impl Host for Table {
             summary: String::new(),
             why_not: None,
         };
-        ["cpu", "broken"].map(choice).into()
+        [DEVICE, "cpu"].map(choice).into()
     }
 
     fn method(&self, name: &str) -> Result<Box<dyn Method>, Trouble> {
         match name {
             "cpu" => Ok(Box::new(Cpu)),
-            "broken" => Ok(Box::new(Broken)),
+            DEVICE => Ok(Box::new(self.device())),
             _ => Err(Self::trouble("there is no such method")),
         }
     }
 }
 
-impl Method for Broken {
+impl Method for Device {
     fn info(&self) -> MethodInfo {
         MethodInfo {
-            name: "broken",
-            summary: "",
-            device: String::new(),
+            name: DEVICE,
+            ..Cpu.info()
         }
     }
 
-    fn plan_bytes(&self, _scene: &Scene, _budget: &Budget) -> u64 {
-        0
+    fn plan_bytes(&self, scene: &Scene, budget: &Budget) -> u64 {
+        Cpu.plan_bytes(scene, budget)
     }
 
-    fn prepare(&self, _: Arc<Scene>, _: &Budget) -> Result<Box<dyn Prepared>, RenderError> {
-        Ok(Box::new(Lost(Preparation::default())))
+    fn prepare(
+        &self,
+        scene: Arc<Scene>,
+        budget: &Budget,
+    ) -> Result<Box<dyn Prepared>, RenderError> {
+        Ok(Box::new(OnDevice {
+            is_lost: Arc::clone(&self.is_lost),
+            prepared: Cpu.prepare(scene, budget)?,
+        }))
     }
 }
 
-struct Lost(Preparation);
+impl OnDevice {
+    fn check(&self) -> Result<(), RenderError> {
+        match self.is_lost.load(Ordering::Relaxed) {
+            false => Ok(()),
+            true => Err(RenderError::Device {
+                method: DEVICE,
+                what: "the device was lost".into(),
+            }),
+        }
+    }
+}
 
-impl Prepared for Lost {
+impl Prepared for OnDevice {
     fn render(
         &mut self,
-        _view: &View,
-        _style: &Style,
-        _cancel: &Cancel,
-        _frame: &mut Frame,
+        view: &View,
+        style: &Style,
+        cancel: &Cancel,
+        frame: &mut Frame,
     ) -> Result<Report, RenderError> {
-        Err(RenderError::Device {
-            method: "broken",
-            what: "the device was lost".into(),
+        self.check()?;
+        let report = self.prepared.render(view, style, cancel, frame)?;
+        Ok(Report {
+            method: DEVICE,
+            ..report
         })
     }
 
+    fn edit(&mut self, edit: &Edit) -> Result<Edited, RenderError> {
+        self.check()?;
+        self.prepared.edit(edit)
+    }
+
     fn preparation(&self) -> &Preparation {
-        &self.0
+        self.prepared.preparation()
     }
 }

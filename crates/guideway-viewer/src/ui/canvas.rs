@@ -5,7 +5,7 @@ use eframe::egui::{
 use guideway_render::{FrameSize, View};
 use guideway_spline::Point;
 
-use crate::app::{App, Gesture, Tool};
+use crate::app::{App, Gesture, Tool, leave_field};
 use crate::work::renderer::Shot;
 
 /// From the points of the window to the pixels of the picture and back.
@@ -79,11 +79,7 @@ impl App {
         if let Some(at_px) = at_px {
             if response.clicked() {
                 self.click(at_px, modifiers);
-                // What follows is meant for the picture, and no longer for a field of text.
-                let focused = ui.memory(|memory| memory.focused());
-                if let Some(focused) = focused {
-                    ui.memory_mut(|memory| memory.surrender_focus(focused));
-                }
+                leave_field(ui.ctx());
             }
             if response.double_clicked() {
                 self.double_click();

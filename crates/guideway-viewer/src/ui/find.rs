@@ -1,7 +1,8 @@
 use eframe::egui::{Key, TextEdit, Ui};
 use guideway_document::{Combine, Found, search};
 
-use crate::app::App;
+use crate::app::{App, Layer};
+use crate::work::task::Task;
 
 const MOST_FOUND: usize = 30;
 
@@ -15,13 +16,12 @@ impl App {
             field.request_focus();
         }
         if field.changed() {
-            let found = self
-                .document()
-                .map(|document| search(document.layout(), &self.find.text, MOST_FOUND));
-            self.find.found = found.unwrap_or_default();
+            self.search();
         }
-        let is_done = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
-        let mut fly_to = self.find.found.first().copied().filter(|_| is_done);
+        if field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter)) {
+            self.find.goes_there = true;
+        }
+        let mut fly_to = None;
         if let Some(document) = self.document() {
             let layout = document.layout();
             for &what in &self.find.found {
@@ -58,10 +58,51 @@ impl App {
                     self.select_where(how);
                 }
             }
+            if self.layers.get(self.active).is_some_and(Layer::is_busy) {
+                ui.spinner();
+            }
         });
         if let Some(trouble) = &self.find.query_trouble {
             ui.colored_label(ui.visuals().error_fg_color, trouble);
         }
+    }
+}
+
+impl App {
+    /// Looks for names beside the window: there may be a million.
+    fn search(&mut self) {
+        let layout = self
+            .document()
+            .map(|document| document.scene().shared_layout());
+        self.find.search = layout.map(|layout| {
+            let text = self.find.text.clone();
+            Task::start(&self.wake, move || search(&layout, &text, MOST_FOUND))
+        });
+    }
+
+    /// Takes what was found, and goes there if that was asked for.
+    pub(crate) fn poll_search(&mut self) {
+        let outcome = self.find.search.as_ref().and_then(Task::outcome);
+        if let Some(outcome) = outcome {
+            self.find.search = None;
+            self.find.found = outcome.unwrap_or_default();
+        }
+        if self.find.search.is_none() && std::mem::take(&mut self.find.goes_there) {
+            let first = self.find.found.first().copied();
+            let is_there = |what: &Found| {
+                self.document()
+                    .is_some_and(|document| is_there(*what, document.layout()))
+            };
+            if let Some(first) = first.filter(is_there) {
+                self.fly_to(first);
+            }
+        }
+    }
+
+    fn select_where(&mut self, how: Combine) {
+        let layer = self.layers.get_mut(self.active);
+        let outcome = layer.map(|layer| layer.select_where(&self.find.query, how, &self.wake));
+        self.find.query_trouble = outcome.and_then(Result::err).map(|error| error.to_string());
     }
 }
 

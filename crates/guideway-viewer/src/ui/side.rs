@@ -1,6 +1,6 @@
 use eframe::egui::{CollapsingHeader, ComboBox, DragValue, Grid, Label, Slider, Ui};
+use guideway_document::Document;
 use guideway_document::measure::{Bend, bends, length_m, tightest_radius_m};
-use guideway_document::{Combine, Document};
 use guideway_layout::Layout;
 use guideway_spline::{Affine, Point};
 
@@ -140,10 +140,15 @@ impl App {
             let count = self.numbers.copies;
             self.edit(|document| document.copy_selection(count, by_m));
         }
-        let middle = self.document().and_then(Document::selection_bounds);
-        if let (true, Some(bounds)) = (turns, middle) {
-            let by = Affine::rotation(self.numbers.angle_deg.to_radians(), bounds.center());
-            self.edit(|document| document.transform_selection("turn", by));
+        if turns {
+            let angle = self.numbers.angle_deg.to_radians();
+            self.edit(|document| match document.selection_bounds() {
+                Some(bounds) => {
+                    let by = Affine::rotation(angle, bounds.center());
+                    document.transform_selection("turn", by)
+                }
+                None => Ok(()),
+            });
         }
     }
 
@@ -181,24 +186,7 @@ impl App {
 
     /// How it is drawn, and how long that takes.
     fn drawing(&mut self, ui: &mut Ui) {
-        let mut chosen = None;
-        ComboBox::from_label("Way of drawing")
-            .selected_text(&self.method)
-            .show_ui(ui, |ui| {
-                for choice in &self.methods {
-                    let can = choice.why_not.is_none();
-                    let label = ui.add_enabled_ui(can, |ui| {
-                        ui.selectable_label(self.method == choice.name, &choice.name)
-                    });
-                    let hover = choice.why_not.as_ref().unwrap_or(&choice.summary);
-                    if label.inner.on_hover_text(hover).clicked() {
-                        chosen = Some(choice.name.clone());
-                    }
-                }
-            });
-        if let Some(name) = chosen {
-            self.set_method(&name);
-        }
+        self.method(ui);
         let Some(shown) = self.layers.get(self.active).and_then(|l| l.shown.as_ref()) else {
             return;
         };
@@ -216,6 +204,33 @@ impl App {
         });
         for note in &report.notes {
             ui.small(note);
+        }
+    }
+
+    fn method(&mut self, ui: &mut Ui) {
+        let drawing = &self.drawing;
+        let best = format!("best here: {}", drawing.best());
+        let mut chosen = None;
+        ComboBox::from_label("Way of drawing")
+            .selected_text(drawing.chosen.as_ref().unwrap_or(&best))
+            .show_ui(ui, |ui| {
+                let is_best = drawing.chosen.is_none();
+                if ui.selectable_label(is_best, &best).clicked() {
+                    chosen = Some(None);
+                }
+                for choice in &drawing.choices {
+                    let can = choice.why_not.is_none();
+                    let is_this = drawing.chosen.as_ref() == Some(&choice.name);
+                    let label =
+                        ui.add_enabled_ui(can, |ui| ui.selectable_label(is_this, &choice.name));
+                    let hover = choice.why_not.as_ref().unwrap_or(&choice.summary);
+                    if label.inner.on_hover_text(hover).clicked() {
+                        chosen = Some(Some(choice.name.clone()));
+                    }
+                }
+            });
+        if let Some(chosen) = chosen {
+            self.set_method(chosen);
         }
     }
 
@@ -253,14 +268,6 @@ impl App {
             }
         }
     }
-
-    pub(super) fn select_where(&mut self, how: Combine) {
-        let query = self.find.query.clone();
-        let outcome = self
-            .document_mut()
-            .map(|document| document.select_where(&query, how));
-        self.find.query_trouble = outcome.and_then(Result::err).map(|error| error.to_string());
-    }
 }
 
 fn levels(document: &Document) -> Vec<(u32, String)> {
@@ -290,11 +297,10 @@ fn attributes(ui: &mut Ui, document: &Document, row: u32) {
         ("to node", node(path.end_node())),
         ("vehicle types", types.join(", ")),
     ];
-    let source = document.attribute_row(row) as usize;
-    let own =
-        layout.paths.attributes.iter().filter_map(|column| {
-            Some((column.name.as_str(), column.values.get(source)?.to_string()))
-        });
+    let own = layout.paths.attributes.iter().filter_map(|column| {
+        let value = column.values.get(row as usize)?;
+        Some((column.name.as_str(), value.to_string()))
+    });
     Grid::new("attributes")
         .num_columns(2)
         .min_col_width(120.0)

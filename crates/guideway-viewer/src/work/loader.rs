@@ -54,6 +54,8 @@ impl Loader {
                 .or_else(|_| Scene::new(Arc::clone(&layout), &without_column(&options)));
             match scene {
                 Ok(scene) => {
+                    // Found here, and not when the window asks where to look.
+                    scene.bounds();
                     tell(Loaded::Scene(Arc::new(scene.clone())));
                     tell(Loaded::Document(Box::new(Document::from_scene(scene))));
                     tell(Loaded::Findings(findings(&layout)));

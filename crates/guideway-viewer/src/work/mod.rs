@@ -3,7 +3,7 @@
 
 pub(crate) mod loader;
 pub(crate) mod renderer;
-pub(crate) mod saver;
+pub(crate) mod task;
 pub(crate) mod watcher;
 
 use std::sync::Arc;

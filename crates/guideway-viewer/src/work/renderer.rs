@@ -34,8 +34,8 @@ pub(crate) enum Outcome {
     Picture(Box<Picture>),
     /// It has no scene any more that it could draw.
     NeedsScene,
-    /// It goes on otherwise than asked.
-    Notice(String),
+    /// It goes on by [`FALLBACK`] and not as asked: why.
+    FellBack(String),
     /// There is no picture of this shot.
     Failed(String),
 }
@@ -275,7 +275,7 @@ impl Worker {
         }
         let name = &self.method_name;
         let notice = format!("{name} cannot go on: {why}. Drawing by {FALLBACK} instead");
-        self.tell(Outcome::Notice(notice));
+        self.tell(Outcome::FellBack(notice));
         self.follow(Order::Method(FALLBACK.to_owned()));
         self.draw(*shot, cancel);
     }
@@ -296,13 +296,9 @@ impl Worker {
             .frame
             .get_or_insert_with(|| Frame::new(shot.view.size()));
         let report = prepared.render(&shot.view, &shot.style, cancel, frame)?;
-        let size = frame.size();
         Ok(Picture {
             shot: *shot,
-            image: ColorImage::new(
-                [size.width() as usize, size.height() as usize],
-                pixels(frame),
-            ),
+            image: color_image(frame),
             report,
             wall_ms: elapsed_ms(started),
         })
@@ -315,10 +311,12 @@ impl Worker {
     }
 }
 
-/// A frame has straight alpha, a texture of egui premultiplied.
-fn pixels(frame: &Frame) -> Vec<Color32> {
+/// A frame has straight alpha, an image of egui premultiplied.
+pub(crate) fn color_image(frame: &Frame) -> ColorImage {
     let color = |&[r, g, b, a]: &[u8; 4]| Color32::from_rgba_unmultiplied(r, g, b, a);
-    frame.pixels().iter().map(color).collect()
+    let size = [frame.size().width(), frame.size().height()];
+    let pixels = frame.pixels().iter().map(color).collect();
+    ColorImage::new(size.map(|side| side as usize), pixels)
 }
 
 enum Stop {

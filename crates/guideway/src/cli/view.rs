@@ -22,7 +22,8 @@ pub(crate) struct Args {
     /// Layout files of any format that is read, found from their content
     #[arg(value_name = "FILE")]
     files: Vec<PathBuf>,
-    /// Way of drawing; `guideway methods` shows what runs here
+    /// Way of drawing, as `guideway methods` lists them; `auto` takes `gpu` where there is graphics hardware, else
+    /// `cpu`
     #[arg(long, value_name = "NAME[+OPTION]", default_value = AUTO, value_parser = values::MethodSpec)]
     method: String,
 }
@@ -34,7 +35,8 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, Failure> {
             "Leave --json out; `guideway info` and `guideway check` report as JSON",
         ));
     }
-    guideway_viewer::run(Arc::new(Desk), args.files.clone(), &args.method)?;
+    let method = (args.method != AUTO).then(|| args.method.clone());
+    guideway_viewer::run(Arc::new(Desk), args.files.clone(), method)?;
     Ok(Exit::Clean)
 }
 
@@ -85,17 +87,15 @@ impl Host for Desk {
     }
 
     fn methods(&self) -> Vec<MethodChoice> {
-        let automatic = MethodChoice {
-            name: AUTO.to_owned(),
-            summary: "The best one that runs here".to_owned(),
-            why_not: None,
-        };
         let listed = guideway::methods().into_iter().map(|method| MethodChoice {
             name: method.info.name.to_owned(),
             summary: method.info.summary.to_owned(),
             why_not: method.why_not,
         });
-        std::iter::once(automatic).chain(listed).collect()
+        let mut choices: Vec<MethodChoice> = listed.collect();
+        let best = guideway::live_method();
+        choices.sort_by_key(|choice| choice.name != best);
+        choices
     }
 
     fn method(&self, name: &str) -> Result<Box<dyn Method>, Trouble> {

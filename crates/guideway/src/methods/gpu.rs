@@ -65,6 +65,11 @@ pub(super) const GRID: Entry = Entry {
     start,
 };
 
+/// Whether there is a graphics device that is more than a program on the processor.
+pub(super) fn is_in_hardware() -> bool {
+    DEVICE.as_ref().is_ok_and(|device| !device.is_software())
+}
+
 /// Opened once, for all methods and options.
 static DEVICE: LazyLock<Result<Arc<Gpu>, String>> = LazyLock::new(Gpu::new);
 

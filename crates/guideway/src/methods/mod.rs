@@ -6,7 +6,7 @@ mod tessellation;
 use guideway_cpu::{Cpu, Oracle};
 use guideway_render::{Method, MethodInfo};
 
-/// The name that stands for the best method that runs here.
+/// The name that stands for the best method for one picture.
 pub const AUTO: &str = "auto";
 
 /// A method of this build, and whether it runs on this computer.
@@ -80,15 +80,17 @@ struct Entry {
     start: fn(&str) -> Result<Box<dyn Method>, Stop>,
 }
 
+const CPU: Entry = Entry {
+    name: "cpu",
+    summary: "Fast and exact on any processor; needs no graphics hardware",
+    options: &[],
+    is_general: true,
+    start: |options| without_options(options, Cpu),
+};
+
 /// Every method of this build. The first general one that starts is what [`AUTO`] stands for.
 const ENTRIES: &[Entry] = &[
-    Entry {
-        name: "cpu",
-        summary: "Fast and exact on any processor; needs no graphics hardware",
-        options: &[],
-        is_general: true,
-        start: |options| without_options(options, Cpu),
-    },
+    CPU,
     Entry {
         name: "oracle",
         summary: "The slow judge of all other methods, in double precision",
@@ -130,6 +132,17 @@ pub fn methods() -> Vec<Available> {
 /// Names of all methods of this build, whether they run here or not.
 pub fn method_names() -> impl Iterator<Item = &'static str> {
     ENTRIES.iter().map(|entry| entry.name)
+}
+
+/// Name of the best method for a picture that changes all the time, as in a window: `gpu` where there is a graphics
+/// device in hardware, `cpu` elsewhere. For one picture the latter is sooner done than a device is started, and the
+/// same on every machine.
+pub fn live_method() -> &'static str {
+    #[cfg(feature = "gpu")]
+    if gpu::is_in_hardware() {
+        return gpu::TILES.name;
+    }
+    CPU.name
 }
 
 /// Starts a method by its name and options, such as `grid+scan+aa=subpixel`; [`AUTO`] starts the best that
@@ -208,6 +221,16 @@ mod tests {
                 assert!(method(&spec).is_ok(), "{spec}");
             }
         }
+    }
+
+    #[test]
+    fn what_changes_all_the_time_is_drawn_by_a_method_that_runs_here() {
+        let name = live_method();
+        let methods = methods();
+        let listed = methods.iter().find(|m| m.info.name == name).unwrap();
+        assert_eq!(listed.why_not, None);
+        let is_software = listed.info.device.contains("llvmpipe");
+        assert!(!is_software, "{}", listed.info.device);
     }
 
     #[test]

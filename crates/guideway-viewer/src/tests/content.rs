@@ -1,0 +1,58 @@
+use guideway_layout::{Layout, PathRef};
+
+/// All that is saved of the paths and nodes of a layout, a line each.
+pub(super) fn content(layout: &Layout) -> Vec<String> {
+    let paths = &layout.paths;
+    let path = |path: PathRef<'_>| {
+        let row = path.row();
+        let runs: Vec<Vec<_>> = path.runs().map(|run| run.iter().collect()).collect();
+        let types: Vec<&str> = paths.vehicle_types().of(row).collect();
+        let columns = paths.attributes.iter();
+        let values = columns.map(|c| (&c.name, c.values.get(row)));
+        format!(
+            "path {} {runs:?} {:?} {:?} {:?} {:?} {types:?} {:?} {:?}",
+            path.id(),
+            path.start_node(),
+            path.end_node(),
+            path.direction(),
+            path.level(),
+            paths.own_style(row),
+            values.collect::<Vec<_>>(),
+        )
+    };
+    let nodes = &layout.nodes;
+    let node = |node| format!("node {} {:?}", nodes.id(node), nodes.position_m(node));
+    let all_nodes = (0..nodes.len() as u32).map(node);
+    paths.iter().map(path).chain(all_nodes).collect()
+}
+
+/// The first line in which two layouts differ.
+pub(super) fn difference(a: &Layout, b: &Layout) -> Option<String> {
+    let (a, b) = (content(a), content(b));
+    let lines = a.iter().zip(&b).find(|(a, b)| a != b);
+    let line = lines.map(|(a, b)| format!("{a}\nis not\n{b}"));
+    line.or_else(|| (a.len() != b.len()).then(|| format!("{} lines and {}", a.len(), b.len())))
+}
+
+#[test]
+fn any_difference_is_seen() {
+    use guideway_layout::Value;
+    use guideway_spline::{Affine, Point};
+
+    let site = super::table::lanes(4);
+    assert_eq!(difference(&site, &site.clone()), None);
+    assert!(difference(&site, &super::table::lanes(3)).is_some());
+    let changes: [fn(&mut Layout); 3] = [
+        |site| {
+            let by = Affine::translation(Point::new(1e-12, 0.0));
+            site.paths.transform(2, by);
+        },
+        |site| site.paths.attributes.set(1, "speed", Value::Float(0.75)),
+        |site| site.paths.set_own_style(3, Default::default()),
+    ];
+    for (change, is_one) in changes.into_iter().zip([true, true, false]) {
+        let mut other = site.clone();
+        change(&mut other);
+        assert_eq!(difference(&site, &other).is_some(), is_one);
+    }
+}
