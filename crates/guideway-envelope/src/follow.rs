@@ -50,8 +50,14 @@ impl<'s> Follow<'s> {
         }
     }
 
-    /// Appends a Bezier curve, whose coordinates are rounded by this share of their size.
+    /// Appends a Bezier curve, whose coordinates are rounded by this share of their size. One that is not finite is
+    /// nowhere.
     pub(crate) fn segment(&mut self, points: &[P; 4], rounding: f64) {
+        if !points.iter().all(|p| p.is_finite()) {
+            self.end();
+            (self.end, self.is_apart) = (None, true);
+            return;
+        }
         let start = points[0];
         match self.end {
             Some(end) if end.distance(start) > GAP_M => {

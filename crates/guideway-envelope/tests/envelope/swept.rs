@@ -159,6 +159,26 @@ fn a_path_without_a_direction_has_an_area_only_if_the_heading_is_fixed() {
 }
 
 #[test]
+fn what_is_not_finite_is_nowhere() {
+    for bad in [f64::NAN, f64::INFINITY] {
+        let mut runs = guideway_spline::Runs::default();
+        runs.push_line(p(0.0, 0.0), p(bad, 0.0));
+        runs.push_line(p(5.0, 0.0), p(6.0, 0.0));
+        let mut layout = guideway_layout::Layout::default();
+        layout.paths.push(&guideway_layout::NewPath {
+            runs: &runs,
+            ..guideway_layout::NewPath::default()
+        });
+        let body = Body::vehicle(2.0, 1.0, 1.0);
+        for heading in [Heading::Tangential(0.0), Heading::Fixed(0.0)] {
+            let sweep = guideway_envelope::Sweep::new(layout.paths.get(0), body, &[heading]);
+            let bounds = sweep.expect("half of it is somewhere").bounds();
+            assert!(bounds.min.distance(p(4.0, -0.5)) < 1e-9, "{bounds:?}");
+        }
+    }
+}
+
+#[test]
 fn the_comparison_finds_wrong_polygons() {
     let bend = vec![[p(0.0, 0.0), p(3.0, 0.0), p(4.0, 1.0), p(4.0, 4.0)]];
     let case = case_of(bend, Heading::Tangential(0.0));

@@ -5,7 +5,7 @@ use guideway::envelope::{Body, Source, Without};
 use super::{Failure, text};
 
 /// Largest side of a vehicle.
-const MOST_M: f64 = 1000.0;
+const MOST_M: f64 = 100.0;
 
 /// `LENGTHxWIDTH`, `LENGTHxWIDTH,REAR` or `file`.
 pub(crate) fn source(text: &str) -> Result<Source, String> {
@@ -88,7 +88,7 @@ mod tests {
     #[test]
     fn refusals_show_a_good_value() {
         for bad in [
-            "", "2", "2x", "0x1", "2x-1", "2x1,3", "2x1,-1", "NaNx1", "infx1", "2000x1", "2x1,x",
+            "", "2", "2x", "0x1", "2x-1", "2x1,3", "2x1,-1", "NaNx1", "infx1", "101x1", "2x1,x",
             "2x1,0,0",
         ] {
             assert!(source(bad).unwrap_err().contains("2x1.2,0.5"), "{bad}");
