@@ -5,7 +5,7 @@ use guideway_scene::Scene;
 
 use super::canvas::Canvas;
 use super::kernels::Kernels;
-use super::params::{FrameParams, Samples, WORKGROUP};
+use super::params::{FrameParams, SCATTER_THREADS, STARTS_THREADS, Samples, WORKGROUP};
 use super::room::Room;
 use super::store::Store;
 use crate::device::{Bindings, DeviceBuffer, Dispatch, Gpu, Kernel, Runner};
@@ -100,9 +100,12 @@ enum Over {
     ClustersSeen,
     /// Threads for lines in turn.
     Lines,
+    /// Workgroups that enter lines into lists in turn.
+    LinesListed,
+    /// A workgroup a tile.
     Tiles,
-    /// One workgroup.
-    All,
+    /// Threads for all tiles.
+    ThreadsForTiles,
 }
 
 impl Bound {
@@ -150,7 +153,7 @@ impl Bound {
         let Canvas {
             frame,
             counts,
-            starts,
+            lists,
             filled,
             pixels,
             ..
@@ -176,18 +179,24 @@ impl Bound {
             let buffers = [frame, found, lines_px, line_ranks, styles, marks];
             return self.add("mark", b, last, Over::Lines, &buffers);
         }
-        let buffers = [frame, counts, starts, filled, found];
-        self.add("starts", b, &kernels.starts, Over::All, &buffers)?;
+        let buffers = [frame, counts, lists, filled, found];
+        self.add(
+            "starts",
+            b,
+            &kernels.starts,
+            Over::ThreadsForTiles,
+            &buffers,
+        )?;
         let buffers = [
             frame, found, lines_px, line_ranks, styles, filled, references,
         ];
-        self.add("list", b, &kernels.scatter, Over::Lines, &buffers)?;
+        self.add("list", b, &kernels.scatter, Over::LinesListed, &buffers)?;
         if paint.needs_order() {
-            let buffers = [frame, starts, references, line_ranks];
+            let buffers = [frame, lists, references, line_ranks];
             self.add("sort", b, &kernels.sort, Over::Tiles, &buffers)?;
         }
         let mut buffers = vec![
-            frame, starts, references, lines_px, line_ranks, styles, pixels,
+            frame, lists, references, lines_px, line_ranks, styles, pixels,
         ];
         if paint == Paint::One {
             buffers.extend([counts, found]);
@@ -231,8 +240,9 @@ impl Bound {
             Over::Clusters => params.clusters.div_ceil(WORKGROUP),
             Over::ClustersSeen => in_turn(params.clusters),
             Over::Lines => in_turn(b.room.size.lines.div_ceil(WORKGROUP)),
+            Over::LinesListed => in_turn(b.room.size.lines.div_ceil(SCATTER_THREADS)),
             Over::Tiles => params.columns * params.rows,
-            Over::All => 1,
+            Over::ThreadsForTiles => (params.columns * params.rows).div_ceil(STARTS_THREADS),
         };
         let dispatches: Vec<Vec<_>> = self
             .stages

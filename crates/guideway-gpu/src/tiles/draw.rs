@@ -31,6 +31,12 @@ pub(super) struct Easel {
 }
 
 impl Easel {
+    /// Whether rounds may make do with the room that was too small.
+    fn may_help(&mut self, found: &Found) -> bool {
+        let line_room = self.room.as_ref().map_or(0, |room| room.size.lines);
+        self.rounds.may_help(found, line_room)
+    }
+
     /// After one of the buffers that a frame binds has become another.
     pub(super) fn unbind(&mut self) {
         self.bound = None;
@@ -182,7 +188,7 @@ impl PreparedTiles {
                 drawing.lines += u64::from(found.lines);
                 drawing.drawn = found.drawn;
                 drawing.windows += 1;
-            } else if paint == Paint::One && self.easel.rounds.may_help(&found) {
+            } else if paint == Paint::One && self.easel.may_help(&found) {
                 windows.push(window);
             } else if is_too_long {
                 return Err(too_long(&found));

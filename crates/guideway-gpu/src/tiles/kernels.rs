@@ -1,9 +1,9 @@
 //! The shaders of a frame, compiled.
 
 use super::params::{
-    BATCH, CLUSTER_POINTS, CLUSTER_STROKES, COLUMNS, COVER, CULL, FLATTEN, IDS, LAYERS, Layers,
-    SAMPLE_ROWS, SCATTER, SHIFT, SORT, STARTS, STARTS_THREADS, Samples, TILE_PX, TILE_THREADS,
-    TOUCH, WORKGROUP,
+    CLUSTER_POINTS, CLUSTER_STROKES, COLUMNS, COVER, CULL, FLATTEN, IDS, LAYERS, Layers,
+    SAMPLE_ROWS, SCATTER, SCATTER_THREADS, SHIFT, SORT, STARTS, STARTS_THREADS, Samples, TILE_PX,
+    TILE_THREADS, TOUCH, WORKGROUP,
 };
 use crate::device::{Gpu, Kernel};
 
@@ -40,7 +40,7 @@ impl Kernels {
             cull: Kernel::new(gpu, &CULL, &[tile, workgroup])?,
             flatten: Kernel::new(gpu, &FLATTEN, &[tile, strokes, points])?,
             starts: Kernel::new(gpu, &STARTS, &[tile, starts_threads])?,
-            scatter: Kernel::new(gpu, &SCATTER, &[tile, workgroup])?,
+            scatter: Kernel::new(gpu, &SCATTER, &[tile, constant("THREADS", SCATTER_THREADS)])?,
             sort: Kernel::new(gpu, &SORT, &[tile, tile_threads])?,
             shift: Kernel::new(gpu, &SHIFT, &[constant("THREADS", WORKGROUP)])?,
             touch: Kernel::new(gpu, &TOUCH, &[tile, workgroup])?,
@@ -63,7 +63,6 @@ impl Painters {
             constant("THREADS", TILE_THREADS),
             constant("SAMPLE_ROWS", SAMPLE_ROWS),
             constant("COLUMNS", COLUMNS),
-            constant("BATCH", BATCH),
         ];
         let layers = |layers: Layers| {
             let mut constants = cover.clone();

@@ -16,7 +16,9 @@ pub(super) const WHOLE_PATH: u32 = 1 << 31;
 pub(super) const SEGMENTS_BIT: u32 = 16;
 /// Threads of a workgroup that goes over clusters or lines.
 pub(super) const WORKGROUP: u32 = 64;
-/// Threads of the one workgroup that finds where lists start.
+/// Threads of a workgroup that enters lines into lists.
+pub(super) const SCATTER_THREADS: u32 = 256;
+/// Threads of a workgroup that reserves places for lists.
 pub(super) const STARTS_THREADS: u32 = 256;
 /// Side of a tile in pixels.
 pub(super) const TILE_PX: u32 = 16;
@@ -27,8 +29,6 @@ pub(super) const SAMPLE_ROWS: u32 = 16;
 pub(super) const COLUMNS: u32 = columns([0, 2, 1, 3, 2, 0, 3, 1, 1, 3, 0, 2, 3, 1, 2, 0]);
 /// Threads of a tile: one for each row of samples.
 pub(super) const TILE_THREADS: u32 = TILE_PX * SAMPLE_ROWS;
-/// Lines that a tile looks at together, unless all are of one colour and few.
-pub(super) const BATCH: u32 = 64;
 
 const fn columns(first: [u32; SAMPLE_ROWS as usize]) -> u32 {
     let (mut packed, mut row) = (0, 0);
@@ -170,7 +170,7 @@ macro_rules! tiles {
                 $samples,
                 "u;\n",
                 wgsl!(
-                    "frame", "view", "style", "walk", "capsule", "tile", "blend", $file
+                    "frame", "view", "style", "walk", "capsule", "tile", "open", "blend", $file
                 )
             ),
             bindings: $bindings,
@@ -187,7 +187,8 @@ pub(super) const CULL: Source = Source {
 pub(super) const FLATTEN: Source = Source {
     name: "flatten",
     wgsl: wgsl!(
-        "frame", "view", "cluster", "stroke", "style", "curve", "walk", "flatten"
+        "frame", "view", "cluster", "stroke", "style", "curve", "plan", "clip", "walk", "hidden",
+        "flatten"
     ),
     bindings: &[
         "frame",
@@ -206,12 +207,14 @@ pub(super) const FLATTEN: Source = Source {
 pub(super) const STARTS: Source = Source {
     name: "starts",
     wgsl: wgsl!("frame", "starts"),
-    bindings: &["frame", "counts", "starts", "filled", "found"],
+    bindings: &["frame", "counts", "lists", "filled", "found"],
 };
 
 pub(super) const SCATTER: Source = Source {
     name: "scatter",
-    wgsl: wgsl!("frame", "before", "view", "style", "walk", "scatter"),
+    wgsl: wgsl!(
+        "frame", "before", "view", "style", "walk", "tally", "scatter"
+    ),
     bindings: &[
         "frame",
         "found",
@@ -226,7 +229,7 @@ pub(super) const SCATTER: Source = Source {
 pub(super) const SORT: Source = Source {
     name: "sort",
     wgsl: wgsl!("frame", "sort"),
-    bindings: &["frame", "starts", "references", "line_ranks"],
+    bindings: &["frame", "lists", "references", "line_ranks"],
 };
 
 pub(super) const SHIFT: Source = Source {
@@ -237,7 +240,7 @@ pub(super) const SHIFT: Source = Source {
 
 const COVER_BINDINGS: &[&str] = &[
     "frame",
-    "starts",
+    "lists",
     "references",
     "lines_px",
     "line_ranks",
@@ -249,7 +252,7 @@ const COVER_BINDINGS: &[&str] = &[
 
 const TILE_BINDINGS: &[&str] = &[
     "frame",
-    "starts",
+    "lists",
     "references",
     "lines_px",
     "line_ranks",

@@ -21,3 +21,8 @@ struct Cluster {
 fn offset_m(cluster: Cluster) -> vec2f {
     return (cluster.origin_high_m - frame.center_high_m) + (cluster.origin_low_m - frame.center_low_m);
 }
+
+// Half the width of its widest stroke.
+fn widest_px(cluster: Cluster) -> f32 {
+    return max(frame.radius_px, radius_px(cluster.widest_m));
+}

@@ -6,6 +6,35 @@
 var<workgroup> was_full: u32;
 // Covered samples of all rows.
 var<workgroup> samples: array<atomic<u32>, THREADS * WORDS>;
+// How many pixels are open.
+var<workgroup> open_pixels: atomic<u32>;
+// Longest list that is covered as it is: of fewer lines, too few are hidden to look for them, and of strokes so thin
+// that they need all samples always.
+const SHORT: u32 = select(TURN, 0x7fffffffu, WORDS > 2u);
+// Lines that are looked at together, so many that there is room.
+const LOOKS: u32 = select(TURN, TURN / 2u, WORDS > 2u);
+// Rows of pixels that are worth covering together.
+const ENOUGH: u32 = 256u;
+// Lines that wait to be covered, and their rows of pixels, each with its line from bit 8 on.
+var<workgroup> capsules: array<Capsule, 2u * LOOKS>;
+var<workgroup> rows: array<u32, ENOUGH + LOOKS * TILE_PX>;
+var<workgroup> waiting_lines: atomic<u32>;
+var<workgroup> waiting_rows: atomic<u32>;
+// What all threads go by: pixels that are open, and lines and rows that wait.
+var<workgroup> state: vec3u;
+
+// Begins with nothing covered.
+fn clear(tile: Tile, thread: u32) {
+    let size = open_all(tile, thread);
+    if thread == 0u {
+        atomicStore(&open_pixels, size.x * size.y);
+        atomicStore(&waiting_lines, 0u);
+        atomicStore(&waiting_rows, 0u);
+    }
+    for (var word = 0u; word < WORDS; word++) {
+        atomicStore(&samples[thread * WORDS + word], 0u);
+    }
+}
 
 // How many samples of a pixel are covered.
 fn count_of(pixel: u32) -> u32 {
@@ -20,21 +49,113 @@ fn count_of(pixel: u32) -> u32 {
     return count;
 }
 
-// Whether any pixel of the tile that is part of the picture has samples that are not covered.
-fn any_open_pixel(tile: Tile, thread: u32, covered: u32) -> bool {
-    let x = tile.left + thread % TILE_PX;
-    let y = tile.top + thread / TILE_PX;
-    let is_inside = x < frame.width_px && y < frame.height_px;
-    return any_of(thread, is_inside && covered < SAMPLE_ROWS * SAMPLES_A_ROW);
+// Closes a pixel once all of its samples are covered.
+fn close(pixel: u32) {
+    let bit = 1u << (pixel % TILE_PX);
+    let row = pixel / TILE_PX;
+    if (atomicLoad(&open[row]) & bit) != 0u && count_of(pixel) == SAMPLE_ROWS * SAMPLES_A_ROW {
+        atomicAnd(&open[row], ~bit);
+        atomicSub(&open_pixels, 1u);
+    }
 }
 
-// Covers every `parts`-th row that a line touches, from one of the first on.
-fn cover_rows(capsule: Capsule, part: u32, parts: u32) {
-    let rows = rows_touched(capsule);
-    for (var row = rows.x + part; row < rows.y; row += parts) {
-        let span = span_of(capsule, row);
-        for (var word = span.x / 32u; word * 32u < span.y; word++) {
-            atomicOr(&samples[row * WORDS + word], bits_between(span.x, span.y, word));
+fn wait(capsule: Capsule, shown: u32) {
+    let line = atomicAdd(&waiting_lines, 1u);
+    capsules[line] = capsule;
+    var place = atomicAdd(&waiting_rows, countOneBits(shown));
+    for (var left = shown; left != 0u; left &= left - 1u) {
+        rows[place] = (line << 8u) | firstTrailingBit(left);
+        place++;
+    }
+}
+
+// Covers a row of samples that a line touches.
+fn cover_row(capsule: Capsule, row: u32) {
+    let span = span_of(capsule, row);
+    for (var word = span.x / 32u; word * 32u < span.y; word++) {
+        atomicOr(&samples[row * WORDS + word], bits_between(span.x, span.y, word));
+    }
+}
+
+// Covers what waits, and closes what is then covered.
+fn cover_waiting(thread: u32, count: u32) {
+    for (var i = thread / SAMPLE_ROWS; i < count; i += THREADS / SAMPLE_ROWS) {
+        let capsule = capsules[rows[i] >> 8u];
+        let row = (rows[i] & 255u) * SAMPLE_ROWS + thread % SAMPLE_ROWS;
+        let touched = rows_touched(capsule);
+        if row >= touched.x && row < touched.y {
+            cover_row(capsule, row);
+        }
+    }
+    workgroupBarrier();
+    close(thread);
+    if thread == 0u {
+        atomicStore(&waiting_lines, 0u);
+        atomicStore(&waiting_rows, 0u);
+    }
+    workgroupBarrier();
+}
+
+// How many pixels are open, for all threads.
+fn count_open(thread: u32) -> u32 {
+    if thread == 0u {
+        state = vec3u(atomicLoad(&open_pixels), 0u, 0u);
+    }
+    return workgroupUniformLoad(&state).x;
+}
+
+// Covers lines as they come. Few are shared out by their rows, so that all threads have work.
+fn cover_short(tile: Tile, thread: u32, list: vec2u) {
+    for (var first = list.x; first < list.y; first += THREADS) {
+        let lines = min(THREADS, list.y - first);
+        let parts = THREADS >> (32u - countLeadingZeros(lines - 1u));
+        let line = thread / parts;
+        if line < lines {
+            let capsule = capsule_at(tile, first + line);
+            let touched = rows_touched(capsule);
+            for (var row = touched.x + thread % parts; row < touched.y; row += parts) {
+                cover_row(capsule, row);
+            }
+        }
+        workgroupBarrier();
+        close(thread);
+        workgroupBarrier();
+        if count_open(thread) == 0u {
+            break;
+        }
+    }
+}
+
+// Covers the lines of a list in turns, each of lines from all over it, for neighbours in the list lie near each other:
+// what the first ones have filled, the others need not.
+fn cover_long(tile: Tile, thread: u32, list: vec2u) {
+    let turns = THREADS / LOOKS;
+    let turn_here = thread / LOOKS;
+    let nth = (thread % LOOKS) * turns + turn_here;
+    let rounds = (list.y - list.x + THREADS - 1u) / THREADS;
+    var capsule: Capsule;
+    for (var turn = 0u; turn < rounds * turns; turn++) {
+        let place = list.x + nth * rounds + turn / turns;
+        let is_line = place < list.y;
+        if turn % turns == 0u && is_line {
+            capsule = capsule_at(tile, place);
+        }
+        if turn % turns == turn_here && is_line {
+            let shown = rows_shown(capsule);
+            if shown != 0u {
+                wait(capsule, shown);
+            }
+        }
+        workgroupBarrier();
+        if thread == 0u {
+            state = vec3u(atomicLoad(&open_pixels), atomicLoad(&waiting_lines), atomicLoad(&waiting_rows));
+        }
+        let now = workgroupUniformLoad(&state);
+        if now.x == 0u {
+            break;
+        }
+        if now.y > LOOKS || now.z >= ENOUGH || turn + 1u == rounds * turns {
+            cover_waiting(thread, now.z);
         }
     }
 }
@@ -58,44 +179,22 @@ fn main(
         return;
     }
     let list = list_of(index);
-    let start = list.x;
-    let end = list.y;
-    if start >= end {
+    if list.x >= list.y {
         write(tile, thread, frame.background);
         return;
     }
-    for (var word = 0u; word < WORDS; word++) {
-        atomicStore(&samples[thread * WORDS + word], 0u);
-    }
+    clear(tile, thread);
     workgroupBarrier();
-    let outside = beyond(tile, thread);
-    // A long list is likely to cover the tile before its end: then it is worth a look more often.
-    let most = select(THREADS, BATCH, end - start > 2u * THREADS);
-    for (var first = start; first < end; first += most) {
-        let batch = min(most, end - first);
-        // Few lines are shared out by their rows, so that all threads have work.
-        let parts = THREADS >> (32u - countLeadingZeros(batch - 1u));
-        let line = thread / parts;
-        if line < batch {
-            cover_rows(capsule_at(tile, first + line), thread % parts, parts);
-        }
-        workgroupBarrier();
-        if first + most < end {
-            var row = outside;
-            for (var word = 0u; word < WORDS; word++) {
-                row[word] |= atomicLoad(&samples[thread * WORDS + word]);
-            }
-            if !any_open(thread, &row) {
-                break;
-            }
-        }
+    if list.y - list.x <= SHORT {
+        cover_short(tile, thread, list);
+    } else {
+        cover_long(tile, thread, list);
     }
-    let count_here = count_of(thread);
-    let is_full = !any_open_pixel(tile, thread, count_here);
-    if is_full && thread == 0u {
+    if thread == 0u && atomicLoad(&open_pixels) == 0u {
         counts[index] |= FULL;
         atomicAdd(&found.full_tiles, 1u);
     }
+    let count_here = count_of(thread);
     let share = f32(count_here) / f32(SAMPLE_ROWS * SAMPLES_A_ROW);
     write(tile, thread, over_background(channels(frame.color).rgb * share, share));
 }

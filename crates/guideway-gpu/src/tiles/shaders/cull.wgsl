@@ -24,7 +24,7 @@ fn main(
     let offset = offset_m(cluster);
     let a = pixel_from_view(cluster.low_m + offset);
     let b = pixel_from_view(cluster.high_m + offset);
-    let reach_px = max(frame.radius_px, radius_px(cluster.widest_m)) + 1.0;
+    let reach_px = widest_px(cluster) + 1.0;
     if is_seen(min(a, b), max(a, b), reach_px) {
         found.seen[atomicAdd(&found.counters.clusters, 1u)] = index;
     }

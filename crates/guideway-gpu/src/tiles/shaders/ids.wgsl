@@ -1,8 +1,8 @@
 // Which path lies on top at each pixel of a tile: one more than the highest rank that covers any of its
 // samples, or zero. It does not matter in which order lines come.
 
-var<workgroup> capsules: array<Capsule, BATCH>;
-var<workgroup> ranks: array<u32, BATCH>;
+var<workgroup> capsules: array<Capsule, TURN>;
+var<workgroup> ranks: array<u32, TURN>;
 var<workgroup> tops: array<atomic<u32>, THREADS>;
 
 fn raise(row: u32, covered: Row, rank: u32) {
@@ -32,8 +32,8 @@ fn main(
     let start = list.x;
     let end = list.y;
     atomicStore(&tops[thread], 0u);
-    for (var first = start; first < end; first += BATCH) {
-        let batch = min(BATCH, end - first);
+    for (var first = start; first < end; first += TURN) {
+        let batch = min(TURN, end - first);
         workgroupBarrier();
         if thread < batch {
             capsules[thread] = capsule_at(tile, first + thread);

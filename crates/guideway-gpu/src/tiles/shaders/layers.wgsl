@@ -1,5 +1,6 @@
 // Tiles of any scene: lists are in falling draw rank, and strokes of one path stand together. What a path
-// covers is gathered first, and then laid below all that was laid before.
+// covers is gathered first, and then laid below all that was laid before. Each row of pixels goes through the
+// lines that reach into open pixels of it.
 
 // 0: opaque paths; 1: translucent ones among them; 2: how many paths cover a pixel.
 override SHADING: u32;
@@ -7,60 +8,112 @@ const OPAQUE: u32 = 0u;
 const TRANSLUCENT: u32 = 1u;
 const DENSITY: u32 = 2u;
 
-// Parts that one sample's share of a sum is counted in.
-const PARTS: f32 = 256.0;
+const TURN_WORDS: u32 = TURN / 32u;
 
-var<workgroup> capsules: array<Capsule, BATCH>;
-var<workgroup> ranks: array<u32, BATCH>;
-var<workgroup> colors: array<u32, BATCH>;
+var<workgroup> capsules: array<Capsule, TURN>;
+var<workgroup> ranks: array<u32, TURN>;
+var<workgroup> colors: array<u32, TURN>;
+// Which of them each row of pixels goes through, a bit each.
+var<workgroup> lines_of_row: array<atomic<u32>, TILE_PX * TURN_WORDS>;
 // Red, green, blue, and how much is hidden, for each pixel.
 var<workgroup> sums: array<atomic<u32>, THREADS * 4>;
 
-// What still shines through at each sample of this thread's row.
+// Samples of this thread's row that opaque paths have covered.
+var<private> covered: Row;
+// What still shines through at each of its samples.
 var<private> clear: array<f32, WORDS * 32>;
 
-fn add(pixel: u32, color: vec4f, samples: f32) {
-    let parts = vec4u(vec4f(color.rgb, 255.0) * samples * PARTS + 0.5);
+// Parts that one sample's share of a sum is counted in.
+const PARTS: f32 = 256.0;
+
+// Adds an opaque colour, two channels a word: 255 times as many samples as a pixel has are less than 2^16.
+fn add_opaque(pixel: u32, color: u32, samples: u32) {
+    atomicAdd(&sums[pixel * 4u], (color & 0x00ff00ffu) * samples);
+    atomicAdd(&sums[pixel * 4u + 1u], ((color >> 8u) & 0x00ff00ffu) * samples);
+}
+
+fn add(pixel: u32, color: u32, samples: f32) {
+    let parts = vec4u(vec4f(channels(color).rgb, 255.0) * samples * PARTS + 0.5);
     for (var channel = 0u; channel < 4u; channel++) {
         atomicAdd(&sums[pixel * 4u + channel], parts[channel]);
     }
 }
 
+// Takes from what shines through some samples of a pixel, and says how much.
+fn take(first_sample: u32, bits: u32, opacity: f32) -> f32 {
+    var taken = 0.0;
+    for (var left = bits; left != 0u; left &= left - 1u) {
+        let sample = first_sample + firstTrailingBit(left);
+        let part = clear[sample] * opacity;
+        taken += part;
+        clear[sample] -= part;
+    }
+    return taken;
+}
+
 // Lays a colour over what was gathered of a row, where nothing hides it, and gathers anew.
-fn lay(row: u32, color: u32, gathered: ptr<function, Row>, covered: ptr<function, Row>) {
-    let ink = channels(color);
-    let opacity = ink.a / 255.0;
+fn lay(row: u32, color: u32, gathered: ptr<function, Row>) {
+    let opacity = f32(color >> 24u) / 255.0;
     let pixels_a_word = 32u / SAMPLES_A_ROW;
+    let first_pixel = (row / SAMPLE_ROWS) * TILE_PX;
     for (var word = 0u; word < WORDS; word++) {
-        let fresh = select((*gathered)[word] & ~(*covered)[word], (*gathered)[word], SHADING == DENSITY);
+        let all = (*gathered)[word];
+        let fresh = select(all & ~covered[word], all, SHADING == DENSITY);
         (*gathered)[word] = 0u;
-        for (var of_word = 0u; of_word < pixels_a_word && fresh != 0u; of_word++) {
-            let bits = bits_of_pixel(fresh, of_word);
-            let pixel = (row / SAMPLE_ROWS) * TILE_PX + word * pixels_a_word + of_word;
-            if bits == 0u {
-                continue;
-            }
+        for (var left = fresh; left != 0u;) {
+            let of_word = firstTrailingBit(left) / SAMPLES_A_ROW;
+            let bits = bits_of_pixel(left, of_word);
+            left &= ~(bits << (of_word * SAMPLES_A_ROW));
+            let pixel = first_pixel + word * pixels_a_word + of_word;
             if SHADING == DENSITY {
                 atomicAdd(&sums[pixel * 4u], countOneBits(bits));
             } else if SHADING == OPAQUE {
-                add(pixel, ink, f32(countOneBits(bits)));
+                add_opaque(pixel, color, countOneBits(bits));
             } else {
-                var taken = 0.0;
-                for (var i = 0u; i < SAMPLES_A_ROW; i++) {
-                    if ((bits >> i) & 1u) != 0u {
-                        let sample = word * 32u + of_word * SAMPLES_A_ROW + i;
-                        let part = clear[sample] * opacity;
-                        taken += part;
-                        clear[sample] -= part;
-                    }
-                }
-                add(pixel, ink, taken);
+                add(pixel, color, take(word * 32u + of_word * SAMPLES_A_ROW, bits, opacity));
             }
         }
         if SHADING != DENSITY && opacity >= 1.0 {
-            (*covered)[word] |= fresh;
+            covered[word] |= fresh;
         }
     }
+}
+
+// Brings some lines of a list together, each for the rows in which it may show.
+fn gather(tile: Tile, thread: u32, first: u32, end: u32) {
+    if thread < TILE_PX * TURN_WORDS {
+        atomicStore(&lines_of_row[thread], 0u);
+    }
+    workgroupBarrier();
+    if thread < TURN && first + thread < end {
+        let capsule = capsule_at(tile, first + thread);
+        let rank = line_ranks[references[first + thread]];
+        capsules[thread] = capsule;
+        ranks[thread] = rank;
+        colors[thread] = style_of(rank).color;
+        for (var left = rows_shown(capsule); left != 0u; left &= left - 1u) {
+            let word = firstTrailingBit(left) * TURN_WORDS + thread / 32u;
+            atomicOr(&lines_of_row[word], 1u << (thread % 32u));
+        }
+    }
+    workgroupBarrier();
+}
+
+// Closes the pixels that opaque paths have filled, and says whether any is left.
+fn stays_open(thread: u32) -> bool {
+    let pixels_a_word = 32u / SAMPLES_A_ROW;
+    var left = 0u;
+    for (var pixel = 0u; pixel < TILE_PX; pixel++) {
+        if bits_of_pixel(~covered[pixel / pixels_a_word], pixel % pixels_a_word) != 0u {
+            left |= 1u << pixel;
+        }
+    }
+    if thread < TILE_PX {
+        atomicStore(&open[thread], 0u);
+    }
+    workgroupBarrier();
+    atomicOr(&open[thread / SAMPLE_ROWS], left);
+    return any_of(thread, left != 0u);
 }
 
 @compute @workgroup_size(THREADS)
@@ -75,59 +128,59 @@ fn main(
     }
     let tile = tile_of(index);
     let list = list_of(index);
-    let start = list.x;
-    let end = list.y;
-    if start >= end {
+    if list.x >= list.y {
         write(tile, thread, select(frame.background, 0u, SHADING == DENSITY));
         return;
     }
     for (var channel = 0u; channel < 4u; channel++) {
         atomicStore(&sums[thread * 4u + channel], 0u);
     }
-    workgroupBarrier();
-    var covered = beyond(tile, thread);
-    var gathered: Row;
+    open_all(tile, thread);
+    covered = beyond(tile, thread);
     if SHADING == TRANSLUCENT {
         for (var i = 0u; i < WORDS * 32u; i++) {
             clear[i] = 1.0;
         }
     }
+    workgroupBarrier();
     var rank = 0xffffffffu;
     var color = 0u;
-    for (var first = start; first < end; first += BATCH) {
-        let batch = min(BATCH, end - first);
-        if thread < batch {
-            capsules[thread] = capsule_at(tile, first + thread);
-            let rank = line_ranks[references[first + thread]];
-            ranks[thread] = rank;
-            colors[thread] = style_of(rank).color;
-        }
-        workgroupBarrier();
-        for (var i = 0u; i < batch; i++) {
-            if ranks[i] != rank {
-                lay(thread, color, &gathered, &covered);
-                rank = ranks[i];
-                color = colors[i];
+    var gathered: Row;
+    for (var first = list.x; first < list.y; first += TURN) {
+        gather(tile, thread, first, list.y);
+        for (var word = 0u; word < TURN_WORDS; word++) {
+            var left = atomicLoad(&lines_of_row[(thread / SAMPLE_ROWS) * TURN_WORDS + word]);
+            for (; left != 0u; left &= left - 1u) {
+                let line = word * 32u + firstTrailingBit(left);
+                if ranks[line] != rank {
+                    lay(thread, color, &gathered);
+                    rank = ranks[line];
+                    color = colors[line];
+                }
+                cover(&gathered, capsules[line], thread);
             }
-            cover(&gathered, capsules[i], thread);
         }
         if SHADING == DENSITY {
             workgroupBarrier();
-        } else if !any_open(thread, &covered) {
+        } else if !stays_open(thread) {
             break;
         }
     }
-    lay(thread, color, &gathered, &covered);
+    lay(thread, color, &gathered);
     workgroupBarrier();
     let samples = f32(SAMPLE_ROWS * SAMPLES_A_ROW);
-    var sum: vec4f;
+    var sum: vec4u;
     for (var channel = 0u; channel < 4u; channel++) {
-        sum[channel] = f32(atomicLoad(&sums[thread * 4u + channel]));
+        sum[channel] = atomicLoad(&sums[thread * 4u + channel]);
     }
     if SHADING == DENSITY {
-        write(tile, thread, bitcast<u32>(sum.x / samples));
+        write(tile, thread, bitcast<u32>(f32(sum.x) / samples));
+    } else if SHADING == OPAQUE {
+        let channels = vec4u(sum.x & 0xffffu, sum.y & 0xffffu, sum.x >> 16u, sum.y >> 16u);
+        let shares = vec4f(channels) / samples;
+        write(tile, thread, over_background(shares.rgb, shares.a / 255.0));
     } else {
-        let shares = sum / (samples * PARTS);
+        let shares = vec4f(sum) / (samples * PARTS);
         write(tile, thread, over_background(shares.rgb, shares.a / 255.0));
     }
 }

@@ -1,6 +1,6 @@
 // One thread for one line after the other: enters it into the lists of the tiles that it may touch.
 
-override WORKGROUP: u32;
+override THREADS: u32;
 
 @group(0) @binding(1) var<storage, read> found: CountersBefore;
 @group(0) @binding(2) var<storage, read> lines_px: array<vec4f>;
@@ -9,33 +9,87 @@ override WORKGROUP: u32;
 @group(0) @binding(5) var<storage, read_write> filled: array<atomic<u32>>;
 @group(0) @binding(6) var<storage, read_write> references: array<u32>;
 
-@compute @workgroup_size(WORKGROUP)
+var<workgroup> lines: u32;
+
+// Counts the tiles of a line.
+fn count_line(line: vec4f, reach: f32) {
+    let rows = rows_of(line, reach);
+    for (var row = rows.x; row < rows.y; row++) {
+        let columns = columns_of(line, reach, row);
+        for (var column = columns.x; column < columns.y; column++) {
+            let place = tally_place(row, column, tile_index(row, column));
+            if place != NO_TILE {
+                atomicAdd(&tallies[place], 1u);
+            }
+        }
+    }
+}
+
+// Reserves places in the lists of the tiles that were counted: a tally becomes the next of them.
+fn reserve(thread: u32) {
+    for (var place = thread; place < TALLY_PLACES; place += THREADS) {
+        let count = atomicLoad(&tallies[place]);
+        if count > 0u {
+            let tile = atomicLoad(&tally_tiles[place]);
+            atomicStore(&tallies[place], atomicAdd(&filled[tile], count));
+        }
+    }
+}
+
+fn enter_line(index: u32, line: vec4f, reach: f32) {
+    let rows = rows_of(line, reach);
+    for (var row = rows.x; row < rows.y; row++) {
+        let columns = columns_of(line, reach, row);
+        for (var column = columns.x; column < columns.y; column++) {
+            let tile = tile_index(row, column);
+            let place = tally_place(row, column, tile);
+            var entry: u32;
+            if place != NO_TILE {
+                entry = atomicAdd(&tallies[place], 1u);
+            } else {
+                entry = atomicAdd(&filled[tile], 1u);
+            }
+            if entry < FULL {
+                references[entry] = index;
+            }
+        }
+    }
+}
+
+@compute @workgroup_size(THREADS)
 fn main(
     @builtin(workgroup_id) id: vec3u,
     @builtin(num_workgroups) count: vec3u,
     @builtin(local_invocation_index) thread: u32,
 ) {
-    // What has no room is drawn again with more.
-    if found.lines > frame.line_room || found.references > frame.reference_room {
-        return;
+    if thread == 0u {
+        // What has no room is drawn again with more.
+        let fits = found.lines <= frame.line_room && found.references <= frame.reference_room;
+        lines = select(0u, found.lines, fits);
     }
-    let threads = count.x * count.y * WORKGROUP;
-    for (var i = workgroup_index(id, count) * WORKGROUP + thread; i < found.lines; i += threads) {
-        let rank = line_ranks[i];
-        if rank == NO_RANK {
-            continue;
+    let all = workgroupUniformLoad(&lines);
+    let step = count.x * count.y * THREADS;
+    for (var first = workgroup_index(id, count) * THREADS; first < all; first += step) {
+        clear_tallies(thread, THREADS);
+        workgroupBarrier();
+        let index = first + thread;
+        var rank = NO_RANK;
+        var line: vec4f;
+        var reach = 0.0;
+        if index < all {
+            rank = line_ranks[index];
         }
-        let line = lines_px[i];
-        let reach = radius_of(rank) + MARGIN_PX;
-        let rows = rows_of(line, reach);
-        for (var row = rows.x; row < rows.y; row++) {
-            let columns = columns_of(line, reach, row);
-            for (var column = columns.x; column < columns.y; column++) {
-                let place = atomicAdd(&filled[tile_index(row, column)], 1u);
-                if place < FULL {
-                    references[place] = i;
-                }
-            }
+        if rank != NO_RANK {
+            line = lines_px[index];
+            reach = radius_of(rank) + MARGIN_PX;
+            count_line(line, reach);
         }
+        workgroupBarrier();
+        reserve(thread);
+        workgroupBarrier();
+        if rank != NO_RANK {
+            enter_line(index, line, reach);
+        }
+        workgroupBarrier();
     }
 }

@@ -4,19 +4,75 @@
 
 override THREADS: u32;
 
-@group(0) @binding(1) var<storage, read> starts: array<u32>;
+@group(0) @binding(1) var<storage, read> lists: array<vec2u>;
 @group(0) @binding(2) var<storage, read_write> references: array<u32>;
 @group(0) @binding(3) var<storage, read> line_ranks: array<u32>;
 
-fn rank_of(place: u32) -> u32 {
+// Of a list that is short, with ranks near each other: how far each rank is above the lowest, and its place
+// in the list in the lowest bits.
+const PLACE_BITS: u32 = 12u;
+const SHORT: u32 = 1u << PLACE_BITS;
+const MOST_ABOVE: u32 = NO_RANK >> PLACE_BITS;
+const NO_RANK: u32 = 0xffffffffu;
+var<workgroup> keys: array<u32, SHORT>;
+var<workgroup> lowest: atomic<u32>;
+var<workgroup> highest: atomic<u32>;
+var<workgroup> ends: vec2u;
+
+fn rank_at(place: u32) -> u32 {
     return line_ranks[references[place]];
 }
 
-fn order(a: u32, b: u32) {
-    if rank_of(a) < rank_of(b) {
-        let line = references[a];
-        references[a] = references[b];
-        references[b] = line;
+// The lowest and the highest rank of a short list.
+fn rank_ends(thread: u32, start: u32, count: u32) -> vec2u {
+    if thread == 0u {
+        atomicStore(&lowest, NO_RANK);
+        atomicStore(&highest, 0u);
+    }
+    workgroupBarrier();
+    for (var i = thread; i < count; i += THREADS) {
+        let rank = rank_at(start + i);
+        atomicMin(&lowest, rank);
+        atomicMax(&highest, rank);
+    }
+    workgroupBarrier();
+    if thread == 0u {
+        ends = vec2u(atomicLoad(&lowest), atomicLoad(&highest));
+    }
+    return workgroupUniformLoad(&ends);
+}
+
+fn order_keys(low: u32, high: u32) {
+    let a = keys[low];
+    let b = keys[high];
+    if a < b {
+        keys[low] = b;
+        keys[high] = a;
+    }
+}
+
+fn order_references(low: u32, high: u32) {
+    let a = references[low];
+    let b = references[high];
+    if line_ranks[a] < line_ranks[b] {
+        references[low] = b;
+        references[high] = a;
+    }
+}
+
+// Brings the references of a short list into the order of its keys.
+fn follow_keys(thread: u32, start: u32, count: u32) {
+    var held: array<u32, SHORT / 64u>;
+    var number = 0u;
+    for (var i = thread; i < count; i += THREADS) {
+        held[number] = references[start + (keys[i] & (SHORT - 1u))];
+        number++;
+    }
+    storageBarrier();
+    number = 0u;
+    for (var i = thread; i < count; i += THREADS) {
+        references[start + i] = held[number];
+        number++;
     }
 }
 
@@ -30,31 +86,44 @@ fn main(
     if index >= frame.columns * frame.rows {
         return;
     }
-    let start = starts[index];
-    let end = starts[index + 1u];
+    let start = lists[index].x;
+    let end = lists[index].y;
     if end > frame.reference_room || end - start < 2u {
         return;
     }
     let count = end - start;
-    var block = 2u;
-    loop {
+    var is_short = count <= SHORT;
+    if is_short {
+        let ranks = rank_ends(thread, start, count);
+        is_short = ranks.y - ranks.x <= MOST_ABOVE;
+        for (var i = thread; is_short && i < count; i += THREADS) {
+            keys[i] = ((rank_at(start + i) - ranks.x) << PLACE_BITS) | i;
+        }
+        workgroupBarrier();
+    }
+    // Blocks of two to the power of `block`, steps likewise.
+    for (var block = 1u; (1u << (block - 1u)) < count; block++) {
         // The first half of a block against the mirrored second half, then ever closer pairs.
-        for (var step = block / 2u; step > 0u; step /= 2u) {
-            for (var pair = thread; pair * 2u < count + block; pair += THREADS) {
-                let low = (pair / step) * 2u * step + pair % step;
-                var high = low + step;
-                if step == block / 2u {
-                    high = (low / block) * block + block - 1u - low % block;
-                }
+        for (var step = block; step > 0u; step--) {
+            let half = 1u << (step - 1u);
+            for (var pair = thread; pair * 2u < count + (1u << block); pair += THREADS) {
+                let low = ((pair & ~(half - 1u)) << 1u) | (pair & (half - 1u));
+                let high = select(low + half, low ^ ((1u << block) - 1u), step == block);
                 if high < count {
-                    order(start + low, start + high);
+                    if is_short {
+                        order_keys(low, high);
+                    } else {
+                        order_references(start + low, start + high);
+                    }
                 }
             }
-            storageBarrier();
+            workgroupBarrier();
+            if !is_short {
+                storageBarrier();
+            }
         }
-        if block >= count {
-            break;
-        }
-        block *= 2u;
+    }
+    if is_short {
+        follow_keys(thread, start, count);
     }
 }

@@ -1,52 +1,45 @@
-// One workgroup: where the list of each tile starts.
+// One thread a tile: reserves a place for its list. It does not matter where.
 
 override THREADS: u32;
 
 @group(0) @binding(1) var<storage, read> counts: array<u32>;
-@group(0) @binding(2) var<storage, read_write> starts: array<u32>;
+@group(0) @binding(2) var<storage, read_write> lists: array<vec2u>;
 @group(0) @binding(3) var<storage, read_write> filled: array<u32>;
 @group(0) @binding(4) var<storage, read_write> found: Counters;
 
-var<workgroup> sums: array<u32, THREADS>;
-
-// A full tile needs no list.
-fn count_of(tile: u32) -> u32 {
-    return select(counts[tile], 0u, (counts[tile] & FULL) != 0u);
-}
+var<workgroup> group_references: atomic<u32>;
+var<workgroup> group_longest: atomic<u32>;
+var<workgroup> group_start: u32;
 
 @compute @workgroup_size(THREADS)
-fn main(@builtin(local_invocation_index) thread: u32) {
-    let tiles = frame.columns * frame.rows;
-    let share = (tiles + THREADS - 1u) / THREADS;
-    let first = min(thread * share, tiles);
-    let end = min(first + share, tiles);
-    var sum = 0u;
-    var longest = 0u;
-    for (var tile = first; tile < end; tile++) {
-        let count = count_of(tile);
-        sum += count;
-        longest = max(longest, count);
+fn main(
+    @builtin(workgroup_id) id: vec3u,
+    @builtin(num_workgroups) group_count: vec3u,
+    @builtin(local_invocation_index) thread: u32,
+) {
+    if thread == 0u {
+        atomicStore(&group_references, 0u);
+        atomicStore(&group_longest, 0u);
     }
-    atomicMax(&found.longest, longest);
-    sums[thread] = sum;
     workgroupBarrier();
-    for (var step = 1u; step < THREADS; step *= 2u) {
-        var more = 0u;
-        if thread >= step {
-            more = sums[thread - step];
-        }
-        workgroupBarrier();
-        sums[thread] += more;
-        workgroupBarrier();
+    let tile = workgroup_index(id, group_count) * THREADS + thread;
+    let is_tile = tile < frame.columns * frame.rows;
+    var marked = 0u;
+    if is_tile {
+        marked = counts[tile];
     }
-    var start = sums[thread] - sum;
-    for (var tile = first; tile < end; tile++) {
-        starts[tile] = start;
-        filled[tile] = start | (counts[tile] & FULL);
-        start += count_of(tile);
+    // A full tile needs no list.
+    let count = select(marked, 0u, (marked & FULL) != 0u);
+    let before = atomicAdd(&group_references, count);
+    atomicMax(&group_longest, count);
+    workgroupBarrier();
+    if thread == 0u {
+        group_start = atomicAdd(&found.references, atomicLoad(&group_references));
+        atomicMax(&found.longest, atomicLoad(&group_longest));
     }
-    if thread == THREADS - 1u {
-        starts[tiles] = start;
-        atomicMax(&found.references, start);
+    let start = workgroupUniformLoad(&group_start) + before;
+    if is_tile {
+        lists[tile] = vec2u(start, start + count);
+        filled[tile] = start | (marked & FULL);
     }
 }

@@ -1,6 +1,6 @@
 // A workgroup draws one tile, a thread for each row of its samples, from its list of lines.
 
-@group(0) @binding(1) var<storage, read> starts: array<u32>;
+@group(0) @binding(1) var<storage, read> lists: array<vec2u>;
 @group(0) @binding(2) var<storage, read> references: array<u32>;
 @group(0) @binding(3) var<storage, read> lines_px: array<vec4f>;
 @group(0) @binding(4) var<storage, read> line_ranks: array<u32>;
@@ -8,8 +8,8 @@
 @group(0) @binding(6) var<storage, read_write> pixels: array<u32>;
 
 override THREADS: u32;
-// Lines that are looked at together; of one colour, only in long lists.
-override BATCH: u32;
+// Lines that are looked at together.
+const TURN: u32 = 64u;
 var<workgroup> any_holds: atomic<u32>;
 var<workgroup> does_any: u32;
 
@@ -51,7 +51,7 @@ fn beyond(tile: Tile, row: u32) -> Row {
 
 // Where the list of a tile begins, and where it ends as far as there is room for it.
 fn list_of(tile: u32) -> vec2u {
-    return vec2u(starts[tile], min(starts[tile + 1u], frame.reference_room));
+    return min(lists[tile], vec2u(frame.reference_room));
 }
 
 // The line at a place of the lists.
@@ -75,15 +75,6 @@ fn any_of(thread: u32, holds: bool) -> bool {
         does_any = atomicLoad(&any_holds);
     }
     return workgroupUniformLoad(&does_any) != 0u;
-}
-
-// Whether any row of the tile still has samples that are not covered.
-fn any_open(thread: u32, covered: ptr<function, Row>) -> bool {
-    var all = ALL;
-    for (var word = 0u; word < WORDS; word++) {
-        all &= (*covered)[word];
-    }
-    return any_of(thread, all != ALL);
 }
 
 // The samples of one pixel in a word of a row.
