@@ -2,6 +2,8 @@ use std::ops::Range;
 
 use guideway_spline::{Affine, Point, Runs};
 
+use crate::RunPoints;
+
 /// The control runs of all paths, in two flat buffers.
 ///
 /// A path is a list of runs; a run of n control points (n >= 4) is a uniform cubic B-spline of n - 3
@@ -299,59 +301,6 @@ fn index(at: usize) -> u32 {
 
 fn set<T>(old: &mut [T], new: impl Iterator<Item = T>) {
     old.iter_mut().zip(new).for_each(|(old, new)| *old = new);
-}
-
-/// The control points of one run, in the precision in which they are held.
-#[derive(Clone, Copy, Debug)]
-pub enum RunPoints<'a> {
-    /// Held as `f64`.
-    F64(&'a [Point<f64>]),
-    /// Held as `f32`.
-    F32(&'a [Point<f32>]),
-}
-
-impl<'a> RunPoints<'a> {
-    /// Number of control points.
-    pub fn len(&self) -> usize {
-        match self {
-            Self::F64(p) => p.len(),
-            Self::F32(p) => p.len(),
-        }
-    }
-
-    /// Whether there are no control points; never so in a layout.
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-
-    /// One control point, in metres.
-    ///
-    /// # Panics
-    /// When `index` is not below [`Self::len`].
-    pub fn get(&self, index: usize) -> Point<f64> {
-        match self {
-            Self::F64(p) => p[index],
-            Self::F32(p) => p[index].to_f64(),
-        }
-    }
-
-    /// The control points in order, in metres.
-    pub fn iter(self) -> impl ExactSizeIterator<Item = Point<f64>> + Clone + 'a {
-        (0..self.len()).map(move |i| self.get(i))
-    }
-
-    /// The cubic segments in order, four control points each.
-    pub fn segments(self) -> impl ExactSizeIterator<Item = [Point<f64>; 4]> + Clone + 'a {
-        let count = self.len().saturating_sub(3);
-        (0..count).map(move |i| {
-            [
-                self.get(i),
-                self.get(i + 1),
-                self.get(i + 2),
-                self.get(i + 3),
-            ]
-        })
-    }
 }
 
 #[cfg(test)]

@@ -25,6 +25,7 @@ mod merge;
 mod nodes;
 mod paths;
 mod refused;
+mod run_points;
 mod text;
 mod vehicle_types;
 
@@ -34,12 +35,13 @@ pub use check::{
     same_curves,
 };
 pub use diagnostic::{Code, Diagnostic, Diagnostics, Place, Severity};
-pub use geometry::{Geometry, RunPoints};
+pub use geometry::Geometry;
 pub use limits::Limits;
 pub use merge::merge;
 pub use nodes::{Level, Nodes, Stations};
 pub use paths::{Direction, NewPath, OwnStyle, PathRef, Paths};
 pub use refused::{Refused, RefusedPath};
+pub use run_points::RunPoints;
 pub use text::TextColumn;
 pub use vehicle_types::VehicleTypes;
 
