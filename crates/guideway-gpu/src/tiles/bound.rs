@@ -98,10 +98,8 @@ enum Over {
     Clusters,
     /// Workgroups for clusters in turn.
     ClustersSeen,
-    /// Threads for lines in turn.
-    Lines,
-    /// Workgroups that enter lines into lists in turn.
-    LinesListed,
+    /// Workgroups of so many threads for lines in turn.
+    Lines(u32),
     /// A workgroup a tile.
     Tiles,
     /// Threads for all tiles.
@@ -177,7 +175,7 @@ impl Bound {
         let last = paint.kernel(kernels, self.samples);
         if let Some(marks) = b.marks {
             let buffers = [frame, found, lines_px, line_ranks, styles, marks];
-            return self.add("mark", b, last, Over::Lines, &buffers);
+            return self.add("mark", b, last, Over::Lines(WORKGROUP), &buffers);
         }
         let buffers = [frame, counts, lists, filled, found];
         self.add(
@@ -190,7 +188,13 @@ impl Bound {
         let buffers = [
             frame, found, lines_px, line_ranks, styles, filled, references,
         ];
-        self.add("list", b, &kernels.scatter, Over::LinesListed, &buffers)?;
+        self.add(
+            "list",
+            b,
+            &kernels.scatter,
+            Over::Lines(SCATTER_THREADS),
+            &buffers,
+        )?;
         if paint.needs_order() {
             let buffers = [frame, lists, references, line_ranks];
             self.add("sort", b, &kernels.sort, Over::Tiles, &buffers)?;
@@ -239,8 +243,7 @@ impl Bound {
         let workgroups = |over| match over {
             Over::Clusters => params.clusters.div_ceil(WORKGROUP),
             Over::ClustersSeen => in_turn(params.clusters),
-            Over::Lines => in_turn(b.room.size.lines.div_ceil(WORKGROUP)),
-            Over::LinesListed => in_turn(b.room.size.lines.div_ceil(SCATTER_THREADS)),
+            Over::Lines(threads) => in_turn(b.room.size.lines.div_ceil(threads)),
             Over::Tiles => params.columns * params.rows,
             Over::ThreadsForTiles => (params.columns * params.rows).div_ceil(STARTS_THREADS),
         };

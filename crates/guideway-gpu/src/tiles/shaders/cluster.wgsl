@@ -26,3 +26,11 @@ fn offset_m(cluster: Cluster) -> vec2f {
 fn widest_px(cluster: Cluster) -> f32 {
     return max(frame.radius_px, radius_px(cluster.widest_m));
 }
+
+// Its box in the picture: upper left and lower right corner.
+fn box_px(cluster: Cluster) -> vec4f {
+    let offset = offset_m(cluster);
+    let a = pixel_from_view(cluster.low_m + offset);
+    let b = pixel_from_view(cluster.high_m + offset);
+    return vec4f(min(a, b), max(a, b));
+}

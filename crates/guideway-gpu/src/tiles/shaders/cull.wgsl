@@ -21,11 +21,9 @@ fn main(
         return;
     }
     let cluster = clusters[index];
-    let offset = offset_m(cluster);
-    let a = pixel_from_view(cluster.low_m + offset);
-    let b = pixel_from_view(cluster.high_m + offset);
+    let box = box_px(cluster);
     let reach_px = widest_px(cluster) + 1.0;
-    if is_seen(min(a, b), max(a, b), reach_px) {
+    if is_seen(box.xy, box.zw, reach_px) {
         found.seen[atomicAdd(&found.counters.clusters, 1u)] = index;
     }
 }

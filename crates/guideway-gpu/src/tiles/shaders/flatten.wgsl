@@ -117,12 +117,10 @@ fn add_up(thread: u32, lines: u32) {
 
 // Whether all of a cluster is inside what is drawn.
 fn holds(cluster: Cluster) -> bool {
-    let offset = offset_m(cluster);
-    let a = pixel_from_view(cluster.low_m + offset);
-    let b = pixel_from_view(cluster.high_m + offset);
+    let box = box_px(cluster);
     let reach_px = widest_px(cluster) + 1.0;
     let window = window();
-    return all(min(a, b) - reach_px >= window.low_px) && all(max(a, b) + reach_px <= window.high_px);
+    return all(box.xy - reach_px >= window.low_px) && all(box.zw + reach_px <= window.high_px);
 }
 
 // Brings the control points of a cluster to the picture.

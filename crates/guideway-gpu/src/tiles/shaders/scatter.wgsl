@@ -11,20 +11,6 @@ override THREADS: u32;
 
 var<workgroup> lines: u32;
 
-// Counts the tiles of a line.
-fn count_line(line: vec4f, reach: f32) {
-    let rows = rows_of(line, reach);
-    for (var row = rows.x; row < rows.y; row++) {
-        let columns = columns_of(line, reach, row);
-        for (var column = columns.x; column < columns.y; column++) {
-            let place = tally_place(row, column, tile_index(row, column));
-            if place != NO_TILE {
-                atomicAdd(&tallies[place], 1u);
-            }
-        }
-    }
-}
-
 // Reserves places in the lists of the tiles that were counted: a tally becomes the next of them.
 fn reserve(thread: u32) {
     for (var place = thread; place < TALLY_PLACES; place += THREADS) {
@@ -36,20 +22,21 @@ fn reserve(thread: u32) {
     }
 }
 
-fn enter_line(index: u32, line: vec4f, reach: f32) {
+// Tallies the tiles of a line, or enters it into their lists once places are reserved.
+fn visit(index: u32, line: vec4f, reach: f32, enters: bool) {
     let rows = rows_of(line, reach);
     for (var row = rows.x; row < rows.y; row++) {
         let columns = columns_of(line, reach, row);
         for (var column = columns.x; column < columns.y; column++) {
             let tile = tile_index(row, column);
             let place = tally_place(row, column, tile);
-            var entry: u32;
+            var entry = FULL;
             if place != NO_TILE {
                 entry = atomicAdd(&tallies[place], 1u);
-            } else {
+            } else if enters {
                 entry = atomicAdd(&filled[tile], 1u);
             }
-            if entry < FULL {
+            if enters && entry < FULL {
                 references[entry] = index;
             }
         }
@@ -70,7 +57,7 @@ fn main(
     let all = workgroupUniformLoad(&lines);
     let step = count.x * count.y * THREADS;
     for (var first = workgroup_index(id, count) * THREADS; first < all; first += step) {
-        clear_tallies(thread, THREADS);
+        clear_tallies(thread);
         workgroupBarrier();
         let index = first + thread;
         var rank = NO_RANK;
@@ -82,13 +69,13 @@ fn main(
         if rank != NO_RANK {
             line = lines_px[index];
             reach = radius_of(rank) + MARGIN_PX;
-            count_line(line, reach);
+            visit(index, line, reach, false);
         }
         workgroupBarrier();
         reserve(thread);
         workgroupBarrier();
         if rank != NO_RANK {
-            enter_line(index, line, reach);
+            visit(index, line, reach, true);
         }
         workgroupBarrier();
     }

@@ -12,26 +12,22 @@ override THREADS: u32;
 // in the list in the lowest bits.
 const PLACE_BITS: u32 = 12u;
 const SHORT: u32 = 1u << PLACE_BITS;
-const MOST_ABOVE: u32 = NO_RANK >> PLACE_BITS;
-const NO_RANK: u32 = 0xffffffffu;
+const MOST_ABOVE: u32 = 0xffffffffu >> PLACE_BITS;
 var<workgroup> keys: array<u32, SHORT>;
 var<workgroup> lowest: atomic<u32>;
 var<workgroup> highest: atomic<u32>;
 var<workgroup> ends: vec2u;
 
-fn rank_at(place: u32) -> u32 {
-    return line_ranks[references[place]];
-}
-
-// The lowest and the highest rank of a short list.
-fn rank_ends(thread: u32, start: u32, count: u32) -> vec2u {
+// The lowest and the highest rank of a short list, whose keys are its ranks from here on.
+fn load_ranks(thread: u32, start: u32, count: u32) -> vec2u {
     if thread == 0u {
-        atomicStore(&lowest, NO_RANK);
+        atomicStore(&lowest, 0xffffffffu);
         atomicStore(&highest, 0u);
     }
     workgroupBarrier();
     for (var i = thread; i < count; i += THREADS) {
-        let rank = rank_at(start + i);
+        let rank = line_ranks[references[start + i]];
+        keys[i] = rank;
         atomicMin(&lowest, rank);
         atomicMax(&highest, rank);
     }
@@ -94,10 +90,10 @@ fn main(
     let count = end - start;
     var is_short = count <= SHORT;
     if is_short {
-        let ranks = rank_ends(thread, start, count);
+        let ranks = load_ranks(thread, start, count);
         is_short = ranks.y - ranks.x <= MOST_ABOVE;
         for (var i = thread; is_short && i < count; i += THREADS) {
-            keys[i] = ((rank_at(start + i) - ranks.x) << PLACE_BITS) | i;
+            keys[i] = ((keys[i] - ranks.x) << PLACE_BITS) | i;
         }
         workgroupBarrier();
     }

@@ -8,8 +8,8 @@ const NO_TILE: u32 = 0xffffffffu;
 var<workgroup> tally_tiles: array<atomic<u32>, TALLY_PLACES>;
 var<workgroup> tallies: array<atomic<u32>, TALLY_PLACES>;
 
-fn clear_tallies(thread: u32, threads: u32) {
-    for (var place = thread; place < TALLY_PLACES; place += threads) {
+fn clear_tallies(thread: u32) {
+    for (var place = thread; place < TALLY_PLACES; place += THREADS) {
         atomicStore(&tally_tiles[place], NO_TILE);
         atomicStore(&tallies[place], 0u);
     }
