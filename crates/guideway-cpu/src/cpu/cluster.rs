@@ -2,7 +2,7 @@ use std::ops::Range;
 
 use guideway_layout::{Layout, RunPoints};
 use guideway_scene::{PathState, Scene};
-use guideway_spline::{Bounds, Point, morton};
+use guideway_spline::{Bounds, Point, hilbert};
 use multiversion::multiversion;
 use rayon::prelude::*;
 
@@ -94,7 +94,7 @@ pub(super) fn sorted_rows(scene: &Scene) -> Vec<u32> {
     let Some(all) = placed.reduce_with(Bounds::union) else {
         return (0..centers.len() as u32).collect();
     };
-    let place = |p: Point<f64>| u64::from(morton(p, all));
+    let place = |p: Point<f64>| u64::from(hilbert(p, all));
     let keys = centers
         .par_iter()
         .enumerate()

@@ -1,6 +1,6 @@
 use std::ops::Range;
 
-use guideway_spline::{Bounds, Point, morton};
+use guideway_spline::{Bounds, Point, hilbert};
 
 /// Rows of one cluster.
 const CLUSTER: usize = 64;
@@ -10,7 +10,7 @@ const CLUSTER: usize = 64;
 /// look at every box.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Boxes {
-    /// Along Morton's curve at first; rows added later lie behind.
+    /// Along Hilbert's curve at first; rows added later lie behind.
     boxes: Vec<Bounds<f64>>,
     /// Row of each box.
     rows: Vec<u32>,
@@ -33,7 +33,7 @@ impl Boxes {
         let mut order: Vec<(u32, u32)> = by_row
             .iter()
             .zip(0..)
-            .map(|(b, row)| (morton(b.center(), all), row))
+            .map(|(b, row)| (hilbert(b.center(), all), row))
             .collect();
         order.sort_unstable();
         let rows: Vec<u32> = order.into_iter().map(|(_, row)| row).collect();

@@ -2,7 +2,7 @@
 
 use guideway_layout::Layout;
 use guideway_scene::Scene;
-use guideway_spline::{Bounds, Point, morton};
+use guideway_spline::{Bounds, Point, hilbert};
 
 use super::params::{
     CLUSTER_POINTS, CLUSTER_STROKES, Cluster, PathStyle, SEGMENTS_BIT, STROKE_SEGMENTS, Stroke,
@@ -203,6 +203,6 @@ fn sort_by_place(scene: &Scene, parts: &mut [Part]) {
         let mut points = part.points(layout);
         let first = points.next().unwrap_or_default();
         let last = points.last().unwrap_or(first);
-        morton(first + (last - first) * 0.5, bounds)
+        hilbert(first + (last - first) * 0.5, bounds)
     });
 }
