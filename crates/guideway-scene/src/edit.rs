@@ -15,7 +15,7 @@ use crate::{PathState, Rgba, Scene};
 pub enum Edit {
     /// Maps the curves of paths: moves, turns, mirrors or scales them.
     Transform {
-        /// Rows of paths.
+        /// Rows of paths, each once.
         paths: Arc<[u32]>,
         /// Where each of their points goes.
         by: Affine,
@@ -82,6 +82,11 @@ pub enum EditError {
     },
     /// An edit brings as many curves as it names paths.
     Count,
+    /// A path that is moved is named once.
+    Twice {
+        /// The row that is named again.
+        path: u32,
+    },
 }
 
 impl fmt::Display for EditError {
@@ -101,6 +106,7 @@ impl fmt::Display for EditError {
             }
             Self::UnknownPart { what, row } => write!(f, "there is no {what} in row {row}"),
             Self::Count => write!(f, "there are not as many curves as paths"),
+            Self::Twice { path } => write!(f, "the path in row {path} is named twice"),
         }
     }
 }
@@ -146,6 +152,9 @@ impl Edit {
         let geometry = scene.layout().paths.geometry();
         match self {
             Self::Transform { paths, by } => {
+                if let Some(path) = named_twice(paths) {
+                    return Err(EditError::Twice { path });
+                }
                 let misplaced = paths.iter().find(|&&path| {
                     let points = geometry.runs(path as usize).flat_map(|run| run.iter());
                     !is_placed(points.map(|p| by.apply(p)))
@@ -200,6 +209,19 @@ impl Insertion {
             None => Ok(()),
         }
     }
+}
+
+/// A row that is named more than once; rows in order, as selections have them, are only looked through.
+fn named_twice(rows: &[u32]) -> Option<u32> {
+    if rows.is_sorted_by(|a, b| a < b) {
+        return None;
+    }
+    let mut sorted = rows.to_vec();
+    sorted.sort_unstable();
+    sorted
+        .array_windows()
+        .find(|[a, b]| a == b)
+        .map(|[a, _]| *a)
 }
 
 fn is_placed(mut points: impl Iterator<Item = Point<f64>>) -> bool {

@@ -120,6 +120,10 @@ fn what_cannot_be_is_refused_and_changes_nothing() {
             by: far,
         },
         Edit::Transform {
+            paths: [1, 0, 1].into(),
+            by: Affine::IDENTITY,
+        },
+        Edit::Transform {
             paths: [0].into(),
             by: Affine::scale(f64::NAN, 1.0, Point::default()),
         },
@@ -141,6 +145,7 @@ fn what_cannot_be_is_refused_and_changes_nothing() {
     let expected = [
         EditError::UnknownPath { path: 4, rows: 4 },
         EditError::Misplaced { path: Some(0) },
+        EditError::Twice { path: 1 },
         EditError::Misplaced { path: Some(0) },
         EditError::Count,
         EditError::UnknownPath { path: 9, rows: 4 },
