@@ -65,15 +65,9 @@ pub(crate) fn cargo_deny() -> Result<PathBuf> {
     }
 }
 
-/// A nightly compiler, and `cargo fuzz`, built once into cargo's own folder.
+/// `cargo fuzz`, built once into cargo's own folder.
 pub(crate) fn cargo_fuzz() -> Result<()> {
-    let nightly =
-        |args: &[&str]| command("rustup").args([&["run", "nightly", "cargo"], args].concat());
-    if !nightly(&["--version"]).succeeds() {
-        let args = ["toolchain", "install", "nightly", "--profile", "minimal"];
-        command("rustup").args(args).run()?;
-    }
-    if nightly(&["fuzz", "--version"]).succeeds() {
+    if cargo(&["fuzz", "--version"]).succeeds() {
         return Ok(());
     }
     println!("installing cargo-fuzz {CARGO_FUZZ_VERSION}, a minute or two the first time");

@@ -1,5 +1,5 @@
 //! What must hold whatever the bytes: the bodies of the fuzz targets in the folder around this one. A test runs
-//! them over all seeds and some thousand mutants, without the nightly compiler that fuzzing needs.
+//! them over all seeds and some thousand mutants, the same in every run.
 
 mod convert;
 mod journal;

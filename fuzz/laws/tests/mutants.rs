@@ -13,7 +13,7 @@ use std::thread;
 use guideway_laws::{TARGETS, Target, journal};
 use mutate::Mutator;
 
-const MUTANTS: usize = 5_000;
+const MUTANTS: usize = 500;
 
 /// Larger seeds are for the tests of bad files; mutants of them only take long.
 const MOST_BYTES: usize = 1 << 16;
