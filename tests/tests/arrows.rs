@@ -96,6 +96,7 @@ const KEPT_TO: &[(&str, &str)] = &[
     ("winit", "guideway-viewer"),
     ("eframe", "guideway-viewer"),
     ("rstar", "guideway-envelope"),
+    ("earcut", "guideway-envelope"),
     ("roaring", "guideway-document"),
 ];
 

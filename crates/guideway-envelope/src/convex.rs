@@ -68,6 +68,38 @@ impl Convex {
         others.fold(first, |all, &p| all.union(Bounds { min: p, max: p }))
     }
 
+    /// Its area.
+    pub fn area_m2(&self) -> f64 {
+        let from = self.points[0];
+        let corners = self.points[1..].windows(2);
+        let twice = corners.map(|ends| (ends[0] - from).cross(ends[1] - from));
+        twice.sum::<f64>() / 2.0
+    }
+
+    /// Its two halves, left and right or below and above the middle of its box, whichever cuts the longer side.
+    pub(crate) fn halves(&self) -> [Self; 2] {
+        let size = self.bounds().size();
+        let middle = self.bounds().center();
+        let side = |p: P| match size.x >= size.y {
+            true => p.x - middle.x,
+            false => p.y - middle.y,
+        };
+        let mut halves = [Vec::new(), Vec::new()];
+        for (i, &p) in self.points.iter().enumerate() {
+            let next = self.points[(i + 1) % self.points.len()];
+            let (here, there) = (side(p), side(next));
+            halves[usize::from(here > 0.0)].push(p);
+            if here == 0.0 {
+                halves[1].push(p);
+            } else if here * there < 0.0 {
+                let cut = p.lerp(next, here / (here - there));
+                halves.iter_mut().for_each(|half| half.push(cut));
+            }
+        }
+        // A point has no halves but itself.
+        halves.map(|half| Self::hull(half).unwrap_or_else(|| self.clone()))
+    }
+
     /// Whether a point is inside or on the border.
     pub fn contains(&self, point: P) -> bool {
         let mut nearest = Nearest::default();

@@ -23,6 +23,7 @@
 //! assert_eq!((bounds.min.y, bounds.max.y), (-0.6, 0.6));
 //! ```
 
+mod area;
 mod body;
 mod clearance;
 mod convex;

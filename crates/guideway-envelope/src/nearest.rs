@@ -174,8 +174,9 @@ impl Search<'_, '_> {
         // What may be near in part only is cut until it hardly matters which part it is.
         let meetings = self.question.meetings.iter();
         let is_partly = meetings.copied().any(|m| m.has(&stretches) == Has::Some);
-        let [a, b] = stretches.map(Stretch::extent_m);
-        (is_partly && a.max(b) > self.question.tolerance_m).then(|| usize::from(b > a))
+        let finest_m = |side: usize| self.trees[side].sweep.finest_m(self.question.tolerance_m);
+        let [a, b] = [0, 1].map(|side| stretches[side].extent_m() / finest_m(side));
+        (is_partly && a.max(b) > 1.0).then(|| usize::from(b > a))
     }
 
     fn halve(&mut self, nodes: [u32; 2], side: usize) {
@@ -191,7 +192,7 @@ impl Search<'_, '_> {
         let reach_m = self
             .trees
             .each_ref()
-            .map(|tree| tree.sweep.body.reach_m().max(self.question.tolerance_m));
+            .map(|tree| tree.sweep.reach_m().max(self.question.tolerance_m));
         let mut nodes = pair.nodes;
         while let Some(side) = {
             let extents = self.stretches(nodes).map(Stretch::extent_m);

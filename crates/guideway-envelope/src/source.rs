@@ -2,6 +2,7 @@ use std::fmt;
 
 use guideway_layout::{Layout, Value};
 
+use crate::area::area;
 use crate::{Body, Heading, Sweep, headings};
 
 /// What the envelopes of paths are made of.
@@ -9,7 +10,8 @@ use crate::{Body, Heading, Sweep, headings};
 pub enum Source {
     /// One vehicle on all paths, at the headings that the file gives ([`headings`]).
     Vehicle(Body),
-    /// Of each path what the file gives: the corridor of LIF 2.0 and VDA 5050, if it is one of the contour.
+    /// Of each path what the file gives: the corridor of LIF 2.0 and VDA 5050, if it is one of the contour, or the
+    /// polygons of openTCS.
     File,
 }
 
@@ -22,11 +24,18 @@ pub enum Without {
     NotInFile,
     /// The file gives a corridor for the middle of the vehicle, whose size it does not give.
     CenterOnly,
+    /// The file gives something else than the polygons of an area.
+    Unreadable,
 }
 
 impl Without {
     /// Every reason there is.
-    pub const ALL: [Self; 3] = [Self::Direction, Self::NotInFile, Self::CenterOnly];
+    pub const ALL: [Self; 4] = [
+        Self::Direction,
+        Self::NotInFile,
+        Self::CenterOnly,
+        Self::Unreadable,
+    ];
 }
 
 impl fmt::Display for Without {
@@ -37,6 +46,7 @@ impl fmt::Display for Without {
             Self::CenterOnly => {
                 "the file gives a corridor for the middle of the vehicle, but not its size"
             }
+            Self::Unreadable => "the file gives an area that is no list of polygons",
         })
     }
 }
@@ -62,8 +72,12 @@ impl Source {
     pub fn sweep(self, layout: &Layout, path: usize) -> Result<Sweep, Without> {
         let (body, headings) = match self {
             Self::Vehicle(body) => (body, headings(layout, path, &body)),
-            // A corridor is what a line across the way sweeps.
-            Self::File => (corridor(layout, path)?, vec![Heading::Tangential(0.0)]),
+            Self::File => match corridor(layout, path) {
+                // A corridor is what a line across the way sweeps.
+                Ok(line) => (line, vec![Heading::Tangential(0.0)]),
+                Err(Without::NotInFile) => return area(layout, path),
+                Err(why) => return Err(why),
+            },
         };
         Sweep::new(layout.paths.get(path), body, &headings).ok_or(Without::Direction)
     }

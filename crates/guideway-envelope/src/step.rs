@@ -175,17 +175,24 @@ impl Hull {
 
     /// The hull of several areas; of one, the area itself.
     pub(crate) fn of_areas(areas: &[&Convex]) -> Option<Self> {
-        let outer = match areas {
-            [one] => (*one).clone(),
-            all => Convex::hull(all.iter().flat_map(|area| area.points().iter().copied()))?,
-        };
-        let bounds = outer.bounds();
-        Some(Self {
-            outer,
+        if let [one] = areas {
+            return Some(Self::of_area((*one).clone()));
+        }
+        let corners = areas.iter().flat_map(|area| area.points());
+        let mut hull = Self::of_area(Convex::hull(corners.copied())?);
+        hull.error_m = f64::INFINITY;
+        Some(hull)
+    }
+
+    /// An area that is given, wherever the reference point is in it.
+    pub(crate) fn of_area(area: Convex) -> Self {
+        let bounds = area.bounds();
+        Self {
+            outer: area,
             bounds,
             places: bounds,
-            error_m: if areas.len() == 1 { 0.0 } else { f64::INFINITY },
-        })
+            error_m: 0.0,
+        }
     }
 }
 

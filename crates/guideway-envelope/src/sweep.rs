@@ -13,7 +13,12 @@ use crate::{Body, Convex, Heading};
 pub struct Sweep {
     pub(crate) body: Body,
     pub(crate) steps: Vec<Step>,
+    reach_m: f64,
 }
+
+/// An area that is given is not cut finer than this share of its reach: of areas that overlap, parts beyond counting
+/// would.
+const FINEST_CUT: f64 = 1.0 / 16.0;
 
 /// Least tolerance of polygons.
 pub const LEAST_TOLERANCE_M: f64 = 1e-4;
@@ -40,24 +45,33 @@ impl Sweep {
             follow.end();
         }
         let steps: Vec<Step> = steps.into_iter().map(Step::Drive).collect();
-        (!steps.is_empty()).then_some(Self { body, steps })
-    }
-
-    /// An area that is known, as convex parts; none if there are none.
-    pub fn of_areas(areas: impl IntoIterator<Item = Convex>) -> Option<Self> {
-        let nothing = Body::vehicle(0.0, 0.0, 0.0);
-        let steps: Vec<Step> = areas.into_iter().map(Step::Still).collect();
         (!steps.is_empty()).then_some(Self {
-            body: nothing,
+            body,
             steps,
+            reach_m: body.reach_m(),
         })
     }
 
-    /// How far the body reaches from the path; of areas that are given, half the diagonal of the box around them.
+    /// An area that is known, as convex parts, and how far it reaches from the path; none if there are no parts.
+    pub fn of_areas(areas: impl IntoIterator<Item = Convex>, reach_m: f64) -> Option<Self> {
+        let steps: Vec<Step> = areas.into_iter().map(Step::Still).collect();
+        (!steps.is_empty()).then_some(Self {
+            body: Body::vehicle(0.0, 0.0, 0.0),
+            steps,
+            reach_m,
+        })
+    }
+
+    /// How far it reaches from the path, or from the reference point of a body.
     pub fn reach_m(&self) -> f64 {
+        self.reach_m
+    }
+
+    /// The extent below which stretches are not told apart by where they are, if a question may be answered so closely.
+    pub(crate) fn finest_m(&self, tolerance_m: f64) -> f64 {
         match self.steps[0] {
-            Step::Drive(_) => self.body.reach_m(),
-            Step::Still(_) => self.bounds().size().norm() / 2.0,
+            Step::Drive(_) => tolerance_m,
+            Step::Still(_) => tolerance_m.max(FINEST_CUT * self.reach_m),
         }
     }
 
@@ -108,7 +122,7 @@ enum Extent {
     Steps(usize, usize),
     /// One, or a piece of it.
     Piece(Drive),
-    /// An area that is given, which has no parts.
+    /// An area that is given, or a part of it.
     Area,
 }
 
@@ -145,7 +159,7 @@ impl Stretch {
         }
     }
 
-    /// Its two halves; of an area that is given, twice the area, which nobody asks for: it has no error.
+    /// Its two halves.
     pub(crate) fn halves(&self, sweep: &Sweep) -> [Self; 2] {
         let piece = match self.extent {
             Extent::Steps(from, to) => {
@@ -154,18 +168,21 @@ impl Stretch {
                     .map(|(from, to)| Self::of_steps(sweep, from, to));
             }
             Extent::Piece(piece) => piece,
-            Extent::Area => return [self.clone(), self.clone()],
+            Extent::Area => {
+                let halves = self.hull.outer.halves();
+                return halves.map(|half| Self {
+                    extent: Extent::Area,
+                    hull: Hull::of_area(half),
+                });
+            }
         };
         let halves = piece.halves(&sweep.body);
         halves.map(|half| Self::of_piece(sweep, half))
     }
 
-    /// The diagonal of the box of its places; none of an area that is given, which has no parts.
+    /// The diagonal of the box of its places.
     pub(crate) fn extent_m(&self) -> f64 {
-        match self.extent {
-            Extent::Area => 0.0,
-            _ => self.hull.places.size().norm(),
-        }
+        self.hull.places.size().norm()
     }
 
     /// The middle of its places.

@@ -266,3 +266,53 @@ fn unknown_points_and_loops_are_named() {
         ("path \"P\"", Some(2))
     );
 }
+
+#[test]
+fn envelopes_are_columns_of_keys_and_of_areas_in_metres() {
+    let corner = |x: &str, y: &str| format!(r#"<vertex x="{x}" y="{y}"/>"#);
+    let square = corner("0", "0") + &corner("1000", "0") + &corner("1000", "-2500");
+    let line = corner("0", "0") + &corner("1", "0");
+    let open = format!(
+        r#"<vehicleEnvelope key="a">{square}</vehicleEnvelope><vehicleEnvelope key="b">{line}</vehicleEnvelope>"#
+    );
+    let layout = path(&open);
+    let text = |name: &str| layout.paths.attributes.get(name).unwrap().values.get(0);
+    assert_eq!(text("vehicleEnvelope"), Some(Value::Text("a, b")));
+    let area = "[[[[0.0,0.0],[1.0,0.0],[1.0,-2.5],[0.0,0.0]]]]";
+    assert_eq!(text("vehicleEnvelope.area"), Some(Value::Text(area)));
+    assert_eq!(layout.diagnostics.count(Code::MissingField), 1);
+    let wrong = [
+        corner("x", "0"),
+        corner("1e300", "0"),
+        r#"<vertex x="4"/>"#.into(),
+    ];
+    for (corner, code) in wrong
+        .iter()
+        .zip([Code::WrongType, Code::OutOfRange, Code::MissingField])
+    {
+        let layout = path(&format!(
+            "<vehicleEnvelope>{square}{corner}</vehicleEnvelope>"
+        ));
+        assert_eq!(layout.diagnostics.count(code), 1, "{corner}");
+        assert!(
+            layout
+                .paths
+                .attributes
+                .get("vehicleEnvelope.area")
+                .is_none()
+        );
+    }
+}
+
+#[test]
+fn a_real_file_has_the_areas_of_its_paths_and_points() {
+    let Some(layout) = real("Demo-01_v7.0.0.xml") else {
+        return;
+    };
+    let tables = [(&layout.paths.attributes, 4), (&layout.nodes.attributes, 8)];
+    for (attributes, expected) in tables {
+        let areas = &attributes.get("vehicleEnvelope.area").unwrap().values;
+        let there = (0..areas.len()).filter(|&row| areas.get(row).is_some());
+        assert_eq!(there.count(), expected);
+    }
+}

@@ -126,8 +126,8 @@ impl Walls {
         let mut best: Option<TooNear> = None;
         let mut walls = Vec::new();
         for line in lines {
-            let area = Convex::hull(self.lines[line as usize]);
-            let Some(wall) = Sweep::of_areas(area) else {
+            let ends = self.lines[line as usize];
+            let Some(wall) = Sweep::of_areas(Convex::hull(ends), ends[0].distance(ends[1])) else {
                 continue;
             };
             let mut wall = Tree::new(wall);

@@ -1,5 +1,6 @@
 //! Swept areas and distances against brute force.
 
+mod areas;
 mod brute;
 mod clearance;
 mod convex;

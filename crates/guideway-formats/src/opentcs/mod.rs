@@ -5,6 +5,7 @@
 //! metres apart, and the control points go with the drawing.
 
 mod drawing;
+mod envelope;
 mod paths;
 mod plant;
 

@@ -216,11 +216,7 @@ impl<'d, 't> Plant<'_, 'd, 't> {
         let blocks = self.blocks.get(name_of(path));
         let blocks = blocks.map(|names| names[..names.len().min(MOST_BLOCKS)].join(", "));
         self.text_attribute(Table::Paths, row, "block", blocks.as_deref())?;
-        let keys: Vec<_> = children(path, "vehicleEnvelope")
-            .filter_map(|e| e.attribute("key"))
-            .collect();
-        let keys = (!keys.is_empty()).then(|| keys.join(", "));
-        self.text_attribute(Table::Paths, row, "vehicleEnvelope", keys.as_deref())?;
+        self.set_envelopes(Table::Paths, row, path)?;
         self.set_properties(Table::Paths, row, path)
     }
 }

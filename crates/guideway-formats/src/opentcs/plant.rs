@@ -107,6 +107,7 @@ impl<'a, 'd, 't> Plant<'a, 'd, 't> {
         let layer = child(point, "pointLayout").and_then(|l| l.attribute("layerId"));
         let layer = layer.map(|id| drawing.layer_name(id));
         self.text_attribute(Table::Nodes, row as usize, "layer", layer)?;
+        self.set_envelopes(Table::Nodes, row as usize, point)?;
         self.set_properties(Table::Nodes, row as usize, point)
     }
 

@@ -132,13 +132,11 @@ fn paths_and_walls_too_near_are_told() {
     ];
     let layout = graph(folder.path(), "layout.geojson", &crossing);
     let plan = graph(folder.path(), "plan.geojson", &[[25.0, 0.8, 40.0, 0.8]]);
-    let check = |more: &[&str]| {
-        let args = [
-            &["check", text(&layout), "--json", "--envelope", "2x1"],
-            more,
-        ];
-        json(&guideway(&args.concat()), "check")
+    let run = |more: &[&str]| {
+        let args = [&["check", text(&layout), "--envelope", "2x1"], more];
+        guideway(&args.concat())
     };
+    let check = |more: &[&str]| json(&run(&[&["--json"], more].concat()), "check");
     let of_kind = |report: &Value, code: &str| {
         let findings = report["findings"].as_array().unwrap().clone();
         findings.into_iter().filter(|f| f["code"] == code).count()
@@ -155,31 +153,38 @@ fn paths_and_walls_too_near_are_told() {
         ),
         (2, 1)
     );
-    let output = guideway(&[
-        "check",
-        text(&layout),
-        "--envelope",
-        "2x1",
-        "--clearance",
-        "0.6",
-        "--floor-plan",
-        text(&plan),
-        "--wall-layer",
-        "WALLS",
-    ]);
+    let layer = ["--floor-plan", text(&plan), "--wall-layer", "WALLS"];
+    let output = run(&[&["--clearance", "0.6"], &layer[..]].concat());
     assert_eq!(output.status.code(), Some(2));
     assert!(
         stderr(&output).contains("layer `WALLS`"),
         "{}",
         stderr(&output)
     );
-    let plain = guideway(&[
-        "check",
-        text(&layout),
-        "--envelope",
-        "2x1",
-        "--clearance",
-        "0.6",
-    ]);
+    let plain = run(&["--clearance", "0.6"]);
     assert!(stdout(&plain).contains("3 envelopes"), "{}", stdout(&plain));
+}
+
+#[test]
+fn polygons_of_a_file_are_drawn_and_counted() {
+    let folder = tempfile::tempdir().unwrap();
+    let (plant, picture) = (
+        folder.path().join("plant.xml"),
+        folder.path().join("plant.png"),
+    );
+    let model = r#"<model version="7.0.0"><point name="A" positionX="0" positionY="0"/>
+        <point name="B" positionX="10000" positionY="0"/>
+        <path name="P" sourcePoint="A" destinationPoint="B"><vehicleEnvelope key="k"><vertex x="0" y="-900"/>
+        <vertex x="10000" y="-900"/><vertex x="10000" y="900"/><vertex x="5000" y="100"/><vertex x="0" y="900"/></vehicleEnvelope></path>
+        <path name="Q" sourcePoint="B" destinationPoint="A"/></model>"#;
+    fs::write(&plant, model).unwrap();
+    let args = ["--envelope", "file", "--json"];
+    let args = [&["render", text(&plant), "-o", text(&picture)], &args[..]];
+    let report = json(&guideway(&args.concat()), "render");
+    let swept = &report["envelopes"];
+    assert_eq!(
+        (&swept["drawn"], &swept["polygons"]),
+        (&1.into(), &3.into())
+    );
+    assert_eq!(swept["without"][0]["why"], "the file gives none");
 }

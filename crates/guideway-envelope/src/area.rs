@@ -1,0 +1,75 @@
+//! Areas that a file gives as polygons, as convex parts.
+
+use earcut::{Earcut, deviation};
+use guideway_layout::{Layout, PathRef, Value};
+use guideway_spline::Point;
+
+use crate::{Convex, Sweep, Without};
+
+/// The column of such areas: the coordinates of a GeoJSON MultiPolygon (RFC 7946, 3.1.7), in metres.
+const AREA: &str = "vehicleEnvelope.area";
+
+/// What rounding may make of the area of a polygon, as a share of it.
+const NOTHING: f64 = 1e-9;
+
+type Ring = Vec<[f64; 2]>;
+
+/// The area that the file gives for a path.
+pub(crate) fn area(layout: &Layout, path: usize) -> Result<Sweep, Without> {
+    let column = layout.paths.attributes.get(AREA);
+    let Some(Value::Text(text)) = column.and_then(|column| column.values.get(path)) else {
+        return Err(Without::NotInFile);
+    };
+    let polygons: Vec<Vec<Ring>> = serde_json::from_str(text).map_err(|_| Without::Unreadable)?;
+    let mut parts = Vec::new();
+    polygons.iter().for_each(|rings| add(rings, &mut parts));
+    let reach_m = reach_m(layout.paths.get(path), &parts);
+    Sweep::of_areas(parts, reach_m).ok_or(Without::Unreadable)
+}
+
+/// How far parts reach from the hull of a path: about the size of the vehicle that they were made for.
+fn reach_m(path: PathRef<'_>, parts: &[Convex]) -> f64 {
+    let Some(way) = Convex::hull(path.runs().flat_map(|run| run.iter())) else {
+        return 0.0;
+    };
+    let corners = parts.iter().flat_map(Convex::points);
+    let from_way_m = corners.filter_map(|&corner| Some(Convex::hull([corner])?.distance(&way)));
+    from_way_m.fold(0.0, f64::max)
+}
+
+/// Adds the convex parts of a polygon, whose first ring is its border and whose others are holes.
+fn add(rings: &[Ring], parts: &mut Vec<Convex>) {
+    let open = |ring: &Ring| match ring.as_slice() {
+        [first, rest @ .., last] if first == last => [&[*first], rest].concat(),
+        all => all.to_vec(),
+    };
+    let (mut corners, mut holes) = (Vec::new(), Vec::new());
+    for (index, ring) in rings.iter().map(open).enumerate() {
+        if index > 0 {
+            holes.push(corners.len());
+        }
+        corners.extend(ring);
+    }
+    let points = || corners.iter().map(|&[x, y]| Point::new(x, y));
+    let Some(hull) = points()
+        .all(Point::is_finite)
+        .then(|| Convex::hull(points()))
+        .flatten()
+    else {
+        return;
+    };
+    let mut triangles: Vec<usize> = Vec::new();
+    Earcut::new().earcut(corners.iter().copied(), &holes, &mut triangles);
+    let triangle =
+        |of: &[usize]| Convex::hull(of.iter().map(|&i| Point::new(corners[i][0], corners[i][1])));
+    let cut = || triangles.chunks_exact(3).filter_map(triangle);
+    let cut_m2: f64 = cut().map(|part| part.area_m2()).sum();
+    let is_convex = cut_m2 >= hull.area_m2() * (1.0 - NOTHING);
+    // The border of a polygon that crosses itself has no inside to go by: all within its hull may be meant.
+    let is_whole = deviation(corners.iter().copied(), &holes, &triangles) <= NOTHING;
+    if is_convex || !is_whole {
+        parts.push(hull);
+    } else {
+        parts.extend(cut());
+    }
+}
