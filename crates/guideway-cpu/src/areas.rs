@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use guideway_render::{Frame, View};
+use guideway_render::{Frame, Strip, View};
 use guideway_scene::Rgba;
 use guideway_spline::Point;
 use rayon::prelude::*;
@@ -49,15 +49,17 @@ impl Areas {
     }
 }
 
-/// Lays areas over a picture of the view, which keeps what shines through: where several of them are, the colour
+/// Lays areas over a strip of a picture, which keeps what shines through: where several of them are, the colour
 /// counts once.
 ///
 /// # Panics
-/// When the picture has not the size of the view.
-pub fn lay_areas(areas: &Areas, view: &View, color: Rgba, frame: &mut Frame) {
-    assert_eq!(frame.size(), view.size(), "the picture is that of the view");
-    let (width, height) = (view.size().width() as usize, view.size().height() as usize);
-    let bands = bands(areas, view, height.div_ceil(BAND_PX));
+/// When the picture has not the size of the strip.
+pub fn lay_areas(areas: &Areas, strip: &Strip, color: Rgba, frame: &mut Frame) {
+    let (view, size) = (strip.view(), strip.size());
+    assert_eq!(frame.size(), size, "the picture is that of the strip");
+    let (width, height) = (size.width() as usize, size.height() as usize);
+    let top_px = strip.rows().start as usize;
+    let bands = bands(areas, view, top_px, height.div_ceil(BAND_PX));
     let rows = frame.pixels_mut().par_chunks_mut(width * BAND_PX);
     rows.enumerate()
         .zip(bands)
@@ -65,7 +67,7 @@ pub fn lay_areas(areas: &Areas, view: &View, color: Rgba, frame: &mut Frame) {
             if polygons.is_empty() {
                 return;
             }
-            let mut samples = Samples::new(width, band * BAND_PX);
+            let mut samples = Samples::new(width, top_px + band * BAND_PX);
             for polygon in polygons {
                 let corners = areas.corners(polygon as usize).iter();
                 let corners: Vec<_> = corners.map(|&p| view.pixel_from_world(p)).collect();
@@ -75,13 +77,13 @@ pub fn lay_areas(areas: &Areas, view: &View, color: Rgba, frame: &mut Frame) {
         });
 }
 
-/// The polygons that may cover a sample of each band.
-fn bands(areas: &Areas, view: &View, count: usize) -> Vec<Vec<u32>> {
+/// The polygons that may cover a sample of each band, from a row of the view on.
+fn bands(areas: &Areas, view: &View, top_px: usize, count: usize) -> Vec<Vec<u32>> {
     let mut bands = vec![Vec::new(); count];
     for (i, corners) in areas.iter().enumerate() {
         let rows = corners
             .iter()
-            .map(|&p| view.pixel_from_world(p).y / BAND_PX as f64);
+            .map(|&p| (view.pixel_from_world(p).y - top_px as f64) / BAND_PX as f64);
         let (top, bottom) = rows.fold((f64::INFINITY, f64::NEG_INFINITY), |(top, bottom), y| {
             (top.min(y), bottom.max(y))
         });

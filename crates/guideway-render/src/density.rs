@@ -31,33 +31,66 @@ const STEPS: [Rgba; 6] = [
     Rgba::opaque(250, 240, 150),
 ];
 
-/// Colours a frame from `counts`, the mean number of covering paths of each pixel. The largest count gets
-/// the last colour, unless nothing is above one path and the histogram is equalised; below one path the
-/// background shows through.
+/// Colours a frame from `counts`, the mean number of covering paths of each pixel, all of which it has.
 ///
 /// # Panics
 /// When there is not one count a pixel.
 pub fn shade(counts: &[f32], tone: ToneMap, background: Rgba, frame: &mut Frame) {
-    assert_eq!(counts.len(), frame.pixels().len(), "one count a pixel");
-    let most = counts.iter().copied().fold(1.0, f32::max);
-    match tone {
-        ToneMap::Linear => {
-            let most = f64::from(most);
-            paint(counts, background, frame, |count| f64::from(count) / most);
+    let mut tones = Tones::new(tone);
+    tones.look(counts);
+    tones.shade(counts, background, frame);
+}
+
+/// How counts become colours in one picture, all of which was looked at. The largest count gets the last colour, unless
+/// nothing is above one path and the histogram is equalised; below one path the background shows through.
+#[derive(Clone, Debug)]
+pub struct Tones {
+    tone: ToneMap,
+    most: f32,
+    histogram: Histogram,
+}
+
+impl Tones {
+    /// Of a picture that is still to be looked at.
+    pub fn new(tone: ToneMap) -> Self {
+        Self {
+            tone,
+            most: 1.0,
+            histogram: Histogram::default(),
         }
-        ToneMap::Log => {
-            let most = f64::from(most).ln_1p();
-            paint(counts, background, frame, |count| {
-                f64::from(count).ln_1p() / most
-            });
+    }
+
+    /// Looks at a part of the picture: the mean number of covering paths of each pixel.
+    pub fn look(&mut self, counts: &[f32]) {
+        self.most = counts.iter().copied().fold(self.most, f32::max);
+        if self.tone == ToneMap::Equalised {
+            self.histogram.add(counts);
         }
-        ToneMap::Equalised => {
-            let histogram = Histogram::of(counts);
-            // At least one pixel, for there may be none.
-            let most = histogram.up_to(most).max(1.0);
-            paint(counts, background, frame, |count| {
-                histogram.up_to(count) / most
-            });
+    }
+
+    /// Colours a frame, which is a part of the picture.
+    ///
+    /// # Panics
+    /// When there is not one count a pixel.
+    pub fn shade(&self, counts: &[f32], background: Rgba, frame: &mut Frame) {
+        assert_eq!(counts.len(), frame.pixels().len(), "one count a pixel");
+        match self.tone {
+            ToneMap::Linear => {
+                let most = f64::from(self.most);
+                paint(counts, background, frame, |count| f64::from(count) / most);
+            }
+            ToneMap::Log => {
+                let most = f64::from(self.most).ln_1p();
+                paint(counts, background, frame, |count| {
+                    f64::from(count).ln_1p() / most
+                });
+            }
+            ToneMap::Equalised => {
+                let ranks = self.histogram.ranks();
+                // At least one pixel, for there may be none.
+                let most = ranks.up_to(self.most).max(1.0);
+                paint(counts, background, frame, |count| ranks.up_to(count) / most);
+            }
         }
     }
 }
@@ -74,7 +107,13 @@ fn paint(counts: &[f32], background: Rgba, frame: &mut Frame, along: impl Fn(f32
 }
 
 /// How many pixels have how large a count, among those under more than one path.
+#[derive(Clone, Debug, Default)]
 struct Histogram {
+    bins: Vec<u32>,
+}
+
+/// How many of those pixels have at most how large a count.
+struct Ranks {
     /// Pixels of each bin and all below.
     up_to: Vec<u32>,
 }
@@ -84,19 +123,24 @@ impl Histogram {
     /// and bins are wide enough that a count has the same colour however a method samples it.
     const A_DOUBLING: u32 = 8;
 
-    fn of(counts: &[f32]) -> Self {
-        let mut up_to = vec![0];
+    fn add(&mut self, counts: &[f32]) {
         for &count in counts {
             let bin = Self::place(count).round() as usize;
-            if up_to.len() <= bin {
-                up_to.resize(bin + 1, 0);
+            if self.bins.len() <= bin {
+                self.bins.resize(bin + 1, 0);
             }
-            up_to[bin] += u32::from(bin > 0);
+            self.bins[bin] += u32::from(bin > 0);
         }
-        for bin in 1..up_to.len() {
-            up_to[bin] += up_to[bin - 1];
+    }
+
+    fn ranks(&self) -> Ranks {
+        let up_to = self.bins.iter().scan(0, |sum, &pixels| {
+            *sum += pixels;
+            Some(*sum)
+        });
+        Ranks {
+            up_to: up_to.collect(),
         }
-        Self { up_to }
     }
 
     /// Where a count lies, in bins beyond one path. The bits of a number go up evenly from one power of two
@@ -106,12 +150,16 @@ impl Histogram {
         let a_doubling = 2_f32.to_bits() - 1_f32.to_bits();
         f64::from(beyond_one) / f64::from(a_doubling / Self::A_DOUBLING)
     }
+}
 
+impl Ranks {
     /// Pixels with at most this count, by a straight line from the middle of one bin to that of the next.
     fn up_to(&self, count: f32) -> f64 {
-        let place = Self::place(count);
-        let last = self.up_to.len() - 1;
-        let pixels = |bin: usize| f64::from(self.up_to[bin.min(last)]);
+        let place = Histogram::place(count);
+        let pixels = |bin: usize| {
+            let known = self.up_to.get(bin).or(self.up_to.last());
+            f64::from(known.copied().unwrap_or(0))
+        };
         let bin = place as usize;
         pixels(bin) + (pixels(bin + 1) - pixels(bin)) * place.fract()
     }
@@ -170,9 +218,11 @@ mod tests {
     #[test]
     fn a_count_that_is_sampled_a_little_otherwise_looks_much_the_same() {
         let crowd: Vec<f32> = (0..1000).map(|i| 2.0 + (i % 4) as f32).collect();
-        let histogram = Histogram::of(&crowd);
+        let mut histogram = Histogram::default();
+        histogram.add(&crowd);
+        let ranks = histogram.ranks();
         for count in [1.0, 2.0, 3.0, 4.0] {
-            let apart = histogram.up_to(count * 1.01) - histogram.up_to(count);
+            let apart = ranks.up_to(count * 1.01) - ranks.up_to(count);
             assert!((0.0..30.0).contains(&apart), "{count}: {apart}");
         }
     }

@@ -1,22 +1,32 @@
 use guideway_scene::EditError;
 
-use crate::FrameSize;
+use crate::{Frame, FrameSize};
 
 /// Why a picture could not be made.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum RenderError {
     /// A side of the picture is zero or too long.
     #[error(
-        "a picture of {width} x {height} pixels cannot be made: each side takes 1 to {} pixels and both \
-         together at most {} million",
-        FrameSize::MAX_SIDE,
-        FrameSize::MAX_PIXELS / 1_000_000
+        "a picture of {width} x {height} pixels cannot be made: each side takes 1 to {} pixels",
+        FrameSize::MAX_SIDE
     )]
     FrameSize {
         /// Width asked for, in pixels.
         width: u64,
         /// Height asked for, in pixels.
         height: u64,
+    },
+    /// The method draws pictures only whole, and this one is too large for that.
+    #[error(
+        "this method cannot draw a picture of {width} x {height} pixels: it draws pictures only whole, with at most \
+         {} million pixels",
+        Frame::MAX_PIXELS / 1_000_000
+    )]
+    Strips {
+        /// Width of the picture, in pixels.
+        width: u32,
+        /// Height of the picture, in pixels.
+        height: u32,
     },
     /// The view's centre or scale is not usable.
     #[error(

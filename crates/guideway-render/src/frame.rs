@@ -1,6 +1,6 @@
 use crate::RenderError;
 
-/// Width and height of a picture, in pixels: at least 1, and not beyond what can be held.
+/// Width and height of a picture, in pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FrameSize {
     width: u32,
@@ -10,23 +10,24 @@ pub struct FrameSize {
 impl FrameSize {
     /// Longest side, in pixels.
     pub const MAX_SIDE: u32 = 65_535;
-    /// Most pixels of one picture.
-    pub const MAX_PIXELS: u64 = 1 << 30;
 
     /// A size.
     ///
     /// # Errors
-    /// [`RenderError::FrameSize`] when a side is 0 or longer than [`Self::MAX_SIDE`], or both together
-    /// hold more than [`Self::MAX_PIXELS`].
+    /// [`RenderError::FrameSize`] when a side is 0 or longer than [`Self::MAX_SIDE`].
     pub fn new(width: u32, height: u32) -> Result<Self, RenderError> {
-        let pixels = u64::from(width) * u64::from(height);
-        if pixels == 0 || width.max(height) > Self::MAX_SIDE || pixels > Self::MAX_PIXELS {
+        if width.min(height) == 0 || width.max(height) > Self::MAX_SIDE {
             return Err(RenderError::FrameSize {
                 width: u64::from(width),
                 height: u64::from(height),
             });
         }
         Ok(Self { width, height })
+    }
+
+    /// The same width, and another height that is one of a picture.
+    pub(crate) fn with_height(self, height: u32) -> Self {
+        Self { height, ..self }
     }
 
     /// Width in pixels.
@@ -53,6 +54,9 @@ pub struct Frame {
 }
 
 impl Frame {
+    /// Most pixels of a frame; a larger picture is drawn in [strips](crate::Strip).
+    pub const MAX_PIXELS: usize = 1 << 30;
+
     /// A transparent black picture.
     pub fn new(size: FrameSize) -> Self {
         Self {

@@ -15,10 +15,12 @@ mod error;
 mod frame;
 mod method;
 mod report;
+mod strip;
 mod view;
 
 pub use error::RenderError;
 pub use frame::{Frame, FrameSize};
 pub use method::{Budget, Cancel, Edited, Method, MethodInfo, NO_PATH, Prepared, Shading, Style};
 pub use report::{Clock, Preparation, Report, Stage, Work, elapsed_ms};
+pub use strip::Strip;
 pub use view::View;

@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use guideway_scene::{Edit, LineRule, Rgba, Scene};
 
 use crate::density::ToneMap;
-use crate::{Frame, Preparation, RenderError, Report, View, Work};
+use crate::{Frame, Preparation, RenderError, Report, Strip, View, Work};
 
 /// Where no path is, in [`Prepared::top_paths`].
 pub const NO_PATH: u32 = u32::MAX;
@@ -40,6 +40,33 @@ pub trait Prepared: Send {
         cancel: &Cancel,
         frame: &mut Frame,
     ) -> Result<Report, RenderError>;
+
+    /// Most pixels of a strip that [`Self::render_strip`] draws. A method that takes all of a frame draws pictures
+    /// only whole.
+    fn strip_pixels(&self) -> usize {
+        Frame::MAX_PIXELS
+    }
+
+    /// Draws some rows of a view, the same pixels as [`Self::render`] draws there, into `frame`, which takes the
+    /// strip's size. Each path is counted with one strip: [`Report::join`] gives that of the whole picture.
+    ///
+    /// # Errors
+    /// As [`Self::render`]; [`RenderError::Strips`] if the method draws pictures only whole.
+    fn render_strip(
+        &mut self,
+        strip: &Strip,
+        style: &Style,
+        cancel: &Cancel,
+        frame: &mut Frame,
+    ) -> Result<Report, RenderError> {
+        if !strip.is_whole() {
+            return Err(RenderError::Strips {
+                width: strip.view().size().width(),
+                height: strip.view().size().height(),
+            });
+        }
+        self.render(strip.view(), style, cancel, frame)
+    }
 
     /// Changes the scene; the next frame shows it, at a cost that goes with what the edit touches.
     ///

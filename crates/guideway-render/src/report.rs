@@ -130,6 +130,21 @@ impl Report {
         }
     }
 
+    /// Adds what another strip of the same picture says.
+    pub fn join(&mut self, other: Self) {
+        self.drawn += other.drawn;
+        self.culled = self.culled.saturating_sub(other.drawn);
+        for stage in other.stages {
+            match self.stages.iter_mut().find(|s| s.name == stage.name) {
+                Some(same) => same.elapsed_ms += stage.elapsed_ms,
+                None => self.stages.push(stage),
+            }
+        }
+        self.lines += other.lines;
+        self.peak_bytes = self.peak_bytes.max(other.peak_bytes);
+        self.bands += other.bands;
+    }
+
     /// Whether drawn + culled + hidden + refused = total: nothing was lost.
     pub fn accounts_for_all(&self) -> bool {
         self.drawn + self.culled + self.hidden + self.refused == self.total

@@ -1,18 +1,19 @@
 use std::fmt;
 use std::path::Path;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use guideway_layout::Layout;
-use guideway_render::{Frame, Method, Style, View};
+use guideway_render::{Method, Style, View};
 use guideway_scene::Scene;
 
 /// What the viewer needs of the program around it: files and ways of drawing. Called from several threads.
 pub trait Host: Send + Sync {
-    /// Reads a layout file. Asks `load` whether to go on, and tells it how far it is.
+    /// Reads a layout file. Asks `job` whether to go on, and tells it how far it is.
     ///
     /// # Errors
-    /// When the file cannot be read, or the load was cancelled.
-    fn open(&self, path: &Path, load: &Load) -> Result<Layout, Trouble>;
+    /// When the file cannot be read, or the job was cancelled.
+    fn open(&self, path: &Path, job: &Job) -> Result<Layout, Trouble>;
 
     /// Writes a layout file, whole or not at all, in the format that its name says. Returns what the format
     /// cannot hold, a sentence each.
@@ -21,23 +22,24 @@ pub trait Host: Send + Sync {
     /// When the format is not one that can be written, or the file cannot be.
     fn save(&self, layout: &Layout, path: &Path) -> Result<Vec<String>, Trouble>;
 
-    /// Writes a picture as PNG, whole or not at all.
+    /// Draws a view by the method of this name and writes it as PNG, whole or not at all, in memory that does not grow
+    /// with the picture. Asks `job` whether to go on, and tells it how far it is.
     ///
     /// # Errors
-    /// When the file cannot be written.
-    fn save_picture(&self, frame: &Frame, path: &Path) -> Result<(), Trouble>;
+    /// When the picture cannot be drawn, the file cannot be written, or the job was cancelled.
+    fn save_picture(
+        &self,
+        export: Export<'_>,
+        method: &str,
+        job: &Job,
+        path: &Path,
+    ) -> Result<(), Trouble>;
 
     /// Writes a view as SVG with true curves, whole or not at all.
     ///
     /// # Errors
     /// When the file cannot be written, or a drawing cannot look as the style says.
-    fn save_drawing(
-        &self,
-        scene: &Scene,
-        view: &View,
-        style: &Style,
-        path: &Path,
-    ) -> Result<(), Trouble>;
+    fn save_drawing(&self, export: Export<'_>, path: &Path) -> Result<(), Trouble>;
 
     /// The ways of drawing, the best first.
     fn methods(&self) -> Vec<MethodChoice>;
@@ -47,6 +49,17 @@ pub trait Host: Send + Sync {
     /// # Errors
     /// When it does not run on this computer.
     fn method(&self, name: &str) -> Result<Box<dyn Method>, Trouble>;
+}
+
+/// What a picture is to show.
+#[derive(Clone, Copy)]
+pub struct Export<'a> {
+    /// The scene.
+    pub scene: &'a Arc<Scene>,
+    /// Where it is looked at, and how large.
+    pub view: &'a View,
+    /// How it looks.
+    pub style: &'a Style,
 }
 
 /// A way of drawing that may be chosen.
@@ -75,15 +88,15 @@ impl fmt::Display for Trouble {
     }
 }
 
-/// A load under way, seen from both of its ends.
+/// Something under way that takes long, seen from both of its ends.
 #[derive(Debug, Default)]
-pub struct Load {
+pub struct Job {
     done: AtomicU64,
     total: AtomicU64,
     is_cancelled: AtomicBool,
 }
 
-impl Load {
+impl Job {
     /// `done` of `total` steps are done.
     pub fn advance(&self, done: u64, total: u64) {
         self.done.store(done, Ordering::Relaxed);

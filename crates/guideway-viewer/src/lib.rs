@@ -19,7 +19,7 @@ use std::sync::Arc;
 use eframe::egui::{Ui, ViewportBuilder};
 
 pub use app::App;
-pub use host::{Host, Load, MethodChoice, Trouble};
+pub use host::{Export, Host, Job, MethodChoice, Trouble};
 
 /// Opens the window with these files, drawn by the method of this name (by the best one that runs here if none),
 /// and returns when it is closed. Must be called from the main thread.

@@ -45,7 +45,7 @@ pub use files::{SaveError, remove_unfinished, replace_file};
 pub use methods::{
     AUTO, Available, MethodError, MethodOption, live_method, method, method_names, methods,
 };
-pub use picture::{save_png, write_png};
+pub use picture::{save_png, save_png_by, write_png_by};
 
 /// Reads a layout file of any known format with the default limits.
 ///

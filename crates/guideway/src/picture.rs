@@ -2,7 +2,7 @@ use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
-use guideway_render::Frame;
+use guideway_render::{Frame, FrameSize};
 
 use crate::{SaveError, replace_file};
 
@@ -11,34 +11,57 @@ use crate::{SaveError, replace_file};
 /// # Errors
 /// When the folder cannot be written, or its disk is full; then nothing is left behind.
 pub fn save_png(frame: &Frame, path: impl AsRef<Path>) -> Result<(), SaveError> {
+    save_png_by(path, frame.size(), |take| take(frame))
+}
+
+/// Saves a picture as PNG that is never in memory as a whole: `draw` hands over its rows from the top, some with each
+/// call. The file appears whole or not at all, in place of one of the same name.
+///
+/// # Errors
+/// As [`save_png`], and those of `draw`; then nothing is left behind.
+pub fn save_png_by<T, E: From<SaveError>>(
+    path: impl AsRef<Path>,
+    size: FrameSize,
+    draw: impl FnOnce(&mut dyn FnMut(&Frame) -> Result<(), E>) -> Result<T, E>,
+) -> Result<T, E> {
     let path = path.as_ref();
-    replace_file(path, |file| {
-        write_file(frame, file).map_err(|problem| SaveError {
+    let fail = |problem| {
+        E::from(SaveError {
             path: path.to_owned(),
             problem,
         })
+    };
+    replace_file(path, |file| {
+        let file = File::create(file).map_err(fail)?;
+        write_png_by(file, size, fail, draw)
     })
 }
 
-fn write_file(frame: &Frame, path: &Path) -> io::Result<()> {
-    let mut file = BufWriter::with_capacity(1 << 16, File::create(path)?);
-    write_png(frame, &mut file)?;
-    file.flush()
-}
-
-/// Writes a picture as PNG to anything that takes bytes.
+/// Writes a picture as PNG to anything that takes bytes; otherwise as [`save_png_by`]. `fail` says what it means when
+/// the target does not take them.
 ///
 /// # Errors
-/// When the target does not take them.
-pub fn write_png(frame: &Frame, target: impl Write) -> io::Result<()> {
-    let size = frame.size();
-    let mut encoder = png::Encoder::new(target, size.width(), size.height());
+/// When the target does not take the bytes, rows are missing, or `draw` fails.
+pub fn write_png_by<T, E>(
+    target: impl Write,
+    size: FrameSize,
+    fail: impl Fn(io::Error) -> E,
+    draw: impl FnOnce(&mut dyn FnMut(&Frame) -> Result<(), E>) -> Result<T, E>,
+) -> Result<T, E> {
+    let fail_png = |error| fail(as_io(error));
+    let mut target = BufWriter::with_capacity(1 << 16, target);
+    let mut encoder = png::Encoder::new(&mut target, size.width(), size.height());
     encoder.set_color(png::ColorType::Rgba);
     encoder.set_depth(png::BitDepth::Eight);
     encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
-    let mut writer = encoder.write_header().map_err(as_io)?;
-    writer.write_image_data(frame.bytes()).map_err(as_io)?;
-    writer.finish().map_err(as_io)
+    let mut writer = encoder.write_header().map_err(fail_png)?;
+    let stream = writer.stream_writer_with_size(1 << 16);
+    let mut stream = stream.map_err(fail_png)?;
+    let result = draw(&mut |rows| stream.write_all(rows.bytes()).map_err(&fail))?;
+    stream.finish().map_err(fail_png)?;
+    writer.finish().map_err(fail_png)?;
+    target.flush().map_err(fail)?;
+    Ok(result)
 }
 
 fn as_io(error: png::EncodingError) -> io::Error {
@@ -50,25 +73,57 @@ fn as_io(error: png::EncodingError) -> io::Error {
 
 #[cfg(test)]
 mod tests {
-    use guideway_render::FrameSize;
-
     use super::*;
 
-    #[test]
-    fn a_picture_comes_back_as_it_was_saved() {
-        let mut frame = Frame::new(FrameSize::new(3, 2).unwrap());
+    fn frame(width: u32, height: u32) -> Frame {
+        let mut frame = Frame::new(FrameSize::new(width, height).unwrap());
         for (i, pixel) in frame.pixels_mut().iter_mut().enumerate() {
             *pixel = [i as u8, 50, 255, 128 + i as u8];
         }
-        let mut bytes = Vec::new();
-        write_png(&frame, &mut bytes).unwrap();
+        frame
+    }
 
-        let mut reader = png::Decoder::new(io::Cursor::new(bytes))
-            .read_info()
-            .unwrap();
-        let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
-        let info = reader.next_frame(&mut pixels).unwrap();
-        assert_eq!((info.width, info.height), (3, 2));
-        assert_eq!(pixels, frame.bytes());
+    #[test]
+    fn a_picture_comes_back_as_it_was_written_at_once_or_by_rows() {
+        let rows = frame(3, 2);
+        for times in [1, 5] {
+            let size = FrameSize::new(3, 2 * times).unwrap();
+            let mut bytes = Vec::new();
+            let draw = |take: &mut dyn FnMut(&Frame) -> io::Result<()>| {
+                (0..times).try_for_each(|_| take(&rows))
+            };
+            write_png_by(&mut bytes, size, |problem| problem, draw).unwrap();
+
+            let mut reader = png::Decoder::new(io::Cursor::new(bytes))
+                .read_info()
+                .unwrap();
+            let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+            let info = reader.next_frame(&mut pixels).unwrap();
+            assert_eq!((info.width, info.height), (3, 2 * times));
+            assert_eq!(pixels, rows.bytes().repeat(times as usize));
+        }
+    }
+
+    #[test]
+    fn a_picture_that_is_not_finished_leaves_nothing_behind() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.png");
+        let size = FrameSize::new(3, 4).unwrap();
+        let rows = frame(3, 2);
+        let half: Result<(), SaveError> = save_png_by(&path, size, |take| take(&rows));
+        assert!(half.is_err());
+        let stopped = save_png_by(&path, size, |take| {
+            take(&rows)?;
+            Err(SaveError {
+                path: path.clone(),
+                problem: io::ErrorKind::Interrupted.into(),
+            })
+        });
+        let stopped: Result<(), SaveError> = stopped;
+        assert!(stopped.is_err());
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+        let whole: Result<(), SaveError> =
+            save_png_by(&path, size, |take| take(&rows).and_then(|()| take(&rows)));
+        assert!(whole.is_ok() && path.is_file());
     }
 }

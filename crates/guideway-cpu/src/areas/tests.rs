@@ -21,7 +21,7 @@ fn view(px_per_m: f64) -> View {
 fn drawn(areas: &Areas, view: &View) -> Frame {
     let mut frame = Frame::new(view.size());
     frame.pixels_mut().fill([255; 4]);
-    lay_areas(areas, view, INK, &mut frame);
+    lay_areas(areas, &Strip::whole(view), INK, &mut frame);
     frame
 }
 
@@ -95,6 +95,27 @@ fn each_pixel_is_the_share_of_its_samples_that_any_area_covers() {
 }
 
 #[test]
+fn strips_are_rows_of_the_whole() {
+    let size = FrameSize::new(70, 200).unwrap();
+    let view = View::new(size, Point::new(1000.0, -7.0), 30.0).unwrap();
+    let areas = some_areas();
+    let whole = drawn(&areas, &view);
+    let mut rows = whole.pixels().iter();
+    for strip in view.strips(0) {
+        let mut frame = Frame::new(strip.size());
+        frame.pixels_mut().fill([255; 4]);
+        lay_areas(&areas, &strip, INK, &mut frame);
+        assert!(
+            frame
+                .pixels()
+                .iter()
+                .eq(rows.by_ref().take(frame.pixels().len()))
+        );
+    }
+    assert_eq!((rows.next(), view.strips(0).len()), (None, 4));
+}
+
+#[test]
 fn the_comparison_finds_what_is_missing() {
     let (areas, view) = (some_areas(), view(10.0));
     let expected = expected(&areas, &view);
@@ -110,7 +131,7 @@ fn the_comparison_finds_what_is_missing() {
 fn over_nothing_the_colour_itself_is_seen() {
     let view = view(10.0);
     let mut frame = Frame::new(view.size());
-    lay_areas(&some_areas(), &view, INK, &mut frame);
+    lay_areas(&some_areas(), &Strip::whole(&view), INK, &mut frame);
     assert!(frame.pixels().contains(&[200, 40, 0, 128]));
     assert!(frame.pixels().contains(&[0; 4]));
 }

@@ -3,16 +3,16 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
+use guideway_render::density::{ToneMap, Tones};
 use guideway_render::{
     Budget, Cancel, Edited, Frame, Preparation, Prepared, RenderError, Report, Shading, Stage,
-    Style, View, density, elapsed_ms,
+    Strip, Style, View, elapsed_ms,
 };
 use guideway_scene::{Edit, Scene};
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::NAME;
-use super::canvas::TILE_PX;
 use super::cluster::{CLUSTER_PATHS, Cluster, Lines, Scratch};
 use super::index::Index;
 use super::paint::{Band, Painter};
@@ -21,6 +21,8 @@ use super::tiles::{Bins, Grid};
 
 /// Largest frame that is planned for.
 const PLANNED_PIXELS: u64 = 3840 * 2160;
+/// Pixels that are drawn at once of a picture that is drawn in strips.
+const STRIP_PIXELS: usize = 1 << 25;
 /// Bytes that a path's lines take where all are seen, about: more are there only for fewer paths.
 const PLANNED_PATH_BYTES: u64 = 100;
 
@@ -33,6 +35,8 @@ pub(super) struct CpuPrepared {
     index: Index,
     preparation: Preparation,
     buffers: Buffers,
+    /// Of the last picture that was drawn in strips by density.
+    tones: Option<(View, Style, Tones)>,
     pub(super) lane_width: LaneWidth,
 }
 
@@ -108,6 +112,7 @@ impl CpuPrepared {
                 ..Preparation::default()
             },
             buffers: Buffers::new(threads),
+            tones: None,
             lane_width: LaneWidth::default(),
         })
     }
@@ -128,36 +133,52 @@ impl Prepared for CpuPrepared {
         cancel: &Cancel,
         frame: &mut Frame,
     ) -> Result<Report, RenderError> {
-        let size = view.size();
+        self.render_strip(&Strip::whole(view), style, cancel, frame)
+    }
+
+    fn strip_pixels(&self) -> usize {
+        STRIP_PIXELS
+    }
+
+    fn render_strip(
+        &mut self,
+        strip: &Strip,
+        style: &Style,
+        cancel: &Cancel,
+        frame: &mut Frame,
+    ) -> Result<Report, RenderError> {
+        let pixels = strip.size().pixels();
         let is_density = style.shading != Shading::Color;
         let mut needed = fixed_bytes(&self.scene, &self.budget);
-        needed += (size.pixels() * size_of::<[u8; 4]>()) as u64;
+        needed += (pixels * size_of::<[u8; 4]>()) as u64;
         if is_density {
-            needed += (size.pixels() * size_of::<f32>()) as u64;
+            needed += (pixels * size_of::<f32>()) as u64;
         }
         let Some(spare_bytes) = self.budget.memory_bytes.checked_sub(needed) else {
             return Err(too_small("the picture", needed, &self.budget));
         };
-        frame.resize(size);
+        frame.resize(strip.size());
         let Self {
             scene,
             budget,
             pool,
             index,
             buffers,
+            tones,
             lane_width,
             ..
         } = self;
         let shot = Shot {
             scene,
-            view,
+            strip,
+            view: strip.view(),
             style,
             cancel,
             widths: index.widths,
             lane_width: *lane_width,
             solid: index.solid.filter(|_| !is_density),
         };
-        buffers.start(if is_density { size.pixels() } else { 0 });
+        buffers.start();
         let bands = install(pool.as_ref(), || {
             buffers.time("cull", |_| {
                 index
@@ -165,21 +186,20 @@ impl Prepared for CpuPrepared {
                     .par_iter_mut()
                     .for_each(|cluster| cluster.look(&shot));
             });
-            let rows = Grid::whole(size).rows;
-            let bands = buffers.draw(&shot, index, rows, spare_bytes, frame)?;
+            let bands = match style.shading {
+                Shading::Color => buffers.draw(&shot, index, spare_bytes, frame)?,
+                Shading::Density(tone) => {
+                    buffers.draw_density(&shot, index, spare_bytes, tone, tones, frame)?
+                }
+            };
             bands.map_err(|TooMuch(bytes)| {
                 too_small("the lines of one row of tiles", needed + bytes, budget)
             })
         })?;
-        if let Shading::Density(tone) = style.shading {
-            buffers.time("shade", |b| {
-                density::shade(&b.counts, tone, style.background, frame);
-            });
-        }
         Ok(Report {
             stages: std::mem::take(&mut buffers.stages),
             lines: buffers.made,
-            peak_bytes: needed - (size.pixels() * size_of::<[u8; 4]>()) as u64 + buffers.peak_bytes,
+            peak_bytes: needed - (pixels * size_of::<[u8; 4]>()) as u64 + buffers.peak_bytes,
             bands,
             ..Report::of(NAME, scene, buffers.drawn)
         })
@@ -191,9 +211,11 @@ impl Prepared for CpuPrepared {
             budget,
             pool,
             index,
+            tones,
             ..
         } = self;
         Arc::make_mut(scene).edit(edit).map_err(RenderError::Edit)?;
+        *tones = None;
         let fixed = fixed_bytes(scene, budget);
         if fixed > budget.memory_bytes {
             return Err(too_small("the index of the paths", fixed, budget));
@@ -234,10 +256,9 @@ impl Buffers {
         }
     }
 
-    fn start(&mut self, counted_pixels: usize) {
+    fn start(&mut self) {
         self.stages.clear();
         (self.peak_bytes, self.drawn, self.made) = (0, 0, 0);
-        self.counts.resize(counted_pixels, 0.0);
     }
 
     /// Does one stage, and adds its time to what it took in other bands.
@@ -252,9 +273,63 @@ impl Buffers {
         result
     }
 
+    /// Counts paths and colours the counts; says in how many bands. A part of a picture is coloured by how all of it
+    /// is, which is looked at once.
+    fn draw_density(
+        &mut self,
+        shot: &Shot<'_>,
+        index: &mut Index,
+        limit_bytes: u64,
+        tone: ToneMap,
+        kept: &mut Option<(View, Style, Tones)>,
+        frame: &mut Frame,
+    ) -> Result<Result<u32, TooMuch>, RenderError> {
+        let mut tones = Tones::new(tone);
+        if !shot.strip.is_whole() {
+            let known = kept.take();
+            let known = known.filter(|(view, style, _)| view == shot.view && style == shot.style);
+            if let Some((_, _, known)) = known {
+                tones = known;
+            } else {
+                for strip in shot.view.strips(shot.strip.size().pixels()) {
+                    let strip = &strip;
+                    let counted = self.draw(&Shot { strip, ..*shot }, index, limit_bytes, frame)?;
+                    if let Err(too_much) = counted {
+                        return Ok(Err(too_much));
+                    }
+                    tones.look(&self.counts);
+                }
+                (self.drawn, self.made) = (0, 0);
+            }
+        }
+        let drawn = self.draw(shot, index, limit_bytes, frame)?;
+        self.time("shade", |b| {
+            if shot.strip.is_whole() {
+                tones.look(&b.counts);
+            }
+            tones.shade(&b.counts, shot.style.background, frame);
+        });
+        *kept = Some((*shot.view, *shot.style, tones));
+        Ok(drawn)
+    }
+
+    /// Draws a strip: pixels, or the counts of paths for them. Says in how many bands.
+    fn draw(
+        &mut self,
+        shot: &Shot<'_>,
+        index: &mut Index,
+        limit_bytes: u64,
+        frame: &mut Frame,
+    ) -> Result<Result<u32, TooMuch>, RenderError> {
+        if shot.style.shading != Shading::Color {
+            self.counts.resize(shot.strip.size().pixels(), 0.0);
+        }
+        self.draw_rows(shot, index, shot.tile_rows(), limit_bytes, frame)
+    }
+
     /// Draws some rows of tiles, at once or, if that takes too much memory, one half after the other; says
     /// in how many bands.
-    fn draw(
+    fn draw_rows(
         &mut self,
         shot: &Shot<'_>,
         index: &mut Index,
@@ -269,7 +344,7 @@ impl Buffers {
         let middle = rows.start + rows.len() / 2;
         let mut bands = 0;
         for half in [rows.start..middle, middle..rows.end] {
-            match self.draw(shot, index, half, limit_bytes, frame)? {
+            match self.draw_rows(shot, index, half, limit_bytes, frame)? {
                 Ok(of_half) => bands += of_half,
                 Err(too_much) => return Ok(Err(too_much)),
             }
@@ -286,10 +361,9 @@ impl Buffers {
         limit_bytes: u64,
         frame: &mut Frame,
     ) -> Result<Result<(), TooMuch>, RenderError> {
-        let size = shot.view.size();
         let grid = Grid {
             rows: rows.clone(),
-            ..Grid::whole(size)
+            ..Grid::whole(shot.view.size())
         };
         let flattened = self.time("flatten", |b| b.flatten(shot, index, &rows, limit_bytes))?;
         let lines_bytes = match flattened {
@@ -322,8 +396,7 @@ impl Buffers {
                 widest_px: shot.widest_px(),
                 painters: &b.painters,
             };
-            let row_px = size.width() as usize * TILE_PX;
-            let within = rows.start * row_px..size.pixels().min(rows.end * row_px);
+            let within = shot.pixels_of(&rows);
             let done = match shot.style.shading {
                 Shading::Color => band.color(&mut frame.pixels_mut()[within], shot.solid),
                 Shading::Density(_) => band.density(&mut counts[within]),

@@ -1,6 +1,10 @@
-use guideway_render::{Cancel, Style, View};
+use std::ops::Range;
+
+use guideway_render::{Cancel, Strip, Style, View};
 use guideway_scene::{Rgba, Scene};
 use guideway_spline::{Bounds, Point};
+
+use super::canvas::TILE_PX;
 
 /// How exactly lines are kept.
 #[derive(Clone, Copy)]
@@ -41,6 +45,8 @@ pub(super) enum LaneWidth {
 #[derive(Clone, Copy)]
 pub(super) struct Shot<'a> {
     pub(super) scene: &'a Scene,
+    /// What is drawn of the view.
+    pub(super) strip: &'a Strip,
     pub(super) view: &'a View,
     pub(super) style: &'a Style,
     pub(super) cancel: &'a Cancel,
@@ -64,7 +70,26 @@ pub(super) fn widths(scene: &Scene) -> Widths {
         .reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
 }
 
+/// Strips are whole rows of tiles.
+const _: () = assert!((Strip::STEP as usize).is_multiple_of(TILE_PX));
+
 impl Shot<'_> {
+    /// Rows of tiles of the strip.
+    pub(super) fn tile_rows(&self) -> Range<usize> {
+        let rows = self.strip.rows();
+        rows.start as usize / TILE_PX..(rows.end as usize).div_ceil(TILE_PX)
+    }
+
+    /// Where some rows of tiles are among the pixels of the strip.
+    pub(super) fn pixels_of(&self, tile_rows: &Range<usize>) -> Range<usize> {
+        let (width, rows) = (self.strip.size().width() as usize, self.strip.rows());
+        let pixels = |tile_row: usize| {
+            let row = (tile_row * TILE_PX).min(rows.end as usize);
+            (row - rows.start as usize) * width
+        };
+        pixels(tile_rows.start)..pixels(tile_rows.end)
+    }
+
     /// Half the stroke width of a path.
     pub(super) fn radius_px(&self, path: u32) -> f64 {
         self.radius_of(self.scene.width_m(path))

@@ -257,6 +257,47 @@ fn threads_bands_and_earlier_frames_do_not_show() {
 }
 
 #[test]
+fn strips_are_rows_of_the_whole() {
+    let scene = colored(wandering(3000, 11, 3.0, ORIGIN), |i| [255, 200][i % 2]);
+    let cancel = Cancel::default();
+    let densities = [ToneMap::Log, ToneMap::Equalised].map(Shading::Density);
+    for shading in [Shading::Color].into_iter().chain(densities) {
+        // Lines that are kept from one strip to the next, and others that are cut for each.
+        for px_per_m in [0.8, 20.0, 60_000.0] {
+            let style = Style {
+                shading,
+                ..wide_px(1.5)
+            };
+            let size = FrameSize::new(200, 300).unwrap();
+            let view = View::new(size, ORIGIN, px_per_m).unwrap();
+            let (whole, report) = draw(&Cpu, &scene, &view, &style, &Budget::default());
+            let mut prepared = Cpu.prepare(Arc::clone(&scene), &Budget::default()).unwrap();
+            let (mut rows, mut joined) = (whole.pixels().iter(), None::<Report>);
+            for strip in view.strips(0) {
+                let mut frame = Frame::new(strip.size());
+                let of_strip = prepared
+                    .render_strip(&strip, &style, &cancel, &mut frame)
+                    .unwrap();
+                assert!(
+                    frame
+                        .pixels()
+                        .iter()
+                        .eq(rows.by_ref().take(frame.pixels().len()))
+                );
+                match &mut joined {
+                    Some(joined) => joined.join(of_strip),
+                    none => *none = Some(of_strip),
+                }
+            }
+            let joined = joined.unwrap();
+            assert_eq!((rows.next(), joined.bands), (None, 5));
+            assert!(joined.accounts_for_all());
+            assert_eq!((joined.drawn, joined.lines), (report.drawn, report.lines));
+        }
+    }
+}
+
+#[test]
 fn too_little_memory_and_a_call_to_stop_are_told() {
     let scene = colored(wandering(3000, 11, 3.0, ORIGIN), |_| 255);
     let budget = |memory_bytes| Budget {

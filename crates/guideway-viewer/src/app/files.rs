@@ -2,12 +2,10 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use eframe::egui::Context;
-use guideway_render::{Budget, Cancel, Frame, FrameSize, RenderError, Style, View};
 
 use super::layer::changed_on_disk;
 use super::{App, Layer, LayerNews};
-use crate::host::Trouble;
-use crate::work::renderer::color_image;
+use crate::host::{Job, Trouble};
 use crate::work::task::Task;
 
 /// A question that takes a line of text.
@@ -19,8 +17,15 @@ pub(crate) struct Prompt {
     pub(crate) is_new: bool,
 }
 
-/// Something being written, which says in a sentence what was done; and which file, if it is a layout.
-pub(super) type Saver = (Task<Result<String, Trouble>>, Option<Saving>);
+/// Something being written.
+pub(super) struct Saver {
+    /// Says in a sentence what was done.
+    pub(super) task: Task<Result<String, Trouble>>,
+    /// Which file, if it is a layout.
+    pub(super) saving: Option<Saving>,
+    /// How far it is, if that is known.
+    pub(super) job: Option<Arc<Job>>,
+}
 
 /// A layout being written: the path that it has, and the one that it gets.
 pub(super) struct Saving {
@@ -77,7 +82,7 @@ impl App {
                 self.notify(format!("{name} has changed on disk and is read again"));
             }
         }
-        let outcome = self.saver.as_ref().and_then(|(saver, _)| saver.outcome());
+        let outcome = self.saver.as_ref().and_then(|saver| saver.task.outcome());
         if let Some(outcome) = outcome {
             self.saved(outcome.flatten());
         }
@@ -142,6 +147,11 @@ impl App {
         }
     }
 
+    /// What is being written, where it is known how far it is.
+    pub(crate) fn writing(&self) -> Option<&Job> {
+        self.saver.as_ref()?.job.as_deref()
+    }
+
     /// Whether a file is being written.
     #[cfg(test)]
     pub(crate) fn is_writing(&self) -> bool {
@@ -149,7 +159,7 @@ impl App {
     }
 
     /// Whether nothing is being written; says so if something is.
-    fn is_free_to_write(&mut self) -> bool {
+    pub(super) fn is_free_to_write(&mut self) -> bool {
         let is_free = self.saver.is_none();
         if !is_free {
             self.notify("another file is still being written; try again in a moment");
@@ -170,7 +180,7 @@ impl App {
         };
         let host = Arc::clone(&self.host);
         let to = path.clone();
-        let saver = Task::start(&self.wake, move || {
+        let task = Task::start(&self.wake, move || {
             let lost = host.save(&snapshot.to_layout(), &path)?;
             let mut text = format!("{} is saved", path.display());
             if !lost.is_empty() {
@@ -178,11 +188,15 @@ impl App {
             }
             Ok(text)
         });
-        self.saver = Some((saver, Some(Saving { from, to })));
+        self.saver = Some(Saver {
+            task,
+            saving: Some(Saving { from, to }),
+            job: None,
+        });
     }
 
     fn saved(&mut self, outcome: Result<String, Trouble>) {
-        let saving = self.saver.take().and_then(|(_, saving)| saving);
+        let saving = self.saver.take().and_then(|saver| saver.saving);
         if let Some(Saving { from, to }) = saving
             && let Some(layer) = self.layers.iter_mut().find(|layer| layer.is_at(&from))
             && let Some(LayerNews::Notice(text)) = layer.end_saving(outcome.is_ok().then_some(to))
@@ -195,92 +209,5 @@ impl App {
         }
         // What was written just now is no change from outside.
         self.watch();
-    }
-
-    fn export_picture(&mut self, path: PathBuf, width_px: u32) {
-        let (Some(view), Some(document)) = (self.camera.view(), self.document()) else {
-            return;
-        };
-        let factor = f64::from(width_px) / f64::from(view.size().width());
-        let height_px = (f64::from(view.size().height()) * factor).round() as u32;
-        let scene = Arc::new(document.scene().clone());
-        let style = Style {
-            background: self.look.paper(),
-            ..self.look.style()
-        };
-        if !self.is_free_to_write() {
-            return;
-        }
-        let (host, method) = (Arc::clone(&self.host), self.drawing.method().to_owned());
-        let saver = Task::start(&self.wake, move || {
-            let fail = |error: RenderError| Trouble {
-                message: error.to_string(),
-                remedy: "Ask for a smaller picture, or another way of drawing".into(),
-            };
-            let size = FrameSize::new(width_px, height_px).map_err(fail)?;
-            let scale = view.px_per_m() * factor;
-            let view = View::new(size, view.center_m(), scale).map_err(fail)?;
-            let budget = Budget::default();
-            let mut prepared = host
-                .method(&method)?
-                .prepare(scene, &budget)
-                .map_err(fail)?;
-            let mut frame = Frame::new(size);
-            let cancel = Cancel::default();
-            prepared
-                .render(&view, &style, &cancel, &mut frame)
-                .map_err(fail)?;
-            host.save_picture(&frame, &path)?;
-            Ok(format!(
-                "{} is written, {width_px} x {height_px} pixels",
-                path.display()
-            ))
-        });
-        self.saver = Some((saver, None));
-    }
-
-    fn export_drawing(&mut self, path: PathBuf) {
-        let (Some(view), Some(document)) = (self.camera.view(), self.document()) else {
-            return;
-        };
-        let scene = document.scene().clone();
-        let style = Style {
-            background: self.look.paper(),
-            ..self.look.style()
-        };
-        if !self.is_free_to_write() {
-            return;
-        }
-        let host = Arc::clone(&self.host);
-        let saver = Task::start(&self.wake, move || {
-            host.save_drawing(&scene, &view, &style, &path)?;
-            Ok(format!("{} is written", path.display()))
-        });
-        self.saver = Some((saver, None));
-    }
-
-    /// Has the picture of the active layer made as it is on the screen, for the clipboard.
-    pub(crate) fn copy_picture(&mut self) {
-        let (Some(view), Some(document)) = (self.camera.view(), self.document()) else {
-            return;
-        };
-        let style = Style {
-            background: self.look.paper(),
-            ..self.look.style()
-        };
-        let scene = Arc::new(document.scene().clone());
-        let (host, method) = (Arc::clone(&self.host), self.drawing.method().to_owned());
-        self.copying = Some(Task::start(&self.wake, move || {
-            let fail = |error: RenderError| Trouble {
-                message: error.to_string(),
-                remedy: "Choose another way of drawing".into(),
-            };
-            let method = host.method(&method)?;
-            let mut prepared = method.prepare(scene, &Budget::default()).map_err(fail)?;
-            let (mut frame, cancel) = (Frame::new(view.size()), Cancel::default());
-            let drawn = prepared.render(&view, &style, &cancel, &mut frame);
-            drawn.map_err(fail)?;
-            Ok(color_image(&frame))
-        }));
     }
 }

@@ -11,7 +11,7 @@ use guideway_spline::Bounds;
 
 use super::overlay::Overlay;
 use super::recovery::Recovery;
-use crate::host::{Host, Load};
+use crate::host::{Host, Job};
 use crate::work::Wake;
 use crate::work::loader::{Loaded, Loader};
 use crate::work::renderer::{FALLBACK, Outcome, Picture, Renderer, Shot};
@@ -134,7 +134,7 @@ impl Layer {
     }
 
     /// The load under way, if there is one.
-    pub(crate) fn load(&self) -> Option<&Load> {
+    pub(crate) fn load(&self) -> Option<&Job> {
         let loader = self.loader.as_ref()?;
         self.document.is_none().then(|| loader.load())
     }

@@ -2,6 +2,7 @@
 
 pub(crate) mod command;
 mod drawing;
+mod export;
 mod files;
 mod gesture;
 pub(crate) mod layer;

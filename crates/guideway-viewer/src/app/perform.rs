@@ -194,6 +194,9 @@ impl App {
         } else if let Some(document) = self.document_mut() {
             document.select(Rows::new(), Combine::Replace);
         }
+        if let Some(job) = self.writing() {
+            job.cancel();
+        }
         for layer in &mut self.layers {
             if layer.load().is_some() {
                 layer.cancel_load();

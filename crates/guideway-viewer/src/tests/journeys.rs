@@ -274,6 +274,31 @@ fn a_file_is_saved_and_a_full_disk_loses_nothing() {
     assert_eq!(ids, ["lane 0", "lane 2", "lane 3"]);
 }
 
+#[test]
+fn a_picture_of_any_size_is_written_and_can_be_stopped() {
+    let mut desk = Desk::looking_at(lanes(4));
+    let export = |desk: &mut Desk, width_px| {
+        desk.key(CTRL, Key::E);
+        let prompt = desk.app().prompt.as_mut().unwrap();
+        (prompt.text, prompt.width_px) = ("large.png".into(), width_px);
+        desk.key(NONE, Key::Enter);
+    };
+    let said = |app: &crate::App, text: &str| app.notices.iter().any(|n| n.contains(text));
+    *desk.table.is_slow.lock().unwrap() = true;
+    export(&mut desk, 40_000);
+    desk.wait(|app| app.writing().is_some_and(|job| job.fraction().is_some()));
+    desk.harness.get_by_label("Cancel").click();
+    desk.wait(|app| said(app, "large.png was cancelled"));
+    assert!(desk.table.pictures.lock().unwrap().is_empty());
+    *desk.table.is_slow.lock().unwrap() = false;
+    export(&mut desk, 40_000);
+    desk.wait(|app| said(app, "large.png is written, 40000 x"));
+    let size = desk.table.pictures.lock().unwrap()[0].1;
+    let seen = desk.app().camera.view().unwrap().size();
+    let as_tall = f64::from(seen.height()) / f64::from(seen.width());
+    assert!((f64::from(size.height()) - 40_000.0 * as_tall).abs() <= 0.5);
+}
+
 /// What drew the picture of the first file.
 fn drawn_by(app: &crate::App) -> Option<&'static str> {
     Some(app.layers[0].shown.as_ref()?.report.method)

@@ -6,13 +6,13 @@ use std::sync::{Arc, Mutex};
 use guideway_cpu::Cpu;
 use guideway_layout::{Layout, NewPath, Value};
 use guideway_render::{
-    Budget, Cancel, Edited, Frame, Method, MethodInfo, Preparation, Prepared, RenderError, Report,
-    Style, View,
+    Budget, Cancel, Edited, Frame, FrameSize, Method, MethodInfo, Preparation, Prepared,
+    RenderError, Report, Style, View,
 };
 use guideway_scene::{Edit, Scene};
 use guideway_spline::{Point, Runs};
 
-use crate::host::{Host, Load, MethodChoice, Trouble};
+use crate::host::{Export, Host, Job, MethodChoice, Trouble};
 
 /// Files that are only there for the test.
 #[derive(Default)]
@@ -20,6 +20,10 @@ pub(super) struct Table {
     pub(super) files: Mutex<HashMap<PathBuf, Layout>>,
     /// Whether the disk is full.
     pub(super) is_full: Mutex<bool>,
+    /// Whether writing a picture comes to no end.
+    pub(super) is_slow: Mutex<bool>,
+    /// Pictures that were written.
+    pub(super) pictures: Mutex<Vec<(PathBuf, FrameSize)>>,
     /// Whether the graphics device is lost; another one takes its place when one is asked for.
     is_device_lost: Mutex<Arc<AtomicBool>>,
 }
@@ -98,8 +102,8 @@ pub(crate) fn lanes(count: u32) -> Layout {
 }
 
 impl Host for Table {
-    fn open(&self, path: &Path, load: &Load) -> Result<Layout, Trouble> {
-        load.advance(1, 2);
+    fn open(&self, path: &Path, job: &Job) -> Result<Layout, Trouble> {
+        job.advance(1, 2);
         let files = self
             .files
             .lock()
@@ -126,11 +130,36 @@ impl Host for Table {
         Ok(vec!["nothing of it is kept for long".into()])
     }
 
-    fn save_picture(&self, _frame: &Frame, _path: &Path) -> Result<(), Trouble> {
+    fn save_picture(
+        &self,
+        export: Export<'_>,
+        _method: &str,
+        job: &Job,
+        path: &Path,
+    ) -> Result<(), Trouble> {
+        let height = export.view.size().height();
+        for row in 0..height {
+            job.advance(row.into(), height.into());
+            while *self
+                .is_slow
+                .lock()
+                .expect("no test panics while it holds this")
+            {
+                if job.is_cancelled() {
+                    return Err(Self::trouble("cancelled"));
+                }
+                std::thread::yield_now();
+            }
+        }
+        let mut pictures = self
+            .pictures
+            .lock()
+            .expect("no test panics while it holds this");
+        pictures.push((path.to_owned(), export.view.size()));
         Ok(())
     }
 
-    fn save_drawing(&self, _: &Scene, _: &View, _: &Style, _: &Path) -> Result<(), Trouble> {
+    fn save_drawing(&self, _: Export<'_>, _: &Path) -> Result<(), Trouble> {
         Ok(())
     }
 

@@ -1,7 +1,10 @@
+use std::time::Duration;
+
 use eframe::egui::{Button, Label, MenuBar, ProgressBar, Ui};
 
 use crate::app::command::{Command, ENTRIES, MENUS};
 use crate::app::{App, Tool};
+use crate::host::Job;
 
 impl App {
     /// Does what the pressed keys ask for. While text is being written, only those with Ctrl held count, and those
@@ -42,18 +45,12 @@ impl App {
                 }
             }
             for layer in &self.layers {
-                let Some(load) = layer.load() else {
-                    continue;
-                };
-                ui.separator();
-                ui.label(format!("reading {}", layer.name()));
-                match load.fraction() {
-                    Some(fraction) => ui.add(ProgressBar::new(fraction).desired_width(120.0)),
-                    None => ui.spinner(),
-                };
-                if ui.button("Cancel").clicked() {
-                    load.cancel();
+                if let Some(load) = layer.load() {
+                    progress(ui, format!("reading {}", layer.name()), load);
                 }
+            }
+            if let Some(job) = self.writing() {
+                progress(ui, "writing a picture".to_owned(), job);
             }
         });
     }
@@ -121,6 +118,25 @@ impl App {
             Tool::Draw => "click point by point; Enter or a double click ends",
             Tool::Measure => "click point by point; a double click begins anew",
         }
+    }
+}
+
+/// How far something is, and a button that stops it.
+fn progress(ui: &mut Ui, what: String, job: &Job) {
+    ui.separator();
+    ui.label(what);
+    match job.fraction() {
+        Some(fraction) => {
+            ui.add(ProgressBar::new(fraction).desired_width(120.0));
+            // Nothing else wakes the window for each step.
+            ui.ctx().request_repaint_after(Duration::from_millis(100));
+        }
+        None => {
+            ui.spinner();
+        }
+    }
+    if ui.button("Cancel").clicked() {
+        job.cancel();
     }
 }
 

@@ -8,11 +8,11 @@ use guideway_layout::{CheckOptions, Diagnostics, Layout, check};
 use guideway_scene::{Scene, SceneOptions};
 
 use super::Wake;
-use crate::host::{Host, Load, Trouble};
+use crate::host::{Host, Job, Trouble};
 
 /// A file being read.
 pub(crate) struct Loader {
-    load: Arc<Load>,
+    load: Arc<Job>,
     news: Receiver<Loaded>,
 }
 
@@ -35,7 +35,7 @@ impl Loader {
         options: SceneOptions,
         wake: Wake,
     ) -> Self {
-        let load = Arc::<Load>::default();
+        let load = Arc::<Job>::default();
         let (sender, news) = mpsc::channel();
         let watched = Arc::clone(&load);
         thread::spawn(move || {
@@ -69,7 +69,7 @@ impl Loader {
         Self { load, news }
     }
 
-    pub(crate) fn load(&self) -> &Load {
+    pub(crate) fn load(&self) -> &Job {
         &self.load
     }
 

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use guideway::formats::{ReadOptions, read_bytes};
 use guideway::render::{Budget, FrameSize, Style};
-use guideway::save_png;
+use guideway::save_png_by;
 use guideway::scene::{ColorBy, Legend, LineRule, Scene, SceneOptions};
 use serde_json::json;
 
@@ -48,12 +48,21 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, Failure> {
             },
             ..Style::default()
         },
+        has_legend: false,
         budget: Budget::default(),
     };
     let scene = Arc::new(Scene::new(Arc::new(layout), &wishes.scene)?);
     let method = guideway::method("cpu")?;
-    let drawn = draw(&*method, &scene, &Below::default(), &wishes, out)?;
-    save_png(&drawn.frame, &args.output)?;
+    let drawn = save_png_by(&args.output, wishes.size, |take| {
+        draw(
+            &*method,
+            &scene,
+            &Below::default(),
+            &wishes,
+            &activity,
+            take,
+        )
+    })?;
     let took_ms = activity.finish();
     let place = args
         .output

@@ -86,6 +86,10 @@ impl From<RenderError> for Failure {
     fn from(error: RenderError) -> Self {
         let (code, remedy) = match &error {
             RenderError::FrameSize { .. } => ("size", "Ask for a smaller picture with --size"),
+            RenderError::Strips { .. } => (
+                "size",
+                "Draw it by `--method cpu`, which has no such limit, or ask for a smaller one with --size",
+            ),
             RenderError::View { .. } => {
                 ("view", "Leave --center and --scale out to see everything")
             }

@@ -5,8 +5,20 @@ use std::ffi::OsStr;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use guideway::AUTO;
 use guideway::layout::Limits;
-use guideway::render::FrameSize;
+use guideway::render::{Frame, FrameSize};
 use guideway::spline::Point;
+
+/// The size of a picture that is drawn at once, such as `1920x1080`.
+pub(crate) fn frame_size(text: &str) -> Result<FrameSize, String> {
+    let size = size(text)?;
+    if size.pixels() > Frame::MAX_PIXELS {
+        return Err(format!(
+            "at most {} million pixels are drawn at once, such as 1920x1080",
+            Frame::MAX_PIXELS / 1_000_000
+        ));
+    }
+    Ok(size)
+}
 
 /// A picture size such as `1920x1080`.
 pub(crate) fn size(text: &str) -> Result<FrameSize, String> {
@@ -20,9 +32,8 @@ pub(crate) fn size(text: &str) -> Result<FrameSize, String> {
     };
     FrameSize::new(width, height).map_err(|_| {
         format!(
-            "each side takes 1 to {} pixels and both together at most {} million, such as 1920x1080",
-            FrameSize::MAX_SIDE,
-            FrameSize::MAX_PIXELS / 1_000_000
+            "each side takes 1 to {} pixels, such as 1920x1080",
+            FrameSize::MAX_SIDE
         )
     })
 }
@@ -158,18 +169,13 @@ mod tests {
 
     #[test]
     fn refusals_show_a_good_value() {
-        for bad in [
-            "0x0",
-            "1e9x2",
-            "12",
-            "x",
-            "-1x5",
-            "70000x1",
-            "65535x65535",
-            "",
-        ] {
+        for bad in ["0x0", "1e9x2", "12", "x", "-1x5", "70000x1", ""] {
             assert!(size(bad).unwrap_err().contains("1920x1080"), "{bad}");
+            assert!(frame_size(bad).is_err(), "{bad}");
         }
+        assert!(size("65535x65535").is_ok());
+        let refusal = frame_size("65535x65535").unwrap_err();
+        assert!(refusal.contains("1920x1080"), "{refusal}");
         for bad in ["1", "1;2", "a,b", "NaN,0", "1,2,3", "inf,0"] {
             assert!(point(bad).unwrap_err().contains("12.5,-3"), "{bad}");
         }

@@ -5,13 +5,13 @@ use std::sync::Arc;
 
 use guideway::formats::{Progress, ReadOptions, read_file};
 use guideway::layout::Layout;
-use guideway::render::{Budget, Frame, Method, Style, View};
-use guideway::scene::{Scene, SceneOptions};
-use guideway::{AUTO, save_png};
-use guideway_viewer::{Host, Load, MethodChoice, Trouble};
+use guideway::render::{Budget, Method};
+use guideway::scene::SceneOptions;
+use guideway::{AUTO, save_png_by};
+use guideway_viewer::{Export, Host, Job, MethodChoice, Trouble};
 
 use super::convert::Target;
-use super::render::{Below, Wishes, draw_vector};
+use super::render::{Below, Wishes, draw, draw_vector};
 use super::{Exit, Failure, Output, values};
 
 #[derive(Debug, clap::Args)]
@@ -44,9 +44,9 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, Failure> {
 struct Desk;
 
 impl Host for Desk {
-    fn open(&self, path: &Path, load: &Load) -> Result<Layout, Trouble> {
+    fn open(&self, path: &Path, job: &Job) -> Result<Layout, Trouble> {
         let options = ReadOptions {
-            progress: Some(&Followed(load)),
+            progress: Some(&Followed(job)),
             ..ReadOptions::default()
         };
         Ok(read_file(path, &options).map_err(Failure::from)?)
@@ -57,32 +57,24 @@ impl Host for Desk {
         Ok(losses.iter().map(|loss| loss.to_string()).collect())
     }
 
-    fn save_picture(&self, frame: &Frame, path: &Path) -> Result<(), Trouble> {
-        Ok(save_png(frame, path).map_err(Failure::from)?)
-    }
-
-    fn save_drawing(
+    fn save_picture(
         &self,
-        scene: &Scene,
-        view: &View,
-        style: &Style,
+        export: Export<'_>,
+        method: &str,
+        job: &Job,
         path: &Path,
     ) -> Result<(), Trouble> {
-        let wishes = Wishes {
-            size: view.size(),
-            center_m: Some(view.center_m()),
-            px_per_m: Some(view.px_per_m()),
-            scene: SceneOptions::default(),
-            style: *style,
-            budget: Budget::default(),
-        };
-        draw_vector(
-            path,
-            scene,
-            &Below::default(),
-            &wishes,
-            scene.legend().is_some(),
-        )?;
+        let method = self.method(method)?;
+        let wishes = wishes(&export);
+        save_png_by(path, wishes.size, |take| {
+            let (below, progress) = (Below::default(), Followed(job));
+            draw(&*method, export.scene, &below, &wishes, &progress, take)
+        })?;
+        Ok(())
+    }
+
+    fn save_drawing(&self, export: Export<'_>, path: &Path) -> Result<(), Trouble> {
+        draw_vector(path, export.scene, &Below::default(), &wishes(&export))?;
         Ok(())
     }
 
@@ -103,8 +95,22 @@ impl Host for Desk {
     }
 }
 
-/// A load, as a reader follows it.
-struct Followed<'a>(&'a Load);
+/// A picture of what is seen, with what the colours mean.
+fn wishes(export: &Export<'_>) -> Wishes {
+    let Export { scene, view, style } = export;
+    Wishes {
+        size: view.size(),
+        center_m: Some(view.center_m()),
+        px_per_m: Some(view.px_per_m()),
+        scene: SceneOptions::default(),
+        style: **style,
+        has_legend: scene.legend().is_some(),
+        budget: Budget::default(),
+    }
+}
+
+/// A job, as readers and pictures follow it.
+struct Followed<'a>(&'a Job);
 
 impl Progress for Followed<'_> {
     fn advance(&self, done: u64, total: u64) {

@@ -388,3 +388,17 @@ fn real_layouts_are_drawn() {
     }
     assert!(drawn > 15, "{drawn} files");
 }
+
+#[test]
+fn a_method_that_draws_pictures_only_whole_says_so_of_a_large_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let picture = folder.path().join("a.png");
+    let output = render(&picture, &["--size", "40000x40000", "--method", "oracle"]);
+    assert_eq!(output.status.code(), Some(2));
+    let said = stderr(&output);
+    assert!(
+        said.contains("40000 x 40000") && said.contains("--method cpu"),
+        "{said}"
+    );
+    assert!(names_in(folder.path()).is_empty());
+}

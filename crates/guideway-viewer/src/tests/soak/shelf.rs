@@ -4,10 +4,9 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 
 use guideway_layout::Layout;
-use guideway_render::{Frame, Method, Style, View};
-use guideway_scene::Scene;
+use guideway_render::Method;
 
-use crate::host::{Host, Load, MethodChoice, Trouble};
+use crate::host::{Export, Host, Job, MethodChoice, Trouble};
 use crate::tests::table::Table;
 
 /// A folder with one file, replaced as a whole like any other that is saved. The file itself holds a number; what it
@@ -79,7 +78,7 @@ impl Shelf {
 }
 
 impl Host for Shelf {
-    fn open(&self, path: &Path, _load: &Load) -> Result<Layout, Trouble> {
+    fn open(&self, path: &Path, _job: &Job) -> Result<Layout, Trouble> {
         self.layout(path).ok_or_else(|| Trouble {
             message: "there is no such file".into(),
             remedy: "Look elsewhere".into(),
@@ -103,18 +102,18 @@ impl Host for Shelf {
         Ok(Vec::new())
     }
 
-    fn save_picture(&self, frame: &Frame, path: &Path) -> Result<(), Trouble> {
-        self.table.save_picture(frame, path)
-    }
-
-    fn save_drawing(
+    fn save_picture(
         &self,
-        scene: &Scene,
-        view: &View,
-        style: &Style,
+        export: Export<'_>,
+        method: &str,
+        job: &Job,
         path: &Path,
     ) -> Result<(), Trouble> {
-        self.table.save_drawing(scene, view, style, path)
+        self.table.save_picture(export, method, job, path)
+    }
+
+    fn save_drawing(&self, export: Export<'_>, path: &Path) -> Result<(), Trouble> {
+        self.table.save_drawing(export, path)
     }
 
     fn methods(&self) -> Vec<MethodChoice> {

@@ -50,7 +50,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "PERCENT", value_parser = values::percent)]
     moved: Option<f64>,
     /// Size of the picture in pixels
-    #[arg(long, value_name = "WxH", default_value = "1920x1080", value_parser = values::size)]
+    #[arg(long, value_name = "WxH", default_value = "1920x1080", value_parser = values::frame_size)]
     size: FrameSize,
     /// How wide paths are: `world` 0.1 m held within 1.5 to 12 px, `thesis` 3 px held within 4 to 300 mm
     #[arg(long, value_name = "RULE", default_value = "thesis")]

@@ -172,10 +172,6 @@ impl Args {
         Ok(())
     }
 
-    pub(super) fn is_with_legend(&self) -> bool {
-        self.look.legend
-    }
-
     /// What the arguments ask for together.
     pub(super) fn wishes(&self) -> Result<Wishes, Failure> {
         if self.view.fit && (self.view.center.is_some() || self.view.scale.is_some()) {
@@ -195,6 +191,7 @@ impl Args {
                 level: self.view.level.clone(),
             },
             style: self.look.style()?,
+            has_legend: self.look.legend,
             budget: Budget {
                 memory_bytes: match self.resources.memory {
                     Some(mb) => mb.saturating_mul(1_000_000),

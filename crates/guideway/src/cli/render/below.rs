@@ -1,12 +1,13 @@
 use std::io::{self, Write};
 
+use guideway::cpu::Areas;
 use guideway::envelope::Source;
 use guideway::formats::svg::Page;
-use guideway::render::{Budget, Frame, View};
+use guideway::render::{Budget, Frame, Strip, View};
 use guideway::scene::{Rgba, Scene};
 use guideway::spline::Bounds;
 
-use super::floor_plan::FloorPlan;
+use super::floor_plan::{Floor, FloorPlan};
 use super::swept::{self, Swept, SweptReport};
 use crate::cli::Failure;
 
@@ -44,26 +45,15 @@ pub(super) struct Seen<'b> {
 }
 
 impl Seen<'_> {
-    /// Draws it alone; nothing if there is nothing.
-    pub(super) fn draw(
-        &self,
-        view: &View,
-        background: Rgba,
-        budget: &Budget,
-    ) -> Result<Option<Frame>, Failure> {
-        let mut frame = match (self.floor_plan, &self.swept) {
-            (Some(plan), _) => plan.draw(view, background, budget)?,
-            (None, Some(_)) => {
-                let mut frame = Frame::new(view.size());
-                frame.pixels_mut().fill(background.to_u32().to_be_bytes());
-                frame
-            }
-            (None, None) => return Ok(None),
+    /// Makes it ready to be drawn; none if there is nothing.
+    pub(super) fn ground(&self, budget: &Budget) -> Result<Option<Ground<'_>>, Failure> {
+        let floor = self.floor_plan.map(|plan| plan.prepare(budget));
+        let ground = Ground {
+            floor: floor.transpose()?,
+            areas: self.swept.as_ref().map(Swept::areas),
         };
-        if let Some(swept) = &self.swept {
-            swept.draw(view, &mut frame);
-        }
-        Ok(Some(frame))
+        let is_there = ground.floor.is_some() || ground.areas.is_some();
+        Ok(is_there.then_some(ground))
     }
 
     /// Writes it below what follows on a page.
@@ -84,5 +74,31 @@ impl Seen<'_> {
 
     pub(super) fn report(self) -> Option<SweptReport> {
         self.swept.map(|swept| swept.report)
+    }
+}
+
+/// What lies below, ready to be drawn strip by strip.
+pub(super) struct Ground<'b> {
+    floor: Option<Floor<'b>>,
+    areas: Option<Areas>,
+}
+
+impl Ground<'_> {
+    /// Draws it alone.
+    pub(super) fn draw(
+        &mut self,
+        strip: &Strip,
+        background: Rgba,
+        frame: &mut Frame,
+    ) -> Result<(), Failure> {
+        frame.resize(strip.size());
+        match &mut self.floor {
+            Some(floor) => floor.draw(strip, background, frame)?,
+            None => frame.pixels_mut().fill(background.to_u32().to_be_bytes()),
+        }
+        if let Some(areas) = &self.areas {
+            swept::lay(areas, strip, frame);
+        }
+        Ok(())
     }
 }

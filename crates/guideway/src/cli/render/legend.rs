@@ -1,6 +1,8 @@
 //! A legend drawn into the picture's upper left corner.
 
-use guideway::render::Frame;
+use std::ops::Range;
+
+use guideway::render::{Frame, FrameSize, Strip};
 use guideway::scene::{Legend, Rgba};
 use noto_sans_mono_bitmap::{FontWeight, RasterHeight, get_raster, get_raster_width};
 
@@ -13,47 +15,81 @@ const INK: Rgba = Rgba::BLACK;
 /// How much of the picture the paper hides.
 const PAPER_OPACITY: f64 = 0.9;
 
-/// Draws the legend over the picture, unless it takes more room than there is: then the picture stays as
-/// it is and the answer is false.
-pub(super) fn stamp(frame: &mut Frame, legend: &Legend) -> bool {
-    let height = match frame.size().height() {
-        0..1200 => RasterHeight::Size16,
-        1200..2400 => RasterHeight::Size24,
-        _ => RasterHeight::Size32,
-    };
-    let labels: Vec<String> = legend.entries.iter().map(label).collect();
-    let title = text::plain(&legend.column, LABEL_CHARS);
-    let line_px = height.val();
-    let char_px = get_raster_width(FontWeight::Regular, height);
-    let gap_px = line_px / 2;
-    let text_px = |text: &str| text.chars().count() * char_px;
-    let swatch_px = 2 * line_px;
-    let entry_px = labels
-        .iter()
-        .map(|label| swatch_px + gap_px + text_px(label))
-        .max();
-    let box_px = (
-        entry_px.unwrap_or(0).max(text_px(&title)) + 2 * gap_px,
-        (labels.len() + 1) * line_px + 2 * gap_px,
-    );
-    let room_px = |side: u32| side as usize;
-    let size = frame.size();
-    if box_px.0 + 2 * gap_px > room_px(size.width())
-        || box_px.1 + 2 * gap_px > room_px(size.height())
-    {
-        return false;
+/// A legend as it lies on a picture.
+pub(super) struct Stamp {
+    height: RasterHeight,
+    title: String,
+    /// A colour and what it means, from the top.
+    entries: Vec<(Rgba, String)>,
+    /// Size of the paper.
+    box_px: (usize, usize),
+}
+
+impl Stamp {
+    /// None if it takes more room than there is.
+    pub(super) fn new(size: FrameSize, legend: &Legend) -> Option<Self> {
+        let height = match size.height() {
+            0..1200 => RasterHeight::Size16,
+            1200..2400 => RasterHeight::Size24,
+            _ => RasterHeight::Size32,
+        };
+        let entries = legend
+            .entries
+            .iter()
+            .map(|entry| (entry.color, label(entry)));
+        let entries: Vec<_> = entries.collect();
+        let title = text::plain(&legend.column, LABEL_CHARS);
+        let line_px = height.val();
+        let char_px = get_raster_width(FontWeight::Regular, height);
+        let text_px = |text: &str| text.chars().count() * char_px;
+        let before_label_px = swatch_px(height) + gap_px(height);
+        let widest_px = entries
+            .iter()
+            .map(|(_, label)| before_label_px + text_px(label))
+            .max();
+        let gap_px = gap_px(height);
+        let box_px = (
+            widest_px.unwrap_or(0).max(text_px(&title)) + 2 * gap_px,
+            (entries.len() + 1) * line_px + 2 * gap_px,
+        );
+        let fits = box_px.0 + 2 * gap_px <= size.width() as usize
+            && box_px.1 + 2 * gap_px <= size.height() as usize;
+        fits.then_some(Self {
+            height,
+            title,
+            entries,
+            box_px,
+        })
     }
-    let mut sheet = Sheet { frame, height };
-    sheet.fill((gap_px, gap_px), box_px, PAPER, PAPER_OPACITY);
-    let (left, mut top) = (2 * gap_px, 2 * gap_px);
-    sheet.write((left, top), &title);
-    for (entry, label) in legend.entries.iter().zip(&labels) {
-        top += line_px;
-        let middle = (left, top + line_px / 4);
-        sheet.fill(middle, (swatch_px, line_px / 2), entry.color, 1.0);
-        sheet.write((left + swatch_px + gap_px, top), label);
+
+    /// Draws as much of it as lies on a strip.
+    pub(super) fn onto(&self, strip: &Strip, frame: &mut Frame) {
+        let (line_px, gap_px) = (self.height.val(), gap_px(self.height));
+        let rows = strip.rows();
+        let mut sheet = Sheet {
+            frame,
+            rows: rows.start as usize..rows.end as usize,
+            height: self.height,
+        };
+        sheet.fill((gap_px, gap_px), self.box_px, PAPER, PAPER_OPACITY);
+        let (left, mut top) = (2 * gap_px, 2 * gap_px);
+        sheet.write((left, top), &self.title);
+        for (color, label) in &self.entries {
+            top += line_px;
+            let middle = (left, top + line_px / 4);
+            let swatch_px = swatch_px(self.height);
+            sheet.fill(middle, (swatch_px, line_px / 2), *color, 1.0);
+            sheet.write((left + swatch_px + gap_px, top), label);
+        }
     }
-    true
+}
+
+fn gap_px(height: RasterHeight) -> usize {
+    height.val() / 2
+}
+
+fn swatch_px(height: RasterHeight) -> usize {
+    2 * height.val()
 }
 
 fn label(entry: &guideway::scene::LegendEntry) -> String {
@@ -66,6 +102,8 @@ fn label(entry: &guideway::scene::LegendEntry) -> String {
 
 struct Sheet<'a> {
     frame: &'a mut Frame,
+    /// Rows of the picture that the frame holds.
+    rows: Range<usize>,
     height: RasterHeight,
 }
 
@@ -96,8 +134,11 @@ impl Sheet<'_> {
     }
 
     fn blend(&mut self, (x, y): (usize, usize), color: Rgba, opacity: f64) {
+        if !self.rows.contains(&y) {
+            return;
+        }
         let width = self.frame.size().width() as usize;
-        let pixel = &mut self.frame.pixels_mut()[y * width + x];
+        let pixel = &mut self.frame.pixels_mut()[(y - self.rows.start) * width + x];
         let [r, g, b, a] = *pixel;
         let mixed = Rgba { r, g, b, a }.lerp(color, opacity);
         *pixel = [mixed.r, mixed.g, mixed.b, mixed.a];
@@ -106,8 +147,9 @@ impl Sheet<'_> {
 
 #[cfg(test)]
 mod tests {
-    use guideway::render::FrameSize;
+    use guideway::render::View;
     use guideway::scene::LegendEntry;
+    use guideway::spline::Point;
 
     use super::*;
 
@@ -123,11 +165,23 @@ mod tests {
         }
     }
 
+    fn view(width: u32, height: u32) -> View {
+        let size = FrameSize::new(width, height).unwrap();
+        View::new(size, Point::default(), 1.0).unwrap()
+    }
+
+    fn white(strip: &Strip) -> Frame {
+        let mut frame = Frame::new(strip.size());
+        frame.pixels_mut().fill([255; 4]);
+        frame
+    }
+
     #[test]
     fn the_legend_shows_its_colours_in_the_upper_left() {
-        let mut frame = Frame::new(FrameSize::new(400, 200).unwrap());
-        frame.pixels_mut().fill([255; 4]);
-        assert!(stamp(&mut frame, &legend()));
+        let strip = Strip::whole(&view(400, 200));
+        let mut frame = white(&strip);
+        let stamp = Stamp::new(frame.size(), &legend()).unwrap();
+        stamp.onto(&strip, &mut frame);
         let has = |color: [u8; 4]| frame.pixels().iter().position(|&p| p == color);
         assert!(has([200, 0, 0, 255]).is_some_and(|at| at % 400 < 100 && at / 400 < 60));
         assert!(has([0, 0, 0, 255]).is_some(), "there is text");
@@ -135,10 +189,29 @@ mod tests {
     }
 
     #[test]
-    fn a_picture_too_small_for_the_legend_stays_as_it_is() {
-        let mut frame = Frame::new(FrameSize::new(60, 40).unwrap());
-        let before = frame.clone();
-        assert!(!stamp(&mut frame, &legend()));
-        assert_eq!(frame, before);
+    fn a_legend_goes_on_from_one_strip_to_the_next() {
+        // In the largest letters, so that it does not end with the first strip.
+        let view = view(500, 2400);
+        let stamp = Stamp::new(view.size(), &legend()).unwrap();
+        let mut whole = white(&Strip::whole(&view));
+        stamp.onto(&Strip::whole(&view), &mut whole);
+        let mut rows = whole.pixels().iter();
+        for strip in view.strips(0) {
+            let mut frame = white(&strip);
+            stamp.onto(&strip, &mut frame);
+            assert!(
+                frame
+                    .pixels()
+                    .iter()
+                    .eq(rows.by_ref().take(frame.pixels().len()))
+            );
+        }
+        let second = &whole.pixels()[64 * 500..128 * 500];
+        assert!(rows.next().is_none() && second.iter().any(|p| *p != [255; 4]));
+    }
+
+    #[test]
+    fn a_legend_that_is_larger_than_the_picture_is_none() {
+        assert!(Stamp::new(view(60, 40).size(), &legend()).is_none());
     }
 }

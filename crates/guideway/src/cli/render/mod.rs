@@ -9,17 +9,17 @@ mod report;
 mod swept;
 mod vector;
 
-use std::io::{IsTerminal, Write};
+use std::io::{self, IsTerminal, Write};
 use std::path::Path;
 use std::sync::Arc;
 
-use guideway::render::Frame;
+use guideway::render::FrameSize;
 use guideway::scene::Scene;
-use guideway::{SaveError, save_png, write_png};
+use guideway::{SaveError, save_png_by, write_png_by};
 
 pub(crate) use args::{Args, Rule};
 pub(crate) use below::Below;
-pub(crate) use picture::{Drawn, Wishes, draw};
+pub(crate) use picture::{Drawn, Take, Wishes, draw};
 pub(crate) use report::{Times, what_was_drawn};
 #[cfg(feature = "viewer")]
 pub(crate) use vector::draw as draw_vector;
@@ -56,29 +56,26 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, Failure> {
     };
     let Some(method) = method else {
         let activity = out.activity("writing the picture");
-        let (output, legend) = (&args.output, args.is_with_legend());
-        let drawn = vector::draw(output, &scene, &below, &wishes, legend)?;
+        let drawn = vector::draw(&args.output, &scene, &below, &wishes)?;
         times.write = activity.finish();
         return tell(args, &target, &scene, &drawn, &times, out);
     };
-    let mut drawn = draw(&*method, &scene, &below, &wishes, out)?;
-    drawn.advise(&wishes.style);
-    if args.is_with_legend() {
-        drawn.stamp_legend(&scene);
-    }
-    let activity = out.activity("writing the picture");
-    target.write(&drawn.frame)?;
+    let activity = out.activity("drawing");
+    let drawn = target.write(wishes.size, |take| {
+        draw(&*method, &scene, &below, &wishes, &activity, take)
+    })?;
+    drop(activity);
     times.prepare = drawn.prepare_ms;
     times.render = drawn.render_ms;
-    times.write = activity.finish();
+    times.write = drawn.write_ms;
     tell(args, &target, &scene, &drawn, &times, out)
 }
 
-fn tell<F>(
+fn tell(
     args: &Args,
     target: &Target<'_>,
     scene: &Scene,
-    drawn: &Drawn<F>,
+    drawn: &Drawn,
     times: &Times,
     out: &Output,
 ) -> Result<Exit, Failure> {
@@ -110,7 +107,7 @@ impl<'a> Target<'a> {
                 "Give the picture a file, such as `-o site.png --json`",
             ));
         }
-        if std::io::stdout().is_terminal() {
+        if io::stdout().is_terminal() {
             return Err(Failure::arguments(
                 "a picture is not for a terminal",
                 "Send it on, such as `guideway render site.lif.json -o - | feh -`, or give it a file",
@@ -119,19 +116,43 @@ impl<'a> Target<'a> {
         Ok(Self::StandardOutput)
     }
 
-    fn write(&self, frame: &Frame) -> Result<(), Failure> {
+    /// Writes the picture that `draw` hands over.
+    fn write(
+        &self,
+        size: FrameSize,
+        draw: impl FnOnce(Take<'_>) -> Result<Drawn, Failure>,
+    ) -> Result<Drawn, Failure> {
         match self {
-            Self::File(path) => Ok(save_png(frame, path)?),
+            Self::File(path) => save_png_by(path, size, draw),
             Self::StandardOutput => {
-                let mut bytes = Vec::new();
-                write_png(frame, &mut bytes)
-                    .and_then(|()| bytes.flush())
-                    .map_err(|problem| SaveError {
+                let fail = |problem| {
+                    Failure::from(SaveError {
                         path: "-".into(),
                         problem,
-                    })?;
-                super::output::print(&bytes)
+                    })
+                };
+                write_png_by(Willing(io::stdout().lock()), size, fail, draw)
             }
         }
+    }
+}
+
+/// Standard output, of which a reader may want no more: that is no failure.
+struct Willing(io::StdoutLock<'static>);
+
+impl Write for Willing {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        willing(self.0.write(bytes), bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        willing(self.0.flush(), ())
+    }
+}
+
+fn willing<T>(outcome: io::Result<T>, as_if: T) -> io::Result<T> {
+    match outcome {
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(as_if),
+        outcome => outcome,
     }
 }

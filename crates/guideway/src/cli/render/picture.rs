@@ -1,15 +1,19 @@
 use std::sync::Arc;
+use std::time::Instant;
 
+use guideway::formats::Progress;
 use guideway::render::{
-    Budget, Cancel, Frame, FrameSize, Method, MethodInfo, RenderError, Report, Shading, Style, View,
+    Budget, Cancel, Frame, FrameSize, Method, MethodInfo, RenderError, Report, Shading, Style,
+    View, elapsed_ms,
 };
 use guideway::scene::{Rgba, Scene, SceneOptions};
 use guideway::spline::{Bounds, Point};
 
 use super::below::Below;
+use super::floor_plan;
+use super::legend::Stamp;
 use super::swept::SweptReport;
-use super::{floor_plan, legend};
-use crate::cli::{Failure, Output};
+use crate::cli::Failure;
 
 /// What a picture is to be like.
 pub(crate) struct Wishes {
@@ -20,12 +24,13 @@ pub(crate) struct Wishes {
     pub(crate) px_per_m: Option<f64>,
     pub(crate) scene: SceneOptions,
     pub(crate) style: Style,
+    /// Whether the picture shows what its colours mean.
+    pub(crate) has_legend: bool,
     pub(crate) budget: Budget,
 }
 
-/// A picture with what became of every path.
-pub(crate) struct Drawn<F = Frame> {
-    pub(crate) frame: F,
+/// What became of every path of a picture.
+pub(crate) struct Drawn {
     pub(crate) view: View,
     pub(crate) report: Report,
     pub(crate) method: MethodInfo,
@@ -33,70 +38,97 @@ pub(crate) struct Drawn<F = Frame> {
     pub(crate) swept: Option<SweptReport>,
     pub(crate) prepare_ms: f64,
     pub(crate) render_ms: f64,
+    pub(crate) write_ms: f64,
 }
 
-/// Draws a scene over what lies below it, showing that it is being drawn.
+/// Takes the next rows of a picture, from the top.
+pub(crate) type Take<'a> = &'a mut dyn FnMut(&Frame) -> Result<(), Failure>;
+
+/// Draws a scene over what lies below it, and hands on the picture strip by strip. `progress` is told of rows.
 pub(crate) fn draw(
     method: &dyn Method,
     scene: &Arc<Scene>,
     below: &Below,
     wishes: &Wishes,
-    out: &Output,
+    progress: &dyn Progress,
+    take: Take<'_>,
 ) -> Result<Drawn, Failure> {
+    let started = Instant::now();
     let view = view(scene, below, wishes)?;
-    let activity = out.activity("preparing");
-    let mut style = wishes.style;
     let seen = below.seen(scene, &view)?;
-    let below = seen.draw(&view, style.background, &wishes.budget)?;
-    if below.is_some() {
+    let mut ground = seen.ground(&wishes.budget)?;
+    let mut style = wishes.style;
+    if ground.is_some() {
         style.background.a = 0;
     }
     let mut prepared = method.prepare(Arc::clone(scene), &wishes.budget)?;
-    let prepare_ms = activity.finish();
-    let activity = out.activity("drawing");
-    let mut frame = Frame::new(view.size());
-    let report = prepared.render(&view, &style, &Cancel::default(), &mut frame)?;
-    if let Some(below) = &below {
-        floor_plan::lay_over(below, &mut frame);
+    let prepare_ms = elapsed_ms(started);
+
+    let legend = scene.legend().filter(|_| wishes.has_legend);
+    let stamp = legend.map(|legend| Stamp::new(view.size(), legend));
+    let mut report = None::<Report>;
+    let (mut render_ms, mut write_ms, mut bare_pixels) = (0.0, 0.0, 0);
+    let size = FrameSize::new(1, 1)?;
+    let (mut frame, mut below_it) = (Frame::new(size), Frame::new(size));
+    for strip in view.strips(prepared.strip_pixels()) {
+        if progress.cancelled() {
+            return Err(RenderError::Cancelled.into());
+        }
+        let started = Instant::now();
+        let of_strip = prepared.render_strip(&strip, &style, &Cancel::default(), &mut frame)?;
+        if let Some(ground) = &mut ground {
+            ground.draw(&strip, wishes.style.background, &mut below_it)?;
+            floor_plan::lay_over(&below_it, &mut frame);
+        }
+        bare_pixels += bare(&frame, wishes.style.background);
+        if let Some(Some(stamp)) = &stamp {
+            stamp.onto(&strip, &mut frame);
+        }
+        match &mut report {
+            Some(report) => report.join(of_strip),
+            none => *none = Some(of_strip),
+        }
+        render_ms += elapsed_ms(started);
+        let started = Instant::now();
+        take(&frame)?;
+        write_ms += elapsed_ms(started);
+        progress.advance(strip.rows().end.into(), view.size().height().into());
+    }
+    let mut report = report.unwrap_or_default();
+    report
+        .notes
+        .extend(crowded(&report, bare_pixels, &view, &wishes.style));
+    if let Some(None) = stamp {
+        let note = "the legend is larger than the picture, so it is only in this report";
+        report.notes.push(note.to_owned());
     }
     Ok(Drawn {
-        frame,
         view,
         report,
         method: method.info(),
         swept: seen.report(),
         prepare_ms,
-        render_ms: activity.finish(),
+        render_ms,
+        write_ms,
     })
 }
 
-/// Paths from which a picture that is mostly covered is a crowd.
-const CROWD: u64 = 10_000;
+/// Pixels that show nothing.
+fn bare(frame: &Frame, background: Rgba) -> usize {
+    let bare = background.to_u32().to_be_bytes();
+    frame
+        .pixels()
+        .iter()
+        .filter(|&&pixel| pixel == bare)
+        .count()
+}
 
-impl Drawn {
-    /// Notes what would show more, where a crowd of paths covers the picture.
-    pub(super) fn advise(&mut self, style: &Style) {
-        let Rgba { r, g, b, a } = style.background;
-        let pixels = self.frame.pixels();
-        let bare = pixels.iter().filter(|&&p| p == [r, g, b, a]).count();
-        let is_crowd = self.report.drawn >= CROWD && bare * 2 < pixels.len();
-        if is_crowd && style.shading == Shading::Color {
-            let note =
-                "paths cover most of the picture; `--shade density` shows how many lie where";
-            self.report.notes.push(note.to_owned());
-        }
-    }
-
-    /// Puts the legend into the picture, or notes that there is no room for it.
-    pub(super) fn stamp_legend(&mut self, scene: &Scene) {
-        let fits = scene
-            .legend()
-            .is_none_or(|l| legend::stamp(&mut self.frame, l));
-        if !fits {
-            let note = "the legend is larger than the picture, so it is only in this report";
-            self.report.notes.push(note.to_owned());
-        }
-    }
+/// What would show more, where a crowd of paths covers most of the picture.
+fn crowded(report: &Report, bare_pixels: usize, view: &View, style: &Style) -> Option<String> {
+    const CROWD: u64 = 10_000;
+    let is_crowd = report.drawn >= CROWD && bare_pixels * 2 < view.size().pixels();
+    let note = "paths cover most of the picture; `--shade density` shows how many lie where";
+    (is_crowd && style.shading == Shading::Color).then(|| note.to_owned())
 }
 
 /// The view that is wished for; unless said otherwise it shows everything, what lies below too.
@@ -113,3 +145,6 @@ pub(super) fn view(scene: &Scene, below: &Below, wishes: &Wishes) -> Result<View
         wishes.px_per_m.unwrap_or(all.px_per_m()),
     )
 }
+
+#[cfg(test)]
+mod tests;

@@ -26,7 +26,7 @@ impl Times {
     }
 }
 
-pub(super) fn text<F>(path: &Path, scene: &Scene, drawn: &Drawn<F>, times: &Times) -> String {
+pub(super) fn text(path: &Path, scene: &Scene, drawn: &Drawn, times: &Times) -> String {
     let size = drawn.view.size();
     let mut text = String::new();
     if path != Path::new("-") {
@@ -68,7 +68,7 @@ pub(super) fn text<F>(path: &Path, scene: &Scene, drawn: &Drawn<F>, times: &Time
 }
 
 /// What became of every path, in one line.
-pub(crate) fn what_was_drawn<F>(drawn: &Drawn<F>) -> String {
+pub(crate) fn what_was_drawn(drawn: &Drawn) -> String {
     let report = &drawn.report;
     let mut text = format!(
         "{} of {} drawn by {}",
@@ -105,7 +105,7 @@ fn legend_text(legend: &Legend) -> String {
     text
 }
 
-pub(super) fn json<F>(args: &Args, scene: &Scene, drawn: &Drawn<F>, times: &Times) -> Value {
+pub(super) fn json(args: &Args, scene: &Scene, drawn: &Drawn, times: &Times) -> Value {
     let report = &drawn.report;
     let (view, size) = (&drawn.view, drawn.view.size());
     let seen = view.world_bounds();

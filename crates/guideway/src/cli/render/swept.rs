@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use guideway::cpu::{Areas, lay_areas};
 use guideway::envelope::{Convex, LEAST_TOLERANCE_M, Source, Without};
 use guideway::formats::svg::Page;
-use guideway::render::{Frame, View};
+use guideway::render::{Frame, Strip, View};
 use guideway::scene::{Rgba, Scene};
 use guideway::spline::{Bounds, Point};
 use rayon::prelude::*;
@@ -47,6 +47,11 @@ pub(super) fn bounds(scene: &Scene, source: Source) -> Option<Bounds<f64>> {
     let boxes =
         paths.filter_map(|&path| Some(source.sweep(scene.layout(), path as usize).ok()?.bounds()));
     boxes.reduce_with(Bounds::union)
+}
+
+/// Draws swept areas over what is there.
+pub(super) fn lay(areas: &Areas, strip: &Strip, frame: &mut Frame) {
+    lay_areas(areas, strip, COLOR, frame);
 }
 
 impl Swept {
@@ -98,11 +103,12 @@ impl Swept {
         }
     }
 
-    pub(super) fn draw(&self, view: &View, frame: &mut Frame) {
+    /// All polygons, as they are drawn.
+    pub(super) fn areas(&self) -> Areas {
         let mut areas = Areas::default();
         let polygons = self.areas.iter().flatten();
         polygons.for_each(|polygon| areas.push(polygon.points()));
-        lay_areas(&areas, view, COLOR, frame);
+        areas
     }
 
     pub(super) fn write(

@@ -32,8 +32,7 @@ pub(crate) fn draw(
     scene: &Scene,
     below: &Below,
     wishes: &Wishes,
-    has_legend: bool,
-) -> Result<Drawn<()>, Failure> {
+) -> Result<Drawn, Failure> {
     if wishes.style.shading != Shading::Color {
         return Err(Failure::arguments(
             "an SVG picture has the colours of paths, not how many there are",
@@ -42,7 +41,7 @@ pub(crate) fn draw(
     }
     let view = picture::view(scene, below, wishes)?;
     let seen = below.seen(scene, &view)?;
-    let legend = scene.legend().filter(|_| has_legend);
+    let legend = scene.legend().filter(|_| wishes.has_legend);
     let drawn = replace_file(output, |file| {
         let written = File::create(file).and_then(|file| {
             let mut out = BufWriter::with_capacity(1 << 16, file);
@@ -56,7 +55,6 @@ pub(crate) fn draw(
         })
     })?;
     Ok(Drawn {
-        frame: (),
         view,
         report: Report::of(ENDING, scene, drawn),
         method: MethodInfo {
@@ -67,6 +65,7 @@ pub(crate) fn draw(
         swept: seen.report(),
         prepare_ms: 0.0,
         render_ms: 0.0,
+        write_ms: 0.0,
     })
 }
 

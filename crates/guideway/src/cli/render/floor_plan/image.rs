@@ -5,7 +5,7 @@ use std::path::Path;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use guideway::formats::svg::Page;
-use guideway::render::{Frame, View};
+use guideway::render::{Frame, Strip, View};
 use guideway::scene::Rgba;
 use guideway::spline::{Affine, Bounds, Point};
 
@@ -96,7 +96,8 @@ impl Image {
         others.into_iter().fold(corner(0.0, 0.0), Bounds::union)
     }
 
-    pub(super) fn draw(&self, view: &View, background: Rgba, frame: &mut Frame) {
+    pub(super) fn draw(&self, strip: &Strip, background: Rgba, frame: &mut Frame) {
+        let view = strip.view();
         // A pixel of the picture is the mean of what it covers of the image: a copy of about its size has it.
         let image_px_per_px = self.px_per_m / view.px_per_m();
         let index = (image_px_per_px.log2().round().max(0.0) as usize).min(self.levels.len() - 1);
@@ -109,9 +110,10 @@ impl Image {
         let origin = self.world_from_image.origin;
         let back = Affine::rotation(-self.rotation_rad, Point::default());
         let width = view.size().width() as usize;
-        for (row, pixels) in frame.pixels_mut().chunks_exact_mut(width).enumerate() {
+        let rows = frame.pixels_mut().chunks_exact_mut(width);
+        for (row, pixels) in strip.rows().zip(rows) {
             for (column, pixel) in pixels.iter_mut().enumerate() {
-                let at = Point::new(column as f64 + 0.5, row as f64 + 0.5);
+                let at = Point::new(column as f64 + 0.5, f64::from(row) + 0.5);
                 let from_corner = back.apply(view.world_from_pixel(at) - origin) * self.px_per_m;
                 let sample = level.sample(from_corner.x * shrunk.x, -from_corner.y * shrunk.y);
                 *pixel = super::over(straight(sample), below);
@@ -266,7 +268,7 @@ mod tests {
         let size = FrameSize::new(1, 1).unwrap();
         let view = View::new(size, Point::new(x, y), 8.0).unwrap();
         let mut frame = Frame::new(size);
-        image.draw(&view, Rgba::BLACK, &mut frame);
+        image.draw(&Strip::whole(&view), Rgba::BLACK, &mut frame);
         frame.pixels()[0]
     }
 
@@ -296,7 +298,7 @@ mod tests {
         let size = FrameSize::new(1, 1).unwrap();
         let view = View::new(size, Point::new(11.0, 21.0), 0.5).unwrap();
         let mut frame = Frame::new(size);
-        image.draw(&view, Rgba::BLACK, &mut frame);
+        image.draw(&Strip::whole(&view), Rgba::BLACK, &mut frame);
         assert_eq!(frame.pixels()[0], [128, 128, 128, 255]);
     }
 }

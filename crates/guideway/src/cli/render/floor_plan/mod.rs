@@ -8,7 +8,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use guideway::formats::svg::{Outline, Page, Stroke};
-use guideway::render::{Budget, Cancel, Frame, Style, View};
+use guideway::render::{Budget, Cancel, Frame, Prepared, Strip, Style, View};
 use guideway::scene::{LineRule, Rgba, Scene, SceneOptions};
 use guideway::spline::Bounds;
 
@@ -34,6 +34,12 @@ pub(crate) enum FloorPlan {
     Image(Image),
 }
 
+/// A floor plan that is ready to be drawn.
+pub(super) enum Floor<'p> {
+    Paths(Box<dyn Prepared>),
+    Image(&'p Image),
+}
+
 impl FloorPlan {
     /// Reads a floor plan; its content tells which of the two it is.
     pub(super) fn read(input: &Input, out: &Output) -> Result<Self, Failure> {
@@ -55,27 +61,14 @@ impl FloorPlan {
         }
     }
 
-    /// Draws it alone.
-    pub(super) fn draw(
-        &self,
-        view: &View,
-        background: Rgba,
-        budget: &Budget,
-    ) -> Result<Frame, Failure> {
-        let mut frame = Frame::new(view.size());
-        match self {
+    /// Makes it ready to be drawn.
+    pub(super) fn prepare(&self, budget: &Budget) -> Result<Floor<'_>, Failure> {
+        Ok(match self {
             Self::Paths(scene) => {
-                let style = Style {
-                    line_rule: LINES,
-                    background,
-                    ..Style::default()
-                };
-                let mut prepared = guideway::method("cpu")?.prepare(Arc::clone(scene), budget)?;
-                prepared.render(view, &style, &Cancel::default(), &mut frame)?;
+                Floor::Paths(guideway::method("cpu")?.prepare(Arc::clone(scene), budget)?)
             }
-            Self::Image(image) => image.draw(view, background, &mut frame),
-        }
-        Ok(frame)
+            Self::Image(image) => Floor::Image(image),
+        })
     }
 
     /// Writes it below what follows on a page.
@@ -92,6 +85,29 @@ impl FloorPlan {
                 page.end_group()
             }
         }
+    }
+}
+
+impl Floor<'_> {
+    /// Draws it alone, into a picture of the strip's size.
+    pub(super) fn draw(
+        &mut self,
+        strip: &Strip,
+        background: Rgba,
+        frame: &mut Frame,
+    ) -> Result<(), Failure> {
+        match self {
+            Self::Paths(prepared) => {
+                let style = Style {
+                    line_rule: LINES,
+                    background,
+                    ..Style::default()
+                };
+                prepared.render_strip(strip, &style, &Cancel::default(), frame)?;
+            }
+            Self::Image(image) => image.draw(strip, background, frame),
+        }
+        Ok(())
     }
 }
 

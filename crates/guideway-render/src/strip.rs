@@ -1,0 +1,91 @@
+use std::ops::Range;
+
+use crate::{FrameSize, View};
+
+/// Whole rows of a view, drawn at once: a picture that is larger than memory is drawn strip by strip.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Strip {
+    view: View,
+    first_row: u32,
+    size: FrameSize,
+}
+
+impl Strip {
+    /// Strips begin at multiples of so many rows, for methods that draw in tiles.
+    pub const STEP: u32 = 64;
+
+    /// The strip that is all of a view.
+    pub fn whole(view: &View) -> Self {
+        Self {
+            view: *view,
+            first_row: 0,
+            size: view.size(),
+        }
+    }
+
+    /// What it is a part of.
+    pub fn view(&self) -> &View {
+        &self.view
+    }
+
+    /// Its rows, counted from the top of the view.
+    pub fn rows(&self) -> Range<u32> {
+        self.first_row..self.first_row + self.size.height()
+    }
+
+    /// Size in pixels.
+    pub fn size(&self) -> FrameSize {
+        self.size
+    }
+
+    /// Whether it is all of the view.
+    pub fn is_whole(&self) -> bool {
+        self.size == self.view.size()
+    }
+}
+
+impl View {
+    /// Its strips, from the top: each of at most so many pixels, or of [`Strip::STEP`] rows if those are more.
+    pub fn strips(&self, most_pixels: usize) -> impl ExactSizeIterator<Item = Strip> + use<> {
+        let view = *self;
+        let (width, height) = (view.size().width(), view.size().height());
+        let rows = (most_pixels / width as usize).min(height as usize) as u32;
+        let rows = match rows < height {
+            true => (rows / Strip::STEP).max(1) * Strip::STEP,
+            false => height,
+        };
+        (0..height.div_ceil(rows)).map(move |number| Strip {
+            view,
+            first_row: number * rows,
+            size: view.size().with_height(rows.min(height - number * rows)),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use guideway_spline::Point;
+
+    use super::*;
+
+    #[test]
+    fn strips_are_all_of_the_view_and_within_bounds() {
+        for (width, height) in [(1, 1), (100, 64), (100, 200), (7, 65_535), (65_535, 129)] {
+            let size = FrameSize::new(width, height).unwrap();
+            let view = View::new(size, Point::new(0.0, 0.0), 1.0).unwrap();
+            for most_pixels in [0, 1, 6_400, 12_900, 1 << 24, usize::MAX] {
+                let mut next = 0;
+                for strip in view.strips(most_pixels) {
+                    let rows = strip.rows();
+                    assert_eq!((rows.start, rows.start % Strip::STEP), (next, 0));
+                    assert!(strip.size().pixels() <= most_pixels || rows.len() <= 64);
+                    assert_eq!(strip.size().width(), width);
+                    assert_eq!(strip.is_whole(), rows == (0..height));
+                    next = rows.end;
+                }
+                assert_eq!(next, height);
+            }
+            assert!(view.strips(size.pixels()).eq([Strip::whole(&view)]));
+        }
+    }
+}
