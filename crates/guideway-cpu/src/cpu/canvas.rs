@@ -3,7 +3,8 @@ use std::ops::RangeInclusive;
 use guideway_scene::Rgba;
 use guideway_spline::Point;
 
-use super::span::{Capsule, Disc, ROWS, SOLID, Spans};
+use super::disc::Disc;
+use super::span::{Capsule, ROWS, SOLID, Samples, Spans};
 
 /// Pixels along each side of a tile: a bit of a word each.
 pub(super) const TILE_PX: usize = u32::BITS as usize;
@@ -44,14 +45,15 @@ impl<const C: usize> Canvas<C> {
     pub(super) const WINDOW_PX: usize = TILE_PX / C;
     const TILE_COLUMNS: f32 = (TILE_PX * C) as f32;
     const IS_SOLID: bool = C == SOLID;
+    const NO_BLOCKS: [[Block; TILE_PX]; C] = [[[0; ROWS]; TILE_PX]; C];
 
     pub(super) fn new() -> Self {
         Self {
-            shape: Box::new([[[0; ROWS]; TILE_PX]; C]),
+            shape: Box::new(Self::NO_BLOCKS),
             touched: [0; C],
             open_pixels: [0; TILE_PX],
             open: [0; C],
-            opaque: Box::new([[[0; ROWS]; TILE_PX]; C]),
+            opaque: Box::new(Self::NO_BLOCKS),
             glazed: [0; C],
             clear: Vec::new(),
             sums: Box::new([[[0.0; 4]; TILE_PX]; TILE_PX]),
@@ -68,7 +70,7 @@ impl<const C: usize> Canvas<C> {
     /// Starts an empty tile of which only `width_px` by `height_px` pixels are seen. What is not seen counts
     /// as covered: nothing waits for it.
     pub(super) fn begin(&mut self, width_px: usize, height_px: usize) {
-        *self.shape = [[[0; ROWS]; TILE_PX]; C];
+        *self.shape = Self::NO_BLOCKS;
         (self.touched, self.glazed) = ([0; C], [0; C]);
         for (window, open) in self.open.iter_mut().enumerate() {
             let is_seen = window * Self::WINDOW_PX < width_px;
@@ -89,7 +91,7 @@ impl<const C: usize> Canvas<C> {
     pub(super) fn begin_layers(&mut self, width_px: usize, height_px: usize) {
         self.begin(width_px, height_px);
         std::mem::swap(&mut self.shape, &mut self.opaque);
-        *self.shape = [[[0; ROWS]; TILE_PX]; C];
+        *self.shape = Self::NO_BLOCKS;
         *self.sums = [[[0.0; 4]; TILE_PX]; TILE_PX];
     }
 
@@ -261,9 +263,10 @@ impl<const C: usize> Canvas<C> {
     }
 
     /// The colours of each row of pixels that were laid over the background.
-    pub(super) fn row_over(&self, row: usize, background: Rgba, pixels: &mut [[u8; 4]]) {
+    #[inline(always)]
+    pub(super) fn row_over(&self, row: usize, backdrop: &Backdrop, pixels: &mut [[u8; 4]]) {
         for (pixel, sum) in pixels.iter_mut().zip(&self.sums[row]) {
-            *pixel = over::<C>(*sum, background);
+            *pixel = backdrop.below::<C>(*sum);
         }
     }
 
@@ -271,50 +274,71 @@ impl<const C: usize> Canvas<C> {
     #[inline(always)]
     pub(super) fn solid_row(&self, row: usize, colors: &SolidColors, pixels: &mut [[u8; 4]]) {
         for (window, pixels) in pixels.chunks_mut(Self::WINDOW_PX).enumerate() {
-            let counts = if self.open[window] >> row & 1 == 0 {
-                [(ROWS * C) as u16; MOST_WINDOW_PX]
+            if self.open[window] >> row & 1 == 0 {
+                pixels.fill(colors[Samples::<SOLID>::COUNT]);
             } else if self.touched[window] >> row & 1 == 0 {
-                [0; MOST_WINDOW_PX]
+                pixels.fill(colors[0]);
             } else {
-                pixel_counts::<C>(&self.shape[window][row])
-            };
-            for (pixel, count) in pixels.iter_mut().zip(counts) {
-                *pixel = colors[usize::from(count)];
+                let counts = pixel_counts::<C>(&self.shape[window][row]);
+                for (pixel, count) in pixels.iter_mut().zip(counts) {
+                    *pixel = colors[usize::from(count)];
+                }
             }
         }
     }
 }
 
 /// Colours by the number of samples covered.
-type SolidColors = [[u8; 4]; ROWS * SOLID + 1];
+type SolidColors = [[u8; 4]; Samples::<SOLID>::COUNT + 1];
 
 /// The colours of pixels of which one opaque colour covers from none to all samples.
 pub(super) fn solid_colors(color: Rgba, background: Rgba) -> SolidColors {
+    let backdrop = Backdrop::new(background);
     std::array::from_fn(|count| {
         let [r, g, b, a] = [color.r, color.g, color.b, 1].map(|c| f32::from(c) * count as f32);
-        over::<SOLID>([r, g, b, a], background)
+        backdrop.below::<SOLID>([r, g, b, a])
     })
 }
 
-/// The mean of a pixel's samples, of which `sum` is the sum, over the background: straight alpha.
-fn over<const C: usize>(sum: [f32; 4], background: Rgba) -> [u8; 4] {
-    let below = Rgba::to_u32(background).to_be_bytes();
-    if sum[3] == 0.0 {
-        return below;
+/// What lies below all paths.
+pub(super) struct Backdrop {
+    bytes: [u8; 4],
+    rgb: [f32; 3],
+    opacity: f32,
+}
+
+impl Backdrop {
+    pub(super) fn new(background: Rgba) -> Self {
+        let bytes @ [r, g, b, a] = background.to_u32().to_be_bytes();
+        Self {
+            bytes,
+            rgb: [r, g, b].map(f32::from),
+            opacity: f32::from(a) / 255.0,
+        }
     }
-    let per_sample = 1.0 / (ROWS * C) as f32;
-    let shines = (1.0 - sum[3] * per_sample).max(0.0) * f32::from(background.a) / 255.0;
-    let opacity = sum[3] * per_sample + shines;
-    let channel = |i: usize| {
-        let color = (sum[i] * per_sample + f32::from(below[i]) * shines) / opacity;
-        (color + 0.5) as u8
-    };
-    [
-        channel(0),
-        channel(1),
-        channel(2),
-        (opacity * 255.0 + 0.5) as u8,
-    ]
+
+    /// The mean of a pixel's samples, of which `sum` is the sum, over the background: straight alpha.
+    #[inline(always)]
+    fn below<const C: usize>(&self, sum: [f32; 4]) -> [u8; 4] {
+        let a_sample = 1.0 / Samples::<C>::COUNT as f32;
+        if sum[3] == 0.0 {
+            return self.bytes;
+        }
+        let shines = (1.0 - sum[3] * a_sample).max(0.0) * self.opacity;
+        let opacity = sum[3] * a_sample + shines;
+        let channel = |i: usize| {
+            let color = sum[i] * a_sample + self.rgb[i] * shines;
+            // A division is worth avoiding: most backgrounds are opaque.
+            let color = if self.opacity < 1.0 {
+                color / opacity
+            } else {
+                color
+            };
+            (color + 0.5) as u8
+        };
+        let alpha = (opacity * 255.0 + 0.5) as u8;
+        [channel(0), channel(1), channel(2), alpha]
+    }
 }
 
 /// The numbers of the bits that are set.
@@ -328,6 +352,7 @@ pub(super) fn set_bits(mut bits: u32) -> impl Iterator<Item = usize> {
 }
 
 /// A word with its lowest `count` bits set: all, if that is more than it has.
+#[inline(always)]
 fn low_bits(count: u32) -> u32 {
     !high_bits(count)
 }

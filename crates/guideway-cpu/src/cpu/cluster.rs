@@ -11,43 +11,16 @@ use super::canvas::{TILE_PX, set_bits};
 use super::flatten::flatten;
 use super::polylines::{Pen, Polylines, ROUNDS};
 use super::shot::{LaneWidth, Shot};
+use super::sight::Sight;
 use super::simplify::simplify;
 
 /// Paths, near each other, that are culled and kept together.
 pub(super) const CLUSTER_PATHS: usize = 64;
 /// Farthest from its middle, in units, that a cluster whose lines are kept may reach: rounding to `i16`
 /// stays within.
-const MOST_UNITS: f64 = 32_000.0;
+pub(super) const MOST_UNITS: f64 = 32_000.0;
 
-/// Paths near each other, and the lines that they were last drawn as.
-#[derive(Debug, Default)]
-pub(super) struct Cluster {
-    /// Where the control points lie, in metres; none if there are none.
-    pub(super) bounds: Option<Bounds<f64>>,
-    pub(super) lines: Lines,
-    /// Whether paths have changed since.
-    pub(super) is_stale: bool,
-    pub(super) sight: Option<Sight>,
-}
-
-/// What a frame sees of a cluster.
-#[derive(Clone, Debug)]
-pub(super) struct Sight {
-    /// Where its middle lies, in pixels.
-    pub(super) middle_px: Point<f64>,
-    /// Pixels that it may leave a mark on.
-    pub(super) reach_px: Bounds<f32>,
-    /// Whether all of it is within the picture.
-    is_whole: bool,
-    /// Tiles that it may leave a mark on.
-    pub(super) columns: Range<usize>,
-    pub(super) rows: Range<usize>,
-    /// Paths that may leave a mark on the picture, and their lines.
-    pub(super) drawn: u32,
-    pub(super) made: u32,
-}
-
-/// Lines of a cluster.
+/// The lines that a cluster of paths was last drawn as.
 #[derive(Debug, Default)]
 pub(super) enum Lines {
     #[default]
@@ -62,7 +35,6 @@ pub(super) enum Lines {
 #[derive(Default)]
 pub(super) struct Scratch {
     kept: Polylines<i16>,
-    cut: Polylines<f32>,
     local: Vec<Point<f32>>,
     vertices: Vec<Point<f32>>,
     /// The round, the member and the end of the points of each run.
@@ -109,88 +81,86 @@ fn center(layout: &Layout, row: u32) -> Option<Point<f64>> {
     bounds.map(Bounds::center)
 }
 
-/// Where the control points of paths lie, in metres.
-pub(super) fn hull_bounds(layout: &Layout, paths: &[u32]) -> Option<Bounds<f64>> {
-    let hulls = paths
+/// Reads a little of each path. The paths of a cluster lie anywhere in memory: so their ways through the caches go
+/// side by side, instead of one after the other as each is worked on.
+fn fetch(layout: &Layout, paths: &[u32]) {
+    let geometry = layout.paths.geometry();
+    let runs = paths.iter().flat_map(|&path| geometry.runs(path as usize));
+    let ends = |run: RunPoints<'_>| match run {
+        RunPoints::F64(run) => Some((run.first()?.x, run.last()?.x)),
+        RunPoints::F32(run) => Some((run.first()?.x.into(), run.last()?.x.into())),
+    };
+    let read = runs
+        .filter_map(ends)
+        .fold(0.0, |sum, (first, last)| sum + first + last);
+    std::hint::black_box(read);
+}
+
+/// Where the control points of the paths that are shown lie, in metres.
+pub(super) fn hull_bounds(scene: &Scene, paths: &[u32]) -> Option<Bounds<f64>> {
+    fetch(scene.layout(), paths);
+    let shown = paths
         .iter()
-        .filter_map(|&path| layout.paths.get(path as usize).hull_bounds());
+        .filter(|&&path| scene.state(path) == PathState::Shown);
+    let hulls = shown.filter_map(|&path| scene.layout().paths.get(path as usize).hull_bounds());
     hulls.reduce(Bounds::union)
 }
 
-impl Cluster {
-    /// Finds what the frame sees of it.
-    pub(super) fn look(&mut self, shot: &Shot<'_>) {
-        let picture = shot.picture_px();
-        let reach = self.bounds.map(|bounds| (bounds, shot.reach_px(bounds)));
-        let in_sight = reach.filter(|(_, reach)| reach.intersects(picture));
-        self.sight = in_sight.map(|(bounds, reach)| {
-            let tiles = |min: f64, max: f64, side_px: f64| {
-                let end = (max.min(side_px) / TILE_PX as f64).ceil();
-                (min.max(0.0) / TILE_PX as f64) as usize..(end as usize).max(1)
-            };
-            Sight {
-                middle_px: shot.view.pixel_from_world(bounds.center()),
-                reach_px: Bounds {
-                    min: reach.min.to_f32(),
-                    max: reach.max.to_f32(),
-                },
-                is_whole: picture.contains(reach.min) && picture.contains(reach.max),
-                columns: tiles(reach.min.x, reach.max.x, picture.max.x),
-                rows: tiles(reach.min.y, reach.max.y, picture.max.y),
-                drawn: 0,
-                made: 0,
-            }
-        });
-    }
-
-    /// Makes the lines that a frame needs within some rows of tiles, unless they are there.
-    pub(super) fn flatten(
+impl Lines {
+    /// Makes anew what a frame needs within some rows of tiles.
+    pub(super) fn make(
         &mut self,
         shot: &Shot<'_>,
-        paths: &[u32],
+        sight: &Sight,
+        (paths, bounds): (&[u32], Bounds<f64>),
         rows: &Range<usize>,
         scratch: &mut Scratch,
     ) {
-        let (Some(sight), Some(bounds)) = (&mut self.sight, self.bounds) else {
+        if sight.is_large {
+            let mut lines = match std::mem::take(self) {
+                Self::Cut(lines) => lines,
+                Self::None | Self::Kept(..) => Polylines::default(),
+            };
+            scratch.cut(shot, paths, rows, &mut lines);
+            *self = Self::Cut(lines);
             return;
-        };
+        }
         let unit_m = shot.unit_m();
-        let size = bounds.size();
-        if size.x.max(size.y) > 2.0 * MOST_UNITS * unit_m {
-            (sight.drawn, sight.made) = scratch.cut(shot, paths, rows);
-            if !matches!(self.lines, Lines::Cut(_)) {
-                self.lines = Lines::Cut(Polylines::default());
+        scratch.keep(shot, paths, bounds.center(), unit_m);
+        let mut lines = match std::mem::take(self) {
+            Self::Kept(_, lines) => lines,
+            Self::None | Self::Cut(_) => Polylines::default(),
+        };
+        lines.copy_from(&scratch.kept);
+        *self = Self::Kept(unit_m, lines);
+    }
+
+    /// Number of paths and of lines that may leave a mark on the picture.
+    pub(super) fn count(&self, shot: &Shot<'_>, sight: &Sight) -> [u32; 2] {
+        match self {
+            Self::None => [0, 0],
+            Self::Cut(lines) => lines.paths_and_lines(),
+            Self::Kept(unit_m, lines) => {
+                count(lines, &within_units(shot, sight.middle_px, *unit_m))
             }
-            if let Lines::Cut(lines) = &mut self.lines {
-                lines.copy_from(&scratch.cut);
-            }
-            return;
-        }
-        if self.is_stale || !matches!(self.lines, Lines::Kept(unit, _) if unit == unit_m) {
-            self.is_stale = false;
-            scratch.keep(shot, paths, bounds.center(), unit_m);
-            let mut lines = match std::mem::take(&mut self.lines) {
-                Lines::Kept(_, lines) => lines,
-                Lines::None | Lines::Cut(_) => Polylines::default(),
-            };
-            lines.copy_from(&scratch.kept);
-            self.lines = Lines::Kept(unit_m, lines);
-        }
-        if let Lines::Kept(_, lines) = &self.lines {
-            (sight.drawn, sight.made) = if sight.is_whole {
-                lines.paths_and_lines()
-            } else {
-                count(lines, &within_units(shot, sight.middle_px, unit_m))
-            };
         }
     }
 
-    /// Bytes of the lines.
+    /// Number of paths and of lines.
+    pub(super) fn paths_and_lines(&self) -> [u32; 2] {
+        match self {
+            Self::None => [0, 0],
+            Self::Kept(_, lines) => lines.paths_and_lines(),
+            Self::Cut(lines) => lines.paths_and_lines(),
+        }
+    }
+
+    /// Bytes held.
     pub(super) fn bytes(&self) -> u64 {
-        match &self.lines {
-            Lines::None => 0,
-            Lines::Kept(_, lines) => lines.bytes(),
-            Lines::Cut(lines) => lines.bytes(),
+        match self {
+            Self::None => 0,
+            Self::Kept(_, lines) => lines.bytes(),
+            Self::Cut(lines) => lines.bytes(),
         }
     }
 }
@@ -206,7 +176,7 @@ fn within_units(shot: &Shot<'_>, middle: Point<f64>, unit_m: f64) -> Bounds<f32>
 }
 
 /// Paths and lines of the pieces within a box.
-fn count(lines: &Polylines<i16>, within: &Bounds<f32>) -> (u32, u32) {
+fn count(lines: &Polylines<i16>, within: &Bounds<f32>) -> [u32; 2] {
     let (mut drawn, mut made, mut last) = (0, 0, None);
     let pieces = 0..lines.pieces();
     for first in pieces.clone().step_by(LANES) {
@@ -217,10 +187,19 @@ fn count(lines: &Polylines<i16>, within: &Bounds<f32>) -> (u32, u32) {
             last = Some(lines.member(piece));
         }
     }
-    (drawn, made)
+    [drawn, made]
 }
 
 impl Scratch {
+    /// Bytes held.
+    pub(super) fn bytes(&self) -> u64 {
+        let points = self.local.capacity() + self.vertices.capacity();
+        let own = points * size_of::<Point<f32>>()
+            + self.runs.capacity() * size_of::<(usize, u8, usize)>()
+            + self.pixels.capacity() * size_of::<Point<f64>>();
+        self.kept.bytes() + own as u64
+    }
+
     /// Lines of all paths that are shown, in units from `middle_m`.
     fn keep(&mut self, shot: &Shot<'_>, paths: &[u32], middle_m: Point<f64>, unit_m: f64) {
         let scene = shot.scene;
@@ -232,7 +211,7 @@ impl Scratch {
         let place = |p: Point<f64>| {
             Point::new((p.x - middle_m.x) * per_m, (middle_m.y - p.y) * per_m).to_f32()
         };
-        // All points first: they lie anywhere, and so their ways through the caches go side by side.
+        fetch(scene.layout(), paths);
         local.clear();
         runs.clear();
         for round in 0..ROUNDS {
@@ -259,9 +238,15 @@ impl Scratch {
         }
     }
 
-    /// Lines within some rows of tiles, and how many paths and lines there are in all of the picture.
-    fn cut(&mut self, shot: &Shot<'_>, paths: &[u32], rows: &Range<usize>) -> (u32, u32) {
-        let Self { cut, pixels, .. } = self;
+    /// Lines within some rows of tiles, counted as those of all of the picture.
+    fn cut(
+        &mut self,
+        shot: &Shot<'_>,
+        paths: &[u32],
+        rows: &Range<usize>,
+        cut: &mut Polylines<f32>,
+    ) {
+        let pixels = &mut self.pixels;
         cut.clear();
         let (seen, reach) = (shot.seen_px(), shot.widest_px() + 1.0);
         let top = (rows.start * TILE_PX) as f64 - reach;
@@ -295,7 +280,7 @@ impl Scratch {
         }
         (0..ROUNDS).for_each(|round| cut.end_round(round));
         cut.finish();
-        (drawn, made)
+        cut.set_paths_and_lines([drawn, made]);
     }
 }
 

@@ -1,14 +1,24 @@
+use guideway_render::{Cancel, Shading, Strip, Style};
 use guideway_scene::{Rgba, Scene};
+use guideway_spline::Bounds;
 use rayon::prelude::*;
 
-use super::cluster::{CLUSTER_PATHS, Cluster, hull_bounds, sorted_rows};
-use super::shot::{Widths, widths};
+use super::cluster::{CLUSTER_PATHS, Lines, hull_bounds, sorted_rows};
+use super::place::Placement;
+use super::shot::{LaneWidth, Shot, Widths, widths};
 
 /// The rows of a scene in clusters, and what holds for all of them.
 pub(super) struct Index {
     /// Rows of paths, those of a cluster next to each other.
     pub(super) paths: Vec<u32>,
-    pub(super) clusters: Vec<Cluster>,
+    /// Where the control points of what is shown of each cluster lie, in metres; none if that is nothing.
+    pub(super) bounds: Vec<Option<Bounds<f64>>>,
+    /// What each cluster was last drawn as.
+    pub(super) lines: Vec<Lines>,
+    /// Bytes of all of them.
+    pub(super) lines_bytes: u64,
+    /// What those lines are.
+    pub(super) made: Vec<Made>,
     /// Cluster of each row; made for the first edit.
     cluster_of: Vec<u32>,
     /// Draw rank of each row; none if it is its row.
@@ -18,23 +28,49 @@ pub(super) struct Index {
     pub(super) solid: Option<Rgba>,
 }
 
+/// What the lines of a cluster are: kept apart, for every frame asks all in sight.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Made {
+    /// The unit and the tolerance of the views that they are good for; 0 if they have to be made anew.
+    pub(super) unit_m: f64,
+    pub(super) tolerance_units: f32,
+    /// Number of paths and of lines.
+    pub(super) paths_and_lines: [u32; 2],
+}
+
+impl Made {
+    /// Whether a frame can be drawn with these lines.
+    pub(super) fn is_good_for(&self, shot: &Shot<'_>) -> bool {
+        self.unit_m == shot.unit_m() && self.tolerance_units == shot.tolerance_units()
+    }
+}
+
 impl Index {
     pub(super) fn new(scene: &Scene) -> Self {
         let mut index = Self {
             paths: sorted_rows(scene),
-            clusters: Vec::new(),
+            bounds: Vec::new(),
+            lines: Vec::new(),
+            lines_bytes: 0,
+            made: Vec::new(),
             cluster_of: Vec::new(),
             ranks: None,
             widths: None,
             solid: None,
         };
-        let bound = |paths| Cluster {
-            bounds: hull_bounds(scene.layout(), paths),
-            ..Cluster::default()
-        };
-        index.clusters = index.paths.par_chunks(CLUSTER_PATHS).map(bound).collect();
+        let clusters = index.paths.par_chunks(CLUSTER_PATHS);
+        index.bounds = clusters.map(|paths| hull_bounds(scene, paths)).collect();
+        index.resize();
         index.order_anew(scene);
         index
+    }
+
+    /// After clusters were added.
+    fn resize(&mut self) {
+        let clusters = self.paths.len().div_ceil(CLUSTER_PATHS);
+        self.bounds.resize(clusters, None);
+        self.lines.resize_with(clusters, Lines::default);
+        self.made.resize(clusters, Made::default());
     }
 
     /// After ranks, colours or widths have changed.
@@ -51,46 +87,112 @@ impl Index {
         self.solid = scene.common_color().filter(|color| color.is_opaque());
     }
 
+    /// The scene, as one frame sees it.
+    pub(super) fn shot<'a>(
+        &self,
+        scene: &'a Scene,
+        lane_width: LaneWidth,
+        (strip, style, cancel): (&'a Strip, &'a Style, &'a Cancel),
+    ) -> Shot<'a> {
+        let is_density = style.shading != Shading::Color;
+        Shot {
+            scene,
+            strip,
+            view: strip.view(),
+            place: Placement::new(strip.view()),
+            style,
+            cancel,
+            widths: self.widths,
+            lane_width,
+            solid: self.solid.filter(|_| !is_density),
+        }
+    }
+
+    /// The paths of a cluster.
+    pub(super) fn paths_of(&self, cluster: u32) -> &[u32] {
+        let first = cluster as usize * CLUSTER_PATHS;
+        &self.paths[first..self.paths.len().min(first + CLUSTER_PATHS)]
+    }
+
+    /// Bytes that a scene of so many rows takes, before any line is made.
+    pub(super) fn planned_bytes(rows: usize) -> u64 {
+        let a_cluster = size_of::<Lines>() + size_of::<Made>() + size_of::<Option<Bounds<f64>>>();
+        let clusters = rows.div_ceil(CLUSTER_PATHS) * a_cluster;
+        (clusters + rows * 3 * size_of::<u32>()) as u64
+    }
+
+    /// Bytes held, without what lines point to.
     pub(super) fn bytes(&self) -> u64 {
         let ranks = self.ranks.as_ref().map_or(0, Vec::capacity);
         let rows = self.paths.capacity() + self.cluster_of.capacity() + ranks;
-        (rows * size_of::<u32>() + self.clusters.capacity() * size_of::<Cluster>()) as u64
+        let clusters = self.bounds.capacity() * size_of::<Option<Bounds<f64>>>()
+            + self.lines.capacity() * size_of::<Lines>()
+            + self.made.capacity() * size_of::<Made>();
+        (rows * size_of::<u32>() + clusters) as u64
     }
 
-    /// Makes anew what depends on the curves and the states of some paths.
-    pub(super) fn touch(&mut self, scene: &Scene, paths: &[u32]) {
+    /// Lets go of lines: those of the clusters that are not to be kept.
+    pub(super) fn forget_lines(&mut self, is_kept: impl Fn(u32) -> bool) {
+        for (cluster, (lines, made)) in (0..).zip(self.lines.iter_mut().zip(&mut self.made)) {
+            if !is_kept(cluster) {
+                (*lines, *made) = (Lines::None, Made::default());
+            }
+        }
+        self.lines_bytes = self.lines.iter().map(Lines::bytes).sum();
+    }
+
+    /// Makes anew what depends on the curves and the states of some paths. Gives where what is changed was and is.
+    pub(super) fn touch(&mut self, scene: &Scene, paths: &[u32]) -> Vec<Bounds<f64>> {
+        let clusters = self.clusters_of(paths);
+        let bounds: Vec<_> = clusters
+            .par_iter()
+            .map(|&cluster| hull_bounds(scene, self.paths_of(cluster)))
+            .collect();
+        let mut changed = Vec::with_capacity(2 * clusters.len());
+        for (&cluster, bounds) in clusters.iter().zip(bounds) {
+            let before = std::mem::replace(&mut self.bounds[cluster as usize], bounds);
+            changed.extend(before.into_iter().chain(bounds));
+            self.made[cluster as usize].unit_m = 0.0;
+        }
+        changed
+    }
+
+    /// Where the clusters of some paths lie.
+    pub(super) fn bounds_of(&mut self, paths: &[u32]) -> Vec<Bounds<f64>> {
+        let clusters = self.clusters_of(paths);
+        let bounds = clusters
+            .iter()
+            .map(|&cluster| self.bounds[cluster as usize]);
+        bounds.flatten().collect()
+    }
+
+    /// The clusters of some paths, each once.
+    fn clusters_of(&mut self, paths: &[u32]) -> Vec<u32> {
         if self.cluster_of.is_empty() {
             self.cluster_of.resize(self.paths.len(), 0);
             for (&path, place) in self.paths.iter().zip(0_usize..) {
                 self.cluster_of[path as usize] = (place / CLUSTER_PATHS) as u32;
             }
         }
+        let mut is_named = vec![false; self.lines.len()];
         for &path in paths {
-            let cluster = self.cluster_of[path as usize];
-            self.clusters[cluster as usize].is_stale = true;
+            is_named[self.cluster_of[path as usize] as usize] = true;
         }
-        let clusters = self.clusters.par_iter_mut();
-        clusters
-            .zip(self.paths.par_chunks(CLUSTER_PATHS))
-            .for_each(|(cluster, paths)| {
-                if cluster.is_stale {
-                    cluster.bounds = hull_bounds(scene.layout(), paths);
-                }
-            });
+        let named = (0..).zip(is_named).filter(|(_, is_named)| *is_named);
+        named.map(|(cluster, _)| cluster).collect()
     }
 
-    /// Puts rows behind the last into clusters of their own.
-    pub(super) fn append(&mut self, scene: &Scene) {
+    /// Puts rows behind the last into clusters of their own. Gives where they are.
+    pub(super) fn append(&mut self, scene: &Scene) -> Vec<Bounds<f64>> {
         let first = self.paths.len() as u32;
         self.paths.extend(first..scene.row_count() as u32);
-        let clusters = self.paths.len().div_ceil(CLUSTER_PATHS);
-        self.clusters.resize_with(clusters, Cluster::default);
+        self.resize();
         if !self.cluster_of.is_empty() {
             let places = self.cluster_of.len()..self.paths.len();
             self.cluster_of
                 .extend(places.map(|place| (place / CLUSTER_PATHS) as u32));
         }
         let rows: Vec<u32> = (first..self.paths.len() as u32).collect();
-        self.touch(scene, &rows);
+        self.touch(scene, &rows)
     }
 }

@@ -1,20 +1,28 @@
 //! Method `cpu`: lines by tile, covered until nothing is left to be covered, in parallel.
 //!
-//! Paths that are near each other form clusters, once. A frame goes through four stages: `cull` finds the
-//! clusters in sight; `flatten` turns their curves into lines, unless those of an earlier frame will do; `bin`
-//! lists the clusters of each tile of 32 x 32 pixels; `cover` finds which samples of each tile the lines cover.
+//! Paths that are near each other form clusters, once (`index`). A frame (`frame`) goes through five stages: `cull`
+//! finds the clusters in sight (`sight`), and what of the picture has to be drawn (`kept`); `flatten` turns their
+//! curves into lines (`cluster`, `simplify`), unless those of an earlier frame will do; `bin` lists the clusters of
+//! each tile of 32 x 32 pixels (`tiles`); `cover` finds which samples of each tile the lines cover (`paint`, then
+//! `seen` for one colour or `layers` for several, `stroke`, `span` and `canvas`); `keep` keeps the picture.
 //! Coverage is an OR of bits, and all that is added up is a whole number or added in draw order, so the picture
 //! is the same on every run, with any number of threads, any vector instructions and in any number of bands.
 
 mod canvas;
 mod cluster;
+mod disc;
 mod flatten;
+mod frame;
 mod index;
+mod kept;
+mod layers;
 mod paint;
+mod place;
 mod polylines;
 mod prepared;
 mod seen;
 mod shot;
+mod sight;
 mod simplify;
 mod span;
 mod stroke;
@@ -41,7 +49,7 @@ impl Method for Cpu {
     fn info(&self) -> MethodInfo {
         MethodInfo {
             name: NAME,
-            summary: "error-bounded lines by tile, 256 samples a pixel, on all cores",
+            summary: "error-bounded lines by tile, 128 or 256 samples a pixel, on all cores",
             device: "CPU".to_owned(),
         }
     }

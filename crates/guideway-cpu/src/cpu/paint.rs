@@ -7,32 +7,29 @@ use guideway_spline::Point;
 use multiversion::multiversion;
 use rayon::prelude::*;
 
-use super::canvas::{Canvas, TILE_PX, solid_colors};
-use super::cluster::{Cluster, Lines};
+use super::canvas::{Backdrop, Canvas, TILE_PX, solid_colors};
+use super::disc::Discs;
+use super::index::Index;
+use super::kept::Kept;
+use super::layers::{Counts, Layers};
 use super::polylines::ROUNDS;
-use super::seen::Seen;
+use super::seen::{Hit, Seen};
 use super::shot::{LaneWidth, Shot};
-use super::span::{Disc, LAYERED, ROWS, SOLID};
-use super::tiles::{Bins, Grid};
+use super::sight::Sights;
+use super::span::{LAYERED, SOLID, Samples};
+use super::tiles::{Bins, Grid, Parts};
 
-/// Strokes of one colour after which it is worth a look whether anything is left to be covered.
-const STROKES_A_FILL: usize = 32;
+/// Pieces of several colours that are sorted at first; each time that more are needed, twice as many.
+const FIRST_SORTED: usize = 256;
 
 /// What one thread paints with.
 pub(super) struct Painter {
     solid: Canvas<SOLID>,
-    solid_disc: Disc<SOLID>,
+    solid_discs: Discs<SOLID>,
     layers: Canvas<LAYERED>,
-    disc: Disc<LAYERED>,
+    discs: Discs<LAYERED>,
     hits: Vec<Hit>,
-    counts: Box<[[u32; TILE_PX]; TILE_PX]>,
-}
-
-/// A piece that may leave a mark on a tile.
-pub(super) struct Hit {
-    pub(super) rank: u32,
-    pub(super) cluster: u32,
-    pub(super) piece: u32,
+    counts: Box<Counts>,
 }
 
 /// A band of the picture with all that goes on it.
@@ -40,12 +37,13 @@ pub(super) struct Hit {
 pub(super) struct Band<'a> {
     pub(super) shot: &'a Shot<'a>,
     pub(super) grid: &'a Grid,
-    /// Rows of paths, a cluster's next to each other.
-    pub(super) paths: &'a [u32],
-    pub(super) clusters: &'a [Cluster],
+    pub(super) index: &'a Index,
+    pub(super) sights: &'a Sights,
     pub(super) bins: &'a Bins,
-    /// Draw rank of each path; none if it is its row.
-    pub(super) ranks: Option<&'a [u32]>,
+    /// What of the tiles is drawn.
+    pub(super) parts: &'a Parts,
+    /// What the rest shows.
+    pub(super) kept: Option<&'a Kept>,
     /// Half the stroke width of all paths, if it is one.
     pub(super) common_radius_px: Option<f64>,
     /// Half the stroke width of the widest path.
@@ -54,7 +52,7 @@ pub(super) struct Band<'a> {
     pub(super) painters: &'a [Mutex<Painter>],
 }
 
-/// One tile, and its place in the pixels of its row of tiles.
+/// The part of a tile that is drawn.
 pub(super) struct Tile {
     index: usize,
     pub(super) corner: Point<f64>,
@@ -77,9 +75,9 @@ impl Painter {
     pub(super) fn new() -> Self {
         Self {
             solid: Canvas::new(),
-            solid_disc: Disc::default(),
+            solid_discs: Discs::default(),
             layers: Canvas::new(),
-            disc: Disc::default(),
+            discs: Discs::default(),
             hits: Vec::new(),
             counts: Box::new([[0; TILE_PX]; TILE_PX]),
         }
@@ -88,8 +86,13 @@ impl Painter {
     /// Most bytes that one holds, apart from a list of what lies on a tile.
     pub(super) fn bytes(is_opaque: bool) -> u64 {
         let canvases = Canvas::<SOLID>::bytes(true) + Canvas::<LAYERED>::bytes(is_opaque);
-        let discs = Disc::<SOLID>::bytes() + Disc::<LAYERED>::bytes();
-        canvases + discs + size_of::<[[u32; TILE_PX]; TILE_PX]>() as u64
+        let discs = Discs::<SOLID>::bytes() + Discs::<LAYERED>::bytes();
+        canvases + discs + size_of::<Counts>() as u64
+    }
+
+    /// Bytes of the list of what lies on a tile.
+    pub(super) fn list_bytes(&self) -> u64 {
+        (self.hits.capacity() * size_of::<Hit>()) as u64
     }
 }
 
@@ -101,20 +104,23 @@ impl Band<'_> {
         solid: Option<Rgba>,
     ) -> Result<(), RenderError> {
         let background = self.shot.style.background;
+        let load = |row_px: usize, pixels: &mut [[u8; 4]]| {
+            if let Some(kept) = self.kept {
+                kept.load(row_px, pixels);
+            }
+        };
         let Some(color) = solid else {
-            return self.for_each_tile(
-                pixels,
-                background.to_u32().to_be_bytes(),
-                |painter, tile, rows| {
-                    self.paint(painter, tile, Matter::Layers);
-                    for (y, pixels) in rows.enumerate() {
-                        painter.layers.row_over(y, background, pixels);
-                    }
-                },
-            );
+            let backdrop = Backdrop::new(background);
+            let empty = background.to_u32().to_be_bytes();
+            return self.for_each_tile(pixels, load, empty, |painter, tile, rows| {
+                self.paint(painter, tile, Matter::Layers);
+                for (y, pixels) in rows.enumerate() {
+                    painter.layers.row_over(y, &backdrop, pixels);
+                }
+            });
         };
         let colors = solid_colors(color, background);
-        self.for_each_tile(pixels, colors[0], |painter, tile, rows| {
+        self.for_each_tile(pixels, load, colors[0], |painter, tile, rows| {
             self.paint(painter, tile, Matter::Solid);
             for (y, pixels) in rows.enumerate() {
                 painter.solid.solid_row(y, &colors, pixels);
@@ -124,20 +130,27 @@ impl Band<'_> {
 
     /// Writes how many paths cover each pixel of the band, on average over its square.
     pub(super) fn density(&self, pixels: &mut [f32]) -> Result<(), RenderError> {
-        self.for_each_tile(pixels, 0.0, |painter, tile, rows| {
-            self.paint(painter, tile, Matter::Counts);
-            for (pixels, counts) in rows.zip(painter.counts.iter()) {
-                for (pixel, &count) in pixels.iter_mut().zip(counts) {
-                    *pixel = count as f32 / (ROWS * LAYERED) as f32;
+        self.for_each_tile(
+            pixels,
+            |_, _| {},
+            0.0,
+            |painter, tile, rows| {
+                self.paint(painter, tile, Matter::Counts);
+                for (pixels, counts) in rows.zip(painter.counts.iter()) {
+                    for (pixel, &count) in pixels.iter_mut().zip(counts) {
+                        *pixel = count as f32 / Samples::<LAYERED>::COUNT as f32;
+                    }
                 }
-            }
-        })
+            },
+        )
     }
 
-    /// Calls `paint` for each tile that is not empty, with its part of each row of pixels.
+    /// Calls `paint` for each part of a tile that is drawn and not empty, with its rows of pixels; `load` before,
+    /// for all rows of a row of tiles.
     fn for_each_tile<P: Copy + Send + Sync>(
         &self,
         pixels: &mut [P],
+        load: impl Fn(usize, &mut [P]) + Sync,
         empty: P,
         paint: impl Fn(&mut Painter, &Tile, &mut dyn Iterator<Item = &mut [P]>) + Sync,
     ) -> Result<(), RenderError> {
@@ -147,24 +160,32 @@ impl Band<'_> {
             let painter =
                 &self.painters[rayon::current_thread_index().unwrap_or(0) % self.painters.len()];
             let mut painter = painter.lock().unwrap_or_else(PoisonError::into_inner);
-            let height_px = pixels.len() / width_px;
             let top_px = (self.grid.rows.start + row) * TILE_PX;
+            load(top_px, pixels);
             for column in 0..self.grid.columns {
                 self.shot.cancel.check()?;
-                let left_px = column * TILE_PX;
+                let part = self.parts.at(column, self.grid.rows.start + row);
+                if part.is_empty() {
+                    continue;
+                }
+                let (columns, rows) = (part.columns(), part.rows());
+                let left_px = column * TILE_PX + columns.start;
                 let tile = Tile {
                     index: row * self.grid.columns + column,
-                    corner: Point::new(left_px as f64, top_px as f64),
-                    width_px: TILE_PX.min(width_px - left_px),
-                    height_px,
+                    corner: Point::new(left_px as f64, (top_px + rows.start) as f64),
+                    width_px: columns.len(),
+                    height_px: rows.len(),
                 };
-                let within = left_px..left_px + tile.width_px;
-                let rows = pixels.chunks_exact_mut(width_px);
-                let mut rows = rows.map(|row| &mut row[within.clone()]);
+                let within = left_px..left_px + columns.len();
+                let drawn = pixels
+                    .chunks_exact_mut(width_px)
+                    .skip(rows.start)
+                    .take(rows.len());
+                let mut drawn = drawn.map(|row| &mut row[within.clone()]);
                 if self.bins.tile(tile.index).is_empty() {
-                    rows.for_each(|row| row.fill(empty));
+                    drawn.for_each(|row| row.fill(empty));
                 } else {
-                    paint(&mut painter, &tile, &mut rows);
+                    paint(&mut painter, &tile, &mut drawn);
                 }
             }
             Ok(())
@@ -204,73 +225,50 @@ fn paint(band: &Band<'_>, painter: &mut Painter, tile: &Tile, matter: Matter) {
 fn paint_solid(band: &Band<'_>, painter: &mut Painter, tile: &Tile) {
     let Painter {
         solid: canvas,
-        solid_disc: disc,
+        solid_discs: discs,
         ..
     } = painter;
     canvas.begin(tile.width_px, tile.height_px);
     for round in 0..ROUNDS {
-        for &number in band.bins.tile(tile.index) {
+        for &key in band.bins.tile(tile.index) {
             if canvas.is_full() {
                 return;
             }
-            let cluster = Seen::<SOLID> { band, tile, number };
-            match &band.clusters[number as usize].lines {
-                Lines::Kept(unit_m, lines) => {
-                    cluster.solid(canvas, disc, &cluster.placed(*unit_m, lines), round);
-                }
-                Lines::Cut(lines) => {
-                    cluster.solid(canvas, disc, &cluster.placed_cut(lines), round);
-                }
-                Lines::None => {}
-            }
+            Seen::<SOLID>::new(band, tile, key).solid(canvas, discs, round);
         }
     }
 }
 
-/// Lays the tile's paths from the highest draw rank down, until nothing below can be seen. Of one opaque
-/// colour, it does not matter which path a sample belongs to: they share a shape.
+/// Lays the tile's paths from the highest draw rank down, until nothing below can be seen.
 #[inline(always)]
 fn paint_layers(band: &Band<'_>, painter: &mut Painter, tile: &Tile) {
     let Painter {
         layers: canvas,
-        disc,
+        discs,
         hits,
         ..
     } = painter;
     canvas.begin_layers(tile.width_px, tile.height_px);
     hits.clear();
-    for &number in band.bins.tile(tile.index) {
-        Seen::<LAYERED> { band, tile, number }.gather(hits);
+    for &key in band.bins.tile(tile.index) {
+        Seen::<LAYERED>::new(band, tile, key).gather(key, hits);
     }
-    hits.sort_unstable_by_key(|hit| Reverse(hit.rank));
-    let mut layer = None;
-    let mut strokes = 0;
-    for hit in hits.iter() {
-        let cluster = Seen::<LAYERED> {
-            band,
-            tile,
-            number: hit.cluster,
-        };
-        let path = cluster.path(hit.piece as usize);
-        let color = band.shot.scene.color(path);
-        let alone = (!color.is_opaque()).then_some(path);
-        let is_same = layer == Some((color, alone));
-        if !is_same || (color.is_opaque() && strokes == STROKES_A_FILL) {
-            if let Some((color, _)) = layer {
-                canvas.fill(color);
-            }
-            if canvas.is_full() {
-                return;
-            }
-            layer = Some((color, alone));
-            strokes = 0;
+    let mut layers = Layers::new(band, tile, canvas, discs, None);
+    let mut below = &mut hits[..];
+    let mut count = FIRST_SORTED;
+    while !below.is_empty() && !layers.is_full() {
+        if count < below.len() {
+            below.select_nth_unstable_by_key(count, |hit| Reverse(hit.rank));
         }
-        cluster.piece(canvas, disc, hit.piece as usize, path);
-        strokes += 1;
+        let top;
+        (top, below) = below.split_at_mut(count.min(below.len()));
+        top.sort_unstable_by_key(|hit| Reverse(hit.rank));
+        for hit in top.iter() {
+            layers.add(hit);
+        }
+        count *= 2;
     }
-    if let Some((color, _)) = layer {
-        canvas.fill(color);
-    }
+    layers.finish();
 }
 
 /// Counts the samples that each path covers.
@@ -278,26 +276,20 @@ fn paint_layers(band: &Band<'_>, painter: &mut Painter, tile: &Tile) {
 fn paint_counts(band: &Band<'_>, painter: &mut Painter, tile: &Tile) {
     let Painter {
         layers: canvas,
-        disc,
+        discs,
         hits,
         counts,
         ..
     } = painter;
     canvas.begin_layers(tile.width_px, tile.height_px);
     **counts = [[0; TILE_PX]; TILE_PX];
-    let mut last = None;
-    for &number in band.bins.tile(tile.index) {
-        let cluster = Seen::<LAYERED> { band, tile, number };
+    let mut layers = Layers::new(band, tile, canvas, discs, Some(counts));
+    for &key in band.bins.tile(tile.index) {
         hits.clear();
-        cluster.gather(hits);
+        Seen::<LAYERED>::new(band, tile, key).gather(key, hits);
         for hit in hits.iter() {
-            let path = cluster.path(hit.piece as usize);
-            if last.is_some_and(|last| last != path) {
-                canvas.count(counts);
-            }
-            last = Some(path);
-            cluster.piece(canvas, disc, hit.piece as usize, path);
+            layers.add(hit);
         }
     }
-    canvas.count(counts);
+    layers.finish();
 }

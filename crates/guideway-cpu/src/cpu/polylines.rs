@@ -32,7 +32,7 @@ pub(super) struct Polylines<T> {
     /// Where each round of pieces ends.
     rounds: [u32; ROUNDS],
     /// Number of paths and of lines.
-    counts: (u32, u32),
+    counts: [u32; 2],
 }
 
 impl<T: Coordinate> Polylines<T> {
@@ -48,7 +48,7 @@ impl<T: Coordinate> Polylines<T> {
             rounds: _,
             counts,
         } = self;
-        *counts = (0, 0);
+        *counts = [0, 0];
         x.clear();
         y.clear();
         begins.clear();
@@ -62,8 +62,8 @@ impl<T: Coordinate> Polylines<T> {
     #[inline(always)]
     pub(super) fn push(&mut self, member: u8, vertices: &[Point<T>]) {
         let first = self.x.len();
-        self.counts.0 += u32::from(self.members.last() != Some(&member));
-        self.counts.1 += vertices.len() as u32 - 1;
+        self.counts[0] += u32::from(self.members.last() != Some(&member));
+        self.counts[1] += vertices.len() as u32 - 1;
         self.firsts.push(first as u32);
         self.members.push(member);
         self.x.extend(vertices.iter().map(|v| v.x));
@@ -135,8 +135,23 @@ impl<T: Coordinate> Polylines<T> {
     }
 
     /// Number of paths and of lines.
-    pub(super) fn paths_and_lines(&self) -> (u32, u32) {
+    pub(super) fn paths_and_lines(&self) -> [u32; 2] {
         self.counts
+    }
+
+    /// Counts as others.
+    pub(super) fn set_paths_and_lines(&mut self, counts: [u32; 2]) {
+        self.counts = counts;
+    }
+
+    /// The box of a piece.
+    #[inline(always)]
+    pub(super) fn bounds(&self, piece: usize) -> Bounds<f32> {
+        let [left, top, right, bottom] = self.boxes.each_ref().map(|side| side[piece].into());
+        Bounds {
+            min: Point::new(left, top),
+            max: Point::new(right, bottom),
+        }
     }
 
     /// Number of pieces.

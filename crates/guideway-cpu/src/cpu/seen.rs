@@ -2,44 +2,58 @@ use guideway_spline::{Bounds, Point};
 
 use super::LANES;
 use super::canvas::{Canvas, TILE_PX, set_bits};
-use super::cluster::{CLUSTER_PATHS, Cluster, Lines};
-use super::paint::{Band, Hit, Tile};
+use super::cluster::Lines;
+use super::disc::Discs;
+use super::paint::{Band, Tile};
 use super::polylines::{Coordinate, Polylines};
-use super::span::Disc;
+use super::sight::Sight;
 use super::stroke::Placed;
 
 /// Tiles that a cluster covers from which on it pays to look at each of its pieces alone.
 const WIDE_TILES: usize = 4;
 
+/// A piece that may leave a mark on a tile.
+pub(super) struct Hit {
+    pub(super) rank: u32,
+    /// Key of the cluster's sight.
+    pub(super) key: u32,
+    pub(super) piece: u32,
+}
+
 /// A cluster, as one tile of `C` columns of samples a pixel sees it.
 #[derive(Clone, Copy)]
 pub(super) struct Seen<'a, const C: usize> {
-    pub(super) band: &'a Band<'a>,
-    pub(super) tile: &'a Tile,
-    pub(super) number: u32,
+    band: &'a Band<'a>,
+    tile: &'a Tile,
+    sight: &'a Sight,
 }
 
 impl<'a, const C: usize> Seen<'a, C> {
-    fn cluster(&self) -> &'a Cluster {
-        &self.band.clusters[self.number as usize]
+    #[inline(always)]
+    pub(super) fn new(band: &'a Band<'a>, tile: &'a Tile, key: u32) -> Self {
+        let sight = band.sights.get(key);
+        Self { band, tile, sight }
+    }
+
+    #[inline(always)]
+    pub(super) fn lines(&self) -> &'a Lines {
+        &self.band.index.lines[self.sight.cluster as usize]
     }
 
     /// Where kept lines lie.
     #[inline(always)]
-    pub(super) fn placed<T>(&self, unit_m: f64, lines: &'a Polylines<T>) -> Placed<'a, T> {
-        let sight = self.cluster().sight.as_ref();
-        let middle_px = sight.map_or(Point::default(), |sight| sight.middle_px);
+    pub(super) fn placed<T>(&self, unit_m: f64, lines: &'a Polylines<T>) -> Placed<'a, T, C> {
         let per_px = C as f64;
         Placed {
             lines,
             scale: (unit_m * self.band.shot.view.px_per_m() * per_px) as f32,
-            offset: ((middle_px - self.tile.corner) * per_px).to_f32(),
+            offset: ((self.sight.middle_px - self.tile.corner) * per_px).to_f32(),
         }
     }
 
     /// Where lines cut at the picture lie.
     #[inline(always)]
-    pub(super) fn placed_cut<T>(&self, lines: &'a Polylines<T>) -> Placed<'a, T> {
+    pub(super) fn placed_cut<T>(&self, lines: &'a Polylines<T>) -> Placed<'a, T, C> {
         let columns = C as f32;
         Placed {
             lines,
@@ -48,29 +62,40 @@ impl<'a, const C: usize> Seen<'a, C> {
         }
     }
 
-    /// Covers samples with the lines of one round.
+    /// Covers samples with the lines of one round, all of one opaque colour.
     #[inline(always)]
-    pub(super) fn solid<T: Coordinate>(
+    pub(super) fn solid(&self, canvas: &mut Canvas<C>, discs: &mut Discs<C>, round: usize) {
+        let corner = self.tile.corner.to_f32();
+        let reach_px = self.sight.reach_px;
+        if !canvas.is_open(reach_px.min - corner, reach_px.max - corner) {
+            return;
+        }
+        match self.lines() {
+            Lines::Kept(unit_m, lines) => {
+                self.solid_of(canvas, discs, &self.placed(*unit_m, lines), round);
+            }
+            Lines::Cut(lines) => self.solid_of(canvas, discs, &self.placed_cut(lines), round),
+            Lines::None => {}
+        }
+    }
+
+    #[inline(always)]
+    fn solid_of<T: Coordinate>(
         &self,
         canvas: &mut Canvas<C>,
-        disc: &mut Disc<C>,
-        placed: &Placed<'_, T>,
+        discs: &mut Discs<C>,
+        placed: &Placed<'_, T, C>,
         round: usize,
     ) {
         let pieces = placed.lines.round(round);
-        let Some(sight) = self.cluster().sight.as_ref() else {
-            return;
-        };
-        let corner = self.tile.corner.to_f32();
-        let is_open = canvas.is_open(sight.reach_px.min - corner, sight.reach_px.max - corner);
-        if pieces.is_empty() || !is_open {
+        if pieces.is_empty() {
             return;
         }
         let shot = self.band.shot;
-        let is_wide = sight.columns.len() * sight.rows.len() > WIDE_TILES;
+        let is_wide = self.sight.columns().len() * self.sight.rows().len() > WIDE_TILES;
         match self.band.common_radius_px {
             Some(radius_px) if !is_wide => {
-                disc.resize(columns::<C>(radius_px));
+                let disc = discs.of(columns::<C>(radius_px));
                 placed.stroke(canvas, placed.lines.begins_of(pieces), disc);
             }
             common => {
@@ -80,11 +105,10 @@ impl<'a, const C: usize> Seen<'a, C> {
                         let piece = first + lane;
                         let radius_px = match common {
                             Some(radius_px) => radius_px,
-                            None => shot.radius_px(self.path_of(placed, piece)),
+                            None => shot.radius_px(self.path(placed.lines.member(piece))),
                         };
                         let begins = placed.lines.begins_of(piece..piece + 1);
-                        disc.resize(columns::<C>(radius_px));
-                        placed.stroke(canvas, begins, disc);
+                        placed.stroke(canvas, begins, discs.of(columns::<C>(radius_px)));
                     }
                 }
             }
@@ -93,73 +117,41 @@ impl<'a, const C: usize> Seen<'a, C> {
 
     /// Lists the pieces that may leave a mark on the tile.
     #[inline(always)]
-    pub(super) fn gather(&self, hits: &mut Vec<Hit>) {
-        match &self.cluster().lines {
-            Lines::Kept(unit_m, lines) => self.gather_of(&self.placed(*unit_m, lines), hits),
-            Lines::Cut(lines) => self.gather_of(&self.placed_cut(lines), hits),
+    pub(super) fn gather(&self, key: u32, hits: &mut Vec<Hit>) {
+        match self.lines() {
+            Lines::Kept(unit_m, lines) => self.gather_of(&self.placed(*unit_m, lines), key, hits),
+            Lines::Cut(lines) => self.gather_of(&self.placed_cut(lines), key, hits),
             Lines::None => {}
         }
     }
 
     #[inline(always)]
-    fn gather_of<T: Coordinate>(&self, placed: &Placed<'_, T>, hits: &mut Vec<Hit>) {
+    fn gather_of<T: Coordinate>(&self, placed: &Placed<'_, T, C>, key: u32, hits: &mut Vec<Hit>) {
         let within = self.within(placed);
         let pieces = 0..placed.lines.pieces();
         for first in pieces.clone().step_by(LANES) {
             for lane in set_bits(placed.lines.hit_bits(first, pieces.end, &within)) {
                 let piece = first + lane;
-                let path = self.path_of(placed, piece);
+                let path = self.path(placed.lines.member(piece));
+                let ranks = self.band.index.ranks.as_ref();
                 hits.push(Hit {
-                    rank: self.band.ranks.map_or(path, |ranks| ranks[path as usize]),
-                    cluster: self.number,
+                    rank: ranks.map_or(path, |ranks| ranks[path as usize]),
+                    key,
                     piece: piece as u32,
                 });
             }
         }
     }
 
-    /// Adds one piece to the shape.
+    /// The path of a member of the cluster.
     #[inline(always)]
-    pub(super) fn piece(
-        &self,
-        canvas: &mut Canvas<C>,
-        disc: &mut Disc<C>,
-        piece: usize,
-        path: u32,
-    ) {
-        disc.resize(columns::<C>(self.band.shot.radius_px(path)));
-        match &self.cluster().lines {
-            Lines::Kept(unit_m, lines) => {
-                let begins = lines.begins_of(piece..piece + 1);
-                self.placed(*unit_m, lines).stroke(canvas, begins, disc);
-            }
-            Lines::Cut(lines) => {
-                let begins = lines.begins_of(piece..piece + 1);
-                self.placed_cut(lines).stroke(canvas, begins, disc);
-            }
-            Lines::None => {}
-        }
-    }
-
-    pub(super) fn path(&self, piece: usize) -> u32 {
-        match &self.cluster().lines {
-            Lines::Kept(_, lines) => self.member(lines.member(piece)),
-            Lines::Cut(lines) => self.member(lines.member(piece)),
-            Lines::None => 0,
-        }
-    }
-
-    fn path_of<T: Coordinate>(&self, placed: &Placed<'_, T>, piece: usize) -> u32 {
-        self.member(placed.lines.member(piece))
-    }
-
-    fn member(&self, member: u8) -> u32 {
-        self.band.paths[self.number as usize * CLUSTER_PATHS + usize::from(member)]
+    pub(super) fn path(&self, member: u8) -> u32 {
+        self.band.index.paths_of(self.sight.cluster)[usize::from(member)]
     }
 
     /// What of the lines may leave a mark on the tile, in their own unit.
     #[inline(always)]
-    fn within<T>(&self, placed: &Placed<'_, T>) -> Bounds<f32> {
+    fn within<T>(&self, placed: &Placed<'_, T, C>) -> Bounds<f32> {
         let reach = columns::<C>(self.band.widest_px + 1.0 / 16.0);
         let side = (TILE_PX * C) as f32;
         let per_column = 1.0 / placed.scale;
@@ -172,6 +164,7 @@ impl<'a, const C: usize> Seen<'a, C> {
     }
 }
 
-fn columns<const C: usize>(px: f64) -> f32 {
+#[inline(always)]
+pub(super) fn columns<const C: usize>(px: f64) -> f32 {
     (px * C as f64) as f32
 }

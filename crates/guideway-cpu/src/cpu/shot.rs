@@ -5,6 +5,7 @@ use guideway_scene::{Rgba, Scene};
 use guideway_spline::{Bounds, Point};
 
 use super::canvas::TILE_PX;
+use super::place::{Placement, power_of_two_below};
 
 /// How exactly lines are kept.
 #[derive(Clone, Copy)]
@@ -48,6 +49,7 @@ pub(super) struct Shot<'a> {
     /// What is drawn of the view.
     pub(super) strip: &'a Strip,
     pub(super) view: &'a View,
+    pub(super) place: Placement,
     pub(super) style: &'a Style,
     pub(super) cancel: &'a Cancel,
     pub(super) widths: Widths,
@@ -74,12 +76,6 @@ pub(super) fn widths(scene: &Scene) -> Widths {
 const _: () = assert!((Strip::STEP as usize).is_multiple_of(TILE_PX));
 
 impl Shot<'_> {
-    /// Rows of tiles of the strip.
-    pub(super) fn tile_rows(&self) -> Range<usize> {
-        let rows = self.strip.rows();
-        rows.start as usize / TILE_PX..(rows.end as usize).div_ceil(TILE_PX)
-    }
-
     /// Where some rows of tiles are among the pixels of the strip.
     pub(super) fn pixels_of(&self, tile_rows: &Range<usize>) -> Range<usize> {
         let (width, rows) = (self.strip.size().width() as usize, self.strip.rows());
@@ -120,9 +116,7 @@ impl Shot<'_> {
     /// What vertices that are kept are rounded to: the greatest power of two that is at most a given part
     /// of a pixel. It changes only where the scale has doubled.
     pub(super) fn unit_m(&self) -> f64 {
-        const EXPONENT: u64 = 0x7ff << 52;
-        let most_m = 1.0 / (self.grain().units_a_px * self.view.px_per_m());
-        f64::from_bits(most_m.to_bits() & EXPONENT)
+        power_of_two_below(1.0 / (self.grain().units_a_px * self.view.px_per_m()))
     }
 
     /// Farthest that a kept line may be from its curve, in units of [`Self::unit_m`].

@@ -1,4 +1,6 @@
 use super::LANES;
+use super::disc::{Disc, NONE, PHASES};
+use super::place::STEPS_PX;
 
 /// Rows of samples of a pixel.
 pub(super) const ROWS: usize = LANES;
@@ -13,14 +15,16 @@ const ROUND: f32 = (1 << 23) as f32;
 
 /// The samples of a pixel: `C` in each row, a column apart. Columns are the unit of all lengths here, so that a
 /// circle is one.
-struct Samples<const C: usize>;
+pub(super) struct Samples<const C: usize>;
 
 impl<const C: usize> Samples<C> {
+    /// All of them.
+    pub(super) const COUNT: usize = ROWS * C;
     /// From one row to the next.
-    const ROW_STEP: f32 = C as f32 / ROWS as f32;
-    /// How far a sample may lie outside and still count as covered: a ten-thousandth of a pixel. It makes a
-    /// border through a row of samples cover that row, as it does in exact arithmetic.
-    const SLACK: f32 = C as f32 / 8192.0;
+    pub(super) const ROW_STEP: f32 = C as f32 / ROWS as f32;
+    /// How far a sample may lie outside and still count as covered: a step and a half. It makes a border through a
+    /// row of samples cover that row, as it does in exact arithmetic, wherever the picture begins.
+    pub(super) const SLACK: f32 = 1.5 * C as f32 / STEPS_PX as f32;
 
     /// Where the rows lie below the upper border.
     const ROW_Y: [f32; LANES] = {
@@ -44,80 +48,17 @@ impl<const C: usize> Samples<C> {
         }
         to_sample
     };
-}
 
-/// Fractions of the distance between rows of samples that the centres of discs are rounded to: 1/128 of a
-/// pixel.
-const PHASES: i32 = 8;
-/// Half a chord where there is none: far to the other side.
-const NONE: f32 = -1e9;
-/// The radius up to which half chords are kept, in pixels: larger discs are found as they are needed.
-const MOST_KEPT_PX: usize = 32;
-
-/// A disc of one radius around any centre: half of each chord that a row of samples cuts from it.
-#[derive(Debug, Default)]
-pub(super) struct Disc<const C: usize> {
-    pub(super) radius: f32,
-    /// For each phase of the centre, half chords from far above it to far below; none of a large disc.
-    halves: Vec<f32>,
-    /// Rows of a phase, and those before the one at the centre.
-    rows: i32,
-    rows_above: i32,
-}
-
-impl<const C: usize> Disc<C> {
-    /// Becomes a disc of another radius.
-    pub(super) fn resize(&mut self, radius: f32) {
-        if self.radius == radius {
-            return;
-        }
-        self.radius = radius;
-        self.halves.clear();
-        if radius > (MOST_KEPT_PX * C) as f32 {
-            return;
-        }
-        self.rows_above = (radius / Samples::<C>::ROW_STEP) as i32 + 2 + LANES as i32;
-        self.rows = 2 * self.rows_above + 1;
-        for phase in 0..PHASES {
-            let rows = (-self.rows_above..=self.rows_above).map(|row| row * PHASES - phase);
-            self.halves
-                .extend(rows.map(|off| half_chord::<C>(radius, off)));
-        }
-    }
-
-    /// Most bytes that one holds.
-    pub(super) fn bytes() -> u64 {
-        let rows = 2 * (MOST_KEPT_PX * ROWS + 2 + LANES) + 1;
-        (rows * PHASES as usize * size_of::<f32>()) as u64
-    }
-
-    /// Half chords of a row of pixels, when the centre is so many phases below the first row of all.
+    /// The nearest step, of which a pixel has [`STEPS_PX`].
+    ///
+    /// All that depends on the place of a line is such a multiple, so its sums are exact, and a line that is
+    /// moved by whole pixels covers the same samples, moved by as much.
     #[inline(always)]
-    fn half_chords(&self, center: i32, pixel_row: usize) -> [f32; LANES] {
-        let first_row = (pixel_row * LANES) as i32;
-        if self.halves.is_empty() {
-            let mut halves = [0.0; LANES];
-            for (half, row) in halves.iter_mut().zip(first_row..) {
-                *half = half_chord::<C>(self.radius, row * PHASES - center);
-            }
-            return halves;
-        }
-        let (row, phase) = (center.div_euclid(PHASES), center.rem_euclid(PHASES));
-        let above = (first_row - row + self.rows_above).clamp(0, self.rows - LANES as i32);
-        let from = self.halves.get((phase * self.rows + above) as usize..);
-        from.and_then(<[f32]>::first_chunk)
-            .map_or([NONE; LANES], |halves| *halves)
+    pub(super) fn snap(x: f32) -> f32 {
+        // Sums with it have a last digit of one step.
+        let step = 1.5 * (1 << 23) as f32 * (C as f32 / STEPS_PX as f32);
+        (x + step) - step
     }
-}
-
-/// Half the chord of a disc so many phases from its centre.
-#[inline(always)]
-fn half_chord<const C: usize>(radius: f32, off_phases: i32) -> f32 {
-    let off = off_phases as f32 * (Samples::<C>::ROW_STEP / PHASES as f32);
-    let square = (radius - off) * (radius + off);
-    let half = clamp(square, f32::MAX).sqrt();
-    let is_beside = off.abs() > radius + Samples::<C>::SLACK;
-    if is_beside { NONE } else { half }
 }
 
 /// The centre of a disc in phases from the first row of samples, for `y` in columns.
@@ -127,8 +68,7 @@ pub(super) fn phases<const C: usize>(y: f32) -> i32 {
     const MOST: f32 = (1 << 21) as f32;
     const ROUND: f32 = 1.5 * (1 << 23) as f32;
     let per_row = 1.0 / Samples::<C>::ROW_STEP;
-    let phases = (y * per_row - 0.5) * PHASES as f32;
-    let phases = clamp(phases + MOST, 2.0 * MOST) - MOST;
+    let phases = min(max((y * per_row - 0.5) * PHASES as f32, -MOST), MOST);
     (phases + ROUND).to_bits() as i32 - ROUND.to_bits() as i32
 }
 
@@ -183,7 +123,7 @@ impl Capsule {
         for i in 0..LANES {
             let y = row_y + Samples::<C>::ROW_Y[i];
             let to_sample = Samples::<C>::TO_SAMPLE[i];
-            let middle = self.x[0] + (y - self.y[0]) * self.slope;
+            let middle = self.x[0] + Samples::<C>::snap((y - self.y[0]) * self.slope);
             let is_between = |lean| (y >= self.y[0] + lean) & (y <= self.y[1] + lean);
             let left = min(self.x[0] - upper[i], self.x[1] - lower[i]);
             let right = max(self.x[0] + upper[i], self.x[1] + lower[i]);
@@ -218,7 +158,7 @@ pub(super) fn round(x: f32, most: f32) -> u32 {
 
 /// As `f32::clamp` from 0, in two instructions: it may lose a NaN.
 #[inline(always)]
-fn clamp(x: f32, most: f32) -> f32 {
+pub(super) fn clamp(x: f32, most: f32) -> f32 {
     min(max(x, 0.0), most)
 }
 
@@ -302,8 +242,8 @@ mod tests {
             check::<LAYERED>([12.7, 8.2], [3.1, 8.2], radius);
             check::<SOLID>([3.1, 2.2], [3.1, 12.9], radius);
             check::<SOLID>([3.1, 2.2], [3.1, 2.2], radius);
-            check::<SOLID>([3.1, 8.2], [12.7, 8.200_01], radius);
-            check::<SOLID>([-300.0, 8.2], [300.0, 8.3], radius);
+            check::<LAYERED>([3.1, 8.2], [12.7, 8.200_01], radius);
+            check::<LAYERED>([-300.0, 8.2], [300.0, 8.3], radius);
         }
     }
 
@@ -314,5 +254,38 @@ mod tests {
         let spans = Capsule::level::<LAYERED>([-144.0, 480.0], 8.5 + 144.0).spans(&disc, 8, 256.0);
         assert_eq!((spans.first[8], spans.end[8]), (0, 256));
         assert_eq!((spans.first[7], spans.end[7]), (256, 0));
+    }
+
+    #[test]
+    fn whole_pixels_farther_down_and_right_the_same_samples_are_covered() {
+        check_moved::<SOLID>();
+        check_moved::<LAYERED>();
+    }
+
+    fn check_moved<const C: usize>() {
+        const DOWN_PX: usize = 7;
+        let right = 11 * C as u32;
+        let mut next = numbers();
+        for i in 0..200 {
+            let mut point = || [next() * 100.0, next() * 100.0].map(Samples::<C>::snap);
+            let (a, b) = (point(), point());
+            let mut disc = Disc::<C>::default();
+            disc.resize([0.7, 12.0, 300.0][i % 3]);
+            let moved = |p: [f32; 2]| [p[0] + right as f32, p[1] + (DOWN_PX * C) as f32];
+            let here = capsule::<C>(a, b, disc.radius);
+            let there = capsule::<C>(moved(a), moved(b), disc.radius);
+            for row in 0..16 {
+                let here = here.spans(&disc, row, 128.0);
+                let there = there.spans(&disc, row + DOWN_PX, 512.0);
+                for lane in 0..LANES {
+                    for column in 0..128 {
+                        let is_here = (here.first[lane]..here.end[lane]).contains(&column);
+                        let is_there =
+                            (there.first[lane]..there.end[lane]).contains(&(column + right));
+                        assert_eq!(is_here, is_there, "{a:?} {b:?} {row} {lane} {column}");
+                    }
+                }
+            }
+        }
     }
 }

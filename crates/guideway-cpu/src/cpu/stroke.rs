@@ -4,18 +4,19 @@ use guideway_spline::Point;
 
 use super::LANES;
 use super::canvas::{Canvas, TILE_PX};
+use super::disc::Disc;
 use super::polylines::{Coordinate, Polylines, bits_below};
-use super::span::{Capsule, Disc, max, min, phases, round};
+use super::span::{Capsule, Samples, max, min, phases, round};
 
-/// Polylines as they lie in one tile: in columns from its upper left corner.
-pub(super) struct Placed<'a, T> {
+/// Polylines as they lie in one tile of `C` columns of samples a pixel: in columns from its upper left corner.
+pub(super) struct Placed<'a, T, const C: usize> {
     pub(super) lines: &'a Polylines<T>,
     pub(super) scale: f32,
     pub(super) offset: Point<f32>,
 }
 
-/// Lines side by side, one a lane.
-struct Batch {
+/// Lines side by side, one a lane, all of one radius.
+pub(super) struct Batch<const C: usize> {
     /// The end of lesser y, and the other.
     x: [[f32; LANES]; 2],
     y: [[f32; LANES]; 2],
@@ -23,7 +24,7 @@ struct Batch {
 }
 
 /// What a capsule has beside its ends.
-struct Slopes {
+pub(super) struct Slopes {
     phases: [[i32; LANES]; 2],
     slope: [f32; LANES],
     half: [f32; LANES],
@@ -31,7 +32,7 @@ struct Slopes {
 }
 
 /// The pixels that each line may touch: rows and columns, the last ones included.
-struct Boxes {
+pub(super) struct Boxes {
     first_row: [u32; LANES],
     last_row: [u32; LANES],
     first_column: [u32; LANES],
@@ -40,68 +41,92 @@ struct Boxes {
     inside: [u32; LANES],
 }
 
-impl<T: Coordinate> Placed<'_, T> {
+impl<T: Coordinate, const C: usize> Placed<'_, T, C> {
     /// Adds the lines that begin at the vertices of `range` to the shape of a canvas.
     #[inline(always)]
-    pub(super) fn stroke<const C: usize>(
-        &self,
-        canvas: &mut Canvas<C>,
-        range: Range<usize>,
-        disc: &Disc<C>,
-    ) {
+    pub(super) fn stroke(&self, canvas: &mut Canvas<C>, range: Range<usize>, disc: &Disc<C>) {
         for first in range.clone().step_by(LANES) {
             let Some(batch) = self.batch(first, disc.radius) else {
                 return;
             };
-            let boxes = batch.boxes::<C>();
             let begins = self.lines.begin_bits(first) & bits_below(range.end - first);
+            let boxes = batch.boxes();
             let mut todo = begins & boxes.visible(canvas.open());
             if todo == 0 {
                 continue;
             }
-            let slopes = batch.slopes::<C>();
+            let slopes = batch.slopes();
             while todo != 0 {
                 let lane = todo.trailing_zeros() as usize % LANES;
                 todo &= todo - 1;
-                let capsule = batch.capsule(&slopes, lane);
-                let rows = boxes.first_row[lane] as usize..=boxes.last_row[lane] as usize;
-                let pixels = u32::MAX << boxes.first_column[lane]
-                    & u32::MAX >> (TILE_PX as u32 - 1 - boxes.last_column[lane]);
-                canvas.stroke(&capsule, disc, rows, pixels);
+                batch.stroke(lane, &slopes, &boxes, canvas, disc);
             }
         }
     }
 
+    /// One vertex.
     #[inline(always)]
-    fn batch(&self, first: usize, radius: f32) -> Option<Batch> {
-        let (x0, x1) = self.ends(&self.lines.x, first, self.offset.x)?;
-        let (y0, y1) = self.ends(&self.lines.y, first, self.offset.y)?;
-        let mut batch = Batch {
-            x: [x0, x1],
-            y: [y0, y1],
-            radius,
-        };
-        for i in 0..LANES {
-            let is_up = y1[i] < y0[i];
-            batch.x[0][i] = choose(is_up, x1[i], x0[i]);
-            batch.x[1][i] = choose(is_up, x0[i], x1[i]);
-            batch.y[0][i] = min(y0[i], y1[i]);
-            batch.y[1][i] = max(y0[i], y1[i]);
+    pub(super) fn vertex(&self, vertex: usize) -> Point<f32> {
+        let place = |v: T, offset: f32| Samples::<C>::snap(v.into() * self.scale) + offset;
+        Point {
+            x: place(self.lines.x[vertex], self.offset.x),
+            y: place(self.lines.y[vertex], self.offset.y),
         }
-        Some(batch)
+    }
+
+    #[inline(always)]
+    fn batch(&self, first: usize, radius: f32) -> Option<Batch<C>> {
+        let x = self.ends(&self.lines.x, first, self.offset.x)?;
+        let y = self.ends(&self.lines.y, first, self.offset.y)?;
+        Some(Batch::new(x, y, radius))
     }
 
     /// One coordinate of both ends of each line.
     #[inline(always)]
-    fn ends(&self, of: &[T], first: usize, offset: f32) -> Option<([f32; LANES], [f32; LANES])> {
+    fn ends(&self, of: &[T], first: usize, offset: f32) -> Option<[[f32; LANES]; 2]> {
         let starts: &[T; LANES] = of.get(first..)?.first_chunk()?;
         let ends: &[T; LANES] = of.get(first + 1..)?.first_chunk()?;
-        let place = |v: &T| (*v).into() * self.scale + offset;
-        Some((starts.each_ref().map(place), ends.each_ref().map(place)))
+        // A loop: the closure of a map may be left out of line, and then without vectors.
+        let mut placed = [[0.0; LANES]; 2];
+        for i in 0..LANES {
+            placed[0][i] = Samples::<C>::snap(starts[i].into() * self.scale) + offset;
+            placed[1][i] = Samples::<C>::snap(ends[i].into() * self.scale) + offset;
+        }
+        Some(placed)
     }
 }
 
-impl Batch {
+impl<const C: usize> Batch<C> {
+    /// Lines from their first ends to their second ones.
+    #[inline(always)]
+    pub(super) fn new(x: [[f32; LANES]; 2], y: [[f32; LANES]; 2], radius: f32) -> Self {
+        let mut batch = Self { x, y, radius };
+        for i in 0..LANES {
+            let is_up = y[1][i] < y[0][i];
+            batch.x[0][i] = choose(is_up, x[1][i], x[0][i]);
+            batch.x[1][i] = choose(is_up, x[0][i], x[1][i]);
+            batch.y[0][i] = min(y[0][i], y[1][i]);
+            batch.y[1][i] = max(y[0][i], y[1][i]);
+        }
+        batch
+    }
+
+    /// Adds one line to the shape of a canvas.
+    #[inline(always)]
+    pub(super) fn stroke(
+        &self,
+        lane: usize,
+        slopes: &Slopes,
+        boxes: &Boxes,
+        canvas: &mut Canvas<C>,
+        disc: &Disc<C>,
+    ) {
+        let rows = boxes.first_row[lane] as usize..=boxes.last_row[lane] as usize;
+        let pixels = u32::MAX << boxes.first_column[lane]
+            & u32::MAX >> (TILE_PX as u32 - 1 - boxes.last_column[lane]);
+        canvas.stroke(&self.capsule(slopes, lane), disc, rows, pixels);
+    }
+
     #[inline(always)]
     fn capsule(&self, slopes: &Slopes, lane: usize) -> Capsule {
         Capsule {
@@ -115,7 +140,7 @@ impl Batch {
     }
 
     #[inline(always)]
-    fn boxes<const C: usize>(&self) -> Boxes {
+    pub(super) fn boxes(&self) -> Boxes {
         let side = (TILE_PX * C) as f32;
         let mut boxes = Boxes {
             first_row: [0; LANES],
@@ -140,7 +165,7 @@ impl Batch {
     }
 
     #[inline(always)]
-    fn slopes<const C: usize>(&self) -> Slopes {
+    pub(super) fn slopes(&self) -> Slopes {
         /// Lines less high than this, in columns, have no borders apart from their caps.
         const LEVEL: f32 = 1.0 / 64.0;
         let mut slopes = Slopes {
@@ -154,8 +179,8 @@ impl Batch {
             let length = (dx * dx + dy * dy).sqrt();
             let height = max(dy, LEVEL);
             slopes.slope[i] = dx / height;
-            slopes.half[i] = self.radius * length / height;
-            let lean = self.radius * dx / max(length, LEVEL);
+            slopes.half[i] = Samples::<C>::snap(self.radius * length / height);
+            let lean = Samples::<C>::snap(self.radius * dx / max(length, LEVEL));
             slopes.lean[i] = choose(dy < LEVEL, f32::NAN, lean);
             slopes.phases[0][i] = phases::<C>(self.y[0][i]);
             slopes.phases[1][i] = phases::<C>(self.y[1][i]);
@@ -167,19 +192,15 @@ impl Batch {
 /// The capsule around one line.
 #[cfg(test)]
 pub(super) fn capsule<const C: usize>(a: [f32; 2], b: [f32; 2], radius: f32) -> Capsule {
-    let [upper, lower] = if b[1] < a[1] { [b, a] } else { [a, b] };
-    let batch = Batch {
-        x: [[upper[0]; LANES], [lower[0]; LANES]],
-        y: [[upper[1]; LANES], [lower[1]; LANES]],
-        radius,
-    };
-    batch.capsule(&batch.slopes::<C>(), 0)
+    let [x, y] = [0, 1].map(|axis| [[a[axis]; LANES], [b[axis]; LANES]]);
+    let batch = Batch::<C>::new(x, y, radius);
+    batch.capsule(&batch.slopes(), 0)
 }
 
 impl Boxes {
     /// Which lines may cover samples of blocks that are open: a bit each.
     #[inline(always)]
-    fn visible<const C: usize>(&self, open: &[u32; C]) -> u32 {
+    pub(super) fn visible<const C: usize>(&self, open: &[u32; C]) -> u32 {
         let window_px = Canvas::<C>::WINDOW_PX as u32;
         let mut bits = [0; LANES];
         for (i, bit) in bits.iter_mut().enumerate() {

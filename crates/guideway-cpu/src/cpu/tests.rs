@@ -16,6 +16,8 @@ use super::prepared::CpuPrepared;
 use super::shot::LaneWidth;
 use crate::Oracle;
 
+mod kept;
+
 /// Numbers below 1 in magnitude, the same on every run.
 fn numbers(mut state: u64) -> impl FnMut() -> f64 {
     move || {

@@ -1,24 +1,24 @@
 use std::ops::Range;
 
-use guideway_render::FrameSize;
+use guideway_render::Strip;
 
 use super::canvas::TILE_PX;
-use super::cluster::Cluster;
+use super::sight::{Sight, Sights};
 
 /// The tiles of a band of the picture: whole rows of them.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Grid {
     pub(super) columns: usize,
     pub(super) rows: Range<usize>,
 }
 
 impl Grid {
-    /// The tiles of a whole picture.
-    pub(super) fn whole(size: FrameSize) -> Self {
-        let tiles = |side_px: u32| (side_px as usize).div_ceil(TILE_PX);
+    /// The tiles of a strip.
+    pub(super) fn of(strip: &Strip) -> Self {
+        let rows = strip.rows();
         Self {
-            columns: tiles(size.width()),
-            rows: 0..tiles(size.height()),
+            columns: (strip.size().width() as usize).div_ceil(TILE_PX),
+            rows: rows.start as usize / TILE_PX..(rows.end as usize).div_ceil(TILE_PX),
         }
     }
 
@@ -28,37 +28,157 @@ impl Grid {
     }
 }
 
+/// The part of a tile that is drawn: pixels from its upper left corner.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Part {
+    left: u8,
+    right: u8,
+    top: u8,
+    bottom: u8,
+}
+
+impl Part {
+    pub(super) fn is_empty(self) -> bool {
+        self.left >= self.right
+    }
+
+    pub(super) fn columns(self) -> Range<usize> {
+        usize::from(self.left)..usize::from(self.right)
+    }
+
+    pub(super) fn rows(self) -> Range<usize> {
+        usize::from(self.top)..usize::from(self.bottom)
+    }
+
+    /// The smallest that holds both.
+    fn union(self, other: Self) -> Self {
+        if self.is_empty() {
+            return other;
+        }
+        Self {
+            left: self.left.min(other.left),
+            right: self.right.max(other.right),
+            top: self.top.min(other.top),
+            bottom: self.bottom.max(other.bottom),
+        }
+    }
+}
+
+/// The part of each tile of a strip that is drawn.
+#[derive(Default)]
+pub(super) struct Parts {
+    grid: Grid,
+    parts: Vec<Part>,
+}
+
+impl Parts {
+    /// Draws nothing of a strip.
+    pub(super) fn clear(&mut self, strip: &Strip) {
+        self.grid = Grid::of(strip);
+        self.parts.clear();
+        self.parts.resize(self.grid.len(), Part::default());
+    }
+
+    /// Draws all of a strip.
+    pub(super) fn fill(&mut self, strip: &Strip) {
+        self.clear(strip);
+        let rows = strip.rows();
+        let rows_px = rows.start as usize..rows.end as usize;
+        self.add(0..strip.size().width() as usize, rows_px);
+    }
+
+    /// Draws some columns and rows of pixels too, all of them of the strip.
+    pub(super) fn add(&mut self, columns_px: Range<usize>, rows_px: Range<usize>) {
+        let within = |range: &Range<usize>, tile: usize| {
+            let corner = tile * TILE_PX;
+            let start = range.start.max(corner) - corner;
+            let end = range.end.min(corner + TILE_PX) - corner;
+            [start as u8, end as u8]
+        };
+        for row in tiles(&rows_px) {
+            for column in tiles(&columns_px) {
+                let [left, right] = within(&columns_px, column);
+                let [top, bottom] = within(&rows_px, row);
+                let place = self.place(column, row);
+                let part = &mut self.parts[place];
+                *part = part.union(Part {
+                    left,
+                    right,
+                    top,
+                    bottom,
+                });
+            }
+        }
+    }
+
+    /// The part of one tile.
+    #[inline(always)]
+    pub(super) fn at(&self, column: usize, row: usize) -> Part {
+        self.parts[self.place(column, row)]
+    }
+
+    #[inline(always)]
+    fn place(&self, column: usize, row: usize) -> usize {
+        (row - self.grid.rows.start) * self.grid.columns + column
+    }
+
+    /// Columns and rows of pixels of each part.
+    pub(super) fn pixels(&self) -> impl Iterator<Item = (Range<usize>, Range<usize>)> {
+        let drawn = self.parts.iter().enumerate().filter(|(_, p)| !p.is_empty());
+        drawn.map(|(tile, part)| {
+            let (column, row) = (tile % self.grid.columns, tile / self.grid.columns);
+            let corner = [column, row + self.grid.rows.start].map(|place| place * TILE_PX);
+            let from =
+                |corner: usize, range: Range<usize>| corner + range.start..corner + range.end;
+            (
+                from(corner[0], part.columns()),
+                from(corner[1], part.rows()),
+            )
+        })
+    }
+
+    pub(super) fn bytes(&self) -> u64 {
+        (self.parts.capacity() * size_of::<Part>()) as u64
+    }
+}
+
+/// The tiles of some pixels.
+fn tiles(range_px: &Range<usize>) -> Range<usize> {
+    if range_px.is_empty() {
+        return 0..0;
+    }
+    range_px.start / TILE_PX..range_px.end.div_ceil(TILE_PX)
+}
+
 /// Which clusters may leave a mark on each tile.
 #[derive(Default)]
 pub(super) struct Bins {
     /// Where the clusters of each tile end.
     ends: Vec<u32>,
-    clusters: Vec<u32>,
+    /// Keys of what is seen of them.
+    keys: Vec<u32>,
 }
 
 impl Bins {
     /// Bytes held.
     pub(super) fn bytes(&self) -> u64 {
-        ((self.ends.capacity() + self.clusters.capacity()) * size_of::<u32>()) as u64
+        ((self.ends.capacity() + self.keys.capacity()) * size_of::<u32>()) as u64
     }
 
-    /// Lists the clusters of each tile, unless that takes more than so many bytes; then says how many.
+    /// Lists the clusters of each tile that is drawn, unless that takes more than so many bytes; then says how
+    /// many.
     pub(super) fn fill(
         &mut self,
-        clusters: &[Cluster],
+        sights: &Sights,
+        parts: &Parts,
         grid: &Grid,
         limit_bytes: u64,
     ) -> Result<(), u64> {
         self.ends.clear();
         self.ends.resize(grid.len() + 1, 0);
-        for (_, rows, columns) in in_sight(clusters, grid) {
-            for row in rows {
-                let tiles = row * grid.columns + columns.start..row * grid.columns + columns.end;
-                // Ends begin as counts, one place later: there each becomes the start of its tile.
-                self.ends[tiles.start + 1..tiles.end + 1]
-                    .iter_mut()
-                    .for_each(|n| *n += 1);
-            }
+        for sight in sights.iter() {
+            // Ends begin as counts, one place later: there each becomes the start of its tile.
+            for_each_tile(sight, parts, grid, |tile| self.ends[tile + 1] += 1);
         }
         let total: u64 = self.ends.iter().map(|&n| u64::from(n)).sum();
         let needed = (total + self.ends.len() as u64) * size_of::<u32>() as u64;
@@ -70,19 +190,17 @@ impl Bins {
             next += *end;
             *end = next;
         }
-        if self.clusters.capacity() < total as usize {
-            self.clusters = Vec::with_capacity(total as usize);
+        if self.keys.capacity() < total as usize {
+            self.keys = Vec::with_capacity(total as usize);
         }
-        self.clusters.clear();
-        self.clusters.resize(total as usize, 0);
-        for (cluster, rows, columns) in in_sight(clusters, grid) {
-            for row in rows {
-                for column in columns.clone() {
-                    let place = &mut self.ends[row * grid.columns + column];
-                    self.clusters[*place as usize] = cluster;
-                    *place += 1;
-                }
-            }
+        self.keys.clear();
+        self.keys.resize(total as usize, 0);
+        for (key, sight) in sights.with_keys() {
+            for_each_tile(sight, parts, grid, |tile| {
+                let place = &mut self.ends[tile];
+                self.keys[*place as usize] = key;
+                *place += 1;
+            });
         }
         Ok(())
     }
@@ -90,20 +208,48 @@ impl Bins {
     /// The clusters of a tile, by ascending number.
     pub(super) fn tile(&self, tile: usize) -> &[u32] {
         let start = if tile == 0 { 0 } else { self.ends[tile - 1] };
-        &self.clusters[start as usize..self.ends[tile] as usize]
+        &self.keys[start as usize..self.ends[tile] as usize]
     }
 }
 
-/// Clusters in sight, each with the rows (from the first of the grid) and columns of its tiles.
-fn in_sight(
-    clusters: &[Cluster],
-    grid: &Grid,
-) -> impl Iterator<Item = (u32, Range<usize>, Range<usize>)> {
-    clusters.iter().zip(0..).filter_map(|(cluster, number)| {
-        let sight = cluster.sight.as_ref()?;
-        let first = sight.rows.start.max(grid.rows.start);
-        let end = sight.rows.end.min(grid.rows.end).max(first);
-        let rows = first - grid.rows.start..end - grid.rows.start;
-        Some((number, rows, sight.columns.clone()))
-    })
+/// Calls `found` with each tile of the grid that is drawn and that a cluster may leave a mark on.
+#[inline(always)]
+fn for_each_tile(sight: &Sight, parts: &Parts, grid: &Grid, mut found: impl FnMut(usize)) {
+    let rows = sight.rows();
+    for row in rows.start.max(grid.rows.start)..rows.end.min(grid.rows.end) {
+        for column in sight.columns() {
+            if !parts.at(column, row).is_empty() {
+                found((row - grid.rows.start) * grid.columns + column);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use guideway_render::{FrameSize, View};
+    use guideway_spline::Point;
+
+    use super::*;
+
+    #[test]
+    fn parts_of_tiles_hold_the_pixels_and_no_tile_beside_them() {
+        let mut parts = Parts::default();
+        let size = FrameSize::new(100, 70).unwrap();
+        parts.clear(&Strip::whole(
+            &View::new(size, Point::default(), 1.0).unwrap(),
+        ));
+        assert_eq!(parts.pixels().count(), 0);
+        parts.add(60..70, 10..12);
+        parts.add(3..3, 0..70);
+        let pixels: Vec<_> = parts.pixels().collect();
+        assert_eq!(pixels, [(60..64, 10..12), (64..70, 10..12)]);
+        parts.add(62..63, 30..33);
+        let pixels: Vec<_> = parts.pixels().collect();
+        let expected = [(60..64, 10..32), (64..70, 10..12), (62..63, 32..33)];
+        assert_eq!(pixels, expected);
+        parts.add(0..100, 0..70);
+        let area: usize = parts.pixels().map(|(x, y)| x.len() * y.len()).sum();
+        assert_eq!(area, 100 * 70);
+    }
 }

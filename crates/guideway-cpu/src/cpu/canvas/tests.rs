@@ -13,7 +13,7 @@ fn stroke<const C: usize>(canvas: &mut Canvas<C>, from: f32, to: f32, y: f32, ra
 
 fn pixel(canvas: &Layers, x: usize, y: usize, background: Rgba) -> [u8; 4] {
     let mut pixels = vec![[0; 4]; TILE_PX];
-    canvas.row_over(y, background, &mut pixels);
+    canvas.row_over(y, &Backdrop::new(background), &mut pixels);
     pixels[x]
 }
 

@@ -1,0 +1,116 @@
+//! What a frame sees of each cluster.
+
+use std::ops::Range;
+
+use guideway_spline::{Bounds, Point};
+use rayon::prelude::*;
+
+use super::canvas::TILE_PX;
+use super::cluster::MOST_UNITS;
+use super::shot::Shot;
+
+/// Clusters that one thread looks at in one go.
+const CHUNK: usize = 1024;
+
+/// What a frame sees of a cluster.
+#[derive(Debug)]
+pub(super) struct Sight {
+    pub(super) cluster: u32,
+    /// Where its middle lies, in pixels.
+    pub(super) middle_px: Point<f64>,
+    /// Pixels that it may leave a mark on.
+    pub(super) reach_px: Bounds<f32>,
+    /// Whether all of it is within the picture.
+    pub(super) is_whole: bool,
+    /// Whether it is too large for its lines to be kept.
+    pub(super) is_large: bool,
+    /// Tiles that it may leave a mark on.
+    columns: [u16; 2],
+    rows: [u16; 2],
+}
+
+impl Sight {
+    fn new(cluster: u32, bounds: Bounds<f64>, shot: &Shot<'_>) -> Option<Self> {
+        let picture = shot.picture_px();
+        let reach = shot.reach_px(bounds);
+        if !reach.intersects(picture) {
+            return None;
+        }
+        let tiles = |min: f64, max: f64, side_px: f64| {
+            let end = (max.min(side_px) / TILE_PX as f64).ceil();
+            [(min.max(0.0) / TILE_PX as f64) as u16, (end as u16).max(1)]
+        };
+        let size_m = bounds.size();
+        Some(Self {
+            cluster,
+            middle_px: shot.place.pixel(bounds.center()),
+            reach_px: Bounds {
+                min: reach.min.to_f32(),
+                max: reach.max.to_f32(),
+            },
+            is_whole: picture.contains(reach.min) && picture.contains(reach.max),
+            is_large: size_m.x.max(size_m.y) > 2.0 * MOST_UNITS * shot.unit_m(),
+            columns: tiles(reach.min.x, reach.max.x, picture.max.x),
+            rows: tiles(reach.min.y, reach.max.y, picture.max.y),
+        })
+    }
+
+    pub(super) fn columns(&self) -> Range<usize> {
+        usize::from(self.columns[0])..usize::from(self.columns[1])
+    }
+
+    pub(super) fn rows(&self) -> Range<usize> {
+        usize::from(self.rows[0])..usize::from(self.rows[1])
+    }
+
+    /// Whether it may leave a mark on some rows of tiles.
+    pub(super) fn is_in(&self, rows: &Range<usize>) -> bool {
+        self.rows().start < rows.end && rows.start < self.rows().end
+    }
+}
+
+/// The clusters in sight, by ascending number.
+#[derive(Default)]
+pub(super) struct Sights {
+    chunks: Vec<Vec<Sight>>,
+}
+
+impl Sights {
+    /// Looks for the clusters, of which each lies within a box.
+    pub(super) fn look(&mut self, bounds: &[Option<Bounds<f64>>], shot: &Shot<'_>) {
+        self.chunks
+            .resize_with(bounds.len().div_ceil(CHUNK), Vec::new);
+        let chunks = self.chunks.par_iter_mut().zip(bounds.par_chunks(CHUNK));
+        chunks.enumerate().for_each(|(chunk, (sights, bounds))| {
+            sights.clear();
+            let numbered = ((chunk * CHUNK) as u32..).zip(bounds);
+            sights.extend(
+                numbered.filter_map(|(cluster, bounds)| Sight::new(cluster, (*bounds)?, shot)),
+            );
+        });
+    }
+
+    /// All of them.
+    pub(super) fn iter(&self) -> impl Iterator<Item = &Sight> {
+        self.chunks.iter().flatten()
+    }
+
+    /// All of them with their keys.
+    pub(super) fn with_keys(&self) -> impl Iterator<Item = (u32, &Sight)> {
+        self.chunks.iter().enumerate().flat_map(|(chunk, sights)| {
+            let keys = (chunk * CHUNK) as u32..;
+            keys.zip(sights)
+        })
+    }
+
+    /// The one of a key.
+    #[inline(always)]
+    pub(super) fn get(&self, key: u32) -> &Sight {
+        &self.chunks[key as usize / CHUNK][key as usize % CHUNK]
+    }
+
+    pub(super) fn bytes(&self) -> u64 {
+        let sights: usize = self.chunks.iter().map(Vec::capacity).sum();
+        (sights * size_of::<Sight>() + self.chunks.capacity() * size_of::<Vec<Sight>>()) as u64
+    }
+}

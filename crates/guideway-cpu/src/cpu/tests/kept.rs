@@ -1,0 +1,125 @@
+//! Pictures of which a part was kept, compared with ones drawn anew.
+
+use super::*;
+
+/// The view of a square of 200 m, moved by pixels to the right and down.
+fn moved(px_per_m: f64, right_px: f64, down_px: f64) -> View {
+    let center = Point::new(0.3 + right_px / px_per_m, -0.7 - down_px / px_per_m);
+    view(center, px_per_m)
+}
+
+/// Draws by what is kept of earlier frames, and says whether that saved anything.
+fn draw_again(prepared: &mut CpuPrepared, view: &View, style: &Style) -> (Frame, bool) {
+    let mut frame = Frame::new(FrameSize::new(1, 1).unwrap());
+    let report = prepared
+        .render(view, style, &Cancel::default(), &mut frame)
+        .unwrap();
+    assert!(report.accounts_for_all(), "{report:?}");
+    (frame, prepared.has_reused())
+}
+
+#[test]
+fn a_picture_moved_by_whole_pixels_is_a_fresh_one_to_the_bit() {
+    let layout = || wandering(3000, 11, 3.0, ORIGIN);
+    for (scene, style) in [
+        (scene(layout()), Style::default()),
+        (colored(layout(), |_| 255), wide_px(2.5)),
+        (colored(layout(), |i| [255, 90][i % 2]), wide_px(1.5)),
+    ] {
+        for px_per_m in [0.3, 0.5] {
+            let mut prepared = CpuPrepared::new(Arc::clone(&scene), &Budget::default()).unwrap();
+            let mut saved = Vec::new();
+            for [right_px, down_px] in [
+                [0.0, 0.0],
+                [5.0, 0.0],
+                [8.0, 2.0],
+                [8.0, 45.0],
+                [-31.0, 45.0],
+                [-20.0, -60.0],
+                [-20.5, -60.0],
+                [-19.5, -60.0],
+                [400.0, 0.0],
+            ] {
+                let view = moved(px_per_m, right_px, down_px);
+                let (again, has_reused) = draw_again(&mut prepared, &view, &style);
+                let (fresh, _) = draw(&Cpu, &scene, &view, &style, &Budget::default());
+                assert!(again == fresh, "{px_per_m} {right_px} {down_px}");
+                saved.push(has_reused);
+            }
+            // Two frames until the picture is kept, one half a pixel off, and one out of sight.
+            let expected = [false, false, true, true, true, true, false, false, false];
+            assert_eq!(saved, expected);
+        }
+    }
+}
+
+#[test]
+fn what_is_cut_at_the_picture_is_right_to_the_bit_where_that_is_moved() {
+    let scene = scene(wandering(3000, 11, 3.0, ORIGIN));
+    let style = wide_px(2.5);
+    let mut prepared = CpuPrepared::new(Arc::clone(&scene), &Budget::default()).unwrap();
+    for [right_px, down_px] in [[0.0, 0.0], [0.0, 0.0], [5.0, 0.0], [9.0, -30.0]] {
+        let view = moved(70.0, right_px, down_px);
+        let (again, _) = draw_again(&mut prepared, &view, &style);
+        let (fresh, _) = draw(&Cpu, &scene, &view, &style, &Budget::default());
+        assert!(again == fresh, "{right_px} {down_px}");
+    }
+}
+
+#[test]
+fn after_an_edit_only_what_it_touches_is_drawn_and_all_is_right_to_the_bit() {
+    let before = scene(wandering(3000, 11, 3.0, ORIGIN));
+    let (view, style) = (view(ORIGIN, 0.5), Style::default());
+    let mut prepared = CpuPrepared::new(Arc::clone(&before), &Budget::default()).unwrap();
+    let mut anew = CpuPrepared::new(before, &Budget::default()).unwrap();
+    for _ in 0..2 {
+        draw_again(&mut prepared, &view, &style);
+    }
+    let mut runs = Runs::default();
+    runs.push_line(Point::new(-80.0, -3.0), Point::new(70.0, 5.0));
+    let inserted = Insertion {
+        runs,
+        ..Insertion::default()
+    };
+    let of = |width_m, color_rgba| OwnStyle {
+        width_m,
+        color_rgba,
+    };
+    let by = Affine::translation(Point::new(4.0, -30.0));
+    let paths: Arc<[u32]> = Arc::new([3, 1700]);
+    let edits = [
+        (Edit::Transform { paths, by }, true),
+        (Edit::SetStates(Arc::new([(9, PathState::Hidden)])), true),
+        (Edit::Insert(Arc::new([inserted])), true),
+        // From one colour to two, within two, and from one width to two.
+        (
+            Edit::Restyle(Arc::new([(3, of(None, Some(0xff00_40ff)))])),
+            false,
+        ),
+        (
+            Edit::Restyle(Arc::new([(4, of(None, Some(0x1f00_40ff)))])),
+            true,
+        ),
+        (Edit::Restyle(Arc::new([(4, of(Some(9.0), None))])), false),
+    ];
+    for (edit, is_little) in edits {
+        for prepared in [&mut prepared, &mut anew] {
+            prepared.edit(&edit).unwrap();
+        }
+        let (again, has_reused) = draw_again(&mut prepared, &view, &style);
+        anew.forget_picture();
+        let (fresh, _) = draw_again(&mut anew, &view, &style);
+        assert!(again == fresh, "{edit:?}");
+        assert_eq!(has_reused, is_little, "{edit:?}");
+    }
+    // Moved right after an edit.
+    let edit = Edit::SetStates(Arc::new([(9, PathState::Shown)]));
+    for prepared in [&mut prepared, &mut anew] {
+        prepared.edit(&edit).unwrap();
+    }
+    let view = self::view(Point::new(10.0, 0.0), 0.5);
+    let (again, has_reused) = draw_again(&mut prepared, &view, &style);
+    anew.forget_picture();
+    let (fresh, _) = draw_again(&mut anew, &view, &style);
+    assert!(again == fresh && has_reused);
+}
