@@ -10,6 +10,7 @@ use guideway_scene::{Edit, Scene};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::NAME;
+use super::ask::Question;
 use super::frame::{Buffers, Easel, TooMuch};
 use super::index::Index;
 use super::kept::Kept;
@@ -116,6 +117,33 @@ impl CpuPrepared {
     /// Draws all of the next frame.
     pub(super) fn forget_picture(&mut self) {
         self.kept = None;
+    }
+}
+
+impl CpuPrepared {
+    /// Answers what lies in a view, which takes so many bytes at most.
+    fn ask(
+        &mut self,
+        (view, style, cancel): (&View, &Style, &Cancel),
+        bytes: usize,
+        answer: impl FnOnce(&Question<'_>) -> Result<Vec<u32>, RenderError> + Send,
+    ) -> Result<Option<Vec<u32>>, RenderError> {
+        let needed = fixed_bytes(&self.scene, &self.budget) + bytes as u64;
+        if needed > self.budget.memory_bytes {
+            return Err(too_small("the answer", needed, &self.budget));
+        }
+        let (index, sights) = (&self.index, &mut self.buffers.sights);
+        let strip = Strip::whole(view);
+        let shot = index.shot(&self.scene, self.lane_width, (&strip, style, cancel));
+        install(self.pool.as_ref(), || {
+            sights.look(&index.bounds, &shot);
+            let question = Question {
+                shot: &shot,
+                index,
+                sights,
+            };
+            answer(&question).map(Some)
+        })
     }
 }
 
@@ -273,6 +301,28 @@ impl Prepared for CpuPrepared {
             }
         }
         Ok(Edited::InPlace { moved_bytes: 0 })
+    }
+
+    fn top_paths(
+        &mut self,
+        view: &View,
+        style: &Style,
+        cancel: &Cancel,
+    ) -> Result<Option<Vec<u32>>, RenderError> {
+        let bytes = view.size().pixels() * 2 * size_of::<u32>();
+        self.ask((view, style, cancel), bytes, |question| {
+            question.top_paths()
+        })
+    }
+
+    fn paths_in(
+        &mut self,
+        view: &View,
+        style: &Style,
+        cancel: &Cancel,
+    ) -> Result<Option<Vec<u32>>, RenderError> {
+        let bytes = self.scene.row_count() * (1 + size_of::<u32>());
+        self.ask((view, style, cancel), bytes, |question| question.paths_in())
     }
 
     fn preparation(&self) -> &Preparation {

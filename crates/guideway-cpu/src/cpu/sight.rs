@@ -95,6 +95,11 @@ impl Sights {
         self.chunks.iter().flatten()
     }
 
+    /// All of them, in parallel.
+    pub(super) fn par_iter(&self) -> impl ParallelIterator<Item = &Sight> {
+        self.chunks.par_iter().flatten()
+    }
+
     /// All of them with their keys.
     pub(super) fn with_keys(&self) -> impl Iterator<Item = (u32, &Sight)> {
         self.chunks.iter().enumerate().flat_map(|(chunk, sights)| {
