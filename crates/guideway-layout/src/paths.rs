@@ -325,7 +325,7 @@ impl<'a> PathRef<'a> {
     /// Box of its control points, which holds the curve.
     pub fn hull_bounds(self) -> Option<Bounds<f64>> {
         self.runs()
-            .filter_map(|run| Bounds::of_points(run.iter()))
+            .filter_map(RunPoints::bounds)
             .reduce(Bounds::union)
     }
 

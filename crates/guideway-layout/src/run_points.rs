@@ -1,4 +1,4 @@
-use guideway_spline::Point;
+use guideway_spline::{Bounds, Point};
 
 /// The control points of one run, in the precision in which they are held.
 #[derive(Clone, Copy, Debug)]
@@ -37,6 +37,17 @@ impl<'a> RunPoints<'a> {
     /// The control points in order, in metres.
     pub fn iter(self) -> impl ExactSizeIterator<Item = Point<f64>> + Clone + 'a {
         (0..self.len()).map(move |i| self.get(i))
+    }
+
+    /// Box of the control points, in metres; none if there are none. Found in the precision in which they are held.
+    pub fn bounds(self) -> Option<Bounds<f64>> {
+        match self {
+            Self::F64(points) => Bounds::of_points(points.iter().copied()),
+            Self::F32(points) => Bounds::of_points(points.iter().copied()).map(|narrow| Bounds {
+                min: narrow.min.to_f64(),
+                max: narrow.max.to_f64(),
+            }),
+        }
     }
 
     /// The cubic segments in order, four control points each.

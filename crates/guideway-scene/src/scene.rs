@@ -267,24 +267,22 @@ fn own_colors(layout: &Layout, base: Rgba) -> Colors {
 }
 
 /// The box of the curves themselves: that of their control points is up to three times as large. Only
-/// a segment whose hull reaches out of the box so far is looked at closely.
+/// a path, and then a segment, whose hull reaches out of the box so far is looked at closely.
 fn bounds(layout: &Layout, drawn: &[u32]) -> Option<Bounds<f64>> {
     let mut all: Option<Bounds<f64>> = None;
-    let paths = drawn.iter().map(|&path| layout.paths.get(path as usize));
-    for segment in paths
-        .flat_map(|path| path.runs())
-        .flat_map(|run| run.segments())
-    {
-        let hull = segment
-            .iter()
-            .map(|&p| Bounds { min: p, max: p })
-            .reduce(Bounds::union);
-        let is_inside = |hull: Bounds<f64>| {
-            all.is_some_and(|all| all.contains(hull.min) && all.contains(hull.max))
-        };
-        if !hull.is_some_and(is_inside) {
-            let tight = Bounds::of_segment(&segment);
-            all = Some(all.map_or(tight, |all| all.union(tight)));
+    let reaches_out = |hull: Option<Bounds<f64>>, all: Option<Bounds<f64>>| match (hull, all) {
+        (Some(hull), Some(all)) => !(all.contains(hull.min) && all.contains(hull.max)),
+        (hull, _) => hull.is_some(),
+    };
+    for path in drawn.iter().map(|&path| layout.paths.get(path as usize)) {
+        if !reaches_out(path.hull_bounds(), all) {
+            continue;
+        }
+        for segment in path.runs().flat_map(|run| run.segments()) {
+            if reaches_out(Bounds::of_points(segment), all) {
+                let tight = Bounds::of_segment(&segment);
+                all = Some(all.map_or(tight, |all| all.union(tight)));
+            }
         }
     }
     all

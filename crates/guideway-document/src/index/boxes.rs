@@ -1,6 +1,7 @@
 use std::ops::Range;
 
 use guideway_spline::{Bounds, Point, hilbert};
+use rayon::prelude::*;
 
 /// Rows of one cluster.
 const CLUSTER: usize = 64;
@@ -27,15 +28,16 @@ const NOWHERE: Bounds<f64> = Bounds {
 
 impl Boxes {
     /// One box a row, from row 0 on.
-    pub(super) fn new(boxes: impl Iterator<Item = Option<Bounds<f64>>>) -> Self {
-        let by_row: Vec<Bounds<f64>> = boxes.map(|b| b.unwrap_or(NOWHERE)).collect();
+    pub(super) fn new(boxes: Vec<Option<Bounds<f64>>>) -> Self {
+        let by_row = boxes.into_iter().map(|b| b.unwrap_or(NOWHERE));
+        let by_row: Vec<Bounds<f64>> = by_row.collect();
         let all = by_row.iter().copied().fold(NOWHERE, Bounds::union);
         let mut order: Vec<(u32, u32)> = by_row
-            .iter()
-            .zip(0..)
+            .par_iter()
+            .zip(0..by_row.len() as u32)
             .map(|(b, row)| (hilbert(b.center(), all), row))
             .collect();
-        order.sort_unstable();
+        order.par_sort_unstable();
         let rows: Vec<u32> = order.into_iter().map(|(_, row)| row).collect();
         let mut places = vec![0; rows.len()];
         for (&row, place) in rows.iter().zip(0..) {

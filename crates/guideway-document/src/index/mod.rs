@@ -5,6 +5,7 @@ mod joints;
 
 use guideway_layout::{Layout, PathRef};
 use guideway_spline::{Bounds, Point};
+use rayon::prelude::*;
 
 use boxes::Boxes;
 use joints::Joints;
@@ -27,9 +28,15 @@ impl Index {
     pub fn new(layout: &Layout) -> Self {
         let nodes = &layout.nodes;
         let node_rows = 0..nodes.len() as u32;
+        let paths = (0..layout.paths.len()).into_par_iter();
+        let paths = paths.map(|row| curve_bounds(layout.paths.get(row)));
         Self {
-            paths: Boxes::new(layout.paths.iter().map(curve_bounds)),
-            nodes: Boxes::new(node_rows.map(|node| Some(spot(nodes.position_m(node))))),
+            paths: Boxes::new(paths.collect()),
+            nodes: Boxes::new(
+                node_rows
+                    .map(|node| Some(spot(nodes.position_m(node))))
+                    .collect(),
+            ),
             joints: Joints::new(layout),
             path_count: layout.paths.len() as u32,
         }
