@@ -19,6 +19,7 @@ mod search;
 mod snap;
 mod steps;
 mod trail;
+mod twins;
 
 pub use document::{Combine, Document};
 pub use edit::{Change, NodeMoves, PointRef, Saved};
@@ -33,3 +34,4 @@ pub use search::{Found, search};
 pub use snap::Snap;
 pub use steps::round_step;
 pub use trail::Trail;
+pub use twins::Twins;

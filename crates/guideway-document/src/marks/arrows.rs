@@ -11,8 +11,9 @@ const LEAST_PX: f64 = 24.0;
 /// Most arrows of one segment in a view; those nearest to the middle of the view.
 const MOST_A_SEGMENT: f64 = 64.0;
 
-/// The arrows of one path in a view, evenly along it, so that they stay on their places as the view moves.
-pub(super) fn along(path: PathRef<'_>, view: &View) -> Vec<Arrow> {
+/// The arrows of one path in a view, evenly along it, so that they stay on their places as the view moves. `is_pair`: another
+/// one leads back on it.
+pub(super) fn along(path: PathRef<'_>, is_pair: bool, view: &View) -> Vec<Arrow> {
     let seen = view.world_bounds();
     let tolerance_m = 0.5 / view.px_per_m();
     let segments: Vec<_> = path.runs().flat_map(|run| run.segments()).collect();
@@ -24,7 +25,7 @@ pub(super) fn along(path: PathRef<'_>, view: &View) -> Vec<Arrow> {
         return Vec::new();
     }
     let spacing_m = length_m / (length_px / SPACING_PX).round().max(1.0);
-    let is_two_way = path.direction() == Direction::Both;
+    let is_two_way = is_pair || path.direction() == Direction::Both;
     let mut arrows = Vec::new();
     let mut from_m = 0.0;
     for (segment, segment_m) in segments.iter().zip(lengths_m) {

@@ -12,7 +12,7 @@ use guideway_render::View;
 use guideway_scene::PathState;
 use guideway_spline::Point;
 
-use crate::Document;
+use crate::{Document, Twins};
 
 pub use handles::{Handle, handles};
 pub use labels::{Label, LabelSize};
@@ -91,8 +91,15 @@ pub fn marks(document: &Document, view: &View, options: &MarkOptions) -> Marks {
         ..Marks::default()
     };
     if options.arrows {
-        let of = |&path: &u32| arrows::along(layout.paths.get(path as usize), view);
-        marks.arrows = paths.iter().flat_map(of).take(2 * MOST_MARKED).collect();
+        // The first of a pair has the arrows of both.
+        let twins = Twins::among(document, &paths);
+        let is_first = |path: &&u32| twins.of(**path).is_none_or(|twin| **path < twin);
+        let of = |&path: &u32| {
+            let is_pair = twins.of(path).is_some();
+            arrows::along(layout.paths.get(path as usize), is_pair, view)
+        };
+        let arrows = paths.iter().filter(is_first).flat_map(of);
+        marks.arrows = arrows.take(2 * MOST_MARKED).collect();
     }
     if options.symbols {
         marks.nodes = nodes

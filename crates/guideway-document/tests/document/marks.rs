@@ -1,5 +1,5 @@
-use guideway_document::Rows;
 use guideway_document::marks::{LabelSize, MOST_MARKED, MarkOptions, Outline, marks, outline};
+use guideway_document::{Combine, Rows, Twins};
 use guideway_layout::{Layout, NewPath};
 use guideway_render::View;
 use guideway_spline::{Point, Runs};
@@ -33,6 +33,64 @@ fn arrows_lie_on_their_paths_and_point_along_them() {
     }
     assert_eq!(marks.nodes.len(), 3);
     assert!(!marks.left_out);
+}
+
+/// Three lanes with a way back each: on the same line, by other control points, and beside it.
+fn pairs() -> Layout {
+    let mut layout = Layout::default();
+    let mut push = |points: &[[Point<f64>; 4]]| {
+        let mut runs = Runs::default();
+        points.iter().for_each(|bezier| runs.push_bezier(bezier));
+        let path = NewPath {
+            runs: &runs,
+            ..NewPath::default()
+        };
+        layout.paths.push(&path);
+    };
+    for (row, bend) in [(0.0, 1.0), (4.0, 0.0), (8.0, 1.0)] {
+        let there = [p(0.0, row), p(3.0, row + bend), p(7.0, row), p(10.0, row)];
+        let mut back = there;
+        back.reverse();
+        push(&[there]);
+        match row as i32 {
+            // The same line in two pieces, at another speed.
+            4 => push(&[
+                [p(10.0, row), p(9.0, row), p(8.0, row), p(6.0, row)],
+                [p(6.0, row), p(4.0, row), p(1.0, row), p(0.0, row)],
+            ]),
+            // Its ends are those of the other, and it is not.
+            8 => push(&[[p(10.0, row), p(7.0, row - 1.0), p(3.0, row), p(0.0, row)]]),
+            _ => push(&[back]),
+        }
+    }
+    layout
+}
+
+#[test]
+fn two_paths_on_one_line_have_the_arrows_of_one_both_ways() {
+    let layout = pairs();
+    let view = view(p(5.0, 4.0), 40.0);
+    let alone: usize = [0, 2, 4, 5]
+        .map(|row| {
+            let mut document = document_of(layout.clone());
+            document.select(Rows::from_iter([row]), Combine::Replace);
+            document.isolate_selection();
+            marks(&document, &view, &ALL).arrows.len()
+        })
+        .iter()
+        .sum();
+    let document = document_of(layout);
+    let marks = marks(&document, &view, &ALL);
+    assert_eq!(marks.arrows.len(), alone);
+    for arrow in &marks.arrows {
+        let is_pair = view.world_from_pixel(arrow.at_px).y < 6.0;
+        assert_eq!(arrow.is_two_way, is_pair, "{arrow:?}");
+    }
+    let twins = Twins::among(&document, &[0, 1, 2, 3, 4, 5]);
+    let of_each = [0, 1, 2, 3, 4, 5].map(|row| twins.of(row));
+    assert_eq!(of_each, [Some(1), Some(0), Some(3), Some(2), None, None]);
+    let hit = guideway_document::nearest(document.layout(), 3, p(5.0, 4.0), 1e-6).unwrap();
+    assert_eq!(document.twin_of(&hit, 100), Some(2));
 }
 
 #[test]
