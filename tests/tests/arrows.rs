@@ -95,6 +95,7 @@ const KEPT_TO: &[(&str, &str)] = &[
     ("khronos-egl", "guideway-gl"),
     ("winit", "guideway-viewer"),
     ("eframe", "guideway-viewer"),
+    ("etcetera", "guideway"),
     ("rstar", "guideway-envelope"),
     ("earcut", "guideway-envelope"),
     ("roaring", "guideway-document"),

@@ -1,10 +1,10 @@
 use std::fmt;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use guideway_layout::Layout;
-use guideway_render::{Method, Style, View};
+use guideway_render::{Frame, Method, Style, View};
 use guideway_scene::Scene;
 
 /// What the viewer needs of the program around it: files and ways of drawing. Called from several threads.
@@ -41,6 +41,30 @@ pub trait Host: Send + Sync {
     /// When the file cannot be written, or a drawing cannot look as the style says.
     fn save_drawing(&self, export: Export<'_>, path: &Path) -> Result<(), Trouble>;
 
+    /// Draws the areas that a vehicle sweeps along some paths of a layout, over nothing, in a picture of the view.
+    /// `vehicle` is what a person wrote.
+    ///
+    /// # Errors
+    /// When the vehicle cannot be understood, or no path has such an area.
+    fn swept(
+        &self,
+        layout: &Layout,
+        rows: &[u32],
+        vehicle: &str,
+        view: &View,
+    ) -> Result<Frame, Trouble>;
+
+    /// Is told what has come about since the window was asked for, each once: for whoever wants to know how long that
+    /// took.
+    fn reached(&self, stage: Stage, file: &Path) {
+        let _ = (stage, file);
+    }
+
+    /// Folder for what is remembered from one run to the next; none if nothing is.
+    fn state_folder(&self) -> Option<PathBuf> {
+        None
+    }
+
     /// The ways of drawing, the best first.
     fn methods(&self) -> Vec<MethodChoice>;
 
@@ -49,6 +73,19 @@ pub trait Host: Send + Sync {
     /// # Errors
     /// When it does not run on this computer.
     fn method(&self, name: &str) -> Result<Box<dyn Method>, Trouble>;
+}
+
+/// How far a file has come.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stage {
+    /// It is read.
+    Read,
+    /// Its first picture is shown.
+    Shown,
+    /// It can be edited.
+    Editable,
+    /// It was looked through for what is odd.
+    Checked,
 }
 
 /// What a picture is to show.

@@ -8,6 +8,7 @@
 mod app;
 mod camera;
 mod host;
+mod measure;
 #[cfg(test)]
 mod tests;
 mod ui;
@@ -19,7 +20,8 @@ use std::sync::Arc;
 use eframe::egui::{Ui, ViewportBuilder};
 
 pub use app::App;
-pub use host::{Export, Host, Job, MethodChoice, Trouble};
+pub use host::{Export, Host, Job, MethodChoice, Stage, Trouble};
+pub use measure::{Movement, measure};
 
 /// Opens the window with these files, drawn by the method of this name (by the best one that runs here if none),
 /// and returns when it is closed. Must be called from the main thread.

@@ -4,6 +4,7 @@ use eframe::egui::{Key, KeyboardShortcut, Modifiers};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Command {
     Open,
+    OpenRecent,
     Reload,
     Save,
     SaveAs,
@@ -42,6 +43,7 @@ pub(crate) enum Command {
     Grid,
     Dark,
     Density,
+    Swept,
     ThesisRule,
     ToolSelect,
     ToolPoints,
@@ -89,6 +91,13 @@ const fn entry(
 /// All commands. One whose keys are those of another with more of them held comes after it, for the first match
 /// counts.
 pub(crate) const ENTRIES: &[Entry] = &[
+    entry(
+        "File",
+        "Open recent…",
+        Command::OpenRecent,
+        CTRL_SHIFT,
+        Key::O,
+    ),
     entry("File", "Open…", Command::Open, CTRL, Key::O),
     entry("File", "Read again", Command::Reload, CTRL, Key::R),
     entry("File", "Save as…", Command::SaveAs, CTRL_SHIFT, Key::S),
@@ -183,6 +192,13 @@ pub(crate) const ENTRIES: &[Entry] = &[
         Command::Density,
         NONE,
         Key::Y,
+    ),
+    entry(
+        "Show",
+        "Areas that a vehicle sweeps",
+        Command::Swept,
+        NONE,
+        Key::E,
     ),
     entry(
         "Show",

@@ -176,6 +176,7 @@ impl App {
         };
         let from = layer.path.clone();
         let Some(snapshot) = layer.begin_saving() else {
+            self.notify("what was last done is still being done; save again in a moment");
             return;
         };
         let host = Arc::clone(&self.host);
@@ -197,11 +198,19 @@ impl App {
 
     fn saved(&mut self, outcome: Result<String, Trouble>) {
         let saving = self.saver.take().and_then(|saver| saver.saving);
+        let at = |saving: &Saving| self.layers.iter().position(|l| l.is_at(&saving.from));
+        let saved_at = saving.as_ref().and_then(at);
         if let Some(Saving { from, to }) = saving
             && let Some(layer) = self.layers.iter_mut().find(|layer| layer.is_at(&from))
-            && let Some(LayerNews::Notice(text)) = layer.end_saving(outcome.is_ok().then_some(to))
+            && let Some(LayerNews::Notice(text)) =
+                layer.end_saving(outcome.is_ok().then_some(to), &self.wake)
         {
             self.notify(text);
+        }
+        if outcome.is_ok()
+            && let Some(index) = saved_at
+        {
+            self.remember(index);
         }
         match outcome {
             Ok(text) => self.notify(text),

@@ -9,7 +9,7 @@ use super::App;
 /// How near the pointer must be to what it means.
 pub(crate) const REACH_PX: f64 = 8.0;
 /// Where more paths than this are near the pointer, it takes a click to choose one.
-const MOST_HOVERED: usize = 3_000;
+pub(crate) const MOST_HOVERED: usize = 3_000;
 /// With Shift held, lines and moves go in one of so many directions.
 const DIRECTIONS: u32 = 24;
 
@@ -109,6 +109,10 @@ impl App {
         let Some(view) = self.camera.view() else {
             return;
         };
+        if self.document().is_none() {
+            // What was last done to it is still being done: the next movement counts.
+            return;
+        }
         let at_m = view.world_from_pixel(at_px);
         match &mut self.gesture {
             Gesture::None | Gesture::Pan | Gesture::Points(_) => {}
@@ -121,12 +125,12 @@ impl App {
             Gesture::Node { node, has_moved } => {
                 let (node, undo_first) = (*node, std::mem::replace(has_moved, true));
                 let to_m = self.snap_to_grid(at_m);
-                self.edit_again(undo_first, |document| document.move_node(node, to_m));
+                self.edit_again(undo_first, move |document| document.move_node(node, to_m));
             }
             Gesture::Handle { point, has_moved } => {
                 let (point, undo_first) = (*point, std::mem::replace(has_moved, true));
                 let to_m = self.snap_to_grid(at_m);
-                self.edit_again(undo_first, |document| document.move_point(point, to_m));
+                self.edit_again(undo_first, move |document| document.move_point(point, to_m));
             }
         }
     }
@@ -142,15 +146,14 @@ impl App {
                 let corners = [from_px, to_px].map(|pixel| view.world_from_pixel(pixel));
                 // From the right to the left it takes what it meets, else what is inside: as CAD has it.
                 let may_reach_out = to_px.x < from_px.x;
-                if let (Some(bounds), Some(document)) =
-                    (Bounds::of_points(corners), self.document_mut())
-                {
-                    document.select_in(bounds, may_reach_out, combine(modifiers));
+                if let Some(bounds) = Bounds::of_points(corners) {
+                    let how = combine(modifiers);
+                    self.change(move |document| document.select_in(bounds, may_reach_out, how));
                 }
             }
             Gesture::Move { by_m, .. } if by_m.norm() > 0.0 => {
                 let by = Affine::translation(by_m);
-                self.edit(|document| document.transform_selection("move", by));
+                self.edit(move |document| document.transform_selection("move", by));
             }
             // A path that is being drawn goes on.
             gesture @ Gesture::Points(_) => self.gesture = gesture,
@@ -167,10 +170,10 @@ impl App {
         match self.tool {
             Tool::Select | Tool::Points => {
                 let hit = self.pick(at_px, usize::MAX);
-                if let Some(document) = self.document_mut() {
-                    let rows: Rows = hit.iter().map(|hit| hit.path).collect();
-                    document.select(rows, combine(modifiers));
-                }
+                let hit = hit.map(|hit| self.other_of_pair(hit));
+                let rows: Rows = hit.iter().map(|hit| hit.path).collect();
+                let how = combine(modifiers);
+                self.change(move |document| document.select(rows, how));
             }
             Tool::Draw | Tool::Measure => {
                 let place = self.snapped(&view, at_m, modifiers);
@@ -179,6 +182,20 @@ impl App {
                     gesture => *gesture = Gesture::Points(vec![place]),
                 }
             }
+        }
+    }
+
+    /// Of two paths that lie on each other, a click takes the one that is drawn last; the next one there, the other.
+    fn other_of_pair(&self, hit: Hit) -> Hit {
+        let twin = || {
+            let document = self.document()?;
+            let selected = document.selection();
+            let is_only = selected.len() == 1 && selected.contains(hit.path);
+            is_only.then(|| document.twin_of(&hit, MOST_HOVERED))?
+        };
+        Hit {
+            path: twin().unwrap_or(hit.path),
+            ..hit
         }
     }
 
@@ -198,7 +215,7 @@ impl App {
             return;
         };
         if let Some(handle) = nearest_handle(document, &view, at_px) {
-            self.edit(|document| match inserts {
+            self.edit(move |document| match inserts {
                 true => document.insert_point(handle.point),
                 false => document.remove_point(handle.point),
             });
@@ -219,7 +236,7 @@ impl App {
             return;
         };
         let reach_m = REACH_PX / view.px_per_m();
-        self.edit(|document| {
+        self.edit(move |document| {
             let id = format!("drawn {}", document.scene().row_count() + 1);
             document.draw_path(id, &points, reach_m)
         });
@@ -281,15 +298,17 @@ impl App {
     }
 
     /// Does an edit that takes the place of the one before: a whole drag is one step to undo.
-    fn edit_again<E: std::fmt::Display>(
+    fn edit_again<E: ToString>(
         &mut self,
         undo_first: bool,
-        edit: impl FnOnce(&mut Document) -> Result<(), E>,
+        edit: impl FnOnce(&mut Document) -> Result<(), E> + Send + 'static,
     ) {
-        if undo_first && let Some(document) = self.document_mut() {
-            document.undo();
-        }
-        self.edit(edit);
+        self.edit(move |document| {
+            if undo_first {
+                document.undo();
+            }
+            edit(document)
+        });
     }
 }
 

@@ -1,6 +1,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::TryRecvError;
+use std::time::Duration;
 
 use eframe::egui::{Context, TextureHandle, TextureOptions};
 use guideway_document::{Combine, Document, Query, QueryError, Rows, Saved, replay};
@@ -9,21 +10,27 @@ use guideway_render::{Report, View};
 use guideway_scene::{Scene, SceneError, SceneOptions};
 use guideway_spline::Bounds;
 
+use self::away::Away;
 use super::overlay::Overlay;
 use super::recovery::Recovery;
-use crate::host::{Host, Job};
+use crate::host::{Host, Job, Stage};
 use crate::work::Wake;
 use crate::work::loader::{Loaded, Loader};
 use crate::work::renderer::{FALLBACK, Outcome, Picture, Renderer, Shot};
 use crate::work::task::Task;
 
+mod away;
 mod saving;
+
+pub(crate) use away::{PATIENCE, Work};
 
 /// One open file.
 pub(crate) struct Layer {
     pub(crate) path: PathBuf,
     pub(crate) is_visible: bool,
+    /// None until it is there, and while long work is done on it.
     pub(crate) document: Option<Document>,
+    away: Away,
     pub(crate) findings: Option<Diagnostics>,
     pub(crate) overlay: Overlay,
     /// What its scene is made with.
@@ -38,6 +45,8 @@ pub(crate) struct Layer {
     /// What a query asks for, and what the selection does with it.
     selecting: Option<(Task<Rows>, Combine)>,
     renderer: Renderer,
+    /// Whether the renderer waits for a scene that was not there when it asked.
+    owes_scene: bool,
     asked: Option<Shot>,
     /// The journal; none until there is a document, or where it cannot be written.
     recovery: Option<Recovery>,
@@ -52,6 +61,8 @@ pub(crate) struct Layer {
 
 pub(crate) struct Shown {
     pub(crate) texture: TextureHandle,
+    /// Which picture of the file it is, from 1 on.
+    pub(crate) number: u64,
     pub(crate) view: View,
     pub(crate) report: Report,
     pub(crate) wall_ms: f64,
@@ -61,8 +72,8 @@ pub(crate) struct Shown {
 pub(crate) enum LayerNews {
     /// It can be seen for the first time, and this is where it is.
     Appeared(Option<Bounds<f64>>),
-    /// Its document is there.
-    IsRead,
+    /// It has come so far for the first time.
+    Reached(Stage),
     /// Its way of drawing was let down by its device: what happened, in a sentence.
     FellBack(String),
     /// To be told to the person.
@@ -98,12 +109,14 @@ impl Layer {
             options,
             is_visible: true,
             document: None,
+            away: Away::default(),
             findings: None,
             overlay: Overlay::default(),
             trouble: None,
             shown: None,
             coloring: None,
             selecting: None,
+            owes_scene: false,
             asked: None,
             recovery: None,
             to_replay: None,
@@ -119,7 +132,14 @@ impl Layer {
     }
 
     pub(crate) fn is_changed(&self) -> bool {
-        self.document.as_ref().is_some_and(Document::is_changed)
+        self.document.as_ref().is_some_and(Document::is_changed) || self.away.is_at_work()
+    }
+
+    /// Whether nothing is being done, and what was last asked for is shown.
+    pub(crate) fn is_settled(&self) -> bool {
+        let is_shown = |shot: &Shot| self.shown.as_ref().is_some_and(|s| s.view == shot.view);
+        let is_drawn = self.asked.as_ref().is_none_or(is_shown) && !self.renderer.is_busy();
+        !self.is_busy() && self.document.is_some() && is_drawn
     }
 
     /// Whether there is a picture of it, or a reason why there is none.
@@ -136,7 +156,7 @@ impl Layer {
     /// The load under way, if there is one.
     pub(crate) fn load(&self) -> Option<&Job> {
         let loader = self.loader.as_ref()?;
-        self.document.is_none().then(|| loader.load())
+        (self.document.is_none() && !self.away.is_at_work()).then(|| loader.load())
     }
 
     pub(crate) fn cancel_load(&mut self) {
@@ -179,7 +199,7 @@ impl Layer {
 
     /// Whether other colours, or what a query asks for, are on their way.
     pub(crate) fn is_busy(&self) -> bool {
-        self.coloring.is_some() || self.selecting.is_some()
+        self.coloring.is_some() || self.selecting.is_some() || self.away.is_at_work()
     }
 
     /// Selects the paths that meet a query, once they are found.
@@ -209,7 +229,10 @@ impl Layer {
         if let Some((rows, how)) = selected {
             self.selecting = None;
             match rows {
-                Ok(rows) => document.select(rows, how),
+                Ok(rows) => {
+                    let select = Work::new(move |document| document.select(rows, how));
+                    return self.work(select, PATIENCE, wake);
+                }
                 Err(trouble) => return Some(LayerNews::Notice(trouble.to_string())),
             }
         }
@@ -238,6 +261,8 @@ impl Layer {
             document.take_news();
             self.renderer.set_scene(Arc::new(document.scene().clone()));
             self.asked = None;
+        } else {
+            self.owes_scene = true;
         }
     }
 
@@ -261,15 +286,28 @@ impl Layer {
         wake: &Wake,
     ) -> Vec<LayerNews> {
         let mut news = Vec::new();
+        news.extend(self.take_back(Duration::ZERO, wake));
         news.extend(self.record());
         news.extend(self.take_answers(wake));
-        let loaded: Vec<Loaded> = self.loader.iter().flat_map(Loader::news).collect();
-        for piece in loaded {
-            self.take(piece, &mut news);
+        if self.has_settled()
+            && let Some(loader) = &mut self.loader
+        {
+            loader.go_on();
+        }
+        if !self.away.is_at_work() {
+            let loaded: Vec<Loaded> = self.loader.iter().flat_map(Loader::news).collect();
+            for piece in loaded {
+                self.take(piece, &mut news);
+            }
         }
         loop {
             match self.renderer.outcome() {
-                Ok(Outcome::Picture(picture)) => self.show(ctx, *picture),
+                Ok(Outcome::Picture(picture)) => {
+                    if self.shown.is_none() {
+                        news.push(LayerNews::Reached(Stage::Shown));
+                    }
+                    self.show(ctx, *picture);
+                }
                 Ok(Outcome::NeedsScene) => self.send_scene(),
                 Ok(Outcome::FellBack(why)) => news.push(LayerNews::FellBack(why)),
                 Ok(Outcome::Failed(why)) => self.trouble = Some(why),
@@ -293,6 +331,7 @@ impl Layer {
                 self.trouble = None;
                 // One that is read again is shown when it can be edited: until then the old one is.
                 if self.document.is_none() {
+                    news.push(LayerNews::Reached(Stage::Read));
                     news.push(LayerNews::Appeared(scene.bounds()));
                     self.renderer.set_scene(scene);
                     self.asked = None;
@@ -320,13 +359,14 @@ impl Layer {
                     self.recovery = Some(Recovery::of(&self.path));
                 }
                 self.findings = None;
-                if is_again {
+                if is_again || std::mem::take(&mut self.owes_scene) {
                     self.send_scene();
                 }
-                news.push(LayerNews::IsRead);
+                news.push(LayerNews::Reached(Stage::Editable));
             }
             Loaded::Findings(findings) => {
                 self.findings = Some(findings);
+                news.push(LayerNews::Reached(Stage::Checked));
                 self.loader = None;
             }
             Loaded::Failed(trouble) => {
@@ -349,6 +389,7 @@ impl Layer {
             wall_ms,
         } = picture;
         let options = TextureOptions::LINEAR;
+        let number = self.shown.as_ref().map_or(0, |shown| shown.number) + 1;
         let texture = match self.shown.take() {
             Some(mut shown) => {
                 shown.texture.set(image, options);
@@ -358,6 +399,7 @@ impl Layer {
         };
         self.shown = Some(Shown {
             texture,
+            number,
             view: shot.view,
             report,
             wall_ms,

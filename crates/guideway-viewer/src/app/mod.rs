@@ -9,22 +9,27 @@ pub(crate) mod layer;
 pub(crate) mod look;
 mod overlay;
 mod perform;
+pub(crate) mod recent;
 pub(crate) mod recovery;
+pub(crate) mod swept;
 
 use std::path::PathBuf;
 use std::sync::Arc;
+use std::time::Duration;
 
 use eframe::egui::{ColorImage, Context, Pos2, ViewportCommand};
 use guideway_document::{Document, Found, Hit};
 
 pub(crate) use self::drawing::Drawing;
 pub(crate) use self::files::{Prompt, PromptKind};
-pub(crate) use self::gesture::{Gesture, Tool};
-pub(crate) use self::layer::{Layer, LayerNews};
+pub(crate) use self::gesture::{Gesture, MOST_HOVERED, REACH_PX, Tool};
+pub(crate) use self::layer::{Layer, LayerNews, Work};
 pub(crate) use self::look::Look;
 pub(crate) use self::perform::leave_field;
+use self::recent::Recent;
+use self::swept::Swept;
 use crate::camera::Camera;
-use crate::host::{Host, Trouble};
+use crate::host::{Host, Stage, Trouble};
 use crate::work::Wake;
 use crate::work::task::Task;
 use crate::work::watcher::Watcher;
@@ -48,8 +53,12 @@ pub struct App {
     /// What lies under the pointer.
     pub(crate) hover: Option<Hit>,
     pub(crate) prompt: Option<Prompt>,
+    pub(crate) recent: Recent,
+    /// Files to choose from, and whether each is there.
+    pub(crate) choosing: Option<Vec<(PathBuf, bool)>>,
     pub(crate) notices: Vec<String>,
     pub(crate) find: Find,
+    pub(crate) swept: Swept,
     pub(crate) numbers: Numbers,
     /// Whether what is drawn and moved goes to the grid.
     pub(crate) snaps_to_grid: bool,
@@ -63,6 +72,8 @@ pub struct App {
     copying: Option<Task<Result<ColorImage, Trouble>>>,
     watcher: Watcher,
     has_new_files: bool,
+    /// How long a frame waits for an edit.
+    pub(crate) patience: Duration,
 }
 
 /// What is being looked for.
@@ -104,6 +115,7 @@ impl App {
         let mut app = Self {
             drawing: Drawing::new(method),
             watcher: Watcher::start(Arc::clone(&wake)),
+            recent: Recent::of(host.state_folder()),
             host,
             wake,
             layers: Vec::new(),
@@ -116,8 +128,10 @@ impl App {
             pointer_px: None,
             hover: None,
             prompt: None,
+            choosing: None,
             notices: Vec::new(),
             find: Find::default(),
+            swept: Swept::default(),
             numbers: Numbers {
                 by_x_m: 1.0,
                 by_y_m: 0.0,
@@ -131,6 +145,7 @@ impl App {
             saver: None,
             copying: None,
             has_new_files: false,
+            patience: layer::PATIENCE,
         };
         app.apply_theme(ctx);
         for file in files {
@@ -150,7 +165,15 @@ impl App {
                             self.camera.fit(bounds);
                         }
                     }
-                    LayerNews::IsRead => self.recolor_if_stale(index),
+                    LayerNews::Reached(stage) => {
+                        if stage == Stage::Editable {
+                            self.recolor_if_stale(index);
+                        }
+                        self.host.reached(stage, &self.layers[index].path);
+                        if stage == Stage::Read {
+                            self.remember(index);
+                        }
+                    }
                     LayerNews::FellBack(why) => self.fall_back(why),
                     LayerNews::Notice(text) => self.notify(text),
                 }
@@ -158,7 +181,13 @@ impl App {
         }
         self.poll_methods();
         self.poll_search();
+        self.poll_swept(ctx);
         self.poll_files(ctx);
+    }
+
+    /// Whether everything shows what was last done.
+    pub(crate) fn is_settled(&self) -> bool {
+        self.layers.iter().all(Layer::is_settled)
     }
 
     /// The document that is edited, once it is there.
@@ -166,6 +195,7 @@ impl App {
         self.layers.get(self.active)?.document.as_ref()
     }
 
+    #[cfg(test)]
     pub(crate) fn document_mut(&mut self) -> Option<&mut Document> {
         self.layers.get_mut(self.active)?.document.as_mut()
     }
@@ -178,15 +208,24 @@ impl App {
         self.notices.push(text.into());
     }
 
-    /// Does an edit, or says why it cannot be done.
-    pub(crate) fn edit<E: std::fmt::Display>(
+    /// Does an edit, or says why it cannot be done. One that takes longer than a frame goes on beside the window.
+    pub(crate) fn edit<E: ToString>(
         &mut self,
-        edit: impl FnOnce(&mut Document) -> Result<(), E>,
+        edit: impl FnOnce(&mut Document) -> Result<(), E> + Send + 'static,
     ) {
-        if let Some(document) = self.document_mut()
-            && let Err(error) = edit(document)
-        {
-            self.notify(error.to_string());
+        self.work(Work::fallible(edit));
+    }
+
+    /// Changes what is selected or shown; as [`Self::edit`].
+    pub(crate) fn change(&mut self, change: impl FnOnce(&mut Document) + Send + 'static) {
+        self.work(Work::new(change));
+    }
+
+    fn work(&mut self, work: Work) {
+        let layer = self.layers.get_mut(self.active);
+        let news = layer.and_then(|layer| layer.work(work, self.patience, &self.wake));
+        if let Some(LayerNews::Notice(text)) = news {
+            self.notify(text);
         }
     }
 
@@ -210,14 +249,25 @@ impl App {
 
     /// Looks at something of the document.
     pub(crate) fn fly_to(&mut self, what: Found) {
-        let Some(document) = self.document_mut() else {
+        let Some(document) = self.document() else {
             return;
         };
-        if let Found::Path(path) = what {
-            document.select([path].into_iter().collect(), Default::default());
-        }
         if let Some(bounds) = document.bounds_of(what) {
             self.camera.fly_to(bounds);
+        }
+        if let Found::Path(path) = what {
+            self.change(move |document| {
+                document.select([path].into_iter().collect(), Default::default());
+            });
+        }
+    }
+
+    /// Remembers an open file for later runs.
+    pub(crate) fn remember(&mut self, index: usize) {
+        if let Err(problem) = self.recent.add(&self.layers[index].path) {
+            self.notify(format!(
+                "the list of recent files cannot be written: {problem}"
+            ));
         }
     }
 

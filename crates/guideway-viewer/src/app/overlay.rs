@@ -42,6 +42,11 @@ impl Overlay {
         };
         self.made.insert(made)
     }
+
+    /// The last one.
+    pub(crate) fn last(&self) -> Option<&Made> {
+        self.made.as_ref()
+    }
 }
 
 impl Made {

@@ -18,11 +18,16 @@ pub(crate) fn leave_field(ctx: &Context) {
     }
 }
 
+fn select_none(document: &mut Document) {
+    document.select(Rows::new(), Combine::Replace);
+}
+
 impl App {
     /// Does what a key or a menu asks for.
     pub(crate) fn perform(&mut self, command: Command, ctx: &Context) {
         match command {
             Command::Open => self.ask_for(PromptKind::Open),
+            Command::OpenRecent => self.choosing = Some(self.recent.files()),
             Command::Reload => self.reload(self.active, true),
             Command::Save => {
                 if let Some(layer) = self.layers.get(self.active) {
@@ -72,6 +77,7 @@ impl App {
             Command::Labels => self.look.has_labels ^= true,
             Command::Grid => self.look.has_grid ^= true,
             Command::Density => self.look.is_density ^= true,
+            Command::Swept => self.swept.is_shown ^= true,
             Command::ThesisRule => self.look.is_thesis_rule ^= true,
             Command::Dark => {
                 self.look.is_dark ^= true;
@@ -82,9 +88,6 @@ impl App {
     }
 
     fn perform_on_selection(&mut self, command: Command) {
-        let Some(document) = self.document_mut() else {
-            return;
-        };
         let transform = |name, about: fn(Point<f64>) -> Affine| {
             move |document: &mut Document| match document.selection_bounds() {
                 Some(bounds) => document.transform_selection(name, about(bounds.center())),
@@ -92,11 +95,11 @@ impl App {
             }
         };
         match command {
-            Command::SelectAll => document.select_all(),
-            Command::SelectNone => document.select(Rows::new(), Combine::Replace),
-            Command::Hide => document.hide_selection(),
-            Command::Isolate => document.isolate_selection(),
-            Command::ShowAll => document.show_all(),
+            Command::SelectAll => self.change(Document::select_all),
+            Command::SelectNone => self.change(select_none),
+            Command::Hide => self.change(Document::hide_selection),
+            Command::Isolate => self.change(Document::isolate_selection),
+            Command::ShowAll => self.change(Document::show_all),
             Command::Delete => self.edit(Document::delete_selection),
             Command::Refine => self.edit(Document::refine_selection),
             Command::Duplicate => self.duplicate(),
@@ -125,7 +128,7 @@ impl App {
             .camera
             .view()
             .map_or(1.0, |view| 24.0 / view.px_per_m());
-        self.edit(|document| document.copy_selection(1, Point::new(aside_m, -aside_m)));
+        self.edit(move |document| document.copy_selection(1, Point::new(aside_m, -aside_m)));
     }
 
     fn perform_on_view(&mut self, command: Command) {
@@ -155,13 +158,12 @@ impl App {
         }
     }
 
-    fn step(&mut self, step: fn(&mut Document) -> Option<&'static str>, what: &str) {
+    fn step(&mut self, step: fn(&mut Document) -> Option<&'static str>, what: &'static str) {
         self.gesture = Gesture::None;
-        if let Some(document) = self.document_mut()
-            && step(document).is_none()
-        {
-            self.notify(format!("there is nothing to {what}"));
-        }
+        self.edit(move |document| match step(document) {
+            Some(_) => Ok(()),
+            None => Err(format!("there is nothing to {what}")),
+        });
     }
 
     fn close_active(&mut self) {
@@ -184,6 +186,7 @@ impl App {
     fn stop(&mut self, ctx: &Context) {
         leave_field(ctx);
         self.prompt = None;
+        self.choosing = None;
         self.shows_keys = false;
         self.asks_to_quit = false;
         self.notices.clear();
@@ -191,8 +194,8 @@ impl App {
             self.gesture = Gesture::None;
         } else if self.tool != Tool::Select {
             self.set_tool(Tool::Select);
-        } else if let Some(document) = self.document_mut() {
-            document.select(Rows::new(), Combine::Replace);
+        } else {
+            self.change(select_none);
         }
         if let Some(job) = self.writing() {
             job.cancel();

@@ -42,7 +42,10 @@ impl Desk {
             .build_ui_state(
                 move |ui, app: &mut Option<App>| {
                     if let Some((host, files, method)) = start.take() {
-                        *app = Some(App::new(ui.ctx(), host, files, method));
+                        let mut new = App::new(ui.ctx(), host, files, method);
+                        // However slow the computer, an edit is done when its key was pressed.
+                        new.patience = Duration::from_secs(60);
+                        *app = Some(new);
                     }
                     if let Some(app) = app {
                         app.show(ui);

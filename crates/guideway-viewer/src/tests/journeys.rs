@@ -1,12 +1,17 @@
+use std::sync::Arc;
+use std::time::Duration;
+
 use eframe::egui::{Event, Key, Modifiers, Pos2, Vec2};
 use egui_kittest::kittest::Queryable;
 use guideway_cpu::Cpu;
+use guideway_document::Document;
 use guideway_render::{Budget, Cancel, Frame, Method};
 use guideway_spline::Point;
 
 use super::desk::Desk;
 use super::table::{Table, lanes};
 use crate::app::Tool;
+use crate::host::Host;
 use crate::work::renderer::{Outcome, Renderer, Shot};
 
 const NONE: Modifiers = Modifiers::NONE;
@@ -25,7 +30,7 @@ fn a_file_is_shown_whole_and_accounted_for() {
 
 #[test]
 fn the_picture_is_the_one_that_the_method_draws() {
-    let layout = std::sync::Arc::new(lanes(7));
+    let layout = Arc::new(lanes(7));
     let look = crate::app::Look {
         color_by: Some("speed".into()),
         ..crate::app::Look::default()
@@ -37,13 +42,13 @@ fn the_picture_is_the_one_that_the_method_draws() {
         view: guideway_render::View::fit(size, scene.bounds()).unwrap(),
         style: look.style(),
     };
-    let scene = std::sync::Arc::new(scene);
+    let scene = Arc::new(scene);
     let host = Table::with([]);
-    let renderer = Renderer::start(host, "cpu", std::sync::Arc::new(|| {}));
-    renderer.set_scene(std::sync::Arc::clone(&scene));
+    let renderer = Renderer::start(host, "cpu", Arc::new(|| {}));
+    renderer.set_scene(Arc::clone(&scene));
     renderer.ask(shot);
     let picture = (0..5_000).find_map(|_| {
-        std::thread::sleep(std::time::Duration::from_millis(2));
+        std::thread::sleep(Duration::from_millis(2));
         match renderer.outcome() {
             Ok(Outcome::Picture(picture)) => Some(picture),
             _ => None,
@@ -297,6 +302,152 @@ fn a_picture_of_any_size_is_written_and_can_be_stopped() {
     let seen = desk.app().camera.view().unwrap().size();
     let as_tall = f64::from(seen.height()) / f64::from(seen.width());
     assert!((f64::from(size.height()) - 40_000.0 * as_tall).abs() <= 0.5);
+}
+
+#[test]
+fn a_file_is_measured_by_moving_it_about_and_stays_as_it_is() {
+    let table = Table::with([("site.arrow", lanes(300))]);
+    let host: Arc<dyn Host> = table.clone();
+    let movements = crate::measure(host, "site.arrow".into(), Some("cpu".into())).unwrap();
+    let names: Vec<_> = movements.iter().map(|m| m.name).collect();
+    assert_eq!(
+        names,
+        ["still", "pan", "zoom", "drag a hundredth", "drag all"]
+    );
+    for movement in &movements {
+        assert!(movement.frames_ms.len() == 120 && movement.frames_ms.iter().all(|ms| *ms > 0.0));
+        let is_still = movement.name == "still";
+        assert_eq!(
+            movement.pictures_ms.is_empty(),
+            is_still,
+            "{}",
+            movement.name
+        );
+    }
+    let host: Arc<dyn Host> = table;
+    let missing = crate::measure(host, "no.arrow".into(), None).unwrap_err();
+    assert!(missing.message.contains("no such file"), "{missing}");
+}
+
+#[test]
+fn edits_that_take_longer_than_a_frame_are_done_beside_the_window_in_order() {
+    let mut desk = Desk::looking_at(lanes(200));
+    desk.app().patience = Duration::ZERO;
+    let mut was_busy = false;
+    for _ in 0..20 {
+        desk.app().change(Document::select_all);
+        desk.app().edit(Document::delete_selection);
+        desk.app()
+            .edit(|document: &mut Document| document.undo().map(drop).ok_or("nothing"));
+        was_busy |= desk.app().layers[0].is_busy();
+        // Nothing that is asked of it meanwhile does harm.
+        for key in [Key::F, Key::H, Key::Escape, Key::Plus] {
+            desk.key(NONE, key);
+        }
+        desk.app().edit(|_: &mut Document| Err("it cannot be done"));
+        desk.wait(|app| !app.layers[0].is_busy());
+        desk.app().change(Document::show_all);
+        desk.wait(|app| !app.layers[0].is_busy());
+        assert!(desk.app().notices.iter().any(|n| n == "it cannot be done"));
+        desk.app().notices.clear();
+        let document = desk.document();
+        assert_eq!(document.scene().draw_order().len(), 200);
+        assert_eq!(document.steps(), (None, Some("delete")));
+        assert!(!document.is_changed());
+    }
+    assert!(was_busy);
+    desk.wait(|app| {
+        app.layers[0]
+            .shown
+            .as_ref()
+            .is_some_and(|s| s.report.hidden == 0)
+    });
+}
+
+#[test]
+fn a_file_that_was_open_lately_is_opened_by_its_digit() {
+    let folder = tempfile::tempdir().unwrap();
+    let [a, b, gone] = ["a.arrow", "b.arrow", "gone.arrow"].map(|name| folder.path().join(name));
+    for file in [&a, &b] {
+        std::fs::write(file, "").unwrap();
+    }
+    let table = Table::with([]);
+    *table.state.lock().unwrap() = Some(folder.path().join("state"));
+    for file in [&a, &b, &gone] {
+        table.files.lock().unwrap().insert(file.clone(), lanes(3));
+    }
+    let files = [&a, &gone, &b].map(|file| file.to_str().unwrap());
+    let mut desk = Desk::with(&table, &files, Some("cpu"));
+    desk.wait(|app| app.layers.iter().all(|layer| layer.document.is_some()));
+    drop(desk);
+    let mut desk = Desk::with(&table, &[], Some("cpu"));
+    desk.wait(|app| app.recent.files().len() == 3);
+    let order = desk.app().recent.files();
+    let there = order.iter().position(|(file, _)| *file == a).unwrap();
+    let missing = order.iter().position(|(file, _)| *file == gone).unwrap();
+    let digits = [Key::Num1, Key::Num2, Key::Num3];
+    desk.key(CTRL.plus(Modifiers::SHIFT), Key::O);
+    desk.key(NONE, digits[missing]);
+    assert!(desk.app().choosing.is_some() && desk.app().layers.is_empty());
+    desk.key(NONE, digits[there]);
+    assert!(desk.app().choosing.is_none() && desk.app().layers[0].is_at(&a));
+    desk.wait(|app| app.layers[0].document.is_some());
+    assert_eq!(desk.app().recent.files()[0].0, a, "it is the newest now");
+}
+
+#[test]
+fn both_paths_of_a_pair_are_reached_by_clicks() {
+    let mut layout = lanes(3);
+    let mut runs = guideway_spline::Runs::default();
+    runs.push_line(Point::new(10.0, 2.0), Point::new(0.0, 2.0));
+    layout.paths.push(&guideway_layout::NewPath {
+        id: "back",
+        runs: &runs,
+        ..guideway_layout::NewPath::default()
+    });
+    let mut desk = Desk::looking_at(layout);
+    let at = desk.at(5.0, 2.0);
+    for expected in [3, 1, 3] {
+        desk.click(at);
+        assert_eq!(desk.selected(), [expected]);
+        assert!(
+            desk.harness
+                .query_by_label_contains("and back by lane 1")
+                .is_some()
+        );
+    }
+    let other = desk.at(5.0, 4.0);
+    for _ in 0..2 {
+        desk.click(other);
+        assert_eq!(desk.selected(), [2], "it is no pair");
+    }
+}
+
+#[test]
+fn swept_areas_are_those_of_the_selection_or_of_all() {
+    let mut desk = Desk::looking_at(lanes(4));
+    let of = |rows: &'static [u32]| {
+        move |app: &crate::App, table: &Table| {
+            let drawn = table.swept.lock().unwrap();
+            app.swept.picture.is_some() && *drawn == rows
+        }
+    };
+    let table = Arc::clone(&desk.table);
+    desk.key(NONE, Key::E);
+    desk.wait(|app| of(&[0, 1, 2, 3])(app, &table));
+    let at = desk.at(5.0, 2.0);
+    desk.click(at);
+    desk.wait(|app| of(&[1])(app, &table));
+    desk.app().swept.vehicle = "a lorry".into();
+    desk.wait(|app| {
+        app.swept
+            .trouble
+            .as_ref()
+            .is_some_and(|t| t.contains("no vehicle"))
+    });
+    assert!(desk.app().swept.picture.is_none());
+    desk.key(NONE, Key::E);
+    assert_eq!(desk.app().swept.trouble, None);
 }
 
 /// What drew the picture of the first file.

@@ -22,6 +22,10 @@ pub(super) struct Table {
     pub(super) is_full: Mutex<bool>,
     /// Whether writing a picture comes to no end.
     pub(super) is_slow: Mutex<bool>,
+    /// What is remembered from one run to the next.
+    pub(super) state: Mutex<Option<PathBuf>>,
+    /// Paths whose areas were last drawn.
+    pub(super) swept: Mutex<Vec<u32>>,
     /// Pictures that were written.
     pub(super) pictures: Mutex<Vec<(PathBuf, FrameSize)>>,
     /// Whether the graphics device is lost; another one takes its place when one is asked for.
@@ -161,6 +165,31 @@ impl Host for Table {
 
     fn save_drawing(&self, _: Export<'_>, _: &Path) -> Result<(), Trouble> {
         Ok(())
+    }
+
+    fn swept(
+        &self,
+        _layout: &Layout,
+        rows: &[u32],
+        vehicle: &str,
+        view: &View,
+    ) -> Result<Frame, Trouble> {
+        match vehicle {
+            "2x1.2" => {
+                let mut swept = self
+                    .swept
+                    .lock()
+                    .expect("no test panics while it holds this");
+                *swept = rows.to_vec();
+                Ok(Frame::new(view.size()))
+            }
+            _ => Err(Self::trouble("that is no vehicle")),
+        }
+    }
+
+    fn state_folder(&self) -> Option<PathBuf> {
+        let state = self.state.lock();
+        state.expect("no test panics while it holds this").clone()
     }
 
     fn methods(&self) -> Vec<MethodChoice> {

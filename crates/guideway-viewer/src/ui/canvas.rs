@@ -168,6 +168,7 @@ impl App {
         for layer in self.layers.iter_mut().filter(|layer| layer.is_visible) {
             layer.ask(Shot { view, style });
         }
+        self.ask_for_swept(&view);
     }
 }
 

@@ -1,5 +1,5 @@
 use eframe::egui::{
-    Align2, Context, DragValue, Grid, Id, Key, Modal, ScrollArea, TextEdit, Ui, Vec2,
+    Align2, Button, Context, DragValue, Grid, Id, Key, Modal, ScrollArea, TextEdit, Ui, Vec2,
     ViewportCommand, Window,
 };
 
@@ -10,6 +10,7 @@ impl App {
     /// What lies over everything else: questions, notices, help.
     pub(super) fn dialogs(&mut self, ctx: &Context) {
         self.ask_prompt(ctx);
+        self.ask_which_recent(ctx);
         self.ask_to_quit(ctx);
         self.ask_to_recover(ctx);
         self.show_notices(ctx);
@@ -61,6 +62,52 @@ impl App {
             self.answer(&prompt);
         } else if !is_over && !modal.should_close() {
             self.prompt = Some(prompt);
+        }
+    }
+
+    /// Files that were open lately: a click or the digit before its name opens one.
+    fn ask_which_recent(&mut self, ctx: &Context) {
+        const DIGITS: [Key; 10] = [
+            Key::Num1,
+            Key::Num2,
+            Key::Num3,
+            Key::Num4,
+            Key::Num5,
+            Key::Num6,
+            Key::Num7,
+            Key::Num8,
+            Key::Num9,
+            Key::Num0,
+        ];
+        let Some(files) = &self.choosing else {
+            return;
+        };
+        let mut chosen = None;
+        let modal = Modal::new(Id::unique("recent")).show(ctx, |ui| {
+            ui.label(match files.is_empty() {
+                true => "No file was open lately.",
+                false => "Open which file again?",
+            });
+            for ((file, is_there), digit) in files.iter().zip(DIGITS) {
+                let name = file.file_name().unwrap_or(file.as_os_str());
+                let label = format!("{}  {}", digit.symbol_or_name(), name.to_string_lossy());
+                let place = file.display().to_string();
+                let button = ui.add_enabled(*is_there, Button::new(label));
+                let is_meant = button.clicked() || ui.input(|input| input.key_pressed(digit));
+                button
+                    .on_hover_text(&place)
+                    .on_disabled_hover_text(format!("{place} is not there any more"));
+                if is_meant && *is_there {
+                    chosen = Some(file.clone());
+                }
+            }
+            ui.button("Cancel").clicked()
+        });
+        if modal.inner || modal.should_close() || chosen.is_some() {
+            self.choosing = None;
+        }
+        if let Some(file) = chosen {
+            self.open(file);
         }
     }
 

@@ -24,13 +24,15 @@ impl App {
         if self.look.has_grid {
             self.paint_grid(&painter, screen, view);
         }
-        for layer in self.layers.iter().filter(|layer| layer.is_visible) {
-            if let Some(shown) = &layer.shown {
-                // What was last drawn, where it is now: at once, and sharp when the new picture comes.
-                let place = mapped(screen, &shown.view, view);
-                let all = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-                painter.image(shown.texture.id(), place, all, Color32::WHITE);
-            }
+        let pictures = self.layers.iter().filter(|layer| layer.is_visible);
+        let pictures = pictures.filter_map(|layer| layer.shown.as_ref());
+        let pictures = pictures.map(|shown| (&shown.texture, &shown.view));
+        let swept = self.swept.picture.iter().map(|(texture, of)| (texture, of));
+        for (texture, of) in swept.chain(pictures) {
+            // What was last drawn, where it is now: at once, and sharp when the new picture comes.
+            let place = mapped(screen, of, view);
+            let all = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+            painter.image(texture.id(), place, all, Color32::WHITE);
         }
         self.paint_overlay(&painter, screen, view, is_moving);
         self.paint_gesture(&painter, screen, view);
@@ -76,10 +78,17 @@ impl App {
         let Some(layer) = self.layers.get_mut(self.active) else {
             return;
         };
-        let Some(document) = layer.document.as_ref().filter(|_| layer.is_visible) else {
+        if !layer.is_visible {
+            return;
+        }
+        let document = layer.document.as_ref();
+        let made = match document {
+            Some(document) => Some(layer.overlay.of(document, view, &options, is_moving)),
+            None => layer.overlay.last(),
+        };
+        let Some(made) = made else {
             return;
         };
-        let made = layer.overlay.of(document, view, &options, is_moving);
         let now = |pixel: Point<f64>| {
             if made.view == *view {
                 return screen.point(pixel);
@@ -93,12 +102,12 @@ impl App {
                 now(pixel) + by_px
             });
         }
-        if let Some(hit) = &self.hover {
+        if let (Some(hit), Some(document)) = (&self.hover, document) {
             let lines = outline(document, &Rows::from_iter([hit.path]), view);
             paint_outline(painter, &lines, HOVERED, |pixel| screen.point(pixel));
         }
         paint_marks(painter, &made.marks, (ink, paper), now);
-        if self.tool == Tool::Points {
+        if let (Tool::Points, Some(document)) = (self.tool, document) {
             paint_handles(painter, screen, &handles(document, view));
         }
     }

@@ -1,11 +1,11 @@
-use eframe::egui::{CollapsingHeader, ComboBox, DragValue, Grid, Label, Slider, Ui};
+use eframe::egui::{CollapsingHeader, ComboBox, DragValue, Grid, Label, Slider, TextEdit, Ui};
 use guideway_document::Document;
 use guideway_document::measure::{Bend, bends, length_m, tightest_radius_m};
 use guideway_layout::Layout;
 use guideway_spline::{Affine, Point};
 
 use super::paint::length_text;
-use crate::app::App;
+use crate::app::{App, MOST_HOVERED};
 
 /// Columns that every layout can be coloured by.
 const BUILT_IN_COLUMNS: [&str; 3] = ["direction", "level", "vehicle_type"];
@@ -62,10 +62,8 @@ impl App {
                 let all = [(None, "all".to_owned())].into_iter();
                 let each = levels.into_iter().map(|(level, name)| (Some(level), name));
                 for (level, name) in all.chain(each) {
-                    if ui.button(name).clicked()
-                        && let Some(document) = self.document_mut()
-                    {
-                        document.show_level(level);
+                    if ui.button(name).clicked() {
+                        self.change(move |document| document.show_level(level));
                     }
                 }
             });
@@ -88,6 +86,12 @@ impl App {
         }
         let path = document.layout().paths.get(row as usize);
         ui.strong(path.id());
+        if let Some(back) = self.way_back(document) {
+            ui.label(format!(
+                "and back by {}; click again to take that",
+                document.layout().paths.id(back as usize)
+            ));
+        }
         let bends = bends(path);
         let radius_m = tightest_radius_m(&bends);
         ui.label(match radius_m.is_finite() && radius_m < 1e5 {
@@ -102,11 +106,17 @@ impl App {
         attributes(ui, document, row);
     }
 
+    /// The path that leads back on the one under the pointer.
+    fn way_back(&self, document: &Document) -> Option<u32> {
+        document.twin_of(self.hover.as_ref()?, MOST_HOVERED)
+    }
+
     fn selection(&mut self, ui: &mut Ui) {
-        let count = self
-            .document()
-            .map_or(0, |document| document.selection().len());
-        ui.label(format!("{count} paths selected"));
+        let count = self.document().map(|document| document.selection().len());
+        ui.label(match count {
+            Some(count) => format!("{count} paths selected"),
+            None => "nothing is ready to be selected yet".to_owned(),
+        });
         ui.checkbox(
             &mut self.snaps_to_grid,
             "Moves and new points snap to the grid",
@@ -134,15 +144,15 @@ impl App {
         let by_m = Point::new(self.numbers.by_x_m, self.numbers.by_y_m);
         if moves {
             let by = Affine::translation(by_m);
-            self.edit(|document| document.transform_selection("move", by));
+            self.edit(move |document| document.transform_selection("move", by));
         }
         if copies {
             let count = self.numbers.copies;
-            self.edit(|document| document.copy_selection(count, by_m));
+            self.edit(move |document| document.copy_selection(count, by_m));
         }
         if turns {
             let angle = self.numbers.angle_deg.to_radians();
-            self.edit(|document| match document.selection_bounds() {
+            self.edit(move |document| match document.selection_bounds() {
                 Some(bounds) => {
                     let by = Affine::rotation(angle, bounds.center());
                     document.transform_selection("turn", by)
@@ -176,6 +186,13 @@ impl App {
         ui.checkbox(&mut self.look.has_labels, "Names");
         ui.checkbox(&mut self.look.has_grid, "Grid");
         ui.checkbox(&mut self.look.is_dark, "Dark");
+        ui.checkbox(&mut self.swept.is_shown, "Areas that a vehicle sweeps");
+        let title = ui.label("Vehicle: length x width, rear, in metres, or `file`");
+        ui.add(TextEdit::singleline(&mut self.swept.vehicle))
+            .labelled_by(title.id);
+        if let Some(trouble) = &self.swept.trouble {
+            ui.colored_label(ui.visuals().error_fg_color, trouble);
+        }
         if before.is_dark != self.look.is_dark {
             self.apply_theme(ui.ctx());
         }

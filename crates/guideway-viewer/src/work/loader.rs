@@ -1,7 +1,9 @@
+use std::convert::Infallible;
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::sync::mpsc::{self, Receiver, TryIter};
+use std::sync::mpsc::{self, Receiver, Sender, TryIter};
 use std::thread;
+use std::time::Duration;
 
 use guideway_document::Document;
 use guideway_layout::{CheckOptions, Diagnostics, Layout, check};
@@ -10,10 +12,15 @@ use guideway_scene::{Scene, SceneOptions};
 use super::Wake;
 use crate::host::{Host, Job, Trouble};
 
+/// How long the first picture may have the processor to itself.
+const PATIENCE: Duration = Duration::from_secs(1);
+
 /// A file being read.
 pub(crate) struct Loader {
     load: Arc<Job>,
     news: Receiver<Loaded>,
+    /// Held until there is a first picture.
+    has_no_picture: Option<Sender<Infallible>>,
 }
 
 /// What a loader has, piece by piece in this order.
@@ -37,6 +44,7 @@ impl Loader {
     ) -> Self {
         let load = Arc::<Job>::default();
         let (sender, news) = mpsc::channel();
+        let (has_no_picture, picture) = mpsc::channel();
         let watched = Arc::clone(&load);
         thread::spawn(move || {
             let tell = |piece| {
@@ -57,6 +65,8 @@ impl Loader {
                     // Found here, and not when the window asks where to look.
                     scene.bounds();
                     tell(Loaded::Scene(Arc::new(scene.clone())));
+                    // It ends as an error, for nothing is ever sent.
+                    let _ = picture.recv_timeout(PATIENCE);
                     tell(Loaded::Document(Box::new(Document::from_scene(scene))));
                     tell(Loaded::Findings(findings(&layout)));
                 }
@@ -66,7 +76,16 @@ impl Loader {
                 })),
             }
         });
-        Self { load, news }
+        Self {
+            load,
+            news,
+            has_no_picture: Some(has_no_picture),
+        }
+    }
+
+    /// There is a picture of it: what takes long is in nobody's way any more.
+    pub(crate) fn go_on(&mut self) {
+        self.has_no_picture = None;
     }
 
     pub(crate) fn load(&self) -> &Job {

@@ -127,6 +127,12 @@ impl Renderer {
         self.shared.bell.notify_one();
     }
 
+    /// Whether something is still to be drawn.
+    pub(crate) fn is_busy(&self) -> bool {
+        let inbox = self.shared.lock();
+        inbox.next.is_some() || inbox.now.is_some() || !inbox.orders.is_empty()
+    }
+
     /// The next outcome; an error if the thread is gone.
     pub(crate) fn outcome(&self) -> Result<Outcome, TryRecvError> {
         self.outcomes.try_recv()

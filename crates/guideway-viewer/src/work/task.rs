@@ -1,5 +1,6 @@
-use std::sync::mpsc::{self, Receiver, TryRecvError};
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::thread;
+use std::time::Duration;
 
 use super::Wake;
 use crate::host::Trouble;
@@ -26,10 +27,18 @@ impl<T: Send + 'static> Task<T> {
     /// # Errors
     /// When it broke down.
     pub(crate) fn outcome(&self) -> Option<Result<T, Trouble>> {
-        match self.outcome.try_recv() {
+        self.outcome_within(Duration::ZERO)
+    }
+
+    /// What came of it, if it is done within so long.
+    ///
+    /// # Errors
+    /// When it broke down.
+    pub(crate) fn outcome_within(&self, patience: Duration) -> Option<Result<T, Trouble>> {
+        match self.outcome.recv_timeout(patience) {
             Ok(outcome) => Some(Ok(outcome)),
-            Err(TryRecvError::Empty) => None,
-            Err(TryRecvError::Disconnected) => Some(Err(Trouble {
+            Err(RecvTimeoutError::Timeout) => None,
+            Err(RecvTimeoutError::Disconnected) => Some(Err(Trouble {
                 message: "what was asked for came to no end".into(),
                 remedy: "Try again, with less or by another way".into(),
             })),

@@ -97,9 +97,9 @@ mod tests {
 
     #[test]
     fn none_at_all_is_refused_with_the_reason() {
-        assert!(need_some(1, &[0, 5, 0]).is_ok() && need_some(0, &[0; 3]).is_ok());
-        let refusal = need_some(0, &[0, 5, 1]).unwrap_err();
+        assert!(need_some(1, &[0, 5, 0, 0]).is_ok() && need_some(0, &[0; 4]).is_ok());
+        let refusal = need_some(0, &[0, 5, 1, 0]).unwrap_err();
         assert!(refusal.message.contains("the file gives none"));
-        assert_eq!(lacking(&[1, 0, 2]).len(), 2);
+        assert_eq!(lacking(&[1, 0, 2, 0]).len(), 2);
     }
 }

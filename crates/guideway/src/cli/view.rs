@@ -1,18 +1,23 @@
 //! `guideway view`: the window.
 
+mod smoothness;
+
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::time::Instant;
 
+use etcetera::BaseStrategy;
 use guideway::formats::{Progress, ReadOptions, read_file};
 use guideway::layout::Layout;
-use guideway::render::{Budget, Method};
+use guideway::render::{Budget, Frame, Method, View, elapsed_ms};
 use guideway::scene::SceneOptions;
 use guideway::{AUTO, save_png_by};
-use guideway_viewer::{Export, Host, Job, MethodChoice, Trouble};
+use guideway_viewer::{Export, Host, Job, MethodChoice, Stage, Trouble};
 
 use super::convert::Target;
-use super::render::{Below, Wishes, draw, draw_vector};
-use super::{Exit, Failure, Output, values};
+use super::render::{Below, Wishes, draw, draw_swept, draw_vector};
+use super::{Exit, Failure, Output, envelope, values};
 
 #[derive(Debug, clap::Args)]
 #[command(
@@ -26,22 +31,41 @@ pub(crate) struct Args {
     /// `cpu`
     #[arg(long, value_name = "NAME[+OPTION]", default_value = AUTO, value_parser = values::MethodSpec)]
     method: String,
+    /// Say on standard error when each file was read, shown, ready to be edited and checked
+    #[arg(long, conflicts_with = "measure")]
+    timings: bool,
+    /// Show no window: open one file, move it as a hand would, and say how long frames take
+    #[arg(long)]
+    measure: bool,
 }
 
 pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, Failure> {
+    let method = (args.method != AUTO).then(|| args.method.clone());
+    if args.measure {
+        return smoothness::measure(&args.files, method, out);
+    }
     if out.is_json() {
         return Err(Failure::arguments(
             "a window has nothing to say as JSON",
-            "Leave --json out; `guideway info` and `guideway check` report as JSON",
+            "Leave --json out, or add --measure; `guideway info` and `guideway check` report as JSON too",
         ));
     }
-    let method = (args.method != AUTO).then(|| args.method.clone());
-    guideway_viewer::run(Arc::new(Desk), args.files.clone(), method)?;
+    let desk = Desk {
+        timed_since: args.timings.then(Instant::now),
+        is_measuring: false,
+    };
+    guideway_viewer::run(Arc::new(desk), args.files.clone(), method)?;
     Ok(Exit::Clean)
 }
 
 /// Files and ways of drawing, for the window.
-struct Desk;
+#[derive(Default)]
+struct Desk {
+    /// When the command began, if it is to say how long things took.
+    timed_since: Option<Instant>,
+    /// Whether nobody is there who would open a file again.
+    is_measuring: bool,
+}
 
 impl Host for Desk {
     fn open(&self, path: &Path, job: &Job) -> Result<Layout, Trouble> {
@@ -76,6 +100,46 @@ impl Host for Desk {
     fn save_drawing(&self, export: Export<'_>, path: &Path) -> Result<(), Trouble> {
         draw_vector(path, export.scene, &Below::default(), &wishes(&export))?;
         Ok(())
+    }
+
+    fn swept(
+        &self,
+        layout: &Layout,
+        rows: &[u32],
+        vehicle: &str,
+        view: &View,
+    ) -> Result<Frame, Trouble> {
+        let source = envelope::source(vehicle).map_err(|problem| {
+            Failure::arguments(
+                format!("`{vehicle}` is no vehicle: {problem}"),
+                "Write it so",
+            )
+        })?;
+        Ok(draw_swept(layout, rows, source, view)?)
+    }
+
+    fn reached(&self, stage: Stage, file: &Path) {
+        let Some(since) = self.timed_since else {
+            return;
+        };
+        let what = match stage {
+            Stage::Read => "read",
+            Stage::Shown => "shown",
+            Stage::Editable => "ready to be edited",
+            Stage::Checked => "checked",
+        };
+        // There may be nobody who reads it.
+        let (ms, file) = (elapsed_ms(since), file.display());
+        let _ = writeln!(io::stderr(), "{ms:.0} ms: {file} is {what}");
+    }
+
+    fn state_folder(&self) -> Option<PathBuf> {
+        if self.is_measuring {
+            return None;
+        }
+        let places = etcetera::choose_base_strategy().ok()?;
+        let folder = places.state_dir().unwrap_or_else(|| places.data_dir());
+        Some(folder.join("guideway"))
     }
 
     fn methods(&self) -> Vec<MethodChoice> {

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use guideway_document::Snapshot;
 use guideway_scene::SceneOptions;
 
-use super::{Layer, LayerNews};
+use super::{Layer, LayerNews, PATIENCE, Work};
 use crate::app::recovery::Recovery;
 use crate::host::Host;
 use crate::work::Wake;
@@ -62,11 +62,11 @@ impl Layer {
     }
 
     /// The layout is written, at this path; or it could not be.
-    pub(crate) fn end_saving(&mut self, path: Option<PathBuf>) -> Option<LayerNews> {
+    pub(crate) fn end_saving(&mut self, path: Option<PathBuf>, wake: &Wake) -> Option<LayerNews> {
         let before = self.saving.take()?;
         let Some(path) = path else {
-            self.document.as_mut()?.set_saved_as_before(before);
-            return None;
+            let as_before = Work::new(move |document| document.set_saved_as_before(before));
+            return self.work(as_before, PATIENCE, wake);
         };
         self.path = path;
         let outcome = self.recovery.as_mut()?.set_saved(&self.path);

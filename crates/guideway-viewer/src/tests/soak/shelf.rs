@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 
 use guideway_layout::Layout;
-use guideway_render::Method;
+use guideway_render::{Frame, Method, View};
 
 use crate::host::{Export, Host, Job, MethodChoice, Trouble};
 use crate::tests::table::Table;
@@ -114,6 +114,16 @@ impl Host for Shelf {
 
     fn save_drawing(&self, export: Export<'_>, path: &Path) -> Result<(), Trouble> {
         self.table.save_drawing(export, path)
+    }
+
+    fn swept(
+        &self,
+        layout: &Layout,
+        rows: &[u32],
+        vehicle: &str,
+        view: &View,
+    ) -> Result<Frame, Trouble> {
+        self.table.swept(layout, rows, vehicle, view)
     }
 
     fn methods(&self) -> Vec<MethodChoice> {

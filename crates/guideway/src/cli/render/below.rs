@@ -30,7 +30,9 @@ impl Below {
 
     /// What of it is seen.
     pub(super) fn seen(&self, scene: &Scene, view: &View) -> Result<Seen<'_>, Failure> {
-        let swept = self.envelope.map(|source| Swept::new(scene, source, view));
+        let swept = self
+            .envelope
+            .map(|source| Swept::new(scene.layout(), scene.draw_order(), source, view));
         Ok(Seen {
             floor_plan: self.floor_plan.as_ref(),
             swept: swept.transpose()?,

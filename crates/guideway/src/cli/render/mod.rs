@@ -22,6 +22,8 @@ pub(crate) use below::Below;
 pub(crate) use picture::{Drawn, Take, Wishes, draw};
 pub(crate) use report::{Times, what_was_drawn};
 #[cfg(feature = "viewer")]
+pub(crate) use swept::draw as draw_swept;
+#[cfg(feature = "viewer")]
 pub(crate) use vector::draw as draw_vector;
 
 use super::{Exit, Failure, Output, input};

@@ -5,6 +5,7 @@ use std::io::{self, Write};
 use guideway::cpu::{Areas, lay_areas};
 use guideway::envelope::{Convex, LEAST_TOLERANCE_M, Source, Without};
 use guideway::formats::svg::Page;
+use guideway::layout::Layout;
 use guideway::render::{Frame, Strip, View};
 use guideway::scene::{Rgba, Scene};
 use guideway::spline::{Bounds, Point};
@@ -54,16 +55,35 @@ pub(super) fn lay(areas: &Areas, strip: &Strip, frame: &mut Frame) {
     lay_areas(areas, strip, COLOR, frame);
 }
 
+/// Draws the swept areas of some paths in a view, over nothing.
+#[cfg(feature = "viewer")]
+pub(crate) fn draw(
+    layout: &Layout,
+    rows: &[u32],
+    source: Source,
+    view: &View,
+) -> Result<Frame, Failure> {
+    let mut frame = Frame::new(view.size());
+    let swept = Swept::new(layout, rows, source, view)?;
+    lay(&swept.areas(), &Strip::whole(view), &mut frame);
+    Ok(frame)
+}
+
 impl Swept {
     /// # Errors
     /// When no path has an envelope.
-    pub(super) fn new(scene: &Scene, source: Source, view: &View) -> Result<Self, Failure> {
+    pub(super) fn new(
+        layout: &Layout,
+        rows: &[u32],
+        source: Source,
+        view: &View,
+    ) -> Result<Self, Failure> {
         let tolerance_m = (TOLERANCE_PX / view.px_per_m()).max(LEAST_TOLERANCE_M);
         let seen = view.world_bounds();
-        let paths = scene.draw_order().par_iter();
-        let of_paths: Vec<_> = paths
+        let of_paths: Vec<_> = rows
+            .par_iter()
             .map(|&path| {
-                let sweep = source.sweep(scene.layout(), path as usize)?;
+                let sweep = source.sweep(layout, path as usize)?;
                 let mut polygons = Vec::new();
                 sweep.polygons(tolerance_m, Some(seen), &mut |polygon| {
                     polygons.push(polygon.clone());

@@ -1,0 +1,108 @@
+//! Work on a document that may take longer than a frame: it is done beside the window, and the document is away
+//! meanwhile.
+
+use std::time::Duration;
+
+use guideway_document::Document;
+
+use super::{Layer, LayerNews};
+use crate::work::Wake;
+use crate::work::task::Task;
+
+/// How long the window waits for work before it goes on without the document: half a frame.
+pub(crate) const PATIENCE: Duration = Duration::from_millis(8);
+
+/// Something that is done to a document, or why it cannot be.
+pub(crate) struct Work(Box<Deed>);
+
+type Deed = dyn FnOnce(&mut Document) -> Result<(), String> + Send;
+
+impl Work {
+    /// What always can be done.
+    pub(crate) fn new(work: impl FnOnce(&mut Document) + Send + 'static) -> Self {
+        Self::fallible(move |document| {
+            work(document);
+            Ok::<(), String>(())
+        })
+    }
+
+    /// What may not be possible, and then says why.
+    pub(crate) fn fallible<E: ToString>(
+        work: impl FnOnce(&mut Document) -> Result<(), E> + Send + 'static,
+    ) -> Self {
+        Self(Box::new(move |document| {
+            work(document).map_err(|error| error.to_string())
+        }))
+    }
+}
+
+/// Where the document of a layer is when it is not there.
+#[derive(Default)]
+pub(super) struct Away {
+    task: Option<Task<(Box<Document>, Vec<String>)>>,
+    /// What is to be done next.
+    waiting: Vec<Work>,
+}
+
+impl Away {
+    pub(super) fn is_at_work(&self) -> bool {
+        self.task.is_some()
+    }
+}
+
+impl Layer {
+    /// Does work on the document, behind what waits to be done. Where it is not done within `patience`, the document
+    /// comes back with a later [`Layer::poll`].
+    pub(crate) fn work(
+        &mut self,
+        work: Work,
+        patience: Duration,
+        wake: &Wake,
+    ) -> Option<LayerNews> {
+        if self.document.is_none() && !self.away.is_at_work() {
+            return None;
+        }
+        self.away.waiting.push(work);
+        self.begin_work(wake);
+        self.take_back(patience, wake)
+    }
+
+    fn begin_work(&mut self, wake: &Wake) {
+        if self.away.waiting.is_empty() {
+            return;
+        }
+        let Some(document) = self.document.take() else {
+            return;
+        };
+        let mut document = Box::new(document);
+        let all = std::mem::take(&mut self.away.waiting);
+        self.away.task = Some(Task::start(wake, move || {
+            let outcomes = all.into_iter().map(|Work(work)| work(&mut document));
+            let troubles = outcomes.filter_map(Result::err).collect();
+            (document, troubles)
+        }));
+    }
+
+    /// Takes the document back if its work is done, and begins what waits.
+    pub(super) fn take_back(&mut self, patience: Duration, wake: &Wake) -> Option<LayerNews> {
+        let outcome = self.away.task.as_ref()?.outcome_within(patience)?;
+        self.away.task = None;
+        let notice = match outcome {
+            Ok((document, troubles)) => {
+                self.document = Some(*document);
+                (!troubles.is_empty()).then(|| troubles.join("; "))
+            }
+            Err(trouble) => {
+                // What was done before is in the journal.
+                self.trouble = Some(trouble.to_string());
+                self.away.waiting.clear();
+                None
+            }
+        };
+        if std::mem::take(&mut self.owes_scene) {
+            self.send_scene();
+        }
+        self.begin_work(wake);
+        notice.map(LayerNews::Notice)
+    }
+}
