@@ -197,7 +197,9 @@ impl Bound {
         )?;
         if paint.needs_order() {
             let buffers = [frame, lists, references, line_ranks];
-            self.add("sort", b, &kernels.sort, Over::Tiles, &buffers)?;
+            for sort in &kernels.sort {
+                self.add("sort", b, sort, Over::Tiles, &buffers)?;
+            }
         }
         let mut buffers = vec![
             frame, lists, references, lines_px, line_ranks, styles, pixels,

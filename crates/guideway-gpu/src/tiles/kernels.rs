@@ -1,9 +1,9 @@
 //! The shaders of a frame, compiled.
 
 use super::params::{
-    CLUSTER_POINTS, CLUSTER_STROKES, COLUMNS, COVER, CULL, FLATTEN, IDS, LAYERS, Layers,
-    SAMPLE_ROWS, SCATTER, SCATTER_THREADS, SHIFT, SORT, STARTS, STARTS_THREADS, Samples, TILE_PX,
-    TILE_THREADS, TOUCH, WORKGROUP,
+    CLUSTER_STROKES, COLUMNS, COVER, CULL, FLATTEN, IDS, LAYERS, Layers, SAMPLE_ROWS, SCATTER,
+    SCATTER_THREADS, SHIFT, SORT, STARTS, STARTS_THREADS, Samples, TILE_PX, TILE_THREADS, TOUCH,
+    WORKGROUP,
 };
 use crate::device::{Gpu, Kernel};
 
@@ -12,7 +12,8 @@ pub(super) struct Kernels {
     pub(super) flatten: Kernel,
     pub(super) starts: Kernel,
     pub(super) scatter: Kernel,
-    pub(super) sort: Kernel,
+    /// Of short lists, and of all others.
+    pub(super) sort: [Kernel; 2],
     pub(super) shift: Kernel,
     pub(super) touch: Kernel,
     /// Coarse and fine.
@@ -33,15 +34,17 @@ impl Kernels {
         let tile = constant("TILE_PX", TILE_PX);
         let workgroup = constant("WORKGROUP", WORKGROUP);
         let strokes = constant("STROKES", CLUSTER_STROKES);
-        let points = constant("POINTS", CLUSTER_POINTS);
         let starts_threads = constant("THREADS", STARTS_THREADS);
         let tile_threads = constant("THREADS", TILE_THREADS);
         Ok(Self {
             cull: Kernel::new(gpu, &CULL, &[tile, workgroup])?,
-            flatten: Kernel::new(gpu, &FLATTEN, &[tile, strokes, points])?,
+            flatten: Kernel::new(gpu, &FLATTEN, &[tile, strokes])?,
             starts: Kernel::new(gpu, &STARTS, &[tile, starts_threads])?,
             scatter: Kernel::new(gpu, &SCATTER, &[tile, constant("THREADS", SCATTER_THREADS)])?,
-            sort: Kernel::new(gpu, &SORT, &[tile, tile_threads])?,
+            sort: [
+                Kernel::new(gpu, &SORT[0], &[tile, tile_threads])?,
+                Kernel::new(gpu, &SORT[1], &[tile, tile_threads])?,
+            ],
             shift: Kernel::new(gpu, &SHIFT, &[constant("THREADS", WORKGROUP)])?,
             touch: Kernel::new(gpu, &TOUCH, &[tile, workgroup])?,
             painters: [

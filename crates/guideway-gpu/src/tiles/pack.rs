@@ -5,8 +5,7 @@ use guideway_scene::Scene;
 use guideway_spline::{Bounds, Point, hilbert};
 
 use super::params::{
-    CLUSTER_POINTS, CLUSTER_STROKES, Cluster, PathStyle, SEGMENTS_BIT, STROKE_SEGMENTS, Stroke,
-    WHOLE_PATH,
+    CLUSTER_STROKES, Cluster, PathStyle, SEGMENTS_BIT, STROKE_SEGMENTS, Stroke, WHOLE_PATH,
 };
 
 /// Paths for the device. Clusters count points and strokes from the first of these.
@@ -55,11 +54,8 @@ impl Packed {
     pub(super) fn of(scene: &Scene, mut parts: Vec<Part>) -> Self {
         let mut packed = Self::default();
         sort_by_place(scene, &mut parts);
-        let mut rest = parts.as_slice();
-        while !rest.is_empty() {
-            let (cluster, behind) = rest.split_at(strokes_of_cluster(rest));
+        for cluster in parts.chunks(CLUSTER_STROKES as usize) {
             packed.add_cluster(scene, cluster);
-            rest = behind;
         }
         packed
     }
@@ -167,17 +163,6 @@ impl Part {
         let points = first..first + self.segments as usize + 3;
         points.filter_map(move |index| Some(run.as_ref()?.get(index)))
     }
-}
-
-/// How many of these parts make the next cluster.
-fn strokes_of_cluster(parts: &[Part]) -> usize {
-    let mut points = 0;
-    let most = &parts[..parts.len().min(CLUSTER_STROKES as usize)];
-    let past = most.iter().position(|part| {
-        points += part.segments + 3;
-        points > CLUSTER_POINTS
-    });
-    past.unwrap_or(most.len())
 }
 
 /// What a path looks like.

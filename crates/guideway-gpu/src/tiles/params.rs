@@ -6,8 +6,6 @@ use crate::device::Source;
 
 /// Most strokes of a cluster: a workgroup flattens one, a thread a stroke.
 pub(super) const CLUSTER_STROKES: u32 = 64;
-/// Most control points of a cluster: they are held where the workgroup shares them.
-pub(super) const CLUSTER_POINTS: u32 = 1024;
 /// Most segments of a stroke: a bit each in one word.
 pub(super) const STROKE_SEGMENTS: usize = 32;
 /// Set in [`Stroke::extent`] of a stroke that is a whole path.
@@ -226,11 +224,30 @@ pub(super) const SCATTER: Source = Source {
     ],
 };
 
-pub(super) const SORT: Source = Source {
-    name: "sort",
-    wgsl: wgsl!("frame", "sort"),
-    bindings: &["frame", "lists", "references", "line_ranks"],
-};
+/// Sorts lists of more than two to the power of `$above_bits` entries, those of more than two to the power of `$place_bits`
+/// only if it takes all. Up to there the keys are held where the workgroup shares them: the less it holds, the more
+/// workgroups run at a time.
+macro_rules! sort {
+    ($above_bits:literal, $place_bits:literal, $takes_all:literal) => {
+        Source {
+            name: "sort",
+            wgsl: concat!(
+                "const ABOVE_BITS: u32 = ",
+                $above_bits,
+                "u;\nconst PLACE_BITS: u32 = ",
+                $place_bits,
+                "u;\nconst TAKES_ALL: bool = ",
+                $takes_all,
+                ";\n",
+                wgsl!("frame", "sort")
+            ),
+            bindings: &["frame", "lists", "references", "line_ranks"],
+        }
+    };
+}
+
+/// Of short lists, and of all others.
+pub(super) const SORT: [Source; 2] = [sort!(0, 10, false), sort!(10, 12, true)];
 
 pub(super) const SHIFT: Source = Source {
     name: "shift",

@@ -4,8 +4,8 @@ use super::*;
 use crate::reflection::{assert_binds_what_it_is_given, assert_laid_out, members};
 
 const SHADERS: &[&Source] = &[
-    &CULL, &FLATTEN, &SHIFT, &TOUCH, &IDS[0], &IDS[1], &STARTS, &SCATTER, &SORT, &COVER[0],
-    &COVER[1], &LAYERS[0], &LAYERS[1],
+    &CULL, &FLATTEN, &SHIFT, &TOUCH, &IDS[0], &IDS[1], &STARTS, &SCATTER, &SORT[0], &SORT[1],
+    &COVER[0], &COVER[1], &LAYERS[0], &LAYERS[1],
 ];
 
 #[test]

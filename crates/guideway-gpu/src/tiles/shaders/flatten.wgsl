@@ -21,7 +21,6 @@ struct Found {
 }
 
 @group(0) @binding(1) var<uniform> chunk: Chunk;
-@group(0) @binding(2) var<storage, read> points_m: array<vec2f>;
 @group(0) @binding(3) var<storage, read> strokes: array<Stroke>;
 @group(0) @binding(4) var<storage, read> clusters: array<Cluster>;
 @group(0) @binding(5) var<storage, read> styles: array<Style>;
@@ -83,7 +82,7 @@ fn emit(slot: u32, rank: u32, a: vec2f, b: vec2f, radius: f32) {
 }
 
 // Turns the strokes of the workgroup into lines, a thread a line.
-fn emit_all(thread: u32, first_slot: u32) {
+fn emit_all(thread: u32, offset_m: vec2f, first_slot: u32) {
     let all = line_ends[STROKES - 1u];
     for (var line = thread; line < all; line += STROKES) {
         // The first stroke that ends behind it.
@@ -92,7 +91,7 @@ fn emit_all(thread: u32, first_slot: u32) {
             stroke += select(0u, half, line_ends[stroke + half - 1u] <= line);
         }
         let it = planned[stroke];
-        let curve = Curve(it.first_point);
+        let curve = Curve(it.first_point, offset_m);
         let part = part_of(curve, it.plan.ends, it.plan.lines + line - line_ends[stroke]);
         let a = joint_px(curve, part, part.step);
         let b = joint_px(curve, part, part.step + 1u);
@@ -123,14 +122,6 @@ fn holds(cluster: Cluster) -> bool {
     return all(box.xy - reach_px >= window.low_px) && all(box.zw + reach_px <= window.high_px);
 }
 
-// Brings the control points of a cluster to the picture.
-fn load(cluster: Cluster, thread: u32) {
-    let offset = offset_m(cluster);
-    for (var i = thread; i < cluster.points; i += STROKES) {
-        points_px[i] = pixel_from_view(points_m[cluster.first_point + i] + offset);
-    }
-}
-
 @compute @workgroup_size(STROKES)
 fn main(
     @builtin(workgroup_id) id: vec3u,
@@ -151,16 +142,15 @@ fn main(
             if thread < cluster.strokes {
                 stroke = strokes[cluster.first_stroke + thread];
             }
-            load(cluster, thread);
             is_inside = holds(cluster);
         }
         if thread == 0u {
             atomicStore(&group_drawn, 0u);
         }
         workgroupBarrier();
+        let curve = Curve(cluster.first_point + first_point_of(stroke), offset_m(cluster));
         var plan = Plan(0u, 0u);
         if is_here && thread < cluster.strokes {
-            let curve = Curve(first_point_of(stroke));
             let segments = segments_of(stroke);
             let radius = radius_of(stroke.rank);
             var is_drawn = segments > 0u;
@@ -179,13 +169,13 @@ fn main(
                 }
             }
         }
-        planned[thread] = Planned(first_point_of(stroke), stroke.rank, plan);
+        planned[thread] = Planned(curve.first_point, stroke.rank, plan);
         add_up(thread, plan.lines);
         if thread == 0u {
             first_line = atomicAdd(&found.counters.lines, line_ends[STROKES - 1u]);
             atomicAdd(&found.counters.drawn, atomicLoad(&group_drawn));
         }
-        emit_all(thread, workgroupUniformLoad(&first_line));
+        emit_all(thread, curve.offset_m, workgroupUniformLoad(&first_line));
         workgroupBarrier();
     }
 }

@@ -10,7 +10,6 @@ override THREADS: u32;
 
 // Of a list that is short, with ranks near each other: how far each rank is above the lowest, and its place
 // in the list in the lowest bits.
-const PLACE_BITS: u32 = 12u;
 const SHORT: u32 = 1u << PLACE_BITS;
 const MOST_ABOVE: u32 = 0xffffffffu >> PLACE_BITS;
 var<workgroup> keys: array<u32, SHORT>;
@@ -84,10 +83,10 @@ fn main(
     }
     let start = lists[index].x;
     let end = lists[index].y;
-    if end > frame.reference_room || end - start < 2u {
+    let count = end - start;
+    if end > frame.reference_room || count <= 1u << ABOVE_BITS || (!TAKES_ALL && count > SHORT) {
         return;
     }
-    let count = end - start;
     var is_short = count <= SHORT;
     if is_short {
         let ranks = load_ranks(thread, start, count);
