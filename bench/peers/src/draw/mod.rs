@@ -1,0 +1,71 @@
+//! One module a renderer. Each draws a few frames and gives the time of each in milliseconds.
+//!
+//! Others than ours draw a path at a time, in draw order, as a picture of many colours needs.
+
+#[cfg(feature = "cairo")]
+mod cairo;
+mod ours;
+mod tiny_skia;
+mod vello;
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use anyhow::{Result, bail};
+use guideway_layout::{Layout, PathRef};
+use guideway_render::{Frame, View, elapsed_ms};
+use guideway_spline::{Point, uniform};
+
+pub(crate) use ours::oracle;
+
+/// How wide all paths are.
+const WIDTH_PX: f64 = 3.0;
+/// Frames of ours, and of the others, which take seconds.
+const OWN_FRAMES: usize = 10;
+const FRAMES: usize = 2;
+
+type Draw = fn(&Arc<Layout>, &View, &mut Frame) -> Result<Vec<f64>>;
+
+/// Ours first.
+pub(crate) const METHODS: &[(&str, Draw)] = &[
+    ("cpu", ours::draw),
+    ("tiny-skia", tiny_skia::draw),
+    ("tiny-skia-kept", tiny_skia::draw_kept),
+    ("vello_cpu", vello::draw),
+    ("vello_cpu-threads", vello::draw_threaded),
+    #[cfg(feature = "cairo")]
+    ("cairo", cairo::draw),
+];
+
+pub(crate) fn draw(
+    method: &str,
+    layout: &Arc<Layout>,
+    view: &View,
+    frame: &mut Frame,
+) -> Result<Vec<f64>> {
+    match METHODS.iter().find(|(name, _)| *name == method) {
+        Some((_, draw)) => draw(layout, view, frame),
+        None => bail!("there is no method {method}"),
+    }
+}
+
+/// Times of the frames that `draw` makes.
+fn time(frames: usize, mut draw: impl FnMut(usize) -> Result<()>) -> Result<Vec<f64>> {
+    let frame = |frame| {
+        let start = Instant::now();
+        draw(frame)?;
+        Ok(elapsed_ms(start))
+    };
+    (0..frames).map(frame).collect()
+}
+
+/// The segments of each run of a path as Bezier curves in pixels.
+fn curves<'a>(
+    path: &PathRef<'a>,
+    view: &'a View,
+) -> impl Iterator<Item = impl Iterator<Item = [Point<f64>; 4]> + use<'a>> + use<'a> {
+    path.runs().map(|run| {
+        let segments = run.segments();
+        segments.map(|segment| uniform::to_bezier(&segment).map(|p| view.pixel_from_world(p)))
+    })
+}
