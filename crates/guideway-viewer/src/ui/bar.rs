@@ -125,16 +125,11 @@ impl App {
 fn progress(ui: &mut Ui, what: String, job: &Job) {
     ui.separator();
     ui.label(what);
-    match job.fraction() {
-        Some(fraction) => {
-            ui.add(ProgressBar::new(fraction).desired_width(120.0));
-            // Nothing else wakes the window for each step.
-            ui.ctx().request_repaint_after(Duration::from_millis(100));
-        }
-        None => {
-            ui.spinner();
-        }
-    }
+    let bar = ProgressBar::new(job.fraction().unwrap_or(0.0));
+    ui.add(bar.desired_width(120.0));
+    // Nothing else wakes the window for each step; and were it awake all the time, a graphics driver in software would
+    // take the processor from what is waited for.
+    ui.ctx().request_repaint_after(Duration::from_millis(100));
     if ui.button("Cancel").clicked() {
         job.cancel();
     }
