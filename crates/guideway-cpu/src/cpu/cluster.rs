@@ -81,24 +81,8 @@ fn center(layout: &Layout, row: u32) -> Option<Point<f64>> {
     bounds.map(Bounds::center)
 }
 
-/// Reads a little of each path. The paths of a cluster lie anywhere in memory: so their ways through the caches go
-/// side by side, instead of one after the other as each is worked on.
-fn fetch(layout: &Layout, paths: &[u32]) {
-    let geometry = layout.paths.geometry();
-    let runs = paths.iter().flat_map(|&path| geometry.runs(path as usize));
-    let ends = |run: RunPoints<'_>| match run {
-        RunPoints::F64(run) => Some((run.first()?.x, run.last()?.x)),
-        RunPoints::F32(run) => Some((run.first()?.x.into(), run.last()?.x.into())),
-    };
-    let read = runs
-        .filter_map(ends)
-        .fold(0.0, |sum, (first, last)| sum + first + last);
-    std::hint::black_box(read);
-}
-
 /// Where the control points of the paths that are shown lie, in metres.
 pub(super) fn hull_bounds(scene: &Scene, paths: &[u32]) -> Option<Bounds<f64>> {
-    fetch(scene.layout(), paths);
     let shown = paths
         .iter()
         .filter(|&&path| scene.state(path) == PathState::Shown);
@@ -211,7 +195,7 @@ impl Scratch {
         let place = |p: Point<f64>| {
             Point::new((p.x - middle_m.x) * per_m, (middle_m.y - p.y) * per_m).to_f32()
         };
-        fetch(scene.layout(), paths);
+        // All points first: they lie anywhere, and so their ways through the caches go side by side.
         local.clear();
         runs.clear();
         for round in 0..ROUNDS {
