@@ -9,6 +9,10 @@ const CLUSTER: usize = 64;
 /// A box a row, found by where it is. Neighbours lie in clusters, so that a question looks at few rows; a change
 /// costs no more than the clusters that it touches, and however much changes, a question never takes longer than a
 /// look at every box.
+///
+/// A tree of boxes (rstar 0.14) finds a few of a million in less than a microsecond, and this in 13. But to build it took
+/// 0.4 s and not 0.1, it holds twice as much, a question for most of them took 21 ms and not 1.3, and moving a tenth of
+/// them 94 ms and not 1.1: edits and whole views are what an editor waits for.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Boxes {
     /// Along Hilbert's curve at first; rows added later lie behind.

@@ -4,7 +4,7 @@ use std::sync::mpsc::TryRecvError;
 use std::time::Duration;
 
 use eframe::egui::{Context, TextureHandle, TextureOptions};
-use guideway_document::{Combine, Document, Query, QueryError, Rows, Saved, replay};
+use guideway_document::{Combine, Document, Rows, Saved, replay};
 use guideway_layout::Diagnostics;
 use guideway_render::{Report, View};
 use guideway_scene::{Scene, SceneError, SceneOptions};
@@ -19,6 +19,7 @@ use crate::work::loader::{Loaded, Loader};
 use crate::work::renderer::{FALLBACK, Outcome, Picture, Renderer, Shot};
 use crate::work::task::Task;
 
+mod answers;
 mod away;
 mod saving;
 
@@ -184,75 +185,6 @@ impl Layer {
     pub(crate) fn set_method(&mut self, name: &str) {
         self.renderer.set_method(name);
         self.asked = None;
-    }
-
-    /// Gives the paths other colours, unless they have them, or get them already.
-    pub(crate) fn recolor(&mut self, options: SceneOptions, wake: &Wake) {
-        let is_same =
-            self.options.color == options.color && self.options.color_by == options.color_by;
-        if let Some(document) = self.document.as_ref().filter(|_| !is_same) {
-            self.options = options.clone();
-            let layout = document.scene().shared_layout();
-            self.coloring = Some(Task::start(wake, move || Scene::new(layout, &options)));
-        }
-    }
-
-    /// Whether other colours, or what a query asks for, are on their way.
-    pub(crate) fn is_busy(&self) -> bool {
-        self.coloring.is_some() || self.selecting.is_some() || self.away.is_at_work()
-    }
-
-    /// Selects the paths that meet a query, once they are found.
-    ///
-    /// # Errors
-    /// When the query cannot be understood; the selection is then as it was.
-    pub(crate) fn select_where(
-        &mut self,
-        query: &str,
-        how: Combine,
-        wake: &Wake,
-    ) -> Result<(), QueryError> {
-        if let Some(document) = &self.document {
-            let query = Query::parse(query, document.layout())?;
-            let layout = document.scene().shared_layout();
-            let task = Task::start(wake, move || query.rows(&layout));
-            self.selecting = Some((task, how));
-        }
-        Ok(())
-    }
-
-    /// Takes what was asked of the layout as it was then.
-    fn take_answers(&mut self, wake: &Wake) -> Option<LayerNews> {
-        let document = self.document.as_mut()?;
-        let selecting = self.selecting.as_ref();
-        let selected = selecting.and_then(|(task, how)| Some((task.outcome()?, *how)));
-        if let Some((rows, how)) = selected {
-            self.selecting = None;
-            match rows {
-                Ok(rows) => {
-                    let select = Work::new(move |document| document.select(rows, how));
-                    return self.work(select, PATIENCE, wake);
-                }
-                Err(trouble) => return Some(LayerNews::Notice(trouble.to_string())),
-            }
-        }
-        let colored = self.coloring.as_ref().and_then(Task::outcome)?;
-        self.coloring = None;
-        match colored {
-            Ok(Ok(scene)) => {
-                if document.take_colors(scene) {
-                    self.send_scene();
-                } else {
-                    // The layout has changed since.
-                    let layout = document.scene().shared_layout();
-                    let options = self.options.clone();
-                    self.coloring = Some(Task::start(wake, move || Scene::new(layout, &options)));
-                }
-                None
-            }
-            Ok(Err(error)) => Some(LayerNews::Notice(format!("{}: {error}", self.name()))),
-            Err(trouble) => Some(LayerNews::Notice(trouble.to_string())),
-        }
     }
 
     /// Has the renderer draw the document's scene as it is now.

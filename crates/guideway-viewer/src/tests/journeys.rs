@@ -4,14 +4,12 @@ use std::time::Duration;
 use eframe::egui::{Event, Key, Modifiers, Pos2, Vec2};
 use egui_kittest::kittest::Queryable;
 use guideway_cpu::Cpu;
-use guideway_document::Document;
 use guideway_render::{Budget, Cancel, Frame, Method};
 use guideway_spline::Point;
 
 use super::desk::Desk;
 use super::table::{Table, lanes};
 use crate::app::Tool;
-use crate::host::Host;
 use crate::work::renderer::{Outcome, Renderer, Shot};
 
 const NONE: Modifiers = Modifiers::NONE;
@@ -257,145 +255,6 @@ fn colours_asked_for_while_the_layout_is_edited_come_all_the_same() {
 }
 
 #[test]
-fn a_file_is_saved_and_a_full_disk_loses_nothing() {
-    let mut desk = Desk::looking_at(lanes(4));
-    let at = desk.at(5.0, 2.0);
-    desk.click(at);
-    desk.key(NONE, Key::Delete);
-    *desk.table.is_full.lock().unwrap() = true;
-    desk.key(CTRL, Key::S);
-    desk.wait(|app| {
-        app.notices
-            .iter()
-            .any(|notice| notice.contains("disk is full"))
-    });
-    assert!(desk.document().is_changed());
-    *desk.table.is_full.lock().unwrap() = false;
-    desk.key(CTRL, Key::S);
-    desk.wait(|app| app.notices.iter().any(|notice| notice.contains("is saved")));
-    assert!(!desk.document().is_changed());
-    let saved = desk.table.files.lock().unwrap()[std::path::Path::new("site.arrow")].clone();
-    let ids: Vec<&str> = saved.paths.iter().map(|path| path.id()).collect();
-    assert_eq!(ids, ["lane 0", "lane 2", "lane 3"]);
-}
-
-#[test]
-fn a_picture_of_any_size_is_written_and_can_be_stopped() {
-    let mut desk = Desk::looking_at(lanes(4));
-    let export = |desk: &mut Desk, width_px| {
-        desk.key(CTRL, Key::E);
-        let prompt = desk.app().prompt.as_mut().unwrap();
-        (prompt.text, prompt.width_px) = ("large.png".into(), width_px);
-        desk.key(NONE, Key::Enter);
-    };
-    let said = |app: &crate::App, text: &str| app.notices.iter().any(|n| n.contains(text));
-    *desk.table.is_slow.lock().unwrap() = true;
-    export(&mut desk, 40_000);
-    desk.wait(|app| app.writing().is_some_and(|job| job.fraction().is_some()));
-    desk.harness.get_by_label("Cancel").click();
-    desk.wait(|app| said(app, "large.png was cancelled"));
-    assert!(desk.table.pictures.lock().unwrap().is_empty());
-    *desk.table.is_slow.lock().unwrap() = false;
-    export(&mut desk, 40_000);
-    desk.wait(|app| said(app, "large.png is written, 40000 x"));
-    let size = desk.table.pictures.lock().unwrap()[0].1;
-    let seen = desk.app().camera.view().unwrap().size();
-    let as_tall = f64::from(seen.height()) / f64::from(seen.width());
-    assert!((f64::from(size.height()) - 40_000.0 * as_tall).abs() <= 0.5);
-}
-
-#[test]
-fn a_file_is_measured_by_moving_it_about_and_stays_as_it_is() {
-    let table = Table::with([("site.arrow", lanes(300))]);
-    let host: Arc<dyn Host> = table.clone();
-    let movements = crate::measure(host, "site.arrow".into(), Some("cpu".into())).unwrap();
-    let names: Vec<_> = movements.iter().map(|m| m.name).collect();
-    assert_eq!(
-        names,
-        ["still", "pan", "zoom", "drag a hundredth", "drag all"]
-    );
-    for movement in &movements {
-        assert!(movement.frames_ms.len() == 120 && movement.frames_ms.iter().all(|ms| *ms > 0.0));
-        let is_still = movement.name == "still";
-        assert_eq!(
-            movement.pictures_ms.is_empty(),
-            is_still,
-            "{}",
-            movement.name
-        );
-    }
-    let host: Arc<dyn Host> = table;
-    let missing = crate::measure(host, "no.arrow".into(), None).unwrap_err();
-    assert!(missing.message.contains("no such file"), "{missing}");
-}
-
-#[test]
-fn edits_that_take_longer_than_a_frame_are_done_beside_the_window_in_order() {
-    let mut desk = Desk::looking_at(lanes(200));
-    desk.app().patience = Duration::ZERO;
-    let mut was_busy = false;
-    for _ in 0..20 {
-        desk.app().change(Document::select_all);
-        desk.app().edit(Document::delete_selection);
-        desk.app()
-            .edit(|document: &mut Document| document.undo().map(drop).ok_or("nothing"));
-        was_busy |= desk.app().layers[0].is_busy();
-        // Nothing that is asked of it meanwhile does harm.
-        for key in [Key::F, Key::H, Key::Escape, Key::Plus] {
-            desk.key(NONE, key);
-        }
-        desk.app().edit(|_: &mut Document| Err("it cannot be done"));
-        desk.wait(|app| !app.layers[0].is_busy());
-        desk.app().change(Document::show_all);
-        desk.wait(|app| !app.layers[0].is_busy());
-        assert!(desk.app().notices.iter().any(|n| n == "it cannot be done"));
-        desk.app().notices.clear();
-        let document = desk.document();
-        assert_eq!(document.scene().draw_order().len(), 200);
-        assert_eq!(document.steps(), (None, Some("delete")));
-        assert!(!document.is_changed());
-    }
-    assert!(was_busy);
-    desk.wait(|app| {
-        app.layers[0]
-            .shown
-            .as_ref()
-            .is_some_and(|s| s.report.hidden == 0)
-    });
-}
-
-#[test]
-fn a_file_that_was_open_lately_is_opened_by_its_digit() {
-    let folder = tempfile::tempdir().unwrap();
-    let [a, b, gone] = ["a.arrow", "b.arrow", "gone.arrow"].map(|name| folder.path().join(name));
-    for file in [&a, &b] {
-        std::fs::write(file, "").unwrap();
-    }
-    let table = Table::with([]);
-    *table.state.lock().unwrap() = Some(folder.path().join("state"));
-    for file in [&a, &b, &gone] {
-        table.files.lock().unwrap().insert(file.clone(), lanes(3));
-    }
-    let files = [&a, &gone, &b].map(|file| file.to_str().unwrap());
-    let mut desk = Desk::with(&table, &files, Some("cpu"));
-    desk.wait(|app| app.layers.iter().all(|layer| layer.document.is_some()));
-    drop(desk);
-    let mut desk = Desk::with(&table, &[], Some("cpu"));
-    desk.wait(|app| app.recent.files().len() == 3);
-    let order = desk.app().recent.files();
-    let there = order.iter().position(|(file, _)| *file == a).unwrap();
-    let missing = order.iter().position(|(file, _)| *file == gone).unwrap();
-    let digits = [Key::Num1, Key::Num2, Key::Num3];
-    desk.key(CTRL.plus(Modifiers::SHIFT), Key::O);
-    desk.key(NONE, digits[missing]);
-    assert!(desk.app().choosing.is_some() && desk.app().layers.is_empty());
-    desk.key(NONE, digits[there]);
-    assert!(desk.app().choosing.is_none() && desk.app().layers[0].is_at(&a));
-    desk.wait(|app| app.layers[0].document.is_some());
-    assert_eq!(desk.app().recent.files()[0].0, a, "it is the newest now");
-}
-
-#[test]
 fn both_paths_of_a_pair_are_reached_by_clicks() {
     let mut layout = lanes(3);
     let mut runs = guideway_spline::Runs::default();
@@ -421,33 +280,6 @@ fn both_paths_of_a_pair_are_reached_by_clicks() {
         desk.click(other);
         assert_eq!(desk.selected(), [2], "it is no pair");
     }
-}
-
-#[test]
-fn swept_areas_are_those_of_the_selection_or_of_all() {
-    let mut desk = Desk::looking_at(lanes(4));
-    let of = |rows: &'static [u32]| {
-        move |app: &crate::App, table: &Table| {
-            let drawn = table.swept.lock().unwrap();
-            app.swept.picture.is_some() && *drawn == rows
-        }
-    };
-    let table = Arc::clone(&desk.table);
-    desk.key(NONE, Key::E);
-    desk.wait(|app| of(&[0, 1, 2, 3])(app, &table));
-    let at = desk.at(5.0, 2.0);
-    desk.click(at);
-    desk.wait(|app| of(&[1])(app, &table));
-    desk.app().swept.vehicle = "a lorry".into();
-    desk.wait(|app| {
-        app.swept
-            .trouble
-            .as_ref()
-            .is_some_and(|t| t.contains("no vehicle"))
-    });
-    assert!(desk.app().swept.picture.is_none());
-    desk.key(NONE, Key::E);
-    assert_eq!(desk.app().swept.trouble, None);
 }
 
 /// What drew the picture of the first file.
@@ -490,15 +322,6 @@ fn a_device_that_is_lost_is_replaced_by_the_processor_for_all_files() {
 }
 
 #[test]
-fn one_bad_file_does_not_keep_others_from_opening() {
-    let table = Table::with([("b.arrow", lanes(3))]);
-    let mut desk = Desk::with(&table, &["a.arrow", "b.arrow"], Some("cpu"));
-    desk.wait(|app| app.layers[0].trouble.is_some() && app.layers[1].shown.is_some());
-    let trouble = desk.app().layers[0].trouble.clone().unwrap();
-    assert!(trouble.contains("no such file"), "{trouble}");
-}
-
-#[test]
 fn what_is_hidden_and_how_it_looks_is_redrawn() {
     let mut desk = Desk::looking_at(lanes(6));
     let at = desk.at(5.0, 2.0);
@@ -524,20 +347,6 @@ fn what_is_hidden_and_how_it_looks_is_redrawn() {
             .is_some_and(|document| document.scene().legend().is_some())
     });
     desk.wait(|app| drawn(app, 6));
-}
-
-#[test]
-fn unsaved_changes_are_asked_about() {
-    let mut desk = Desk::looking_at(lanes(3));
-    desk.key(CTRL, Key::A);
-    desk.key(NONE, Key::Delete);
-    desk.key(CTRL, Key::W);
-    assert_eq!(desk.app().layers.len(), 1, "it stays open");
-    desk.key(CTRL, Key::Q);
-    assert!(desk.harness.query_by_label("Quit without saving").is_some());
-    desk.harness.get_by_label("Stay").click();
-    desk.harness.run_steps(3);
-    assert!(desk.harness.query_by_label("Quit without saving").is_none());
 }
 
 #[test]

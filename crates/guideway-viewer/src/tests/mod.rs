@@ -1,5 +1,6 @@
 //! The viewer driven as a person drives it, by mouse and keys, without a window.
 
+mod beside;
 mod content;
 mod desk;
 mod hand;
