@@ -51,6 +51,8 @@ impl Desk {
             .args(files)
             .env("DISPLAY", &display)
             .env_remove("WAYLAND_DISPLAY")
+            // The recent files of whoever runs the tests stay as they are.
+            .env("XDG_STATE_HOME", files[0].with_file_name("state"))
             .spawn()
             .expect("the command starts");
         let desk = Self {
