@@ -92,7 +92,7 @@ fn emit_all(thread: u32, offset_m: vec2f, first_slot: u32) {
         }
         let it = planned[stroke];
         let curve = Curve(it.first_point, offset_m);
-        let part = part_of(curve, it.plan.ends, it.plan.lines + line - line_ends[stroke]);
+        let part = part_of(curve, it.plan, it.plan.lines + line - line_ends[stroke]);
         let a = joint_px(curve, part, part.step);
         let b = joint_px(curve, part, part.step + 1u);
         emit(first_slot + line, it.rank, a, b, radius_of(it.rank));
@@ -149,7 +149,7 @@ fn main(
         }
         workgroupBarrier();
         let curve = Curve(cluster.first_point + first_point_of(stroke), offset_m(cluster));
-        var plan = Plan(0u, 0u);
+        var plan = Plan(0u, 0u, 0u);
         if is_here && thread < cluster.strokes {
             let segments = segments_of(stroke);
             let radius = radius_of(stroke.rank);

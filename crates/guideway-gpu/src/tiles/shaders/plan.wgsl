@@ -4,16 +4,23 @@
 struct Plan {
     ends: u32,
     lines: u32,
+    // How many lines each of the first pieces has, in a few bits each: MANY if it has more.
+    steps: u32,
 }
+
+const STEPS_BITS: u32 = 4u;
+const MANY: u32 = (1u << STEPS_BITS) - 1u;
 
 fn with_piece(plan: Plan, last: u32, segments: u32, square_bend: f32) -> Plan {
     let lines = select(1u, steps_of(square_bend), segments == 1u);
-    return Plan(plan.ends | (1u << last), plan.lines + lines);
+    let bit = countOneBits(plan.ends) * STEPS_BITS;
+    let steps = select(0u, min(lines, MANY) << (bit & 31u), bit < 32u);
+    return Plan(plan.ends | (1u << last), plan.lines + lines, plan.steps | steps);
 }
 
 // Pieces as long as one line may stand for; a segment that bends more is a piece of its own, and cut.
 fn plan_of(curve: Curve, segments: u32) -> Plan {
-    var plan = Plan(0u, 0u);
+    var plan = Plan(0u, 0u, 0u);
     var before = square_bend(curve, 0u);
     var piece = 0u;
     var worst = before;
@@ -39,17 +46,27 @@ struct Part {
     steps: u32,
 }
 
+// How many lines a piece has that its plan does not tell.
+fn steps_of_piece(curve: Curve, first: u32, segments: u32) -> u32 {
+    if segments > 1u {
+        return 1u;
+    }
+    return steps_of(max(square_bend(curve, first), square_bend(curve, first + 1u)));
+}
+
 // The line of that number.
-fn part_of(curve: Curve, ends: u32, number: u32) -> Part {
+fn part_of(curve: Curve, plan: Plan, number: u32) -> Part {
     var part = Part(0u, 0u, number, 0u);
+    var told = plan.steps;
     loop {
-        part.segments = firstTrailingBit(ends >> part.first) + 1u;
-        part.steps = 1u;
-        if part.segments == 1u {
-            part.steps = steps_of(max(square_bend(curve, part.first), square_bend(curve, part.first + 1u)));
+        part.segments = firstTrailingBit(plan.ends >> part.first) + 1u;
+        part.steps = told & MANY;
+        told = told >> STEPS_BITS;
+        if part.steps == 0u || part.steps == MANY {
+            part.steps = steps_of_piece(curve, part.first, part.segments);
         }
         // The last piece has what is left.
-        let rest = (ends >> (part.first + part.segments - 1u)) >> 1u;
+        let rest = (plan.ends >> (part.first + part.segments - 1u)) >> 1u;
         if part.step < part.steps || rest == 0u {
             break;
         }
