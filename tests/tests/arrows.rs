@@ -86,7 +86,10 @@ const KEPT_TO: &[(&str, &str)] = &[
     ("roxmltree", "guideway-formats"),
     ("saphyr-parser", "guideway-formats"),
     ("svgtypes", "guideway-formats"),
-    ("serde_json", "guideway-formats guideway guideway-tests"),
+    (
+        "serde_json",
+        "guideway-formats guideway-envelope guideway guideway-tests",
+    ),
     ("clap", "guideway"),
     ("indicatif", "guideway"),
     ("png", "guideway guideway-bench guideway-tests"),
