@@ -51,6 +51,7 @@ impl<'d, 't> Plant<'_, 'd, 't> {
         }
         Some(ring)
     }
+
     /// A corner in metres; says so if it cannot be one, and the envelope is left out.
     fn corner(&mut self, vertex: Node<'d, 't>) -> Option<[f64; 2]> {
         for key in ["x", "y"] {
