@@ -63,6 +63,16 @@ impl Stage {
             clock: Clock::Device,
         }
     }
+
+    /// Adds stages to those of the same name.
+    pub fn merge(stages: &mut Vec<Self>, more: impl IntoIterator<Item = Self>) {
+        for stage in more {
+            match stages.iter_mut().find(|s| s.name == stage.name) {
+                Some(same) => same.elapsed_ms += stage.elapsed_ms,
+                None => stages.push(stage),
+            }
+        }
+    }
 }
 
 /// Milliseconds since then, by the processor's clock.
@@ -134,12 +144,7 @@ impl Report {
     pub fn join(&mut self, other: Self) {
         self.drawn += other.drawn;
         self.culled = self.culled.saturating_sub(other.drawn);
-        for stage in other.stages {
-            match self.stages.iter_mut().find(|s| s.name == stage.name) {
-                Some(same) => same.elapsed_ms += stage.elapsed_ms,
-                None => self.stages.push(stage),
-            }
-        }
+        Stage::merge(&mut self.stages, other.stages);
         self.lines += other.lines;
         self.peak_bytes = self.peak_bytes.max(other.peak_bytes);
         self.bands += other.bands;

@@ -71,11 +71,7 @@ impl Buffers {
     pub(super) fn time<R>(&mut self, name: &'static str, work: impl FnOnce(&mut Self) -> R) -> R {
         let start = Instant::now();
         let result = work(self);
-        let elapsed_ms = elapsed_ms(start);
-        match self.stages.iter_mut().find(|s| s.name == name) {
-            Some(stage) => stage.elapsed_ms += elapsed_ms,
-            None => self.stages.push(Stage::host(name, elapsed_ms)),
-        }
+        Stage::merge(&mut self.stages, [Stage::host(name, elapsed_ms(start))]);
         result
     }
 

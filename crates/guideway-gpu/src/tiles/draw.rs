@@ -69,16 +69,6 @@ fn too_long(found: &Found) -> RenderError {
     }
 }
 
-/// Adds stages to those of the same name.
-pub(super) fn merge(stages: &mut Vec<Stage>, more: Vec<Stage>) {
-    for stage in more {
-        match stages.iter_mut().find(|s| s.name == stage.name) {
-            Some(same) => same.elapsed_ms += stage.elapsed_ms,
-            None => stages.push(stage),
-        }
-    }
-}
-
 impl PreparedTiles {
     /// Has buffers for pictures of this size, and room for the lines of so many strokes at first.
     pub(super) fn make_ready(&mut self, view: &View, strokes: u32) -> Result<(), RenderError> {
@@ -131,7 +121,7 @@ impl PreparedTiles {
         let set = self.runner.set("the view", &canvas.frame, &params);
         set.map_err(trouble)?;
         let run = bound.run(&buffers, &params, &self.runner);
-        merge(stages, run.map_err(trouble)?);
+        Stage::merge(stages, run.map_err(trouble)?);
         let mut found = Found::default();
         let fetched = self.runner.fetch(
             "the counters",
@@ -222,7 +212,7 @@ impl PreparedTiles {
             .fetch(what, &canvas.pixels, &canvas.fetched, bytes, take);
         fetched.map_err(|what| self.memory.trouble(what))?;
         let read = Stage::host(Stage::READ_BACK, elapsed_ms(start));
-        merge(stages, vec![read]);
+        Stage::merge(stages, [read]);
         Ok(())
     }
 

@@ -5,7 +5,6 @@ use wgpu::BufferUsages;
 
 use super::bound::Bound;
 use super::canvas::Canvas;
-use super::draw::merge;
 use super::params::{ShiftParams, TILE_PX, WORKGROUP};
 use super::prepared::PreparedTiles;
 use super::shot::Shot;
@@ -165,7 +164,7 @@ impl PreparedTiles {
                 .run_stages("the frame", &[], &[("move", &[dispatch])])
         };
         let run: Result<_, String> = run();
-        merge(stages, run.map_err(|what| self.memory.trouble(what))?);
+        Stage::merge(stages, run.map_err(|what| self.memory.trouble(what))?);
         Ok(Some(moved))
     }
 }
