@@ -16,6 +16,7 @@ mod lanelet2;
 pub mod lif;
 mod load;
 mod losses;
+mod node_rows;
 mod opendrive;
 mod opentcs;
 mod read;

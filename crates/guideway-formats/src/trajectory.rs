@@ -62,11 +62,6 @@ impl Builder<'_> {
     }
 
     fn control(&mut self, trajectory: &Trajectory, at: At<'_>) -> Result<Control, ReadError> {
-        let mut control = Control {
-            points: Vec::new(),
-            weights: Vec::new(),
-            whole: true,
-        };
         self.check_list(&trajectory.points, at, "controlPoints");
         if trajectory.points.get().is_none() {
             self.report_missing(&|| within(at, "controlPoints"), "a list of control points");
@@ -74,6 +69,11 @@ impl Builder<'_> {
         let knots = trajectory.knots.get().map_or(0, Vec::len);
         let points = trajectory.points.get().map_or(0, Vec::len);
         self.check_curve_points(points.max(knots))?;
+        let mut control = Control {
+            points: Vec::with_capacity(points),
+            weights: Vec::with_capacity(points),
+            whole: true,
+        };
         for (i, field) in items(&trajectory.points) {
             let at_point: At<'_> = &|| within(at, &format!("controlPoints[{i}]"));
             let point = self.record(field, at_point).and_then(|p| {

@@ -100,7 +100,7 @@ fn push_exact(curve: &Nurbs, span: usize, out: &mut Runs) {
         out.push_segment(own);
         return;
     }
-    let b = bezier_of_span(curve, span, Point::new(0.0, 0.0)).map(|c| c.point);
+    let b = bezier_of_span::<4>(curve, span, Point::new(0.0, 0.0)).map(|c| c.point);
     match degree {
         1 => out.push_line(b[0], b[1]),
         2 => out.push_quadratic(&[b[0], b[1], b[2]]),
@@ -137,18 +137,23 @@ impl Coefficient {
     }
 }
 
+/// Of a curve of any degree p, in the first p + 1 places.
 type Coefficients = [Coefficient; MAX_DEGREE + 1];
 
-/// The span [a, b] as a Bezier curve, points relative to `origin`, in the first p + 1 places.
+/// The span [a, b] as a Bezier curve, points relative to `origin`, in the first p + 1 of N places.
 ///
 /// Coefficient j is the blossom (polar form) of the span at p - j times a and j times b: what Boehm's
 /// knot insertion arrives at when a and b are p-fold (Ramshaw 1989; The NURBS Book, 5.2). Every step
 /// is a convex combination, so rounding does not grow.
-fn bezier_of_span(curve: &Nurbs, span: usize, origin: Point<f64>) -> Coefficients {
+fn bezier_of_span<const N: usize>(
+    curve: &Nurbs,
+    span: usize,
+    origin: Point<f64>,
+) -> [Coefficient; N] {
     let (p, knots) = (curve.degree(), curve.knots());
     let (a, b) = (knots[span], knots[span + 1]);
     let weights = curve.weights().filter(|_| curve.is_rational());
-    let mut control = Coefficients::default();
+    let mut control = [Coefficient::default(); N];
     for (c, i) in control.iter_mut().zip(span - p..=span) {
         let weight = weights.map_or(1.0, |w| w[i]);
         *c = Coefficient {
@@ -156,7 +161,7 @@ fn bezier_of_span(curve: &Nurbs, span: usize, origin: Point<f64>) -> Coefficient
             weight,
         };
     }
-    let mut bezier = Coefficients::default();
+    let mut bezier = [Coefficient::default(); N];
     for (j, out) in bezier.iter_mut().enumerate().take(p + 1) {
         let mut d = control;
         for r in 1..=p {

@@ -39,7 +39,7 @@ impl<'b> Pair<'b> {
         let real = match self.value {
             Value::Real(real) => real,
             Value::Whole(whole) => whole as f64,
-            Value::Text(text) => std::str::from_utf8(text).ok()?.trim().parse().ok()?,
+            Value::Text(text) => std::str::from_utf8(text.trim_ascii()).ok()?.parse().ok()?,
         };
         real.is_finite().then_some(real)
     }
@@ -120,10 +120,7 @@ impl<'b> Pairs<'b> {
         let Some(code) = self.text_line() else {
             return Ok(None);
         };
-        let number = std::str::from_utf8(code)
-            .ok()
-            .and_then(|c| c.trim().parse().ok());
-        let Some(code) = number else {
+        let Some(code) = group_code(code.trim_ascii()) else {
             if self.at >= self.bytes.len() {
                 return Ok(None);
             }
@@ -213,6 +210,23 @@ impl<'b> Pairs<'b> {
         self.at += length + 1;
         Some(&rest[..length])
     }
+}
+
+/// The number that a line is: at most four digits in sound files, and a sign.
+fn group_code(line: &[u8]) -> Option<i32> {
+    let (sign, digits) = match line {
+        [b'-', digits @ ..] => (-1, digits),
+        [b'+', digits @ ..] => (1, digits),
+        digits => (1, digits),
+    };
+    if digits.is_empty() || digits.len() > 9 {
+        return None;
+    }
+    let add = |number: i32, &byte: &u8| {
+        let digit = byte.is_ascii_digit().then(|| i32::from(byte - b'0'))?;
+        Some(number * 10 + digit)
+    };
+    digits.iter().try_fold(0, add).map(|number| sign * number)
 }
 
 /// How the value of a group code is stored in a binary file.

@@ -1,6 +1,6 @@
 //! From the features of a file to a layout: nodes, paths and their columns.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashSet;
 
 use guideway_layout::{Code, Layout, Place};
 use guideway_spline::Bounds;
@@ -11,6 +11,7 @@ use super::unit::Unit;
 use crate::ReadError;
 use crate::builder::{At, Builder, Table};
 use crate::json::{Field, within};
+use crate::node_rows::NodeRows;
 use crate::source::Source;
 
 /// Most columns of one table; a file could else make columns without end.
@@ -22,7 +23,7 @@ pub(super) struct Mapper<'a> {
     pub(super) unit: Unit,
     /// Whether it is a route graph of Nav2, and the nodes of it.
     pub(super) is_graph: bool,
-    pub(super) nodes: HashMap<String, u32>,
+    pub(super) nodes: NodeRows,
     /// How many geometries there are of each type, and how many positions in lines.
     pub(super) counts: Vec<(String, u64)>,
     pub(super) line_vertices: u64,
@@ -36,7 +37,7 @@ impl<'a> Mapper<'a> {
             builder: Builder::new(source, file_bytes),
             unit: Unit::Metres,
             is_graph: false,
-            nodes: HashMap::new(),
+            nodes: NodeRows::default(),
             counts: Vec::new(),
             line_vertices: 0,
             heights: 0,

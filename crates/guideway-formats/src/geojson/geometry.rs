@@ -157,8 +157,8 @@ impl Mapper<'_> {
                     .builder
                     .push_node(&format!("{id} [{}]", i + 1), position, None)?,
             };
-            if self.is_graph && !self.nodes.contains_key(id) {
-                self.nodes.insert(id.to_owned(), row);
+            if self.is_graph {
+                self.nodes.insert(&self.builder.layout.nodes, row);
             }
             self.set_properties(Table::Nodes, row as usize, properties, at)?;
         }
@@ -226,7 +226,7 @@ impl Mapper<'_> {
         };
         let name = value.to_string();
         self.builder.check_text(&name)?;
-        let row = self.nodes.get(&name).copied();
+        let row = self.nodes.get(&self.builder.layout.nodes, &name);
         if row.is_none() {
             self.builder.report_unknown_node(&name, key, at);
         }

@@ -176,8 +176,10 @@ impl Builder<'_> {
 }
 
 /// The items of a list; none if it is not a list.
-pub(crate) fn items<T>(list: &Field<Vec<Field<T>>>) -> impl Iterator<Item = (usize, &Field<T>)> {
-    list.get().into_iter().flatten().enumerate()
+pub(crate) fn items<T>(
+    list: &Field<Vec<Field<T>>>,
+) -> impl ExactSizeIterator<Item = (usize, &Field<T>)> {
+    list.get().map_or(&[][..], Vec::as_slice).iter().enumerate()
 }
 
 /// The place of a field of an object.

@@ -7,6 +7,7 @@ mod attributes;
 mod check;
 mod field;
 mod later;
+mod limits;
 mod lines;
 mod record;
 
@@ -20,7 +21,7 @@ pub(crate) use self::record::record;
 use serde::Deserialize;
 
 use crate::source::Source;
-use crate::text::{Tally, position, printable};
+use crate::text::{position, printable};
 use crate::{Problem, ReadError};
 
 /// Parses a whole text as one value.
@@ -28,34 +29,13 @@ pub(crate) fn parse<'t, T: FromJson<'t>>(
     source: &Source<'_>,
     text: &'t str,
 ) -> Result<Field<T>, ReadError> {
-    check_limits(source, text).map_err(|p| source.fail(p))?;
+    limits::check(text, &source.options.limits).map_err(|p| source.fail(p))?;
     source.check_cancelled()?;
     let mut parser = serde_json::Deserializer::from_str(text);
     let value = Field::deserialize(&mut parser);
     value
         .and_then(|value| parser.end().map(|()| value))
         .map_err(|error| source.fail(problem(&error, text, 0)))
-}
-
-fn check_limits(source: &Source<'_>, text: &str) -> Result<(), Problem> {
-    let mut tally = Tally::new(text, &source.options.limits);
-    let (mut in_text, mut escaped) = (false, false);
-    for (at, byte) in text.bytes().enumerate() {
-        match byte {
-            _ if escaped => escaped = false,
-            b'\\' if in_text => escaped = true,
-            b'"' => in_text = !in_text,
-            _ if in_text => {}
-            b'{' | b'[' => {
-                tally.count()?;
-                tally.enter(at)?;
-            }
-            b',' => tally.count()?,
-            b'}' | b']' => tally.leave(),
-            _ => {}
-        }
-    }
-    Ok(())
 }
 
 /// What is wrong with a text, of which the part from byte `at` on was parsed.

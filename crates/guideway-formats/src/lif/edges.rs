@@ -1,8 +1,9 @@
 //! From an edge to paths: one for each distinct curve, for vehicle types may have their own.
 
+use std::borrow::Cow;
 use std::collections::HashMap;
 
-use guideway_layout::{Code, NewPath, Place};
+use guideway_layout::{Code, NewPath};
 use guideway_spline::{Point, Runs};
 
 use super::map::Mapper;
@@ -15,7 +16,8 @@ use crate::trajectory::Trajectory;
 /// A curve of an edge, with the vehicle types that follow it. None is the straight line.
 struct Curve<'r, 'a> {
     trajectory: Option<&'r Trajectory>,
-    place: Place,
+    /// The list and the number of its first entry there; none if the edge has no entry.
+    entry: Option<(&'static str, usize)>,
     types: Vec<String>,
     properties: Vec<&'r EdgeProperties<'a>>,
 }
@@ -49,18 +51,22 @@ impl Mapper<'_> {
         let one = curves.len() == 1;
         for (i, curve) in curves.iter().enumerate() {
             let name = match (one, curve.types.as_slice()) {
-                (true, _) => id.to_string(),
-                (false, []) => format!("{id} [{}]", i + 1),
-                (false, types) => format!("{id} [{}]", types.join(", ")),
+                (true, _) => Cow::Borrowed(id.as_ref()),
+                (false, []) => format!("{id} [{}]", i + 1).into(),
+                (false, types) => format!("{id} [{}]", types.join(", ")).into(),
             };
-            self.map_curve(&name, curve, [&start, &end], level)?;
+            let at_curve: At<'_> = &|| match curve.entry {
+                Some((key, i)) => within(at, &format!("{key}[{i}]")),
+                None => at(),
+            };
+            self.map_curve(&name, curve, [&start, &end], level, at_curve)?;
         }
         Ok(())
     }
 
     fn end<'r>(
         &mut self,
-        field: &'r Field<std::borrow::Cow<'_, str>>,
+        field: &'r Field<Cow<'_, str>>,
         edge: &str,
         level: u32,
         at: At<'_>,
@@ -94,6 +100,11 @@ impl Mapper<'_> {
             ("vehicleTypeEdgeProperties", &edge.types_1),
             ("mobileRobotTypeEdgeProperties", &edge.types_2),
         ];
+        let is_alone = lists
+            .iter()
+            .map(|(_, list)| items(list).len())
+            .sum::<usize>()
+            < 2;
         for (key, list) in lists {
             self.builder.check_list(list, at, key);
             for (i, field) in items(list) {
@@ -111,11 +122,14 @@ impl Mapper<'_> {
                 if trajectory.is_some() {
                     self.count_trajectory();
                 }
-                let index = *known.entry(bits(trajectory)).or_insert(curves.len());
+                let index = match is_alone {
+                    true => 0,
+                    false => *known.entry(bits(trajectory)).or_insert(curves.len()),
+                };
                 if index == curves.len() {
                     curves.push(Curve {
                         trajectory,
-                        place: at_entry(),
+                        entry: Some((key, i)),
                         types: Vec::new(),
                         properties: Vec::new(),
                     });
@@ -129,7 +143,7 @@ impl Mapper<'_> {
                 .report_missing(&|| within(at, lists[0].0), "an entry for a vehicle type");
             curves.push(Curve {
                 trajectory: None,
-                place: at(),
+                entry: None,
                 types: Vec::new(),
                 properties: Vec::new(),
             });
@@ -143,8 +157,8 @@ impl Mapper<'_> {
         curve: &Curve<'_, '_>,
         ends: [&End<'_>; 2],
         level: u32,
+        at: At<'_>,
     ) -> Result<(), ReadError> {
-        let at: At<'_> = &|| curve.place.clone();
         let [start, end] = ends;
         if start.row.is_some() && end.row.is_some() && start.level != end.level {
             let detail = self.between_levels(start, end);

@@ -10,13 +10,14 @@ use super::model::{self, Node, Position, RobotType, Root, Station};
 use crate::ReadError;
 use crate::builder::{At, Builder, Table};
 use crate::json::{Field, items, within};
+use crate::node_rows::NodeRows;
 use crate::source::Source;
 
 /// Fills a layout from the records of a file.
 pub(super) struct Mapper<'a> {
     pub(super) builder: Builder<'a>,
     /// The first node of each id.
-    nodes: HashMap<String, u32>,
+    nodes: NodeRows,
     /// Nodes of later layouts whose ids were used before.
     repeated_nodes: HashMap<(u32, String), u32>,
     levels: HashSet<String>,
@@ -43,7 +44,7 @@ impl<'a> Mapper<'a> {
     pub(super) fn new(source: Source<'a>, file_bytes: usize) -> Self {
         Self {
             builder: Builder::new(source, file_bytes),
-            nodes: HashMap::new(),
+            nodes: NodeRows::default(),
             repeated_nodes: HashMap::new(),
             levels: HashSet::new(),
             vehicle_types: HashSet::new(),
@@ -199,11 +200,10 @@ impl<'a> Mapper<'a> {
             return Ok(());
         };
         let row = self.builder.push_node(&id, position, Some(level))?;
-        let first = self.nodes.get(id.as_ref()).copied();
-        match first.map(|row| self.builder.layout.nodes.level(row)) {
-            None => {
-                self.nodes.insert(id.into_owned(), row);
-            }
+        let nodes = &self.builder.layout.nodes;
+        let first = self.nodes.get(nodes, &id);
+        match first.map(|row| nodes.level(row)) {
+            None => self.nodes.insert(nodes, row),
             Some(Some(other)) if other != level => {
                 let key = (level, id.into_owned());
                 self.repeated_nodes.entry(key).or_insert(row);
@@ -224,7 +224,8 @@ impl<'a> Mapper<'a> {
         } else {
             self.repeated_nodes.get(&(level, id.to_owned()))
         };
-        own.or_else(|| self.nodes.get(id)).copied()
+        own.copied()
+            .or_else(|| self.nodes.get(&self.builder.layout.nodes, id))
     }
 
     fn map_station(

@@ -75,15 +75,15 @@ impl Mapper<'_> {
         at: At<'_>,
     ) -> Result<End, ReadError> {
         let name = self.builder.text(field, at)?;
+        let row_of = |name| self.nodes.get(&self.builder.layout.nodes, name);
         let (name, row) = match (name, sequence) {
-            (Some(name), _) => (format!("`{name}`"), self.nodes.get(name)),
+            (Some(name), _) => (format!("`{name}`"), row_of(name)),
             (None, Some(number)) => {
-                let row = self.sequence.get(&number);
+                let row = self.sequence.get(&number).copied();
                 (format!("with sequenceId {number}"), row)
             }
             (None, None) => (String::new(), None),
         };
-        let row = row.copied();
         match (row, name.is_empty()) {
             (Some(_), _) => {}
             (None, true) => self.builder.report_missing(at, "the name of a node"),

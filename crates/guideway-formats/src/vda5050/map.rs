@@ -8,13 +8,14 @@ use super::model::{Node, Position, Root};
 use crate::ReadError;
 use crate::builder::{At, Builder, Table};
 use crate::json::{Field, items, within};
+use crate::node_rows::NodeRows;
 use crate::source::Source;
 
 /// Fills a layout from the records of an order.
 pub(super) struct Mapper<'a> {
     pub(super) builder: Builder<'a>,
     /// The rows of nodes by name. An order may pass a node more than once.
-    pub(super) nodes: HashMap<String, u32>,
+    pub(super) nodes: NodeRows,
     /// The rows of nodes by their place in the order.
     pub(super) sequence: HashMap<u64, u32>,
     /// Each map is a level.
@@ -25,7 +26,7 @@ impl<'a> Mapper<'a> {
     pub(super) fn new(source: Source<'a>, file_bytes: usize) -> Self {
         Self {
             builder: Builder::new(source, file_bytes),
-            nodes: HashMap::new(),
+            nodes: NodeRows::default(),
             sequence: HashMap::new(),
             maps: HashMap::new(),
         }
@@ -99,15 +100,15 @@ impl<'a> Mapper<'a> {
         };
         let level = self.level(position, at_position)?;
         let sequence = self.sequence(&node.sequence, at);
-        let known = self.nodes.get(id.as_ref()).copied();
         let nodes = &self.builder.layout.nodes;
+        let known = self.nodes.get(nodes, &id);
         if let Some(row) = known.filter(|&row| nodes.position_m(row) == point) {
             // The order comes by again.
             self.sequence.extend(sequence.map(|number| (number, row)));
             return Ok(());
         }
         let row = self.builder.push_node(&id, point, level)?;
-        self.nodes.entry(id.into_owned()).or_insert(row);
+        self.nodes.insert(&self.builder.layout.nodes, row);
         self.sequence.extend(sequence.map(|number| (number, row)));
         let row = row as usize;
         self.set_sequence(Table::Nodes, row, sequence)?;
