@@ -132,7 +132,8 @@ impl Story {
         let mut undo = Vec::new();
         for (what, kind) in (0..rounds).flat_map(|_| KINDS) {
             let edit = kind(&scene, &area, &mut lcg);
-            let back = scene.undo_of(&edit).expect("an edit that can be done");
+            let back = scene.clone().edit_and_tell(&edit, |_| {});
+            let back = back.expect("an edit that can be done");
             undo.push((format!("no longer {what}"), back));
             story.take(what.to_owned(), edit, &mut scene, &mut lcg);
         }

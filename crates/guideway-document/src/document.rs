@@ -5,13 +5,14 @@ use guideway_layout::Layout;
 use guideway_scene::{Edit, LineRule, PathState, Scene, SceneError, SceneOptions};
 use guideway_spline::{Bounds, Point};
 
+use crate::audience::Audience;
 use crate::edit::History;
 use crate::{Act, Hit, Index, Rows, pick};
 
 /// A layout that is being looked at and edited: what is shown of it, what is selected, and what was done.
 ///
 /// Rows are those of the scene; see [`Edit`] for what becomes of them.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Document {
     pub(crate) scene: Scene,
     pub(crate) index: Index,
@@ -20,8 +21,7 @@ pub struct Document {
     /// Nodes that are not where the layout of the scene has them.
     pub(crate) moved_nodes: BTreeMap<u32, Point<f64>>,
     pub(crate) history: History,
-    /// Edits of the scene since they were last taken, for a renderer that has a scene of its own.
-    pub(crate) news: Vec<Edit>,
+    pub(crate) audience: Audience,
     /// What was done since it was last taken, for a journal.
     pub(crate) acts: Vec<Act>,
     /// Changes with everything that can be seen.
@@ -57,7 +57,7 @@ impl Document {
             selection: Arc::default(),
             moved_nodes: BTreeMap::new(),
             history: History::default(),
-            news: Vec::new(),
+            audience: Audience::default(),
             acts: Vec::new(),
             revision: 0,
         }
@@ -97,9 +97,10 @@ impl Document {
         stations.position_m(station).or_else(at_node)
     }
 
-    /// Edits of the scene since this was last asked, in order. A renderer that does them shows this scene.
-    pub fn take_news(&mut self) -> Vec<Edit> {
-        std::mem::take(&mut self.news)
+    /// Tells of each edit of the scene from now on, in order, as soon as it is certain and before it is done here. A
+    /// renderer that does them shows this scene.
+    pub fn tell(&mut self, audience: impl Fn(&Edit) + Send + Sync + 'static) {
+        self.audience = Audience::new(audience);
     }
 
     /// What was done since this was last asked, for a journal: see [`replay`](crate::replay).
@@ -235,9 +236,11 @@ impl Document {
         self.revision += 1;
         let states: Arc<[_]> = paths.map(|path| (path, state)).collect();
         let edit = Edit::SetStates(states);
-        // It names rows of the scene itself.
-        if edit.paths().next().is_some() && self.scene.edit(&edit).is_ok() {
-            self.news.push(edit);
+        if edit.paths().next().is_some() {
+            // It names rows of the scene itself.
+            let _ = self
+                .scene
+                .edit_and_tell(&edit, |edit| self.audience.hear(edit));
         }
     }
 

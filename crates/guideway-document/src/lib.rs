@@ -5,6 +5,7 @@
 //! paths by what is known of them; [`measure`] takes lengths and bends, and [`marks`] places what is drawn
 //! over a picture by what a screen can show.
 
+mod audience;
 mod document;
 mod edit;
 mod index;

@@ -11,9 +11,7 @@ impl Layout {
     /// Maps all of it: curves, nodes, stations; widths by the square root of what areas grow by. Columns stay
     /// as they are, whatever they measure.
     pub fn transform(&mut self, by: Affine) {
-        for path in 0..self.paths.len() {
-            self.paths.transform(path, by);
-        }
+        self.paths.transform(0..self.paths.len(), by);
         self.nodes.transform(by);
         self.stations.transform(by);
         if let Some(widths_m) = self.paths.width_m() {

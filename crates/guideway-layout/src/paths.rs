@@ -159,9 +159,9 @@ impl Paths {
         &self.geometry
     }
 
-    /// Maps the curve of a path: see [`Geometry::transform`].
-    pub fn transform(&mut self, path: usize, by: Affine) {
-        self.geometry.transform(path, by);
+    /// Maps the curves of some paths: see [`Geometry::transform`].
+    pub fn transform(&mut self, paths: impl IntoIterator<Item = usize>, by: Affine) {
+        self.geometry.transform(paths, by);
     }
 
     /// Gives paths other curves: see [`Geometry::replace_all`].
@@ -237,9 +237,7 @@ impl Paths {
 
     /// Box of all control points: it holds every curve, for a B-spline lies in its control hull.
     pub fn hull_bounds(&self) -> Option<Bounds<f64>> {
-        self.iter()
-            .filter_map(PathRef::hull_bounds)
-            .reduce(Bounds::union)
+        self.geometry.hull_bounds(0..self.len())
     }
 
     /// Heap bytes held.

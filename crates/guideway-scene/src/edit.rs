@@ -1,11 +1,13 @@
 //! Changes of a scene. Each costs as much as it touches, but for one pass over a number a path where the draw
 //! order changes.
 
+mod check;
+
 use std::fmt;
 use std::sync::Arc;
 
-use guideway_layout::{Direction, Geometry, Layout, NewPath, OwnStyle};
-use guideway_spline::{Affine, Point, Runs};
+use guideway_layout::{Direction, Geometry, NewPath, OwnStyle};
+use guideway_spline::{Affine, Runs};
 
 use crate::scene::Colors;
 use crate::{PathState, Rgba, Scene};
@@ -113,9 +115,6 @@ impl fmt::Display for EditError {
 
 impl std::error::Error for EditError {}
 
-/// Farthest that an edit may put a control point from the origin, in metres.
-const REACH_M: f64 = 1e9;
-
 impl Edit {
     /// Rows of existing paths that it changes.
     pub fn paths(&self) -> impl Iterator<Item = u32> {
@@ -143,42 +142,6 @@ impl Edit {
             }
         }
     }
-
-    fn check(&self, scene: &Scene) -> Result<(), EditError> {
-        let rows = scene.row_count();
-        if let Some(path) = self.paths().find(|&path| path as usize >= rows) {
-            return Err(EditError::UnknownPath { path, rows });
-        }
-        let geometry = scene.layout().paths.geometry();
-        match self {
-            Self::Transform { paths, by } => {
-                if let Some(path) = named_twice(paths) {
-                    return Err(EditError::Twice { path });
-                }
-                let misplaced = paths.iter().find(|&&path| {
-                    let points = geometry.runs(path as usize).flat_map(|run| run.iter());
-                    !is_placed(points.map(|p| by.apply(p)))
-                });
-                misplaced.map_or(Ok(()), |&path| {
-                    Err(EditError::Misplaced { path: Some(path) })
-                })
-            }
-            Self::Reshape { paths, curves } => {
-                if paths.len() != curves.path_count() {
-                    return Err(EditError::Count);
-                }
-                let misplaced = paths.iter().zip(0..).find(|(_, from)| {
-                    let runs = curves.runs(*from);
-                    runs.len() == 0 || !is_placed(runs.flat_map(|run| run.iter()))
-                });
-                misplaced.map_or(Ok(()), |(&path, _)| {
-                    Err(EditError::Misplaced { path: Some(path) })
-                })
-            }
-            Self::Insert(paths) => paths.iter().try_for_each(|path| path.check(scene.layout())),
-            Self::Restyle(_) | Self::SetStates(_) => Ok(()),
-        }
-    }
 }
 
 impl Insertion {
@@ -187,55 +150,43 @@ impl Insertion {
         let types: usize = self.vehicle_types.iter().map(String::capacity).sum();
         self.id.capacity() + points + types
     }
-
-    fn check(&self, layout: &Layout) -> Result<(), EditError> {
-        let mut runs = self.runs.iter().peekable();
-        if runs.peek().is_none() || !is_placed(runs.flatten().copied()) {
-            return Err(EditError::Misplaced { path: None });
-        }
-        let parts = [
-            ("level", self.level, layout.levels.len()),
-            ("node", self.start_node, layout.nodes.len()),
-            ("node", self.end_node, layout.nodes.len()),
-        ];
-        for (what, row, rows) in parts {
-            if let Some(row) = row.filter(|row| *row as usize >= rows) {
-                return Err(EditError::UnknownPart { what, row });
-            }
-        }
-        let rows = layout.paths.len();
-        match self.attributes_of.filter(|path| *path as usize >= rows) {
-            Some(path) => Err(EditError::UnknownPath { path, rows }),
-            None => Ok(()),
-        }
-    }
-}
-
-/// A row that is named more than once; rows in order, as selections have them, are only looked through.
-fn named_twice(rows: &[u32]) -> Option<u32> {
-    if rows.is_sorted_by(|a, b| a < b) {
-        return None;
-    }
-    let mut sorted = rows.to_vec();
-    sorted.sort_unstable();
-    sorted
-        .array_windows()
-        .find(|[a, b]| a == b)
-        .map(|[a, _]| *a)
-}
-
-fn is_placed(mut points: impl Iterator<Item = Point<f64>>) -> bool {
-    points.all(|p| p.x.abs() <= REACH_M && p.y.abs() <= REACH_M)
 }
 
 impl Scene {
-    /// What undoes an edit that is still to be done. Holds as much as the edit changes.
+    /// Changes the scene. The layout is copied first if others hold it.
+    ///
+    /// # Errors
+    /// When the edit names what is not there, or would put a path where none may be; nothing is changed then.
+    pub fn edit(&mut self, edit: &Edit) -> Result<(), EditError> {
+        edit.check(self)?;
+        self.perform(edit);
+        Ok(())
+    }
+
+    /// The same, and returns what undoes it, which holds as much as the edit changes. `tell` is called as soon as
+    /// nothing can keep the edit from being done, before most of the work for it.
     ///
     /// # Errors
     /// As [`Self::edit`].
-    pub fn undo_of(&self, edit: &Edit) -> Result<Edit, EditError> {
+    pub fn edit_and_tell(
+        &mut self,
+        edit: &Edit,
+        tell: impl FnOnce(&Edit),
+    ) -> Result<Edit, EditError> {
         edit.check(self)?;
-        Ok(match edit {
+        if !matches!(edit, Edit::SetStates(_)) {
+            // Whoever is told and held the layout too has it alone then, and need not copy it as well.
+            Arc::make_mut(&mut self.layout);
+        }
+        tell(edit);
+        let undo = self.undo_of(edit);
+        self.perform(edit);
+        Ok(undo)
+    }
+
+    /// What undoes an edit that is still to be done.
+    fn undo_of(&self, edit: &Edit) -> Edit {
+        match edit {
             Edit::Transform { paths, .. } | Edit::Reshape { paths, .. } => {
                 let rows = paths.iter().map(|&path| path as usize);
                 Edit::Reshape {
@@ -261,21 +212,16 @@ impl Scene {
                 let rows = first..first + paths.len() as u32;
                 Edit::SetStates(rows.map(|path| (path, PathState::Removed)).collect())
             }
-        })
+        }
     }
 
-    /// Changes the scene. The layout is copied first if others hold it.
-    ///
-    /// # Errors
-    /// When the edit names what is not there, or would put a path where none may be; nothing is changed then.
-    pub fn edit(&mut self, edit: &Edit) -> Result<(), EditError> {
-        edit.check(self)?;
+    /// Does an edit that can be done.
+    fn perform(&mut self, edit: &Edit) {
         match edit {
             Edit::Transform { paths, by } => {
                 let layout = Arc::make_mut(&mut self.layout);
-                for &path in paths.iter() {
-                    layout.paths.transform(path as usize, *by);
-                }
+                let rows = paths.iter().map(|&path| path as usize);
+                layout.paths.transform(rows, *by);
                 self.forget_bounds();
             }
             Edit::Reshape { paths, curves } => {
@@ -287,7 +233,6 @@ impl Scene {
             Edit::SetStates(states) => self.set_states(states),
             Edit::Insert(paths) => self.insert(paths),
         }
-        Ok(())
     }
 
     fn restyle(&mut self, styles: &[(u32, OwnStyle)]) {

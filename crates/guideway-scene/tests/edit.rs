@@ -75,12 +75,10 @@ fn every_edit_shows_and_is_undone() {
     for edit in edits() {
         let mut scene = scene();
         let (before, bounds) = (look(&scene), scene.bounds());
-        let undo = scene.undo_of(&edit).unwrap();
-        scene.edit(&edit).unwrap();
+        let undo = scene.edit_and_tell(&edit, |_| {}).unwrap();
         let after = look(&scene);
         assert_ne!(before, after, "{edit:?}");
-        let redo = scene.undo_of(&undo).unwrap();
-        scene.edit(&undo).unwrap();
+        let redo = scene.edit_and_tell(&undo, |_| {}).unwrap();
         assert_eq!(look(&scene), before, "{edit:?}");
         assert_eq!(scene.bounds(), bounds);
         scene.edit(&redo).unwrap();
@@ -94,8 +92,7 @@ fn many_edits_are_undone_backwards() {
     let before = look(&scene);
     let mut undo = Vec::new();
     for edit in edits() {
-        undo.push(scene.undo_of(&edit).unwrap());
-        scene.edit(&edit).unwrap();
+        undo.push(scene.edit_and_tell(&edit, |_| {}).unwrap());
     }
     assert_eq!((scene.path_count(), scene.hidden_count()), (5, 1));
     assert_eq!(scene.draw_order(), [1, 3, 4, 5]);
@@ -158,7 +155,9 @@ fn what_cannot_be_is_refused_and_changes_nothing() {
     let mut scene = scene();
     let before = look(&scene);
     for (edit, error) in wrong.iter().zip(expected) {
-        assert_eq!(scene.edit(edit), Err(error));
+        assert_eq!(scene.edit(edit), Err(error.clone()));
+        let told = scene.edit_and_tell(edit, |edit| panic!("told of {edit:?}"));
+        assert_eq!(told.unwrap_err(), error);
         assert_eq!(look(&scene), before);
     }
 }
@@ -169,4 +168,21 @@ fn a_layout_that_others_hold_stays_as_it_is() {
     let other = scene.clone();
     scene.edit(&edits()[0]).unwrap();
     assert_ne!(look(&scene), look(&other));
+}
+
+#[test]
+fn who_is_told_of_an_edit_need_not_copy_the_layout_too() {
+    for edit in edits() {
+        let mut scene = scene();
+        let other = scene.clone();
+        let mut told = 0;
+        let tell = |_: &Edit| {
+            told += 1;
+            let layout = other.shared_layout();
+            let is_shared = matches!(edit, Edit::SetStates(_));
+            assert_eq!(Arc::strong_count(&layout), if is_shared { 3 } else { 2 });
+        };
+        scene.edit_and_tell(&edit, tell).unwrap();
+        assert_eq!(told, 1, "{edit:?}");
+    }
 }

@@ -15,13 +15,14 @@ mod ui;
 mod work;
 
 use std::path::PathBuf;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
-use eframe::egui::{Ui, ViewportBuilder};
+use eframe::egui::{Context, Ui, ViewportBuilder};
 
-pub use app::App;
+use app::App;
 pub use host::{Export, Host, Job, MethodChoice, Stage, Trouble};
 pub use measure::{Movement, measure};
+use work::Wake;
 
 /// Opens the window with these files, drawn by the method of this name (by the best one that runs here if none),
 /// and returns when it is closed. Must be called from the main thread.
@@ -40,8 +41,13 @@ pub fn run(
             .with_drag_and_drop(true),
         ..eframe::NativeOptions::default()
     };
+    let window = Arc::<OnceLock<Context>>::default();
+    // Files are read while the window comes up.
+    let app = App::new(wake_of(&window), host, files, method);
     let create: eframe::AppCreator<'_> = Box::new(move |context| {
-        let app = App::new(&context.egui_ctx, host, files, method);
+        app.apply_theme(&context.egui_ctx);
+        // It is set once.
+        let _ = window.set(context.egui_ctx.clone());
         Ok(Box::new(Shell(app)))
     });
     eframe::run_native("Guideway", options, create).map_err(|error| Trouble {
@@ -50,6 +56,16 @@ pub fn run(
                  Ubuntu `libvulkan1` and `mesa-vulkan-drivers` bring one that needs no hardware. \
                  `guideway render` needs neither"
             .into(),
+    })
+}
+
+/// Wakes a window as soon as it is there: with its first frame it looks for all that came before.
+fn wake_of(window: &Arc<OnceLock<Context>>) -> Wake {
+    let window = Arc::clone(window);
+    Arc::new(move || {
+        if let Some(window) = window.get() {
+            window.request_repaint();
+        }
     })
 }
 

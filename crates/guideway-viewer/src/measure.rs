@@ -48,8 +48,10 @@ pub fn measure(
     method: Option<String>,
 ) -> Result<Vec<Movement>, Trouble> {
     let context = Context::default();
+    // It has a frame sixty times a second, whatever happens.
+    let wake = Arc::new(|| {});
     let mut hand = Hand {
-        app: App::new(&context, host, vec![file], method),
+        app: App::new(wake, host, vec![file], method),
         context,
         started: Instant::now(),
         at: Pos2::new(480.0, 400.0),

@@ -1,4 +1,4 @@
-use std::sync::Arc;
+use std::sync::{Arc, mpsc};
 
 use guideway_document::{Document, replay};
 use guideway_layout::{CheckOptions, Direction, Layout, NewPath, Value, check};
@@ -13,10 +13,12 @@ pub fn journal(bytes: &[u8]) {
     let mut document = document();
     let untouched = document.to_layout().paths.len();
     let mut replica = document.scene().clone();
+    let (tell, told) = mpsc::channel();
+    document.tell(move |edit| tell.send(edit.clone()).expect("it is heard below"));
     let journal = with_checksums(bytes);
     let done = replay(&journal, &mut document);
     assert!(done.bytes <= journal.len());
-    for edit in document.take_news() {
+    for edit in told.try_iter() {
         let followed = replica.edit(&edit);
         assert!(followed.is_ok(), "{followed:?}");
     }

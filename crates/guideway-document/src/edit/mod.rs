@@ -160,9 +160,9 @@ impl Document {
     }
 
     fn edit_scene(&mut self, edit: &Edit) -> Result<Edit, EditError> {
-        let undo = self.scene.undo_of(edit)?;
-        self.scene.edit(edit)?;
-        self.news.push(edit.clone());
+        let undo = self
+            .scene
+            .edit_and_tell(edit, |edit| self.audience.hear(edit))?;
         let changed: &[u32] = match edit {
             Edit::Transform { paths, .. } | Edit::Reshape { paths, .. } => paths,
             Edit::Restyle(_) | Edit::SetStates(_) | Edit::Insert(_) => &[],

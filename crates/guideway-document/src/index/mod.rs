@@ -12,6 +12,9 @@ use joints::Joints;
 
 pub(crate) use joints::nodes_of;
 
+/// Boxes found by one thread. Few are not shared with others, which may be at work on a picture for as long as that takes.
+const AT_ONCE: usize = 4096;
+
 /// Where the paths and nodes of a layout are, and which paths are at which node.
 ///
 /// Rows are those of the layout it was made of. Paths are held by the box of their curve.
@@ -48,9 +51,17 @@ impl Index {
         let new_rows = self.path_count..layout.paths.len() as u32;
         self.path_count = new_rows.end;
         new_rows.clone().for_each(|row| self.joints.add(path(row)));
-        let rows = changed.iter().copied().chain(new_rows);
-        self.paths
-            .set(rows.map(|row| (row, curve_bounds(path(row)))));
+        let rows: Vec<u32> = changed.iter().copied().chain(new_rows).collect();
+        let boxes = |rows: &[u32]| -> Vec<_> {
+            let boxes = rows.iter().map(|&row| (row, curve_bounds(path(row))));
+            boxes.collect()
+        };
+        if rows.len() <= AT_ONCE {
+            self.paths.set(boxes(&rows).into_iter());
+        } else {
+            let chunks: Vec<_> = rows.par_chunks(AT_ONCE).map(boxes).collect();
+            self.paths.set(chunks.into_iter().flatten());
+        }
     }
 
     pub(crate) fn move_nodes(&mut self, to: &[(u32, Point<f64>)]) {

@@ -1,5 +1,7 @@
 //! A long day of editing: whatever is done, undone and done again, nothing is lost.
 
+use std::sync::mpsc;
+
 use guideway_document::{Act, Combine, Document, PointRef, replay};
 use guideway_scene::PathState;
 use guideway_spline::{Affine, Bounds, Point};
@@ -133,9 +135,11 @@ proptest! {
         let untouched = content(&document);
         // A renderer that has a scene of its own and hears of edits alone.
         let mut replica = scene_of(document.to_layout());
+        let (tell, told) = mpsc::channel();
+        document.tell(move |edit| tell.send(edit.clone()).unwrap());
         for deed in &deeds {
             perform(&mut document, deed);
-            for edit in document.take_news() {
+            for edit in told.try_iter() {
                 replica.edit(&edit).unwrap();
             }
             let all_shown = |&row: &u32| document.scene().state(row) == PathState::Shown;

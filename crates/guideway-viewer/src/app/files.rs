@@ -175,10 +175,13 @@ impl App {
             return;
         };
         let from = layer.path.clone();
-        let Some(snapshot) = layer.begin_saving() else {
+        let Some((snapshot, news)) = layer.begin_saving() else {
             self.notify("what was last done is still being done; save again in a moment");
             return;
         };
+        if let Some(LayerNews::Notice(text)) = news {
+            self.notify(text);
+        }
         let host = Arc::clone(&self.host);
         let to = path.clone();
         let task = Task::start(&self.wake, move || {

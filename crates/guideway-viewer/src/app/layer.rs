@@ -4,15 +4,15 @@ use std::sync::mpsc::TryRecvError;
 use std::time::Duration;
 
 use eframe::egui::{Context, TextureHandle, TextureOptions};
-use guideway_document::{Combine, Document, Rows, Saved, replay};
+use guideway_document::{Combine, Document, Rows, replay};
 use guideway_layout::Diagnostics;
 use guideway_render::{Report, View};
 use guideway_scene::{Scene, SceneError, SceneOptions};
 use guideway_spline::Bounds;
 
 use self::away::Away;
+use self::saving::Journal;
 use super::overlay::Overlay;
-use super::recovery::Recovery;
 use crate::host::{Host, Job, Stage};
 use crate::work::Wake;
 use crate::work::loader::{Loaded, Loader};
@@ -49,15 +49,12 @@ pub(crate) struct Layer {
     /// Whether the renderer waits for a scene that was not there when it asked.
     owes_scene: bool,
     asked: Option<Shot>,
-    /// The journal; none until there is a document, or where it cannot be written.
-    recovery: Option<Recovery>,
+    /// What is written down of the work on the document.
+    journal: Journal,
     /// Acts to be done with the document that is being read.
     to_replay: Option<Vec<u8>>,
     /// Whether the document that is being read takes the place of changes.
     drops_changes: bool,
-    /// What was saved before that which is being saved. Meanwhile nothing is written to the journal: it would be of
-    /// neither state.
-    saving: Option<Saved>,
 }
 
 pub(crate) struct Shown {
@@ -119,10 +116,9 @@ impl Layer {
             selecting: None,
             owes_scene: false,
             asked: None,
-            recovery: None,
+            journal: Journal::default(),
             to_replay: None,
             drops_changes: false,
-            saving: None,
         }
     }
 
@@ -184,15 +180,12 @@ impl Layer {
 
     pub(crate) fn set_method(&mut self, name: &str) {
         self.renderer.set_method(name);
-        self.asked = None;
     }
 
     /// Has the renderer draw the document's scene as it is now.
     pub(crate) fn send_scene(&mut self) {
-        if let Some(document) = &mut self.document {
-            document.take_news();
+        if let Some(document) = &self.document {
             self.renderer.set_scene(Arc::new(document.scene().clone()));
-            self.asked = None;
         } else {
             self.owes_scene = true;
         }
@@ -200,10 +193,6 @@ impl Layer {
 
     /// Asks for a picture, unless it was already asked for or is there.
     pub(crate) fn ask(&mut self, shot: Shot) {
-        for edit in self.document.iter_mut().flat_map(Document::take_news) {
-            self.renderer.edit(edit);
-            self.asked = None;
-        }
         if self.asked != Some(shot) {
             self.renderer.ask(shot);
             self.asked = Some(shot);
@@ -249,7 +238,8 @@ impl Layer {
                     news.push(LayerNews::FellBack(format!(
                         "drawing {name} stopped; it goes on by {FALLBACK}"
                     )));
-                    self.renderer = Renderer::start(Arc::clone(host), FALLBACK, Arc::clone(wake));
+                    self.renderer
+                        .restart(Arc::clone(host), FALLBACK, Arc::clone(wake));
                     self.send_scene();
                     return news;
                 }
@@ -266,7 +256,6 @@ impl Layer {
                     news.push(LayerNews::Reached(Stage::Read));
                     news.push(LayerNews::Appeared(scene.bounds()));
                     self.renderer.set_scene(scene);
-                    self.asked = None;
                 }
             }
             Loaded::Document(document) => {
@@ -281,6 +270,8 @@ impl Layer {
                     self.drop_journal();
                 }
                 let document = self.document.insert(*document);
+                let orders = self.renderer.orders();
+                document.tell(move |edit| orders.edit(edit.clone()));
                 if let Some(acts) = self.to_replay.take() {
                     let done = replay(&acts, document);
                     news.push(LayerNews::Notice(format!(
@@ -288,7 +279,7 @@ impl Layer {
                         done.acts
                     )));
                 } else {
-                    self.recovery = Some(Recovery::of(&self.path));
+                    self.journal = Journal::of(&self.path);
                 }
                 self.findings = None;
                 if is_again || std::mem::take(&mut self.owes_scene) {

@@ -35,7 +35,7 @@ use crate::work::task::Task;
 use crate::work::watcher::Watcher;
 
 /// The viewer.
-pub struct App {
+pub(crate) struct App {
     pub(crate) host: Arc<dyn Host>,
     pub(crate) wake: Wake,
     pub(crate) layers: Vec<Layer>,
@@ -103,15 +103,14 @@ pub(crate) struct Numbers {
 const MOST_NOTICES: usize = 5;
 
 impl App {
-    /// A viewer of these files, drawn by the method of this name; by the best one that runs here if none.
-    pub fn new(
-        ctx: &Context,
+    /// A viewer of these files, drawn by the method of this name; by the best one that runs here if none. It begins to
+    /// read them at once, and calls `wake` for whatever that brings.
+    pub(crate) fn new(
+        wake: Wake,
         host: Arc<dyn Host>,
         files: Vec<PathBuf>,
         method: Option<String>,
     ) -> Self {
-        let for_wake = ctx.clone();
-        let wake: Wake = Arc::new(move || for_wake.request_repaint());
         let mut app = Self {
             drawing: Drawing::new(method),
             watcher: Watcher::start(Arc::clone(&wake)),
@@ -147,7 +146,6 @@ impl App {
             has_new_files: false,
             patience: layer::PATIENCE,
         };
-        app.apply_theme(ctx);
         for file in files {
             app.open(file);
         }

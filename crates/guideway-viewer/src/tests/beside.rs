@@ -1,6 +1,6 @@
 //! What goes on beside the window: files, pictures, long edits, areas.
 
-use std::sync::Arc;
+use std::sync::{Arc, mpsc};
 use std::time::Duration;
 
 use eframe::egui::{Key, Modifiers};
@@ -120,6 +120,25 @@ fn edits_that_take_longer_than_a_frame_are_done_beside_the_window_in_order() {
             .as_ref()
             .is_some_and(|s| s.report.hidden == 0)
     });
+}
+
+#[test]
+fn an_edit_is_in_the_picture_before_all_of_it_is_done() {
+    let mut desk = Desk::looking_at(lanes(4));
+    desk.app().patience = Duration::ZERO;
+    let (finish, rest) = mpsc::channel::<()>();
+    desk.app().edit(move |document: &mut Document| {
+        document.select_all();
+        let done = document.delete_selection();
+        rest.recv().expect("the test lets it go on");
+        done
+    });
+    let drawn = |app: &crate::App| app.layers[0].shown.as_ref().map(|s| s.report.drawn);
+    desk.wait(|app| drawn(app) == Some(0));
+    assert!(desk.app().document().is_none(), "it is still at work");
+    finish.send(()).unwrap();
+    desk.wait(|app| app.document().is_some());
+    assert!(desk.document().is_changed());
 }
 
 #[test]

@@ -45,7 +45,7 @@ fn any_difference_is_seen() {
     let changes: [fn(&mut Layout); 3] = [
         |site| {
             let by = Affine::translation(Point::new(1e-12, 0.0));
-            site.paths.transform(2, by);
+            site.paths.transform([2], by);
         },
         |site| site.paths.attributes.set(1, "speed", Value::Float(0.75)),
         |site| site.paths.set_own_style(3, Default::default()),

@@ -42,7 +42,9 @@ impl Desk {
             .build_ui_state(
                 move |ui, app: &mut Option<App>| {
                     if let Some((host, files, method)) = start.take() {
-                        let mut new = App::new(ui.ctx(), host, files, method);
+                        let window = ui.ctx().clone();
+                        let wake = Arc::new(move || window.request_repaint());
+                        let mut new = App::new(wake, host, files, method);
                         // However slow the computer, an edit is done when its key was pressed.
                         new.patience = Duration::from_secs(60);
                         *app = Some(new);

@@ -306,6 +306,7 @@ fn a_device_that_is_lost_is_replaced_by_the_processor_for_all_files() {
     let table = Table::with([("a.arrow", lanes(3)), ("b.arrow", lanes(4))]);
     let mut desk = Desk::with(&table, &["a.arrow", "b.arrow"], None);
     desk.wait(|app| drawn_by(app) == Some("device") && app.layers[1].shown.is_some());
+    desk.wait(|app| app.document().is_some());
     desk.key(CTRL, Key::A);
     desk.key(NONE, Key::R);
     table.lose_device();

@@ -13,7 +13,7 @@ use crate::app::App;
 
 impl App {
     /// Shows the viewer in a window, or in whatever else stands for one.
-    pub fn show(&mut self, ui: &mut Ui) {
+    pub(crate) fn show(&mut self, ui: &mut Ui) {
         let ctx = ui.ctx().clone();
         self.poll(&ctx);
         self.keys(ui);

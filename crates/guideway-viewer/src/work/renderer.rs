@@ -15,12 +15,16 @@ use crate::host::{Host, Trouble};
 /// The way of drawing that runs everywhere.
 pub(crate) const FALLBACK: &str = "cpu";
 
-/// Draws one scene beside the window: always the newest view that was asked for.
+/// Draws one scene beside the window: always the newest view that was asked for, and that again when the scene changes.
 pub(crate) struct Renderer {
-    shared: Arc<Shared>,
+    orders: Orders,
     outcomes: Receiver<Outcome>,
     thread: Option<JoinHandle<()>>,
 }
+
+/// Where a renderer is told what has changed, from any thread.
+#[derive(Clone, Default)]
+pub(crate) struct Orders(Arc<Shared>);
 
 /// What to draw.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,6 +63,8 @@ struct Shared {
 struct Inbox {
     orders: Vec<Order>,
     next: Option<Shot>,
+    /// What was last asked for.
+    last: Option<Shot>,
     /// What is being drawn, and what stops it.
     now: Option<(Shot, Cancel)>,
     is_closed: bool,
@@ -78,58 +84,53 @@ enum Order {
 
 impl Renderer {
     pub(crate) fn start(host: Arc<dyn Host>, method: &str, wake: Wake) -> Self {
-        let shared = Arc::<Shared>::default();
-        let (sender, outcomes) = mpsc::channel();
-        let mut worker = Worker {
-            host,
-            shared: Arc::clone(&shared),
-            outcomes: sender,
-            wake,
-            method_name: method.to_owned(),
-            method: None,
-            scene: None,
-            prepared: None,
-            has_asked: false,
-            frame: None,
-        };
+        let orders = Orders::default();
+        let (outcomes, thread) = Worker::spawn(&orders, host, method, wake);
         Self {
-            shared,
+            orders,
             outcomes,
-            thread: Some(thread::spawn(move || worker.run())),
+            thread: Some(thread),
         }
+    }
+
+    /// Begins anew, where the thread is gone, without a scene.
+    pub(crate) fn restart(&mut self, host: Arc<dyn Host>, method: &str, wake: Wake) {
+        self.orders.0.lock().forget();
+        let (outcomes, thread) = Worker::spawn(&self.orders, host, method, wake);
+        (self.outcomes, self.thread) = (outcomes, Some(thread));
+    }
+
+    /// Where it can be told of edits.
+    pub(crate) fn orders(&self) -> Orders {
+        self.orders.clone()
     }
 
     /// Draws another scene from now on.
     pub(crate) fn set_scene(&self, scene: Arc<Scene>) {
-        self.order(Order::Scene(scene));
-    }
-
-    /// The scene has changed so.
-    pub(crate) fn edit(&self, edit: Edit) {
-        self.order(Order::Edit(edit));
+        self.orders.give(Order::Scene(scene));
     }
 
     /// Draws another way from now on.
     pub(crate) fn set_method(&self, name: &str) {
-        self.order(Order::Method(name.to_owned()));
+        self.orders.give(Order::Method(name.to_owned()));
     }
 
     /// Draws this next, in place of any other that waits. What is being drawn goes on if it is still of use.
     pub(crate) fn ask(&self, shot: Shot) {
-        let mut inbox = self.shared.lock();
+        let mut inbox = self.orders.0.lock();
         if let Some((now, cancel)) = &inbox.now
             && !now.is_of_use_for(&shot)
         {
             cancel.set();
         }
-        inbox.next = Some(shot);
+        (inbox.next, inbox.last) = (Some(shot), Some(shot));
         drop(inbox);
-        self.shared.bell.notify_one();
+        self.orders.0.bell.notify_one();
     }
 
     /// Whether something is still to be drawn.
     pub(crate) fn is_busy(&self) -> bool {
-        let inbox = self.shared.lock();
+        let inbox = self.orders.0.lock();
         inbox.next.is_some() || inbox.now.is_some() || !inbox.orders.is_empty()
     }
 
@@ -137,32 +138,49 @@ impl Renderer {
     pub(crate) fn outcome(&self) -> Result<Outcome, TryRecvError> {
         self.outcomes.try_recv()
     }
+}
 
-    fn order(&self, order: Order) {
-        let mut inbox = self.shared.lock();
+impl Orders {
+    /// The scene changes so.
+    pub(crate) fn edit(&self, edit: Edit) {
+        self.give(Order::Edit(edit));
+    }
+
+    fn give(&self, order: Order) {
+        let mut inbox = self.0.lock();
         // It would show what is no longer so.
         if let Some((_, cancel)) = &inbox.now {
             cancel.set();
         }
         inbox.orders.push(order);
+        inbox.next = inbox.last;
         drop(inbox);
-        self.shared.bell.notify_one();
+        self.0.bell.notify_one();
     }
 }
 
 impl Drop for Renderer {
     fn drop(&mut self) {
-        let mut inbox = self.shared.lock();
+        let mut inbox = self.orders.0.lock();
         inbox.is_closed = true;
         if let Some((_, cancel)) = &inbox.now {
             cancel.set();
         }
         drop(inbox);
-        self.shared.bell.notify_one();
+        self.orders.0.bell.notify_one();
         if let Some(thread) = self.thread.take() {
             // A driver may still be at work: it must not meet the end of the process. A panic there was shown.
             let _ = thread.join();
         }
+    }
+}
+
+impl Inbox {
+    /// Leaves nothing to be done but the picture that was last asked for.
+    fn forget(&mut self) {
+        self.orders.clear();
+        self.now = None;
+        self.next = self.last;
     }
 }
 
@@ -215,12 +233,35 @@ struct Worker {
     /// Until it is prepared. Later it is the method's alone, which can then change it without a copy.
     scene: Option<Arc<Scene>>,
     prepared: Option<Box<dyn Prepared>>,
-    /// Whether the window was asked for a scene and has not sent one.
+    /// Whether the window knows that a scene is wanted, and has not sent one.
     has_asked: bool,
     frame: Option<Frame>,
 }
 
 impl Worker {
+    fn spawn(
+        orders: &Orders,
+        host: Arc<dyn Host>,
+        method: &str,
+        wake: Wake,
+    ) -> (Receiver<Outcome>, JoinHandle<()>) {
+        let (sender, outcomes) = mpsc::channel();
+        let mut worker = Self {
+            host,
+            shared: Arc::clone(&orders.0),
+            outcomes: sender,
+            wake,
+            method_name: method.to_owned(),
+            method: None,
+            scene: None,
+            prepared: None,
+            // The first one comes unasked.
+            has_asked: true,
+            frame: None,
+        };
+        (outcomes, thread::spawn(move || worker.run()))
+    }
+
     fn run(&mut self) {
         while let Some(Task { orders, shot }) = self.shared.next() {
             for order in orders {
@@ -240,8 +281,14 @@ impl Worker {
                 self.has_asked = false;
             }
             Order::Edit(edit) => {
-                let edited = self.prepared.as_mut().map(|prepared| prepared.edit(&edit));
-                if !matches!(edited, Some(Ok(Edited::InPlace { .. }))) {
+                let is_done = match (&mut self.prepared, &mut self.scene) {
+                    (Some(prepared), _) => {
+                        matches!(prepared.edit(&edit), Ok(Edited::InPlace { .. }))
+                    }
+                    (None, Some(scene)) => Arc::make_mut(scene).edit(&edit).is_ok(),
+                    (None, None) => false,
+                };
+                if !is_done {
                     // The window has the scene as it is now.
                     self.prepared = None;
                     self.scene = None;

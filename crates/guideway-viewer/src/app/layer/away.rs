@@ -1,10 +1,11 @@
-//! Work on a document that may take longer than a frame: it is done beside the window, and the document is away
-//! meanwhile.
+//! Work on a document that may take longer than a frame: it is done and written down beside the window, and the document
+//! is away meanwhile.
 
 use std::time::Duration;
 
 use guideway_document::Document;
 
+use super::saving::Journal;
 use super::{Layer, LayerNews};
 use crate::work::Wake;
 use crate::work::task::Task;
@@ -12,10 +13,10 @@ use crate::work::task::Task;
 /// How long the window waits for work before it goes on without the document: half a frame.
 pub(crate) const PATIENCE: Duration = Duration::from_millis(8);
 
-/// Something that is done to a document, or why it cannot be.
+/// Something that is done to a document or its journal, or why it cannot be.
 pub(crate) struct Work(Box<Deed>);
 
-type Deed = dyn FnOnce(&mut Document) -> Result<(), String> + Send;
+type Deed = dyn FnOnce(&mut Document, &mut Journal) -> Result<(), String> + Send;
 
 impl Work {
     /// What always can be done.
@@ -30,19 +31,27 @@ impl Work {
     pub(crate) fn fallible<E: ToString>(
         work: impl FnOnce(&mut Document) -> Result<(), E> + Send + 'static,
     ) -> Self {
-        Self(Box::new(move |document| {
-            work(document).map_err(|error| error.to_string())
-        }))
+        Self::with_journal(move |document, _| work(document).map_err(|error| error.to_string()))
+    }
+
+    /// The same, of what concerns the journal too.
+    pub(super) fn with_journal(
+        work: impl FnOnce(&mut Document, &mut Journal) -> Result<(), String> + Send + 'static,
+    ) -> Self {
+        Self(Box::new(work))
     }
 }
 
 /// Where the document of a layer is when it is not there.
 #[derive(Default)]
 pub(super) struct Away {
-    task: Option<Task<(Box<Document>, Vec<String>)>>,
+    task: Option<Task<Returned>>,
     /// What is to be done next.
     waiting: Vec<Work>,
 }
+
+/// What comes back, and what is to be said.
+type Returned = (Box<(Document, Journal)>, Vec<String>);
 
 impl Away {
     pub(super) fn is_at_work(&self) -> bool {
@@ -74,12 +83,16 @@ impl Layer {
         let Some(document) = self.document.take() else {
             return;
         };
-        let mut document = Box::new(document);
+        let journal = std::mem::take(&mut self.journal);
+        let mut both = Box::new((document, journal));
         let all = std::mem::take(&mut self.away.waiting);
+        let file = self.path.clone();
         self.away.task = Some(Task::start(wake, move || {
-            let outcomes = all.into_iter().map(|Work(work)| work(&mut document));
-            let troubles = outcomes.filter_map(Result::err).collect();
-            (document, troubles)
+            let (document, journal) = &mut *both;
+            let outcomes = all.into_iter().map(|Work(work)| work(document, journal));
+            let mut troubles: Vec<String> = outcomes.filter_map(Result::err).collect();
+            troubles.extend(journal.record(document, &file).err());
+            (both, troubles)
         }));
     }
 
@@ -88,8 +101,9 @@ impl Layer {
         let outcome = self.away.task.as_ref()?.outcome_within(patience)?;
         self.away.task = None;
         let notice = match outcome {
-            Ok((document, troubles)) => {
-                self.document = Some(*document);
+            Ok((both, troubles)) => {
+                let (document, journal) = *both;
+                (self.document, self.journal) = (Some(document), journal);
                 (!troubles.is_empty()).then(|| troubles.join("; "))
             }
             Err(trouble) => {
