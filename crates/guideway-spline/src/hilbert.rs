@@ -12,18 +12,58 @@ pub fn hilbert(point: Point<f64>, bounds: Bounds<f64>) -> u32 {
 }
 
 /// The number of a cell of the square of 65,536 cells a side.
-fn along(mut x: u16, mut y: u16) -> u32 {
-    (0..u16::BITS).rev().fold(0, |along, bit| {
-        let [right, upper] = [x, y].map(|v| u32::from(v >> bit & 1));
-        // The curve goes up, to the right and down again. Its lower quarters are turned, the right one about.
-        if upper == 0 {
-            if right == 1 {
-                (x, y) = (!x, !y);
-            }
-            (x, y) = (y, x);
+fn along(x: u16, y: u16) -> u32 {
+    let (mut along, mut turn) = (0, 0);
+    for shift in (0..u16::BITS).step_by(BITS as usize).rev() {
+        let [right, upper] = [x, y].map(|v| usize::from(v >> shift) & (SIDE - 1));
+        let step = STEPS[turn][right][upper];
+        along = along << (2 * BITS) | u32::from(step.along);
+        turn = usize::from(step.turn);
+    }
+    along
+}
+
+/// Bits of each coordinate that are looked at together.
+const BITS: u32 = 4;
+const SIDE: usize = 1 << BITS;
+
+/// Where a cell is along the curve through a square of so many a side, and how the square within it is turned.
+#[derive(Clone, Copy)]
+struct Step {
+    along: u8,
+    turn: u8,
+}
+
+/// For each of the four ways in which a square may be turned, whose bits say whether both axes are reversed and
+/// whether they are exchanged.
+static STEPS: [[[Step; SIDE]; SIDE]; 4] = {
+    let mut steps = [[[Step { along: 0, turn: 0 }; SIDE]; SIDE]; 4];
+    let mut i = 0;
+    while i < 4 * SIDE * SIDE {
+        let (turn, x, y) = (i / (SIDE * SIDE), i / SIDE % SIDE, i % SIDE);
+        steps[turn][x][y] = step(turn as u8, x as u8, y as u8);
+        i += 1;
+    }
+    steps
+};
+
+const fn step(mut turn: u8, x: u8, y: u8) -> Step {
+    let mut along = 0;
+    let mut bit = BITS;
+    while bit > 0 {
+        bit -= 1;
+        let (mut right, mut upper) = (x >> bit & 1, y >> bit & 1);
+        if turn & 1 == 1 {
+            (right, upper) = (upper, right);
         }
-        along << 2 | ((3 * right) ^ upper)
-    })
+        (right, upper) = (right ^ turn >> 1, upper ^ turn >> 1);
+        // The curve goes up, to the right and down again. Its lower quarters are turned, the right one about.
+        along = along << 2 | ((3 * right) ^ upper);
+        if upper == 0 {
+            turn ^= 1 | right << 1;
+        }
+    }
+    Step { along, turn }
 }
 
 #[cfg(test)]
@@ -33,7 +73,7 @@ mod tests {
     #[test]
     fn the_curve_passes_every_cell_once_from_neighbour_to_neighbour() {
         // The first cells along the curve are those of a small square in its corner.
-        const SIDE: u16 = 64;
+        const SIDE: u16 = 256;
         let cells = (0..SIDE).flat_map(|x| (0..SIDE).map(move |y| (along(x, y), x, y)));
         let mut cells: Vec<_> = cells.collect();
         cells.sort_unstable();

@@ -39,6 +39,8 @@ pub fn run(
             .with_inner_size([1280.0, 800.0])
             .with_min_inner_size([320.0, 240.0])
             .with_drag_and_drop(true),
+        // It shows no gradients, and a graphics driver in software would feel it.
+        dithering: false,
         ..eframe::NativeOptions::default()
     };
     let window = Arc::<OnceLock<Context>>::default();

@@ -1,6 +1,6 @@
 use std::ops::Range;
 
-use guideway_layout::{Layout, RunPoints};
+use guideway_layout::RunPoints;
 use guideway_scene::{PathState, Scene};
 use guideway_spline::{Bounds, Point, hilbert};
 use multiversion::multiversion;
@@ -51,24 +51,23 @@ fn spread_out(round: usize, paths: usize) -> impl Iterator<Item = usize> {
     numbers.map(reversed).filter(move |&i| i < paths)
 }
 
-/// All rows of a scene, sorted so that near ones are near each other.
-pub(super) fn sorted_rows(scene: &Scene) -> Vec<u32> {
-    let layout = scene.layout();
-    let rows = 0..layout.paths.len() as u32;
-    let centers: Vec<_> = rows
-        .into_par_iter()
-        .map(|row| center(layout, row))
-        .collect();
-    let placed = centers
-        .par_iter()
-        .flatten()
-        .map(|&p| Bounds { min: p, max: p });
+/// Where the control points of a path lie, in metres; none if it has none.
+pub(super) type Hull = Option<Bounds<f64>>;
+
+/// The hull of a row.
+pub(super) fn hull(scene: &Scene, row: u32) -> Hull {
+    scene.layout().paths.get(row as usize).hull_bounds()
+}
+
+/// All rows, sorted so that near ones are near each other.
+pub(super) fn sorted_rows(hulls: &[Hull]) -> Vec<u32> {
+    let centers = hulls.par_iter().map(|hull| hull.map(Bounds::center));
+    let placed = centers.clone().flatten().map(|p| Bounds { min: p, max: p });
     let Some(all) = placed.reduce_with(Bounds::union) else {
-        return (0..centers.len() as u32).collect();
+        return (0..hulls.len() as u32).collect();
     };
     let place = |p: Point<f64>| u64::from(hilbert(p, all));
     let keys = centers
-        .par_iter()
         .enumerate()
         .map(|(row, center)| center.map_or(u64::from(u32::MAX), place) << 32 | row as u64);
     let mut keys: Vec<u64> = keys.collect();
@@ -76,18 +75,11 @@ pub(super) fn sorted_rows(scene: &Scene) -> Vec<u32> {
     keys.par_iter().map(|&key| key as u32).collect()
 }
 
-fn center(layout: &Layout, row: u32) -> Option<Point<f64>> {
-    let bounds = layout.paths.get(row as usize).hull_bounds();
-    bounds.map(Bounds::center)
-}
-
-/// Where the control points of the paths that are shown lie, in metres.
-pub(super) fn hull_bounds(scene: &Scene, paths: &[u32]) -> Option<Bounds<f64>> {
-    let shown = paths
-        .iter()
-        .filter(|&&path| scene.state(path) == PathState::Shown);
-    let hulls = shown.filter_map(|&path| scene.layout().paths.get(path as usize).hull_bounds());
-    hulls.reduce(Bounds::union)
+/// Where the control points of those paths lie that are shown, in metres.
+pub(super) fn shown_bounds(scene: &Scene, paths: &[u32], hull: impl Fn(u32) -> Hull) -> Hull {
+    let shown = paths.iter().copied();
+    let shown = shown.filter(|&path| scene.state(path) == PathState::Shown);
+    shown.filter_map(hull).reduce(Bounds::union)
 }
 
 impl Lines {

@@ -3,7 +3,7 @@ use guideway_scene::{Rgba, Scene};
 use guideway_spline::Bounds;
 use rayon::prelude::*;
 
-use super::cluster::{CLUSTER_PATHS, Lines, hull_bounds, sorted_rows};
+use super::cluster::{CLUSTER_PATHS, Hull, Lines, hull, shown_bounds, sorted_rows};
 use super::place::Placement;
 use super::shot::{LaneWidth, Shot, Widths, widths};
 
@@ -47,8 +47,11 @@ impl Made {
 
 impl Index {
     pub(super) fn new(scene: &Scene) -> Self {
+        // Each path is read once for both.
+        let rows = (0..scene.row_count() as u32).into_par_iter();
+        let hulls: Vec<Hull> = rows.map(|row| hull(scene, row)).collect();
         let mut index = Self {
-            paths: sorted_rows(scene),
+            paths: sorted_rows(&hulls),
             bounds: Vec::new(),
             lines: Vec::new(),
             lines_bytes: 0,
@@ -59,7 +62,9 @@ impl Index {
             solid: None,
         };
         let clusters = index.paths.par_chunks(CLUSTER_PATHS);
-        index.bounds = clusters.map(|paths| hull_bounds(scene, paths)).collect();
+        index.bounds = clusters
+            .map(|paths| shown_bounds(scene, paths, |path| hulls[path as usize]))
+            .collect();
         index.resize();
         index.order_anew(scene);
         index
@@ -146,7 +151,7 @@ impl Index {
         let clusters = self.clusters_of(paths);
         let bounds: Vec<_> = clusters
             .par_iter()
-            .map(|&cluster| hull_bounds(scene, self.paths_of(cluster)))
+            .map(|&cluster| shown_bounds(scene, self.paths_of(cluster), |path| hull(scene, path)))
             .collect();
         let mut changed = Vec::with_capacity(2 * clusters.len());
         for (&cluster, bounds) in clusters.iter().zip(bounds) {

@@ -127,9 +127,9 @@ fn progress(ui: &mut Ui, what: String, job: &Job) {
     ui.label(what);
     let bar = ProgressBar::new(job.fraction().unwrap_or(0.0));
     ui.add(bar.desired_width(120.0));
-    // Nothing else wakes the window for each step; and were it awake all the time, a graphics driver in software would
-    // take the processor from what is waited for.
-    ui.ctx().request_repaint_after(Duration::from_millis(100));
+    // Nothing else wakes the window for each step. To a graphics driver in software each frame is a tenth of a second of
+    // the processor, which what is waited for could do with.
+    ui.ctx().request_repaint_after(Duration::from_millis(500));
     if ui.button("Cancel").clicked() {
         job.cancel();
     }
