@@ -19,7 +19,7 @@ use std::sync::{Arc, OnceLock};
 
 use eframe::egui::{Context, Ui, ViewportBuilder};
 
-use app::App;
+use app::{App, FIRST_PATIENCE};
 pub use host::{Export, Host, Job, MethodChoice, Stage, Trouble};
 pub use measure::{Movement, measure};
 use work::Wake;
@@ -45,7 +45,8 @@ pub fn run(
     };
     let window = Arc::<OnceLock<Context>>::default();
     // Files are read while the window comes up.
-    let app = App::new(wake_of(&window), host, files, method);
+    let mut app = App::new(wake_of(&window), host, files, method);
+    app.first_patience = FIRST_PATIENCE;
     let create: eframe::AppCreator<'_> = Box::new(move |context| {
         app.apply_theme(&context.egui_ctx);
         // It is set once.

@@ -58,6 +58,12 @@ impl App {
         self.hover = at_px.and_then(|at_px| self.pick(at_px, MOST_HOVERED));
     }
 
+    /// What lies under the pointer. Where the document is another one since, that may be nothing.
+    pub(crate) fn hovered(&self) -> Option<&Hit> {
+        let rows = self.document()?.scene().row_count();
+        self.hover.as_ref().filter(|hit| (hit.path as usize) < rows)
+    }
+
     fn pick(&self, at_px: Point<f64>, most: usize) -> Option<Hit> {
         let view = self.camera.view()?;
         let at_m = view.world_from_pixel(at_px);
@@ -204,7 +210,7 @@ impl App {
         match self.tool {
             Tool::Draw => self.finish_path(),
             Tool::Measure => self.gesture = Gesture::None,
-            Tool::Select if self.hover.is_some() => self.set_tool(Tool::Points),
+            Tool::Select if self.hovered().is_some() => self.set_tool(Tool::Points),
             Tool::Select | Tool::Points => {}
         }
     }

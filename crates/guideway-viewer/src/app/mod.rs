@@ -15,6 +15,7 @@ pub(crate) mod swept;
 
 use std::path::PathBuf;
 use std::sync::Arc;
+use std::thread;
 use std::time::Duration;
 
 use eframe::egui::{ColorImage, Context, Pos2, ViewportCommand};
@@ -50,8 +51,8 @@ pub(crate) struct App {
     pub(crate) canvas_min: Pos2,
     /// Where the pointer is in the picture.
     pub(crate) pointer_px: Option<guideway_spline::Point<f64>>,
-    /// What lies under the pointer.
-    pub(crate) hover: Option<Hit>,
+    /// What was last seen under the pointer.
+    hover: Option<Hit>,
     pub(crate) prompt: Option<Prompt>,
     pub(crate) recent: Recent,
     /// Files to choose from, and whether each is there.
@@ -74,7 +75,15 @@ pub(crate) struct App {
     has_new_files: bool,
     /// How long a frame waits for an edit.
     pub(crate) patience: Duration,
+    /// Longest side of a picture, in pixels.
+    pub(crate) most_side_px: u32,
+    /// For how long frames may still be held back at first: see [`FIRST_PATIENCE`].
+    pub(crate) first_patience: Duration,
 }
+
+/// Where a window is drawn in software, every frame keeps both cores of an office laptop busy for long. So until there is a
+/// first picture, and for so long at most, nothing but an empty window is drawn.
+pub(crate) const FIRST_PATIENCE: Duration = Duration::from_millis(700);
 
 /// What is being looked for.
 #[derive(Default)]
@@ -145,6 +154,8 @@ impl App {
             copying: None,
             has_new_files: false,
             patience: layer::PATIENCE,
+            most_side_px: 0,
+            first_patience: Duration::ZERO,
         };
         for file in files {
             app.open(file);
@@ -154,6 +165,15 @@ impl App {
 
     /// Takes in what the threads and the window have brought.
     pub(crate) fn poll(&mut self, ctx: &Context) {
+        self.poll_layers(ctx);
+        self.await_first_picture(ctx);
+        self.poll_methods();
+        self.poll_search();
+        self.poll_swept(ctx);
+        self.poll_files(ctx);
+    }
+
+    fn poll_layers(&mut self, ctx: &Context) {
         for index in 0..self.layers.len() {
             for news in self.layers[index].poll(ctx, &self.host, &self.wake) {
                 match news {
@@ -177,10 +197,22 @@ impl App {
                 }
             }
         }
-        self.poll_methods();
-        self.poll_search();
-        self.poll_swept(ctx);
-        self.poll_files(ctx);
+    }
+
+    /// Holds back all frames but the first, as long as there is no picture and patience for one.
+    fn await_first_picture(&mut self, ctx: &Context) {
+        const STEP: Duration = Duration::from_millis(2);
+        let has_none = |app: &Self| !app.layers.iter().any(Layer::has_settled);
+        while let Some(view) = self.camera.view()
+            && !self.layers.is_empty()
+            && has_none(self)
+            && !self.first_patience.is_zero()
+        {
+            self.ask_for_pictures(&view);
+            thread::sleep(STEP);
+            self.first_patience = self.first_patience.saturating_sub(STEP);
+            self.poll_layers(ctx);
+        }
     }
 
     /// Whether everything shows what was last done.

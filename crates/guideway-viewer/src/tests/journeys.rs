@@ -323,6 +323,29 @@ fn a_device_that_is_lost_is_replaced_by_the_processor_for_all_files() {
 }
 
 #[test]
+fn what_lies_under_the_pointer_may_be_gone() {
+    let table = Table::with([("few.arrow", lanes(2)), ("many.arrow", lanes(9))]);
+    let mut desk = Desk::with(&table, &["few.arrow", "many.arrow"], Some("cpu"));
+    desk.wait(|app| app.layers.iter().all(|layer| layer.document.is_some()));
+    desk.key(NONE, Key::F);
+    let at = desk.at(5.0, 16.0);
+    let point = |desk: &mut Desk| {
+        desk.harness.event(Event::PointerMoved(at));
+        desk.wait(|app| app.hovered().is_some_and(|hit| hit.path == 8));
+    };
+    point(&mut desk);
+    desk.key(NONE, Key::PageDown);
+    assert!(desk.app().hovered().is_none(), "another file is edited now");
+    desk.key(NONE, Key::PageDown);
+    point(&mut desk);
+    let shorter = [("many.arrow".into(), lanes(3))];
+    table.files.lock().unwrap().extend(shorter);
+    desk.app().reload(1, true);
+    desk.wait(|app| app.document().is_some_and(|d| d.scene().row_count() == 3));
+    assert!(desk.app().hovered().is_none());
+}
+
+#[test]
 fn what_is_hidden_and_how_it_looks_is_redrawn() {
     let mut desk = Desk::looking_at(lanes(6));
     let at = desk.at(5.0, 2.0);

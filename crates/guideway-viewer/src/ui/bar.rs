@@ -102,7 +102,7 @@ impl App {
                 ));
                 ui.separator();
             }
-            if let (Some(hit), Some(document)) = (&self.hover, self.document()) {
+            if let (Some(hit), Some(document)) = (self.hovered(), self.document()) {
                 let id = document.layout().paths.id(hit.path as usize);
                 ui.add(Label::new(id).truncate());
             }

@@ -44,7 +44,8 @@ impl App {
             self.camera.settle();
         }
         if let Some(view) = self.camera.view() {
-            self.ask_for_pictures(ui, &view);
+            self.most_side_px = ui.input(|input| input.max_texture_side) as u32;
+            self.ask_for_pictures(&view);
             self.paint(ui, screen, &view, is_moving);
         }
     }
@@ -159,9 +160,9 @@ impl App {
         }
     }
 
-    fn ask_for_pictures(&mut self, ui: &Ui, view: &View) {
-        let most_side = ui.input(|input| input.max_texture_side) as u32;
-        let Some(view) = fitting(view, most_side) else {
+    /// Has the renderers draw a view.
+    pub(crate) fn ask_for_pictures(&mut self, view: &View) {
+        let Some(view) = fitting(view, self.most_side_px) else {
             return;
         };
         let style = self.look.style();

@@ -75,6 +75,7 @@ impl App {
         let options = self.look.marks(label_size);
         let ink = self.ink();
         let paper = color(self.look.paper());
+        let hovered = self.hovered().copied();
         let Some(layer) = self.layers.get_mut(self.active) else {
             return;
         };
@@ -102,7 +103,7 @@ impl App {
                 now(pixel) + by_px
             });
         }
-        if let (Some(hit), Some(document)) = (&self.hover, document) {
+        if let (Some(hit), Some(document)) = (hovered, document) {
             let lines = outline(document, &Rows::from_iter([hit.path]), view);
             paint_outline(painter, &lines, HOVERED, |pixel| screen.point(pixel));
         }

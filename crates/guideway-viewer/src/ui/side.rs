@@ -77,13 +77,10 @@ impl App {
         };
         let selected = document.selection();
         let only = selected.min().filter(|_| selected.len() == 1);
-        let Some(row) = self.hover.map(|hit| hit.path).or(only) else {
+        let Some(row) = self.hovered().map(|hit| hit.path).or(only) else {
             ui.label("Point at a path, or select one.");
             return;
         };
-        if row as usize >= document.scene().row_count() {
-            return;
-        }
         let path = document.layout().paths.get(row as usize);
         ui.strong(path.id());
         if let Some(back) = self.way_back(document) {
@@ -108,7 +105,7 @@ impl App {
 
     /// The path that leads back on the one under the pointer.
     fn way_back(&self, document: &Document) -> Option<u32> {
-        document.twin_of(self.hover.as_ref()?, MOST_HOVERED)
+        document.twin_of(self.hovered()?, MOST_HOVERED)
     }
 
     fn selection(&mut self, ui: &mut Ui) {
