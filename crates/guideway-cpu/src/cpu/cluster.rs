@@ -1,13 +1,14 @@
 use std::ops::Range;
 
 use guideway_layout::RunPoints;
-use guideway_scene::{PathState, Scene};
+use guideway_scene::PathState;
 use guideway_spline::{Bounds, Point, hilbert};
 use multiversion::multiversion;
 use rayon::prelude::*;
 
 use super::LANES;
 use super::canvas::{TILE_PX, set_bits};
+use super::extent::Hull;
 use super::flatten::flatten;
 use super::polylines::{Pen, Polylines, ROUNDS};
 use super::shot::{LaneWidth, Shot};
@@ -19,6 +20,10 @@ pub(super) const CLUSTER_PATHS: usize = 64;
 /// Farthest from its middle, in units, that a cluster whose lines are kept may reach: rounding to `i16`
 /// stays within.
 pub(super) const MOST_UNITS: f64 = 32_000.0;
+
+/// Paths of a cluster, a bit each.
+pub(super) type Members = u64;
+const _: () = assert!(CLUSTER_PATHS == Members::BITS as usize);
 
 /// The lines that a cluster of paths was last drawn as.
 #[derive(Debug, Default)]
@@ -35,11 +40,22 @@ pub(super) enum Lines {
 #[derive(Default)]
 pub(super) struct Scratch {
     kept: Polylines<i16>,
+    /// What the cluster had before.
+    before: Polylines<i16>,
     local: Vec<Point<f32>>,
     vertices: Vec<Point<f32>>,
-    /// The round, the member and the end of the points of each run.
-    runs: Vec<(usize, u8, usize)>,
+    sources: Vec<Source>,
     pixels: Vec<Point<f64>>,
+}
+
+/// What lines of a path are made from.
+struct Source {
+    round: usize,
+    member: u8,
+    /// The end of a run's points, or of those before.
+    points_end: usize,
+    /// Pieces that it and others behind it had before, and that are still good; none if its curve has changed.
+    pieces: Range<usize>,
 }
 
 /// The order in which the paths of a cluster are drawn. They are sorted along a curve that fills the plane,
@@ -49,14 +65,6 @@ fn spread_out(round: usize, paths: usize) -> impl Iterator<Item = usize> {
     let reversed = |i: usize| (usize::from((i as u8).reverse_bits()) * CLUSTER_PATHS) >> u8::BITS;
     let numbers = round * CLUSTER_PATHS / ROUNDS..(round + 1) * CLUSTER_PATHS / ROUNDS;
     numbers.map(reversed).filter(move |&i| i < paths)
-}
-
-/// Where the control points of a path lie, in metres; none if it has none.
-pub(super) type Hull = Option<Bounds<f64>>;
-
-/// The hull of a row.
-pub(super) fn hull(scene: &Scene, row: u32) -> Hull {
-    scene.layout().paths.get(row as usize).hull_bounds()
 }
 
 /// All rows, sorted so that near ones are near each other.
@@ -75,20 +83,15 @@ pub(super) fn sorted_rows(hulls: &[Hull]) -> Vec<u32> {
     keys.par_iter().map(|&key| key as u32).collect()
 }
 
-/// Where the control points of those paths lie that are shown, in metres.
-pub(super) fn shown_bounds(scene: &Scene, paths: &[u32], hull: impl Fn(u32) -> Hull) -> Hull {
-    let shown = paths.iter().copied();
-    let shown = shown.filter(|&path| scene.state(path) == PathState::Shown);
-    shown.filter_map(hull).reduce(Bounds::union)
-}
-
 impl Lines {
-    /// Makes anew what a frame needs within some rows of tiles.
+    /// Makes anew what a frame needs within some rows of tiles: the lines of some members, if those of the others
+    /// can be kept.
     pub(super) fn make(
         &mut self,
         shot: &Shot<'_>,
         sight: &Sight,
-        (paths, bounds): (&[u32], Bounds<f64>),
+        (paths, middle): (&[u32], Point<f64>),
+        changed: Members,
         rows: &Range<usize>,
         scratch: &mut Scratch,
     ) {
@@ -102,11 +105,12 @@ impl Lines {
             return;
         }
         let unit_m = shot.unit_m();
-        scratch.keep(shot, paths, bounds.center(), unit_m);
-        let mut lines = match std::mem::take(self) {
+        scratch.before = match std::mem::take(self) {
             Self::Kept(_, lines) => lines,
             Self::None | Self::Cut(_) => Polylines::default(),
         };
+        scratch.keep(shot, paths, changed, middle, unit_m);
+        let mut lines = std::mem::take(&mut scratch.before);
         lines.copy_from(&scratch.kept);
         *self = Self::Kept(unit_m, lines);
     }
@@ -171,16 +175,28 @@ impl Scratch {
     pub(super) fn bytes(&self) -> u64 {
         let points = self.local.capacity() + self.vertices.capacity();
         let own = points * size_of::<Point<f32>>()
-            + self.runs.capacity() * size_of::<(usize, u8, usize)>()
+            + self.sources.capacity() * size_of::<Source>()
             + self.pixels.capacity() * size_of::<Point<f64>>();
         self.kept.bytes() + own as u64
     }
 
-    /// Lines of all paths that are shown, in units from `middle_m`.
-    fn keep(&mut self, shot: &Shot<'_>, paths: &[u32], middle_m: Point<f64>, unit_m: f64) {
+    /// Lines of all paths that are shown, in units from `middle_m`: of members that have changed from their curves,
+    /// of the others from what there was before.
+    fn keep(
+        &mut self,
+        shot: &Shot<'_>,
+        paths: &[u32],
+        changed: Members,
+        middle_m: Point<f64>,
+        unit_m: f64,
+    ) {
         let scene = shot.scene;
         let Self {
-            kept, local, runs, ..
+            kept,
+            before,
+            local,
+            sources,
+            ..
         } = self;
         kept.clear();
         let per_m = 1.0 / unit_m;
@@ -189,11 +205,33 @@ impl Scratch {
         };
         // All points first: they lie anywhere, and so their ways through the caches go side by side.
         local.clear();
-        runs.clear();
+        sources.clear();
+        let mut piece = 0;
         for round in 0..ROUNDS {
             for member in spread_out(round, paths.len()) {
+                let first = piece;
+                while piece < before.pieces() && usize::from(before.member(piece)) == member {
+                    piece += 1;
+                }
+                let source = |points_end, pieces| Source {
+                    round,
+                    member: member as u8,
+                    points_end,
+                    pieces,
+                };
                 let path = paths[member];
-                if scene.state(path) == PathState::Shown {
+                if changed >> member & 1 == 0 {
+                    match sources.last_mut() {
+                        // What lies side by side is kept at once.
+                        Some(last)
+                            if !last.pieces.is_empty()
+                                && (last.round, last.pieces.end) == (round, first) =>
+                        {
+                            last.pieces.end = piece;
+                        }
+                        _ => sources.push(source(local.len(), first..piece)),
+                    }
+                } else if scene.state(path) == PathState::Shown {
                     for run in scene.layout().paths.geometry().runs(path as usize) {
                         match run {
                             RunPoints::F64(run) => local.extend(run.iter().map(|&p| place(p))),
@@ -201,7 +239,7 @@ impl Scratch {
                                 local.extend(run.iter().map(|p| place(p.to_f64())));
                             }
                         }
-                        runs.push((round, member as u8, local.len()));
+                        sources.push(source(local.len(), 0..0));
                     }
                 }
             }
@@ -277,31 +315,33 @@ fn simplify_all(scratch: &mut Scratch, tolerance: f32) {
     const ROUND: f32 = 1.5 * (1 << 23) as f32;
     let Scratch {
         kept,
+        before,
         local,
-        runs,
+        sources,
         vertices,
         ..
     } = scratch;
     let round = |x: f32| (x + ROUND).to_bits() as i16;
     let mut pen = Pen::new();
     let (mut first, mut ended) = (0, 0);
-    for &(round_number, member, end) in runs.iter() {
-        (ended..round_number).for_each(|round| kept.end_round(round));
-        ended = round_number;
-        simplify(&local[first..end], tolerance, vertices);
+    for source in sources.iter() {
+        (ended..source.round).for_each(|round| kept.end_round(round));
+        ended = source.round;
+        kept.push_pieces(before, source.pieces.clone());
+        simplify(&local[first..source.points_end], tolerance, vertices);
         for (i, vertex) in vertices.iter().enumerate() {
             let vertex = Point {
                 x: round(vertex.x),
                 y: round(vertex.y),
             };
             if i == 0 {
-                pen.set(member, vertex);
+                pen.set(source.member, vertex);
             } else {
                 pen.draw(vertex, kept);
             }
         }
         pen.lift(kept);
-        first = end;
+        first = source.points_end;
     }
     (ended..ROUNDS).for_each(|round| kept.end_round(round));
     kept.finish();

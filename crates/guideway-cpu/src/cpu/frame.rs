@@ -8,12 +8,12 @@ use std::time::Instant;
 use guideway_render::density::{ToneMap, Tones};
 use guideway_render::{Frame, RenderError, Shading, Stage, Style, View, elapsed_ms};
 
-use super::cluster::Scratch;
+use super::cluster::{Members, Scratch};
 use super::index::{Index, Made};
 use super::kept::Kept;
 use super::paint::{Band, Painter};
 use super::shot::Shot;
-use super::sight::{Sight, Sights};
+use super::sight::Sights;
 use super::tiles::{Bins, Grid, Parts};
 
 /// What a frame needs; kept for the next.
@@ -21,8 +21,8 @@ pub(super) struct Buffers {
     pub(super) sights: Sights,
     pub(super) parts: Parts,
     bins: Bins,
-    /// Keys of clusters whose lines have to be made.
-    todo: Vec<u32>,
+    /// Keys of clusters whose lines have to be made, and of which members.
+    todo: Vec<(u32, Members)>,
     pub(super) counts: Vec<f32>,
     scratches: Vec<Mutex<Scratch>>,
     painters: Vec<Mutex<Painter>>,
@@ -85,7 +85,7 @@ impl Buffers {
             let painter = painter.lock().unwrap_or_else(PoisonError::into_inner);
             painter.list_bytes()
         });
-        let todo = self.todo.capacity() * size_of::<u32>();
+        let todo = self.todo.capacity() * size_of::<(u32, Members)>();
         self.sights.bytes() + self.parts.bytes() + todo as u64 + scratches.chain(lists).sum::<u64>()
     }
 
@@ -248,50 +248,58 @@ impl Buffers {
             }
             index.forget_lines(|cluster| is_kept[cluster as usize]);
         }
-        let is_missing =
-            |sight: &Sight| sight.is_large || !index.made[sight.cluster as usize].is_good_for(shot);
         self.todo.clear();
         for (key, sight) in self.sights.with_keys() {
-            if sight.is_in(rows) && is_missing(sight) {
-                self.todo.push(key);
+            if sight.is_in(rows) {
+                let made = &mut index.made[sight.cluster as usize];
+                let missing = made.missing(shot);
+                if sight.is_large || missing != 0 {
+                    self.todo.push((key, missing));
+                    // If this is not carried through, they have to be made anew.
+                    made.unit_m = 0.0;
+                }
             }
-        }
-        for &key in &self.todo {
-            // If this is not carried through, they have to be made anew.
-            index.made[self.sights.get(key).cluster as usize].unit_m = 0.0;
         }
         let total = AtomicU64::new(index.lines_bytes);
         let mut lines = std::mem::take(&mut index.lines);
-        let place = |key| self.sights.get(key).cluster as usize;
-        for_each_at(&mut lines, 0, &self.todo, &place, &|key, lines| {
-            let is_over = total.load(Ordering::Relaxed) > limit_bytes;
-            let sight = self.sights.get(key);
-            let Some(bounds) = index.bounds[sight.cluster as usize] else {
-                return;
-            };
-            if is_over || shot.cancel.check().is_err() {
-                return;
-            }
-            let thread = rayon::current_thread_index().unwrap_or(0);
-            let scratch = &self.scratches[thread % self.scratches.len()];
-            let mut scratch = scratch.lock().unwrap_or_else(PoisonError::into_inner);
-            let before = lines.bytes();
-            let paths = index.paths_of(sight.cluster);
-            lines.make(shot, sight, (paths, bounds), rows, &mut scratch);
-            total.fetch_add(lines.bytes().wrapping_sub(before), Ordering::Relaxed);
-        });
+        let place = |(key, _)| self.sights.get(key).cluster as usize;
+        for_each_at(
+            &mut lines,
+            0,
+            &self.todo,
+            &place,
+            &|(key, missing), lines| {
+                let is_over = total.load(Ordering::Relaxed) > limit_bytes;
+                let sight = self.sights.get(key);
+                let Some(extent) = index.extents[sight.cluster as usize] else {
+                    return;
+                };
+                if is_over || shot.cancel.check().is_err() {
+                    return;
+                }
+                let thread = rayon::current_thread_index().unwrap_or(0);
+                let scratch = &self.scratches[thread % self.scratches.len()];
+                let mut scratch = scratch.lock().unwrap_or_else(PoisonError::into_inner);
+                let before = lines.bytes();
+                let paths = index.paths_of(sight.cluster);
+                let cluster = (paths, extent.middle);
+                lines.make(shot, sight, cluster, missing, rows, &mut scratch);
+                total.fetch_add(lines.bytes().wrapping_sub(before), Ordering::Relaxed);
+            },
+        );
         index.lines = lines;
         index.lines_bytes = total.into_inner();
         shot.cancel.check()?;
         if index.lines_bytes > limit_bytes {
             return Ok(Err(TooMuch(index.lines_bytes)));
         }
-        for &key in &self.todo {
+        for &(key, _) in &self.todo {
             let sight = self.sights.get(key);
             let cluster = sight.cluster as usize;
             index.made[cluster] = Made {
                 unit_m: if sight.is_large { 0.0 } else { shot.unit_m() },
                 tolerance_units: shot.tolerance_units(),
+                changed: 0,
                 paths_and_lines: index.lines[cluster].paths_and_lines(),
             };
         }
@@ -317,12 +325,12 @@ impl Buffers {
 
 /// Calls `work` for some elements, in parallel: for each key, whose places rise, with that at its place. The first
 /// of `all` has the place `first`.
-fn for_each_at<T: Send>(
+fn for_each_at<T: Send, K: Copy + Sync>(
     all: &mut [T],
     first: usize,
-    keys: &[u32],
-    place: &(impl Fn(u32) -> usize + Sync),
-    work: &(impl Fn(u32, &mut T) + Sync),
+    keys: &[K],
+    place: &(impl Fn(K) -> usize + Sync),
+    work: &(impl Fn(K, &mut T) + Sync),
 ) {
     const AT_ONCE: usize = 8;
     if keys.len() <= AT_ONCE {

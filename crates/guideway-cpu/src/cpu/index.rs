@@ -3,7 +3,8 @@ use guideway_scene::{Rgba, Scene};
 use guideway_spline::Bounds;
 use rayon::prelude::*;
 
-use super::cluster::{CLUSTER_PATHS, Hull, Lines, hull, shown_bounds, sorted_rows};
+use super::cluster::{CLUSTER_PATHS, Lines, Members, sorted_rows};
+use super::extent::{Extent, Hull, bounds_anew, hull, shown_bounds};
 use super::place::Placement;
 use super::shot::{LaneWidth, Shot, Widths, widths};
 
@@ -11,16 +12,16 @@ use super::shot::{LaneWidth, Shot, Widths, widths};
 pub(super) struct Index {
     /// Rows of paths, those of a cluster next to each other.
     pub(super) paths: Vec<u32>,
-    /// Where the control points of what is shown of each cluster lie, in metres; none if that is nothing.
-    pub(super) bounds: Vec<Option<Bounds<f64>>>,
+    /// Where what is shown of each cluster lies; none if that is nothing.
+    pub(super) extents: Vec<Option<Extent>>,
     /// What each cluster was last drawn as.
     pub(super) lines: Vec<Lines>,
     /// Bytes of all of them.
     pub(super) lines_bytes: u64,
     /// What those lines are.
     pub(super) made: Vec<Made>,
-    /// Cluster of each row; made for the first edit.
-    cluster_of: Vec<u32>,
+    /// Where among `paths` each row is; made for the first edit.
+    place_of: Vec<u32>,
     /// Draw rank of each row; none if it is its row.
     pub(super) ranks: Option<Vec<u32>>,
     pub(super) widths: Widths,
@@ -34,14 +35,22 @@ pub(super) struct Made {
     /// The unit and the tolerance of the views that they are good for; 0 if they have to be made anew.
     pub(super) unit_m: f64,
     pub(super) tolerance_units: f32,
+    /// Members that have changed since.
+    pub(super) changed: Members,
     /// Number of paths and of lines.
     pub(super) paths_and_lines: [u32; 2],
 }
 
 impl Made {
-    /// Whether a frame can be drawn with these lines.
-    pub(super) fn is_good_for(&self, shot: &Shot<'_>) -> bool {
-        self.unit_m == shot.unit_m() && self.tolerance_units == shot.tolerance_units()
+    /// The members whose lines a frame cannot be drawn with.
+    pub(super) fn missing(&self, shot: &Shot<'_>) -> Members {
+        let is_as_exact =
+            self.unit_m == shot.unit_m() && self.tolerance_units == shot.tolerance_units();
+        if is_as_exact {
+            self.changed
+        } else {
+            Members::MAX
+        }
     }
 }
 
@@ -52,18 +61,18 @@ impl Index {
         let hulls: Vec<Hull> = rows.map(|row| hull(scene, row)).collect();
         let mut index = Self {
             paths: sorted_rows(&hulls),
-            bounds: Vec::new(),
+            extents: Vec::new(),
             lines: Vec::new(),
             lines_bytes: 0,
             made: Vec::new(),
-            cluster_of: Vec::new(),
+            place_of: Vec::new(),
             ranks: None,
             widths: None,
             solid: None,
         };
         let clusters = index.paths.par_chunks(CLUSTER_PATHS);
-        index.bounds = clusters
-            .map(|paths| shown_bounds(scene, paths, |path| hulls[path as usize]))
+        index.extents = clusters
+            .map(|paths| shown_bounds(scene, paths, &hulls).map(Extent::new))
             .collect();
         index.resize();
         index.order_anew(scene);
@@ -73,7 +82,7 @@ impl Index {
     /// After clusters were added.
     fn resize(&mut self) {
         let clusters = self.paths.len().div_ceil(CLUSTER_PATHS);
-        self.bounds.resize(clusters, None);
+        self.extents.resize(clusters, None);
         self.lines.resize_with(clusters, Lines::default);
         self.made.resize(clusters, Made::default());
     }
@@ -121,7 +130,7 @@ impl Index {
 
     /// Bytes that a scene of so many rows takes, before any line is made.
     pub(super) fn planned_bytes(rows: usize) -> u64 {
-        let a_cluster = size_of::<Lines>() + size_of::<Made>() + size_of::<Option<Bounds<f64>>>();
+        let a_cluster = size_of::<Lines>() + size_of::<Made>() + size_of::<Option<Extent>>();
         let clusters = rows.div_ceil(CLUSTER_PATHS) * a_cluster;
         (clusters + rows * 3 * size_of::<u32>()) as u64
     }
@@ -129,8 +138,8 @@ impl Index {
     /// Bytes held, without what lines point to.
     pub(super) fn bytes(&self) -> u64 {
         let ranks = self.ranks.as_ref().map_or(0, Vec::capacity);
-        let rows = self.paths.capacity() + self.cluster_of.capacity() + ranks;
-        let clusters = self.bounds.capacity() * size_of::<Option<Bounds<f64>>>()
+        let rows = self.paths.capacity() + self.place_of.capacity() + ranks;
+        let clusters = self.extents.capacity() * size_of::<Option<Extent>>()
             + self.lines.capacity() * size_of::<Lines>()
             + self.made.capacity() * size_of::<Made>();
         (rows * size_of::<u32>() + clusters) as u64
@@ -151,13 +160,24 @@ impl Index {
         let clusters = self.clusters_of(paths);
         let bounds: Vec<_> = clusters
             .par_iter()
-            .map(|&cluster| shown_bounds(scene, self.paths_of(cluster), |path| hull(scene, path)))
+            .map(|&(cluster, _)| bounds_anew(scene, self.paths_of(cluster)))
             .collect();
         let mut changed = Vec::with_capacity(2 * clusters.len());
-        for (&cluster, bounds) in clusters.iter().zip(bounds) {
-            let before = std::mem::replace(&mut self.bounds[cluster as usize], bounds);
-            changed.extend(before.into_iter().chain(bounds));
-            self.made[cluster as usize].unit_m = 0.0;
+        for (&(cluster, members), bounds) in clusters.iter().zip(bounds) {
+            let (extent, made) = (
+                &mut self.extents[cluster as usize],
+                &mut self.made[cluster as usize],
+            );
+            let before = *extent;
+            *extent = bounds.map(|bounds| match before {
+                Some(extent) => extent.changed(bounds),
+                None => Extent::new(bounds),
+            });
+            changed.extend(before.map(|extent| extent.bounds).into_iter().chain(bounds));
+            made.changed |= members;
+            if before.map(|extent| extent.middle) != extent.map(|extent| extent.middle) {
+                made.unit_m = 0.0;
+            }
         }
         changed
     }
@@ -167,24 +187,25 @@ impl Index {
         let clusters = self.clusters_of(paths);
         let bounds = clusters
             .iter()
-            .map(|&cluster| self.bounds[cluster as usize]);
-        bounds.flatten().collect()
+            .filter_map(|&(cluster, _)| self.extents[cluster as usize]);
+        bounds.map(|extent| extent.bounds).collect()
     }
 
-    /// The clusters of some paths, each once.
-    fn clusters_of(&mut self, paths: &[u32]) -> Vec<u32> {
-        if self.cluster_of.is_empty() {
-            self.cluster_of.resize(self.paths.len(), 0);
-            for (&path, place) in self.paths.iter().zip(0_usize..) {
-                self.cluster_of[path as usize] = (place / CLUSTER_PATHS) as u32;
+    /// The clusters of some paths, each once, with those of its members.
+    fn clusters_of(&mut self, paths: &[u32]) -> Vec<(u32, Members)> {
+        if self.place_of.is_empty() {
+            self.place_of.resize(self.paths.len(), 0);
+            for (&path, place) in self.paths.iter().zip(0..) {
+                self.place_of[path as usize] = place;
             }
         }
-        let mut is_named = vec![false; self.lines.len()];
+        let mut members: Vec<Members> = vec![0; self.lines.len()];
         for &path in paths {
-            is_named[self.cluster_of[path as usize] as usize] = true;
+            let place = self.place_of[path as usize] as usize;
+            members[place / CLUSTER_PATHS] |= 1 << (place % CLUSTER_PATHS);
         }
-        let named = (0..).zip(is_named).filter(|(_, is_named)| *is_named);
-        named.map(|(cluster, _)| cluster).collect()
+        let named = (0..).zip(members).filter(|(_, members)| *members != 0);
+        named.collect()
     }
 
     /// Puts rows behind the last into clusters of their own. Gives where they are.
@@ -192,10 +213,8 @@ impl Index {
         let first = self.paths.len() as u32;
         self.paths.extend(first..scene.row_count() as u32);
         self.resize();
-        if !self.cluster_of.is_empty() {
-            let places = self.cluster_of.len()..self.paths.len();
-            self.cluster_of
-                .extend(places.map(|place| (place / CLUSTER_PATHS) as u32));
+        if !self.place_of.is_empty() {
+            self.place_of.extend(first..self.paths.len() as u32);
         }
         let rows: Vec<u32> = (first..self.paths.len() as u32).collect();
         self.touch(scene, &rows)

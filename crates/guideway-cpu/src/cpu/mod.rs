@@ -13,6 +13,7 @@ mod ask;
 mod canvas;
 mod cluster;
 mod disc;
+mod extent;
 mod flatten;
 mod frame;
 mod index;
@@ -27,6 +28,7 @@ mod shot;
 mod sight;
 mod simplify;
 mod span;
+mod stretch;
 mod stroke;
 #[cfg(test)]
 mod tests;

@@ -17,10 +17,13 @@ use super::seen::{Hit, Seen};
 use super::shot::{LaneWidth, Shot};
 use super::sight::Sights;
 use super::span::{LAYERED, SOLID, Samples};
+use super::stretch::Stretch;
 use super::tiles::{Bins, Grid, Parts};
 
 /// Pieces of several colours that are sorted at first; each time that more are needed, twice as many.
 const FIRST_SORTED: usize = 256;
+/// Tiles that a thread draws in one go.
+const MOST_TILES: usize = 8;
 
 /// What one thread paints with.
 pub(super) struct Painter {
@@ -155,41 +158,57 @@ impl Band<'_> {
         paint: impl Fn(&mut Painter, &Tile, &mut dyn Iterator<Item = &mut [P]>) + Sync,
     ) -> Result<(), RenderError> {
         let width_px = self.shot.view.size().width() as usize;
-        let rows = pixels.par_chunks_mut(width_px * TILE_PX).enumerate();
-        rows.try_for_each(|(row, pixels)| {
-            let painter =
-                &self.painters[rayon::current_thread_index().unwrap_or(0) % self.painters.len()];
-            let mut painter = painter.lock().unwrap_or_else(PoisonError::into_inner);
-            let top_px = (self.grid.rows.start + row) * TILE_PX;
-            load(top_px, pixels);
-            for column in 0..self.grid.columns {
-                self.shot.cancel.check()?;
-                let part = self.parts.at(column, self.grid.rows.start + row);
-                if part.is_empty() {
-                    continue;
-                }
-                let (columns, rows) = (part.columns(), part.rows());
-                let left_px = column * TILE_PX + columns.start;
-                let tile = Tile {
-                    index: row * self.grid.columns + column,
-                    corner: Point::new(left_px as f64, (top_px + rows.start) as f64),
-                    width_px: columns.len(),
-                    height_px: rows.len(),
-                };
-                let within = left_px..left_px + columns.len();
-                let drawn = pixels
-                    .chunks_exact_mut(width_px)
-                    .skip(rows.start)
-                    .take(rows.len());
-                let mut drawn = drawn.map(|row| &mut row[within.clone()]);
-                if self.bins.tile(tile.index).is_empty() {
-                    drawn.for_each(|row| row.fill(empty));
-                } else {
-                    paint(&mut painter, &tile, &mut drawn);
-                }
-            }
-            Ok(())
+        let rows = pixels.par_chunks_mut(width_px * TILE_PX);
+        rows.enumerate().try_for_each(|(row, pixels)| {
+            load((self.grid.rows.start + row) * TILE_PX, pixels);
+            self.for_each_of(row, Stretch::new(pixels, width_px), empty, &paint)
         })
+    }
+
+    /// The same for some tiles of a row, by as many threads as are free.
+    fn for_each_of<P: Copy + Send + Sync>(
+        &self,
+        row: usize,
+        mut stretch: Stretch<'_, P>,
+        empty: P,
+        paint: &(impl Fn(&mut Painter, &Tile, &mut dyn Iterator<Item = &mut [P]>) + Sync),
+    ) -> Result<(), RenderError> {
+        if stretch.columns.len() > MOST_TILES {
+            let [left, right] = stretch.halves();
+            let (left, right) = rayon::join(
+                || self.for_each_of(row, left, empty, paint),
+                || self.for_each_of(row, right, empty, paint),
+            );
+            return left.and(right);
+        }
+        let thread = rayon::current_thread_index().unwrap_or(0);
+        let painter = &self.painters[thread % self.painters.len()];
+        let mut painter = painter.lock().unwrap_or_else(PoisonError::into_inner);
+        let tile_row = self.grid.rows.start + row;
+        for column in stretch.columns.clone() {
+            self.shot.cancel.check()?;
+            let part = self.parts.at(column, tile_row);
+            if part.is_empty() {
+                continue;
+            }
+            let (columns, rows) = (part.columns(), part.rows());
+            let tile = Tile {
+                index: row * self.grid.columns + column,
+                corner: Point::new(
+                    (column * TILE_PX + columns.start) as f64,
+                    (tile_row * TILE_PX + rows.start) as f64,
+                ),
+                width_px: columns.len(),
+                height_px: rows.len(),
+            };
+            let mut drawn = stretch.tile(column, columns, rows);
+            if self.bins.tile(tile.index).is_empty() {
+                drawn.for_each(|row| row.fill(empty));
+            } else {
+                paint(&mut painter, &tile, &mut drawn);
+            }
+        }
+        Ok(())
     }
 
     fn paint(&self, painter: &mut Painter, tile: &Tile, matter: Matter) {

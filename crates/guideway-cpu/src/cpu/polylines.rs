@@ -63,17 +63,12 @@ impl<T: Coordinate> Polylines<T> {
     pub(super) fn push(&mut self, member: u8, vertices: &[Point<T>]) {
         let first = self.x.len();
         self.counts[0] += u32::from(self.members.last() != Some(&member));
-        self.counts[1] += vertices.len() as u32 - 1;
         self.firsts.push(first as u32);
         self.members.push(member);
         self.x.extend(vertices.iter().map(|v| v.x));
         self.y.extend(vertices.iter().map(|v| v.y));
         self.begins.resize(self.x.len().div_ceil(LANES), 0);
-        let bits = ((1_u32 << (vertices.len() - 1)) - 1) << (first % LANES);
-        self.begins[first / LANES] |= bits as u16;
-        if let Some(next) = self.begins.get_mut(first / LANES + 1) {
-            *next |= (bits >> LANES) as u16;
-        }
+        self.begin(first, vertices.len() - 1);
         let (mut least, mut most) = (vertices[0], vertices[0]);
         for v in vertices {
             least = Point {
@@ -91,6 +86,41 @@ impl<T: Coordinate> Polylines<T> {
             .zip([least.x, least.y, most.x, most.y])
         {
             side.push(value);
+        }
+    }
+
+    /// Adds some pieces of other lines.
+    #[inline(always)]
+    pub(super) fn push_pieces(&mut self, other: &Self, pieces: Range<usize>) {
+        if pieces.is_empty() {
+            return;
+        }
+        let vertices = other.firsts[pieces.start] as usize..other.firsts[pieces.end] as usize;
+        let shift = self.x.len();
+        self.x.extend_from_slice(&other.x[vertices.clone()]);
+        self.y.extend_from_slice(&other.y[vertices.clone()]);
+        self.begins.resize(self.x.len().div_ceil(LANES), 0);
+        for piece in pieces.clone() {
+            let first = other.firsts[piece] as usize - vertices.start + shift;
+            let member = other.members[piece];
+            self.counts[0] += u32::from(self.members.last() != Some(&member));
+            self.firsts.push(first as u32);
+            self.members.push(member);
+            self.begin(first, other.lines(piece));
+        }
+        for (own, others) in self.boxes.iter_mut().zip(&other.boxes) {
+            own.extend_from_slice(&others[pieces.clone()]);
+        }
+    }
+
+    /// Takes note that so many lines begin at a vertex and those behind it.
+    #[inline(always)]
+    fn begin(&mut self, first: usize, lines: usize) {
+        self.counts[1] += lines as u32;
+        let bits = ((1_u32 << lines) - 1) << (first % LANES);
+        self.begins[first / LANES] |= bits as u16;
+        if let Some(next) = self.begins.get_mut(first / LANES + 1) {
+            *next |= (bits >> LANES) as u16;
         }
     }
 

@@ -114,9 +114,10 @@ impl CpuPrepared {
             < self.kept.as_ref().map_or(0, Kept::pixel_count)
     }
 
-    /// Draws all of the next frame.
+    /// Draws all of the next frame, from the curves.
     pub(super) fn forget_picture(&mut self) {
         self.kept = None;
+        self.index.forget_lines(|_| false);
     }
 }
 
@@ -136,7 +137,7 @@ impl CpuPrepared {
         let strip = Strip::whole(view);
         let shot = index.shot(&self.scene, self.lane_width, (&strip, style, cancel));
         install(self.pool.as_ref(), || {
-            sights.look(&index.bounds, &shot);
+            sights.look(&index.extents, &shot);
             let question = Question {
                 shot: &shot,
                 index,
@@ -209,7 +210,7 @@ impl Prepared for CpuPrepared {
         let bands = install(pool.as_ref(), || {
             let is_moved = buffers.time("cull", |b| {
                 frame.resize(strip.size());
-                b.sights.look(&index.bounds, &shot);
+                b.sights.look(&index.extents, &shot);
                 b.parts.clear(strip);
                 let kept = kept.as_mut();
                 let is_moved =

@@ -7,6 +7,7 @@ use rayon::prelude::*;
 
 use super::canvas::TILE_PX;
 use super::cluster::MOST_UNITS;
+use super::extent::Extent;
 use super::shot::Shot;
 
 /// Clusters that one thread looks at in one go.
@@ -16,7 +17,7 @@ const CHUNK: usize = 1024;
 #[derive(Debug)]
 pub(super) struct Sight {
     pub(super) cluster: u32,
-    /// Where its middle lies, in pixels.
+    /// Where what its lines are measured from lies, in pixels.
     pub(super) middle_px: Point<f64>,
     /// Pixels that it may leave a mark on.
     pub(super) reach_px: Bounds<f32>,
@@ -30,9 +31,9 @@ pub(super) struct Sight {
 }
 
 impl Sight {
-    fn new(cluster: u32, bounds: Bounds<f64>, shot: &Shot<'_>) -> Option<Self> {
+    fn new(cluster: u32, extent: Extent, shot: &Shot<'_>) -> Option<Self> {
         let picture = shot.picture_px();
-        let reach = shot.reach_px(bounds);
+        let reach = shot.reach_px(extent.bounds);
         if !reach.intersects(picture) {
             return None;
         }
@@ -40,16 +41,15 @@ impl Sight {
             let end = (max.min(side_px) / TILE_PX as f64).ceil();
             [(min.max(0.0) / TILE_PX as f64) as u16, (end as u16).max(1)]
         };
-        let size_m = bounds.size();
         Some(Self {
             cluster,
-            middle_px: shot.place.pixel(bounds.center()),
+            middle_px: shot.place.pixel(extent.middle),
             reach_px: Bounds {
                 min: reach.min.to_f32(),
                 max: reach.max.to_f32(),
             },
             is_whole: picture.contains(reach.min) && picture.contains(reach.max),
-            is_large: size_m.x.max(size_m.y) > 2.0 * MOST_UNITS * shot.unit_m(),
+            is_large: extent.reach_m() > MOST_UNITS * shot.unit_m(),
             columns: tiles(reach.min.x, reach.max.x, picture.max.x),
             rows: tiles(reach.min.y, reach.max.y, picture.max.y),
         })
@@ -76,16 +76,16 @@ pub(super) struct Sights {
 }
 
 impl Sights {
-    /// Looks for the clusters, of which each lies within a box.
-    pub(super) fn look(&mut self, bounds: &[Option<Bounds<f64>>], shot: &Shot<'_>) {
+    /// Looks for the clusters, by where each lies.
+    pub(super) fn look(&mut self, extents: &[Option<Extent>], shot: &Shot<'_>) {
         self.chunks
-            .resize_with(bounds.len().div_ceil(CHUNK), Vec::new);
-        let chunks = self.chunks.par_iter_mut().zip(bounds.par_chunks(CHUNK));
-        chunks.enumerate().for_each(|(chunk, (sights, bounds))| {
+            .resize_with(extents.len().div_ceil(CHUNK), Vec::new);
+        let chunks = self.chunks.par_iter_mut().zip(extents.par_chunks(CHUNK));
+        chunks.enumerate().for_each(|(chunk, (sights, extents))| {
             sights.clear();
-            let numbered = ((chunk * CHUNK) as u32..).zip(bounds);
+            let numbered = ((chunk * CHUNK) as u32..).zip(extents);
             sights.extend(
-                numbered.filter_map(|(cluster, bounds)| Sight::new(cluster, (*bounds)?, shot)),
+                numbered.filter_map(|(cluster, extent)| Sight::new(cluster, (*extent)?, shot)),
             );
         });
     }

@@ -17,6 +17,7 @@ use super::shot::LaneWidth;
 use crate::Oracle;
 
 mod kept;
+mod threads;
 
 /// Numbers below 1 in magnitude, the same on every run.
 fn numbers(mut state: u64) -> impl FnMut() -> f64 {

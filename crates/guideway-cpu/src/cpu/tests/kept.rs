@@ -85,10 +85,15 @@ fn after_an_edit_only_what_it_touches_is_drawn_and_all_is_right_to_the_bit() {
         width_m,
         color_rgba,
     };
-    let by = Affine::translation(Point::new(4.0, -30.0));
-    let paths: Arc<[u32]> = Arc::new([3, 1700]);
+    let moved = |right_m, up_m, paths: Arc<[u32]>| {
+        let by = Affine::translation(Point::new(right_m, up_m));
+        Edit::Transform { paths, by }
+    };
     let edits = [
-        (Edit::Transform { paths, by }, true),
+        // Lines of the others of their clusters are kept, or not.
+        (moved(0.5, 0.25, Arc::new([3, 1700])), true),
+        (moved(-0.25, 0.125, Arc::new([3, 4, 700])), true),
+        (moved(4.0, -30.0, Arc::new([3, 1700])), true),
         (Edit::SetStates(Arc::new([(9, PathState::Hidden)])), true),
         (Edit::Insert(Arc::new([inserted])), true),
         // From one colour to two, within two, and from one width to two.
