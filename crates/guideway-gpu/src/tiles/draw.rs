@@ -16,6 +16,7 @@ use super::room::{Room, Size};
 use super::rounds::Rounds;
 use super::shot::Shot;
 use super::window::Window;
+use super::work::Counted;
 
 /// What a picture is made with.
 #[derive(Default)]
@@ -56,6 +57,8 @@ pub(super) struct Drawing {
     pub(super) windows: u32,
     /// Whether the rest was kept from before.
     is_part: bool,
+    /// What was counted, if the kernels count.
+    pub(super) work: Counted,
 }
 
 fn too_long(found: &Found) -> RenderError {
@@ -105,7 +108,7 @@ impl PreparedTiles {
         let params = shot.params(canvas, room, window, first_row);
         let buffers = Buffers {
             gpu: &self.shared.gpu,
-            kernels: &self.shared.kernels,
+            kernels: &self.kernels,
             store,
             room,
             canvas,
@@ -177,6 +180,7 @@ impl PreparedTiles {
                 }
                 drawing.lines += u64::from(found.lines);
                 drawing.drawn = found.drawn;
+                drawing.work.add(&found);
                 drawing.windows += 1;
             } else if paint == Paint::One && self.easel.may_help(&found) {
                 windows.push(window);

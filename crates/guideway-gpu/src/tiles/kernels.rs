@@ -31,16 +31,28 @@ pub(super) struct Painters {
 
 impl Kernels {
     pub(super) fn new(gpu: &Gpu) -> Result<Self, String> {
+        Self::with(gpu, &[])
+    }
+
+    /// Those of a frame of one opaque colour count what they do.
+    pub(super) fn counting(gpu: &Gpu) -> Result<Self, String> {
+        Self::with(gpu, &[("COUNTS", 1.0)])
+    }
+
+    /// With constants for all kernels that may count.
+    fn with(gpu: &Gpu, counts: &[(&'static str, f64)]) -> Result<Self, String> {
+        let kernel =
+            |source, constants: &[_]| Kernel::new(gpu, source, &[constants, counts].concat());
         let tile = constant("TILE_PX", TILE_PX);
         let workgroup = constant("WORKGROUP", WORKGROUP);
         let strokes = constant("STROKES", CLUSTER_STROKES);
         let starts_threads = constant("THREADS", STARTS_THREADS);
         let tile_threads = constant("THREADS", TILE_THREADS);
         Ok(Self {
-            cull: Kernel::new(gpu, &CULL, &[tile, workgroup])?,
-            flatten: Kernel::new(gpu, &FLATTEN, &[tile, strokes])?,
-            starts: Kernel::new(gpu, &STARTS, &[tile, starts_threads])?,
-            scatter: Kernel::new(gpu, &SCATTER, &[tile, constant("THREADS", SCATTER_THREADS)])?,
+            cull: kernel(&CULL, &[tile, workgroup])?,
+            flatten: kernel(&FLATTEN, &[tile, strokes])?,
+            starts: kernel(&STARTS, &[tile, starts_threads])?,
+            scatter: kernel(&SCATTER, &[tile, constant("THREADS", SCATTER_THREADS)])?,
             sort: [
                 Kernel::new(gpu, &SORT[0], &[tile, tile_threads])?,
                 Kernel::new(gpu, &SORT[1], &[tile, tile_threads])?,
@@ -48,8 +60,8 @@ impl Kernels {
             shift: Kernel::new(gpu, &SHIFT, &[constant("THREADS", WORKGROUP)])?,
             touch: Kernel::new(gpu, &TOUCH, &[tile, workgroup])?,
             painters: [
-                Painters::new(gpu, Samples::Coarse)?,
-                Painters::new(gpu, Samples::Fine)?,
+                Painters::new(gpu, Samples::Coarse, counts)?,
+                Painters::new(gpu, Samples::Fine, counts)?,
             ],
         })
     }
@@ -60,7 +72,7 @@ impl Kernels {
 }
 
 impl Painters {
-    fn new(gpu: &Gpu, samples: Samples) -> Result<Self, String> {
+    fn new(gpu: &Gpu, samples: Samples, counts: &[(&'static str, f64)]) -> Result<Self, String> {
         let cover = vec![
             constant("TILE_PX", TILE_PX),
             constant("THREADS", TILE_THREADS),
@@ -73,7 +85,7 @@ impl Painters {
             Kernel::new(gpu, &LAYERS[samples as usize], &constants)
         };
         Ok(Self {
-            cover: Kernel::new(gpu, &COVER[samples as usize], &cover)?,
+            cover: Kernel::new(gpu, &COVER[samples as usize], &[&cover, counts].concat())?,
             opaque: layers(Layers::Opaque)?,
             translucent: layers(Layers::Translucent)?,
             density: layers(Layers::Density)?,

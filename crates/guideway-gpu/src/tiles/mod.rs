@@ -4,7 +4,8 @@
 //! The folder in the order of the data: `pack` makes of the scene what the device reads, `store` holds it there,
 //! `places` knows where and `edit` changes it; `shot` is a view, `window` a part of its picture, `room` holds the lines
 //! that a frame finds, `canvas` its tiles and pixels, `bound` the work between them; `draw` does it, in `rounds` where
-//! that saves work, `kept` is what it need not draw again; `prepared` answers for all of it, and `ask` says what is where.
+//! that saves work, `kept` is what it need not draw again; `prepared` answers for all of it, `ask` says what is where,
+//! and `work` what a frame takes.
 
 mod ask;
 mod bound;
@@ -23,8 +24,9 @@ mod rounds;
 mod shot;
 mod store;
 mod window;
+mod work;
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use guideway_render::{Budget, Method, MethodInfo, Prepared, RenderError};
 use guideway_scene::Scene;
@@ -55,7 +57,9 @@ impl Default for TilesOptions {
 /// What all scenes share.
 struct Shared {
     gpu: Arc<Gpu>,
-    kernels: Kernels,
+    kernels: Arc<Kernels>,
+    /// Made when work is first counted.
+    counting_kernels: OnceLock<Result<Arc<Kernels>, String>>,
     options: TilesOptions,
 }
 
@@ -66,7 +70,8 @@ impl Tiles {
     /// When the device does not take the shaders: a sentence with its reason.
     pub fn new(gpu: Arc<Gpu>, options: TilesOptions) -> Result<Self, String> {
         Ok(Self(Arc::new(Shared {
-            kernels: Kernels::new(&gpu)?,
+            kernels: Arc::new(Kernels::new(&gpu)?),
+            counting_kernels: OnceLock::new(),
             gpu,
             options,
         })))

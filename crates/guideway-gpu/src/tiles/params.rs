@@ -142,6 +142,8 @@ pub(super) struct Found {
     pub(super) drawn: u32,
     pub(super) longest: u32,
     pub(super) full_tiles: u32,
+    /// Of shaders that count: tests, atomics, words read and written, the low half of each first.
+    pub(super) work: [u32; 8],
 }
 
 /// What a pixel of a tile with layers shows: `SHADING` of `layers.wgsl`.
@@ -160,15 +162,15 @@ macro_rules! wgsl {
 
 /// Shaders that paint tiles, with so many samples in one row of a pixel.
 macro_rules! tiles {
-    ($samples:literal, $file:literal, $bindings:expr) => {
+    ($samples:literal, [$($file:literal),+], $bindings:expr) => {
         Source {
-            name: $file,
+            name: [$($file),+][0],
             wgsl: concat!(
                 "const SAMPLES_A_ROW: u32 = ",
                 $samples,
                 "u;\n",
                 wgsl!(
-                    "frame", "view", "style", "walk", "capsule", "tile", "open", "blend", $file
+                    "frame", "work", "view", "style", "walk", "capsule", "tile", "open", "blend", $($file),+
                 )
             ),
             bindings: $bindings,
@@ -178,15 +180,15 @@ macro_rules! tiles {
 
 pub(super) const CULL: Source = Source {
     name: "cull",
-    wgsl: wgsl!("frame", "view", "cluster", "cull"),
+    wgsl: wgsl!("frame", "work", "found", "view", "cluster", "cull"),
     bindings: &["frame", "clusters", "found"],
 };
 
 pub(super) const FLATTEN: Source = Source {
     name: "flatten",
     wgsl: wgsl!(
-        "frame", "view", "cluster", "stroke", "style", "curve", "plan", "clip", "walk", "hidden",
-        "flatten"
+        "frame", "work", "found", "view", "cluster", "stroke", "style", "curve", "plan", "clip",
+        "walk", "hidden", "flatten"
     ),
     bindings: &[
         "frame",
@@ -204,14 +206,14 @@ pub(super) const FLATTEN: Source = Source {
 
 pub(super) const STARTS: Source = Source {
     name: "starts",
-    wgsl: wgsl!("frame", "starts"),
+    wgsl: wgsl!("frame", "work", "found", "starts"),
     bindings: &["frame", "counts", "lists", "filled", "found"],
 };
 
 pub(super) const SCATTER: Source = Source {
     name: "scatter",
     wgsl: wgsl!(
-        "frame", "before", "view", "style", "walk", "tally", "scatter"
+        "frame", "work", "found", "view", "style", "walk", "tally", "scatter"
     ),
     bindings: &[
         "frame",
@@ -288,7 +290,7 @@ pub(super) enum Samples {
 
 pub(super) const TOUCH: Source = Source {
     name: "touch",
-    wgsl: wgsl!("frame", "before", "view", "style", "touch"),
+    wgsl: wgsl!("frame", "work", "before", "view", "style", "touch"),
     bindings: &[
         "frame",
         "found",
@@ -301,20 +303,20 @@ pub(super) const TOUCH: Source = Source {
 
 /// Which path lies on top; by [`Samples`].
 pub(super) const IDS: [Source; 2] = [
-    tiles!(4, "ids", TILE_BINDINGS),
-    tiles!(16, "ids", TILE_BINDINGS),
+    tiles!(4, ["ids"], TILE_BINDINGS),
+    tiles!(16, ["ids"], TILE_BINDINGS),
 ];
 
 /// One opaque colour; by [`Samples`].
 pub(super) const COVER: [Source; 2] = [
-    tiles!(4, "cover", COVER_BINDINGS),
-    tiles!(16, "cover", COVER_BINDINGS),
+    tiles!(4, ["cover", "waiting", "found"], COVER_BINDINGS),
+    tiles!(16, ["cover", "waiting", "found"], COVER_BINDINGS),
 ];
 
 /// Anything else; by [`Samples`].
 pub(super) const LAYERS: [Source; 2] = [
-    tiles!(4, "layers", TILE_BINDINGS),
-    tiles!(16, "layers", TILE_BINDINGS),
+    tiles!(4, ["layers"], TILE_BINDINGS),
+    tiles!(16, ["layers"], TILE_BINDINGS),
 ];
 
 #[cfg(test)]

@@ -4,12 +4,13 @@ use std::time::Instant;
 
 use guideway_render::{
     Budget, Cancel, Edited, Frame, Preparation, Prepared, RenderError, Report, Shading, Stage,
-    Style, View, density, elapsed_ms,
+    Style, View, Work, density, elapsed_ms,
 };
 use guideway_scene::{Edit, Scene};
 
 use super::bound::Paint;
 use super::draw::{Drawing, Easel};
+use super::kernels::Kernels;
 use super::pack::Packed;
 use super::params::{Found, Stroke};
 use super::places::Places;
@@ -26,6 +27,7 @@ const PLANNED_PIXELS: u64 = 3840 * 2160;
 /// A scene on the device, and the buffers of the last frame.
 pub(super) struct PreparedTiles {
     pub(super) shared: Arc<Shared>,
+    pub(super) kernels: Arc<Kernels>,
     pub(super) scene: Arc<Scene>,
     pub(super) memory: Memory,
     pub(super) runner: Runner,
@@ -99,6 +101,7 @@ impl PreparedTiles {
             parted: BTreeSet::new(),
             places: None,
             patcher: None,
+            kernels: Arc::clone(&shared.kernels),
             shared,
             scene,
             preparation: Preparation::default(),
@@ -263,5 +266,14 @@ impl Prepared for PreparedTiles {
 
     fn preparation(&self) -> &Preparation {
         &self.preparation
+    }
+
+    fn count_work(
+        &mut self,
+        view: &View,
+        style: &Style,
+        cancel: &Cancel,
+    ) -> Result<Work, RenderError> {
+        self.counted(view, style, cancel)
     }
 }

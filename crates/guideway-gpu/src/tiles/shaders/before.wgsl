@@ -7,4 +7,5 @@ struct CountersBefore {
     drawn: u32,
     longest: u32,
     full_tiles: u32,
+    work: array<u32, 8>,
 }

@@ -78,6 +78,7 @@ fn rows_touched(capsule: Capsule) -> vec2u {
 
 // The samples of a row that are covered, if it may have any: from the first to behind the last.
 fn span_of(capsule: Capsule, row: u32) -> vec2u {
+    tests(1u);
     let y = f32(row) + 0.5;
     let left = disc_at(capsule, y, capsule.left_y);
     let right = disc_at(capsule, y, capsule.right_y);

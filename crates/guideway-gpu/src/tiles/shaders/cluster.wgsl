@@ -17,6 +17,8 @@ struct Cluster {
     padding: u32,
 }
 
+const CLUSTER_WORDS: u32 = 14u;
+
 // From the middle of the view to the origin of a cluster. Near parts cancel without loss.
 fn offset_m(cluster: Cluster) -> vec2f {
     return (cluster.origin_high_m - frame.center_high_m) + (cluster.origin_low_m - frame.center_low_m);

@@ -1,25 +1,13 @@
 // Tiles of a scene of one opaque colour: it does not matter which line covers a sample.
 
 @group(0) @binding(7) var<storage, read_write> counts: array<u32>;
-@group(0) @binding(8) var<storage, read_write> found: Counters;
+@group(0) @binding(8) var<storage, read_write> found: Found;
 
 var<workgroup> was_full: u32;
 // Covered samples of all rows.
 var<workgroup> samples: array<atomic<u32>, THREADS * WORDS>;
 // How many pixels are open.
 var<workgroup> open_pixels: atomic<u32>;
-// Longest list that is covered as it is: of fewer lines, too few are hidden to look for them, and of strokes so thin
-// that they need all samples always.
-const SHORT: u32 = select(TURN, 0x7fffffffu, WORDS > 2u);
-// Lines that are looked at together, so many that there is room.
-const LOOKS: u32 = select(TURN, TURN / 2u, WORDS > 2u);
-// Rows of pixels that are worth covering together.
-const ENOUGH: u32 = 256u;
-// Lines that wait to be covered, and their rows of pixels, each with its line from bit 8 on.
-var<workgroup> capsules: array<Capsule, 2u * LOOKS>;
-var<workgroup> rows: array<u32, ENOUGH + LOOKS * TILE_PX>;
-var<workgroup> waiting_lines: atomic<u32>;
-var<workgroup> waiting_rows: atomic<u32>;
 // What all threads go by: pixels that are open, and lines and rows that wait.
 var<workgroup> state: vec3u;
 
@@ -28,8 +16,7 @@ fn clear(tile: Tile, thread: u32) {
     let size = open_all(tile, thread);
     if thread == 0u {
         atomicStore(&open_pixels, size.x * size.y);
-        atomicStore(&waiting_lines, 0u);
-        atomicStore(&waiting_rows, 0u);
+        nothing_waits();
     }
     for (var word = 0u; word < WORDS; word++) {
         atomicStore(&samples[thread * WORDS + word], 0u);
@@ -49,23 +36,22 @@ fn count_of(pixel: u32) -> u32 {
     return count;
 }
 
-// Closes a pixel once all of its samples are covered.
-fn close(pixel: u32) {
-    let bit = 1u << (pixel % TILE_PX);
-    let row = pixel / TILE_PX;
-    if (atomicLoad(&open[row]) & bit) != 0u && count_of(pixel) == SAMPLE_ROWS * SAMPLES_A_ROW {
-        atomicAnd(&open[row], ~bit);
+fn is_open(pixel: u32) -> bool {
+    return (atomicLoad(&open[pixel / TILE_PX]) & (1u << (pixel % TILE_PX))) != 0u;
+}
+
+// Closes an open pixel if so many covered samples are all that it has.
+fn close(pixel: u32, count: u32) {
+    if count == SAMPLE_ROWS * SAMPLES_A_ROW {
+        atomicAnd(&open[pixel / TILE_PX], ~(1u << (pixel % TILE_PX)));
         atomicSub(&open_pixels, 1u);
     }
 }
 
-fn wait(capsule: Capsule, shown: u32) {
-    let line = atomicAdd(&waiting_lines, 1u);
-    capsules[line] = capsule;
-    var place = atomicAdd(&waiting_rows, countOneBits(shown));
-    for (var left = shown; left != 0u; left &= left - 1u) {
-        rows[place] = (line << 8u) | firstTrailingBit(left);
-        place++;
+// Closes a pixel once all of its samples are covered.
+fn close_if_covered(pixel: u32) {
+    if is_open(pixel) {
+        close(pixel, count_of(pixel));
     }
 }
 
@@ -77,25 +63,6 @@ fn cover_row(capsule: Capsule, row: u32) {
     }
 }
 
-// Covers what waits, and closes what is then covered.
-fn cover_waiting(thread: u32, count: u32) {
-    for (var i = thread / SAMPLE_ROWS; i < count; i += THREADS / SAMPLE_ROWS) {
-        let capsule = capsules[rows[i] >> 8u];
-        let row = (rows[i] & 255u) * SAMPLE_ROWS + thread % SAMPLE_ROWS;
-        let touched = rows_touched(capsule);
-        if row >= touched.x && row < touched.y {
-            cover_row(capsule, row);
-        }
-    }
-    workgroupBarrier();
-    close(thread);
-    if thread == 0u {
-        atomicStore(&waiting_lines, 0u);
-        atomicStore(&waiting_rows, 0u);
-    }
-    workgroupBarrier();
-}
-
 // How many pixels are open, for all threads.
 fn count_open(thread: u32) -> u32 {
     if thread == 0u {
@@ -104,13 +71,13 @@ fn count_open(thread: u32) -> u32 {
     return workgroupUniformLoad(&state).x;
 }
 
-// Covers lines as they come. Few are shared out by their rows, so that all threads have work.
+// Covers lines as they come, each thread for itself. Few are shared out by their rows, so that all threads have work.
 fn cover_short(tile: Tile, thread: u32, list: vec2u) {
-    for (var first = list.x; first < list.y; first += THREADS) {
-        let lines = min(THREADS, list.y - first);
-        let parts = THREADS >> (32u - countLeadingZeros(lines - 1u));
-        let line = thread / parts;
-        if line < lines {
+    let most = LINES_A_THREAD * THREADS;
+    for (var first = list.x; first < list.y; first += most) {
+        let lines = min(most, list.y - first);
+        let parts = max(THREADS >> (32u - countLeadingZeros(lines - 1u)), 1u);
+        for (var line = thread / parts; line < lines; line += THREADS / parts) {
             let capsule = capsule_at(tile, first + line);
             let touched = rows_touched(capsule);
             for (var row = touched.x + thread % parts; row < touched.y; row += parts) {
@@ -118,10 +85,12 @@ fn cover_short(tile: Tile, thread: u32, list: vec2u) {
             }
         }
         workgroupBarrier();
-        close(thread);
-        workgroupBarrier();
-        if count_open(thread) == 0u {
-            break;
+        if first + most < list.y {
+            close_if_covered(thread);
+            workgroupBarrier();
+            if count_open(thread) == 0u {
+                break;
+            }
         }
     }
 }
@@ -173,14 +142,18 @@ fn main(
     let tile = tile_of(index);
     if thread == 0u {
         was_full = counts[index] & FULL;
+        reads(1u);
     }
     // Its pixels are written already.
     if workgroupUniformLoad(&was_full) != 0u {
+        report_work();
         return;
     }
     let list = list_of(index);
+    reads(2u);
     if list.x >= list.y {
         write(tile, thread, frame.background);
+        report_work();
         return;
     }
     clear(tile, thread);
@@ -190,11 +163,17 @@ fn main(
     } else {
         cover_long(tile, thread, list);
     }
+    let count_here = count_of(thread);
+    if is_open(thread) {
+        close(thread, count_here);
+    }
+    workgroupBarrier();
     if thread == 0u && atomicLoad(&open_pixels) == 0u {
         counts[index] |= FULL;
-        atomicAdd(&found.full_tiles, 1u);
+        atomicAdd(&found.counters.full_tiles, 1u);
+        atomics(1u);
     }
-    let count_here = count_of(thread);
     let share = f32(count_here) / f32(SAMPLE_ROWS * SAMPLES_A_ROW);
     write(tile, thread, over_background(channels(frame.color).rgb * share, share));
+    report_work();
 }

@@ -2,11 +2,6 @@
 
 override WORKGROUP: u32;
 
-struct Found {
-    counters: Counters,
-    seen: array<u32>,
-}
-
 @group(0) @binding(1) var<storage, read> clusters: array<Cluster>;
 @group(0) @binding(2) var<storage, read_write> found: Found;
 
@@ -21,9 +16,13 @@ fn main(
         return;
     }
     let cluster = clusters[index];
+    reads(CLUSTER_WORDS);
     let box = box_px(cluster);
     let reach_px = widest_px(cluster) + 1.0;
     if is_seen(box.xy, box.zw, reach_px) {
         found.seen[atomicAdd(&found.counters.clusters, 1u)] = index;
+        atomics(1u);
+        writes(1u);
     }
+    report_work();
 }

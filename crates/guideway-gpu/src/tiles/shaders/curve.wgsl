@@ -11,6 +11,7 @@ struct Curve {
 
 // Read anew each time: caches hold them, and a workgroup that shared them would leave room for few others.
 fn control_px(curve: Curve, index: u32) -> vec2f {
+    reads(2u);
     return pixel_from_view(points_m[curve.first_point + index] + curve.offset_m);
 }
 

@@ -15,11 +15,6 @@ struct Chunk {
 // Every so many clusters are of the first round.
 const STRIDE: u32 = 4u;
 
-struct Found {
-    counters: Counters,
-    seen: array<u32>,
-}
-
 @group(0) @binding(1) var<uniform> chunk: Chunk;
 @group(0) @binding(3) var<storage, read> strokes: array<Stroke>;
 @group(0) @binding(4) var<storage, read> clusters: array<Cluster>;
@@ -54,6 +49,7 @@ fn emit(slot: u32, rank: u32, a: vec2f, b: vec2f, radius: f32) {
         let part = within_reach(a, b, radius + 1.0);
         if part.x > part.y {
             line_ranks[slot] = NO_RANK;
+            writes(1u);
             return;
         }
         // Ends inside stay as they are, to the bit.
@@ -71,13 +67,16 @@ fn emit(slot: u32, rank: u32, a: vec2f, b: vec2f, radius: f32) {
             let tile = tile_index(row, column);
             if chunk.round < 2u || !is_full(tile) {
                 atomicAdd(&counts[tile], 1u);
+                atomics(1u);
                 is_needed = true;
             }
         }
     }
     if is_needed {
         lines_px[slot] = line;
+        writes(4u);
     }
+    writes(1u);
     line_ranks[slot] = select(NO_RANK, rank, is_needed);
 }
 
@@ -135,12 +134,14 @@ fn main(
     for (var i = workgroup_index(id, count); i < all; i += count.x * count.y) {
         let index = found.seen[i];
         let cluster = clusters[index];
+        reads(1u + CLUSTER_WORDS);
         let is_of_round = chunk.round == 0u || (index % STRIDE == 0u) == (chunk.round == 1u);
         let is_here = index >= chunk.first_cluster && index < chunk.end_cluster && is_of_round;
         var stroke = Stroke(0u, 0u);
         if is_here {
             if thread < cluster.strokes {
                 stroke = strokes[cluster.first_stroke + thread];
+                reads(2u);
             }
             is_inside = holds(cluster);
         }
@@ -174,8 +175,10 @@ fn main(
         if thread == 0u {
             first_line = atomicAdd(&found.counters.lines, line_ends[STROKES - 1u]);
             atomicAdd(&found.counters.drawn, atomicLoad(&group_drawn));
+            atomics(2u);
         }
         emit_all(thread, curve.offset_m, workgroupUniformLoad(&first_line));
         workgroupBarrier();
     }
+    report_work();
 }

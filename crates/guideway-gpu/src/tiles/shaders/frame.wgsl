@@ -38,18 +38,6 @@ struct Frame {
 
 @group(0) @binding(0) var<uniform> frame: Frame;
 
-// What the stages of a frame find; more lines and references than there is room for are counted, too.
-struct Counters {
-    clusters: atomic<u32>,
-    lines: atomic<u32>,
-    references: atomic<u32>,
-    drawn: atomic<u32>,
-    // Length of the longest list.
-    longest: atomic<u32>,
-    // Tiles all of whose samples are covered.
-    full_tiles: atomic<u32>,
-}
-
 // Set in the count of a tile that is full: what lies there changes nothing.
 const FULL: u32 = 0x80000000u;
 

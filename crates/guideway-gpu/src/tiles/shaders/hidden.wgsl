@@ -4,6 +4,7 @@
 const MOST_LOOKS: u32 = 256u;
 
 fn is_full(tile: u32) -> bool {
+    reads(1u);
     return (atomicLoad(&counts[tile]) & FULL) != 0u;
 }
 

@@ -2,7 +2,7 @@
 
 override THREADS: u32;
 
-@group(0) @binding(1) var<storage, read> found: CountersBefore;
+@group(0) @binding(1) var<storage, read_write> found: Found;
 @group(0) @binding(2) var<storage, read> lines_px: array<vec4f>;
 @group(0) @binding(3) var<storage, read> line_ranks: array<u32>;
 @group(0) @binding(4) var<storage, read> styles: array<Style>;
@@ -18,6 +18,7 @@ fn reserve(thread: u32) {
         if count > 0u {
             let tile = atomicLoad(&tally_tiles[place]);
             atomicStore(&tallies[place], atomicAdd(&filled[tile], count));
+            atomics(1u);
         }
     }
 }
@@ -35,9 +36,11 @@ fn visit(index: u32, line: vec4f, reach: f32, enters: bool) {
                 entry = atomicAdd(&tallies[place], 1u);
             } else if enters {
                 entry = atomicAdd(&filled[tile], 1u);
+                atomics(1u);
             }
             if enters && entry < FULL {
                 references[entry] = index;
+                writes(1u);
             }
         }
     }
@@ -51,8 +54,10 @@ fn main(
 ) {
     if thread == 0u {
         // What has no room is drawn again with more.
-        let fits = found.lines <= frame.line_room && found.references <= frame.reference_room;
-        lines = select(0u, found.lines, fits);
+        let count = atomicLoad(&found.counters.lines);
+        let fits = count <= frame.line_room
+            && atomicLoad(&found.counters.references) <= frame.reference_room;
+        lines = select(0u, count, fits);
     }
     let all = workgroupUniformLoad(&lines);
     let step = count.x * count.y * THREADS;
@@ -65,9 +70,11 @@ fn main(
         var reach = 0.0;
         if index < all {
             rank = line_ranks[index];
+            reads(1u);
         }
         if rank != NO_RANK {
             line = lines_px[index];
+            reads(4u);
             reach = radius_of(rank) + MARGIN_PX;
             visit(index, line, reach, false);
         }
@@ -79,4 +86,5 @@ fn main(
         }
         workgroupBarrier();
     }
+    report_work();
 }

@@ -5,7 +5,7 @@ override THREADS: u32;
 @group(0) @binding(1) var<storage, read> counts: array<u32>;
 @group(0) @binding(2) var<storage, read_write> lists: array<vec2u>;
 @group(0) @binding(3) var<storage, read_write> filled: array<u32>;
-@group(0) @binding(4) var<storage, read_write> found: Counters;
+@group(0) @binding(4) var<storage, read_write> found: Found;
 
 var<workgroup> group_references: atomic<u32>;
 var<workgroup> group_longest: atomic<u32>;
@@ -27,6 +27,7 @@ fn main(
     var marked = 0u;
     if is_tile {
         marked = counts[tile];
+        reads(1u);
     }
     // A full tile needs no list.
     let count = select(marked, 0u, (marked & FULL) != 0u);
@@ -34,12 +35,15 @@ fn main(
     atomicMax(&group_longest, count);
     workgroupBarrier();
     if thread == 0u {
-        group_start = atomicAdd(&found.references, atomicLoad(&group_references));
-        atomicMax(&found.longest, atomicLoad(&group_longest));
+        group_start = atomicAdd(&found.counters.references, atomicLoad(&group_references));
+        atomicMax(&found.counters.longest, atomicLoad(&group_longest));
+        atomics(2u);
     }
     let start = workgroupUniformLoad(&group_start) + before;
     if is_tile {
         lists[tile] = vec2u(start, start + count);
         filled[tile] = start | (marked & FULL);
+        writes(3u);
     }
+    report_work();
 }

@@ -11,6 +11,7 @@ struct Style {
 const NO_RANK: u32 = 0xffffffffu;
 
 fn style_of(rank: u32) -> Style {
+    reads(2u);
     return styles[min(rank, frame.styles - 1u)];
 }
 

@@ -32,6 +32,7 @@ fn write(tile: Tile, thread: u32, color: u32) {
     let y = tile.top + thread / TILE_PX;
     if x < frame.width_px && y < frame.height_px {
         pixels[(y - frame.pixels_row) * frame.width_px + x] = color;
+        writes(1u);
     }
 }
 
@@ -56,6 +57,7 @@ fn list_of(tile: u32) -> vec2u {
 
 // The line at a place of the lists.
 fn capsule_at(tile: Tile, place: u32) -> Capsule {
+    reads(6u);
     let line = references[place];
     let corner = vec2f(f32(tile.left), f32(tile.top));
     return capsule_of(lines_px[line], corner, radius_of(line_ranks[line]));

@@ -1,0 +1,33 @@
+// What the stages of a frame find; more lines and references than there is room for are counted, too.
+
+struct Counters {
+    clusters: atomic<u32>,
+    lines: atomic<u32>,
+    references: atomic<u32>,
+    drawn: atomic<u32>,
+    // Length of the longest list.
+    longest: atomic<u32>,
+    // Tiles all of whose samples are covered.
+    full_tiles: atomic<u32>,
+    // Each of `Work` in two words, the low one first.
+    work: array<atomic<u32>, 8>,
+}
+
+struct Found {
+    counters: Counters,
+    // Clusters that may be seen.
+    seen: array<u32>,
+}
+
+// Adds what this thread has done to the work of the frame.
+fn report_work() {
+    if COUNTS {
+        var counts = array(work.tests, work.atomics, work.words_read, work.words_written);
+        for (var i = 0u; i < 4u; i++) {
+            let before = atomicAdd(&found.counters.work[2u * i], counts[i]);
+            if before > ~counts[i] {
+                atomicAdd(&found.counters.work[2u * i + 1u], 1u);
+            }
+        }
+    }
+}
