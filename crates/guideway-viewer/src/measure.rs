@@ -34,7 +34,9 @@ pub struct Movement {
     pub frames_ms: Vec<f64>,
     /// For each picture that came meanwhile, the time from the question to the picture, in milliseconds.
     pub pictures_ms: Vec<f64>,
-    /// From the last movement until everything shows it, in milliseconds.
+    /// From the last movement until the last picture of it, in milliseconds; 0 where none came after it.
+    pub shown_ms: f64,
+    /// From the last movement until all of it is done, and the layout can be changed again, in milliseconds.
     pub settled_ms: f64,
 }
 
@@ -50,12 +52,14 @@ pub fn measure(
     let context = Context::default();
     // It has a frame sixty times a second, whatever happens.
     let wake = Arc::new(|| {});
+    let started = Instant::now();
     let mut hand = Hand {
         app: App::new(wake, host, vec![file], method),
         context,
-        started: Instant::now(),
+        started,
         at: Pos2::new(480.0, 400.0),
         seen: Vec::new(),
+        last_seen: started,
     };
     hand.wait(|app| {
         let layer = &app.layers[0];
@@ -91,6 +95,8 @@ struct Hand {
     at: Pos2,
     /// Times of the pictures that came.
     seen: Vec<f64>,
+    /// When the last one came.
+    last_seen: Instant,
 }
 
 impl Hand {
@@ -115,6 +121,7 @@ impl Hand {
         if count(&self.app) != before {
             let shown = self.app.layers[0].shown.as_ref();
             self.seen.extend(shown.map(|shown| shown.wall_ms));
+            self.last_seen = Instant::now();
         }
         thread::sleep(FRAME.saturating_sub(since.elapsed()));
         frame_ms
@@ -147,11 +154,14 @@ impl Hand {
             self.frame(events)
         });
         let frames_ms = frames_ms.collect::<Vec<f64>>();
+        let end = Instant::now();
         let settled_ms = self.wait(App::is_settled)?;
+        let until_shown = self.last_seen.saturating_duration_since(end);
         Ok(Movement {
             name,
             frames_ms,
             pictures_ms: std::mem::take(&mut self.seen),
+            shown_ms: until_shown.as_secs_f64() * 1e3,
             settled_ms,
         })
     }

@@ -74,6 +74,7 @@ fn a_file_is_measured_by_moving_it_about_and_stays_as_it_is() {
     );
     for movement in &movements {
         assert!(movement.frames_ms.len() == 120 && movement.frames_ms.iter().all(|ms| *ms > 0.0));
+        assert!(movement.shown_ms <= movement.settled_ms);
         let is_still = movement.name == "still";
         assert_eq!(
             movement.pictures_ms.is_empty(),

@@ -42,14 +42,15 @@ fn movement(movement: &Movement) -> Value {
         "name": movement.name,
         "frames_ms": movement.frames_ms,
         "pictures_ms": movement.pictures_ms,
+        "shown_ms": movement.shown_ms,
         "settled_ms": movement.settled_ms,
     })
 }
 
 fn table(movements: &[Movement]) -> String {
     let mut table = format!(
-        "{:<18} {:>30}   {:>22}   {:>10}\n",
-        "", "frame: median, 95 %, longest", "pictures: count, median", "settled in"
+        "{:<18} {:>30}   {:>22}   {:>10} {:>10}\n",
+        "", "frame: median, 95 %, longest", "pictures: count, median", "shown in", "settled in"
     );
     for movement in movements {
         let frames = Summary::of(&movement.frames_ms).unwrap_or_default();
@@ -61,9 +62,9 @@ fn table(movements: &[Movement]) -> String {
             text::time(frames.max)
         );
         let drawn = format!("{}, {}", pictures.count, text::time(pictures.median));
-        let settled = text::time(movement.settled_ms);
+        let [shown, settled] = [movement.shown_ms, movement.settled_ms].map(text::time);
         table += &format!(
-            "{:<18} {frame:>30}   {drawn:>22}   {settled:>10}\n",
+            "{:<18} {frame:>30}   {drawn:>22}   {shown:>10} {settled:>10}\n",
             movement.name
         );
     }
