@@ -44,9 +44,10 @@ impl Convex {
         }
         let far = |m: f64, p: &P| m.max(p.x.abs()).max(p.y.abs());
         let noise_m = 32.0 * f64::EPSILON * sorted.iter().fold(0.0, far);
-        hull.dedup_by(|p, kept| p.distance(*kept) <= noise_m);
+        let is_noise = |apart: P| apart.dot(apart) <= noise_m * noise_m;
+        hull.dedup_by(|p, kept| is_noise(*p - *kept));
         if let [first, .., last] = hull[..]
-            && first.distance(last) <= noise_m
+            && is_noise(first - last)
         {
             hull.pop();
         }
