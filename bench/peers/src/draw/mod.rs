@@ -5,6 +5,8 @@
 #[cfg(feature = "cairo")]
 mod cairo;
 mod ours;
+#[cfg(feature = "python")]
+mod python;
 mod tiny_skia;
 mod vello;
 
@@ -35,7 +37,16 @@ pub(crate) const METHODS: &[(&str, Draw)] = &[
     ("vello_cpu-threads", vello::draw_threaded),
     #[cfg(feature = "cairo")]
     ("cairo", cairo::draw),
+    #[cfg(feature = "python")]
+    ("skia", python::skia),
+    #[cfg(feature = "python")]
+    ("blend2d", python::blend2d),
 ];
+
+/// Whether a renderer draws in a process of its own: the memory of this one says nothing of it.
+pub(crate) fn is_elsewhere(method: &str) -> bool {
+    ["skia", "blend2d"].contains(&method)
+}
 
 pub(crate) fn draw(
     method: &str,

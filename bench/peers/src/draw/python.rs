@@ -1,0 +1,71 @@
+//! Renderers that have a Python package: `pip install skia-python blend2d-python`. The interpreter is `GUIDEWAY_PYTHON`,
+//! or else `python3`.
+
+use std::env;
+use std::fs;
+use std::io::{BufWriter, Write};
+use std::path::Path;
+use std::process::Command;
+use std::sync::Arc;
+
+use anyhow::{Context, Result, ensure};
+use guideway_layout::Layout;
+use guideway_render::{Frame, View};
+
+use super::{FRAMES, WIDTH_PX, curves};
+
+pub(super) fn skia(layout: &Arc<Layout>, view: &View, frame: &mut Frame) -> Result<Vec<f64>> {
+    draw("skia", layout, view, frame)
+}
+
+/// Its package gives it no threads.
+pub(super) fn blend2d(layout: &Arc<Layout>, view: &View, frame: &mut Frame) -> Result<Vec<f64>> {
+    draw("blend2d", layout, view, frame)
+}
+
+/// Paths are made before the first frame begins.
+fn draw(name: &str, layout: &Layout, view: &View, frame: &mut Frame) -> Result<Vec<f64>> {
+    let folder = tempfile::tempdir()?;
+    let [curves, pixels] = ["curves", "pixels"].map(|file| folder.path().join(file));
+    write_curves(layout, view, &curves)?;
+    let python = env::var("GUIDEWAY_PYTHON").unwrap_or_else(|_| "python3".to_owned());
+    let (width, height) = (view.size().width(), view.size().height());
+    let output = Command::new(&python)
+        .args(["-c", include_str!("strokes.py"), name])
+        .args([width, height].map(|side| side.to_string()))
+        .args([WIDTH_PX.to_string(), FRAMES.to_string()])
+        .args([&curves, &pixels])
+        .output()
+        .with_context(|| python.clone())?;
+    let errors = String::from_utf8_lossy(&output.stderr);
+    ensure!(output.status.success(), "{name} by {python}: {errors}");
+    let bytes = fs::read(pixels)?;
+    let (read, _) = bytes.as_chunks::<4>();
+    ensure!(
+        read.len() == frame.pixels().len(),
+        "{name}: a picture of another size"
+    );
+    frame.pixels_mut().copy_from_slice(read);
+    Ok(serde_json::from_slice(&output.stdout)?)
+}
+
+/// As strokes.py reads them.
+fn write_curves(layout: &Layout, view: &View, file: &Path) -> Result<()> {
+    let mut file = BufWriter::new(fs::File::create(file)?);
+    for path in layout.paths.iter() {
+        for run in curves(&path, view) {
+            let run: Vec<_> = run.collect();
+            let Some([start, ..]) = run.first() else {
+                continue;
+            };
+            file.write_all(&(run.len() as u32).to_ne_bytes())?;
+            let ends = run.iter().flat_map(|[_, rest @ ..]| rest);
+            for point in std::iter::once(start).chain(ends) {
+                for place in [point.x, point.y] {
+                    file.write_all(&(place as f32).to_ne_bytes())?;
+                }
+            }
+        }
+    }
+    Ok(file.flush()?)
+}
