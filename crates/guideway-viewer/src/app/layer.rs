@@ -270,8 +270,6 @@ impl Layer {
                     self.drop_journal();
                 }
                 let document = self.document.insert(*document);
-                let orders = self.renderer.orders();
-                document.tell(move |edit| orders.edit(edit.clone()));
                 if let Some(acts) = self.to_replay.take() {
                     let done = replay(&acts, document);
                     news.push(LayerNews::Notice(format!(
@@ -281,6 +279,9 @@ impl Layer {
                 } else {
                     self.journal = Journal::of(&self.path);
                 }
+                // What was done again before is in the scene that the renderer gets.
+                let orders = self.renderer.orders();
+                document.tell(move |edit| orders.edit(edit.clone()));
                 self.findings = None;
                 if is_again || std::mem::take(&mut self.owes_scene) {
                     self.send_scene();
