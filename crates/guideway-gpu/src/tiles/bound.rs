@@ -5,7 +5,7 @@ use guideway_scene::Scene;
 
 use super::canvas::Canvas;
 use super::kernels::Kernels;
-use super::params::{FrameParams, SCATTER_THREADS, STARTS_THREADS, Samples, WORKGROUP};
+use super::params::{FrameParams, SCATTER_THREADS, STARTS_THREADS, Samples, TILE_PX, WORKGROUP};
 use super::room::Room;
 use super::store::Store;
 use crate::device::{Bindings, DeviceBuffer, Dispatch, Gpu, Kernel, Runner};
@@ -40,11 +40,19 @@ impl Paint {
     }
 
     /// Times that a thread goes round its loops for each line of its tile: at most, with some to spare.
-    pub(super) fn rounds_a_line(self) -> u32 {
+    pub(super) fn rounds_a_line(self, samples: Samples) -> u32 {
+        // Words and samples of the row of samples that a thread has of a tile.
+        let words = samples.a_row() * TILE_PX / u32::BITS;
+        let row = words * u32::BITS;
         match self {
             Self::One => 10,
             Self::Touch => 0,
-            Self::Opaque | Self::Translucent | Self::Density | Self::Ids => 20,
+            // The line, its words when it is gathered and again when its path is laid; each sample is laid once in all.
+            Self::Opaque => 2 + 2 * words,
+            // And every pixel that it covers.
+            Self::Density | Self::Ids => 2 + 2 * words + TILE_PX,
+            // And every sample of it.
+            Self::Translucent => 2 + 2 * words + TILE_PX + row,
         }
     }
 

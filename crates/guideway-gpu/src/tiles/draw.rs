@@ -10,7 +10,7 @@ use super::NAME;
 use super::bound::{Bound, Buffers, Paint};
 use super::canvas::Canvas;
 use super::kept::{Kept, Shifter};
-use super::params::{Found, TILE_PX};
+use super::params::{Found, Samples, TILE_PX};
 use super::prepared::PreparedTiles;
 use super::room::{Room, Size};
 use super::rounds::Rounds;
@@ -139,8 +139,8 @@ impl PreparedTiles {
     }
 
     /// Whether a thread of a tile may not go on to the end of its list.
-    fn is_too_long(&self, found: &Found, paint: Paint) -> bool {
-        u64::from(found.longest) * u64::from(paint.rounds_a_line())
+    fn is_too_long(&self, found: &Found, paint: Paint, samples: Samples) -> bool {
+        u64::from(found.longest) * u64::from(paint.rounds_a_line(samples))
             > u64::from(self.shared.gpu.rounds_a_thread())
     }
 
@@ -173,7 +173,7 @@ impl PreparedTiles {
             cancel.check()?;
             let found = self.draw(shot, paint, &window, first_row, &mut drawing.stages)?;
             let holds = |room: &Room| room.size.holds(&found);
-            let is_too_long = self.is_too_long(&found, paint);
+            let is_too_long = self.is_too_long(&found, paint, shot.samples());
             if !is_too_long && self.easel.room.as_ref().is_some_and(holds) {
                 if paint == Paint::One {
                     self.easel.rounds.learn(&window, &found);

@@ -288,6 +288,16 @@ pub(super) enum Samples {
     Fine = 1,
 }
 
+impl Samples {
+    /// Of one pixel in one row: `SAMPLES_A_ROW` of the shaders.
+    pub(super) fn a_row(self) -> u32 {
+        match self {
+            Self::Coarse => 4,
+            Self::Fine => 16,
+        }
+    }
+}
+
 pub(super) const TOUCH: Source = Source {
     name: "touch",
     wgsl: wgsl!("frame", "work", "before", "view", "style", "touch"),

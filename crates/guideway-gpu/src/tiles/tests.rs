@@ -16,6 +16,8 @@ use super::*;
 use crate::GpuOptions;
 use crate::testing::here;
 
+mod work;
+
 /// The method of all tests here, for its shaders take long to compile; none where there is no device.
 static TILES: LazyLock<Result<Tiles, String>> =
     LazyLock::new(|| Tiles::new(Gpu::new()?, TilesOptions::default()));
@@ -343,45 +345,32 @@ fn thin_lines_of_the_thesis_are_found_too() {
 }
 
 #[test]
-fn work_is_counted_exactly() {
-    let Some(tiles) = tiles() else { return };
-    let scene = |lines: usize| {
-        let mut layout = Layout::default();
-        let mut runs = Runs::default();
-        runs.push_line(Point::new(2.2, 9.0), Point::new(2.8, 9.0));
-        for _ in 0..lines {
-            layout.paths.push(&NewPath {
-                runs: &runs,
-                ..NewPath::default()
-            });
-        }
-        Arc::new(Scene::new(Arc::new(layout), &SceneOptions::default()).unwrap())
-    };
-    let style = Style {
+fn lists_that_a_thread_may_not_finish_are_refused_by_name() {
+    let Some(_) = tiles() else { return };
+    // Ten times as many rounds as a list of opaque lines takes, and fewer than one of translucent ones.
+    let impatient = limited(GpuOptions {
+        rounds_a_thread: Some(4_000),
+        ..GpuOptions::default()
+    });
+    let wide = Style {
         line_rule: LineRule::World {
-            width_m: 0.4,
+            width_m: 30.0,
             min_px: 0.0,
             max_px: f64::INFINITY,
         },
         ..Style::default()
     };
-    // Strokes 4 px wide, all of them within one tile of 14 x 9.
-    let view = view([10.5, 6.5], 10.0);
-    for lines in [1, 2] {
-        let mut prepared = prepared(&tiles, &scene(lines));
-        let mut count = || prepared.count_work(&view, &style, &Cancel::default());
-        let work = count().unwrap();
-        let n = lines as u64;
-        assert_eq!(work.tests, Some(n * 4 * u64::from(params::SAMPLE_ROWS)));
-        // The cluster, its lines and its paths; references and the longest list; a line in its tile; the list.
-        assert_eq!(work.atomics, Some(3 + 2 + n + 1));
-        // The cluster, a line with its rank, three words a tile, references, pixels.
-        let words = 1 + n * 5 + 3 * 14 * 9 + n + 210 * 130;
-        assert_eq!(work.bytes_written, Some(4 * words));
-        assert!(work.bytes_read > Some(n * 4 * 8));
-        assert_eq!(count().unwrap(), work);
+    let cancel = Cancel::default();
+    for (scene, is_drawn) in [(plain(60, 8.0), true), (mixed(60, 8.0), false)] {
+        let mut prepared = prepared(&impatient, &scene);
+        let mut frame = Frame::new(FrameSize::new(1, 1).unwrap());
+        let drawn = prepared.render(&all(), &wide, &cancel, &mut frame);
+        match drawn {
+            Err(RenderError::Unsupported { what, .. }) => {
+                assert!(!is_drawn && what.contains("lines on"), "{what}");
+            }
+            other => assert!(is_drawn && other.is_ok(), "{other:?}"),
+        }
+        assert!(is_drawn || frame.pixels().iter().all(|p| *p == [0; 4]));
     }
-    let mut mixed = prepared(&tiles, &mixed(30, 3.0));
-    let work = mixed.count_work(&all(), &style, &Cancel::default());
-    assert_eq!(work.unwrap(), guideway_render::Work::default());
 }

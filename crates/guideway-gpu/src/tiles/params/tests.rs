@@ -55,3 +55,13 @@ fn each_four_rows_of_samples_have_every_column_once() {
         assert_eq!(columns, [0, 1, 2, 3]);
     }
 }
+
+#[test]
+fn rows_of_a_pixel_have_as_many_samples_as_is_said() {
+    for samples in [Samples::Coarse, Samples::Fine] {
+        let said = format!("const SAMPLES_A_ROW: u32 = {}u;", samples.a_row());
+        for sources in [&COVER, &LAYERS, &IDS] {
+            assert!(sources[samples as usize].wgsl.starts_with(&said), "{said}");
+        }
+    }
+}

@@ -1,0 +1,47 @@
+//! What a frame takes is counted to the last word.
+
+use super::*;
+
+#[test]
+fn work_is_counted_exactly() {
+    let Some(tiles) = tiles() else { return };
+    let scene = |lines: usize| {
+        let mut layout = Layout::default();
+        let mut runs = Runs::default();
+        runs.push_line(Point::new(2.2, 9.0), Point::new(2.8, 9.0));
+        for _ in 0..lines {
+            layout.paths.push(&NewPath {
+                runs: &runs,
+                ..NewPath::default()
+            });
+        }
+        Arc::new(Scene::new(Arc::new(layout), &SceneOptions::default()).unwrap())
+    };
+    let style = Style {
+        line_rule: LineRule::World {
+            width_m: 0.4,
+            min_px: 0.0,
+            max_px: f64::INFINITY,
+        },
+        ..Style::default()
+    };
+    // Strokes 4 px wide, all of them within one tile of 14 x 9.
+    let view = view([10.5, 6.5], 10.0);
+    for lines in [1, 2] {
+        let mut prepared = prepared(&tiles, &scene(lines));
+        let mut count = || prepared.count_work(&view, &style, &Cancel::default());
+        let work = count().unwrap();
+        let n = lines as u64;
+        assert_eq!(work.tests, Some(n * 4 * u64::from(params::SAMPLE_ROWS)));
+        // The cluster, its lines and its paths; references and the longest list; a line in its tile; the list.
+        assert_eq!(work.atomics, Some(3 + 2 + n + 1));
+        // The cluster, a line with its rank, three words a tile, references, pixels.
+        let words = 1 + n * 5 + 3 * 14 * 9 + n + 210 * 130;
+        assert_eq!(work.bytes_written, Some(4 * words));
+        assert!(work.bytes_read > Some(n * 4 * 8));
+        assert_eq!(count().unwrap(), work);
+    }
+    let mut mixed = prepared(&tiles, &mixed(30, 3.0));
+    let work = mixed.count_work(&all(), &style, &Cancel::default());
+    assert_eq!(work.unwrap(), guideway_render::Work::default());
+}
