@@ -9,6 +9,8 @@ use crate::Document;
 pub struct Snap {
     /// Nodes this near, in metres; they come first.
     pub node_reach_m: Option<f64>,
+    /// A node that does not count, for it is what moves.
+    pub moving_node: Option<u32>,
     /// Crossings of a grid of this step, in metres.
     pub grid_m: Option<f64>,
     /// Directions from the point before: so many a turn, at the distance pointed at.
@@ -20,7 +22,7 @@ impl Document {
     pub fn snap(&self, snap: &Snap, at_m: Point<f64>, from_m: Option<Point<f64>>) -> Point<f64> {
         let node = snap
             .node_reach_m
-            .and_then(|reach_m| self.node_near(at_m, reach_m));
+            .and_then(|reach_m| self.node_near_but(at_m, reach_m, snap.moving_node));
         if let Some(node) = node {
             return self.node_position_m(node);
         }
@@ -36,12 +38,17 @@ impl Document {
 
     /// The node nearest to a place, if one is within reach.
     pub fn node_near(&self, at_m: Point<f64>, reach_m: f64) -> Option<u32> {
+        self.node_near_but(at_m, reach_m, None)
+    }
+
+    fn node_near_but(&self, at_m: Point<f64>, reach_m: f64, but: Option<u32>) -> Option<u32> {
         let spot = Bounds {
             min: at_m,
             max: at_m,
         };
         let distance = |node: u32| self.node_position_m(node).distance(at_m);
         let near = self.index.nodes_in(spot.inflated(reach_m));
+        let near = near.filter(|&node| Some(node) != but);
         let near = near.map(|node| (distance(node), node));
         let nearest = near.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))?;
         (nearest.0 <= reach_m).then_some(nearest.1)

@@ -217,8 +217,14 @@ fn places_snap_to_nodes_first_then_directions_then_the_grid() {
         node_reach_m: Some(1.0),
         grid_m: Some(0.5),
         directions: Some(8),
+        ..Snap::default()
     };
     assert_eq!(document.snap(&snap, p(10.4, 0.4), None), p(10.0, 0.0));
+    let moving = Snap {
+        moving_node: Some(1),
+        ..snap
+    };
+    assert_eq!(document.snap(&moving, p(10.4, 0.4), None), p(10.5, 0.5));
     let to = document.snap(&snap, p(5.0, 6.0), Some(p(0.0, 0.0)));
     assert!(is_near(to, p(5.5, 5.5)), "{to:?}");
     assert_eq!(document.snap(&snap, p(5.1, 6.3), None), p(5.0, 6.5));

@@ -45,9 +45,17 @@ pub(crate) enum Gesture {
         by_m: Point<f64>,
     },
     /// Moves a node; the layout follows at once.
-    Node { node: u32, has_moved: bool },
+    Node {
+        node: u32,
+        from_m: Point<f64>,
+        has_moved: bool,
+    },
     /// Moves a control point; the layout follows at once.
-    Handle { point: PointRef, has_moved: bool },
+    Handle {
+        point: PointRef,
+        from_m: Point<f64>,
+        has_moved: bool,
+    },
     /// Points of a path, or of what is measured.
     Points(Vec<Point<f64>>),
 }
@@ -98,10 +106,12 @@ impl App {
                 match (handle, node) {
                     (Some(handle), _) => Gesture::Handle {
                         point: handle.point,
+                        from_m: view.world_from_pixel(handle.at_px),
                         has_moved: false,
                     },
                     (None, Some(node)) => Gesture::Node {
                         node,
+                        from_m: document.node_position_m(node),
                         has_moved: false,
                     },
                     (None, None) => begin_box,
@@ -120,6 +130,7 @@ impl App {
             return;
         }
         let at_m = view.world_from_pixel(at_px);
+        let snapped_m = self.snapped(&view, at_m, modifiers);
         match &mut self.gesture {
             Gesture::None | Gesture::Pan | Gesture::Points(_) => {}
             Gesture::Box { to_px, .. } => *to_px = at_px,
@@ -128,15 +139,21 @@ impl App {
                 let by_m = self.move_by(&view, from_m, at_m, modifiers);
                 self.gesture = Gesture::Move { from_m, by_m };
             }
-            Gesture::Node { node, has_moved } => {
+            Gesture::Node {
+                node, has_moved, ..
+            } => {
                 let (node, undo_first) = (*node, std::mem::replace(has_moved, true));
-                let to_m = self.snap_to_grid(at_m);
-                self.edit_again(undo_first, move |document| document.move_node(node, to_m));
+                self.edit_again(undo_first, move |document| {
+                    document.move_node(node, snapped_m)
+                });
             }
-            Gesture::Handle { point, has_moved } => {
+            Gesture::Handle {
+                point, has_moved, ..
+            } => {
                 let (point, undo_first) = (*point, std::mem::replace(has_moved, true));
-                let to_m = self.snap_to_grid(at_m);
-                self.edit_again(undo_first, move |document| document.move_point(point, to_m));
+                self.edit_again(undo_first, move |document| {
+                    document.move_point(point, snapped_m)
+                });
             }
         }
     }
@@ -248,8 +265,8 @@ impl App {
         });
     }
 
-    /// Where a click here means: at a node near by, in a direction with Shift, on the grid if that is asked for,
-    /// and just here with Alt.
+    /// Where a click here means, or a point that is dragged here: at a node near by, in a direction with Shift, on the
+    /// grid if that is asked for, and just here with Alt.
     pub(crate) fn snapped(
         &self,
         view: &View,
@@ -262,14 +279,17 @@ impl App {
         if modifiers.alt {
             return at_m;
         }
+        let (from_m, moving_node) = match &self.gesture {
+            Gesture::Points(points) => (points.last().copied(), None),
+            Gesture::Handle { from_m, .. } => (Some(*from_m), None),
+            Gesture::Node { node, from_m, .. } => (Some(*from_m), Some(*node)),
+            _ => (None, None),
+        };
         let snap = Snap {
             node_reach_m: Some(REACH_PX / view.px_per_m()),
+            moving_node,
             grid_m: self.snaps_to_grid.then(|| grid_step_m(view)),
             directions: modifiers.shift.then_some(DIRECTIONS),
-        };
-        let from_m = match &self.gesture {
-            Gesture::Points(points) => points.last().copied(),
-            _ => None,
         };
         document.snap(&snap, at_m, from_m)
     }
@@ -283,24 +303,13 @@ impl App {
     ) -> Point<f64> {
         let zero = Point::new(0.0, 0.0);
         let snap = Snap {
-            node_reach_m: None,
             grid_m: self.snaps_to_grid.then(|| grid_step_m(view)),
             directions: modifiers.shift.then_some(DIRECTIONS),
+            ..Snap::default()
         };
         let by_m = at_m - from_m;
         self.document()
             .map_or(by_m, |document| document.snap(&snap, by_m, Some(zero)))
-    }
-
-    fn snap_to_grid(&self, at_m: Point<f64>) -> Point<f64> {
-        let (Some(view), Some(document)) = (self.camera.view(), self.document()) else {
-            return at_m;
-        };
-        let snap = Snap {
-            grid_m: self.snaps_to_grid.then(|| grid_step_m(&view)),
-            ..Snap::default()
-        };
-        document.snap(&snap, at_m, None)
     }
 
     /// Does an edit that takes the place of the one before: a whole drag is one step to undo.

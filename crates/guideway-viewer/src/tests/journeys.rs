@@ -134,6 +134,11 @@ fn a_node_is_dragged_in_one_step_and_its_path_follows() {
     let end = desk.document().layout().paths.get(1).ends().unwrap().1;
     assert_eq!(end, Point::new(10.0, 2.0));
     assert!(!desk.document().is_changed(), "the drag was one step");
+    // Near another node it goes there.
+    let to = desk.at(10.0, 4.02);
+    desk.drag(from, to);
+    let end = desk.document().layout().paths.get(1).ends().unwrap().1;
+    assert!(end.distance(Point::new(10.0, 4.0)) < 1e-9, "{end:?}");
 }
 
 #[test]

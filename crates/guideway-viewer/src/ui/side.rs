@@ -111,6 +111,7 @@ impl App {
     fn selection(&mut self, ui: &mut Ui) {
         let count = self.document().map(|document| document.selection().len());
         ui.label(match count {
+            Some(1) => "1 path selected".to_owned(),
             Some(count) => format!("{count} paths selected"),
             None => "nothing is ready to be selected yet".to_owned(),
         });
