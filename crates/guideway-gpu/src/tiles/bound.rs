@@ -5,7 +5,9 @@ use guideway_scene::Scene;
 
 use super::canvas::Canvas;
 use super::kernels::Kernels;
-use super::params::{FrameParams, SCATTER_THREADS, STARTS_THREADS, Samples, TILE_PX, WORKGROUP};
+use super::params::{
+    Found, FrameParams, SCATTER_THREADS, STARTS_THREADS, Samples, TILE_PX, WORKGROUP,
+};
 use super::room::Room;
 use super::store::Store;
 use crate::device::{Bindings, DeviceBuffer, Dispatch, Gpu, Kernel, Runner};
@@ -39,20 +41,18 @@ impl Paint {
         }
     }
 
-    /// Times that a thread goes round its loops for each line of its tile: at most, with some to spare.
-    pub(super) fn rounds_a_line(self, samples: Samples) -> u32 {
-        // Words and samples of the row of samples that a thread has of a tile.
-        let words = samples.a_row() * TILE_PX / u32::BITS;
-        let row = words * u32::BITS;
+    /// Times that a thread goes round its loops, at most and with some to spare, by what a frame has found.
+    pub(super) fn rounds(self, found: &Found, samples: Samples) -> u64 {
+        // Words of the row of samples that a thread has of a tile.
+        let words = u64::from(samples.a_row() * TILE_PX / u32::BITS);
+        let longest = u64::from(found.longest);
         match self {
-            Self::One => 10,
+            Self::One => 10 * longest,
             Self::Touch => 0,
-            // The line, its words when it is gathered and again when its path is laid; each sample is laid once in all.
-            Self::Opaque => 2 + 2 * words,
-            // And every pixel that it covers.
-            Self::Density | Self::Ids => 2 + 2 * words + TILE_PX,
-            // And every sample of it.
-            Self::Translucent => 2 + 2 * words + TILE_PX + row,
+            // For each line its words, twice, and the pixels that it covers.
+            Self::Ids => longest * (2 + 2 * words + u64::from(TILE_PX)),
+            // Counted, for it depends on what the lines cover. A compiler may count otherwise.
+            Self::Opaque | Self::Translucent | Self::Density => u64::from(found.rounds) * 5 / 4,
         }
     }
 
@@ -212,8 +212,10 @@ impl Bound {
         let mut buffers = vec![
             frame, lists, references, lines_px, line_ranks, styles, pixels,
         ];
-        if paint == Paint::One {
-            buffers.extend([counts, found]);
+        match paint {
+            Paint::One => buffers.extend([counts, found]),
+            Paint::Ids | Paint::Touch => {}
+            Paint::Opaque | Paint::Translucent | Paint::Density => buffers.push(found),
         }
         self.add("cover", b, last, Over::Tiles, &buffers)
     }

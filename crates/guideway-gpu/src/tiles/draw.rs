@@ -140,8 +140,7 @@ impl PreparedTiles {
 
     /// Whether a thread of a tile may not go on to the end of its list.
     fn is_too_long(&self, found: &Found, paint: Paint, samples: Samples) -> bool {
-        u64::from(found.longest) * u64::from(paint.rounds_a_line(samples))
-            > u64::from(self.shared.gpu.rounds_a_thread())
+        paint.rounds(found, samples) > u64::from(self.shared.gpu.rounds_a_thread())
     }
 
     /// More room for what was found, if there can be.

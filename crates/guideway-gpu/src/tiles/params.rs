@@ -142,6 +142,7 @@ pub(super) struct Found {
     pub(super) drawn: u32,
     pub(super) longest: u32,
     pub(super) full_tiles: u32,
+    pub(super) rounds: u32,
     /// Of shaders that count: tests, atomics, words read and written, the low half of each first.
     pub(super) work: [u32; 8],
 }
@@ -269,6 +270,17 @@ const COVER_BINDINGS: &[&str] = &[
     "found",
 ];
 
+const LAYERS_BINDINGS: &[&str] = &[
+    "frame",
+    "lists",
+    "references",
+    "lines_px",
+    "line_ranks",
+    "styles",
+    "pixels",
+    "found",
+];
+
 const TILE_BINDINGS: &[&str] = &[
     "frame",
     "lists",
@@ -325,8 +337,8 @@ pub(super) const COVER: [Source; 2] = [
 
 /// Anything else; by [`Samples`].
 pub(super) const LAYERS: [Source; 2] = [
-    tiles!(4, ["layers"], TILE_BINDINGS),
-    tiles!(16, ["layers"], TILE_BINDINGS),
+    tiles!(4, ["layers", "rounds", "found"], LAYERS_BINDINGS),
+    tiles!(16, ["layers", "rounds", "found"], LAYERS_BINDINGS),
 ];
 
 #[cfg(test)]

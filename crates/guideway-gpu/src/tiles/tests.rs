@@ -347,21 +347,30 @@ fn thin_lines_of_the_thesis_are_found_too() {
 #[test]
 fn lists_that_a_thread_may_not_finish_are_refused_by_name() {
     let Some(_) = tiles() else { return };
-    // Ten times as many rounds as a list of opaque lines takes, and fewer than one of translucent ones.
+    // Opaque strokes hide most of what lies below them, translucent ones nothing.
     let impatient = limited(GpuOptions {
-        rounds_a_thread: Some(4_000),
+        rounds_a_thread: Some(4_096),
         ..GpuOptions::default()
     });
     let wide = Style {
         line_rule: LineRule::World {
-            width_m: 30.0,
+            width_m: 200.0,
             min_px: 0.0,
             max_px: f64::INFINITY,
         },
         ..Style::default()
     };
     let cancel = Cancel::default();
-    for (scene, is_drawn) in [(plain(60, 8.0), true), (mixed(60, 8.0), false)] {
+    let mut translucent = layout(60, 0.5);
+    for path in 0..60 {
+        let style = OwnStyle {
+            color_rgba: Some(0x3366_9940),
+            ..OwnStyle::default()
+        };
+        translucent.paths.set_own_style(path, style);
+    }
+    let translucent = Scene::new(Arc::new(translucent), &SceneOptions::default()).unwrap();
+    for (scene, is_drawn) in [(plain(60, 0.5), true), (Arc::new(translucent), false)] {
         let mut prepared = prepared(&impatient, &scene);
         let mut frame = Frame::new(FrameSize::new(1, 1).unwrap());
         let drawn = prepared.render(&all(), &wide, &cancel, &mut frame);

@@ -33,7 +33,8 @@ fn structures_are_laid_out_alike() {
     assert_laid_out(SHADERS, "Shift", &shift);
     assert_laid_out(SHADERS, "Stroke", &members!(Stroke: extent, rank));
     assert_laid_out(SHADERS, "Style", &members!(PathStyle: color, width_m));
-    let found = members!(Found: clusters, lines, references, drawn, longest, full_tiles, work);
+    let found =
+        members!(Found: clusters, lines, references, drawn, longest, full_tiles, rounds, work);
     assert_laid_out(SHADERS, "Counters", &found);
     assert_laid_out(SHADERS, "CountersBefore", &found);
 }

@@ -7,5 +7,6 @@ struct CountersBefore {
     drawn: u32,
     longest: u32,
     full_tiles: u32,
+    rounds: u32,
     work: array<u32, 8>,
 }

@@ -89,8 +89,9 @@ fn span_of(capsule: Capsule, row: u32) -> vec2u {
     let low = ceil((left.x - left.y - SLACK - first_x) * per_step);
     let high = floor((right.x + right.y + SLACK - first_x) * per_step) + 1.0;
     let most = f32(WORDS * 32u);
-    let first = u32(clamp(low, 0.0, most));
-    return vec2u(first, max(first, u32(clamp(high, 0.0, most))));
+    // What is below zero becomes zero.
+    let first = u32(min(low, most));
+    return vec2u(first, max(first, u32(min(high, most))));
 }
 
 // Adds what a line covers of a row.

@@ -58,8 +58,13 @@ fn close_if_covered(pixel: u32) {
 // Covers a row of samples that a line touches.
 fn cover_row(capsule: Capsule, row: u32) {
     let span = span_of(capsule, row);
-    for (var word = span.x / 32u; word * 32u < span.y; word++) {
-        atomicOr(&samples[row * WORDS + word], bits_between(span.x, span.y, word));
+    var word = row * WORDS + span.x / 32u;
+    var bit = span.x % 32u;
+    for (var left = span.y - span.x; left > 0u; word++) {
+        let here = min(left, 32u - bit);
+        atomicOr(&samples[word], (ALL >> (32u - here)) << bit);
+        left -= here;
+        bit = 0u;
     }
 }
 

@@ -9,6 +9,8 @@ struct Counters {
     longest: atomic<u32>,
     // Tiles all of whose samples are covered.
     full_tiles: atomic<u32>,
+    // Times that a thread of a tile with layers has gone round its loops, at most.
+    rounds: atomic<u32>,
     // Each of `Work` in two words, the low one first.
     work: array<atomic<u32>, 8>,
 }

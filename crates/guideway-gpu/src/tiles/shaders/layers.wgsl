@@ -18,6 +18,8 @@ var<workgroup> lines_of_row: array<atomic<u32>, TILE_PX * TURN_WORDS>;
 // Red, green, blue, and how much is hidden, for each pixel.
 var<workgroup> sums: array<atomic<u32>, THREADS * 4>;
 
+@group(0) @binding(7) var<storage, read_write> found: Found;
+
 // Samples of this thread's row that opaque paths have covered.
 var<private> covered: Row;
 // What still shines through at each of its samples.
@@ -41,6 +43,7 @@ fn add(pixel: u32, color: u32, samples: f32) {
 
 // Takes from what shines through some samples of a pixel, and says how much.
 fn take(first_sample: u32, bits: u32, opacity: f32) -> f32 {
+    rounds += countOneBits(bits);
     var taken = 0.0;
     for (var left = bits; left != 0u; left &= left - 1u) {
         let sample = first_sample + firstTrailingBit(left);
@@ -57,10 +60,12 @@ fn lay(row: u32, color: u32, gathered: ptr<function, Row>) {
     let pixels_a_word = 32u / SAMPLES_A_ROW;
     let first_pixel = (row / SAMPLE_ROWS) * TILE_PX;
     for (var word = 0u; word < WORDS; word++) {
+        rounds++;
         let all = (*gathered)[word];
         let fresh = select(all & ~covered[word], all, SHADING == DENSITY);
         (*gathered)[word] = 0u;
         for (var left = fresh; left != 0u;) {
+            rounds++;
             let of_word = firstTrailingBit(left) / SAMPLES_A_ROW;
             let bits = bits_of_pixel(left, of_word);
             left &= ~(bits << (of_word * SAMPLES_A_ROW));
@@ -135,11 +140,13 @@ fn main(
     for (var channel = 0u; channel < 4u; channel++) {
         atomicStore(&sums[thread * 4u + channel], 0u);
     }
+    begin_rounds(thread);
     open_all(tile, thread);
     covered = beyond(tile, thread);
     if SHADING == TRANSLUCENT {
         for (var i = 0u; i < WORDS * 32u; i++) {
             clear[i] = 1.0;
+            rounds++;
         }
     }
     workgroupBarrier();
@@ -148,9 +155,12 @@ fn main(
     var gathered: Row;
     for (var first = list.x; first < list.y; first += TURN) {
         gather(tile, thread, first, list.y);
+        // Of a turn, and of gathering and closing.
+        rounds += 1u + TURN_WORDS + 3u * TILE_PX;
         for (var word = 0u; word < TURN_WORDS; word++) {
             var left = atomicLoad(&lines_of_row[(thread / SAMPLE_ROWS) * TURN_WORDS + word]);
             for (; left != 0u; left &= left - 1u) {
+                rounds += 1u + WORDS;
                 let line = word * 32u + firstTrailingBit(left);
                 if ranks[line] != rank {
                     lay(thread, color, &gathered);
@@ -167,7 +177,9 @@ fn main(
         }
     }
     lay(thread, color, &gathered);
+    end_rounds();
     workgroupBarrier();
+    tell_rounds(thread);
     let samples = f32(SAMPLE_ROWS * SAMPLES_A_ROW);
     var sum: vec4u;
     for (var channel = 0u; channel < 4u; channel++) {

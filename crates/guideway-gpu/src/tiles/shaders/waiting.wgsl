@@ -40,10 +40,10 @@ fn cover_waiting(thread: u32, count: u32) {
         let capsule = capsules[rows[i] >> 8u];
         let top = (rows[i] & 255u) * SAMPLE_ROWS;
         let touched = rows_touched(capsule);
-        for (var row = top + thread % parts; row < top + SAMPLE_ROWS; row += parts) {
-            if row >= touched.x && row < touched.y {
-                cover_row(capsule, row);
-            }
+        let first = max(touched.x, top);
+        let end = min(touched.y, top + SAMPLE_ROWS);
+        for (var row = first + (thread - first) % parts; row < end; row += parts) {
+            cover_row(capsule, row);
         }
     }
     workgroupBarrier();
