@@ -7,6 +7,7 @@ use super::params::{
 };
 use crate::device::{Gpu, Kernel};
 
+#[derive(Clone)]
 pub(super) struct Kernels {
     pub(super) cull: Kernel,
     pub(super) flatten: Kernel,
@@ -21,6 +22,7 @@ pub(super) struct Kernels {
 }
 
 /// Kernels that paint tiles, by so many samples a pixel.
+#[derive(Clone)]
 pub(super) struct Painters {
     pub(super) cover: Kernel,
     pub(super) opaque: Kernel,
@@ -31,39 +33,36 @@ pub(super) struct Painters {
 
 impl Kernels {
     pub(super) fn new(gpu: &Gpu) -> Result<Self, String> {
-        Self::with(gpu, &[])
-    }
-
-    /// Those of a frame of one opaque colour count what they do.
-    pub(super) fn counting(gpu: &Gpu) -> Result<Self, String> {
-        Self::with(gpu, &[("COUNTS", 1.0)])
-    }
-
-    /// With constants for all kernels that may count.
-    fn with(gpu: &Gpu, counts: &[(&'static str, f64)]) -> Result<Self, String> {
-        let kernel =
-            |source, constants: &[_]| Kernel::new(gpu, source, &[constants, counts].concat());
         let tile = constant("TILE_PX", TILE_PX);
-        let workgroup = constant("WORKGROUP", WORKGROUP);
-        let strokes = constant("STROKES", CLUSTER_STROKES);
-        let starts_threads = constant("THREADS", STARTS_THREADS);
         let tile_threads = constant("THREADS", TILE_THREADS);
+        let [cull, flatten, starts, scatter] = stages(gpu, &[])?;
         Ok(Self {
-            cull: kernel(&CULL, &[tile, workgroup])?,
-            flatten: kernel(&FLATTEN, &[tile, strokes])?,
-            starts: kernel(&STARTS, &[tile, starts_threads])?,
-            scatter: kernel(&SCATTER, &[tile, constant("THREADS", SCATTER_THREADS)])?,
+            cull,
+            flatten,
+            starts,
+            scatter,
             sort: [
                 Kernel::new(gpu, &SORT[0], &[tile, tile_threads])?,
                 Kernel::new(gpu, &SORT[1], &[tile, tile_threads])?,
             ],
             shift: Kernel::new(gpu, &SHIFT, &[constant("THREADS", WORKGROUP)])?,
-            touch: Kernel::new(gpu, &TOUCH, &[tile, workgroup])?,
+            touch: Kernel::new(gpu, &TOUCH, &[tile, constant("WORKGROUP", WORKGROUP)])?,
             painters: [
-                Painters::new(gpu, Samples::Coarse, counts)?,
-                Painters::new(gpu, Samples::Fine, counts)?,
+                Painters::new(gpu, Samples::Coarse)?,
+                Painters::new(gpu, Samples::Fine)?,
             ],
         })
+    }
+
+    /// The same, but those of a frame of one opaque colour count what they do.
+    pub(super) fn counting(&self, gpu: &Gpu) -> Result<Self, String> {
+        let counts = [("COUNTS", 1.0)];
+        let mut all = self.clone();
+        [all.cull, all.flatten, all.starts, all.scatter] = stages(gpu, &counts)?;
+        for samples in [Samples::Coarse, Samples::Fine] {
+            all.painters[samples as usize].cover = cover(gpu, samples, &counts)?;
+        }
+        Ok(all)
     }
 
     pub(super) fn painters(&self, samples: Samples) -> &Painters {
@@ -72,28 +71,51 @@ impl Kernels {
 }
 
 impl Painters {
-    fn new(gpu: &Gpu, samples: Samples, counts: &[(&'static str, f64)]) -> Result<Self, String> {
-        let cover = vec![
-            constant("TILE_PX", TILE_PX),
-            constant("THREADS", TILE_THREADS),
-            constant("SAMPLE_ROWS", SAMPLE_ROWS),
-            constant("COLUMNS", COLUMNS),
-        ];
+    fn new(gpu: &Gpu, samples: Samples) -> Result<Self, String> {
         let layers = |layers: Layers| {
-            let mut constants = cover.clone();
-            constants.push(constant("SHADING", layers as u32));
+            let shading = constant("SHADING", layers as u32);
+            let constants = [&PAINTED[..], &[shading]].concat();
             Kernel::new(gpu, &LAYERS[samples as usize], &constants)
         };
         Ok(Self {
-            cover: Kernel::new(gpu, &COVER[samples as usize], &[&cover, counts].concat())?,
+            cover: cover(gpu, samples, &[])?,
             opaque: layers(Layers::Opaque)?,
             translucent: layers(Layers::Translucent)?,
             density: layers(Layers::Density)?,
-            ids: Kernel::new(gpu, &IDS[samples as usize], &cover)?,
+            ids: Kernel::new(gpu, &IDS[samples as usize], &PAINTED)?,
         })
     }
 }
 
-fn constant(name: &'static str, value: u32) -> (&'static str, f64) {
-    (name, f64::from(value))
+type Constant = (&'static str, f64);
+
+/// Of all kernels that paint tiles.
+const PAINTED: [Constant; 4] = [
+    constant("TILE_PX", TILE_PX),
+    constant("THREADS", TILE_THREADS),
+    constant("SAMPLE_ROWS", SAMPLE_ROWS),
+    constant("COLUMNS", COLUMNS),
+];
+
+/// From clusters to lists: cull, flatten, starts, scatter; with more constants.
+fn stages(gpu: &Gpu, more: &[Constant]) -> Result<[Kernel; 4], String> {
+    let kernel = |source, name, value| {
+        let own = [constant("TILE_PX", TILE_PX), constant(name, value)];
+        Kernel::new(gpu, source, &[&own, more].concat())
+    };
+    Ok([
+        kernel(&CULL, "WORKGROUP", WORKGROUP)?,
+        kernel(&FLATTEN, "STROKES", CLUSTER_STROKES)?,
+        kernel(&STARTS, "THREADS", STARTS_THREADS)?,
+        kernel(&SCATTER, "THREADS", SCATTER_THREADS)?,
+    ])
+}
+
+/// Paints one opaque colour; with more constants.
+fn cover(gpu: &Gpu, samples: Samples, more: &[Constant]) -> Result<Kernel, String> {
+    Kernel::new(gpu, &COVER[samples as usize], &[&PAINTED, more].concat())
+}
+
+const fn constant(name: &'static str, value: u32) -> Constant {
+    (name, value as f64)
 }

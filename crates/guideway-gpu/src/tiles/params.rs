@@ -258,38 +258,15 @@ pub(super) const SHIFT: Source = Source {
     bindings: &["shift", "old_pixels", "pixels"],
 };
 
-const COVER_BINDINGS: &[&str] = &[
-    "frame",
-    "lists",
-    "references",
-    "lines_px",
-    "line_ranks",
-    "styles",
-    "pixels",
-    "counts",
-    "found",
-];
-
-const LAYERS_BINDINGS: &[&str] = &[
-    "frame",
-    "lists",
-    "references",
-    "lines_px",
-    "line_ranks",
-    "styles",
-    "pixels",
-    "found",
-];
-
-const TILE_BINDINGS: &[&str] = &[
-    "frame",
-    "lists",
-    "references",
-    "lines_px",
-    "line_ranks",
-    "styles",
-    "pixels",
-];
+/// What shaders that paint tiles bind, and what some of them bind beside it.
+macro_rules! tile_bindings {
+    ($($more:literal),*) => {
+        &[
+            "frame", "lists", "references", "lines_px", "line_ranks", "styles", "pixels",
+            $($more),*
+        ]
+    };
+}
 
 /// How many samples a pixel has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -325,20 +302,28 @@ pub(super) const TOUCH: Source = Source {
 
 /// Which path lies on top; by [`Samples`].
 pub(super) const IDS: [Source; 2] = [
-    tiles!(4, ["ids"], TILE_BINDINGS),
-    tiles!(16, ["ids"], TILE_BINDINGS),
+    tiles!(4, ["ids"], tile_bindings!()),
+    tiles!(16, ["ids"], tile_bindings!()),
 ];
 
 /// One opaque colour; by [`Samples`].
 pub(super) const COVER: [Source; 2] = [
-    tiles!(4, ["cover", "waiting", "found"], COVER_BINDINGS),
-    tiles!(16, ["cover", "waiting", "found"], COVER_BINDINGS),
+    tiles!(
+        4,
+        ["cover", "waiting", "found"],
+        tile_bindings!("counts", "found")
+    ),
+    tiles!(
+        16,
+        ["cover", "waiting", "found"],
+        tile_bindings!("counts", "found")
+    ),
 ];
 
 /// Anything else; by [`Samples`].
 pub(super) const LAYERS: [Source; 2] = [
-    tiles!(4, ["layers", "rounds", "found"], LAYERS_BINDINGS),
-    tiles!(16, ["layers", "rounds", "found"], LAYERS_BINDINGS),
+    tiles!(4, ["layers", "rounds", "found"], tile_bindings!("found")),
+    tiles!(16, ["layers", "rounds", "found"], tile_bindings!("found")),
 ];
 
 #[cfg(test)]

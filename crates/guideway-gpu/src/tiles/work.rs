@@ -5,7 +5,6 @@ use std::sync::Arc;
 use guideway_render::{Cancel, RenderError, Shading, Style, View, Work};
 
 use super::bound::Paint;
-use super::kernels::Kernels;
 use super::params::Found;
 use super::prepared::PreparedTiles;
 use super::shot::Shot;
@@ -46,7 +45,7 @@ impl PreparedTiles {
         let counting = self
             .shared
             .counting_kernels
-            .get_or_init(|| Kernels::counting(&self.shared.gpu).map(Arc::new));
+            .get_or_init(|| self.shared.kernels.counting(&self.shared.gpu).map(Arc::new));
         let counting = match counting {
             Ok(kernels) => Arc::clone(kernels),
             Err(what) => return Err(self.memory.trouble(what.clone())),

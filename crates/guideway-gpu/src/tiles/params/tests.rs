@@ -66,3 +66,10 @@ fn rows_of_a_pixel_have_as_many_samples_as_is_said() {
         }
     }
 }
+
+#[test]
+fn clusters_have_as_many_words_as_is_counted() {
+    let words = size_of::<Cluster>() / size_of::<u32>();
+    let said = format!("const CLUSTER_WORDS: u32 = {words}u;");
+    assert!(CULL.wgsl.contains(&said), "{said}");
+}
