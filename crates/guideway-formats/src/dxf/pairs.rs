@@ -219,12 +219,12 @@ fn group_code(line: &[u8]) -> Option<i32> {
         [b'+', digits @ ..] => (1, digits),
         digits => (1, digits),
     };
-    if digits.is_empty() || digits.len() > 9 {
+    if digits.is_empty() {
         return None;
     }
     let add = |number: i32, &byte: &u8| {
         let digit = byte.is_ascii_digit().then(|| i32::from(byte - b'0'))?;
-        Some(number * 10 + digit)
+        number.checked_mul(10)?.checked_add(digit)
     };
     digits.iter().try_fold(0, add).map(|number| sign * number)
 }

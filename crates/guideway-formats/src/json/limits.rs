@@ -7,17 +7,20 @@ use crate::text::Tally;
 
 /// Holds a text to the limits. It need not be sound JSON.
 pub(super) fn check(text: &str, limits: &Limits) -> Result<(), Problem> {
-    let Extent { deepest, elements } = extent(text.as_bytes());
-    if deepest <= limits.depth as i64 && elements <= limits.elements {
+    let extent = extent(text.as_bytes());
+    let is_within = extent.deepest <= limits.depth as i64 && extent.elements <= limits.elements;
+    // Where more ends than began, what follows is deeper than it seems.
+    if is_within && extent.least_deep >= 0 {
         return Ok(());
     }
     find_excess(text, limits)
 }
 
-/// What a text takes, or more.
-#[derive(Debug, Default, PartialEq)]
+/// What a text takes.
+#[derive(Debug, Default)]
 struct Extent {
     deepest: i64,
+    least_deep: i64,
     elements: u64,
 }
 
@@ -44,6 +47,7 @@ fn extent(bytes: &[u8]) -> Extent {
         let (deeper, elements) = STEPS[usize::from(byte)];
         depth += i64::from(deeper);
         extent.deepest = extent.deepest.max(depth);
+        extent.least_deep = extent.least_deep.min(depth);
         extent.elements += u64::from(elements);
     }
     extent
@@ -65,15 +69,17 @@ fn find_excess(text: &str, limits: &Limits) -> Result<(), Problem> {
     let mut tally = Tally::new(text, limits);
     let mut rest = text.as_bytes().iter();
     while let Some(&byte) = rest.next() {
-        let at = text.len() - rest.len() - 1;
-        match byte {
-            b'"' => skip_text(&mut rest),
-            b'{' | b'[' => {
-                tally.count()?;
-                tally.enter(at)?;
-            }
-            b',' => tally.count()?,
-            b'}' | b']' => tally.leave(),
+        if byte == b'"' {
+            skip_text(&mut rest);
+            continue;
+        }
+        let (deeper, elements) = STEPS[usize::from(byte)];
+        if elements > 0 {
+            tally.count()?;
+        }
+        match deeper {
+            1 => tally.enter(text.len() - rest.len() - 1)?,
+            -1 => tally.leave(),
             _ => {}
         }
     }
@@ -104,5 +110,15 @@ mod tests {
             assert_eq!(check(text, &limits).is_ok(), is_within);
             assert_eq!(find_excess(text, &limits).is_ok(), is_within);
         }
+    }
+
+    #[test]
+    fn ends_that_nothing_began_hide_no_depth() {
+        let limits = Limits {
+            depth: 2,
+            ..Limits::default()
+        };
+        assert!(check("]]][[", &limits).is_ok());
+        assert!(check("]]][[[", &limits).is_err());
     }
 }
