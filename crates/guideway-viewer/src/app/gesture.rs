@@ -130,7 +130,6 @@ impl App {
             return;
         }
         let at_m = view.world_from_pixel(at_px);
-        let snapped_m = self.snapped(&view, at_m, modifiers);
         match &mut self.gesture {
             Gesture::None | Gesture::Pan | Gesture::Points(_) => {}
             Gesture::Box { to_px, .. } => *to_px = at_px,
@@ -143,17 +142,15 @@ impl App {
                 node, has_moved, ..
             } => {
                 let (node, undo_first) = (*node, std::mem::replace(has_moved, true));
-                self.edit_again(undo_first, move |document| {
-                    document.move_node(node, snapped_m)
-                });
+                let to_m = self.snapped(&view, at_m, modifiers);
+                self.edit_again(undo_first, move |document| document.move_node(node, to_m));
             }
             Gesture::Handle {
                 point, has_moved, ..
             } => {
                 let (point, undo_first) = (*point, std::mem::replace(has_moved, true));
-                self.edit_again(undo_first, move |document| {
-                    document.move_point(point, snapped_m)
-                });
+                let to_m = self.snapped(&view, at_m, modifiers);
+                self.edit_again(undo_first, move |document| document.move_point(point, to_m));
             }
         }
     }
