@@ -26,6 +26,18 @@ def paths():
         at = end
 
 
+def made(new, move_to, cubic_to):
+    """All paths, as a renderer has them: made, begun and continued by its functions."""
+    all_made = []
+    for points in paths():
+        path = new()
+        move_to(path, *points[:2])
+        for i in range(2, len(points), 6):
+            cubic_to(path, *points[i : i + 6])
+        all_made.append(path)
+    return all_made
+
+
 def skia_frame():
     import skia
 
@@ -40,18 +52,12 @@ def skia_frame():
         StrokeJoin=skia.Paint.kRound_Join,
         Color=skia.ColorBLACK,
     )
-    made = []
-    for points in paths():
-        path = skia.Path()
-        path.moveTo(points[0], points[1])
-        for i in range(2, len(points), 6):
-            path.cubicTo(*points[i : i + 6])
-        made.append(path)
+    strokes = made(skia.Path, skia.Path.moveTo, skia.Path.cubicTo)
 
     def frame():
         with surface as canvas:
             canvas.clear(skia.ColorWHITE)
-            for path in made:
+            for path in strokes:
                 canvas.drawPath(path, paint)
 
     return frame, lambda: surface.makeImageSnapshot().tobytes()
@@ -61,13 +67,7 @@ def blend2d_frame():
     import blend2d
 
     image = blend2d.BLImage(WIDTH, HEIGHT, blend2d.BLFormat.PRGB32)
-    made = []
-    for points in paths():
-        path = blend2d.BLPath()
-        path.move_to(points[0], points[1])
-        for i in range(2, len(points), 6):
-            path.cubic_to(*points[i : i + 6])
-        made.append(path)
+    strokes = made(blend2d.BLPath, blend2d.BLPath.move_to, blend2d.BLPath.cubic_to)
 
     def frame():
         context = blend2d.BLContext(image)
@@ -77,7 +77,7 @@ def blend2d_frame():
         context.stroke_width = STROKE_PX
         context.set_stroke_caps(blend2d.BLStrokeCap.CAP_ROUND)
         context.stroke_join = blend2d.BLStrokeJoin.JOIN_ROUND
-        for path in made:
+        for path in strokes:
             context.stroke_path(path)
         context.flush()
 
