@@ -50,7 +50,7 @@ pub struct Insertion {
     pub end_node: Option<u32>,
     /// Which way vehicles go.
     pub direction: Direction,
-    /// Index in [`Layout::levels`].
+    /// Index in [`guideway_layout::Layout::levels`].
     pub level: Option<u32>,
     /// Vehicle types that may use it; none means all.
     pub vehicle_types: Vec<String>,
