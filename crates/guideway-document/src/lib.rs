@@ -33,6 +33,6 @@ pub use roaring::RoaringBitmap as Rows;
 pub use save::Snapshot;
 pub use search::{Found, search};
 pub use snap::Snap;
-pub use steps::round_step;
+pub use steps::{grid_lines_px, round_step};
 pub use trail::Trail;
 pub use twins::Twins;

@@ -15,6 +15,7 @@ mod error;
 mod frame;
 mod method;
 mod report;
+mod sheet;
 mod strip;
 mod view;
 
@@ -22,5 +23,6 @@ pub use error::RenderError;
 pub use frame::{Frame, FrameSize};
 pub use method::{Budget, Cancel, Edited, Method, MethodInfo, NO_PATH, Prepared, Shading, Style};
 pub use report::{Clock, Preparation, Report, Stage, Work, elapsed_ms};
+pub use sheet::{Sheet, Text};
 pub use strip::Strip;
 pub use view::View;

@@ -4,8 +4,9 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use guideway_layout::Layout;
-use guideway_render::{Frame, Method, Style, View};
+use guideway_render::{Frame, Method, Sheet, Style, View};
 use guideway_scene::Scene;
+use guideway_spline::Bounds;
 
 /// What the viewer needs of the program around it: files and ways of drawing. Called from several threads.
 pub trait Host: Send + Sync {
@@ -22,6 +23,12 @@ pub trait Host: Send + Sync {
     /// When the format is not one that can be written, or the file cannot be.
     fn save(&self, layout: &Layout, path: &Path) -> Result<Vec<String>, Trouble>;
 
+    /// Draws a view by the method of this name.
+    ///
+    /// # Errors
+    /// When the picture cannot be drawn.
+    fn picture(&self, export: &Export, method: &str) -> Result<Frame, Trouble>;
+
     /// Draws a view by the method of this name and writes it as PNG, whole or not at all, in memory that does not grow
     /// with the picture. Asks `job` whether to go on, and tells it how far it is.
     ///
@@ -29,7 +36,7 @@ pub trait Host: Send + Sync {
     /// When the picture cannot be drawn, the file cannot be written, or the job was cancelled.
     fn save_picture(
         &self,
-        export: Export<'_>,
+        export: &Export,
         method: &str,
         job: &Job,
         path: &Path,
@@ -39,7 +46,13 @@ pub trait Host: Send + Sync {
     ///
     /// # Errors
     /// When the file cannot be written, or a drawing cannot look as the style says.
-    fn save_drawing(&self, export: Export<'_>, path: &Path) -> Result<(), Trouble>;
+    fn save_drawing(&self, export: &Export, path: &Path) -> Result<(), Trouble>;
+
+    /// Reads what is to lie below all layouts. `plan` is what a person wrote: a file, and how it is put.
+    ///
+    /// # Errors
+    /// When it cannot be understood, or the file cannot be read.
+    fn floor_plan(&self, plan: &str) -> Result<Arc<dyn FloorPlan>, Trouble>;
 
     /// Draws the areas that a vehicle sweeps along some paths of a layout, over nothing, in a picture of the view.
     /// `vehicle` is what a person wrote.
@@ -88,15 +101,39 @@ pub enum Stage {
     Checked,
 }
 
-/// What a picture is to show.
-#[derive(Clone, Copy)]
-pub struct Export<'a> {
-    /// The scene.
-    pub scene: &'a Arc<Scene>,
-    /// Where it is looked at, and how large.
-    pub view: &'a View,
-    /// How it looks.
-    pub style: &'a Style,
+/// What a picture is to show, from the lowest: the floor plan, the grid, swept areas, other layouts, the layout, and
+/// marks.
+#[derive(Clone)]
+pub struct Export {
+    /// The scene on top.
+    pub scene: Arc<Scene>,
+    /// Those below it, from the lowest.
+    pub others: Vec<Arc<Scene>>,
+    /// Where all is looked at, and how large.
+    pub view: View,
+    /// How paths look, and what is behind everything.
+    pub style: Style,
+    /// What a person wrote of the floor plan.
+    pub floor_plan: Option<String>,
+    /// What a person wrote of the vehicle whose areas are shown, and the rows of the paths in the scene on top that they
+    /// are of.
+    pub swept: Option<(String, Vec<u32>)>,
+    /// Lines below all paths.
+    pub grid: Sheet,
+    /// What lies over the paths.
+    pub marks: Sheet,
+}
+
+/// What lies on the floor, ready to be drawn.
+pub trait FloorPlan: Send + Sync {
+    /// Where it is, in metres; none if it is empty.
+    fn bounds(&self) -> Option<Bounds<f64>>;
+
+    /// Draws it over nothing.
+    ///
+    /// # Errors
+    /// When there is no room for it in memory.
+    fn draw(&self, view: &View) -> Result<Frame, Trouble>;
 }
 
 /// A way of drawing that may be chosen.

@@ -20,20 +20,26 @@ use std::sync::{Arc, OnceLock};
 use eframe::egui::{Context, Ui, ViewportBuilder};
 
 use app::{App, FIRST_PATIENCE};
-pub use host::{Export, Host, Job, MethodChoice, Stage, Trouble};
+pub use host::{Export, FloorPlan, Host, Job, MethodChoice, Stage, Trouble};
 pub use measure::{Movement, measure};
 use work::Wake;
 
-/// Opens the window with these files, drawn by the method of this name (by the best one that runs here if none),
-/// and returns when it is closed. Must be called from the main thread.
+/// What the window opens with.
+#[derive(Clone, Debug, Default)]
+pub struct Opening {
+    /// Layout files.
+    pub files: Vec<PathBuf>,
+    /// What lies below them, as a person writes it; nothing if it is empty.
+    pub floor_plan: String,
+    /// Name of the method that draws; none for the best one that runs here.
+    pub method: Option<String>,
+}
+
+/// Opens the window, and returns when it is closed. Must be called from the main thread.
 ///
 /// # Errors
 /// When there is no desktop to show a window on, or no graphics adapter that can fill it.
-pub fn run(
-    host: Arc<dyn Host>,
-    files: Vec<PathBuf>,
-    method: Option<String>,
-) -> Result<(), Trouble> {
+pub fn run(host: Arc<dyn Host>, opening: Opening) -> Result<(), Trouble> {
     let options = eframe::NativeOptions {
         viewport: ViewportBuilder::default()
             .with_inner_size([1280.0, 800.0])
@@ -45,7 +51,7 @@ pub fn run(
     };
     let window = Arc::<OnceLock<Context>>::default();
     // Files are read while the window comes up.
-    let mut app = App::new(wake_of(&window), host, files, method);
+    let mut app = App::new(wake_of(&window), host, opening);
     app.first_patience = FIRST_PATIENCE;
     let create: eframe::AppCreator<'_> = Box::new(move |context| {
         app.apply_theme(&context.egui_ctx);

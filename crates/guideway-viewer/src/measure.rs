@@ -14,6 +14,7 @@ use guideway_document::{Combine, Document, Rows};
 use guideway_render::elapsed_ms;
 use guideway_spline::{Bounds, Point};
 
+use crate::Opening;
 use crate::app::{App, REACH_PX};
 use crate::host::{Host, Trouble};
 
@@ -53,8 +54,13 @@ pub fn measure(
     // It has a frame sixty times a second, whatever happens.
     let wake = Arc::new(|| {});
     let started = Instant::now();
+    let opening = Opening {
+        files: vec![file],
+        method,
+        ..Opening::default()
+    };
     let mut hand = Hand {
-        app: App::new(wake, host, vec![file], method),
+        app: App::new(wake, host, opening),
         context,
         started,
         at: Pos2::new(480.0, 400.0),

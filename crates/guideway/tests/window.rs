@@ -176,6 +176,21 @@ fn a_site_is_edited_by_keys_and_mouse_and_saved() {
     let undone = desk.saved_as(&folder.path().join("undone.arrow"));
     assert_eq!(undone.paths.len(), paths);
 
+    let picture = folder.path().join("site.png");
+    desk.keys(&["ctrl+e"]);
+    thread::sleep(Duration::from_millis(500));
+    desk.keys(&["ctrl+a"]);
+    desk.type_text(&picture.display().to_string());
+    desk.keys(&["Return"]);
+    let is_written = (0..MOST_LOOKS).any(|_| {
+        thread::sleep(Duration::from_millis(100));
+        picture.exists()
+    });
+    assert!(is_written);
+    // Where a PNG has its width.
+    let width = fs::read(&picture).unwrap()[16..20].try_into().unwrap();
+    assert_eq!(u32::from_be_bytes(width), 3840);
+
     desk.xdotool(&["mousemove", "400", "400", "click", "--repeat", "5", "4"]);
     desk.keys(&["Left", "f", "b", "ctrl+q"]);
     for _ in 0..MOST_LOOKS {

@@ -7,6 +7,7 @@ mod arrows;
 mod handles;
 mod labels;
 mod outline;
+mod shapes;
 
 use guideway_render::View;
 use guideway_scene::PathState;
@@ -17,6 +18,7 @@ use crate::{Document, Twins};
 pub use handles::{Handle, handles};
 pub use labels::{Label, LabelSize};
 pub use outline::{Outline, outline};
+pub use shapes::Kind;
 
 /// Most paths, nodes or stations of a view that still has marks for them.
 pub const MOST_MARKED: usize = 2_000;

@@ -232,6 +232,24 @@ impl<'w, W: Write> Page<'w, W> {
         writeln!(self.out, "<text {place} {look}>{}</text>", escaped(text))
     }
 
+    /// A text of a colour 0xRRGGBBAA in letters of one width, which together are as wide as said.
+    ///
+    /// # Errors
+    /// When the target fails.
+    pub fn line_of_text(
+        &mut self,
+        [x, y]: [f64; 2],
+        height: f64,
+        width: f64,
+        rgba: u32,
+        text: &str,
+    ) -> io::Result<()> {
+        let place = format!(r#"x="{x}" y="{y}" font-size="{height}" textLength="{width}""#);
+        let look = r#"font-family="monospace" stroke="none""#;
+        let (fill, text) = (paint("fill", rgba), escaped(text));
+        writeln!(self.out, "<text {place} {look}{fill}>{text}</text>")
+    }
+
     /// An image whose unit square is put into place by `matrix` (a, b, c, d, e, f of SVG), as a data URI.
     ///
     /// # Errors

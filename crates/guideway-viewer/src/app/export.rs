@@ -3,18 +3,18 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use guideway_render::{Budget, Cancel, Frame, FrameSize, RenderError, Style, View};
-use guideway_scene::Scene;
+use guideway_render::{FrameSize, RenderError, Style, View};
 
-use super::App;
 use super::files::Saver;
+use super::swept::swept_rows;
+use super::{App, Layer};
 use crate::host::{Export, Job, Trouble};
 use crate::work::renderer::color_image;
 use crate::work::task::Task;
 
 impl App {
     pub(super) fn export_picture(&mut self, path: PathBuf, width_px: u32) {
-        let Some((scene, view, style)) = self.exported() else {
+        let Some(export) = self.exported() else {
             return;
         };
         if !self.is_free_to_write() {
@@ -24,22 +24,17 @@ impl App {
         let (host, method) = (Arc::clone(&self.host), self.drawing.method().to_owned());
         let watched = Arc::clone(&job);
         let task = Task::start(&self.wake, move || {
-            let view = enlarged(&view, width_px).map_err(|error| Trouble {
+            let export = enlarged(export, width_px).map_err(|error| Trouble {
                 message: error.to_string(),
                 remedy: "Ask for a smaller picture".into(),
             })?;
-            let export = Export {
-                scene: &scene,
-                view: &view,
-                style: &style,
-            };
-            let saved = host.save_picture(export, &method, &watched, &path);
+            let saved = host.save_picture(&export, &method, &watched, &path);
             let path = path.display();
             if watched.is_cancelled() && saved.is_err() {
                 return Ok(format!("{path} was cancelled, and is not written"));
             }
             saved?;
-            let (width, height) = (view.size().width(), view.size().height());
+            let (width, height) = (export.view.size().width(), export.view.size().height());
             Ok(format!("{path} is written, {width} x {height} pixels"))
         });
         self.saver = Some(Saver {
@@ -50,7 +45,7 @@ impl App {
     }
 
     pub(super) fn export_drawing(&mut self, path: PathBuf) {
-        let Some((scene, view, style)) = self.exported() else {
+        let Some(export) = self.exported() else {
             return;
         };
         if !self.is_free_to_write() {
@@ -58,12 +53,7 @@ impl App {
         }
         let host = Arc::clone(&self.host);
         let task = Task::start(&self.wake, move || {
-            let export = Export {
-                scene: &scene,
-                view: &view,
-                style: &style,
-            };
-            host.save_drawing(export, &path)?;
+            host.save_drawing(&export, &path)?;
             Ok(format!("{} is written", path.display()))
         });
         self.saver = Some(Saver {
@@ -73,64 +63,98 @@ impl App {
         });
     }
 
-    /// Has the picture of the active layer made as it is on the screen, for the clipboard.
+    /// Has a picture made as it is on the screen, for the clipboard.
     pub(crate) fn copy_picture(&mut self) {
-        let Some((scene, view, style)) = self.exported() else {
+        let Some(export) = self.exported() else {
             return;
         };
         let (host, method) = (Arc::clone(&self.host), self.drawing.method().to_owned());
         self.copying = Some(Task::start(&self.wake, move || {
-            let fail = |error: RenderError| Trouble {
-                message: error.to_string(),
-                remedy: "Choose another way of drawing".into(),
-            };
-            let method = host.method(&method)?;
-            let mut prepared = method.prepare(scene, &Budget::default()).map_err(fail)?;
-            let (mut frame, cancel) = (Frame::new(view.size()), Cancel::default());
-            let drawn = prepared.render(&view, &style, &cancel, &mut frame);
-            drawn.map_err(fail)?;
-            Ok(color_image(&frame))
+            Ok(color_image(&host.picture(&export, &method)?))
         }));
     }
 
-    /// What is seen of the active layer, on paper.
-    fn exported(&self) -> Option<(Arc<Scene>, View, Style)> {
-        let style = Style {
-            background: self.look.paper(),
-            ..self.look.style()
-        };
-        let scene = self.document()?.scene().clone();
-        Some((Arc::new(scene), self.camera.view()?, style))
+    /// What is seen, on paper; none where no layout is.
+    fn exported(&self) -> Option<Export> {
+        let view = self.camera.view()?;
+        let scene = |layer: &Layer| Some(Arc::new(layer.document.as_ref()?.scene().clone()));
+        let mut scenes: Vec<_> = self.seen_layers().filter_map(scene).collect();
+        let top = scenes.pop()?;
+        let active = self.layers.get(self.active);
+        let is_seen = self.swept.is_shown && active.is_some_and(|layer| layer.is_visible);
+        let areas = self.document().filter(|_| is_seen);
+        let rows = areas.and_then(swept_rows);
+        let floor_plan = self.floor.read.is_some() && self.floor.is_visible;
+        Some(Export {
+            scene: top,
+            others: scenes,
+            view,
+            style: Style {
+                background: self.look.paper(),
+                ..self.look.style()
+            },
+            floor_plan: floor_plan.then(|| self.floor.plan.clone()),
+            swept: rows.map(|rows| (self.swept.vehicle.clone(), rows)),
+            grid: self.grid_sheet(&view),
+            marks: self.marks_sheet(&view),
+        })
     }
 }
 
 /// The same part of the world in another size.
-fn enlarged(view: &View, width_px: u32) -> Result<View, RenderError> {
+fn enlarged(export: Export, width_px: u32) -> Result<Export, RenderError> {
+    let view = &export.view;
     let factor = f64::from(width_px) / f64::from(view.size().width());
     let height_px = (f64::from(view.size().height()) * factor).round().max(1.0);
     let size = FrameSize::new(width_px, height_px as u32)?;
-    View::new(size, view.center_m(), view.px_per_m() * factor)
+    Ok(Export {
+        view: View::new(size, view.center_m(), view.px_per_m() * factor)?,
+        grid: export.grid.scaled(factor),
+        marks: export.marks.scaled(factor),
+        ..export
+    })
 }
 
 #[cfg(test)]
 mod tests {
+    use guideway_scene::{Rgba, Scene, SceneOptions};
     use guideway_spline::Point;
 
     use super::*;
+    use crate::tests::table::lanes;
+
+    fn export(width: u32, height: u32) -> Export {
+        let scene = Scene::new(Arc::new(lanes(1)), &SceneOptions::default()).unwrap();
+        let size = FrameSize::new(width, height).unwrap();
+        let mut grid = guideway_render::Sheet::default();
+        grid.add_rectangle(Rgba::BLACK, Point::new(1.0, 2.0), Point::new(3.0, 4.0));
+        Export {
+            scene: Arc::new(scene),
+            others: Vec::new(),
+            view: View::new(size, Point::new(5.0, 6.0), 20.0).unwrap(),
+            style: Style::default(),
+            floor_plan: None,
+            swept: None,
+            grid,
+            marks: Default::default(),
+        }
+    }
 
     #[test]
     fn a_larger_picture_shows_the_same_part_of_the_world() {
-        let size = FrameSize::new(400, 300).unwrap();
-        let view = View::new(size, Point::new(5.0, 6.0), 20.0).unwrap();
-        let large = enlarged(&view, 40_000).unwrap();
+        let small = export(400, 300);
+        let large = enlarged(small.clone(), 40_000).unwrap();
         assert_eq!(
-            (large.size().width(), large.size().height()),
+            (large.view.size().width(), large.view.size().height()),
             (40_000, 30_000)
         );
-        assert_eq!(large.world_bounds(), view.world_bounds());
-        let tall = FrameSize::new(100, 300).unwrap();
-        let tall = View::new(tall, Point::new(5.0, 6.0), 20.0).unwrap();
-        let too_tall = enlarged(&tall, 65_535).unwrap_err().to_string();
+        assert_eq!(large.view.world_bounds(), small.view.world_bounds());
+        let corner = large.grid.areas[0].1[0][2];
+        assert_eq!(corner, Point::new(300.0, 400.0));
+        let too_tall = enlarged(export(100, 300), 65_535)
+            .err()
+            .unwrap()
+            .to_string();
         assert!(
             too_tall.contains("each side takes 1 to 65535"),
             "{too_tall}"

@@ -1,4 +1,4 @@
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use eframe::egui::Context;
@@ -39,6 +39,7 @@ pub(crate) enum PromptKind {
     SaveAs,
     Picture,
     Drawing,
+    FloorPlan,
 }
 
 impl App {
@@ -65,7 +66,7 @@ impl App {
     /// Files dropped on the window, changed on disk, or written.
     pub(super) fn poll_files(&mut self, ctx: &Context) {
         for file in ctx.input(|input| input.raw.dropped_files.clone()) {
-            self.open(file.path().to_path_buf());
+            self.take_dropped(file.path());
         }
         if std::mem::take(&mut self.has_new_files) {
             self.watch();
@@ -99,6 +100,21 @@ impl App {
         }
     }
 
+    /// An image is a floor plan, of which its size on the floor must be asked; anything else is a layout.
+    fn take_dropped(&mut self, file: &Path) {
+        if !file
+            .extension()
+            .is_some_and(|e| e.eq_ignore_ascii_case("png"))
+        {
+            self.open(file.to_path_buf());
+            return;
+        }
+        self.ask_for(PromptKind::FloorPlan);
+        if let Some(prompt) = &mut self.prompt {
+            prompt.text = format!("{}@px-per-m=20,offset=0,0", file.display());
+        }
+    }
+
     fn watch(&self) {
         let files = self.layers.iter().map(|layer| layer.path.clone()).collect();
         self.watcher.set_files(files);
@@ -116,7 +132,7 @@ impl App {
     pub(crate) fn ask_for(&mut self, kind: PromptKind) {
         let file = self.layers.get(self.active).map(|layer| layer.path.clone());
         let ending = match kind {
-            PromptKind::Open | PromptKind::SaveAs => None,
+            PromptKind::Open | PromptKind::SaveAs | PromptKind::FloorPlan => None,
             PromptKind::Picture => Some("png"),
             PromptKind::Drawing => Some("svg"),
         };
@@ -125,9 +141,13 @@ impl App {
             (Some(file), None) if kind == PromptKind::SaveAs => file,
             _ => PathBuf::new(),
         };
+        let text = match kind {
+            PromptKind::FloorPlan => self.floor.plan.clone(),
+            _ => suggested.display().to_string(),
+        };
         self.prompt = Some(Prompt {
             kind,
-            text: suggested.display().to_string(),
+            text,
             width_px: 3840,
             is_new: true,
         });
@@ -135,6 +155,9 @@ impl App {
 
     /// Does what a prompt asked for.
     pub(crate) fn answer(&mut self, prompt: &Prompt) {
+        if prompt.kind == PromptKind::FloorPlan {
+            return self.lay_floor_plan(&prompt.text);
+        }
         let path = PathBuf::from(prompt.text.trim());
         if path.as_os_str().is_empty() {
             return;
@@ -144,6 +167,7 @@ impl App {
             PromptKind::SaveAs => self.save(path),
             PromptKind::Picture => self.export_picture(path, prompt.width_px),
             PromptKind::Drawing => self.export_drawing(path),
+            PromptKind::FloorPlan => {}
         }
     }
 

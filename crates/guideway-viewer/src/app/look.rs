@@ -1,4 +1,4 @@
-use guideway_document::marks::{LabelSize, MarkOptions};
+use guideway_document::marks::{Kind, LabelSize, MarkOptions};
 use guideway_render::density::ToneMap;
 use guideway_render::{Shading, Style};
 use guideway_scene::{ColorBy, LineRule, Rgba, SceneOptions};
@@ -53,6 +53,21 @@ impl Look {
             Rgba::opaque(222, 226, 232)
         } else {
             Rgba::BLACK
+        }
+    }
+
+    /// Colour of lines and texts beside the paths.
+    pub(crate) fn mark_ink(&self) -> Rgba {
+        let grey = if self.is_dark { 220 } else { 40 };
+        Rgba::opaque(grey, grey, grey)
+    }
+
+    /// Colour of a mark.
+    pub(crate) fn mark_color(&self, kind: Kind) -> Rgba {
+        match kind {
+            Kind::Arrow => self.mark_ink(),
+            Kind::Node => Rgba::opaque(0, 140, 90),
+            Kind::Station => Rgba::opaque(200, 40, 120),
         }
     }
 

@@ -4,6 +4,7 @@ pub(crate) mod command;
 mod drawing;
 mod export;
 mod files;
+pub(crate) mod floor;
 mod gesture;
 pub(crate) mod layer;
 pub(crate) mod look;
@@ -11,6 +12,7 @@ mod overlay;
 mod perform;
 pub(crate) mod recent;
 pub(crate) mod recovery;
+pub(crate) mod sheets;
 pub(crate) mod swept;
 
 use std::path::PathBuf;
@@ -23,12 +25,14 @@ use guideway_document::{Document, Found, Hit};
 
 pub(crate) use self::drawing::Drawing;
 pub(crate) use self::files::{Prompt, PromptKind};
+use self::floor::Floor;
 pub(crate) use self::gesture::{Gesture, MOST_HOVERED, REACH_PX, Tool};
 pub(crate) use self::layer::{Layer, LayerNews, Work};
 pub(crate) use self::look::Look;
 pub(crate) use self::perform::leave_field;
 use self::recent::Recent;
 use self::swept::Swept;
+use crate::Opening;
 use crate::camera::Camera;
 use crate::host::{Host, Stage, Trouble};
 use crate::work::Wake;
@@ -49,6 +53,8 @@ pub(crate) struct App {
     pub(crate) gesture: Gesture,
     /// Upper left corner of the picture in the window.
     pub(crate) canvas_min: Pos2,
+    /// Pixels of the screen that make a point of the window.
+    pub(crate) px_per_point: f64,
     /// Where the pointer is in the picture.
     pub(crate) pointer_px: Option<guideway_spline::Point<f64>>,
     /// What was last seen under the pointer.
@@ -60,6 +66,7 @@ pub(crate) struct App {
     pub(crate) notices: Vec<String>,
     pub(crate) find: Find,
     pub(crate) swept: Swept,
+    pub(crate) floor: Floor,
     pub(crate) numbers: Numbers,
     /// Whether what is drawn and moved goes to the grid.
     pub(crate) snaps_to_grid: bool,
@@ -112,16 +119,10 @@ pub(crate) struct Numbers {
 const MOST_NOTICES: usize = 5;
 
 impl App {
-    /// A viewer of these files, drawn by the method of this name; by the best one that runs here if none. It begins to
-    /// read them at once, and calls `wake` for whatever that brings.
-    pub(crate) fn new(
-        wake: Wake,
-        host: Arc<dyn Host>,
-        files: Vec<PathBuf>,
-        method: Option<String>,
-    ) -> Self {
+    /// A viewer that begins to read its files at once, and calls `wake` for whatever that brings.
+    pub(crate) fn new(wake: Wake, host: Arc<dyn Host>, desk: Opening) -> Self {
         let mut app = Self {
-            drawing: Drawing::new(method),
+            drawing: Drawing::new(desk.method),
             watcher: Watcher::start(Arc::clone(&wake)),
             recent: Recent::of(host.state_folder()),
             host,
@@ -133,6 +134,7 @@ impl App {
             tool: Tool::Select,
             gesture: Gesture::None,
             canvas_min: Pos2::ZERO,
+            px_per_point: 1.0,
             pointer_px: None,
             hover: None,
             prompt: None,
@@ -140,6 +142,7 @@ impl App {
             notices: Vec::new(),
             find: Find::default(),
             swept: Swept::default(),
+            floor: Floor::default(),
             numbers: Numbers {
                 by_x_m: 1.0,
                 by_y_m: 0.0,
@@ -157,9 +160,10 @@ impl App {
             most_side_px: 0,
             first_patience: Duration::ZERO,
         };
-        for file in files {
+        for file in desk.files {
             app.open(file);
         }
+        app.lay_floor_plan(&desk.floor_plan);
         app
     }
 
@@ -170,6 +174,7 @@ impl App {
         self.poll_methods();
         self.poll_search();
         self.poll_swept(ctx);
+        self.poll_floor(ctx);
         self.poll_files(ctx);
     }
 
@@ -228,6 +233,16 @@ impl App {
     #[cfg(test)]
     pub(crate) fn document_mut(&mut self) -> Option<&mut Document> {
         self.layers.get_mut(self.active)?.document.as_mut()
+    }
+
+    /// The layers that are seen, from the lowest: the one that is edited is on top.
+    pub(crate) fn seen_layers(&self) -> impl Iterator<Item = &Layer> {
+        let others = self.layers.iter().enumerate();
+        let others = others.filter(|(index, _)| *index != self.active);
+        let all = others
+            .map(|(_, layer)| layer)
+            .chain(self.layers.get(self.active));
+        all.filter(|layer| layer.is_visible)
     }
 
     /// Tells the person something.

@@ -35,6 +35,7 @@ impl App {
                 }
             }
             Command::SaveAs => self.ask_for(PromptKind::SaveAs),
+            Command::FloorPlan => self.ask_for(PromptKind::FloorPlan),
             Command::ExportPicture => self.ask_for(PromptKind::Picture),
             Command::ExportDrawing => self.ask_for(PromptKind::Drawing),
             Command::CopyPicture => self.copy_picture(),
@@ -137,6 +138,8 @@ impl App {
             Command::Fit => {
                 let shown = self.layers.iter().filter(|layer| layer.is_visible);
                 let bounds = shown.filter_map(|layer| layer.document.as_ref()?.bounds());
+                let floor = self.floor.read.as_ref().filter(|_| self.floor.is_visible);
+                let bounds = bounds.chain(floor.and_then(|plan| plan.bounds()));
                 if let Some(all) = bounds.reduce(guideway_spline::Bounds::union) {
                     self.camera.fit(all);
                 }

@@ -2,14 +2,12 @@
 
 use std::sync::Arc;
 
-use eframe::egui::{ColorImage, Context, TextureHandle, TextureOptions};
+use eframe::egui::Context;
 use guideway_document::Document;
 use guideway_render::View;
 
 use super::App;
-use crate::host::Trouble;
-use crate::work::renderer::color_image;
-use crate::work::task::Task;
+use crate::work::beside::Beside;
 
 /// Most paths whose areas are shown where none is selected.
 const MOST_UNSELECTED: usize = 20_000;
@@ -19,19 +17,13 @@ pub(crate) struct Swept {
     pub(crate) is_shown: bool,
     /// The vehicle, as a person writes it.
     pub(crate) vehicle: String,
-    /// Why there are none.
-    pub(crate) trouble: Option<String>,
-    /// The last picture of them, and what it shows.
-    pub(crate) picture: Option<(TextureHandle, View)>,
-    task: Option<Task<Result<ColorImage, Trouble>>>,
-    /// What the task, or else the picture, is of.
-    asked: Option<Asked>,
+    pub(crate) drawn: Beside<Of>,
 }
 
+/// What areas are of.
 #[derive(Clone, PartialEq)]
-struct Asked {
+pub(crate) struct Of {
     vehicle: String,
-    view: View,
     layer: usize,
     revision: u64,
 }
@@ -41,10 +33,7 @@ impl Default for Swept {
         Self {
             is_shown: false,
             vehicle: "2x1.2".to_owned(),
-            trouble: None,
-            picture: None,
-            task: None,
-            asked: None,
+            drawn: Beside::default(),
         }
     }
 }
@@ -53,8 +42,7 @@ impl App {
     /// Has the areas in a view drawn, unless they are there or others still are being drawn.
     pub(crate) fn ask_for_swept(&mut self, view: &View) {
         if !self.swept.is_shown {
-            (self.swept.picture, self.swept.asked) = (None, None);
-            self.swept.trouble = None;
+            self.swept.drawn.clear();
             return;
         }
         let Some(document) = self
@@ -64,53 +52,34 @@ impl App {
         else {
             return;
         };
-        let asked = Asked {
+        let of = Of {
             vehicle: self.swept.vehicle.clone(),
-            view: *view,
             layer: self.active,
             revision: document.revision(),
         };
-        if self.swept.task.is_some() || self.swept.asked.as_ref() == Some(&asked) {
+        if !self.swept.drawn.needs(&of, view) {
             return;
         }
-        self.swept.asked = Some(asked.clone());
-        let Some(rows) = rows(document) else {
-            self.swept.picture = None;
-            let text =
+        let Some(rows) = swept_rows(document) else {
+            let why =
                 format!("select at least one of these paths: they are more than {MOST_UNSELECTED}");
-            self.swept.trouble = Some(text);
+            self.swept.drawn.refuse(of, *view, why);
             return;
         };
         let (host, layout) = (Arc::clone(&self.host), document.scene().shared_layout());
-        self.swept.task = Some(Task::start(&self.wake, move || {
-            let Asked { vehicle, view, .. } = asked;
-            Ok(color_image(&host.swept(&layout, &rows, &vehicle, &view)?))
-        }));
+        let (vehicle, view) = (of.vehicle.clone(), *view);
+        let draw = move || host.swept(&layout, &rows, &vehicle, &view);
+        self.swept.drawn.ask(of, view, &self.wake, draw);
     }
 
     /// Takes the areas that were drawn.
     pub(super) fn poll_swept(&mut self, ctx: &Context) {
-        let Some(drawn) = self.swept.task.as_ref().and_then(Task::outcome) else {
-            return;
-        };
-        self.swept.task = None;
-        match (drawn.flatten(), &self.swept.asked) {
-            (Ok(image), Some(asked)) => {
-                let texture = ctx.load_texture("swept areas", image, TextureOptions::LINEAR);
-                self.swept.picture = Some((texture, asked.view));
-                self.swept.trouble = None;
-            }
-            (Ok(_), None) => {}
-            (Err(trouble), _) => {
-                self.swept.picture = None;
-                self.swept.trouble = Some(trouble.to_string());
-            }
-        }
+        self.swept.drawn.poll(ctx, "swept areas");
     }
 }
 
 /// The paths that are meant: those that are selected, or all if they are not too many.
-fn rows(document: &Document) -> Option<Vec<u32>> {
+pub(super) fn swept_rows(document: &Document) -> Option<Vec<u32>> {
     if !document.selection().is_empty() {
         return Some(document.selection().iter().collect());
     }

@@ -6,10 +6,11 @@ use std::time::Duration;
 use eframe::egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable;
 use guideway_document::Document;
+use guideway_spline::Point;
 
 use super::desk::Desk;
 use super::table::{Table, lanes};
-use crate::host::Host;
+use crate::host::{Export, Host};
 
 const NONE: Modifiers = Modifiers::NONE;
 const CTRL: Modifiers = Modifiers::COMMAND;
@@ -56,7 +57,7 @@ fn a_picture_of_any_size_is_written_and_can_be_stopped() {
     *desk.table.is_slow.lock().unwrap() = false;
     export(&mut desk, 40_000);
     desk.wait(|app| said(app, "large.png is written, 40000 x"));
-    let size = desk.table.pictures.lock().unwrap()[0].1;
+    let size = desk.table.pictures.lock().unwrap()[0].1.view.size();
     let seen = desk.app().camera.view().unwrap().size();
     let as_tall = f64::from(seen.height()) / f64::from(seen.width());
     assert!((f64::from(size.height()) - 40_000.0 * as_tall).abs() <= 0.5);
@@ -179,7 +180,7 @@ fn swept_areas_are_those_of_the_selection_or_of_all() {
     let of = |rows: &'static [u32]| {
         move |app: &crate::App, table: &Table| {
             let drawn = table.swept.lock().unwrap();
-            app.swept.picture.is_some() && *drawn == rows
+            app.swept.drawn.picture.is_some() && *drawn == rows
         }
     };
     let table = Arc::clone(&desk.table);
@@ -191,13 +192,75 @@ fn swept_areas_are_those_of_the_selection_or_of_all() {
     desk.app().swept.vehicle = "a lorry".into();
     desk.wait(|app| {
         app.swept
+            .drawn
             .trouble
             .as_ref()
             .is_some_and(|t| t.contains("no vehicle"))
     });
-    assert!(desk.app().swept.picture.is_none());
+    assert!(desk.app().swept.drawn.picture.is_none());
     desk.key(NONE, Key::E);
-    assert_eq!(desk.app().swept.trouble, None);
+    assert_eq!(desk.app().swept.drawn.trouble, None);
+}
+
+#[test]
+fn an_exported_picture_has_all_that_is_seen() {
+    let table = Table::with([("low.arrow", lanes(2)), ("top.arrow", lanes(3))]);
+    let mut desk = Desk::with(&table, &["low.arrow", "top.arrow"], Some("cpu"));
+    desk.wait(|app| app.layers.iter().all(|layer| layer.document.is_some()));
+    desk.key(CTRL, Key::L);
+    desk.app().prompt.as_mut().unwrap().text = "hall.png@px-per-m=20".into();
+    desk.key(NONE, Key::Enter);
+    desk.wait(|app| app.floor.drawn.picture.is_some());
+    desk.key(NONE, Key::E);
+    desk.key(NONE, Key::F);
+    let hall = Point::new(-20.0, -15.0);
+    let view = desk.app().camera.view().unwrap();
+    assert!(view.world_bounds().contains(hall), "the floor plan is seen");
+    let export = |desk: &mut Desk| {
+        desk.key(CTRL, Key::E);
+        desk.key(NONE, Key::Enter);
+        desk.wait(|app| !app.is_writing());
+        table.pictures.lock().unwrap().pop().unwrap().1
+    };
+    let all = export(&mut desk);
+    let counts = |e: &Export| {
+        let others = e.others.iter().map(|scene| scene.path_count());
+        (e.scene.path_count(), others.collect::<Vec<_>>())
+    };
+    assert_eq!(counts(&all), (3, vec![2]));
+    assert_eq!(all.floor_plan.as_deref(), Some("hall.png@px-per-m=20"));
+    assert_eq!(all.swept, Some(("2x1.2".to_owned(), vec![0, 1, 2])));
+    assert!(!all.grid.areas.is_empty());
+    let names = |e: &Export| e.marks.texts.iter().any(|text| text.text == "lane 2");
+    assert!(names(&all));
+
+    desk.key(NONE, Key::PageDown);
+    let turned = export(&mut desk);
+    assert_eq!(counts(&turned), (2, vec![3]), "what is edited is on top");
+    desk.app().floor.is_visible = false;
+    desk.app().layers[1].is_visible = false;
+    for key in [Key::E, Key::G, Key::L] {
+        desk.key(NONE, key);
+    }
+    let bare = export(&mut desk);
+    assert_eq!(counts(&bare), (2, vec![]));
+    assert_eq!((bare.floor_plan.clone(), bare.swept.clone()), (None, None));
+    assert!(bare.grid.areas.is_empty() && !names(&bare));
+}
+
+#[test]
+fn a_floor_plan_that_cannot_be_read_says_why_and_goes_away() {
+    let mut desk = Desk::looking_at(lanes(2));
+    desk.app().lay_floor_plan("hall.png");
+    desk.wait(|app| app.floor.trouble.is_some());
+    assert!(
+        desk.harness
+            .query_by_label_contains("that is no floor plan")
+            .is_some()
+    );
+    desk.app().lay_floor_plan("");
+    desk.harness.run_steps(3);
+    assert!(desk.harness.query_by_label_contains("floor plan").is_none());
 }
 
 #[test]

@@ -8,6 +8,7 @@ use guideway_document::Document;
 use guideway_spline::Point;
 
 use super::table::Table;
+use crate::Opening;
 use crate::app::App;
 use crate::host::Host;
 
@@ -33,18 +34,21 @@ impl Desk {
         files: &[&str],
         method: Option<&str>,
     ) -> Self {
-        let files = files.iter().map(Into::into).collect();
-        let method = method.map(str::to_owned);
-        let mut start = Some((host, files, method));
+        let opening = Opening {
+            files: files.iter().map(Into::into).collect(),
+            method: method.map(str::to_owned),
+            ..Opening::default()
+        };
+        let mut start = Some((host, opening));
         let harness = Harness::builder()
             .with_size(Vec2::new(1200.0, 800.0))
             .with_max_steps(64)
             .build_ui_state(
                 move |ui, app: &mut Option<App>| {
-                    if let Some((host, files, method)) = start.take() {
+                    if let Some((host, opening)) = start.take() {
                         let window = ui.ctx().clone();
                         let wake = Arc::new(move || window.request_repaint());
-                        let mut new = App::new(wake, host, files, method);
+                        let mut new = App::new(wake, host, opening);
                         // However slow the computer, an edit is done when its key was pressed.
                         new.patience = Duration::from_secs(60);
                         *app = Some(new);

@@ -6,13 +6,13 @@ use std::sync::{Arc, Mutex};
 use guideway_cpu::Cpu;
 use guideway_layout::{Layout, NewPath, Value};
 use guideway_render::{
-    Budget, Cancel, Edited, Frame, FrameSize, Method, MethodInfo, Preparation, Prepared,
-    RenderError, Report, Style, View,
+    Budget, Cancel, Edited, Frame, Method, MethodInfo, Preparation, Prepared, RenderError, Report,
+    Style, View,
 };
 use guideway_scene::{Edit, Scene};
-use guideway_spline::{Point, Runs};
+use guideway_spline::{Bounds, Point, Runs};
 
-use crate::host::{Export, Host, Job, MethodChoice, Trouble};
+use crate::host::{Export, FloorPlan, Host, Job, MethodChoice, Trouble};
 
 /// Files that are only there for the test.
 #[derive(Default)]
@@ -27,7 +27,7 @@ pub(super) struct Table {
     /// Paths whose areas were last drawn.
     pub(super) swept: Mutex<Vec<u32>>,
     /// Pictures that were written.
-    pub(super) pictures: Mutex<Vec<(PathBuf, FrameSize)>>,
+    pub(super) pictures: Mutex<Vec<(PathBuf, Export)>>,
     /// Whether the graphics device is lost; another one takes its place when one is asked for.
     is_device_lost: Mutex<Arc<AtomicBool>>,
 }
@@ -105,6 +105,22 @@ pub(crate) fn lanes(count: u32) -> Layout {
     layout
 }
 
+/// A floor of 40 m by 30 m, all red.
+struct Hall;
+
+impl FloorPlan for Hall {
+    fn bounds(&self) -> Option<Bounds<f64>> {
+        let (min, max) = (Point::new(-20.0, -15.0), Point::new(20.0, 15.0));
+        Some(Bounds { min, max })
+    }
+
+    fn draw(&self, view: &View) -> Result<Frame, Trouble> {
+        let mut frame = Frame::new(view.size());
+        frame.pixels_mut().fill([255, 0, 0, 255]);
+        Ok(frame)
+    }
+}
+
 impl Host for Table {
     fn open(&self, path: &Path, job: &Job) -> Result<Layout, Trouble> {
         job.advance(1, 2);
@@ -136,7 +152,7 @@ impl Host for Table {
 
     fn save_picture(
         &self,
-        export: Export<'_>,
+        export: &Export,
         _method: &str,
         job: &Job,
         path: &Path,
@@ -159,12 +175,23 @@ impl Host for Table {
             .pictures
             .lock()
             .expect("no test panics while it holds this");
-        pictures.push((path.to_owned(), export.view.size()));
+        pictures.push((path.to_owned(), export.clone()));
         Ok(())
     }
 
-    fn save_drawing(&self, _: Export<'_>, _: &Path) -> Result<(), Trouble> {
+    fn picture(&self, export: &Export, _method: &str) -> Result<Frame, Trouble> {
+        Ok(Frame::new(export.view.size()))
+    }
+
+    fn save_drawing(&self, _: &Export, _: &Path) -> Result<(), Trouble> {
         Ok(())
+    }
+
+    fn floor_plan(&self, plan: &str) -> Result<Arc<dyn FloorPlan>, Trouble> {
+        match plan {
+            "hall.png@px-per-m=20" => Ok(Arc::new(Hall)),
+            _ => Err(Self::trouble("that is no floor plan")),
+        }
     }
 
     fn swept(

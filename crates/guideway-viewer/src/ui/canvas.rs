@@ -36,6 +36,7 @@ impl App {
         self.camera
             .resize(size_px.x.round() as u32, size_px.y.round() as u32);
         self.canvas_min = rect.min;
+        self.px_per_point = f64::from(px_per_point);
         self.pointer_px = response.hover_pos().map(|at| screen.pixel(at));
         self.pointer(ui, &response, screen);
         self.wheel(ui, &response, screen);
@@ -170,6 +171,7 @@ impl App {
             layer.ask(Shot { view, style });
         }
         self.ask_for_swept(&view);
+        self.ask_for_floor(&view);
     }
 }
 

@@ -35,6 +35,10 @@ impl App {
                 PromptKind::SaveAs => "Save as which file? Its ending says the format.",
                 PromptKind::Picture => "Write the picture to which PNG file?",
                 PromptKind::Drawing => "Write the drawing to which SVG file?",
+                PromptKind::FloorPlan => {
+                    "What lies below? An image with its scale, such as hall.png@px-per-m=20,offset=-3,-2,rotate=90, or \
+                     any layout or drawing; nothing takes it away."
+                }
             };
             let title = ui.label(title);
             let field = TextEdit::singleline(&mut prompt.text).desired_width(480.0);

@@ -9,6 +9,7 @@ mod side;
 
 use eframe::egui::{CentralPanel, Frame, Panel, ScrollArea, TextWrapMode, Ui};
 
+pub(crate) use self::paint::length_text;
 use crate::app::App;
 
 impl App {

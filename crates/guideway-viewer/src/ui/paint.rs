@@ -1,39 +1,51 @@
 use eframe::egui::{
-    Align2, Color32, FontId, Mesh, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, Ui, Vec2, pos2,
+    Align2, Color32, FontId, Mesh, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, TextureHandle,
+    Ui, Vec2, pos2,
 };
-use guideway_document::marks::{LabelSize, Marks, Outline, handles, outline};
-use guideway_document::{Rows, round_step};
+use guideway_document::marks::{Marks, Outline, handles, outline};
+use guideway_document::{Rows, grid_lines_px};
 use guideway_render::View;
 use guideway_scene::Rgba;
 use guideway_spline::Point;
 
 use super::canvas::Screen;
-use crate::app::{App, Gesture, Tool};
+use crate::app::sheets::{
+    GRID_LEAST_PX, GRID_OPACITY, LABEL_PAPER_OPACITY, LABEL_POINTS, SCALE_END, SCALE_LEFT,
+    SCALE_TEXT, scale_bar,
+};
+use crate::app::{App, Gesture, Look, Tool};
 
 const SELECTED: Color32 = Color32::from_rgb(30, 120, 255);
 const HOVERED: Color32 = Color32::from_rgb(255, 140, 0);
-const NODE: Color32 = Color32::from_rgb(0, 140, 90);
-const STATION: Color32 = Color32::from_rgb(200, 40, 120);
-/// Size of the names in the picture.
-const LABEL_POINTS: f32 = 11.0;
 
 impl App {
     pub(super) fn paint(&mut self, ui: &Ui, screen: Screen, view: &View, is_moving: bool) {
         let painter = ui.painter_at(screen.rect);
         painter.rect_filled(screen.rect, 0.0, color(self.look.paper()));
-        if self.look.has_grid {
-            self.paint_grid(&painter, screen, view);
-        }
-        let pictures = self.layers.iter().filter(|layer| layer.is_visible);
-        let pictures = pictures.filter_map(|layer| layer.shown.as_ref());
-        let pictures = pictures.map(|shown| (&shown.texture, &shown.view));
-        let swept = self.swept.picture.iter().map(|(texture, of)| (texture, of));
-        for (texture, of) in swept.chain(pictures) {
-            // What was last drawn, where it is now: at once, and sharp when the new picture comes.
+        // What was last drawn, where it is now: at once, and sharp when the new picture comes.
+        let lay = |(texture, of): (&TextureHandle, &View)| {
             let place = mapped(screen, of, view);
             let all = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
             painter.image(texture.id(), place, all, Color32::WHITE);
+        };
+        let beside = |(texture, of)| lay((texture, of));
+        self.floor
+            .drawn
+            .picture
+            .iter()
+            .map(|(t, v)| (t, v))
+            .for_each(beside);
+        if self.look.has_grid {
+            self.paint_grid(&painter, screen, view);
         }
+        self.swept
+            .drawn
+            .picture
+            .iter()
+            .map(|(t, v)| (t, v))
+            .for_each(beside);
+        let pictures = self.seen_layers().filter_map(|layer| layer.shown.as_ref());
+        pictures.for_each(|shown| lay((&shown.texture, &shown.view)));
         self.paint_overlay(&painter, screen, view, is_moving);
         self.paint_gesture(&painter, screen, view);
         self.paint_scale(&painter, screen, view);
@@ -42,39 +54,25 @@ impl App {
     }
 
     fn ink(&self) -> Color32 {
-        Color32::from_gray(if self.look.is_dark { 220 } else { 40 })
+        color(self.look.mark_ink())
     }
 
     fn paint_grid(&self, painter: &Painter, screen: Screen, view: &View) {
-        const LEAST_PX: f64 = 96.0;
-        let step_m = round_step(LEAST_PX / view.px_per_m());
-        let seen = view.world_bounds();
-        let stroke = Stroke::new(1.0, self.ink().gamma_multiply(0.12));
-        let first = |from: f64| (from / step_m).ceil();
-        let lines = |from: f64, to: f64| {
-            // Beyond 2^53 steps from the origin there are no lines that could be told apart.
-            let count = ((to - from) / step_m) as usize + 1;
-            (0..count.min(1000)).map(move |i| (first(from) + i as f64) * step_m)
-        };
-        for x in lines(seen.min.x, seen.max.x) {
-            let at = screen.point(view.pixel_from_world(Point::new(x, seen.min.y)));
+        let stroke = Stroke::new(1.0, self.ink().gamma_multiply(GRID_OPACITY));
+        let [x_px, y_px] = grid_lines_px(view, GRID_LEAST_PX);
+        for x in x_px {
+            let at = screen.point(Point::new(x, 0.0));
             painter.vline(at.x, screen.rect.y_range(), stroke);
         }
-        for y in lines(seen.min.y, seen.max.y) {
-            let at = screen.point(view.pixel_from_world(Point::new(seen.min.x, y)));
+        for y in y_px {
+            let at = screen.point(Point::new(0.0, y));
             painter.hline(screen.rect.x_range(), at.y, stroke);
         }
     }
 
     fn paint_overlay(&mut self, painter: &Painter, screen: Screen, view: &View, is_moving: bool) {
         let scale = f64::from(screen.px_per_point);
-        let label_size = LabelSize {
-            char_px: f64::from(LABEL_POINTS) * 0.6 * scale,
-            line_px: f64::from(LABEL_POINTS) * 1.2 * scale,
-        };
-        let options = self.look.marks(label_size);
-        let ink = self.ink();
-        let paper = color(self.look.paper());
+        let options = self.look.marks(self.label_size());
         let hovered = self.hovered().copied();
         let Some(layer) = self.layers.get_mut(self.active) else {
             return;
@@ -107,7 +105,7 @@ impl App {
             let lines = outline(document, &Rows::from_iter([hit.path]), view);
             paint_outline(painter, &lines, HOVERED, |pixel| screen.point(pixel));
         }
-        paint_marks(painter, &made.marks, (ink, paper), now);
+        paint_marks(painter, &made.marks, &self.look, now);
         if let (Tool::Points, Some(document)) = (self.tool, document) {
             paint_handles(painter, screen, &handles(document, view));
         }
@@ -142,21 +140,17 @@ impl App {
     }
 
     fn paint_scale(&self, painter: &Painter, screen: Screen, view: &View) {
-        const LEAST_PX: f64 = 80.0;
-        let length_m = round_step(LEAST_PX / view.px_per_m());
-        let length = (length_m * view.px_per_m()) as f32 / screen.px_per_point;
-        let left = screen.rect.left_bottom() + Vec2::new(16.0, -16.0);
+        let by = |p: Point<f64>| Vec2::new(p.x as f32, p.y as f32);
+        let bar = scale_bar(view);
+        let length = bar.length_px as f32 / screen.px_per_point;
+        let left = screen.rect.left_bottom() + by(SCALE_LEFT);
         let right = left + Vec2::new(length, 0.0);
         let stroke = Stroke::new(2.0, self.ink());
         painter.line_segment([left, right], stroke);
         for end in [left, right] {
-            painter.line_segment([end, end - Vec2::new(0.0, 6.0)], stroke);
+            painter.line_segment([end, end - Vec2::new(0.0, SCALE_END as f32)], stroke);
         }
-        self.write(
-            painter,
-            left + Vec2::new(4.0, -12.0),
-            &length_text(length_m),
-        );
+        self.write(painter, left + by(SCALE_TEXT), &length_text(bar.length_m));
     }
 
     fn paint_legend(&self, painter: &Painter, screen: Screen) {
@@ -248,56 +242,31 @@ fn paint_outline(
 fn paint_marks(
     painter: &Painter,
     marks: &Marks,
-    (ink, paper): (Color32, Color32),
+    look: &Look,
     to_screen: impl Fn(Point<f64>) -> Pos2,
 ) {
+    let (ink, paper) = (color(look.mark_ink()), color(look.paper()));
     let mut mesh = Mesh::default();
-    let mut triangle = |corners: [Pos2; 3], color| {
-        let first = mesh.vertices.len() as u32;
-        corners
-            .into_iter()
-            .for_each(|corner| mesh.colored_vertex(corner, color));
-        mesh.add_triangle(first, first + 1, first + 2);
+    let place = |pixel| {
+        let at = to_screen(pixel);
+        Point::new(f64::from(at.x), f64::from(at.y))
     };
-    for arrow in &marks.arrows {
-        let at = to_screen(arrow.at_px);
-        let ahead = Vec2::new(arrow.direction.x as f32, arrow.direction.y as f32);
-        let heads = if arrow.is_two_way {
-            &[1.0, -1.0][..]
-        } else {
-            &[1.0]
-        };
-        for sign in heads {
-            let (tip, side) = (ahead * *sign, ahead.rot90());
-            // Ahead of the middle, so that the arrows of two opposite paths are not one over the other.
-            let base = at + tip * 2.0;
-            triangle(
-                [base + tip * 9.0, base + side * 4.0, base - side * 4.0],
-                ink,
-            );
+    marks.draw_shapes(1.0, place, |kind, corners| {
+        let first = mesh.vertices.len() as u32;
+        for at in corners {
+            mesh.colored_vertex(pos2(at.x as f32, at.y as f32), color(look.mark_color(kind)));
         }
-    }
-    for &node in &marks.nodes {
-        let at = to_screen(node);
-        let corners = [(0.0, -4.0), (4.0, 0.0), (0.0, 4.0), (-4.0, 0.0)];
-        let [a, b, c, d] = corners.map(|(x, y)| at + Vec2::new(x, y));
-        triangle([a, b, c], NODE);
-        triangle([a, c, d], NODE);
-    }
-    for &station in &marks.stations {
-        let at = to_screen(station);
-        let corners = [(-6.0, -6.0), (6.0, -6.0), (6.0, 6.0), (-6.0, 6.0)];
-        let [a, b, c, d] = corners.map(|(x, y)| at + Vec2::new(x, y));
-        triangle([a, b, c], STATION);
-        triangle([a, c, d], STATION);
-    }
+        for next in 1..corners.len() as u32 - 1 {
+            mesh.add_triangle(first, first + next, first + next + 1);
+        }
+    });
     painter.add(mesh);
     let font = FontId::monospace(LABEL_POINTS);
     for label in &marks.labels {
         let galley = painter.layout_no_wrap(label.text.clone(), font.clone(), ink);
         let corner = to_screen(label.at_px) - Vec2::new(0.0, galley.size().y / 2.0);
         let back = Rect::from_min_size(corner, galley.size());
-        painter.rect_filled(back, 2.0, paper.gamma_multiply(0.75));
+        painter.rect_filled(back, 2.0, paper.gamma_multiply(LABEL_PAPER_OPACITY));
         painter.galley(corner, galley, ink);
     }
 }
@@ -337,7 +306,7 @@ fn measured(points: &[Point<f64>]) -> String {
     }
 }
 
-pub(super) fn length_text(length_m: f64) -> String {
+pub(crate) fn length_text(length_m: f64) -> String {
     match length_m {
         m if m >= 10_000.0 => format!("{} km", rounded(m / 1000.0)),
         m if m >= 1.0 => format!("{} m", rounded(m)),

@@ -1,4 +1,6 @@
-use eframe::egui::{CollapsingHeader, ComboBox, DragValue, Grid, Label, Slider, TextEdit, Ui};
+use eframe::egui::{
+    CollapsingHeader, ComboBox, DragValue, Grid, Label, RichText, Slider, TextEdit, Ui,
+};
 use guideway_document::Document;
 use guideway_document::measure::{Bend, bends, length_m, tightest_radius_m};
 use guideway_layout::Layout;
@@ -52,6 +54,7 @@ impl App {
                 ));
             }
         }
+        self.floor_plan(ui);
         if let Some(index) = close {
             self.close(index);
         }
@@ -67,6 +70,24 @@ impl App {
                     }
                 }
             });
+        }
+    }
+
+    fn floor_plan(&mut self, ui: &mut Ui) {
+        let floor = &mut self.floor;
+        if floor.plan.is_empty() {
+            return;
+        }
+        let what = if floor.is_awaited() {
+            "reading the floor plan"
+        } else {
+            "floor plan"
+        };
+        ui.checkbox(&mut floor.is_visible, what);
+        let plan = Label::new(RichText::new(&floor.plan).small());
+        ui.add(plan.truncate()).on_hover_text(&floor.plan);
+        if let Some(trouble) = floor.trouble.as_ref().or(floor.drawn.trouble.as_ref()) {
+            ui.colored_label(ui.visuals().error_fg_color, trouble);
         }
     }
 
@@ -188,7 +209,7 @@ impl App {
         let title = ui.label("Vehicle: length x width, rear, in metres, or `file`");
         ui.add(TextEdit::singleline(&mut self.swept.vehicle))
             .labelled_by(title.id);
-        if let Some(trouble) = &self.swept.trouble {
+        if let Some(trouble) = &self.swept.drawn.trouble {
             ui.colored_label(ui.visuals().error_fg_color, trouble);
         }
         if before.is_dark != self.look.is_dark {

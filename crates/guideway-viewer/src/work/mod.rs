@@ -1,6 +1,7 @@
 //! What is done beside the window: reading, drawing, saving, watching files. Each on a thread of its own that
 //! wakes the window when there is news.
 
+pub(crate) mod beside;
 pub(crate) mod loader;
 pub(crate) mod renderer;
 pub(crate) mod task;

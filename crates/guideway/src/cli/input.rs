@@ -34,7 +34,7 @@ impl Input {
         OsStringValueParser::new().try_map(Self::parse)
     }
 
-    fn parse(argument: OsString) -> Result<Self, String> {
+    pub(crate) fn parse(argument: OsString) -> Result<Self, String> {
         let whole = Self {
             path: PathBuf::from(&argument),
             ..Self::default()

@@ -1,5 +1,6 @@
 //! `guideway view`: the window.
 
+mod floor;
 mod smoothness;
 
 use std::io::{self, Write};
@@ -8,13 +9,15 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use etcetera::BaseStrategy;
+use guideway::envelope::Source;
 use guideway::formats::{Progress, ReadOptions, read_file};
 use guideway::layout::Layout;
 use guideway::render::{Budget, Frame, Method, View, elapsed_ms};
 use guideway::scene::SceneOptions;
 use guideway::{AUTO, save_png_by};
-use guideway_viewer::{Export, Host, Job, MethodChoice, Stage, Trouble};
+use guideway_viewer::{Export, Host, Job, MethodChoice, Opening, Stage, Trouble};
 
+use self::floor::OnFloor;
 use super::convert::Target;
 use super::render::{Below, Wishes, draw, draw_swept, draw_vector};
 use super::{Exit, Failure, Output, envelope, values};
@@ -27,6 +30,10 @@ pub(crate) struct Args {
     /// Layout files of any format that is read, found from their content
     #[arg(value_name = "FILE")]
     files: Vec<PathBuf>,
+    /// What lies below: any layout or drawing, or a PNG image with its scale, such as
+    /// `hall.png@px-per-m=20,offset=-3,-2`
+    #[arg(long, value_name = "FILE", conflicts_with = "measure")]
+    floor_plan: Option<String>,
     /// Way of drawing, as `guideway methods` lists them; `auto` takes `gpu` where there is graphics hardware, else
     /// `cpu`
     #[arg(long, value_name = "NAME[+OPTION]", default_value = AUTO, value_parser = values::MethodSpec)]
@@ -54,7 +61,12 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, Failure> {
         timed_since: args.timings.then(Instant::now),
         is_measuring: false,
     };
-    guideway_viewer::run(Arc::new(desk), args.files.clone(), method)?;
+    let opening = Opening {
+        files: args.files.clone(),
+        floor_plan: args.floor_plan.clone().unwrap_or_default(),
+        method,
+    };
+    guideway_viewer::run(Arc::new(desk), opening)?;
     Ok(Exit::Clean)
 }
 
@@ -81,25 +93,42 @@ impl Host for Desk {
         Ok(losses.iter().map(|loss| loss.to_string()).collect())
     }
 
+    fn picture(&self, export: &Export, method: &str) -> Result<Frame, Trouble> {
+        let (below, wishes) = (below(export)?, wishes(export));
+        let (method, progress) = (self.method(method)?, Followed(&Job::default()));
+        let mut frame = Frame::new(wishes.size);
+        let mut rows = frame.pixels_mut().iter_mut();
+        let take = &mut |strip: &Frame| {
+            let pixels = rows.by_ref().zip(strip.pixels());
+            pixels.for_each(|(pixel, drawn)| *pixel = *drawn);
+            Ok(())
+        };
+        draw(&*method, &export.scene, &below, &wishes, &progress, take)?;
+        Ok(frame)
+    }
+
     fn save_picture(
         &self,
-        export: Export<'_>,
+        export: &Export,
         method: &str,
         job: &Job,
         path: &Path,
     ) -> Result<(), Trouble> {
-        let method = self.method(method)?;
-        let wishes = wishes(&export);
+        let (below, wishes) = (below(export)?, wishes(export));
+        let (method, progress) = (self.method(method)?, Followed(job));
         save_png_by(path, wishes.size, |take| {
-            let (below, progress) = (Below::default(), Followed(job));
-            draw(&*method, export.scene, &below, &wishes, &progress, take)
+            draw(&*method, &export.scene, &below, &wishes, &progress, take)
         })?;
         Ok(())
     }
 
-    fn save_drawing(&self, export: Export<'_>, path: &Path) -> Result<(), Trouble> {
-        draw_vector(path, export.scene, &Below::default(), &wishes(&export))?;
+    fn save_drawing(&self, export: &Export, path: &Path) -> Result<(), Trouble> {
+        draw_vector(path, &export.scene, &below(export)?, &wishes(export))?;
         Ok(())
+    }
+
+    fn floor_plan(&self, plan: &str) -> Result<Arc<dyn guideway_viewer::FloorPlan>, Trouble> {
+        Ok(Arc::new(OnFloor::read(plan)?))
     }
 
     fn swept(
@@ -109,13 +138,7 @@ impl Host for Desk {
         vehicle: &str,
         view: &View,
     ) -> Result<Frame, Trouble> {
-        let source = envelope::source(vehicle).map_err(|problem| {
-            Failure::arguments(
-                format!("`{vehicle}` is no vehicle: {problem}"),
-                "Write it so",
-            )
-        })?;
-        Ok(draw_swept(layout, rows, source, view)?)
+        Ok(draw_swept(layout, rows, source(vehicle)?, view)?)
     }
 
     fn reached(&self, stage: Stage, file: &Path) {
@@ -159,17 +182,43 @@ impl Host for Desk {
     }
 }
 
+/// A vehicle, as a person wrote it.
+fn source(vehicle: &str) -> Result<Source, Failure> {
+    envelope::source(vehicle).map_err(|problem| {
+        Failure::arguments(
+            format!("`{vehicle}` is no vehicle: {problem}"),
+            "Write it so",
+        )
+    })
+}
+
+/// What lies below the layout on top.
+fn below(export: &Export) -> Result<Below, Failure> {
+    let plan = export.floor_plan.as_deref().map(floor::read);
+    let vehicle = export.swept.as_ref().map(|(vehicle, _)| source(vehicle));
+    Ok(Below {
+        floor_plan: plan.transpose()?,
+        lines: export.grid.clone(),
+        envelope: vehicle.transpose()?,
+        swept: export.swept.as_ref().map(|(_, rows)| rows.clone()),
+        others: export.others.clone(),
+    })
+}
+
 /// A picture of what is seen, with what the colours mean.
-fn wishes(export: &Export<'_>) -> Wishes {
-    let Export { scene, view, style } = export;
+fn wishes(export: &Export) -> Wishes {
+    let Export {
+        scene, view, style, ..
+    } = export;
     Wishes {
         size: view.size(),
         center_m: Some(view.center_m()),
         px_per_m: Some(view.px_per_m()),
         scene: SceneOptions::default(),
-        style: **style,
+        style: *style,
         has_legend: scene.legend().is_some(),
         budget: Budget::default(),
+        marks: export.marks.clone(),
     }
 }
 

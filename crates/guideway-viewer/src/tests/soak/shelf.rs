@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex};
 use guideway_layout::Layout;
 use guideway_render::{Frame, Method, View};
 
-use crate::host::{Export, Host, Job, MethodChoice, Trouble};
+use crate::host::{Export, FloorPlan, Host, Job, MethodChoice, Trouble};
 use crate::tests::table::Table;
 
 /// A folder with one file, replaced as a whole like any other that is saved. The file itself holds a number; what it
@@ -104,7 +104,7 @@ impl Host for Shelf {
 
     fn save_picture(
         &self,
-        export: Export<'_>,
+        export: &Export,
         method: &str,
         job: &Job,
         path: &Path,
@@ -112,8 +112,16 @@ impl Host for Shelf {
         self.table.save_picture(export, method, job, path)
     }
 
-    fn save_drawing(&self, export: Export<'_>, path: &Path) -> Result<(), Trouble> {
+    fn picture(&self, export: &Export, method: &str) -> Result<Frame, Trouble> {
+        self.table.picture(export, method)
+    }
+
+    fn save_drawing(&self, export: &Export, path: &Path) -> Result<(), Trouble> {
         self.table.save_drawing(export, path)
+    }
+
+    fn floor_plan(&self, plan: &str) -> Result<Arc<dyn FloorPlan>, Trouble> {
+        self.table.floor_plan(plan)
     }
 
     fn swept(

@@ -1,21 +1,27 @@
 use std::io::{self, Write};
+use std::sync::Arc;
 
 use guideway::cpu::Areas;
 use guideway::envelope::Source;
 use guideway::formats::svg::Page;
-use guideway::render::{Budget, Frame, Strip, View};
+use guideway::render::{Cancel, Frame, FrameSize, Method, Prepared, Sheet, Strip, Style, View};
 use guideway::scene::{Rgba, Scene};
 use guideway::spline::Bounds;
 
 use super::floor_plan::{Floor, FloorPlan};
 use super::swept::{self, Swept, SweptReport};
+use super::{Wishes, floor_plan, sheet, vector};
 use crate::cli::Failure;
 
-/// What lies below the paths: the floor plan, and on it the areas that vehicles sweep.
+/// What lies below the paths, from the lowest: the floor plan, lines, the areas that vehicles sweep, other scenes.
 #[derive(Default)]
 pub(crate) struct Below {
-    pub(super) floor_plan: Option<FloorPlan>,
-    pub(super) envelope: Option<Source>,
+    pub(crate) floor_plan: Option<FloorPlan>,
+    pub(crate) lines: Sheet,
+    pub(crate) envelope: Option<Source>,
+    /// The paths that have areas; all that are drawn if unset.
+    pub(crate) swept: Option<Vec<u32>>,
+    pub(crate) others: Vec<Arc<Scene>>,
 }
 
 impl Below {
@@ -25,16 +31,19 @@ impl Below {
         let swept = self
             .envelope
             .and_then(|source| swept::bounds(scene, source));
-        [plan, swept].into_iter().flatten().reduce(Bounds::union)
+        let others = self.others.iter().filter_map(|other| other.bounds());
+        let all = [plan, swept].into_iter().flatten().chain(others);
+        all.reduce(Bounds::union)
     }
 
     /// What of it is seen.
     pub(super) fn seen(&self, scene: &Scene, view: &View) -> Result<Seen<'_>, Failure> {
+        let rows = self.swept.as_deref().unwrap_or(scene.draw_order());
         let swept = self
             .envelope
-            .map(|source| Swept::new(scene.layout(), scene.draw_order(), source, view));
+            .map(|source| Swept::new(scene.layout(), rows, source, view));
         Ok(Seen {
-            floor_plan: self.floor_plan.as_ref(),
+            below: self,
             swept: swept.transpose()?,
         })
     }
@@ -42,19 +51,40 @@ impl Below {
 
 /// What of it is seen in a view.
 pub(super) struct Seen<'b> {
-    floor_plan: Option<&'b FloorPlan>,
+    below: &'b Below,
     swept: Option<Swept>,
 }
 
 impl Seen<'_> {
     /// Makes it ready to be drawn; none if there is nothing.
-    pub(super) fn ground(&self, budget: &Budget) -> Result<Option<Ground<'_>>, Failure> {
-        let floor = self.floor_plan.map(|plan| plan.prepare(budget));
+    pub(super) fn ground(
+        &self,
+        method: &dyn Method,
+        wishes: &Wishes,
+    ) -> Result<Option<Ground<'_>>, Failure> {
+        let floor_plan = self.below.floor_plan.as_ref();
+        let floor = floor_plan.map(|plan| plan.prepare(&wishes.budget));
+        let others = self.below.others.iter();
+        let others = others.map(|other| method.prepare(Arc::clone(other), &wishes.budget));
         let ground = Ground {
             floor: floor.transpose()?,
+            lines: Some(&self.below.lines).filter(|lines| **lines != Sheet::default()),
             areas: self.swept.as_ref().map(Swept::areas),
+            others: others.collect::<Result<_, _>>()?,
+            style: Style {
+                background: Rgba::from_u32(0),
+                ..wishes.style
+            },
+            frame: Frame::new(FrameSize::new(1, 1)?),
         };
-        let is_there = ground.floor.is_some() || ground.areas.is_some();
+        let Ground {
+            floor,
+            lines,
+            areas,
+            others,
+            ..
+        } = &ground;
+        let is_there = floor.is_some() || lines.is_some() || areas.is_some() || !others.is_empty();
         Ok(is_there.then_some(ground))
     }
 
@@ -62,16 +92,20 @@ impl Seen<'_> {
     pub(super) fn write(
         &self,
         view: &View,
-        step_px: f64,
+        style: &Style,
         page: &mut Page<'_, impl Write>,
     ) -> io::Result<()> {
-        if let Some(plan) = self.floor_plan {
+        if let Some(plan) = &self.below.floor_plan {
             plan.write(view, page)?;
         }
-        match &self.swept {
-            Some(swept) => swept.write(view, step_px, page),
-            None => Ok(()),
+        sheet::write(&self.below.lines, "grid", page)?;
+        if let Some(swept) = &self.swept {
+            swept.write(view, vector::STEP_PX, page)?;
         }
+        for other in &self.below.others {
+            vector::write_paths(other, view, style, page)?;
+        }
+        Ok(())
     }
 
     pub(super) fn report(self) -> Option<SweptReport> {
@@ -81,8 +115,14 @@ impl Seen<'_> {
 
 /// What lies below, ready to be drawn strip by strip.
 pub(super) struct Ground<'b> {
-    floor: Option<Floor<'b>>,
+    floor: Option<Floor>,
+    lines: Option<&'b Sheet>,
     areas: Option<Areas>,
+    others: Vec<Box<dyn Prepared>>,
+    /// How the others look: over nothing.
+    style: Style,
+    /// One of the others.
+    frame: Frame,
 }
 
 impl Ground<'_> {
@@ -98,8 +138,17 @@ impl Ground<'_> {
             Some(floor) => floor.draw(strip, background, frame)?,
             None => frame.pixels_mut().fill(background.to_u32().to_be_bytes()),
         }
+        if let Some(lines) = self.lines {
+            sheet::lay(lines, strip, frame);
+        }
         if let Some(areas) = &self.areas {
             swept::lay(areas, strip, frame);
+        }
+        for other in &mut self.others {
+            other.render_strip(strip, &self.style, &Cancel::default(), &mut self.frame)?;
+            // Both ways round: what was below comes to lie under it.
+            floor_plan::lay_over(frame, &mut self.frame);
+            std::mem::swap(frame, &mut self.frame);
         }
         Ok(())
     }

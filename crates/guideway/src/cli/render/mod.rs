@@ -6,6 +6,7 @@ mod floor_plan;
 mod legend;
 mod picture;
 mod report;
+mod sheet;
 mod swept;
 mod vector;
 
@@ -19,6 +20,8 @@ use guideway::{SaveError, save_png_by, write_png_by};
 
 pub(crate) use args::{Args, Rule};
 pub(crate) use below::Below;
+#[cfg(feature = "viewer")]
+pub(crate) use floor_plan::Floor;
 pub(crate) use picture::{Drawn, Take, Wishes, draw};
 pub(crate) use report::{Times, what_was_drawn};
 #[cfg(feature = "viewer")]
@@ -27,7 +30,7 @@ pub(crate) use swept::draw as draw_swept;
 pub(crate) use vector::draw as draw_vector;
 
 use super::{Exit, Failure, Output, input};
-use floor_plan::FloorPlan;
+pub(crate) use floor_plan::FloorPlan;
 
 pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, Failure> {
     let wishes = args.wishes()?;
@@ -47,6 +50,7 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, Failure> {
     let below = Below {
         floor_plan: plan.transpose()?,
         envelope: args.envelope(),
+        ..Below::default()
     };
     let (layout, read_ms) = input::read_all(&args.inputs, out)?;
     let activity = out.activity("arranging");

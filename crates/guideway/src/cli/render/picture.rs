@@ -3,16 +3,16 @@ use std::time::Instant;
 
 use guideway::formats::Progress;
 use guideway::render::{
-    Budget, Cancel, Frame, FrameSize, Method, MethodInfo, RenderError, Report, Shading, Style,
-    View, elapsed_ms,
+    Budget, Cancel, Frame, FrameSize, Method, MethodInfo, RenderError, Report, Shading, Sheet,
+    Style, View, elapsed_ms,
 };
 use guideway::scene::{Rgba, Scene, SceneOptions};
 use guideway::spline::{Bounds, Point};
 
 use super::below::Below;
-use super::floor_plan;
 use super::legend::Stamp;
 use super::swept::SweptReport;
+use super::{floor_plan, sheet};
 use crate::cli::Failure;
 
 /// What a picture is to be like.
@@ -27,6 +27,8 @@ pub(crate) struct Wishes {
     /// Whether the picture shows what its colours mean.
     pub(crate) has_legend: bool,
     pub(crate) budget: Budget,
+    /// What lies over the paths.
+    pub(crate) marks: Sheet,
 }
 
 /// What became of every path of a picture.
@@ -56,7 +58,7 @@ pub(crate) fn draw(
     let started = Instant::now();
     let view = view(scene, below, wishes)?;
     let seen = below.seen(scene, &view)?;
-    let mut ground = seen.ground(&wishes.budget)?;
+    let mut ground = seen.ground(method, wishes)?;
     let mut style = wishes.style;
     if ground.is_some() {
         style.background.a = 0;
@@ -80,6 +82,7 @@ pub(crate) fn draw(
             ground.draw(&strip, wishes.style.background, &mut below_it)?;
             floor_plan::lay_over(&below_it, &mut frame);
         }
+        sheet::lay(&wishes.marks, &strip, &mut frame);
         bare_pixels += bare(&frame, wishes.style.background);
         if let Some(Some(stamp)) = &stamp {
             stamp.onto(&strip, &mut frame);

@@ -6,17 +6,17 @@ use std::path::Path;
 
 use guideway::formats::svg::{Outline, Page, Stroke};
 use guideway::layout::PathRef;
-use guideway::render::{MethodInfo, Report, Shading, View};
+use guideway::render::{MethodInfo, Report, Shading, Style, View};
 use guideway::scene::{Legend, Scene};
 use guideway::spline::{Bounds, Point};
 use guideway::{SaveError, replace_file};
 
 use super::below::{Below, Seen};
-use super::{Drawn, Wishes, picture};
+use super::{Drawn, Wishes, picture, sheet};
 use crate::cli::Failure;
 
 /// Steps of coordinates, in pixels.
-const STEP_PX: f64 = 1e-3;
+pub(super) const STEP_PX: f64 = 1e-3;
 
 /// Ending of the names of such files.
 const ENDING: &str = "svg";
@@ -80,11 +80,12 @@ fn write(
 ) -> io::Result<u64> {
     let size = view.size();
     let (width, height) = (f64::from(size.width()), f64::from(size.height()));
-    let rule = wishes.style.line_rule;
-    let width_px = |path| 2.0 * rule.radius_px(scene.width_m(path), view.px_per_m());
     let first = scene.draw_order().first();
     let common = first.map_or(Stroke::of(0xFF, 1.0), |&path| {
-        Stroke::of(scene.color(path).to_u32(), width_px(path))
+        Stroke::of(
+            scene.color(path).to_u32(),
+            width_px(scene, path, view, &wishes.style),
+        )
     });
     let attributes = format!(r#"width="{width}" height="{height}""#);
     let mut page = Page::begin(out, [0.0, 0.0, width, height], &attributes, &common)?;
@@ -92,19 +93,37 @@ fn write(
     if background.a > 0 {
         page.area([0.0, 0.0, width, height], background.to_u32())?;
     }
-    below.write(view, STEP_PX, &mut page)?;
+    below.write(view, &wishes.style, &mut page)?;
+    let drawn = write_paths(scene, view, &wishes.style, &mut page)?;
+    sheet::write(&wishes.marks, "marks", &mut page)?;
+    if let Some(legend) = legend {
+        write_legend(legend, &mut page)?;
+    }
+    page.end()?;
+    Ok(drawn)
+}
+
+fn width_px(scene: &Scene, path: u32, view: &View, style: &Style) -> f64 {
+    2.0 * style
+        .line_rule
+        .radius_px(scene.width_m(path), view.px_per_m())
+}
+
+/// Writes the paths of a scene; returns how many can be seen.
+pub(super) fn write_paths(
+    scene: &Scene,
+    view: &View,
+    style: &Style,
+    page: &mut Page<'_, impl Write>,
+) -> io::Result<u64> {
     let mut drawn = 0;
     for &path in scene.draw_order() {
-        let width_px = width_px(path);
+        let width_px = width_px(scene, path, view, style);
         let outline = outline(scene, path, view, width_px);
         drawn += u64::from(!outline.is_empty());
         let stroke = Stroke::of(scene.color(path).to_u32(), width_px);
         page.path(scene.layout().paths.id(path as usize), &outline, &stroke)?;
     }
-    if let Some(legend) = legend {
-        write_legend(legend, &mut page)?;
-    }
-    page.end()?;
     Ok(drawn)
 }
 

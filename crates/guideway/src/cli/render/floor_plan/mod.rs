@@ -31,20 +31,20 @@ const PNG: &[u8] = b"\x89PNG";
 
 pub(crate) enum FloorPlan {
     Paths(Arc<Scene>),
-    Image(Image),
+    Image(Arc<Image>),
 }
 
 /// A floor plan that is ready to be drawn.
-pub(super) enum Floor<'p> {
+pub(crate) enum Floor {
     Paths(Box<dyn Prepared>),
-    Image(&'p Image),
+    Image(Arc<Image>),
 }
 
 impl FloorPlan {
     /// Reads a floor plan; its content tells which of the two it is.
-    pub(super) fn read(input: &Input, out: &Output) -> Result<Self, Failure> {
+    pub(crate) fn read(input: &Input, out: &Output) -> Result<Self, Failure> {
         if is_png(&input.path) {
-            return Ok(Self::Image(Image::read(input)?));
+            return Ok(Self::Image(Arc::new(Image::read(input)?)));
         }
         let (mut layout, _) = input::read_all(std::slice::from_ref(input), out)?;
         let rows = layout.paths.len();
@@ -54,7 +54,7 @@ impl FloorPlan {
         Ok(Self::Paths(Arc::new(scene)))
     }
 
-    pub(super) fn bounds(&self) -> Option<Bounds<f64>> {
+    pub(crate) fn bounds(&self) -> Option<Bounds<f64>> {
         match self {
             Self::Paths(scene) => scene.bounds(),
             Self::Image(image) => Some(image.bounds()),
@@ -62,12 +62,12 @@ impl FloorPlan {
     }
 
     /// Makes it ready to be drawn.
-    pub(super) fn prepare(&self, budget: &Budget) -> Result<Floor<'_>, Failure> {
+    pub(crate) fn prepare(&self, budget: &Budget) -> Result<Floor, Failure> {
         Ok(match self {
             Self::Paths(scene) => {
                 Floor::Paths(guideway::method("cpu")?.prepare(Arc::clone(scene), budget)?)
             }
-            Self::Image(image) => Floor::Image(image),
+            Self::Image(image) => Floor::Image(Arc::clone(image)),
         })
     }
 
@@ -88,9 +88,9 @@ impl FloorPlan {
     }
 }
 
-impl Floor<'_> {
+impl Floor {
     /// Draws it alone, into a picture of the strip's size.
-    pub(super) fn draw(
+    pub(crate) fn draw(
         &mut self,
         strip: &Strip,
         background: Rgba,
@@ -127,7 +127,7 @@ pub(super) fn lay_over(below: &Frame, frame: &mut Frame) {
 }
 
 /// A colour over another, both with straight alpha (Porter and Duff 1984).
-fn over(above: [u8; 4], below: [u8; 4]) -> [u8; 4] {
+pub(super) fn over(above: [u8; 4], below: [u8; 4]) -> [u8; 4] {
     if above[3] == 255 || below[3] == 0 {
         return above;
     }

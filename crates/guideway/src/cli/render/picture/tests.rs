@@ -1,7 +1,7 @@
 //! A picture drawn in strips is the one drawn at once, with all that may lie on it.
 
 use guideway::render::density::ToneMap;
-use guideway::render::{Preparation, Prepared, Strip};
+use guideway::render::{Preparation, Prepared, Sheet, Strip, Text};
 use guideway::scene::ColorBy;
 
 use super::*;
@@ -82,6 +82,21 @@ fn drawn(strip_pixels: usize, wishes: &Wishes, below: &Below) -> (Vec<[u8; 4]>, 
     (pixels, calls, drawn.report)
 }
 
+/// A bar and a name across the border of two strips.
+fn sheet() -> Sheet {
+    let mut sheet = Sheet::default();
+    let red = Rgba::opaque(255, 0, 0);
+    sheet.add_rectangle(red, Point::new(100.0, 30.5), Point::new(110.0, 300.0));
+    sheet.texts.push(Text {
+        text: "a name".into(),
+        at_px: Point::new(200.0, 64.0),
+        char_px: 9.0,
+        ink: red,
+        paper: Rgba::WHITE,
+    });
+    sheet
+}
+
 #[test]
 fn strips_together_are_the_picture_drawn_at_once() {
     let wishes = |shading, has_legend: bool| Wishes {
@@ -100,11 +115,16 @@ fn strips_together_are_the_picture_drawn_at_once() {
         },
         has_legend,
         budget: Budget::default(),
+        marks: sheet(),
     };
     let plan = Scene::new(Arc::new(site()), &SceneOptions::default()).unwrap();
+    let plan = Arc::new(plan);
     let below = Below {
-        floor_plan: Some(floor_plan::FloorPlan::Paths(Arc::new(plan))),
+        floor_plan: Some(floor_plan::FloorPlan::Paths(Arc::clone(&plan))),
+        lines: sheet(),
         envelope: Some(envelope::source("2x1.2").unwrap()),
+        swept: Some(vec![0, 2]),
+        others: vec![plan],
     };
     for (wishes, below) in [
         (wishes(Shading::Color, true), Below::default()),

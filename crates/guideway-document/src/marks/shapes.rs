@@ -1,0 +1,92 @@
+use guideway_spline::Point;
+
+use super::Marks;
+
+/// What a shape stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Which way vehicles go.
+    Arrow,
+    /// A node.
+    Node,
+    /// A station.
+    Station,
+}
+
+/// Length of an arrow's head, and half of its width.
+const HEAD: (f64, f64) = (9.0, 4.0);
+/// How far ahead of its place a head begins, so that the arrows of two opposite paths are not one over the other.
+const AHEAD: f64 = 2.0;
+/// From the middle of a node's diamond to its corners.
+const NODE: f64 = 4.0;
+/// From the middle of a station's square to its sides.
+const STATION: f64 = 6.0;
+
+impl Marks {
+    /// Draws the convex shapes of all arrows and symbols, from the lowest. `place` says where a pixel of the view is
+    /// drawn; there the shapes are `scale` times as large as on a screen of one pixel a point.
+    pub fn draw_shapes(
+        &self,
+        scale: f64,
+        place: impl Fn(Point<f64>) -> Point<f64>,
+        mut draw: impl FnMut(Kind, &[Point<f64>]),
+    ) {
+        for arrow in &self.arrows {
+            let at = place(arrow.at_px);
+            let signs = if arrow.is_two_way {
+                &[1.0, -1.0][..]
+            } else {
+                &[1.0]
+            };
+            for sign in signs {
+                let ahead = arrow.direction * (sign * scale);
+                let side = Point::new(-ahead.y, ahead.x) * HEAD.1;
+                let base = at + ahead * AHEAD;
+                draw(
+                    Kind::Arrow,
+                    &[base + ahead * HEAD.0, base + side, base - side],
+                );
+            }
+        }
+        let mut symbols = |kind, places: &[Point<f64>], corners: [(f64, f64); 4], size: f64| {
+            for &at in places {
+                let corner = |(x, y)| place(at) + Point::new(x, y) * (size * scale);
+                draw(kind, &corners.map(corner));
+            }
+        };
+        let diamond = [(0.0, -1.0), (1.0, 0.0), (0.0, 1.0), (-1.0, 0.0)];
+        let square = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+        symbols(Kind::Node, &self.nodes, diamond, NODE);
+        symbols(Kind::Station, &self.stations, square, STATION);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::marks::Arrow;
+
+    #[test]
+    fn arrows_point_where_vehicles_go() {
+        let arrow = |is_two_way| Arrow {
+            at_px: Point::new(10.0, 20.0),
+            direction: Point::new(0.0, -1.0),
+            is_two_way,
+        };
+        let marks = Marks {
+            arrows: vec![arrow(false), arrow(true)],
+            nodes: vec![Point::new(1.0, 1.0)],
+            ..Marks::default()
+        };
+        let mut shapes = Vec::new();
+        let place = |at: Point<f64>| at * 2.0;
+        marks.draw_shapes(2.0, place, |kind, corners| {
+            shapes.push((kind, corners.to_vec()));
+        });
+        let kinds: Vec<Kind> = shapes.iter().map(|(kind, _)| *kind).collect();
+        assert_eq!(kinds, [Kind::Arrow, Kind::Arrow, Kind::Arrow, Kind::Node]);
+        let tips = shapes[..3].iter().map(|(_, corners)| corners[0].y);
+        assert_eq!(tips.collect::<Vec<_>>(), [18.0, 18.0, 62.0]);
+        assert_eq!(shapes[3].1[0], Point::new(2.0, -6.0));
+    }
+}
