@@ -43,11 +43,16 @@ impl Act {
     }
 }
 
-/// Does what a journal says, as far as it is whole, with a document as it was when the journal began.
-pub fn replay(journal: &[u8], document: &mut Document) -> Replayed {
+/// Does what a journal says, as far as it is whole, with a document as it was when the journal began. `goes_on` is
+/// told before each act how much is done, and ends it by false.
+pub fn replay(
+    journal: &[u8],
+    document: &mut Document,
+    mut goes_on: impl FnMut(Replayed) -> bool,
+) -> Replayed {
     let mut done = Replayed { acts: 0, bytes: 0 };
     let mut rest = journal;
-    while let Some((payload, behind)) = next_record(rest) {
+    while let Some((payload, behind)) = next_record(rest).filter(|_| goes_on(done)) {
         let is_done = decode::act(payload).is_some_and(|act| act.perform(document).is_ok());
         if !is_done {
             break;

@@ -146,12 +146,17 @@ proptest! {
             prop_assert!(document.selection().iter().all(|row| all_shown(&row)));
         }
         // What a journal gives back is what was done: whole, and as far as it goes where it was cut off.
-        let journal: Vec<u8> = document.take_acts().iter().flat_map(Act::to_record).collect();
+        let acts = document.take_acts();
+        let journal: Vec<u8> = acts.iter().flat_map(Act::to_record).collect();
         let mut recovered = crate::site::document(8);
-        prop_assert_eq!(replay(&journal, &mut recovered).bytes, journal.len());
+        prop_assert_eq!(replay(&journal, &mut recovered, |_| true).bytes, journal.len());
         prop_assert_eq!(content(&recovered), content(&document));
         let mut cut = crate::site::document(8);
-        prop_assert!(replay(&journal[..journal.len() / 2], &mut cut).bytes <= journal.len() / 2);
+        let half = &journal[..journal.len() / 2];
+        prop_assert!(replay(half, &mut cut, |_| true).bytes <= half.len());
+        let mut stopped = crate::site::document(8);
+        let done = replay(&journal, &mut stopped, |done| done.acts < 2);
+        prop_assert_eq!(done.acts, acts.len().min(2));
         prop_assert_eq!(replica.draw_order(), document.scene().draw_order());
         for &row in replica.draw_order() {
             let points = |layout: &guideway_layout::Layout| -> Vec<_> {
@@ -187,7 +192,7 @@ proptest! {
         }
         for bytes in [journal, noise] {
             let mut recovered = crate::site::document(8);
-            prop_assert!(replay(&bytes, &mut recovered).bytes <= bytes.len());
+            prop_assert!(replay(&bytes, &mut recovered, |_| true).bytes <= bytes.len());
         }
     }
 }

@@ -4,7 +4,7 @@ use std::sync::mpsc::TryRecvError;
 use std::time::Duration;
 
 use eframe::egui::{Context, TextureHandle, TextureOptions};
-use guideway_document::{Combine, Document, Rows, replay};
+use guideway_document::{Combine, Document, Replayed, Rows};
 use guideway_layout::Diagnostics;
 use guideway_render::{Report, View};
 use guideway_scene::{Scene, SceneError, SceneOptions};
@@ -51,8 +51,6 @@ pub(crate) struct Layer {
     asked: Option<Shot>,
     /// What is written down of the work on the document.
     journal: Journal,
-    /// Acts to be done with the document that is being read.
-    to_replay: Option<Vec<u8>>,
     /// Whether the document that is being read takes the place of changes.
     drops_changes: bool,
 }
@@ -99,6 +97,7 @@ impl Layer {
             loader: Some(Loader::start(
                 Arc::clone(host),
                 path.clone(),
+                None,
                 options.clone(),
                 Arc::clone(wake),
             )),
@@ -117,7 +116,6 @@ impl Layer {
             owes_scene: false,
             asked: None,
             journal: Journal::default(),
-            to_replay: None,
             drops_changes: false,
         }
     }
@@ -150,10 +148,17 @@ impl Layer {
         self.loader.is_some()
     }
 
-    /// The load under way, if there is one.
+    /// The load under way, if it is waited for.
     pub(crate) fn load(&self) -> Option<&Job> {
         let loader = self.loader.as_ref()?;
-        (self.document.is_none() && !self.away.is_at_work()).then(|| loader.load())
+        let is_first = self.document.is_none() && !self.away.is_at_work();
+        (is_first || self.is_recovering()).then(|| loader.load())
+    }
+
+    /// Whether work that was found is being done again.
+    pub(crate) fn is_recovering(&self) -> bool {
+        let loader = self.loader.as_ref();
+        self.has_found_work() && loader.is_some_and(Loader::is_recovering)
     }
 
     pub(crate) fn cancel_load(&mut self) {
@@ -175,7 +180,8 @@ impl Layer {
         let (host, wake) = (Arc::clone(host), Arc::clone(wake));
         self.drops_changes = drops_changes;
         self.options = options.clone();
-        self.loader = Some(Loader::start(host, self.path.clone(), options, wake));
+        let path = self.path.clone();
+        self.loader = Some(Loader::start(host, path, None, options, wake));
     }
 
     pub(crate) fn set_method(&mut self, name: &str) {
@@ -258,36 +264,7 @@ impl Layer {
                     self.renderer.set_scene(scene);
                 }
             }
-            Loaded::Document(document) => {
-                let is_again = self.document.is_some();
-                if self.is_changed() && self.to_replay.is_none() && !self.drops_changes {
-                    self.loader = None;
-                    news.push(LayerNews::Notice(changed_on_disk(&self.name())));
-                    return;
-                }
-                if is_again && self.to_replay.is_none() {
-                    // What was done with the layout before goes with it.
-                    self.drop_journal();
-                }
-                let document = self.document.insert(*document);
-                if let Some(acts) = self.to_replay.take() {
-                    let done = replay(&acts, document);
-                    news.push(LayerNews::Notice(format!(
-                        "{} steps are done again",
-                        done.acts
-                    )));
-                } else {
-                    self.journal = Journal::of(&self.path);
-                }
-                // What was done again before is in the scene that the renderer gets.
-                let orders = self.renderer.orders();
-                document.tell(move |edit| orders.edit(edit.clone()));
-                self.findings = None;
-                if is_again || std::mem::take(&mut self.owes_scene) {
-                    self.send_scene();
-                }
-                news.push(LayerNews::Reached(Stage::Editable));
-            }
+            Loaded::Document(document, done) => self.take_document(*document, done, news),
             Loaded::Findings(findings) => {
                 self.findings = Some(findings);
                 news.push(LayerNews::Reached(Stage::Checked));
@@ -302,6 +279,39 @@ impl Layer {
                 }
             }
         }
+    }
+
+    /// Takes a document that was read, unless there is another one with changes.
+    fn take_document(
+        &mut self,
+        mut document: Document,
+        done: Option<Replayed>,
+        news: &mut Vec<LayerNews>,
+    ) {
+        if self.is_changed() && !self.drops_changes {
+            self.loader = None;
+            news.push(LayerNews::Notice(changed_on_disk(&self.name())));
+            return;
+        }
+        match done {
+            Some(done) => news.extend(self.go_on(done)),
+            None => {
+                if !self.has_found_work() {
+                    // What was done with the layout before goes with it.
+                    self.drop_journal();
+                }
+                self.journal = Journal::of(&self.path);
+            }
+        }
+        // What was done again before is in the scene that the renderer gets.
+        let orders = self.renderer.orders();
+        document.tell(move |edit| orders.edit(edit.clone()));
+        let is_again = self.document.replace(document).is_some();
+        self.findings = None;
+        if is_again || std::mem::take(&mut self.owes_scene) {
+            self.send_scene();
+        }
+        news.push(LayerNews::Reached(Stage::Editable));
     }
 
     fn show(&mut self, ctx: &Context, picture: Picture) {

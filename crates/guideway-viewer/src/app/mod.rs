@@ -11,7 +11,6 @@ pub(crate) mod look;
 mod overlay;
 mod perform;
 pub(crate) mod recent;
-pub(crate) mod recovery;
 pub(crate) mod sheets;
 pub(crate) mod swept;
 
@@ -247,10 +246,14 @@ impl App {
 
     /// Tells the person something.
     pub(crate) fn notify(&mut self, text: impl Into<String>) {
+        let text = text.into();
+        if self.notices.last() == Some(&text) {
+            return;
+        }
         if self.notices.len() == MOST_NOTICES {
             self.notices.remove(0);
         }
-        self.notices.push(text.into());
+        self.notices.push(text);
     }
 
     /// Does an edit, or says why it cannot be done. One that takes longer than a frame goes on beside the window.
@@ -258,7 +261,7 @@ impl App {
         &mut self,
         edit: impl FnOnce(&mut Document) -> Result<(), E> + Send + 'static,
     ) {
-        self.work(Work::fallible(edit));
+        self.work(Work::edit(edit));
     }
 
     /// Changes what is selected or shown; as [`Self::edit`].

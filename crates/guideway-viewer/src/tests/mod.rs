@@ -6,5 +6,6 @@ mod desk;
 mod hand;
 mod journeys;
 mod random;
+mod recovery;
 mod soak;
 pub(crate) mod table;

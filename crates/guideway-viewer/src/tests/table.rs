@@ -2,6 +2,7 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
+use std::time::Duration;
 
 use guideway_cpu::Cpu;
 use guideway_layout::{Layout, NewPath, Value};
@@ -20,7 +21,7 @@ pub(super) struct Table {
     pub(super) files: Mutex<HashMap<PathBuf, Layout>>,
     /// Whether the disk is full.
     pub(super) is_full: Mutex<bool>,
-    /// Whether writing a picture comes to no end.
+    /// Whether reading a file and writing a picture come to no end.
     pub(super) is_slow: Mutex<bool>,
     /// What is remembered from one run to the next.
     pub(super) state: Mutex<Option<PathBuf>>,
@@ -74,6 +75,20 @@ impl Table {
         }
     }
 
+    fn wait_for_disk(&self, job: &Job) -> Result<(), Trouble> {
+        while *self
+            .is_slow
+            .lock()
+            .expect("no test panics while it holds this")
+        {
+            if job.is_cancelled() {
+                return Err(Self::trouble("cancelled"));
+            }
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        Ok(())
+    }
+
     fn trouble(message: &str) -> Trouble {
         Trouble {
             message: message.to_owned(),
@@ -124,6 +139,7 @@ impl FloorPlan for Hall {
 impl Host for Table {
     fn open(&self, path: &Path, job: &Job) -> Result<Layout, Trouble> {
         job.advance(1, 2);
+        self.wait_for_disk(job)?;
         let files = self
             .files
             .lock()
@@ -160,16 +176,7 @@ impl Host for Table {
         let height = export.view.size().height();
         for row in 0..height {
             job.advance(row.into(), height.into());
-            while *self
-                .is_slow
-                .lock()
-                .expect("no test panics while it holds this")
-            {
-                if job.is_cancelled() {
-                    return Err(Self::trouble("cancelled"));
-                }
-                std::thread::yield_now();
-            }
+            self.wait_for_disk(job)?;
         }
         let mut pictures = self
             .pictures

@@ -46,7 +46,11 @@ impl App {
             }
             for layer in &self.layers {
                 if let Some(load) = layer.load() {
-                    progress(ui, format!("reading {}", layer.name()), load);
+                    let what = match layer.is_recovering() {
+                        true => "doing again the work on",
+                        false => "reading",
+                    };
+                    progress(ui, format!("{what} {}", layer.name()), load);
                 }
             }
             if let Some(job) = self.writing() {

@@ -142,7 +142,8 @@ impl App {
     }
 
     fn ask_to_recover(&mut self, ctx: &Context) {
-        let Some(index) = self.layers.iter().position(Layer::has_found_work) else {
+        let is_undecided = |layer: &Layer| layer.has_found_work() && !layer.is_recovering();
+        let Some(index) = self.layers.iter().position(is_undecided) else {
             return;
         };
         let name = self.layers[index].name();

@@ -1,15 +1,16 @@
 use std::convert::Infallible;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::{self, Receiver, Sender, TryIter};
 use std::thread;
 use std::time::Duration;
 
-use guideway_document::Document;
+use guideway_document::{Document, Replayed};
 use guideway_layout::{CheckOptions, Diagnostics, Layout, check};
 use guideway_scene::{Scene, SceneOptions};
 
 use super::Wake;
+use super::recovery::Found;
 use crate::host::{Host, Job, Trouble};
 
 /// How long the first picture may have the processor to itself.
@@ -21,14 +22,15 @@ pub(crate) struct Loader {
     news: Receiver<Loaded>,
     /// Held until there is a first picture.
     has_no_picture: Option<Sender<Infallible>>,
+    is_recovering: bool,
 }
 
 /// What a loader has, piece by piece in this order.
 pub(crate) enum Loaded {
     /// It can be drawn.
     Scene(Arc<Scene>),
-    /// It can be edited.
-    Document(Box<Document>),
+    /// It can be edited; how much of the work that was found is done again.
+    Document(Box<Document>, Option<Replayed>),
     /// What is odd in it.
     Findings(Diagnostics),
     /// There is nothing, and this is why.
@@ -36,15 +38,18 @@ pub(crate) enum Loaded {
 }
 
 impl Loader {
+    /// Reads a file, or else the one that work was found with, to do that again: it is drawn when all is done.
     pub(crate) fn start(
         host: Arc<dyn Host>,
         path: PathBuf,
+        found: Option<Found>,
         options: SceneOptions,
         wake: Wake,
     ) -> Self {
         let load = Arc::<Job>::default();
         let (sender, news) = mpsc::channel();
         let (has_no_picture, picture) = mpsc::channel();
+        let is_recovering = found.is_some();
         let watched = Arc::clone(&load);
         thread::spawn(move || {
             let tell = |piece| {
@@ -52,35 +57,40 @@ impl Loader {
                 let _ = sender.send(piece);
                 wake();
             };
-            let layout = match host.open(&path, &watched) {
-                Ok(layout) => layout,
+            let path = found.as_ref().map_or(&path, |found| &found.file);
+            let scene = match read(&*host, path, &options, &watched) {
+                Ok(scene) => scene,
                 Err(trouble) => return tell(Loaded::Failed(trouble)),
             };
-            let layout = Arc::new(layout);
-            // A colour that another file has columns for need not be one of this file.
-            let scene = Scene::new(Arc::clone(&layout), &options)
-                .or_else(|_| Scene::new(Arc::clone(&layout), &without_column(&options)));
-            match scene {
-                Ok(scene) => {
-                    // Found here, and not when the window asks where to look.
-                    scene.bounds();
-                    tell(Loaded::Scene(Arc::new(scene.clone())));
-                    // It ends as an error, for nothing is ever sent.
-                    let _ = picture.recv_timeout(PATIENCE);
-                    tell(Loaded::Document(Box::new(Document::from_scene(scene))));
+            if found.is_none() {
+                // Found here, and not when the window asks where to look.
+                scene.bounds();
+                tell(Loaded::Scene(Arc::new(scene.clone())));
+                // It ends as an error, for nothing is ever sent.
+                let _ = picture.recv_timeout(PATIENCE);
+            }
+            let mut document = Document::from_scene(scene);
+            let done = found.map(|found| found.do_again(&mut document, &watched));
+            match done.transpose() {
+                Ok(done) => {
+                    let layout = document.scene().shared_layout();
+                    tell(Loaded::Document(Box::new(document), done));
                     tell(Loaded::Findings(findings(&layout)));
                 }
-                Err(error) => tell(Loaded::Failed(Trouble {
-                    message: error.to_string(),
-                    remedy: "Open the file again".into(),
-                })),
+                Err(trouble) => tell(Loaded::Failed(trouble)),
             }
         });
         Self {
             load,
             news,
             has_no_picture: Some(has_no_picture),
+            is_recovering,
         }
+    }
+
+    /// Whether it does work again that was found.
+    pub(crate) fn is_recovering(&self) -> bool {
+        self.is_recovering
     }
 
     /// There is a picture of it: what takes long is in nobody's way any more.
@@ -101,6 +111,18 @@ impl Drop for Loader {
     fn drop(&mut self) {
         self.load.cancel();
     }
+}
+
+fn read(host: &dyn Host, path: &Path, options: &SceneOptions, job: &Job) -> Result<Scene, Trouble> {
+    let layout = Arc::new(host.open(path, job)?);
+    // A colour that another file has columns for need not be one of this file.
+    let scene = Scene::new(Arc::clone(&layout), options);
+    scene
+        .or_else(|_| Scene::new(layout, &without_column(options)))
+        .map_err(|error| Trouble {
+            message: error.to_string(),
+            remedy: "Open the file again".into(),
+        })
 }
 
 /// What the reader found, and what is odd in the layout as it is.

@@ -3,6 +3,7 @@
 
 pub(crate) mod beside;
 pub(crate) mod loader;
+pub(crate) mod recovery;
 pub(crate) mod renderer;
 pub(crate) mod task;
 pub(crate) mod watcher;

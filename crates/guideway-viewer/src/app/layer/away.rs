@@ -19,19 +19,22 @@ pub(crate) struct Work(Box<Deed>);
 type Deed = dyn FnOnce(&mut Document, &mut Journal) -> Result<(), String> + Send;
 
 impl Work {
-    /// What always can be done.
+    /// What changes no more than what is seen.
     pub(crate) fn new(work: impl FnOnce(&mut Document) + Send + 'static) -> Self {
-        Self::fallible(move |document| {
+        Self::with_journal(move |document, _| {
             work(document);
-            Ok::<(), String>(())
+            Ok(())
         })
     }
 
-    /// What may not be possible, and then says why.
-    pub(crate) fn fallible<E: ToString>(
-        work: impl FnOnce(&mut Document) -> Result<(), E> + Send + 'static,
+    /// An edit. If it is not possible it says why.
+    pub(crate) fn edit<E: ToString>(
+        edit: impl FnOnce(&mut Document) -> Result<(), E> + Send + 'static,
     ) -> Self {
-        Self::with_journal(move |document, _| work(document).map_err(|error| error.to_string()))
+        Self::with_journal(move |document, journal| {
+            journal.check_is_decided()?;
+            edit(document).map_err(|error| error.to_string())
+        })
     }
 
     /// The same, of what concerns the journal too.

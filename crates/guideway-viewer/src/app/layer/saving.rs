@@ -4,14 +4,14 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use guideway_document::{Document, Saved, Snapshot};
+use guideway_document::{Document, Replayed, Saved, Snapshot};
 use guideway_scene::SceneOptions;
 
 use super::{Layer, LayerNews, PATIENCE, Work};
-use crate::app::recovery::Recovery;
 use crate::host::Host;
 use crate::work::Wake;
 use crate::work::loader::Loader;
+use crate::work::recovery::Recovery;
 
 /// What is written down of the work on a document. It goes where the document goes.
 #[derive(Default)]
@@ -45,8 +45,23 @@ impl Journal {
         }
     }
 
+    /// Until it is decided what becomes of work that was found, it could not be told from what is done now.
+    ///
+    /// # Errors
+    /// What to say if it is not.
+    pub(super) fn check_is_decided(&self) -> Result<(), String> {
+        match self.has_found() {
+            false => Ok(()),
+            true => Err("choose first what becomes of the work of last time".into()),
+        }
+    }
+
+    fn has_found(&self) -> bool {
+        self.recovery.as_ref().is_some_and(Recovery::has_found)
+    }
+
     /// Goes on without a journal where there can be none.
-    fn or_without(&mut self, outcome: io::Result<()>, file: &Path) -> Result<(), String> {
+    fn or_without<T>(&mut self, outcome: io::Result<T>, file: &Path) -> Result<T, String> {
         outcome.map_err(|problem| {
             self.recovery = None;
             format!(
@@ -60,19 +75,33 @@ impl Journal {
 impl Layer {
     /// Whether work that was never saved was found with the file.
     pub(crate) fn has_found_work(&self) -> bool {
-        let recovery = self.journal.recovery.as_ref();
-        recovery.is_some_and(Recovery::has_found)
+        self.journal.has_found()
     }
 
     /// Reads the file again as it was, to do with it what was found.
     pub(crate) fn recover(&mut self, host: &Arc<dyn Host>, options: SceneOptions, wake: &Wake) {
-        if let Some(recovery) = &mut self.journal.recovery {
-            let (acts, file) = recovery.take_found(&self.path);
-            self.to_replay = Some(acts);
+        let recovery = self.journal.recovery.as_ref();
+        if let Some(found) = recovery.and_then(|recovery| recovery.found(&self.path)) {
+            self.drops_changes = false;
             self.options = options.clone();
-            let (host, wake) = (Arc::clone(host), Arc::clone(wake));
-            self.loader = Some(Loader::start(host, file, options, wake));
+            let (host, wake, path) = (Arc::clone(host), Arc::clone(wake), self.path.clone());
+            self.loader = Some(Loader::start(host, path, Some(found), options, wake));
         }
+    }
+
+    /// Writes down from here on what follows the work that was done again. Says how much that was.
+    pub(super) fn go_on(&mut self, done: Replayed) -> Option<LayerNews> {
+        let recovery = self.journal.recovery.as_mut()?;
+        let steps = match done.acts {
+            1 => "1 step is done again".to_owned(),
+            acts => format!("{acts} steps are done again"),
+        };
+        let outcome = recovery.go_on(done, &self.path).map(|is_all| match is_all {
+            true => steps,
+            false => format!("{steps}; what was written behind them is damaged and left out"),
+        });
+        let text = self.journal.or_without(outcome, &self.path);
+        Some(LayerNews::Notice(text.unwrap_or_else(|trouble| trouble)))
     }
 
     /// Nothing of what was done, or found, needs to survive.
@@ -89,8 +118,11 @@ impl Layer {
         outcome.err().map(LayerNews::Notice)
     }
 
-    /// What is to be written, and what is to be said.
+    /// What is to be written, and what is to be said. None as long as it is not certain what there is.
     pub(crate) fn begin_saving(&mut self) -> Option<(Snapshot, Option<LayerNews>)> {
+        if self.has_found_work() {
+            return None;
+        }
         let unwritten = self.record();
         let document = self.document.as_mut()?;
         let snapshot = document.snapshot();

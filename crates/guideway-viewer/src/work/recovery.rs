@@ -1,9 +1,11 @@
 use std::fs::{self, File, OpenOptions};
-use std::io::{self, Seek, SeekFrom, Write};
+use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::time::UNIX_EPOCH;
 
-use guideway_document::{Act, Document};
+use guideway_document::{Act, Document, Replayed, replay};
+
+use crate::host::{Job, Trouble};
 
 /// Begins every journal file; the digit is the version of what follows.
 const MAGIC: &[u8; 8] = b"GWJRNAL2";
@@ -17,29 +19,34 @@ const HEADER_BYTES: usize = 8 + 8 + 16 + 8;
 ///
 /// It is written as the work is done, and not forced to the disk each time: it survives a crash of this program,
 /// not one of the computer.
-pub(super) struct Recovery {
+pub(crate) struct Recovery {
     journal: PathBuf,
     /// The file as it was read; only there once it was saved over.
     base: PathBuf,
     /// Made with the first act.
     file: Option<File>,
-    /// What an earlier run left behind and nobody has decided about.
-    found: Option<Vec<u8>>,
+    /// Whether an earlier run left something behind that nobody has decided about.
+    has_found: bool,
+}
+
+/// What an earlier run left behind.
+pub(crate) struct Found {
+    journal: PathBuf,
+    /// The file that it begins with.
+    pub(crate) file: PathBuf,
 }
 
 impl Recovery {
     /// The journal of a layout file that was just read.
-    pub(super) fn of(layout_file: &Path) -> Self {
+    pub(crate) fn of(layout_file: &Path) -> Self {
         let journal = beside(layout_file, "journal");
         let mut recovery = Self {
-            found: fs::read(&journal)
-                .ok()
-                .and_then(|bytes| unsaved(bytes, layout_file)),
+            has_found: holds_unsaved(&journal, layout_file).unwrap_or(false),
             base: beside(layout_file, "base"),
             journal,
             file: None,
         };
-        if recovery.found.is_none() {
+        if !recovery.has_found {
             // One of another state of the file, or of work that was saved, is of no use.
             recovery.clear();
         }
@@ -47,27 +54,56 @@ impl Recovery {
     }
 
     /// Whether an earlier run left something behind.
-    pub(super) fn has_found(&self) -> bool {
-        self.found.is_some()
+    pub(crate) fn has_found(&self) -> bool {
+        self.has_found
     }
 
-    /// What an earlier run left behind: acts for [`guideway_document::replay`], and the file to do them with.
-    pub(super) fn take_found(&mut self, layout_file: &Path) -> (Vec<u8>, PathBuf) {
+    /// What an earlier run left behind. It stays where it is until it is done again, or dropped.
+    pub(crate) fn found(&self, layout_file: &Path) -> Option<Found> {
         let file = if self.base.exists() {
             &self.base
         } else {
             layout_file
         };
-        (self.found.take().unwrap_or_default(), file.to_owned())
+        self.has_found.then(|| Found {
+            journal: self.journal.clone(),
+            file: file.to_owned(),
+        })
+    }
+
+    /// What was found is done again: the journal goes on behind that. Returns whether that was all of it.
+    ///
+    /// # Errors
+    /// When the journal cannot be written.
+    pub(crate) fn go_on(&mut self, done: Replayed, layout_file: &Path) -> io::Result<bool> {
+        let end = (HEADER_BYTES + done.bytes) as u64;
+        let mut file = OpenOptions::new()
+            .read(true)
+            .write(true)
+            .open(&self.journal)?;
+        let is_all = file.metadata()?.len() <= end;
+        if read_header(&mut file)?.1 > done.bytes as u64 {
+            // The state that was saved is not reached any more.
+            file.rewind()?;
+            file.write_all(&header(layout_file, 0)?)?;
+        }
+        file.set_len(end)?;
+        file.seek(SeekFrom::End(0))?;
+        self.file = Some(file);
+        self.has_found = false;
+        Ok(is_all)
     }
 
     /// Writes down what was done.
     ///
     /// # Errors
     /// When the journal cannot be written.
-    pub(super) fn record(&mut self, document: &mut Document, layout_file: &Path) -> io::Result<()> {
+    pub(crate) fn record(&mut self, document: &mut Document, layout_file: &Path) -> io::Result<()> {
+        if self.has_found {
+            return Ok(());
+        }
         let acts = document.take_acts();
-        if acts.is_empty() || self.found.is_some() {
+        if acts.is_empty() {
             return Ok(());
         }
         let file = match &mut self.file {
@@ -82,7 +118,7 @@ impl Recovery {
     ///
     /// # Errors
     /// When it cannot be kept.
-    pub(super) fn keep_base(&self, layout_file: &Path) -> io::Result<()> {
+    pub(crate) fn keep_base(&self, layout_file: &Path) -> io::Result<()> {
         if self.file.is_none() || self.base.exists() {
             return Ok(());
         }
@@ -98,7 +134,7 @@ impl Recovery {
     ///
     /// # Errors
     /// When the journal cannot be written.
-    pub(super) fn set_saved(&mut self, layout_file: &Path) -> io::Result<()> {
+    pub(crate) fn set_saved(&mut self, layout_file: &Path) -> io::Result<()> {
         let (journal, base) = (beside(layout_file, "journal"), beside(layout_file, "base"));
         let Some(file) = &mut self.file else {
             (self.journal, self.base) = (journal, base);
@@ -120,13 +156,59 @@ impl Recovery {
     }
 
     /// Takes all of it away: what is in it is saved, or is not wanted.
-    pub(super) fn clear(&mut self) {
-        self.found = None;
+    pub(crate) fn clear(&mut self) {
+        self.has_found = false;
         self.file = None;
         for path in [&self.journal, &self.base] {
             // There may be none.
             let _ = fs::remove_file(path);
         }
+    }
+}
+
+impl Found {
+    /// Does all of it again, with a document of [`Self::file`].
+    ///
+    /// # Errors
+    /// When the journal cannot be read, or the job was cancelled.
+    pub(crate) fn do_again(&self, document: &mut Document, job: &Job) -> Result<Replayed, Trouble> {
+        let (saved, acts) = self.acts().map_err(|problem| Trouble {
+            message: format!("{} cannot be read: {problem}", self.journal.display()),
+            remedy: "Make it readable and try again, or forget the work in it".into(),
+        })?;
+        let follow = |document: &mut Document, from: Replayed, end: usize| {
+            let done = replay(&acts[from.bytes..end], document, |done| {
+                job.advance((from.bytes + done.bytes) as u64, acts.len() as u64);
+                !job.is_cancelled()
+            });
+            Replayed {
+                acts: from.acts + done.acts,
+                bytes: from.bytes + done.bytes,
+            }
+        };
+        let mut done = follow(document, Replayed { acts: 0, bytes: 0 }, saved);
+        if done.bytes == saved {
+            document.set_saved();
+            done = follow(document, done, acts.len());
+        }
+        // They are in the journal.
+        document.take_acts();
+        if job.is_cancelled() {
+            return Err(Trouble {
+                message: "the work of last time was not done again: that was cancelled".into(),
+                remedy: "It is kept; choose once more what is to become of it".into(),
+            });
+        }
+        Ok(done)
+    }
+
+    /// What was done, and how many bytes of it were saved.
+    fn acts(&self) -> io::Result<(usize, Vec<u8>)> {
+        let mut journal = File::open(&self.journal)?;
+        let (_, saved) = read_header(&mut journal)?;
+        let mut acts = Vec::new();
+        journal.read_to_end(&mut acts)?;
+        Ok((acts.len().min(saved as usize), acts))
     }
 }
 
@@ -151,14 +233,20 @@ fn begin(journal: &Path, layout_file: &Path) -> io::Result<File> {
     Ok(file)
 }
 
-/// The acts of a journal, if it is one of this state of the file and not all of it is saved there.
-fn unsaved(mut bytes: Vec<u8>, layout_file: &Path) -> Option<Vec<u8>> {
-    let (head, acts) = bytes.split_first_chunk::<HEADER_BYTES>()?;
-    let (state, saved) = head.split_last_chunk()?;
-    let saved = u64::from_le_bytes(*saved);
-    let is_of_this = header(layout_file, saved).is_ok_and(|now| now.starts_with(state));
-    let is_unsaved = is_of_this && acts.len() as u64 > saved;
-    is_unsaved.then(|| bytes.split_off(HEADER_BYTES))
+/// Whether a journal is one of this state of the file, and not all of it is saved there.
+fn holds_unsaved(journal: &Path, layout_file: &Path) -> io::Result<bool> {
+    let mut file = File::open(journal)?;
+    let (is, saved) = read_header(&mut file)?;
+    let acts_bytes = file.metadata()?.len() - HEADER_BYTES as u64;
+    Ok(is == header(layout_file, saved)? && acts_bytes > saved)
+}
+
+/// The header of a journal, and the bytes behind it that are saved.
+fn read_header(journal: &mut File) -> io::Result<([u8; HEADER_BYTES], u64)> {
+    let mut header = [0; HEADER_BYTES];
+    journal.read_exact(&mut header)?;
+    let saved = header.last_chunk().map_or(0, |n| u64::from_le_bytes(*n));
+    Ok((header, saved))
 }
 
 /// What tells the journal of one state of a file from that of another.
@@ -184,92 +272,4 @@ fn beside(layout_file: &Path, what: &str) -> PathBuf {
 }
 
 #[cfg(test)]
-mod tests {
-    use guideway_document::replay;
-    use guideway_spline::Point;
-
-    use super::*;
-    use crate::tests::table::lanes;
-
-    fn document() -> Document {
-        Document::new(lanes(4).into(), &Default::default()).unwrap()
-    }
-
-    /// A file, and a document of it in which something was done and written down.
-    fn edited() -> (tempfile::TempDir, PathBuf, Document, Recovery) {
-        let folder = tempfile::tempdir().unwrap();
-        let site = folder.path().join("site.arrow");
-        fs::write(&site, "as it was read").unwrap();
-        let mut recovery = Recovery::of(&site);
-        assert!(!recovery.has_found());
-        let mut edited = document();
-        edited.select_all();
-        edited.delete_selection().unwrap();
-        recovery.record(&mut edited, &site).unwrap();
-        edited.undo();
-        edited.move_node(0, Point::new(1.0, 1.0)).unwrap();
-        recovery.record(&mut edited, &site).unwrap();
-        (folder, site, edited, recovery)
-    }
-
-    fn files(folder: &tempfile::TempDir) -> usize {
-        fs::read_dir(folder.path()).unwrap().count()
-    }
-
-    #[test]
-    fn work_is_found_after_a_crash_and_only_with_the_same_file() {
-        let (_folder, site, edited, recovery) = edited();
-        drop(recovery);
-        let mut found = Recovery::of(&site);
-        assert!(found.has_found());
-        let (acts, file) = found.take_found(&site);
-        assert_eq!(file, site);
-        let mut recovered = document();
-        assert_eq!(replay(&acts, &mut recovered).acts, 3);
-        assert_eq!(recovered.scene().draw_order().len(), 4);
-        assert_eq!(recovered.node_position_m(0), edited.node_position_m(0));
-        // It crashes once more, right after that was written down anew.
-        found.record(&mut recovered, &site).unwrap();
-        drop(found);
-        assert!(Recovery::of(&site).has_found());
-        fs::write(&site, "another layout").unwrap();
-        assert!(!Recovery::of(&site).has_found());
-    }
-
-    #[test]
-    fn work_after_saving_is_found_with_the_file_as_it_was_read() {
-        for name in ["site.arrow", "other.arrow"] {
-            let (folder, site, mut edited, mut recovery) = edited();
-            let target = folder.path().join(name);
-            recovery.keep_base(&site).unwrap();
-            let new = folder.path().join("new");
-            fs::write(&new, "as it is saved").unwrap();
-            fs::rename(&new, &target).unwrap();
-            recovery.set_saved(&target).unwrap();
-            edited.move_node(1, Point::new(2.0, 2.0)).unwrap();
-            recovery.record(&mut edited, &target).unwrap();
-            drop(recovery);
-            let mut found = Recovery::of(&target);
-            let (acts, base) = found.take_found(&target);
-            assert_eq!(fs::read_to_string(base).unwrap(), "as it was read");
-            let mut recovered = document();
-            assert_eq!(replay(&acts, &mut recovered).acts, 4);
-            assert_eq!(recovered.node_position_m(1), Point::new(2.0, 2.0));
-        }
-    }
-
-    #[test]
-    fn what_is_saved_or_not_wanted_leaves_nothing_behind() {
-        let (folder, site, _, mut recovery) = edited();
-        recovery.keep_base(&site).unwrap();
-        recovery.set_saved(&site).unwrap();
-        assert_eq!(files(&folder), 3);
-        drop(recovery);
-        // A crash with nothing unsaved.
-        assert!(!Recovery::of(&site).has_found());
-        assert_eq!(files(&folder), 1);
-        let (folder, _, _, mut recovery) = edited();
-        recovery.clear();
-        assert_eq!(files(&folder), 1);
-    }
-}
+mod tests;
