@@ -41,7 +41,8 @@ pub struct Movement {
     pub settled_ms: f64,
 }
 
-/// Opens a file and moves it: still, panned, zoomed, and with a hundredth and then all of its paths dragged.
+/// Opens a file and moves it: still, panned, zoomed, with a hundredth and then all of its paths dragged, and zoomed with
+/// all of them selected.
 ///
 /// # Errors
 /// When the file cannot be read or drawn, or a movement comes to no end.
@@ -88,9 +89,10 @@ pub fn measure(
     Ok(vec![
         hand.movement("still", nothing)?,
         hand.pan()?,
-        hand.zoom()?,
+        hand.zoom("zoom")?,
         hand.drag("drag a hundredth", 100)?,
         hand.drag("drag all", 1)?,
+        hand.zoom("zoom, all selected")?,
     ])
 }
 
@@ -199,9 +201,9 @@ impl Hand {
         })
     }
 
-    fn zoom(&mut self) -> Result<Movement, Trouble> {
+    fn zoom(&mut self, name: &'static str) -> Result<Movement, Trouble> {
         self.at = Pos2::new(480.0, 400.0);
-        self.movement("zoom", |number, hand| {
+        self.movement(name, |number, hand| {
             let notches = if number < FRAMES / 2 { 0.25 } else { -0.25 };
             let wheel = Event::MouseWheel {
                 unit: MouseWheelUnit::Line,

@@ -21,7 +21,11 @@ pub struct Handle {
 pub fn handles(document: &Document, view: &View) -> Vec<Handle> {
     let seen = view.world_bounds();
     let mut handles = Vec::new();
-    let mut near = near(document, document.selection(), seen);
+    // A path has a control point at least, so very many need not be tried.
+    let mut near = near(document, document.selection(), seen, MOST_MARKED + 1);
+    if near.len() > MOST_MARKED {
+        return Vec::new();
+    }
     near.sort_unstable();
     for row in near {
         let path = document.layout().paths.get(row as usize);

@@ -25,8 +25,8 @@ pub enum Outline {
 /// Outlines paths of a document.
 pub fn outline(document: &Document, paths: &Rows, view: &View) -> Outline {
     let mut pen = Pen::new(view);
-    let near = near(document, paths, pen.seen);
     // A path takes a point at least, so very many need not be tried.
+    let near = near(document, paths, pen.seen, MOST_POINTS + 1);
     let mut is_too_much = near.len() > MOST_POINTS;
     let mut paths_left = near.iter();
     while let Some(&path) = paths_left.next().filter(|_| !is_too_much) {
@@ -42,14 +42,21 @@ pub fn outline(document: &Document, paths: &Rows, view: &View) -> Outline {
     Outline::Lines(pen.lines)
 }
 
-/// Those of `paths` that may be near a box, without a look at each of them where they are many.
-pub(super) fn near(document: &Document, paths: &Rows, bounds: Bounds<f64>) -> Vec<u32> {
+/// Those of `paths` that may be near a box, `most` of them, without a look at each where they are many.
+pub(super) fn near(
+    document: &Document,
+    paths: &Rows,
+    bounds: Bounds<f64>,
+    most: usize,
+) -> Vec<u32> {
     const FEW: u64 = 2_000;
     if paths.len() <= FEW {
         return paths.iter().collect();
     }
     let near = document.index().paths_in(bounds);
-    near.filter(|&path| paths.contains(path)).collect()
+    near.filter(|&path| paths.contains(path))
+        .take(most)
+        .collect()
 }
 
 fn cells(document: &Document, paths: &Rows, view: &View) -> Vec<Point<f64>> {

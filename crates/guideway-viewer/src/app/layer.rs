@@ -29,8 +29,8 @@ pub(crate) use away::{PATIENCE, Work};
 pub(crate) struct Layer {
     pub(crate) path: PathBuf,
     pub(crate) is_visible: bool,
-    /// None until it is there, and while long work is done on it.
-    pub(crate) document: Option<Document>,
+    /// None until it is there, and while long work is done on it. Only its overlay is made with it at the same time.
+    pub(crate) document: Option<Arc<Document>>,
     away: Away,
     pub(crate) findings: Option<Diagnostics>,
     pub(crate) overlay: Overlay,
@@ -127,14 +127,16 @@ impl Layer {
     }
 
     pub(crate) fn is_changed(&self) -> bool {
-        self.document.as_ref().is_some_and(Document::is_changed) || self.away.is_at_work()
+        let is_changed = |document: &Arc<Document>| document.is_changed();
+        self.document.as_ref().is_some_and(is_changed) || self.away.is_at_work()
     }
 
     /// Whether nothing is being done, and what was last asked for is shown.
     pub(crate) fn is_settled(&self) -> bool {
         let is_shown = |shot: &Shot| self.shown.as_ref().is_some_and(|s| s.view == shot.view);
         let is_drawn = self.asked.as_ref().is_none_or(is_shown) && !self.renderer.is_busy();
-        !self.is_busy() && self.document.is_some() && is_drawn
+        let is_over = is_drawn && !self.overlay.is_at_work();
+        !self.is_busy() && self.document.is_some() && is_over
     }
 
     /// Whether there is a picture of it, or a reason why there is none.
@@ -188,6 +190,14 @@ impl Layer {
         self.renderer.set_method(name);
     }
 
+    /// The document, to be changed on the window's thread, once nothing looks at it any more.
+    pub(crate) fn document_mut(&mut self) -> Option<&mut Document> {
+        if let Some(overlay) = self.overlay.give_up() {
+            overlay.wait();
+        }
+        Arc::get_mut(self.document.as_mut()?)
+    }
+
     /// Has the renderer draw the document's scene as it is now.
     pub(crate) fn send_scene(&mut self) {
         if let Some(document) = &self.document {
@@ -213,6 +223,7 @@ impl Layer {
         wake: &Wake,
     ) -> Vec<LayerNews> {
         let mut news = Vec::new();
+        self.overlay.poll(Duration::ZERO);
         news.extend(self.take_back(Duration::ZERO, wake));
         news.extend(self.record());
         news.extend(self.take_answers(wake));
@@ -306,7 +317,8 @@ impl Layer {
         // What was done again before is in the scene that the renderer gets.
         let orders = self.renderer.orders();
         document.tell(move |edit| orders.edit(edit.clone()));
-        let is_again = self.document.replace(document).is_some();
+        self.overlay = Overlay::default();
+        let is_again = self.document.replace(Arc::new(document)).is_some();
         self.findings = None;
         if is_again || std::mem::take(&mut self.owes_scene) {
             self.send_scene();

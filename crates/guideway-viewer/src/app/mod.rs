@@ -226,12 +226,12 @@ impl App {
 
     /// The document that is edited, once it is there.
     pub(crate) fn document(&self) -> Option<&Document> {
-        self.layers.get(self.active)?.document.as_ref()
+        self.layers.get(self.active)?.document.as_deref()
     }
 
     #[cfg(test)]
     pub(crate) fn document_mut(&mut self) -> Option<&mut Document> {
-        self.layers.get_mut(self.active)?.document.as_mut()
+        self.layers.get_mut(self.active)?.document_mut()
     }
 
     /// The layers that are seen, from the lowest: the one that is edited is on top.

@@ -48,7 +48,7 @@ impl App {
         let Some(document) = self
             .layers
             .get(self.active)
-            .and_then(|l| l.document.as_ref())
+            .and_then(|l| l.document.as_deref())
         else {
             return;
         };

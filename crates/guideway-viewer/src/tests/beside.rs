@@ -6,6 +6,7 @@ use std::time::Duration;
 use eframe::egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable;
 use guideway_document::Document;
+use guideway_document::marks::outline;
 use guideway_spline::Point;
 
 use super::desk::Desk;
@@ -71,7 +72,14 @@ fn a_file_is_measured_by_moving_it_about_and_stays_as_it_is() {
     let names: Vec<_> = movements.iter().map(|m| m.name).collect();
     assert_eq!(
         names,
-        ["still", "pan", "zoom", "drag a hundredth", "drag all"]
+        [
+            "still",
+            "pan",
+            "zoom",
+            "drag a hundredth",
+            "drag all",
+            "zoom, all selected"
+        ]
     );
     for movement in &movements {
         assert!(movement.frames_ms.len() == 120 && movement.frames_ms.iter().all(|ms| *ms > 0.0));
@@ -122,6 +130,30 @@ fn edits_that_take_longer_than_a_frame_are_done_beside_the_window_in_order() {
             .as_ref()
             .is_some_and(|s| s.report.hidden == 0)
     });
+}
+
+#[test]
+fn what_lies_over_the_picture_is_made_beside_the_window_too() {
+    let mut desk = Desk::looking_at(lanes(200));
+    desk.app().patience = Duration::ZERO;
+    let mut was_at_work = false;
+    for round in 0..40 {
+        desk.app().change(Document::select_all);
+        desk.key(NONE, [Key::Plus, Key::Minus][round % 2]);
+        was_at_work |= desk.app().layers[0].overlay.is_at_work();
+        // An edit waits for what still looks at the layout, and is not lost.
+        desk.app().edit(Document::delete_selection);
+        desk.key(NONE, Key::ArrowLeft);
+        desk.key(CTRL, Key::Z);
+        desk.wait(|app| app.layers[0].is_settled());
+        let view = desk.app().camera.view().unwrap();
+        let document = desk.document();
+        assert!(!document.is_changed() && document.steps().1 == Some("delete"));
+        let selected = outline(document, document.selection(), &view);
+        let made = desk.app().layers[0].overlay.last().unwrap();
+        assert!(made.view == view && made.selection == selected);
+    }
+    assert!(was_at_work);
 }
 
 #[test]

@@ -47,7 +47,7 @@ impl App {
         if let Some(view) = self.camera.view() {
             self.most_side_px = ui.input(|input| input.max_texture_side) as u32;
             self.ask_for_pictures(&view);
-            self.paint(ui, screen, &view, is_moving);
+            self.paint(ui, screen, &view);
         }
     }
 

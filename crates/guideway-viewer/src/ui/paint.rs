@@ -19,7 +19,7 @@ const SELECTED: Color32 = Color32::from_rgb(30, 120, 255);
 const HOVERED: Color32 = Color32::from_rgb(255, 140, 0);
 
 impl App {
-    pub(super) fn paint(&mut self, ui: &Ui, screen: Screen, view: &View, is_moving: bool) {
+    pub(super) fn paint(&mut self, ui: &Ui, screen: Screen, view: &View) {
         let painter = ui.painter_at(screen.rect);
         painter.rect_filled(screen.rect, 0.0, color(self.look.paper()));
         // What was last drawn, where it is now: at once, and sharp when the new picture comes.
@@ -46,7 +46,7 @@ impl App {
             .for_each(beside);
         let pictures = self.seen_layers().filter_map(|layer| layer.shown.as_ref());
         pictures.for_each(|shown| lay((&shown.texture, &shown.view)));
-        self.paint_overlay(&painter, screen, view, is_moving);
+        self.paint_overlay(&painter, screen, view);
         self.paint_gesture(&painter, screen, view);
         self.paint_scale(&painter, screen, view);
         self.paint_legend(&painter, screen);
@@ -70,22 +70,23 @@ impl App {
         }
     }
 
-    fn paint_overlay(&mut self, painter: &Painter, screen: Screen, view: &View, is_moving: bool) {
+    fn paint_overlay(&mut self, painter: &Painter, screen: Screen, view: &View) {
         let scale = f64::from(screen.px_per_point);
         let options = self.look.marks(self.label_size());
         let hovered = self.hovered().copied();
+        let (patience, wake) = (self.patience, &self.wake);
         let Some(layer) = self.layers.get_mut(self.active) else {
             return;
         };
         if !layer.is_visible {
             return;
         }
-        let document = layer.document.as_ref();
-        let made = match document {
-            Some(document) => Some(layer.overlay.of(document, view, &options, is_moving)),
-            None => layer.overlay.last(),
-        };
-        let Some(made) = made else {
+        if let Some(document) = &layer.document {
+            let overlay = &mut layer.overlay;
+            overlay.ask(document, view, &options, patience, wake);
+        }
+        let document = layer.document.as_deref();
+        let Some(made) = layer.overlay.last() else {
             return;
         };
         let now = |pixel: Point<f64>| {

@@ -1,5 +1,7 @@
 //! What is asked of a layout beside the window: other colours, and the paths that meet a query.
 
+use std::sync::Arc;
+
 use guideway_document::{Combine, Query, QueryError};
 use guideway_scene::{Scene, SceneOptions};
 
@@ -45,7 +47,8 @@ impl Layer {
 
     /// Takes what was asked of the layout as it was then.
     pub(super) fn take_answers(&mut self, wake: &Wake) -> Option<LayerNews> {
-        let document = self.document.as_mut()?;
+        // What still looks at it is not for long.
+        let document = Arc::get_mut(self.document.as_mut()?)?;
         let selecting = self.selecting.as_ref();
         let selected = selecting.and_then(|(task, how)| Some((task.outcome()?, *how)));
         if let Some((rows, how)) = selected {

@@ -1,6 +1,7 @@
 //! Work on a document that may take longer than a frame: it is done and written down beside the window, and the document
 //! is away meanwhile.
 
+use std::sync::Arc;
 use std::time::Duration;
 
 use guideway_document::Document;
@@ -54,7 +55,7 @@ pub(super) struct Away {
 }
 
 /// What comes back, and what is to be said.
-type Returned = (Box<(Document, Journal)>, Vec<String>);
+type Returned = (Box<(Arc<Document>, Journal)>, Vec<String>);
 
 impl Away {
     pub(super) fn is_at_work(&self) -> bool {
@@ -88,10 +89,18 @@ impl Layer {
         };
         let journal = std::mem::take(&mut self.journal);
         let mut both = Box::new((document, journal));
+        let overlay = self.overlay.give_up();
         let all = std::mem::take(&mut self.away.waiting);
         let file = self.path.clone();
         self.away.task = Some(Task::start(wake, move || {
+            if let Some(overlay) = overlay {
+                overlay.wait();
+            }
             let (document, journal) = &mut *both;
+            let Some(document) = Arc::get_mut(document) else {
+                let trouble = "the layout is in use; try again".to_owned();
+                return (both, vec![trouble]);
+            };
             let outcomes = all.into_iter().map(|Work(work)| work(document, journal));
             let mut troubles: Vec<String> = outcomes.filter_map(Result::err).collect();
             troubles.extend(journal.record(document, &file).err());

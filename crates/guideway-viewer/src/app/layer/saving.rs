@@ -113,7 +113,7 @@ impl Layer {
 
     /// Writes down what is not written yet.
     pub(super) fn record(&mut self) -> Option<LayerNews> {
-        let document = self.document.as_mut()?;
+        let document = Arc::get_mut(self.document.as_mut()?)?;
         let outcome = self.journal.record(document, &self.path);
         outcome.err().map(LayerNews::Notice)
     }
@@ -123,11 +123,12 @@ impl Layer {
         if self.has_found_work() {
             return None;
         }
-        let unwritten = self.record();
-        let document = self.document.as_mut()?;
+        let document = self.document_mut()?;
         let snapshot = document.snapshot();
+        let before = document.set_saved();
+        let unwritten = self.record();
         // From here on it may differ from what is written.
-        self.journal.saving = Some(document.set_saved());
+        self.journal.saving = Some(before);
         let recovery = self.journal.recovery.as_ref();
         let kept = recovery.map_or(Ok(()), |recovery| recovery.keep_base(&self.path));
         let lost = self.journal.or_without(kept, &self.path).err();
