@@ -2,7 +2,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use guideway_layout::Layout;
-use guideway_scene::{Edit, LineRule, PathState, Scene, SceneError, SceneOptions};
+use guideway_scene::{Edit, LayoutCopy, LineRule, PathState, Scene, SceneError, SceneOptions};
 use guideway_spline::{Bounds, Point};
 
 use crate::audience::Audience;
@@ -111,6 +111,11 @@ impl Document {
     /// A number that is another one after any change of what can be seen, the selection included.
     pub fn revision(&self) -> u64 {
         self.revision
+    }
+
+    /// Takes a copy of the layout that is its own: see [`Scene::take_copy`].
+    pub fn take_copy(&mut self, copy: LayoutCopy) {
+        self.scene.take_copy(copy);
     }
 
     /// Takes the colours of another scene of the same layout; false, and nothing is changed, if that is of another

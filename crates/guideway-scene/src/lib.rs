@@ -13,5 +13,5 @@ mod width;
 pub use color::Rgba;
 pub use color_by::{ColorBy, Legend, LegendEntry};
 pub use edit::{Edit, EditError, Insertion};
-pub use scene::{PathState, Scene, SceneError, SceneOptions};
+pub use scene::{LayoutCopy, PathState, Scene, SceneError, SceneOptions};
 pub use width::LineRule;

@@ -73,6 +73,21 @@ pub struct Scene {
     legend: Option<Legend>,
 }
 
+/// A copy of a scene's layout, made before an edit needs it: see [`Scene::take_copy`].
+#[derive(Debug)]
+pub struct LayoutCopy {
+    of: Arc<Layout>,
+    copy: Arc<Layout>,
+}
+
+impl LayoutCopy {
+    /// A copy of a layout, which takes as long as the layout is large.
+    pub fn new(of: Arc<Layout>) -> Self {
+        let copy = Arc::new(Layout::clone(&of));
+        Self { of, copy }
+    }
+}
+
 /// Whether a path is drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum PathState {
@@ -127,6 +142,19 @@ impl Scene {
     /// The same, for another scene of it.
     pub fn shared_layout(&self) -> Arc<Layout> {
         Arc::clone(&self.layout)
+    }
+
+    /// Whether others hold the layout too, so that the next edit of it takes a copy.
+    pub fn is_layout_shared(&self) -> bool {
+        Arc::strong_count(&self.layout) > 1
+    }
+
+    /// Holds a copy of its layout in place of the one that others hold too. One of another layout, or of this one before an
+    /// edit, is dropped.
+    pub fn take_copy(&mut self, copy: LayoutCopy) {
+        if Arc::ptr_eq(&self.layout, &copy.of) {
+            self.layout = copy.copy;
+        }
     }
 
     /// Rows of the paths that are drawn, from the lowest draw rank to the highest. Paths of other levels

@@ -3,7 +3,7 @@ use std::f64::consts::FRAC_PI_2;
 use guideway_document::measure::length_m;
 use guideway_document::{Change, Combine, Document, Index, PointRef, Snap};
 use guideway_layout::{Layout, NewPath, Value};
-use guideway_scene::{Edit, EditError};
+use guideway_scene::{Edit, EditError, LayoutCopy};
 use guideway_spline::{Affine, Bounds, Point, Runs};
 
 use crate::site::{document, document_of, p};
@@ -353,4 +353,24 @@ fn the_index_follows_edits() {
         );
         assert_eq!(found(document.index(), everywhere).len(), 43);
     }
+}
+
+#[test]
+fn an_edit_takes_the_copy_that_was_made_for_it_and_no_other() {
+    let mut document = document(3);
+    let renderer = document.scene().clone();
+    assert!(document.scene().is_layout_shared());
+    document.take_copy(LayoutCopy::new(document.scene().shared_layout()));
+    assert!(!document.scene().is_layout_shared());
+    let held: *const Layout = document.layout();
+    let stale = LayoutCopy::new(document.scene().shared_layout());
+    document.take_copy(LayoutCopy::new(renderer.shared_layout()));
+    assert!(std::ptr::eq(held, document.layout()), "that of another");
+    document.select_all();
+    let by = Affine::translation(p(0.0, 5.0));
+    document.transform_selection("move", by).unwrap();
+    document.take_copy(stale);
+    let start = |layout: &Layout| layout.paths.get(0).ends().map(|(start, _)| start);
+    assert_eq!(start(document.layout()), Some(p(0.0, 5.0)));
+    assert_eq!(start(renderer.layout()), Some(p(0.0, 0.0)));
 }

@@ -118,6 +118,11 @@ impl App {
                 }
             }
         };
+        if !matches!(self.gesture, Gesture::Box { .. })
+            && let Some(layer) = self.layers.get_mut(self.active)
+        {
+            layer.expect_edit(&self.wake);
+        }
     }
 
     /// The pointer is here with the button held.

@@ -29,7 +29,7 @@ pub(crate) use away::{PATIENCE, Work};
 pub(crate) struct Layer {
     pub(crate) path: PathBuf,
     pub(crate) is_visible: bool,
-    /// None until it is there, and while long work is done on it. Only its overlay is made with it at the same time.
+    /// None until it is there, and while long work is done on it. Shared with the thread that makes its overlay.
     pub(crate) document: Option<Arc<Document>>,
     away: Away,
     pub(crate) findings: Option<Diagnostics>,
@@ -192,9 +192,8 @@ impl Layer {
 
     /// The document, to be changed on the window's thread, once nothing looks at it any more.
     pub(crate) fn document_mut(&mut self) -> Option<&mut Document> {
-        if let Some(overlay) = self.overlay.give_up() {
-            overlay.wait();
-        }
+        // If it broke down, that was shown.
+        let _ = self.overlay.give_up().map(Task::wait);
         Arc::get_mut(self.document.as_mut()?)
     }
 
@@ -317,7 +316,7 @@ impl Layer {
         // What was done again before is in the scene that the renderer gets.
         let orders = self.renderer.orders();
         document.tell(move |edit| orders.edit(edit.clone()));
-        self.overlay = Overlay::default();
+        (self.overlay, self.away) = Default::default();
         let is_again = self.document.replace(Arc::new(document)).is_some();
         self.findings = None;
         if is_again || std::mem::take(&mut self.owes_scene) {

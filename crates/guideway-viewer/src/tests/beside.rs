@@ -65,6 +65,29 @@ fn a_picture_of_any_size_is_written_and_can_be_stopped() {
 }
 
 #[test]
+fn reading_a_file_is_stopped_by_a_key_or_a_button_and_begun_anew() {
+    let table = Table::with([("site.arrow", lanes(4))]);
+    *table.is_slow.lock().unwrap() = true;
+    let mut desk = Desk::with(&table, &["site.arrow"], Some("cpu"));
+    for by_key in [true, false] {
+        desk.wait(|app| {
+            let load = app.layers[0].load();
+            load.is_some_and(|load| load.fraction() == Some(0.5))
+        });
+        match by_key {
+            true => desk.key(NONE, Key::Escape),
+            false => desk.harness.get_by_label("Cancel").click(),
+        }
+        desk.wait(|app| app.layers[0].load().is_none());
+        let trouble = desk.app().layers[0].trouble.clone();
+        assert!(trouble.is_some_and(|trouble| trouble.contains("cancelled")));
+        desk.app().reload(0, false);
+    }
+    *table.is_slow.lock().unwrap() = false;
+    desk.wait(|app| app.layers[0].is_settled() && app.layers[0].trouble.is_none());
+}
+
+#[test]
 fn a_file_is_measured_by_moving_it_about_and_stays_as_it_is() {
     let table = Table::with([("site.arrow", lanes(300))]);
     let host: Arc<dyn Host> = table.clone();

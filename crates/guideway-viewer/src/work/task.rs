@@ -40,10 +40,12 @@ impl<T: Send + 'static> Task<T> {
         self.outcome_within(Duration::ZERO)
     }
 
-    /// Waits until it is done, whatever comes of it.
-    pub(crate) fn wait(self) {
-        // It ends as an error if it broke down.
-        let _ = self.outcome.recv();
+    /// What came of it, for which it waits.
+    ///
+    /// # Errors
+    /// When it broke down.
+    pub(crate) fn wait(self) -> Result<T, Trouble> {
+        self.outcome.recv().map_err(|_| broken_down())
     }
 
     /// What came of it, if it is done within so long.
@@ -62,11 +64,15 @@ impl<T: Send + 'static> Task<T> {
         match outcome {
             Ok(outcome) => Some(Ok(outcome)),
             Err(RecvTimeoutError::Timeout) => None,
-            Err(RecvTimeoutError::Disconnected) => Some(Err(Trouble {
-                message: "what was asked for came to no end".into(),
-                remedy: "Try again, with less or by another way".into(),
-            })),
+            Err(RecvTimeoutError::Disconnected) => Some(Err(broken_down())),
         }
+    }
+}
+
+fn broken_down() -> Trouble {
+    Trouble {
+        message: "what was asked for came to no end".into(),
+        remedy: "Try again, with less or by another way".into(),
     }
 }
 

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use guideway_document::Document;
+use guideway_scene::LayoutCopy;
 
 use super::saving::Journal;
 use super::{Layer, LayerNews};
@@ -52,6 +53,8 @@ pub(super) struct Away {
     task: Option<Task<Returned>>,
     /// What is to be done next.
     waiting: Vec<Work>,
+    /// A copy of the layout for the next edit of it.
+    copying: Option<Task<LayoutCopy>>,
 }
 
 /// What comes back, and what is to be said.
@@ -64,6 +67,17 @@ impl Away {
 }
 
 impl Layer {
+    /// A hand takes hold of the layout: what an edit of it needs is made ready while it moves.
+    pub(crate) fn expect_edit(&mut self, wake: &Wake) {
+        let scene = self.document.as_ref().map(|document| document.scene());
+        if let Some(scene) = scene.filter(|scene| scene.is_layout_shared())
+            && self.away.copying.is_none()
+        {
+            let layout = scene.shared_layout();
+            self.away.copying = Some(Task::start(wake, move || LayoutCopy::new(layout)));
+        }
+    }
+
     /// Does work on the document, behind what waits to be done. Where it is not done within `patience`, the document
     /// comes back with a later [`Layer::poll`].
     pub(crate) fn work(
@@ -89,18 +103,21 @@ impl Layer {
         };
         let journal = std::mem::take(&mut self.journal);
         let mut both = Box::new((document, journal));
-        let overlay = self.overlay.give_up();
+        let (overlay, copying) = (self.overlay.give_up(), self.away.copying.take());
         let all = std::mem::take(&mut self.away.waiting);
         let file = self.path.clone();
         self.away.task = Some(Task::start(wake, move || {
-            if let Some(overlay) = overlay {
-                overlay.wait();
-            }
+            // If it broke down, that was shown.
+            let _ = overlay.map(Task::wait);
+            let copy = copying.and_then(|copying| copying.wait().ok());
             let (document, journal) = &mut *both;
             let Some(document) = Arc::get_mut(document) else {
                 let trouble = "the layout is in use; try again".to_owned();
                 return (both, vec![trouble]);
             };
+            if let Some(copy) = copy {
+                document.take_copy(copy);
+            }
             let outcomes = all.into_iter().map(|Work(work)| work(document, journal));
             let mut troubles: Vec<String> = outcomes.filter_map(Result::err).collect();
             troubles.extend(journal.record(document, &file).err());
