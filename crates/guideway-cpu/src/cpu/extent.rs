@@ -6,8 +6,10 @@ use guideway_spline::{Bounds, Point};
 /// Where a cluster lies, in metres.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Extent {
-    /// Where its control points lie.
+    /// Where its control points lie, or a little more.
     pub(super) bounds: Bounds<f64>,
+    /// How far its borders may have come in since all of its paths were looked at.
+    slack_m: f64,
     /// What its lines are measured from. It stays where it is while paths move a little, and so do their lines.
     pub(super) middle: Point<f64>,
 }
@@ -16,19 +18,55 @@ impl Extent {
     pub(super) fn new(bounds: Bounds<f64>) -> Self {
         Self {
             bounds,
+            slack_m: 0.0,
             middle: bounds.center(),
         }
     }
 
-    /// After its paths have changed.
+    /// After its paths have changed, and all were looked at.
     pub(super) fn changed(self, bounds: Bounds<f64>) -> Self {
         let size = bounds.size();
         let off = self.middle - bounds.center();
         if off.x.abs() <= size.x / 4.0 && off.y.abs() <= size.y / 4.0 {
-            Self { bounds, ..self }
+            Self {
+                bounds,
+                slack_m: 0.0,
+                ..self
+            }
         } else {
             Self::new(bounds)
         }
+    }
+
+    /// The same after some of its paths have gone from `from` to `to`; none if that takes a look at all of them, for some
+    /// were at its border and have gone farther than may be neglected.
+    pub(super) fn after(&self, from: Hull, to: Hull) -> Option<Self> {
+        /// The part of its size that the bounds may be too large by.
+        const MOST_SLACK: f64 = 1.0 / 4.0;
+        let size = self.bounds.size();
+        let slack_m = self.slack_m + self.retreat_m(from, to);
+        let is_little = slack_m <= size.x.max(size.y) * MOST_SLACK;
+        let bounds = to.map_or(self.bounds, |to| self.bounds.union(to));
+        is_little.then(|| Self {
+            slack_m,
+            ..self.changed(bounds)
+        })
+    }
+
+    /// Farthest that a border may have come in.
+    fn retreat_m(&self, from: Hull, to: Hull) -> f64 {
+        let Some(from) = from else {
+            return 0.0;
+        };
+        let [a, b] = [from.min - self.bounds.min, self.bounds.max - from.max];
+        if a.x.min(a.y).min(b.x).min(b.y) > self.slack_m {
+            return 0.0;
+        }
+        to.map_or(f64::INFINITY, |to| {
+            let [a, b] = [to.min - from.min, to.max - from.max];
+            let steps = [a.x, a.y, b.x, b.y].map(f64::abs);
+            steps.into_iter().fold(0.0, f64::max)
+        })
     }
 
     /// Farthest that it reaches from its middle, to the side or up and down.
@@ -61,4 +99,50 @@ pub(super) fn bounds_anew(scene: &Scene, paths: &[u32]) -> Hull {
 fn shown(scene: &Scene, paths: &[u32]) -> impl Iterator<Item = u32> {
     let paths = paths.iter().copied();
     paths.filter(|&path| scene.state(path) == PathState::Shown)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn bounds(from: f64, to: f64) -> Bounds<f64> {
+        Bounds {
+            min: Point::new(from, from),
+            max: Point::new(to, to),
+        }
+    }
+
+    #[test]
+    fn a_box_is_known_unless_what_left_was_at_its_border() {
+        let extent = Extent::new(bounds(0.0, 80.0));
+        let after = |from, to| extent.after(from, to).map(|extent| extent.bounds);
+        let (inner, outer) = (Some(bounds(1.0, 79.0)), Some(bounds(70.0, 90.0)));
+        assert_eq!(after(inner, outer), Some(bounds(0.0, 90.0)));
+        assert_eq!(after(None, outer), Some(bounds(0.0, 90.0)));
+        assert_eq!(after(inner, None), Some(bounds(0.0, 80.0)));
+        for side in [bounds(0.0, 79.0), bounds(1.0, 80.0)] {
+            assert_eq!(after(Some(side), outer), None);
+            assert_eq!(after(Some(side), None), None);
+        }
+    }
+
+    #[test]
+    fn a_border_may_come_in_a_little_and_then_all_are_looked_at() {
+        let mut extent = Extent::new(bounds(0.0, 80.0));
+        for step in 0..20 {
+            let from = f64::from(step);
+            let [from, to] = [from, from + 1.0].map(|from| Some(bounds(from, 40.0)));
+            extent = extent.after(from, to).unwrap();
+            assert_eq!(extent.bounds, bounds(0.0, 80.0));
+        }
+        let at_border = Some(bounds(0.0, 40.0));
+        assert!(extent.after(at_border, at_border).is_some());
+        assert!(extent.after(at_border, Some(bounds(0.1, 40.0))).is_none());
+        let looked_at = extent.changed(bounds(20.0, 80.0));
+        assert!(
+            looked_at
+                .after(Some(bounds(20.0, 29.0)), Some(bounds(21.0, 29.0)))
+                .is_some()
+        );
+    }
 }

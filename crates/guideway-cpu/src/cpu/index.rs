@@ -41,6 +41,14 @@ pub(super) struct Made {
     pub(super) paths_and_lines: [u32; 2],
 }
 
+/// Paths of a cluster that are about to change.
+pub(super) struct Leaving {
+    cluster: u32,
+    members: Members,
+    /// Where those of them lie that are shown; none if that was not looked at.
+    from: Option<Hull>,
+}
+
 impl Made {
     /// The members whose lines a frame cannot be drawn with.
     pub(super) fn missing(&self, shot: &Shot<'_>) -> Members {
@@ -155,31 +163,62 @@ impl Index {
         self.lines_bytes = self.lines.iter().map(Lines::bytes).sum();
     }
 
-    /// Makes anew what depends on the curves and the states of some paths. Gives where what is changed was and is.
-    pub(super) fn touch(&mut self, scene: &Scene, paths: &[u32]) -> Vec<Bounds<f64>> {
+    /// Takes note of where some paths are, before their curves and states are changed.
+    pub(super) fn leave(&mut self, scene: &Scene, paths: &[u32]) -> Vec<Leaving> {
         let clusters = self.clusters_of(paths);
-        let bounds: Vec<_> = clusters
-            .par_iter()
-            .map(|&(cluster, _)| bounds_anew(scene, self.paths_of(cluster)))
-            .collect();
-        let mut changed = Vec::with_capacity(2 * clusters.len());
-        for (&(cluster, members), bounds) in clusters.iter().zip(bounds) {
+        let leaving = clusters.par_iter().map(|&(cluster, members)| Leaving {
+            cluster,
+            members,
+            from: self.hull_of_few(scene, cluster, members),
+        });
+        leaving.collect()
+    }
+
+    /// Makes anew what depends on the curves and the states of paths that have changed. Gives where what is changed was
+    /// and is.
+    pub(super) fn touch(&mut self, scene: &Scene, leaving: &[Leaving]) -> Vec<Bounds<f64>> {
+        let extents = leaving.par_iter().map(|left| {
+            let before = self.extents[left.cluster as usize];
+            let known = before.zip(left.from).and_then(|(before, from)| {
+                let to = self.hull_of_few(scene, left.cluster, left.members)?;
+                before.after(from, to)
+            });
+            let anew = || bounds_anew(scene, self.paths_of(left.cluster));
+            known.or_else(|| match before {
+                Some(before) => anew().map(|bounds| before.changed(bounds)),
+                None => anew().map(Extent::new),
+            })
+        });
+        let extents: Vec<Option<Extent>> = extents.collect();
+        let mut changed = Vec::with_capacity(2 * leaving.len());
+        for (left, now) in leaving.iter().zip(extents) {
+            let Leaving {
+                cluster, members, ..
+            } = *left;
             let (extent, made) = (
                 &mut self.extents[cluster as usize],
                 &mut self.made[cluster as usize],
             );
-            let before = *extent;
-            *extent = bounds.map(|bounds| match before {
-                Some(extent) => extent.changed(bounds),
-                None => Extent::new(bounds),
-            });
-            changed.extend(before.map(|extent| extent.bounds).into_iter().chain(bounds));
+            let before = std::mem::replace(extent, now);
+            let both = before.into_iter().chain(now);
+            changed.extend(both.map(|extent| extent.bounds));
             made.changed |= members;
             if before.map(|extent| extent.middle) != extent.map(|extent| extent.middle) {
                 made.unit_m = 0.0;
             }
         }
         changed
+    }
+
+    /// Where some members of a cluster lie; none if they are so many that a look at all takes hardly longer.
+    fn hull_of_few(&self, scene: &Scene, cluster: u32, members: Members) -> Option<Hull> {
+        const FEW: u32 = CLUSTER_PATHS as u32 / 4;
+        let paths = self.paths_of(cluster);
+        let few = (members.count_ones() <= FEW).then(|| {
+            let named = (0..paths.len()).filter(|member| members >> member & 1 == 1);
+            named.map(|member| paths[member]).collect::<Vec<u32>>()
+        });
+        few.map(|few| bounds_anew(scene, &few))
     }
 
     /// Where the clusters of some paths lie.
@@ -217,6 +256,14 @@ impl Index {
             self.place_of.extend(first..self.paths.len() as u32);
         }
         let rows: Vec<u32> = (first..self.paths.len() as u32).collect();
-        self.touch(scene, &rows)
+        // They were nowhere before.
+        let leaving = self.clusters_of(&rows).into_iter();
+        let leaving = leaving.map(|(cluster, members)| Leaving {
+            cluster,
+            members,
+            from: None,
+        });
+        let leaving: Vec<Leaving> = leaving.collect();
+        self.touch(scene, &leaving)
     }
 }

@@ -268,6 +268,18 @@ impl Prepared for CpuPrepared {
             tones,
             ..
         } = self;
+        let leaving = match edit {
+            Edit::Transform { .. } | Edit::Reshape { .. } | Edit::SetStates(_) => {
+                let paths: Vec<u32> = edit.paths().collect();
+                let are_there = paths
+                    .iter()
+                    .all(|&path| (path as usize) < scene.row_count());
+                let leave = || index.leave(scene, &paths);
+                are_there.then(|| install(pool.as_ref(), leave))
+            }
+            Edit::Restyle(_) | Edit::Insert(_) => None,
+        };
+        let leaving = leaving.unwrap_or_default();
         Arc::make_mut(scene).edit(edit).map_err(RenderError::Edit)?;
         *tones = None;
         let fixed = fixed_bytes(scene, budget);
@@ -276,16 +288,14 @@ impl Prepared for CpuPrepared {
         }
         let before = (index.solid, index.widths);
         let changes = install(pool.as_ref(), || match edit {
-            Edit::Transform { paths, .. } | Edit::Reshape { paths, .. } => {
-                index.touch(scene, paths)
-            }
+            Edit::Transform { .. } | Edit::Reshape { .. } => index.touch(scene, &leaving),
             Edit::Restyle(_) => {
                 index.order_anew(scene);
                 index.bounds_of(&edit.paths().collect::<Vec<_>>())
             }
             Edit::SetStates(_) => {
                 index.order_anew(scene);
-                index.touch(scene, &edit.paths().collect::<Vec<_>>())
+                index.touch(scene, &leaving)
             }
             Edit::Insert(_) => {
                 let changes = index.append(scene);
