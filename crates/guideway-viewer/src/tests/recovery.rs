@@ -68,11 +68,13 @@ fn said(app: &crate::App, text: &str) -> bool {
 }
 
 fn wait_until_done(desk: &mut Desk) {
-    desk.wait(|app| said(app, "1 step is done again") && app.layers[0].is_settled());
+    desk.wait(|app| {
+        let shown = app.layers[0].shown.as_ref();
+        let drawn = shown.map(|shown| shown.report.drawn);
+        said(app, "1 step is done again") && drawn == Some(0)
+    });
     assert!(desk.document().is_changed() && !desk.app().layers[0].has_found_work());
     assert!(desk.document().scene().draw_order().is_empty());
-    let shown = desk.app().layers[0].shown.as_ref();
-    assert_eq!(shown.map(|shown| shown.report.drawn), Some(0));
 }
 
 #[test]
