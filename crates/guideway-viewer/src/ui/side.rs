@@ -12,6 +12,8 @@ use crate::app::{App, MOST_HOVERED};
 /// Columns that every layout can be coloured by.
 const BUILT_IN_COLUMNS: [&str; 3] = ["direction", "level", "vehicle_type"];
 const MOST_ATTRIBUTES: usize = 40;
+/// Findings of one kind that are listed.
+const MOST_FINDINGS: usize = 200;
 
 impl App {
     pub(super) fn side(&mut self, ui: &mut Ui) {
@@ -286,11 +288,16 @@ impl App {
             let title = format!("{}: {code} ({count})", code.severity());
             CollapsingHeader::new(title).show(ui, |ui| {
                 ui.small(code.meaning());
-                for finding in findings.iter().filter(|f| f.code == code).take(200) {
+                let of_code = findings.iter().filter(|f| f.code == code);
+                let listed: Vec<_> = of_code.take(MOST_FINDINGS).collect();
+                for finding in &listed {
                     let text = format!("{}: {}", finding.place, finding.message);
                     if ui.link(text).on_hover_text(&finding.remedy).clicked() {
                         fly_to = Some(finding.place.clone());
                     }
+                }
+                if count > listed.len() as u64 {
+                    ui.small(format!("and {} more", count - listed.len() as u64));
                 }
             });
         }
@@ -342,12 +349,16 @@ fn attributes(ui: &mut Ui, document: &Document, row: u32) {
         .min_col_width(120.0)
         .max_col_width(150.0)
         .show(ui, |ui| {
-            for (name, value) in built_in.into_iter().chain(own).take(MOST_ATTRIBUTES) {
-                if !value.is_empty() {
-                    ui.add(Label::new(name).truncate());
-                    ui.add(Label::new(value).truncate());
-                    ui.end_row();
-                }
+            let all = built_in.into_iter().chain(own);
+            let mut all = all.filter(|(_, value)| !value.is_empty());
+            for (name, value) in all.by_ref().take(MOST_ATTRIBUTES) {
+                ui.add(Label::new(name).truncate());
+                ui.add(Label::new(value).truncate());
+                ui.end_row();
+            }
+            let more = all.count();
+            if more > 0 {
+                ui.small(format!("and {more} more"));
             }
         });
 }
