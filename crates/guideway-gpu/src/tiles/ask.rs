@@ -21,6 +21,7 @@ impl PreparedTiles {
         style: &Style,
         cancel: &Cancel,
     ) -> Result<Vec<u32>, RenderError> {
+        self.come_near(view, style)?;
         let mut tops = vec![0; view.size().pixels()];
         self.probing(view, style, |tiles, shot| {
             tiles.draw_all(shot, Paint::Ids, cancel, |pixels, bytes| {
@@ -47,6 +48,7 @@ impl PreparedTiles {
         style: &Style,
         cancel: &Cancel,
     ) -> Result<Vec<u32>, RenderError> {
+        self.come_near(view, style)?;
         let Some(store) = &self.store else {
             return Ok(Vec::new());
         };

@@ -169,7 +169,7 @@ impl Bound {
             let buffers = [
                 frame,
                 &chunk.params[round],
-                &chunk.points_m,
+                &chunk.point_words,
                 strokes,
                 clusters,
                 styles,
