@@ -16,7 +16,7 @@ use crate::device::{DeviceBuffer, Gpu, Memory};
 const WORD_BYTES: u64 = size_of::<u32>() as u64;
 /// Fewest words that a chunk made for changes has room for, and the share of all words: chunks are to be few.
 const LEAST_LOOSE_WORDS: u64 = 1 << 15;
-const LOOSE_SHARE: u64 = 64;
+const LOOSE_SHARE: usize = 64;
 
 /// All clusters at once; and those of a first round, and the others after it.
 const ROUNDS: usize = 3;
@@ -78,13 +78,21 @@ impl Store {
         check_seen_at_once(gpu, "the styles", size_of_val(style_list.as_slice()) as u64)?;
         let mut chunks = Vec::new();
         let most_words = u32::try_from(gpu.binding_bytes() / WORD_BYTES).unwrap_or(u32::MAX);
+        let words = packed.point_words.len();
         for clusters in chunks_of(&packed.clusters, most_words) {
             let own = &mut packed.clusters[clusters.start as usize..clusters.end as usize];
             let first = own[0].first_word;
             let end = own[own.len() - 1].first_word + own[own.len() - 1].words();
             own.iter_mut()
                 .for_each(|cluster| cluster.first_word -= first);
-            let words = &packed.point_words[first as usize..end as usize];
+            let mut room = end as usize;
+            if room == words {
+                // What changes first needs no chunk of its own: each takes time in every frame.
+                room += words / LOOSE_SHARE;
+                room = room.min(first as usize + most_words as usize);
+                packed.point_words.resize(room, 0);
+            }
+            let words = &packed.point_words[first as usize..room];
             chunks.push(Chunk {
                 params: chunk_params(memory)?,
                 point_words: memory.upload("the control points", words)?,
@@ -132,7 +140,7 @@ impl Store {
         let has_room = self.chunks.last().is_some_and(|c| c.spare_words() >= words);
         if !has_room {
             let all: u64 = self.chunks.iter().map(|c| u64::from(c.used_words)).sum();
-            let room = (2 * u64::from(words)).max(LEAST_LOOSE_WORDS.max(all / LOOSE_SHARE));
+            let room = (2 * u64::from(words)).max(LEAST_LOOSE_WORDS.max(all / LOOSE_SHARE as u64));
             let room = room
                 .min(gpu.binding_bytes() / WORD_BYTES)
                 .max(u64::from(words));
