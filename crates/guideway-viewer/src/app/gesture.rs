@@ -39,10 +39,11 @@ pub(crate) enum Gesture {
         from_px: Point<f64>,
         to_px: Point<f64>,
     },
-    /// Moves the selection, which shows as an outline until it is let go.
+    /// Moves the selection, which shows as an outline until it is let go. Held by an end of a path, it goes to nodes.
     Move {
         from_m: Point<f64>,
         by_m: Point<f64>,
+        by_end: bool,
     },
     /// Moves a node; the layout follows at once.
     Node {
@@ -94,10 +95,14 @@ impl App {
         self.gesture = match self.tool {
             Tool::Draw | Tool::Measure => return,
             Tool::Select => match self.pick(at_px, usize::MAX) {
-                Some(hit) if document.selection().contains(hit.path) => Gesture::Move {
-                    from_m: hit.point_m,
-                    by_m: Point::new(0.0, 0.0),
-                },
+                Some(hit) if document.selection().contains(hit.path) => {
+                    let end = end_near(document, &hit, REACH_PX / view.px_per_m());
+                    Gesture::Move {
+                        from_m: end.unwrap_or(hit.point_m),
+                        by_m: Point::new(0.0, 0.0),
+                        by_end: end.is_some(),
+                    }
+                }
                 _ => begin_box,
             },
             Tool::Points => {
@@ -138,10 +143,20 @@ impl App {
         match &mut self.gesture {
             Gesture::None | Gesture::Pan | Gesture::Points(_) => {}
             Gesture::Box { to_px, .. } => *to_px = at_px,
-            Gesture::Move { from_m, .. } => {
-                let from_m = *from_m;
-                let by_m = self.move_by(&view, from_m, at_m, modifiers);
-                self.gesture = Gesture::Move { from_m, by_m };
+            &mut Gesture::Move { from_m, by_end, .. } => {
+                let to_m = match by_end {
+                    true => self.node_at(&view, at_m, modifiers),
+                    false => None,
+                };
+                let by_m = match to_m {
+                    Some(to_m) => to_m - from_m,
+                    None => self.move_by(&view, at_m - from_m, modifiers),
+                };
+                self.gesture = Gesture::Move {
+                    from_m,
+                    by_m,
+                    by_end,
+                };
             }
             Gesture::Node {
                 node, has_moved, ..
@@ -296,20 +311,23 @@ impl App {
         document.snap(&snap, at_m, from_m)
     }
 
-    fn move_by(
-        &self,
-        view: &View,
-        from_m: Point<f64>,
-        at_m: Point<f64>,
-        modifiers: Modifiers,
-    ) -> Point<f64> {
+    /// Where the node is that is meant here.
+    fn node_at(&self, view: &View, at_m: Point<f64>, modifiers: Modifiers) -> Option<Point<f64>> {
+        let document = self.document().filter(|_| !modifiers.alt)?;
+        let node = document.node_near(at_m, REACH_PX / view.px_per_m())?;
+        Some(document.node_position_m(node))
+    }
+
+    fn move_by(&self, view: &View, by_m: Point<f64>, modifiers: Modifiers) -> Point<f64> {
+        if modifiers.alt {
+            return by_m;
+        }
         let zero = Point::new(0.0, 0.0);
         let snap = Snap {
             grid_m: self.snaps_to_grid.then(|| grid_step_m(view)),
             directions: modifiers.shift.then_some(DIRECTIONS),
             ..Snap::default()
         };
-        let by_m = at_m - from_m;
         self.document()
             .map_or(by_m, |document| document.snap(&snap, by_m, Some(zero)))
     }
@@ -327,6 +345,15 @@ impl App {
             edit(document)
         });
     }
+}
+
+/// The end of a path that is taken hold of, if one is near where it was hit.
+fn end_near(document: &Document, hit: &Hit, reach_m: f64) -> Option<Point<f64>> {
+    let (start, end) = document.layout().paths.get(hit.path as usize).ends()?;
+    let distance_m = |end: &Point<f64>| end.distance(hit.point_m);
+    let ends = [start, end].into_iter();
+    ends.filter(|end| distance_m(end) <= reach_m)
+        .min_by(|a, b| distance_m(a).total_cmp(&distance_m(b)))
 }
 
 /// Distance between lines of the grid, round and never too near on the screen.

@@ -3,6 +3,7 @@
 mod beside;
 mod content;
 mod desk;
+mod drags;
 mod hand;
 mod journeys;
 mod random;
