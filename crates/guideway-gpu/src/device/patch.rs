@@ -37,21 +37,13 @@ struct Run {
 impl Patch {
     /// Sets a value that begins at a word of the buffer.
     pub(crate) fn set<T: bytemuck::NoUninit>(&mut self, first_word: usize, value: &T) {
-        self.set_words(
-            first_word,
-            bytemuck::cast_slice(std::slice::from_ref(value)),
-        );
-    }
-
-    /// Sets words of the buffer from one on.
-    pub(crate) fn set_words(&mut self, first_word: usize, words: &[u32]) {
+        let words = bytemuck::cast_slice(std::slice::from_ref(value));
         for (part, at) in words.chunks(RUN_WORDS).zip((0..).step_by(RUN_WORDS)) {
-            self.add(first_word + at, part);
+            self.set_words(first_word + at, part);
         }
     }
 
-    /// Adds at most the words of a run.
-    fn add(&mut self, target: usize, words: &[u32]) {
+    fn set_words(&mut self, target: usize, words: &[u32]) {
         let source = self.words.len() as u32;
         self.words.extend_from_slice(words);
         let len = words.len() as u32;

@@ -21,7 +21,7 @@ impl PreparedTiles {
         style: &Style,
         cancel: &Cancel,
     ) -> Result<Vec<u32>, RenderError> {
-        self.come_near(view, style)?;
+        self.mend()?;
         let mut tops = vec![0; view.size().pixels()];
         self.probing(view, style, |tiles, shot| {
             tiles.draw_all(shot, Paint::Ids, cancel, |pixels, bytes| {
@@ -48,7 +48,7 @@ impl PreparedTiles {
         style: &Style,
         cancel: &Cancel,
     ) -> Result<Vec<u32>, RenderError> {
-        self.come_near(view, style)?;
+        self.mend()?;
         let Some(store) = &self.store else {
             return Ok(Vec::new());
         };

@@ -169,7 +169,7 @@ impl Bound {
             let buffers = [
                 frame,
                 &chunk.params[round],
-                &chunk.point_words,
+                &chunk.points_m,
                 strokes,
                 clusters,
                 styles,

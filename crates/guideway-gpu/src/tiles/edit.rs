@@ -7,13 +7,14 @@ use guideway_layout::Layout;
 use guideway_render::{Edited, RenderError};
 use guideway_scene::{Edit, PathState};
 
-use super::pack::{Local, Packed, Part, most_step_m, style};
+use super::pack::{Local, Packed, Part, style};
 use super::params::{Cluster, PathStyle, Stroke};
 use super::places::{Places, cluster_of, room_of};
 use super::prepared::PreparedTiles;
 use super::store::Store;
 use crate::device::{Patch, Patcher};
 
+const POINT_WORDS: usize = 2;
 const STROKE_WORDS: usize = size_of::<Stroke>() / 4;
 const CLUSTER_WORDS: usize = size_of::<Cluster>() / 4;
 const STYLE_WORDS: usize = size_of::<PathStyle>() / 4;
@@ -69,7 +70,7 @@ impl PreparedTiles {
             moved_bytes += self.send_styles(&rows)?;
         }
         if !matches!(edit, Edit::Restyle(_)) {
-            let Some(bytes) = self.send_curves(&rows, Where::InPlace)? else {
+            let Some(bytes) = self.send_curves(&rows)? else {
                 return self.pack_anew();
             };
             moved_bytes += bytes;
@@ -78,9 +79,9 @@ impl PreparedTiles {
     }
 
     fn pack_anew(&mut self) -> Result<Edited, RenderError> {
-        self.bring(most_step_m(&self.scene))?;
+        self.bring()?;
         let held = |store: &Store| {
-            let points: u64 = store.chunks.iter().map(|c| c.point_words.bytes()).sum();
+            let points: u64 = store.chunks.iter().map(|c| c.points_m.bytes()).sum();
             points + store.strokes.bytes() + store.clusters.bytes() + store.styles.bytes()
         };
         Ok(Edited::InPlace {
@@ -129,13 +130,8 @@ impl PreparedTiles {
         Ok(patch.bytes() + self.send(changes)?)
     }
 
-    /// Sends curves of these rows, or none if it is better to pack all of them anew. What goes to clusters of its own has
-    /// exact points.
-    pub(super) fn send_curves(
-        &mut self,
-        rows: &[u32],
-        place: Where,
-    ) -> Result<Option<u64>, RenderError> {
+    /// Sends curves of these rows, or none if it is better to pack all of them anew.
+    fn send_curves(&mut self, rows: &[u32]) -> Result<Option<u64>, RenderError> {
         let Some(store) = &mut self.store else {
             return Ok(None);
         };
@@ -158,9 +154,7 @@ impl PreparedTiles {
             } else if !self.parted.is_empty() {
                 self.parted.remove(&row);
             }
-            if place == Where::InPlace
-                && set_in_place(store, places, scene.layout(), &parts, row, &mut changes)
-            {
+            if set_in_place(store, places, scene.layout(), &parts, row, &mut changes) {
                 continue;
             }
             for &stroke in places.strokes(row) {
@@ -173,8 +167,8 @@ impl PreparedTiles {
                 changes.loose.extend_from_slice(&parts);
             }
         }
-        let points: usize = store.cluster_list.iter().map(|c| c.points as usize).sum();
-        if places.unused_points > MOST_UNUSED_POINTS.max(points / 4) {
+        let points: u64 = store.chunks.iter().map(|c| c.points_m.bytes() / 8).sum();
+        if places.unused_points > MOST_UNUSED_POINTS.max(points as usize / 4) {
             return Ok(None);
         }
         let bytes = self.send(changes)?;
@@ -191,13 +185,15 @@ impl PreparedTiles {
         let mut are_renewed = false;
         let has_loose = !changes.loose.is_empty();
         if has_loose {
-            let packed = Packed::of(&self.scene, std::mem::take(&mut changes.loose), 0.0);
+            let packed = Packed::of(&self.scene, std::mem::take(&mut changes.loose));
             let (strokes, clusters) = (store.stroke_list.len(), store.cluster_list.len());
             let chunk = store.add(gpu, &mut self.memory, &packed)?;
             places.add(store, strokes, clusters, self.scene.row_count());
-            let first_word = store.cluster_list[clusters].first_word as usize;
+            let first_point = store.cluster_list[clusters].first_point as usize;
             let patch = changes.points.entry(chunk).or_default();
-            patch.set_words(first_word, &packed.point_words);
+            for (point, index) in packed.points_m.iter().zip(first_point..) {
+                patch.set(index * POINT_WORDS, point);
+            }
             are_renewed = store.make_room(gpu, &mut self.memory)?;
             changes
                 .strokes
@@ -245,7 +241,7 @@ impl PreparedTiles {
         };
         for (target, patch) in patches {
             let buffer = match target {
-                Target::Points(chunk) => &store.chunks[*chunk].point_words,
+                Target::Points(chunk) => &store.chunks[*chunk].points_m,
                 Target::Strokes => &store.strokes,
                 Target::Clusters => &store.clusters,
                 Target::Styles => &store.styles,
@@ -262,15 +258,6 @@ impl PreparedTiles {
         }
         Ok(())
     }
-}
-
-/// Where curves go.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Where {
-    /// To where they were, as far as they fit there.
-    InPlace,
-    /// Behind all others.
-    Behind,
 }
 
 /// A buffer that changes.
@@ -321,12 +308,11 @@ fn set_in_place(
             *old = new;
             changes.strokes.push(stroke);
         }
-        let words = cluster.words_of_point();
-        let first = cluster.first_word as usize + words * new.first_point() as usize;
+        let first = (cluster.first_point + new.first_point()) as usize;
         let patch = changes.points.entry(chunk).or_default();
-        for (p, i) in points.by_ref().take(new.points() as usize).zip(0..) {
+        for (p, place) in points.by_ref().take(new.points() as usize).zip(first..) {
             cluster.hold(*p);
-            patch.set_words(first + words * i, &cluster.encoded(*p)[..words]);
+            patch.set(place * POINT_WORDS, p);
         }
         changes.add_cluster(at);
     }

@@ -2,8 +2,7 @@
 //! that they touch, and each tile finds which of its samples are covered. docs/method-gpu.md has the whole.
 //!
 //! The folder in the order of the data: `pack` makes of the scene what the device reads, `store` holds it there,
-//! `places` knows where, `edit` changes it
-//! and `near` makes it exact where that shows; `shot` is a view, `window` a part of its picture, `room` holds the lines
+//! `places` knows where and `edit` changes it; `shot` is a view, `window` a part of its picture, `room` holds the lines
 //! that a frame finds, `canvas` its tiles and pixels, `bound` the work between them; `draw` does it, in `rounds` where
 //! that saves work, `kept` is what it need not draw again; `prepared` answers for all of it, `ask` says what is where,
 //! and `work` what a frame takes.
@@ -15,7 +14,6 @@ mod draw;
 mod edit;
 mod kept;
 mod kernels;
-mod near;
 mod pack;
 mod params;
 mod places;

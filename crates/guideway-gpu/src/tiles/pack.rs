@@ -8,16 +8,10 @@ use super::params::{
     CLUSTER_STROKES, Cluster, PathStyle, SEGMENTS_BIT, STROKE_SEGMENTS, Stroke, WHOLE_PATH,
 };
 
-/// The largest steps that points may be rounded to, in parts of the scene's size: a view of all of it would have to be
-/// 16,384 pixels wide for them to be off by as much as `near` allows.
-const STEPS_OF_SCENE: f64 = (1 << 20) as f64;
-/// Steps from the origin of a cluster to the farthest place that its points may be moved to, with some to spare of 16 bits.
-const STEPS_TO_BORDER: f64 = 32_000.0;
-
-/// Paths for the device. Clusters count words of points, and strokes, from the first of these.
+/// Paths for the device. Clusters count points and strokes from the first of these.
 #[derive(Default)]
 pub(super) struct Packed {
-    pub(super) point_words: Vec<u32>,
+    pub(super) points_m: Vec<[f32; 2]>,
     pub(super) strokes: Vec<Stroke>,
     pub(super) clusters: Vec<Cluster>,
 }
@@ -56,18 +50,17 @@ impl Local {
 }
 
 impl Packed {
-    /// Packs parts. Neighbours in the world become neighbours in memory. Points are rounded to steps of at most so much;
-    /// those of clusters that are too large for it are floats.
-    pub(super) fn of(scene: &Scene, mut parts: Vec<Part>, most_step_m: f64) -> Self {
+    /// Packs parts. Neighbours in the world become neighbours in memory.
+    pub(super) fn of(scene: &Scene, mut parts: Vec<Part>) -> Self {
         let mut packed = Self::default();
         sort_by_place(scene, &mut parts);
         for cluster in parts.chunks(CLUSTER_STROKES as usize) {
-            packed.add_cluster(scene, cluster, most_step_m);
+            packed.add_cluster(scene, cluster);
         }
         packed
     }
 
-    fn add_cluster(&mut self, scene: &Scene, parts: &[Part], most_step_m: f64) {
+    fn add_cluster(&mut self, scene: &Scene, parts: &[Part]) {
         let layout = scene.layout();
         let points = || parts.iter().flat_map(|part| part.points(layout));
         let Some(bounds) = Bounds::of_points(points()) else {
@@ -76,87 +69,41 @@ impl Packed {
         let origin = bounds.center();
         let high = origin.to_f32();
         let low = (origin - high.to_f64()).to_f32();
-        let size = bounds.size();
-        let border_m = |size: f64| size / 2.0 + moves_m(size);
-        let step_m = border_m(size.x).max(border_m(size.y)) / STEPS_TO_BORDER;
         let mut cluster = Cluster {
             origin_high_m: [high.x, high.y],
             origin_low_m: [low.x, low.y],
             low_m: [0.0; 2],
             high_m: [0.0; 2],
             widest_m: -1.0,
-            step_m: if step_m <= most_step_m {
-                step_m as f32
-            } else {
-                0.0
-            },
-            first_word: self.point_words.len() as u32,
+            first_point: self.points_m.len() as u32,
             points: 0,
             first_stroke: self.strokes.len() as u32,
             strokes: parts.len() as u32,
+            padding: 0,
         };
         let local = Local::of(&cluster);
         // Rounding must not make the box smaller.
-        let off_m = |v: f32| v.abs() * f32::EPSILON + cluster.step_m;
-        let grown = |p: [f32; 2], by: f32| p.map(|v| v + by * off_m(v));
-        (cluster.low_m, cluster.high_m) = (
-            grown(local.of_world(bounds.min), -1.0),
-            grown(local.of_world(bounds.max), 1.0),
-        );
+        let grown = |p: [f32; 2], by: f32| p.map(|v| v + by * (v.abs() * f32::EPSILON));
+        cluster.low_m = grown(local.of_world(bounds.min), -1.0);
+        cluster.high_m = grown(local.of_world(bounds.max), 1.0);
         for part in parts {
             let width_m = scene.width_m(part.path).unwrap_or(-1.0);
             cluster.widest_m = cluster.widest_m.max(width_m);
-            self.strokes.push(part.stroke(cluster.points));
-            for p in part.points(layout) {
-                let words = cluster.encoded(local.of_world(p));
-                self.point_words
-                    .extend_from_slice(&words[..cluster.words_of_point()]);
-                cluster.points += 1;
-            }
+            let first_point = self.points_m.len() as u32 - cluster.first_point;
+            self.strokes.push(part.stroke(first_point));
+            self.points_m
+                .extend(part.points(layout).map(|p| local.of_world(p)));
         }
+        cluster.points = self.points_m.len() as u32 - cluster.first_point;
         self.clusters.push(cluster);
     }
 }
 
-/// The largest steps for the points of a scene.
-pub(super) fn most_step_m(scene: &Scene) -> f64 {
-    let size_m = scene
-        .bounds()
-        .map_or(0.0, |bounds| bounds.size().x.max(bounds.size().y));
-    size_m / STEPS_OF_SCENE
-}
-
-/// How far a cluster's points may go beyond its box of this size along an axis: farther away would make it too large to be of
-/// use.
-pub(super) fn moves_m(size_m: f64) -> f64 {
-    size_m.max(1.0)
-}
-
 impl Cluster {
-    pub(super) fn words_of_point(&self) -> usize {
-        if self.step_m == 0.0 { 2 } else { 1 }
-    }
-
-    /// Words of all of its points.
-    pub(super) fn words(&self) -> u32 {
-        self.points * self.words_of_point() as u32
-    }
-
-    /// A point as the device reads it, in the first words.
-    pub(super) fn encoded(&self, local_m: [f32; 2]) -> [u32; 2] {
-        if self.step_m == 0.0 {
-            return local_m.map(f32::to_bits);
-        }
-        // The conversion holds what is too far at the border.
-        let [x, y] = local_m.map(|v| u32::from((v / self.step_m).round() as i16 as u16));
-        [x | y << 16, 0]
-    }
-
     /// Has a box that holds this point.
     pub(super) fn hold(&mut self, [x, y]: [f32; 2]) {
-        let off_m = self.step_m;
-        self.low_m = [self.low_m[0].min(x - off_m), self.low_m[1].min(y - off_m)];
-        self.high_m = [self.high_m[0].max(x + off_m), self.high_m[1].max(y + off_m)];
+        self.low_m = [self.low_m[0].min(x), self.low_m[1].min(y)];
+        self.high_m = [self.high_m[0].max(x), self.high_m[1].max(y)];
     }
 
     /// The box of its control points in the world.

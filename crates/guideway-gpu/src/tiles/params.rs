@@ -93,11 +93,11 @@ pub(super) struct Cluster {
     pub(super) low_m: [f32; 2],
     pub(super) high_m: [f32; 2],
     pub(super) widest_m: f32,
-    pub(super) step_m: f32,
-    pub(super) first_word: u32,
+    pub(super) first_point: u32,
     pub(super) points: u32,
     pub(super) first_stroke: u32,
     pub(super) strokes: u32,
+    pub(super) padding: u32,
 }
 
 /// `Stroke` of `stroke.wgsl`.
@@ -111,10 +111,6 @@ pub(super) struct Stroke {
 impl Stroke {
     pub(super) fn first_point(self) -> u32 {
         self.extent & 0xffff
-    }
-
-    pub(super) fn is_drawn(self) -> bool {
-        (self.extent & !WHOLE_PATH) >> SEGMENTS_BIT > 0
     }
 
     /// Whether it is all of a path that is drawn.
@@ -198,7 +194,7 @@ pub(super) const FLATTEN: Source = Source {
     bindings: &[
         "frame",
         "chunk",
-        "point_words",
+        "points_m",
         "strokes",
         "clusters",
         "styles",

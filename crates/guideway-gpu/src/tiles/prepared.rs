@@ -11,7 +11,7 @@ use guideway_scene::{Edit, Scene};
 use super::bound::Paint;
 use super::draw::{Drawing, Easel};
 use super::kernels::Kernels;
-use super::pack::{Packed, most_step_m};
+use super::pack::Packed;
 use super::params::{Found, Stroke};
 use super::places::Places;
 use super::ranks::Ranks;
@@ -57,8 +57,6 @@ pub(super) struct Facts {
     pub(super) styles: u32,
     /// Greatest distance of a control point from its cluster's origin, along an axis.
     pub(super) reach_m: f64,
-    /// The largest step that points of a cluster are rounded to.
-    pub(super) step_m: f64,
     pub(super) has_widths: bool,
     /// One colour, and no widths.
     pub(super) is_plain: bool,
@@ -72,7 +70,6 @@ impl Facts {
             clusters: 0,
             styles: 0,
             reach_m: 0.0,
-            step_m: 0.0,
             has_widths: drawn.into_iter().any(|&path| scene.width_m(path).is_some()),
             is_plain: is_plain(scene),
             paint: Paint::of(scene),
@@ -119,12 +116,12 @@ impl PreparedTiles {
             marks: None,
             is_torn: false,
         };
-        prepared.bring(most_step_m(&prepared.scene))?;
+        prepared.bring()?;
         Ok(prepared)
     }
 
-    /// Brings the scene to the device, in place of what is there, with points rounded to steps of at most so much.
-    pub(super) fn bring(&mut self, most_step_m: f64) -> Result<(), RenderError> {
+    /// Brings the scene to the device, in place of what is there.
+    pub(super) fn bring(&mut self) -> Result<(), RenderError> {
         (self.store, self.places) = (None, None);
         self.is_torn = true;
         self.unbind();
@@ -137,11 +134,9 @@ impl PreparedTiles {
             .filter(|p| !p.is_whole)
             .map(|p| p.path)
             .collect();
-        let packed = Packed::of(&self.scene, parts, most_step_m);
-        for cluster in &packed.clusters {
-            self.facts.reach_m = self.facts.reach_m.max(f64::from(cluster.reach_m()));
-            self.facts.step_m = self.facts.step_m.max(f64::from(cluster.step_m));
-        }
+        let packed = Packed::of(&self.scene, parts);
+        let reach_m = packed.clusters.iter().map(|c| f64::from(c.reach_m()));
+        self.facts.reach_m = reach_m.fold(0.0, f64::max);
         let packed_ms = elapsed_ms(start);
         let start = Instant::now();
         let gpu = &self.shared.gpu;
@@ -164,6 +159,11 @@ impl PreparedTiles {
         Ok(())
     }
 
+    /// Makes good a change that did not come to its end. Nothing is drawn before.
+    pub(super) fn mend(&mut self) -> Result<(), RenderError> {
+        if self.is_torn { self.bring() } else { Ok(()) }
+    }
+
     /// Tells the device which clusters each chunk has.
     pub(super) fn set_chunks(&self) -> Result<(), RenderError> {
         for chunk in self.store.iter().flat_map(|store| &store.chunks) {
@@ -184,7 +184,6 @@ impl PreparedTiles {
             clusters: self.facts.clusters,
             styles: self.facts.styles,
             reach_m: self.facts.reach_m,
-            step_m: self.facts.step_m,
             ..facts
         };
     }
@@ -204,7 +203,7 @@ impl Prepared for PreparedTiles {
         cancel: &Cancel,
         frame: &mut Frame,
     ) -> Result<Report, RenderError> {
-        self.come_near(view, style)?;
+        self.mend()?;
         let scene = Arc::clone(&self.scene);
         let shot = Shot::new(view, style, &scene, self.facts)?;
         let size = view.size();

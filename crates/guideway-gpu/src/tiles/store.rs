@@ -13,10 +13,9 @@ use super::params::{ChunkParams, Cluster, Found, PathStyle, Stroke};
 use super::ranks::Ranks;
 use crate::device::{DeviceBuffer, Gpu, Memory};
 
-const WORD_BYTES: u64 = size_of::<u32>() as u64;
-/// Fewest words that a chunk made for changes has room for, and the share of all words: chunks are to be few.
-const LEAST_LOOSE_WORDS: u64 = 1 << 15;
-const LOOSE_SHARE: usize = 64;
+const POINT_BYTES: u64 = size_of::<[f32; 2]>() as u64;
+/// Fewest points that a chunk made for changes has room for.
+const LEAST_LOOSE_POINTS: u32 = 1 << 14;
 
 /// All clusters at once; and those of a first round, and the others after it.
 const ROUNDS: usize = 3;
@@ -39,15 +38,15 @@ pub(super) struct Store {
 pub(super) struct Chunk {
     /// For each of [`ROUNDS`].
     pub(super) params: [DeviceBuffer; ROUNDS],
-    pub(super) point_words: DeviceBuffer,
+    pub(super) points_m: DeviceBuffer,
     /// Whose points they are.
     pub(super) clusters: Range<u32>,
-    used_words: u32,
+    used_points: u32,
 }
 
 impl Chunk {
-    fn spare_words(&self) -> u32 {
-        (self.point_words.bytes() / WORD_BYTES) as u32 - self.used_words
+    fn spare_points(&self) -> u32 {
+        (self.points_m.bytes() / POINT_BYTES) as u32 - self.used_points
     }
 
     pub(super) fn params_of(&self, round: u32) -> ChunkParams {
@@ -77,30 +76,22 @@ impl Store {
         check_seen_at_once(gpu, "the strokes", strokes_bytes)?;
         check_seen_at_once(gpu, "the styles", size_of_val(style_list.as_slice()) as u64)?;
         let mut chunks = Vec::new();
-        let most_words = u32::try_from(gpu.binding_bytes() / WORD_BYTES).unwrap_or(u32::MAX);
-        let words = packed.point_words.len();
-        for clusters in chunks_of(&packed.clusters, most_words) {
+        let most_points = u32::try_from(gpu.binding_bytes() / POINT_BYTES).unwrap_or(u32::MAX);
+        for clusters in chunks_of(&packed.clusters, most_points) {
             let own = &mut packed.clusters[clusters.start as usize..clusters.end as usize];
-            let first = own[0].first_word;
-            let end = own[own.len() - 1].first_word + own[own.len() - 1].words();
+            let first = own[0].first_point;
+            let end = own[own.len() - 1].first_point + own[own.len() - 1].points;
             own.iter_mut()
-                .for_each(|cluster| cluster.first_word -= first);
-            let mut room = end as usize;
-            if room == words {
-                // What changes first needs no chunk of its own: each takes time in every frame.
-                room += words / LOOSE_SHARE;
-                room = room.min(first as usize + most_words as usize);
-                packed.point_words.resize(room, 0);
-            }
-            let words = &packed.point_words[first as usize..room];
+                .for_each(|cluster| cluster.first_point -= first);
+            let points = &packed.points_m[first as usize..end as usize];
             chunks.push(Chunk {
                 params: chunk_params(memory)?,
-                point_words: memory.upload("the control points", words)?,
+                points_m: memory.upload("the control points", points)?,
                 clusters,
-                used_words: end - first,
+                used_points: end - first,
             });
         }
-        drop(packed.point_words);
+        drop(packed.points_m);
         Ok(Some(Self {
             chunks,
             strokes: memory.upload("the strokes", &packed.strokes)?,
@@ -136,25 +127,27 @@ impl Store {
         memory: &mut Memory,
         packed: &Packed,
     ) -> Result<usize, RenderError> {
-        let words = packed.point_words.len() as u32;
-        let has_room = self.chunks.last().is_some_and(|c| c.spare_words() >= words);
+        let points = packed.points_m.len() as u32;
+        let has_room = self
+            .chunks
+            .last()
+            .is_some_and(|c| c.spare_points() >= points);
         if !has_room {
-            let all: u64 = self.chunks.iter().map(|c| u64::from(c.used_words)).sum();
-            let room = (2 * u64::from(words)).max(LEAST_LOOSE_WORDS.max(all / LOOSE_SHARE as u64));
+            let room = u64::from(points.saturating_mul(2).max(LEAST_LOOSE_POINTS));
             let room = room
-                .min(gpu.binding_bytes() / WORD_BYTES)
-                .max(u64::from(words));
-            check_seen_at_once(gpu, "changed control points", room * WORD_BYTES)?;
+                .min(gpu.binding_bytes() / POINT_BYTES)
+                .max(u64::from(points));
+            check_seen_at_once(gpu, "changed control points", room * POINT_BYTES)?;
             let end = self.cluster_list.len() as u32;
             self.chunks.push(Chunk {
                 params: chunk_params(memory)?,
-                point_words: memory.zeros(
+                points_m: memory.zeros(
                     "changed control points",
-                    room * WORD_BYTES,
+                    room * POINT_BYTES,
                     BufferUsages::STORAGE,
                 )?,
                 clusters: end..end,
-                used_words: 0,
+                used_points: 0,
             });
         }
         let at = self.chunks.len() - 1;
@@ -162,12 +155,12 @@ impl Store {
         let first_stroke = self.stroke_list.len() as u32;
         self.stroke_list.extend_from_slice(&packed.strokes);
         let moved = packed.clusters.iter().map(|cluster| Cluster {
-            first_word: cluster.first_word + chunk.used_words,
+            first_point: cluster.first_point + chunk.used_points,
             first_stroke: cluster.first_stroke + first_stroke,
             ..*cluster
         });
         self.cluster_list.extend(moved);
-        chunk.used_words += words;
+        chunk.used_points += points;
         chunk.clusters.end = self.cluster_list.len() as u32;
         Ok(at)
     }
@@ -255,18 +248,18 @@ fn style_list(scene: &Scene, ranks: &Ranks) -> Vec<PathStyle> {
 }
 
 /// Cuts clusters where their points are too many for one buffer.
-fn chunks_of(clusters: &[Cluster], most_words: u32) -> Vec<Range<u32>> {
+fn chunks_of(clusters: &[Cluster], most_points: u32) -> Vec<Range<u32>> {
     let mut chunks: Vec<Range<u32>> = Vec::new();
-    let mut words = 0;
+    let mut points = 0;
     for (cluster, index) in clusters.iter().zip(0..) {
         match chunks.last_mut() {
-            Some(last) if words + cluster.words() <= most_words => last.end = index + 1,
+            Some(last) if points + cluster.points <= most_points => last.end = index + 1,
             _ => {
                 chunks.push(index..index + 1);
-                words = 0;
+                points = 0;
             }
         }
-        words += cluster.words();
+        points += cluster.points;
     }
     chunks
 }
@@ -305,7 +298,6 @@ mod tests {
     fn clusters_are_cut_where_a_buffer_is_full() {
         let of_points = |points| Cluster {
             points,
-            step_m: 0.001,
             ..bytemuck::Zeroable::zeroed()
         };
         let clusters = [5, 5, 6, 9, 1, 10].map(of_points);

@@ -16,7 +16,6 @@ use super::*;
 use crate::GpuOptions;
 use crate::testing::here;
 
-mod near;
 mod work;
 
 /// The method of all tests here, for its shaders take long to compile; none where there is no device.
@@ -175,6 +174,18 @@ fn crowd() -> Arc<Scene> {
         }
     }
     Arc::new(Scene::new(Arc::new(layout), &SceneOptions::default()).unwrap())
+}
+
+#[test]
+fn a_change_that_was_broken_off_is_made_good_before_anything_is_drawn() {
+    let Some(tiles) = tiles() else { return };
+    let scene = plain(300, 2.0);
+    let mut torn = prepared(&tiles, &scene);
+    let style = Style::default();
+    let (expected, _) = picture(&mut torn, &all(), &style);
+    (torn.store, torn.places, torn.is_torn) = (None, None, true);
+    let (drawn, report) = picture(&mut torn, &all(), &style);
+    assert!(drawn == expected && report.drawn > 0);
 }
 
 #[test]

@@ -38,7 +38,7 @@ impl PreparedTiles {
         style: &Style,
         cancel: &Cancel,
     ) -> Result<Work, RenderError> {
-        self.come_near(view, style)?;
+        self.mend()?;
         let is_one = self.facts.paint == Paint::One && style.shading == Shading::Color;
         if !is_one || self.store.is_none() {
             return Ok(Work::default());

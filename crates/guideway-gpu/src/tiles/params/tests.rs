@@ -26,8 +26,8 @@ fn structures_are_laid_out_alike() {
         "Chunk",
         &members!(ChunkParams: first_cluster, end_cluster, round),
     );
-    let cluster = members!(Cluster: origin_high_m, origin_low_m, low_m, high_m, widest_m, step_m, first_word,
-        points, first_stroke, strokes);
+    let cluster = members!(Cluster: origin_high_m, origin_low_m, low_m, high_m, widest_m, first_point, points,
+        first_stroke, strokes);
     assert_laid_out(SHADERS, "Cluster", &cluster);
     let shift = members!(ShiftParams: width_px, height_px, right_px, down_px);
     assert_laid_out(SHADERS, "Shift", &shift);

@@ -1,33 +1,18 @@
 // Points of a stroke's curve, in pixels, and lines that are near enough to it.
 
-@group(0) @binding(2) var<storage, read> point_words: array<u32>;
+@group(0) @binding(2) var<storage, read> points_m: array<vec2f>;
 
-// The stroke that a thread works on: where its control points begin, the step of its cluster, and from the middle of the
-// view to the origin that they count from.
+// The stroke that a thread works on: where its control points begin, and from the middle of the view to the origin that
+// they count from.
 struct Curve {
-    first_word: u32,
-    step_m: f32,
+    first_point: u32,
     offset_m: vec2f,
-}
-
-// Words of a control point.
-fn words_of_point(step_m: f32) -> u32 {
-    return select(1u, 2u, step_m == 0.0);
 }
 
 // Read anew each time: caches hold them, and a workgroup that shared them would leave room for few others.
 fn control_px(curve: Curve, index: u32) -> vec2f {
-    var local_m: vec2f;
-    if curve.step_m == 0.0 {
-        let word = curve.first_word + 2u * index;
-        reads(2u);
-        local_m = bitcast<vec2f>(vec2u(point_words[word], point_words[word + 1u]));
-    } else {
-        let word = bitcast<i32>(point_words[curve.first_word + index]);
-        reads(1u);
-        local_m = curve.step_m * vec2f(vec2i(word << 16u, word) >> vec2u(16u));
-    }
-    return pixel_from_view(local_m + curve.offset_m);
+    reads(2u);
+    return pixel_from_view(points_m[curve.first_point + index] + curve.offset_m);
 }
 
 // Where a segment begins: the thesis' equation 3.2 at t = 0.

@@ -32,7 +32,7 @@ var<workgroup> planned: array<Planned, STROKES>;
 var<workgroup> line_ends: array<u32, STROKES>;
 
 struct Planned {
-    first_word: u32,
+    first_point: u32,
     rank: u32,
     plan: Plan,
 }
@@ -81,7 +81,7 @@ fn emit(slot: u32, rank: u32, a: vec2f, b: vec2f, radius: f32) {
 }
 
 // Turns the strokes of the workgroup into lines, a thread a line.
-fn emit_all(thread: u32, cluster: Cluster, first_slot: u32) {
+fn emit_all(thread: u32, offset_m: vec2f, first_slot: u32) {
     let all = line_ends[STROKES - 1u];
     for (var line = thread; line < all; line += STROKES) {
         // The first stroke that ends behind it.
@@ -90,7 +90,7 @@ fn emit_all(thread: u32, cluster: Cluster, first_slot: u32) {
             stroke += select(0u, half, line_ends[stroke + half - 1u] <= line);
         }
         let it = planned[stroke];
-        let curve = Curve(it.first_word, cluster.step_m, offset_m(cluster));
+        let curve = Curve(it.first_point, offset_m);
         let part = part_of(curve, it.plan, it.plan.lines + line - line_ends[stroke]);
         let a = joint_px(curve, part, part.step);
         let b = joint_px(curve, part, part.step + 1u);
@@ -149,8 +149,7 @@ fn main(
             atomicStore(&group_drawn, 0u);
         }
         workgroupBarrier();
-        let first_word = cluster.first_word + first_point_of(stroke) * words_of_point(cluster.step_m);
-        let curve = Curve(first_word, cluster.step_m, offset_m(cluster));
+        let curve = Curve(cluster.first_point + first_point_of(stroke), offset_m(cluster));
         var plan = Plan(0u, 0u, 0u);
         if is_here && thread < cluster.strokes {
             let segments = segments_of(stroke);
@@ -171,14 +170,14 @@ fn main(
                 }
             }
         }
-        planned[thread] = Planned(first_word, stroke.rank, plan);
+        planned[thread] = Planned(curve.first_point, stroke.rank, plan);
         add_up(thread, plan.lines);
         if thread == 0u {
             first_line = atomicAdd(&found.counters.lines, line_ends[STROKES - 1u]);
             atomicAdd(&found.counters.drawn, atomicLoad(&group_drawn));
             atomics(2u);
         }
-        emit_all(thread, cluster, workgroupUniformLoad(&first_line));
+        emit_all(thread, curve.offset_m, workgroupUniformLoad(&first_line));
         workgroupBarrier();
     }
     report_work();
