@@ -4,6 +4,7 @@ mod beside;
 mod content;
 mod desk;
 mod drags;
+mod fingers;
 mod hand;
 mod journeys;
 mod random;
