@@ -311,6 +311,8 @@ impl Layer {
                     self.drop_journal();
                 }
                 self.journal = Journal::of(&self.path);
+                let aside = self.journal.said_of_aside(&self.path);
+                news.extend(aside.map(LayerNews::Notice));
             }
         }
         // What was done again before is in the scene that the renderer gets.

@@ -190,6 +190,8 @@ impl App {
                     LayerNews::Reached(stage) => {
                         if stage == Stage::Editable {
                             self.recolor_if_stale(index);
+                            // They may be of the layout before.
+                            self.swept.drawn.clear();
                         }
                         self.host.reached(stage, &self.layers[index].path);
                         if stage == Stage::Read {

@@ -27,6 +27,8 @@ pub(crate) struct Recovery {
     file: Option<File>,
     /// Whether an earlier run left something behind that nobody has decided about.
     has_found: bool,
+    /// Where work was put that an earlier run left behind, and that is of another state of the file.
+    aside: Option<PathBuf>,
 }
 
 /// What an earlier run left behind.
@@ -40,17 +42,39 @@ impl Recovery {
     /// The journal of a layout file that was just read.
     pub(crate) fn of(layout_file: &Path) -> Self {
         let journal = beside(layout_file, "journal");
+        let unsaved = unsaved(&journal, layout_file).unwrap_or_default();
         let mut recovery = Self {
-            has_found: holds_unsaved(&journal, layout_file).unwrap_or(false),
+            has_found: unsaved == Some(IsOf::File),
             base: beside(layout_file, "base"),
             journal,
             file: None,
+            aside: None,
         };
+        if unsaved == Some(IsOf::Another) {
+            recovery.put_aside();
+        }
         if !recovery.has_found {
-            // One of another state of the file, or of work that was saved, is of no use.
+            // One of work that was saved is of no use.
             recovery.clear();
         }
         recovery
+    }
+
+    /// Keeps the journal, and the file that it begins with, under other names, in place of any that are there.
+    fn put_aside(&mut self) {
+        let [journal, base] = [&self.journal, &self.base].map(|file| {
+            let mut aside = file.clone().into_os_string();
+            aside.push("-old");
+            // There may be no base.
+            let aside = PathBuf::from(aside);
+            fs::rename(file, &aside).ok().map(|()| aside)
+        });
+        self.aside = journal.or(base);
+    }
+
+    /// Where work was put that an earlier run left behind, and that is of another state of the file.
+    pub(crate) fn aside(&self) -> Option<&Path> {
+        self.aside.as_deref()
     }
 
     /// Whether an earlier run left something behind.
@@ -233,12 +257,25 @@ fn begin(journal: &Path, layout_file: &Path) -> io::Result<File> {
     Ok(file)
 }
 
-/// Whether a journal is one of this state of the file, and not all of it is saved there.
-fn holds_unsaved(journal: &Path, layout_file: &Path) -> io::Result<bool> {
+/// What work that was not saved is of.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum IsOf {
+    /// The file as it is now.
+    File,
+    /// The file as it was once.
+    Another,
+}
+
+/// What a journal is of, if not all in it is saved.
+fn unsaved(journal: &Path, layout_file: &Path) -> io::Result<Option<IsOf>> {
     let mut file = File::open(journal)?;
     let (is, saved) = read_header(&mut file)?;
     let acts_bytes = file.metadata()?.len() - HEADER_BYTES as u64;
-    Ok(is == header(layout_file, saved)? && acts_bytes > saved)
+    let is_of = match is == header(layout_file, saved)? {
+        true => IsOf::File,
+        false => IsOf::Another,
+    };
+    Ok((acts_bytes > saved).then_some(is_of))
 }
 
 /// The header of a journal, and the bytes behind it that are saved.

@@ -31,6 +31,16 @@ impl Journal {
         }
     }
 
+    /// What to say of work of last time that is of another state of the file.
+    pub(super) fn said_of_aside(&self, file: &Path) -> Option<String> {
+        let aside = self.recovery.as_ref()?.aside()?;
+        Some(format!(
+            "{} has changed since work on it was left unsaved last time: that work is kept as {}",
+            file.display(),
+            aside.display()
+        ))
+    }
+
     /// Writes down what was done, against a crash. Says once if that cannot be.
     ///
     /// # Errors

@@ -55,7 +55,12 @@ fn work_is_found_after_a_crash_and_only_with_the_same_file() {
     assert_eq!(recovered.node_position_m(0), edited.node_position_m(0));
     assert_eq!(recovered.node_position_m(2), Point::new(3.0, 3.0));
     fs::write(&site, "another layout").unwrap();
-    assert!(!Recovery::of(&site).has_found());
+    let recovery = Recovery::of(&site);
+    assert!(!recovery.has_found());
+    // It is not thrown away.
+    let aside = recovery.aside().unwrap();
+    assert!(fs::metadata(aside).unwrap().len() > HEADER_BYTES as u64);
+    assert!(Recovery::of(&site).aside().is_none(), "it is told of once");
 }
 
 #[test]
