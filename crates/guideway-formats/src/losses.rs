@@ -47,10 +47,17 @@ impl Losses {
         }
     }
 
-    /// What no format but this project's own model has room for.
+    /// What no format but this project's own model has room for, and what not even that has of the file that was read.
     pub(crate) fn of(layout: &Layout) -> Self {
+        let mut losses = Self::of_model(layout, layout.refused.len());
+        let detail = "layouts, nodes, edges and stations of LIF: what is said of them beside, such as actions and descriptions";
+        losses.add("LIF", crate::lif::count_beside(layout), detail);
+        losses
+    }
+
+    /// The same where the rest of the file is kept, but for so many of the paths that are refused.
+    pub(crate) fn of_model(layout: &Layout, refused: usize) -> Self {
         let mut losses = Self::default();
-        let refused = layout.refused.len();
         losses.add("refused paths", refused, "paths that cannot be drawn");
         let empty = layout.paths.iter().filter(|p| p.runs().len() == 0);
         losses.add("paths", empty.count(), "paths without a curve");

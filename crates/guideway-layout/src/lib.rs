@@ -29,6 +29,8 @@ mod run_points;
 mod text;
 mod vehicle_types;
 
+use std::sync::Arc;
+
 pub use attribute::{Attribute, Attributes, Value, Values};
 pub use check::{
     At, CheckOptions, check, check_across, name as element_name, place as element_place,
@@ -99,4 +101,6 @@ pub struct Provenance {
     pub format_version: String,
     /// Elements counted in the source under the format's own names, such as `("edges", 12)`.
     pub counts: Vec<(String, u64)>,
+    /// The text of the file, where a writer of its format keeps what of it the layout has not.
+    pub text: Option<Arc<str>>,
 }

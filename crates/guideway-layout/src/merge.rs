@@ -241,5 +241,7 @@ fn provenance(layouts: &[Layout]) -> Provenance {
         format: of(|p| &p.format, " + "),
         format_version: of(|p| &p.format_version, " + "),
         counts,
+        // It would be of one of them only.
+        text: None,
     }
 }

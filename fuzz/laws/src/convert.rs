@@ -15,7 +15,7 @@ const TOLERANCE_M: f64 = 1e-4;
 const FARTHEST_M: f64 = 1e8;
 
 /// Writes a layout and a copy of it beside it, as one, in every format, and reads it back: what was written is
-/// sound, and all curves are where they were.
+/// sound, and all curves are where they were. So it is in the layout's own format, if that is LIF.
 pub fn convert(bytes: &[u8]) {
     let Ok(layout) = read_bytes("fuzzed", bytes, &options()) else {
         return;
@@ -23,6 +23,10 @@ pub fn convert(bytes: &[u8]) {
     let Some(bounds) = bounds(&layout).filter(|b| reach_m(b) < FARTHEST_M) else {
         return;
     };
+    // What is beside the layout in its own file is kept in LIF.
+    for version in [Version::V1, Version::V2] {
+        comes_back(&layout, Format::Lif(version));
+    }
     let mut moved = layout.clone();
     moved.transform(Affine::translation(Point::new(bounds.size().x, 1.0)));
     check_across(&[&layout, &moved]);

@@ -194,6 +194,7 @@ impl Reader<'_> {
                     ("rows".into(), rows as u64),
                     ("record batches".into(), table.batches.len() as u64),
                 ],
+                text: None,
             },
             paths,
             refused,

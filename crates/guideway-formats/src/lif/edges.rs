@@ -7,7 +7,7 @@ use guideway_layout::{Code, NewPath};
 use guideway_spline::{Point, Runs};
 
 use super::map::Mapper;
-use super::model::{Edge, EdgeProperties, PHYSICAL_LINE};
+use super::model::{EDGE_PROPERTIES, Edge, EdgeProperties, PHYSICAL_LINE};
 use crate::ReadError;
 use crate::builder::{At, Table};
 use crate::json::{Field, items, within};
@@ -97,8 +97,8 @@ impl Mapper<'_> {
         let mut curves: Vec<Curve<'r, 'a>> = Vec::new();
         let mut known: HashMap<Vec<u64>, usize> = HashMap::new();
         let lists = [
-            ("vehicleTypeEdgeProperties", &edge.types_1),
-            ("mobileRobotTypeEdgeProperties", &edge.types_2),
+            (EDGE_PROPERTIES[0], &edge.types_1),
+            (EDGE_PROPERTIES[1], &edge.types_2),
         ];
         let is_alone = lists
             .iter()

@@ -302,11 +302,7 @@ impl<'a> Mapper<'a> {
             let series = self
                 .builder
                 .text(&robot.series, &|| within(at, "seriesName"))?;
-            let parts = [manufacturer, series].into_iter().flatten();
-            let parts: Vec<&str> = parts.filter(|part| !part.is_empty()).collect();
-            if !parts.is_empty() {
-                names.push(parts.join(" "));
-            }
+            names.extend(model::robot_name(manufacturer, series));
         }
         for name in &names {
             if !self.vehicle_types.contains(name) {

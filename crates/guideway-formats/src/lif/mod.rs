@@ -6,11 +6,13 @@
 mod edges;
 mod map;
 mod model;
+mod rest;
 mod write;
 mod write_columns;
 mod write_edges;
 mod write_network;
 
+pub(crate) use self::rest::count_beside;
 pub use self::write::{WriteOptions, write_layout};
 pub use self::write_columns::Version;
 
@@ -21,6 +23,9 @@ use self::model::Root;
 use crate::json::{self, Field};
 use crate::source::Source;
 use crate::{Problem, ReadError, text};
+
+/// Of a file up to this size, what a layout has not is kept for when it is written again.
+const MOST_KEPT_BYTES: usize = 256 << 20;
 
 /// Reads a LIF file.
 pub(crate) fn read(source: Source<'_>, bytes: &[u8]) -> Result<Layout, ReadError> {
@@ -51,6 +56,9 @@ pub(crate) fn read(source: Source<'_>, bytes: &[u8]) -> Result<Layout, ReadError
         return Err(source.fail(not_lif("the root", expected, found)));
     }
     let mut layout = Mapper::new(source, bytes.len()).map(&root, text)?;
+    if text.len() <= MOST_KEPT_BYTES {
+        layout.provenance.text = Some(text.into());
+    }
     json::add_lines(&mut layout, text);
     Ok(layout)
 }

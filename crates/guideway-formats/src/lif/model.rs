@@ -109,6 +109,19 @@ record! { Station<'a> {
     position: Position = "stationPosition",
 } }
 
+/// What edges and nodes are for their vehicle types, in 1.0 and in 2.0.
+pub(super) const EDGE_PROPERTIES: [&str; 2] =
+    ["vehicleTypeEdgeProperties", "mobileRobotTypeEdgeProperties"];
+pub(super) const NODE_PROPERTIES: [&str; 2] =
+    ["vehicleTypeNodeProperties", "mobileRobotTypeNodeProperties"];
+
+/// The name of a vehicle type of 2.0; none if it has neither part.
+pub(super) fn robot_name(manufacturer: Option<&str>, series: Option<&str>) -> Option<String> {
+    let parts = [manufacturer, series].into_iter().flatten();
+    let parts: Vec<&str> = parts.filter(|part| !part.is_empty()).collect();
+    (!parts.is_empty()).then(|| parts.join(" "))
+}
+
 /// How the attributes begin that tell of a line on the floor, whose shape the file does not have.
 pub(super) const PHYSICAL_LINE: &str = "physicalLineGuidedProperty.";
 

@@ -7,6 +7,7 @@ use guideway_layout::{Layout, Values};
 use guideway_spline::Point;
 use serde_json::{Map, Value, json};
 
+use super::rest::Rest;
 use super::write_columns::Version;
 use super::write_edges::Edges;
 use super::write_network::Network;
@@ -23,8 +24,9 @@ pub struct WriteOptions {
 }
 
 /// Writes a layout: levels as layouts, nodes, stations, and paths as edges. What is no straight line from
-/// node to node gets a trajectory, the same curve over clamped knots. Positions are to a micrometre. Returns
-/// what the format cannot hold.
+/// node to node gets a trajectory, the same curve over clamped knots. Positions are to a micrometre. What the layout
+/// has not of a file of the same version is kept as it was: actions, descriptions, values for each vehicle type.
+/// Returns what the format cannot hold.
 ///
 /// # Errors
 /// When `out` fails.
@@ -34,7 +36,12 @@ pub fn write_layout(
     options: &WriteOptions,
 ) -> io::Result<Losses> {
     let version = options.version;
-    let mut losses = Losses::of(layout);
+    let rest = Rest::of(layout, version);
+    let mut losses = match rest {
+        Some(ref rest) => Losses::of_model(layout, rest.lost(layout)),
+        None => Losses::of(layout),
+    };
+    let rest = rest.unwrap_or_default();
     losses.widths(layout);
     losses.colors(layout);
     losses.ranks(layout);
@@ -46,53 +53,140 @@ pub fn write_layout(
     let network = Network::of(layout, &mut losses);
     let edges = Edges::of(layout, &network, version, &mut losses);
 
-    let head = json!({
-        version.of("projectIdentification", "lifId"): source_name(layout),
-        "creator": concat!("Guideway ", env!("CARGO_PKG_VERSION")),
-        "exportTimestamp": humantime::format_rfc3339_millis(options.exported).to_string(),
-        "lifVersion": version.of("1.0.0", "2.0.0"),
-    });
-    write!(out, "{{\"metaInformation\": {head},\n\"")?;
-    write!(
-        out,
-        "{}",
-        version.of(
-            "layouts",
-            "origins\": [{\"originId\": \"origin\",\n\"layouts"
-        )
-    )?;
-    write!(out, "\": [")?;
-    for (index, level) in network.levels().enumerate() {
-        let separator = if index == 0 { "" } else { "," };
-        write!(out, "{separator}\n{{\"layoutId\": {}", json!(level.id))?;
-        if let Some(name) = &level.name {
-            write!(out, ", \"layoutName\": {}", json!(name))?;
-        }
-        write!(out, ", \"layoutVersion\": \"1\"")?;
-        let nodes = network.nodes_on(index);
-        list(
-            out,
-            "nodes",
-            nodes.map(|node| network.node_json(layout, node, version)),
-        )?;
-        list(
-            out,
-            "edges",
-            network.paths_on(index).flat_map(|path| edges.json(path)),
-        )?;
-        let stations = network.stations_on(index);
-        let stations = stations.map(|station| station_json(layout, &network, station, version));
-        list(out, "stations", stations)?;
-        write!(out, "}}")?;
+    let mut meta = rest.meta.clone();
+    let project = version.of("projectIdentification", "lifId");
+    meta.entry(project)
+        .or_insert_with(|| source_name(layout).into());
+    let exported = humantime::format_rfc3339_millis(options.exported).to_string();
+    for (name, value) in [
+        ("creator", concat!("Guideway ", env!("CARGO_PKG_VERSION"))),
+        ("exportTimestamp", &exported),
+        ("lifVersion", version.of("1.0.0", "2.0.0")),
+    ] {
+        meta.insert(name.into(), value.into());
     }
-    writeln!(out, "]{}}}", version.of("", "}]"))?;
+    write!(out, "{{\"metaInformation\": {}", Value::Object(meta))?;
+    for (name, value) in &rest.root {
+        write!(out, ",\n{}: {value}", json!(name))?;
+    }
+    let file = File {
+        layout,
+        network: &network,
+        edges: &edges,
+        rest: &rest,
+        version,
+    };
+    let of_level = |index: usize, out: &mut _| file.level(index, out);
+    match version {
+        Version::V1 => {
+            let levels = 0..network.levels().count();
+            list(out, "layouts", levels, of_level)?;
+        }
+        Version::V2 => {
+            let origins = origins(&network, &rest);
+            list(
+                out,
+                "origins",
+                origins.into_iter(),
+                |(mut origin, levels), out| {
+                    origin.entry("originId").or_insert_with(|| "origin".into());
+                    begin(out, origin)?;
+                    list(out, "layouts", levels.into_iter(), of_level)?;
+                    write!(out, "}}")
+                },
+            )?;
+        }
+    }
+    writeln!(out, "}}")?;
     Ok(losses)
 }
 
-fn list(out: &mut impl Write, name: &str, items: impl Iterator<Item = Value>) -> io::Result<()> {
+/// The origins of a file, each with its levels by their indices. What is on none is on the first.
+fn origins(network: &Network<'_>, rest: &Rest<'_>) -> Vec<(Map<String, Value>, Vec<usize>)> {
+    let origin_of = |id: &String| rest.origins.iter().position(|(_, ids)| ids.contains(id));
+    let known = rest
+        .origins
+        .iter()
+        .map(|(origin, _)| (origin.clone(), Vec::new()));
+    let mut origins: Vec<_> = known.collect();
+    if origins.is_empty() {
+        origins.push(Default::default());
+    }
+    for (index, level) in network.levels().enumerate() {
+        origins[origin_of(&level.id).unwrap_or(0)].1.push(index);
+    }
+    origins.retain(|(_, levels)| !levels.is_empty());
+    origins
+}
+
+/// Begins an object that goes on behind its members.
+fn begin(out: &mut impl Write, members: Map<String, Value>) -> io::Result<()> {
+    let text = Value::Object(members).to_string();
+    write!(out, "{}", text.strip_suffix('}').unwrap_or(&text))
+}
+
+/// What a file has.
+struct File<'a> {
+    layout: &'a Layout,
+    network: &'a Network<'a>,
+    edges: &'a Edges<'a>,
+    rest: &'a Rest<'a>,
+    version: Version,
+}
+
+impl File<'_> {
+    fn level<W: Write>(&self, index: usize, out: &mut W) -> io::Result<()> {
+        let (layout, network, version) = (self.layout, self.network, self.version);
+        let Some(level) = network.levels().nth(index) else {
+            return Ok(());
+        };
+        let mut members = self.rest.level(&level.id);
+        members.insert("layoutId".into(), level.id.as_str().into());
+        if let Some(name) = &level.name {
+            members.insert("layoutName".into(), name.as_str().into());
+        }
+        members.entry("layoutVersion").or_insert_with(|| "1".into());
+        begin(out, members)?;
+        let keep = |id_key, new: Value, out: &mut W| {
+            let kept = self.rest.keep(&level.id, id_key, new);
+            write!(out, "{kept}")
+        };
+        list(out, "nodes", network.nodes_on(index), |node, out| {
+            keep("nodeId", network.node_json(layout, node, version), out)
+        })?;
+        let refused = self.rest.refused(&level.id);
+        let edges = network
+            .paths_on(index)
+            .flat_map(|path| self.edges.json(path))
+            .chain(refused);
+        list(out, "edges", edges, |edge, out| keep("edgeId", edge, out))?;
+        list(
+            out,
+            "stations",
+            network.stations_on(index),
+            |station, out| {
+                keep(
+                    "stationId",
+                    station_json(layout, network, station, version),
+                    out,
+                )
+            },
+        )?;
+        write!(out, "}}")
+    }
+}
+
+/// Writes a list of a name, behind other members.
+fn list<T, W: Write>(
+    out: &mut W,
+    name: &str,
+    items: impl Iterator<Item = T>,
+    mut write_item: impl FnMut(T, &mut W) -> io::Result<()>,
+) -> io::Result<()> {
     write!(out, ",\n\"{name}\": [")?;
     for (i, item) in items.enumerate() {
-        write!(out, "{}\n{item}", if i == 0 { "" } else { "," })?;
+        writeln!(out, "{}", if i == 0 { "" } else { "," })?;
+        write_item(item, out)?;
     }
     write!(out, "]")
 }

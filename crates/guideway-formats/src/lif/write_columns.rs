@@ -16,6 +16,19 @@ pub enum Version {
 }
 
 impl Version {
+    /// That of the file that a layout was read from, if it is LIF.
+    pub fn of_layout(layout: &Layout) -> Option<Self> {
+        let provenance = &layout.provenance;
+        let is_lif = provenance.format == crate::Format::Lif.name();
+        let is_2 = provenance.format_version.starts_with('2');
+        is_lif.then_some(if is_2 { Self::V2 } else { Self::V1 })
+    }
+
+    /// What a thing of which there is one for each version is in this one.
+    pub(super) fn one_of<T>(self, [in_1, in_2]: [T; 2]) -> T {
+        self.of(in_1, in_2)
+    }
+
     /// What a thing is in this version.
     pub(super) fn of<T>(self, in_1: T, in_2: T) -> T {
         match self {

@@ -3,6 +3,7 @@
 use guideway_layout::{Direction, Layout, PathRef};
 use serde_json::{Value, json};
 
+use super::model::EDGE_PROPERTIES;
 use super::write::position_json;
 use super::write_columns::{Columns, Version};
 use super::write_network::{Names, Network, path_types, types_json};
@@ -63,9 +64,7 @@ impl<'a> Edges<'a> {
             properties.insert("trajectory".into(), trajectory);
         }
         let types = path_types(self.layout, path.row());
-        let key = self
-            .version
-            .of("vehicleTypeEdgeProperties", "mobileRobotTypeEdgeProperties");
+        let key = self.version.one_of(EDGE_PROPERTIES);
         json!({
             "edgeId": id,
             "startNodeId": self.network.node_id(nodes[0]),

@@ -8,6 +8,7 @@ use guideway_layout::{Layout, Level, PathRef};
 use guideway_spline::Point;
 use serde_json::{Map, Value, json};
 
+use super::model::NODE_PROPERTIES;
 use super::write::{column_json, position_json};
 use super::write_columns::Version;
 use crate::Losses;
@@ -16,7 +17,7 @@ use crate::Losses;
 const JOINED_M: f64 = 1e-3;
 
 /// Stands for all vehicle types, of which LIF asks for at least one by name.
-const ANY_TYPE: &str = "any";
+pub(super) const ANY_TYPE: &str = "any";
 
 pub(super) struct Network<'a> {
     levels: Vec<Cow<'a, Level>>,
@@ -198,7 +199,7 @@ impl<'a> Network<'a> {
             [] => &[ANY_TYPE],
             types => types,
         };
-        let key = version.of("vehicleTypeNodeProperties", "mobileRobotTypeNodeProperties");
+        let key = version.one_of(NODE_PROPERTIES);
         json.insert(key.into(), types_json(types, version, &Map::new()));
         Value::Object(json)
     }
