@@ -70,6 +70,14 @@ fn the_density_of_long_curves() {
     tell(&long_curves(sketch, 30, 33).build(), 1);
 }
 
+#[test]
+fn curves_that_are_small_beside_their_scene() {
+    // `gpu` rounds their points, and draws exact ones in the view from near.
+    let sketch = long_curves(sketch().width(1.2), 80, 35);
+    let drawing = sketch.line((3e4, 0.0), (3e4 + 9.0, 5.0)).build();
+    tell(&drawing, 1);
+}
+
 /// Every method that edits in place shows every step of a story, and after all is undone what it showed first.
 fn tell(drawing: &Drawing, rounds: usize) {
     let story = Story::new(drawing, rounds);

@@ -7,10 +7,10 @@ use std::sync::Arc;
 
 use guideway_cpu::Cpu;
 use guideway_datasets::{GeneratedPath, RUN_POINTS, d1, d2};
-use guideway_layout::{Geometry, Layout, Paths};
+use guideway_layout::{Geometry, Layout, NewPath, Paths};
 use guideway_render::{Budget, Frame, FrameSize, Method, Prepared, Style, View};
 use guideway_scene::{LineRule, Scene, SceneOptions};
-use guideway_spline::Point;
+use guideway_spline::{Point, Runs};
 use guideway_tests::compare::{Tolerance, check};
 use guideway_tests::devices::{here, tiles};
 use guideway_tests::evidence;
@@ -26,21 +26,29 @@ const MOST_ZOOM: f64 = 400.0;
 enum Dataset {
     D1,
     D2,
+    /// D1 with a path so far away that the points of the others may be rounded.
+    Aside,
 }
-use Dataset::{D1, D2};
+use Dataset::{Aside, D1, D2};
 
 /// What is drawn, and how large.
 struct Plan {
-    layouts: [(Dataset, usize); 4],
+    layouts: &'static [(Dataset, usize)],
     size: (u32, u32),
 }
 
 const SMALL: Plan = Plan {
-    layouts: [(D1, 2_000), (D2, 1_000), (D1, 10_000), (D2, 3_000)],
+    layouts: &[
+        (D1, 2_000),
+        (D2, 1_000),
+        (D1, 10_000),
+        (D2, 3_000),
+        (Aside, 10_000),
+    ],
     size: (640, 360),
 };
 const LARGE: Plan = Plan {
-    layouts: [
+    layouts: &[
         (D1, 10_000),
         (D2, 100_000),
         (D1, 1_000_000),
@@ -56,10 +64,11 @@ fn random_views_of_large_layouts_are_drawn_alike() {
     let plan = if is_large { LARGE } else { SMALL };
     println!("on {}", gpu.info().device);
     let mut wrong = Vec::new();
-    for (seed, (dataset, paths)) in (1..).zip(plan.layouts) {
+    for (seed, &(dataset, paths)) in (1..).zip(plan.layouts) {
         let name = match dataset {
             D1 => format!("d1 {paths}"),
             D2 => format!("d2 {paths}"),
+            Aside => format!("d1 {paths} and one aside"),
         };
         let scene = Arc::new(scene(dataset, paths));
         let shots = shots(&scene, plan.size, seed);
@@ -133,6 +142,16 @@ fn scene(dataset: Dataset, paths: usize) -> Scene {
     let layout = match dataset {
         D1 => layout(d1(paths, 1)),
         D2 => layout(d2(paths, 1)),
+        Aside => {
+            let mut layout = layout(d1(paths, 1));
+            let mut runs = Runs::default();
+            runs.push_line(Point::new(3000.0, 0.0), Point::new(3001.0, 1.0));
+            layout.paths.push(&NewPath {
+                runs: &runs,
+                ..NewPath::default()
+            });
+            layout
+        }
     };
     let scene = Scene::new(Arc::new(layout), &SceneOptions::default());
     scene.expect("options that fit any layout")

@@ -22,8 +22,8 @@ fn picture(method: &dyn Method, sketch: &Sketch) -> Frame {
     drawn.expect("there is memory enough").0
 }
 
-/// For two pictures whose paths are in other clusters: `cpu` rounds lines to a grid of their cluster, which moves
-/// a border by up to an eighth of a pixel (20 levels were seen, and a mean of 0.24).
+/// For two pictures whose paths are in other clusters, or the same at another place: `cpu` rounds lines to a grid of their
+/// cluster, which moves a border by up to an eighth of a pixel (20 levels were seen, and a mean of 0.24).
 const OTHER_CLUSTERS: Tolerance = Tolerance {
     mean: 1.0,
     within: (24.0, 0.99),
@@ -63,7 +63,11 @@ proptest! {
         for method in all_methods() {
             let here = picture(method.as_ref(), &sketch);
             let there = picture(method.as_ref(), &sketch.clone().at(x_m, y_m));
-            let outcome = check(&here, &there, &Tolerance::ROUNDING);
+            let tolerance = match method.info().name {
+                "cpu" => OTHER_CLUSTERS,
+                _ => Tolerance::ROUNDING,
+            };
+            let outcome = check(&here, &there, &tolerance);
             prop_assert!(outcome.is_ok(), "{}: {outcome:?}", method.info().name);
         }
     }

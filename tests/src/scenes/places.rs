@@ -67,6 +67,12 @@ pub(super) fn cases() -> Vec<SceneCase> {
             .width(3.0)
             .line((-5e9, 40.0), (5e9, 20.0))
     }));
+    for (name, length_px) in [("20px", 20.0), ("600px", 600.0)] {
+        cases.push(case(
+            format!("zoom/paths-of-{name}-small-beside-the-scene"),
+            move || small_beside_the_scene(length_px),
+        ));
+    }
     cases.push(case("zoom/crowd-on-one-pixel", || {
         (0..200).fold(Sketch::new(48, 48).width(0.004), |sketch, i| {
             let x = 24.1 + 0.004 * f64::from(i);
@@ -90,4 +96,24 @@ fn three_paths() -> Sketch {
             (90.0, 40.0),
         ])
         .own_width(5.0)
+}
+
+/// Bent paths all over the picture, and one so far away that points of the others may be rounded.
+fn small_beside_the_scene(length_px: f64) -> Sketch {
+    let far = Sketch::new(96, 64)
+        .width(1.5)
+        .line((1e5, 0.0), (1e5 + 9.0, 5.0));
+    (0..300_u32).fold(far, |sketch, path| {
+        let f = f64::from(path);
+        let place =
+            |share: f64, side: f64| (f * share).fract() * (side + length_px) - length_px / 2.0;
+        let (x, y) = (place(0.618_034, 96.0), place(0.754_878, 64.0));
+        let control = [0.0, 0.25, 0.5, 0.75, 1.0].map(|part| {
+            let turn = 2.4 * f + 1.5 * part;
+            let out_px = length_px * part;
+            (x + out_px * turn.cos(), y + out_px * turn.sin())
+        });
+        let color = path.wrapping_mul(0x9e37_79b9) | 0xff;
+        sketch.curve(&control).color(color)
+    })
 }

@@ -92,9 +92,22 @@ impl Runner {
         buffer: &DeviceBuffer,
         values: &[T],
     ) -> Result<(), String> {
+        self.set_from(what, buffer, 0, values)
+    }
+
+    /// As [`Self::set_all`], for values behind a number of others.
+    pub(crate) fn set_from<T: bytemuck::NoUninit>(
+        &self,
+        what: &'static str,
+        buffer: &DeviceBuffer,
+        others: u32,
+        values: &[T],
+    ) -> Result<(), String> {
+        let offset = u64::from(others) * size_of::<T>() as u64;
         let bytes = bytemuck::cast_slice(values);
-        self.gpu
-            .checked(what, || self.gpu.queue.write_buffer(buffer.raw(), 0, bytes))
+        self.gpu.checked(what, || {
+            self.gpu.queue.write_buffer(buffer.raw(), offset, bytes);
+        })
     }
 
     /// Submits dispatches without waiting for them: what is submitted later comes after them.

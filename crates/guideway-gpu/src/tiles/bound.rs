@@ -4,6 +4,7 @@ use guideway_render::Stage;
 use guideway_scene::Scene;
 
 use super::canvas::Canvas;
+use super::chunk::Drawn;
 use super::kernels::Kernels;
 use super::params::{
     Found, FrameParams, SCATTER_THREADS, STARTS_THREADS, Samples, TILE_PX, WORKGROUP,
@@ -104,8 +105,8 @@ struct Step {
 enum Over {
     /// Threads for all clusters.
     Clusters,
-    /// Workgroups for clusters in turn.
-    ClustersSeen,
+    /// Workgroups for so many clusters in turn, if any is drawn.
+    Seen(u32, Drawn),
     /// Workgroups of so many threads for lines in turn.
     Lines(u32),
     /// A workgroup a tile.
@@ -165,11 +166,11 @@ impl Bound {
             ..
         } = b.canvas;
         let references = &b.room.reference_list;
-        for chunk in &b.store.chunks {
+        for chunk in b.store.all_chunks() {
             let buffers = [
                 frame,
                 &chunk.params[round],
-                &chunk.points_m,
+                &chunk.points,
                 strokes,
                 clusters,
                 styles,
@@ -178,7 +179,9 @@ impl Bound {
                 line_ranks,
                 counts,
             ];
-            self.add("flatten", b, &kernels.flatten, Over::ClustersSeen, &buffers)?;
+            let kernel = &kernels.flatten[chunk.held as usize];
+            let over = Over::Seen(chunk.clusters.len() as u32, chunk.drawn);
+            self.add("flatten", b, kernel, over, &buffers)?;
         }
         let last = paint.kernel(kernels, self.samples);
         if let Some(marks) = b.marks {
@@ -254,7 +257,8 @@ impl Bound {
         let in_turn = |items: u32| items.clamp(1, MOST_ROUNDS_GROUPS.min(b.gpu.most_workgroups()));
         let workgroups = |over| match over {
             Over::Clusters => params.clusters.div_ceil(WORKGROUP),
-            Over::ClustersSeen => in_turn(params.clusters),
+            Over::Seen(_, drawn) if !drawn.is_any(params.most_step_m) => 0,
+            Over::Seen(clusters, _) => in_turn(clusters),
             Over::Lines(threads) => in_turn(b.room.size.lines.div_ceil(threads)),
             Over::Tiles => params.columns * params.rows,
             Over::ThreadsForTiles => (params.columns * params.rows).div_ceil(STARTS_THREADS),

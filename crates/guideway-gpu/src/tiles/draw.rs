@@ -90,6 +90,17 @@ impl PreparedTiles {
         Ok(())
     }
 
+    /// Has bytes to spare, if need be by giving back what lines have room for. False if there cannot be so many.
+    pub(super) fn make_spare(&mut self, bytes: u64) -> Result<bool, RenderError> {
+        if self.memory.spare_bytes() < bytes {
+            self.unbind();
+            (self.easel.room, self.probe.room) = (None, None);
+            let least = Size::first(0).within(&self.shared.gpu, &self.memory);
+            self.easel.room = Some(Room::new(&mut self.memory, least)?);
+        }
+        Ok(self.memory.spare_bytes() >= bytes)
+    }
+
     /// Draws a window of tiles, and says what was found: all of it may not have fitted.
     fn draw(
         &mut self,
@@ -143,14 +154,21 @@ impl PreparedTiles {
         paint.rounds(found, samples) > u64::from(self.shared.gpu.rounds_a_thread())
     }
 
-    /// More room for what was found, if there can be.
-    fn grow(&mut self, found: &Found) -> Result<bool, RenderError> {
+    /// More room for what was found, if there can be; exact points go for it where none is needed.
+    fn grow(&mut self, shot: &Shot<'_>, found: &Found) -> Result<bool, RenderError> {
         let Some(room) = self.easel.room.take() else {
             return Ok(false);
         };
-        self.easel.unbind();
+        self.unbind();
         let (old, size) = (room.size, room.size.for_found(found));
         drop(room);
+        let is_short = size.bytes() > self.memory.spare_bytes();
+        if let Some(store) = &mut self.store
+            && is_short
+            && !shot.is_near()
+        {
+            store.twins = None;
+        }
         let fits = size.fits(&self.shared.gpu) && size.bytes() <= self.memory.spare_bytes();
         let size = if fits { size } else { old };
         self.easel.room = Some(Room::new(&mut self.memory, size)?);
@@ -170,7 +188,16 @@ impl PreparedTiles {
         windows.reverse();
         while let Some(window) = windows.pop() {
             cancel.check()?;
+            self.come_near(shot)?;
             let found = self.draw(shot, paint, &window, first_row, &mut drawing.stages)?;
+            if found.missing > 0 {
+                match (self.bring_twins(shot, &found)?, window.halves()) {
+                    (None, _) => windows.push(window),
+                    (Some(_), Some([first, second])) => windows.extend([second, first]),
+                    (Some(points), None) => return Err(self.no_room_for_twins(points)),
+                }
+                continue;
+            }
             let holds = |room: &Room| room.size.holds(&found);
             let is_too_long = self.is_too_long(&found, paint, shot.samples());
             if !is_too_long && self.easel.room.as_ref().is_some_and(holds) {
@@ -185,7 +212,7 @@ impl PreparedTiles {
                 windows.push(window);
             } else if is_too_long {
                 return Err(too_long(&found));
-            } else if self.grow(&found)? {
+            } else if self.grow(shot, &found)? {
                 windows.push(window);
             } else if let Some([first, second]) = window.halves() {
                 windows.extend([second, first]);

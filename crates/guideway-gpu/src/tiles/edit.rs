@@ -7,14 +7,13 @@ use guideway_layout::Layout;
 use guideway_render::{Edited, RenderError};
 use guideway_scene::{Edit, PathState};
 
-use super::pack::{Local, Packed, Part, style};
-use super::params::{Cluster, PathStyle, Stroke};
+use super::pack::{Local, Packed, Packing, Part, style};
+use super::params::{Cluster, PathStyle, Points, Stroke};
 use super::places::{Places, cluster_of, room_of};
 use super::prepared::PreparedTiles;
 use super::store::Store;
 use crate::device::{Patch, Patcher};
 
-const POINT_WORDS: usize = 2;
 const STROKE_WORDS: usize = size_of::<Stroke>() / 4;
 const CLUSTER_WORDS: usize = size_of::<Cluster>() / 4;
 const STYLE_WORDS: usize = size_of::<PathStyle>() / 4;
@@ -24,8 +23,7 @@ const MOST_UNUSED_POINTS: usize = 1 << 16;
 /// What has to be sent.
 #[derive(Default)]
 struct Changes {
-    /// By chunk.
-    points: BTreeMap<usize, Patch>,
+    points: BTreeMap<Target, Patch>,
     strokes: Vec<u32>,
     /// Whether a cluster has changed, by its number; those behind have not.
     clusters: Vec<bool>,
@@ -79,9 +77,9 @@ impl PreparedTiles {
     }
 
     fn pack_anew(&mut self) -> Result<Edited, RenderError> {
-        self.bring()?;
+        self.bring(Packing::of(&self.scene))?;
         let held = |store: &Store| {
-            let points: u64 = store.chunks.iter().map(|c| c.points_m.bytes()).sum();
+            let points: u64 = store.chunks.iter().map(|c| c.points.bytes()).sum();
             points + store.strokes.bytes() + store.clusters.bytes() + store.styles.bytes()
         };
         Ok(Edited::InPlace {
@@ -151,6 +149,7 @@ impl PreparedTiles {
             }
             if parts.len() > 1 {
                 self.parted.insert(row);
+                self.packing.sort(scene.layout(), &mut parts);
             } else if !self.parted.is_empty() {
                 self.parted.remove(&row);
             }
@@ -167,8 +166,8 @@ impl PreparedTiles {
                 changes.loose.extend_from_slice(&parts);
             }
         }
-        let points: u64 = store.chunks.iter().map(|c| c.points_m.bytes() / 8).sum();
-        if places.unused_points > MOST_UNUSED_POINTS.max(points as usize / 4) {
+        let points: usize = store.chunks.iter().map(|c| c.used_points as usize).sum();
+        if places.unused_points > MOST_UNUSED_POINTS.max(points / 4) {
             return Ok(None);
         }
         let bytes = self.send(changes)?;
@@ -185,15 +184,14 @@ impl PreparedTiles {
         let mut are_renewed = false;
         let has_loose = !changes.loose.is_empty();
         if has_loose {
-            let packed = Packed::of(&self.scene, std::mem::take(&mut changes.loose));
+            let loose = std::mem::take(&mut changes.loose);
+            let packed = Packed::of(&self.scene, loose, self.packing.exact());
             let (strokes, clusters) = (store.stroke_list.len(), store.cluster_list.len());
             let chunk = store.add(gpu, &mut self.memory, &packed)?;
             places.add(store, strokes, clusters, self.scene.row_count());
-            let first_point = store.cluster_list[clusters].first_point as usize;
-            let patch = changes.points.entry(chunk).or_default();
-            for (point, index) in packed.points_m.iter().zip(first_point..) {
-                patch.set(index * POINT_WORDS, point);
-            }
+            let first_point = store.cluster_list[clusters].first_point;
+            let patch = changes.points.entry(Target::Points(chunk)).or_default();
+            set_points(patch, first_point, packed.exact_m.into_iter());
             are_renewed = store.make_room(gpu, &mut self.memory)?;
             changes
                 .strokes
@@ -216,12 +214,8 @@ impl PreparedTiles {
         }
         self.facts.clusters = store.cluster_list.len() as u32;
         let mut patches = vec![(Target::Strokes, &strokes), (Target::Clusters, &clusters)];
-        patches.extend(
-            changes
-                .points
-                .iter()
-                .map(|(&chunk, patch)| (Target::Points(chunk), patch)),
-        );
+        let of_points = changes.points.iter();
+        patches.extend(of_points.map(|(&target, patch)| (target, patch)));
         let mut bytes = patches.iter().map(|(_, patch)| patch.bytes()).sum();
         if are_renewed {
             bytes += store.strokes.bytes() + store.clusters.bytes();
@@ -241,7 +235,11 @@ impl PreparedTiles {
         };
         for (target, patch) in patches {
             let buffer = match target {
-                Target::Points(chunk) => &store.chunks[*chunk].points_m,
+                Target::Points(chunk) => &store.chunks[*chunk].points,
+                Target::Twins => match &store.twins {
+                    Some(twins) => &twins.chunk.points,
+                    None => continue,
+                },
                 Target::Strokes => &store.strokes,
                 Target::Clusters => &store.clusters,
                 Target::Styles => &store.styles,
@@ -261,12 +259,27 @@ impl PreparedTiles {
 }
 
 /// A buffer that changes.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Target {
+    /// Points of a chunk.
     Points(usize),
+    /// Exact points in place of rounded ones.
+    Twins,
     Strokes,
     Clusters,
     Styles,
+}
+
+/// Sets points of a buffer from one on.
+fn set_points<T: bytemuck::NoUninit>(
+    patch: &mut Patch,
+    first_point: u32,
+    points: impl Iterator<Item = T>,
+) {
+    let words = size_of::<T>() / size_of::<u32>();
+    for (point, index) in points.zip(first_point as usize..) {
+        patch.set(index * words, &point);
+    }
 }
 
 /// Gives the strokes of a path new points where the old ones are, unless they do not fit there.
@@ -296,7 +309,7 @@ fn set_in_place(
         }
     }
     let scratch = std::mem::take(&mut changes.scratch);
-    let mut points = scratch.iter();
+    let mut rest = scratch.as_slice();
     for (part, &stroke) in parts.iter().zip(strokes) {
         let at = cluster_of(store, stroke);
         let index = at as u32;
@@ -308,11 +321,21 @@ fn set_in_place(
             *old = new;
             changes.strokes.push(stroke);
         }
-        let first = (cluster.first_point + new.first_point()) as usize;
-        let patch = changes.points.entry(chunk).or_default();
-        for (p, place) in points.by_ref().take(new.points() as usize).zip(first..) {
-            cluster.hold(*p);
-            patch.set(place * POINT_WORDS, p);
+        let (points, behind) = rest.split_at(new.points() as usize);
+        rest = behind;
+        points.iter().for_each(|p| cluster.hold(*p));
+        let first_point = cluster.first_point + new.first_point();
+        let patch = changes.points.entry(Target::Points(chunk)).or_default();
+        match cluster.held() {
+            Points::Rounded => {
+                let rounded = points.iter().map(|p| cluster.rounded(*p));
+                set_points(patch, first_point, rounded);
+            }
+            Points::Exact => set_points(patch, first_point, points.iter().copied()),
+        }
+        if let Some(place) = store.twins.as_ref().and_then(|twins| twins.place(index)) {
+            let patch = changes.points.entry(Target::Twins).or_default();
+            set_points(patch, place + new.first_point(), points.iter().copied());
         }
         changes.add_cluster(at);
     }

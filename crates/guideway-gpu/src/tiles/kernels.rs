@@ -10,7 +10,8 @@ use crate::device::{Gpu, Kernel};
 #[derive(Clone)]
 pub(super) struct Kernels {
     pub(super) cull: Kernel,
-    pub(super) flatten: Kernel,
+    /// By [`super::params::Points`].
+    pub(super) flatten: [Kernel; 2],
     pub(super) starts: Kernel,
     pub(super) scatter: Kernel,
     /// Of short lists, and of all others.
@@ -35,10 +36,10 @@ impl Kernels {
     pub(super) fn new(gpu: &Gpu) -> Result<Self, String> {
         let tile = constant("TILE_PX", TILE_PX);
         let tile_threads = constant("THREADS", TILE_THREADS);
-        let [cull, flatten, starts, scatter] = stages(gpu, &[])?;
+        let [cull, rounded, exact, starts, scatter] = stages(gpu, &[])?;
         Ok(Self {
             cull,
-            flatten,
+            flatten: [rounded, exact],
             starts,
             scatter,
             sort: [
@@ -58,7 +59,9 @@ impl Kernels {
     pub(super) fn counting(&self, gpu: &Gpu) -> Result<Self, String> {
         let counts = [("COUNTS", 1.0)];
         let mut all = self.clone();
-        [all.cull, all.flatten, all.starts, all.scatter] = stages(gpu, &counts)?;
+        let [cull, rounded, exact, starts, scatter] = stages(gpu, &counts)?;
+        (all.cull, all.starts, all.scatter) = (cull, starts, scatter);
+        all.flatten = [rounded, exact];
         for samples in [Samples::Coarse, Samples::Fine] {
             all.painters[samples as usize].cover = cover(gpu, samples, &counts)?;
         }
@@ -97,15 +100,16 @@ const PAINTED: [Constant; 4] = [
     constant("COLUMNS", COLUMNS),
 ];
 
-/// From clusters to lists: cull, flatten, starts, scatter; with more constants.
-fn stages(gpu: &Gpu, more: &[Constant]) -> Result<[Kernel; 4], String> {
+/// From clusters to lists: cull, flatten rounded points and exact ones, starts, scatter; with more constants.
+fn stages(gpu: &Gpu, more: &[Constant]) -> Result<[Kernel; 5], String> {
     let kernel = |source, name, value| {
         let own = [constant("TILE_PX", TILE_PX), constant(name, value)];
         Kernel::new(gpu, source, &[&own, more].concat())
     };
     Ok([
         kernel(&CULL, "WORKGROUP", WORKGROUP)?,
-        kernel(&FLATTEN, "STROKES", CLUSTER_STROKES)?,
+        kernel(&FLATTEN[0], "STROKES", CLUSTER_STROKES)?,
+        kernel(&FLATTEN[1], "STROKES", CLUSTER_STROKES)?,
         kernel(&STARTS, "THREADS", STARTS_THREADS)?,
         kernel(&SCATTER, "THREADS", SCATTER_THREADS)?,
     ])

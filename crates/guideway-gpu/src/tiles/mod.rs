@@ -1,15 +1,16 @@
 //! Every frame from the control points: curves become lines by an error bound, lines are listed by the tiles
 //! that they touch, and each tile finds which of its samples are covered. docs/method-gpu.md has the whole.
 //!
-//! The folder in the order of the data: `pack` makes of the scene what the device reads, `store` holds it there,
-//! `places` knows where and `edit` changes it; `shot` is a view, `window` a part of its picture, `room` holds the lines
-//! that a frame finds, `canvas` its tiles and pixels, `bound` the work between them; `draw` does it, in `rounds` where
-//! that saves work, `kept` is what it need not draw again; `prepared` answers for all of it, `ask` says what is where,
-//! and `work` what a frame takes.
+//! The folder in the order of the data: `pack` makes of the scene what the device reads, `store` holds it there, its
+//! points in `chunk`s, `places` knows where and `edit` changes it; `shot` is a view, `window` a part of its picture,
+//! `twins` are the exact points of what it comes near to, `room` holds the lines that a frame finds, `canvas` its tiles
+//! and pixels, `bound` the work between them; `draw` does it, in `rounds` where that saves work, `kept` is what it need
+//! not draw again; `prepared` answers for all of it, `ask` says what is where, and `work` what a frame takes.
 
 mod ask;
 mod bound;
 mod canvas;
+mod chunk;
 mod draw;
 mod edit;
 mod kept;
@@ -23,6 +24,7 @@ mod room;
 mod rounds;
 mod shot;
 mod store;
+mod twins;
 mod window;
 mod work;
 

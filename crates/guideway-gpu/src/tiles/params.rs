@@ -62,6 +62,8 @@ pub(super) struct FrameParams {
     pub(super) reference_room: u32,
     pub(super) color: u32,
     pub(super) background: u32,
+    pub(super) most_step_m: f32,
+    pub(super) padding: u32,
 }
 
 /// `Chunk` of `flatten.wgsl`.
@@ -71,7 +73,7 @@ pub(super) struct ChunkParams {
     pub(super) first_cluster: u32,
     pub(super) end_cluster: u32,
     pub(super) round: u32,
-    pub(super) padding: u32,
+    pub(super) is_near: u32,
 }
 
 /// `Shift` of `shift.wgsl`.
@@ -93,11 +95,30 @@ pub(super) struct Cluster {
     pub(super) low_m: [f32; 2],
     pub(super) high_m: [f32; 2],
     pub(super) widest_m: f32,
+    pub(super) step_m: f32,
     pub(super) first_point: u32,
     pub(super) points: u32,
     pub(super) first_stroke: u32,
     pub(super) strokes: u32,
-    pub(super) padding: u32,
+}
+
+/// How control points are held.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Points {
+    /// In steps of their cluster, two numbers of 16 bits in a word.
+    Rounded = 0,
+    /// Two floats.
+    Exact = 1,
+}
+
+impl Points {
+    /// Of one point.
+    pub(super) fn words(self) -> usize {
+        match self {
+            Self::Rounded => 1,
+            Self::Exact => 2,
+        }
+    }
 }
 
 /// `Stroke` of `stroke.wgsl`.
@@ -111,6 +132,10 @@ pub(super) struct Stroke {
 impl Stroke {
     pub(super) fn first_point(self) -> u32 {
         self.extent & 0xffff
+    }
+
+    pub(super) fn is_drawn(self) -> bool {
+        (self.extent & !WHOLE_PATH) >> SEGMENTS_BIT > 0
     }
 
     /// Whether it is all of a path that is drawn.
@@ -136,13 +161,15 @@ pub(super) struct PathStyle {
 #[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
 #[repr(C)]
 pub(super) struct Found {
-    pub(super) clusters: u32,
+    pub(super) rounded: u32,
+    pub(super) exact: u32,
     pub(super) lines: u32,
     pub(super) references: u32,
     pub(super) drawn: u32,
     pub(super) longest: u32,
     pub(super) full_tiles: u32,
     pub(super) rounds: u32,
+    pub(super) missing: u32,
     /// Of shaders that count: tests, atomics, words read and written, the low half of each first.
     pub(super) work: [u32; 8],
 }
@@ -185,25 +212,32 @@ pub(super) const CULL: Source = Source {
     bindings: &["frame", "clusters", "found"],
 };
 
-pub(super) const FLATTEN: Source = Source {
-    name: "flatten",
-    wgsl: wgsl!(
-        "frame", "work", "found", "view", "cluster", "stroke", "style", "curve", "plan", "clip",
-        "walk", "hidden", "flatten"
-    ),
-    bindings: &[
-        "frame",
-        "chunk",
-        "points_m",
-        "strokes",
-        "clusters",
-        "styles",
-        "found",
-        "lines_px",
-        "line_ranks",
-        "counts",
-    ],
-};
+macro_rules! flatten {
+    ($points:literal) => {
+        Source {
+            name: "flatten",
+            wgsl: wgsl!(
+                "frame", "work", "found", "view", "cluster", "stroke", "style", $points, "curve",
+                "plan", "clip", "walk", "hidden", "flatten"
+            ),
+            bindings: &[
+                "frame",
+                "chunk",
+                "points",
+                "strokes",
+                "clusters",
+                "styles",
+                "found",
+                "lines_px",
+                "line_ranks",
+                "counts",
+            ],
+        }
+    };
+}
+
+/// By [`Points`].
+pub(super) const FLATTEN: [Source; 2] = [flatten!("rounded"), flatten!("exact")];
 
 pub(super) const STARTS: Source = Source {
     name: "starts",

@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use super::pack::moves_m;
 use super::store::Store;
 
 const NO_STROKE: u32 = u32::MAX;
@@ -73,11 +74,11 @@ impl Places {
         }
     }
 
-    /// Whether a cluster's points may go there: farther away would make its box too large to be of use.
+    /// Whether a cluster's points may go there.
     pub(super) fn is_home(&self, cluster: usize, [x, y]: [f32; 2]) -> bool {
         let [low, high] = self.homes[cluster];
         let near = |v: f32, axis: usize| {
-            let room = (high[axis] - low[axis]).max(1.0);
+            let room = moves_m(f64::from(high[axis] - low[axis])) as f32;
             v >= low[axis] - room && v <= high[axis] + room
         };
         near(x, 0) && near(y, 1)

@@ -11,7 +11,7 @@ use guideway_scene::{Edit, Scene};
 use super::bound::Paint;
 use super::draw::{Drawing, Easel};
 use super::kernels::Kernels;
-use super::pack::Packed;
+use super::pack::{Packed, Packing};
 use super::params::{Found, Stroke};
 use super::places::Places;
 use super::ranks::Ranks;
@@ -35,6 +35,7 @@ pub(super) struct PreparedTiles {
     pub(super) store: Option<Store>,
     pub(super) found_fetched: DeviceBuffer,
     pub(super) facts: Facts,
+    pub(super) packing: Packing,
     /// Paths of several strokes, which the device does not count.
     pub(super) parted: BTreeSet<u32>,
     /// Where paths are; found out when one changes.
@@ -57,6 +58,8 @@ pub(super) struct Facts {
     pub(super) styles: u32,
     /// Greatest distance of a control point from its cluster's origin, along an axis.
     pub(super) reach_m: f64,
+    /// The largest steps that points of a cluster are rounded to.
+    pub(super) greatest_step_m: f32,
     pub(super) has_widths: bool,
     /// One colour, and no widths.
     pub(super) is_plain: bool,
@@ -70,6 +73,7 @@ impl Facts {
             clusters: 0,
             styles: 0,
             reach_m: 0.0,
+            greatest_step_m: 0.0,
             has_widths: drawn.into_iter().any(|&path| scene.width_m(path).is_some()),
             is_plain: is_plain(scene),
             paint: Paint::of(scene),
@@ -100,6 +104,7 @@ impl PreparedTiles {
         let found_fetched = memory.zeros("the counters", found_bytes, FETCHED)?;
         let mut prepared = Self {
             facts: Facts::of(&scene),
+            packing: Packing::of(&scene),
             parted: BTreeSet::new(),
             places: None,
             patcher: None,
@@ -116,13 +121,14 @@ impl PreparedTiles {
             marks: None,
             is_torn: false,
         };
-        prepared.bring()?;
+        prepared.bring(prepared.packing)?;
         Ok(prepared)
     }
 
     /// Brings the scene to the device, in place of what is there.
-    pub(super) fn bring(&mut self) -> Result<(), RenderError> {
+    pub(super) fn bring(&mut self, packing: Packing) -> Result<(), RenderError> {
         (self.store, self.places) = (None, None);
+        self.packing = packing;
         self.is_torn = true;
         self.unbind();
         self.facts = Facts::of(&self.scene);
@@ -134,9 +140,12 @@ impl PreparedTiles {
             .filter(|p| !p.is_whole)
             .map(|p| p.path)
             .collect();
-        let packed = Packed::of(&self.scene, parts);
-        let reach_m = packed.clusters.iter().map(|c| f64::from(c.reach_m()));
-        self.facts.reach_m = reach_m.fold(0.0, f64::max);
+        let packed = Packed::of(&self.scene, parts, packing);
+        let facts = &mut self.facts;
+        for cluster in &packed.clusters {
+            facts.reach_m = facts.reach_m.max(f64::from(cluster.reach_m()));
+            facts.greatest_step_m = facts.greatest_step_m.max(cluster.step_m);
+        }
         let packed_ms = elapsed_ms(start);
         let start = Instant::now();
         let gpu = &self.shared.gpu;
@@ -161,12 +170,16 @@ impl PreparedTiles {
 
     /// Makes good a change that did not come to its end. Nothing is drawn before.
     pub(super) fn mend(&mut self) -> Result<(), RenderError> {
-        if self.is_torn { self.bring() } else { Ok(()) }
+        if self.is_torn {
+            self.bring(Packing::of(&self.scene))
+        } else {
+            Ok(())
+        }
     }
 
     /// Tells the device which clusters each chunk has.
     pub(super) fn set_chunks(&self) -> Result<(), RenderError> {
-        for chunk in self.store.iter().flat_map(|store| &store.chunks) {
+        for chunk in self.store.iter().flat_map(Store::all_chunks) {
             for (params, round) in chunk.params.iter().zip(0..) {
                 let set = self
                     .runner
@@ -184,6 +197,7 @@ impl PreparedTiles {
             clusters: self.facts.clusters,
             styles: self.facts.styles,
             reach_m: self.facts.reach_m,
+            greatest_step_m: self.facts.greatest_step_m,
             ..facts
         };
     }

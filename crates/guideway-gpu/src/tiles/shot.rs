@@ -16,8 +16,10 @@ use super::window::Window;
 const TOLERANCE_PX: f32 = 1.0 / 32.0;
 /// Half the width of the thinnest stroke that few samples do for, in pixels.
 const COARSE_RADIUS_PX: f64 = 0.25;
-/// Farthest that rounding may move a line, in pixels.
+/// Farthest that single precision may move a line, in pixels.
 const MOST_ROUNDING_PX: f64 = 0.1;
+/// Farthest that steps may move a control point, in pixels along an axis.
+const MOST_STEP_OFF_PX: f64 = 1.0 / 128.0;
 
 /// A view of a scene.
 pub(super) struct Shot<'a> {
@@ -56,6 +58,16 @@ impl<'a> Shot<'a> {
             scene,
             facts,
         })
+    }
+
+    /// The largest steps of points that are not too coarse for it: what is rounded is off by half of one.
+    pub(super) fn most_step_m(&self) -> f32 {
+        (2.0 * MOST_STEP_OFF_PX / self.view.px_per_m()).min(f64::from(f32::MAX)) as f32
+    }
+
+    /// Whether points of some clusters are too coarse for it.
+    pub(super) fn is_near(&self) -> bool {
+        self.facts.greatest_step_m > self.most_step_m()
     }
 
     fn radius_px(&self, width_m: Option<f32>) -> f64 {
@@ -133,6 +145,8 @@ impl<'a> Shot<'a> {
             reference_room: room.size.references,
             color,
             background: device_color(self.style.background),
+            most_step_m: self.most_step_m(),
+            padding: 0,
         }
     }
 }

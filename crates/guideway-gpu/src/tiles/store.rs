@@ -1,28 +1,26 @@
 //! The scene on the device, in as many pieces as it takes, with what the processor must know to change it.
 
-use std::ops::Range;
-
 use guideway_render::RenderError;
 use guideway_scene::{Rgba, Scene};
 use guideway_spline::Bounds;
 use wgpu::BufferUsages;
 
 use super::NAME;
+use super::chunk::{Chunk, Drawn, bytes_of, ranges};
 use super::pack::{Packed, Part, device_color, style};
-use super::params::{ChunkParams, Cluster, Found, PathStyle, Stroke};
+use super::params::{Cluster, Found, PathStyle, Points, Stroke};
 use super::ranks::Ranks;
+use super::twins::Twins;
 use crate::device::{DeviceBuffer, Gpu, Memory};
 
-const POINT_BYTES: u64 = size_of::<[f32; 2]>() as u64;
 /// Fewest points that a chunk made for changes has room for.
 const LEAST_LOOSE_POINTS: u32 = 1 << 14;
-
-/// All clusters at once; and those of a first round, and the others after it.
-const ROUNDS: usize = 3;
 
 /// The scene's buffers, and copies of those that are small.
 pub(super) struct Store {
     pub(super) chunks: Vec<Chunk>,
+    /// Once a view has come near.
+    pub(super) twins: Option<Twins>,
     pub(super) strokes: DeviceBuffer,
     pub(super) clusters: DeviceBuffer,
     pub(super) styles: DeviceBuffer,
@@ -32,31 +30,6 @@ pub(super) struct Store {
     pub(super) cluster_list: Vec<Cluster>,
     pub(super) style_count: u32,
     pub(super) ranks: Ranks,
-}
-
-/// Control points that a shader sees at once.
-pub(super) struct Chunk {
-    /// For each of [`ROUNDS`].
-    pub(super) params: [DeviceBuffer; ROUNDS],
-    pub(super) points_m: DeviceBuffer,
-    /// Whose points they are.
-    pub(super) clusters: Range<u32>,
-    used_points: u32,
-}
-
-impl Chunk {
-    fn spare_points(&self) -> u32 {
-        (self.points_m.bytes() / POINT_BYTES) as u32 - self.used_points
-    }
-
-    pub(super) fn params_of(&self, round: u32) -> ChunkParams {
-        ChunkParams {
-            first_cluster: self.clusters.start,
-            end_cluster: self.clusters.end,
-            round,
-            padding: 0,
-        }
-    }
 }
 
 impl Store {
@@ -76,24 +49,29 @@ impl Store {
         check_seen_at_once(gpu, "the strokes", strokes_bytes)?;
         check_seen_at_once(gpu, "the styles", size_of_val(style_list.as_slice()) as u64)?;
         let mut chunks = Vec::new();
-        let most_points = u32::try_from(gpu.binding_bytes() / POINT_BYTES).unwrap_or(u32::MAX);
-        for clusters in chunks_of(&packed.clusters, most_points) {
+        for clusters in ranges(&packed.clusters, gpu.binding_bytes()) {
             let own = &mut packed.clusters[clusters.start as usize..clusters.end as usize];
             let first = own[0].first_point;
             let end = own[own.len() - 1].first_point + own[own.len() - 1].points;
             own.iter_mut()
                 .for_each(|cluster| cluster.first_point -= first);
-            let points = &packed.points_m[first as usize..end as usize];
-            chunks.push(Chunk {
-                params: chunk_params(memory)?,
-                points_m: memory.upload("the control points", points)?,
-                clusters,
-                used_points: end - first,
-            });
+            let held = own[0].held();
+            let drawn = Drawn::Far {
+                least_step_m: own.iter().map(|c| c.step_m).fold(f32::MAX, f32::min),
+            };
+            let (what, points) = ("the control points", first as usize..end as usize);
+            let points = match held {
+                Points::Rounded => memory.upload(what, &packed.rounded[points])?,
+                Points::Exact => memory.upload(what, &packed.exact_m[points])?,
+            };
+            let mut chunk = Chunk::new(memory, points, held, clusters, drawn)?;
+            chunk.used_points = end - first;
+            chunks.push(chunk);
         }
-        drop(packed.points_m);
+        drop((packed.rounded, packed.exact_m));
         Ok(Some(Self {
             chunks,
+            twins: None,
             strokes: memory.upload("the strokes", &packed.strokes)?,
             clusters: memory.upload("the clusters", &packed.clusters)?,
             styles: memory.upload("the styles", &style_list)?,
@@ -120,35 +98,28 @@ impl Store {
         Ok(bytes)
     }
 
-    /// Adds clusters behind all others, and returns the chunk that has room for their points.
+    /// Adds clusters of exact points behind all others, and returns the chunk that has room for them.
     pub(super) fn add(
         &mut self,
         gpu: &Gpu,
         memory: &mut Memory,
         packed: &Packed,
     ) -> Result<usize, RenderError> {
-        let points = packed.points_m.len() as u32;
-        let has_room = self
-            .chunks
-            .last()
-            .is_some_and(|c| c.spare_points() >= points);
-        if !has_room {
-            let room = u64::from(points.saturating_mul(2).max(LEAST_LOOSE_POINTS));
-            let room = room
-                .min(gpu.binding_bytes() / POINT_BYTES)
-                .max(u64::from(points));
-            check_seen_at_once(gpu, "changed control points", room * POINT_BYTES)?;
+        let points = packed.exact_m.len() as u32;
+        let has_room = |c: &Chunk| c.held == Points::Exact && c.spare_points() >= points;
+        if !self.chunks.last().is_some_and(has_room) {
+            let held = Points::Exact;
+            let room = points.saturating_mul(2).max(LEAST_LOOSE_POINTS);
+            let bytes = bytes_of(held, room)
+                .min(gpu.binding_bytes())
+                .max(bytes_of(held, points));
+            let what = "changed control points";
+            check_seen_at_once(gpu, what, bytes)?;
             let end = self.cluster_list.len() as u32;
-            self.chunks.push(Chunk {
-                params: chunk_params(memory)?,
-                points_m: memory.zeros(
-                    "changed control points",
-                    room * POINT_BYTES,
-                    BufferUsages::STORAGE,
-                )?,
-                clusters: end..end,
-                used_points: 0,
-            });
+            let buffer = memory.zeros(what, bytes, BufferUsages::STORAGE)?;
+            let drawn = Drawn::Far { least_step_m: 0.0 };
+            self.chunks
+                .push(Chunk::new(memory, buffer, held, end..end, drawn)?);
         }
         let at = self.chunks.len() - 1;
         let chunk = &mut self.chunks[at];
@@ -163,6 +134,12 @@ impl Store {
         chunk.used_points += points;
         chunk.clusters.end = self.cluster_list.len() as u32;
         Ok(at)
+    }
+
+    /// All chunks, that of exact points in place of rounded ones last.
+    pub(super) fn all_chunks(&self) -> impl Iterator<Item = &Chunk> {
+        let twins = self.twins.iter().map(|twins| &twins.chunk);
+        self.chunks.iter().chain(twins)
     }
 
     /// Paths of one stroke in clusters that may be seen, by their box and greatest width.
@@ -247,29 +224,6 @@ fn style_list(scene: &Scene, ranks: &Ranks) -> Vec<PathStyle> {
         .collect()
 }
 
-/// Cuts clusters where their points are too many for one buffer.
-fn chunks_of(clusters: &[Cluster], most_points: u32) -> Vec<Range<u32>> {
-    let mut chunks: Vec<Range<u32>> = Vec::new();
-    let mut points = 0;
-    for (cluster, index) in clusters.iter().zip(0..) {
-        match chunks.last_mut() {
-            Some(last) if points + cluster.points <= most_points => last.end = index + 1,
-            _ => {
-                chunks.push(index..index + 1);
-                points = 0;
-            }
-        }
-        points += cluster.points;
-    }
-    chunks
-}
-
-fn chunk_params(memory: &mut Memory) -> Result<[DeviceBuffer; ROUNDS], RenderError> {
-    let usage = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
-    let mut one = || memory.zeros("the clusters", size_of::<ChunkParams>() as u64, usage);
-    Ok([one()?, one()?, one()?])
-}
-
 fn found(memory: &mut Memory, clusters: usize) -> Result<DeviceBuffer, RenderError> {
     let bytes = size_of::<Found>() + clusters.max(1) * size_of::<u32>();
     let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC | BufferUsages::COPY_DST;
@@ -288,20 +242,4 @@ fn check_seen_at_once(gpu: &Gpu, what: &str, bytes: u64) -> Result<(), RenderErr
         ),
         remedy: "Draw fewer paths, or use `--method cpu`.".to_owned(),
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn clusters_are_cut_where_a_buffer_is_full() {
-        let of_points = |points| Cluster {
-            points,
-            ..bytemuck::Zeroable::zeroed()
-        };
-        let clusters = [5, 5, 6, 9, 1, 10].map(of_points);
-        assert_eq!(chunks_of(&clusters, 10), [0..2, 2..3, 3..5, 5..6]);
-        assert_eq!(chunks_of(&[], 10), []);
-    }
 }

@@ -16,6 +16,7 @@ use super::*;
 use crate::GpuOptions;
 use crate::testing::here;
 
+mod twins;
 mod work;
 
 /// The method of all tests here, for its shaders take long to compile; none where there is no device.

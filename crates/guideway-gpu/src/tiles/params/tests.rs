@@ -4,8 +4,21 @@ use super::*;
 use crate::reflection::{assert_binds_what_it_is_given, assert_laid_out, members};
 
 const SHADERS: &[&Source] = &[
-    &CULL, &FLATTEN, &SHIFT, &TOUCH, &IDS[0], &IDS[1], &STARTS, &SCATTER, &SORT[0], &SORT[1],
-    &COVER[0], &COVER[1], &LAYERS[0], &LAYERS[1],
+    &CULL,
+    &FLATTEN[0],
+    &FLATTEN[1],
+    &SHIFT,
+    &TOUCH,
+    &IDS[0],
+    &IDS[1],
+    &STARTS,
+    &SCATTER,
+    &SORT[0],
+    &SORT[1],
+    &COVER[0],
+    &COVER[1],
+    &LAYERS[0],
+    &LAYERS[1],
 ];
 
 #[test]
@@ -19,22 +32,21 @@ fn every_shader_binds_what_it_is_given() {
 fn structures_are_laid_out_alike() {
     let frame = members!(FrameParams: center_high_m, center_low_m, half_size_px, px_per_m, radius_px,
         least_radius_px, most_radius_px, tolerance_px, clusters, styles, width_px, height_px, first_column,
-        columns, first_row, rows, pixels_row, line_room, reference_room, color, background);
+        columns, first_row, rows, pixels_row, line_room, reference_room, color, background, most_step_m);
     assert_laid_out(SHADERS, "Frame", &frame);
     assert_laid_out(
         SHADERS,
         "Chunk",
-        &members!(ChunkParams: first_cluster, end_cluster, round),
+        &members!(ChunkParams: first_cluster, end_cluster, round, is_near),
     );
-    let cluster = members!(Cluster: origin_high_m, origin_low_m, low_m, high_m, widest_m, first_point, points,
-        first_stroke, strokes);
+    let cluster = members!(Cluster: origin_high_m, origin_low_m, low_m, high_m, widest_m, step_m, first_point,
+        points, first_stroke, strokes);
     assert_laid_out(SHADERS, "Cluster", &cluster);
     let shift = members!(ShiftParams: width_px, height_px, right_px, down_px);
     assert_laid_out(SHADERS, "Shift", &shift);
     assert_laid_out(SHADERS, "Stroke", &members!(Stroke: extent, rank));
     assert_laid_out(SHADERS, "Style", &members!(PathStyle: color, width_m));
-    let found =
-        members!(Found: clusters, lines, references, drawn, longest, full_tiles, rounds, work);
+    let found = members!(Found: rounded, exact, lines, references, drawn, longest, full_tiles, rounds, missing, work);
     assert_laid_out(SHADERS, "Counters", &found);
     assert_laid_out(SHADERS, "CountersBefore", &found);
 }

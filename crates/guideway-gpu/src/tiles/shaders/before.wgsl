@@ -1,12 +1,14 @@
 // What the stages before have found.
 
 struct CountersBefore {
-    clusters: u32,
+    rounded: u32,
+    exact: u32,
     lines: u32,
     references: u32,
     drawn: u32,
     longest: u32,
     full_tiles: u32,
     rounds: u32,
+    missing: u32,
     work: array<u32, 8>,
 }

@@ -9,12 +9,13 @@ struct Cluster {
     high_m: vec2f,
     // The greatest width of its strokes; below zero if none has one of its own.
     widest_m: f32,
+    // What its points are multiples of; zero if they are exact.
+    step_m: f32,
     // Its control points, in their buffer, and its strokes.
     first_point: u32,
     points: u32,
     first_stroke: u32,
     strokes: u32,
-    padding: u32,
 }
 
 const CLUSTER_WORDS: u32 = 14u;

@@ -1,4 +1,4 @@
-// One thread a cluster: lists those that may be seen.
+// One thread a cluster: lists those that may be seen, by the points that they are drawn from.
 
 override WORKGROUP: u32;
 
@@ -20,7 +20,11 @@ fn main(
     let box = box_px(cluster);
     let reach_px = widest_px(cluster) + 1.0;
     if is_seen(box.xy, box.zw, reach_px) {
-        found.seen[atomicAdd(&found.counters.clusters, 1u)] = index;
+        if cluster.step_m > 0.0 && cluster.step_m <= frame.most_step_m {
+            found.seen[atomicAdd(&found.counters.rounded, 1u)] = index;
+        } else {
+            found.seen[frame.clusters - 1u - atomicAdd(&found.counters.exact, 1u)] = index;
+        }
         atomics(1u);
         writes(1u);
     }

@@ -1,20 +1,5 @@
 // Points of a stroke's curve, in pixels, and lines that are near enough to it.
 
-@group(0) @binding(2) var<storage, read> points_m: array<vec2f>;
-
-// The stroke that a thread works on: where its control points begin, and from the middle of the view to the origin that
-// they count from.
-struct Curve {
-    first_point: u32,
-    offset_m: vec2f,
-}
-
-// Read anew each time: caches hold them, and a workgroup that shared them would leave room for few others.
-fn control_px(curve: Curve, index: u32) -> vec2f {
-    reads(2u);
-    return pixel_from_view(points_m[curve.first_point + index] + curve.offset_m);
-}
-
 // Where a segment begins: the thesis' equation 3.2 at t = 0.
 fn vertex_px(curve: Curve, segment: u32) -> vec2f {
     let a = control_px(curve, segment);

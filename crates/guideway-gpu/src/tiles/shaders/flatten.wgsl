@@ -9,7 +9,8 @@ struct Chunk {
     end_cluster: u32,
     // 0: all of them. 1: some, so that tiles may become full. 2: the others, where tiles are not full.
     round: u32,
-    padding: u32,
+    // 1: those seen from so near that exact points take the place of rounded ones. 0: the others.
+    is_near: u32,
 }
 
 // Every so many clusters are of the first round.
@@ -81,7 +82,8 @@ fn emit(slot: u32, rank: u32, a: vec2f, b: vec2f, radius: f32) {
 }
 
 // Turns the strokes of the workgroup into lines, a thread a line.
-fn emit_all(thread: u32, offset_m: vec2f, first_slot: u32) {
+fn emit_all(thread: u32, any: Curve, first_slot: u32) {
+    var curve = any;
     let all = line_ends[STROKES - 1u];
     for (var line = thread; line < all; line += STROKES) {
         // The first stroke that ends behind it.
@@ -90,7 +92,7 @@ fn emit_all(thread: u32, offset_m: vec2f, first_slot: u32) {
             stroke += select(0u, half, line_ends[stroke + half - 1u] <= line);
         }
         let it = planned[stroke];
-        let curve = Curve(it.first_point, offset_m);
+        curve.first_point = it.first_point;
         let part = part_of(curve, it.plan, it.plan.lines + line - line_ends[stroke]);
         let a = joint_px(curve, part, part.step);
         let b = joint_px(curve, part, part.step + 1u);
@@ -128,15 +130,25 @@ fn main(
     @builtin(local_invocation_index) thread: u32,
 ) {
     if thread == 0u {
-        clusters_seen = atomicLoad(&found.counters.clusters);
+        clusters_seen = clusters_of_kind();
     }
     let all = workgroupUniformLoad(&clusters_seen);
     for (var i = workgroup_index(id, count); i < all; i += count.x * count.y) {
-        let index = found.seen[i];
+        let index = cluster_of_kind(i);
         let cluster = clusters[index];
         reads(1u + CLUSTER_WORDS);
         let is_of_round = chunk.round == 0u || (index % STRIDE == 0u) == (chunk.round == 1u);
-        let is_here = index >= chunk.first_cluster && index < chunk.end_cluster && is_of_round;
+        let is_near = cluster.step_m > frame.most_step_m;
+        var is_here = index >= chunk.first_cluster && index < chunk.end_cluster && is_of_round
+            && is_near == (chunk.is_near != 0u);
+        var first_point = 0u;
+        if is_here {
+            first_point = first_point_of_cluster(cluster, index);
+            is_here = !is_near || first_point != 0u;
+            if !is_here && thread == 0u {
+                atomicAdd(&found.counters.missing, 1u);
+            }
+        }
         var stroke = Stroke(0u, 0u);
         if is_here {
             if thread < cluster.strokes {
@@ -149,7 +161,7 @@ fn main(
             atomicStore(&group_drawn, 0u);
         }
         workgroupBarrier();
-        let curve = Curve(cluster.first_point + first_point_of(stroke), offset_m(cluster));
+        let curve = curve_of(cluster, first_point + first_point_of(stroke));
         var plan = Plan(0u, 0u, 0u);
         if is_here && thread < cluster.strokes {
             let segments = segments_of(stroke);
@@ -177,7 +189,7 @@ fn main(
             atomicAdd(&found.counters.drawn, atomicLoad(&group_drawn));
             atomics(2u);
         }
-        emit_all(thread, curve.offset_m, workgroupUniformLoad(&first_line));
+        emit_all(thread, curve, workgroupUniformLoad(&first_line));
         workgroupBarrier();
     }
     report_work();

@@ -1,7 +1,9 @@
 // What the stages of a frame find; more lines and references than there is room for are counted, too.
 
 struct Counters {
-    clusters: atomic<u32>,
+    // Clusters that may be seen: those drawn from rounded points, and from exact ones.
+    rounded: atomic<u32>,
+    exact: atomic<u32>,
     lines: atomic<u32>,
     references: atomic<u32>,
     drawn: atomic<u32>,
@@ -11,13 +13,15 @@ struct Counters {
     full_tiles: atomic<u32>,
     // Times that a thread of a tile with layers has gone round its loops, at most.
     rounds: atomic<u32>,
+    // Clusters that are seen from near and whose exact points are not there.
+    missing: atomic<u32>,
     // Each of `Work` in two words, the low one first.
     work: array<atomic<u32>, 8>,
 }
 
 struct Found {
     counters: Counters,
-    // Clusters that may be seen.
+    // The ones from the front, the others from the back.
     seen: array<u32>,
 }
 

@@ -34,6 +34,8 @@ struct Frame {
     // Colours as in the picture's bytes, red first.
     color: u32,
     background: u32,
+    // Points in larger steps would be off too far: their clusters are drawn from exact points.
+    most_step_m: f32,
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;
