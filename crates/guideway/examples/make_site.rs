@@ -1,9 +1,12 @@
 //! Writes `site.lif.json`, the example site: `cargo run --example make_site > crates/guideway/examples/site.lif.json`.
+//! With two numbers it writes as many of its halls side by side, and rows of them.
 //!
 //! A distribution hall of our own design: two ring lanes in opposite directions, high-bay aisles, docks,
 //! chargers, parking, a production loop, and a mezzanine as a second layout.
 
 use std::fmt::Write as _;
+use std::io::{self, Write};
+use std::process::ExitCode;
 
 use serde_json::{Value, json};
 
@@ -389,12 +392,89 @@ fn lines(file: &Value) -> String {
     text + "\n]\n}"
 }
 
-fn main() {
-    print!("{}", site());
+fn main() -> ExitCode {
+    let args: Vec<String> = std::env::args().skip(1).collect();
+    let numbers: Option<Vec<u32>> = args.iter().map(|arg| arg.parse().ok()).collect();
+    let site = match numbers.as_deref() {
+        Some([]) => site(),
+        Some(&[columns, rows]) if columns > 0 && rows > 0 => campus(columns, rows),
+        _ => {
+            eprintln!(
+                "write nothing, or how many halls lie side by side and how many one above the other, such as `20 16`"
+            );
+            return ExitCode::from(2);
+        }
+    };
+    match io::stdout().write_all(site.as_bytes()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(problem) => {
+            eprintln!("the site cannot be written: {problem}");
+            ExitCode::FAILURE
+        }
+    }
 }
 
 /// The whole file.
 pub(crate) fn site() -> String {
+    file(&layouts())
+}
+
+/// Many such halls in rows, each with names of its own.
+pub(crate) fn campus(columns: u32, rows: u32) -> String {
+    /// From one hall to the next, in metres.
+    const STEP: Xy = (150.0, 95.0);
+    let hall = layouts();
+    let mut all = hall.clone();
+    for (layout, hall) in all.iter_mut().zip(&hall) {
+        for list in ["nodes", "edges", "stations"] {
+            let places = (0..rows).flat_map(|row| (0..columns).map(move |column| (column, row)));
+            let placed = places.flat_map(|(column, row)| {
+                let by = (STEP.0 * f64::from(column), STEP.1 * f64::from(row));
+                let items = hall[list].as_array().into_iter().flatten();
+                items.map(move |item| placed(item, &format!("{column}.{row} "), by))
+            });
+            layout[list] = placed.collect();
+        }
+    }
+    file(&all)
+}
+
+/// The same elsewhere, under other names.
+fn placed(value: &Value, prefix: &str, by: Xy) -> Value {
+    let named = |value: &Value| format!("{prefix}{}", value.as_str().unwrap_or_default()).into();
+    match value {
+        Value::Array(items) => items.iter().map(|item| placed(item, prefix, by)).collect(),
+        Value::Object(members) => {
+            let members = members.iter().map(|(name, value)| {
+                let value = match (name.as_str(), value) {
+                    ("x", Value::Number(x)) => json!(x.as_f64().unwrap_or_default() + by.0),
+                    ("y", Value::Number(y)) => json!(y.as_f64().unwrap_or_default() + by.1),
+                    ("interactionNodeIds", Value::Array(nodes)) => {
+                        nodes.iter().map(named).collect()
+                    }
+                    (
+                        "nodeId" | "startNodeId" | "endNodeId" | "edgeId" | "stationId"
+                        | "stationName",
+                        id,
+                    ) => named(id),
+                    (_, value) => placed(value, prefix, by),
+                };
+                (name.clone(), value)
+            });
+            Value::Object(members.collect())
+        }
+        other => other.clone(),
+    }
+}
+
+fn layouts() -> [Value; 2] {
+    [
+        layout("hall", "Hall", &hall()),
+        layout("mezzanine", "Mezzanine", &mezzanine()),
+    ]
+}
+
+fn file(layouts: &[Value]) -> String {
     let file = json!({
         "metaInformation": {
             "projectIdentification": "Guideway example site",
@@ -402,10 +482,7 @@ pub(crate) fn site() -> String {
             "exportTimestamp": "2025-06-01T08:00:00Z",
             "lifVersion": "1.0.0",
         },
-        "layouts": [
-            layout("hall", "Hall", &hall()),
-            layout("mezzanine", "Mezzanine", &mezzanine()),
-        ],
+        "layouts": layouts,
     });
     lines(&file) + "\n"
 }
