@@ -25,6 +25,11 @@ pub struct Text {
     pub paper: Rgba,
 }
 
+impl Text {
+    /// Width of a letter of common fonts of one width, for its height.
+    pub const CHAR_SHARE: f64 = 0.6;
+}
+
 impl Sheet {
     /// Adds a polygon on top of all of other colours, unless the one on top has its colour.
     pub fn add(&mut self, color: Rgba, corners: &[Point<f64>]) {

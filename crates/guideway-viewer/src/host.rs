@@ -16,8 +16,14 @@ pub trait Host: Send + Sync {
     /// When the file cannot be read, or the job was cancelled.
     fn open(&self, path: &Path, job: &Job) -> Result<Layout, Trouble>;
 
-    /// Writes a layout file, whole or not at all, in the format that its name says. Returns what the format
-    /// cannot hold, a sentence each.
+    /// Whether a layout may be saved in place of the file that it was read from.
+    ///
+    /// # Errors
+    /// When its format cannot be written, or the file may hold more than a layout has of it, as drawings do.
+    fn check_in_place(&self, layout: &Layout, file: &Path) -> Result<(), Trouble>;
+
+    /// Writes a layout file, whole or not at all, in the format that its name says, or else the one that it was read
+    /// from. Returns what the format cannot hold, a sentence each.
     ///
     /// # Errors
     /// When the format is not one that can be written, or the file cannot be.

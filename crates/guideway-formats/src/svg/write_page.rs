@@ -222,16 +222,6 @@ impl<'w, W: Write> Page<'w, W> {
         self.end_group()
     }
 
-    /// A black text that begins at a point, with the height of its letters.
-    ///
-    /// # Errors
-    /// When the target fails.
-    pub fn text(&mut self, [x, y]: [f64; 2], height: f64, text: &str) -> io::Result<()> {
-        let place = format!(r#"x="{x}" y="{y}" font-size="{height}""#);
-        let look = r#"font-family="sans-serif" fill="black" stroke="none""#;
-        writeln!(self.out, "<text {place} {look}>{}</text>", escaped(text))
-    }
-
     /// A text of a colour 0xRRGGBBAA in letters of one width, which together are as wide as said.
     ///
     /// # Errors

@@ -39,7 +39,7 @@ impl App {
         });
         self.saver = Some(Saver {
             task,
-            saving: None,
+            layout_to: None,
             job: Some(job),
         });
     }
@@ -58,7 +58,7 @@ impl App {
         });
         self.saver = Some(Saver {
             task,
-            saving: None,
+            layout_to: None,
             job: None,
         });
     }

@@ -21,16 +21,10 @@ pub(crate) struct Prompt {
 pub(super) struct Saver {
     /// Says in a sentence what was done.
     pub(super) task: Task<Result<String, Trouble>>,
-    /// Which file, if it is a layout.
-    pub(super) saving: Option<Saving>,
+    /// Where to, if it is the layout of the layer that is being saved.
+    pub(super) layout_to: Option<PathBuf>,
     /// How far it is, if that is known.
     pub(super) job: Option<Arc<Job>>,
-}
-
-/// A layout being written: the path that it has, and the one that it gets.
-pub(super) struct Saving {
-    from: PathBuf,
-    to: PathBuf,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -71,8 +65,13 @@ impl App {
         if std::mem::take(&mut self.has_new_files) {
             self.watch();
         }
-        for path in self.watcher.changed().collect::<Vec<_>>() {
-            let Some(index) = self.layers.iter().position(|layer| layer.is_at(&path)) else {
+        let outcome = self.saver.as_ref().and_then(|saver| saver.task.outcome());
+        if let Some(outcome) = outcome {
+            self.saved(outcome.flatten());
+        }
+        for (path, state) in self.watcher.changed().collect::<Vec<_>>() {
+            let is_news = |layer: &Layer| layer.is_at(&path) && !layer.has_written(state);
+            let Some(index) = self.layers.iter().position(is_news) else {
                 continue;
             };
             let name = self.layers[index].name();
@@ -82,10 +81,6 @@ impl App {
                 self.reload(index, false);
                 self.notify(format!("{name} has changed on disk and is read again"));
             }
-        }
-        let outcome = self.saver.as_ref().and_then(|saver| saver.task.outcome());
-        if let Some(outcome) = outcome {
-            self.saved(outcome.flatten());
         }
         let copied = self.copying.as_ref().and_then(Task::outcome);
         if let Some(copied) = copied {
@@ -122,11 +117,18 @@ impl App {
 
     pub(crate) fn reload(&mut self, index: usize, drops_changes: bool) {
         let options = self.look.scene_options();
+        let Some(layer) = self.layers.get_mut(index) else {
+            return;
+        };
+        if layer.is_saving() {
+            let name = layer.name();
+            return self.notify(format!(
+                "{name} is still being saved; try again in a moment"
+            ));
+        }
+        layer.reload(&self.host, options, drops_changes, &self.wake);
         // As it is now it is read, so that is no change to tell of.
         self.has_new_files = true;
-        if let Some(layer) = self.layers.get_mut(index) {
-            layer.reload(&self.host, options, drops_changes, &self.wake);
-        }
     }
 
     pub(crate) fn ask_for(&mut self, kind: PromptKind) {
@@ -191,16 +193,33 @@ impl App {
         is_free
     }
 
-    pub(crate) fn save(&mut self, path: PathBuf) {
+    /// Saves a file where it is, if that loses nothing that is in it; else asks for a name.
+    pub(super) fn save_in_place(&mut self) {
+        let Some(layer) = self.layers.get(self.active) else {
+            return;
+        };
+        let path = layer.path.clone();
+        let is_as_read = layer.document.as_ref().filter(|_| !layer.is_written());
+        let checked = is_as_read.map(|document| self.host.check_in_place(document.layout(), &path));
+        let Some(Err(trouble)) = checked else {
+            return self.save(path);
+        };
+        self.notify(trouble.to_string());
+        self.ask_for(PromptKind::SaveAs);
+        if let Some(prompt) = &mut self.prompt {
+            prompt.text = path.with_extension("lif.json").display().to_string();
+        }
+    }
+
+    fn save(&mut self, path: PathBuf) {
         if !self.is_free_to_write() {
             return;
         }
         let Some(layer) = self.layers.get_mut(self.active) else {
             return;
         };
-        let from = layer.path.clone();
         let Some((snapshot, news)) = layer.begin_saving() else {
-            self.notify("what was last done is still being done; save again in a moment");
+            self.notify("the file is still being read or changed; save again in a moment");
             return;
         };
         if let Some(LayerNews::Notice(text)) = news {
@@ -218,32 +237,29 @@ impl App {
         });
         self.saver = Some(Saver {
             task,
-            saving: Some(Saving { from, to }),
+            layout_to: Some(to),
             job: None,
         });
     }
 
     fn saved(&mut self, outcome: Result<String, Trouble>) {
-        let saving = self.saver.take().and_then(|saver| saver.saving);
-        let at = |saving: &Saving| self.layers.iter().position(|l| l.is_at(&saving.from));
-        let saved_at = saving.as_ref().and_then(at);
-        if let Some(Saving { from, to }) = saving
-            && let Some(layer) = self.layers.iter_mut().find(|layer| layer.is_at(&from))
-            && let Some(LayerNews::Notice(text)) =
-                layer.end_saving(outcome.is_ok().then_some(to), &self.wake)
+        let layout_to = self.saver.take().and_then(|saver| saver.layout_to);
+        if let Some(to) = layout_to
+            && let Some(index) = self.layers.iter().position(Layer::is_saving)
         {
-            self.notify(text);
-        }
-        if outcome.is_ok()
-            && let Some(index) = saved_at
-        {
-            self.remember(index);
+            let to = outcome.is_ok().then_some(to);
+            let is_written = to.is_some();
+            if let Some(LayerNews::Notice(text)) = self.layers[index].end_saving(to, &self.wake) {
+                self.notify(text);
+            }
+            if is_written {
+                self.remember(index);
+            }
+            self.has_new_files = true;
         }
         match outcome {
             Ok(text) => self.notify(text),
             Err(trouble) => self.notify(trouble.to_string()),
         }
-        // What was written just now is no change from outside.
-        self.watch();
     }
 }

@@ -18,6 +18,7 @@ use crate::work::Wake;
 use crate::work::loader::{Loaded, Loader};
 use crate::work::renderer::{FALLBACK, Outcome, Picture, Renderer, Shot};
 use crate::work::task::Task;
+use crate::work::watcher::Stamp;
 
 mod answers;
 mod away;
@@ -53,6 +54,11 @@ pub(crate) struct Layer {
     journal: Journal,
     /// Whether the document that is being read takes the place of changes.
     drops_changes: bool,
+    /// Whether a document is being read in place of the one that is there.
+    is_read_again: bool,
+    is_saving: bool,
+    /// The state of its file that was last written here.
+    written: Stamp,
 }
 
 pub(crate) struct Shown {
@@ -117,6 +123,9 @@ impl Layer {
             asked: None,
             journal: Journal::default(),
             drops_changes: false,
+            is_read_again: false,
+            is_saving: false,
+            written: None,
         }
     }
 
@@ -126,9 +135,11 @@ impl Layer {
         name.to_string_lossy().into_owned()
     }
 
+    /// Whether there is, or may be, more than its file has.
     pub(crate) fn is_changed(&self) -> bool {
         let is_changed = |document: &Arc<Document>| document.is_changed();
-        self.document.as_ref().is_some_and(is_changed) || self.away.is_at_work()
+        let may_be = self.away.is_at_work() || self.is_saving;
+        self.document.as_ref().is_some_and(is_changed) || may_be
     }
 
     /// Whether nothing is being done, and what was last asked for is shown.
@@ -164,7 +175,7 @@ impl Layer {
     }
 
     pub(crate) fn cancel_load(&mut self) {
-        self.loader = None;
+        (self.loader, self.is_read_again) = (None, false);
         if self.document.is_none() {
             self.trouble = Some("loading was cancelled".into());
         }
@@ -181,6 +192,7 @@ impl Layer {
     ) {
         let (host, wake) = (Arc::clone(host), Arc::clone(wake));
         self.drops_changes = drops_changes;
+        (self.is_read_again, self.written) = (true, None);
         self.options = options.clone();
         let path = self.path.clone();
         self.loader = Some(Loader::start(host, path, None, options, wake));
@@ -281,7 +293,7 @@ impl Layer {
                 self.loader = None;
             }
             Loaded::Failed(trouble) => {
-                self.loader = None;
+                (self.loader, self.is_read_again) = (None, false);
                 if self.document.is_none() {
                     self.trouble = Some(trouble.to_string());
                 } else {
@@ -298,6 +310,7 @@ impl Layer {
         done: Option<Replayed>,
         news: &mut Vec<LayerNews>,
     ) {
+        self.is_read_again = false;
         if self.is_changed() && !self.drops_changes {
             self.loader = None;
             news.push(LayerNews::Notice(changed_on_disk(&self.name())));

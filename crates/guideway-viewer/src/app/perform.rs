@@ -29,11 +29,7 @@ impl App {
             Command::Open => self.ask_for(PromptKind::Open),
             Command::OpenRecent => self.choosing = Some(self.recent.files()),
             Command::Reload => self.reload(self.active, true),
-            Command::Save => {
-                if let Some(layer) = self.layers.get(self.active) {
-                    self.save(layer.path.clone());
-                }
-            }
+            Command::Save => self.save_in_place(),
             Command::SaveAs => self.ask_for(PromptKind::SaveAs),
             Command::FloorPlan => self.ask_for(PromptKind::FloorPlan),
             Command::ExportPicture => self.ask_for(PromptKind::Picture),

@@ -11,8 +11,6 @@ use crate::ui::length_text;
 
 /// Size of the names in the picture, in points.
 pub(crate) const LABEL_POINTS: f32 = 11.0;
-/// Width of a letter of this size of a font of one width.
-const CHAR_SHARE: f64 = 0.6;
 /// Least distance of the lines of the grid, in pixels.
 pub(crate) const GRID_LEAST_PX: f64 = 96.0;
 /// Least length of the scale bar, in pixels.
@@ -27,7 +25,7 @@ impl App {
     pub(crate) fn label_size(&self) -> LabelSize {
         let points = f64::from(LABEL_POINTS) * self.px_per_point;
         LabelSize {
-            char_px: points * CHAR_SHARE,
+            char_px: points * Text::CHAR_SHARE,
             line_px: points * 1.2,
         }
     }

@@ -40,6 +40,67 @@ fn a_file_is_saved_and_a_full_disk_loses_nothing() {
 }
 
 #[test]
+fn a_drawing_is_not_replaced_by_its_paths() {
+    let table = Table::with([("plan.dxf", lanes(2))]);
+    let mut desk = Desk::with(&table, &["plan.dxf"], Some("cpu"));
+    desk.wait(|app| app.layers[0].document.is_some());
+    desk.key(CTRL, Key::S);
+    assert!(!desk.app().is_writing());
+    assert_eq!(desk.app().prompt.as_ref().unwrap().text, "plan.lif.json");
+    desk.key(NONE, Key::Enter);
+    desk.wait(|app| app.layers[0].name() == "plan.lif.json");
+    let files = desk.table.files.lock().unwrap();
+    assert!(files.contains_key(std::path::Path::new("plan.lif.json")));
+}
+
+#[test]
+fn a_file_that_is_being_saved_is_neither_left_nor_read_again() {
+    let mut desk = Desk::looking_at(lanes(4));
+    let all = |desk: &mut Desk| {
+        desk.key(CTRL, Key::A);
+        desk.key(NONE, Key::Delete);
+        desk.wait(|app| !app.layers[0].is_busy());
+    };
+    all(&mut desk);
+    *desk.table.is_slow.lock().unwrap() = true;
+    desk.key(CTRL, Key::S);
+    assert!(!desk.document().is_changed() && desk.app().layers[0].is_changed());
+    desk.key(CTRL, Key::W);
+    desk.app().reload(0, true);
+    assert!(!desk.app().layers[0].is_reading(), "it would read what was");
+    desk.key(CTRL, Key::Q);
+    assert!(desk.harness.query_by_label("Quit without saving").is_some());
+    *desk.table.is_slow.lock().unwrap() = false;
+    desk.wait(|app| !app.layers[0].is_changed());
+    let file = std::path::Path::new("site.arrow");
+    assert!(desk.table.files.lock().unwrap()[file].paths.is_empty());
+    desk.harness.run_steps(3);
+    assert!(desk.harness.query_by_label("Quit without saving").is_none());
+}
+
+#[test]
+fn a_file_that_is_being_read_again_is_not_saved_over() {
+    let mut desk = Desk::looking_at(lanes(4));
+    *desk.table.is_slow.lock().unwrap() = true;
+    let others = [("site.arrow".into(), lanes(7))];
+    desk.table.files.lock().unwrap().extend(others);
+    desk.app().reload(0, false);
+    desk.key(CTRL, Key::A);
+    desk.key(NONE, Key::Delete);
+    desk.key(CTRL, Key::S);
+    let said = |app: &crate::App, text: &str| app.notices.iter().any(|n| n.contains(text));
+    assert!(said(desk.app(), "still being read") && !desk.app().is_writing());
+    *desk.table.is_slow.lock().unwrap() = false;
+    desk.wait(|app| said(app, "has changed on disk"));
+    assert!(desk.document().is_changed());
+    let file = std::path::Path::new("site.arrow");
+    assert_eq!(
+        desk.table.files.lock().unwrap()[file].paths.iter().count(),
+        7
+    );
+}
+
+#[test]
 fn a_picture_of_any_size_is_written_and_can_be_stopped() {
     let mut desk = Desk::looking_at(lanes(4));
     let export = |desk: &mut Desk, width_px| {

@@ -133,12 +133,21 @@ impl Desk {
 
     pub(super) fn drag(&mut self, from: Pos2, to: Pos2) {
         self.press(from, Modifiers::NONE);
-        for part in [0.3, 0.7, 1.0] {
+        for part in [0.3, 0.7] {
             self.harness
                 .event(Event::PointerMoved(from + (to - from) * part));
             self.harness.step();
         }
-        self.release(to, Modifiers::NONE);
+        // A swift hand has let go before the next frame.
+        let let_go = Event::PointerButton {
+            pos: to,
+            button: PointerButton::Primary,
+            pressed: false,
+            modifiers: Modifiers::NONE,
+        };
+        let events = [Event::PointerMoved(to), let_go];
+        self.harness.input_mut().events.extend(events);
+        self.harness.step();
     }
 
     fn press(&mut self, at: Pos2, modifiers: Modifiers) {

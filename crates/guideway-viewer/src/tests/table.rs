@@ -21,7 +21,7 @@ pub(super) struct Table {
     pub(super) files: Mutex<HashMap<PathBuf, Layout>>,
     /// Whether the disk is full.
     pub(super) is_full: Mutex<bool>,
-    /// Whether reading a file and writing a picture come to no end.
+    /// Whether reading and writing come to no end.
     pub(super) is_slow: Mutex<bool>,
     /// What is remembered from one run to the next.
     pub(super) state: Mutex<Option<PathBuf>>,
@@ -150,7 +150,15 @@ impl Host for Table {
             .ok_or_else(|| Self::trouble("there is no such file"))
     }
 
+    fn check_in_place(&self, _: &Layout, file: &Path) -> Result<(), Trouble> {
+        match file.extension().is_some_and(|ending| ending == "dxf") {
+            true => Err(Self::trouble("it is a drawing")),
+            false => Ok(()),
+        }
+    }
+
     fn save(&self, layout: &Layout, path: &Path) -> Result<Vec<String>, Trouble> {
+        self.wait_for_disk(&Job::default())?;
         if *self
             .is_full
             .lock()

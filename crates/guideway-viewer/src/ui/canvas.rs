@@ -53,15 +53,17 @@ impl App {
 
     fn pointer(&mut self, ui: &Ui, response: &Response, screen: Screen) {
         let modifiers = ui.input(|input| input.modifiers);
-        let by = |delta: Vec2| Point::new(f64::from(delta.x), f64::from(delta.y));
-        let drag_px = by(response.drag_delta() * screen.px_per_point);
-        let is_panning = response.dragged_by(PointerButton::Middle)
-            || response.dragged_by(PointerButton::Secondary)
-            || (response.dragged_by(PointerButton::Primary)
+        // The last movement may come with letting go.
+        let drags = |button| response.dragged_by(button) || response.drag_stopped_by(button);
+        let is_panning = drags(PointerButton::Middle)
+            || drags(PointerButton::Secondary)
+            || (drags(PointerButton::Primary)
                 && (matches!(self.tool, Tool::Draw | Tool::Measure)
                     || ui.input(|input| input.key_down(Key::Space))));
         if is_panning {
-            self.camera.pan(drag_px);
+            let by = ui.input(|input| input.pointer.delta()) * screen.px_per_point;
+            self.camera
+                .pan(Point::new(f64::from(by.x), f64::from(by.y)));
         } else if response.drag_started_by(PointerButton::Primary) {
             let origin = ui.input(|input| input.pointer.press_origin());
             if let Some(origin) = origin {
@@ -69,7 +71,7 @@ impl App {
             }
         }
         let at_px = response.interact_pointer_pos().map(|at| screen.pixel(at));
-        if response.dragged_by(PointerButton::Primary)
+        if drags(PointerButton::Primary)
             && !is_panning
             && let Some(at_px) = at_px
         {

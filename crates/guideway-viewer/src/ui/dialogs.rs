@@ -124,6 +124,11 @@ impl App {
         if !self.asks_to_quit {
             return;
         }
+        if !self.is_unsaved() {
+            // What was still being saved is saved.
+            self.asks_to_quit = false;
+            return ctx.send_viewport_cmd(ViewportCommand::Close);
+        }
         Modal::new(Id::unique("quit")).show(ctx, |ui| {
             ui.label("There are changes that are not saved:");
             for layer in self.layers.iter().filter(|layer| layer.is_changed()) {

@@ -28,22 +28,11 @@ impl App {
             let all = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
             painter.image(texture.id(), place, all, Color32::WHITE);
         };
-        let beside = |(texture, of)| lay((texture, of));
-        self.floor
-            .drawn
-            .picture
-            .iter()
-            .map(|(t, v)| (t, v))
-            .for_each(beside);
+        self.floor.drawn.shown().into_iter().for_each(lay);
         if self.look.has_grid {
             self.paint_grid(&painter, screen, view);
         }
-        self.swept
-            .drawn
-            .picture
-            .iter()
-            .map(|(t, v)| (t, v))
-            .for_each(beside);
+        self.swept.drawn.shown().into_iter().for_each(lay);
         let pictures = self.seen_layers().filter_map(|layer| layer.shown.as_ref());
         pictures.for_each(|shown| lay((&shown.texture, &shown.view)));
         self.paint_overlay(&painter, screen, view);

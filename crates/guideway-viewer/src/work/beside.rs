@@ -31,6 +31,11 @@ impl<K> Default for Beside<K> {
 }
 
 impl<K: PartialEq> Beside<K> {
+    /// The last picture, and what it shows.
+    pub(crate) fn shown(&self) -> Option<(&TextureHandle, &View)> {
+        self.picture.as_ref().map(|(texture, view)| (texture, view))
+    }
+
     /// Shows nothing any more.
     pub(crate) fn clear(&mut self) {
         (self.picture, self.asked, self.trouble) = (None, None, None);

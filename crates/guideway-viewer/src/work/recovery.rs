@@ -15,13 +15,14 @@ const HEADER_BYTES: usize = 8 + 8 + 16 + 8;
 /// The journal of one open file: what was done since it was read, so that a crash loses none of it.
 ///
 /// Acts name rows as they were read, and saving numbers them anew. So the file as it was read is kept beside the
-/// journal from the first time that it is saved over, until it is closed: both together give back the work.
+/// journal from the first time that it is saved, until it is closed: both together give back the work. Even where
+/// nothing was done before, for a file that was written need not have the rows of the one that was read.
 ///
 /// It is written as the work is done, and not forced to the disk each time: it survives a crash of this program,
 /// not one of the computer.
 pub(crate) struct Recovery {
     journal: PathBuf,
-    /// The file as it was read; only there once it was saved over.
+    /// The file as it was read; only there once it was saved.
     base: PathBuf,
     /// Made with the first act.
     file: Option<File>,
@@ -138,12 +139,12 @@ impl Recovery {
         file.write_all(&records)
     }
 
-    /// Keeps the file as it was read, right before it is saved over.
+    /// Keeps the file as it was read, right before it is saved.
     ///
     /// # Errors
     /// When it cannot be kept.
     pub(crate) fn keep_base(&self, layout_file: &Path) -> io::Result<()> {
-        if self.file.is_none() || self.base.exists() {
+        if self.base.exists() {
             return Ok(());
         }
         // Files are replaced and not written into, so a second name keeps what is there.
@@ -160,19 +161,20 @@ impl Recovery {
     /// When the journal cannot be written.
     pub(crate) fn set_saved(&mut self, layout_file: &Path) -> io::Result<()> {
         let (journal, base) = (beside(layout_file, "journal"), beside(layout_file, "base"));
-        let Some(file) = &mut self.file else {
-            (self.journal, self.base) = (journal, base);
-            return Ok(());
-        };
         if journal != self.journal {
-            file.flush()?;
-            fs::copy(&self.journal, &journal)?;
             fs::copy(&self.base, &base)?;
-            fs::remove_file(&self.journal)?;
+            if let Some(file) = &mut self.file {
+                file.flush()?;
+                fs::copy(&self.journal, &journal)?;
+                *file = OpenOptions::new().write(true).open(&journal)?;
+                fs::remove_file(&self.journal)?;
+            }
             fs::remove_file(&self.base)?;
             (self.journal, self.base) = (journal, base);
-            *file = OpenOptions::new().write(true).open(&self.journal)?;
         }
+        let Some(file) = &mut self.file else {
+            return Ok(());
+        };
         let end = file.seek(SeekFrom::End(0))?;
         file.rewind()?;
         file.write_all(&header(layout_file, end - HEADER_BYTES as u64)?)?;

@@ -14,11 +14,11 @@ const PERIOD: Duration = Duration::from_secs(1);
 /// Watches files and says which have changed on disk.
 pub(crate) struct Watcher {
     files: Sender<Vec<PathBuf>>,
-    changed: Receiver<PathBuf>,
+    changed: Receiver<(PathBuf, Stamp)>,
 }
 
-/// What tells one state of a file from another.
-type Stamp = Option<(SystemTime, u64)>;
+/// What tells one state of a file from another; none if there is no file.
+pub(crate) type Stamp = Option<(SystemTime, u64)>;
 
 impl Watcher {
     pub(crate) fn start(wake: Wake) -> Self {
@@ -50,7 +50,8 @@ impl Watcher {
         let _ = self.files.send(files);
     }
 
-    pub(crate) fn changed(&self) -> impl Iterator<Item = PathBuf> {
+    /// Files that have changed, and their states since.
+    pub(crate) fn changed(&self) -> impl Iterator<Item = (PathBuf, Stamp)> {
         self.changed.try_iter()
     }
 }
@@ -72,13 +73,13 @@ impl Watch {
 
     /// Files that have changed, and have then stayed the same from one look to the next: those still being
     /// written, or away for a moment, are left for later.
-    fn look(&mut self) -> Vec<PathBuf> {
+    fn look(&mut self) -> Vec<(PathBuf, Stamp)> {
         let mut changed = Vec::new();
         for (file, (told, seen)) in &mut self.files {
             let now = stamp(file);
             if now == *seen && now != *told && now.is_some() {
                 *told = now;
-                changed.push(file.clone());
+                changed.push((file.clone(), now));
             }
             *seen = now;
         }
@@ -86,7 +87,7 @@ impl Watch {
     }
 }
 
-fn stamp(file: &Path) -> Stamp {
+pub(crate) fn stamp(file: &Path) -> Stamp {
     let metadata = fs::metadata(file).ok()?;
     Some((metadata.modified().ok()?, metadata.len()))
 }
@@ -105,7 +106,7 @@ mod tests {
         assert!(watch.look().is_empty());
         fs::write(&file, "12").unwrap();
         assert!(watch.look().is_empty(), "it may still be written");
-        assert_eq!(watch.look(), std::slice::from_ref(&file));
+        assert_eq!(watch.look(), [(file.clone(), stamp(&file))]);
         assert!(watch.look().is_empty(), "told once");
         fs::remove_file(&file).unwrap();
         assert!(
@@ -114,6 +115,6 @@ mod tests {
         );
         fs::write(&file, "123").unwrap();
         watch.look();
-        assert_eq!(watch.look(), [file]);
+        assert_eq!(watch.look(), [(file.clone(), stamp(&file))]);
     }
 }

@@ -6,6 +6,8 @@ use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
 use clap::ValueEnum;
+#[cfg(feature = "viewer")]
+use guideway::formats::Format;
 use guideway::formats::lif::{self, Version};
 use guideway::formats::{Losses, arrow as arrow_format, dxf, geojson, svg};
 use guideway::layout::Layout;
@@ -73,6 +75,46 @@ impl Target {
                     use `guideway render`"
                         .into(),
             }
+        })
+    }
+
+    /// The format to save a layout in: what the file's name says, and what the layout was read from where that leaves
+    /// it open.
+    #[cfg(feature = "viewer")]
+    pub(super) fn to_save(layout: &Layout, output: &Path) -> Result<Self, Failure> {
+        let is_geojson = layout.provenance.format == Format::GeoJson.name();
+        let read = match Version::of_layout(layout) {
+            Some(Version::V1) => Some(Self::Lif),
+            Some(Version::V2) => Some(Self::Lif2),
+            None => is_geojson.then_some(Self::Geojson),
+        };
+        let is_any_json = output
+            .extension()
+            .is_some_and(|e| e.eq_ignore_ascii_case("json"));
+        match (Self::of(output), read) {
+            (Ok(Self::Lif), Some(Self::Lif2)) => Ok(Self::Lif2),
+            (Err(_), Some(read)) if is_any_json => Ok(read),
+            (named, _) => named,
+        }
+    }
+
+    /// Refuses to replace the file that a layout was read from by less than it may hold.
+    #[cfg(feature = "viewer")]
+    pub(super) fn check_in_place(layout: &Layout, file: &Path) -> Result<(), Failure> {
+        let refused = layout.refused.len();
+        let would_lose = match Self::to_save(layout, file)? {
+            Self::Dxf | Self::Svg => {
+                "is a drawing, of which only the paths would be left".to_owned()
+            }
+            Self::Arrow | Self::Geojson if refused > 0 => {
+                format!("has paths that cannot be drawn ({refused}), which would be left out")
+            }
+            Self::Arrow | Self::Geojson | Self::Lif | Self::Lif2 => return Ok(()),
+        };
+        Err(Failure {
+            code: "target-format",
+            message: format!("{} {would_lose}", file.display()),
+            remedy: "Save the layout under another name".into(),
         })
     }
 
@@ -173,4 +215,45 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, Failure> {
         )
     })?;
     Ok(Exit::Clean)
+}
+
+#[cfg(all(test, feature = "viewer"))]
+mod tests {
+    use super::*;
+
+    fn read_from(format: &str, version: &str) -> Layout {
+        let mut layout = Layout::default();
+        layout.provenance.format = format.into();
+        layout.provenance.format_version = version.into();
+        layout
+    }
+
+    #[test]
+    fn a_file_is_saved_in_the_format_that_it_was_read_from() {
+        use Target::{Arrow, Geojson, Lif, Lif2};
+        for (format, version, name, target) in [
+            ("LIF", "1.0", "a.lif.json", Some(Lif)),
+            ("LIF", "2.0", "a.lif.json", Some(Lif2)),
+            ("LIF", "2.0", "site.json", Some(Lif2)),
+            ("LIF", "2.0", "a.arrow", Some(Arrow)),
+            ("GeoJSON", "", "roads.json", Some(Geojson)),
+            ("GeoJSON", "", "roads.lif.json", Some(Lif)),
+            ("VDA 5050", "2.0", "order.json", None),
+            ("openTCS", "6.0.0", "plant.xml", None),
+            ("LIF", "1.0", "site.txt", None),
+        ] {
+            let layout = read_from(format, version);
+            let saved = Target::to_save(&layout, Path::new(name));
+            assert_eq!(saved.ok(), target, "{format} {version} as {name}");
+            let in_place = Target::check_in_place(&layout, Path::new(name));
+            assert_eq!(in_place.is_ok(), target.is_some(), "{name}");
+        }
+        let drawing = read_from("DXF", "AC1015");
+        let refused = Target::check_in_place(&drawing, Path::new("plan.dxf"));
+        assert!(refused.unwrap_err().message.contains("only the paths"));
+        assert_eq!(
+            Target::to_save(&drawing, Path::new("b.dxf")).ok(),
+            Some(Target::Dxf)
+        );
+    }
 }

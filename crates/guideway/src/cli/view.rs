@@ -89,8 +89,12 @@ impl Host for Desk {
     }
 
     fn save(&self, layout: &Layout, path: &Path) -> Result<Vec<String>, Trouble> {
-        let (losses, _) = Target::of(path)?.write(layout, path)?;
+        let (losses, _) = Target::to_save(layout, path)?.write(layout, path)?;
         Ok(losses.iter().map(|loss| loss.to_string()).collect())
+    }
+
+    fn check_in_place(&self, layout: &Layout, file: &Path) -> Result<(), Trouble> {
+        Ok(Target::check_in_place(layout, file)?)
     }
 
     fn picture(&self, export: &Export, method: &str) -> Result<Frame, Trouble> {

@@ -203,7 +203,7 @@ fn a_view_is_saved_as_curves_with_its_colours() {
     assert_eq!(accounted, count("total"));
     let svg = fs::read_to_string(&picture).unwrap();
     assert!(svg.contains(r#"viewBox="0 0 640 360""#));
-    assert_eq!(svg.matches("<path ").count() as u64, count("drawn"));
+    assert_eq!(svg.matches("<path id=").count() as u64, count("drawn"));
     for entry in report["legend"]["entries"].as_array().unwrap() {
         let color = format!("#{}", entry["color"].as_str().unwrap());
         assert!(svg.contains(&color), "{color}");

@@ -12,6 +12,7 @@ use crate::host::Host;
 use crate::work::Wake;
 use crate::work::loader::Loader;
 use crate::work::recovery::Recovery;
+use crate::work::watcher::{Stamp, stamp};
 
 /// What is written down of the work on a document. It goes where the document goes.
 #[derive(Default)]
@@ -128,14 +129,30 @@ impl Layer {
         outcome.err().map(LayerNews::Notice)
     }
 
+    pub(crate) fn is_saving(&self) -> bool {
+        self.is_saving
+    }
+
+    /// Whether its file was written here since it was read.
+    pub(crate) fn is_written(&self) -> bool {
+        self.written.is_some()
+    }
+
+    /// Whether it was written here that a file came into this state.
+    pub(crate) fn has_written(&self, state: Stamp) -> bool {
+        state.is_some() && self.written == state
+    }
+
     /// What is to be written, and what is to be said. None as long as it is not certain what there is.
     pub(crate) fn begin_saving(&mut self) -> Option<(Snapshot, Option<LayerNews>)> {
-        if self.has_found_work() {
+        // What others have written into the file may be in the way of saving: first it must be known.
+        if self.has_found_work() || self.is_read_again {
             return None;
         }
         let document = self.document_mut()?;
         let snapshot = document.snapshot();
         let before = document.set_saved();
+        self.is_saving = true;
         let unwritten = self.record();
         // From here on it may differ from what is written.
         self.journal.saving = Some(before);
@@ -147,9 +164,11 @@ impl Layer {
 
     /// The layout is written, at this path; or it could not be.
     pub(crate) fn end_saving(&mut self, path: Option<PathBuf>, wake: &Wake) -> Option<LayerNews> {
+        self.is_saving = false;
         let work = match path {
             Some(path) => {
                 self.path.clone_from(&path);
+                self.written = stamp(&path);
                 Work::with_journal(move |_, journal| {
                     journal.saving = None;
                     match &mut journal.recovery {

@@ -2,19 +2,20 @@
 //! memory stays flat.
 
 mod memory;
+mod saves;
 mod shelf;
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::fs;
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Arc, mpsc};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use eframe::egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable;
-use guideway_document::{Combine, Document, replay};
+use guideway_document::{Document, replay};
 use guideway_layout::Layout;
 
 use super::content::difference;
@@ -364,33 +365,4 @@ fn an_undo_that_does_something_else_is_caught() {
     soak.desk.document().take_acts();
     let caught = soak.save().unwrap_err();
     assert!(caught.contains("not what was done"), "{caught}");
-}
-
-#[test]
-fn a_save_that_ends_while_an_edit_is_done_loses_nothing() {
-    let mut soak = Soak::new(3);
-    soak.desk.app().patience = Duration::ZERO;
-    let delete_one = |document: &mut Document, row: u32| {
-        document.select([row].into_iter().collect(), Combine::Replace);
-        document.delete_selection()
-    };
-    soak.desk
-        .app()
-        .edit(move |document| delete_one(document, 0));
-    soak.desk.wait(|app| app.document().is_some());
-    soak.desk.key(Modifiers::COMMAND, Key::S);
-    let (finish, rest) = mpsc::channel::<()>();
-    soak.desk.app().edit(move |document| {
-        rest.recv().expect("the test lets it go on");
-        delete_one(document, 1)
-    });
-    soak.desk.wait(|app| !app.is_writing());
-    assert!(soak.desk.app().document().is_none());
-    finish.send(()).unwrap();
-    soak.desk.wait(|app| app.document().is_some());
-    let saved = soak.shelf.layout(&soak.shelf.file).unwrap();
-    assert_eq!(saved.paths.len(), soak.first.paths.len() - 1);
-    assert!(soak.desk.document().is_changed());
-    soak.desk.app().patience = Duration::from_secs(60);
-    assert_eq!(soak.crash(), Ok(()));
 }

@@ -85,6 +85,10 @@ impl Host for Shelf {
         })
     }
 
+    fn check_in_place(&self, layout: &Layout, file: &Path) -> Result<(), Trouble> {
+        self.table.check_in_place(layout, file)
+    }
+
     fn save(&self, layout: &Layout, path: &Path) -> Result<Vec<String>, Trouble> {
         if *self
             .table

@@ -84,6 +84,29 @@ fn work_after_saving_is_found_with_the_file_as_it_was_read() {
 }
 
 #[test]
+fn what_is_done_after_saving_it_unchanged_is_found_with_the_file_as_it_was_read() {
+    for name in ["site.arrow", "other.arrow"] {
+        let folder = tempfile::tempdir().unwrap();
+        let [site, target] = ["site.arrow", name].map(|name| folder.path().join(name));
+        fs::write(&site, "as it was read").unwrap();
+        let mut recovery = Recovery::of(&site);
+        let mut edited = document();
+        recovery.keep_base(&site).unwrap();
+        fs::write(folder.path().join("new"), "as it is saved").unwrap();
+        fs::rename(folder.path().join("new"), &target).unwrap();
+        recovery.set_saved(&target).unwrap();
+        edited.move_node(1, Point::new(2.0, 2.0)).unwrap();
+        recovery.record(&mut edited, &target).unwrap();
+        drop(recovery);
+        let (mut recovery, found, done, _) = done_again(&target);
+        assert_eq!(fs::read_to_string(found.file).unwrap(), "as it was read");
+        assert_eq!(done.acts, 1);
+        recovery.clear();
+        assert_eq!(files(&folder), if site == target { 1 } else { 2 });
+    }
+}
+
+#[test]
 fn what_was_undone_after_saving_is_not_saved() {
     let (_folder, site, mut edited, mut recovery) = edited();
     recovery.set_saved(&site).unwrap();

@@ -9,6 +9,7 @@ use guideway::scene::{Rgba, Scene};
 use guideway::spline::Bounds;
 
 use super::floor_plan::{Floor, FloorPlan};
+use super::sheet::Laid;
 use super::swept::{self, Swept, SweptReport};
 use super::{Wishes, floor_plan, sheet, vector};
 use crate::cli::Failure;
@@ -61,6 +62,7 @@ impl Seen<'_> {
         &self,
         method: &dyn Method,
         wishes: &Wishes,
+        view: &View,
     ) -> Result<Option<Ground<'_>>, Failure> {
         let floor_plan = self.below.floor_plan.as_ref();
         let floor = floor_plan.map(|plan| plan.prepare(&wishes.budget));
@@ -68,7 +70,9 @@ impl Seen<'_> {
         let others = others.map(|other| method.prepare(Arc::clone(other), &wishes.budget));
         let ground = Ground {
             floor: floor.transpose()?,
-            lines: Some(&self.below.lines).filter(|lines| **lines != Sheet::default()),
+            lines: Some(&self.below.lines)
+                .filter(|lines| **lines != Sheet::default())
+                .map(|lines| Laid::new(lines, view)),
             areas: self.swept.as_ref().map(Swept::areas),
             others: others.collect::<Result<_, _>>()?,
             style: Style {
@@ -116,7 +120,7 @@ impl Seen<'_> {
 /// What lies below, ready to be drawn strip by strip.
 pub(super) struct Ground<'b> {
     floor: Option<Floor>,
-    lines: Option<&'b Sheet>,
+    lines: Option<Laid<'b>>,
     areas: Option<Areas>,
     others: Vec<Box<dyn Prepared>>,
     /// How the others look: over nothing.
@@ -138,8 +142,8 @@ impl Ground<'_> {
             Some(floor) => floor.draw(strip, background, frame)?,
             None => frame.pixels_mut().fill(background.to_u32().to_be_bytes()),
         }
-        if let Some(lines) = self.lines {
-            sheet::lay(lines, strip, frame);
+        if let Some(lines) = &self.lines {
+            lines.onto(strip, frame);
         }
         if let Some(areas) = &self.areas {
             swept::lay(areas, strip, frame);

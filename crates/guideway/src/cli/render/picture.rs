@@ -10,9 +10,9 @@ use guideway::scene::{Rgba, Scene, SceneOptions};
 use guideway::spline::{Bounds, Point};
 
 use super::below::Below;
-use super::legend::Stamp;
+use super::sheet::Laid;
 use super::swept::SweptReport;
-use super::{floor_plan, sheet};
+use super::{floor_plan, legend};
 use crate::cli::Failure;
 
 /// What a picture is to be like.
@@ -58,7 +58,7 @@ pub(crate) fn draw(
     let started = Instant::now();
     let view = view(scene, below, wishes)?;
     let seen = below.seen(scene, &view)?;
-    let mut ground = seen.ground(method, wishes)?;
+    let mut ground = seen.ground(method, wishes, &view)?;
     let mut style = wishes.style;
     if ground.is_some() {
         style.background.a = 0;
@@ -66,8 +66,9 @@ pub(crate) fn draw(
     let mut prepared = method.prepare(Arc::clone(scene), &wishes.budget)?;
     let prepare_ms = elapsed_ms(started);
 
-    let legend = scene.legend().filter(|_| wishes.has_legend);
-    let stamp = legend.map(|legend| Stamp::new(view.size(), legend));
+    let (legend, has_no_room) = legend::wished(scene, wishes);
+    let marks = Laid::new(&wishes.marks, &view);
+    let stamp = Laid::new(&legend, &view);
     let mut report = None::<Report>;
     let (mut render_ms, mut write_ms, mut bare_pixels) = (0.0, 0.0, 0);
     let size = FrameSize::new(1, 1)?;
@@ -82,11 +83,9 @@ pub(crate) fn draw(
             ground.draw(&strip, wishes.style.background, &mut below_it)?;
             floor_plan::lay_over(&below_it, &mut frame);
         }
-        sheet::lay(&wishes.marks, &strip, &mut frame);
+        marks.onto(&strip, &mut frame);
         bare_pixels += bare(&frame, wishes.style.background);
-        if let Some(Some(stamp)) = &stamp {
-            stamp.onto(&strip, &mut frame);
-        }
+        stamp.onto(&strip, &mut frame);
         match &mut report {
             Some(report) => report.join(of_strip),
             none => *none = Some(of_strip),
@@ -101,10 +100,7 @@ pub(crate) fn draw(
     report
         .notes
         .extend(crowded(&report, bare_pixels, &view, &wishes.style));
-    if let Some(None) = stamp {
-        let note = "the legend is larger than the picture, so it is only in this report";
-        report.notes.push(note.to_owned());
-    }
+    report.notes.extend(has_no_room);
     Ok(Drawn {
         view,
         report,

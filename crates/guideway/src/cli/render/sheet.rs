@@ -5,7 +5,8 @@ use std::ops::Range;
 
 use guideway::cpu::{Areas, lay_areas};
 use guideway::formats::svg::Page;
-use guideway::render::{Frame, Sheet, Strip, Text};
+use guideway::render::{Frame, Sheet, Strip, Text, View};
+use guideway::scene::Rgba;
 use guideway::spline::Point;
 use noto_sans_mono_bitmap::{
     FontWeight, RasterHeight, RasterizedChar, get_raster, get_raster_width,
@@ -16,26 +17,42 @@ use super::vector::STEP_PX;
 
 /// Letters are made from those of this height.
 const LETTERS: RasterHeight = RasterHeight::Size32;
-/// Width of a letter of common fonts of one width, for its height.
-const CHAR_SHARE: f64 = 0.6;
 
-/// Draws as much of it as lies on a strip.
-pub(super) fn lay(sheet: &Sheet, strip: &Strip, frame: &mut Frame) {
-    for (color, polygons) in &sheet.areas {
-        let mut areas = Areas::default();
-        for polygon in polygons {
-            let corner = |&p| strip.view().world_from_pixel(p);
-            areas.push(&polygon.iter().map(corner).collect::<Vec<_>>());
+/// A sheet that is ready to be laid over the strips of a view.
+pub(super) struct Laid<'s> {
+    areas: Vec<(Rgba, Areas)>,
+    texts: &'s [Text],
+}
+
+impl<'s> Laid<'s> {
+    pub(super) fn new(sheet: &'s Sheet, view: &View) -> Self {
+        let areas = sheet.areas.iter().map(|(color, polygons)| {
+            let mut areas = Areas::default();
+            for polygon in polygons {
+                let corner = |&p| view.world_from_pixel(p);
+                areas.push(&polygon.iter().map(corner).collect::<Vec<_>>());
+            }
+            (*color, areas)
+        });
+        Self {
+            areas: areas.collect(),
+            texts: &sheet.texts,
         }
-        lay_areas(&areas, strip, *color, frame);
     }
-    for text in &sheet.texts {
+
+    /// Draws as much of it as lies on a strip.
+    pub(super) fn onto(&self, strip: &Strip, frame: &mut Frame) {
+        for (color, areas) in &self.areas {
+            lay_areas(areas, strip, *color, frame);
+        }
         let rows = strip.rows();
         let mut lines = Lines {
             frame,
             rows: rows.start as usize..rows.end as usize,
         };
-        lines.write(text);
+        for text in self.texts {
+            lines.write(text);
+        }
     }
 }
 
@@ -49,13 +66,13 @@ pub(super) fn write(sheet: &Sheet, label: &str, page: &mut Page<'_, impl Write>)
         page.areas(label, color.to_u32(), STEP_PX, [polygons])?;
     }
     for text in &sheet.texts {
-        let height = text.char_px / CHAR_SHARE;
+        let height = text.char_px / Text::CHAR_SHARE;
         let width = text.char_px * text.text.chars().count() as f64;
-        let corner = text.at_px - Point::new(0.0, 0.6 * height);
-        page.area(
-            [corner.x, corner.y, width, 1.2 * height],
-            text.paper.to_u32(),
-        )?;
+        if text.paper.a > 0 {
+            let corner = text.at_px - Point::new(0.0, 0.6 * height);
+            let place = [corner.x, corner.y, width, 1.2 * height];
+            page.area(place, text.paper.to_u32())?;
+        }
         // From the middle of a line to what letters stand on.
         let at = text.at_px + Point::new(0.0, 0.35 * height);
         page.line_of_text([at.x, at.y], height, width, text.ink.to_u32(), &text.text)?;
@@ -140,8 +157,7 @@ fn coverage(letter: &RasterizedChar, [x, y]: [f64; 2], step: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use guideway::render::{FrameSize, View};
-    use guideway::scene::Rgba;
+    use guideway::render::FrameSize;
 
     use super::*;
 
@@ -167,7 +183,7 @@ mod tests {
     fn drawn(strip: &Strip) -> Frame {
         let mut frame = Frame::new(strip.size());
         frame.pixels_mut().fill([255; 4]);
-        lay(&sheet(), strip, &mut frame);
+        Laid::new(&sheet(), strip.view()).onto(strip, &mut frame);
         frame
     }
 

@@ -6,13 +6,13 @@ use std::path::Path;
 
 use guideway::formats::svg::{Outline, Page, Stroke};
 use guideway::layout::PathRef;
-use guideway::render::{MethodInfo, Report, Shading, Style, View};
-use guideway::scene::{Legend, Scene};
+use guideway::render::{MethodInfo, Report, Shading, Sheet, Style, View};
+use guideway::scene::Scene;
 use guideway::spline::{Bounds, Point};
 use guideway::{SaveError, replace_file};
 
 use super::below::{Below, Seen};
-use super::{Drawn, Wishes, picture, sheet};
+use super::{Drawn, Wishes, legend, picture, sheet};
 use crate::cli::Failure;
 
 /// Steps of coordinates, in pixels.
@@ -41,11 +41,11 @@ pub(crate) fn draw(
     }
     let view = picture::view(scene, below, wishes)?;
     let seen = below.seen(scene, &view)?;
-    let legend = scene.legend().filter(|_| wishes.has_legend);
+    let (legend, has_no_room) = legend::wished(scene, wishes);
     let drawn = replace_file(output, |file| {
         let written = File::create(file).and_then(|file| {
             let mut out = BufWriter::with_capacity(1 << 16, file);
-            let drawn = write(&mut out, scene, &view, &seen, legend, wishes)?;
+            let drawn = write(&mut out, scene, &view, &seen, &legend, wishes)?;
             out.flush()?;
             Ok(drawn)
         });
@@ -54,9 +54,11 @@ pub(crate) fn draw(
             problem,
         })
     })?;
+    let mut report = Report::of(ENDING, scene, drawn);
+    report.notes.extend(has_no_room);
     Ok(Drawn {
         view,
-        report: Report::of(ENDING, scene, drawn),
+        report,
         method: MethodInfo {
             name: ENDING,
             summary: "curves, for whatever shows them to draw",
@@ -75,7 +77,7 @@ fn write(
     scene: &Scene,
     view: &View,
     below: &Seen<'_>,
-    legend: Option<&Legend>,
+    legend: &Sheet,
     wishes: &Wishes,
 ) -> io::Result<u64> {
     let size = view.size();
@@ -96,9 +98,7 @@ fn write(
     below.write(view, &wishes.style, &mut page)?;
     let drawn = write_paths(scene, view, &wishes.style, &mut page)?;
     sheet::write(&wishes.marks, "marks", &mut page)?;
-    if let Some(legend) = legend {
-        write_legend(legend, &mut page)?;
-    }
+    sheet::write(legend, "legend", &mut page)?;
     page.end()?;
     Ok(drawn)
 }
@@ -145,26 +145,4 @@ pub(super) fn outline(scene: &Scene, path: u32, view: &View, width_px: f64) -> O
         }
     }
     outline
-}
-
-/// What the colours mean, in the upper left.
-fn write_legend(legend: &Legend, page: &mut Page<'_, impl Write>) -> io::Result<()> {
-    const LINE_PX: f64 = 18.0;
-    const TEXT_PX: f64 = 13.0;
-    let longest = legend.entries.iter().map(|e| e.label.chars().count());
-    let longest = longest
-        .chain([legend.column.chars().count()])
-        .max()
-        .unwrap_or(0);
-    // A letter is hardly wider than this share of its height.
-    let width = 44.0 + 0.6 * TEXT_PX * longest as f64;
-    let height = LINE_PX * (legend.entries.len() + 1) as f64 + 10.0;
-    page.area([8.0, 8.0, width, height], 0xFFFF_FFE0)?;
-    page.text([16.0, 8.0 + LINE_PX], TEXT_PX, &legend.column)?;
-    for (i, entry) in legend.entries.iter().enumerate() {
-        let top = 14.0 + LINE_PX * (i + 1) as f64;
-        page.area([16.0, top, 14.0, 12.0], entry.color.to_u32())?;
-        page.text([36.0, top + 11.0], TEXT_PX, &entry.label)?;
-    }
-    Ok(())
 }
