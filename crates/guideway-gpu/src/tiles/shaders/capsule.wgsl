@@ -67,31 +67,43 @@ fn bits_between(first: u32, end: u32, word: u32) -> u32 {
     return low_bits(max(end, before) - before) & ~low_bits(max(first, before) - before);
 }
 
+// Conversions are done by few units of a graphics device, additions by all. From 2^23 on the steps of floats are whole
+// numbers, and their low bits are those of the number.
+
+// The nearest whole number of one from zero to 2^22.
+fn whole(x: f32) -> u32 {
+    return bitcast<u32>(x + 12582912.0) & 0x3fffffu;
+}
+
+// A number below 2^22 and a half.
+fn and_half(n: u32) -> f32 {
+    return bitcast<f32>(0x4b000000u | n) - 8388607.5;
+}
+
 // The rows of a tile that may have covered samples: from the first to behind the last.
 fn rows_touched(capsule: Capsule) -> vec2u {
     let reach = capsule.radius + SLACK;
-    let low = ceil(capsule.upper.y - reach - 0.5);
-    let high = floor(capsule.upper.y + capsule.along.y + reach - 0.5) + 1.0;
     let most = f32(TILE_PX * SAMPLE_ROWS);
-    return vec2u(u32(clamp(low, 0.0, most)), u32(clamp(high, 0.0, most)));
+    let low = clamp(capsule.upper.y - reach, 0.0, most);
+    let high = clamp(capsule.upper.y + capsule.along.y + reach, 0.0, most);
+    return vec2u(whole(low), whole(high));
 }
 
 // The samples of a row that are covered, if it may have any: from the first to behind the last.
 fn span_of(capsule: Capsule, row: u32) -> vec2u {
     tests(1u);
-    let y = f32(row) + 0.5;
+    let y = and_half(row);
     let left = disc_at(capsule, y, capsule.left_y);
     let right = disc_at(capsule, y, capsule.right_y);
     // The first sample of the row, and its distance to the next.
     let step = SAMPLE_ROWS / SAMPLES_A_ROW;
-    let first_x = f32(((COLUMNS >> (2u * (row % SAMPLE_ROWS))) & 3u) % step) + 0.5;
+    let first_x = and_half(((COLUMNS >> (2u * (row % SAMPLE_ROWS))) & 3u) % step);
     let per_step = 1.0 / f32(step);
-    let low = ceil((left.x - left.y - SLACK - first_x) * per_step);
-    let high = floor((right.x + right.y + SLACK - first_x) * per_step) + 1.0;
     let most = f32(WORDS * 32u);
-    // What is below zero becomes zero.
-    let first = u32(min(low, most));
-    return vec2u(first, max(first, u32(min(high, most))));
+    let low = clamp((left.x - left.y - (first_x + SLACK)) * per_step + 0.5, 0.0, most);
+    let high = clamp((right.x + right.y - (first_x - SLACK)) * per_step + 0.5, 0.0, most);
+    let first = whole(low);
+    return vec2u(first, max(first, whole(high)));
 }
 
 // Adds what a line covers of a row.

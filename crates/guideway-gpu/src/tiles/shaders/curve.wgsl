@@ -23,9 +23,10 @@ fn point_px(curve: Curve, segment: u32, t: f32) -> vec2f {
 // The square of the second derivative of a stroke's curve at the knot before a segment, where t runs over one
 // in each segment: the second difference of control points. Between knots it runs straight.
 fn square_bend(curve: Curve, knot: u32) -> f32 {
-    let a = control_px(curve, knot);
-    let b = control_px(curve, knot + 1u);
-    let c = control_px(curve, knot + 2u);
+    return square_bend_of(control_px(curve, knot), control_px(curve, knot + 1u), control_px(curve, knot + 2u));
+}
+
+fn square_bend_of(a: vec2f, b: vec2f, c: vec2f) -> f32 {
     let bend = a - 2.0 * b + c;
     return dot(bend, bend);
 }

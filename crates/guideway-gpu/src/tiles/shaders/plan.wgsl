@@ -21,11 +21,16 @@ fn with_piece(plan: Plan, last: u32, segments: u32, square_bend: f32) -> Plan {
 // Pieces as long as one line may stand for; a segment that bends more is a piece of its own, and cut.
 fn plan_of(curve: Curve, segments: u32) -> Plan {
     var plan = Plan(0u, 0u, 0u);
-    var before = square_bend(curve, 0u);
+    var first = control_px(curve, 1u);
+    var second = control_px(curve, 2u);
+    var before = square_bend_of(control_px(curve, 0u), first, second);
     var piece = 0u;
     var worst = before;
     for (var segment = 0u; segment < segments; segment++) {
-        let bend = square_bend(curve, segment + 1u);
+        let third = control_px(curve, segment + 3u);
+        let bend = square_bend_of(first, second, third);
+        first = second;
+        second = third;
         if piece > 0u && !is_flat(piece + 1u, max(worst, bend)) {
             plan = with_piece(plan, segment - 1u, piece, worst);
             piece = 0u;
