@@ -54,14 +54,12 @@ fn descriptor_for(adapter: &Adapter, options: GpuOptions) -> DeviceDescriptor<'s
         let side = &mut limits.max_compute_workgroups_per_dimension;
         *side = (*side).min(workgroups);
     }
-    let clock = if options.without_clock {
-        Features::empty()
-    } else {
-        Features::TIMESTAMP_QUERY
-    };
+    let mut features = Features::TIMESTAMP_QUERY | Features::SUBGROUP;
+    features.set(Features::TIMESTAMP_QUERY, !options.without_clock);
+    features.set(Features::SUBGROUP, !options.without_lanes);
     DeviceDescriptor {
         label: Some("guideway"),
-        required_features: adapter.features() & clock,
+        required_features: adapter.features() & features,
         required_limits: limits,
         ..DeviceDescriptor::default()
     }

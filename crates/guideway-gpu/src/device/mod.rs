@@ -28,6 +28,8 @@ pub struct GpuOptions {
     pub has_checked_shaders: bool,
     /// Do not use the device's clock, as if it had none.
     pub without_clock: bool,
+    /// Do not let threads see each other's values (subgroups), as if they could not.
+    pub without_lanes: bool,
 }
 
 /// Fewer rounds than this would not do for the loops of one row of cells.
@@ -97,6 +99,12 @@ impl Gpu {
     /// Whether the device is a program on the processor.
     pub fn is_software(&self) -> bool {
         self.info.device_type == DeviceType::Cpu
+    }
+
+    /// How many threads at most run in step and see each other's values; none if they do not.
+    pub(crate) fn most_lanes(&self) -> Option<u32> {
+        let has_lanes = self.device.features().contains(wgpu::Features::SUBGROUP);
+        has_lanes.then_some(self.info.subgroup_max_size)
     }
 
     /// Most bytes that a shader may see of one buffer.

@@ -1,9 +1,9 @@
 //! The shaders of a frame, compiled.
 
 use super::params::{
-    CLUSTER_STROKES, COLUMNS, COVER, CULL, FLATTEN, IDS, LAYERS, Layers, SAMPLE_ROWS, SCATTER,
-    SCATTER_THREADS, SHIFT, SORT, STARTS, STARTS_THREADS, Samples, TILE_PX, TILE_THREADS, TOUCH,
-    WORKGROUP,
+    CLUSTER_STROKES, COLUMNS, COVER, COVER_APART, CULL, FLATTEN, IDS, LAYERS, Layers, SAMPLE_ROWS,
+    SCATTER, SCATTER_THREADS, SHIFT, SORT, STARTS, STARTS_THREADS, Samples, TILE_PX, TILE_THREADS,
+    TOUCH, WORKGROUP,
 };
 use crate::device::{Gpu, Kernel};
 
@@ -75,9 +75,10 @@ impl Kernels {
 
 impl Painters {
     fn new(gpu: &Gpu, samples: Samples) -> Result<Self, String> {
+        let painted = [&PAINTED[..], &[constant("THREADS", TILE_THREADS)]].concat();
         let layers = |layers: Layers| {
             let shading = constant("SHADING", layers as u32);
-            let constants = [&PAINTED[..], &[shading]].concat();
+            let constants = [&painted[..], &[shading]].concat();
             Kernel::new(gpu, &LAYERS[samples as usize], &constants)
         };
         Ok(Self {
@@ -85,17 +86,16 @@ impl Painters {
             opaque: layers(Layers::Opaque)?,
             translucent: layers(Layers::Translucent)?,
             density: layers(Layers::Density)?,
-            ids: Kernel::new(gpu, &IDS[samples as usize], &PAINTED)?,
+            ids: Kernel::new(gpu, &IDS[samples as usize], &painted)?,
         })
     }
 }
 
 type Constant = (&'static str, f64);
 
-/// Of all kernels that paint tiles.
-const PAINTED: [Constant; 4] = [
+/// Of all kernels that paint tiles, beside how many threads they have.
+const PAINTED: [Constant; 3] = [
     constant("TILE_PX", TILE_PX),
-    constant("THREADS", TILE_THREADS),
     constant("SAMPLE_ROWS", SAMPLE_ROWS),
     constant("COLUMNS", COLUMNS),
 ];
@@ -117,7 +117,15 @@ fn stages(gpu: &Gpu, more: &[Constant]) -> Result<[Kernel; 5], String> {
 
 /// Paints one opaque colour; with more constants.
 fn cover(gpu: &Gpu, samples: Samples, more: &[Constant]) -> Result<Kernel, String> {
-    Kernel::new(gpu, &COVER[samples as usize], &[&PAINTED, more].concat())
+    let threads = constant("THREADS", samples.cover_threads());
+    let (source, own) = match gpu.most_lanes() {
+        Some(most) => {
+            let lanes = constant("MOST_LANES", most);
+            (&COVER[samples as usize], vec![threads, lanes])
+        }
+        None => (&COVER_APART[samples as usize], vec![threads]),
+    };
+    Kernel::new(gpu, source, &[&PAINTED[..], &own, more].concat())
 }
 
 const fn constant(name: &'static str, value: u32) -> Constant {

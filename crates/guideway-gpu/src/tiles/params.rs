@@ -25,7 +25,7 @@ pub(super) const SAMPLE_ROWS: u32 = 16;
 /// For each row of samples, two bits: which of the first four columns of the lattice it begins at. Each four
 /// rows have all four, so that a border in any direction meets the columns evenly.
 pub(super) const COLUMNS: u32 = columns([0, 2, 1, 3, 2, 0, 3, 1, 1, 3, 0, 2, 3, 1, 2, 0]);
-/// Threads of a tile: one for each row of samples.
+/// Threads of a tile with layers: one for each row of samples.
 pub(super) const TILE_THREADS: u32 = TILE_PX * SAMPLE_ROWS;
 
 const fn columns(first: [u32; SAMPLE_ROWS as usize]) -> u32 {
@@ -190,9 +190,9 @@ macro_rules! wgsl {
 
 /// Shaders that paint tiles, with so many samples in one row of a pixel.
 macro_rules! tiles {
-    ($samples:literal, [$($file:literal),+], $bindings:expr) => {
+    ($samples:literal, $name:literal, [$($file:literal),+], $bindings:expr) => {
         Source {
-            name: [$($file),+][0],
+            name: $name,
             wgsl: concat!(
                 "const SAMPLES_A_ROW: u32 = ",
                 $samples,
@@ -218,7 +218,7 @@ macro_rules! flatten {
             name: "flatten",
             wgsl: wgsl!(
                 "frame", "work", "found", "view", "cluster", "stroke", "style", $points, "curve",
-                "plan", "clip", "walk", "hidden", "flatten"
+                "plan", "clip", "walk", "hidden", "emit", "flatten"
             ),
             bindings: &[
                 "frame",
@@ -319,6 +319,15 @@ impl Samples {
             Self::Fine => 16,
         }
     }
+
+    /// Threads of a tile of one opaque colour. So many workgroups run at a time as have room for the samples that they
+    /// share: the more samples, the more threads for them.
+    pub(super) fn cover_threads(self) -> u32 {
+        match self {
+            Self::Coarse => 128,
+            Self::Fine => 256,
+        }
+    }
 }
 
 pub(super) const TOUCH: Source = Source {
@@ -336,28 +345,42 @@ pub(super) const TOUCH: Source = Source {
 
 /// Which path lies on top; by [`Samples`].
 pub(super) const IDS: [Source; 2] = [
-    tiles!(4, ["ids"], tile_bindings!()),
-    tiles!(16, ["ids"], tile_bindings!()),
+    tiles!(4, "ids", ["ids"], tile_bindings!()),
+    tiles!(16, "ids", ["ids"], tile_bindings!()),
 ];
 
-/// One opaque colour; by [`Samples`].
-pub(super) const COVER: [Source; 2] = [
-    tiles!(
-        4,
-        ["cover", "waiting", "found"],
-        tile_bindings!("counts", "found")
-    ),
-    tiles!(
-        16,
-        ["cover", "waiting", "found"],
-        tile_bindings!("counts", "found")
-    ),
-];
+macro_rules! cover {
+    ($samples:literal, $lanes:literal) => {
+        tiles!(
+            $samples,
+            "cover",
+            // What is set from outside has to come before arrays of a length that is, too.
+            [$lanes, "deal", "cover", "found"],
+            tile_bindings!("counts", "found")
+        )
+    };
+}
+
+/// One opaque colour, by [`Samples`]: where threads see each other's values.
+pub(super) const COVER: [Source; 2] = [cover!(4, "lanes"), cover!(16, "lanes")];
+
+/// The same where they do not.
+pub(super) const COVER_APART: [Source; 2] = [cover!(4, "lanes_apart"), cover!(16, "lanes_apart")];
 
 /// Anything else; by [`Samples`].
 pub(super) const LAYERS: [Source; 2] = [
-    tiles!(4, ["layers", "rounds", "found"], tile_bindings!("found")),
-    tiles!(16, ["layers", "rounds", "found"], tile_bindings!("found")),
+    tiles!(
+        4,
+        "layers",
+        ["layers", "rounds", "found"],
+        tile_bindings!("found")
+    ),
+    tiles!(
+        16,
+        "layers",
+        ["layers", "rounds", "found"],
+        tile_bindings!("found")
+    ),
 ];
 
 #[cfg(test)]

@@ -119,6 +119,10 @@ fn the_limits_of_a_device_change_no_bit() {
         has_checked_shaders: true,
         ..GpuOptions::default()
     });
+    let apart = limited(GpuOptions {
+        without_lanes: true,
+        ..GpuOptions::default()
+    });
     for (scene, shading) in [
         (plain(3000, 8.0), Shading::Color),
         (mixed(3000, 8.0), Shading::Color),
@@ -131,6 +135,7 @@ fn the_limits_of_a_device_change_no_bit() {
             ("small", &small, true),
             ("narrow", &narrow, false),
             ("checked", &checked, false),
+            ("apart", &apart, false),
         ] {
             let mut prepared = prepared(device, &scene);
             for _ in 0..2 {

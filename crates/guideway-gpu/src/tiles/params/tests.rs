@@ -17,6 +17,8 @@ const SHADERS: &[&Source] = &[
     &SORT[1],
     &COVER[0],
     &COVER[1],
+    &COVER_APART[0],
+    &COVER_APART[1],
     &LAYERS[0],
     &LAYERS[1],
 ];
@@ -73,7 +75,7 @@ fn each_four_rows_of_samples_have_every_column_once() {
 fn rows_of_a_pixel_have_as_many_samples_as_is_said() {
     for samples in [Samples::Coarse, Samples::Fine] {
         let said = format!("const SAMPLES_A_ROW: u32 = {}u;", samples.a_row());
-        for sources in [&COVER, &LAYERS, &IDS] {
+        for sources in [&COVER, &COVER_APART, &LAYERS, &IDS] {
             assert!(sources[samples as usize].wgsl.starts_with(&said), "{said}");
         }
     }

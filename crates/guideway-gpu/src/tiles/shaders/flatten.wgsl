@@ -1,5 +1,6 @@
 // A workgroup for one cluster after the other, a thread a stroke and then a thread a line: turns curves into
-// lines, and counts how many touch each tile.
+// lines, and counts how many touch each tile. Of few clusters, seen from near and of many lines each, several
+// workgroups make a part of the lines each.
 
 override STROKES: u32;
 
@@ -15,6 +16,9 @@ struct Chunk {
 
 // Every so many clusters are of the first round.
 const STRIDE: u32 = 4u;
+// Most workgroups for one cluster, as a power of two, and how many are enough for all of them together.
+const MOST_PARTS_BITS: u32 = 3u;
+const ENOUGH_GROUPS: u32 = 256u;
 
 @group(0) @binding(1) var<uniform> chunk: Chunk;
 @group(0) @binding(3) var<storage, read> strokes: array<Stroke>;
@@ -26,6 +30,8 @@ const STRIDE: u32 = 4u;
 @group(0) @binding(9) var<storage, read_write> counts: array<atomic<u32>>;
 
 var<workgroup> clusters_seen: u32;
+// How many workgroups each cluster has. Held here, for a thread that keeps it leaves room for fewer others.
+var<workgroup> parts_bits: u32;
 var<workgroup> group_drawn: atomic<u32>;
 var<workgroup> first_line: u32;
 // The strokes of the cluster, and how many lines there are up to the end of each.
@@ -38,54 +44,10 @@ struct Planned {
     plan: Plan,
 }
 
-// Whether all of the cluster is inside what is drawn, so that nothing of it needs to be cut.
-var<private> is_inside: bool;
-
-fn emit(slot: u32, rank: u32, a: vec2f, b: vec2f, radius: f32) {
-    if slot >= frame.line_room {
-        return;
-    }
-    var line = vec4f(a, b);
-    if !is_inside {
-        let part = within_reach(a, b, radius + 1.0);
-        if part.x > part.y {
-            line_ranks[slot] = NO_RANK;
-            writes(1u);
-            return;
-        }
-        // Ends inside stay as they are, to the bit.
-        line = vec4f(
-            select(a, a + (b - a) * part.x, part.x > 0.0),
-            select(b, a + (b - a) * part.y, part.y < 1.0),
-        );
-    }
-    let reach = radius + MARGIN_PX;
-    let rows = rows_of(line, reach);
-    var is_needed = false;
-    for (var row = rows.x; row < rows.y; row++) {
-        let columns = columns_of(line, reach, row);
-        for (var column = columns.x; column < columns.y; column++) {
-            let tile = tile_index(row, column);
-            if chunk.round < 2u || !is_full(tile) {
-                atomicAdd(&counts[tile], 1u);
-                atomics(1u);
-                is_needed = true;
-            }
-        }
-    }
-    if is_needed {
-        lines_px[slot] = line;
-        writes(4u);
-    }
-    writes(1u);
-    line_ranks[slot] = select(NO_RANK, rank, is_needed);
-}
-
-// Turns the strokes of the workgroup into lines, a thread a line.
-fn emit_all(thread: u32, any: Curve, first_slot: u32) {
+// Turns strokes into lines, those of the numbers between two, a thread a line.
+fn emit_all(thread: u32, any: Curve, numbers: vec2u, first_slot: u32) {
     var curve = any;
-    let all = line_ends[STROKES - 1u];
-    for (var line = thread; line < all; line += STROKES) {
+    for (var line = numbers.x + thread; line < numbers.y; line += STROKES) {
         // The first stroke that ends behind it.
         var stroke = 0u;
         for (var half = STROKES / 2u; half > 0u; half /= 2u) {
@@ -96,7 +58,7 @@ fn emit_all(thread: u32, any: Curve, first_slot: u32) {
         let part = part_of(curve, it.plan, it.plan.lines + line - line_ends[stroke]);
         let a = joint_px(curve, part, part.step);
         let b = joint_px(curve, part, part.step + 1u);
-        emit(first_slot + line, it.rank, a, b, radius_of(it.rank));
+        emit(first_slot + line - numbers.x, it.rank, a, b, radius_of(it.rank));
     }
 }
 
@@ -123,6 +85,11 @@ fn holds(cluster: Cluster) -> bool {
     return all(box.xy - reach_px >= window.low_px) && all(box.zw + reach_px <= window.high_px);
 }
 
+// Which part of its cluster's lines a workgroup makes.
+fn part_of_cluster(i: u32) -> u32 {
+    return i & ((1u << parts_bits) - 1u);
+}
+
 @compute @workgroup_size(STROKES)
 fn main(
     @builtin(workgroup_id) id: vec3u,
@@ -131,10 +98,12 @@ fn main(
 ) {
     if thread == 0u {
         clusters_seen = clusters_of_kind();
+        let parts = clamp(ENOUGH_GROUPS / max(clusters_seen, 1u), 1u, 1u << MOST_PARTS_BITS);
+        parts_bits = firstLeadingBit(parts);
     }
     let all = workgroupUniformLoad(&clusters_seen);
-    for (var i = workgroup_index(id, count); i < all; i += count.x * count.y) {
-        let index = cluster_of_kind(i);
+    for (var i = workgroup_index(id, count); i < all << parts_bits; i += count.x * count.y) {
+        let index = cluster_of_kind(i >> parts_bits);
         let cluster = clusters[index];
         reads(1u + CLUSTER_WORDS);
         let is_of_round = chunk.round == 0u || (index % STRIDE == 0u) == (chunk.round == 1u);
@@ -145,7 +114,7 @@ fn main(
         if is_here {
             first_point = first_point_of_cluster(cluster, index);
             is_here = !is_near || first_point != 0u;
-            if !is_here && thread == 0u {
+            if !is_here && thread == 0u && part_of_cluster(i) == 0u {
                 atomicAdd(&found.counters.missing, 1u);
             }
         }
@@ -184,12 +153,19 @@ fn main(
         }
         planned[thread] = Planned(curve.first_point, stroke.rank, plan);
         add_up(thread, plan.lines);
+        let part = part_of_cluster(i);
+        let numbers = (line_ends[STROKES - 1u] * vec2u(part, part + 1u)) >> vec2u(parts_bits);
         if thread == 0u {
-            first_line = atomicAdd(&found.counters.lines, line_ends[STROKES - 1u]);
-            atomicAdd(&found.counters.drawn, atomicLoad(&group_drawn));
-            atomics(2u);
+            if numbers.x < numbers.y {
+                first_line = atomicAdd(&found.counters.lines, numbers.y - numbers.x);
+                atomics(1u);
+            }
+            if part == 0u {
+                atomicAdd(&found.counters.drawn, atomicLoad(&group_drawn));
+                atomics(1u);
+            }
         }
-        emit_all(thread, curve, workgroupUniformLoad(&first_line));
+        emit_all(thread, curve, numbers, workgroupUniformLoad(&first_line));
         workgroupBarrier();
     }
     report_work();

@@ -1,4 +1,4 @@
-// A workgroup draws one tile, a thread for each row of its samples, from its list of lines.
+// A workgroup draws one tile from its list of lines.
 
 @group(0) @binding(1) var<storage, read> lists: array<vec2u>;
 @group(0) @binding(2) var<storage, read> references: array<u32>;

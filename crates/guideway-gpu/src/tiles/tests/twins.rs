@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use guideway_render::Work;
 use guideway_scene::Edit;
 use guideway_spline::Affine;
 
@@ -159,7 +160,12 @@ fn what_was_looked_at_before_changes_no_bit() {
         assert_eq!(ask(&mut used), ask(&mut new));
         let count = |prepared: &mut PreparedTiles| prepared.count_work(&near(), &style, &cancel);
         let (of_used, of_new) = (count(&mut used).unwrap(), count(&mut new).unwrap());
-        assert_eq!(of_used, of_new);
+        // Which lines are entered into lists together depends on which workgroup came first.
+        let but_atomics = |work| Work {
+            atomics: None,
+            ..work
+        };
+        assert_eq!(but_atomics(of_used), but_atomics(of_new));
     }
 }
 

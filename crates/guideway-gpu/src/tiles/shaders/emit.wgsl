@@ -1,0 +1,44 @@
+// Writes a line, as far as it is in reach of what is drawn, and counts it for the tiles that it may touch.
+
+// Whether all of the cluster is inside what is drawn, so that nothing of it needs to be cut.
+var<private> is_inside: bool;
+
+fn emit(slot: u32, rank: u32, a: vec2f, b: vec2f, radius: f32) {
+    if slot >= frame.line_room {
+        return;
+    }
+    var line = vec4f(a, b);
+    if !is_inside {
+        let part = within_reach(a, b, radius + 1.0);
+        if part.x > part.y {
+            line_ranks[slot] = NO_RANK;
+            writes(1u);
+            return;
+        }
+        // Ends inside stay as they are, to the bit.
+        line = vec4f(
+            select(a, a + (b - a) * part.x, part.x > 0.0),
+            select(b, a + (b - a) * part.y, part.y < 1.0),
+        );
+    }
+    let reach = radius + MARGIN_PX;
+    let rows = rows_of(line, reach);
+    var is_needed = false;
+    for (var row = rows.x; row < rows.y; row++) {
+        let columns = columns_of(line, reach, row);
+        for (var column = columns.x; column < columns.y; column++) {
+            let tile = tile_index(row, column);
+            if chunk.round < 2u || !is_full(tile) {
+                atomicAdd(&counts[tile], 1u);
+                atomics(1u);
+                is_needed = true;
+            }
+        }
+    }
+    if is_needed {
+        lines_px[slot] = line;
+        writes(4u);
+    }
+    writes(1u);
+    line_ranks[slot] = select(NO_RANK, rank, is_needed);
+}
