@@ -102,7 +102,7 @@ impl PreparedTiles {
         let shot = Shot::new(view, style, &scene, self.facts)?;
         std::mem::swap(&mut self.easel, &mut self.probe);
         let done = self
-            .make_ready(view, FIRST_STROKES)
+            .make_ready(view, FIRST_STROKES, true)
             .and_then(|()| work(self, &shot));
         std::mem::swap(&mut self.easel, &mut self.probe);
         done

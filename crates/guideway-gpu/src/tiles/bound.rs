@@ -48,7 +48,7 @@ impl Paint {
         let words = u64::from(samples.a_row() * TILE_PX / u32::BITS);
         let longest = u64::from(found.longest);
         match self {
-            Self::One => 10 * longest,
+            Self::One => 11 * longest,
             Self::Touch => 0,
             // For each line its words, twice, and the pixels that it covers.
             Self::Ids => longest * (2 + 2 * words + u64::from(TILE_PX)),
@@ -90,6 +90,7 @@ pub(super) struct Bound {
     paint: Paint,
     samples: Samples,
     is_in_rounds: bool,
+    has_few: bool,
     stages: Vec<(&'static str, Vec<Step>)>,
 }
 
@@ -121,11 +122,13 @@ impl Bound {
         paint: Paint,
         samples: Samples,
         is_in_rounds: bool,
+        has_few: bool,
     ) -> Result<Self, String> {
         let mut bound = Self {
             paint,
             samples,
             is_in_rounds,
+            has_few,
             stages: Vec::new(),
         };
         let (kernels, found) = (b.kernels, &b.store.found);
@@ -179,7 +182,7 @@ impl Bound {
                 line_ranks,
                 counts,
             ];
-            let kernel = &kernels.flatten[chunk.held as usize];
+            let kernel = &kernels.flatten[usize::from(self.has_few)][chunk.held as usize];
             let over = Over::Seen(chunk.clusters.len() as u32, chunk.drawn);
             self.add("flatten", b, kernel, over, &buffers)?;
         }
@@ -243,8 +246,15 @@ impl Bound {
         Ok(())
     }
 
-    pub(super) fn is_for(&self, paint: Paint, samples: Samples, is_in_rounds: bool) -> bool {
-        (self.paint, self.samples, self.is_in_rounds) == (paint, samples, is_in_rounds)
+    pub(super) fn is_for(
+        &self,
+        paint: Paint,
+        samples: Samples,
+        is_in_rounds: bool,
+        has_few: bool,
+    ) -> bool {
+        (self.paint, self.samples) == (paint, samples)
+            && (self.is_in_rounds, self.has_few) == (is_in_rounds, has_few)
     }
 
     /// Runs all stages one after the other.

@@ -29,7 +29,12 @@ pub(super) struct Easel {
     pub(super) kept: Option<Kept>,
     pub(super) shifter: Option<Shifter>,
     pub(super) rounds: Rounds,
+    /// Whether the last frame has seen few clusters.
+    pub(super) has_few: bool,
 }
+
+/// So few clusters that several workgroups share each.
+const FEW_CLUSTERS: u32 = 128;
 
 impl Easel {
     /// Whether rounds may make do with the room that was too small.
@@ -73,8 +78,14 @@ fn too_long(found: &Found) -> RenderError {
 }
 
 impl PreparedTiles {
-    /// Has buffers for pictures of this size, and room for the lines of so many strokes at first.
-    pub(super) fn make_ready(&mut self, view: &View, strokes: u32) -> Result<(), RenderError> {
+    /// Has buffers for pictures of this size, and room for the lines of so many strokes at first, with ranks if they
+    /// are needed.
+    pub(super) fn make_ready(
+        &mut self,
+        view: &View,
+        strokes: u32,
+        has_ranks: bool,
+    ) -> Result<(), RenderError> {
         let gpu = &self.shared.gpu;
         let easel = &mut self.easel;
         if easel.canvas.as_ref().is_none_or(|c| c.size != view.size()) {
@@ -82,9 +93,14 @@ impl PreparedTiles {
             easel.unbind();
             easel.canvas = Some(Canvas::new(gpu, &mut self.memory, view.size())?);
         }
-        if easel.room.is_none() {
+        if (easel.room.as_ref()).is_none_or(|room| has_ranks && !room.size.has_ranks) {
             easel.unbind();
-            let size = Size::first(strokes).within(gpu, &self.memory);
+            let first = Size::first(strokes, has_ranks);
+            let size = easel.room.take().map_or(first, |room| Size {
+                has_ranks,
+                ..room.size
+            });
+            let size = size.within(gpu, &self.memory);
             easel.room = Some(Room::new(&mut self.memory, size)?);
         }
         Ok(())
@@ -94,8 +110,9 @@ impl PreparedTiles {
     pub(super) fn make_spare(&mut self, bytes: u64) -> Result<bool, RenderError> {
         if self.memory.spare_bytes() < bytes {
             self.unbind();
+            let has_ranks = (self.easel.room.as_ref()).is_some_and(|room| room.size.has_ranks);
             (self.easel.room, self.probe.room) = (None, None);
-            let least = Size::first(0).within(&self.shared.gpu, &self.memory);
+            let least = Size::first(0, has_ranks).within(&self.shared.gpu, &self.memory);
             self.easel.room = Some(Room::new(&mut self.memory, least)?);
         }
         Ok(self.memory.spare_bytes() >= bytes)
@@ -127,10 +144,11 @@ impl PreparedTiles {
         };
         let samples = shot.samples();
         let in_rounds = easel.rounds.are_on && paint == Paint::One;
-        let is_alike = |bound: &Bound| bound.is_for(paint, samples, in_rounds);
+        let has_few = easel.has_few;
+        let is_alike = |bound: &Bound| bound.is_for(paint, samples, in_rounds, has_few);
         let bound = match easel.bound.take().filter(is_alike) {
             Some(bound) => bound,
-            None => Bound::new(&buffers, paint, samples, in_rounds).map_err(trouble)?,
+            None => Bound::new(&buffers, paint, samples, in_rounds, has_few).map_err(trouble)?,
         };
         let set = self.runner.set("the view", &canvas.frame, &params);
         set.map_err(trouble)?;
@@ -146,6 +164,7 @@ impl PreparedTiles {
         );
         fetched.map_err(trouble)?;
         self.easel.bound = Some(bound);
+        self.easel.has_few = found.rounded + found.exact <= FEW_CLUSTERS;
         Ok(found)
     }
 
@@ -217,7 +236,7 @@ impl PreparedTiles {
             } else if let Some([first, second]) = window.halves() {
                 windows.extend([second, first]);
             } else {
-                let size = Size::first(0).for_found(&found);
+                let size = Size::first(0, shot.needs_ranks(paint)).for_found(&found);
                 return Err(size.refused(&self.memory));
             }
         }

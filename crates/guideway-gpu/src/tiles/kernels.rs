@@ -10,8 +10,8 @@ use crate::device::{Gpu, Kernel};
 #[derive(Clone)]
 pub(super) struct Kernels {
     pub(super) cull: Kernel,
-    /// By [`super::params::Points`].
-    pub(super) flatten: [Kernel; 2],
+    /// For many clusters and for few, by [`super::params::Points`].
+    pub(super) flatten: [[Kernel; 2]; 2],
     pub(super) starts: Kernel,
     pub(super) scatter: Kernel,
     /// Of short lists, and of all others.
@@ -36,10 +36,10 @@ impl Kernels {
     pub(super) fn new(gpu: &Gpu) -> Result<Self, String> {
         let tile = constant("TILE_PX", TILE_PX);
         let tile_threads = constant("THREADS", TILE_THREADS);
-        let [cull, rounded, exact, starts, scatter] = stages(gpu, &[])?;
+        let [cull, starts, scatter] = stages(gpu, &[])?;
         Ok(Self {
             cull,
-            flatten: [rounded, exact],
+            flatten: flatten(gpu, &[])?,
             starts,
             scatter,
             sort: [
@@ -59,9 +59,8 @@ impl Kernels {
     pub(super) fn counting(&self, gpu: &Gpu) -> Result<Self, String> {
         let counts = [("COUNTS", 1.0)];
         let mut all = self.clone();
-        let [cull, rounded, exact, starts, scatter] = stages(gpu, &counts)?;
-        (all.cull, all.starts, all.scatter) = (cull, starts, scatter);
-        all.flatten = [rounded, exact];
+        [all.cull, all.starts, all.scatter] = stages(gpu, &counts)?;
+        all.flatten = flatten(gpu, &counts)?;
         for samples in [Samples::Coarse, Samples::Fine] {
             all.painters[samples as usize].cover = cover(gpu, samples, &counts)?;
         }
@@ -100,16 +99,31 @@ const PAINTED: [Constant; 3] = [
     constant("COLUMNS", COLUMNS),
 ];
 
-/// From clusters to lists: cull, flatten rounded points and exact ones, starts, scatter; with more constants.
-fn stages(gpu: &Gpu, more: &[Constant]) -> Result<[Kernel; 5], String> {
+/// Most workgroups that share one of few clusters, as a power of two.
+const MOST_PARTS_BITS: u32 = 3;
+
+/// With more constants.
+fn flatten(gpu: &Gpu, more: &[Constant]) -> Result<[[Kernel; 2]; 2], String> {
+    let kernel = |source, bits| {
+        let own = [
+            constant("TILE_PX", TILE_PX),
+            constant("STROKES", CLUSTER_STROKES),
+            constant("MOST_PARTS_BITS", bits),
+        ];
+        Kernel::new(gpu, source, &[&own, more].concat())
+    };
+    let of = |bits| Ok::<_, String>([kernel(&FLATTEN[0], bits)?, kernel(&FLATTEN[1], bits)?]);
+    Ok([of(0)?, of(MOST_PARTS_BITS)?])
+}
+
+/// From clusters to lists, but for flattening: cull, starts, scatter; with more constants.
+fn stages(gpu: &Gpu, more: &[Constant]) -> Result<[Kernel; 3], String> {
     let kernel = |source, name, value| {
         let own = [constant("TILE_PX", TILE_PX), constant(name, value)];
         Kernel::new(gpu, source, &[&own, more].concat())
     };
     Ok([
         kernel(&CULL, "WORKGROUP", WORKGROUP)?,
-        kernel(&FLATTEN[0], "STROKES", CLUSTER_STROKES)?,
-        kernel(&FLATTEN[1], "STROKES", CLUSTER_STROKES)?,
         kernel(&STARTS, "THREADS", STARTS_THREADS)?,
         kernel(&SCATTER, "THREADS", SCATTER_THREADS)?,
     ])

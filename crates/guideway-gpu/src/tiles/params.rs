@@ -63,7 +63,7 @@ pub(super) struct FrameParams {
     pub(super) color: u32,
     pub(super) background: u32,
     pub(super) most_step_m: f32,
-    pub(super) padding: u32,
+    pub(super) has_ranks: u32,
 }
 
 /// `Chunk` of `flatten.wgsl`.
@@ -198,7 +198,7 @@ macro_rules! tiles {
                 $samples,
                 "u;\n",
                 wgsl!(
-                    "frame", "work", "view", "style", "walk", "capsule", "tile", "open", "blend", $($file),+
+                    "frame", "work", "view", "style", "rank", "walk", "capsule", "tile", "open", "blend", $($file),+
                 )
             ),
             bindings: $bindings,
@@ -248,7 +248,7 @@ pub(super) const STARTS: Source = Source {
 pub(super) const SCATTER: Source = Source {
     name: "scatter",
     wgsl: wgsl!(
-        "frame", "work", "found", "view", "style", "walk", "tally", "scatter"
+        "frame", "work", "found", "view", "style", "rank", "walk", "tally", "scatter"
     ),
     bindings: &[
         "frame",

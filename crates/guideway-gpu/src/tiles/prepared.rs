@@ -87,7 +87,7 @@ pub(super) fn plan_bytes(scene: &Scene, budget: &Budget) -> u64 {
     let paths = scene.draw_order().len() as u64;
     let points = (geometry.segment_count() as u64 + 3 * paths) * size_of::<[f32; 2]>() as u64;
     let strokes = paths * size_of::<Stroke>() as u64;
-    let room = Size::first(u32::try_from(paths).unwrap_or(u32::MAX)).bytes();
+    let room = Size::first(u32::try_from(paths).unwrap_or(u32::MAX), true).bytes();
     let pixels = 2 * PLANNED_PIXELS * size_of::<u32>() as u64;
     (points + strokes + room + pixels).min(budget.memory_bytes)
 }
@@ -236,11 +236,11 @@ impl Prepared for PreparedTiles {
                 .store
                 .as_ref()
                 .map_or(0, |s| s.stroke_list.len() as u32);
-            self.make_ready(view, strokes)?;
             let paint = match style.shading {
                 Shading::Color => self.facts.paint,
                 Shading::Density(_) => Paint::Density,
             };
+            self.make_ready(view, strokes, shot.needs_ranks(paint))?;
             drawing = self.draw_all(&shot, paint, cancel, |pixels, bytes| {
                 let words = bytes.as_chunks().0;
                 if counts.is_empty() {

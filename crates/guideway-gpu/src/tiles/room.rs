@@ -23,15 +23,18 @@ pub(super) struct Room {
 pub(super) struct Size {
     pub(super) lines: u32,
     pub(super) references: u32,
+    /// Whether lines have ranks.
+    pub(super) has_ranks: bool,
 }
 
 impl Size {
     /// Enough for the first look at so many strokes.
-    pub(super) fn first(strokes: u32) -> Self {
+    pub(super) fn first(strokes: u32, has_ranks: bool) -> Self {
         let lines = strokes.saturating_mul(2).saturating_add(1024);
         Self {
             lines,
             references: lines.saturating_add(lines / 2),
+            has_ranks,
         }
     }
 
@@ -41,12 +44,14 @@ impl Size {
         let fitted = Self {
             lines: self.lines.min(fit(LINE_BYTES)),
             references: self.references.min(fit(WORD_BYTES)),
+            ..self
         };
         let share = memory.spare_bytes() as f64 / fitted.bytes() as f64;
         let scale = |n: u32| (f64::from(n) * share.min(1.0)) as u32;
         Self {
             lines: scale(fitted.lines).max(1),
             references: scale(fitted.references).max(1),
+            ..self
         }
     }
 
@@ -62,6 +67,7 @@ impl Size {
         Self {
             lines: grown(self.lines, found.lines),
             references: grown(self.references, found.references),
+            ..self
         }
     }
 
@@ -70,7 +76,13 @@ impl Size {
     }
 
     pub(super) fn bytes(self) -> u64 {
-        u64::from(self.lines) * (LINE_BYTES + WORD_BYTES) + u64::from(self.references) * WORD_BYTES
+        u64::from(self.lines) * LINE_BYTES
+            + (self.ranks() + u64::from(self.references)) * WORD_BYTES
+    }
+
+    /// Ranks that there is room for: one where there are none, for a shader has to be shown some.
+    fn ranks(self) -> u64 {
+        u64::from(if self.has_ranks { self.lines } else { 1 })
     }
 
     /// Whether a shader may see each of the buffers whole.
@@ -98,7 +110,7 @@ impl Room {
         Ok(Self {
             size,
             lines_px: memory.zeros("the lines", lines * LINE_BYTES, storage)?,
-            line_ranks: memory.zeros("the lines", lines * WORD_BYTES, storage)?,
+            line_ranks: memory.zeros("the lines", size.ranks() * WORD_BYTES, storage)?,
             reference_list: memory.zeros(
                 "the lists of the tiles",
                 u64::from(size.references) * WORD_BYTES,

@@ -5,6 +5,7 @@ use guideway_scene::{LineRule, Scene};
 use guideway_spline::{Bounds, Point};
 
 use super::NAME;
+use super::bound::Paint;
 use super::canvas::Canvas;
 use super::pack::device_color;
 use super::params::{FrameParams, Samples, TILE_PX};
@@ -68,6 +69,11 @@ impl<'a> Shot<'a> {
     /// Whether points of some clusters are too coarse for it.
     pub(super) fn is_near(&self) -> bool {
         self.facts.greatest_step_m > self.most_step_m()
+    }
+
+    /// Whether lines need the ranks of their paths.
+    pub(super) fn needs_ranks(&self, paint: Paint) -> bool {
+        paint != Paint::One || !self.facts.is_plain
     }
 
     fn radius_px(&self, width_m: Option<f32>) -> f64 {
@@ -146,7 +152,7 @@ impl<'a> Shot<'a> {
             color,
             background: device_color(self.style.background),
             most_step_m: self.most_step_m(),
-            padding: 0,
+            has_ranks: u32::from(room.size.has_ranks),
         }
     }
 }

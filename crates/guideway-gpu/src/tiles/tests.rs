@@ -217,6 +217,7 @@ fn what_is_hidden_is_left_out_and_changes_no_bit() {
         let room = Size {
             lines: 1 << 18,
             references: 1 << 20,
+            has_ranks: false,
         };
         at_once.easel.room = Some(Room::new(&mut at_once.memory, room).unwrap());
         let (expected, whole) = picture(&mut at_once, &view, &style);

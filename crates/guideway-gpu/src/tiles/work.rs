@@ -57,11 +57,17 @@ impl PreparedTiles {
             .store
             .as_ref()
             .map_or(0, |s| s.stroke_list.len() as u32);
-        self.make_ready(view, strokes)?;
+        self.make_ready(view, strokes, shot.needs_ranks(Paint::One))?;
         self.easel.kept = None;
         self.easel.unbind();
         let own = std::mem::replace(&mut self.kernels, counting);
-        let drawn = self.draw_all(&shot, Paint::One, cancel, |_, _| ());
+        // The first one learns what the view shows few of, as the last frame of another may not have.
+        let drawn = self
+            .draw_all(&shot, Paint::One, cancel, |_, _| ())
+            .and_then(|_| {
+                self.easel.kept = None;
+                self.draw_all(&shot, Paint::One, cancel, |_, _| ())
+            });
         self.kernels = own;
         self.easel.unbind();
         let counted = drawn?.work;

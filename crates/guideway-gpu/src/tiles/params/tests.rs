@@ -34,7 +34,8 @@ fn every_shader_binds_what_it_is_given() {
 fn structures_are_laid_out_alike() {
     let frame = members!(FrameParams: center_high_m, center_low_m, half_size_px, px_per_m, radius_px,
         least_radius_px, most_radius_px, tolerance_px, clusters, styles, width_px, height_px, first_column,
-        columns, first_row, rows, pixels_row, line_room, reference_room, color, background, most_step_m);
+        columns, first_row, rows, pixels_row, line_room, reference_room, color, background, most_step_m,
+        has_ranks);
     assert_laid_out(SHADERS, "Frame", &frame);
     assert_laid_out(
         SHADERS,

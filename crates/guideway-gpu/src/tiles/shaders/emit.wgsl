@@ -3,6 +3,15 @@
 // Whether all of the cluster is inside what is drawn, so that nothing of it needs to be cut.
 var<private> is_inside: bool;
 
+fn leave_out(slot: u32) {
+    if frame.has_ranks != 0u {
+        line_ranks[slot] = NO_RANK;
+    } else {
+        lines_px[slot].x = NOWHERE_PX;
+    }
+    writes(1u);
+}
+
 fn emit(slot: u32, rank: u32, a: vec2f, b: vec2f, radius: f32) {
     if slot >= frame.line_room {
         return;
@@ -11,8 +20,7 @@ fn emit(slot: u32, rank: u32, a: vec2f, b: vec2f, radius: f32) {
     if !is_inside {
         let part = within_reach(a, b, radius + 1.0);
         if part.x > part.y {
-            line_ranks[slot] = NO_RANK;
-            writes(1u);
+            leave_out(slot);
             return;
         }
         // Ends inside stay as they are, to the bit.
@@ -35,10 +43,14 @@ fn emit(slot: u32, rank: u32, a: vec2f, b: vec2f, radius: f32) {
             }
         }
     }
-    if is_needed {
-        lines_px[slot] = line;
-        writes(4u);
+    if !is_needed {
+        leave_out(slot);
+        return;
     }
-    writes(1u);
-    line_ranks[slot] = select(NO_RANK, rank, is_needed);
+    lines_px[slot] = line;
+    writes(4u);
+    if frame.has_ranks != 0u {
+        line_ranks[slot] = rank;
+        writes(1u);
+    }
 }

@@ -16,8 +16,9 @@ struct Chunk {
 
 // Every so many clusters are of the first round.
 const STRIDE: u32 = 4u;
-// Most workgroups for one cluster, as a power of two, and how many are enough for all of them together.
-const MOST_PARTS_BITS: u32 = 3u;
+// Most workgroups for one cluster, as a power of two, and how many are enough for all of them together. Where it is none, a
+// thread has less to keep, and more of them run.
+override MOST_PARTS_BITS: u32;
 const ENOUGH_GROUPS: u32 = 256u;
 
 @group(0) @binding(1) var<uniform> chunk: Chunk;

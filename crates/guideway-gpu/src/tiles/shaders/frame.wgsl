@@ -36,6 +36,8 @@ struct Frame {
     background: u32,
     // Points in larger steps would be off too far: their clusters are drawn from exact points.
     most_step_m: f32,
+    // Whether lines have ranks; they need none where all paths look alike.
+    has_ranks: u32,
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;

@@ -69,12 +69,16 @@ fn main(
         var line: vec4f;
         var reach = 0.0;
         if index < all {
-            rank = line_ranks[index];
-            reads(1u);
+            rank = rank_of(index);
         }
         if rank != NO_RANK {
             line = lines_px[index];
             reads(4u);
+            if line.x == NOWHERE_PX {
+                rank = NO_RANK;
+            }
+        }
+        if rank != NO_RANK {
             reach = radius_of(rank) + MARGIN_PX;
             visit(index, line, reach, false);
         }

@@ -57,10 +57,10 @@ fn list_of(tile: u32) -> vec2u {
 
 // The line at a place of the lists.
 fn capsule_at(tile: Tile, place: u32) -> Capsule {
-    reads(6u);
+    reads(5u);
     let line = references[place];
     let corner = vec2f(f32(tile.left), f32(tile.top));
-    return capsule_of(lines_px[line], corner, radius_of(line_ranks[line]));
+    return capsule_of(lines_px[line], corner, radius_of(rank_of(line)));
 }
 
 // Whether something holds for any thread.

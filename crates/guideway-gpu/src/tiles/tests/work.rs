@@ -35,8 +35,8 @@ fn work_is_counted_exactly() {
         assert_eq!(work.tests, Some(n * 4 * u64::from(params::SAMPLE_ROWS)));
         // The cluster and its paths; a line a workgroup; references and the longest list; a line in its tile; the list.
         assert_eq!(work.atomics, Some(2 + n + 2 + n + 1));
-        // The cluster, a line with its rank, three words a tile, references, pixels.
-        let words = 1 + n * 5 + 3 * 14 * 9 + n + 210 * 130;
+        // The cluster, a line, three words a tile, references, pixels.
+        let words = 1 + n * 4 + 3 * 14 * 9 + n + 210 * 130;
         assert_eq!(work.bytes_written, Some(4 * words));
         assert!(work.bytes_read > Some(n * 4 * 8));
         assert_eq!(count().unwrap(), work);
