@@ -13,8 +13,8 @@ pub(crate) struct Pose {
     pub(crate) heading: f64,
 }
 
-/// A turn by more than this where the path has no length is one of half a turn: a cusp.
-const CUSP: f64 = 0.998 * PI;
+/// A turn by more than this where the path has no length is one of half a turn: a cusp (docs/envelopes.md).
+const CUSP: f64 = 179.0 / 180.0 * PI;
 
 /// Poses along the way. From each to the next, no point of the body moves farther than `step`.
 pub(crate) fn poses(case: &Case, step: f64) -> Vec<Pose> {

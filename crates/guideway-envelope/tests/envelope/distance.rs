@@ -114,6 +114,25 @@ fn it_tells_where_paths_cross() {
 }
 
 #[test]
+fn a_kink_within_a_degree_of_half_a_turn_is_a_cusp() {
+    // Whether its vehicle comes back in reverse decides which way its front points at the end, 1 m ahead of its place.
+    let wall = straight(p(-4.0, -9.0), p(-4.0, 9.0));
+    for (off_m, is_cusp) in [(0.08, true), (0.12, false)] {
+        let there = straight(p(0.0, 0.0), p(6.0, 0.0));
+        let back = straight(p(6.0, 0.0), p(0.0, off_m));
+        let case = Case {
+            curve: Curve(vec![there.curve.0[0], back.curve.0[0]]),
+            body: guideway_envelope::Body::vehicle(1.0, 0.2, 0.0),
+            ..there
+        };
+        let answer = nearest(&case, &wall, 4.0, &[]);
+        let brute_m = brute(&case, &wall, |_, _| true);
+        assert!(agrees(answer, brute_m, 4.0), "{answer:?} {brute_m}");
+        assert_eq!(brute_m > 3.4, is_cusp, "{brute_m}");
+    }
+}
+
+#[test]
 fn the_comparison_finds_wrong_answers() {
     let said = |distance_m| {
         Some(Nearest {
