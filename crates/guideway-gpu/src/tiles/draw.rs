@@ -10,7 +10,7 @@ use super::NAME;
 use super::bound::{Bound, Buffers, Paint};
 use super::canvas::Canvas;
 use super::kept::{Kept, Shifter};
-use super::params::{Found, Samples, TILE_PX};
+use super::params::{ENOUGH_GROUPS, Found, Samples, TILE_PX};
 use super::prepared::PreparedTiles;
 use super::room::{Room, Size};
 use super::rounds::Rounds;
@@ -34,7 +34,7 @@ pub(super) struct Easel {
 }
 
 /// So few clusters that several workgroups share each.
-const FEW_CLUSTERS: u32 = 128;
+const FEW_CLUSTERS: u32 = ENOUGH_GROUPS / 2;
 
 impl Easel {
     /// Whether rounds may make do with the room that was too small.

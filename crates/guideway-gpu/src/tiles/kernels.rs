@@ -1,9 +1,9 @@
 //! The shaders of a frame, compiled.
 
 use super::params::{
-    CLUSTER_STROKES, COLUMNS, COVER, COVER_APART, CULL, FLATTEN, IDS, LAYERS, Layers, SAMPLE_ROWS,
-    SCATTER, SCATTER_THREADS, SHIFT, SORT, STARTS, STARTS_THREADS, Samples, TILE_PX, TILE_THREADS,
-    TOUCH, WORKGROUP,
+    CLUSTER_STROKES, COLUMNS, COVER, COVER_APART, CULL, ENOUGH_GROUPS, FLATTEN, IDS, LAYERS,
+    Layers, SAMPLE_ROWS, SCATTER, SCATTER_THREADS, SHIFT, SORT, STARTS, STARTS_THREADS, Samples,
+    TILE_PX, TILE_THREADS, TOUCH, WORKGROUP,
 };
 use crate::device::{Gpu, Kernel};
 
@@ -107,7 +107,8 @@ fn flatten(gpu: &Gpu, more: &[Constant]) -> Result<[[Kernel; 2]; 2], String> {
     let kernel = |source, bits| {
         let own = [
             constant("TILE_PX", TILE_PX),
-            constant("STROKES", CLUSTER_STROKES),
+            constant("THREADS", CLUSTER_STROKES),
+            constant("ENOUGH_GROUPS", ENOUGH_GROUPS),
             constant("MOST_PARTS_BITS", bits),
         ];
         Kernel::new(gpu, source, &[&own, more].concat())

@@ -12,6 +12,8 @@ pub(super) const STROKE_SEGMENTS: usize = 32;
 pub(super) const WHOLE_PATH: u32 = 1 << 31;
 /// Where the number of segments begins in [`Stroke::extent`].
 pub(super) const SEGMENTS_BIT: u32 = 16;
+/// So many workgroups are enough for all clusters that are seen; where these are fewer, several workgroups share each.
+pub(super) const ENOUGH_GROUPS: u32 = 256;
 /// Threads of a workgroup that goes over clusters or lines.
 pub(super) const WORKGROUP: u32 = 64;
 /// Threads of a workgroup that enters lines into lists.
@@ -218,7 +220,7 @@ macro_rules! flatten {
             name: "flatten",
             wgsl: wgsl!(
                 "frame", "work", "found", "view", "cluster", "stroke", "style", $points, "curve",
-                "plan", "clip", "walk", "hidden", "emit", "flatten"
+                "plan", "clip", "walk", "hidden", "emit", "flatten", "sums"
             ),
             bindings: &[
                 "frame",
@@ -350,12 +352,12 @@ pub(super) const IDS: [Source; 2] = [
 ];
 
 macro_rules! cover {
-    ($samples:literal, $lanes:literal) => {
+    ($samples:literal, $($lanes:literal),+) => {
         tiles!(
             $samples,
             "cover",
             // What is set from outside has to come before arrays of a length that is, too.
-            [$lanes, "deal", "cover", "found"],
+            [$($lanes),+, "deal", "cover", "found"],
             tile_bindings!("counts", "found")
         )
     };
@@ -365,7 +367,10 @@ macro_rules! cover {
 pub(super) const COVER: [Source; 2] = [cover!(4, "lanes"), cover!(16, "lanes")];
 
 /// The same where they do not.
-pub(super) const COVER_APART: [Source; 2] = [cover!(4, "lanes_apart"), cover!(16, "lanes_apart")];
+pub(super) const COVER_APART: [Source; 2] = [
+    cover!(4, "sums", "lanes_apart"),
+    cover!(16, "sums", "lanes_apart"),
+];
 
 /// Anything else; by [`Samples`].
 pub(super) const LAYERS: [Source; 2] = [

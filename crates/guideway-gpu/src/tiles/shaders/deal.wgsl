@@ -65,9 +65,11 @@ fn cover_list(team: Team, tile: Tile, list: vec2u) {
         var items = 0u;
         if place < list.y {
             share.capsule = capsule_at(tile, place);
-            var rows = rows_touched(share.capsule);
+            var rows: vec2u;
             if looks {
                 rows = rows_open(share.capsule);
+            } else {
+                rows = rows_touched(share.capsule);
             }
             if rows.y > rows.x {
                 share.rows = rows.x | (rows.y << 16u);

@@ -2,7 +2,8 @@
 // lines, and counts how many touch each tile. Of few clusters, seen from near and of many lines each, several
 // workgroups make a part of the lines each.
 
-override STROKES: u32;
+// One a stroke of a cluster.
+override THREADS: u32;
 
 // The clusters whose control points the bound buffer holds.
 struct Chunk {
@@ -19,7 +20,7 @@ const STRIDE: u32 = 4u;
 // Most workgroups for one cluster, as a power of two, and how many are enough for all of them together. Where it is none, a
 // thread has less to keep, and more of them run.
 override MOST_PARTS_BITS: u32;
-const ENOUGH_GROUPS: u32 = 256u;
+override ENOUGH_GROUPS: u32;
 
 @group(0) @binding(1) var<uniform> chunk: Chunk;
 @group(0) @binding(3) var<storage, read> strokes: array<Stroke>;
@@ -35,9 +36,8 @@ var<workgroup> clusters_seen: u32;
 var<workgroup> parts_bits: u32;
 var<workgroup> group_drawn: atomic<u32>;
 var<workgroup> first_line: u32;
-// The strokes of the cluster, and how many lines there are up to the end of each.
-var<workgroup> planned: array<Planned, STROKES>;
-var<workgroup> line_ends: array<u32, STROKES>;
+// The strokes of the cluster: `ends` has how many lines there are up to the end of each.
+var<workgroup> planned: array<Planned, THREADS>;
 
 struct Planned {
     first_point: u32,
@@ -48,33 +48,18 @@ struct Planned {
 // Turns strokes into lines, those of the numbers between two, a thread a line.
 fn emit_all(thread: u32, any: Curve, numbers: vec2u, first_slot: u32) {
     var curve = any;
-    for (var line = numbers.x + thread; line < numbers.y; line += STROKES) {
+    for (var line = numbers.x + thread; line < numbers.y; line += THREADS) {
         // The first stroke that ends behind it.
         var stroke = 0u;
-        for (var half = STROKES / 2u; half > 0u; half /= 2u) {
-            stroke += select(0u, half, line_ends[stroke + half - 1u] <= line);
+        for (var half = THREADS / 2u; half > 0u; half /= 2u) {
+            stroke += select(0u, half, ends[stroke + half - 1u] <= line);
         }
         let it = planned[stroke];
         curve.first_point = it.first_point;
-        let part = part_of(curve, it.plan, it.plan.lines + line - line_ends[stroke]);
+        let part = part_of(curve, it.plan, it.plan.lines + line - ends[stroke]);
         let a = joint_px(curve, part, part.step);
         let b = joint_px(curve, part, part.step + 1u);
         emit(first_slot + line - numbers.x, it.rank, a, b, radius_of(it.rank));
-    }
-}
-
-// Sums up how many lines there are before and in each stroke.
-fn add_up(thread: u32, lines: u32) {
-    line_ends[thread] = lines;
-    workgroupBarrier();
-    for (var step = 1u; step < STROKES; step *= 2u) {
-        var more = 0u;
-        if thread >= step {
-            more = line_ends[thread - step];
-        }
-        workgroupBarrier();
-        line_ends[thread] += more;
-        workgroupBarrier();
     }
 }
 
@@ -91,7 +76,7 @@ fn part_of_cluster(i: u32) -> u32 {
     return i & ((1u << parts_bits) - 1u);
 }
 
-@compute @workgroup_size(STROKES)
+@compute @workgroup_size(THREADS)
 fn main(
     @builtin(workgroup_id) id: vec3u,
     @builtin(num_workgroups) count: vec3u,
@@ -155,7 +140,7 @@ fn main(
         planned[thread] = Planned(curve.first_point, stroke.rank, plan);
         add_up(thread, plan.lines);
         let part = part_of_cluster(i);
-        let numbers = (line_ends[STROKES - 1u] * vec2u(part, part + 1u)) >> vec2u(parts_bits);
+        let numbers = (ends[THREADS - 1u] * vec2u(part, part + 1u)) >> vec2u(parts_bits);
         if thread == 0u {
             if numbers.x < numbers.y {
                 first_line = atomicAdd(&found.counters.lines, numbers.y - numbers.x);

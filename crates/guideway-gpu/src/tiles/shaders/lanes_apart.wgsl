@@ -5,9 +5,8 @@ struct Thread {
     @builtin(local_invocation_index) number: u32,
 }
 
-// What each lane has dealt out, and how many items it and all lanes before it have.
+// What each lane has dealt out: `ends` has how many items it and all lanes before it have.
 var<workgroup> dealt: array<Share, THREADS>;
-var<workgroup> items_ends: array<u32, THREADS>;
 var<workgroup> told: u32;
 
 fn team_of(thread: Thread) -> Team {
@@ -24,28 +23,19 @@ fn agreed(team: Team, number: u32) -> u32 {
 
 // Deals out so many items of this lane to all lanes. Returns how many there are of all of them.
 fn deal(team: Team, share: Share, items: u32) -> u32 {
+    // What was dealt out before may still be looked at.
     workgroupBarrier();
-    items_ends[team.lane] = items;
-    workgroupBarrier();
-    var end = items;
-    for (var step = 1u; step < THREADS; step *= 2u) {
-        if team.lane >= step {
-            end += items_ends[team.lane - step];
-        }
-        workgroupBarrier();
-        items_ends[team.lane] = end;
-        workgroupBarrier();
-    }
+    let end = add_up(team.lane, items);
     dealt[team.lane] = Share(share.capsule, share.rows, share.first - (end - items));
     workgroupBarrier();
-    return items_ends[THREADS - 1u];
+    return ends[THREADS - 1u];
 }
 
 // Whose item it is, with its number among all.
 fn share_with(team: Team, item: u32) -> Share {
     var owner = 0u;
     for (var half = THREADS / 2u; half > 0u; half /= 2u) {
-        owner += select(0u, half, items_ends[owner + half - 1u] <= item);
+        owner += select(0u, half, ends[owner + half - 1u] <= item);
     }
     return dealt[owner];
 }
