@@ -1,7 +1,8 @@
 //! One submit at a time, and how long it took.
 
+use std::ops::Range;
 use std::sync::Arc;
-use std::sync::mpsc::channel;
+use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
 
 use guideway_render::{Clock, RenderError, Stage, elapsed_ms};
@@ -36,6 +37,14 @@ pub(crate) struct Dispatch<'a> {
     pub(crate) kernel: &'a Kernel,
     pub(crate) bindings: &'a Bindings,
     pub(crate) workgroups: u32,
+}
+
+/// Bytes of a buffer that a submission fills.
+struct Coming<'a> {
+    buffer: &'a DeviceBuffer,
+    bytes: u64,
+    submission: wgpu::SubmissionIndex,
+    answer: Receiver<Result<(), wgpu::BufferAsyncError>>,
 }
 
 impl Runner {
@@ -169,7 +178,8 @@ impl Runner {
             }
             Some(clock) => {
                 let mut ticks = [[0_u64; 2]; MOST_STAGES];
-                self.mapped(what, &clock.fetched, TICKS_BYTES, submission, |bytes| {
+                let coming = self.coming(what, &clock.fetched, TICKS_BYTES, submission)?;
+                self.arrive(what, coming, |bytes| {
                     bytemuck::bytes_of_mut(&mut ticks).copy_from_slice(bytes);
                 })?;
                 for (span_ms, [begin, end]) in spans_ms.iter_mut().zip(ticks) {
@@ -217,12 +227,58 @@ impl Runner {
         bytes: u64,
         take: impl FnOnce(&[u8]),
     ) -> Result<(), String> {
+        let coming = self.send_for(what, from, 0..bytes, through)?;
+        self.arrive(what, coming, take)
+    }
+
+    /// The same by way of smaller ones in turn: while a part is taken, the next is under way.
+    pub(crate) fn fetch_in_parts(
+        &self,
+        what: &'static str,
+        from: &DeviceBuffer,
+        through: &[DeviceBuffer],
+        bytes: u64,
+        mut take: impl FnMut(&[u8]),
+    ) -> Result<(), String> {
+        let mut under_way = None;
+        let mut start = 0;
+        for through in through.iter().cycle() {
+            let end = bytes.min(start + through.bytes());
+            let next = if start < end {
+                Some(self.send_for(what, from, start..end, through)?)
+            } else {
+                None
+            };
+            let is_last = next.is_none() || end == bytes;
+            if let Some(coming) = std::mem::replace(&mut under_way, next) {
+                self.arrive(what, coming, &mut take)?;
+            }
+            if is_last {
+                break;
+            }
+            start = end;
+        }
+        match under_way {
+            Some(coming) => self.arrive(what, coming, take),
+            None => Ok(()),
+        }
+    }
+
+    /// Has bytes of a buffer copied into one that can be mapped.
+    fn send_for<'a>(
+        &self,
+        what: &'static str,
+        from: &DeviceBuffer,
+        bytes: Range<u64>,
+        through: &'a DeviceBuffer,
+    ) -> Result<Coming<'a>, String> {
+        let count = bytes.end - bytes.start;
         let submission = self.gpu.checked(what, || {
             let mut encoder = self.encoder(what);
-            encoder.copy_buffer_to_buffer(from.raw(), 0, through.raw(), 0, bytes);
+            encoder.copy_buffer_to_buffer(from.raw(), bytes.start, through.raw(), 0, count);
             self.gpu.queue.submit([encoder.finish()])
         })?;
-        self.mapped(what, through, bytes, submission, take)
+        self.coming(what, through, count, submission)
     }
 
     fn encoder(&self, what: &'static str) -> wgpu::CommandEncoder {
@@ -230,24 +286,38 @@ impl Runner {
         self.gpu.device.create_command_encoder(&descriptor)
     }
 
-    /// Shows bytes of a buffer once a submission is through.
-    fn mapped(
+    /// Bytes of a buffer that are there once a submission is through.
+    fn coming<'a>(
         &self,
         what: &'static str,
-        buffer: &DeviceBuffer,
+        buffer: &'a DeviceBuffer,
         bytes: u64,
         submission: wgpu::SubmissionIndex,
-        take: impl FnOnce(&[u8]),
-    ) -> Result<(), String> {
-        let (sender, receiver) = channel();
-        let slice = buffer.raw().slice(..bytes);
+    ) -> Result<Coming<'a>, String> {
+        let (sender, answer) = channel();
         self.gpu.checked(what, || {
-            // The receiver waits below; if it is gone, nobody wants to know.
+            let slice = buffer.raw().slice(..bytes);
+            // The receiver waits for it; if it is gone, nobody wants to know.
             slice.map_async(wgpu::MapMode::Read, move |mapped| drop(sender.send(mapped)));
         })?;
-        self.wait(what, submission)?;
+        Ok(Coming {
+            buffer,
+            bytes,
+            submission,
+            answer,
+        })
+    }
+
+    /// Waits for bytes and shows them.
+    fn arrive(
+        &self,
+        what: &'static str,
+        coming: Coming<'_>,
+        take: impl FnOnce(&[u8]),
+    ) -> Result<(), String> {
+        self.wait(what, coming.submission)?;
         // If another thread polled first, it may still be on its way to the answer.
-        match receiver.recv_timeout(PATIENCE) {
+        match coming.answer.recv_timeout(PATIENCE) {
             Ok(Ok(())) => {}
             Ok(Err(error)) => return Err(format!("{what} cannot be read back: {error}")),
             Err(_) => {
@@ -256,11 +326,12 @@ impl Runner {
                 ));
             }
         }
-        let view = slice.get_mapped_range();
+        let raw = coming.buffer.raw();
+        let view = raw.slice(..coming.bytes).get_mapped_range();
         let view = view.map_err(|error| format!("{what} cannot be read back: {error}"))?;
         take(&view);
         drop(view);
-        buffer.raw().unmap();
+        raw.unmap();
         Ok(())
     }
 

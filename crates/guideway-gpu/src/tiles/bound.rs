@@ -155,9 +155,7 @@ impl Bound {
                 ..
             },
             Room {
-                lines_px,
-                line_ranks,
-                ..
+                lines, line_ranks, ..
             },
         ) = (b.store, b.room);
         let Canvas {
@@ -178,7 +176,7 @@ impl Bound {
                 clusters,
                 styles,
                 found,
-                lines_px,
+                lines,
                 line_ranks,
                 counts,
             ];
@@ -188,7 +186,7 @@ impl Bound {
         }
         let last = paint.kernel(kernels, self.samples);
         if let Some(marks) = b.marks {
-            let buffers = [frame, found, lines_px, line_ranks, styles, marks];
+            let buffers = [frame, found, lines, line_ranks, styles, marks];
             return self.add("mark", b, last, Over::Lines(WORKGROUP), &buffers);
         }
         let buffers = [frame, counts, lists, filled, found];
@@ -199,9 +197,7 @@ impl Bound {
             Over::ThreadsForTiles,
             &buffers,
         )?;
-        let buffers = [
-            frame, found, lines_px, line_ranks, styles, filled, references,
-        ];
+        let buffers = [frame, found, lines, line_ranks, styles, filled, references];
         self.add(
             "list",
             b,
@@ -215,9 +211,7 @@ impl Bound {
                 self.add("sort", b, sort, Over::Tiles, &buffers)?;
             }
         }
-        let mut buffers = vec![
-            frame, lists, references, lines_px, line_ranks, styles, pixels,
-        ];
+        let mut buffers = vec![frame, lists, references, lines, line_ranks, styles, pixels];
         match paint {
             Paint::One => buffers.extend([counts, found]),
             Paint::Ids | Paint::Touch => {}

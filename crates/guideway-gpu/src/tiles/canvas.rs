@@ -8,6 +8,8 @@ use super::params::{FrameParams, TILE_PX};
 use crate::device::{DeviceBuffer, FETCHED, Gpu, Memory};
 
 const WORD_BYTES: u64 = size_of::<u32>() as u64;
+/// Most bytes of pixels that are fetched at once.
+const PART_BYTES: u64 = 1 << 19;
 
 /// Buffers for one size of picture.
 pub(super) struct Canvas {
@@ -22,7 +24,8 @@ pub(super) struct Canvas {
     pub(super) lists: DeviceBuffer,
     pub(super) filled: DeviceBuffer,
     pub(super) pixels: DeviceBuffer,
-    pub(super) fetched: DeviceBuffer,
+    /// What pixels are fetched through, in turn.
+    pub(super) fetched: Vec<DeviceBuffer>,
 }
 
 impl Canvas {
@@ -50,7 +53,13 @@ impl Canvas {
         let uniform = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
         let storage = BufferUsages::STORAGE;
         let list = "the list of tiles";
-        let fetched_bytes = row_bytes * u64::from(band_rows);
+        let band_bytes = row_bytes * u64::from(band_rows);
+        let part_bytes = band_bytes.min(PART_BYTES);
+        let mut part = || memory.zeros("the picture", part_bytes, FETCHED);
+        let mut fetched = vec![part()?];
+        if part_bytes < band_bytes {
+            fetched.push(part()?);
+        }
         Ok(Self {
             size,
             columns,
@@ -61,7 +70,7 @@ impl Canvas {
             lists: memory.zeros(list, tiles * 2 * WORD_BYTES, storage)?,
             filled: memory.zeros(list, tiles * WORD_BYTES, storage)?,
             pixels: pixels(memory, size, band_rows)?,
-            fetched: memory.zeros("the picture", fetched_bytes, FETCHED)?,
+            fetched,
         })
     }
 

@@ -243,22 +243,28 @@ impl PreparedTiles {
         Ok(())
     }
 
-    /// Fetches the first rows of pixels of the canvas.
+    /// Fetches the first pixels of the canvas, which are these of the picture.
     fn fetch(
         &self,
-        rows_px: u32,
+        pixels: Range<usize>,
         stages: &mut Vec<Stage>,
-        take: impl FnOnce(&[u8]),
+        mut take: impl FnMut(Range<usize>, &[u8]),
     ) -> Result<(), RenderError> {
         let Some(canvas) = &self.easel.canvas else {
             return Ok(());
         };
         let start = Instant::now();
-        let bytes = u64::from(rows_px) * u64::from(canvas.size.width()) * size_of::<u32>() as u64;
-        let what = "the picture";
+        let bytes = (pixels.len() * size_of::<u32>()) as u64;
+        let (what, through) = ("the picture", &canvas.fetched);
+        let mut first = pixels.start;
+        let taken = |bytes: &[u8]| {
+            let end = first + bytes.len() / size_of::<u32>();
+            take(first..end, bytes);
+            first = end;
+        };
         let fetched = self
             .runner
-            .fetch(what, &canvas.pixels, &canvas.fetched, bytes, take);
+            .fetch_in_parts(what, &canvas.pixels, through, bytes, taken);
         fetched.map_err(|what| self.memory.trouble(what))?;
         let read = Stage::host(Stage::READ_BACK, elapsed_ms(start));
         Stage::merge(stages, [read]);
@@ -295,9 +301,7 @@ impl PreparedTiles {
             let rows_px = first_row * TILE_PX..size.height().min(end_row * TILE_PX);
             let pixels =
                 (rows_px.start * size.width()) as usize..(rows_px.end * size.width()) as usize;
-            self.fetch(rows_px.len() as u32, &mut drawing.stages, |bytes| {
-                take(pixels, bytes);
-            })?;
+            self.fetch(pixels, &mut drawing.stages, &mut take)?;
         }
         if self.shared.options.keeps {
             self.easel.kept = Some(next);

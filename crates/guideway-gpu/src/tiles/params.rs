@@ -14,6 +14,8 @@ pub(super) const WHOLE_PATH: u32 = 1 << 31;
 pub(super) const SEGMENTS_BIT: u32 = 16;
 /// So many workgroups are enough for all clusters that are seen; where these are fewer, several workgroups share each.
 pub(super) const ENOUGH_GROUPS: u32 = 256;
+/// Words of a line: `LINE_WORDS` of the shaders.
+pub(super) const LINE_WORDS: usize = 3;
 /// Threads of a workgroup that goes over clusters or lines.
 pub(super) const WORKGROUP: u32 = 64;
 /// Threads of a workgroup that enters lines into lists.
@@ -66,6 +68,10 @@ pub(super) struct FrameParams {
     pub(super) background: u32,
     pub(super) most_step_m: f32,
     pub(super) has_ranks: u32,
+    pub(super) line_low_px: f32,
+    pub(super) steps_a_px: f32,
+    pub(super) px_a_step: f32,
+    pub(super) padding: u32,
 }
 
 /// `Chunk` of `flatten.wgsl`.
@@ -200,7 +206,7 @@ macro_rules! tiles {
                 $samples,
                 "u;\n",
                 wgsl!(
-                    "frame", "work", "view", "style", "rank", "walk", "capsule", "tile", "open", "blend", $($file),+
+                    "frame", "work", "view", "style", "rank", "lines", "walk", "capsule", "tile", "open", "blend", $($file),+
                 )
             ),
             bindings: $bindings,
@@ -220,7 +226,7 @@ macro_rules! flatten {
             name: "flatten",
             wgsl: wgsl!(
                 "frame", "work", "found", "view", "cluster", "stroke", "style", $points, "curve",
-                "plan", "clip", "walk", "hidden", "emit", "flatten", "sums"
+                "plan", "clip", "lines", "walk", "hidden", "emit", "flatten", "sums"
             ),
             bindings: &[
                 "frame",
@@ -230,7 +236,7 @@ macro_rules! flatten {
                 "clusters",
                 "styles",
                 "found",
-                "lines_px",
+                "lines",
                 "line_ranks",
                 "counts",
             ],
@@ -250,12 +256,12 @@ pub(super) const STARTS: Source = Source {
 pub(super) const SCATTER: Source = Source {
     name: "scatter",
     wgsl: wgsl!(
-        "frame", "work", "found", "view", "style", "rank", "walk", "tally", "scatter"
+        "frame", "work", "found", "view", "style", "rank", "lines", "walk", "tally", "scatter"
     ),
     bindings: &[
         "frame",
         "found",
-        "lines_px",
+        "lines",
         "line_ranks",
         "styles",
         "filled",
@@ -298,7 +304,7 @@ pub(super) const SHIFT: Source = Source {
 macro_rules! tile_bindings {
     ($($more:literal),*) => {
         &[
-            "frame", "lists", "references", "lines_px", "line_ranks", "styles", "pixels",
+            "frame", "lists", "references", "lines", "line_ranks", "styles", "pixels",
             $($more),*
         ]
     };
@@ -334,15 +340,8 @@ impl Samples {
 
 pub(super) const TOUCH: Source = Source {
     name: "touch",
-    wgsl: wgsl!("frame", "work", "before", "view", "style", "touch"),
-    bindings: &[
-        "frame",
-        "found",
-        "lines_px",
-        "line_ranks",
-        "styles",
-        "marks",
-    ],
+    wgsl: wgsl!("frame", "work", "before", "view", "style", "lines", "touch"),
+    bindings: &["frame", "found", "lines", "line_ranks", "styles", "marks"],
 };
 
 /// Which path lies on top; by [`Samples`].

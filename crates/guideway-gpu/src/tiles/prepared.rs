@@ -60,7 +60,8 @@ pub(super) struct Facts {
     pub(super) reach_m: f64,
     /// The largest steps that points of a cluster are rounded to.
     pub(super) greatest_step_m: f32,
-    pub(super) has_widths: bool,
+    /// The greatest width that a path has of its own.
+    pub(super) widest_m: Option<f32>,
     /// One colour, and no widths.
     pub(super) is_plain: bool,
     pub(super) paint: Paint,
@@ -69,12 +70,13 @@ pub(super) struct Facts {
 impl Facts {
     fn of(scene: &Scene) -> Self {
         let drawn = scene.draw_order().iter();
+        let widths = drawn.filter_map(|&path| scene.width_m(path));
         Self {
             clusters: 0,
             styles: 0,
             reach_m: 0.0,
             greatest_step_m: 0.0,
-            has_widths: drawn.into_iter().any(|&path| scene.width_m(path).is_some()),
+            widest_m: widths.reduce(f32::max),
             is_plain: is_plain(scene),
             paint: Paint::of(scene),
         }
@@ -88,7 +90,7 @@ pub(super) fn plan_bytes(scene: &Scene, budget: &Budget) -> u64 {
     let points = (geometry.segment_count() as u64 + 3 * paths) * size_of::<[f32; 2]>() as u64;
     let strokes = paths * size_of::<Stroke>() as u64;
     let room = Size::first(u32::try_from(paths).unwrap_or(u32::MAX), true).bytes();
-    let pixels = 2 * PLANNED_PIXELS * size_of::<u32>() as u64;
+    let pixels = PLANNED_PIXELS * size_of::<u32>() as u64;
     (points + strokes + room + pixels).min(budget.memory_bytes)
 }
 

@@ -4,16 +4,16 @@ use guideway_render::RenderError;
 use wgpu::BufferUsages;
 
 use super::NAME;
-use super::params::Found;
+use super::params::{Found, LINE_WORDS};
 use crate::device::{DeviceBuffer, Gpu, Memory};
 
-const LINE_BYTES: u64 = size_of::<[f32; 4]>() as u64;
+const LINE_BYTES: u64 = size_of::<[u32; LINE_WORDS]>() as u64;
 const WORD_BYTES: u64 = size_of::<u32>() as u64;
 
 /// Buffers of a fixed size: what does not fit is counted, and drawn again with more room.
 pub(super) struct Room {
     pub(super) size: Size,
-    pub(super) lines_px: DeviceBuffer,
+    pub(super) lines: DeviceBuffer,
     pub(super) line_ranks: DeviceBuffer,
     pub(super) reference_list: DeviceBuffer,
 }
@@ -59,7 +59,7 @@ impl Size {
     pub(super) fn for_found(self, found: &Found) -> Self {
         let grown = |room: u32, needed: u32| {
             if needed > room {
-                needed.saturating_add(needed / 8)
+                needed.saturating_add(needed / 16)
             } else {
                 room
             }
@@ -109,7 +109,7 @@ impl Room {
         let lines = u64::from(size.lines);
         Ok(Self {
             size,
-            lines_px: memory.zeros("the lines", lines * LINE_BYTES, storage)?,
+            lines: memory.zeros("the lines", lines * LINE_BYTES, storage)?,
             line_ranks: memory.zeros("the lines", size.ranks() * WORD_BYTES, storage)?,
             reference_list: memory.zeros(
                 "the lists of the tiles",

@@ -22,6 +22,11 @@ const MOST_ROUNDING_PX: f64 = 0.1;
 /// Farthest that steps may move a control point, in pixels along an axis.
 const MOST_STEP_OFF_PX: f64 = 1.0 / 128.0;
 
+/// Farthest that a line goes on where it is cut, beyond what its stroke reaches, in pixels; and some to spare.
+const BEYOND_PX: f64 = 3.0;
+/// Numbers that an end of a line is one of.
+const LINE_STEPS: f64 = 8_388_608.0;
+
 /// A view of a scene.
 pub(super) struct Shot<'a> {
     pub(super) view: &'a View,
@@ -53,12 +58,25 @@ impl<'a> Shot<'a> {
                 remedy: "Zoom out, or use `--method cpu`.".to_owned(),
             });
         }
-        Ok(Self {
+        let shot = Self {
             view,
             style,
             scene,
             facts,
-        })
+        };
+        let (low_px, steps_a_px) = shot.line_steps();
+        if 0.5 / steps_a_px > MOST_ROUNDING_PX {
+            return Err(RenderError::Unsupported {
+                method: NAME,
+                what: format!(
+                    "strokes that reach {:.0} pixels far: their ends would be off by {:.1} pixels",
+                    -low_px,
+                    0.5 / steps_a_px
+                ),
+                remedy: "Zoom out, limit widths in pixels, or use `--method cpu`.".to_owned(),
+            });
+        }
+        Ok(shot)
     }
 
     /// The largest steps of points that are not too coarse for it: what is rounded is off by half of one.
@@ -82,10 +100,20 @@ impl<'a> Shot<'a> {
             .radius_px(width_m, self.view.px_per_m())
     }
 
+    /// Where ends of lines are counted from, along both axes, and in how many steps a pixel: they lie within the picture
+    /// and as far around it as strokes reach, where lines are cut. A power of two, so that pixels are whole steps.
+    fn line_steps(&self) -> (f64, f64) {
+        let widest_px = (self.radius_px(None)).max(self.radius_px(self.facts.widest_m));
+        let beyond_px = widest_px.ceil() + BEYOND_PX;
+        let size = self.view.size();
+        let span_px = f64::from(size.width().max(size.height())) + 2.0 * beyond_px;
+        (-beyond_px, (LINE_STEPS / span_px).log2().floor().exp2())
+    }
+
     /// As many samples as the thinnest stroke needs.
     pub(super) fn samples(&self) -> Samples {
         let thinnest_px = match self.style.line_rule {
-            LineRule::World { min_px, .. } if self.facts.has_widths => min_px / 2.0,
+            LineRule::World { min_px, .. } if self.facts.widest_m.is_some() => min_px / 2.0,
             _ => f64::INFINITY,
         };
         if self.radius_px(None).min(thinnest_px) < COARSE_RADIUS_PX {
@@ -121,7 +149,7 @@ impl<'a> Shot<'a> {
         let high = center.to_f32();
         let low = (center - high.to_f64()).to_f32();
         let limits_px = match self.style.line_rule {
-            LineRule::World { min_px, max_px, .. } if self.facts.has_widths => {
+            LineRule::World { min_px, max_px, .. } if self.facts.widest_m.is_some() => {
                 [min_px / 2.0, max_px.max(min_px) / 2.0]
             }
             // Nobody has a width of its own.
@@ -129,6 +157,7 @@ impl<'a> Shot<'a> {
         };
         let color = self.scene.draw_order().first();
         let color = color.map_or(0, |&path| device_color(self.scene.color(path)));
+        let (line_low_px, steps_a_px) = self.line_steps();
         FrameParams {
             center_high_m: [high.x, high.y],
             center_low_m: [low.x, low.y],
@@ -153,6 +182,10 @@ impl<'a> Shot<'a> {
             background: device_color(self.style.background),
             most_step_m: self.most_step_m(),
             has_ranks: u32::from(room.size.has_ranks),
+            line_low_px: line_low_px as f32,
+            steps_a_px: steps_a_px as f32,
+            px_a_step: steps_a_px.recip() as f32,
+            padding: 0,
         }
     }
 }

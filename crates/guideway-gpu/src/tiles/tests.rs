@@ -153,7 +153,7 @@ fn a_small_budget_draws_the_same_in_more_windows() {
     let scene = mixed(3000, 8.0);
     let (expected, report) = picture(&mut prepared(&tiles, &scene), &all(), &Style::default());
     let budget = Budget {
-        memory_bytes: report.peak_bytes * 2 / 5,
+        memory_bytes: report.peak_bytes / 2,
         ..Budget::default()
     };
     let mut prepared = tiles.prepare(Arc::clone(&scene), &budget).unwrap();
@@ -163,6 +163,28 @@ fn a_small_budget_draws_the_same_in_more_windows() {
         report.bands > 1 && report.peak_bytes <= budget.memory_bytes,
         "{report:?}"
     );
+}
+
+#[test]
+fn strokes_whose_ends_cannot_be_told_are_refused_by_name() {
+    let Some(tiles) = tiles() else { return };
+    let mut prepared = prepared(&tiles, &plain(30, 3.0));
+    let wide = |width_m| Style {
+        line_rule: LineRule::World {
+            width_m,
+            min_px: 0.0,
+            max_px: f64::INFINITY,
+        },
+        ..Style::default()
+    };
+    // All is below a stroke of a million pixels, and one of three million is too much.
+    let (frame, _) = picture(&mut prepared, &all(), &wide(5e5));
+    let first = frame.pixels()[0];
+    assert!(frame.pixels().iter().all(|&pixel| pixel == first) && first != [0xff; 4]);
+    let mut frame = Frame::new(FrameSize::new(1, 1).unwrap());
+    let refused = prepared.render(&all(), &wide(1.5e6), &Cancel::default(), &mut frame);
+    let refused = refused.unwrap_err().to_string();
+    assert!(refused.contains("pixels far"), "{refused}");
 }
 
 /// Level lines that together cover the whole picture of [`all`], each so often that it fills four clusters.

@@ -35,7 +35,7 @@ fn structures_are_laid_out_alike() {
     let frame = members!(FrameParams: center_high_m, center_low_m, half_size_px, px_per_m, radius_px,
         least_radius_px, most_radius_px, tolerance_px, clusters, styles, width_px, height_px, first_column,
         columns, first_row, rows, pixels_row, line_room, reference_room, color, background, most_step_m,
-        has_ranks);
+        has_ranks, line_low_px, steps_a_px, px_a_step);
     assert_laid_out(SHADERS, "Frame", &frame);
     assert_laid_out(
         SHADERS,
@@ -80,6 +80,12 @@ fn rows_of_a_pixel_have_as_many_samples_as_is_said() {
             assert!(sources[samples as usize].wgsl.starts_with(&said), "{said}");
         }
     }
+}
+
+#[test]
+fn lines_have_as_many_words_as_there_is_room_for() {
+    let said = format!("const LINE_WORDS: u32 = {LINE_WORDS}u;");
+    assert!(SCATTER.wgsl.contains(&said), "{said}");
 }
 
 #[test]

@@ -4,11 +4,7 @@
 var<private> is_inside: bool;
 
 fn leave_out(slot: u32) {
-    if frame.has_ranks != 0u {
-        line_ranks[slot] = NO_RANK;
-    } else {
-        lines_px[slot].x = NOWHERE_PX;
-    }
+    lines[slot * LINE_WORDS] = NOWHERE;
     writes(1u);
 }
 
@@ -29,6 +25,8 @@ fn emit(slot: u32, rank: u32, a: vec2f, b: vec2f, radius: f32) {
             select(b, a + (b - a) * part.y, part.y < 1.0),
         );
     }
+    let words = packed_line(line);
+    line = line_of(words);
     let reach = radius + MARGIN_PX;
     let rows = rows_of(line, reach);
     var is_needed = false;
@@ -47,8 +45,10 @@ fn emit(slot: u32, rank: u32, a: vec2f, b: vec2f, radius: f32) {
         leave_out(slot);
         return;
     }
-    lines_px[slot] = line;
-    writes(4u);
+    for (var i = 0u; i < LINE_WORDS; i++) {
+        lines[slot * LINE_WORDS + i] = words[i];
+    }
+    writes(LINE_WORDS);
     if frame.has_ranks != 0u {
         line_ranks[slot] = rank;
         writes(1u);

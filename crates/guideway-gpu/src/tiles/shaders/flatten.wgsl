@@ -27,7 +27,7 @@ override ENOUGH_GROUPS: u32;
 @group(0) @binding(4) var<storage, read> clusters: array<Cluster>;
 @group(0) @binding(5) var<storage, read> styles: array<Style>;
 @group(0) @binding(6) var<storage, read_write> found: Found;
-@group(0) @binding(7) var<storage, read_write> lines_px: array<vec4f>;
+@group(0) @binding(7) var<storage, read_write> lines: array<u32>;
 @group(0) @binding(8) var<storage, read_write> line_ranks: array<u32>;
 @group(0) @binding(9) var<storage, read_write> counts: array<atomic<u32>>;
 

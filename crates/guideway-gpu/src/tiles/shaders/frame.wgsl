@@ -38,6 +38,10 @@ struct Frame {
     most_step_m: f32,
     // Whether lines have ranks; they need none where all paths look alike.
     has_ranks: u32,
+    // Ends of lines are counted in steps from here, along both axes.
+    line_low_px: f32,
+    steps_a_px: f32,
+    px_a_step: f32,
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;

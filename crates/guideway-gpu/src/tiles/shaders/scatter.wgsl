@@ -3,13 +3,13 @@
 override THREADS: u32;
 
 @group(0) @binding(1) var<storage, read_write> found: Found;
-@group(0) @binding(2) var<storage, read> lines_px: array<vec4f>;
+@group(0) @binding(2) var<storage, read> lines: array<u32>;
 @group(0) @binding(3) var<storage, read> line_ranks: array<u32>;
 @group(0) @binding(4) var<storage, read> styles: array<Style>;
 @group(0) @binding(5) var<storage, read_write> filled: array<atomic<u32>>;
 @group(0) @binding(6) var<storage, read_write> references: array<u32>;
 
-var<workgroup> lines: u32;
+var<workgroup> lines_found: u32;
 
 // Reserves places in the lists of the tiles that were counted: a tally becomes the next of them.
 fn reserve(thread: u32) {
@@ -57,35 +57,29 @@ fn main(
         let count = atomicLoad(&found.counters.lines);
         let fits = count <= frame.line_room
             && atomicLoad(&found.counters.references) <= frame.reference_room;
-        lines = select(0u, count, fits);
+        lines_found = select(0u, count, fits);
     }
-    let all = workgroupUniformLoad(&lines);
+    let all = workgroupUniformLoad(&lines_found);
     let step = count.x * count.y * THREADS;
     for (var first = workgroup_index(id, count) * THREADS; first < all; first += step) {
         clear_tallies(thread);
         workgroupBarrier();
         let index = first + thread;
-        var rank = NO_RANK;
+        var words = vec3u(NOWHERE);
         var line: vec4f;
         var reach = 0.0;
         if index < all {
-            rank = rank_of(index);
+            words = words_of_line(index);
         }
-        if rank != NO_RANK {
-            line = lines_px[index];
-            reads(4u);
-            if line.x == NOWHERE_PX {
-                rank = NO_RANK;
-            }
-        }
-        if rank != NO_RANK {
-            reach = radius_of(rank) + MARGIN_PX;
+        if words.x != NOWHERE {
+            line = line_of(words);
+            reach = radius_of(rank_of(index)) + MARGIN_PX;
             visit(index, line, reach, false);
         }
         workgroupBarrier();
         reserve(thread);
         workgroupBarrier();
-        if rank != NO_RANK {
+        if words.x != NOWHERE {
             visit(index, line, reach, true);
         }
         workgroupBarrier();

@@ -7,10 +7,6 @@ struct Style {
     width_m: f32,
 }
 
-// Stands for the rank of a line that is out of sight, and for its place where lines have no ranks.
-const NO_RANK: u32 = 0xffffffffu;
-const NOWHERE_PX: f32 = 1e38;
-
 fn style_of(rank: u32) -> Style {
     reads(2u);
     return styles[min(rank, frame.styles - 1u)];

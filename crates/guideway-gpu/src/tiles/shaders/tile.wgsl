@@ -2,7 +2,7 @@
 
 @group(0) @binding(1) var<storage, read> lists: array<vec2u>;
 @group(0) @binding(2) var<storage, read> references: array<u32>;
-@group(0) @binding(3) var<storage, read> lines_px: array<vec4f>;
+@group(0) @binding(3) var<storage, read> lines: array<u32>;
 @group(0) @binding(4) var<storage, read> line_ranks: array<u32>;
 @group(0) @binding(5) var<storage, read> styles: array<Style>;
 @group(0) @binding(6) var<storage, read_write> pixels: array<u32>;
@@ -57,10 +57,10 @@ fn list_of(tile: u32) -> vec2u {
 
 // The line at a place of the lists.
 fn capsule_at(tile: Tile, place: u32) -> Capsule {
-    reads(5u);
+    reads(1u);
     let line = references[place];
     let corner = vec2f(f32(tile.left), f32(tile.top));
-    return capsule_of(lines_px[line], corner, radius_of(rank_of(line)));
+    return capsule_of(line_of(words_of_line(line)), corner, radius_of(rank_of(line)));
 }
 
 // Whether something holds for any thread.

@@ -3,7 +3,7 @@
 override WORKGROUP: u32;
 
 @group(0) @binding(1) var<storage, read> found: CountersBefore;
-@group(0) @binding(2) var<storage, read> lines_px: array<vec4f>;
+@group(0) @binding(2) var<storage, read> lines: array<u32>;
 @group(0) @binding(3) var<storage, read> line_ranks: array<u32>;
 @group(0) @binding(4) var<storage, read> styles: array<Style>;
 // A bit a rank.
@@ -62,10 +62,11 @@ fn main(
 ) {
     let window = window();
     let threads = count.x * count.y * WORKGROUP;
-    let lines = min(found.lines, frame.line_room);
-    for (var i = workgroup_index(id, count) * WORKGROUP + thread; i < lines; i += threads) {
+    let count_of_lines = min(found.lines, frame.line_room);
+    for (var i = workgroup_index(id, count) * WORKGROUP + thread; i < count_of_lines; i += threads) {
+        let words = words_of_line(i);
         let rank = line_ranks[i];
-        if rank != NO_RANK && is_near(lines_px[i], radius_of(rank), window) {
+        if words.x != NOWHERE && is_near(line_of(words), radius_of(rank), window) {
             atomicOr(&marks[rank / 32u], 1u << (rank % 32u));
         }
     }

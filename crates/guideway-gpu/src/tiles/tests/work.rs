@@ -36,9 +36,9 @@ fn work_is_counted_exactly() {
         // The cluster and its paths; a line a workgroup; references and the longest list; a line in its tile; the list.
         assert_eq!(work.atomics, Some(2 + n + 2 + n + 1));
         // The cluster, a line, three words a tile, references, pixels.
-        let words = 1 + n * 4 + 3 * 14 * 9 + n + 210 * 130;
+        let words = 1 + n * 3 + 3 * 14 * 9 + n + 210 * 130;
         assert_eq!(work.bytes_written, Some(4 * words));
-        assert!(work.bytes_read > Some(n * 4 * 8));
+        assert!(work.bytes_read > Some(n * 4 * 6));
         assert_eq!(count().unwrap(), work);
     }
     let mut mixed = prepared(&tiles, &mixed(30, 3.0));
