@@ -23,7 +23,7 @@ pub struct Contest {
     pub methods: Vec<String>,
     /// Size of the picture.
     pub size: FrameSize,
-    /// How many times nearer the busiest place than where all is seen; 1 to see all.
+    /// How many times nearer the busiest place than where all is seen; 1 to see all, less for farther away.
     pub magnify: f64,
     /// What changes from frame to frame.
     pub motion: Motion,

@@ -11,7 +11,7 @@ use guideway_spline::{Bounds, Point};
 pub(crate) fn near(size: FrameSize, scene: &Scene, times: f64) -> Result<View, RenderError> {
     let all = View::fit(size, scene.bounds())?;
     if times <= 1.0 {
-        return Ok(all);
+        return View::new(size, all.center_m(), all.px_per_m() * times);
     }
     let center = busiest(scene).unwrap_or(all.center_m());
     View::new(size, center, all.px_per_m() * times)

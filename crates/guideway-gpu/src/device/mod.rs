@@ -24,6 +24,8 @@ pub struct GpuOptions {
     pub workgroups_per_dimension: Option<u32>,
     /// Most times that a thread goes round its loops; as many as are safe if none.
     pub rounds_a_thread: Option<u32>,
+    /// Longest list of a tile that one workgroup covers where several may; as long as it should be if none.
+    pub longest_alone: Option<u32>,
     /// Have every access of a shader checked while it runs.
     pub has_checked_shaders: bool,
     /// Do not use the device's clock, as if it had none.
@@ -105,6 +107,15 @@ impl Gpu {
     pub(crate) fn most_lanes(&self) -> Option<u32> {
         let has_lanes = self.device.features().contains(wgpu::Features::SUBGROUP);
         has_lanes.then_some(self.info.subgroup_max_size)
+    }
+
+    pub(crate) fn options(&self) -> GpuOptions {
+        self.options
+    }
+
+    /// Most buffers of storage that a shader may see.
+    pub(crate) fn storage_bindings(&self) -> u32 {
+        self.device.limits().max_storage_buffers_per_shader_stage
     }
 
     /// Most bytes that a shader may see of one buffer.

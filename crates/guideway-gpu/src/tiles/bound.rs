@@ -7,7 +7,8 @@ use super::canvas::Canvas;
 use super::chunk::Drawn;
 use super::kernels::Kernels;
 use super::params::{
-    Found, FrameParams, SCATTER_THREADS, STARTS_THREADS, Samples, TILE_PX, WORKGROUP,
+    Found, FrameParams, ROUNDS_A_LINE, SCATTER_THREADS, SHARED_PARTS, SHARED_TILES, STARTS_THREADS,
+    Samples, TILE_PX, WORKGROUP,
 };
 use super::room::Room;
 use super::store::Store;
@@ -48,7 +49,7 @@ impl Paint {
         let words = u64::from(samples.a_row() * TILE_PX / u32::BITS);
         let longest = u64::from(found.longest);
         match self {
-            Self::One => 11 * longest,
+            Self::One => u64::from(ROUNDS_A_LINE) * longest,
             Self::Touch => 0,
             // For each line its words, twice, and the pixels that it covers.
             Self::Ids => longest * (2 + 2 * words + u64::from(TILE_PX)),
@@ -81,16 +82,28 @@ pub(super) struct Buffers<'a> {
     pub(super) store: &'a Store,
     pub(super) room: &'a Room,
     pub(super) canvas: &'a Canvas,
+    /// Tiles that several workgroups cover, where they may.
+    pub(super) shares: Option<&'a DeviceBuffer>,
     /// A bit a path, where paths are only to be marked.
     pub(super) marks: Option<&'a DeviceBuffer>,
+}
+
+/// What frames before have shown to take less time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Manner {
+    /// What is hidden is left out.
+    pub(super) is_in_rounds: bool,
+    /// Several workgroups flatten each cluster.
+    pub(super) has_few: bool,
+    /// Several workgroups cover some tiles.
+    pub(super) shares: bool,
 }
 
 /// The stages of a frame, with all that they bind.
 pub(super) struct Bound {
     paint: Paint,
     samples: Samples,
-    is_in_rounds: bool,
-    has_few: bool,
+    manner: Manner,
     stages: Vec<(&'static str, Vec<Step>)>,
 }
 
@@ -112,6 +125,10 @@ enum Over {
     Lines(u32),
     /// A workgroup a tile.
     Tiles,
+    /// A workgroup for each part of a list that there may be, and then for each tile.
+    PartsAndTiles,
+    /// A workgroup for each shared tile that there may be.
+    SharedTiles,
     /// Threads for all tiles.
     ThreadsForTiles,
 }
@@ -121,20 +138,18 @@ impl Bound {
         b: &Buffers<'_>,
         paint: Paint,
         samples: Samples,
-        is_in_rounds: bool,
-        has_few: bool,
+        manner: Manner,
     ) -> Result<Self, String> {
         let mut bound = Self {
             paint,
             samples,
-            is_in_rounds,
-            has_few,
+            manner,
             stages: Vec::new(),
         };
         let (kernels, found) = (b.kernels, &b.store.found);
         let cull = [&b.canvas.frame, &b.store.clusters, found];
         bound.add("cull", b, &kernels.cull, Over::Clusters, &cull)?;
-        if is_in_rounds {
+        if manner.is_in_rounds {
             bound.add_round(b, 1)?;
             bound.add_round(b, 2)?;
         } else {
@@ -180,7 +195,7 @@ impl Bound {
                 line_ranks,
                 counts,
             ];
-            let kernel = &kernels.flatten[usize::from(self.has_few)][chunk.held as usize];
+            let kernel = &kernels.flatten[usize::from(self.manner.has_few)][chunk.held as usize];
             let over = Over::Seen(chunk.clusters.len() as u32, chunk.drawn);
             self.add("flatten", b, kernel, over, &buffers)?;
         }
@@ -197,6 +212,11 @@ impl Bound {
             Over::ThreadsForTiles,
             &buffers,
         )?;
+        let shares = b.shares.filter(|_| self.manner.shares);
+        if let Some(shares) = shares {
+            let buffers = [frame, lists, found, shares];
+            self.add("starts", b, &kernels.share, Over::ThreadsForTiles, &buffers)?;
+        }
         let buffers = [frame, found, lines, line_ranks, styles, filled, references];
         self.add(
             "list",
@@ -216,6 +236,12 @@ impl Bound {
             Paint::One => buffers.extend([counts, found]),
             Paint::Ids | Paint::Touch => {}
             Paint::Opaque | Paint::Translucent | Paint::Density => buffers.push(found),
+        }
+        let shared = kernels.painters(self.samples).shared.as_ref();
+        if let Some(([cover, show], shares)) = shared.zip(shares) {
+            buffers.push(shares);
+            self.add("cover", b, cover, Over::PartsAndTiles, &buffers)?;
+            return self.add("cover", b, show, Over::SharedTiles, &buffers);
         }
         self.add("cover", b, last, Over::Tiles, &buffers)
     }
@@ -240,15 +266,8 @@ impl Bound {
         Ok(())
     }
 
-    pub(super) fn is_for(
-        &self,
-        paint: Paint,
-        samples: Samples,
-        is_in_rounds: bool,
-        has_few: bool,
-    ) -> bool {
-        (self.paint, self.samples) == (paint, samples)
-            && (self.is_in_rounds, self.has_few) == (is_in_rounds, has_few)
+    pub(super) fn is_for(&self, paint: Paint, samples: Samples, manner: Manner) -> bool {
+        (self.paint, self.samples, self.manner) == (paint, samples, manner)
     }
 
     /// Runs all stages one after the other.
@@ -265,6 +284,8 @@ impl Bound {
             Over::Seen(clusters, _) => in_turn(clusters),
             Over::Lines(threads) => in_turn(b.room.size.lines.div_ceil(threads)),
             Over::Tiles => params.columns * params.rows,
+            Over::PartsAndTiles => SHARED_PARTS + params.columns * params.rows,
+            Over::SharedTiles => SHARED_TILES,
             Over::ThreadsForTiles => (params.columns * params.rows).div_ceil(STARTS_THREADS),
         };
         let dispatches: Vec<Vec<_>> = self

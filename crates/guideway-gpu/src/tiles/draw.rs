@@ -5,24 +5,31 @@ use std::time::Instant;
 
 use guideway_render::{Cancel, RenderError, Stage, View, elapsed_ms};
 use guideway_spline::Bounds;
+use wgpu::BufferUsages;
 
 use super::NAME;
-use super::bound::{Bound, Buffers, Paint};
+use super::bound::{Bound, Buffers, Manner, Paint};
 use super::canvas::Canvas;
 use super::kept::{Kept, Shifter};
-use super::params::{ENOUGH_GROUPS, Found, Samples, TILE_PX};
+use super::kernels::keeps_waiting;
+use super::params::{
+    ENOUGH_GROUPS, Found, SAMPLE_ROWS, SHARED_PARTS, SHARED_TILES, Samples, TILE_PX,
+};
 use super::prepared::PreparedTiles;
 use super::room::{Room, Size};
 use super::rounds::Rounds;
 use super::shot::Shot;
 use super::window::Window;
 use super::work::Counted;
+use crate::device::DeviceBuffer;
 
 /// What a picture is made with.
 #[derive(Default)]
 pub(super) struct Easel {
     pub(super) room: Option<Room>,
     pub(super) canvas: Option<Canvas>,
+    /// Tiles that several workgroups cover, once there are any.
+    pub(super) shares: Option<DeviceBuffer>,
     /// For the buffers above; none once one of them is another.
     pub(super) bound: Option<Bound>,
     /// What the canvas shows, if it is a finished picture of the scene as it is.
@@ -31,7 +38,16 @@ pub(super) struct Easel {
     pub(super) rounds: Rounds,
     /// Whether the last frame has seen few clusters.
     pub(super) has_few: bool,
+    /// Whether it has had lists so long that several workgroups should cover their tiles.
+    pub(super) has_long: bool,
 }
+
+/// What is told of shared tiles: `Shares` of `shares.wgsl`.
+const SHARE_BYTES: u64 = {
+    let samples = TILE_PX * TILE_PX * SAMPLE_ROWS * Samples::Fine.a_row() / u32::BITS;
+    let words = SHARED_TILES * (1 + samples) + SHARED_PARTS * 4;
+    words as u64 * size_of::<u32>() as u64
+};
 
 /// So few clusters that several workgroups share each.
 const FEW_CLUSTERS: u32 = ENOUGH_GROUPS / 2;
@@ -103,6 +119,9 @@ impl PreparedTiles {
             let size = size.within(gpu, &self.memory);
             easel.room = Some(Room::new(&mut self.memory, size)?);
         }
+        if easel.has_long {
+            self.share()?;
+        }
         Ok(())
     }
 
@@ -112,6 +131,7 @@ impl PreparedTiles {
             self.unbind();
             let has_ranks = (self.easel.room.as_ref()).is_some_and(|room| room.size.has_ranks);
             (self.easel.room, self.probe.room) = (None, None);
+            (self.easel.shares, self.probe.shares) = (None, None);
             let least = Size::first(0, has_ranks).within(&self.shared.gpu, &self.memory);
             self.easel.room = Some(Room::new(&mut self.memory, least)?);
         }
@@ -133,6 +153,11 @@ impl PreparedTiles {
             return Ok(Found::default());
         };
         let trouble = |what| self.memory.trouble(what);
+        let manner = Manner {
+            is_in_rounds: easel.rounds.are_on && paint == Paint::One,
+            has_few: easel.has_few,
+            shares: easel.shares.is_some() && easel.has_long && paint == Paint::One,
+        };
         let params = shot.params(canvas, room, window, first_row);
         let buffers = Buffers {
             gpu: &self.shared.gpu,
@@ -140,15 +165,14 @@ impl PreparedTiles {
             store,
             room,
             canvas,
+            shares: easel.shares.as_ref(),
             marks: self.marks.as_ref(),
         };
         let samples = shot.samples();
-        let in_rounds = easel.rounds.are_on && paint == Paint::One;
-        let has_few = easel.has_few;
-        let is_alike = |bound: &Bound| bound.is_for(paint, samples, in_rounds, has_few);
+        let is_alike = |bound: &Bound| bound.is_for(paint, samples, manner);
         let bound = match easel.bound.take().filter(is_alike) {
             Some(bound) => bound,
-            None => Bound::new(&buffers, paint, samples, in_rounds, has_few).map_err(trouble)?,
+            None => Bound::new(&buffers, paint, samples, manner).map_err(trouble)?,
         };
         let set = self.runner.set("the view", &canvas.frame, &params);
         set.map_err(trouble)?;
@@ -165,12 +189,31 @@ impl PreparedTiles {
         fetched.map_err(trouble)?;
         self.easel.bound = Some(bound);
         self.easel.has_few = found.rounded + found.exact <= FEW_CLUSTERS;
+        let is_long = keeps_waiting(&self.shared.gpu, &found);
+        self.easel.has_long = paint == Paint::One && is_long;
+        if manner.shares {
+            found.longest = found.longest_alone;
+        }
         Ok(found)
     }
 
     /// Whether a thread of a tile may not go on to the end of its list.
     fn is_too_long(&self, found: &Found, paint: Paint, samples: Samples) -> bool {
         paint.rounds(found, samples) > u64::from(self.shared.gpu.rounds_a_thread())
+    }
+
+    /// Has room for what several workgroups cover of a tile. False if there cannot be.
+    fn share(&mut self) -> Result<bool, RenderError> {
+        if self.easel.shares.is_some() {
+            return Ok(true);
+        }
+        let most_bytes = (self.shared.gpu.binding_bytes()).min(self.memory.spare_bytes());
+        if SHARE_BYTES > most_bytes || self.kernels.painters(Samples::Fine).shared.is_none() {
+            return Ok(false);
+        }
+        let storage = BufferUsages::STORAGE;
+        self.easel.shares = Some(self.memory.zeros("shared tiles", SHARE_BYTES, storage)?);
+        Ok(true)
     }
 
     /// More room for what was found, if there can be; exact points go for it where none is needed.
@@ -181,6 +224,9 @@ impl PreparedTiles {
         self.unbind();
         let (old, size) = (room.size, room.size.for_found(found));
         drop(room);
+        if size.bytes() > self.memory.spare_bytes() {
+            self.easel.shares = None;
+        }
         let is_short = size.bytes() > self.memory.spare_bytes();
         if let Some(store) = &mut self.store
             && is_short
@@ -230,7 +276,15 @@ impl PreparedTiles {
             } else if paint == Paint::One && self.easel.may_help(&found) {
                 windows.push(window);
             } else if is_too_long {
-                return Err(too_long(&found));
+                let is_shared = found.longest_alone > 0;
+                let is_short = found.shared_tiles > SHARED_TILES || found.parts > SHARED_PARTS;
+                if paint == Paint::One && !is_shared && self.share()? {
+                    windows.push(window);
+                } else if let Some([first, second]) = window.halves().filter(|_| is_short) {
+                    windows.extend([second, first]);
+                } else {
+                    return Err(too_long(&found));
+                }
             } else if self.grow(shot, &found)? {
                 windows.push(window);
             } else if let Some([first, second]) = window.halves() {

@@ -1,9 +1,10 @@
 //! The shaders of a frame, compiled.
 
 use super::params::{
-    CLUSTER_STROKES, COLUMNS, COVER, COVER_APART, CULL, ENOUGH_GROUPS, FLATTEN, IDS, LAYERS,
-    Layers, SAMPLE_ROWS, SCATTER, SCATTER_THREADS, SHIFT, SORT, STARTS, STARTS_THREADS, Samples,
-    TILE_PX, TILE_THREADS, TOUCH, WORKGROUP,
+    CLUSTER_STROKES, COLUMNS, COVERS, COVERS_APART, CULL, ENOUGH_GROUPS, ENOUGH_LISTS, FLATTEN,
+    Found, IDS, LAYERS, LEAST_ALONE, Layers, ROUNDS_A_LINE, SAMPLE_ROWS, SCATTER, SCATTER_THREADS,
+    SHARE, SHIFT, SORT, STARTS, STARTS_THREADS, Samples, TILE_PX, TILE_THREADS, TOUCH, WAITED_FOR,
+    WORKGROUP,
 };
 use crate::device::{Gpu, Kernel};
 
@@ -13,6 +14,8 @@ pub(super) struct Kernels {
     /// For many clusters and for few, by [`super::params::Points`].
     pub(super) flatten: [[Kernel; 2]; 2],
     pub(super) starts: Kernel,
+    /// Shares out long lists.
+    pub(super) share: Kernel,
     pub(super) scatter: Kernel,
     /// Of short lists, and of all others.
     pub(super) sort: [Kernel; 2],
@@ -26,6 +29,9 @@ pub(super) struct Kernels {
 #[derive(Clone)]
 pub(super) struct Painters {
     pub(super) cover: Kernel,
+    /// Where several workgroups cover some tiles: what covers, and what shows those tiles. None where a shader may not see
+    /// so many buffers.
+    pub(super) shared: Option<[Kernel; 2]>,
     pub(super) opaque: Kernel,
     pub(super) translucent: Kernel,
     pub(super) density: Kernel,
@@ -36,11 +42,12 @@ impl Kernels {
     pub(super) fn new(gpu: &Gpu) -> Result<Self, String> {
         let tile = constant("TILE_PX", TILE_PX);
         let tile_threads = constant("THREADS", TILE_THREADS);
-        let [cull, starts, scatter] = stages(gpu, &[])?;
+        let [cull, starts, share, scatter] = stages(gpu, &[])?;
         Ok(Self {
             cull,
             flatten: flatten(gpu, &[])?,
             starts,
+            share,
             scatter,
             sort: [
                 Kernel::new(gpu, &SORT[0], &[tile, tile_threads])?,
@@ -59,10 +66,11 @@ impl Kernels {
     pub(super) fn counting(&self, gpu: &Gpu) -> Result<Self, String> {
         let counts = [("COUNTS", 1.0)];
         let mut all = self.clone();
-        [all.cull, all.starts, all.scatter] = stages(gpu, &counts)?;
+        [all.cull, all.starts, all.share, all.scatter] = stages(gpu, &counts)?;
         all.flatten = flatten(gpu, &counts)?;
         for samples in [Samples::Coarse, Samples::Fine] {
-            all.painters[samples as usize].cover = cover(gpu, samples, &counts)?;
+            let painters = &mut all.painters[samples as usize];
+            (painters.cover, painters.shared) = covers(gpu, samples, &counts)?;
         }
         Ok(all)
     }
@@ -80,8 +88,10 @@ impl Painters {
             let constants = [&painted[..], &[shading]].concat();
             Kernel::new(gpu, &LAYERS[samples as usize], &constants)
         };
+        let (cover, shared) = covers(gpu, samples, &[])?;
         Ok(Self {
-            cover: cover(gpu, samples, &[])?,
+            cover,
+            shared,
             opaque: layers(Layers::Opaque)?,
             translucent: layers(Layers::Translucent)?,
             density: layers(Layers::Density)?,
@@ -117,30 +127,66 @@ fn flatten(gpu: &Gpu, more: &[Constant]) -> Result<[[Kernel; 2]; 2], String> {
     Ok([of(0)?, of(MOST_PARTS_BITS)?])
 }
 
-/// From clusters to lists, but for flattening: cull, starts, scatter; with more constants.
-fn stages(gpu: &Gpu, more: &[Constant]) -> Result<[Kernel; 3], String> {
-    let kernel = |source, name, value| {
-        let own = [constant("TILE_PX", TILE_PX), constant(name, value)];
-        Kernel::new(gpu, source, &[&own, more].concat())
+/// From clusters to lists, but for flattening: cull, starts, share, scatter; with more constants.
+fn stages(gpu: &Gpu, more: &[Constant]) -> Result<[Kernel; 4], String> {
+    let kernel = |source, own: &[Constant]| {
+        let tile = constant("TILE_PX", TILE_PX);
+        Kernel::new(gpu, source, &[&[tile], own, more].concat())
     };
+    let starts = constant("THREADS", STARTS_THREADS);
+    let [least, most] = bounds_alone(gpu);
+    let share = [
+        starts,
+        constant("ENOUGH_LISTS", ENOUGH_LISTS),
+        constant("LEAST_ALONE", least),
+        constant("MOST_ALONE", most),
+    ];
     Ok([
-        kernel(&CULL, "WORKGROUP", WORKGROUP)?,
-        kernel(&STARTS, "THREADS", STARTS_THREADS)?,
-        kernel(&SCATTER, "THREADS", SCATTER_THREADS)?,
+        kernel(&CULL, &[constant("WORKGROUP", WORKGROUP)])?,
+        kernel(&STARTS, &[starts])?,
+        kernel(&SHARE, &share)?,
+        kernel(&SCATTER, &[constant("THREADS", SCATTER_THREADS)])?,
     ])
 }
 
-/// Paints one opaque colour; with more constants.
-fn cover(gpu: &Gpu, samples: Samples, more: &[Constant]) -> Result<Kernel, String> {
-    let threads = constant("THREADS", samples.cover_threads());
-    let (source, own) = match gpu.most_lanes() {
+/// What paints one opaque colour, a workgroup a tile and several; with more constants.
+fn covers(
+    gpu: &Gpu,
+    samples: Samples,
+    more: &[Constant],
+) -> Result<(Kernel, Option<[Kernel; 2]>), String> {
+    let mut own = [&PAINTED[..], more].concat();
+    own.push(constant("THREADS", samples.cover_threads()));
+    let sources = match gpu.most_lanes() {
         Some(most) => {
-            let lanes = constant("MOST_LANES", most);
-            (&COVER[samples as usize], vec![threads, lanes])
+            own.push(constant("MOST_LANES", most));
+            &COVERS
         }
-        None => (&COVER_APART[samples as usize], vec![threads]),
+        None => &COVERS_APART,
     };
-    Kernel::new(gpu, source, &[&PAINTED[..], &own, more].concat())
+    let alone = Kernel::new(gpu, &sources.alone[samples as usize], &own)?;
+    let source = &sources.shared[samples as usize];
+    // All but the first one are of storage.
+    if (gpu.storage_bindings() as usize) < source.bindings.len() - 1 {
+        return Ok((alone, None));
+    }
+    let shared = |shows| Kernel::new(gpu, source, &[&own[..], &[("SHOWS", shows)]].concat());
+    Ok((alone, Some([shared(0.0)?, shared(1.0)?])))
+}
+
+/// What the longest list that one workgroup covers, where several may, is held between.
+fn bounds_alone(gpu: &Gpu) -> [u32; 2] {
+    let most = gpu.rounds_a_thread() / ROUNDS_A_LINE;
+    match gpu.options().longest_alone {
+        Some(asked) => [asked.min(most); 2],
+        None => [LEAST_ALONE.min(most), most],
+    }
+}
+
+/// Whether one workgroup would take longer for its list than others do for all of theirs.
+pub(super) fn keeps_waiting(gpu: &Gpu, found: &Found) -> bool {
+    let [least, most] = bounds_alone(gpu);
+    found.longest > (found.references / WAITED_FOR).clamp(least, most)
 }
 
 const fn constant(name: &'static str, value: u32) -> Constant {

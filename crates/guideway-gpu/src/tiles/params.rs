@@ -22,6 +22,18 @@ pub(super) const WORKGROUP: u32 = 64;
 pub(super) const SCATTER_THREADS: u32 = 256;
 /// Threads of a workgroup that reserves places for lists.
 pub(super) const STARTS_THREADS: u32 = 256;
+/// A list that is longer than this part of all keeps a device waiting: from there on lists are shared out.
+pub(super) const WAITED_FOR: u32 = 96;
+/// So many workgroups keep it busy: lists that are longer than this part of all are then shared out.
+pub(super) const ENOUGH_LISTS: u32 = 512;
+/// Lists that are not longer than this are not.
+pub(super) const LEAST_ALONE: u32 = 2048;
+/// Times that a thread goes round its loops for each line of one opaque colour, at most.
+pub(super) const ROUNDS_A_LINE: u32 = 11;
+/// Most tiles that several workgroups cover: `SHARED_TILES` of the shaders.
+pub(super) const SHARED_TILES: u32 = 256;
+/// Most parts of their lists: `SHARED_PARTS` of the shaders.
+pub(super) const SHARED_PARTS: u32 = 1024;
 /// Side of a tile in pixels.
 pub(super) const TILE_PX: u32 = 16;
 /// Rows of samples of a pixel.
@@ -178,6 +190,9 @@ pub(super) struct Found {
     pub(super) full_tiles: u32,
     pub(super) rounds: u32,
     pub(super) missing: u32,
+    pub(super) shared_tiles: u32,
+    pub(super) parts: u32,
+    pub(super) longest_alone: u32,
     /// Of shaders that count: tests, atomics, words read and written, the low half of each first.
     pub(super) work: [u32; 8],
 }
@@ -253,6 +268,12 @@ pub(super) const STARTS: Source = Source {
     bindings: &["frame", "counts", "lists", "filled", "found"],
 };
 
+pub(super) const SHARE: Source = Source {
+    name: "share",
+    wgsl: wgsl!("frame", "work", "found", "shares", "share"),
+    bindings: &["frame", "lists", "found", "shares"],
+};
+
 pub(super) const SCATTER: Source = Source {
     name: "scatter",
     wgsl: wgsl!(
@@ -321,7 +342,7 @@ pub(super) enum Samples {
 
 impl Samples {
     /// Of one pixel in one row: `SAMPLES_A_ROW` of the shaders.
-    pub(super) fn a_row(self) -> u32 {
+    pub(super) const fn a_row(self) -> u32 {
         match self {
             Self::Coarse => 4,
             Self::Fine => 16,
@@ -351,25 +372,53 @@ pub(super) const IDS: [Source; 2] = [
 ];
 
 macro_rules! cover {
-    ($samples:literal, $($lanes:literal),+) => {
+    ($samples:literal, [$($lanes:literal),+], [$($main:literal),+], $bindings:expr) => {
         tiles!(
             $samples,
             "cover",
             // What is set from outside has to come before arrays of a length that is, too.
-            [$($lanes),+, "deal", "cover", "found"],
-            tile_bindings!("counts", "found")
+            [$($lanes),+, $($main),+, "deal", "cover", "found"],
+            $bindings
         )
     };
 }
 
-/// One opaque colour, by [`Samples`]: where threads see each other's values.
-pub(super) const COVER: [Source; 2] = [cover!(4, "lanes"), cover!(16, "lanes")];
+/// By [`Samples`].
+macro_rules! covers {
+    ($lanes:tt, $main:tt, $bindings:expr) => {
+        [
+            cover!(4, $lanes, $main, $bindings),
+            cover!(16, $lanes, $main, $bindings),
+        ]
+    };
+}
 
-/// The same where they do not.
-pub(super) const COVER_APART: [Source; 2] = [
-    cover!(4, "sums", "lanes_apart"),
-    cover!(16, "sums", "lanes_apart"),
-];
+macro_rules! all_covers {
+    ($lanes:tt) => {
+        Covers {
+            alone: covers!($lanes, ["cover_tiles"], tile_bindings!("counts", "found")),
+            shared: covers!(
+                $lanes,
+                ["cover_shared", "shares"],
+                tile_bindings!("counts", "found", "shares")
+            ),
+        }
+    };
+}
+
+/// One opaque colour, by [`Samples`].
+pub(super) struct Covers {
+    /// A workgroup a tile.
+    pub(super) alone: [Source; 2],
+    /// And several for some.
+    pub(super) shared: [Source; 2],
+}
+
+/// Where threads see each other's values.
+pub(super) const COVERS: Covers = all_covers!(["lanes"]);
+
+/// Where they do not.
+pub(super) const COVERS_APART: Covers = all_covers!(["sums", "lanes_apart"]);
 
 /// Anything else; by [`Samples`].
 pub(super) const LAYERS: [Source; 2] = [

@@ -123,6 +123,10 @@ fn the_limits_of_a_device_change_no_bit() {
         without_lanes: true,
         ..GpuOptions::default()
     });
+    let shared = limited(GpuOptions {
+        longest_alone: Some(60),
+        ..GpuOptions::default()
+    });
     for (scene, shading) in [
         (plain(3000, 8.0), Shading::Color),
         (mixed(3000, 8.0), Shading::Color),
@@ -136,6 +140,7 @@ fn the_limits_of_a_device_change_no_bit() {
             ("narrow", &narrow, false),
             ("checked", &checked, false),
             ("apart", &apart, false),
+            ("shared", &shared, false),
         ] {
             let mut prepared = prepared(device, &scene);
             for _ in 0..2 {
@@ -163,6 +168,74 @@ fn a_small_budget_draws_the_same_in_more_windows() {
         report.bands > 1 && report.peak_bytes <= budget.memory_bytes,
         "{report:?}"
     );
+}
+
+#[test]
+fn a_tile_that_several_workgroups_cover_shows_all_of_its_lines() {
+    let Some(tiles) = tiles() else { return };
+    let scene = plain(3000, 0.5);
+    // All in six tiles, which the strokes do not fill.
+    let far = view([50.0, 30.0], 0.3);
+    let thin = |width_px| Style {
+        line_rule: LineRule::World {
+            width_m: 0.0,
+            min_px: width_px,
+            max_px: width_px,
+        },
+        ..Style::default()
+    };
+    for style in [thin(0.5), thin(0.1)] {
+        let mut alone = prepared(&tiles, &scene);
+        let (expected, _) = picture(&mut alone, &far, &style);
+        assert!(alone.easel.shares.is_none());
+        for options in [
+            GpuOptions {
+                longest_alone: Some(60),
+                ..GpuOptions::default()
+            },
+            GpuOptions {
+                longest_alone: Some(60),
+                without_lanes: true,
+                ..GpuOptions::default()
+            },
+            // More parts than there is room for.
+            GpuOptions {
+                longest_alone: Some(2),
+                ..GpuOptions::default()
+            },
+            // Not one of the lists may be gone through by one workgroup.
+            GpuOptions {
+                rounds_a_thread: Some(4_096),
+                ..GpuOptions::default()
+            },
+        ] {
+            let mut shared = prepared(&limited(options), &scene);
+            for _ in 0..3 {
+                let (frame, _) = picture(&mut shared, &far, &style);
+                assert!(frame.pixels() == expected.pixels(), "{options:?}");
+            }
+            assert!(shared.easel.shares.is_some(), "{options:?}");
+        }
+    }
+}
+
+#[test]
+fn where_too_many_tiles_would_have_to_be_shared_windows_are_halved() {
+    let Some(tiles) = tiles() else { return };
+    let impatient = limited(GpuOptions {
+        rounds_a_thread: Some(4_096),
+        ..GpuOptions::default()
+    });
+    let size = FrameSize::new(640, 400).unwrap();
+    let view = View::new(size, Point::new(50.0, 30.0), 6.0).unwrap();
+    let (scene, style) = (crowd(), Style::default());
+    let (expected, _) = picture(&mut prepared(&tiles, &scene), &view, &style);
+    let mut halved = prepared(&impatient, &scene);
+    for _ in 0..2 {
+        let (frame, report) = picture(&mut halved, &view, &style);
+        assert!(frame.pixels() == expected.pixels());
+        assert!(report.bands > 1, "{report}");
+    }
 }
 
 #[test]

@@ -110,11 +110,11 @@ pub(crate) fn percent(text: &str) -> Result<f64, String> {
     }
 }
 
-/// How many times nearer, 1 or more.
+/// How many times nearer; below 1 it is farther away.
 pub(crate) fn times(text: &str) -> Result<f64, String> {
     match text.trim().parse::<f64>() {
-        Ok(value) if (1.0..=1e9).contains(&value) => Ok(value),
-        _ => Err("write a number from 1 to 1e9, such as 20".into()),
+        Ok(value) if (1e-3..=1e9).contains(&value) => Ok(value),
+        _ => Err("write a number from 0.001 to 1e9, such as 20".into()),
     }
 }
 

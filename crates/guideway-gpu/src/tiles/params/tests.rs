@@ -12,13 +12,18 @@ const SHADERS: &[&Source] = &[
     &IDS[0],
     &IDS[1],
     &STARTS,
+    &SHARE,
     &SCATTER,
     &SORT[0],
     &SORT[1],
-    &COVER[0],
-    &COVER[1],
-    &COVER_APART[0],
-    &COVER_APART[1],
+    &COVERS.alone[0],
+    &COVERS.alone[1],
+    &COVERS.shared[0],
+    &COVERS.shared[1],
+    &COVERS_APART.alone[0],
+    &COVERS_APART.alone[1],
+    &COVERS_APART.shared[0],
+    &COVERS_APART.shared[1],
     &LAYERS[0],
     &LAYERS[1],
 ];
@@ -49,7 +54,8 @@ fn structures_are_laid_out_alike() {
     assert_laid_out(SHADERS, "Shift", &shift);
     assert_laid_out(SHADERS, "Stroke", &members!(Stroke: extent, rank));
     assert_laid_out(SHADERS, "Style", &members!(PathStyle: color, width_m));
-    let found = members!(Found: rounded, exact, lines, references, drawn, longest, full_tiles, rounds, missing, work);
+    let found = members!(Found: rounded, exact, lines, references, drawn, longest, full_tiles, rounds, missing,
+        shared_tiles, parts, longest_alone, work);
     assert_laid_out(SHADERS, "Counters", &found);
     assert_laid_out(SHADERS, "CountersBefore", &found);
 }
@@ -76,7 +82,14 @@ fn each_four_rows_of_samples_have_every_column_once() {
 fn rows_of_a_pixel_have_as_many_samples_as_is_said() {
     for samples in [Samples::Coarse, Samples::Fine] {
         let said = format!("const SAMPLES_A_ROW: u32 = {}u;", samples.a_row());
-        for sources in [&COVER, &COVER_APART, &LAYERS, &IDS] {
+        for sources in [
+            &COVERS.alone,
+            &COVERS.shared,
+            &COVERS_APART.alone,
+            &COVERS_APART.shared,
+            &LAYERS,
+            &IDS,
+        ] {
             assert!(sources[samples as usize].wgsl.starts_with(&said), "{said}");
         }
     }
@@ -86,6 +99,16 @@ fn rows_of_a_pixel_have_as_many_samples_as_is_said() {
 fn lines_have_as_many_words_as_there_is_room_for() {
     let said = format!("const LINE_WORDS: u32 = {LINE_WORDS}u;");
     assert!(SCATTER.wgsl.contains(&said), "{said}");
+}
+
+#[test]
+fn as_many_tiles_may_be_shared_as_there_is_room_for() {
+    for said in [
+        format!("const SHARED_TILES: u32 = {SHARED_TILES}u;"),
+        format!("const SHARED_PARTS: u32 = {SHARED_PARTS}u;"),
+    ] {
+        assert!(SHARE.wgsl.contains(&said), "{said}");
+    }
 }
 
 #[test]

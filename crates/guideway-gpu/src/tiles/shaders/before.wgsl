@@ -10,5 +10,8 @@ struct CountersBefore {
     full_tiles: u32,
     rounds: u32,
     missing: u32,
+    shared_tiles: u32,
+    parts: u32,
+    longest_alone: u32,
     work: array<u32, 8>,
 }

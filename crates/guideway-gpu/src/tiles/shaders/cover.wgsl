@@ -81,17 +81,23 @@ fn cover_row(capsule: Capsule, row: u32) {
     }
 }
 
-@compute @workgroup_size(THREADS)
-fn main(
-    @builtin(workgroup_id) id: vec3u,
-    @builtin(num_workgroups) count: vec3u,
-    own: Thread,
-) {
-    let thread = own.number;
-    let index = workgroup_index(id, count);
-    if index >= frame.columns * frame.rows {
-        return;
+// Shows what is covered of a tile.
+fn show(tile: Tile, thread: u32) {
+    close_covered(thread, THREADS);
+    for (var pixel = thread; pixel < TILE_PX * TILE_PX; pixel += THREADS) {
+        let share = f32(count_of(pixel)) / f32(SAMPLE_ROWS * SAMPLES_A_ROW);
+        write(tile, pixel, over_background(channels(frame.color).rgb * share, share));
     }
+    workgroupBarrier();
+    if thread == 0u && atomicLoad(&open_pixels) == 0u {
+        counts[tile.index] |= FULL;
+        atomicAdd(&found.counters.full_tiles, 1u);
+        atomics(1u);
+    }
+}
+
+fn cover_tile(own: Thread, index: u32) {
+    let thread = own.number;
     let tile = tile_of(index);
     if thread == 0u {
         was_full = counts[index] & FULL;
@@ -99,33 +105,19 @@ fn main(
     }
     // Its pixels are written already.
     if workgroupUniformLoad(&was_full) != 0u {
-        report_work();
         return;
     }
     let list = list_of(index);
     reads(2u);
-    let pixels = TILE_PX * TILE_PX;
     if list.x >= list.y {
-        for (var pixel = thread; pixel < pixels; pixel += THREADS) {
+        for (var pixel = thread; pixel < TILE_PX * TILE_PX; pixel += THREADS) {
             write(tile, pixel, frame.background);
         }
-        report_work();
         return;
     }
     clear(tile, thread);
     workgroupBarrier();
     cover_list(team_of(own), tile, list);
     workgroupBarrier();
-    close_covered(thread, THREADS);
-    for (var pixel = thread; pixel < pixels; pixel += THREADS) {
-        let share = f32(count_of(pixel)) / f32(SAMPLE_ROWS * SAMPLES_A_ROW);
-        write(tile, pixel, over_background(channels(frame.color).rgb * share, share));
-    }
-    workgroupBarrier();
-    if thread == 0u && atomicLoad(&open_pixels) == 0u {
-        counts[index] |= FULL;
-        atomicAdd(&found.counters.full_tiles, 1u);
-        atomics(1u);
-    }
-    report_work();
+    show(tile, thread);
 }

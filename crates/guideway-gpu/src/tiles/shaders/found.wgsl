@@ -15,6 +15,11 @@ struct Counters {
     rounds: atomic<u32>,
     // Clusters that are seen from near and whose exact points are not there.
     missing: atomic<u32>,
+    // Tiles that several workgroups cover, and the parts of their lists; more than there is room for are counted, too.
+    shared_tiles: atomic<u32>,
+    parts: atomic<u32>,
+    // Length of the longest list, or part of one, that one workgroup goes through where others have such parts.
+    longest_alone: atomic<u32>,
     // Each of `Work` in two words, the low one first.
     work: array<atomic<u32>, 8>,
 }

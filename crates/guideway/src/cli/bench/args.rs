@@ -37,7 +37,7 @@ pub(crate) struct Args {
     /// Frames of each method that are drawn before and do not count
     #[arg(long, value_name = "N", default_value_t = 3)]
     warmup: usize,
-    /// Come so many times nearer to the busiest place; 1 sees all
+    /// Come so many times nearer to the busiest place; 1 sees all, less goes farther away
     #[arg(long, value_name = "TIMES", default_value = "1", value_parser = values::times)]
     magnify: f64,
     /// What paths look like
