@@ -22,6 +22,7 @@ mod prepared;
 mod ranks;
 mod room;
 mod rounds;
+mod shaders;
 mod shot;
 mod store;
 mod twins;

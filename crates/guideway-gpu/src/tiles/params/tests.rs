@@ -1,7 +1,9 @@
 //! Every shader against what this side takes it for.
 
 use super::*;
+use crate::device::Source;
 use crate::reflection::{assert_binds_what_it_is_given, assert_laid_out, members};
+use crate::tiles::shaders::*;
 
 const SHADERS: &[&Source] = &[
     &CULL,
