@@ -1,4 +1,4 @@
-use std::ops::RangeInclusive;
+use std::ops::Range;
 
 use guideway_scene::Rgba;
 use guideway_spline::Point;
@@ -123,19 +123,30 @@ impl<const C: usize> Canvas<C> {
         &mut self,
         capsule: &Capsule,
         disc: &Disc<C>,
-        rows: RangeInclusive<usize>,
+        rows: Range<usize>,
         pixels: u32,
     ) {
-        for row in *rows.start()..(*rows.end() + 1).min(TILE_PX) {
-            let open = self.open_pixels[row] & pixels;
-            if open == 0 {
-                continue;
+        for row in rows {
+            if let Some(windows) = self.open_windows(row, pixels) {
+                let spans = capsule.spans(disc, row, Self::TILE_COLUMNS);
+                self.add_all(windows, row, &spans);
             }
-            let spans = capsule.spans(disc, row, Self::TILE_COLUMNS);
-            let end_window = C - open.leading_zeros() as usize / Self::WINDOW_PX;
-            for window in open.trailing_zeros() as usize / Self::WINDOW_PX..end_window {
-                self.add(window, row, &spans);
-            }
+        }
+    }
+
+    /// The windows of a row that hold the first and the last open one of some pixels; none if all are covered.
+    #[inline(always)]
+    pub(super) fn open_windows(&self, row: usize, pixels: u32) -> Option<Range<usize>> {
+        let open = self.open_pixels[row % TILE_PX] & pixels;
+        let end = C - open.leading_zeros() as usize / Self::WINDOW_PX;
+        (open != 0).then_some(open.trailing_zeros() as usize / Self::WINDOW_PX..end)
+    }
+
+    /// Adds what is covered of some windows of a row.
+    #[inline(always)]
+    pub(super) fn add_all(&mut self, windows: Range<usize>, row: usize, spans: &Spans) {
+        for window in windows {
+            self.add(window, row % TILE_PX, spans);
         }
     }
 
@@ -145,7 +156,7 @@ impl<const C: usize> Canvas<C> {
         let block = &mut self.shape[window][row];
         let mut all = u32::MAX;
         for ((word, &first), &end) in block.iter_mut().zip(&spans.first).zip(&spans.end) {
-            *word |= high_bits(first.max(left) - left) & !high_bits(end.max(left) - left);
+            *word |= high_bits(first.max(left) - left) ^ high_bits(end.max(left) - left);
             all &= *word;
         }
         self.touched[window] |= 1 << row;
@@ -157,11 +168,7 @@ impl<const C: usize> Canvas<C> {
     /// Takes note of pixels that are covered, by the samples that are in all rows of a block.
     #[inline(always)]
     fn close(&mut self, window: usize, row: usize, all: u32) {
-        let mut full = 0;
-        for pixel in 0..Self::WINDOW_PX {
-            let samples = all >> (pixel * C) & low_bits(C as u32);
-            full |= u32::from(samples == low_bits(C as u32)) << pixel;
-        }
+        let full = full_pixels::<C>(all);
         self.open_pixels[row] &= !(full << (window * Self::WINDOW_PX));
         if all == u32::MAX {
             self.open[window] &= !(1 << row);
@@ -341,6 +348,23 @@ impl Backdrop {
     }
 }
 
+/// The pixels of a word all of whose samples are set, a bit each.
+#[inline(always)]
+fn full_pixels<const C: usize>(word: u32) -> u32 {
+    // The lowest bit of each stands for all.
+    let mut all = word;
+    let mut shift = 1;
+    while shift < C {
+        all &= all >> shift;
+        shift *= 2;
+    }
+    if C == 16 {
+        return all & 1 | all >> 15 & 2;
+    }
+    // Brings every eighth bit together, in the highest byte.
+    (all & 0x0101_0101).wrapping_mul(0x0102_0408) >> 24
+}
+
 /// The numbers of the bits that are set.
 #[inline(always)]
 pub(super) fn set_bits(mut bits: u32) -> impl Iterator<Item = usize> {
@@ -361,11 +385,7 @@ fn low_bits(count: u32) -> u32 {
 #[inline(always)]
 fn high_bits(count: u32) -> u32 {
     // As a choice between two values this is one instruction on a vector.
-    if count < u32::BITS {
-        u32::MAX << count
-    } else {
-        0
-    }
+    u32::MAX.unbounded_shl(count)
 }
 
 /// How many samples are set of each pixel of a block: bits are summed within bytes, then bytes within pixels.

@@ -63,7 +63,9 @@ struct Source {
 /// comes later is covered before.
 fn spread_out(round: usize, paths: usize) -> impl Iterator<Item = usize> {
     let reversed = |i: usize| (usize::from((i as u8).reverse_bits()) * CLUSTER_PATHS) >> u8::BITS;
-    let numbers = round * CLUSTER_PATHS / ROUNDS..(round + 1) * CLUSTER_PATHS / ROUNDS;
+    // The more is covered by those before, the more are looked at together.
+    const ENDS: [usize; ROUNDS + 1] = [0, 8, 16, 24, 36, CLUSTER_PATHS];
+    let numbers = ENDS[round]..ENDS[round + 1];
     numbers.map(reversed).filter(move |&i| i < paths)
 }
 
@@ -298,12 +300,15 @@ impl Scratch {
     }
 }
 
-#[multiversion(targets("x86_64+avx512f+avx512bw+avx512dq+avx512vl", "x86_64+avx2"))]
+#[multiversion(targets(
+    "x86_64+avx512f+avx512bw+avx512dq+avx512vl+bmi1+bmi2+lzcnt+popcnt",
+    "x86_64+avx2+bmi1+bmi2+lzcnt+popcnt"
+))]
 fn simplify_widest(scratch: &mut Scratch, tolerance: f32) {
     simplify_all(scratch, tolerance);
 }
 
-#[multiversion(targets("x86_64+avx2"))]
+#[multiversion(targets("x86_64+avx2+bmi1+bmi2+lzcnt+popcnt"))]
 fn simplify_eight(scratch: &mut Scratch, tolerance: f32) {
     simplify_all(scratch, tolerance);
 }

@@ -1,7 +1,8 @@
 //! The round ends of strokes.
 
 use super::LANES;
-use super::span::{ROWS, Samples, clamp};
+use super::fixed::Caps;
+use super::span::{ROWS, SOLID, Samples, clamp};
 
 /// Fractions of the distance between rows of samples that the centres of discs are rounded to: 1/128 of a
 /// pixel.
@@ -17,6 +18,8 @@ pub(super) struct Disc<const C: usize> {
     pub(super) radius: f32,
     /// For each phase of the centre, half chords from far above it to far below; none of a large disc.
     halves: Vec<f32>,
+    /// The same for lines in whole numbers, all of one colour.
+    pub(super) caps: Caps,
     /// Rows of a phase, and those before the one at the centre.
     rows: i32,
     rows_above: i32,
@@ -30,6 +33,9 @@ impl<const C: usize> Disc<C> {
         }
         self.radius = radius;
         self.halves.clear();
+        if C == SOLID {
+            self.caps.resize(radius / C as f32);
+        }
         if radius > (MOST_KEPT_PX * C) as f32 {
             return;
         }
@@ -55,9 +61,14 @@ impl<const C: usize> Disc<C> {
         }
         let (row, phase) = (center.div_euclid(PHASES), center.rem_euclid(PHASES));
         let above = (first_row - row + self.rows_above).clamp(0, self.rows - LANES as i32);
-        let from = self.halves.get((phase * self.rows + above) as usize..);
-        from.and_then(<[f32]>::first_chunk)
-            .map_or([NONE; LANES], |halves| *halves)
+        let first = (phase * self.rows + above) as usize;
+        // As a slice it is looked at once whether all are there.
+        let Some(halves) = self.halves.get(first..first + LANES) else {
+            return [NONE; LANES];
+        };
+        let mut all = [0.0; LANES];
+        all.copy_from_slice(halves);
+        all
     }
 }
 
@@ -106,6 +117,8 @@ impl<const C: usize> Discs<C> {
     /// Most bytes that they hold.
     pub(super) fn bytes() -> u64 {
         let rows = 2 * (MOST_KEPT_PX * ROWS + 2 + LANES) + 1;
-        (MOST_DISCS * rows * PHASES as usize * size_of::<f32>()) as u64
+        let floats = MOST_DISCS * rows * PHASES as usize * size_of::<f32>();
+        let caps = if C == SOLID { MOST_DISCS } else { 0 };
+        floats as u64 + caps as u64 * Caps::bytes(MOST_KEPT_PX)
     }
 }

@@ -14,6 +14,7 @@ mod canvas;
 mod cluster;
 mod disc;
 mod extent;
+mod fixed;
 mod flatten;
 mod frame;
 mod index;

@@ -220,12 +220,15 @@ impl Band<'_> {
     }
 }
 
-#[multiversion(targets("x86_64+avx512f+avx512bw+avx512dq+avx512vl", "x86_64+avx2"))]
+#[multiversion(targets(
+    "x86_64+avx512f+avx512bw+avx512dq+avx512vl+bmi1+bmi2+lzcnt+popcnt",
+    "x86_64+avx2+bmi1+bmi2+lzcnt+popcnt"
+))]
 fn paint_widest(band: &Band<'_>, painter: &mut Painter, tile: &Tile, matter: Matter) {
     paint(band, painter, tile, matter);
 }
 
-#[multiversion(targets("x86_64+avx2"))]
+#[multiversion(targets("x86_64+avx2+bmi1+bmi2+lzcnt+popcnt"))]
 fn paint_eight(band: &Band<'_>, painter: &mut Painter, tile: &Tile, matter: Matter) {
     paint(band, painter, tile, matter);
 }

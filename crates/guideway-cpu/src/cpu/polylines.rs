@@ -5,13 +5,39 @@ use guideway_spline::{Bounds, Point};
 use super::LANES;
 
 /// Pieces are drawn in so many rounds.
-pub(super) const ROUNDS: usize = 8;
+pub(super) const ROUNDS: usize = 5;
 
 /// A number that vertices are kept in.
-pub(super) trait Coordinate: Copy + Default + PartialOrd + Into<f32> {}
+pub(super) trait Coordinate: Copy + Default + PartialOrd + Into<f32> {
+    /// The least one that is not below a number, and the greatest that is not above.
+    fn at_least(x: f32) -> Self;
+    fn at_most(x: f32) -> Self;
+}
 
-impl Coordinate for i16 {}
-impl Coordinate for f32 {}
+impl Coordinate for i16 {
+    #[inline(always)]
+    fn at_least(x: f32) -> Self {
+        // Numbers beyond 16 bits become the last ones within.
+        x.ceil() as Self
+    }
+
+    #[inline(always)]
+    fn at_most(x: f32) -> Self {
+        x.floor() as Self
+    }
+}
+
+impl Coordinate for f32 {
+    #[inline(always)]
+    fn at_least(x: f32) -> Self {
+        x
+    }
+
+    #[inline(always)]
+    fn at_most(x: f32) -> Self {
+        x
+    }
+}
 
 /// Lines of some paths: vertices, each joined with the next unless a piece ends between them.
 ///
@@ -224,17 +250,19 @@ impl<T: Coordinate> Polylines<T> {
         let [Some(left), Some(top), Some(right), Some(bottom)] = sides else {
             return 0;
         };
-        let mut bits = [0; LANES];
+        let most = [T::at_most(within.max.x), T::at_most(within.max.y)];
+        let least = [T::at_least(within.min.x), T::at_least(within.min.y)];
+        let mut bits = [0_u16; LANES];
         for i in 0..LANES {
             // No shortcuts: they would be branches.
-            let meets = (left[i].into() <= within.max.x)
-                & (top[i].into() <= within.max.y)
-                & (right[i].into() >= within.min.x)
-                & (bottom[i].into() >= within.min.y);
+            let meets = (left[i] <= most[0])
+                & (top[i] <= most[1])
+                & (right[i] >= least[0])
+                & (bottom[i] >= least[1]);
             bits[i] = if meets { 1 << i } else { 0 };
         }
-        let all: u32 = bits.iter().fold(0, |all, bit| all | bit);
-        all & bits_below(end - first)
+        let all = bits.iter().fold(0, |all, bit| all | bit);
+        u32::from(all) & bits_below(end - first)
     }
 
     /// Bytes held.

@@ -1,12 +1,16 @@
+use std::ops::Range;
+
 use guideway_spline::{Bounds, Point};
 
 use super::LANES;
 use super::canvas::{Canvas, TILE_PX, set_bits};
 use super::cluster::Lines;
-use super::disc::Discs;
+use super::disc::{Disc, Discs};
+use super::fixed::Fixed;
 use super::paint::{Band, Tile};
 use super::polylines::{Coordinate, Polylines};
 use super::sight::Sight;
+use super::span::SOLID;
 use super::stroke::Placed;
 
 /// Tiles that a cluster covers from which on it pays to look at each of its pieces alone.
@@ -62,59 +66,6 @@ impl<'a, const C: usize> Seen<'a, C> {
         }
     }
 
-    /// Covers samples with the lines of one round, all of one opaque colour.
-    #[inline(always)]
-    pub(super) fn solid(&self, canvas: &mut Canvas<C>, discs: &mut Discs<C>, round: usize) {
-        let corner = self.tile.corner.to_f32();
-        let reach_px = self.sight.reach_px;
-        if !canvas.is_open(reach_px.min - corner, reach_px.max - corner) {
-            return;
-        }
-        match self.lines() {
-            Lines::Kept(unit_m, lines) => {
-                self.solid_of(canvas, discs, &self.placed(*unit_m, lines), round);
-            }
-            Lines::Cut(lines) => self.solid_of(canvas, discs, &self.placed_cut(lines), round),
-            Lines::None => {}
-        }
-    }
-
-    #[inline(always)]
-    fn solid_of<T: Coordinate>(
-        &self,
-        canvas: &mut Canvas<C>,
-        discs: &mut Discs<C>,
-        placed: &Placed<'_, T, C>,
-        round: usize,
-    ) {
-        let pieces = placed.lines.round(round);
-        if pieces.is_empty() {
-            return;
-        }
-        let shot = self.band.shot;
-        let is_wide = self.sight.columns().len() * self.sight.rows().len() > WIDE_TILES;
-        match self.band.common_radius_px {
-            Some(radius_px) if !is_wide => {
-                let disc = discs.of(columns::<C>(radius_px));
-                placed.stroke(canvas, placed.lines.begins_of(pieces), disc);
-            }
-            common => {
-                let within = self.within(placed);
-                for first in pieces.clone().step_by(LANES) {
-                    for lane in set_bits(placed.lines.hit_bits(first, pieces.end, &within)) {
-                        let piece = first + lane;
-                        let radius_px = match common {
-                            Some(radius_px) => radius_px,
-                            None => shot.radius_px(self.path(placed.lines.member(piece))),
-                        };
-                        let begins = placed.lines.begins_of(piece..piece + 1);
-                        placed.stroke(canvas, begins, discs.of(columns::<C>(radius_px)));
-                    }
-                }
-            }
-        }
-    }
-
     /// Lists the pieces that may leave a mark on the tile.
     #[inline(always)]
     pub(super) fn gather(&self, key: u32, hits: &mut Vec<Hit>) {
@@ -161,6 +112,93 @@ impl<'a, const C: usize> Seen<'a, C> {
             min: least * per_column,
             max: most * per_column,
         }
+    }
+}
+
+impl<'a> Seen<'a, SOLID> {
+    /// Where kept lines lie in whole numbers, if the cluster is small.
+    #[inline(always)]
+    fn fixed(&self, unit_m: f64, lines: &'a Polylines<i16>) -> Option<Fixed<'a>> {
+        let unit_px = unit_m * self.band.shot.view.px_per_m();
+        let middle_px = self.sight.middle_px - self.tile.corner;
+        (self.sight.is_small).then(|| Fixed::new(lines, unit_px, middle_px))
+    }
+
+    /// Covers samples with the lines of one round, all of one opaque colour.
+    #[inline(always)]
+    pub(super) fn solid(&self, canvas: &mut Canvas<SOLID>, discs: &mut Discs<SOLID>, round: usize) {
+        let corner = self.tile.corner.to_f32();
+        let reach_px = self.sight.reach_px;
+        if !canvas.is_open(reach_px.min - corner, reach_px.max - corner) {
+            return;
+        }
+        match self.lines() {
+            Lines::Kept(unit_m, lines) => {
+                self.solid_of(
+                    canvas,
+                    discs,
+                    &self.placed(*unit_m, lines),
+                    round,
+                    self.fixed(*unit_m, lines),
+                );
+            }
+            Lines::Cut(lines) => self.solid_of(canvas, discs, &self.placed_cut(lines), round, None),
+            Lines::None => {}
+        }
+    }
+
+    #[inline(always)]
+    fn solid_of<T: Coordinate>(
+        &self,
+        canvas: &mut Canvas<SOLID>,
+        discs: &mut Discs<SOLID>,
+        placed: &Placed<'_, T, SOLID>,
+        round: usize,
+        fixed: Option<Fixed<'_>>,
+    ) {
+        let pieces = placed.lines.round(round);
+        if pieces.is_empty() {
+            return;
+        }
+        let shot = self.band.shot;
+        let is_wide = self.sight.columns().len() * self.sight.rows().len() > WIDE_TILES;
+        match self.band.common_radius_px {
+            Some(radius_px) if !is_wide => {
+                let disc = discs.of(columns::<SOLID>(radius_px));
+                let begins = placed.lines.begins_of(pieces);
+                cover(placed, &fixed, canvas, begins, disc);
+            }
+            common => {
+                let within = self.within(placed);
+                for first in pieces.clone().step_by(LANES) {
+                    for lane in set_bits(placed.lines.hit_bits(first, pieces.end, &within)) {
+                        let piece = first + lane;
+                        let radius_px = match common {
+                            Some(radius_px) => radius_px,
+                            None => shot.radius_px(self.path(placed.lines.member(piece))),
+                        };
+                        let begins = placed.lines.begins_of(piece..piece + 1);
+                        let disc = discs.of(columns::<SOLID>(radius_px));
+                        cover(placed, &fixed, canvas, begins, disc);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Covers samples with the lines that begin at some vertices.
+#[inline(always)]
+fn cover<T: Coordinate>(
+    placed: &Placed<'_, T, SOLID>,
+    fixed: &Option<Fixed<'_>>,
+    canvas: &mut Canvas<SOLID>,
+    begins: Range<usize>,
+    disc: &Disc<SOLID>,
+) {
+    match fixed {
+        Some(fixed) => fixed.stroke(canvas, begins, disc),
+        None => placed.stroke(canvas, begins, disc),
     }
 }
 

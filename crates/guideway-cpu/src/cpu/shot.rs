@@ -19,7 +19,7 @@ struct Grain {
 /// Where all is one colour, borders of strokes are seen alone: at most a ninth of a pixel off.
 const SOLID: Grain = Grain {
     units_a_px: 64.0,
-    tolerance: 7.0,
+    tolerance: 6.5,
 };
 /// Where many strokes share a pixel, their errors add up: at most a 32nd of a pixel.
 const LAYERED: Grain = Grain {

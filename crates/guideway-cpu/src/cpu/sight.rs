@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use super::canvas::TILE_PX;
 use super::cluster::MOST_UNITS;
 use super::extent::Extent;
+use super::fixed;
 use super::shot::Shot;
 
 /// Clusters that one thread looks at in one go.
@@ -25,6 +26,8 @@ pub(super) struct Sight {
     pub(super) is_whole: bool,
     /// Whether it is too large for its lines to be kept.
     pub(super) is_large: bool,
+    /// Whether it is so small that 16 bits hold where its lines lie.
+    pub(super) is_small: bool,
     /// Tiles that it may leave a mark on.
     columns: [u16; 2],
     rows: [u16; 2],
@@ -50,6 +53,7 @@ impl Sight {
             },
             is_whole: picture.contains(reach.min) && picture.contains(reach.max),
             is_large: extent.reach_m() > MOST_UNITS * shot.unit_m(),
+            is_small: fixed::fits(extent.reach_m() * shot.view.px_per_m(), shot.widest_px()),
             columns: tiles(reach.min.x, reach.max.x, picture.max.x),
             rows: tiles(reach.min.y, reach.max.y, picture.max.y),
         })

@@ -89,7 +89,8 @@ pub(super) struct Capsule {
     pub(super) lean: f32,
 }
 
-/// For each row of samples of one row of pixels, the first sample covered and the one after the last.
+/// For each row of samples of one row of pixels, the first sample covered and the one after the last, or the same where
+/// there is none.
 pub(super) struct Spans {
     pub(super) first: [u32; LANES],
     pub(super) end: [u32; LANES],
@@ -141,10 +142,11 @@ impl Capsule {
                 min(left, left_border) + (to_sample - Samples::<C>::SLACK),
                 columns,
             );
-            spans.end[i] = round(
+            let end = round(
                 max(right, right_border) + (to_sample + Samples::<C>::SLACK),
                 columns,
             );
+            spans.end[i] = end.max(spans.first[i]);
         }
         spans
     }
@@ -253,7 +255,7 @@ mod tests {
         disc.resize(16.0);
         let spans = Capsule::level::<LAYERED>([-144.0, 480.0], 8.5 + 144.0).spans(&disc, 8, 256.0);
         assert_eq!((spans.first[8], spans.end[8]), (0, 256));
-        assert_eq!((spans.first[7], spans.end[7]), (256, 0));
+        assert_eq!((spans.first[7], spans.end[7]), (256, 256));
     }
 
     #[test]

@@ -121,9 +121,7 @@ impl<const C: usize> Batch<C> {
         canvas: &mut Canvas<C>,
         disc: &Disc<C>,
     ) {
-        let rows = boxes.first_row[lane] as usize..=boxes.last_row[lane] as usize;
-        let pixels = u32::MAX << boxes.first_column[lane]
-            & u32::MAX >> (TILE_PX as u32 - 1 - boxes.last_column[lane]);
+        let (rows, pixels) = boxes.pixels(lane);
         canvas.stroke(&self.capsule(slopes, lane), disc, rows, pixels);
     }
 
@@ -198,6 +196,39 @@ pub(super) fn capsule<const C: usize>(a: [f32; 2], b: [f32; 2], radius: f32) -> 
 }
 
 impl Boxes {
+    /// From the first and the last row and column of each, and whether it touches the tile: -1 if it does.
+    #[inline(always)]
+    pub(super) fn new(
+        rows: [[u16; LANES]; 2],
+        columns: [[u16; LANES]; 2],
+        inside: [i16; LANES],
+    ) -> Self {
+        let mut boxes = Self {
+            first_row: [0; LANES],
+            last_row: [0; LANES],
+            first_column: [0; LANES],
+            last_column: [0; LANES],
+            inside: [0; LANES],
+        };
+        for i in 0..LANES {
+            boxes.first_row[i] = rows[0][i].into();
+            boxes.last_row[i] = rows[1][i].into();
+            boxes.first_column[i] = columns[0][i].into();
+            boxes.last_column[i] = columns[1][i].into();
+            boxes.inside[i] = i32::from(inside[i]) as u32;
+        }
+        boxes
+    }
+
+    /// The rows of pixels that a line may touch, and which pixels of each: a bit each.
+    #[inline(always)]
+    pub(super) fn pixels(&self, lane: usize) -> (Range<usize>, u32) {
+        let rows = self.first_row[lane] as usize..self.last_row[lane] as usize + 1;
+        let pixels = u32::MAX << self.first_column[lane]
+            & u32::MAX >> (TILE_PX as u32 - 1 - self.last_column[lane]);
+        (rows, pixels)
+    }
+
     /// Which lines may cover samples of blocks that are open: a bit each.
     #[inline(always)]
     pub(super) fn visible<const C: usize>(&self, open: &[u32; C]) -> u32 {

@@ -55,6 +55,9 @@ pub(crate) struct Args {
     /// How wide paths are: `world` 0.1 m held within 1.5 to 12 px, `thesis` 3 px held within 4 to 300 mm
     #[arg(long, value_name = "RULE", default_value = "thesis")]
     line_rule: Rule,
+    /// Width of every path in pixels, in place of a line rule
+    #[arg(long, value_name = "PX", value_parser = values::positive, conflicts_with = "line_rule")]
+    width_px: Option<f64>,
     /// Memory that each method may use, in megabytes
     #[arg(long, value_name = "MB", default_value_t = 16_000)]
     memory: u64,
@@ -143,9 +146,14 @@ impl Args {
             },
             edit_share: self.moved.unwrap_or(MOVED_PERCENT) / 100.0,
             style: Style {
-                line_rule: match self.line_rule {
-                    Rule::World => LineRule::default(),
-                    Rule::Thesis => LineRule::Thesis,
+                line_rule: match (self.width_px, self.line_rule) {
+                    (Some(width_px), _) => LineRule::World {
+                        width_m: 0.0,
+                        min_px: width_px,
+                        max_px: width_px,
+                    },
+                    (None, Rule::World) => LineRule::default(),
+                    (None, Rule::Thesis) => LineRule::Thesis,
                 },
                 ..Style::default()
             },
