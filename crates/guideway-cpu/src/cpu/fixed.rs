@@ -169,12 +169,6 @@ fn stroke_rows(
     }
 }
 
-/// A product by 2^16, rounded down: one instruction.
-#[inline(always)]
-fn per_16_bits(a: i16, b: i16) -> i16 {
-    ((i32::from(a) * i32::from(b)) >> 16) as i16
-}
-
 /// The pixel of the tile that is nearest to a position.
 #[inline(always)]
 fn pixel_of(at: i16) -> u16 {

@@ -1,5 +1,5 @@
 use super::caps::{Around, Caps};
-use super::{COLUMN_STEPS, Ends, LANES, ROW_STEPS, STEPS, per_16_bits, pixel_of};
+use super::{COLUMN_STEPS, Ends, LANES, ROW_STEPS, STEPS, pixel_of};
 use crate::cpu::canvas::TILE_PX;
 use crate::cpu::span::{SOLID, Spans};
 
@@ -93,7 +93,7 @@ impl Stroke {
         let a_pixel = (slope >> (SLOPE_BITS - STEPS.trailing_zeros())) as i16;
         let mut aside = [0; LANES];
         for (aside, &part) in aside.iter_mut().zip(&caps.parts) {
-            *aside = per_16_bits(part, 2 * a_pixel);
+            *aside = ((i32::from(part) * i32::from(a_pixel) + (1 << 14)) >> 15) as i16;
         }
         let [y0, y1] = [ends.y[0][lane], ends.y[1][lane]];
         let [left_y, right_y] = [borders.y[0][lane], borders.y[1][lane]];
@@ -136,10 +136,10 @@ impl Stroke {
     #[inline(always)]
     fn border(&self, side: usize, y: i32) -> i16 {
         let below = i64::from(y - i32::from(self.border_y[side]));
-        let aside = (below * i64::from(self.slope)) >> SLOPE_BITS;
-        // Half a step more than to the nearest, for how far it goes aside from there is rounded down. It fits in 16 bits
-        // wherever the border is in the row of pixels.
-        (i64::from(self.border_x[side]) + aside + 1) as i16
+        let half = 1 << (SLOPE_BITS - 1);
+        let aside = (below * i64::from(self.slope) + half) >> SLOPE_BITS;
+        // It fits in 16 bits wherever the border is in the row of pixels.
+        (i64::from(self.border_x[side]) + aside) as i16
     }
 
     /// The samples covered in one row of pixels, found as those of [`crate::cpu::span::Capsule`].
@@ -166,8 +166,10 @@ impl Stroke {
             let right = right.max(if has_right { right_border } else { i16::MIN });
             // Every other row is shifted by half the distance of its samples.
             let shift = if i % 2 == 0 { HALF / 2 } else { -HALF / 2 };
-            let first = left.saturating_add(shift + HALF - 1) >> COLUMN_STEPS.trailing_zeros();
-            let end = right.saturating_add(shift + HALF) >> COLUMN_STEPS.trailing_zeros();
+            // Samples on the left border are covered, those on the right one are not: of rounded borders many are on one.
+            let to_sample = shift + HALF - 1;
+            let first = left.saturating_add(to_sample) >> COLUMN_STEPS.trailing_zeros();
+            let end = right.saturating_add(to_sample) >> COLUMN_STEPS.trailing_zeros();
             firsts[i] = first.clamp(0, COLUMNS);
             ends[i] = end.max(firsts[i]).min(COLUMNS);
         }
