@@ -4,7 +4,7 @@
 //! finds the clusters in sight (`sight`), and what of the picture has to be drawn (`kept`); `flatten` turns their
 //! curves into lines (`cluster`, `simplify`), unless those of an earlier frame will do; `bin` lists the clusters of
 //! each tile of 32 x 32 pixels (`tiles`); `cover` finds which samples of each tile the lines cover (`paint`, then
-//! `seen` for one colour or `layers` for several, `stroke`, `span` and `canvas`); `keep` keeps the picture.
+//! `seen` for one colour or `layers` for several, `fixed` or `stroke` and `span`, `canvas`); `keep` keeps the picture.
 //! What lies where is asked apart from that (`ask`).
 //! Coverage is an OR of bits, and all that is added up is a whole number or added in draw order, so the picture
 //! is the same on every run, with any number of threads, any vector instructions and in any number of bands.

@@ -13,10 +13,10 @@ use guideway_spline::{Affine, Point, Runs};
 
 use super::Cpu;
 use super::prepared::CpuPrepared;
-use super::shot::LaneWidth;
 use crate::Oracle;
 
 mod kept;
+mod lanes;
 mod threads;
 
 /// Numbers below 1 in magnitude, the same on every run.
@@ -324,33 +324,6 @@ fn too_little_memory_and_a_call_to_stop_are_told() {
     let mut prepared = Cpu.prepare(scene, &Budget::default()).unwrap();
     let stopped = prepared.render(&view, &style, &cancel, &mut frame);
     assert_eq!(stopped, Err(RenderError::Cancelled));
-}
-
-#[test]
-fn vector_instructions_do_not_show() {
-    let scene = colored(wandering(1000, 30, 2.0, ORIGIN), |i| [255, 255, 200][i % 3]);
-    let plain = self::scene(wandering(1000, 30, 2.0, ORIGIN));
-    for (scene, style) in [
-        (&scene, wide_px(1.5)),
-        (&plain, wide_px(2.5)),
-        (&plain, Style::default()),
-    ] {
-        for px_per_m in [0.8, 40.0] {
-            let pictures =
-                [LaneWidth::Baseline, LaneWidth::Eight, LaneWidth::Widest].map(|lane_width| {
-                    let mut frame = Frame::new(FrameSize::new(1, 1).unwrap());
-                    let mut prepared =
-                        CpuPrepared::new(Arc::clone(scene), &Budget::default()).unwrap();
-                    prepared.lane_width = lane_width;
-                    let view = view(ORIGIN, px_per_m);
-                    prepared
-                        .render(&view, &style, &Cancel::default(), &mut frame)
-                        .unwrap();
-                    frame
-                });
-            assert!(pictures.iter().all(|picture| *picture == pictures[0]));
-        }
-    }
 }
 
 #[test]
