@@ -8,7 +8,7 @@ mod stroke;
 #[cfg(test)]
 mod tests;
 
-use std::ops::Range;
+use std::ops::{Range, RangeInclusive};
 
 use guideway_spline::Point;
 
@@ -31,13 +31,18 @@ const COLUMN_STEPS: i32 = STEPS / SOLID as i32;
 /// then farther than 280 px from the corner of a tile that its cluster touches, and sums with half chords do not overflow.
 const MOST_REACH_PX: f64 = 120.0;
 const MOST_RADIUS_PX: f64 = 8.0;
+/// Half the width of the thinnest stroke: of thinner ones the half step that borders are rounded by is too large a part, and all
+/// that share a pixel are off alike.
+const LEAST_RADIUS_PX: f64 = 0.5;
 /// From so many pixels on, beside its width, it pays to find out which of them a row of a stroke needs. Short level lines
 /// have fewer.
 const WIDE_PX: u32 = 11;
 
-/// Whether lines of a cluster that reaches so far, with strokes of at most this radius, fit.
-pub(super) fn fits(reach_px: f64, radius_px: f64) -> bool {
-    reach_px <= MOST_REACH_PX && radius_px <= MOST_RADIUS_PX
+/// Whether lines of a cluster that reaches so far, with strokes of these radii, fit.
+pub(super) fn fits(reach_px: f64, radii_px: RangeInclusive<f64>) -> bool {
+    reach_px <= MOST_REACH_PX
+        && *radii_px.start() >= LEAST_RADIUS_PX
+        && *radii_px.end() <= MOST_RADIUS_PX
 }
 
 /// Kept lines as they lie in one tile.

@@ -97,6 +97,12 @@ impl Shot<'_> {
         self.radius_of(None).max(own.unwrap_or(0.0))
     }
 
+    /// Half the stroke width of the thinnest path.
+    pub(super) fn thinnest_px(&self) -> f64 {
+        let own = self.widths.map(|(least, _)| self.radius_of(Some(least)));
+        self.radius_of(None).min(own.unwrap_or(f64::INFINITY))
+    }
+
     /// Half the stroke width, if it is that of all paths.
     pub(super) fn common_radius_px(&self) -> Option<f64> {
         let common = self.radius_of(None);

@@ -53,7 +53,10 @@ impl Sight {
             },
             is_whole: picture.contains(reach.min) && picture.contains(reach.max),
             is_large: extent.reach_m() > MOST_UNITS * shot.unit_m(),
-            is_small: fixed::fits(extent.reach_m() * shot.view.px_per_m(), shot.widest_px()),
+            is_small: fixed::fits(
+                extent.reach_m() * shot.view.px_per_m(),
+                shot.thinnest_px()..=shot.widest_px(),
+            ),
             columns: tiles(reach.min.x, reach.max.x, picture.max.x),
             rows: tiles(reach.min.y, reach.max.y, picture.max.y),
         })

@@ -260,6 +260,26 @@ fn threads_bands_and_earlier_frames_do_not_show() {
 }
 
 #[test]
+fn thin_strokes_that_share_pixels_are_neither_too_dark_nor_too_pale() {
+    let (scene, view) = (scene(wandering(20_000, 11, 3.0, ORIGIN)), view(ORIGIN, 0.8));
+    for width_px in [0.09, 0.3] {
+        let light = |method: &dyn Method| {
+            let (frame, _) = draw(
+                method,
+                &scene,
+                &view,
+                &wide_px(width_px),
+                &Budget::default(),
+            );
+            let sum: f64 = frame.pixels().iter().map(|pixel| f64::from(pixel[0])).sum();
+            sum / frame.pixels().len() as f64
+        };
+        let (ours, exact) = (light(&Cpu), light(&Oracle));
+        assert!((ours - exact).abs() < 0.1, "{width_px}: {ours}, {exact}");
+    }
+}
+
+#[test]
 fn strips_are_rows_of_the_whole() {
     let scene = colored(wandering(3000, 11, 3.0, ORIGIN), |i| [255, 200][i % 2]);
     let cancel = Cancel::default();

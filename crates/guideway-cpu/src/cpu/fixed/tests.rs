@@ -107,6 +107,14 @@ fn upright_vanishing_and_short_level_lines_are_no_exceptions() {
 }
 
 #[test]
+fn only_small_clusters_of_strokes_neither_thin_nor_wide_fit() {
+    assert!(fits(120.0, 0.5..=8.0));
+    assert!(!fits(121.0, 0.5..=8.0));
+    assert!(!fits(120.0, 0.4..=8.0));
+    assert!(!fits(120.0, 0.5..=8.1));
+}
+
+#[test]
 fn a_wrong_radius_would_be_found() {
     let (a, b) = ([300, 400], [1500, 1200]);
     let spans = rows(&ends(a, b), &caps(1.5));
