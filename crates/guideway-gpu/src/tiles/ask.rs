@@ -29,7 +29,6 @@ impl PreparedTiles {
                     *top = u32::from_le_bytes(*word);
                 }
             })?;
-            tiles.easel.kept = None;
             Ok(())
         })?;
         let path_of = |top: u32| {

@@ -7,7 +7,7 @@ use super::canvas::Canvas;
 use super::chunk::Drawn;
 use super::kernels::Kernels;
 use super::params::{
-    Found, FrameParams, ROUNDS_A_LINE, SCATTER_THREADS, SHARED_PARTS, SHARED_TILES, STARTS_THREADS,
+    Found, FrameParams, LINE_THREADS, ROUNDS_A_LINE, SHARED_PARTS, SHARED_TILES, STARTS_THREADS,
     Samples, TILE_PX, WORKGROUP,
 };
 use super::room::Room;
@@ -88,9 +88,13 @@ pub(super) struct Buffers<'a> {
     pub(super) marks: Option<&'a DeviceBuffer>,
 }
 
-/// What frames before have shown to take less time.
+/// What frames before have left, or have shown to take less time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Manner {
+    /// Lines are there.
+    pub(super) has_lines: bool,
+    /// They are listed at once, where each tile has places for so many.
+    pub(super) lists_at_once: bool,
     /// What is hidden is left out.
     pub(super) is_in_rounds: bool,
     /// Several workgroups flatten each cluster.
@@ -123,6 +127,8 @@ enum Over {
     Seen(u32, Drawn),
     /// Workgroups of so many threads for lines in turn.
     Lines(u32),
+    /// Workgroups for lines that are there, with all threads of each.
+    KeptLines,
     /// A workgroup a tile.
     Tiles,
     /// A workgroup for each part of a list that there may be, and then for each tile.
@@ -147,6 +153,10 @@ impl Bound {
             stages: Vec::new(),
         };
         let (kernels, found) = (b.kernels, &b.store.found);
+        if manner.has_lines {
+            bound.add_kept(b)?;
+            return Ok(bound);
+        }
         let cull = [&b.canvas.frame, &b.store.clusters, found];
         bound.add("cull", b, &kernels.cull, Over::Clusters, &cull)?;
         if manner.is_in_rounds {
@@ -160,17 +170,64 @@ impl Bound {
 
     /// Adds the stages from curves to pixels.
     fn add_round(&mut self, b: &Buffers<'_>, round: usize) -> Result<(), String> {
-        let (kernels, paint) = (b.kernels, self.paint);
-        let (
-            Store {
+        let Store {
+            strokes,
+            clusters,
+            styles,
+            found,
+            ..
+        } = b.store;
+        for chunk in b.store.all_chunks() {
+            let buffers = [
+                &b.canvas.frame,
+                &chunk.params[round],
+                &chunk.points,
                 strokes,
                 clusters,
                 styles,
                 found,
-                ..
-            },
+                &b.room.lines,
+                &b.room.line_ranks,
+                &b.canvas.counts,
+            ];
+            let kernel = &b.kernels.flatten[usize::from(self.manner.has_few)][chunk.held as usize];
+            let over = Over::Seen(chunk.clusters.len() as u32, chunk.drawn);
+            self.add("flatten", b, kernel, over, &buffers)?;
+        }
+        self.add_tiles(b)
+    }
+
+    /// Adds the stages from lines that are there to pixels.
+    fn add_kept(&mut self, b: &Buffers<'_>) -> Result<(), String> {
+        let (kernels, room, canvas) = (b.kernels, b.room, b.canvas);
+        let mut buffers = vec![
+            &canvas.frame,
+            &b.store.found,
+            &room.lines,
+            &room.line_ranks,
+            &b.store.styles,
+            &canvas.counts,
+        ];
+        if self.manner.lists_at_once {
+            buffers.push(&room.reference_list);
+            self.add("list", b, &kernels.list_kept, Over::KeptLines, &buffers)?;
+            return self.add_cover(b);
+        }
+        let over = Over::Lines(LINE_THREADS);
+        self.add("count", b, &kernels.recount, over, &buffers)?;
+        self.add_tiles(b)
+    }
+
+    /// Adds the stages from lines to pixels.
+    fn add_tiles(&mut self, b: &Buffers<'_>) -> Result<(), String> {
+        let (kernels, paint) = (b.kernels, self.paint);
+        let (
+            Store { styles, found, .. },
             Room {
-                lines, line_ranks, ..
+                lines,
+                line_ranks,
+                reference_list: references,
+                ..
             },
         ) = (b.store, b.room);
         let Canvas {
@@ -178,31 +235,12 @@ impl Bound {
             counts,
             lists,
             filled,
-            pixels,
             ..
         } = b.canvas;
-        let references = &b.room.reference_list;
-        for chunk in b.store.all_chunks() {
-            let buffers = [
-                frame,
-                &chunk.params[round],
-                &chunk.points,
-                strokes,
-                clusters,
-                styles,
-                found,
-                lines,
-                line_ranks,
-                counts,
-            ];
-            let kernel = &kernels.flatten[usize::from(self.manner.has_few)][chunk.held as usize];
-            let over = Over::Seen(chunk.clusters.len() as u32, chunk.drawn);
-            self.add("flatten", b, kernel, over, &buffers)?;
-        }
-        let last = paint.kernel(kernels, self.samples);
         if let Some(marks) = b.marks {
             let buffers = [frame, found, lines, line_ranks, styles, marks];
-            return self.add("mark", b, last, Over::Lines(WORKGROUP), &buffers);
+            let over = Over::Lines(WORKGROUP);
+            return self.add("mark", b, &kernels.touch, over, &buffers);
         }
         let buffers = [frame, counts, lists, filled, found];
         self.add(
@@ -222,7 +260,7 @@ impl Bound {
             "list",
             b,
             &kernels.scatter,
-            Over::Lines(SCATTER_THREADS),
+            Over::Lines(LINE_THREADS),
             &buffers,
         )?;
         if paint.needs_order() {
@@ -231,19 +269,35 @@ impl Bound {
                 self.add("sort", b, sort, Over::Tiles, &buffers)?;
             }
         }
-        let mut buffers = vec![frame, lists, references, lines, line_ranks, styles, pixels];
-        match paint {
-            Paint::One => buffers.extend([counts, found]),
+        self.add_cover(b)
+    }
+
+    /// Adds the stage from lists to pixels.
+    fn add_cover(&mut self, b: &Buffers<'_>) -> Result<(), String> {
+        let (kernels, room, canvas) = (b.kernels, b.room, b.canvas);
+        let mut buffers = vec![
+            &canvas.frame,
+            &canvas.lists,
+            &room.reference_list,
+            &room.lines,
+            &room.line_ranks,
+            &b.store.styles,
+            &canvas.pixels,
+        ];
+        match self.paint {
+            Paint::One => buffers.extend([&canvas.counts, &b.store.found]),
             Paint::Ids | Paint::Touch => {}
-            Paint::Opaque | Paint::Translucent | Paint::Density => buffers.push(found),
+            Paint::Opaque | Paint::Translucent | Paint::Density => buffers.push(&b.store.found),
         }
+        let shares = b.shares.filter(|_| self.manner.shares);
         let shared = kernels.painters(self.samples).shared.as_ref();
         if let Some(([cover, show], shares)) = shared.zip(shares) {
             buffers.push(shares);
             self.add("cover", b, cover, Over::PartsAndTiles, &buffers)?;
             return self.add("cover", b, show, Over::SharedTiles, &buffers);
         }
-        self.add("cover", b, last, Over::Tiles, &buffers)
+        let kernel = self.paint.kernel(kernels, self.samples);
+        self.add("cover", b, kernel, Over::Tiles, &buffers)
     }
 
     fn add(
@@ -278,11 +332,19 @@ impl Bound {
         runner: &Runner,
     ) -> Result<Vec<Stage>, String> {
         let in_turn = |items: u32| items.clamp(1, MOST_ROUNDS_GROUPS.min(b.gpu.most_workgroups()));
+        let lines = match params.kept_lines {
+            0 => b.room.size.lines,
+            kept => kept,
+        };
         let workgroups = |over| match over {
             Over::Clusters => params.clusters.div_ceil(WORKGROUP),
             Over::Seen(_, drawn) if !drawn.is_any(params.most_step_m) => 0,
             Over::Seen(clusters, _) => in_turn(clusters),
-            Over::Lines(threads) => in_turn(b.room.size.lines.div_ceil(threads)),
+            Over::Lines(threads) => in_turn(lines.div_ceil(threads)),
+            Over::KeptLines => {
+                let threads = params.kept_lines * params.threads_a_line;
+                in_turn(threads.div_ceil(LINE_THREADS))
+            }
             Over::Tiles => params.columns * params.rows,
             Over::PartsAndTiles => SHARED_PARTS + params.columns * params.rows,
             Over::SharedTiles => SHARED_TILES,

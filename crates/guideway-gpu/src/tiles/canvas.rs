@@ -67,8 +67,12 @@ impl Canvas {
             band_rows,
             frame: memory.zeros("the view", size_of::<FrameParams>() as u64, uniform)?,
             counts: memory.zeros(list, tiles * WORD_BYTES, storage | BufferUsages::COPY_DST)?,
-            lists: memory.zeros(list, tiles * 2 * WORD_BYTES, storage)?,
-            filled: memory.zeros(list, tiles * WORD_BYTES, storage)?,
+            lists: memory.zeros(
+                list,
+                tiles * 2 * WORD_BYTES,
+                storage | BufferUsages::COPY_SRC,
+            )?,
+            filled: memory.zeros(list, tiles * WORD_BYTES, storage | BufferUsages::COPY_SRC)?,
             pixels: pixels(memory, size, band_rows)?,
             fetched,
         })

@@ -10,37 +10,18 @@ use wgpu::BufferUsages;
 use super::NAME;
 use super::bound::{Bound, Buffers, Manner, Paint};
 use super::canvas::Canvas;
-use super::kept::{Kept, Shifter};
+use super::easel::list_room;
+use super::kept::Kept;
 use super::kernels::keeps_waiting;
 use super::params::{
     ENOUGH_GROUPS, Found, SAMPLE_ROWS, SHARED_PARTS, SHARED_TILES, Samples, TILE_PX,
 };
 use super::prepared::PreparedTiles;
-use super::room::{Room, Size};
-use super::rounds::Rounds;
-use super::shot::Shot;
+use super::room::{KeptLines, Room, Size};
+use super::shot::{Lines, Shot};
 use super::window::Window;
 use super::work::Counted;
-use crate::device::DeviceBuffer;
-
-/// What a picture is made with.
-#[derive(Default)]
-pub(super) struct Easel {
-    pub(super) room: Option<Room>,
-    pub(super) canvas: Option<Canvas>,
-    /// Tiles that several workgroups cover, once there are any.
-    pub(super) shares: Option<DeviceBuffer>,
-    /// For the buffers above; none once one of them is another.
-    pub(super) bound: Option<Bound>,
-    /// What the canvas shows, if it is a finished picture of the scene as it is.
-    pub(super) kept: Option<Kept>,
-    pub(super) shifter: Option<Shifter>,
-    pub(super) rounds: Rounds,
-    /// Whether the last frame has seen few clusters.
-    pub(super) has_few: bool,
-    /// Whether it has had lists so long that several workgroups should cover their tiles.
-    pub(super) has_long: bool,
-}
+use crate::device::Memory;
 
 /// What is told of shared tiles: `Shares` of `shares.wgsl`.
 const SHARE_BYTES: u64 = {
@@ -52,29 +33,13 @@ const SHARE_BYTES: u64 = {
 /// So few clusters that several workgroups share each.
 const FEW_CLUSTERS: u32 = ENOUGH_GROUPS / 2;
 
-impl Easel {
-    /// Whether rounds may make do with the room that was too small.
-    fn may_help(&mut self, found: &Found) -> bool {
-        let line_room = self.room.as_ref().map_or(0, |room| room.size.lines);
-        self.rounds.may_help(found, line_room)
-    }
-
-    /// After one of the buffers that a frame binds has become another.
-    pub(super) fn unbind(&mut self) {
-        self.bound = None;
-        if let Some(shifter) = &mut self.shifter {
-            shifter.bound = None;
-        }
-    }
-}
-
 /// What became of one picture.
 #[derive(Default)]
 pub(super) struct Drawing {
     pub(super) stages: Vec<Stage>,
     pub(super) lines: u64,
-    /// Paths that the last window's device has counted.
-    drawn: u32,
+    /// Paths that the device has counted in the last window, if it has.
+    drawn: Option<u32>,
     pub(super) windows: u32,
     /// Whether the rest was kept from before.
     is_part: bool,
@@ -145,20 +110,31 @@ impl PreparedTiles {
         paint: Paint,
         window: &Window,
         first_row: u32,
-        stages: &mut Vec<Stage>,
+        lines: Lines,
+        drawing: &mut Drawing,
     ) -> Result<Found, RenderError> {
         let easel = &mut self.easel;
-        let (Some(store), Some(room), Some(canvas)) = (&self.store, &easel.room, &easel.canvas)
+        let (Some(store), Some(room), Some(canvas)) = (&self.store, &mut easel.room, &easel.canvas)
         else {
             return Ok(Found::default());
         };
         let trouble = |what| self.memory.trouble(what);
+        let has_lines = matches!(lines, Lines::Kept(_));
+        let kept = room.kept.take().filter(|_| has_lines);
+        let shares = easel.shares.is_some() && easel.has_long && paint == Paint::One;
+        let list_room = if has_lines && !shares && paint == Paint::One {
+            list_room(&self.shared.gpu, room.size, window, easel.longest)
+        } else {
+            0
+        };
         let manner = Manner {
+            has_lines,
+            lists_at_once: list_room > 0,
             is_in_rounds: easel.rounds.are_on && paint == Paint::One,
             has_few: easel.has_few,
-            shares: easel.shares.is_some() && easel.has_long && paint == Paint::One,
+            shares,
         };
-        let params = shot.params(canvas, room, window, first_row);
+        let params = shot.params(canvas, room, window, first_row, lines, list_room);
         let buffers = Buffers {
             gpu: &self.shared.gpu,
             kernels: &self.kernels,
@@ -177,7 +153,7 @@ impl PreparedTiles {
         let set = self.runner.set("the view", &canvas.frame, &params);
         set.map_err(trouble)?;
         let run = bound.run(&buffers, &params, &self.runner);
-        Stage::merge(stages, run.map_err(trouble)?);
+        Stage::merge(&mut drawing.stages, run.map_err(trouble)?);
         let mut found = Found::default();
         let fetched = self.runner.fetch(
             "the counters",
@@ -187,10 +163,28 @@ impl PreparedTiles {
             |bytes| bytemuck::bytes_of_mut(&mut found).copy_from_slice(bytes),
         );
         fetched.map_err(trouble)?;
-        self.easel.bound = Some(bound);
-        self.easel.has_few = found.rounded + found.exact <= FEW_CLUSTERS;
+        easel.bound = Some(bound);
+        if has_lines {
+            room.kept = kept;
+            let (view, drawn) = kept.map(|kept| kept.drawn).unzip();
+            drawing.drawn = drawn.filter(|_| view == Some(*shot.view));
+        } else {
+            let is_whole = found.missing == 0 && found.lines <= room.size.lines;
+            room.kept = (lines == Lines::OfLevel && is_whole).then_some(KeptLines {
+                level: shot.level,
+                count: found.lines,
+                drawn: (*shot.view, found.drawn),
+            });
+            drawing.drawn = Some(found.drawn);
+            easel.has_few = found.rounded + found.exact <= FEW_CLUSTERS;
+        }
+        easel.longest = found.longest;
+        if list_room > 0 && found.longest > 0 {
+            // A list has had too few places.
+            return self.draw(shot, paint, window, first_row, lines, drawing);
+        }
         let is_long = keeps_waiting(&self.shared.gpu, &found);
-        self.easel.has_long = paint == Paint::One && is_long;
+        easel.has_long = paint == Paint::One && is_long;
         if manner.shares {
             found.longest = found.longest_alone;
         }
@@ -223,20 +217,22 @@ impl PreparedTiles {
         };
         self.unbind();
         let (old, size) = (room.size, room.size.for_found(found));
-        drop(room);
-        if size.bytes() > self.memory.spare_bytes() {
+        let is_short = |memory: &Memory| size.bytes() > memory.spare_bytes() + old.bytes();
+        if is_short(&self.memory) {
             self.easel.shares = None;
         }
-        let is_short = size.bytes() > self.memory.spare_bytes();
         if let Some(store) = &mut self.store
-            && is_short
+            && is_short(&self.memory)
             && !shot.is_near()
         {
             store.twins = None;
         }
-        let fits = size.fits(&self.shared.gpu) && size.bytes() <= self.memory.spare_bytes();
-        let size = if fits { size } else { old };
-        self.easel.room = Some(Room::new(&mut self.memory, size)?);
+        let fits = size.fits(&self.shared.gpu) && !is_short(&self.memory);
+        self.easel.room = Some(if fits {
+            room.grown(&mut self.memory, size)?
+        } else {
+            room
+        });
         Ok(fits)
     }
 
@@ -254,10 +250,15 @@ impl PreparedTiles {
         while let Some(window) = windows.pop() {
             cancel.check()?;
             self.come_near(shot)?;
-            let found = self.draw(shot, paint, &window, first_row, &mut drawing.stages)?;
+            let lines = self.easel.lines_for(shot, drawing.is_part);
+            let found = self.draw(shot, paint, &window, first_row, lines, drawing)?;
             if found.missing > 0 {
                 match (self.bring_twins(shot, &found)?, window.halves()) {
                     (None, _) => windows.push(window),
+                    (Some(_), _) if lines == Lines::OfLevel => {
+                        self.easel.too_large = Some(shot.level);
+                        windows.push(window);
+                    }
                     (Some(_), Some([first, second])) => windows.extend([second, first]),
                     (Some(points), None) => return Err(self.no_room_for_twins(points)),
                 }
@@ -270,7 +271,6 @@ impl PreparedTiles {
                     self.easel.rounds.learn(&window, &found);
                 }
                 drawing.lines += u64::from(found.lines);
-                drawing.drawn = found.drawn;
                 drawing.work.add(&found);
                 drawing.windows += 1;
             } else if paint == Paint::One && self.easel.may_help(&found) {
@@ -286,6 +286,9 @@ impl PreparedTiles {
                     return Err(too_long(&found));
                 }
             } else if self.grow(shot, &found)? {
+                windows.push(window);
+            } else if lines == Lines::OfLevel {
+                self.easel.too_large = Some(shot.level);
                 windows.push(window);
             } else if let Some([first, second]) = window.halves() {
                 windows.extend([second, first]);
@@ -357,7 +360,7 @@ impl PreparedTiles {
                 (rows_px.start * size.width()) as usize..(rows_px.end * size.width()) as usize;
             self.fetch(pixels, &mut drawing.stages, &mut take)?;
         }
-        if self.shared.options.keeps {
+        if self.easel.keeps {
             self.easel.kept = Some(next);
         }
         Ok(drawing)
@@ -365,14 +368,14 @@ impl PreparedTiles {
 
     /// Paths that are not proven to be outside the view.
     pub(super) fn count_drawn(&self, shot: &Shot<'_>, drawing: &Drawing) -> u64 {
-        let canvas = self.easel.canvas.as_ref();
-        let bands = canvas.map_or(1, |c| c.rows.div_ceil(c.band_rows));
-        let is_counted = !drawing.is_part && drawing.windows == bands;
-        let alone = match &self.store {
-            Some(_) if is_counted => u64::from(drawing.drawn),
-            // Of windows, the device counts what each sees; clusters are a little less exact.
-            Some(store) => store.whole_paths_seen(|bounds, width_m| shot.is_seen(bounds, width_m)),
-            None => 0,
+        let is_whole = !drawing.is_part && drawing.windows == 1;
+        let alone = match (&self.store, drawing.drawn) {
+            (Some(_), Some(drawn)) if is_whole => u64::from(drawn),
+            // Of windows, the device counts what each sees, and of kept lines nothing; clusters are a little less exact.
+            (Some(store), _) => {
+                store.whole_paths_seen(|bounds, width_m| shot.is_seen(bounds, width_m))
+            }
+            (None, _) => 0,
         };
         let paths = &self.scene.layout().paths;
         let is_seen = |path: &&u32| {

@@ -68,6 +68,7 @@ impl PreparedTiles {
             moved_bytes += self.send_styles(&rows)?;
         }
         if !matches!(edit, Edit::Restyle(_)) {
+            self.easel.forget_lines();
             let Some(bytes) = self.send_curves(&rows)? else {
                 return self.pack_anew();
             };

@@ -1,12 +1,13 @@
 //! The shaders of a frame, compiled.
 
 use super::params::{
-    CLUSTER_STROKES, COLUMNS, ENOUGH_GROUPS, ENOUGH_LISTS, Found, LEAST_ALONE, Layers,
-    ROUNDS_A_LINE, SAMPLE_ROWS, SCATTER_THREADS, STARTS_THREADS, Samples, TILE_PX, TILE_THREADS,
-    WAITED_FOR, WORKGROUP,
+    CLUSTER_STROKES, COLUMNS, ENOUGH_GROUPS, ENOUGH_LISTS, Found, LEAST_ALONE, LINE_THREADS,
+    Layers, ROUNDS_A_LINE, SAMPLE_ROWS, STARTS_THREADS, Samples, TILE_PX, TILE_THREADS, WAITED_FOR,
+    WORKGROUP,
 };
 use super::shaders::{
-    COVERS, COVERS_APART, CULL, FLATTEN, IDS, LAYERS, SCATTER, SHARE, SHIFT, SORT, STARTS, TOUCH,
+    COVERS, COVERS_APART, CULL, FLATTEN, IDS, LAYERS, LIST_KEPT, RECOUNT, SCATTER, SHARE, SHIFT,
+    SORT, STARTS, TOUCH,
 };
 use crate::device::{Gpu, Kernel};
 
@@ -15,6 +16,10 @@ pub(super) struct Kernels {
     pub(super) cull: Kernel,
     /// For many clusters and for few, by [`super::params::Points`].
     pub(super) flatten: [[Kernel; 2]; 2],
+    /// Counts lines that are there already.
+    pub(super) recount: Kernel,
+    /// Lists them at once, where each tile has places for as many.
+    pub(super) list_kept: Kernel,
     pub(super) starts: Kernel,
     /// Shares out long lists.
     pub(super) share: Kernel,
@@ -44,10 +49,12 @@ impl Kernels {
     pub(super) fn new(gpu: &Gpu) -> Result<Self, String> {
         let tile = constant("TILE_PX", TILE_PX);
         let tile_threads = constant("THREADS", TILE_THREADS);
-        let [cull, starts, share, scatter] = stages(gpu, &[])?;
+        let [cull, recount, list_kept, starts, share, scatter] = stages(gpu, &[])?;
         Ok(Self {
             cull,
             flatten: flatten(gpu, &[])?,
+            recount,
+            list_kept,
             starts,
             share,
             scatter,
@@ -68,7 +75,14 @@ impl Kernels {
     pub(super) fn counting(&self, gpu: &Gpu) -> Result<Self, String> {
         let counts = [("COUNTS", 1.0)];
         let mut all = self.clone();
-        [all.cull, all.starts, all.share, all.scatter] = stages(gpu, &counts)?;
+        [
+            all.cull,
+            all.recount,
+            all.list_kept,
+            all.starts,
+            all.share,
+            all.scatter,
+        ] = stages(gpu, &counts)?;
         all.flatten = flatten(gpu, &counts)?;
         for samples in [Samples::Coarse, Samples::Fine] {
             let painters = &mut all.painters[samples as usize];
@@ -129,8 +143,8 @@ fn flatten(gpu: &Gpu, more: &[Constant]) -> Result<[[Kernel; 2]; 2], String> {
     Ok([of(0)?, of(MOST_PARTS_BITS)?])
 }
 
-/// From clusters to lists, but for flattening: cull, starts, share, scatter; with more constants.
-fn stages(gpu: &Gpu, more: &[Constant]) -> Result<[Kernel; 4], String> {
+/// From clusters to lists, but for flattening: cull, recount, list_kept, starts, share, scatter; with more constants.
+fn stages(gpu: &Gpu, more: &[Constant]) -> Result<[Kernel; 6], String> {
     let kernel = |source, own: &[Constant]| {
         let tile = constant("TILE_PX", TILE_PX);
         Kernel::new(gpu, source, &[&[tile], own, more].concat())
@@ -145,9 +159,11 @@ fn stages(gpu: &Gpu, more: &[Constant]) -> Result<[Kernel; 4], String> {
     ];
     Ok([
         kernel(&CULL, &[constant("WORKGROUP", WORKGROUP)])?,
+        kernel(&RECOUNT, &[constant("THREADS", LINE_THREADS)])?,
+        kernel(&LIST_KEPT, &[constant("THREADS", LINE_THREADS)])?,
         kernel(&STARTS, &[starts])?,
         kernel(&SHARE, &share)?,
-        kernel(&SCATTER, &[constant("THREADS", SCATTER_THREADS)])?,
+        kernel(&SCATTER, &[constant("THREADS", LINE_THREADS)])?,
     ])
 }
 
@@ -177,7 +193,7 @@ fn covers(
 }
 
 /// What the longest list that one workgroup covers, where several may, is held between.
-fn bounds_alone(gpu: &Gpu) -> [u32; 2] {
+pub(super) fn bounds_alone(gpu: &Gpu) -> [u32; 2] {
     let most = gpu.rounds_a_thread() / ROUNDS_A_LINE;
     match gpu.options().longest_alone {
         Some(asked) => [asked.min(most); 2],

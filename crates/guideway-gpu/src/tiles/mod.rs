@@ -2,19 +2,22 @@
 //! that they touch, and each tile finds which of its samples are covered. docs/method-gpu.md has the whole.
 //!
 //! The folder in the order of the data: `pack` makes of the scene what the device reads, `store` holds it there, its
-//! points in `chunk`s, `places` knows where and `edit` changes it; `shot` is a view, `window` a part of its picture,
-//! `twins` are the exact points of what it comes near to, `room` holds the lines that a frame finds, `canvas` its tiles
-//! and pixels, `bound` the work between them; `draw` does it, in `rounds` where that saves work, `kept` is what it need
-//! not draw again; `prepared` answers for all of it, `ask` says what is where, and `work` what a frame takes.
+//! points in `chunk`s, `places` knows where and `edit` changes it; `shot` is a view, `level` the scale and place that its
+//! lines are made for, `window` a part of its picture, `twins` are the exact points of what it comes near to, `room` holds
+//! the lines that a frame finds, `canvas` its tiles and pixels, `bound` the work between them, `easel` all that a picture is
+//! made with; `draw` does it, in `rounds` where that saves work, `kept` is what it need not draw again; `prepared` answers
+//! for all of it, `ask` says what is where, and `work` what a frame takes.
 
 mod ask;
 mod bound;
 mod canvas;
 mod chunk;
 mod draw;
+mod easel;
 mod edit;
 mod kept;
 mod kernels;
+mod level;
 mod pack;
 mod params;
 mod places;
@@ -47,7 +50,7 @@ pub struct Tiles(Arc<Shared>);
 /// What may be left out, for comparison.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TilesOptions {
-    /// Whether finished pixels are kept from frame to frame where they are still right.
+    /// Whether lines and finished pixels are kept from frame to frame where they are still right.
     pub keeps: bool,
 }
 

@@ -16,8 +16,12 @@ pub(super) const ENOUGH_GROUPS: u32 = 256;
 pub(super) const LINE_WORDS: usize = 3;
 /// Threads of a workgroup that goes over clusters or lines.
 pub(super) const WORKGROUP: u32 = 64;
-/// Threads of a workgroup that enters lines into lists.
-pub(super) const SCATTER_THREADS: u32 = 256;
+/// Threads of a workgroup that counts kept lines, or enters lines into lists.
+pub(super) const LINE_THREADS: u32 = 256;
+/// So many threads are enough for all lines; where these are fewer, several share each.
+pub(super) const ENOUGH_THREADS: u32 = 1 << 18;
+/// Most threads that share one.
+pub(super) const MOST_THREADS_A_LINE: u32 = 32;
 /// Threads of a workgroup that reserves places for lists.
 pub(super) const STARTS_THREADS: u32 = 256;
 /// A list that is longer than this part of all keeps a device waiting: from there on lists are shared out.
@@ -57,7 +61,15 @@ const fn columns(first: [u32; SAMPLE_ROWS as usize]) -> u32 {
 pub(super) struct FrameParams {
     pub(super) center_high_m: [f32; 2],
     pub(super) center_low_m: [f32; 2],
-    pub(super) half_size_px: [f32; 2],
+    pub(super) reach_px: [f32; 2],
+    pub(super) made_low_px: [f32; 2],
+    pub(super) made_high_px: [f32; 2],
+    pub(super) drawn_low_px: [f32; 2],
+    pub(super) drawn_high_px: [f32; 2],
+    pub(super) line_origin_px: [f32; 2],
+    pub(super) level_px_per_m: f32,
+    pub(super) level_px_a_px: f32,
+    pub(super) px_a_level_px: f32,
     pub(super) px_per_m: f32,
     pub(super) radius_px: f32,
     pub(super) least_radius_px: f32,
@@ -78,10 +90,11 @@ pub(super) struct FrameParams {
     pub(super) background: u32,
     pub(super) most_step_m: f32,
     pub(super) has_ranks: u32,
-    pub(super) line_low_px: f32,
+    pub(super) kept_lines: u32,
+    pub(super) threads_a_line: u32,
+    pub(super) list_room: u32,
     pub(super) steps_a_px: f32,
     pub(super) px_a_step: f32,
-    pub(super) padding: u32,
 }
 
 /// `Chunk` of `flatten.wgsl`.

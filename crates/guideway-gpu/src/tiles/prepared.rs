@@ -9,7 +9,8 @@ use guideway_render::{
 use guideway_scene::{Edit, Scene};
 
 use super::bound::Paint;
-use super::draw::{Drawing, Easel};
+use super::draw::Drawing;
+use super::easel::Easel;
 use super::kernels::Kernels;
 use super::pack::{Packed, Packing};
 use super::params::{Found, Stroke};
@@ -104,6 +105,10 @@ impl PreparedTiles {
         let runner = Runner::new(Arc::clone(&shared.gpu), &mut memory)?;
         let found_bytes = size_of::<Found>() as u64;
         let found_fetched = memory.zeros("the counters", found_bytes, FETCHED)?;
+        let easel = Easel {
+            keeps: shared.options.keeps,
+            ..Easel::default()
+        };
         let mut prepared = Self {
             facts: Facts::of(&scene),
             packing: Packing::of(&scene),
@@ -118,7 +123,7 @@ impl PreparedTiles {
             runner,
             store: None,
             found_fetched,
-            easel: Easel::default(),
+            easel,
             probe: Easel::default(),
             marks: None,
             is_torn: false,
@@ -133,6 +138,7 @@ impl PreparedTiles {
         self.packing = packing;
         self.is_torn = true;
         self.unbind();
+        self.easel.forget_lines();
         self.facts = Facts::of(&self.scene);
         let start = Instant::now();
         let ranks = Ranks::of(&self.scene);

@@ -1,9 +1,10 @@
 //! What a frame finds: lines, and which tiles they may touch.
 
-use guideway_render::RenderError;
+use guideway_render::{RenderError, View};
 use wgpu::BufferUsages;
 
 use super::NAME;
+use super::level::Level;
 use super::params::{Found, LINE_WORDS};
 use crate::device::{DeviceBuffer, Gpu, Memory};
 
@@ -16,6 +17,16 @@ pub(super) struct Room {
     pub(super) lines: DeviceBuffer,
     pub(super) line_ranks: DeviceBuffer,
     pub(super) reference_list: DeviceBuffer,
+    pub(super) kept: Option<KeptLines>,
+}
+
+/// Lines that can be drawn again: all of a level, of the scene as it is.
+#[derive(Clone, Copy)]
+pub(super) struct KeptLines {
+    pub(super) level: Level,
+    pub(super) count: u32,
+    /// The view of the frame that made them, and the paths that it has counted.
+    pub(super) drawn: (View, u32),
 }
 
 /// How much room there is to be.
@@ -59,7 +70,7 @@ impl Size {
     pub(super) fn for_found(self, found: &Found) -> Self {
         let grown = |room: u32, needed: u32| {
             if needed > room {
-                needed.saturating_add(needed / 16)
+                needed.saturating_add(needed / 32)
             } else {
                 room
             }
@@ -111,11 +122,27 @@ impl Room {
             size,
             lines: memory.zeros("the lines", lines * LINE_BYTES, storage)?,
             line_ranks: memory.zeros("the lines", size.ranks() * WORD_BYTES, storage)?,
-            reference_list: memory.zeros(
-                "the lists of the tiles",
-                u64::from(size.references) * WORD_BYTES,
-                storage,
-            )?,
+            reference_list: reference_list(memory, size)?,
+            kept: None,
         })
     }
+
+    /// With room for so much. Lines stay unless they need more.
+    pub(super) fn grown(self, memory: &mut Memory, size: Size) -> Result<Self, RenderError> {
+        if size.lines != self.size.lines {
+            drop(self);
+            return Self::new(memory, size);
+        }
+        drop(self.reference_list);
+        Ok(Self {
+            size,
+            reference_list: reference_list(memory, size)?,
+            ..self
+        })
+    }
+}
+
+fn reference_list(memory: &mut Memory, size: Size) -> Result<DeviceBuffer, RenderError> {
+    let bytes = u64::from(size.references) * WORD_BYTES;
+    memory.zeros("the lists of the tiles", bytes, BufferUsages::STORAGE)
 }

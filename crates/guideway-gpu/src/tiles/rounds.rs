@@ -20,18 +20,19 @@ pub(super) struct Rounds {
 impl Rounds {
     /// After a frame of which all was drawn.
     pub(super) fn learn(&mut self, window: &Window, found: &Found) {
+        let tiles = window.columns.len() as u64 * window.rows.len() as u64;
+        let hides = 4 * u64::from(found.full_tiles) >= tiles;
         if self.are_on {
             // The second look at each tile costs about what half of the lists does.
-            self.are_on = found.references <= self.listed_at_once / 2;
+            self.are_on = hides && found.references <= self.listed_at_once / 2;
             if !self.are_on {
                 self.in_vain_at = self.listed_at_once;
             }
             return;
         }
         self.listed_at_once = found.references;
-        let tiles = window.columns.len() as u64 * window.rows.len() as u64;
         let is_crowded = u64::from(found.references) >= SHORTEST_LIST * tiles;
-        self.are_on = is_crowded && 4 * u64::from(found.full_tiles) >= tiles && !self.was_in_vain();
+        self.are_on = is_crowded && hides && !self.was_in_vain();
     }
 
     /// After a frame that found more than there is room for, with room for so many lines: whether it should be drawn
@@ -84,6 +85,9 @@ mod tests {
         assert!(rounds.are_on);
         rounds.learn(&WINDOW, &found(20_000, 30));
         assert!(rounds.are_on);
+        // From near there is little that hides anything, and short lists say nothing.
+        rounds.learn(&WINDOW, &found(20, 3));
+        assert!(!rounds.are_on);
     }
 
     #[test]

@@ -59,6 +59,38 @@ macro_rules! flatten {
 /// By [`Points`].
 pub(super) const FLATTEN: [Source; 2] = [flatten!("rounded"), flatten!("exact")];
 
+pub(super) const RECOUNT: Source = Source {
+    name: "recount",
+    wgsl: wgsl!(
+        "frame", "work", "found", "view", "style", "rank", "lines", "walk", "tally", "recount"
+    ),
+    bindings: &["frame", "found", "lines", "line_ranks", "styles", "counts"],
+};
+
+pub(super) const LIST_KEPT: Source = Source {
+    name: "list",
+    wgsl: wgsl!(
+        "frame",
+        "work",
+        "found",
+        "view",
+        "style",
+        "rank",
+        "lines",
+        "walk",
+        "list_kept"
+    ),
+    bindings: &[
+        "frame",
+        "found",
+        "lines",
+        "line_ranks",
+        "styles",
+        "counts",
+        "references",
+    ],
+};
+
 pub(super) const STARTS: Source = Source {
     name: "starts",
     wgsl: wgsl!("frame", "work", "found", "starts"),

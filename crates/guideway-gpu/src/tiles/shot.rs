@@ -7,30 +7,39 @@ use guideway_spline::{Bounds, Point};
 use super::NAME;
 use super::bound::Paint;
 use super::canvas::Canvas;
+use super::level::Level;
 use super::pack::device_color;
-use super::params::{FrameParams, Samples, TILE_PX};
+use super::params::{ENOUGH_THREADS, FrameParams, MOST_THREADS_A_LINE, Samples, TILE_PX};
 use super::prepared::Facts;
 use super::room::Room;
 use super::window::Window;
 
-/// Farthest that a line may be from its curve, in pixels: the borders of a stroke move by as much.
-const TOLERANCE_PX: f32 = 1.0 / 32.0;
+/// Farthest that a line may be from its curve, in pixels of its level: the borders of a stroke move by as much.
+const TOLERANCE_PX: f32 = 1.0 / 30.0;
 /// Half the width of the thinnest stroke that few samples do for, in pixels.
 const COARSE_RADIUS_PX: f64 = 0.25;
 /// Farthest that single precision may move a line, in pixels.
 const MOST_ROUNDING_PX: f64 = 0.1;
-/// Farthest that steps may move a control point, in pixels along an axis.
+/// Farthest that steps may move a control point, in pixels of the level along an axis.
 const MOST_STEP_OFF_PX: f64 = 1.0 / 128.0;
 
-/// Farthest that a line goes on where it is cut, beyond what its stroke reaches, in pixels; and some to spare.
-const BEYOND_PX: f64 = 3.0;
-/// Numbers that an end of a line is one of.
-const LINE_STEPS: f64 = 8_388_608.0;
+/// Which lines a frame is drawn from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Lines {
+    /// Those of what its window shows.
+    OfWindow,
+    /// Those of all that its level reaches, so that they can be kept.
+    OfLevel,
+    /// So many that are there.
+    Kept(u32),
+}
 
 /// A view of a scene.
 pub(super) struct Shot<'a> {
     pub(super) view: &'a View,
     pub(super) style: &'a Style,
+    /// What its lines are made for.
+    pub(super) level: Level,
     scene: &'a Scene,
     facts: Facts,
 }
@@ -58,30 +67,34 @@ impl<'a> Shot<'a> {
                 remedy: "Zoom out, or use `--method cpu`.".to_owned(),
             });
         }
-        let shot = Self {
-            view,
-            style,
-            scene,
-            facts,
+        let widest_px = |px_per_m| {
+            let radius_px = |width_m| style.line_rule.radius_px(width_m, px_per_m);
+            f64::max(radius_px(None), radius_px(facts.widest_m))
         };
-        let (low_px, steps_a_px) = shot.line_steps();
-        if 0.5 / steps_a_px > MOST_ROUNDING_PX {
+        let level = Level::of(view, widest_px);
+        let off_px = 0.5 / level.steps_a_px();
+        if off_px > MOST_ROUNDING_PX {
             return Err(RenderError::Unsupported {
                 method: NAME,
                 what: format!(
-                    "strokes that reach {:.0} pixels far: their ends would be off by {:.1} pixels",
-                    -low_px,
-                    0.5 / steps_a_px
+                    "strokes that reach {:.0} pixels far: their ends would be off by {off_px:.1} pixels",
+                    widest_px(view.px_per_m()),
                 ),
                 remedy: "Zoom out, limit widths in pixels, or use `--method cpu`.".to_owned(),
             });
         }
-        Ok(shot)
+        Ok(Self {
+            view,
+            style,
+            level,
+            scene,
+            facts,
+        })
     }
 
     /// The largest steps of points that are not too coarse for it: what is rounded is off by half of one.
     pub(super) fn most_step_m(&self) -> f32 {
-        (2.0 * MOST_STEP_OFF_PX / self.view.px_per_m()).min(f64::from(f32::MAX)) as f32
+        (2.0 * MOST_STEP_OFF_PX / self.level.px_per_m).min(f64::from(f32::MAX)) as f32
     }
 
     /// Whether points of some clusters are too coarse for it.
@@ -98,16 +111,6 @@ impl<'a> Shot<'a> {
         self.style
             .line_rule
             .radius_px(width_m, self.view.px_per_m())
-    }
-
-    /// Where ends of lines are counted from, along both axes, and in how many steps a pixel: they lie within the picture
-    /// and as far around it as strokes reach, where lines are cut. A power of two, so that pixels are whole steps.
-    fn line_steps(&self) -> (f64, f64) {
-        let widest_px = (self.radius_px(None)).max(self.radius_px(self.facts.widest_m));
-        let beyond_px = widest_px.ceil() + BEYOND_PX;
-        let size = self.view.size();
-        let span_px = f64::from(size.width().max(size.height())) + 2.0 * beyond_px;
-        (-beyond_px, (LINE_STEPS / span_px).log2().floor().exp2())
     }
 
     /// As many samples as the thinnest stroke needs.
@@ -136,16 +139,20 @@ impl<'a> Shot<'a> {
         Bounds::of_points(corners).is_some_and(|hull| hull.intersects(seen))
     }
 
-    /// What the device reads for a window of the picture, if its buffer of pixels begins with a row of tiles.
+    /// What the device reads for a window of the picture, if its buffer of pixels begins with a row of tiles. Lines are made
+    /// of what it shows, or of all that the level reaches, unless they are there; then the list of each tile may have places for
+    /// so many.
     pub(super) fn params(
         &self,
         canvas: &Canvas,
         room: &Room,
         window: &Window,
         first_row: u32,
+        lines: Lines,
+        list_room: u32,
     ) -> FrameParams {
-        let size = self.view.size();
-        let center = self.view.center_m();
+        let level = &self.level;
+        let center = level.center_m;
         let high = center.to_f32();
         let low = (center - high.to_f64()).to_f32();
         let limits_px = match self.style.line_rule {
@@ -157,11 +164,39 @@ impl<'a> Shot<'a> {
         };
         let color = self.scene.draw_order().first();
         let color = color.map_or(0, |&path| device_color(self.scene.color(path)));
-        let (line_low_px, steps_a_px) = self.line_steps();
+        let (origin, ratio) = (level.origin_px(self.view), level.px_a_px(self.view));
+        let in_level = |x_px: u32, y_px: u32| {
+            let from_middle = (Point::new(f64::from(x_px), f64::from(y_px)) - origin) * ratio;
+            [from_middle.x as f32, from_middle.y as f32]
+        };
+        let size = canvas.size;
+        let first = [window.columns.start, window.rows.start].map(|at| at * TILE_PX);
+        let end = [window.columns.end, window.rows.end].map(|at| at * TILE_PX);
+        let drawn_low_px = in_level(first[0], first[1]);
+        let drawn_high_px = in_level(end[0].min(size.width()), end[1].min(size.height()));
+        let reach_px = level.reach_px.map(|px| px as f32);
+        let (made_low_px, made_high_px) = match lines {
+            Lines::OfLevel => (reach_px.map(|px| -px), reach_px),
+            Lines::OfWindow | Lines::Kept(_) => (drawn_low_px, drawn_high_px),
+        };
+        let kept_lines = match lines {
+            Lines::Kept(lines) => lines,
+            Lines::OfLevel | Lines::OfWindow => 0,
+        };
+        let threads_a_line = ENOUGH_THREADS / kept_lines.max(1);
+        let threads_a_line = threads_a_line.clamp(1, MOST_THREADS_A_LINE);
         FrameParams {
             center_high_m: [high.x, high.y],
             center_low_m: [low.x, low.y],
-            half_size_px: [size.width() as f32 / 2.0, size.height() as f32 / 2.0],
+            reach_px,
+            made_low_px,
+            made_high_px,
+            drawn_low_px,
+            drawn_high_px,
+            line_origin_px: [origin.x as f32, origin.y as f32],
+            level_px_per_m: level.px_per_m as f32,
+            level_px_a_px: ratio as f32,
+            px_a_level_px: ratio.recip() as f32,
             px_per_m: self.view.px_per_m() as f32,
             radius_px: self.radius_px(None) as f32,
             least_radius_px: limits_px[0] as f32,
@@ -169,8 +204,8 @@ impl<'a> Shot<'a> {
             tolerance_px: TOLERANCE_PX,
             clusters: self.facts.clusters,
             styles: self.facts.styles,
-            width_px: canvas.size.width(),
-            height_px: canvas.size.height(),
+            width_px: size.width(),
+            height_px: size.height(),
             first_column: window.columns.start,
             columns: window.columns.len() as u32,
             first_row: window.rows.start,
@@ -182,10 +217,11 @@ impl<'a> Shot<'a> {
             background: device_color(self.style.background),
             most_step_m: self.most_step_m(),
             has_ranks: u32::from(room.size.has_ranks),
-            line_low_px: line_low_px as f32,
-            steps_a_px: steps_a_px as f32,
-            px_a_step: steps_a_px.recip() as f32,
-            padding: 0,
+            kept_lines,
+            threads_a_line,
+            list_room,
+            steps_a_px: level.steps_a_px() as f32,
+            px_a_step: (level.steps_a_px() * ratio).recip() as f32,
         }
     }
 }

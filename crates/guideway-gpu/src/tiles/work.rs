@@ -61,14 +61,13 @@ impl PreparedTiles {
         self.easel.kept = None;
         self.easel.unbind();
         let own = std::mem::replace(&mut self.kernels, counting);
+        let keeps = std::mem::replace(&mut self.easel.keeps, false);
         // The first one learns what the view shows few of, as the last frame of another may not have.
         let drawn = self
             .draw_all(&shot, Paint::One, cancel, |_, _| ())
-            .and_then(|_| {
-                self.easel.kept = None;
-                self.draw_all(&shot, Paint::One, cancel, |_, _| ())
-            });
+            .and_then(|_| self.draw_all(&shot, Paint::One, cancel, |_, _| ()));
         self.kernels = own;
+        self.easel.keeps = keeps;
         self.easel.unbind();
         let counted = drawn?.work;
         let bytes = |words: u64| Some(words * size_of::<u32>() as u64);

@@ -13,6 +13,8 @@ const SHADERS: &[&Source] = &[
     &TOUCH,
     &IDS[0],
     &IDS[1],
+    &RECOUNT,
+    &LIST_KEPT,
     &STARTS,
     &SHARE,
     &SCATTER,
@@ -39,10 +41,10 @@ fn every_shader_binds_what_it_is_given() {
 
 #[test]
 fn structures_are_laid_out_alike() {
-    let frame = members!(FrameParams: center_high_m, center_low_m, half_size_px, px_per_m, radius_px,
-        least_radius_px, most_radius_px, tolerance_px, clusters, styles, width_px, height_px, first_column,
+    let frame = members!(FrameParams: center_high_m, center_low_m, reach_px, made_low_px, made_high_px,
+        drawn_low_px, drawn_high_px, line_origin_px, level_px_per_m, level_px_a_px, px_a_level_px, px_per_m, radius_px, least_radius_px, most_radius_px, tolerance_px, clusters, styles, width_px, height_px, first_column,
         columns, first_row, rows, pixels_row, line_room, reference_room, color, background, most_step_m,
-        has_ranks, line_low_px, steps_a_px, px_a_step);
+        has_ranks, kept_lines, threads_a_line, list_room, steps_a_px, px_a_step);
     assert_laid_out(SHADERS, "Frame", &frame);
     assert_laid_out(
         SHADERS,

@@ -14,7 +14,7 @@ alias Row = array<u32, WORDS>;
 
 // How far a sample may be outside and still count as covered, in steps of the lattice: a border through a
 // row of samples then covers it, as it does in exact arithmetic.
-const SLACK: f32 = 1.0 / 512.0;
+const SLACK: f32 = 1.0 / 128.0;
 
 // In steps of the lattice, from the upper left corner of the tile.
 struct Capsule {

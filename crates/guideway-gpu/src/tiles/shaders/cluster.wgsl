@@ -20,20 +20,20 @@ struct Cluster {
 
 const CLUSTER_WORDS: u32 = 14u;
 
-// From the middle of the view to the origin of a cluster. Near parts cancel without loss.
+// From the middle of the level to the origin of a cluster. Near parts cancel without loss.
 fn offset_m(cluster: Cluster) -> vec2f {
     return (cluster.origin_high_m - frame.center_high_m) + (cluster.origin_low_m - frame.center_low_m);
 }
 
-// Half the width of its widest stroke.
+// Half the width of its widest stroke, in the picture.
 fn widest_px(cluster: Cluster) -> f32 {
     return max(frame.radius_px, radius_px(cluster.widest_m));
 }
 
-// Its box in the picture: upper left and lower right corner.
+// Its box in the level: upper left and lower right corner.
 fn box_px(cluster: Cluster) -> vec4f {
     let offset = offset_m(cluster);
-    let a = pixel_from_view(cluster.low_m + offset);
-    let b = pixel_from_view(cluster.high_m + offset);
+    let a = level_px(cluster.low_m + offset);
+    let b = level_px(cluster.high_m + offset);
     return vec4f(min(a, b), max(a, b));
 }

@@ -3,7 +3,8 @@
 @group(0) @binding(7) var<storage, read_write> counts: array<u32>;
 @group(0) @binding(8) var<storage, read_write> found: Found;
 
-var<workgroup> was_full: u32;
+// What was counted for the tile.
+var<workgroup> counted: u32;
 // Covered samples of all rows.
 var<workgroup> samples: array<atomic<u32>, TILE_PX * SAMPLE_ROWS * WORDS>;
 // How many pixels are open.
@@ -100,15 +101,19 @@ fn cover_tile(own: Thread, index: u32) {
     let thread = own.number;
     let tile = tile_of(index);
     if thread == 0u {
-        was_full = counts[index] & FULL;
+        counted = counts[index];
         reads(1u);
     }
+    let count = workgroupUniformLoad(&counted);
     // Its pixels are written already.
-    if workgroupUniformLoad(&was_full) != 0u {
+    if (count & FULL) != 0u {
         return;
     }
-    let list = list_of(index);
-    reads(2u);
+    var list = vec2u(0u, min(count, frame.list_room)) + index * frame.list_room;
+    if frame.list_room == 0u {
+        list = list_of(index);
+        reads(2u);
+    }
     if list.x >= list.y {
         for (var pixel = thread; pixel < TILE_PX * TILE_PX; pixel += THREADS) {
             write(tile, pixel, frame.background);

@@ -1,4 +1,4 @@
-// One thread a cluster: lists those that may be seen, by the points that they are drawn from.
+// One thread a cluster: lists those that lines are made of, by the points that they are drawn from.
 
 override WORKGROUP: u32;
 
@@ -17,9 +17,7 @@ fn main(
     }
     let cluster = clusters[index];
     reads(CLUSTER_WORDS);
-    let box = box_px(cluster);
-    let reach_px = widest_px(cluster) + 1.0;
-    if is_seen(box.xy, box.zw, reach_px) {
+    if is_made(box_px(cluster), reach_of(widest_px(cluster))) {
         if cluster.step_m > 0.0 && cluster.step_m <= frame.most_step_m {
             found.seen[atomicAdd(&found.counters.rounded, 1u)] = index;
         } else {

@@ -1,4 +1,4 @@
-// Points of a stroke's curve, in pixels, and lines that are near enough to it.
+// Points of a stroke's curve, in pixels of the level, and lines that are near enough to it.
 
 // Where a segment begins: the thesis' equation 3.2 at t = 0.
 fn vertex_px(curve: Curve, segment: u32) -> vec2f {

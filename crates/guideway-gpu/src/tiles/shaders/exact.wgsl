@@ -2,7 +2,7 @@
 
 @group(0) @binding(2) var<storage, read> points: array<vec2u>;
 
-// The stroke that a thread works on: where its control points begin, and from the middle of the view to the origin that
+// The stroke that a thread works on: where its control points begin, and from the middle of the level to the origin that
 // they count from.
 struct Curve {
     first_point: u32,
@@ -33,5 +33,5 @@ fn first_point_of_cluster(cluster: Cluster, index: u32) -> u32 {
 // Read anew each time: caches hold them, and a workgroup that shared them would leave room for few others.
 fn control_px(curve: Curve, index: u32) -> vec2f {
     reads(2u);
-    return pixel_from_view(bitcast<vec2f>(points[curve.first_point + index]) + curve.offset_m);
+    return level_px(bitcast<vec2f>(points[curve.first_point + index]) + curve.offset_m);
 }

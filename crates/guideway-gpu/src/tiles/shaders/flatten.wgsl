@@ -63,12 +63,10 @@ fn emit_all(thread: u32, any: Curve, numbers: vec2u, first_slot: u32) {
     }
 }
 
-// Whether all of a cluster is inside what is drawn.
-fn holds(cluster: Cluster) -> bool {
-    let box = box_px(cluster);
-    let reach_px = widest_px(cluster) + 1.0;
-    let window = window();
-    return all(box.xy - reach_px >= window.low_px) && all(box.zw + reach_px <= window.high_px);
+// Whether all of a cluster's box is in what is drawn, with all its strokes.
+fn is_all_drawn(cluster: Cluster, box: vec4f) -> bool {
+    let reach = reach_of(widest_px(cluster));
+    return all(box.xy - reach >= frame.drawn_low_px) && all(box.zw + reach <= frame.drawn_high_px);
 }
 
 // Which part of its cluster's lines a workgroup makes.
@@ -87,8 +85,8 @@ fn main(
         let parts = clamp(ENOUGH_GROUPS / max(clusters_seen, 1u), 1u, 1u << MOST_PARTS_BITS);
         parts_bits = firstLeadingBit(parts);
     }
-    let all = workgroupUniformLoad(&clusters_seen);
-    for (var i = workgroup_index(id, count); i < all << parts_bits; i += count.x * count.y) {
+    let groups = workgroupUniformLoad(&clusters_seen) << parts_bits;
+    for (var i = workgroup_index(id, count); i < groups; i += count.x * count.y) {
         let index = cluster_of_kind(i >> parts_bits);
         let cluster = clusters[index];
         reads(1u + CLUSTER_WORDS);
@@ -105,36 +103,39 @@ fn main(
             }
         }
         var stroke = Stroke(0u, 0u);
-        if is_here {
-            if thread < cluster.strokes {
-                stroke = strokes[cluster.first_stroke + thread];
-                reads(2u);
-            }
-            is_inside = holds(cluster);
+        if is_here && thread < cluster.strokes {
+            stroke = strokes[cluster.first_stroke + thread];
+            reads(2u);
         }
         if thread == 0u {
             atomicStore(&group_drawn, 0u);
         }
         workgroupBarrier();
         let curve = curve_of(cluster, first_point + first_point_of(stroke));
+        let all_box = box_px(cluster);
+        is_inside = all(abs(all_box.xy) < frame.reach_px) && all(abs(all_box.zw) < frame.reach_px);
         var plan = Plan(0u, 0u, 0u);
         if is_here && thread < cluster.strokes {
             let segments = segments_of(stroke);
             let radius = radius_of(stroke.rank);
-            var is_drawn = segments > 0u;
-            var is_needed = true;
-            if !is_inside || chunk.round == 2u {
+            var is_there = segments > 0u;
+            var is_needed = is_there;
+            if chunk.round == 2u || !is_all_drawn(cluster, all_box) {
                 let box = box_of(curve, segments);
-                is_drawn = is_drawn && is_seen(box.xy, box.zw, radius + 1.0);
-                is_needed = chunk.round < 2u || !is_hidden(box, radius + MARGIN_PX);
+                let reach = reach_of(radius);
+                is_there = is_there && is_drawn(box, reach);
+                if chunk.round < 2u {
+                    is_needed = is_needed && is_made(box, reach);
+                } else {
+                    let box_px = vec4f(px_from_level(box.xy), px_from_level(box.zw));
+                    is_needed = is_there && !is_hidden(box_px, radius + MARGIN_PX);
+                }
             }
-            if is_drawn {
-                if is_needed {
-                    plan = plan_of(curve, segments);
-                }
-                if (stroke.extent & WHOLE_PATH) != 0u {
-                    atomicAdd(&group_drawn, 1u);
-                }
+            if is_needed {
+                plan = plan_of(curve, segments);
+            }
+            if is_there && (stroke.extent & WHOLE_PATH) != 0u {
+                atomicAdd(&group_drawn, 1u);
             }
         }
         planned[thread] = Planned(curve.first_point, stroke.rank, plan);

@@ -4,17 +4,31 @@
 override TILE_PX: u32;
 
 struct Frame {
-    // The middle of the view in two parts each, together as exact as doubles.
+    // The level that lines are made for: views of about one scale and place share it. Its middle is in two parts each, together
+    // as exact as doubles; its pixels count from there.
     center_high_m: vec2f,
     center_low_m: vec2f,
-    half_size_px: vec2f,
+    // How far from there lines may reach, in pixels of the level.
+    reach_px: vec2f,
+    // The part of it that lines are made of, and what is drawn: upper left and lower right corner.
+    made_low_px: vec2f,
+    made_high_px: vec2f,
+    drawn_low_px: vec2f,
+    drawn_high_px: vec2f,
+    // Where the middle of the level is in the picture.
+    line_origin_px: vec2f,
+    level_px_per_m: f32,
+    // Pixels of the level that one of the picture is, and the other way round.
+    level_px_a_px: f32,
+    px_a_level_px: f32,
+    // Of the picture.
     px_per_m: f32,
     // Half the width of strokes that have none of their own.
     radius_px: f32,
     // What half the width of others is held between; none has one where the greatest is below zero.
     least_radius_px: f32,
     most_radius_px: f32,
-    // How far a line may be from its curve.
+    // How far a line may be from its curve, in pixels of the level.
     tolerance_px: f32,
     clusters: u32,
     // Styles there are; one that stands for all if there is one.
@@ -38,8 +52,12 @@ struct Frame {
     most_step_m: f32,
     // Whether lines have ranks; they need none where all paths look alike.
     has_ranks: u32,
-    // Ends of lines are counted in steps from here, along both axes.
-    line_low_px: f32,
+    // Lines that are there already, and threads that list each of them.
+    kept_lines: u32,
+    threads_a_line: u32,
+    // Places that the list of each tile has; none where they are reserved by what is counted.
+    list_room: u32,
+    // Steps that ends of lines are counted in: so many a pixel of the level, and pixels of the picture that one is.
     steps_a_px: f32,
     px_a_step: f32,
 }

@@ -2,7 +2,7 @@
 
 @group(0) @binding(2) var<storage, read> points: array<u32>;
 
-// The stroke that a thread works on: where its control points begin, and in pixels the origin and the steps of its cluster.
+// The stroke that a thread works on: where its control points begin, and in pixels of the level the origin and the steps of its cluster.
 struct Curve {
     first_point: u32,
     origin_px: vec2f,
@@ -10,9 +10,7 @@ struct Curve {
 }
 
 fn curve_of(cluster: Cluster, first_point: u32) -> Curve {
-    // The picture's y goes down.
-    let step_px = vec2f(cluster.step_m, -cluster.step_m) * frame.px_per_m;
-    return Curve(first_point, pixel_from_view(offset_m(cluster)), step_px);
+    return Curve(first_point, level_px(offset_m(cluster)), level_px(vec2f(cluster.step_m)));
 }
 
 fn clusters_of_kind() -> u32 {

@@ -31,7 +31,7 @@ fn columns_of(line: vec4f, reach_px: f32, row: u32) -> vec2u {
         let top = f32(row * TILE_PX) - reach_px;
         let bottom = f32((row + 1u) * TILE_PX) + reach_px;
         let t = clamp((vec2f(top, bottom) - line.y) / height, vec2f(0.0), vec2f(1.0));
-        ends = line.x + (line.z - line.x) * t;
+        ends = fma(vec2f(line.z - line.x), t, vec2f(line.x));
     }
     let low = min(ends.x, ends.y) - reach_px;
     let high = max(ends.x, ends.y) + reach_px;

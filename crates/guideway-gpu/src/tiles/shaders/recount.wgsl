@@ -1,0 +1,63 @@
+// One thread for one line after the other, of those that are there from a frame before: counts the tiles that each may touch.
+
+override THREADS: u32;
+
+@group(0) @binding(1) var<storage, read_write> found: Found;
+@group(0) @binding(2) var<storage, read> lines: array<u32>;
+@group(0) @binding(3) var<storage, read> line_ranks: array<u32>;
+@group(0) @binding(4) var<storage, read> styles: array<Style>;
+@group(0) @binding(5) var<storage, read_write> counts: array<atomic<u32>>;
+
+fn count(tile: u32, lines: u32) {
+    atomicAdd(&counts[tile], lines);
+    atomics(1u);
+}
+
+fn tally(line: vec4f, reach: f32) {
+    let rows = rows_of(line, reach);
+    for (var row = rows.x; row < rows.y; row++) {
+        let columns = columns_of(line, reach, row);
+        for (var column = columns.x; column < columns.y; column++) {
+            let tile = tile_index(row, column);
+            let place = tally_place(row, column, tile);
+            if place == NO_TILE {
+                count(tile, 1u);
+            } else {
+                atomicAdd(&tallies[place], 1u);
+            }
+        }
+    }
+}
+
+@compute @workgroup_size(THREADS)
+fn main(
+    @builtin(workgroup_id) id: vec3u,
+    @builtin(num_workgroups) groups: vec3u,
+    @builtin(local_invocation_index) thread: u32,
+) {
+    let group = workgroup_index(id, groups);
+    if group == 0u && thread == 0u {
+        atomicStore(&found.counters.lines, frame.kept_lines);
+    }
+    for (var first = group * THREADS; first < frame.kept_lines; first += groups.x * groups.y * THREADS) {
+        clear_tallies(thread);
+        workgroupBarrier();
+        let line = first + thread;
+        var words = vec3u(NOWHERE);
+        if line < frame.kept_lines {
+            words = words_of_line(line);
+        }
+        if words.x != NOWHERE {
+            tally(line_of(words), radius_of(rank_of(line)) + MARGIN_PX);
+        }
+        workgroupBarrier();
+        for (var place = thread; place < TALLY_PLACES; place += THREADS) {
+            let lines_there = atomicLoad(&tallies[place]);
+            if lines_there > 0u {
+                count(atomicLoad(&tally_tiles[place]), lines_there);
+            }
+        }
+        workgroupBarrier();
+    }
+    report_work();
+}

@@ -1,0 +1,225 @@
+//! Lines kept from frame to frame: which are drawn says the view alone.
+
+use guideway_scene::{Edit, Insertion, PathState};
+use guideway_spline::Affine;
+
+use super::*;
+use crate::device::{DeviceBuffer, FETCHED};
+
+/// Whether a frame was drawn from lines that were there.
+fn is_warm(report: &Report) -> bool {
+    report.stages.iter().all(|stage| stage.name != "flatten")
+}
+
+#[test]
+fn views_of_a_level_share_lines_and_show_what_they_would_alone() {
+    let Some(tiles) = tiles() else { return };
+    let density = style(Shading::Density(ToneMap::Log));
+    for (scene, style) in [
+        (plain(3000, 4.0), Style::default()),
+        (mixed(3000, 4.0), Style::default()),
+        (plain(3000, 4.0), density),
+    ] {
+        let mut kept = prepared(&tiles, &scene);
+        let (mut warm, mut cold) = (0, 0);
+        for step in 0..24 {
+            // To and fro about a place beside the middle, now and then aside by parts of a pixel.
+            let along = f64::from(i32::abs(step - 12));
+            let px_per_m = 3.0 * 1.02_f64.powf(along);
+            let aside = 0.37 * f64::from(step % 3) / px_per_m;
+            let view = view([41.0 + aside, 30.3 - aside], px_per_m);
+            let (frame, report) = picture(&mut kept, &view, &style);
+            let (expected, anew) = picture(&mut prepared(&tiles, &scene), &view, &style);
+            assert!(frame.pixels() == expected.pixels(), "{step}");
+            assert!(!is_warm(&anew));
+            *if is_warm(&report) {
+                &mut warm
+            } else {
+                &mut cold
+            } += 1;
+        }
+        assert!(warm > cold && cold > 1, "{warm} {cold}");
+    }
+}
+
+/// Moves, restyles, hides, shows and adds paths, one after the other.
+fn edits() -> [Edit; 6] {
+    let paths: Arc<[u32]> = (0..600).step_by(3).collect();
+    let mut runs = Runs::default();
+    runs.push_line(Point::new(10.0, 5.0), Point::new(90.0, 55.0));
+    let insertion = Insertion {
+        runs,
+        ..Insertion::default()
+    };
+    let looks = |width_m| OwnStyle {
+        width_m: Some(width_m),
+        color_rgba: Some(0x2266_aaff),
+    };
+    let restyle =
+        |width_m| Edit::Restyle(paths.iter().map(|&path| (path, looks(width_m))).collect());
+    let states = |state| Edit::SetStates(paths.iter().map(|&path| (path, state)).collect());
+    [
+        Edit::Transform {
+            paths: Arc::clone(&paths),
+            by: Affine::translation(Point::new(0.5, -0.3)),
+        },
+        restyle(0.8),
+        states(PathState::Hidden),
+        Edit::Insert([insertion].into()),
+        states(PathState::Shown),
+        restyle(3.0),
+    ]
+}
+
+#[test]
+fn an_edit_is_in_the_next_picture_whatever_was_kept() {
+    let Some(tiles) = tiles() else { return };
+    let style = Style::default();
+    for scene in [plain(600, 6.0), mixed(600, 6.0)] {
+        // The other one has the same history, and keeps nothing.
+        let (mut kept, mut anew) = (prepared(&tiles, &scene), prepared(&tiles, &scene));
+        anew.easel.keeps = false;
+        let mut warm = 0;
+        let mut check = |kept: &mut PreparedTiles, anew: &mut PreparedTiles, px_per_m| {
+            let view = view([50.0, 30.0], px_per_m);
+            let (frame, report) = picture(kept, &view, &style);
+            let (expected, of_expected) = picture(anew, &view, &style);
+            assert!(frame.pixels() == expected.pixels());
+            assert!(!is_warm(&of_expected));
+            warm += usize::from(is_warm(&report));
+            expected
+        };
+        let mut before = check(&mut kept, &mut anew, 2.0);
+        for edit in edits() {
+            check(&mut kept, &mut anew, 2.01);
+            for prepared in [&mut kept, &mut anew] {
+                prepared.edit(&edit).unwrap();
+            }
+            let after = check(&mut kept, &mut anew, 2.0);
+            assert!(after != before, "{edit:?}");
+            before = after;
+        }
+        assert!(warm >= 5, "{warm}");
+    }
+}
+
+#[test]
+fn where_a_level_has_no_room_its_views_are_drawn_without() {
+    let Some(tiles) = tiles() else { return };
+    let scene = plain(6000, 2.0);
+    let small = limited(GpuOptions {
+        storage_binding_bytes: Some(64 << 10),
+        ..GpuOptions::default()
+    });
+    let mut kept = prepared(&small, &scene);
+    let mut warm = 0;
+    for px_per_m in [2.0, 2.02, 20.0, 20.1, 20.2, 2.0] {
+        let view = view([50.0, 30.0], px_per_m);
+        let (frame, report) = picture(&mut kept, &view, &Style::default());
+        let (expected, _) = picture(&mut prepared(&tiles, &scene), &view, &Style::default());
+        assert!(frame.pixels() == expected.pixels());
+        assert!(!is_warm(&report) || px_per_m > 10.0, "{report}");
+        warm += usize::from(is_warm(&report));
+    }
+    // Of what is seen from near there is room for all.
+    assert!(warm > 0);
+}
+
+#[test]
+fn what_is_said_of_a_view_seen_again_is_the_same() {
+    let Some(tiles) = tiles() else { return };
+    let mut prepared = prepared(&tiles, &plain(3000, 4.0));
+    let near = view([50.0, 30.0], 6.0);
+    // The first one learns how much room is needed.
+    picture(&mut prepared, &near, &Style::default());
+    let (first, of_first) = picture(&mut prepared, &near, &Style::default());
+    for _ in 0..2 {
+        let (again, report) = picture(&mut prepared, &near, &Style::default());
+        assert!(is_warm(&report) && again.pixels() == first.pixels());
+        assert_eq!(
+            (report.drawn, report.lines),
+            (of_first.drawn, of_first.lines)
+        );
+    }
+}
+
+#[test]
+fn lists_that_outgrow_their_places_are_made_anew() {
+    let Some(tiles) = tiles() else { return };
+    // Beside a star, whose middle comes into view: lists are short at first and long then.
+    let mut layout = layout(3000, 0.5);
+    for path in 0..400 {
+        let turn = f64::from(path);
+        let mut runs = Runs::default();
+        let end = Point::new(turn.cos(), turn.sin()) * 4.0;
+        let center = Point::new(50.0, 30.0);
+        runs.push_line(center + end * 0.02, center + end);
+        layout.paths.push(&NewPath {
+            runs: &runs,
+            ..NewPath::default()
+        });
+    }
+    let scene = Arc::new(Scene::new(Arc::new(layout), &SceneOptions::default()).unwrap());
+    let mut kept = prepared(&tiles, &scene);
+    let mut at_once = Vec::new();
+    for (x_m, px_per_m) in [
+        (63.9, 10.3),
+        (63.9, 10.2),
+        (63.9, 10.1),
+        (62.7, 8.8),
+        (62.7, 8.9),
+        (63.9, 10.3),
+        (63.9, 10.2),
+        (63.9, 10.1),
+    ] {
+        let view = view([x_m, 30.0], px_per_m);
+        let (frame, report) = picture(&mut kept, &view, &Style::default());
+        let (expected, _) = picture(&mut prepared(&tiles, &scene), &view, &Style::default());
+        assert!(frame.pixels() == expected.pixels(), "{x_m}");
+        let stages: Vec<_> = report.stages.iter().map(|stage| stage.name).collect();
+        at_once.push(is_warm(&report) && !stages.contains(&"starts"));
+    }
+    let (yes, no) = (true, false);
+    // The first one makes lines, the fourth finds too few places, and the sixth learns that there would be enough again.
+    assert_eq!(at_once, [no, yes, yes, no, no, no, yes, yes]);
+}
+
+/// Words of a buffer of the canvas.
+fn words(prepared: &mut PreparedTiles, of: impl Fn(&canvas::Canvas) -> &DeviceBuffer) -> Vec<u32> {
+    let buffer = of(prepared.easel.canvas.as_ref().unwrap());
+    let bytes = buffer.bytes();
+    let fetched = prepared.memory.zeros("words", bytes, FETCHED).unwrap();
+    let mut words = Vec::new();
+    let take = |bytes: &[u8]| words.extend_from_slice(bytemuck::cast_slice(bytes));
+    let taken = prepared
+        .runner
+        .fetch("words", buffer, &fetched, bytes, take);
+    taken.unwrap();
+    words
+}
+
+#[test]
+fn what_is_counted_is_listed() {
+    let Some(tiles) = tiles() else { return };
+    let scene = plain(2000, 9.0);
+    let thin = Style {
+        line_rule: LineRule::Thesis,
+        ..Style::default()
+    };
+    let mut prepared = prepared(&tiles, &scene);
+    let mut warm = 0;
+    for number in 0..60 {
+        let f = f64::from(number / 2);
+        let center = [40.0 + (f * 0.618).fract(), 20.0 + (f * 0.754).fract()];
+        let px_per_m = 2.0 * (1.0 + (f * 0.377).fract()) * (1.0 + 0.003 * f64::from(number % 2));
+        let (_, report) = picture(&mut prepared, &view(center, px_per_m), &thin);
+        warm += usize::from(is_warm(&report));
+        // A list is filled up to its end, no more and no less.
+        let lists = words(&mut prepared, |canvas| &canvas.lists);
+        let filled = words(&mut prepared, |canvas| &canvas.filled);
+        let ends: Vec<u32> = lists.iter().skip(1).step_by(2).copied().collect();
+        assert!(ends.iter().any(|&end| end > 0));
+        assert!(filled == ends, "{number}");
+    }
+    assert!(warm > 10, "{warm}");
+}
