@@ -201,7 +201,15 @@ fn words(prepared: &mut PreparedTiles, of: impl Fn(&canvas::Canvas) -> &DeviceBu
 #[test]
 fn what_is_counted_is_listed() {
     let Some(tiles) = tiles() else { return };
-    let scene = plain(2000, 9.0);
+    // As many lines as a graphics card can take, if it is one: what is rounded otherwise now and then shows among millions.
+    let is_large = std::env::var("GUIDEWAY_LARGE_VIEWS").is_ok_and(|v| v == "1");
+    let (paths, reach_m, [width, height], least_px_per_m) = if is_large {
+        (200_000, 1.5, [1920, 1080], 18.0)
+    } else {
+        (2000, 9.0, [210, 130], 2.0)
+    };
+    let size = FrameSize::new(width, height).unwrap();
+    let scene = plain(paths, reach_m);
     let thin = Style {
         line_rule: LineRule::Thesis,
         ..Style::default()
@@ -211,15 +219,22 @@ fn what_is_counted_is_listed() {
     for number in 0..60 {
         let f = f64::from(number / 2);
         let center = [40.0 + (f * 0.618).fract(), 20.0 + (f * 0.754).fract()];
-        let px_per_m = 2.0 * (1.0 + (f * 0.377).fract()) * (1.0 + 0.003 * f64::from(number % 2));
-        let (_, report) = picture(&mut prepared, &view(center, px_per_m), &thin);
+        let nearer = (1.0 + (f * 0.377).fract()) * (1.0 + 0.003 * f64::from(number % 2));
+        let center = Point::new(center[0], center[1]);
+        let view = View::new(size, center, least_px_per_m * nearer).unwrap();
+        // By either of the kernels that make lines.
+        prepared.easel.has_few = number % 4 < 2;
+        let (_, report) = picture(&mut prepared, &view, &thin);
         warm += usize::from(is_warm(&report));
-        // A list is filled up to its end, no more and no less.
+        // A list is filled up to its end, no more and no less. Of tiles that were full before, by their
+        // highest bit, nothing is listed.
         let lists = words(&mut prepared, |canvas| &canvas.lists);
         let filled = words(&mut prepared, |canvas| &canvas.filled);
         let ends: Vec<u32> = lists.iter().skip(1).step_by(2).copied().collect();
         assert!(ends.iter().any(|&end| end > 0));
-        assert!(filled == ends, "{number}");
+        let is_wrong = |(filled, end): &(&u32, &u32)| **filled >> 31 == 0 && filled != end;
+        let wrong = filled.iter().zip(&ends).filter(is_wrong).count();
+        assert_eq!(wrong, 0, "{number}: {report}");
     }
     assert!(warm > 10, "{warm}");
 }
