@@ -3,6 +3,7 @@ use std::ops::Range;
 use guideway_scene::Rgba;
 use guideway_spline::Point;
 
+use super::backdrop::{Backdrop, SolidColors};
 use super::disc::Disc;
 use super::span::{Capsule, ROWS, SOLID, Samples, Spans};
 
@@ -21,6 +22,9 @@ type Clear = [[f32; WINDOW_COLUMNS]; ROWS];
 /// One flag for each block: a word for each window, a bit for each row of pixels.
 type Flags<const C: usize> = [u32; C];
 
+/// A flag for each pixel of a tile: a word for each row.
+pub(super) type Rows = [u32; TILE_PX];
+
 /// Which samples of one tile are covered, and by what, from the highest draw rank down.
 ///
 /// Strokes gather as a shape; a fill then lays one colour below all that is there, and starts a new shape.
@@ -30,7 +34,7 @@ pub(super) struct Canvas<const C: usize> {
     /// Blocks where the shape may not be empty.
     touched: Flags<C>,
     /// Pixels of each row where something below can still be seen.
-    open_pixels: [u32; TILE_PX],
+    open_pixels: Rows,
     /// Blocks that have such a pixel.
     open: Flags<C>,
     opaque: Box<[[Block; TILE_PX]; C]>,
@@ -93,6 +97,55 @@ impl<const C: usize> Canvas<C> {
         std::mem::swap(&mut self.shape, &mut self.opaque);
         *self.shape = Self::NO_BLOCKS;
         *self.sums = [[[0.0; 4]; TILE_PX]; TILE_PX];
+    }
+
+    /// How many pixels lie in blocks that are not empty, and the pixels that are covered, of those that are seen.
+    pub(super) fn marked_pixels(&self, width_px: usize, height_px: usize) -> (u32, Rows) {
+        let seen = low_bits(width_px as u32);
+        let mut closed = [0; TILE_PX];
+        for (closed, open) in closed.iter_mut().zip(&self.open_pixels).take(height_px) {
+            *closed = seen & !open;
+        }
+        let empty = self.touched.iter().zip(&self.open);
+        let empty = empty
+            .map(|(touched, open)| (!touched & open).count_ones())
+            .sum::<u32>();
+        let blocks = (width_px.div_ceil(Self::WINDOW_PX) * height_px) as u32;
+        (
+            blocks.saturating_sub(empty) * Self::WINDOW_PX as u32,
+            closed,
+        )
+    }
+
+    /// Covers some pixels, of a tile on which nothing lies yet.
+    #[inline(always)]
+    pub(super) fn close_pixels(&mut self, pixels: &Rows) {
+        for (row, &pixels) in pixels.iter().enumerate() {
+            let closed = self.open_pixels[row] & pixels;
+            if closed == 0 {
+                continue;
+            }
+            self.open_pixels[row] &= !closed;
+            for window in 0..C {
+                let left = window * Self::WINDOW_PX;
+                let mut mask = 0;
+                for pixel in 0..Self::WINDOW_PX {
+                    mask |= (closed >> (left + pixel) & 1) * (low_bits(C as u32) << (pixel * C));
+                }
+                for word in &mut self.shape[window][row] {
+                    *word |= mask;
+                }
+                let open = self.open_pixels[row] >> left & low_bits(Self::WINDOW_PX as u32);
+                self.touched[window] |= u32::from(mask != 0) << row;
+                self.open[window] &= !(u32::from(open == 0) << row);
+            }
+        }
+    }
+
+    /// Starts a tile that is covered.
+    pub(super) fn begin_closed(&mut self) {
+        self.open = [0; C];
+        self.open_pixels = [0; TILE_PX];
     }
 
     /// Blocks where something below can still be seen.
@@ -292,59 +345,6 @@ impl<const C: usize> Canvas<C> {
                 }
             }
         }
-    }
-}
-
-/// Colours by the number of samples covered.
-type SolidColors = [[u8; 4]; Samples::<SOLID>::COUNT + 1];
-
-/// The colours of pixels of which one opaque colour covers from none to all samples.
-pub(super) fn solid_colors(color: Rgba, background: Rgba) -> SolidColors {
-    let backdrop = Backdrop::new(background);
-    std::array::from_fn(|count| {
-        let [r, g, b, a] = [color.r, color.g, color.b, 1].map(|c| f32::from(c) * count as f32);
-        backdrop.below::<SOLID>([r, g, b, a])
-    })
-}
-
-/// What lies below all paths.
-pub(super) struct Backdrop {
-    bytes: [u8; 4],
-    rgb: [f32; 3],
-    opacity: f32,
-}
-
-impl Backdrop {
-    pub(super) fn new(background: Rgba) -> Self {
-        let bytes @ [r, g, b, a] = background.to_u32().to_be_bytes();
-        Self {
-            bytes,
-            rgb: [r, g, b].map(f32::from),
-            opacity: f32::from(a) / 255.0,
-        }
-    }
-
-    /// The mean of a pixel's samples, of which `sum` is the sum, over the background: straight alpha.
-    #[inline(always)]
-    fn below<const C: usize>(&self, sum: [f32; 4]) -> [u8; 4] {
-        let a_sample = 1.0 / Samples::<C>::COUNT as f32;
-        if sum[3] == 0.0 {
-            return self.bytes;
-        }
-        let shines = (1.0 - sum[3] * a_sample).max(0.0) * self.opacity;
-        let opacity = sum[3] * a_sample + shines;
-        let channel = |i: usize| {
-            let color = sum[i] * a_sample + self.rgb[i] * shines;
-            // A division is worth avoiding: most backgrounds are opaque.
-            let color = if self.opacity < 1.0 {
-                color / opacity
-            } else {
-                color
-            };
-            (color + 0.5) as u8
-        };
-        let alpha = (opacity * 255.0 + 0.5) as u8;
-        [channel(0), channel(1), channel(2), alpha]
     }
 }
 

@@ -9,9 +9,10 @@ use guideway_render::density::{ToneMap, Tones};
 use guideway_render::{Frame, RenderError, Shading, Stage, Style, View, elapsed_ms};
 
 use super::cluster::{Members, Scratch};
+use super::filled::{Filled, Known};
 use super::index::{Index, Made};
 use super::kept::Kept;
-use super::paint::{Band, Painter};
+use super::paint::{Band, Filling, Painter};
 use super::shot::Shot;
 use super::sight::Sights;
 use super::tiles::{Bins, Grid, Parts};
@@ -41,6 +42,9 @@ pub(super) struct Easel<'a, 'p> {
     pub(super) frame: &'p mut Frame,
     /// What is not drawn shows this.
     pub(super) kept: Option<&'a Kept>,
+    /// What is full for certain, and where it is found out what will be.
+    pub(super) known: Known<'a>,
+    pub(super) filled: Option<&'a Filled>,
     /// Most bytes for lines, and for what lies where.
     pub(super) limit_bytes: u64,
 }
@@ -208,6 +212,9 @@ impl Buffers {
         }
         self.time("cover", |b| {
             let mut counts = std::mem::take(&mut b.counts);
+            let thinner = easel.filled.map(|filled| shot.thinner(filled.nearer));
+            let filling = easel.filled.zip(thinner.as_ref());
+            let filling = filling.map(|(filled, shot)| Filling { shot, filled });
             let band = Band {
                 shot,
                 grid: &grid,
@@ -216,6 +223,8 @@ impl Buffers {
                 bins: &b.bins,
                 parts: &b.parts,
                 kept: easel.kept,
+                known: easel.known,
+                filling,
                 common_radius_px: shot.common_radius_px(),
                 widest_px: shot.widest_px(),
                 painters: &b.painters,

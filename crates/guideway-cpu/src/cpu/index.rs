@@ -127,6 +127,7 @@ impl Index {
             widths: self.widths,
             lane_width,
             solid: self.solid.filter(|_| !is_density),
+            thinner_than: None,
         }
     }
 

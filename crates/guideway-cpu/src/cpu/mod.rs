@@ -5,15 +5,19 @@
 //! curves into lines (`cluster`, `simplify`), unless those of an earlier frame will do; `bin` lists the clusters of
 //! each tile of 32 x 32 pixels (`tiles`); `cover` finds which samples of each tile the lines cover (`paint`, then
 //! `seen` for one colour or `layers` for several, `fixed` or `stroke` and `span`, `canvas`); `keep` keeps the picture.
+//! Of one colour, pixels that are full for certain in the views to come are found beside that, and not covered again
+//! (`filled`).
 //! What lies where is asked apart from that (`ask`).
 //! Coverage is an OR of bits, and all that is added up is a whole number or added in draw order, so the picture
 //! is the same on every run, with any number of threads, any vector instructions and in any number of bands.
 
 mod ask;
+mod backdrop;
 mod canvas;
 mod cluster;
 mod disc;
 mod extent;
+mod filled;
 mod fixed;
 mod flatten;
 mod frame;

@@ -7,8 +7,10 @@ use guideway_spline::Point;
 use multiversion::multiversion;
 use rayon::prelude::*;
 
-use super::canvas::{Backdrop, Canvas, TILE_PX, solid_colors};
+use super::backdrop::{Backdrop, solid_colors};
+use super::canvas::{Canvas, Rows, TILE_PX};
 use super::disc::Discs;
+use super::filled::{Filled, Known};
 use super::index::Index;
 use super::kept::Kept;
 use super::layers::{Counts, Layers};
@@ -47,12 +49,24 @@ pub(super) struct Band<'a> {
     pub(super) parts: &'a Parts,
     /// What the rest shows.
     pub(super) kept: Option<&'a Kept>,
+    /// What is full for certain.
+    pub(super) known: Known<'a>,
+    /// Where it is found out what will be.
+    pub(super) filling: Option<Filling<'a>>,
     /// Half the stroke width of all paths, if it is one.
     pub(super) common_radius_px: Option<f64>,
     /// Half the stroke width of the widest path.
     pub(super) widest_px: f64,
     /// One for each thread.
     pub(super) painters: &'a [Mutex<Painter>],
+}
+
+/// What a frame fills for certain, found for others.
+#[derive(Clone, Copy)]
+pub(super) struct Filling<'a> {
+    /// The frame, with thinner strokes.
+    pub(super) shot: &'a Shot<'a>,
+    pub(super) filled: &'a Filled,
 }
 
 /// The part of a tile that is drawn.
@@ -65,9 +79,9 @@ pub(super) struct Tile {
 
 /// What is painted on a tile.
 #[derive(Clone, Copy)]
-enum Matter {
-    /// One opaque colour.
-    Solid,
+enum Matter<'a> {
+    /// One opaque colour, beside some pixels.
+    Solid(&'a Rows),
     /// Colours by draw rank.
     Layers,
     /// The number of paths.
@@ -99,7 +113,7 @@ impl Painter {
     }
 }
 
-impl Band<'_> {
+impl<'a> Band<'a> {
     /// Paints the colours into the pixels of the band.
     pub(super) fn color(
         &self,
@@ -124,11 +138,50 @@ impl Band<'_> {
         };
         let colors = solid_colors(color, background);
         self.for_each_tile(pixels, load, colors[0], |painter, tile, rows| {
-            self.paint(painter, tile, Matter::Solid);
+            self.paint_solid(painter, tile);
             for (y, pixels) in rows.enumerate() {
                 painter.solid.solid_row(y, &colors, pixels);
             }
+            if let Some(filling) = self.filling {
+                self.fill(filling, painter, tile);
+            }
         })
+    }
+
+    /// Covers samples with all that lies on a tile and is not known to be full.
+    fn paint_solid(&self, painter: &mut Painter, tile: &Tile) {
+        let full = self.known.tile(tile.corner);
+        if full == [u32::MAX; TILE_PX] {
+            painter.solid.begin_closed();
+        } else {
+            self.paint(painter, tile, Matter::Solid(&full));
+        }
+    }
+
+    /// Finds what thinner strokes fill of the pixels that are full.
+    fn fill(&self, filling: Filling<'a>, painter: &mut Painter, tile: &Tile) {
+        let Filling { shot, filled } = filling;
+        if !filled.rows.contains(&(tile.corner.y as usize / TILE_PX)) {
+            return;
+        }
+        let thinner = Self {
+            shot,
+            common_radius_px: shot.common_radius_px(),
+            widest_px: shot.widest_px(),
+            ..*self
+        };
+        let known = self.known.that_holds_for(filled).tile(tile.corner);
+        let (touched, in_view) = painter.solid.marked_pixels(tile.width_px, tile.height_px);
+        let mut closed = in_view;
+        for (closed, known) in closed.iter_mut().zip(&known) {
+            *closed = !*closed | known;
+        }
+        thinner.paint(painter, tile, Matter::Solid(&closed));
+        let (_, mut full) = painter.solid.marked_pixels(tile.width_px, tile.height_px);
+        for (full, in_view) in full.iter_mut().zip(&in_view) {
+            *full &= in_view;
+        }
+        filled.store(tile.corner, touched, &full);
     }
 
     /// Writes how many paths cover each pixel of the band, on average over its square.
@@ -211,7 +264,7 @@ impl Band<'_> {
         Ok(())
     }
 
-    fn paint(&self, painter: &mut Painter, tile: &Tile, matter: Matter) {
+    fn paint(&self, painter: &mut Painter, tile: &Tile, matter: Matter<'_>) {
         match self.shot.lane_width {
             LaneWidth::Widest => paint_widest(self, painter, tile, matter),
             LaneWidth::Eight => paint_eight(self, painter, tile, matter),
@@ -224,19 +277,19 @@ impl Band<'_> {
     "x86_64+avx512f+avx512bw+avx512dq+avx512vl+bmi1+bmi2+lzcnt+popcnt",
     "x86_64+avx2+bmi1+bmi2+lzcnt+popcnt"
 ))]
-fn paint_widest(band: &Band<'_>, painter: &mut Painter, tile: &Tile, matter: Matter) {
+fn paint_widest(band: &Band<'_>, painter: &mut Painter, tile: &Tile, matter: Matter<'_>) {
     paint(band, painter, tile, matter);
 }
 
 #[multiversion(targets("x86_64+avx2+bmi1+bmi2+lzcnt+popcnt"))]
-fn paint_eight(band: &Band<'_>, painter: &mut Painter, tile: &Tile, matter: Matter) {
+fn paint_eight(band: &Band<'_>, painter: &mut Painter, tile: &Tile, matter: Matter<'_>) {
     paint(band, painter, tile, matter);
 }
 
 #[inline(always)]
-fn paint(band: &Band<'_>, painter: &mut Painter, tile: &Tile, matter: Matter) {
+fn paint(band: &Band<'_>, painter: &mut Painter, tile: &Tile, matter: Matter<'_>) {
     match matter {
-        Matter::Solid => paint_solid(band, painter, tile),
+        Matter::Solid(closed) => paint_solid(band, painter, tile, closed),
         Matter::Layers => paint_layers(band, painter, tile),
         Matter::Counts => paint_counts(band, painter, tile),
     }
@@ -244,13 +297,14 @@ fn paint(band: &Band<'_>, painter: &mut Painter, tile: &Tile, matter: Matter) {
 
 /// Covers samples with all that lies on the tile, in any order, until all are covered.
 #[inline(always)]
-fn paint_solid(band: &Band<'_>, painter: &mut Painter, tile: &Tile) {
+fn paint_solid(band: &Band<'_>, painter: &mut Painter, tile: &Tile, closed: &Rows) {
     let Painter {
         solid: canvas,
         solid_discs: discs,
         ..
     } = painter;
     canvas.begin(tile.width_px, tile.height_px);
+    canvas.close_pixels(closed);
     for round in 0..ROUNDS {
         for &key in band.bins.tile(tile.index) {
             if canvas.is_full() {

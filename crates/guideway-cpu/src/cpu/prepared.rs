@@ -11,11 +11,14 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::NAME;
 use super::ask::Question;
+use super::filled::{Filled, Fills};
 use super::frame::{Buffers, Easel, TooMuch};
 use super::index::Index;
 use super::kept::Kept;
 use super::paint::Painter;
 use super::shot::LaneWidth;
+#[cfg(test)]
+use super::tiles::Grid;
 
 /// Largest frame that is planned for.
 const PLANNED_PIXELS: u64 = 3840 * 2160;
@@ -34,6 +37,7 @@ pub(super) struct CpuPrepared {
     preparation: Preparation,
     buffers: Buffers,
     kept: Option<Kept>,
+    fills: Fills,
     /// Of the last picture that was drawn in strips by density.
     tones: Option<(View, Style, Tones)>,
     pub(super) lane_width: LaneWidth,
@@ -96,6 +100,7 @@ impl CpuPrepared {
             },
             buffers: Buffers::new(threads),
             kept: None,
+            fills: Fills::default(),
             tones: None,
             lane_width: LaneWidth::default(),
         })
@@ -114,9 +119,17 @@ impl CpuPrepared {
             < self.kept.as_ref().map_or(0, Kept::pixel_count)
     }
 
+    /// Number of pixels of a picture that are known to be full.
+    pub(super) fn known_pixels(&self, view: &View, style: &Style) -> u32 {
+        let (strip, cancel) = (Strip::whole(view), Cancel::default());
+        let shot = (self.index).shot(&self.scene, self.lane_width, (&strip, style, &cancel));
+        self.fills.known(&shot).count(&Grid::of(&strip))
+    }
+
     /// Draws all of the next frame, from the curves.
     pub(super) fn forget_picture(&mut self) {
         self.kept = None;
+        self.fills.forget();
         self.index.forget_lines(|_| false);
     }
 }
@@ -191,6 +204,14 @@ impl Prepared for CpuPrepared {
             can_keep && own_bytes + frame_bytes + kept.bytes() <= self.budget.memory_bytes
         });
         let kept_bytes = kept.as_ref().map_or(0, Kept::bytes);
+        let fills_bytes = self.fills.bytes().max(Filled::planned_bytes(pixels));
+        let with_fills = own_bytes + frame_bytes + kept_bytes + fills_bytes;
+        let can_fill = can_keep && with_fills <= self.budget.memory_bytes / 2;
+        if can_fill {
+            own_bytes += fills_bytes;
+        } else {
+            self.fills.forget();
+        }
         let needed = own_bytes + frame_bytes + kept_bytes;
         let Some(limit_bytes) = self.budget.memory_bytes.checked_sub(needed) else {
             return Err(too_small("the picture", needed, &self.budget));
@@ -203,6 +224,7 @@ impl Prepared for CpuPrepared {
             buffers,
             tones,
             lane_width,
+            fills,
             ..
         } = self;
         let shot = index.shot(scene, *lane_width, (strip, style, cancel));
@@ -220,10 +242,13 @@ impl Prepared for CpuPrepared {
                 }
                 is_moved
             });
+            let filled = (can_fill && !is_moved).then(|| fills.plan(&shot)).flatten();
             let mut easel = Easel {
                 shot: &shot,
                 frame,
                 kept: kept.as_ref().filter(|_| is_moved),
+                known: fills.known(&shot),
+                filled: filled.as_ref(),
                 limit_bytes,
             };
             let drawn = match style.shading {
@@ -233,6 +258,9 @@ impl Prepared for CpuPrepared {
             let bands = drawn.map_err(|TooMuch(bytes)| {
                 too_small("the lines of one row of tiles", needed + bytes, budget)
             })?;
+            if let Some(filled) = filled {
+                fills.keep(filled);
+            }
             if can_keep {
                 buffers.time("keep", |b| match &mut kept {
                     Some(kept) if is_moved => kept.store(&b.parts, frame.pixels()),
@@ -265,6 +293,7 @@ impl Prepared for CpuPrepared {
             pool,
             index,
             kept,
+            fills,
             tones,
             ..
         } = self;
@@ -282,6 +311,7 @@ impl Prepared for CpuPrepared {
         let leaving = leaving.unwrap_or_default();
         Arc::make_mut(scene).edit(edit).map_err(RenderError::Edit)?;
         *tones = None;
+        fills.forget();
         let fixed = fixed_bytes(scene, budget);
         if fixed > budget.memory_bytes {
             return Err(too_small("the index of the paths", fixed, budget));

@@ -142,6 +142,8 @@ impl<'a> Seen<'a, SOLID> {
                     self.fixed(*unit_m, lines),
                 );
             }
+            // Where a line was cut changes with the view.
+            Lines::Cut(_) if self.band.shot.thinner_than.is_some() => {}
             Lines::Cut(lines) => self.solid_of(canvas, discs, &self.placed_cut(lines), round, None),
             Lines::None => {}
         }

@@ -15,6 +15,7 @@ use super::Cpu;
 use super::prepared::CpuPrepared;
 use crate::Oracle;
 
+mod fills;
 mod kept;
 mod lanes;
 mod threads;

@@ -1,0 +1,353 @@
+//! Pixels that strokes fill for certain, in a view and in those farther out.
+//!
+//! Where the scale grows, no stroke gets wider in the world. So what strokes a little thinner than those of a nearer view
+//! fill is full in every view that comes no nearer, and need not be covered again as long as the scene stays.
+
+use std::ops::Range;
+use std::sync::atomic::{AtomicU32, Ordering};
+
+use guideway_render::{Style, View};
+use guideway_spline::Point;
+
+use super::canvas::{Rows, TILE_PX};
+use super::shot::Shot;
+use super::tiles::Grid;
+
+/// A picture is found out about in so many bands of rows of tiles, one a frame.
+const BANDS: usize = 4;
+/// Frames that a band is to hold for, where the view comes nearer: until all others are found and have been of use.
+const FRAMES: i32 = 2 * BANDS as i32;
+/// A band that does not hold for so many more is found anew.
+const FRAMES_AHEAD: i32 = 2;
+/// How much nearer views may come, at most, for which it is found what is full: strokes of much nearer ones fill less.
+const MOST_NEARER: f64 = 1.25;
+/// What is found has to be so large a part of what is not empty, or it is not worth it.
+const LEAST_OF_ALL: f64 = 0.5;
+/// Half the width of the thinnest strokes that are looked at.
+const LEAST_RADIUS_PX: f64 = 0.125;
+/// Most pixels to one of a frame, along a side, that are looked up before they are worth finding anew.
+const MOST_FINER: f64 = 1.5;
+/// Least part of a band that is looked up before it is worth finding anew.
+const LEAST_SHARE: f64 = 0.9;
+/// What of the sides of a pixel is not looked up, in pixels of what is known: its margin holds for that.
+const SIDE_PX: f64 = 1.0 / 64.0;
+/// Bits of a word of pixels.
+const WORD_PX: i64 = u32::BITS as i64;
+/// Words of no pixels at the ends of a row, so that tiles that begin or end beyond read nothing else.
+const PADDING: usize = 2;
+
+/// What is known of a scene between its frames.
+#[derive(Default)]
+pub(super) struct Fills {
+    bands: [Option<Filled>; BANDS],
+    /// The one that is looked at first when the next is found.
+    next: usize,
+    /// What the last frame saw.
+    before: Option<Seen>,
+    /// Where it was not worth it.
+    in_vain: Option<Seen>,
+    /// Memory for the next.
+    spare: Vec<AtomicU32>,
+}
+
+/// What lines and strokes are made by.
+#[derive(Clone, Copy, PartialEq)]
+struct Seen {
+    style: Style,
+    unit_m: f64,
+    tolerance_units: f32,
+    px_per_m: f64,
+}
+
+/// Pixels of a band of a view that are full in it, and wherever the world is seen no nearer than by a scale.
+pub(super) struct Filled {
+    band: usize,
+    view: View,
+    seen: Seen,
+    /// How much nearer a view may come.
+    pub(super) nearer: f64,
+    /// Rows of tiles.
+    pub(super) rows: Range<usize>,
+    /// Words of a row of pixels, a bit a pixel.
+    row_words: usize,
+    words: Vec<AtomicU32>,
+    /// How many pixels are not empty in the view, and full in all.
+    counts: [AtomicU32; 2],
+}
+
+/// The bands that hold for a frame.
+#[derive(Clone, Copy)]
+pub(super) struct Known<'a> {
+    bands: [Option<KnownBand<'a>>; BANDS],
+}
+
+#[derive(Clone, Copy)]
+struct KnownBand<'a> {
+    filled: &'a Filled,
+    /// Its pixels, along a side, for one of the frame.
+    finer: f64,
+    /// Where the upper left corner of the frame lies among them.
+    corner_px: Point<f64>,
+}
+
+impl Seen {
+    fn new(shot: &Shot<'_>) -> Self {
+        Self {
+            style: *shot.style,
+            unit_m: shot.unit_m(),
+            tolerance_units: shot.tolerance_units(),
+            px_per_m: shot.view.px_per_m(),
+        }
+    }
+
+    /// Whether the same lines are drawn, at another scale.
+    fn is_alike(&self, other: &Self) -> bool {
+        let px_per_m = other.px_per_m;
+        Self { px_per_m, ..*self } == *other
+    }
+}
+
+impl Fills {
+    /// Knows nothing of the scene any more, only where it was not worth it.
+    pub(super) fn forget(&mut self) {
+        *self = Self {
+            in_vain: self.in_vain,
+            ..Self::default()
+        };
+    }
+
+    pub(super) fn bytes(&self) -> u64 {
+        let bands = self.bands.iter().flatten().map(Filled::bytes);
+        bands.sum::<u64>() + size_of_val(&self.spare[..]) as u64
+    }
+
+    /// What a frame can look up.
+    pub(super) fn known(&self, shot: &Shot<'_>) -> Known<'_> {
+        let bands = self.bands.each_ref();
+        Known {
+            bands: bands.map(|band| band.as_ref()?.known(shot)),
+        }
+    }
+
+    /// Where a frame is to find out what it fills for those after it: the next band that is not known, once the scene stays
+    /// the same, unless the view comes nearer so fast that it would not hold for long.
+    pub(super) fn plan(&mut self, shot: &Shot<'_>) -> Option<Filled> {
+        let seen = Seen::new(shot);
+        let before = self.before.replace(seen)?;
+        shot.solid?;
+        let in_vain = self.in_vain.is_some_and(|there| there.is_alike(&seen));
+        if in_vain || !seen.is_alike(&before) {
+            return None;
+        }
+        let speed = (seen.px_per_m / before.px_per_m).max(1.0);
+        let nearer = speed.powi(FRAMES);
+        // While it still holds, finding it anew does not cost covering all of it too.
+        let ahead_px_per_m = seen.px_per_m * speed.powi(FRAMES_AHEAD);
+        let is_thin = || shot.thinner(nearer).thinnest_px() < LEAST_RADIUS_PX;
+        if nearer > MOST_NEARER || is_thin() {
+            return None;
+        }
+        let known = self.known(shot);
+        let rows = Grid::of(shot.strip).rows.len();
+        let band = (self.next..self.next + BANDS).map(|band| band % BANDS);
+        let mut unknown = band.filter_map(|band| {
+            let rows = rows * band / BANDS..rows * (band + 1) / BANDS;
+            let is_known = known.bands[band].is_some_and(|known| {
+                known.filled.most_px_per_m() >= ahead_px_per_m
+                    && known.finer <= MOST_FINER
+                    && known.share(shot, &rows) >= LEAST_SHARE
+            });
+            (!is_known && !rows.is_empty()).then_some((band, rows))
+        });
+        let (band, rows) = unknown.next()?;
+        self.next = band + 1;
+        let spare = std::mem::take(&mut self.spare);
+        Some(Filled::new(shot, nearer, (band, rows), spare))
+    }
+
+    /// Takes what a frame has found.
+    pub(super) fn keep(&mut self, filled: Filled) {
+        let [touched, full] = filled.counts.each_ref().map(|n| n.load(Ordering::Relaxed));
+        let share = f64::from(full) / f64::from(touched.max(1));
+        if share < LEAST_OF_ALL && touched > 0 {
+            self.in_vain = Some(filled.seen);
+            self.bands = Default::default();
+            return;
+        }
+        let band = filled.band;
+        if let Some(before) = self.bands[band].replace(filled) {
+            self.spare = before.words;
+        }
+    }
+}
+
+impl Filled {
+    fn new(
+        shot: &Shot<'_>,
+        nearer: f64,
+        (band, rows): (usize, Range<usize>),
+        mut words: Vec<AtomicU32>,
+    ) -> Self {
+        let row_words = Grid::of(shot.strip).columns + 2 * PADDING;
+        words.clear();
+        words.resize_with(row_words * rows.len() * TILE_PX, AtomicU32::default);
+        Self {
+            band,
+            view: *shot.view,
+            seen: Seen::new(shot),
+            nearer,
+            rows,
+            row_words,
+            words,
+            counts: [0, 0].map(AtomicU32::new),
+        }
+    }
+
+    /// The scale of the nearest view that it holds for.
+    fn most_px_per_m(&self) -> f64 {
+        self.seen.px_per_m * self.nearer
+    }
+
+    fn bytes(&self) -> u64 {
+        size_of_val(&self.words[..]) as u64
+    }
+
+    /// Bytes that what is known of so many pixels takes, about.
+    pub(super) fn planned_bytes(pixels: usize) -> u64 {
+        pixels.div_ceil(4) as u64
+    }
+
+    fn known(&self, shot: &Shot<'_>) -> Option<KnownBand<'_>> {
+        let (seen, now) = (self.seen, Seen::new(shot));
+        let finer = seen.px_per_m / now.px_per_m;
+        let is_right = seen.is_alike(&now) && 1.0 <= finer * self.nearer * (1.0 + 1e-9);
+        // The pixels for a row of a tile fit in a word of 64 bits.
+        let is_fine = (TILE_PX as f64 + 1.0) * finer < 63.0;
+        let corner_m = shot.view.world_from_pixel(Point::default());
+        let corner_px = self.view.pixel_from_world(corner_m);
+        let above = Point::new(0.0, (self.rows.start * TILE_PX) as f64);
+        (is_right && is_fine).then(|| KnownBand {
+            filled: self,
+            finer,
+            corner_px: corner_px - above,
+        })
+    }
+
+    /// Takes note of a whole tile: of how many pixels that are not empty, which are full for certain.
+    pub(super) fn store(&self, corner: Point<f64>, touched: u32, full: &Rows) {
+        let pixels = full.iter().map(|row| row.count_ones()).sum();
+        for (count, pixels) in self.counts.iter().zip([touched, pixels]) {
+            count.fetch_add(pixels, Ordering::Relaxed);
+        }
+        let column = corner.x as usize / TILE_PX + PADDING;
+        let first_row = corner.y as usize - self.rows.start * TILE_PX;
+        let rows = self.words.chunks_exact(self.row_words).skip(first_row);
+        for (row, word) in rows.zip(full) {
+            row[column].store(*word, Ordering::Relaxed);
+        }
+    }
+
+    /// Sixty-four pixels of a row, from one of a word on.
+    #[inline(always)]
+    fn pixels(&self, row: usize, word: usize, shift: u32) -> u64 {
+        let words = &self.words[row * self.row_words..][..self.row_words];
+        let Some(words) = words.get(word..word + 3) else {
+            return 0;
+        };
+        let bits = words.iter().rev().fold(0, |bits, word| {
+            bits << WORD_PX | u128::from(word.load(Ordering::Relaxed))
+        });
+        (bits >> shift) as u64
+    }
+}
+
+impl<'a> Known<'a> {
+    /// What of it holds for all that a band will hold for.
+    pub(super) fn that_holds_for(&self, filled: &Filled) -> Self {
+        let most_px_per_m = filled.most_px_per_m();
+        let holds = |known: &KnownBand<'a>| known.filled.most_px_per_m() >= most_px_per_m;
+        Self {
+            bands: self.bands.map(|band| band.filter(holds)),
+        }
+    }
+
+    /// Number of pixels of some tiles that are full for certain.
+    #[cfg(test)]
+    pub(super) fn count(&self, grid: &Grid) -> u32 {
+        let side = TILE_PX as f64;
+        let rows = (grid.rows.clone()).flat_map(|y| (0..grid.columns).map(move |x| (x, y)));
+        let tiles = rows.map(|(x, y)| self.tile(Point::new(x as f64, y as f64) * side));
+        tiles.flatten().map(u32::count_ones).sum()
+    }
+
+    /// The pixels of a tile that are full for certain.
+    #[inline(always)]
+    pub(super) fn tile(&self, corner: Point<f64>) -> Rows {
+        let mut full = [0; TILE_PX];
+        for band in self.bands.iter().flatten() {
+            band.add_full(corner, &mut full);
+        }
+        full
+    }
+}
+
+impl KnownBand<'_> {
+    /// The part of some rows of tiles of a frame that can be looked up.
+    fn share(&self, shot: &Shot<'_>, rows: &Range<usize>) -> f64 {
+        let within = |first: f64, pixels: f64, own: f64| {
+            let [start, end] = [first, first + pixels].map(|px| px * self.finer);
+            let seen = end.min(own) - start.max(0.0);
+            seen.max(0.0) / (end - start)
+        };
+        let size = shot.view.size();
+        let [left, top] = [self.corner_px.x, self.corner_px.y].map(|px| px / self.finer);
+        let top = top + (rows.start * TILE_PX) as f64;
+        let own_width = f64::from(self.filled.view.size().width());
+        let own_height = (self.filled.rows.len() * TILE_PX) as f64;
+        within(left, f64::from(size.width()), own_width)
+            * within(top, (rows.len() * TILE_PX) as f64, own_height)
+    }
+
+    /// Adds the pixels of a tile of which all that is looked up is full.
+    #[inline(always)]
+    fn add_full(&self, corner: Point<f64>, full: &mut Rows) {
+        let left = self.corner_px.x + corner.x * self.finer;
+        let top = self.corner_px.y + corner.y * self.finer;
+        let rows = (self.filled.rows.len() * TILE_PX) as i64;
+        let first_bit = left.floor() as i64 + PADDING as i64 * WORD_PX;
+        let is_beside = top >= rows as f64 || top + TILE_PX as f64 * self.finer <= 0.0;
+        if first_bit < 0 || is_beside {
+            return;
+        }
+        let (word, shift) = (first_bit / WORD_PX, first_bit % WORD_PX);
+        let mut needed = [0_u64; TILE_PX];
+        for (x, needed) in needed.iter_mut().enumerate() {
+            let [first, last] = self.looked_up(left - left.floor(), x);
+            *needed = (2 << last) - (1 << first);
+        }
+        for (y, full) in full.iter_mut().enumerate() {
+            let [first, last] = self.looked_up(top, y);
+            if first < 0 || last >= rows {
+                continue;
+            }
+            let mut there = u64::MAX;
+            for row in first..=last {
+                there &= self
+                    .filled
+                    .pixels(row as usize, word as usize, shift as u32);
+            }
+            for (x, needed) in needed.iter().enumerate() {
+                *full |= u32::from(there & needed == *needed) << x;
+            }
+        }
+    }
+
+    /// The first and the last pixel that lie in one of the frame, along a side of a tile that begins at a place.
+    #[inline(always)]
+    fn looked_up(&self, start: f64, pixel: usize) -> [i64; 2] {
+        let from = start + pixel as f64 * self.finer;
+        let first = (from + SIDE_PX).floor() as i64;
+        let last = (from + self.finer - SIDE_PX).floor() as i64;
+        [first, last.max(first)]
+    }
+}
