@@ -111,10 +111,7 @@ impl<const C: usize> Canvas<C> {
             .map(|(touched, open)| (!touched & open).count_ones())
             .sum::<u32>();
         let blocks = (width_px.div_ceil(Self::WINDOW_PX) * height_px) as u32;
-        (
-            blocks.saturating_sub(empty) * Self::WINDOW_PX as u32,
-            closed,
-        )
+        ((blocks - empty) * Self::WINDOW_PX as u32, closed)
     }
 
     /// Covers some pixels, of a tile on which nothing lies yet.
@@ -125,19 +122,19 @@ impl<const C: usize> Canvas<C> {
             if closed == 0 {
                 continue;
             }
-            self.open_pixels[row] &= !closed;
             for window in 0..C {
                 let left = window * Self::WINDOW_PX;
                 let mut mask = 0;
                 for pixel in 0..Self::WINDOW_PX {
                     mask |= (closed >> (left + pixel) & 1) * (low_bits(C as u32) << (pixel * C));
                 }
+                let mut all = u32::MAX;
                 for word in &mut self.shape[window][row] {
                     *word |= mask;
+                    all &= *word;
                 }
-                let open = self.open_pixels[row] >> left & low_bits(Self::WINDOW_PX as u32);
                 self.touched[window] |= u32::from(mask != 0) << row;
-                self.open[window] &= !(u32::from(open == 0) << row);
+                self.close(window, row, all);
             }
         }
     }

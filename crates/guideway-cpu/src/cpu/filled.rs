@@ -10,7 +10,7 @@ use guideway_render::{Style, View};
 use guideway_spline::Point;
 
 use super::canvas::{Rows, TILE_PX};
-use super::shot::Shot;
+use super::shot::{Precision, Shot};
 use super::tiles::Grid;
 
 /// A picture is found out about in so many bands of rows of tiles, one a frame.
@@ -43,27 +43,25 @@ pub(super) struct Fills {
     /// The one that is looked at first when the next is found.
     next: usize,
     /// What the last frame saw.
-    before: Option<Seen>,
+    before: Option<Look>,
     /// Where it was not worth it.
-    in_vain: Option<Seen>,
+    in_vain: Option<Look>,
     /// Memory for the next.
     spare: Vec<AtomicU32>,
 }
 
-/// What lines and strokes are made by.
-#[derive(Clone, Copy, PartialEq)]
-struct Seen {
+/// Where a frame looks, and what its lines and strokes are made by.
+#[derive(Clone, Copy)]
+struct Look {
+    view: View,
     style: Style,
-    unit_m: f64,
-    tolerance_units: f32,
-    px_per_m: f64,
+    precision: Precision,
 }
 
 /// Pixels of a band of a view that are full in it, and wherever the world is seen no nearer than by a scale.
 pub(super) struct Filled {
     band: usize,
-    view: View,
-    seen: Seen,
+    look: Look,
     /// How much nearer a view may come.
     pub(super) nearer: f64,
     /// Rows of tiles.
@@ -90,20 +88,23 @@ struct KnownBand<'a> {
     corner_px: Point<f64>,
 }
 
-impl Seen {
+impl Look {
     fn new(shot: &Shot<'_>) -> Self {
         Self {
+            view: *shot.view,
             style: *shot.style,
-            unit_m: shot.unit_m(),
-            tolerance_units: shot.tolerance_units(),
-            px_per_m: shot.view.px_per_m(),
+            precision: shot.precision(),
         }
     }
 
-    /// Whether the same lines are drawn, at another scale.
+    /// Whether the same lines are drawn, wherever they are seen from.
     fn is_alike(&self, other: &Self) -> bool {
-        let px_per_m = other.px_per_m;
-        Self { px_per_m, ..*self } == *other
+        (self.style, self.precision) == (other.style, other.precision)
+    }
+
+    /// How many times as near another one is.
+    fn nearer(&self, other: &Self) -> f64 {
+        other.view.px_per_m() / self.view.px_per_m()
     }
 }
 
@@ -132,17 +133,17 @@ impl Fills {
     /// Where a frame is to find out what it fills for those after it: the next band that is not known, once the scene stays
     /// the same, unless the view comes nearer so fast that it would not hold for long.
     pub(super) fn plan(&mut self, shot: &Shot<'_>) -> Option<Filled> {
-        let seen = Seen::new(shot);
-        let before = self.before.replace(seen)?;
+        let look = Look::new(shot);
+        let before = self.before.replace(look)?;
         shot.solid?;
-        let in_vain = self.in_vain.is_some_and(|there| there.is_alike(&seen));
-        if in_vain || !seen.is_alike(&before) {
+        let in_vain = self.in_vain.is_some_and(|there| there.is_alike(&look));
+        if in_vain || !look.is_alike(&before) {
             return None;
         }
-        let speed = (seen.px_per_m / before.px_per_m).max(1.0);
+        let speed = before.nearer(&look).max(1.0);
         let nearer = speed.powi(FRAMES);
         // While it still holds, finding it anew does not cost covering all of it too.
-        let ahead_px_per_m = seen.px_per_m * speed.powi(FRAMES_AHEAD);
+        let ahead_px_per_m = shot.view.px_per_m() * speed.powi(FRAMES_AHEAD);
         let is_thin = || shot.thinner(nearer).thinnest_px() < LEAST_RADIUS_PX;
         if nearer > MOST_NEARER || is_thin() {
             return None;
@@ -170,7 +171,7 @@ impl Fills {
         let [touched, full] = filled.counts.each_ref().map(|n| n.load(Ordering::Relaxed));
         let share = f64::from(full) / f64::from(touched.max(1));
         if share < LEAST_OF_ALL && touched > 0 {
-            self.in_vain = Some(filled.seen);
+            self.in_vain = Some(filled.look);
             self.bands = Default::default();
             return;
         }
@@ -193,8 +194,7 @@ impl Filled {
         words.resize_with(row_words * rows.len() * TILE_PX, AtomicU32::default);
         Self {
             band,
-            view: *shot.view,
-            seen: Seen::new(shot),
+            look: Look::new(shot),
             nearer,
             rows,
             row_words,
@@ -205,7 +205,7 @@ impl Filled {
 
     /// The scale of the nearest view that it holds for.
     fn most_px_per_m(&self) -> f64 {
-        self.seen.px_per_m * self.nearer
+        self.look.view.px_per_m() * self.nearer
     }
 
     fn bytes(&self) -> u64 {
@@ -218,13 +218,13 @@ impl Filled {
     }
 
     fn known(&self, shot: &Shot<'_>) -> Option<KnownBand<'_>> {
-        let (seen, now) = (self.seen, Seen::new(shot));
-        let finer = seen.px_per_m / now.px_per_m;
-        let is_right = seen.is_alike(&now) && 1.0 <= finer * self.nearer * (1.0 + 1e-9);
+        let now = Look::new(shot);
+        let finer = now.nearer(&self.look);
+        let is_right = self.look.is_alike(&now) && 1.0 <= finer * self.nearer * (1.0 + 1e-9);
         // The pixels for a row of a tile fit in a word of 64 bits.
         let is_fine = (TILE_PX as f64 + 1.0) * finer < 63.0;
         let corner_m = shot.view.world_from_pixel(Point::default());
-        let corner_px = self.view.pixel_from_world(corner_m);
+        let corner_px = self.look.view.pixel_from_world(corner_m);
         let above = Point::new(0.0, (self.rows.start * TILE_PX) as f64);
         (is_right && is_fine).then(|| KnownBand {
             filled: self,
@@ -271,10 +271,10 @@ impl<'a> Known<'a> {
         }
     }
 
-    /// Number of pixels of some tiles that are full for certain.
+    /// Number of pixels of a picture that are full for certain.
     #[cfg(test)]
-    pub(super) fn count(&self, grid: &Grid) -> u32 {
-        let side = TILE_PX as f64;
+    pub(super) fn count(&self, shot: &Shot<'_>) -> u32 {
+        let (side, grid) = (TILE_PX as f64, Grid::of(shot.strip));
         let rows = (grid.rows.clone()).flat_map(|y| (0..grid.columns).map(move |x| (x, y)));
         let tiles = rows.map(|(x, y)| self.tile(Point::new(x as f64, y as f64) * side));
         tiles.flatten().map(u32::count_ones).sum()
@@ -302,7 +302,7 @@ impl KnownBand<'_> {
         let size = shot.view.size();
         let [left, top] = [self.corner_px.x, self.corner_px.y].map(|px| px / self.finer);
         let top = top + (rows.start * TILE_PX) as f64;
-        let own_width = f64::from(self.filled.view.size().width());
+        let own_width = f64::from(self.filled.look.view.size().width());
         let own_height = (self.filled.rows.len() * TILE_PX) as f64;
         within(left, f64::from(size.width()), own_width)
             * within(top, (rows.len() * TILE_PX) as f64, own_height)

@@ -13,7 +13,7 @@ use super::filled::{Filled, Known};
 use super::index::{Index, Made};
 use super::kept::Kept;
 use super::paint::{Band, Filling, Painter};
-use super::shot::Shot;
+use super::shot::{Precision, Shot};
 use super::sight::Sights;
 use super::tiles::{Bins, Grid, Parts};
 
@@ -265,7 +265,7 @@ impl Buffers {
                 if sight.is_large || missing != 0 {
                     self.todo.push((key, missing));
                     // If this is not carried through, they have to be made anew.
-                    made.unit_m = 0.0;
+                    made.precision = Precision::default();
                 }
             }
         }
@@ -306,8 +306,11 @@ impl Buffers {
             let sight = self.sights.get(key);
             let cluster = sight.cluster as usize;
             index.made[cluster] = Made {
-                unit_m: if sight.is_large { 0.0 } else { shot.unit_m() },
-                tolerance_units: shot.tolerance_units(),
+                precision: if sight.is_large {
+                    Precision::default()
+                } else {
+                    shot.precision()
+                },
                 changed: 0,
                 paths_and_lines: index.lines[cluster].paths_and_lines(),
             };

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use super::cluster::{CLUSTER_PATHS, Lines, Members, sorted_rows};
 use super::extent::{Extent, Hull, bounds_anew, hull, shown_bounds};
 use super::place::Placement;
-use super::shot::{LaneWidth, Shot, Widths, widths};
+use super::shot::{LaneWidth, Precision, Shot, Widths, widths};
 
 /// The rows of a scene in clusters, and what holds for all of them.
 pub(super) struct Index {
@@ -32,9 +32,8 @@ pub(super) struct Index {
 /// What the lines of a cluster are: kept apart, for every frame asks all in sight.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Made {
-    /// The unit and the tolerance of the views that they are good for; 0 if they have to be made anew.
-    pub(super) unit_m: f64,
-    pub(super) tolerance_units: f32,
+    /// That of the views that they are good for; the default if they have to be made anew.
+    pub(super) precision: Precision,
     /// Members that have changed since.
     pub(super) changed: Members,
     /// Number of paths and of lines.
@@ -52,9 +51,7 @@ pub(super) struct Leaving {
 impl Made {
     /// The members whose lines a frame cannot be drawn with.
     pub(super) fn missing(&self, shot: &Shot<'_>) -> Members {
-        let is_as_exact =
-            self.unit_m == shot.unit_m() && self.tolerance_units == shot.tolerance_units();
-        if is_as_exact {
+        if self.precision == shot.precision() {
             self.changed
         } else {
             Members::MAX
@@ -205,7 +202,7 @@ impl Index {
             changed.extend(both.map(|extent| extent.bounds));
             made.changed |= members;
             if before.map(|extent| extent.middle) != extent.map(|extent| extent.middle) {
-                made.unit_m = 0.0;
+                made.precision = Precision::default();
             }
         }
         changed

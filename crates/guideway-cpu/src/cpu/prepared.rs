@@ -17,8 +17,6 @@ use super::index::Index;
 use super::kept::Kept;
 use super::paint::Painter;
 use super::shot::LaneWidth;
-#[cfg(test)]
-use super::tiles::Grid;
 
 /// Largest frame that is planned for.
 const PLANNED_PIXELS: u64 = 3840 * 2160;
@@ -123,7 +121,7 @@ impl CpuPrepared {
     pub(super) fn known_pixels(&self, view: &View, style: &Style) -> u32 {
         let (strip, cancel) = (Strip::whole(view), Cancel::default());
         let shot = (self.index).shot(&self.scene, self.lane_width, (&strip, style, &cancel));
-        self.fills.known(&shot).count(&Grid::of(&strip))
+        self.fills.known(&shot).count(&shot)
     }
 
     /// Draws all of the next frame, from the curves.

@@ -16,6 +16,14 @@ struct Grain {
     tolerance: f32,
 }
 
+/// What kept lines are rounded to, in metres, and farthest that they may be from their curves, in units of that: views of the
+/// same draw the same lines.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Precision {
+    unit_m: f64,
+    tolerance_units: f32,
+}
+
 /// Where all is one colour, borders of strokes are seen alone: at most a ninth of a pixel off.
 const SOLID: Grain = Grain {
     units_a_px: 64.0,
@@ -146,6 +154,13 @@ impl Shot<'_> {
     /// Farthest that a kept line may be from its curve, in units of [`Self::unit_m`].
     pub(super) fn tolerance_units(&self) -> f32 {
         self.grain().tolerance
+    }
+
+    pub(super) fn precision(&self) -> Precision {
+        Precision {
+            unit_m: self.unit_m(),
+            tolerance_units: self.tolerance_units(),
+        }
     }
 
     fn grain(&self) -> Grain {

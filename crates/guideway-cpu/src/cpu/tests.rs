@@ -94,8 +94,13 @@ fn draw(
     style: &Style,
     budget: &Budget,
 ) -> (Frame, Report) {
-    let mut frame = Frame::new(FrameSize::new(1, 1).unwrap());
     let mut prepared = method.prepare(Arc::clone(scene), budget).unwrap();
+    draw_with(&mut *prepared, view, style)
+}
+
+/// Draws the next frame of what is prepared.
+fn draw_with(prepared: &mut dyn Prepared, view: &View, style: &Style) -> (Frame, Report) {
+    let mut frame = Frame::new(FrameSize::new(1, 1).unwrap());
     let report = prepared
         .render(view, style, &Cancel::default(), &mut frame)
         .unwrap();

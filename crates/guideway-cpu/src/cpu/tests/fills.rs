@@ -4,11 +4,7 @@ use super::*;
 
 /// Draws by what is known of earlier frames; says of how many pixels that is.
 fn draw_again(prepared: &mut CpuPrepared, view: &View, style: &Style) -> (Frame, u32) {
-    let mut frame = Frame::new(FrameSize::new(1, 1).unwrap());
-    let report = prepared
-        .render(view, style, &Cancel::default(), &mut frame)
-        .unwrap();
-    assert!(report.accounts_for_all(), "{report:?}");
+    let (frame, _) = draw_with(prepared, view, style);
     (frame, prepared.known_pixels(view, style))
 }
 

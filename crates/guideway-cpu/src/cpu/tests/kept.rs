@@ -10,11 +10,7 @@ fn moved(px_per_m: f64, right_px: f64, down_px: f64) -> View {
 
 /// Draws by what is kept of earlier frames, and says whether that saved anything.
 fn draw_again(prepared: &mut CpuPrepared, view: &View, style: &Style) -> (Frame, bool) {
-    let mut frame = Frame::new(FrameSize::new(1, 1).unwrap());
-    let report = prepared
-        .render(view, style, &Cancel::default(), &mut frame)
-        .unwrap();
-    assert!(report.accounts_for_all(), "{report:?}");
+    let (frame, _) = draw_with(prepared, view, style);
     (frame, prepared.has_reused())
 }
 

@@ -15,15 +15,10 @@ fn vector_instructions_do_not_show() {
         for px_per_m in [0.8, 40.0] {
             let pictures =
                 [LaneWidth::Baseline, LaneWidth::Eight, LaneWidth::Widest].map(|lane_width| {
-                    let mut frame = Frame::new(FrameSize::new(1, 1).unwrap());
                     let mut prepared =
                         CpuPrepared::new(Arc::clone(scene), &Budget::default()).unwrap();
                     prepared.lane_width = lane_width;
-                    let view = view(ORIGIN, px_per_m);
-                    prepared
-                        .render(&view, &style, &Cancel::default(), &mut frame)
-                        .unwrap();
-                    frame
+                    draw_with(&mut prepared, &view(ORIGIN, px_per_m), &style).0
                 });
             assert!(pictures.iter().all(|picture| *picture == pictures[0]));
         }
