@@ -59,37 +59,24 @@ macro_rules! flatten {
 /// By [`Points`].
 pub(super) const FLATTEN: [Source; 2] = [flatten!("rounded"), flatten!("exact")];
 
-pub(super) const RECOUNT: Source = Source {
-    name: "recount",
-    wgsl: wgsl!(
-        "frame", "work", "found", "view", "style", "rank", "lines", "walk", "tally", "recount"
-    ),
-    bindings: &["frame", "found", "lines", "line_ranks", "styles", "counts"],
-};
+/// Shaders that go through lines which are there.
+macro_rules! pass {
+    ($name:literal, [$($file:literal),+], [$($binding:literal),+]) => {
+        Source {
+            name: $name,
+            wgsl: wgsl!(
+                "frame", "work", "found", "view", "style", "rank", "lines", "walk", "pass", $($file),+
+            ),
+            bindings: &["frame", "found", "lines", "line_ranks", "styles", $($binding),+],
+        }
+    };
+}
 
-pub(super) const LIST_KEPT: Source = Source {
-    name: "list",
-    wgsl: wgsl!(
-        "frame",
-        "work",
-        "found",
-        "view",
-        "style",
-        "rank",
-        "lines",
-        "walk",
-        "list_kept"
-    ),
-    bindings: &[
-        "frame",
-        "found",
-        "lines",
-        "line_ranks",
-        "styles",
-        "counts",
-        "references",
-    ],
-};
+pub(super) const RECOUNT: Source = pass!("recount", ["tally", "recount"], ["counts"]);
+
+pub(super) const LIST_KEPT: Source = pass!("list", ["list_kept"], ["counts", "references"]);
+
+pub(super) const SCATTER: Source = pass!("scatter", ["tally", "scatter"], ["filled", "references"]);
 
 pub(super) const STARTS: Source = Source {
     name: "starts",
@@ -101,22 +88,6 @@ pub(super) const SHARE: Source = Source {
     name: "share",
     wgsl: wgsl!("frame", "work", "found", "shares", "share"),
     bindings: &["frame", "lists", "found", "shares"],
-};
-
-pub(super) const SCATTER: Source = Source {
-    name: "scatter",
-    wgsl: wgsl!(
-        "frame", "work", "found", "view", "style", "rank", "lines", "walk", "tally", "scatter"
-    ),
-    bindings: &[
-        "frame",
-        "found",
-        "lines",
-        "line_ranks",
-        "styles",
-        "filled",
-        "references",
-    ],
 };
 
 /// Sorts lists of more than two to the power of `$above_bits` entries, those of more than two to the power of `$place_bits`

@@ -1,12 +1,6 @@
 // Threads for one line after the other, of those that are there from a frame before: enters it into the lists of the tiles that
 // it may touch. Each tile has places for as many; what has none is counted.
 
-override THREADS: u32;
-
-@group(0) @binding(1) var<storage, read_write> found: Found;
-@group(0) @binding(2) var<storage, read> lines: array<u32>;
-@group(0) @binding(3) var<storage, read> line_ranks: array<u32>;
-@group(0) @binding(4) var<storage, read> styles: array<Style>;
 @group(0) @binding(5) var<storage, read_write> counts: array<atomic<u32>>;
 @group(0) @binding(6) var<storage, read_write> references: array<u32>;
 
@@ -50,8 +44,7 @@ fn main(
         let index = i / frame.threads_a_line;
         let words = words_of_line(index);
         if words.x != NOWHERE {
-            let reach = radius_of(rank_of(index)) + MARGIN_PX;
-            enter_share(index, line_of(words), reach, i % frame.threads_a_line);
+            enter_share(index, line_of(words), reach_of_line(index), i % frame.threads_a_line);
         }
     }
     report_work();

@@ -1,11 +1,5 @@
 // One thread for one line after the other, of those that are there from a frame before: counts the tiles that each may touch.
 
-override THREADS: u32;
-
-@group(0) @binding(1) var<storage, read_write> found: Found;
-@group(0) @binding(2) var<storage, read> lines: array<u32>;
-@group(0) @binding(3) var<storage, read> line_ranks: array<u32>;
-@group(0) @binding(4) var<storage, read> styles: array<Style>;
 @group(0) @binding(5) var<storage, read_write> counts: array<atomic<u32>>;
 
 fn count(tile: u32, lines: u32) {
@@ -48,7 +42,7 @@ fn main(
             words = words_of_line(line);
         }
         if words.x != NOWHERE {
-            tally(line_of(words), radius_of(rank_of(line)) + MARGIN_PX);
+            tally(line_of(words), reach_of_line(line));
         }
         workgroupBarrier();
         for (var place = thread; place < TALLY_PLACES; place += THREADS) {

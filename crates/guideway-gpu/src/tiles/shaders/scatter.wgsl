@@ -1,11 +1,5 @@
 // One thread for one line after the other: enters it into the lists of the tiles that it may touch.
 
-override THREADS: u32;
-
-@group(0) @binding(1) var<storage, read_write> found: Found;
-@group(0) @binding(2) var<storage, read> lines: array<u32>;
-@group(0) @binding(3) var<storage, read> line_ranks: array<u32>;
-@group(0) @binding(4) var<storage, read> styles: array<Style>;
 @group(0) @binding(5) var<storage, read_write> filled: array<atomic<u32>>;
 @group(0) @binding(6) var<storage, read_write> references: array<u32>;
 
@@ -73,7 +67,7 @@ fn main(
         }
         if words.x != NOWHERE {
             line = line_of(words);
-            reach = radius_of(rank_of(index)) + MARGIN_PX;
+            reach = reach_of_line(index);
             visit(index, line, reach, false);
         }
         workgroupBarrier();
