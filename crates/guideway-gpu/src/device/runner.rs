@@ -142,20 +142,20 @@ impl Runner {
         Ok(stages.iter().map(|stage| stage.elapsed_ms).sum())
     }
 
-    /// Sets buffers to zero and runs stages of dispatches, all in one submit. Where there is no clock that
+    /// Sets the first bytes of buffers to zero and runs stages of dispatches, all in one submit. Where there is no clock that
     /// tells the stages apart, the first one has the time of all.
     pub(crate) fn run_stages(
         &self,
         what: &'static str,
-        cleared: &[&DeviceBuffer],
+        cleared: &[(&DeviceBuffer, u64)],
         stages: &[(&'static str, &[Dispatch<'_>])],
     ) -> Result<Vec<Stage>, String> {
         debug_assert!(stages.len() <= MOST_STAGES, "{what}");
         let start = Instant::now();
         let submission = self.gpu.checked(what, || {
             let mut encoder = self.encoder(what);
-            for buffer in cleared {
-                encoder.clear_buffer(buffer.raw(), 0, None);
+            for (buffer, bytes) in cleared {
+                encoder.clear_buffer(buffer.raw(), 0, Some(*bytes));
             }
             for ((name, dispatches), stage) in stages.iter().zip(0..) {
                 self.encode(&mut encoder, name, dispatches, Some(stage));

@@ -5,7 +5,7 @@ use guideway_scene::Scene;
 
 use super::canvas::Canvas;
 use super::chunk::Drawn;
-use super::kernels::Kernels;
+use super::kernels::{Kernels, MOST_PARTS_BITS};
 use super::params::{
     Found, FrameParams, LINE_THREADS, ROUNDS_A_LINE, SHARED_PARTS, SHARED_TILES, STARTS_THREADS,
     Samples, TILE_PX, WORKGROUP,
@@ -84,6 +84,8 @@ pub(super) struct Buffers<'a> {
     pub(super) canvas: &'a Canvas,
     /// Tiles that several workgroups cover, where they may.
     pub(super) shares: Option<&'a DeviceBuffer>,
+    /// Clusters that were touched, if any has been.
+    pub(super) touched: Option<&'a DeviceBuffer>,
     /// A bit a path, where paths are only to be marked.
     pub(super) marks: Option<&'a DeviceBuffer>,
 }
@@ -93,6 +95,8 @@ pub(super) struct Buffers<'a> {
 pub(super) struct Manner {
     /// Lines are there.
     pub(super) has_lines: bool,
+    /// But for those of clusters that were touched.
+    pub(super) renews: bool,
     /// They are listed at once, where each tile has places for so many.
     pub(super) lists_at_once: bool,
     /// What is hidden is left out.
@@ -123,6 +127,8 @@ struct Step {
 enum Over {
     /// Threads for all clusters.
     Clusters,
+    /// A workgroup for each cluster that was touched.
+    Touched,
     /// Workgroups for so many clusters in turn, if any is drawn.
     Seen(u32, Drawn),
     /// Workgroups of so many threads for lines in turn.
@@ -154,6 +160,17 @@ impl Bound {
         };
         let (kernels, found) = (b.kernels, &b.store.found);
         if manner.has_lines {
+            if let Some(touched) = b.touched.filter(|_| manner.renews) {
+                let buffers = [
+                    &b.canvas.frame,
+                    &b.store.clusters,
+                    found,
+                    &b.room.lines,
+                    touched,
+                ];
+                bound.add("strike", b, &kernels.strike, Over::Touched, &buffers)?;
+                bound.add_lines(b, 0)?;
+            }
             bound.add_kept(b)?;
             return Ok(bound);
         }
@@ -170,6 +187,12 @@ impl Bound {
 
     /// Adds the stages from curves to pixels.
     fn add_round(&mut self, b: &Buffers<'_>, round: usize) -> Result<(), String> {
+        self.add_lines(b, round)?;
+        self.add_tiles(b)
+    }
+
+    /// Adds the stage from curves to lines.
+    fn add_lines(&mut self, b: &Buffers<'_>, round: usize) -> Result<(), String> {
         let Store {
             strokes,
             clusters,
@@ -194,7 +217,7 @@ impl Bound {
             let over = Over::Seen(chunk.clusters.len() as u32, chunk.drawn);
             self.add("flatten", b, kernel, over, &buffers)?;
         }
-        self.add_tiles(b)
+        Ok(())
     }
 
     /// Adds the stages from lines that are there to pixels.
@@ -338,8 +361,10 @@ impl Bound {
         };
         let workgroups = |over| match over {
             Over::Clusters => params.clusters.div_ceil(WORKGROUP),
+            Over::Touched => params.touched,
             Over::Seen(_, drawn) if !drawn.is_any(params.most_step_m) => 0,
-            Over::Seen(clusters, _) => in_turn(clusters),
+            Over::Seen(clusters, _) if params.touched == 0 => in_turn(clusters),
+            Over::Seen(clusters, _) => in_turn(clusters.min(params.touched << MOST_PARTS_BITS)),
             Over::Lines(threads) => in_turn(lines.div_ceil(threads)),
             Over::KeptLines => {
                 let threads = params.kept_lines * params.threads_a_line;
@@ -360,7 +385,12 @@ impl Bound {
             .collect();
         let names = self.stages.iter().map(|(name, _)| *name);
         let stages: Vec<_> = names.zip(dispatches.iter().map(Vec::as_slice)).collect();
-        runner.run_stages("the frame", &[&b.store.found, &b.canvas.counts], &stages)
+        let counts = &b.canvas.counts;
+        let cleared = [
+            (&b.store.found, size_of::<Found>() as u64),
+            (counts, counts.bytes()),
+        ];
+        runner.run_stages("the frame", &cleared, &stages)
     }
 }
 

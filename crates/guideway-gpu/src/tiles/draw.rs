@@ -17,8 +17,9 @@ use super::params::{
     ENOUGH_GROUPS, Found, SAMPLE_ROWS, SHARED_PARTS, SHARED_TILES, Samples, TILE_PX,
 };
 use super::prepared::PreparedTiles;
-use super::room::{KeptLines, Room, Size};
+use super::room::{Room, Size};
 use super::shot::{Lines, Shot};
+use super::touched::KeptLines;
 use super::window::Window;
 use super::work::Counted;
 use crate::device::Memory;
@@ -113,22 +114,26 @@ impl PreparedTiles {
         lines: Lines,
         drawing: &mut Drawing,
     ) -> Result<Found, RenderError> {
-        let easel = &mut self.easel;
-        let (Some(store), Some(room), Some(canvas)) = (&self.store, &mut easel.room, &easel.canvas)
+        // Where it fails, nothing is kept.
+        let kept = self.easel.room.as_mut().and_then(|room| room.kept.take());
+        let bound = self.easel.bound.take();
+        let easel = &self.easel;
+        let (Some(store), Some(room), Some(canvas)) = (&self.store, &easel.room, &easel.canvas)
         else {
             return Ok(Found::default());
         };
         let trouble = |what| self.memory.trouble(what);
-        let has_lines = matches!(lines, Lines::Kept(_));
-        let kept = room.kept.take().filter(|_| has_lines);
+        let renews = matches!(lines, Lines::Renewed(..));
+        let has_lines = renews || matches!(lines, Lines::Kept(_));
         let shares = easel.shares.is_some() && easel.has_long && paint == Paint::One;
-        let list_room = if has_lines && !shares && paint == Paint::One {
+        let list_room = if has_lines && !renews && !shares && paint == Paint::One {
             list_room(&self.shared.gpu, room.size, window, easel.longest)
         } else {
             0
         };
         let manner = Manner {
             has_lines,
+            renews,
             lists_at_once: list_room > 0,
             is_in_rounds: easel.rounds.are_on && paint == Paint::One,
             has_few: easel.has_few,
@@ -142,11 +147,12 @@ impl PreparedTiles {
             room,
             canvas,
             shares: easel.shares.as_ref(),
+            touched: easel.touched.as_ref(),
             marks: self.marks.as_ref(),
         };
         let samples = shot.samples();
         let is_alike = |bound: &Bound| bound.is_for(paint, samples, manner);
-        let bound = match easel.bound.take().filter(is_alike) {
+        let bound = match bound.filter(is_alike) {
             Some(bound) => bound,
             None => Bound::new(&buffers, paint, samples, manner).map_err(trouble)?,
         };
@@ -163,18 +169,34 @@ impl PreparedTiles {
             |bytes| bytemuck::bytes_of_mut(&mut found).copy_from_slice(bytes),
         );
         fetched.map_err(trouble)?;
+        let end = lines.first().saturating_add(found.lines);
+        let fits = end <= room.size.lines;
+        let is_whole = fits && found.missing == 0;
+        let drawn = (*shot.view, found.drawn);
+        let of_view = kept.as_ref().and_then(|kept| kept.drawn);
+        let easel = &mut self.easel;
         easel.bound = Some(bound);
+        if let Some(room) = &mut easel.room {
+            room.kept = match lines {
+                Lines::OfWindow(first) => kept.filter(|_| first > 0),
+                Lines::OfLevel => is_whole.then(|| KeptLines::new(shot.level, end, drawn)),
+                Lines::Kept(_) => kept,
+                Lines::Renewed(..) => kept.filter(|_| is_whole).and_then(|kept| kept.renewed(end)),
+            };
+        }
+        if lines.first() > 0 && !fits {
+            // Behind the lines that were kept is too little room: they may do for a part of the picture, too.
+            let lines = match self.lines_for(shot, false)? {
+                Lines::OfLevel => Lines::OfWindow(0),
+                there => there,
+            };
+            return self.draw(shot, paint, window, first_row, lines, drawing);
+        }
         if has_lines {
-            room.kept = kept;
-            let (view, drawn) = kept.map(|kept| kept.drawn).unzip();
-            drawing.drawn = drawn.filter(|_| view == Some(*shot.view));
+            found.lines = end;
+            let of_view = of_view.filter(|(view, _)| !renews && view == shot.view);
+            drawing.drawn = of_view.map(|(_, paths)| paths);
         } else {
-            let is_whole = found.missing == 0 && found.lines <= room.size.lines;
-            room.kept = (lines == Lines::OfLevel && is_whole).then_some(KeptLines {
-                level: shot.level,
-                count: found.lines,
-                drawn: (*shot.view, found.drawn),
-            });
             drawing.drawn = Some(found.drawn);
             easel.has_few = found.rounded + found.exact <= FEW_CLUSTERS;
         }
@@ -250,7 +272,7 @@ impl PreparedTiles {
         while let Some(window) = windows.pop() {
             cancel.check()?;
             self.come_near(shot)?;
-            let lines = self.easel.lines_for(shot, drawing.is_part);
+            let lines = self.lines_for(shot, drawing.is_part)?;
             let found = self.draw(shot, paint, &window, first_row, lines, drawing)?;
             if found.missing > 0 {
                 match (self.bring_twins(shot, &found)?, window.halves()) {
@@ -267,7 +289,8 @@ impl PreparedTiles {
             let holds = |room: &Room| room.size.holds(&found);
             let is_too_long = self.is_too_long(&found, paint, shot.samples());
             if !is_too_long && self.easel.room.as_ref().is_some_and(holds) {
-                if paint == Paint::One {
+                // A part of a picture says little of all of it.
+                if paint == Paint::One && !drawing.is_part {
                     self.easel.rounds.learn(&window, &found);
                 }
                 drawing.lines += u64::from(found.lines);

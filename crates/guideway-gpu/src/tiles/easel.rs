@@ -5,10 +5,11 @@ use super::canvas::Canvas;
 use super::kept::{Kept, Shifter};
 use super::kernels::bounds_alone;
 use super::level::Level;
-use super::params::Found;
+use super::params::{Cluster, Found};
 use super::room::{Room, Size};
 use super::rounds::Rounds;
 use super::shot::{Lines, Shot};
+use super::touched::{ClusterSet, KeptLines};
 use super::window::Window;
 use crate::device::{DeviceBuffer, Gpu};
 
@@ -21,9 +22,11 @@ pub(super) struct Easel {
     pub(super) canvas: Option<Canvas>,
     /// Tiles that several workgroups cover, once there are any.
     pub(super) shares: Option<DeviceBuffer>,
+    /// Clusters that were touched before it was drawn, once there are any.
+    pub(super) touched: Option<DeviceBuffer>,
     /// For the buffers above; none once one of them is another.
     pub(super) bound: Option<Bound>,
-    /// What the canvas shows, if it is a finished picture of the scene as it is.
+    /// What the canvas shows, if it is a finished picture of the scene as it is, but for what was touched since.
     pub(super) kept: Option<Kept>,
     pub(super) shifter: Option<Shifter>,
     pub(super) rounds: Rounds,
@@ -46,17 +49,37 @@ impl Easel {
 
     /// Which lines the next window is drawn from, if it is one of a picture that is drawn whole.
     pub(super) fn lines_for(&self, shot: &Shot<'_>, is_part: bool) -> Lines {
-        if !self.keeps || is_part || self.rounds.are_on || self.too_large == Some(shot.level) {
-            return Lines::OfWindow;
+        let kept = self.room.as_ref().and_then(|room| room.kept.as_ref());
+        if is_part {
+            return Lines::OfWindow(kept.map_or(0, KeptLines::count));
         }
-        let kept = self.room.as_ref().and_then(|room| room.kept);
+        if !self.keeps || self.rounds.are_on || self.too_large == Some(shot.level) {
+            return Lines::OfWindow(0);
+        }
         match kept.filter(|kept| kept.level == shot.level) {
-            Some(kept) => Lines::Kept(kept.count),
+            Some(kept) => kept.lines(),
             None => Lines::OfLevel,
         }
     }
 
-    /// After curves of the scene have changed.
+    /// After curves of some clusters have changed.
+    pub(super) fn touch(&mut self, touched: &ClusterSet, clusters: &[Cluster]) {
+        if let Some(picture) = &mut self.kept {
+            picture.touch(touched.iter().map(|at| &clusters[at]));
+        }
+        if let Some(room) = &mut self.room {
+            let touch = |kept: &mut KeptLines| kept.touch(touched, clusters.len());
+            room.kept.take_if(|kept| !touch(kept));
+        }
+    }
+
+    /// After any of them may have.
+    pub(super) fn forget(&mut self) {
+        self.kept = None;
+        self.forget_lines();
+    }
+
+    /// After what is known of them has gone.
     pub(super) fn forget_lines(&mut self) {
         if let Some(room) = &mut self.room {
             room.kept = None;
@@ -74,7 +97,7 @@ impl Easel {
 
 /// Places that the list of each tile of a window can have, if lists are so much shorter that it may do for the next view.
 pub(super) fn list_room(gpu: &Gpu, size: Size, window: &Window, longest: u32) -> u32 {
-    let tiles = (window.columns.len() * window.rows.len()).max(1) as u32;
+    let tiles = window.tiles().max(1) as u32;
     let [least_alone, _] = bounds_alone(gpu);
     let places = (size.references / tiles).min(least_alone);
     if longest <= places / 2 { places } else { 0 }

@@ -12,6 +12,7 @@ use super::params::{Cluster, PathStyle, Points, Stroke};
 use super::places::{Places, cluster_of, room_of};
 use super::prepared::PreparedTiles;
 use super::store::Store;
+use super::touched::ClusterSet;
 use crate::device::{Patch, Patcher};
 
 const STROKE_WORDS: usize = size_of::<Stroke>() / 4;
@@ -25,25 +26,12 @@ const MOST_UNUSED_POINTS: usize = 1 << 16;
 struct Changes {
     points: BTreeMap<Target, Patch>,
     strokes: Vec<u32>,
-    /// Whether a cluster has changed, by its number; those behind have not.
-    clusters: Vec<bool>,
+    /// Clusters that are others now, and those of which a curve is.
+    clusters: ClusterSet,
+    touched: ClusterSet,
     loose: Vec<Part>,
     /// The points of one path.
     scratch: Vec<[f32; 2]>,
-}
-
-impl Changes {
-    fn add_cluster(&mut self, cluster: usize) {
-        if self.clusters.len() <= cluster {
-            self.clusters.resize(cluster + 1, false);
-        }
-        self.clusters[cluster] = true;
-    }
-
-    fn changed_clusters(&self) -> impl Iterator<Item = usize> {
-        let marked = self.clusters.iter().enumerate();
-        marked.filter_map(|(cluster, &is_changed)| is_changed.then_some(cluster))
-    }
 }
 
 impl PreparedTiles {
@@ -52,12 +40,16 @@ impl PreparedTiles {
         let first_new = self.scene.row_count() as u32;
         let scene = Arc::make_mut(&mut self.scene);
         scene.edit(edit).map_err(RenderError::Edit)?;
-        self.easel.kept = None;
+        self.is_torn = true;
         let new_rows = first_new..self.scene.row_count() as u32;
         let rows: Vec<u32> = edit.paths().chain(new_rows).collect();
         let keeps_looks = matches!(edit, Edit::Transform { .. } | Edit::Reshape { .. });
         if !keeps_looks {
+            let before = self.facts.looks();
             self.look_anew();
+            if matches!(edit, Edit::Restyle(_)) || self.facts.looks() != before {
+                self.easel.kept = None;
+            }
         }
         let has_ranks = |store: &Store| rows.iter().all(|&row| store.ranks.rank(row).is_some());
         if !self.store.as_ref().is_some_and(has_ranks) {
@@ -68,12 +60,12 @@ impl PreparedTiles {
             moved_bytes += self.send_styles(&rows)?;
         }
         if !matches!(edit, Edit::Restyle(_)) {
-            self.easel.forget_lines();
             let Some(bytes) = self.send_curves(&rows)? else {
                 return self.pack_anew();
             };
             moved_bytes += bytes;
         }
+        self.is_torn = false;
         Ok(Edited::InPlace { moved_bytes })
     }
 
@@ -121,7 +113,7 @@ impl PreparedTiles {
                 let widest_m = &mut store.cluster_list[cluster].widest_m;
                 if style.width_m > *widest_m {
                     *widest_m = style.width_m;
-                    changes.add_cluster(cluster);
+                    changes.clusters.add(cluster);
                 }
             }
         }
@@ -134,7 +126,6 @@ impl PreparedTiles {
         let Some(store) = &mut self.store else {
             return Ok(None);
         };
-        self.is_torn = true;
         let scene = &self.scene;
         let places = self
             .places
@@ -161,6 +152,7 @@ impl PreparedTiles {
                 let old = &mut store.stroke_list[stroke as usize];
                 old.extent = old.first_point();
                 changes.strokes.push(stroke);
+                changes.touched.add(cluster_of(store, stroke));
             }
             if !parts.is_empty() {
                 places.forget(store, row);
@@ -171,9 +163,7 @@ impl PreparedTiles {
         if places.unused_points > MOST_UNUSED_POINTS.max(points / 4) {
             return Ok(None);
         }
-        let bytes = self.send(changes)?;
-        self.is_torn = false;
-        Ok(Some(bytes))
+        Ok(Some(self.send(changes)?))
     }
 
     /// Sends changes; returns how many bytes they took.
@@ -197,7 +187,10 @@ impl PreparedTiles {
             changes
                 .strokes
                 .extend(strokes as u32..store.stroke_list.len() as u32);
-            (clusters..store.cluster_list.len()).for_each(|cluster| changes.add_cluster(cluster));
+            for cluster in clusters..store.cluster_list.len() {
+                changes.clusters.add(cluster);
+                changes.touched.add(cluster);
+            }
         }
         let (mut strokes, mut clusters) = (Patch::default(), Patch::default());
         if !are_renewed {
@@ -205,11 +198,11 @@ impl PreparedTiles {
                 let at = stroke as usize;
                 strokes.set(at * STROKE_WORDS, &store.stroke_list[at]);
             }
-            for cluster in changes.changed_clusters() {
+            for cluster in changes.clusters.iter() {
                 clusters.set(cluster * CLUSTER_WORDS, &store.cluster_list[cluster]);
             }
         }
-        for cluster in changes.changed_clusters() {
+        for cluster in changes.clusters.iter() {
             let reach_m = f64::from(store.cluster_list[cluster].reach_m());
             self.facts.reach_m = self.facts.reach_m.max(reach_m);
         }
@@ -222,6 +215,12 @@ impl PreparedTiles {
             bytes += store.strokes.bytes() + store.clusters.bytes();
         }
         self.send_patches(&patches)?;
+        if let Some(store) = &self.store {
+            self.easel.touch(&changes.touched, &store.cluster_list);
+        }
+        if are_renewed {
+            self.easel.forget_lines();
+        }
         if has_loose {
             self.set_chunks()?;
             self.unbind();
@@ -338,7 +337,8 @@ fn set_in_place(
             let patch = changes.points.entry(Target::Twins).or_default();
             set_points(patch, place + new.first_point(), points.iter().copied());
         }
-        changes.add_cluster(at);
+        changes.clusters.add(at);
+        changes.touched.add(at);
     }
     changes.scratch = scratch;
     true

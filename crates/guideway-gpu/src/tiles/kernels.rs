@@ -7,13 +7,15 @@ use super::params::{
 };
 use super::shaders::{
     COVERS, COVERS_APART, CULL, FLATTEN, IDS, LAYERS, LIST_KEPT, RECOUNT, SCATTER, SHARE, SHIFT,
-    SORT, STARTS, TOUCH,
+    SORT, STARTS, STRIKE, TOUCH,
 };
 use crate::device::{Gpu, Kernel};
 
 #[derive(Clone)]
 pub(super) struct Kernels {
     pub(super) cull: Kernel,
+    /// Strikes out lines of clusters that were touched, in place of `cull`.
+    pub(super) strike: Kernel,
     /// For many clusters and for few, by [`super::params::Points`].
     pub(super) flatten: [[Kernel; 2]; 2],
     /// Counts lines that are there already.
@@ -52,6 +54,7 @@ impl Kernels {
         let [cull, recount, list_kept, starts, share, scatter] = stages(gpu, &[])?;
         Ok(Self {
             cull,
+            strike: Kernel::new(gpu, &STRIKE, &[tile, constant("WORKGROUP", WORKGROUP)])?,
             flatten: flatten(gpu, &[])?,
             recount,
             list_kept,
@@ -126,7 +129,7 @@ const PAINTED: [Constant; 3] = [
 ];
 
 /// Most workgroups that share one of few clusters, as a power of two.
-const MOST_PARTS_BITS: u32 = 3;
+pub(super) const MOST_PARTS_BITS: u32 = 3;
 
 /// With more constants.
 fn flatten(gpu: &Gpu, more: &[Constant]) -> Result<[[Kernel; 2]; 2], String> {

@@ -5,7 +5,7 @@
 //! points in `chunk`s, `places` knows where and `edit` changes it; `shot` is a view, `level` the scale and place that its
 //! lines are made for, `window` a part of its picture, `twins` are the exact points of what it comes near to, `room` holds
 //! the lines that a frame finds, `canvas` its tiles and pixels, `bound` the work between them, `easel` all that a picture is
-//! made with; `draw` does it, in `rounds` where that saves work, `kept` is what it need not draw again; `prepared` answers
+//! made with; `draw` does it, in `rounds` where that saves work, `kept` is what it need not draw again, `touched` what it must after an edit; `prepared` answers
 //! for all of it, `ask` says what is where, and `work` what a frame takes.
 
 mod ask;
@@ -28,6 +28,7 @@ mod rounds;
 mod shaders;
 mod shot;
 mod store;
+mod touched;
 mod twins;
 mod window;
 mod work;

@@ -225,6 +225,11 @@ impl Cluster {
         }
     }
 
+    /// The greatest width that a stroke has of its own, if any has.
+    pub(super) fn width_m(&self) -> Option<f32> {
+        (self.widest_m >= 0.0).then_some(self.widest_m)
+    }
+
     /// Greatest distance of a control point from the origin, along an axis.
     pub(super) fn reach_m(&self) -> f32 {
         let ends = self.low_m.into_iter().chain(self.high_m);

@@ -90,11 +90,15 @@ pub(super) struct FrameParams {
     pub(super) background: u32,
     pub(super) most_step_m: f32,
     pub(super) has_ranks: u32,
+    pub(super) first_line: u32,
+    pub(super) keeps_lines: u32,
+    pub(super) touched: u32,
     pub(super) kept_lines: u32,
     pub(super) threads_a_line: u32,
     pub(super) list_room: u32,
     pub(super) steps_a_px: f32,
     pub(super) px_a_step: f32,
+    pub(super) padding: u32,
 }
 
 /// `Chunk` of `flatten.wgsl`.
@@ -206,6 +210,14 @@ pub(super) struct Found {
     pub(super) longest_alone: u32,
     /// Of shaders that count: tests, atomics, words read and written, the low half of each first.
     pub(super) work: [u32; 8],
+}
+
+/// `Place` of `found.wgsl`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Pod, Zeroable)]
+#[repr(C)]
+pub(super) struct Place {
+    pub(super) seen: u32,
+    pub(super) block: u32,
 }
 
 /// What a pixel of a tile with layers shows: `SHADING` of `layers.wgsl`.

@@ -69,6 +69,11 @@ pub(super) struct Facts {
 }
 
 impl Facts {
+    /// What of it says how all of a picture is drawn.
+    pub(super) fn looks(&self) -> (Paint, bool, Option<f32>) {
+        (self.paint, self.is_plain, self.widest_m)
+    }
+
     fn of(scene: &Scene) -> Self {
         let drawn = scene.draw_order().iter();
         let widths = drawn.filter_map(|&path| scene.width_m(path));
@@ -138,7 +143,7 @@ impl PreparedTiles {
         self.packing = packing;
         self.is_torn = true;
         self.unbind();
-        self.easel.forget_lines();
+        self.easel.forget();
         self.facts = Facts::of(&self.scene);
         let start = Instant::now();
         let ranks = Ranks::of(&self.scene);

@@ -1,11 +1,11 @@
 //! What a frame finds: lines, and which tiles they may touch.
 
-use guideway_render::{RenderError, View};
+use guideway_render::RenderError;
 use wgpu::BufferUsages;
 
 use super::NAME;
-use super::level::Level;
 use super::params::{Found, LINE_WORDS};
+use super::touched::KeptLines;
 use crate::device::{DeviceBuffer, Gpu, Memory};
 
 const LINE_BYTES: u64 = size_of::<[u32; LINE_WORDS]>() as u64;
@@ -18,15 +18,6 @@ pub(super) struct Room {
     pub(super) line_ranks: DeviceBuffer,
     pub(super) reference_list: DeviceBuffer,
     pub(super) kept: Option<KeptLines>,
-}
-
-/// Lines that can be drawn again: all of a level, of the scene as it is.
-#[derive(Clone, Copy)]
-pub(super) struct KeptLines {
-    pub(super) level: Level,
-    pub(super) count: u32,
-    /// The view of the frame that made them, and the paths that it has counted.
-    pub(super) drawn: (View, u32),
 }
 
 /// How much room there is to be.

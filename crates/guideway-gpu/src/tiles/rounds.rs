@@ -20,7 +20,7 @@ pub(super) struct Rounds {
 impl Rounds {
     /// After a frame of which all was drawn.
     pub(super) fn learn(&mut self, window: &Window, found: &Found) {
-        let tiles = window.columns.len() as u64 * window.rows.len() as u64;
+        let tiles = window.tiles() as u64;
         let hides = 4 * u64::from(found.full_tiles) >= tiles;
         if self.are_on {
             // The second look at each tile costs about what half of the lists does.

@@ -28,8 +28,18 @@ macro_rules! tiles {
 
 pub(super) const CULL: Source = Source {
     name: "cull",
-    wgsl: wgsl!("frame", "work", "found", "view", "cluster", "cull"),
+    wgsl: wgsl!(
+        "frame", "work", "found", "view", "cluster", "seen", "blocks", "cull"
+    ),
     bindings: &["frame", "clusters", "found"],
+};
+
+pub(super) const STRIKE: Source = Source {
+    name: "strike",
+    wgsl: wgsl!(
+        "frame", "work", "found", "view", "cluster", "lines", "seen", "blocks", "strike"
+    ),
+    bindings: &["frame", "clusters", "found", "lines", "touched"],
 };
 
 macro_rules! flatten {

@@ -26,12 +26,32 @@ const MOST_STEP_OFF_PX: f64 = 1.0 / 128.0;
 /// Which lines a frame is drawn from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Lines {
-    /// Those of what its window shows.
-    OfWindow,
+    /// Those of what its window shows, behind so many that are kept.
+    OfWindow(u32),
     /// Those of all that its level reaches, so that they can be kept.
     OfLevel,
     /// So many that are there.
     Kept(u32),
+    /// So many that are there, but those of so many clusters that were touched are struck out, and others added.
+    Renewed(u32, u32),
+}
+
+impl Lines {
+    /// Where those that are made begin.
+    pub(super) fn first(self) -> u32 {
+        match self {
+            Self::OfWindow(first) => first,
+            Self::OfLevel | Self::Kept(_) | Self::Renewed(..) => self.there(),
+        }
+    }
+
+    /// How many are drawn that are there.
+    pub(super) fn there(self) -> u32 {
+        match self {
+            Self::OfWindow(_) | Self::OfLevel => 0,
+            Self::Kept(lines) | Self::Renewed(lines, _) => lines,
+        }
+    }
 }
 
 /// A view of a scene.
@@ -126,17 +146,44 @@ impl<'a> Shot<'a> {
         }
     }
 
-    /// Whether something within a box, and half its width around, may leave a mark.
+    /// Where in the picture something within a box, and half its width around, may leave a mark.
+    fn marked_px(&self, hull_m: Bounds<f64>, width_m: Option<f32>) -> Option<Bounds<f64>> {
+        let corners = [hull_m.min, hull_m.max].map(|p| self.view.pixel_from_world(p));
+        let hull = Bounds::of_points(corners)?;
+        Some(hull.inflated(self.radius_px(width_m) + 1.0))
+    }
+
+    /// Whether it may leave a mark.
     pub(super) fn is_seen(&self, hull_m: Bounds<f64>, width_m: Option<f32>) -> bool {
         let size = self.view.size();
-        let corner = Point::new(f64::from(size.width()), f64::from(size.height()));
         let picture = Bounds {
             min: Point::default(),
-            max: corner,
+            max: Point::new(f64::from(size.width()), f64::from(size.height())),
         };
-        let seen = picture.inflated(self.radius_px(width_m) + 1.0);
-        let corners = [hull_m.min, hull_m.max].map(|p| self.view.pixel_from_world(p));
-        Bounds::of_points(corners).is_some_and(|hull| hull.intersects(seen))
+        let marked = self.marked_px(hull_m, width_m);
+        marked.is_some_and(|marked| marked.intersects(picture))
+    }
+
+    /// The tiles that it may leave a mark on, if also strokes without a width of their own are in the box.
+    pub(super) fn marked_tiles(
+        &self,
+        hull_m: Bounds<f64>,
+        width_m: Option<f32>,
+        canvas: &Canvas,
+    ) -> Window {
+        let marked = [None, width_m].map(|width_m| self.marked_px(hull_m, width_m));
+        let tiles = |of: fn(Point<f64>) -> f64, tiles: u32| {
+            // Numbers below zero become zero.
+            let tile = |px: f64| (px / f64::from(TILE_PX)).floor();
+            let marked = marked.iter().flatten();
+            let low = marked.clone().map(|m| tile(of(m.min)) as u32).min();
+            let end = marked.map(|m| (tile(of(m.max)) + 1.0) as u32).max();
+            low.unwrap_or(0).min(tiles)..end.unwrap_or(0).min(tiles)
+        };
+        Window {
+            columns: tiles(|p| p.x, canvas.columns),
+            rows: tiles(|p| p.y, canvas.rows),
+        }
     }
 
     /// What the device reads for a window of the picture, if its buffer of pixels begins with a row of tiles. Lines are made
@@ -176,12 +223,14 @@ impl<'a> Shot<'a> {
         let drawn_high_px = in_level(end[0].min(size.width()), end[1].min(size.height()));
         let reach_px = level.reach_px.map(|px| px as f32);
         let (made_low_px, made_high_px) = match lines {
-            Lines::OfLevel => (reach_px.map(|px| -px), reach_px),
-            Lines::OfWindow | Lines::Kept(_) => (drawn_low_px, drawn_high_px),
+            Lines::OfLevel | Lines::Renewed(..) => (reach_px.map(|px| -px), reach_px),
+            Lines::OfWindow(_) | Lines::Kept(_) => (drawn_low_px, drawn_high_px),
         };
-        let kept_lines = match lines {
-            Lines::Kept(lines) => lines,
-            Lines::OfLevel | Lines::OfWindow => 0,
+        let keeps_lines = matches!(lines, Lines::OfLevel | Lines::Renewed(..));
+        let kept_lines = lines.there();
+        let touched = match lines {
+            Lines::Renewed(_, touched) => touched,
+            Lines::OfWindow(_) | Lines::OfLevel | Lines::Kept(_) => 0,
         };
         let threads_a_line = ENOUGH_THREADS / kept_lines.max(1);
         let threads_a_line = threads_a_line.clamp(1, MOST_THREADS_A_LINE);
@@ -217,11 +266,15 @@ impl<'a> Shot<'a> {
             background: device_color(self.style.background),
             most_step_m: self.most_step_m(),
             has_ranks: u32::from(room.size.has_ranks),
+            first_line: lines.first(),
+            keeps_lines: u32::from(keeps_lines),
+            touched,
             kept_lines,
             threads_a_line,
             list_room,
             steps_a_px: level.steps_a_px() as f32,
             px_a_step: (level.steps_a_px() * ratio).recip() as f32,
+            padding: 0,
         }
     }
 }

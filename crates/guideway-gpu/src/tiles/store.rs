@@ -8,7 +8,7 @@ use wgpu::BufferUsages;
 use super::NAME;
 use super::chunk::{Chunk, Drawn, bytes_of, ranges};
 use super::pack::{Packed, Part, device_color, style};
-use super::params::{Cluster, Found, PathStyle, Points, Stroke};
+use super::params::{Cluster, Found, PathStyle, Place, Points, Stroke};
 use super::ranks::Ranks;
 use super::twins::Twins;
 use crate::device::{DeviceBuffer, Gpu, Memory};
@@ -147,11 +147,10 @@ impl Store {
         &self,
         is_seen: impl Fn(Bounds<f64>, Option<f32>) -> bool,
     ) -> u64 {
-        let width_m = |cluster: &Cluster| (cluster.widest_m >= 0.0).then_some(cluster.widest_m);
         let seen = self
             .cluster_list
             .iter()
-            .filter(|c| is_seen(c.bounds(), width_m(c)));
+            .filter(|c| is_seen(c.bounds(), c.width_m()));
         let strokes = seen.map(|cluster| {
             let first = cluster.first_stroke as usize;
             let own = &self.stroke_list[first..first + cluster.strokes as usize];
@@ -225,7 +224,7 @@ fn style_list(scene: &Scene, ranks: &Ranks) -> Vec<PathStyle> {
 }
 
 fn found(memory: &mut Memory, clusters: usize) -> Result<DeviceBuffer, RenderError> {
-    let bytes = size_of::<Found>() + clusters.max(1) * size_of::<u32>();
+    let bytes = size_of::<Found>() + clusters.max(1) * size_of::<Place>();
     let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC | BufferUsages::COPY_DST;
     memory.zeros("the list of clusters seen", bytes as u64, usage)
 }

@@ -17,6 +17,7 @@ use crate::GpuOptions;
 use crate::testing::here;
 
 mod crowds;
+mod edits;
 mod levels;
 mod twins;
 mod work;

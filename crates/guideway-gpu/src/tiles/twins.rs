@@ -9,7 +9,7 @@ use wgpu::BufferUsages;
 use super::NAME;
 use super::chunk::{Chunk, Drawn, PARAMS_BYTES, bytes_of};
 use super::pack::{Local, Part};
-use super::params::{Cluster, Found, Points};
+use super::params::{Cluster, Found, Place, Points};
 use super::places::Places;
 use super::prepared::PreparedTiles;
 use super::shot::Shot;
@@ -118,7 +118,7 @@ impl PreparedTiles {
         let what = "the list of clusters seen";
         let first = size_of::<Found>();
         let clusters = self.facts.clusters as usize;
-        let bytes = (first + clusters * size_of::<u32>()) as u64;
+        let bytes = (first + clusters * size_of::<Place>()) as u64;
         self.make_spare(bytes)?;
         let fetched = self.memory.zeros(what, bytes, FETCHED)?;
         let Some(store) = &self.store else {
@@ -128,9 +128,9 @@ impl PreparedTiles {
         let taken = self
             .runner
             .fetch(what, &store.found, &fetched, bytes, |bytes| {
-                let words = bytes[first..].as_chunks().0.iter();
-                let exact = words.rev().take(found.exact as usize);
-                let seen = exact.map(|word| u32::from_le_bytes(*word));
+                let places = bytes[first..].chunks_exact(size_of::<Place>());
+                let exact = places.rev().take(found.exact as usize);
+                let seen = exact.map(|bytes| bytemuck::pod_read_unaligned::<Place>(bytes).seen);
                 let is_near = |at: &u32| {
                     let cluster = store.cluster_list.get(*at as usize);
                     cluster.is_some_and(|c| c.step_m > shot.most_step_m())

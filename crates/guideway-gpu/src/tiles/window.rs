@@ -10,6 +10,10 @@ pub(super) struct Window {
 }
 
 impl Window {
+    pub(super) fn tiles(&self) -> usize {
+        self.columns.len() * self.rows.len()
+    }
+
     /// Its halves, by rows as long as there are several; none if it is one tile.
     pub(super) fn halves(&self) -> Option<[Self; 2]> {
         let cut = |range: &Range<u32>| range.start + range.len().div_ceil(2) as u32;

@@ -7,6 +7,7 @@ use crate::tiles::shaders::*;
 
 const SHADERS: &[&Source] = &[
     &CULL,
+    &STRIKE,
     &FLATTEN[0],
     &FLATTEN[1],
     &SHIFT,
@@ -44,7 +45,7 @@ fn structures_are_laid_out_alike() {
     let frame = members!(FrameParams: center_high_m, center_low_m, reach_px, made_low_px, made_high_px,
         drawn_low_px, drawn_high_px, line_origin_px, level_px_per_m, level_px_a_px, px_a_level_px, px_per_m, radius_px, least_radius_px, most_radius_px, tolerance_px, clusters, styles, width_px, height_px, first_column,
         columns, first_row, rows, pixels_row, line_room, reference_room, color, background, most_step_m,
-        has_ranks, kept_lines, threads_a_line, list_room, steps_a_px, px_a_step);
+        has_ranks, first_line, keeps_lines, touched, kept_lines, threads_a_line, list_room, steps_a_px, px_a_step);
     assert_laid_out(SHADERS, "Frame", &frame);
     assert_laid_out(
         SHADERS,
@@ -62,6 +63,7 @@ fn structures_are_laid_out_alike() {
         shared_tiles, parts, longest_alone, work);
     assert_laid_out(SHADERS, "Counters", &found);
     assert_laid_out(SHADERS, "CountersBefore", &found);
+    assert_laid_out(SHADERS, "Place", &members!(Place: seen, block));
 }
 
 #[test]

@@ -18,7 +18,7 @@ fn clusters_of_kind() -> u32 {
 }
 
 fn cluster_of_kind(number: u32) -> u32 {
-    return found.seen[frame.clusters - 1u - number];
+    return found.places[frame.clusters - 1u - number].seen;
 }
 
 // Where the points of a cluster begin; of one seen from near zero if they are not there.

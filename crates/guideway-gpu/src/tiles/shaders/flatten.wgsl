@@ -63,6 +63,21 @@ fn emit_all(thread: u32, any: Curve, numbers: vec2u, first_slot: u32) {
     }
 }
 
+// Room for so many lines of a cluster: in a block, where they are kept.
+fn room_for(cluster: u32, count: u32) -> u32 {
+    atomics(1u);
+    if frame.keeps_lines == 0u {
+        return frame.first_line + atomicAdd(&found.counters.lines, count);
+    }
+    let head = frame.first_line + atomicAdd(&found.counters.lines, count + 1u);
+    if head < frame.line_room {
+        lines[head * LINE_WORDS] = NOWHERE;
+        lines[head * LINE_WORDS + 1u] = atomicExchange(&found.places[cluster].block, head + 1u);
+        lines[head * LINE_WORDS + 2u] = count;
+    }
+    return head + 1u;
+}
+
 // Whether all of a cluster's box is in what is drawn, with all its strokes.
 fn is_all_drawn(cluster: Cluster, box: vec4f) -> bool {
     let reach = reach_of(widest_px(cluster));
@@ -144,8 +159,7 @@ fn main(
         let numbers = (ends[THREADS - 1u] * vec2u(part, part + 1u)) >> vec2u(parts_bits);
         if thread == 0u {
             if numbers.x < numbers.y {
-                first_line = atomicAdd(&found.counters.lines, numbers.y - numbers.x);
-                atomics(1u);
+                first_line = room_for(index, numbers.y - numbers.x);
             }
             if part == 0u {
                 atomicAdd(&found.counters.drawn, atomicLoad(&group_drawn));

@@ -24,10 +24,16 @@ struct Counters {
     work: array<atomic<u32>, 8>,
 }
 
+struct Place {
+    // A cluster that may be seen: those drawn from rounded points from the front, the others from the back.
+    seen: u32,
+    // Of the cluster of this number: its newest block of kept lines.
+    block: atomic<u32>,
+}
+
 struct Found {
     counters: Counters,
-    // The ones from the front, the others from the back.
-    seen: array<u32>,
+    places: array<Place>,
 }
 
 // Adds what this thread has done to the work of the frame.

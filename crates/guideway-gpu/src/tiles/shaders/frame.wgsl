@@ -52,7 +52,12 @@ struct Frame {
     most_step_m: f32,
     // Whether lines have ranks; they need none where all paths look alike.
     has_ranks: u32,
-    // Lines that are there already, and threads that list each of them.
+    // Where the lines that are made begin, and whether they are to be kept.
+    first_line: u32,
+    keeps_lines: u32,
+    // Clusters that were touched: lines of no others are made.
+    touched: u32,
+    // Lines before those that are drawn, too, and threads that list each of them.
     kept_lines: u32,
     threads_a_line: u32,
     // Places that the list of each tile has; none where they are reserved by what is counted.

@@ -36,9 +36,6 @@ fn main(
     @builtin(local_invocation_index) thread: u32,
 ) {
     let first = workgroup_index(id, count) * THREADS + thread;
-    if first == 0u {
-        atomicStore(&found.counters.lines, frame.kept_lines);
-    }
     let all = frame.kept_lines * frame.threads_a_line;
     for (var i = first; i < all; i += count.x * count.y * THREADS) {
         let index = i / frame.threads_a_line;

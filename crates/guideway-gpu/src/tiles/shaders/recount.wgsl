@@ -30,9 +30,6 @@ fn main(
     @builtin(local_invocation_index) thread: u32,
 ) {
     let group = workgroup_index(id, groups);
-    if group == 0u && thread == 0u {
-        atomicStore(&found.counters.lines, frame.kept_lines);
-    }
     for (var first = group * THREADS; first < frame.kept_lines; first += groups.x * groups.y * THREADS) {
         clear_tallies(thread);
         workgroupBarrier();

@@ -18,7 +18,7 @@ fn clusters_of_kind() -> u32 {
 }
 
 fn cluster_of_kind(number: u32) -> u32 {
-    return found.seen[number];
+    return found.places[number].seen;
 }
 
 // Where the points of a cluster begin.

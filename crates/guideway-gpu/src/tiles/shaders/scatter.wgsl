@@ -3,7 +3,7 @@
 @group(0) @binding(5) var<storage, read_write> filled: array<atomic<u32>>;
 @group(0) @binding(6) var<storage, read_write> references: array<u32>;
 
-var<workgroup> lines_found: u32;
+var<workgroup> end_line: u32;
 
 // Reserves places in the lists of the tiles that were counted: a tally becomes the next of them.
 fn reserve(thread: u32) {
@@ -48,21 +48,22 @@ fn main(
 ) {
     if thread == 0u {
         // What has no room is drawn again with more.
-        let count = atomicLoad(&found.counters.lines);
-        let fits = count <= frame.line_room
+        let end = frame.first_line + atomicLoad(&found.counters.lines);
+        let fits = end <= frame.line_room
             && atomicLoad(&found.counters.references) <= frame.reference_room;
-        lines_found = select(0u, count, fits);
+        end_line = select(0u, end, fits);
     }
-    let all = workgroupUniformLoad(&lines_found);
+    let end = workgroupUniformLoad(&end_line);
     let step = count.x * count.y * THREADS;
-    for (var first = workgroup_index(id, count) * THREADS; first < all; first += step) {
+    var first = frame.first_line - frame.kept_lines + workgroup_index(id, count) * THREADS;
+    for (; first < end; first += step) {
         clear_tallies(thread);
         workgroupBarrier();
         let index = first + thread;
         var words = vec3u(NOWHERE);
         var line: vec4f;
         var reach = 0.0;
-        if index < all {
+        if index < end {
             words = words_of_line(index);
         }
         if words.x != NOWHERE {

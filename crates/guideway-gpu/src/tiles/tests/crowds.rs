@@ -106,6 +106,7 @@ fn what_is_hidden_is_left_out_and_changes_no_bit() {
         (plain(3000, 8.0), all()),
     ] {
         let mut at_once = prepared(&tiles, &scene);
+        at_once.easel.keeps = false;
         // So much that it need not look for what is hidden first.
         let room = Size {
             lines: 1 << 18,
