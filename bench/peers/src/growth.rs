@@ -6,7 +6,7 @@ use std::fs;
 use anyhow::Result;
 use serde_json::json;
 
-use crate::{data, draw, view};
+use crate::{data, draw, further_ms, view};
 
 /// Numbers of paths, each some three times the one before.
 const PATHS: [usize; 9] = [
@@ -34,7 +34,7 @@ pub(crate) fn run(svg: &str) -> Result<()> {
             }
             let (view, mut frame) = view(&layout)?;
             let times_ms = draw::draw(method, &layout, &view, &mut frame)?;
-            let ms = times_ms.iter().copied().fold(f64::INFINITY, f64::min);
+            let ms = further_ms(&times_ms);
             println!(
                 "{}",
                 json!({ "method": method, "paths": paths, "first_frame_ms": times_ms[0], "frame_ms": ms })

@@ -16,6 +16,7 @@ use std::process::Command;
 use std::{env, fs};
 
 use anyhow::{Result, bail, ensure};
+use guideway_bench::Summary;
 use guideway_layout::Layout;
 use guideway_render::{Frame, FrameSize, View};
 use serde_json::{Value, json};
@@ -88,10 +89,15 @@ fn measure(method: &str, set: &str, paths: &str, png: Option<&str>) -> Result<Va
         "method": method,
         "paths": layout.paths.len(),
         "first_frame_ms": times_ms[0],
-        "frame_ms": times_ms.iter().copied().fold(f64::INFINITY, f64::min),
+        "frame_ms": further_ms(&times_ms),
         "layout_rss_bytes": layout_rss_bytes,
         "drawing_rss_bytes": (!draw::is_elsewhere(method)).then_some(drawing_rss_bytes),
     }))
+}
+
+/// The median of all frames but the first, in milliseconds.
+fn further_ms(times_ms: &[f64]) -> f64 {
+    Summary::of(&times_ms[1..]).map_or(f64::NAN, |times| times.median)
 }
 
 fn errors(set: &str, paths: &str) -> Result<()> {

@@ -22,9 +22,9 @@ pub(crate) use ours::oracle;
 
 /// How wide all paths are.
 const WIDTH_PX: f64 = 3.0;
-/// Frames of ours, and of the others, which take seconds.
-const OWN_FRAMES: usize = 10;
-const FRAMES: usize = 2;
+/// Frames of ours: there and back of a zoom. And of the others, which take seconds.
+const OWN_FRAMES: usize = 65;
+const FRAMES: usize = 3;
 
 type Draw = fn(&Arc<Layout>, &View, &mut Frame) -> Result<Vec<f64>>;
 

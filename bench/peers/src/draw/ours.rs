@@ -1,6 +1,7 @@
 use std::sync::Arc;
 
 use anyhow::Result;
+use guideway_bench::Motion;
 use guideway_cpu::{Cpu, Oracle};
 use guideway_layout::Layout;
 use guideway_render::{Budget, Cancel, Frame, Method, Style, View};
@@ -14,7 +15,7 @@ pub(crate) fn oracle(layout: &Arc<Layout>, view: &View, frame: &mut Frame) -> Re
     Ok(())
 }
 
-/// The first frame makes the scene ready; the others show a little more or less of the world each.
+/// The first frame makes the scene ready; the others come nearer and go away again. The last one is the view that was asked for.
 pub(super) fn draw(layout: &Arc<Layout>, view: &View, frame: &mut Frame) -> Result<Vec<f64>> {
     let mut prepared = None;
     time(OWN_FRAMES, |number| {
@@ -22,9 +23,7 @@ pub(super) fn draw(layout: &Arc<Layout>, view: &View, frame: &mut Frame) -> Resu
             Some(prepared) => prepared,
             none => none.insert(Cpu.prepare(scene(layout)?, &Budget::default())?),
         };
-        // The last one is the view that was asked for.
-        let zoom = 1.0 + 0.001 * (OWN_FRAMES - 1 - number) as f64;
-        let view = View::new(view.size(), view.center_m(), view.px_per_m() * zoom)?;
+        let view = Motion::Zoom.view(view, number)?;
         let report = prepared.render(&view, &style(), &Cancel::default(), frame)?;
         eprintln!(
             "{report}: {:.1?}, {} lines, {} bytes",
