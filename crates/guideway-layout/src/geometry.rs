@@ -121,14 +121,17 @@ impl Geometry {
     ///
     /// # Panics
     /// When `path` is not below [`Self::path_count`].
+    #[inline]
     pub fn runs(&self, path: usize) -> impl ExactSizeIterator<Item = RunPoints<'_>> + Clone {
         self.runs_of(&(path..path + 1)).map(|run| self.run(run))
     }
 
+    #[inline]
     fn run(&self, run: usize) -> RunPoints<'_> {
         self.points_in(self.points_of(&(run..run + 1)))
     }
 
+    #[inline]
     fn points_in(&self, range: Range<usize>) -> RunPoints<'_> {
         match &self.points {
             Points::F64(p) => RunPoints::F64(&p[range]),
@@ -136,10 +139,12 @@ impl Geometry {
         }
     }
 
+    #[inline]
     fn runs_of(&self, paths: &Range<usize>) -> Range<usize> {
         between(&self.path_ends, paths)
     }
 
+    #[inline]
     fn points_of(&self, runs: &Range<usize>) -> Range<usize> {
         between(&self.run_ends, runs)
     }
@@ -167,6 +172,7 @@ impl Geometry {
 }
 
 /// What lies between the ends of some neighbours in a list that begins at 0.
+#[inline]
 fn between(ends: &[u32], neighbours: &Range<usize>) -> Range<usize> {
     let end = |count: usize| count.checked_sub(1).map_or(0, |last| ends[last] as usize);
     end(neighbours.start)..end(neighbours.end)

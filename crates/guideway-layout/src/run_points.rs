@@ -11,6 +11,7 @@ pub enum RunPoints<'a> {
 
 impl<'a> RunPoints<'a> {
     /// Number of control points.
+    #[inline]
     pub fn len(&self) -> usize {
         match self {
             Self::F64(p) => p.len(),
@@ -27,6 +28,7 @@ impl<'a> RunPoints<'a> {
     ///
     /// # Panics
     /// When `index` is not below [`Self::len`].
+    #[inline]
     pub fn get(&self, index: usize) -> Point<f64> {
         match self {
             Self::F64(p) => p[index],
@@ -42,8 +44,8 @@ impl<'a> RunPoints<'a> {
     /// Box of the control points, in metres; none if there are none. Found in the precision in which they are held.
     pub fn bounds(self) -> Option<Bounds<f64>> {
         match self {
-            Self::F64(points) => Bounds::of_points(points.iter().copied()),
-            Self::F32(points) => Bounds::of_points(points.iter().copied()).map(|narrow| Bounds {
+            Self::F64(points) => Bounds::of_slice(points),
+            Self::F32(points) => Bounds::of_slice(points).map(|narrow| Bounds {
                 min: narrow.min.to_f64(),
                 max: narrow.max.to_f64(),
             }),

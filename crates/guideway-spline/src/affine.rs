@@ -57,6 +57,7 @@ impl Affine {
     }
 
     /// Where a point goes.
+    #[inline]
     pub fn apply(self, p: Point<f64>) -> Point<f64> {
         self.x * p.x + self.y * p.y + self.origin
     }

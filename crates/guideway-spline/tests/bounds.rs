@@ -13,6 +13,10 @@ proptest! {
         let samples = Bounds::of_points(run_samples(&run, 64)).unwrap();
         let tight = Bounds::of_run(&run).unwrap();
         let hull = Bounds::of_points(run.iter().copied()).unwrap();
+        for count in 0..=run.len() {
+            let few = &run[..count];
+            prop_assert_eq!(Bounds::of_slice(few), Bounds::of_points(few.iter().copied()));
+        }
         prop_assert_eq!(tight.inflated(rounding).union(samples), tight.inflated(rounding));
         prop_assert_eq!(hull.inflated(rounding).union(tight), hull.inflated(rounding));
         // Between samples a coordinate gets past them by h^2/8 |C''| at most; |C''| <= 4 * 20 * sqrt(2).

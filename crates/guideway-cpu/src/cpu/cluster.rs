@@ -8,12 +8,12 @@ use rayon::prelude::*;
 
 use super::LANES;
 use super::canvas::{TILE_PX, set_bits};
-use super::extent::Hull;
+use super::extent::{Hull, read_ahead};
 use super::flatten::flatten;
 use super::polylines::{Pen, Polylines, ROUNDS};
 use super::shot::{LaneWidth, Shot};
 use super::sight::Sight;
-use super::simplify::simplify;
+use super::simplify::{MOST_POINTS, simplify};
 
 /// Paths, near each other, that are culled and kept together.
 pub(super) const CLUSTER_PATHS: usize = 64;
@@ -205,7 +205,8 @@ impl Scratch {
         let place = |p: Point<f64>| {
             Point::new((p.x - middle_m.x) * per_m, (middle_m.y - p.y) * per_m).to_f32()
         };
-        // All points first: they lie anywhere, and so their ways through the caches go side by side.
+        let members = (0..paths.len()).filter(|member| changed >> member & 1 == 1);
+        read_ahead(scene, members.map(|member| paths[member] as usize));
         local.clear();
         sources.clear();
         let mut piece = 0;
@@ -246,6 +247,7 @@ impl Scratch {
                 }
             }
         }
+        local.resize(local.len() + MOST_POINTS, Point::default());
         let tolerance = shot.tolerance_units();
         match shot.lane_width {
             LaneWidth::Widest => simplify_widest(self, tolerance),
@@ -333,7 +335,8 @@ fn simplify_all(scratch: &mut Scratch, tolerance: f32) {
         (ended..source.round).for_each(|round| kept.end_round(round));
         ended = source.round;
         kept.push_pieces(before, source.pieces.clone());
-        simplify(&local[first..source.points_end], tolerance, vertices);
+        let points = source.points_end - first;
+        simplify(&local[first..], points, tolerance, vertices);
         for (i, vertex) in vertices.iter().enumerate() {
             let vertex = Point {
                 x: round(vertex.x),

@@ -5,37 +5,48 @@ use super::span::{max, min};
 
 /// Joints of a stretch that is simplified at once.
 const MOST: usize = LANES;
+/// Points of such a stretch: what has to lie behind the first point of a run.
+pub(super) const MOST_POINTS: usize = MOST + 2;
+/// Joints between two that are looked at as one vector.
+const FEW: usize = 8;
 
 /// Some joints between the segments of a run, and how far the segments there may bend away from straight
-/// lines between them.
+/// lines between them. Behind them lie others, or nothing.
 struct Joints {
     count: usize,
-    x: [f32; LANES],
-    y: [f32; LANES],
-    bend: [f32; LANES],
+    x: [f32; MOST + FEW],
+    y: [f32; MOST + FEW],
+    bend: [f32; MOST + FEW],
 }
 
-/// Draws a run of control points as straight lines, no point of either farther than `tolerance` from the
-/// other: gives the vertices in order.
+/// Draws a run of control points, the first `len` of some, as straight lines, no point of either farther than `tolerance`
+/// from the other: gives the vertices in order. There are [`MOST_POINTS`] from each point of the run on: its own, or any.
+///
+/// # Panics
+/// Where there are not.
 ///
 /// A line from joint to joint is taken if all joints between are near enough. Between two joints, a curve
 /// leaves their chord by at most max |C''| / 8, and C'' is linear, so its greatest length is at a joint. The
 /// points that near to a line form a convex set, so it holds all chords of joints that it holds.
 #[inline(always)]
-pub(super) fn simplify(run: &[Point<f32>], tolerance: f32, vertices: &mut Vec<Point<f32>>) {
+pub(super) fn simplify(
+    mut points: &[Point<f32>],
+    len: usize,
+    tolerance: f32,
+    vertices: &mut Vec<Point<f32>>,
+) {
     vertices.clear();
-    let Some(first) = run.first_chunk() else {
-        return;
-    };
-    vertices.push(uniform::start(first));
-    let mut rest = run;
-    while rest.len() >= 4 {
-        let part = &rest[..rest.len().min(MOST + 2)];
-        let joints = Joints::new(part);
+    let mut left = len;
+    while left >= 4 {
+        let part = points.first_chunk().expect("points behind the run");
+        let joints = Joints::new(part, left.min(MOST_POINTS) - 2);
+        if left == len {
+            vertices.push(joints.at(0));
+        }
         let mut kept = joints.kept(tolerance);
         let mut last = 0;
         // What ends with a part may go on behind it: then all but the first line waits for the next part.
-        if part.len() < rest.len() && kept.count_ones() > 2 {
+        if left > MOST_POINTS && kept.count_ones() > 2 {
             kept &= !(1 << (joints.count - 1));
         }
         kept &= !1;
@@ -49,7 +60,8 @@ pub(super) fn simplify(run: &[Point<f32>], tolerance: f32, vertices: &mut Vec<Po
             vertices.push(joints.at(joint));
             last = joint;
         }
-        rest = &rest[last..];
+        points = &points[last..];
+        left -= last;
     }
 }
 
@@ -65,24 +77,21 @@ fn cut(segment: &[Point<f32>; 4], bend: f32, tolerance: f32, vertices: &mut Vec<
 }
 
 impl Joints {
-    /// The joints of a run of at most as many segments as fit.
+    /// The first joints of a run.
     #[inline(always)]
-    fn new(run: &[Point<f32>]) -> Self {
-        let (mut px, mut py) = ([0.0; LANES + 2], [0.0; LANES + 2]);
-        for (p, (x, y)) in run.iter().zip(px.iter_mut().zip(&mut py)) {
-            (*x, *y) = (p.x, p.y);
-        }
+    fn new(points: &[Point<f32>; MOST_POINTS], count: usize) -> Self {
         let mut joints = Self {
-            count: run.len() - 2,
-            x: [0.0; LANES],
-            y: [0.0; LANES],
-            bend: [0.0; LANES],
+            count,
+            x: [0.0; MOST + FEW],
+            y: [0.0; MOST + FEW],
+            bend: [0.0; MOST + FEW],
         };
-        for i in 0..LANES {
-            joints.x[i] = (px[i] + px[i + 1] * 4.0 + px[i + 2]) * (1.0 / 6.0);
-            joints.y[i] = (py[i] + py[i + 1] * 4.0 + py[i + 2]) * (1.0 / 6.0);
-            let x = px[i] - px[i + 1] * 2.0 + px[i + 2];
-            let y = py[i] - py[i + 1] * 2.0 + py[i + 2];
+        for i in 0..MOST {
+            let [a, b, c] = [points[i], points[i + 1], points[i + 2]];
+            joints.x[i] = (a.x + b.x * 4.0 + c.x) * (1.0 / 6.0);
+            joints.y[i] = (a.y + b.y * 4.0 + c.y) * (1.0 / 6.0);
+            let x = a.x - b.x * 2.0 + c.x;
+            let y = a.y - b.y * 2.0 + c.y;
             joints.bend[i] = (x * x + y * y).sqrt() * 0.125;
         }
         joints
@@ -102,59 +111,56 @@ impl Joints {
     #[inline(always)]
     fn kept(&self, tolerance: f32) -> u32 {
         let last = self.count - 1;
-        let mut kept = 1 | 1 << last;
-        let mut open = [(0, 0); LANES];
-        open[0] = (0, last);
-        let mut count = 1;
-        while count > 0 {
-            count -= 1;
-            let (from, to) = open[count];
-            if to - from < 2 {
-                continue;
-            }
-            let (off, farthest, bend) = farthest(self, from, to);
-            if off.sqrt() + bend > tolerance {
+        let mut kept: u32 = 1 | 1 << last;
+        let mut from = 0;
+        while from < last {
+            let to = from + 1 + (kept >> (from + 1) as u32).trailing_zeros() as usize;
+            let (off, farthest, bend) = match to - from {
+                1 => (0.0, 0, 0.0),
+                2..=FEW => self.farthest::<FEW>(from + 1, from, to),
+                _ => self.farthest::<MOST>(0, from, to),
+            };
+            if farthest > 0 && off.sqrt() + bend > tolerance {
                 kept |= 1 << farthest;
-                open[count] = (farthest, to);
-                open[count + 1] = (from, farthest);
-                count += 2;
+            } else {
+                from = to;
             }
         }
         kept
     }
-}
 
-/// The joint between two that is farthest from the line between them, its distance squared, and how far the
-/// curve may bend beside the joints.
-#[inline(always)]
-fn farthest(joints: &Joints, from: usize, to: usize) -> (f32, usize, f32) {
-    const LANE_BITS: u32 = LANES as u32 - 1;
-    let start = joints.at(from);
-    let along = joints.at(to) - start;
-    let square = along.dot(along);
-    let per_square = if square > 0.0 { 1.0 / square } else { 0.0 };
-    let mut keys = [0; LANES];
-    let mut bends = [0.0; LANES];
-    for i in 0..LANES {
-        let (x, y) = (joints.x[i] - start.x, joints.y[i] - start.y);
-        let t = min(max((x * along.x + y * along.y) * per_square, 0.0), 1.0);
-        let (x, y) = (x - t * along.x, y - t * along.y);
-        // Floats that are not negative are in the order of their bits; the lowest make room for the lane.
-        let key = (x * x + y * y).to_bits() & !LANE_BITS | i as u32;
-        keys[i] = if (i > from) & (i < to) { key } else { 0 };
-        bends[i] = if (i >= from) & (i <= to) {
-            joints.bend[i]
-        } else {
-            0.0
-        };
+    /// The joint between two that is farthest from the line between them, its distance squared, and how far the
+    /// curve may bend beside the joints. All between are among some joints from `first` on.
+    #[inline(always)]
+    fn farthest<const N: usize>(&self, first: usize, from: usize, to: usize) -> (f32, usize, f32) {
+        const JOINT_BITS: u32 = MOST as u32 - 1;
+        let start = self.at(from);
+        let along = self.at(to) - start;
+        let square = along.dot(along);
+        let per_square = if square > 0.0 { 1.0 / square } else { 0.0 };
+        let [xs, ys, all_bends] = [&self.x, &self.y, &self.bend].map(|all| &all[first..first + N]);
+        let mut keys = [0; N];
+        let mut bends = [0.0; N];
+        for i in 0..N {
+            let (x, y) = (xs[i] - start.x, ys[i] - start.y);
+            let t = min(max((x * along.x + y * along.y) * per_square, 0.0), 1.0);
+            let (x, y) = (x - t * along.x, y - t * along.y);
+            let joint = first + i;
+            let is_between = (joint > from) & (joint < to);
+            // Floats that are not negative are in the order of their bits; the lowest make room for the joint.
+            let key = (x * x + y * y).to_bits() & !JOINT_BITS | joint as u32;
+            keys[i] = if is_between { key } else { 0 };
+            bends[i] = if is_between { all_bends[i] } else { 0.0 };
+        }
+        let key = keys.iter().fold(0, |most, &key| most.max(key));
+        let ends = self.bend_between(from, to);
+        let bend = bends.iter().fold(ends, |most, &bend| max(most, bend));
+        (
+            f32::from_bits(key & !JOINT_BITS),
+            (key & JOINT_BITS) as usize,
+            bend,
+        )
     }
-    let key = keys.iter().fold(0, |most, &key| most.max(key));
-    let bend = bends.iter().fold(0.0, |most, &bend| max(most, bend));
-    (
-        f32::from_bits(key & !LANE_BITS),
-        (key & LANE_BITS) as usize,
-        bend,
-    )
 }
 
 #[cfg(test)]
@@ -163,7 +169,9 @@ mod tests {
 
     fn simplified(run: &[Point<f32>], tolerance: f32) -> Vec<Point<f32>> {
         let mut vertices = Vec::new();
-        simplify(run, tolerance, &mut vertices);
+        // What lies behind a run is never looked at.
+        let after = [Point::new(f32::NAN, 1e9); MOST_POINTS];
+        simplify(&[run, &after].concat(), run.len(), tolerance, &mut vertices);
         vertices
     }
 
