@@ -4,7 +4,6 @@ use std::ops::Range;
 use std::time::Instant;
 
 use guideway_render::{Cancel, RenderError, Stage, View, elapsed_ms};
-use guideway_spline::Bounds;
 use wgpu::BufferUsages;
 
 use super::NAME;
@@ -395,15 +394,13 @@ impl PreparedTiles {
         let alone = match (&self.store, drawing.drawn) {
             (Some(_), Some(drawn)) if is_whole => u64::from(drawn),
             // Of windows, the device counts what each sees, and of kept lines nothing; clusters are a little less exact.
-            (Some(store), _) => {
-                store.whole_paths_seen(|bounds, width_m| shot.is_seen(bounds, width_m))
-            }
+            (Some(store), _) => store.whole_paths_seen(|width_m| shot.seen_m(width_m)),
             (None, _) => 0,
         };
         let paths = &self.scene.layout().paths;
         let is_seen = |path: &&u32| {
             let hull = paths.get(**path as usize).hull_bounds();
-            hull.is_some_and(|hull: Bounds<f64>| shot.is_seen(hull, self.scene.width_m(**path)))
+            hull.is_some_and(|hull| hull.intersects(shot.seen_m(self.scene.width_m(**path))))
         };
         alone + self.parted.iter().filter(is_seen).count() as u64
     }

@@ -192,6 +192,7 @@ impl PreparedTiles {
                 changes.touched.add(cluster);
             }
         }
+        store.count_whole_paths(changes.touched.iter());
         let (mut strokes, mut clusters) = (Patch::default(), Patch::default());
         if !are_renewed {
             for &stroke in &changes.strokes {

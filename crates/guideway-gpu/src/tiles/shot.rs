@@ -153,15 +153,11 @@ impl<'a> Shot<'a> {
         Some(hull.inflated(self.radius_px(width_m) + 1.0))
     }
 
-    /// Whether it may leave a mark.
-    pub(super) fn is_seen(&self, hull_m: Bounds<f64>, width_m: Option<f32>) -> bool {
-        let size = self.view.size();
-        let picture = Bounds {
-            min: Point::default(),
-            max: Point::new(f64::from(size.width()), f64::from(size.height())),
-        };
-        let marked = self.marked_px(hull_m, width_m);
-        marked.is_some_and(|marked| marked.intersects(picture))
+    /// Where in the world it has to be for that.
+    pub(super) fn seen_m(&self, width_m: Option<f32>) -> Bounds<f64> {
+        let reach_px = self.radius_px(width_m) + 1.0;
+        let picture = self.view.world_bounds();
+        picture.inflated(reach_px / self.view.px_per_m())
     }
 
     /// The tiles that it may leave a mark on, if also strokes without a width of their own are in the box.

@@ -28,6 +28,8 @@ pub(super) struct Store {
     pub(super) found: DeviceBuffer,
     pub(super) stroke_list: Vec<Stroke>,
     pub(super) cluster_list: Vec<Cluster>,
+    /// Paths of one stroke in each cluster.
+    pub(super) whole_paths: Vec<u32>,
     pub(super) style_count: u32,
     pub(super) ranks: Ranks,
 }
@@ -69,7 +71,7 @@ impl Store {
             chunks.push(chunk);
         }
         drop((packed.rounded, packed.exact_m));
-        Ok(Some(Self {
+        let mut store = Self {
             chunks,
             twins: None,
             strokes: memory.upload("the strokes", &packed.strokes)?,
@@ -78,9 +80,12 @@ impl Store {
             found: found(memory, packed.clusters.len())?,
             stroke_list: packed.strokes,
             cluster_list: packed.clusters,
+            whole_paths: Vec::new(),
             style_count: style_list.len() as u32,
             ranks,
-        }))
+        };
+        store.count_whole_paths(0..store.cluster_list.len());
+        Ok(Some(store))
     }
 
     /// Has every rank's style on the device, as it is now.
@@ -142,21 +147,28 @@ impl Store {
         self.chunks.iter().chain(twins)
     }
 
-    /// Paths of one stroke in clusters that may be seen, by their box and greatest width.
-    pub(super) fn whole_paths_seen(
-        &self,
-        is_seen: impl Fn(Bounds<f64>, Option<f32>) -> bool,
-    ) -> u64 {
-        let seen = self
-            .cluster_list
-            .iter()
-            .filter(|c| is_seen(c.bounds(), c.width_m()));
-        let strokes = seen.map(|cluster| {
+    /// Counts the paths of one stroke of some clusters, after strokes have changed.
+    pub(super) fn count_whole_paths(&mut self, clusters: impl Iterator<Item = usize>) {
+        self.whole_paths.resize(self.cluster_list.len(), 0);
+        for at in clusters {
+            let cluster = &self.cluster_list[at];
             let first = cluster.first_stroke as usize;
             let own = &self.stroke_list[first..first + cluster.strokes as usize];
-            own.iter().filter(|stroke| stroke.is_whole_path()).count() as u64
-        });
-        strokes.sum()
+            let whole = own.iter().filter(|stroke| stroke.is_whole_path());
+            self.whole_paths[at] = whole.count() as u32;
+        }
+    }
+
+    /// Paths of one stroke in clusters that may be seen, given where what is so wide is.
+    pub(super) fn whole_paths_seen(&self, seen_m: impl Fn(Option<f32>) -> Bounds<f64>) -> u64 {
+        let plain_m = seen_m(None);
+        let is_seen = |cluster: &Cluster| {
+            let seen_m = cluster.width_m().map_or(plain_m, |w| seen_m(Some(w)));
+            cluster.bounds().intersects(seen_m)
+        };
+        let clusters = self.cluster_list.iter().zip(&self.whole_paths);
+        let seen = clusters.filter(|(cluster, _)| is_seen(cluster));
+        seen.map(|(_, &paths)| u64::from(paths)).sum()
     }
 
     /// Has room on the device for all strokes and clusters. Returns whether they were brought there anew.

@@ -33,6 +33,11 @@ impl Pair {
     /// The picture, the same by both, and what is said of it by the one that keeps something.
     #[track_caller]
     fn check(&mut self, view: &View) -> (Frame, Report) {
+        if let Some(store) = &mut self.kept.store {
+            let known = store.whole_paths.clone();
+            store.count_whole_paths(0..known.len());
+            assert_eq!(store.whole_paths, known);
+        }
         let (frame, report) = picture(&mut self.kept, view, &self.style);
         let (expected, _) = picture(&mut self.anew, view, &self.style);
         let wrong = frame.pixels().iter().zip(expected.pixels());
