@@ -169,7 +169,7 @@ mod tests {
 
     fn simplified(run: &[Point<f32>], tolerance: f32) -> Vec<Point<f32>> {
         let mut vertices = Vec::new();
-        // What lies behind a run is never looked at.
+        // What lies behind a run does not matter.
         let after = [Point::new(f32::NAN, 1e9); MOST_POINTS];
         simplify(&[run, &after].concat(), run.len(), tolerance, &mut vertices);
         vertices
