@@ -394,7 +394,7 @@ impl PreparedTiles {
         let alone = match (&self.store, drawing.drawn) {
             (Some(_), Some(drawn)) if is_whole => u64::from(drawn),
             // Of windows, the device counts what each sees, and of kept lines nothing; clusters are a little less exact.
-            (Some(store), _) => store.whole_paths_seen(|width_m| shot.seen_m(width_m)),
+            (Some(store), _) => store.whole_paths_seen(shot),
             (None, _) => 0,
         };
         let paths = &self.scene.layout().paths;

@@ -146,39 +146,36 @@ impl<'a> Shot<'a> {
         }
     }
 
-    /// Where in the picture something within a box, and half its width around, may leave a mark.
-    fn marked_px(&self, hull_m: Bounds<f64>, width_m: Option<f32>) -> Option<Bounds<f64>> {
-        let corners = [hull_m.min, hull_m.max].map(|p| self.view.pixel_from_world(p));
-        let hull = Bounds::of_points(corners)?;
-        Some(hull.inflated(self.radius_px(width_m) + 1.0))
+    /// How far from its curve a stroke may leave a mark.
+    fn reach_px(&self, width_m: Option<f32>) -> f64 {
+        self.radius_px(width_m) + 1.0
     }
 
-    /// Where in the world it has to be for that.
+    /// Where in the world a stroke has to be to leave a mark on the picture.
     pub(super) fn seen_m(&self, width_m: Option<f32>) -> Bounds<f64> {
-        let reach_px = self.radius_px(width_m) + 1.0;
         let picture = self.view.world_bounds();
-        picture.inflated(reach_px / self.view.px_per_m())
+        picture.inflated(self.reach_px(width_m) / self.view.px_per_m())
     }
 
-    /// The tiles that it may leave a mark on, if also strokes without a width of their own are in the box.
+    /// The tiles that strokes within a box may leave a mark on, those without a width of their own too.
     pub(super) fn marked_tiles(
         &self,
         hull_m: Bounds<f64>,
         width_m: Option<f32>,
         canvas: &Canvas,
     ) -> Window {
-        let marked = [None, width_m].map(|width_m| self.marked_px(hull_m, width_m));
-        let tiles = |of: fn(Point<f64>) -> f64, tiles: u32| {
+        let reach_px = self.reach_px(None).max(self.reach_px(width_m));
+        let [min, max] = [hull_m.min, hull_m.max].map(|p| self.view.pixel_from_world(p));
+        let tiles = |low_px: f64, high_px: f64, tiles: u32| {
             // Numbers below zero become zero.
             let tile = |px: f64| (px / f64::from(TILE_PX)).floor();
-            let marked = marked.iter().flatten();
-            let low = marked.clone().map(|m| tile(of(m.min)) as u32).min();
-            let end = marked.map(|m| (tile(of(m.max)) + 1.0) as u32).max();
-            low.unwrap_or(0).min(tiles)..end.unwrap_or(0).min(tiles)
+            let (low, high) = (tile(low_px - reach_px), tile(high_px + reach_px));
+            (low as u32).min(tiles)..((high + 1.0) as u32).min(tiles)
         };
         Window {
-            columns: tiles(|p| p.x, canvas.columns),
-            rows: tiles(|p| p.y, canvas.rows),
+            columns: tiles(min.x, max.x, canvas.columns),
+            // The picture's y goes down.
+            rows: tiles(max.y, min.y, canvas.rows),
         }
     }
 

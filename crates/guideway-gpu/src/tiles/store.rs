@@ -2,7 +2,6 @@
 
 use guideway_render::RenderError;
 use guideway_scene::{Rgba, Scene};
-use guideway_spline::Bounds;
 use wgpu::BufferUsages;
 
 use super::NAME;
@@ -10,6 +9,7 @@ use super::chunk::{Chunk, Drawn, bytes_of, ranges};
 use super::pack::{Packed, Part, device_color, style};
 use super::params::{Cluster, Found, PathStyle, Place, Points, Stroke};
 use super::ranks::Ranks;
+use super::shot::Shot;
 use super::twins::Twins;
 use crate::device::{DeviceBuffer, Gpu, Memory};
 
@@ -159,11 +159,12 @@ impl Store {
         }
     }
 
-    /// Paths of one stroke in clusters that may be seen, given where what is so wide is.
-    pub(super) fn whole_paths_seen(&self, seen_m: impl Fn(Option<f32>) -> Bounds<f64>) -> u64 {
-        let plain_m = seen_m(None);
+    /// Paths of one stroke in clusters that may be seen.
+    pub(super) fn whole_paths_seen(&self, shot: &Shot<'_>) -> u64 {
+        let plain_m = shot.seen_m(None);
         let is_seen = |cluster: &Cluster| {
-            let seen_m = cluster.width_m().map_or(plain_m, |w| seen_m(Some(w)));
+            let own_m = cluster.width_m().map(|width_m| shot.seen_m(Some(width_m)));
+            let seen_m = own_m.unwrap_or(plain_m);
             cluster.bounds().intersects(seen_m)
         };
         let clusters = self.cluster_list.iter().zip(&self.whole_paths);
