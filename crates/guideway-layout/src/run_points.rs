@@ -1,4 +1,8 @@
-use guideway_spline::{Bounds, Point};
+use guideway_spline::{Bounds, Point, Real};
+use rayon::prelude::*;
+
+/// So many points are gone through by one thread.
+pub(crate) const POINTS_AT_ONCE: usize = 1 << 14;
 
 /// The control points of one run, in the precision in which they are held.
 #[derive(Clone, Copy, Debug)]
@@ -44,8 +48,8 @@ impl<'a> RunPoints<'a> {
     /// Box of the control points, in metres; none if there are none. Found in the precision in which they are held.
     pub fn bounds(self) -> Option<Bounds<f64>> {
         match self {
-            Self::F64(points) => Bounds::of_slice(points),
-            Self::F32(points) => Bounds::of_slice(points).map(|narrow| Bounds {
+            Self::F64(points) => bounds(points),
+            Self::F32(points) => bounds(points).map(|narrow| Bounds {
                 min: narrow.min.to_f64(),
                 max: narrow.max.to_f64(),
             }),
@@ -64,4 +68,15 @@ impl<'a> RunPoints<'a> {
             ]
         })
     }
+}
+
+#[inline]
+fn bounds<T: Real + Send + Sync>(points: &[Point<T>]) -> Option<Bounds<T>> {
+    if points.len() <= POINTS_AT_ONCE {
+        return Bounds::of_slice(points);
+    }
+    let parts = points.par_chunks(POINTS_AT_ONCE);
+    parts
+        .filter_map(Bounds::of_slice)
+        .reduce_with(Bounds::union)
 }

@@ -96,6 +96,12 @@ impl<T: Real> Bounds<T> {
             && point.y <= self.max.y
     }
 
+    /// The four corners.
+    pub fn corners(self) -> [Point<T>; 4] {
+        let Self { min, max } = self;
+        [min, max, Point::new(min.x, max.y), Point::new(max.x, min.y)]
+    }
+
     /// Width and height.
     pub fn size(self) -> Point<T> {
         self.max - self.min

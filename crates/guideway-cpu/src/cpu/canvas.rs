@@ -1,11 +1,15 @@
+mod show;
+#[cfg(test)]
+mod tests;
+
 use std::ops::Range;
 
 use guideway_scene::Rgba;
 use guideway_spline::Point;
 
-use super::backdrop::{Backdrop, SolidColors};
+pub(super) use self::show::Look;
 use super::disc::Disc;
-use super::span::{Capsule, ROWS, SOLID, Samples, Spans};
+use super::span::{Capsule, ROWS, SOLID, Spans};
 
 /// Pixels along each side of a tile: a bit of a word each.
 pub(super) const TILE_PX: usize = u32::BITS as usize;
@@ -21,6 +25,10 @@ type Block = [u32; ROWS];
 type Clear = [[f32; WINDOW_COLUMNS]; ROWS];
 /// One flag for each block: a word for each window, a bit for each row of pixels.
 type Flags<const C: usize> = [u32; C];
+
+/// From so many pixels on, beside its width, it pays to find out which of them a row of a stroke needs. Short level lines
+/// have fewer.
+pub(super) const WIDE_PX: u32 = 11;
 
 /// A flag for each pixel of a tile: a word for each row.
 pub(super) type Rows = [u32; TILE_PX];
@@ -74,7 +82,14 @@ impl<const C: usize> Canvas<C> {
     /// Starts an empty tile of which only `width_px` by `height_px` pixels are seen. What is not seen counts
     /// as covered: nothing waits for it.
     pub(super) fn begin(&mut self, width_px: usize, height_px: usize) {
-        *self.shape = Self::NO_BLOCKS;
+        if Self::IS_SOLID {
+            // Of most tiles from near, few blocks were touched.
+            for (blocks, touched) in self.shape.iter_mut().zip(self.touched) {
+                set_bits(touched).for_each(|row| blocks[row] = [0; ROWS]);
+            }
+        } else {
+            *self.shape = Self::NO_BLOCKS;
+        }
         (self.touched, self.glazed) = ([0; C], [0; C]);
         for (window, open) in self.open.iter_mut().enumerate() {
             let is_seen = window * Self::WINDOW_PX < width_px;
@@ -88,7 +103,10 @@ impl<const C: usize> Canvas<C> {
         self.open_pixels[..height_px].fill(low_bits(width_px as u32));
         let last = (width_px - 1) / Self::WINDOW_PX;
         let unseen = !low_bits(((width_px - last * Self::WINDOW_PX) * C) as u32);
-        self.shape[last] = [[unseen; ROWS]; TILE_PX];
+        if unseen != 0 {
+            self.shape[last] = [[unseen; ROWS]; TILE_PX];
+            self.touched[last] = u32::MAX;
+        }
     }
 
     /// Prepares for strokes that are not solid.
@@ -96,6 +114,7 @@ impl<const C: usize> Canvas<C> {
         self.begin(width_px, height_px);
         std::mem::swap(&mut self.shape, &mut self.opaque);
         *self.shape = Self::NO_BLOCKS;
+        self.touched = [0; C];
         *self.sums = [[[0.0; 4]; TILE_PX]; TILE_PX];
     }
 
@@ -176,7 +195,14 @@ impl<const C: usize> Canvas<C> {
         rows: Range<usize>,
         pixels: u32,
     ) {
+        let width_px = (2.0 / C as f32 * disc.radius) as u32;
+        let is_wide = pixels.count_ones() > width_px.saturating_add(WIDE_PX);
         for row in rows {
+            let pixels = if is_wide {
+                pixels & capsule.pixels::<C>(disc.radius, row)
+            } else {
+                pixels
+            };
             if let Some(windows) = self.open_windows(row, pixels) {
                 let spans = capsule.spans(disc, row, Self::TILE_COLUMNS);
                 self.add_all(windows, row, &spans);
@@ -318,31 +344,6 @@ impl<const C: usize> Canvas<C> {
         }
         taken
     }
-
-    /// The colours of each row of pixels that were laid over the background.
-    #[inline(always)]
-    pub(super) fn row_over(&self, row: usize, backdrop: &Backdrop, pixels: &mut [[u8; 4]]) {
-        for (pixel, sum) in pixels.iter_mut().zip(&self.sums[row]) {
-            *pixel = backdrop.below::<C>(*sum);
-        }
-    }
-
-    /// The pixels of one row of a solid shape, by how many of their samples it covers.
-    #[inline(always)]
-    pub(super) fn solid_row(&self, row: usize, colors: &SolidColors, pixels: &mut [[u8; 4]]) {
-        for (window, pixels) in pixels.chunks_mut(Self::WINDOW_PX).enumerate() {
-            if self.open[window] >> row & 1 == 0 {
-                pixels.fill(colors[Samples::<SOLID>::COUNT]);
-            } else if self.touched[window] >> row & 1 == 0 {
-                pixels.fill(colors[0]);
-            } else {
-                let counts = pixel_counts::<C>(&self.shape[window][row]);
-                for (pixel, count) in pixels.iter_mut().zip(counts) {
-                    *pixel = colors[usize::from(count)];
-                }
-            }
-        }
-    }
 }
 
 /// The pixels of a word all of whose samples are set, a bit each.
@@ -401,6 +402,3 @@ fn pixel_counts<const C: usize>(block: &Block) -> [u16; MOST_WINDOW_PX] {
         of_pixel.sum()
     })
 }
-
-#[cfg(test)]
-mod tests;

@@ -1,7 +1,7 @@
 //! Where clusters lie.
 
 use guideway_scene::{PathState, Scene};
-use guideway_spline::{Bounds, Point};
+use guideway_spline::{Affine, Bounds, Point};
 
 /// Where a cluster lies, in metres.
 #[derive(Clone, Copy, Debug)]
@@ -41,12 +41,30 @@ impl Extent {
     /// The same after some of its paths have gone from `from` to `to`; none if that takes a look at all of them, for some
     /// were at its border and have gone farther than may be neglected.
     pub(super) fn after(&self, from: Hull, to: Hull) -> Option<Self> {
+        let slack_m = self.slack_m + self.retreat_m(from, to);
+        let bounds = to.map_or(self.bounds, |to| self.bounds.union(to));
+        self.within(bounds, slack_m)
+    }
+
+    /// The same after all of its paths were mapped, which took its bounds to `bounds`: what is still known of where they
+    /// lie, unless that is too little.
+    pub(super) fn mapped(&self, by: Affine, bounds: Bounds<f64>) -> Option<Self> {
+        // A border comes from one on which there is a path, off by the slack, but it is not known where along it.
+        let Point { x, y } = self.bounds.size();
+        let slack_m = |by_x: f64, by_y: f64| {
+            let (by_x, by_y) = (by_x.abs(), by_y.abs());
+            (by_x * self.slack_m + by_y * y).min(by_x * x + by_y * self.slack_m)
+        };
+        let [x, y] = [slack_m(by.x.x, by.y.x), slack_m(by.x.y, by.y.y)];
+        self.within(bounds, x.max(y))
+    }
+
+    /// Changed to bounds of so much slack, unless that is too much.
+    fn within(&self, bounds: Bounds<f64>, slack_m: f64) -> Option<Self> {
         /// The part of its size that the bounds may be too large by.
         const MOST_SLACK: f64 = 1.0 / 4.0;
-        let size = self.bounds.size();
-        let slack_m = self.slack_m + self.retreat_m(from, to);
+        let size = bounds.size();
         let is_little = slack_m <= size.x.max(size.y) * MOST_SLACK;
-        let bounds = to.map_or(self.bounds, |to| self.bounds.union(to));
         is_little.then(|| Self {
             slack_m,
             ..self.changed(bounds)
@@ -155,5 +173,38 @@ mod tests {
                 .after(Some(bounds(20.0, 29.0)), Some(bounds(21.0, 29.0)))
                 .is_some()
         );
+    }
+
+    #[test]
+    fn a_mapped_box_is_too_large_by_its_slack_at_most() {
+        let points: Vec<_> = (0..40)
+            .map(|i| Point::new(f64::from(i), (f64::from(i) * 0.7).sin() * 9.0))
+            .collect();
+        let hull = |points: &[Point<f64>]| Bounds::of_slice(points).unwrap();
+        let axis = Point::new(1.0, 0.0);
+        for (by, least_known) in [
+            (Affine::translation(Point::new(3.0, -1.0)), 20),
+            (Affine::rotation(0.03, Point::new(5.0, 5.0)), 10),
+            (Affine::mirror(Point::new(0.0, 1.0), axis), 20),
+            // Where it lies in the slanted box has to be looked at.
+            (Affine::mirror(axis, Point::new(1.0, 0.2)), 0),
+            (Affine::scale(1.5, 0.5, Point::new(-3.0, 2.0)), 20),
+        ] {
+            let mut at = points.clone();
+            let mut extent = Extent::new(hull(&at));
+            let mut known = 0;
+            for _ in 0..20 {
+                at.iter_mut().for_each(|p| *p = by.apply(*p));
+                let corners = extent.bounds.corners().map(|p| by.apply(p));
+                let mapped = extent.mapped(by, hull(&corners));
+                known += u32::from(mapped.is_some());
+                extent = mapped.unwrap_or_else(|| extent.changed(hull(&at)));
+                let (most, least) = (extent.bounds.inflated(1e-9), hull(&at));
+                assert!(most.contains(least.min) && most.contains(least.max));
+                let size = most.size() - least.size();
+                assert!(size.x.max(size.y) <= 2.0 * extent.slack_m + 1e-6, "{by:?}");
+            }
+            assert!(known >= least_known, "{by:?}: {known}");
+        }
     }
 }

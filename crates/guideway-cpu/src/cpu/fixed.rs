@@ -15,7 +15,7 @@ use guideway_spline::Point;
 pub(super) use self::caps::Caps;
 use self::stroke::{Borders, Stroke};
 use super::LANES;
-use super::canvas::{Canvas, TILE_PX, set_bits};
+use super::canvas::{Canvas, TILE_PX, WIDE_PX, set_bits};
 use super::disc::Disc;
 use super::polylines::{Polylines, bits_below};
 use super::span::{ROWS, SOLID};
@@ -34,9 +34,6 @@ const MOST_RADIUS_PX: f64 = 8.0;
 /// Half the width of the thinnest stroke: of thinner ones the half step that borders are rounded by is too large a part, and all
 /// that share a pixel are off alike.
 const LEAST_RADIUS_PX: f64 = 0.5;
-/// From so many pixels on, beside its width, it pays to find out which of them a row of a stroke needs. Short level lines
-/// have fewer.
-const WIDE_PX: u32 = 11;
 
 /// Whether lines of a cluster that reaches so far, with strokes of these radii, fit.
 pub(super) fn fits(reach_px: f64, radii_px: RangeInclusive<f64>) -> bool {

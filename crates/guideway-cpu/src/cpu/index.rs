@@ -1,6 +1,6 @@
 use guideway_render::{Cancel, Shading, Strip, Style};
 use guideway_scene::{Rgba, Scene};
-use guideway_spline::Bounds;
+use guideway_spline::{Affine, Bounds};
 use rayon::prelude::*;
 
 use super::cluster::{CLUSTER_PATHS, Lines, Members, sorted_rows};
@@ -172,15 +172,27 @@ impl Index {
         leaving.collect()
     }
 
-    /// Makes anew what depends on the curves and the states of paths that have changed. Gives where what is changed was
-    /// and is.
-    pub(super) fn touch(&mut self, scene: &Scene, leaving: &[Leaving]) -> Vec<Bounds<f64>> {
+    /// Makes anew what depends on the curves and the states of paths that have changed: by a map, if one was what changed
+    /// them. Gives where what is changed was and is.
+    pub(super) fn touch(
+        &mut self,
+        scene: &Scene,
+        leaving: &[Leaving],
+        by: Option<Affine>,
+    ) -> Vec<Bounds<f64>> {
+        let geometry = scene.layout().paths.geometry();
         let extents = leaving.par_iter().map(|left| {
             let before = self.extents[left.cluster as usize];
-            let known = before.zip(left.from).and_then(|(before, from)| {
-                let to = self.hull_of_few(scene, left.cluster, left.members)?;
-                before.after(from, to)
-            });
+            let is_all = left.members.count_ones() as usize == self.paths_of(left.cluster).len();
+            let known = match (before, by.filter(|_| is_all)) {
+                (Some(before), Some(by)) => {
+                    before.mapped(by, geometry.mapped_bounds(before.bounds, by))
+                }
+                (before, _) => before.zip(left.from).and_then(|(before, from)| {
+                    let to = self.hull_of_few(scene, left.cluster, left.members)?;
+                    before.after(from, to)
+                }),
+            };
             let anew = || bounds_anew(scene, self.paths_of(left.cluster));
             known.or_else(|| match before {
                 Some(before) => anew().map(|bounds| before.changed(bounds)),
@@ -262,6 +274,6 @@ impl Index {
             from: None,
         });
         let leaving: Vec<Leaving> = leaving.collect();
-        self.touch(scene, &leaving)
+        self.touch(scene, &leaving, None)
     }
 }

@@ -8,7 +8,7 @@ use multiversion::multiversion;
 use rayon::prelude::*;
 
 use super::backdrop::{Backdrop, solid_colors};
-use super::canvas::{Canvas, Rows, TILE_PX};
+use super::canvas::{Canvas, Look, Rows, TILE_PX};
 use super::disc::Discs;
 use super::filled::{Filled, Known};
 use super::index::Index;
@@ -19,7 +19,7 @@ use super::seen::{Hit, Seen};
 use super::shot::{LaneWidth, Shot};
 use super::sight::Sights;
 use super::span::{LAYERED, SOLID, Samples};
-use super::stretch::Stretch;
+use super::stretch::{Pixels, Stretch};
 use super::tiles::{Bins, Grid, Parts};
 
 /// Pieces of several colours that are sorted at first; each time that more are needed, twice as many.
@@ -129,19 +129,17 @@ impl<'a> Band<'a> {
         let Some(color) = solid else {
             let backdrop = Backdrop::new(background);
             let empty = background.to_u32().to_be_bytes();
-            return self.for_each_tile(pixels, load, empty, |painter, tile, rows| {
+            return self.for_each_tile(pixels, load, empty, |painter, tile, pixels| {
                 self.paint(painter, tile, Matter::Layers);
-                for (y, pixels) in rows.enumerate() {
-                    painter.layers.row_over(y, &backdrop, pixels);
-                }
+                let look = Look::Layers(&painter.layers, &backdrop);
+                look.show(self.shot.lane_width, tile.width_px, pixels);
             });
         };
         let colors = solid_colors(color, background);
-        self.for_each_tile(pixels, load, colors[0], |painter, tile, rows| {
+        self.for_each_tile(pixels, load, colors[0], |painter, tile, pixels| {
             self.paint_solid(painter, tile);
-            for (y, pixels) in rows.enumerate() {
-                painter.solid.solid_row(y, &colors, pixels);
-            }
+            let look = Look::Solid(&painter.solid, &colors);
+            look.show(self.shot.lane_width, tile.width_px, pixels);
             if let Some(filling) = self.filling {
                 self.fill(filling, painter, tile);
             }
@@ -190,9 +188,9 @@ impl<'a> Band<'a> {
             pixels,
             |_, _| {},
             0.0,
-            |painter, tile, rows| {
+            |painter, tile, pixels| {
                 self.paint(painter, tile, Matter::Counts);
-                for (pixels, counts) in rows.zip(painter.counts.iter()) {
+                for (pixels, counts) in pixels.rows().zip(painter.counts.iter()) {
                     for (pixel, &count) in pixels.iter_mut().zip(counts) {
                         *pixel = count as f32 / Samples::<LAYERED>::COUNT as f32;
                     }
@@ -208,7 +206,7 @@ impl<'a> Band<'a> {
         pixels: &mut [P],
         load: impl Fn(usize, &mut [P]) + Sync,
         empty: P,
-        paint: impl Fn(&mut Painter, &Tile, &mut dyn Iterator<Item = &mut [P]>) + Sync,
+        paint: impl Fn(&mut Painter, &Tile, &mut Pixels<'_, '_, P>) + Sync,
     ) -> Result<(), RenderError> {
         let width_px = self.shot.view.size().width() as usize;
         let rows = pixels.par_chunks_mut(width_px * TILE_PX);
@@ -224,7 +222,7 @@ impl<'a> Band<'a> {
         row: usize,
         mut stretch: Stretch<'_, P>,
         empty: P,
-        paint: &(impl Fn(&mut Painter, &Tile, &mut dyn Iterator<Item = &mut [P]>) + Sync),
+        paint: &(impl Fn(&mut Painter, &Tile, &mut Pixels<'_, '_, P>) + Sync),
     ) -> Result<(), RenderError> {
         if stretch.columns.len() > MOST_TILES {
             let [left, right] = stretch.halves();
@@ -256,7 +254,7 @@ impl<'a> Band<'a> {
             };
             let mut drawn = stretch.tile(column, columns, rows);
             if self.bins.tile(tile.index).is_empty() {
-                drawn.for_each(|row| row.fill(empty));
+                drawn.rows().for_each(|row| row.fill(empty));
             } else {
                 paint(&mut painter, &tile, &mut drawn);
             }

@@ -307,7 +307,8 @@ impl Prepared for CpuPrepared {
             Edit::Restyle(_) | Edit::Insert(_) => None,
         };
         let leaving = leaving.unwrap_or_default();
-        Arc::make_mut(scene).edit(edit).map_err(RenderError::Edit)?;
+        let scene_now = Arc::make_mut(scene);
+        install(pool.as_ref(), || scene_now.edit(edit)).map_err(RenderError::Edit)?;
         *tones = None;
         fills.forget();
         let fixed = fixed_bytes(scene, budget);
@@ -316,14 +317,15 @@ impl Prepared for CpuPrepared {
         }
         let before = (index.solid, index.widths);
         let changes = install(pool.as_ref(), || match edit {
-            Edit::Transform { .. } | Edit::Reshape { .. } => index.touch(scene, &leaving),
+            Edit::Transform { by, .. } => index.touch(scene, &leaving, Some(*by)),
+            Edit::Reshape { .. } => index.touch(scene, &leaving, None),
             Edit::Restyle(_) => {
                 index.order_anew(scene);
                 index.bounds_of(&edit.paths().collect::<Vec<_>>())
             }
             Edit::SetStates(_) => {
                 index.order_anew(scene);
-                index.touch(scene, &leaving)
+                index.touch(scene, &leaving, None)
             }
             Edit::Insert(_) => {
                 let changes = index.append(scene);

@@ -1,4 +1,5 @@
 use super::LANES;
+use super::canvas::TILE_PX;
 use super::disc::{Disc, NONE, PHASES};
 use super::place::STEPS_PX;
 
@@ -101,6 +102,25 @@ impl Capsule {
     #[cfg(test)]
     pub(super) fn level<const C: usize>(x: [f32; 2], y: f32) -> Self {
         super::stroke::capsule::<C>([x[0], y], [x[1], y], 1.0)
+    }
+
+    /// The pixels of a row that the part of the line within reach of it may touch, a bit each; all of level lines.
+    #[inline(always)]
+    pub(super) fn pixels<const C: usize>(&self, radius: f32, pixel_row: usize) -> u32 {
+        /// More than all that is rounded.
+        const MARGIN_PX: f32 = 0.5;
+        const LAST: f32 = (TILE_PX - 1) as f32;
+        if self.lean.is_nan() {
+            return u32::MAX;
+        }
+        let x_at =
+            |y: f32| self.x[0] + (min(max(y, self.y[0]), self.y[1]) - self.y[0]) * self.slope;
+        let row_y = (pixel_row * C) as f32;
+        let (a, b) = (x_at(row_y - radius), x_at(row_y + C as f32 + radius));
+        let pixel_at = |x: f32| clamp(x * (1.0 / C as f32), LAST) as u32;
+        let margin = radius + MARGIN_PX * C as f32;
+        u32::MAX << pixel_at(min(a, b) - margin)
+            & u32::MAX >> (LAST as u32 - pixel_at(max(a, b) + margin))
     }
 
     /// The samples covered in one row of pixels, of `columns` in all.

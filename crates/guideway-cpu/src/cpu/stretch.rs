@@ -40,11 +40,26 @@ impl<'a, P> Stretch<'a, P> {
         column: usize,
         columns_px: Range<usize>,
         rows_px: Range<usize>,
-    ) -> impl Iterator<Item = &mut [P]> {
+    ) -> Pixels<'_, 'a, P> {
         let left_px = (column - self.columns.start) * TILE_PX;
-        let within = left_px + columns_px.start..left_px + columns_px.end;
-        self.rows[rows_px]
-            .iter_mut()
-            .map(move |row| &mut row[within.clone()])
+        Pixels {
+            rows: &mut self.rows[rows_px],
+            within: left_px + columns_px.start..left_px + columns_px.end,
+        }
+    }
+}
+
+/// The pixels of a part of a tile.
+pub(super) struct Pixels<'s, 'a, P> {
+    rows: &'s mut [&'a mut [P]],
+    within: Range<usize>,
+}
+
+impl<P> Pixels<'_, '_, P> {
+    /// Its rows, from the upper one on.
+    #[inline(always)]
+    pub(super) fn rows(&mut self) -> impl Iterator<Item = &mut [P]> {
+        let within = &self.within;
+        self.rows.iter_mut().map(|row| &mut row[within.clone()])
     }
 }

@@ -2,10 +2,12 @@
 
 use std::ops::Range;
 
-use guideway_spline::{Affine, Point};
+use guideway_spline::{Affine, Bounds, Point};
+use rayon::prelude::*;
 
 use super::{Geometry, Points, index, stretches};
 use crate::RunPoints;
+use crate::run_points::POINTS_AT_ONCE;
 
 impl Geometry {
     /// Maps the curves of some paths, in the precision in which they are held. It costs least for rows in order.
@@ -16,12 +18,29 @@ impl Geometry {
         for rows in stretches(paths) {
             let range = self.points_of(&self.runs_of(&rows));
             match &mut self.points {
-                Points::F64(points) => points[range].iter_mut().for_each(|p| *p = by.apply(*p)),
-                Points::F32(points) => points[range]
-                    .iter_mut()
-                    .for_each(|p| *p = by.apply(p.to_f64()).to_f32()),
+                Points::F64(points) => set_each(&mut points[range], |p| by.apply(p)),
+                Points::F32(points) => {
+                    set_each(&mut points[range], |p| by.apply(p.to_f64()).to_f32());
+                }
             }
         }
+    }
+
+    /// A box that holds whatever of a box [`Self::transform`] maps, as exactly as its corners: neither a map nor
+    /// rounding changes the order of numbers but to turn it round.
+    pub fn mapped_bounds(&self, bounds: Bounds<f64>, by: Affine) -> Bounds<f64> {
+        let [first, corners @ ..] = bounds.corners().map(|corner| {
+            let to = by.apply(corner);
+            let as_held = match &self.points {
+                Points::F64(_) => to,
+                Points::F32(_) => to.to_f32().to_f64(),
+            };
+            Bounds {
+                min: as_held,
+                max: as_held,
+            }
+        });
+        corners.into_iter().fold(first, Bounds::union)
     }
 
     /// Some paths, in this order. It costs least for rows in order.
@@ -145,6 +164,16 @@ impl Geometry {
             *end = index(*end as usize + new_runs - runs.len());
         }
         self.run_ends.splice(runs, new_ends);
+    }
+}
+
+/// Gives each of some points another value by its own.
+fn set_each<T: Copy + Send>(points: &mut [T], value: impl Fn(T) -> T + Sync) {
+    let set = |points: &mut [T]| points.iter_mut().for_each(|p| *p = value(*p));
+    if points.len() <= POINTS_AT_ONCE {
+        set(points);
+    } else {
+        points.par_chunks_mut(POINTS_AT_ONCE).for_each(set);
     }
 }
 

@@ -77,6 +77,63 @@ fn a_map_moves_one_path_in_either_precision() {
 }
 
 #[test]
+fn a_long_stretch_is_mapped_and_measured_as_its_paths_are() {
+    let count = 3 * crate::run_points::POINTS_AT_ONCE as u32;
+    let wave = (0..count).map(|i| Point::new(f64::from(i) * 1e-3, f64::from(i).sin()));
+    let wave: Vec<_> = wave.collect();
+    let ends: Vec<u32> = (1..=count / 4).map(|path| path * 4).collect();
+    let by = Affine::rotation(0.3, Point::new(7.0, -2.0));
+    let narrow = wave.iter().map(|p| p.to_f32()).collect();
+    for mut at_once in [
+        Geometry::from_f64(wave.clone(), ends.clone()),
+        Geometry::from_f32(narrow, ends.clone()),
+    ] {
+        let mut one_by_one = at_once.clone();
+        let before = at_once.hull_bounds(0..ends.len()).unwrap();
+        at_once.transform(0..ends.len(), by);
+        // From the last to the first, so that no two follow each other.
+        one_by_one.transform((0..ends.len()).rev(), by);
+        assert_eq!(shape(&at_once), shape(&one_by_one));
+        let hull = at_once.hull_bounds(0..ends.len()).unwrap();
+        assert_eq!(one_by_one.hull_bounds((0..ends.len()).rev()), Some(hull));
+        let mapped = at_once.mapped_bounds(before, by);
+        assert!(mapped.contains(hull.min) && mapped.contains(hull.max));
+    }
+}
+
+proptest::proptest! {
+    #[test]
+    fn a_mapped_box_holds_mapped_points_to_the_last_bit(
+        xy in proptest::collection::vec(-1e4..1e4_f64, 16),
+        map in proptest::array::uniform6(-2.0..2.0_f64),
+        is_narrow: bool,
+    ) {
+        let points: Vec<_> = xy.chunks(2).map(|xy| Point::new(xy[0], xy[1])).collect();
+        let [a, b, c, d, e, f] = map;
+        let by = Affine {
+            x: Point::new(a, b),
+            y: Point::new(c, d),
+            origin: Point::new(e * 1e5, f * 1e5),
+        };
+        let mut geometry = if is_narrow {
+            let points = points.iter().map(|p| p.to_f32()).collect();
+            Geometry::from_f32(points, vec![4, 8])
+        } else {
+            Geometry::from_f64(points, vec![4, 8])
+        };
+        let before = geometry.hull_bounds([0, 1]).unwrap();
+        let moved = geometry.mapped_bounds(before, Affine::translation(by.origin));
+        let mapped = geometry.mapped_bounds(before, by);
+        let mut elsewhere = geometry.clone();
+        elsewhere.transform([0, 1], Affine::translation(by.origin));
+        proptest::prop_assert_eq!(elsewhere.hull_bounds([0, 1]), Some(moved));
+        geometry.transform([0, 1], by);
+        let hull = geometry.hull_bounds([0, 1]).unwrap();
+        proptest::prop_assert!(mapped.contains(hull.min) && mapped.contains(hull.max));
+    }
+}
+
+#[test]
 fn a_box_holds_the_points_of_some_paths() {
     let along_x = |rows: &[usize]| {
         let hull = three().hull_bounds(rows.iter().copied())?;

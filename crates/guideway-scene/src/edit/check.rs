@@ -24,7 +24,7 @@ impl Edit {
                 }
                 // Where the corners of a box may go, all in it may.
                 let hull = geometry.hull_bounds(paths.iter().map(|&path| path as usize));
-                let corners = hull.into_iter().flat_map(corners);
+                let corners = hull.into_iter().flat_map(Bounds::corners);
                 if is_placed(corners.map(|p| by.apply(p))) {
                     return Ok(());
                 }
@@ -89,11 +89,6 @@ fn named_twice(rows: &[u32]) -> Option<u32> {
         .array_windows()
         .find(|[a, b]| a == b)
         .map(|[a, _]| *a)
-}
-
-fn corners(of: Bounds<f64>) -> [Point<f64>; 4] {
-    let Bounds { min, max } = of;
-    [min, max, Point::new(min.x, max.y), Point::new(max.x, min.y)]
 }
 
 fn is_placed(mut points: impl Iterator<Item = Point<f64>>) -> bool {

@@ -1,4 +1,5 @@
 use super::*;
+use crate::cpu::backdrop::Backdrop;
 use crate::cpu::span::LAYERED;
 
 type Layers = Canvas<LAYERED>;

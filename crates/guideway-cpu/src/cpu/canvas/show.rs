@@ -1,0 +1,110 @@
+//! What was covered becomes pixels.
+
+use multiversion::multiversion;
+
+use super::{Canvas, pixel_counts};
+use crate::cpu::backdrop::{Backdrop, SolidColors};
+use crate::cpu::shot::LaneWidth;
+use crate::cpu::span::{LAYERED, SOLID, Samples};
+use crate::cpu::stretch::Pixels;
+
+/// The colours of a part of a tile.
+type Colors<'s, 'a> = Pixels<'s, 'a, [u8; 4]>;
+
+/// How a canvas is shown.
+#[derive(Clone, Copy)]
+pub(in crate::cpu) enum Look<'a> {
+    /// One opaque colour, by how much of a pixel it covers.
+    Solid(&'a Canvas<SOLID>, &'a SolidColors),
+    /// Colours over what lies below them.
+    Layers(&'a Canvas<LAYERED>, &'a Backdrop),
+}
+
+impl Look<'_> {
+    /// Gives the pixels of a part of a tile, so wide, their colours.
+    pub(in crate::cpu) fn show(
+        self,
+        lane_width: LaneWidth,
+        width_px: usize,
+        pixels: &mut Colors<'_, '_>,
+    ) {
+        match lane_width {
+            LaneWidth::Widest => show_widest(self, width_px, pixels),
+            LaneWidth::Eight => show_eight(self, width_px, pixels),
+            LaneWidth::Baseline => show(self, width_px, pixels),
+        }
+    }
+}
+
+#[multiversion(targets(
+    "x86_64+avx512f+avx512bw+avx512dq+avx512vl+bmi1+bmi2+lzcnt+popcnt",
+    "x86_64+avx2+bmi1+bmi2+lzcnt+popcnt"
+))]
+fn show_widest(look: Look<'_>, width_px: usize, pixels: &mut Colors<'_, '_>) {
+    show(look, width_px, pixels);
+}
+
+#[multiversion(targets("x86_64+avx2+bmi1+bmi2+lzcnt+popcnt"))]
+fn show_eight(look: Look<'_>, width_px: usize, pixels: &mut Colors<'_, '_>) {
+    show(look, width_px, pixels);
+}
+
+#[inline(always)]
+fn show(look: Look<'_>, width_px: usize, pixels: &mut Colors<'_, '_>) {
+    match look {
+        Look::Solid(canvas, colors) => canvas.show(width_px, colors, pixels),
+        Look::Layers(canvas, backdrop) => {
+            for (row, pixels) in pixels.rows().enumerate() {
+                canvas.row_over(row, backdrop, pixels);
+            }
+        }
+    }
+}
+
+impl<const C: usize> Canvas<C> {
+    /// The colours of each row of pixels that were laid over the background.
+    #[inline(always)]
+    pub(super) fn row_over(&self, row: usize, backdrop: &Backdrop, pixels: &mut [[u8; 4]]) {
+        for (pixel, sum) in pixels.iter_mut().zip(&self.sums[row]) {
+            *pixel = backdrop.below::<C>(*sum);
+        }
+    }
+
+    /// The pixels of a solid shape, a row after the other, by how many of their samples it covers.
+    #[inline(always)]
+    fn show(&self, width_px: usize, colors: &SolidColors, pixels: &mut Colors<'_, '_>) {
+        let seen = 0..width_px.div_ceil(Self::WINDOW_PX);
+        let touched = self.touched[seen.clone()]
+            .iter()
+            .fold(0, |all, flags| all | flags);
+        let open = &self.open[seen];
+        let filled = !open.iter().fold(0, |any, flags| any | flags);
+        let empty = open.iter().fold(!touched, |all, flags| all & flags);
+        for (row, pixels) in pixels.rows().enumerate() {
+            if filled >> row & 1 == 1 {
+                pixels.fill(colors[Samples::<SOLID>::COUNT]);
+            } else if empty >> row & 1 == 1 {
+                pixels.fill(colors[0]);
+            } else {
+                self.solid_row(row, colors, pixels);
+            }
+        }
+    }
+
+    /// The pixels of one row of a solid shape.
+    #[inline(always)]
+    fn solid_row(&self, row: usize, colors: &SolidColors, pixels: &mut [[u8; 4]]) {
+        for (window, pixels) in pixels.chunks_mut(Self::WINDOW_PX).enumerate() {
+            if self.open[window] >> row & 1 == 0 {
+                pixels.fill(colors[Samples::<SOLID>::COUNT]);
+            } else if self.touched[window] >> row & 1 == 0 {
+                pixels.fill(colors[0]);
+            } else {
+                let counts = pixel_counts::<C>(&self.shape[window][row]);
+                for (pixel, count) in pixels.iter_mut().zip(counts) {
+                    *pixel = colors[usize::from(count)];
+                }
+            }
+        }
+    }
+}
