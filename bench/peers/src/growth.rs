@@ -14,8 +14,8 @@ const PATHS: [usize; 9] = [
 ];
 /// A renderer that takes longer for a frame is not asked for a larger one.
 const MOST_MS: f64 = 1_000.0;
-const COLORS: [&str; 6] = [
-    "#0b57d0", "#c2410c", "#a16207", "#15803d", "#0f766e", "#7e22ce",
+const COLORS: [&str; 8] = [
+    "#0b57d0", "#c2410c", "#a16207", "#15803d", "#0f766e", "#7e22ce", "#be185d", "#334155",
 ];
 
 /// Draws layouts of rising size by all methods, prints a line for each, and writes a plot of frame times.
