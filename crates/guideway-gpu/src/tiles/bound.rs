@@ -58,8 +58,9 @@ impl Paint {
         }
     }
 
+    /// Whether whole lists are brought into order before.
     fn needs_order(self) -> bool {
-        matches!(self, Self::Opaque | Self::Translucent | Self::Density)
+        matches!(self, Self::Translucent | Self::Density)
     }
 
     fn kernel(self, kernels: &Kernels, samples: Samples) -> &Kernel {
@@ -243,7 +244,7 @@ impl Bound {
 
     /// Adds the stages from lines to pixels.
     fn add_tiles(&mut self, b: &Buffers<'_>) -> Result<(), String> {
-        let (kernels, paint) = (b.kernels, self.paint);
+        let kernels = b.kernels;
         let (
             Store { styles, found, .. },
             Room {
@@ -286,7 +287,7 @@ impl Bound {
             Over::Lines(LINE_THREADS),
             &buffers,
         )?;
-        if paint.needs_order() {
+        if self.paint.needs_order() {
             let buffers = [frame, lists, references, line_ranks];
             for sort in &kernels.sort {
                 self.add("sort", b, sort, Over::Tiles, &buffers)?;

@@ -2,12 +2,12 @@
 
 use super::params::{
     CLUSTER_STROKES, COLUMNS, ENOUGH_GROUPS, ENOUGH_LISTS, Found, LEAST_ALONE, LINE_THREADS,
-    Layers, ROUNDS_A_LINE, SAMPLE_ROWS, STARTS_THREADS, Samples, TILE_PX, TILE_THREADS, WAITED_FOR,
+    ROUNDS_A_LINE, SAMPLE_ROWS, STARTS_THREADS, Samples, TILE_PX, TILE_THREADS, WAITED_FOR,
     WORKGROUP,
 };
 use super::shaders::{
-    COVERS, COVERS_APART, CULL, FLATTEN, IDS, LAYERS, LIST_KEPT, RECOUNT, SCATTER, SHARE, SHIFT,
-    SORT, STARTS, STRIKE, TOUCH,
+    COVERS, COVERS_APART, CULL, FLATTEN, IDS, LAYERS, LIST_KEPT, OPAQUE, RECOUNT, SCATTER, SHARE,
+    SHIFT, SORT, STARTS, STRIKE, TOUCH,
 };
 use crate::device::{Gpu, Kernel};
 
@@ -74,7 +74,7 @@ impl Kernels {
         })
     }
 
-    /// The same, but those of a frame of one opaque colour count what they do.
+    /// The same, but those of a frame of opaque colours count what they do.
     pub(super) fn counting(&self, gpu: &Gpu) -> Result<Self, String> {
         let counts = [("COUNTS", 1.0)];
         let mut all = self.clone();
@@ -90,6 +90,7 @@ impl Kernels {
         for samples in [Samples::Coarse, Samples::Fine] {
             let painters = &mut all.painters[samples as usize];
             (painters.cover, painters.shared) = covers(gpu, samples, &counts)?;
+            painters.opaque = opaque(gpu, samples, &counts)?;
         }
         Ok(all)
     }
@@ -102,18 +103,18 @@ impl Kernels {
 impl Painters {
     fn new(gpu: &Gpu, samples: Samples) -> Result<Self, String> {
         let painted = [&PAINTED[..], &[constant("THREADS", TILE_THREADS)]].concat();
-        let layers = |layers: Layers| {
-            let shading = constant("SHADING", layers as u32);
-            let constants = [&painted[..], &[shading]].concat();
+        let layers = |is_density: bool| {
+            let is_density = ("IS_DENSITY", f64::from(u8::from(is_density)));
+            let constants = [&painted[..], &[is_density]].concat();
             Kernel::new(gpu, &LAYERS[samples as usize], &constants)
         };
         let (cover, shared) = covers(gpu, samples, &[])?;
         Ok(Self {
             cover,
             shared,
-            opaque: layers(Layers::Opaque)?,
-            translucent: layers(Layers::Translucent)?,
-            density: layers(Layers::Density)?,
+            opaque: opaque(gpu, samples, &[])?,
+            translucent: layers(false)?,
+            density: layers(true)?,
             ids: Kernel::new(gpu, &IDS[samples as usize], &painted)?,
         })
     }
@@ -193,6 +194,13 @@ fn covers(
     }
     let shared = |shows| Kernel::new(gpu, source, &[&own[..], &[("SHOWS", shows)]].concat());
     Ok((alone, Some([shared(0.0)?, shared(1.0)?])))
+}
+
+/// What paints opaque paths in many colours; with more constants.
+fn opaque(gpu: &Gpu, samples: Samples, more: &[Constant]) -> Result<Kernel, String> {
+    let threads = constant("THREADS", TILE_THREADS);
+    let constants = [&PAINTED[..], &[threads], more].concat();
+    Kernel::new(gpu, &OPAQUE[samples as usize], &constants)
 }
 
 /// What the longest list that one workgroup covers, where several may, is held between.

@@ -220,14 +220,6 @@ pub(super) struct Place {
     pub(super) block: u32,
 }
 
-/// What a pixel of a tile with layers shows: `SHADING` of `layers.wgsl`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Layers {
-    Opaque = 0,
-    Translucent = 1,
-    Density = 2,
-}
-
 /// How many samples a pixel has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Samples {

@@ -202,18 +202,33 @@ pub(super) const COVERS: Covers = all_covers!(["lanes"]);
 /// Where they do not.
 pub(super) const COVERS_APART: Covers = all_covers!(["sums", "lanes_apart"]);
 
+macro_rules! opaque {
+    ($samples:literal) => {
+        tiles!(
+            $samples,
+            "opaque",
+            // What is set from outside has to come before arrays of a length that is, too.
+            [
+                "sums", "portion", "order", "laid", "opaque", "rounds", "found"
+            ],
+            tile_bindings!("found")
+        )
+    };
+}
+
+/// Opaque paths in many colours, by [`Samples`].
+pub(super) const OPAQUE: [Source; 2] = [opaque!(4), opaque!(16)];
+
+macro_rules! layers {
+    ($samples:literal) => {
+        tiles!(
+            $samples,
+            "layers",
+            ["layers", "rounds", "found"],
+            tile_bindings!("found")
+        )
+    };
+}
+
 /// Anything else; by [`Samples`].
-pub(super) const LAYERS: [Source; 2] = [
-    tiles!(
-        4,
-        "layers",
-        ["layers", "rounds", "found"],
-        tile_bindings!("found")
-    ),
-    tiles!(
-        16,
-        "layers",
-        ["layers", "rounds", "found"],
-        tile_bindings!("found")
-    ),
-];
+pub(super) const LAYERS: [Source; 2] = [layers!(4), layers!(16)];

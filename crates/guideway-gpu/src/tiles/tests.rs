@@ -16,6 +16,7 @@ use super::*;
 use crate::GpuOptions;
 use crate::testing::here;
 
+mod colors;
 mod crowds;
 mod edits;
 mod levels;
@@ -133,6 +134,7 @@ fn the_limits_of_a_device_change_no_bit() {
     for (scene, shading) in [
         (plain(3000, 8.0), Shading::Color),
         (mixed(3000, 8.0), Shading::Color),
+        (colors::opaque(layout(3000, 8.0)), Shading::Color),
         (plain(3000, 8.0), Shading::Density(ToneMap::Log)),
     ] {
         let style = style(shading);

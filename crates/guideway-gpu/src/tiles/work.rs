@@ -31,7 +31,7 @@ impl Counted {
 }
 
 impl PreparedTiles {
-    /// Counts the work of a frame with nothing kept. Where colours differ it is not counted.
+    /// Counts the work of a frame with nothing kept. Where some paths are translucent it is not counted.
     pub(super) fn counted(
         &mut self,
         view: &View,
@@ -39,8 +39,10 @@ impl PreparedTiles {
         cancel: &Cancel,
     ) -> Result<Work, RenderError> {
         self.mend()?;
-        let is_one = self.facts.paint == Paint::One && style.shading == Shading::Color;
-        if !is_one || self.store.is_none() {
+        let paint = self.facts.paint;
+        let is_counted =
+            paint != Paint::Translucent && style.shading == Shading::Color && self.store.is_some();
+        if !is_counted {
             return Ok(Work::default());
         }
         let counting = self
@@ -57,15 +59,15 @@ impl PreparedTiles {
             .store
             .as_ref()
             .map_or(0, |s| s.stroke_list.len() as u32);
-        self.make_ready(view, strokes, shot.needs_ranks(Paint::One))?;
+        self.make_ready(view, strokes, shot.needs_ranks(paint))?;
         self.easel.kept = None;
         self.easel.unbind();
         let own = std::mem::replace(&mut self.kernels, counting);
         let keeps = std::mem::replace(&mut self.easel.keeps, false);
         // The first one learns what the view shows few of, as the last frame of another may not have.
         let drawn = self
-            .draw_all(&shot, Paint::One, cancel, |_, _| ())
-            .and_then(|_| self.draw_all(&shot, Paint::One, cancel, |_, _| ()));
+            .draw_all(&shot, paint, cancel, |_, _| ())
+            .and_then(|_| self.draw_all(&shot, paint, cancel, |_, _| ()));
         self.kernels = own;
         self.easel.keeps = keeps;
         self.easel.unbind();

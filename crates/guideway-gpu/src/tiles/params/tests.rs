@@ -19,8 +19,6 @@ const SHADERS: &[&Source] = &[
     &STARTS,
     &SHARE,
     &SCATTER,
-    &SORT[0],
-    &SORT[1],
     &COVERS.alone[0],
     &COVERS.alone[1],
     &COVERS.shared[0],
@@ -29,6 +27,10 @@ const SHADERS: &[&Source] = &[
     &COVERS_APART.alone[1],
     &COVERS_APART.shared[0],
     &COVERS_APART.shared[1],
+    &SORT[0],
+    &SORT[1],
+    &OPAQUE[0],
+    &OPAQUE[1],
     &LAYERS[0],
     &LAYERS[1],
 ];
@@ -93,6 +95,7 @@ fn rows_of_a_pixel_have_as_many_samples_as_is_said() {
             &COVERS.shared,
             &COVERS_APART.alone,
             &COVERS_APART.shared,
+            &OPAQUE,
             &LAYERS,
             &IDS,
         ] {
@@ -105,6 +108,12 @@ fn rows_of_a_pixel_have_as_many_samples_as_is_said() {
 fn lines_have_as_many_words_as_there_is_room_for() {
     let said = format!("const LINE_WORDS: u32 = {LINE_WORDS}u;");
     assert!(SCATTER.wgsl.contains(&said), "{said}");
+}
+
+#[test]
+fn opaque_tiles_have_as_many_threads_as_is_said() {
+    let said = format!("const TILE_THREADS: u32 = {TILE_THREADS}u;");
+    assert!(OPAQUE[0].wgsl.contains(&said), "{said}");
 }
 
 #[test]

@@ -34,23 +34,6 @@ fn count_of(pixel: u32) -> u32 {
     return count;
 }
 
-// The pixels of a word all of whose bits are set, a bit each.
-fn full_pixels(word: u32) -> u32 {
-    // The lowest bit of each stands for all.
-    var all = word;
-    for (var shift = 1u; shift < SAMPLES_A_ROW; shift *= 2u) {
-        all &= all >> shift;
-    }
-    if SAMPLES_A_ROW == 16u {
-        return (all & 1u) | ((all >> 15u) & 2u);
-    }
-    // Brings every fourth bit together.
-    all &= 0x11111111u;
-    all = (all | (all >> 3u)) & 0x03030303u;
-    all = (all | (all >> 6u)) & 0x000f000fu;
-    return (all | (all >> 12u)) & 0xffu;
-}
-
 // Closes the pixels all of whose samples are covered: so many threads share the words of a row of pixels.
 fn close_covered(thread: u32, threads: u32) {
     for (var i = thread; i < TILE_PX * WORDS; i += threads) {

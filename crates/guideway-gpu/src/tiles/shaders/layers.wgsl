@@ -1,12 +1,9 @@
-// Tiles of any scene: lists are in falling draw rank, and strokes of one path stand together. What a path
-// covers is gathered first, and then laid below all that was laid before. Each row of pixels goes through the
-// lines that reach into open pixels of it.
+// Tiles in which some paths are translucent, or density: lists are in falling draw rank, and strokes of one path stand together.
+// What a path covers is gathered first, and then laid below all that was laid before. Each row of pixels goes through the lines that
+// reach into open pixels of it.
 
-// 0: opaque paths; 1: translucent ones among them; 2: how many paths cover a pixel.
-override SHADING: u32;
-const OPAQUE: u32 = 0u;
-const TRANSLUCENT: u32 = 1u;
-const DENSITY: u32 = 2u;
+// Whether it is not colours that are shown, but how many paths cover a pixel.
+override IS_DENSITY: bool;
 
 const TURN_WORDS: u32 = TURN / 32u;
 
@@ -27,12 +24,6 @@ var<private> clear: array<f32, WORDS * 32>;
 
 // Parts that one sample's share of a sum is counted in.
 const PARTS: f32 = 256.0;
-
-// Adds an opaque colour, two channels a word: 255 times as many samples as a pixel has are less than 2^16.
-fn add_opaque(pixel: u32, color: u32, samples: u32) {
-    atomicAdd(&sums[pixel * 4u], (color & 0x00ff00ffu) * samples);
-    atomicAdd(&sums[pixel * 4u + 1u], ((color >> 8u) & 0x00ff00ffu) * samples);
-}
 
 fn add(pixel: u32, color: u32, samples: f32) {
     let parts = vec4u(vec4f(channels(color).rgb, 255.0) * samples * PARTS + 0.5);
@@ -62,7 +53,7 @@ fn lay(row: u32, color: u32, gathered: ptr<function, Row>) {
     for (var word = 0u; word < WORDS; word++) {
         rounds++;
         let all = (*gathered)[word];
-        let fresh = select(all & ~covered[word], all, SHADING == DENSITY);
+        let fresh = select(all & ~covered[word], all, IS_DENSITY);
         (*gathered)[word] = 0u;
         for (var left = fresh; left != 0u;) {
             rounds++;
@@ -70,15 +61,13 @@ fn lay(row: u32, color: u32, gathered: ptr<function, Row>) {
             let bits = bits_of_pixel(left, of_word);
             left &= ~(bits << (of_word * SAMPLES_A_ROW));
             let pixel = first_pixel + word * pixels_a_word + of_word;
-            if SHADING == DENSITY {
+            if IS_DENSITY {
                 atomicAdd(&sums[pixel * 4u], countOneBits(bits));
-            } else if SHADING == OPAQUE {
-                add_opaque(pixel, color, countOneBits(bits));
             } else {
                 add(pixel, color, take(word * 32u + of_word * SAMPLES_A_ROW, bits, opacity));
             }
         }
-        if SHADING != DENSITY && opacity >= 1.0 {
+        if !IS_DENSITY && opacity >= 1.0 {
             covered[word] |= fresh;
         }
     }
@@ -104,14 +93,31 @@ fn gather(tile: Tile, thread: u32, first: u32, end: u32) {
     workgroupBarrier();
 }
 
+var<workgroup> any_holds: atomic<u32>;
+var<workgroup> does_any: u32;
+
+// Whether something holds for any thread.
+fn any_of(thread: u32, holds: bool) -> bool {
+    if thread == 0u {
+        atomicStore(&any_holds, 0u);
+    }
+    workgroupBarrier();
+    if holds {
+        atomicStore(&any_holds, 1u);
+    }
+    workgroupBarrier();
+    if thread == 0u {
+        does_any = atomicLoad(&any_holds);
+    }
+    return workgroupUniformLoad(&does_any) != 0u;
+}
+
 // Closes the pixels that opaque paths have filled, and says whether any is left.
 fn stays_open(thread: u32) -> bool {
     let pixels_a_word = 32u / SAMPLES_A_ROW;
     var left = 0u;
-    for (var pixel = 0u; pixel < TILE_PX; pixel++) {
-        if bits_of_pixel(~covered[pixel / pixels_a_word], pixel % pixels_a_word) != 0u {
-            left |= 1u << pixel;
-        }
+    for (var word = 0u; word < WORDS; word++) {
+        left |= (full_pixels(covered[word]) ^ low_bits(pixels_a_word)) << (word * pixels_a_word);
     }
     if thread < TILE_PX {
         atomicStore(&open[thread], 0u);
@@ -134,7 +140,7 @@ fn main(
     let tile = tile_of(index);
     let list = list_of(index);
     if list.x >= list.y {
-        write(tile, thread, select(frame.background, 0u, SHADING == DENSITY));
+        write(tile, thread, select(frame.background, 0u, IS_DENSITY));
         return;
     }
     for (var channel = 0u; channel < 4u; channel++) {
@@ -143,7 +149,7 @@ fn main(
     begin_rounds(thread);
     open_all(tile, thread);
     covered = beyond(tile, thread);
-    if SHADING == TRANSLUCENT {
+    if !IS_DENSITY {
         for (var i = 0u; i < WORDS * 32u; i++) {
             clear[i] = 1.0;
             rounds++;
@@ -170,7 +176,7 @@ fn main(
                 cover(&gathered, capsules[line], thread);
             }
         }
-        if SHADING == DENSITY {
+        if IS_DENSITY {
             workgroupBarrier();
         } else if !stays_open(thread) {
             break;
@@ -185,12 +191,8 @@ fn main(
     for (var channel = 0u; channel < 4u; channel++) {
         sum[channel] = atomicLoad(&sums[thread * 4u + channel]);
     }
-    if SHADING == DENSITY {
+    if IS_DENSITY {
         write(tile, thread, bitcast<u32>(f32(sum.x) / samples));
-    } else if SHADING == OPAQUE {
-        let channels = vec4u(sum.x & 0xffffu, sum.y & 0xffffu, sum.x >> 16u, sum.y >> 16u);
-        let shares = vec4f(channels) / samples;
-        write(tile, thread, over_background(shares.rgb, shares.a / 255.0));
     } else {
         let shares = vec4f(sum) / (samples * PARTS);
         write(tile, thread, over_background(shares.rgb, shares.a / 255.0));

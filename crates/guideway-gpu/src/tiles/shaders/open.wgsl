@@ -30,3 +30,32 @@ fn rows_shown(capsule: Capsule) -> u32 {
     }
     return shown;
 }
+
+// The rows of samples from the first to behind the last of those in which a line may reach into an open pixel.
+fn rows_open(capsule: Capsule) -> vec2u {
+    let shown = rows_shown(capsule);
+    if shown == 0u {
+        return vec2u(0u);
+    }
+    let touched = rows_touched(capsule);
+    let first = firstTrailingBit(shown) * SAMPLE_ROWS;
+    let end = (firstLeadingBit(shown) + 1u) * SAMPLE_ROWS;
+    return vec2u(max(touched.x, first), min(touched.y, end));
+}
+
+// The pixels of a word all of whose bits are set, a bit each.
+fn full_pixels(word: u32) -> u32 {
+    // The lowest bit of each stands for all.
+    var all = word;
+    for (var shift = 1u; shift < SAMPLES_A_ROW; shift *= 2u) {
+        all &= all >> shift;
+    }
+    if SAMPLES_A_ROW == 16u {
+        return (all & 1u) | ((all >> 15u) & 2u);
+    }
+    // Brings every fourth bit together.
+    all &= 0x11111111u;
+    all = (all | (all >> 3u)) & 0x03030303u;
+    all = (all | (all >> 6u)) & 0x000f000fu;
+    return (all | (all >> 12u)) & 0xffu;
+}

@@ -10,8 +10,6 @@
 override THREADS: u32;
 // Lines that are looked at together.
 const TURN: u32 = 64u;
-var<workgroup> any_holds: atomic<u32>;
-var<workgroup> does_any: u32;
 
 struct Tile {
     index: u32,
@@ -58,25 +56,12 @@ fn list_of(tile: u32) -> vec2u {
 // The line at a place of the lists.
 fn capsule_at(tile: Tile, place: u32) -> Capsule {
     reads(1u);
-    let line = references[place];
-    let corner = vec2f(f32(tile.left), f32(tile.top));
-    return capsule_of(line_of(words_of_line(line)), corner, radius_of(rank_of(line)));
+    return capsule_of_line(tile, references[place]);
 }
 
-// Whether something holds for any thread.
-fn any_of(thread: u32, holds: bool) -> bool {
-    if thread == 0u {
-        atomicStore(&any_holds, 0u);
-    }
-    workgroupBarrier();
-    if holds {
-        atomicStore(&any_holds, 1u);
-    }
-    workgroupBarrier();
-    if thread == 0u {
-        does_any = atomicLoad(&any_holds);
-    }
-    return workgroupUniformLoad(&does_any) != 0u;
+fn capsule_of_line(tile: Tile, line: u32) -> Capsule {
+    let corner = vec2f(f32(tile.left), f32(tile.top));
+    return capsule_of(line_of(words_of_line(line)), corner, radius_of(rank_of(line)));
 }
 
 // The samples of one pixel in a word of a row.

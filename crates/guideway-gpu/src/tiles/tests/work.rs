@@ -41,6 +41,11 @@ fn work_is_counted_exactly() {
         assert!(work.bytes_read > Some(n * 4 * 6));
         assert_eq!(count().unwrap(), work);
     }
+    let mut opaque = prepared(&tiles, &colors::opaque(layout(30, 3.0)));
+    let mut count = || opaque.count_work(&all(), &style, &Cancel::default());
+    let work = count().unwrap();
+    assert!(work.tests > Some(30 * 16) && work.bytes_written > Some(4 * 210 * 130));
+    assert_eq!(count().unwrap(), work);
     let mut mixed = prepared(&tiles, &mixed(30, 3.0));
     let work = mixed.count_work(&all(), &style, &Cancel::default());
     assert_eq!(work.unwrap(), guideway_render::Work::default());

@@ -1,0 +1,115 @@
+// Tiles of opaque paths in many colours, whose lines come in falling draw rank: each is laid below all that are there. Some lines at a
+// time are looked at, and each row of samples goes through those that reach into open pixels of its row of pixels.
+
+const TURN_WORDS: u32 = TURN / 32u;
+
+var<workgroup> capsules: array<Capsule, TURN>;
+var<workgroup> colors: array<u32, TURN>;
+// Which of them each row of pixels goes through, a bit each.
+var<workgroup> lines_of_row: array<atomic<u32>, TILE_PX * TURN_WORDS>;
+var<workgroup> is_any_open: atomic<u32>;
+
+@group(0) @binding(7) var<storage, read_write> found: Found;
+
+// Brings some lines together, each for the rows in which it may show.
+fn gather(tile: Tile, thread: u32, first: u32, end: u32) {
+    if thread < TILE_PX * TURN_WORDS {
+        atomicStore(&lines_of_row[thread], 0u);
+    }
+    if thread == 0u {
+        atomicStore(&is_any_open, 0u);
+    }
+    workgroupBarrier();
+    if thread < TURN && first + thread < end {
+        let line = portion[first + thread];
+        let capsule = capsule_of_line(tile, line);
+        capsules[thread] = capsule;
+        colors[thread] = style_of(rank_of(line)).color;
+        for (var left = rows_shown(capsule); left != 0u; left &= left - 1u) {
+            let word = firstTrailingBit(left) * TURN_WORDS + thread / 32u;
+            atomicOr(&lines_of_row[word], 1u << (thread % 32u));
+        }
+    }
+    workgroupBarrier();
+}
+
+// Lays the lines that were gathered on a row, each below those before.
+fn lay_lines(row: u32) {
+    var full = ALL;
+    for (var word = 0u; word < WORDS; word++) {
+        full &= covered[word];
+    }
+    if full == ALL {
+        return;
+    }
+    for (var word = 0u; word < TURN_WORDS; word++) {
+        var left = atomicLoad(&lines_of_row[row / SAMPLE_ROWS * TURN_WORDS + word]);
+        for (; left != 0u; left &= left - 1u) {
+            rounds += 1u + WORDS;
+            let line = word * 32u + firstTrailingBit(left);
+            let rows = rows_touched(capsules[line]);
+            if row >= rows.x && row < rows.y {
+                lay_line(colors[line], span_of(capsules[line], row));
+            }
+        }
+    }
+}
+
+// Closes the pixels that are covered, and says whether any is left.
+fn stays_open(thread: u32) -> bool {
+    var left = 0u;
+    for (var word = 0u; word < WORDS; word++) {
+        left |= (full_pixels(covered[word]) ^ low_bits(PIXELS_A_WORD)) << (word * PIXELS_A_WORD);
+    }
+    if thread < TILE_PX {
+        atomicStore(&open[thread], 0u);
+    }
+    workgroupBarrier();
+    if left != 0u {
+        atomicOr(&open[thread / SAMPLE_ROWS], left);
+        atomicStore(&is_any_open, 1u);
+    }
+    workgroupBarrier();
+    return tell(thread, vec2u(atomicLoad(&is_any_open))).x != 0u;
+}
+
+@compute @workgroup_size(THREADS)
+fn main(
+    @builtin(workgroup_id) id: vec3u,
+    @builtin(num_workgroups) group_count: vec3u,
+    @builtin(local_invocation_index) thread: u32,
+) {
+    let index = workgroup_index(id, group_count);
+    if index >= frame.columns * frame.rows {
+        return;
+    }
+    let tile = tile_of(index);
+    let list = list_of(index);
+    if list.x >= list.y {
+        write(tile, thread, frame.background);
+        report_work();
+        return;
+    }
+    begin_rounds(thread);
+    open_all(tile, thread);
+    covered = beyond(tile, thread);
+    var left = left_of(thread, list);
+    var is_open = true;
+    while is_open && left.is_any {
+        let count = take_portion(thread, list, &left);
+        for (var first = 0u; is_open && first < count; first += TURN) {
+            gather(tile, thread, first, count);
+            lay_lines(thread);
+            is_open = stays_open(thread);
+            // Of a turn, and of gathering.
+            rounds += 1u + TURN_WORDS + 2u * TILE_PX;
+        }
+        // Of a portion.
+        rounds += 64u;
+    }
+    show(tile, thread);
+    end_rounds();
+    workgroupBarrier();
+    tell_rounds(thread);
+    report_work();
+}
