@@ -1,4 +1,4 @@
-use crate::{Point, Real, uniform};
+use crate::{Point, Real, greater, lesser, uniform};
 
 /// An axis-aligned box, its borders included.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -126,15 +126,4 @@ fn turns<T: Real>(p: [T; 4]) -> [T; 2] {
     let root = (b * b - a * c).sqrt();
     let q = -(b + root.copysign(b));
     [q / a, c / q]
-}
-
-/// The lesser of two numbers, by one instruction: `Float::min` looks for NaN too. The second if the first is NaN.
-#[inline]
-fn lesser<T: Real>(a: T, b: T) -> T {
-    if a < b { a } else { b }
-}
-
-#[inline]
-fn greater<T: Real>(a: T, b: T) -> T {
-    if a > b { a } else { b }
 }

@@ -39,5 +39,5 @@ pub use length::{run_length, segment_length};
 pub use nearest::{Nearest, nearest_on_run};
 pub use nurbs::{MAX_DEGREE, Nurbs, NurbsError};
 pub use point::Point;
-pub use real::Real;
+pub use real::{Real, greater, lesser};
 pub use runs::Runs;

@@ -29,3 +29,15 @@ impl Real for f32 {
         f64::from(self)
     }
 }
+
+/// The lesser of two numbers, by one instruction: `f64::min` looks for NaN too. The second if one is NaN.
+#[inline(always)]
+pub fn lesser<T: PartialOrd>(a: T, b: T) -> T {
+    if a < b { a } else { b }
+}
+
+/// The greater of two numbers, likewise.
+#[inline(always)]
+pub fn greater<T: PartialOrd>(a: T, b: T) -> T {
+    if a > b { a } else { b }
+}

@@ -1,6 +1,6 @@
 use std::ops::Range;
 
-use guideway_spline::{Bounds, Point};
+use guideway_spline::{Bounds, Point, greater, lesser};
 
 use super::LANES;
 
@@ -285,16 +285,6 @@ pub(super) fn bits_below(lane: usize) -> u32 {
     } else {
         (1 << LANES) - 1
     }
-}
-
-#[inline(always)]
-fn lesser<T: PartialOrd>(a: T, b: T) -> T {
-    if b < a { b } else { a }
-}
-
-#[inline(always)]
-fn greater<T: PartialOrd>(a: T, b: T) -> T {
-    if b > a { b } else { a }
 }
 
 /// Vertices on their way into [`Polylines`], until there are enough for a piece.

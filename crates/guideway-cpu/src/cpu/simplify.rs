@@ -1,7 +1,6 @@
-use guideway_spline::{Point, uniform};
+use guideway_spline::{Point, greater, lesser, uniform};
 
 use super::LANES;
-use super::span::{max, min};
 
 /// Joints of a stretch that is simplified at once.
 const MOST: usize = LANES;
@@ -103,7 +102,7 @@ impl Joints {
 
     /// How far a segment may bend away from its chord.
     fn bend_between(&self, first: usize, last: usize) -> f32 {
-        max(self.bend[first], self.bend[last])
+        greater(self.bend[first], self.bend[last])
     }
 
     /// Which joints to keep, a bit each: the first, the last, and where a line would be too far off, that
@@ -143,7 +142,7 @@ impl Joints {
         let mut bends = [0.0; N];
         for i in 0..N {
             let (x, y) = (xs[i] - start.x, ys[i] - start.y);
-            let t = min(max((x * along.x + y * along.y) * per_square, 0.0), 1.0);
+            let t = lesser(greater((x * along.x + y * along.y) * per_square, 0.0), 1.0);
             let (x, y) = (x - t * along.x, y - t * along.y);
             let joint = first + i;
             let is_between = (joint > from) & (joint < to);
@@ -154,7 +153,7 @@ impl Joints {
         }
         let key = keys.iter().fold(0, |most, &key| most.max(key));
         let ends = self.bend_between(from, to);
-        let bend = bends.iter().fold(ends, |most, &bend| max(most, bend));
+        let bend = bends.iter().fold(ends, |most, &bend| greater(most, bend));
         (
             f32::from_bits(key & !JOINT_BITS),
             (key & JOINT_BITS) as usize,

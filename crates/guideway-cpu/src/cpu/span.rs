@@ -1,3 +1,5 @@
+use guideway_spline::{greater, lesser};
+
 use super::LANES;
 use super::canvas::TILE_PX;
 use super::disc::{Disc, NONE, PHASES};
@@ -69,7 +71,7 @@ pub(super) fn phases<const C: usize>(y: f32) -> i32 {
     const MOST: f32 = (1 << 21) as f32;
     const ROUND: f32 = 1.5 * (1 << 23) as f32;
     let per_row = 1.0 / Samples::<C>::ROW_STEP;
-    let phases = min(max((y * per_row - 0.5) * PHASES as f32, -MOST), MOST);
+    let phases = lesser(greater((y * per_row - 0.5) * PHASES as f32, -MOST), MOST);
     (phases + ROUND).to_bits() as i32 - ROUND.to_bits() as i32
 }
 
@@ -113,14 +115,15 @@ impl Capsule {
         if self.lean.is_nan() {
             return u32::MAX;
         }
-        let x_at =
-            |y: f32| self.x[0] + (min(max(y, self.y[0]), self.y[1]) - self.y[0]) * self.slope;
+        let x_at = |y: f32| {
+            self.x[0] + (lesser(greater(y, self.y[0]), self.y[1]) - self.y[0]) * self.slope
+        };
         let row_y = (pixel_row * C) as f32;
         let (a, b) = (x_at(row_y - radius), x_at(row_y + C as f32 + radius));
         let pixel_at = |x: f32| clamp(x * (1.0 / C as f32), LAST) as u32;
         let margin = radius + MARGIN_PX * C as f32;
-        u32::MAX << pixel_at(min(a, b) - margin)
-            & u32::MAX >> (LAST as u32 - pixel_at(max(a, b) + margin))
+        u32::MAX << pixel_at(lesser(a, b) - margin)
+            & u32::MAX >> (LAST as u32 - pixel_at(greater(a, b) + margin))
     }
 
     /// The samples covered in one row of pixels, of `columns` in all.
@@ -146,8 +149,8 @@ impl Capsule {
             let to_sample = Samples::<C>::TO_SAMPLE[i];
             let middle = self.x[0] + Samples::<C>::snap((y - self.y[0]) * self.slope);
             let is_between = |lean| (y >= self.y[0] + lean) & (y <= self.y[1] + lean);
-            let left = min(self.x[0] - upper[i], self.x[1] - lower[i]);
-            let right = max(self.x[0] + upper[i], self.x[1] + lower[i]);
+            let left = lesser(self.x[0] - upper[i], self.x[1] - lower[i]);
+            let right = greater(self.x[0] + upper[i], self.x[1] + lower[i]);
             let left_border = if is_between(self.lean) {
                 middle - self.half
             } else {
@@ -159,11 +162,11 @@ impl Capsule {
                 NONE
             };
             spans.first[i] = round(
-                min(left, left_border) + (to_sample - Samples::<C>::SLACK),
+                lesser(left, left_border) + (to_sample - Samples::<C>::SLACK),
                 columns,
             );
             let end = round(
-                max(right, right_border) + (to_sample + Samples::<C>::SLACK),
+                greater(right, right_border) + (to_sample + Samples::<C>::SLACK),
                 columns,
             );
             spans.end[i] = end.max(spans.first[i]);
@@ -181,17 +184,7 @@ pub(super) fn round(x: f32, most: f32) -> u32 {
 /// As `f32::clamp` from 0, in two instructions: it may lose a NaN.
 #[inline(always)]
 pub(super) fn clamp(x: f32, most: f32) -> f32 {
-    min(max(x, 0.0), most)
-}
-
-#[inline(always)]
-pub(super) fn min(a: f32, b: f32) -> f32 {
-    if a < b { a } else { b }
-}
-
-#[inline(always)]
-pub(super) fn max(a: f32, b: f32) -> f32 {
-    if a > b { a } else { b }
+    lesser(greater(x, 0.0), most)
 }
 
 #[cfg(test)]

@@ -1,12 +1,12 @@
 use std::ops::Range;
 
-use guideway_spline::Point;
+use guideway_spline::{Point, greater, lesser};
 
 use super::LANES;
 use super::canvas::{Canvas, TILE_PX};
 use super::disc::Disc;
 use super::polylines::{Coordinate, Polylines, bits_below};
-use super::span::{Capsule, Samples, max, min, phases, round};
+use super::span::{Capsule, Samples, phases, round};
 
 /// Polylines as they lie in one tile of `C` columns of samples a pixel: in columns from its upper left corner.
 pub(super) struct Placed<'a, T, const C: usize> {
@@ -105,8 +105,8 @@ impl<const C: usize> Batch<C> {
             let is_up = y[1][i] < y[0][i];
             batch.x[0][i] = choose(is_up, x[1][i], x[0][i]);
             batch.x[1][i] = choose(is_up, x[0][i], x[1][i]);
-            batch.y[0][i] = min(y[0][i], y[1][i]);
-            batch.y[1][i] = max(y[0][i], y[1][i]);
+            batch.y[0][i] = lesser(y[0][i], y[1][i]);
+            batch.y[1][i] = greater(y[0][i], y[1][i]);
         }
         batch
     }
@@ -148,8 +148,8 @@ impl<const C: usize> Batch<C> {
             inside: [0; LANES],
         };
         for i in 0..LANES {
-            let left = min(self.x[0][i], self.x[1][i]) - self.radius;
-            let right = max(self.x[0][i], self.x[1][i]) + self.radius;
+            let left = lesser(self.x[0][i], self.x[1][i]) - self.radius;
+            let right = greater(self.x[0][i], self.x[1][i]) + self.radius;
             let top = self.y[0][i] - self.radius;
             let bottom = self.y[1][i] + self.radius;
             let is_inside = (right > 0.0) & (left < side) & (bottom > 0.0) & (top < side);
@@ -175,10 +175,10 @@ impl<const C: usize> Batch<C> {
         for i in 0..LANES {
             let (dx, dy) = (self.x[1][i] - self.x[0][i], self.y[1][i] - self.y[0][i]);
             let length = (dx * dx + dy * dy).sqrt();
-            let height = max(dy, LEVEL);
+            let height = greater(dy, LEVEL);
             slopes.slope[i] = dx / height;
             slopes.half[i] = Samples::<C>::snap(self.radius * length / height);
-            let lean = Samples::<C>::snap(self.radius * dx / max(length, LEVEL));
+            let lean = Samples::<C>::snap(self.radius * dx / greater(length, LEVEL));
             slopes.lean[i] = choose(dy < LEVEL, f32::NAN, lean);
             slopes.phases[0][i] = phases::<C>(self.y[0][i]);
             slopes.phases[1][i] = phases::<C>(self.y[1][i]);
