@@ -35,6 +35,10 @@ fn add_samples(word: u32, samples: u32, color: u32) {
 // Lays what a line covers of the row below all that is there.
 fn lay_line(color: u32, span: vec2u) {
     for (var word = 0u; word < WORDS; word++) {
+        // Most lines reach into few words of a row.
+        if span.x >= 32u * word + 32u || span.y <= 32u * word {
+            continue;
+        }
         let fresh = bits_between(span.x, span.y, word) & ~covered[word];
         if fresh != 0u {
             add_samples(word, fresh, color);

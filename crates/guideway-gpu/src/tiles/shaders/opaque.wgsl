@@ -4,6 +4,8 @@
 const TURN_WORDS: u32 = TURN / 32u;
 
 var<workgroup> capsules: array<Capsule, TURN>;
+// Their first row of samples, and from bit 16 on the one behind their last.
+var<workgroup> touched: array<u32, TURN>;
 var<workgroup> colors: array<u32, TURN>;
 // Which of them each row of pixels goes through, a bit each.
 var<workgroup> lines_of_row: array<atomic<u32>, TILE_PX * TURN_WORDS>;
@@ -23,7 +25,9 @@ fn gather(tile: Tile, thread: u32, first: u32, end: u32) {
     if thread < TURN && first + thread < end {
         let line = portion[first + thread];
         let capsule = capsule_of_line(tile, line);
+        let rows = rows_touched(capsule);
         capsules[thread] = capsule;
+        touched[thread] = rows.x | (rows.y << 16u);
         colors[thread] = style_of(rank_of(line)).color;
         for (var left = rows_shown(capsule); left != 0u; left &= left - 1u) {
             let word = firstTrailingBit(left) * TURN_WORDS + thread / 32u;
@@ -47,8 +51,7 @@ fn lay_lines(row: u32) {
         for (; left != 0u; left &= left - 1u) {
             rounds += 1u + WORDS;
             let line = word * 32u + firstTrailingBit(left);
-            let rows = rows_touched(capsules[line]);
-            if row >= rows.x && row < rows.y {
+            if row >= (touched[line] & 0xffffu) && row < (touched[line] >> 16u) {
                 lay_line(colors[line], span_of(capsules[line], row));
             }
         }
