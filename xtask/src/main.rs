@@ -81,7 +81,7 @@ fn test() -> Result<()> {
         }
     }
     heading("fuzzing");
-    fuzz(&["1".to_owned()])
+    fuzz(&["0.5".to_owned()])
 }
 
 fn fuzz(args: &[String]) -> Result<()> {
