@@ -71,7 +71,7 @@ impl<'a> RunPoints<'a> {
 }
 
 #[inline]
-fn bounds<T: Real + Send + Sync>(points: &[Point<T>]) -> Option<Bounds<T>> {
+fn bounds<T: Real>(points: &[Point<T>]) -> Option<Bounds<T>> {
     if points.len() <= POINTS_AT_ONCE {
         return Bounds::of_slice(points);
     }

@@ -8,8 +8,7 @@ use guideway_scene::Rgba;
 use guideway_spline::Point;
 
 pub(super) use self::show::Look;
-use super::disc::Disc;
-use super::span::{Capsule, ROWS, SOLID, Spans};
+use super::span::{ROWS, SOLID, Spans};
 
 /// Pixels along each side of a tile: a bit of a word each.
 pub(super) const TILE_PX: usize = u32::BITS as usize;
@@ -28,7 +27,17 @@ type Flags<const C: usize> = [u32; C];
 
 /// From so many pixels on, beside its width, it pays to find out which of them a row of a stroke needs. Short level lines
 /// have fewer.
-pub(super) const WIDE_PX: u32 = 11;
+const WIDE_PX: u32 = 11;
+
+/// What rows of pixels cut from a stroke.
+pub(super) trait Cuts {
+    /// Its width, in pixels.
+    fn width_px(&self) -> u32;
+    /// The pixels of a row that the part of the line within reach of it may touch, a bit each.
+    fn pixels(&self, row: usize) -> u32;
+    /// The samples covered in a row.
+    fn spans(&self, row: usize) -> Spans;
+}
 
 /// A flag for each pixel of a tile: a word for each row.
 pub(super) type Rows = [u32; TILE_PX];
@@ -55,7 +64,6 @@ pub(super) struct Canvas<const C: usize> {
 
 impl<const C: usize> Canvas<C> {
     pub(super) const WINDOW_PX: usize = TILE_PX / C;
-    const TILE_COLUMNS: f32 = (TILE_PX * C) as f32;
     const IS_SOLID: bool = C == SOLID;
     const NO_BLOCKS: [[Block; TILE_PX]; C] = [[[0; ROWS]; TILE_PX]; C];
 
@@ -82,13 +90,9 @@ impl<const C: usize> Canvas<C> {
     /// Starts an empty tile of which only `width_px` by `height_px` pixels are seen. What is not seen counts
     /// as covered: nothing waits for it.
     pub(super) fn begin(&mut self, width_px: usize, height_px: usize) {
-        if Self::IS_SOLID {
-            // Of most tiles from near, few blocks were touched.
-            for (blocks, touched) in self.shape.iter_mut().zip(self.touched) {
-                set_bits(touched).for_each(|row| blocks[row] = [0; ROWS]);
-            }
-        } else {
-            *self.shape = Self::NO_BLOCKS;
+        // Of most tiles from near, few blocks were touched.
+        for (blocks, touched) in self.shape.iter_mut().zip(self.touched) {
+            set_bits(touched).for_each(|row| blocks[row] = [0; ROWS]);
         }
         (self.touched, self.glazed) = ([0; C], [0; C]);
         for (window, open) in self.open.iter_mut().enumerate() {
@@ -186,25 +190,18 @@ impl<const C: usize> Canvas<C> {
         open & high_bits(least.x as u32) & low_bits((most.x as u32).saturating_add(1)) != 0
     }
 
-    /// Adds a capsule to the shape, which touches no other pixels than those of some rows and columns.
+    /// Adds a stroke to the shape, which touches no other pixels than those of some rows and columns.
     #[inline(always)]
-    pub(super) fn stroke(
-        &mut self,
-        capsule: &Capsule,
-        disc: &Disc<C>,
-        rows: Range<usize>,
-        pixels: u32,
-    ) {
-        let width_px = (2.0 / C as f32 * disc.radius) as u32;
-        let is_wide = pixels.count_ones() > width_px.saturating_add(WIDE_PX);
+    pub(super) fn stroke(&mut self, stroke: &impl Cuts, rows: Range<usize>, pixels: u32) {
+        let is_wide = pixels.count_ones() > stroke.width_px().saturating_add(WIDE_PX);
         for row in rows {
             let pixels = if is_wide {
-                pixels & capsule.pixels::<C>(disc.radius, row)
+                pixels & stroke.pixels(row)
             } else {
                 pixels
             };
             if let Some(windows) = self.open_windows(row, pixels) {
-                let spans = capsule.spans(disc, row, Self::TILE_COLUMNS);
+                let spans = stroke.spans(row);
                 self.add_all(windows, row, &spans);
             }
         }
@@ -212,7 +209,7 @@ impl<const C: usize> Canvas<C> {
 
     /// The windows of a row that hold the first and the last open one of some pixels; none if all are covered.
     #[inline(always)]
-    pub(super) fn open_windows(&self, row: usize, pixels: u32) -> Option<Range<usize>> {
+    fn open_windows(&self, row: usize, pixels: u32) -> Option<Range<usize>> {
         let open = self.open_pixels[row % TILE_PX] & pixels;
         let end = C - open.leading_zeros() as usize / Self::WINDOW_PX;
         (open != 0).then_some(open.trailing_zeros() as usize / Self::WINDOW_PX..end)
@@ -220,7 +217,7 @@ impl<const C: usize> Canvas<C> {
 
     /// Adds what is covered of some windows of a row.
     #[inline(always)]
-    pub(super) fn add_all(&mut self, windows: Range<usize>, row: usize, spans: &Spans) {
+    fn add_all(&mut self, windows: Range<usize>, row: usize, spans: &Spans) {
         for window in windows {
             self.add(window, row % TILE_PX, spans);
         }

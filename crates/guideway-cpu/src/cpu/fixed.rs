@@ -15,10 +15,10 @@ use guideway_spline::Point;
 pub(super) use self::caps::Caps;
 use self::stroke::{Borders, Stroke};
 use super::LANES;
-use super::canvas::{Canvas, TILE_PX, WIDE_PX, set_bits};
+use super::canvas::{Canvas, Cuts, TILE_PX, set_bits};
 use super::disc::Disc;
 use super::polylines::{Polylines, bits_below};
-use super::span::{ROWS, SOLID};
+use super::span::{ROWS, SOLID, Spans};
 use super::stroke::{Batch, Boxes};
 
 /// Steps of a pixel.
@@ -104,7 +104,8 @@ impl<'a> Fixed<'a> {
             }
             for lane in set_bits(todo & !borders.level) {
                 let stroke = Stroke::new(&ends, &borders, lane % LANES, caps);
-                stroke_rows(&stroke, caps, boxes.pixels(lane % LANES), canvas);
+                let (rows, pixels) = boxes.pixels(lane % LANES);
+                canvas.stroke(&(&stroke, caps), rows, pixels);
             }
         }
     }
@@ -148,26 +149,20 @@ impl<'a> Fixed<'a> {
     }
 }
 
-/// Covers what is open of a stroke, of which a box holds all: rows, and pixels of each.
-#[inline(always)]
-fn stroke_rows(
-    stroke: &Stroke,
-    caps: &Caps,
-    (rows, pixels): (Range<usize>, u32),
-    canvas: &mut Canvas<SOLID>,
-) {
-    let width_px = 2 * caps.reach as u32 / STEPS as u32;
-    let is_wide = pixels.count_ones() > WIDE_PX + width_px;
-    for row in rows {
-        let pixels = if is_wide {
-            pixels & stroke.pixels(row, caps.reach)
-        } else {
-            pixels
-        };
-        if let Some(windows) = canvas.open_windows(row, pixels) {
-            let spans = stroke.spans(row, caps);
-            canvas.add_all(windows, row, &spans);
-        }
+impl Cuts for (&Stroke, &Caps) {
+    #[inline(always)]
+    fn width_px(&self) -> u32 {
+        2 * self.1.reach as u32 / STEPS as u32
+    }
+
+    #[inline(always)]
+    fn pixels(&self, row: usize) -> u32 {
+        self.0.pixels(row, self.1.reach)
+    }
+
+    #[inline(always)]
+    fn spans(&self, row: usize) -> Spans {
+        self.0.spans(row, self.1)
     }
 }
 

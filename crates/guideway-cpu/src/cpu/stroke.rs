@@ -3,10 +3,10 @@ use std::ops::Range;
 use guideway_spline::{Point, greater, lesser};
 
 use super::LANES;
-use super::canvas::{Canvas, TILE_PX};
+use super::canvas::{Canvas, Cuts, TILE_PX};
 use super::disc::Disc;
 use super::polylines::{Coordinate, Polylines, bits_below};
-use super::span::{Capsule, Samples, phases, round};
+use super::span::{Capsule, Samples, Spans, phases, round};
 
 /// Polylines as they lie in one tile of `C` columns of samples a pixel: in columns from its upper left corner.
 pub(super) struct Placed<'a, T, const C: usize> {
@@ -122,7 +122,7 @@ impl<const C: usize> Batch<C> {
         disc: &Disc<C>,
     ) {
         let (rows, pixels) = boxes.pixels(lane);
-        canvas.stroke(&self.capsule(slopes, lane), disc, rows, pixels);
+        canvas.stroke(&(&self.capsule(slopes, lane), disc), rows, pixels);
     }
 
     #[inline(always)]
@@ -184,6 +184,23 @@ impl<const C: usize> Batch<C> {
             slopes.phases[1][i] = phases::<C>(self.y[1][i]);
         }
         slopes
+    }
+}
+
+impl<const C: usize> Cuts for (&Capsule, &Disc<C>) {
+    #[inline(always)]
+    fn width_px(&self) -> u32 {
+        (2.0 / C as f32 * self.1.radius) as u32
+    }
+
+    #[inline(always)]
+    fn pixels(&self, row: usize) -> u32 {
+        self.0.pixels::<C>(self.1.radius, row)
+    }
+
+    #[inline(always)]
+    fn spans(&self, row: usize) -> Spans {
+        self.0.spans(self.1, row, (TILE_PX * C) as f32)
     }
 }
 

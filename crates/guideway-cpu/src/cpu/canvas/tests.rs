@@ -1,15 +1,16 @@
 use super::*;
 use crate::cpu::backdrop::Backdrop;
-use crate::cpu::span::LAYERED;
+use crate::cpu::disc::Disc;
+use crate::cpu::span::{Capsule, LAYERED};
 
 type Layers = Canvas<LAYERED>;
 
 /// Strokes a level line, in pixels.
 fn stroke<const C: usize>(canvas: &mut Canvas<C>, from: f32, to: f32, y: f32, radius: f32) {
-    let mut disc = Disc::default();
+    let mut disc = Disc::<C>::default();
     disc.resize(radius * C as f32);
     let capsule = Capsule::level::<C>([from, to].map(|x| x * C as f32), y * C as f32);
-    canvas.stroke(&capsule, &disc, 0..TILE_PX, u32::MAX);
+    canvas.stroke(&(&capsule, &disc), 0..TILE_PX, u32::MAX);
 }
 
 fn pixel(canvas: &Layers, x: usize, y: usize, background: Rgba) -> [u8; 4] {
