@@ -9,7 +9,7 @@ use super::shaders::{
     COVERS, COVERS_APART, CULL, FLATTEN, IDS, LAYERS, LIST_KEPT, OPAQUE, RECOUNT, SCATTER, SHARE,
     SHIFT, SORT, STARTS, STRIKE, TOUCH,
 };
-use crate::device::{Gpu, Kernel};
+use crate::device::{Gpu, Kernel, Source};
 
 #[derive(Clone)]
 pub(super) struct Kernels {
@@ -90,7 +90,7 @@ impl Kernels {
         for samples in [Samples::Coarse, Samples::Fine] {
             let painters = &mut all.painters[samples as usize];
             (painters.cover, painters.shared) = covers(gpu, samples, &counts)?;
-            painters.opaque = opaque(gpu, samples, &counts)?;
+            painters.opaque = painter(gpu, &OPAQUE[samples as usize], &counts)?;
         }
         Ok(all)
     }
@@ -102,20 +102,18 @@ impl Kernels {
 
 impl Painters {
     fn new(gpu: &Gpu, samples: Samples) -> Result<Self, String> {
-        let painted = [&PAINTED[..], &[constant("THREADS", TILE_THREADS)]].concat();
-        let layers = |is_density: bool| {
-            let is_density = ("IS_DENSITY", f64::from(u8::from(is_density)));
-            let constants = [&painted[..], &[is_density]].concat();
-            Kernel::new(gpu, &LAYERS[samples as usize], &constants)
+        let layers = |is_density: f64| {
+            let constants = [("IS_DENSITY", is_density)];
+            painter(gpu, &LAYERS[samples as usize], &constants)
         };
         let (cover, shared) = covers(gpu, samples, &[])?;
         Ok(Self {
             cover,
             shared,
-            opaque: opaque(gpu, samples, &[])?,
-            translucent: layers(false)?,
-            density: layers(true)?,
-            ids: Kernel::new(gpu, &IDS[samples as usize], &painted)?,
+            opaque: painter(gpu, &OPAQUE[samples as usize], &[])?,
+            translucent: layers(0.0)?,
+            density: layers(1.0)?,
+            ids: painter(gpu, &IDS[samples as usize], &[])?,
         })
     }
 }
@@ -196,11 +194,11 @@ fn covers(
     Ok((alone, Some([shared(0.0)?, shared(1.0)?])))
 }
 
-/// What paints opaque paths in many colours; with more constants.
-fn opaque(gpu: &Gpu, samples: Samples, more: &[Constant]) -> Result<Kernel, String> {
+/// What paints a tile by a thread for each row of samples; with more constants.
+fn painter(gpu: &Gpu, source: &Source, more: &[Constant]) -> Result<Kernel, String> {
     let threads = constant("THREADS", TILE_THREADS);
     let constants = [&PAINTED[..], &[threads], more].concat();
-    Kernel::new(gpu, &OPAQUE[samples as usize], &constants)
+    Kernel::new(gpu, source, &constants)
 }
 
 /// What the longest list that one workgroup covers, where several may, is held between.

@@ -209,7 +209,7 @@ macro_rules! opaque {
             "opaque",
             // What is set from outside has to come before arrays of a length that is, too.
             [
-                "sums", "portion", "order", "laid", "opaque", "rounds", "found"
+                "sums", "rows", "portion", "order", "laid", "opaque", "rounds", "found"
             ],
             tile_bindings!("found")
         )
@@ -224,7 +224,8 @@ macro_rules! layers {
         tiles!(
             $samples,
             "layers",
-            ["layers", "rounds", "found"],
+            // As above.
+            ["layers", "rows", "rounds", "found"],
             tile_bindings!("found")
         )
     };

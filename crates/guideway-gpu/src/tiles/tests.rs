@@ -53,12 +53,17 @@ fn layout(paths: u32, reach_m: f64) -> Layout {
             .collect();
         let mut runs = Runs::default();
         runs.push(&control);
-        layout.paths.push(&NewPath {
-            runs: &runs,
-            ..NewPath::default()
-        });
+        add(&mut layout, &runs);
     }
     layout
+}
+
+/// Adds a path.
+fn add(layout: &mut Layout, runs: &Runs) -> usize {
+    layout.paths.push(&NewPath {
+        runs,
+        ..NewPath::default()
+    })
 }
 
 fn plain(paths: u32, reach_m: f64) -> Arc<Scene> {

@@ -26,6 +26,18 @@ struct Share {
     first: u32,
 }
 
+// The rows of samples from the first to behind the last of those in which a line may reach into an open pixel.
+fn rows_open(capsule: Capsule) -> vec2u {
+    let shown = rows_shown(capsule);
+    if shown == 0u {
+        return vec2u(0u);
+    }
+    let touched = rows_touched(capsule);
+    let first = firstTrailingBit(shown) * SAMPLE_ROWS;
+    let end = (firstLeadingBit(shown) + 1u) * SAMPLE_ROWS;
+    return vec2u(max(touched.x, first), min(touched.y, end));
+}
+
 // Covers what is dealt out: items of all lanes.
 fn cover_items(team: Team, items: u32) {
     for (var first = 0u; first < items; first += team.lanes) {

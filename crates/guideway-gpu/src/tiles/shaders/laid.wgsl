@@ -1,11 +1,8 @@
 // What a row of samples shows of the lines that are laid on it, one below the other: its thread alone keeps that.
 
 const IS_FINE: bool = WORDS > 2u;
-const PIXELS_A_WORD: u32 = 32u / SAMPLES_A_ROW;
 const PIXELS: u32 = WORDS * PIXELS_A_WORD;
 
-// Samples that are covered.
-var<private> covered: Row;
 // Sums of colours, times the samples that show them: where a row of a pixel has four samples, one word of three parts of ten bits,
 // and where it has sixteen, red and blue in one word, and green in another. So many words of all pixels of a word:
 const SUM_WORDS: u32 = select(8u, 4u, IS_FINE);

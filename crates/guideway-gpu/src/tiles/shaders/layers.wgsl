@@ -5,21 +5,15 @@
 // Whether it is not colours that are shown, but how many paths cover a pixel.
 override IS_DENSITY: bool;
 
-const TURN_WORDS: u32 = TURN / 32u;
-
 var<workgroup> capsules: array<Capsule, TURN>;
 var<workgroup> ranks: array<u32, TURN>;
 var<workgroup> colors: array<u32, TURN>;
-// Which of them each row of pixels goes through, a bit each.
-var<workgroup> lines_of_row: array<atomic<u32>, TILE_PX * TURN_WORDS>;
 // Red, green, blue, and how much is hidden, for each pixel.
 var<workgroup> sums: array<atomic<u32>, THREADS * 4>;
 
 @group(0) @binding(7) var<storage, read_write> found: Found;
 
-// Samples of this thread's row that opaque paths have covered.
-var<private> covered: Row;
-// What still shines through at each of its samples.
+// What still shines through at each sample of this thread's row.
 var<private> clear: array<f32, WORDS * 32>;
 
 // Parts that one sample's share of a sum is counted in.
@@ -48,7 +42,6 @@ fn take(first_sample: u32, bits: u32, opacity: f32) -> f32 {
 // Lays a colour over what was gathered of a row, where nothing hides it, and gathers anew.
 fn lay(row: u32, color: u32, gathered: ptr<function, Row>) {
     let opacity = f32(color >> 24u) / 255.0;
-    let pixels_a_word = 32u / SAMPLES_A_ROW;
     let first_pixel = (row / SAMPLE_ROWS) * TILE_PX;
     for (var word = 0u; word < WORDS; word++) {
         rounds++;
@@ -60,7 +53,7 @@ fn lay(row: u32, color: u32, gathered: ptr<function, Row>) {
             let of_word = firstTrailingBit(left) / SAMPLES_A_ROW;
             let bits = bits_of_pixel(left, of_word);
             left &= ~(bits << (of_word * SAMPLES_A_ROW));
-            let pixel = first_pixel + word * pixels_a_word + of_word;
+            let pixel = first_pixel + word * PIXELS_A_WORD + of_word;
             if IS_DENSITY {
                 atomicAdd(&sums[pixel * 4u], countOneBits(bits));
             } else {
@@ -75,56 +68,16 @@ fn lay(row: u32, color: u32, gathered: ptr<function, Row>) {
 
 // Brings some lines of a list together, each for the rows in which it may show.
 fn gather(tile: Tile, thread: u32, first: u32, end: u32) {
-    if thread < TILE_PX * TURN_WORDS {
-        atomicStore(&lines_of_row[thread], 0u);
-    }
-    workgroupBarrier();
+    clear_rows(thread);
     if thread < TURN && first + thread < end {
         let capsule = capsule_at(tile, first + thread);
         let rank = line_ranks[references[first + thread]];
         capsules[thread] = capsule;
         ranks[thread] = rank;
         colors[thread] = style_of(rank).color;
-        for (var left = rows_shown(capsule); left != 0u; left &= left - 1u) {
-            let word = firstTrailingBit(left) * TURN_WORDS + thread / 32u;
-            atomicOr(&lines_of_row[word], 1u << (thread % 32u));
-        }
+        enter_rows(thread, capsule);
     }
     workgroupBarrier();
-}
-
-var<workgroup> any_holds: atomic<u32>;
-var<workgroup> does_any: u32;
-
-// Whether something holds for any thread.
-fn any_of(thread: u32, holds: bool) -> bool {
-    if thread == 0u {
-        atomicStore(&any_holds, 0u);
-    }
-    workgroupBarrier();
-    if holds {
-        atomicStore(&any_holds, 1u);
-    }
-    workgroupBarrier();
-    if thread == 0u {
-        does_any = atomicLoad(&any_holds);
-    }
-    return workgroupUniformLoad(&does_any) != 0u;
-}
-
-// Closes the pixels that opaque paths have filled, and says whether any is left.
-fn stays_open(thread: u32) -> bool {
-    let pixels_a_word = 32u / SAMPLES_A_ROW;
-    var left = 0u;
-    for (var word = 0u; word < WORDS; word++) {
-        left |= (full_pixels(covered[word]) ^ low_bits(pixels_a_word)) << (word * pixels_a_word);
-    }
-    if thread < TILE_PX {
-        atomicStore(&open[thread], 0u);
-    }
-    workgroupBarrier();
-    atomicOr(&open[thread / SAMPLE_ROWS], left);
-    return any_of(thread, left != 0u);
 }
 
 @compute @workgroup_size(THREADS)
@@ -164,7 +117,7 @@ fn main(
         // Of a turn, and of gathering and closing.
         rounds += 1u + TURN_WORDS + 3u * TILE_PX;
         for (var word = 0u; word < TURN_WORDS; word++) {
-            var left = atomicLoad(&lines_of_row[(thread / SAMPLE_ROWS) * TURN_WORDS + word]);
+            var left = lines_through(thread, word);
             for (; left != 0u; left &= left - 1u) {
                 rounds += 1u + WORDS;
                 let line = word * 32u + firstTrailingBit(left);

@@ -1,27 +1,16 @@
 // Tiles of opaque paths in many colours, whose lines come in falling draw rank: each is laid below all that are there. Some lines at a
 // time are looked at, and each row of samples goes through those that reach into open pixels of its row of pixels.
 
-const TURN_WORDS: u32 = TURN / 32u;
-
 var<workgroup> capsules: array<Capsule, TURN>;
 // Their first row of samples, and from bit 16 on the one behind their last.
 var<workgroup> touched: array<u32, TURN>;
 var<workgroup> colors: array<u32, TURN>;
-// Which of them each row of pixels goes through, a bit each.
-var<workgroup> lines_of_row: array<atomic<u32>, TILE_PX * TURN_WORDS>;
-var<workgroup> is_any_open: atomic<u32>;
 
 @group(0) @binding(7) var<storage, read_write> found: Found;
 
 // Brings some lines together, each for the rows in which it may show.
 fn gather(tile: Tile, thread: u32, first: u32, end: u32) {
-    if thread < TILE_PX * TURN_WORDS {
-        atomicStore(&lines_of_row[thread], 0u);
-    }
-    if thread == 0u {
-        atomicStore(&is_any_open, 0u);
-    }
-    workgroupBarrier();
+    clear_rows(thread);
     if thread < TURN && first + thread < end {
         let line = portion[first + thread];
         let capsule = capsule_of_line(tile, line);
@@ -29,10 +18,7 @@ fn gather(tile: Tile, thread: u32, first: u32, end: u32) {
         capsules[thread] = capsule;
         touched[thread] = rows.x | (rows.y << 16u);
         colors[thread] = style_of(rank_of(line)).color;
-        for (var left = rows_shown(capsule); left != 0u; left &= left - 1u) {
-            let word = firstTrailingBit(left) * TURN_WORDS + thread / 32u;
-            atomicOr(&lines_of_row[word], 1u << (thread % 32u));
-        }
+        enter_rows(thread, capsule);
     }
     workgroupBarrier();
 }
@@ -47,7 +33,7 @@ fn lay_lines(row: u32) {
         return;
     }
     for (var word = 0u; word < TURN_WORDS; word++) {
-        var left = atomicLoad(&lines_of_row[row / SAMPLE_ROWS * TURN_WORDS + word]);
+        var left = lines_through(row, word);
         for (; left != 0u; left &= left - 1u) {
             rounds += 1u + WORDS;
             let line = word * 32u + firstTrailingBit(left);
@@ -56,24 +42,6 @@ fn lay_lines(row: u32) {
             }
         }
     }
-}
-
-// Closes the pixels that are covered, and says whether any is left.
-fn stays_open(thread: u32) -> bool {
-    var left = 0u;
-    for (var word = 0u; word < WORDS; word++) {
-        left |= (full_pixels(covered[word]) ^ low_bits(PIXELS_A_WORD)) << (word * PIXELS_A_WORD);
-    }
-    if thread < TILE_PX {
-        atomicStore(&open[thread], 0u);
-    }
-    workgroupBarrier();
-    if left != 0u {
-        atomicOr(&open[thread / SAMPLE_ROWS], left);
-        atomicStore(&is_any_open, 1u);
-    }
-    workgroupBarrier();
-    return tell(thread, vec2u(atomicLoad(&is_any_open))).x != 0u;
 }
 
 @compute @workgroup_size(THREADS)

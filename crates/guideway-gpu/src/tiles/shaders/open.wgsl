@@ -31,18 +31,6 @@ fn rows_shown(capsule: Capsule) -> u32 {
     return shown;
 }
 
-// The rows of samples from the first to behind the last of those in which a line may reach into an open pixel.
-fn rows_open(capsule: Capsule) -> vec2u {
-    let shown = rows_shown(capsule);
-    if shown == 0u {
-        return vec2u(0u);
-    }
-    let touched = rows_touched(capsule);
-    let first = firstTrailingBit(shown) * SAMPLE_ROWS;
-    let end = (firstLeadingBit(shown) + 1u) * SAMPLE_ROWS;
-    return vec2u(max(touched.x, first), min(touched.y, end));
-}
-
 // The pixels of a word all of whose bits are set, a bit each.
 fn full_pixels(word: u32) -> u32 {
     // The lowest bit of each stands for all.

@@ -36,18 +36,12 @@ fn crowded_by_one() -> Layout {
         .collect();
     let mut runs = Runs::default();
     runs.push(&control);
-    layout.paths.push(&NewPath {
-        runs: &runs,
-        ..NewPath::default()
-    });
+    add(&mut layout, &runs);
     for i in 0..40 {
         let at = 47.0 + f64::from(i) * 0.3;
         let mut runs = Runs::default();
         runs.push_line(Point::new(at, 25.0), Point::new(at - 4.0, 40.0));
-        layout.paths.push(&NewPath {
-            runs: &runs,
-            ..NewPath::default()
-        });
+        add(&mut layout, &runs);
     }
     layout
 }
@@ -66,17 +60,12 @@ fn they_are_drawn_as_if_lists_were_sorted_as_a_whole() {
         let mut beside = layout.clone();
         let mut runs = Runs::default();
         runs.push_line(Point::new(400.0, 0.0), Point::new(400.0, 1.0));
-        beside.paths.push(&NewPath {
-            runs: &runs,
-            ..NewPath::default()
-        });
-        beside.paths.set_own_style(
-            beside.paths.len() - 1,
-            OwnStyle {
-                width_m: None,
-                color_rgba: Some(0x80),
-            },
-        );
+        let out_of_sight = add(&mut beside, &runs);
+        let style = OwnStyle {
+            width_m: None,
+            color_rgba: Some(0x80),
+        };
+        beside.paths.set_own_style(out_of_sight, style);
         for line_rule in [LineRule::default(), LineRule::Thesis] {
             let style = Style {
                 line_rule,
