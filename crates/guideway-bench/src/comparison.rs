@@ -4,7 +4,7 @@ use guideway_render::{Budget, Cancel, FrameSize, Method, RenderError, Style, Vie
 use guideway_scene::Scene;
 use serde::{Deserialize, Serialize};
 
-use crate::edits::Edits;
+use crate::edits::{Edits, Moves};
 use crate::measured::Fault;
 use crate::near::near;
 use crate::runner::{Frames, Runner, Shot};
@@ -27,8 +27,8 @@ pub struct Contest {
     pub magnify: f64,
     /// What changes from frame to frame.
     pub motion: Motion,
-    /// Share of the paths that [`Motion::Edit`] moves, from 0 to 1.
-    pub edit_share: f64,
+    /// What [`Motion::Edit`] moves.
+    pub edit: Moves,
     /// How it looks.
     pub style: Style,
     /// What each method may use.
@@ -57,6 +57,9 @@ pub struct Comparison {
     pub edit_share: Option<f64>,
     /// Paths that moved: one at the least.
     pub edit_paths: Option<usize>,
+    /// Whether each of them went its own way.
+    #[serde(default)]
+    pub edit_is_apart: Option<bool>,
     /// Frames of each method after the first that do not count.
     pub warmup: usize,
     /// Frames of each method that count.
@@ -125,7 +128,7 @@ pub fn compare(
     let shot = Shot {
         view,
         motion: contest.motion,
-        edits: is_edited.then(|| Edits::new(&contest.scene, contest.edit_share)),
+        edits: is_edited.then(|| Edits::new(&contest.scene, contest.edit)),
         style: contest.style,
         frames: Frames {
             warmup: contest.warmup,
@@ -147,8 +150,9 @@ pub fn compare(
         dress: contest.dress,
         view: ViewFacts::from(&view),
         motion: contest.motion,
-        edit_share: is_edited.then_some(contest.edit_share),
+        edit_share: is_edited.then_some(contest.edit.share),
         edit_paths: shot.edits.as_ref().map(Edits::path_count),
+        edit_is_apart: is_edited.then_some(contest.edit.is_apart),
         warmup: contest.warmup,
         frames: contest.frames,
         memory_bytes: contest.budget.memory_bytes,
@@ -228,7 +232,10 @@ mod tests {
             size: FrameSize::new(64, 36).unwrap(),
             magnify: 1.0,
             motion,
-            edit_share: 0.1,
+            edit: Moves {
+                share: 0.1,
+                is_apart: false,
+            },
             style: Style::default(),
             budget: Budget::default(),
             warmup: 1,

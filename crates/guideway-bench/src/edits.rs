@@ -4,10 +4,20 @@ use std::sync::Arc;
 use guideway_render::RenderError;
 use guideway_scene::{Edit, Scene};
 use guideway_spline::{Affine, Point};
+use serde::{Deserialize, Serialize};
 
 /// How far [`crate::Motion::Edit`] moves a path, in metres. Exact in `f32`, so that there and back is where
 /// it began.
 const BY_M: Point<f64> = Point { x: 0.5, y: 0.25 };
+
+/// Which paths [`crate::Motion::Edit`] moves each frame, and how.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Moves {
+    /// Share of all paths, from 0 to 1.
+    pub share: f64,
+    /// Whether each goes its own way, by curves given anew; else one map moves all of them.
+    pub is_apart: bool,
+}
 
 /// An edit that every other frame takes back.
 #[derive(Clone, Debug)]
@@ -20,14 +30,17 @@ pub(crate) struct Edits {
 
 impl Edits {
     /// Moves a share of the paths, evenly among all, and one at the least.
-    pub(crate) fn new(scene: &Arc<Scene>, share: f64) -> Self {
-        let paths = spread(scene.row_count(), share);
-        let by = |by_m| Edit::Transform {
-            paths: Arc::clone(&paths),
-            by: Affine::translation(by_m),
-        };
+    pub(crate) fn new(scene: &Arc<Scene>, moves: Moves) -> Self {
+        let paths = spread(scene.row_count(), moves.share);
         Self {
-            there_and_back: [by(BY_M), by(BY_M * -1.0)],
+            there_and_back: if moves.is_apart {
+                apart(scene, &paths)
+            } else {
+                [BY_M, BY_M * -1.0].map(|by_m| Edit::Transform {
+                    paths: Arc::clone(&paths),
+                    by: Affine::translation(by_m),
+                })
+            },
             before: Arc::clone(scene),
             after: OnceCell::new(),
         }
@@ -57,6 +70,23 @@ impl Edits {
     }
 }
 
+/// Each path by itself: neighbours never go the same way.
+fn apart(scene: &Scene, paths: &Arc<[u32]>) -> [Edit; 2] {
+    let rows = paths.iter().map(|&path| path as usize);
+    let before = scene.layout().paths.geometry().select(rows);
+    let Point { x, y } = BY_M;
+    let ways = [(x, y), (-y, x), (-x, -y), (y, -x)].map(|(x, y)| Point::new(x, y));
+    let mut after = before.clone();
+    for curve in 0..after.path_count() {
+        let way = Affine::translation(ways[curve % ways.len()]);
+        after.transform([curve], way);
+    }
+    [after, before].map(|curves| Edit::Reshape {
+        paths: Arc::clone(paths),
+        curves: Arc::new(curves),
+    })
+}
+
 /// Rows at even distances.
 fn spread(rows: usize, share: f64) -> Arc<[u32]> {
     let count = ((rows as f64 * share).round() as usize).max(1).min(rows);
@@ -77,40 +107,56 @@ mod tests {
     fn the_share_that_was_asked_for_moves_and_nothing_else() {
         let before = Dataset::D1.scene(200);
         for (share, expected) in [(0.000_1, 1), (0.01, 2), (0.1, 20), (1.0, 200)] {
-            let edits = Edits::new(&before, share);
-            assert_eq!(edits.path_count(), expected);
-            let after = edits.scene(0).unwrap();
-            let pairs = starts(&before).into_iter().zip(starts(after));
-            let moved_rows: Vec<usize> = pairs
-                .enumerate()
-                .filter(|(_, (a, b))| a != b)
-                .map(|(row, _)| row)
-                .collect();
-            assert_eq!(moved_rows.len(), expected);
-            let gaps = moved_rows.windows(2).map(|pair| pair[1] - pair[0]);
-            assert!(gaps.into_iter().all(|gap| gap == 200 / expected));
+            for is_apart in [false, true] {
+                let edits = Edits::new(&before, Moves { share, is_apart });
+                assert_eq!(edits.path_count(), expected);
+                let after = edits.scene(0).unwrap();
+                let pairs = starts(&before).into_iter().zip(starts(after));
+                let moved: Vec<(usize, Point<f64>)> = pairs
+                    .map(|(a, b)| b - a)
+                    .enumerate()
+                    .filter(|(_, way)| *way != Point::new(0.0, 0.0))
+                    .collect();
+                assert_eq!(moved.len(), expected);
+                for pair in moved.windows(2) {
+                    assert_eq!(pair[1].0 - pair[0].0, 200 / expected);
+                    let goes_along = pair[1].1.distance(pair[0].1) < 0.01;
+                    assert_eq!(goes_along, !is_apart);
+                }
+            }
         }
     }
 
     #[test]
     fn there_and_back_is_where_it_began() {
         let scene = Dataset::D2.scene(100);
-        let edits = Edits::new(&scene, 1.0);
-        let mut edited = Scene::clone(&scene);
-        edited.edit(edits.edit(0)).unwrap();
-        assert_eq!(starts(&edited), starts(edits.scene(0).unwrap()));
-        let once = starts(&edited);
-        for frame in 1..20 {
-            edited.edit(edits.edit(frame)).unwrap();
+        for is_apart in [false, true] {
+            let moves = Moves {
+                share: 1.0,
+                is_apart,
+            };
+            let edits = Edits::new(&scene, moves);
+            let mut edited = Scene::clone(&scene);
+            edited.edit(edits.edit(0)).unwrap();
+            assert_eq!(starts(&edited), starts(edits.scene(0).unwrap()));
+            let once = starts(&edited);
+            for frame in 1..20 {
+                edited.edit(edits.edit(frame)).unwrap();
+            }
+            edited.edit(edits.edit(20)).unwrap();
+            assert_eq!(starts(&edited), once);
+            assert_eq!(starts(edits.scene(1).unwrap()), starts(&scene));
         }
-        edited.edit(edits.edit(20)).unwrap();
-        assert_eq!(starts(&edited), once);
-        assert_eq!(starts(edits.scene(1).unwrap()), starts(&scene));
     }
 
     #[test]
     fn an_empty_scene_has_nothing_to_move() {
-        let edits = Edits::new(&Dataset::D1.scene(0), 0.5);
-        assert_eq!(edits.path_count(), 0);
+        for is_apart in [false, true] {
+            let moves = Moves {
+                share: 0.5,
+                is_apart,
+            };
+            assert_eq!(Edits::new(&Dataset::D1.scene(0), moves).path_count(), 0);
+        }
     }
 }

@@ -24,6 +24,7 @@ use guideway_render::Method;
 pub use comparison::{Comparison, Contest, Contestant, SceneFacts, ViewFacts, compare};
 pub use dataset::{Dataset, plain_scene};
 pub use dress::Dress;
+pub use edits::Moves;
 pub use machine::Machine;
 pub use measured::{FrameTime, Measured, Outcome, PathCounts, Prepare, Row, StageTime, WorkCounts};
 pub use motion::Motion;

@@ -168,7 +168,7 @@ mod tests {
     use guideway_render::{MethodInfo, Preparation};
 
     use super::*;
-    use crate::Dataset;
+    use crate::{Dataset, Moves};
 
     /// A method that takes a changed scene only by preparing it.
     struct Anew;
@@ -215,7 +215,13 @@ mod tests {
         let shot = Shot {
             view: View::fit(size, scene.bounds()).unwrap(),
             motion: Motion::Edit,
-            edits: Some(Edits::new(&scene, 0.5)),
+            edits: Some(Edits::new(
+                &scene,
+                Moves {
+                    share: 0.5,
+                    is_apart: false,
+                },
+            )),
             style: Style::default(),
             frames: Frames {
                 warmup: 0,

@@ -80,6 +80,12 @@ fn edits_move_the_share_asked_for_and_one_path_at_the_least() {
         );
         assert!(said.contains("of the first; in place"), "{said}");
     }
+    let apart = ["--methods", "oracle", "--motion", "edit", "--apart"];
+    let said = stdout(&tiny(&apart));
+    assert!(
+        said.contains("moved each frame, each its own way"),
+        "{said}"
+    );
 }
 
 #[test]
@@ -107,6 +113,7 @@ fn the_report_is_documented_and_the_same_in_a_file() {
                 "memory_bytes",
                 "edit_share",
                 "edit_paths",
+                "edit_is_apart",
             ],
         );
         assert_eq!(report["motion"], motion);
@@ -177,6 +184,7 @@ fn what_makes_no_sense_is_refused() {
     for args in [
         &["bench", file, "--paths", "5"][..],
         &["bench", "--moved", "5"],
+        &["bench", "--apart"],
         &["bench", "--motion", "edit", "--moved", "0"],
         &["bench", "--methods", "nothing"],
         &["bench", "--frames", "0"],

@@ -3,7 +3,7 @@ use std::path::{Path, PathBuf};
 use clap::ValueEnum;
 use guideway::render::{Budget, FrameSize, Style};
 use guideway::scene::LineRule;
-use guideway_bench::{Contest, Dataset, Dress, Motion, plain_scene};
+use guideway_bench::{Contest, Dataset, Dress, Motion, Moves, plain_scene};
 
 use crate::cli::render::Rule;
 use crate::cli::{Failure, Output, input, values};
@@ -18,6 +18,7 @@ const MOVED_PERCENT: f64 = 1.0;
     guideway bench d1 --paths 100000 --methods grid,cpu\n  \
     guideway bench site.lif.json --motion pan --json\n  \
     guideway bench d1 --paths 100000 --motion edit --moved 10\n  \
+    guideway bench d1 --paths 100000 --motion edit --moved 100 --apart\n  \
     guideway bench d1 --paths 1000000 --methods gpu,cpu --magnify 20 --dress mixed\n  \
     guideway bench d2 --methods grid,grid+scan+radius+exit,tessellation --frames 60 -o d2.json")]
 pub(crate) struct Args {
@@ -49,6 +50,9 @@ pub(crate) struct Args {
     /// Share of the paths that `--motion edit` moves each frame, in percent [default: 1]
     #[arg(long, value_name = "PERCENT", value_parser = values::percent)]
     moved: Option<f64>,
+    /// Let each path that `--motion edit` moves go its own way, by a curve given anew, not all of them by one map
+    #[arg(long)]
+    apart: bool,
     /// Size of the picture in pixels
     #[arg(long, value_name = "WxH", default_value = "1920x1080", value_parser = values::frame_size)]
     size: FrameSize,
@@ -113,9 +117,9 @@ impl Args {
                 "Leave --paths out, or measure a dataset, such as `guideway bench d1 --paths 100000`",
             ));
         }
-        if self.moved.is_some() && self.motion != Move::Edit {
+        if self.motion != Move::Edit && (self.moved.is_some() || self.apart) {
             return Err(Failure::arguments(
-                "--moved says how many paths move, which needs --motion edit",
+                "--moved and --apart say how paths move, which needs --motion edit",
                 "Add it, such as `--motion edit --moved 10`",
             ));
         }
@@ -144,7 +148,10 @@ impl Args {
                 Move::Zoom => Motion::Zoom,
                 Move::Edit => Motion::Edit,
             },
-            edit_share: self.moved.unwrap_or(MOVED_PERCENT) / 100.0,
+            edit: Moves {
+                share: self.moved.unwrap_or(MOVED_PERCENT) / 100.0,
+                is_apart: self.apart,
+            },
             style: Style {
                 line_rule: match (self.width_px, self.line_rule) {
                     (Some(width_px), _) => LineRule::World {

@@ -52,7 +52,11 @@ fn what(comparison: &Comparison) -> String {
         Motion::Zoom => "the view zooms".to_owned(),
         Motion::Edit => {
             let moved = comparison.edit_paths.unwrap_or(0) as u64;
-            format!("{} moved each frame", text::counted(moved, "path"))
+            let ways = match comparison.edit_is_apart {
+                Some(true) => ", each its own way",
+                _ => "",
+            };
+            format!("{} moved each frame{ways}", text::counted(moved, "path"))
         }
     };
     let dress = match comparison.dress {
