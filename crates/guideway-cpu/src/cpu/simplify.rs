@@ -1,4 +1,4 @@
-use guideway_spline::{Point, greater, lesser, uniform};
+use guideway_spline::{Point, greater, uniform};
 
 use super::LANES;
 
@@ -9,14 +9,27 @@ pub(super) const MOST_POINTS: usize = MOST + 2;
 /// Joints between two that are looked at as one vector.
 const FEW: usize = 8;
 
-/// Some joints between the segments of a run, and how far the segments there may bend away from straight
-/// lines between them. Behind them lie others, or nothing.
+/// Some joints between the segments of a run, how far the segments there may bend away from straight lines between them, and
+/// how far that lets a joint be from a line that passes it: its square, with the sign. Behind them lie others, or nothing.
 struct Joints {
     count: usize,
-    x: [f32; MOST + FEW],
-    y: [f32; MOST + FEW],
-    bend: [f32; MOST + FEW],
+    x: [f32; 2 * MOST],
+    y: [f32; 2 * MOST],
+    bend: [f32; 2 * MOST],
+    room: [f32; 2 * MOST],
 }
+
+/// From number `MOST - n` on, the first n bits of lanes are set.
+static FIRST_LANES: [u32; 2 * MOST] = {
+    let mut lanes = [0; 2 * MOST];
+    let (set, _) = lanes.split_at_mut(MOST);
+    let mut i = 0;
+    while i < MOST {
+        set[i] = u32::MAX;
+        i += 1;
+    }
+    lanes
+};
 
 /// Draws a run of control points, the first `len` of some, as straight lines, no point of either farther than `tolerance`
 /// from the other: gives the vertices in order. There are [`MOST_POINTS`] from each point of the run on: its own, or any.
@@ -26,7 +39,8 @@ struct Joints {
 ///
 /// A line from joint to joint is taken if all joints between are near enough. Between two joints, a curve
 /// leaves their chord by at most max |C''| / 8, and C'' is linear, so its greatest length is at a joint. The
-/// points that near to a line form a convex set, so it holds all chords of joints that it holds.
+/// points that near to a line form a convex set, so it holds all chords of joints that it holds: a joint may be as far
+/// off as the tolerance leaves beside what the curve may bend on either side of it.
 #[inline(always)]
 pub(super) fn simplify(
     mut points: &[Point<f32>],
@@ -38,11 +52,11 @@ pub(super) fn simplify(
     let mut left = len;
     while left >= 4 {
         let part = points.first_chunk().expect("points behind the run");
-        let joints = Joints::new(part, left.min(MOST_POINTS) - 2);
+        let joints = Joints::new(part, left.min(MOST_POINTS) - 2, tolerance);
         if left == len {
             vertices.push(joints.at(0));
         }
-        let mut kept = joints.kept(tolerance);
+        let mut kept = joints.kept();
         let mut last = 0;
         // What ends with a part may go on behind it: then all but the first line waits for the next part.
         if left > MOST_POINTS && kept.count_ones() > 2 {
@@ -78,12 +92,13 @@ fn cut(segment: &[Point<f32>; 4], bend: f32, tolerance: f32, vertices: &mut Vec<
 impl Joints {
     /// The first joints of a run.
     #[inline(always)]
-    fn new(points: &[Point<f32>; MOST_POINTS], count: usize) -> Self {
+    fn new(points: &[Point<f32>; MOST_POINTS], count: usize, tolerance: f32) -> Self {
         let mut joints = Self {
             count,
-            x: [0.0; MOST + FEW],
-            y: [0.0; MOST + FEW],
-            bend: [0.0; MOST + FEW],
+            x: [0.0; 2 * MOST],
+            y: [0.0; 2 * MOST],
+            bend: [0.0; 2 * MOST],
+            room: [0.0; 2 * MOST],
         };
         for i in 0..MOST {
             let [a, b, c] = [points[i], points[i + 1], points[i + 2]];
@@ -92,6 +107,15 @@ impl Joints {
             let x = a.x - b.x * 2.0 + c.x;
             let y = a.y - b.y * 2.0 + c.y;
             joints.bend[i] = (x * x + y * y).sqrt() * 0.125;
+        }
+        // What lies behind the last joint does not matter to those between others.
+        for i in 1..MOST {
+            let bend = greater(
+                greater(joints.bend[i - 1], joints.bend[i]),
+                joints.bend[i + 1],
+            );
+            let room = tolerance - bend;
+            joints.room[i] = room * room.abs();
         }
         joints
     }
@@ -108,57 +132,68 @@ impl Joints {
     /// Which joints to keep, a bit each: the first, the last, and where a line would be too far off, that
     /// farthest from it (Douglas and Peucker 1973).
     #[inline(always)]
-    fn kept(&self, tolerance: f32) -> u32 {
+    fn kept(&self) -> u32 {
         let last = self.count - 1;
         let mut kept: u32 = 1 | 1 << last;
         let mut from = 0;
         while from < last {
             let to = from + 1 + (kept >> (from + 1) as u32).trailing_zeros() as usize;
-            let (off, farthest, bend) = match to - from {
-                1 => (0.0, 0, 0.0),
-                2..=FEW => self.farthest::<FEW>(from + 1, from, to),
-                _ => self.farthest::<MOST>(0, from, to),
+            let farthest = match to - from {
+                1 => None,
+                2..=FEW => self.farthest::<FEW>(from, to),
+                _ => self.farthest::<MOST>(from, to),
             };
-            if farthest > 0 && off.sqrt() + bend > tolerance {
-                kept |= 1 << farthest;
-            } else {
-                from = to;
+            match farthest {
+                Some(joint) => kept |= 1 << joint,
+                None => from = to,
             }
         }
         kept
     }
 
-    /// The joint between two that is farthest from the line between them, its distance squared, and how far the
-    /// curve may bend beside the joints. All between are among some joints from `first` on.
+    /// The joint between two that is farthest beyond what it may be from the line between them; none if there is no such.
+    /// There are fewer than `N` between them.
     #[inline(always)]
-    fn farthest<const N: usize>(&self, first: usize, from: usize, to: usize) -> (f32, usize, f32) {
-        const JOINT_BITS: u32 = MOST as u32 - 1;
+    fn farthest<const N: usize>(&self, from: usize, to: usize) -> Option<usize> {
+        const LANE_BITS: u32 = MOST as u32 - 1;
+        /// In place of a line of no length: short beside all units.
+        const POINT: Point<f32> = Point::new(1.0 / 1024.0, 0.0);
         let start = self.at(from);
         let along = self.at(to) - start;
+        let is_point = (along.x == 0.0) & (along.y == 0.0);
+        let along = if is_point { POINT } else { along };
         let square = along.dot(along);
-        let per_square = if square > 0.0 { 1.0 / square } else { 0.0 };
-        let [xs, ys, all_bends] = [&self.x, &self.y, &self.bend].map(|all| &all[first..first + N]);
-        let mut keys = [0; N];
-        let mut bends = [0.0; N];
+        let between = from + 1;
+        let [xs, ys, rooms] = [&self.x, &self.y, &self.room].map(|all| &all[between..between + N]);
+        // All lengths are times that of the line, so that nothing is divided.
+        let (mut ahead, mut beside) = ([0.0; N], [0.0; N]);
         for i in 0..N {
             let (x, y) = (xs[i] - start.x, ys[i] - start.y);
-            let t = lesser(greater((x * along.x + y * along.y) * per_square, 0.0), 1.0);
-            let (x, y) = (x - t * along.x, y - t * along.y);
-            let joint = first + i;
-            let is_between = (joint > from) & (joint < to);
-            // Floats that are not negative are in the order of their bits; the lowest make room for the joint.
-            let key = (x * x + y * y).to_bits() & !JOINT_BITS | joint as u32;
-            keys[i] = if is_between { key } else { 0 };
-            bends[i] = if is_between { all_bends[i] } else { 0.0 };
+            ahead[i] = x * along.x + y * along.y;
+            beside[i] = x * along.y - y * along.x;
         }
-        let key = keys.iter().fold(0, |most, &key| most.max(key));
-        let ends = self.bend_between(from, to);
-        let bend = bends.iter().fold(ends, |most, &bend| greater(most, bend));
-        (
-            f32::from_bits(key & !JOINT_BITS),
-            (key & JOINT_BITS) as usize,
-            bend,
-        )
+        let mut over = [0.0; N];
+        for i in 0..N {
+            let half = square * 0.5;
+            let beyond = greater((ahead[i] - half).abs() - half, 0.0);
+            let off = beside[i] * beside[i] + beyond * beyond;
+            over[i] = greater(off - rooms[i] * square, 0.0);
+        }
+        // Floats that are not negative are in the order of their bits; the lowest make room for the lane.
+        let lanes = &FIRST_LANES[MOST + between - to..][..N];
+        let mut keys = [0; N];
+        for i in 0..N {
+            keys[i] = (over[i].to_bits() & !LANE_BITS | i as u32) & lanes[i];
+        }
+        let mut half = N / 2;
+        while half > 0 {
+            for i in 0..half {
+                keys[i] = keys[i].max(keys[i + half]);
+            }
+            half /= 2;
+        }
+        let lane = (keys[0] & LANE_BITS) as usize;
+        (keys[0] > LANE_BITS).then_some(between + lane)
     }
 }
 
