@@ -73,6 +73,12 @@ impl Affine {
         }
     }
 
+    /// The distance that it moves every point by; none if it does anything else.
+    pub fn as_translation(self) -> Option<Point<f64>> {
+        let moves_only = self.x == Self::IDENTITY.x && self.y == Self::IDENTITY.y;
+        moves_only.then_some(self.origin)
+    }
+
     /// Whether all of it is finite.
     pub fn is_finite(self) -> bool {
         self.x.is_finite() && self.y.is_finite() && self.origin.is_finite()
@@ -94,6 +100,10 @@ mod tests {
         let p = Point::new(3.0, 1.0);
         let about = Point::new(1.0, 1.0);
         assert!(is_near(Affine::IDENTITY.apply(p), p));
+        let by = Point::new(-2.0, 0.5);
+        assert_eq!(Affine::translation(by).as_translation(), Some(by));
+        assert_eq!(Affine::rotation(0.1, about).as_translation(), None);
+        assert_eq!(Affine::scale(1.0, 2.0, about).as_translation(), None);
         let turned = Affine::rotation(FRAC_PI_2, about).apply(p);
         assert!(is_near(turned, Point::new(1.0, 3.0)));
         let scaled = Affine::scale(2.0, 3.0, about).apply(p);

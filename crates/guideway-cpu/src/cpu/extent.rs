@@ -10,7 +10,8 @@ pub(super) struct Extent {
     pub(super) bounds: Bounds<f64>,
     /// How far its borders may have come in since all of its paths were looked at.
     slack_m: f64,
-    /// What its lines are measured from. It stays where it is while paths move a little, and so do their lines.
+    /// What its lines are measured from. It stays where it is while some paths move a little, and so do the lines of the others;
+    /// it moves with all of them, and so do their lines.
     pub(super) middle: Point<f64>,
 }
 
@@ -47,8 +48,15 @@ impl Extent {
     }
 
     /// The same after all of its paths were mapped, which took its bounds to `bounds`: what is still known of where they
-    /// lie, unless that is too little.
+    /// lie, unless that is too little. Its middle is moved with paths that are moved.
     pub(super) fn mapped(&self, by: Affine, bounds: Bounds<f64>) -> Option<Self> {
+        if let Some(by) = by.as_translation() {
+            return Some(Self {
+                bounds,
+                middle: self.middle + by,
+                ..*self
+            });
+        }
         // A border comes from one on which there is a path, off by the slack, but it is not known where along it.
         let Point { x, y } = self.bounds.size();
         let slack_m = |by_x: f64, by_y: f64| {

@@ -23,7 +23,7 @@ pub(super) struct Buffers {
     pub(super) parts: Parts,
     bins: Bins,
     /// Keys of clusters whose lines have to be made, and of which members.
-    todo: Vec<(u32, Members)>,
+    pub(super) todo: Vec<(u32, Members)>,
     pub(super) counts: Vec<f32>,
     scratches: Vec<Mutex<Scratch>>,
     painters: Vec<Mutex<Painter>>,
@@ -302,9 +302,10 @@ impl Buffers {
         if index.lines_bytes > limit_bytes {
             return Ok(Err(TooMuch(index.lines_bytes)));
         }
-        for &(key, _) in &self.todo {
+        for &(key, missing) in &self.todo {
             let sight = self.sights.get(key);
             let cluster = sight.cluster as usize;
+            let drift_m = index.made[cluster].drift_m;
             index.made[cluster] = Made {
                 precision: if sight.is_large {
                     Precision::default()
@@ -312,6 +313,11 @@ impl Buffers {
                     shot.precision()
                 },
                 changed: 0,
+                drift_m: if missing == Members::MAX {
+                    0.0
+                } else {
+                    drift_m
+                },
                 paths_and_lines: index.lines[cluster].paths_and_lines(),
             };
         }

@@ -36,9 +36,14 @@ pub(super) struct Made {
     pub(super) precision: Precision,
     /// Members that have changed since.
     pub(super) changed: Members,
+    /// How far their curves may be from where all were moved to with their lines, for points are rounded, in metres.
+    pub(super) drift_m: f64,
     /// Number of paths and of lines.
     pub(super) paths_and_lines: [u32; 2],
 }
+
+/// Farthest that curves may drift from their lines, in units of these.
+const MOST_DRIFT: f64 = 0.25;
 
 /// Paths of a cluster that are about to change.
 pub(super) struct Leaving {
@@ -51,7 +56,7 @@ pub(super) struct Leaving {
 impl Made {
     /// The members whose lines a frame cannot be drawn with.
     pub(super) fn missing(&self, shot: &Shot<'_>) -> Members {
-        if self.precision == shot.precision() {
+        if self.precision == shot.precision() && self.drift_m <= MOST_DRIFT * shot.unit_m() {
             self.changed
         } else {
             Members::MAX
@@ -183,28 +188,32 @@ impl Index {
         let geometry = scene.layout().paths.geometry();
         let extents = leaving.par_iter().map(|left| {
             let before = self.extents[left.cluster as usize];
-            let is_all = left.members.count_ones() as usize == self.paths_of(left.cluster).len();
-            let known = match (before, by.filter(|_| is_all)) {
-                (Some(before), Some(by)) => {
+            let is_whole = self.is_whole(left);
+            let known = match (before, by) {
+                (Some(before), Some(by)) if is_whole => {
                     before.mapped(by, geometry.mapped_bounds(before.bounds, by))
                 }
-                (before, _) => before.zip(left.from).and_then(|(before, from)| {
+                _ if is_whole => None,
+                _ => before.zip(left.from).and_then(|(before, from)| {
                     let to = self.hull_of_few(scene, left.cluster, left.members)?;
                     before.after(from, to)
                 }),
             };
             let anew = || bounds_anew(scene, self.paths_of(left.cluster));
-            known.or_else(|| match before {
+            // The middle of curves that are all new does not depend on those before: what is undone looks as it did.
+            known.or_else(|| match before.filter(|_| !is_whole) {
                 Some(before) => anew().map(|bounds| before.changed(bounds)),
                 None => anew().map(Extent::new),
             })
         });
         let extents: Vec<Option<Extent>> = extents.collect();
         let mut changed = Vec::with_capacity(2 * leaving.len());
+        let moves = by.and_then(Affine::as_translation).is_some();
         for (left, now) in leaving.iter().zip(extents) {
             let Leaving {
                 cluster, members, ..
             } = *left;
+            let is_moved = moves && self.is_whole(left);
             let (extent, made) = (
                 &mut self.extents[cluster as usize],
                 &mut self.made[cluster as usize],
@@ -212,12 +221,21 @@ impl Index {
             let before = std::mem::replace(extent, now);
             let both = before.into_iter().chain(now);
             changed.extend(both.map(|extent| extent.bounds));
+            if let Some(now) = now.filter(|_| is_moved) {
+                made.drift_m += geometry.rounding_m(now.bounds);
+                continue;
+            }
             made.changed |= members;
             if before.map(|extent| extent.middle) != extent.map(|extent| extent.middle) {
                 made.precision = Precision::default();
             }
         }
         changed
+    }
+
+    /// Whether all paths of a cluster are about to change.
+    fn is_whole(&self, left: &Leaving) -> bool {
+        left.members.count_ones() as usize == self.paths_of(left.cluster).len()
     }
 
     /// Where some members of a cluster lie; none if they are so many that a look at all takes hardly longer.

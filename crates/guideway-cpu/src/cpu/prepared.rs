@@ -124,6 +124,11 @@ impl CpuPrepared {
         self.fills.known(&shot).count(&shot)
     }
 
+    /// Number of clusters that the last frame made lines for.
+    pub(super) fn made_clusters(&self) -> usize {
+        self.buffers.todo.len()
+    }
+
     /// Draws all of the next frame, from the curves.
     pub(super) fn forget_picture(&mut self) {
         self.kept = None;

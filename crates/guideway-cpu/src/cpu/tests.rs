@@ -18,6 +18,7 @@ use crate::Oracle;
 mod fills;
 mod kept;
 mod lanes;
+mod moved;
 mod threads;
 
 /// Numbers below 1 in magnitude, the same on every run.

@@ -43,6 +43,16 @@ impl Geometry {
         corners.into_iter().fold(first, Bounds::union)
     }
 
+    /// Farthest from where a map takes them that points in a box are held, along an axis, in metres.
+    pub fn rounding_m(&self, mapped: Bounds<f64>) -> f64 {
+        let farthest = mapped.corners().map(|p| p.x.abs().max(p.y.abs()));
+        let half_step = match &self.points {
+            Points::F64(_) => f64::EPSILON / 2.0,
+            Points::F32(_) => f64::from(f32::EPSILON) / 2.0,
+        };
+        farthest.into_iter().fold(0.0, f64::max) * half_step
+    }
+
     /// Some paths, in this order. It costs least for rows in order.
     ///
     /// # Panics
