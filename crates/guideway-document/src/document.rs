@@ -1,4 +1,3 @@
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use guideway_layout::Layout;
@@ -7,6 +6,7 @@ use guideway_spline::{Bounds, Point};
 
 use crate::audience::Audience;
 use crate::edit::History;
+use crate::moved_nodes::MovedNodes;
 use crate::{Act, Hit, Index, Rows, pick};
 
 /// A layout that is being looked at and edited: what is shown of it, what is selected, and what was done.
@@ -19,7 +19,7 @@ pub struct Document {
     /// Shared with the steps that can be undone, for it stays the same through most of them.
     pub(crate) selection: Arc<Rows>,
     /// Nodes that are not where the layout of the scene has them.
-    pub(crate) moved_nodes: BTreeMap<u32, Point<f64>>,
+    pub(crate) moved_nodes: MovedNodes,
     pub(crate) history: History,
     pub(crate) audience: Audience,
     /// What was done since it was last taken, for a journal.
@@ -55,7 +55,7 @@ impl Document {
             index: Index::new(scene.layout()),
             scene,
             selection: Arc::default(),
-            moved_nodes: BTreeMap::new(),
+            moved_nodes: MovedNodes::default(),
             history: History::default(),
             audience: Audience::default(),
             acts: Vec::new(),
@@ -83,18 +83,15 @@ impl Document {
     /// # Panics
     /// When there is no such node.
     pub fn node_position_m(&self, node: u32) -> Point<f64> {
-        let moved = self.moved_nodes.get(&node).copied();
-        moved.unwrap_or_else(|| self.layout().nodes.position_m(node))
+        self.moved_nodes.node_position_m(self.layout(), node)
     }
 
-    /// Where a station is: where the file says, or at the first node that serves it.
+    /// Where a station is: where the file says, or at the first node that serves it. It goes along if all of its nodes do.
     ///
     /// # Panics
     /// When there is no such station.
     pub fn station_position_m(&self, station: u32) -> Option<Point<f64>> {
-        let stations = &self.layout().stations;
-        let at_node = || Some(self.node_position_m(*stations.nodes(station).first()?));
-        stations.position_m(station).or_else(at_node)
+        self.moved_nodes.station_position_m(self.layout(), station)
     }
 
     /// Tells of each edit of the scene from now on, in order, as soon as it is certain and before it is done here. A

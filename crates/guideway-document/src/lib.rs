@@ -13,6 +13,7 @@ mod journal;
 mod locate;
 pub mod marks;
 pub mod measure;
+mod moved_nodes;
 mod pick;
 mod query;
 mod save;

@@ -1,10 +1,10 @@
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use guideway_layout::{Attribute, Attributes, Layout, NewPath, Nodes, Paths, Value, Values};
+use guideway_layout::{Attribute, Attributes, Layout, NewPath, Paths, Value, Values};
 use guideway_scene::PathState;
-use guideway_spline::{Point, Runs};
+use guideway_spline::Runs;
 
+use crate::moved_nodes::MovedNodes;
 use crate::{Document, Rows};
 
 /// A document as it was at one moment, to be written while it is edited on.
@@ -12,7 +12,7 @@ use crate::{Document, Rows};
 pub struct Snapshot {
     layout: Arc<Layout>,
     removed: Rows,
-    moved_nodes: BTreeMap<u32, Point<f64>>,
+    moved_nodes: MovedNodes,
 }
 
 impl Document {
@@ -35,15 +35,15 @@ impl Document {
 }
 
 impl Snapshot {
-    /// The layout: removed paths left out, moved nodes at their places, rows numbered anew.
+    /// The layout: removed paths left out, moved nodes and stations at their places, rows numbered anew.
     pub fn to_layout(&self) -> Layout {
         let old = &*self.layout;
         Layout {
             provenance: old.provenance.clone(),
             paths: self.paths(),
             refused: old.refused.clone(),
-            nodes: self.nodes(),
-            stations: old.stations.clone(),
+            nodes: self.moved_nodes.nodes(old),
+            stations: self.moved_nodes.stations(old),
             levels: old.levels.clone(),
             diagnostics: old.diagnostics.clone(),
         }
@@ -85,21 +85,6 @@ impl Snapshot {
         }
         paths.attributes = of_rows(&old.attributes, &rows);
         paths
-    }
-
-    fn nodes(&self) -> Nodes {
-        let old = &self.layout.nodes;
-        if self.moved_nodes.is_empty() {
-            return old.clone();
-        }
-        let mut nodes = Nodes::default();
-        for node in 0..old.len() as u32 {
-            let moved = self.moved_nodes.get(&node).copied();
-            let at_m = moved.unwrap_or_else(|| old.position_m(node));
-            nodes.push(old.id(node), at_m, old.level(node));
-        }
-        nodes.attributes = old.attributes.clone();
-        nodes
     }
 }
 

@@ -184,7 +184,7 @@ impl Document {
             .map(|&(node, _)| (node, self.node_position_m(node)))
             .collect();
         self.index.move_nodes(to);
-        self.moved_nodes.extend(to.iter().copied());
+        self.moved_nodes.extend(to);
         Ok(from)
     }
 

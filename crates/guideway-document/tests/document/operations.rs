@@ -6,7 +6,7 @@ use guideway_layout::{Layout, NewPath, Value};
 use guideway_scene::{Edit, EditError, LayoutCopy};
 use guideway_spline::{Affine, Bounds, Point, Runs};
 
-use crate::site::{document, document_of, p};
+use crate::site::{document, document_of, lanes, p};
 
 fn ends(document: &Document, path: usize) -> (Point<f64>, Point<f64>) {
     document
@@ -85,6 +85,40 @@ fn a_node_goes_with_its_paths_if_all_of_them_go() {
     assert_eq!(document.node_position_m(1), p(10.0, 3.0));
     assert_eq!(document.node_near(p(10.0, 3.1), 0.5), Some(1));
     assert_eq!(document.node_near(p(10.0, 0.0), 0.5), None);
+}
+
+#[test]
+fn a_station_goes_with_its_nodes_if_all_of_them_go() {
+    let mut layout = lanes(3);
+    let stations = &mut layout.stations;
+    stations.push("rack", Some(p(-1.0, 0.5)), vec![0, 1], None);
+    stations.push("charger", Some(p(-2.0, 2.0)), vec![2], None);
+    stations.push("dock", None, vec![2, 0], None);
+    stations.push("sign", Some(p(5.0, 5.0)), vec![], None);
+    let mut document = document_of(layout);
+    let stations = |document: &Document| {
+        let saved = document.to_layout().stations;
+        assert_eq!(saved.position_m(2), None, "it has no place of its own");
+        for station in [0, 1, 3] {
+            let at = document.station_position_m(station);
+            assert_eq!(saved.position_m(station), at);
+        }
+        [0, 1, 2, 3].map(|station| document.station_position_m(station).unwrap())
+    };
+    let before = stations(&document);
+    assert_eq!(before[2], p(0.0, 2.0));
+    document.move_node(0, p(0.0, -3.0)).unwrap();
+    assert_eq!(stations(&document), before, "a rack has two nodes");
+    document.move_node(1, p(0.0, 0.0)).unwrap();
+    document.move_node(2, p(4.0, 2.0)).unwrap();
+    let after = [p(-1.0, -1.5), p(2.0, 2.0), p(4.0, 2.0), p(5.0, 5.0)];
+    assert_eq!(stations(&document), after);
+    for _ in 0..3 {
+        document.undo().unwrap();
+    }
+    assert_eq!(stations(&document), before);
+    document.move_node(1, p(0.0, 0.0)).unwrap();
+    assert_eq!(stations(&document), before, "the other is back");
 }
 
 #[test]
