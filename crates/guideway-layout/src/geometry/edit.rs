@@ -5,7 +5,7 @@ use std::ops::Range;
 use guideway_spline::{Affine, Bounds, Point};
 use rayon::prelude::*;
 
-use super::{Geometry, Points, index, stretches};
+use super::{Geometry, Points, between, index, stretches};
 use crate::RunPoints;
 use crate::run_points::POINTS_AT_ONCE;
 
@@ -41,6 +41,23 @@ impl Geometry {
             }
         });
         corners.into_iter().fold(first, Bounds::union)
+    }
+
+    /// The first path that has no curve, or a control point that is not finite or farther than so much from the origin along an
+    /// axis.
+    pub fn first_beyond(&self, reach_m: f64) -> Option<usize> {
+        let is_within = |p: Point<f64>| (p.x.abs() <= reach_m) & (p.y.abs() <= reach_m);
+        let is_placed = |run: RunPoints<'_>| match run {
+            RunPoints::F64(points) => points.iter().all(|&p| is_within(p)),
+            RunPoints::F32(points) => points.iter().all(|p| is_within(p.to_f64())),
+        };
+        let is_misplaced = |&path: &usize| {
+            let mut runs = self.runs(path);
+            runs.len() == 0 || !runs.all(is_placed)
+        };
+        (0..self.path_count())
+            .into_par_iter()
+            .find_first(is_misplaced)
     }
 
     /// Farthest from where a map takes them that points in a box are held, along an axis, in metres.
@@ -101,22 +118,32 @@ impl Geometry {
     }
 
     /// Gives paths the curves of another geometry, one after the other, in the precision held here. It costs no
-    /// more than their points if the numbers of points are those of before, else as much as all paths at most.
+    /// more than their points if the numbers of points are those of before, least for rows in order; else as much as all
+    /// paths at most.
     ///
     /// # Panics
     /// When there are more `paths` than curves, one is not there, or there would be more than 2^32 control points.
     pub fn replace_all(&mut self, paths: &[u32], with: &Self) {
-        let has_same_lens = |(&path, from): (&u32, usize)| {
-            let old = self.runs(path as usize).map(|run| run.len());
-            old.eq(with.runs(from).map(|run| run.len()))
-        };
-        // Each one of another length moves all that lies behind it.
-        if paths.len() == 1 || paths.iter().zip(0..).all(has_same_lens) {
-            for (&path, from) in paths.iter().zip(0..) {
-                self.replace(path as usize, with, from);
+        let mut done = 0;
+        let pairs = stretches(paths.iter().map(|&path| path as usize)).map(|rows| {
+            let from = done..done + rows.len();
+            done = from.end;
+            (rows, from)
+        });
+        let pairs: Vec<_> = pairs.collect();
+        if pairs
+            .iter()
+            .all(|(rows, from)| self.is_alike(rows, with, from))
+        {
+            for (rows, from) in pairs {
+                self.set_points(&rows, with, &from);
             }
             return;
         }
+        if let [path] = *paths {
+            return self.splice(path as usize, with);
+        }
+        // Each one of another length moves all that lies behind it.
         let mut sources: Vec<Option<usize>> = vec![None; self.path_count()];
         for (&path, from) in paths.iter().zip(0..) {
             sources[path as usize] = Some(from);
@@ -131,26 +158,35 @@ impl Geometry {
         *self = all;
     }
 
-    /// Gives a path the curve of a path of another geometry, in the precision held here. It costs no more
-    /// than its points if the numbers of points are those of before, else as much as all paths behind it.
-    ///
-    /// # Panics
-    /// When either path is not there, or there would be more than 2^32 control points.
-    pub(super) fn replace(&mut self, path: usize, with: &Self, from: usize) {
+    /// Whether some paths have runs of as many points as others.
+    fn is_alike(&self, paths: &Range<usize>, with: &Self, others: &Range<usize>) -> bool {
+        let (own, other) = (self.runs_of(paths), with.runs_of(others));
+        has_same_lens((&self.path_ends, paths), (&with.path_ends, others))
+            && has_same_lens((&self.run_ends, &own), (&with.run_ends, &other))
+    }
+
+    /// Gives paths the points of others of as many.
+    fn set_points(&mut self, paths: &Range<usize>, with: &Self, others: &Range<usize>) {
+        let to = self.points_of(&self.runs_of(paths));
+        let from = with.points_of(&with.runs_of(others));
+        match (&mut self.points, &with.points) {
+            (Points::F64(to_all), Points::F64(all)) => copy(&mut to_all[to], &all[from], |p| p),
+            (Points::F32(to_all), Points::F32(all)) => copy(&mut to_all[to], &all[from], |p| p),
+            (Points::F64(to_all), Points::F32(all)) => {
+                copy(&mut to_all[to], &all[from], Point::to_f64);
+            }
+            (Points::F32(to_all), Points::F64(all)) => {
+                copy(&mut to_all[to], &all[from], Point::to_f32);
+            }
+        }
+    }
+
+    /// Gives a path the first curve of another geometry, which moves all paths behind it.
+    fn splice(&mut self, path: usize, with: &Self) {
         let runs = self.runs_of(&(path..path + 1));
         let range = self.points_of(&runs);
-        let new_points = || with.runs(from).flat_map(RunPoints::iter);
-        let new_lens = with.runs(from).map(|run| run.len());
-        let is_alike = new_lens
-            .clone()
-            .eq(runs.clone().map(|run| self.run(run).len()));
-        if is_alike {
-            match &mut self.points {
-                Points::F64(points) => set(&mut points[range], new_points()),
-                Points::F32(points) => set(&mut points[range], new_points().map(Point::to_f32)),
-            }
-            return;
-        }
+        let new_points = || with.runs(0).flat_map(RunPoints::iter);
+        let new_lens = with.runs(0).map(|run| run.len());
         let old_len = self.points.len();
         match &mut self.points {
             Points::F64(points) => drop(points.splice(range.clone(), new_points())),
@@ -187,6 +223,28 @@ fn set_each<T: Copy + Send>(points: &mut [T], value: impl Fn(T) -> T + Sync) {
     }
 }
 
-fn set<T>(old: &mut [T], new: impl Iterator<Item = T>) {
-    old.iter_mut().zip(new).for_each(|(old, new)| *old = new);
+/// Gives each of some points a value by one of as many others.
+fn copy<A: Copy + Sync, B: Send>(to: &mut [B], from: &[A], value: impl Fn(A) -> B + Sync) {
+    let set = |(to, from): (&mut [B], &[A])| {
+        to.iter_mut()
+            .zip(from)
+            .for_each(|(to, from)| *to = value(*from));
+    };
+    if from.len() <= POINTS_AT_ONCE {
+        set((to, from));
+    } else {
+        let chunks = to.par_chunks_mut(POINTS_AT_ONCE);
+        chunks.zip(from.par_chunks(POINTS_AT_ONCE)).for_each(set);
+    }
+}
+
+/// Whether some neighbours in a list of ends are as long as others in another, each.
+fn has_same_lens(
+    (ends, own): (&[u32], &Range<usize>),
+    (other_ends, others): (&[u32], &Range<usize>),
+) -> bool {
+    let [first, other_first] =
+        [(ends, own), (other_ends, others)].map(|(ends, of)| between(ends, of).start as u32);
+    let mut pairs = ends[own.clone()].iter().zip(&other_ends[others.clone()]);
+    own.len() == others.len() && pairs.all(|(end, other)| end - first == other - other_first)
 }

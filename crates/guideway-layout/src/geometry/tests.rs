@@ -25,12 +25,12 @@ fn a_path_takes_another_curve_and_the_others_stay() {
     let other = Geometry::from_f64(points(100, 13), vec![5, 9, 13]).with_path_ends(vec![2, 3]);
     for (path, from) in [(0, 0), (1, 0), (1, 1), (2, 0), (2, 1)] {
         let mut geometry = three();
-        geometry.replace(path, &other, from);
+        geometry.replace_all(&[path as u32], &other.select([from]));
         let mut expected = shape(&three());
         expected[path] = shape(&other)[from].clone();
         assert_eq!(shape(&geometry), expected, "{path} takes {from}");
         // And back.
-        geometry.replace(path, &three(), path);
+        geometry.replace_all(&[path as u32], &three().select([path]));
         assert_eq!(shape(&geometry), shape(&three()));
     }
 }
@@ -44,7 +44,7 @@ fn many_paths_take_other_curves_as_one_after_the_other() {
         for mut geometry in [three(), narrow.clone()] {
             let mut one_by_one = geometry.clone();
             for (&path, from) in paths.iter().zip(0..) {
-                one_by_one.replace(path as usize, &other, from);
+                one_by_one.replace_all(&[path], &other.select([from]));
             }
             geometry.replace_all(&paths, &other);
             assert_eq!(shape(&geometry), shape(&one_by_one), "{paths:?}");
@@ -98,7 +98,34 @@ fn a_long_stretch_is_mapped_and_measured_as_its_paths_are() {
         assert_eq!(one_by_one.hull_bounds((0..ends.len()).rev()), Some(hull));
         let mapped = at_once.mapped_bounds(before, by);
         assert!(mapped.contains(hull.min) && mapped.contains(hull.max));
+        // Back, from other numbers.
+        let rows: Vec<u32> = (0..ends.len() as u32).collect();
+        at_once.replace_all(&rows, &Geometry::from_f64(wave.clone(), ends.clone()));
+        for (row, points) in wave.chunks(4).enumerate() {
+            let path = Geometry::from_f64(points.to_vec(), vec![4]);
+            one_by_one.replace_all(&[row as u32], &path);
+        }
+        assert_eq!(shape(&at_once), shape(&one_by_one));
     }
+}
+
+#[test]
+fn the_first_curve_that_is_not_there_or_too_far_out_is_found() {
+    let far = |number: f64| {
+        let mut points = points(0, 40);
+        points[13].y = number;
+        points[37].x = -number;
+        let ends: Vec<u32> = (1..=10).map(|path| path * 4).collect();
+        let wide = Geometry::from_f64(points.clone(), ends.clone());
+        let narrow = points.iter().map(|p| p.to_f32()).collect();
+        [wide, Geometry::from_f32(narrow, ends)].map(|all| all.first_beyond(100.0))
+    };
+    assert_eq!(far(100.0), [None; 2]);
+    for number in [100.1, -100.1, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        assert_eq!(far(number), [Some(3); 2], "{number}");
+    }
+    let empty = three().with_path_ends(vec![1, 1, 4]);
+    assert_eq!(empty.first_beyond(100.0), Some(1));
 }
 
 proptest::proptest! {

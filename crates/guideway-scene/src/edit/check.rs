@@ -40,12 +40,10 @@ impl Edit {
                 if paths.len() != curves.path_count() {
                     return Err(EditError::Count);
                 }
-                let misplaced = paths.iter().zip(0..).find(|(_, from)| {
-                    let runs = curves.runs(*from);
-                    runs.len() == 0 || !is_placed(runs.flat_map(|run| run.iter()))
-                });
-                misplaced.map_or(Ok(()), |(&path, _)| {
-                    Err(EditError::Misplaced { path: Some(path) })
+                let misplaced = curves.first_beyond(REACH_M);
+                misplaced.map_or(Ok(()), |from| {
+                    let path = Some(paths[from]);
+                    Err(EditError::Misplaced { path })
                 })
             }
             Self::Insert(paths) => paths.iter().try_for_each(|path| path.check(scene.layout())),
