@@ -3,8 +3,8 @@
 @group(0) @binding(7) var<storage, read_write> counts: array<u32>;
 @group(0) @binding(8) var<storage, read_write> found: Found;
 
-// What was counted for the tile.
-var<workgroup> counted: u32;
+// What was counted for the tile, and its list where places were reserved for that.
+var<workgroup> listed: vec3u;
 // Covered samples of all rows.
 var<workgroup> samples: array<atomic<u32>, TILE_PX * SAMPLE_ROWS * WORDS>;
 // How many pixels are open.
@@ -27,8 +27,9 @@ fn count_of(pixel: u32) -> u32 {
     let x = pixel % TILE_PX;
     let first_row = (pixel / TILE_PX) * SAMPLE_ROWS;
     var count = 0u;
-    for (var row = first_row; row < first_row + SAMPLE_ROWS; row++) {
-        let word = atomicLoad(&samples[row * WORDS + x / pixels_a_word]);
+    // A loop of known length takes less time.
+    for (var k = 0u; k < SAMPLE_ROWS; k++) {
+        let word = atomicLoad(&samples[(first_row + k) * WORDS + x / pixels_a_word]);
         count += countOneBits(bits_of_pixel(word, x % pixels_a_word));
     }
     return count;
@@ -41,7 +42,7 @@ fn close_covered(thread: u32, threads: u32) {
         var covered = ALL;
         for (var k = 0u; k < SAMPLE_ROWS; k++) {
             // Threads begin at different rows, for those of equal number lie in one bank of the memory.
-            let row = row_px * SAMPLE_ROWS + (k + row_px) % SAMPLE_ROWS;
+            let row = row_px * SAMPLE_ROWS + (k ^ row_px);
             covered &= atomicLoad(&samples[row * WORDS + i % WORDS]);
         }
         let full = full_pixels(covered) << (i % WORDS * (32u / SAMPLES_A_ROW));
@@ -84,18 +85,19 @@ fn cover_tile(own: Thread, index: u32) {
     let thread = own.number;
     let tile = tile_of(index);
     if thread == 0u {
-        counted = counts[index];
-        reads(1u);
+        listed = vec3u(counts[index], list_of(index));
+        reads(3u);
     }
-    let count = workgroupUniformLoad(&counted);
+    // Meanwhile.
+    clear(tile, thread);
+    let known = workgroupUniformLoad(&listed);
     // Its pixels are written already.
-    if (count & FULL) != 0u {
+    if (known.x & FULL) != 0u {
         return;
     }
-    var list = vec2u(0u, min(count, frame.list_room)) + index * frame.list_room;
-    if frame.list_room == 0u {
-        list = list_of(index);
-        reads(2u);
+    var list = known.yz;
+    if frame.list_room > 0u {
+        list = vec2u(0u, min(known.x, frame.list_room)) + index * frame.list_room;
     }
     if list.x >= list.y {
         for (var pixel = thread; pixel < TILE_PX * TILE_PX; pixel += THREADS) {
@@ -103,8 +105,6 @@ fn cover_tile(own: Thread, index: u32) {
         }
         return;
     }
-    clear(tile, thread);
-    workgroupBarrier();
     cover_list(team_of(own), tile, list);
     workgroupBarrier();
     show(tile, thread);

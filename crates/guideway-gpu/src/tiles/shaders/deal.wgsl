@@ -54,12 +54,14 @@ fn cover_items(team: Team, items: u32) {
 }
 
 // Covers a list in turns, each of lines from all over it, for neighbours in the list lie near each other: what the
-// first ones have filled, the others need not.
+// first ones have filled, the others need not. All teams have as many, and those that go on together lie apart.
 fn cover_list(team: Team, tile: Tile, list: vec2u) {
     let looks = list.y - list.x > SHORT;
-    let turns = (list.y - list.x + team.lanes - 1u) / team.lanes;
-    for (var round = 0u; round * team.teams + team.number < turns; round++) {
-        let turn = round * team.teams + team.number;
+    let threads = team.lanes * team.teams;
+    let rounds = (list.y - list.x + threads - 1u) / threads;
+    let turns = rounds * team.teams;
+    for (var round = 0u; round < rounds; round++) {
+        let turn = team.number * rounds + round;
         let place = list.x + team.lane * turns + turn;
         var share: Share;
         var items = 0u;
