@@ -7,8 +7,8 @@ use super::canvas::Canvas;
 use super::chunk::Drawn;
 use super::kernels::{Kernels, MOST_PARTS_BITS};
 use super::params::{
-    Found, FrameParams, LINE_THREADS, ROUNDS_A_LINE, SHARED_PARTS, SHARED_TILES, STARTS_THREADS,
-    Samples, TILE_PX, WORKGROUP,
+    COUNTED_EACH, FEW_CLUSTERS, Found, FrameParams, LINE_THREADS, ROUNDS_A_LINE, SHARED_PARTS,
+    SHARED_TILES, STARTS_THREADS, Samples, TILE_PX, WORKGROUP,
 };
 use super::room::Room;
 use super::store::Store;
@@ -130,7 +130,7 @@ enum Over {
     Clusters,
     /// A workgroup for each cluster that was touched.
     Touched,
-    /// Workgroups for so many clusters in turn, if any is drawn.
+    /// So many workgroups for clusters in turn, if any is drawn.
     Seen(u32, Drawn),
     /// Workgroups of so many threads for lines in turn.
     Lines(u32),
@@ -214,8 +214,12 @@ impl Bound {
                 &b.room.line_ranks,
                 &b.canvas.counts,
             ];
-            let kernel = &b.kernels.flatten[usize::from(self.manner.has_few)][chunk.held as usize];
-            let over = Over::Seen(chunk.clusters.len() as u32, chunk.drawn);
+            let (has_few, clusters) = (self.manner.has_few, chunk.clusters.len() as u32);
+            // A few clusters beside many have a launch of their own, which is as long as its slowest workgroup.
+            let are_few = clusters <= FEW_CLUSTERS && !has_few;
+            let kernel = &b.kernels.flatten[usize::from(are_few || has_few)][chunk.held as usize];
+            let parts_bits = if are_few { MOST_PARTS_BITS } else { 0 };
+            let over = Over::Seen(clusters << parts_bits, chunk.drawn);
             self.add("flatten", b, kernel, over, &buffers)?;
         }
         Ok(())
@@ -237,7 +241,7 @@ impl Bound {
             self.add("list", b, &kernels.list_kept, Over::KeptLines, &buffers)?;
             return self.add_cover(b);
         }
-        let over = Over::Lines(LINE_THREADS);
+        let over = Over::Lines(LINE_THREADS * COUNTED_EACH);
         self.add("count", b, &kernels.recount, over, &buffers)?;
         self.add_tiles(b)
     }

@@ -13,7 +13,7 @@ use super::easel::list_room;
 use super::kept::Kept;
 use super::kernels::keeps_waiting;
 use super::params::{
-    ENOUGH_GROUPS, Found, SAMPLE_ROWS, SHARED_PARTS, SHARED_TILES, Samples, TILE_PX,
+    FEW_CLUSTERS, Found, SAMPLE_ROWS, SHARED_PARTS, SHARED_TILES, Samples, TILE_PX,
 };
 use super::prepared::PreparedTiles;
 use super::room::{Room, Size};
@@ -29,9 +29,6 @@ const SHARE_BYTES: u64 = {
     let words = SHARED_TILES * (1 + samples) + SHARED_PARTS * 4;
     words as u64 * size_of::<u32>() as u64
 };
-
-/// So few clusters that several workgroups share each.
-const FEW_CLUSTERS: u32 = ENOUGH_GROUPS / 2;
 
 /// What became of one picture.
 #[derive(Default)]

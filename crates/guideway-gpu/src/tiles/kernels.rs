@@ -1,9 +1,9 @@
 //! The shaders of a frame, compiled.
 
 use super::params::{
-    CLUSTER_STROKES, COLUMNS, ENOUGH_GROUPS, ENOUGH_LISTS, Found, LEAST_ALONE, LINE_THREADS,
-    ROUNDS_A_LINE, SAMPLE_ROWS, STARTS_THREADS, Samples, TILE_PX, TILE_THREADS, WAITED_FOR,
-    WORKGROUP,
+    CLUSTER_STROKES, COLUMNS, COUNTED_EACH, ENOUGH_GROUPS, ENOUGH_LISTS, Found, LEAST_ALONE,
+    LINE_THREADS, ROUNDS_A_LINE, SAMPLE_ROWS, STARTS_THREADS, Samples, TILE_PX, TILE_THREADS,
+    WAITED_FOR, WORKGROUP,
 };
 use super::shaders::{
     COVERS, COVERS_APART, CULL, FLATTEN, IDS, LAYERS, LIST_KEPT, OPAQUE, RECOUNT, SCATTER, SHARE,
@@ -161,7 +161,13 @@ fn stages(gpu: &Gpu, more: &[Constant]) -> Result<[Kernel; 6], String> {
     ];
     Ok([
         kernel(&CULL, &[constant("WORKGROUP", WORKGROUP)])?,
-        kernel(&RECOUNT, &[constant("THREADS", LINE_THREADS)])?,
+        kernel(
+            &RECOUNT,
+            &[
+                constant("THREADS", LINE_THREADS),
+                constant("LINES_EACH", COUNTED_EACH),
+            ],
+        )?,
         kernel(&LIST_KEPT, &[constant("THREADS", LINE_THREADS)])?,
         kernel(&STARTS, &[starts])?,
         kernel(&SHARE, &share)?,

@@ -12,12 +12,16 @@ pub(super) const WHOLE_PATH: u32 = 1 << 31;
 pub(super) const SEGMENTS_BIT: u32 = 16;
 /// So many workgroups are enough for all clusters that are seen; where these are fewer, several workgroups share each.
 pub(super) const ENOUGH_GROUPS: u32 = 256;
+/// So few clusters that several workgroups share each.
+pub(super) const FEW_CLUSTERS: u32 = ENOUGH_GROUPS / 2;
 /// Words of a line: `LINE_WORDS` of the shaders.
 pub(super) const LINE_WORDS: usize = 3;
 /// Threads of a workgroup that goes over clusters or lines.
 pub(super) const WORKGROUP: u32 = 64;
 /// Threads of a workgroup that counts kept lines, or enters lines into lists.
 pub(super) const LINE_THREADS: u32 = 256;
+/// Lines that each of them counts, and tallies with those of the others.
+pub(super) const COUNTED_EACH: u32 = 4;
 /// So many threads are enough for all lines; where these are fewer, several share each.
 pub(super) const ENOUGH_THREADS: u32 = 1 << 18;
 /// Most threads that share one.

@@ -1,4 +1,7 @@
-// One thread for one line after the other, of those that are there from a frame before: counts the tiles that each may touch.
+// Some lines a thread, of those that are there from a frame before: counts the tiles that each may touch.
+
+// So many that are tallied together.
+override LINES_EACH: u32;
 
 @group(0) @binding(5) var<storage, read_write> counts: array<atomic<u32>>;
 
@@ -29,17 +32,17 @@ fn main(
     @builtin(num_workgroups) groups: vec3u,
     @builtin(local_invocation_index) thread: u32,
 ) {
-    let group = workgroup_index(id, groups);
-    for (var first = group * THREADS; first < frame.kept_lines; first += groups.x * groups.y * THREADS) {
+    let lines_together = THREADS * LINES_EACH;
+    let step = groups.x * groups.y * lines_together;
+    for (var first = workgroup_index(id, groups) * lines_together; first < frame.kept_lines; first += step) {
         clear_tallies(thread);
         workgroupBarrier();
-        let line = first + thread;
-        var words = vec3u(NOWHERE);
-        if line < frame.kept_lines {
-            words = words_of_line(line);
-        }
-        if words.x != NOWHERE {
-            tally(line_of(words), reach_of_line(line));
+        let end = min(first + lines_together, frame.kept_lines);
+        for (var line = first + thread; line < end; line += THREADS) {
+            let words = words_of_line(line);
+            if words.x != NOWHERE {
+                tally(line_of(words), reach_of_line(line));
+            }
         }
         workgroupBarrier();
         for (var place = thread; place < TALLY_PLACES; place += THREADS) {
