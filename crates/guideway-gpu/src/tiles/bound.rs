@@ -17,6 +17,9 @@ use crate::device::{Bindings, DeviceBuffer, Dispatch, Gpu, Kernel, Runner};
 /// Most workgroups of a kernel that goes round until nothing is left.
 const MOST_ROUNDS_GROUPS: u32 = 1 << 14;
 
+/// The one stage of a frame whose stages are not told apart.
+const WHOLE: &str = "draw";
+
 /// How the tiles are painted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Paint {
@@ -89,6 +92,8 @@ pub(super) struct Buffers<'a> {
     pub(super) touched: Option<&'a DeviceBuffer>,
     /// A bit a path, where paths are only to be marked.
     pub(super) marks: Option<&'a DeviceBuffer>,
+    /// Whether the clock tells stages apart.
+    pub(super) times_stages: bool,
 }
 
 /// What frames before have left, or have shown to take less time.
@@ -341,6 +346,7 @@ impl Bound {
             bindings: kernel.bind(b.gpu, buffers)?,
             over,
         };
+        let name = if b.times_stages { name } else { WHOLE };
         match self.stages.last_mut() {
             Some((last, steps)) if *last == name => steps.push(step),
             _ => self.stages.push((name, vec![step])),

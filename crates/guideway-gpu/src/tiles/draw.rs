@@ -145,6 +145,7 @@ impl PreparedTiles {
             shares: easel.shares.as_ref(),
             touched: easel.touched.as_ref(),
             marks: self.marks.as_ref(),
+            times_stages: self.shared.options.times_stages,
         };
         let samples = shot.samples();
         let is_alike = |bound: &Bound| bound.is_for(paint, samples, manner);

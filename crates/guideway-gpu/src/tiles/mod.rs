@@ -48,16 +48,21 @@ const NAME: &str = "gpu";
 #[derive(Clone)]
 pub struct Tiles(Arc<Shared>);
 
-/// What may be left out, for comparison.
+/// What may be done otherwise, for comparison.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TilesOptions {
     /// Whether lines and finished pixels are kept from frame to frame where they are still right.
     pub keeps: bool,
+    /// Whether the device's clock tells the stages of a frame apart. The device comes to a stop for that, so frames take longer.
+    pub times_stages: bool,
 }
 
 impl Default for TilesOptions {
     fn default() -> Self {
-        Self { keeps: true }
+        Self {
+            keeps: true,
+            times_stages: false,
+        }
     }
 }
 

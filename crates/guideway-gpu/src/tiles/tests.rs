@@ -24,15 +24,20 @@ mod twins;
 mod work;
 
 /// The method of all tests here, for its shaders take long to compile; none where there is no device.
-static TILES: LazyLock<Result<Tiles, String>> =
-    LazyLock::new(|| Tiles::new(Gpu::new()?, TilesOptions::default()));
+static TILES: LazyLock<Result<Tiles, String>> = LazyLock::new(|| Tiles::new(Gpu::new()?, OPTIONS));
+
+/// Tests see by its stages how a frame was drawn.
+const OPTIONS: TilesOptions = TilesOptions {
+    keeps: true,
+    times_stages: true,
+};
 
 fn tiles() -> Option<Tiles> {
     here(&TILES)
 }
 
 fn limited(options: GpuOptions) -> Tiles {
-    Tiles::new(Gpu::with_options(options).unwrap(), TilesOptions::default()).unwrap()
+    Tiles::new(Gpu::with_options(options).unwrap(), OPTIONS).unwrap()
 }
 
 /// Bent paths of two segments, each `reach_m` long, over 100 m x 60 m.

@@ -8,22 +8,31 @@ use super::{Entry, MethodOption, Stop};
 pub(super) const TILES: Entry = Entry {
     name: "gpu",
     summary: "Every frame from the control points, by compute shaders; every path its own colour and width",
-    options: &[MethodOption {
-        name: "rebuild",
-        summary: "keeps nothing from frame to frame, to measure what that costs",
-    }],
+    options: &[
+        MethodOption {
+            name: "rebuild",
+            summary: "keeps nothing from frame to frame, to measure what that costs",
+        },
+        MethodOption {
+            name: "stages",
+            summary: "tells how long each stage of a frame takes, for which the device stops between them",
+        },
+    ],
     is_general: true,
     start: |options| {
-        let keeps = match options {
-            "" => true,
-            "rebuild" => false,
-            _ => {
-                let what = format!("there is no option `{options}`; there is: rebuild");
-                return Err(Stop::Options(what));
+        let mut asked = TilesOptions::default();
+        for option in options.split('+').filter(|option| !option.is_empty()) {
+            match option {
+                "rebuild" => asked.keeps = false,
+                "stages" => asked.times_stages = true,
+                _ => {
+                    let what = format!("there is no option `{option}`; there are: rebuild, stages");
+                    return Err(Stop::Options(what));
+                }
             }
-        };
+        }
         let device = DEVICE.as_ref().map_err(|why| Stop::Missing(why.clone()))?;
-        let tiles = Tiles::new(Arc::clone(device), TilesOptions { keeps });
+        let tiles = Tiles::new(Arc::clone(device), asked);
         Ok(Box::new(tiles.map_err(Stop::Missing)?))
     },
 };

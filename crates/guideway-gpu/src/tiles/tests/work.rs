@@ -1,4 +1,6 @@
-//! What a frame takes is counted to the last word.
+//! What a frame takes is counted to the last word, and timed.
+
+use guideway_render::Stage;
 
 use super::*;
 
@@ -49,4 +51,33 @@ fn work_is_counted_exactly() {
     let mut mixed = prepared(&tiles, &mixed(30, 3.0));
     let work = mixed.count_work(&all(), &style, &Cancel::default());
     assert_eq!(work.unwrap(), guideway_render::Work::default());
+}
+
+#[test]
+fn stages_are_told_apart_where_that_is_asked_for_and_change_no_bit() {
+    let Some(tiles) = tiles() else { return };
+    let whole = Tiles::new(Arc::clone(&tiles.0.gpu), TilesOptions::default()).unwrap();
+    let (scene, style) = (plain(300, 4.0), Style::default());
+    let names = |report: &Report| {
+        report
+            .stages
+            .iter()
+            .map(|stage| stage.name)
+            .collect::<Vec<_>>()
+    };
+    let (expected, apart) = picture(&mut prepared(&tiles, &scene), &all(), &style);
+    let (frame, report) = picture(&mut prepared(&whole, &scene), &all(), &style);
+    assert!(frame.pixels() == expected.pixels());
+    assert_eq!(names(&report), ["draw", Stage::READ_BACK]);
+    assert_eq!(
+        names(&apart),
+        [
+            "cull",
+            "flatten",
+            "starts",
+            "list",
+            "cover",
+            Stage::READ_BACK
+        ]
+    );
 }
