@@ -3,7 +3,6 @@ use std::ops::Range;
 use guideway_layout::RunPoints;
 use guideway_scene::PathState;
 use guideway_spline::{Bounds, Point, hilbert};
-use multiversion::multiversion;
 use rayon::prelude::*;
 
 use super::LANES;
@@ -11,9 +10,10 @@ use super::canvas::{TILE_PX, set_bits};
 use super::extent::{Hull, read_ahead};
 use super::flatten::flatten;
 use super::polylines::{Pen, Polylines, ROUNDS};
-use super::shot::{LaneWidth, Shot};
+use super::shot::Shot;
 use super::sight::Sight;
 use super::simplify::{MOST_POINTS, simplify};
+use super::vectors::by_lane_width;
 
 /// Paths, near each other, that are culled and kept together.
 pub(super) const CLUSTER_PATHS: usize = 64;
@@ -248,12 +248,7 @@ impl Scratch {
             }
         }
         local.resize(local.len() + MOST_POINTS, Point::default());
-        let tolerance = shot.tolerance_units();
-        match shot.lane_width {
-            LaneWidth::Widest => simplify_widest(self, tolerance),
-            LaneWidth::Eight => simplify_eight(self, tolerance),
-            LaneWidth::Baseline => simplify_all(self, tolerance),
-        }
+        simplify_by(shot.lane_width, self, shot.tolerance_units());
     }
 
     /// Lines within some rows of tiles, counted as those of all of the picture.
@@ -302,18 +297,10 @@ impl Scratch {
     }
 }
 
-#[multiversion(targets(
-    "x86_64+avx512f+avx512bw+avx512dq+avx512vl+bmi1+bmi2+lzcnt+popcnt",
-    "x86_64+avx2+bmi1+bmi2+lzcnt+popcnt"
-))]
-fn simplify_widest(scratch: &mut Scratch, tolerance: f32) {
-    simplify_all(scratch, tolerance);
-}
-
-#[multiversion(targets("x86_64+avx2+bmi1+bmi2+lzcnt+popcnt"))]
-fn simplify_eight(scratch: &mut Scratch, tolerance: f32) {
-    simplify_all(scratch, tolerance);
-}
+by_lane_width!(
+    fn simplify_by(scratch: &mut Scratch, tolerance: f32)
+    by simplify_all
+);
 
 /// Makes kept lines of all runs.
 #[inline(always)]

@@ -6,7 +6,8 @@ use rayon::prelude::*;
 use super::cluster::{CLUSTER_PATHS, Lines, Members, sorted_rows};
 use super::extent::{Extent, Hull, bounds_anew, hull, shown_bounds};
 use super::place::Placement;
-use super::shot::{LaneWidth, Precision, Shot, Widths, widths};
+use super::shot::{Precision, Shot, Widths, widths};
+use super::vectors::LaneWidth;
 
 /// The rows of a scene in clusters, and what holds for all of them.
 pub(super) struct Index {

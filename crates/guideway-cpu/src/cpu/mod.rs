@@ -38,6 +38,7 @@ mod stroke;
 #[cfg(test)]
 mod tests;
 mod tiles;
+mod vectors;
 
 use std::sync::Arc;
 

@@ -4,7 +4,6 @@ use std::sync::{Mutex, PoisonError};
 use guideway_render::RenderError;
 use guideway_scene::Rgba;
 use guideway_spline::Point;
-use multiversion::multiversion;
 use rayon::prelude::*;
 
 use super::backdrop::{Backdrop, solid_colors};
@@ -16,11 +15,12 @@ use super::kept::Kept;
 use super::layers::{Counts, Layers};
 use super::polylines::ROUNDS;
 use super::seen::{Hit, Seen};
-use super::shot::{LaneWidth, Shot};
+use super::shot::Shot;
 use super::sight::Sights;
 use super::span::{LAYERED, SOLID, Samples};
 use super::stretch::{Pixels, Stretch};
 use super::tiles::{Bins, Grid, Parts};
+use super::vectors::by_lane_width;
 
 /// Pieces of several colours that are sorted at first; each time that more are needed, twice as many.
 const FIRST_SORTED: usize = 256;
@@ -263,26 +263,14 @@ impl<'a> Band<'a> {
     }
 
     fn paint(&self, painter: &mut Painter, tile: &Tile, matter: Matter<'_>) {
-        match self.shot.lane_width {
-            LaneWidth::Widest => paint_widest(self, painter, tile, matter),
-            LaneWidth::Eight => paint_eight(self, painter, tile, matter),
-            LaneWidth::Baseline => paint(self, painter, tile, matter),
-        }
+        paint_by(self.shot.lane_width, self, painter, tile, matter);
     }
 }
 
-#[multiversion(targets(
-    "x86_64+avx512f+avx512bw+avx512dq+avx512vl+bmi1+bmi2+lzcnt+popcnt",
-    "x86_64+avx2+bmi1+bmi2+lzcnt+popcnt"
-))]
-fn paint_widest(band: &Band<'_>, painter: &mut Painter, tile: &Tile, matter: Matter<'_>) {
-    paint(band, painter, tile, matter);
-}
-
-#[multiversion(targets("x86_64+avx2+bmi1+bmi2+lzcnt+popcnt"))]
-fn paint_eight(band: &Band<'_>, painter: &mut Painter, tile: &Tile, matter: Matter<'_>) {
-    paint(band, painter, tile, matter);
-}
+by_lane_width!(
+    fn paint_by(band: &Band<'_>, painter: &mut Painter, tile: &Tile, matter: Matter<'_>)
+    by paint
+);
 
 #[inline(always)]
 fn paint(band: &Band<'_>, painter: &mut Painter, tile: &Tile, matter: Matter<'_>) {

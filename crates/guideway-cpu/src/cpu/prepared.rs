@@ -16,7 +16,7 @@ use super::frame::{Buffers, Easel, TooMuch};
 use super::index::Index;
 use super::kept::Kept;
 use super::paint::Painter;
-use super::shot::LaneWidth;
+use super::vectors::LaneWidth;
 
 /// Largest frame that is planned for.
 const PLANNED_PIXELS: u64 = 3840 * 2160;

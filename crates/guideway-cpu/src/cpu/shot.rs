@@ -6,6 +6,7 @@ use guideway_spline::{Bounds, Point};
 
 use super::canvas::TILE_PX;
 use super::place::{Placement, power_of_two_below};
+use super::vectors::LaneWidth;
 
 /// How exactly lines are kept.
 #[derive(Clone, Copy)]
@@ -40,19 +41,6 @@ const MARGIN_PX: f64 = 1.0 / 16.0;
 /// How much thinner, on either side, strokes are drawn to find what is full for certain. It holds for what lies between samples, at most 0.07 px
 /// from one, for the sixteenths of a pixel that borders in whole numbers may be off in either view, and the sides of pixels that are not looked up.
 const THINNER_PX: f64 = 0.25;
-
-/// Which vector instructions to use. All give the same bits.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(not(test), expect(dead_code, reason = "tests force each, and compare"))]
-pub(super) enum LaneWidth {
-    /// The widest that there are.
-    #[default]
-    Widest,
-    /// None beyond what every processor of this kind has.
-    Baseline,
-    /// Eight lanes, where there are.
-    Eight,
-}
 
 /// One scene, as one frame sees it.
 #[derive(Clone, Copy)]

@@ -1,12 +1,10 @@
 //! What was covered becomes pixels.
 
-use multiversion::multiversion;
-
 use super::{Canvas, pixel_counts};
 use crate::cpu::backdrop::{Backdrop, SolidColors};
-use crate::cpu::shot::LaneWidth;
 use crate::cpu::span::{LAYERED, SOLID, Samples};
 use crate::cpu::stretch::Pixels;
+use crate::cpu::vectors::{LaneWidth, by_lane_width};
 
 /// The colours of a part of a tile.
 type Colors<'s, 'a> = Pixels<'s, 'a, [u8; 4]>;
@@ -28,26 +26,14 @@ impl Look<'_> {
         width_px: usize,
         pixels: &mut Colors<'_, '_>,
     ) {
-        match lane_width {
-            LaneWidth::Widest => show_widest(self, width_px, pixels),
-            LaneWidth::Eight => show_eight(self, width_px, pixels),
-            LaneWidth::Baseline => show(self, width_px, pixels),
-        }
+        show_by(lane_width, self, width_px, pixels);
     }
 }
 
-#[multiversion(targets(
-    "x86_64+avx512f+avx512bw+avx512dq+avx512vl+bmi1+bmi2+lzcnt+popcnt",
-    "x86_64+avx2+bmi1+bmi2+lzcnt+popcnt"
-))]
-fn show_widest(look: Look<'_>, width_px: usize, pixels: &mut Colors<'_, '_>) {
-    show(look, width_px, pixels);
-}
-
-#[multiversion(targets("x86_64+avx2+bmi1+bmi2+lzcnt+popcnt"))]
-fn show_eight(look: Look<'_>, width_px: usize, pixels: &mut Colors<'_, '_>) {
-    show(look, width_px, pixels);
-}
+by_lane_width!(
+    fn show_by(look: Look<'_>, width_px: usize, pixels: &mut Colors<'_, '_>)
+    by show
+);
 
 #[inline(always)]
 fn show(look: Look<'_>, width_px: usize, pixels: &mut Colors<'_, '_>) {

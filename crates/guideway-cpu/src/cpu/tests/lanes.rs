@@ -1,7 +1,7 @@
 //! Pictures by vectors of any width.
 
 use super::*;
-use crate::cpu::shot::LaneWidth;
+use crate::cpu::vectors::LaneWidth;
 
 #[test]
 fn vector_instructions_do_not_show() {
