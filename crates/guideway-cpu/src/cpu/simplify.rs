@@ -15,7 +15,7 @@ struct Joints {
     count: usize,
     x: [f32; 2 * MOST],
     y: [f32; 2 * MOST],
-    bend: [f32; 2 * MOST],
+    bend: [f32; MOST + 1],
     room: [f32; 2 * MOST],
 }
 
@@ -97,7 +97,7 @@ impl Joints {
             count,
             x: [0.0; 2 * MOST],
             y: [0.0; 2 * MOST],
-            bend: [0.0; 2 * MOST],
+            bend: [0.0; MOST + 1],
             room: [0.0; 2 * MOST],
         };
         for i in 0..MOST {
@@ -156,11 +156,11 @@ impl Joints {
     #[inline(always)]
     fn farthest<const N: usize>(&self, from: usize, to: usize) -> Option<usize> {
         const LANE_BITS: u32 = MOST as u32 - 1;
-        /// In place of a line of no length: short beside all units.
+        /// In place of shorter lines, whose squares may vanish: short beside all units.
         const POINT: Point<f32> = Point::new(1.0 / 1024.0, 0.0);
         let start = self.at(from);
         let along = self.at(to) - start;
-        let is_point = (along.x == 0.0) & (along.y == 0.0);
+        let is_point = along.dot(along) < POINT.dot(POINT);
         let along = if is_point { POINT } else { along };
         let square = along.dot(along);
         let between = from + 1;
@@ -259,6 +259,17 @@ mod tests {
                 );
             }
             assert!(vertices.len() <= 2 + points * (2.0 + step.sqrt()) as usize);
+        }
+    }
+
+    #[test]
+    fn what_returns_to_where_it_began_is_no_point() {
+        for off in [0.0, 1e-30, 1e-20, 1e-6, 1e-3] {
+            let [start, end] = [off, 0.0].map(|x| [Point::new(x, 0.0); 3]);
+            let there = [[9.0, 0.0], [9.0, 9.0], [0.0, 9.0]].map(|[x, y]| Point::new(x, y));
+            let lines = simplified(&[start, there, end].concat(), 0.5);
+            let farthest = lines.iter().map(|p| p.distance(start[0]));
+            assert!(farthest.fold(0.0, f32::max) > 5.0, "{off}: {lines:?}");
         }
     }
 
