@@ -58,7 +58,6 @@ pub struct Comparison {
     /// Paths that moved: one at the least.
     pub edit_paths: Option<usize>,
     /// Whether each of them went its own way.
-    #[serde(default)]
     pub edit_is_apart: Option<bool>,
     /// Frames of each method after the first that do not count.
     pub warmup: usize,

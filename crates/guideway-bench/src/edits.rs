@@ -4,14 +4,13 @@ use std::sync::Arc;
 use guideway_render::RenderError;
 use guideway_scene::{Edit, Scene};
 use guideway_spline::{Affine, Point};
-use serde::{Deserialize, Serialize};
 
 /// How far [`crate::Motion::Edit`] moves a path, in metres. Exact in `f32`, so that there and back is where
 /// it began.
 const BY_M: Point<f64> = Point { x: 0.5, y: 0.25 };
 
 /// Which paths [`crate::Motion::Edit`] moves each frame, and how.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Moves {
     /// Share of all paths, from 0 to 1.
     pub share: f64,

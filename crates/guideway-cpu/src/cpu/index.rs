@@ -194,11 +194,11 @@ impl Index {
                 (Some(before), Some(by)) if is_whole => {
                     before.mapped(by, geometry.mapped_bounds(before.bounds, by))
                 }
-                _ if is_whole => None,
-                _ => before.zip(left.from).and_then(|(before, from)| {
+                (Some(before), _) if !is_whole => left.from.and_then(|from| {
                     let to = self.hull_of_few(scene, left.cluster, left.members)?;
                     before.after(from, to)
                 }),
+                _ => None,
             };
             let anew = || bounds_anew(scene, self.paths_of(left.cluster));
             // The middle of curves that are all new does not depend on those before: what is undone looks as it did.

@@ -120,9 +120,7 @@ fn check(scene: &Arc<Scene>, view: &View, style: &Style) {
 #[track_caller]
 fn check_frame(ours: &Frame, scene: &Arc<Scene>, view: &View, style: &Style) {
     let (exact, _) = draw(&Oracle, scene, view, style, &Budget::default());
-    let pairs = ours.pixels().iter().zip(exact.pixels());
-    let errors: Vec<_> = pairs.flat_map(|(&a, &b)| differences(a, b)).collect();
-    let mean = errors.iter().map(|&e| f64::from(e)).sum::<f64>() / errors.len() as f64;
+    let (errors, mean) = errors(ours, &exact);
     let far = errors.iter().filter(|&&e| e > 16).count();
     let most = errors.iter().max().unwrap();
     let is_near = mean <= 0.75 && far * 2000 <= errors.len() && *most <= 64;
@@ -131,6 +129,14 @@ fn check_frame(ours: &Frame, scene: &Arc<Scene>, view: &View, style: &Style) {
         "mean {mean}, {far} of {} above 16, most {most}",
         errors.len()
     );
+}
+
+/// How far the channels of two pictures are apart, each and on the mean.
+fn errors(ours: &Frame, other: &Frame) -> (Vec<u8>, f64) {
+    let pairs = ours.pixels().iter().zip(other.pixels());
+    let errors: Vec<_> = pairs.flat_map(|(&a, &b)| differences(a, b)).collect();
+    let mean = errors.iter().map(|&e| f64::from(e)).sum::<f64>() / errors.len() as f64;
+    (errors, mean)
 }
 
 /// Of the colours as they weigh: what is hardly there may have any colour.

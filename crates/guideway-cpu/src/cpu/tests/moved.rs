@@ -38,9 +38,7 @@ fn draw_edited(
 fn off_fresh(frame: &Frame, scene: &Scene, (view, style): (&View, &Style)) -> (f64, u8) {
     let scene = Arc::new(scene.clone());
     let (fresh, _) = draw(&Cpu, &scene, view, style, &Budget::default());
-    let pairs = frame.pixels().iter().zip(fresh.pixels());
-    let errors: Vec<_> = pairs.flat_map(|(&a, &b)| differences(a, b)).collect();
-    let mean = errors.iter().map(|&e| f64::from(e)).sum::<f64>() / errors.len() as f64;
+    let (errors, mean) = errors(frame, &fresh);
     (mean, errors.into_iter().max().unwrap())
 }
 
