@@ -3,6 +3,7 @@ use std::sync::{Arc, OnceLock};
 
 use guideway_layout::{Layout, Level, PathRef};
 use guideway_spline::Bounds;
+use rayon::prelude::*;
 
 use crate::Rgba;
 use crate::color_by::{self, ColorBy, Legend};
@@ -297,21 +298,30 @@ fn own_colors(layout: &Layout, base: Rgba) -> Colors {
 /// The box of the curves themselves: that of their control points is up to three times as large. Only
 /// a path, and then a segment, whose hull reaches out of the box so far is looked at closely.
 fn bounds(layout: &Layout, drawn: &[u32]) -> Option<Bounds<f64>> {
-    let mut all: Option<Bounds<f64>> = None;
+    /// Paths whose hulls are looked at as one first.
+    const FEW: usize = 64;
     let reaches_out = |hull: Option<Bounds<f64>>, all: Option<Bounds<f64>>| match (hull, all) {
         (Some(hull), Some(all)) => !(all.contains(hull.min) && all.contains(hull.max)),
         (hull, _) => hull.is_some(),
     };
-    for path in drawn.iter().map(|&path| layout.paths.get(path as usize)) {
-        if !reaches_out(path.hull_bounds(), all) {
-            continue;
+    let with = |mut all: Option<Bounds<f64>>, few: &[u32]| {
+        let rows = few.iter().map(|&path| path as usize);
+        if !reaches_out(layout.paths.geometry().hull_bounds(rows.clone()), all) {
+            return all;
         }
-        for segment in path.runs().flat_map(|run| run.segments()) {
-            if reaches_out(Bounds::of_points(segment), all) {
-                let tight = Bounds::of_segment(&segment);
-                all = Some(all.map_or(tight, |all| all.union(tight)));
+        for path in rows.map(|row| layout.paths.get(row)) {
+            if !reaches_out(path.hull_bounds(), all) {
+                continue;
+            }
+            for segment in path.runs().flat_map(|run| run.segments()) {
+                if reaches_out(Bounds::of_points(segment), all) {
+                    let tight = Bounds::of_segment(&segment);
+                    all = Some(all.map_or(tight, |all| all.union(tight)));
+                }
             }
         }
-    }
-    all
+        all
+    };
+    let parts = drawn.par_chunks(FEW).fold(|| None, with);
+    parts.flatten().reduce_with(Bounds::union)
 }
