@@ -21,6 +21,9 @@ pub(crate) fn load(file: &File) -> Result<Buffer, Problem> {
     // keeps. It relies, as every program that maps a file must, on no other process changing the file
     // in that time; `docs/formats.md` tells writers to replace files rather than to change them.
     let map = unsafe { memmap2::Mmap::map(file)? };
+    // Read ahead of who looks at it. If the system does not care to, it is read all the same.
+    #[cfg(unix)]
+    let _ = map.advise(memmap2::Advice::WillNeed);
     let (start, len) = (map.as_ptr().cast_mut(), map.len());
     let start = NonNull::new(start).ok_or(Problem::Empty)?;
     // SAFETY: `start` is valid for `len` bytes as long as the map lives, and the buffer owns the map.

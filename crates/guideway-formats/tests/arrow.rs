@@ -276,3 +276,56 @@ fn rows_join_to_paths_across_batches_and_are_refused_together() {
     );
     assert!(layout.diagnostics.is_empty());
 }
+
+#[test]
+fn values_stay_with_their_paths_where_rows_between_are_refused() {
+    let text = |i: usize| format!("{}é", "x".repeat(i));
+    let words: Vec<String> = (0..6).map(text).collect();
+    let with_none = |i: usize| (i != 4).then(|| text(i));
+    let batch = |list: ListArray| {
+        batch(vec![
+            ("id", Arc::new(StringArray::from(words.clone()))),
+            (
+                "zone",
+                Arc::new((0..6).map(with_none).collect::<StringArray>()),
+            ),
+            ("word", Arc::new(StringArray::from(words.clone()))),
+            (
+                "speed",
+                Arc::new(Float64Array::from_iter_values((0..6).map(f64::from))),
+            ),
+            ("control_points", Arc::new(list)),
+        ])
+    };
+    let (item, _, points, _) = polygons(6).into_parts();
+    // The second and the last of these have no four points.
+    let lengths = arrow_buffer::OffsetBuffer::from_lengths([4, 2, 4, 4, 5, 3]);
+    let broken = ListArray::new(item, lengths, points, None);
+    let layout = read(&file(&[batch(broken), batch(polygons(6))], None));
+    let rows = [0, 2, 3, 4, 0, 1, 2, 3, 4, 5];
+    assert_eq!(ids(&layout), rows.map(text));
+    assert_eq!(layout.refused.len(), 2);
+    for (path, row) in rows.into_iter().enumerate() {
+        let value = |name| attribute(&layout, name).values.get(path);
+        assert_eq!(value("word"), Some(Value::Text(&words[row])));
+        assert_eq!(value("speed"), Some(Value::Float(row as f64)));
+        let zone = (row != 4).then_some(Value::Text(&words[row]));
+        assert_eq!(value("zone"), zone, "path {path}");
+    }
+}
+
+#[test]
+fn a_text_that_is_too_long_is_found_among_others() {
+    let mut options = ReadOptions::default();
+    options.limits.text_bytes = 3;
+    for column in ["id", "zone"] {
+        let texts: ArrayRef = Arc::new(StringArray::from(vec!["abc", "abcd", "a"]));
+        let columns = vec![
+            (column, texts),
+            ("control_points", Arc::new(polygons(3)) as ArrayRef),
+        ];
+        let error = read_bytes("test", &file(&[batch(columns)], None), &options)
+            .expect_err("the second text is too long");
+        assert!(error.to_string().contains("bytes in one text"), "{error}");
+    }
+}

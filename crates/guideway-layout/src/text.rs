@@ -22,12 +22,30 @@ impl TextColumn {
     /// # Panics
     /// When the column would pass [`Self::MAX_BYTES`]; readers refuse such files before they get here.
     pub fn push(&mut self, text: &str) {
+        self.push_all(text, [text.len()]);
+    }
+
+    /// Appends rows that lie side by side in one text, each up to one of `ends`.
+    ///
+    /// # Panics
+    /// As [`Self::push`]; when ends fall, do not end with the text, or one is within a character.
+    pub fn push_all(&mut self, text: &str, ends: impl IntoIterator<Item = usize>) {
+        let before = self.bytes.len();
         self.bytes.push_str(text);
         assert!(
             self.bytes.len() <= Self::MAX_BYTES,
             "a text column holds at most 4 GiB"
         );
-        self.ends.push(self.bytes.len() as u32);
+        let mut last = 0;
+        self.ends.extend(ends.into_iter().map(|end| {
+            assert!(
+                last <= end && text.is_char_boundary(end),
+                "rows lie side by side"
+            );
+            last = end;
+            (before + end) as u32
+        }));
+        assert!(last == text.len(), "the last row ends with the text");
     }
 
     /// Number of rows.
@@ -69,5 +87,28 @@ impl<'a> FromIterator<&'a str> for TextColumn {
         let mut column = Self::default();
         rows.into_iter().for_each(|row| column.push(row));
         column
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_that_lie_side_by_side_are_those_pushed_one_by_one() {
+        let mut column: TextColumn = ["é", ""].into_iter().collect();
+        column.push_all("añb", [1, 1, 3, 4]);
+        let rows = ["é", "", "a", "", "ñ", "b"];
+        assert_eq!(column, rows.into_iter().collect());
+        column.push_all("", []);
+        assert_eq!(column.len(), rows.len());
+    }
+
+    #[test]
+    fn rows_that_do_not_lie_side_by_side_are_a_panic() {
+        for ends in [&[2, 1, 4][..], &[1], &[2, 4], &[5]] {
+            let push = || TextColumn::default().push_all("añb", ends.iter().copied());
+            assert!(std::panic::catch_unwind(push).is_err(), "{ends:?}");
+        }
     }
 }

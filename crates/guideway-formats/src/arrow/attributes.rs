@@ -11,7 +11,7 @@ use super::budget::Budget;
 use super::guard::{damaged, guarded};
 use super::schema::is_text;
 use super::table::Table;
-use super::text::Texts;
+use super::text::{SideBySide, Texts};
 use crate::Problem;
 
 /// What the values of a column become.
@@ -23,30 +23,40 @@ enum Kind {
     Text,
     /// Text made from a value of a type that layouts do not have.
     Written,
-    /// There are no values.
-    Nothing,
+}
+
+/// A column that becomes an attribute.
+pub(super) struct Plan {
+    index: usize,
+    name: String,
+    kind: Kind,
+    /// Where it is not that of the values held.
+    source_type: Option<String>,
 }
 
 /// Converts columns to attributes.
 pub(super) struct Converter<'a> {
     pub(super) table: &'a Table,
     pub(super) limits: &'a Limits,
-    pub(super) budget: &'a mut Budget,
-    pub(super) diagnostics: &'a mut Diagnostics,
+    pub(super) budget: &'a Budget,
 }
 
 impl Converter<'_> {
-    /// The attribute that column `index` holds, if it holds values.
-    pub(super) fn attribute(
-        &mut self,
+    /// What column `index` becomes, if it holds values.
+    pub(super) fn plan(
+        &self,
         index: usize,
         field: &Field,
-    ) -> Result<Option<Attribute>, Problem> {
+        diagnostics: &mut Diagnostics,
+    ) -> Result<Option<Plan>, Problem> {
         let value_type = match field.data_type() {
             DataType::Dictionary(_, values) => values.as_ref(),
             plain => plain,
         };
-        let mut kind = kind(field.data_type(), value_type);
+        let Some(mut kind) = kind(field.data_type(), value_type) else {
+            note(field, "has no values and is left out", diagnostics);
+            return Ok(None);
+        };
         let mut source_type = match kind {
             Kind::Int if *value_type != DataType::Int64 => Some(value_type.to_string()),
             Kind::Float if *value_type != DataType::Float64 => Some(value_type.to_string()),
@@ -55,33 +65,29 @@ impl Converter<'_> {
         if kind == Kind::Int && *value_type == DataType::UInt64 && !self.fits_i64(index)? {
             (kind, source_type) = (Kind::Written, None);
         }
-        if matches!(kind, Kind::Written | Kind::Nothing) {
-            self.note(field, kind);
+        if kind == Kind::Written {
+            note(field, "is kept as text", diagnostics);
         }
-        let values = match kind {
-            Kind::Bool => self.bools(index)?,
-            Kind::Int => self.ints(index)?,
-            Kind::Float => self.floats(index)?,
-            Kind::Text => self.texts(index)?,
-            Kind::Written => self.written(index)?,
-            Kind::Nothing => return Ok(None),
-        };
-        let mut attribute = Attribute::new(field.name(), values);
-        attribute.source_type = source_type;
-        Ok(Some(attribute))
+        Ok(Some(Plan {
+            index,
+            name: field.name().clone(),
+            kind,
+            source_type,
+        }))
     }
 
-    fn note(&mut self, field: &Field, kind: Kind) {
-        let what = match kind {
-            Kind::Nothing => "has no values and is left out",
-            _ => "is kept as text",
+    /// The attribute that a column becomes.
+    pub(super) fn attribute(&self, plan: &Plan) -> Result<Attribute, Problem> {
+        let values = match plan.kind {
+            Kind::Bool => self.bools(plan.index)?,
+            Kind::Int => self.ints(plan.index)?,
+            Kind::Float => self.floats(plan.index)?,
+            Kind::Text => self.texts(plan.index)?,
+            Kind::Written => self.written(plan.index)?,
         };
-        self.diagnostics.push(
-            Code::Attribute,
-            || Place::element(format!("column {}", field.name())),
-            || format!("a column of type {} {what}", field.data_type()),
-            "Write it as bool, int, float or text to keep it as it is",
-        );
+        let mut attribute = Attribute::new(&plan.name, values);
+        attribute.source_type.clone_from(&plan.source_type);
+        Ok(attribute)
     }
 
     fn fits_i64(&self, index: usize) -> Result<bool, Problem> {
@@ -115,30 +121,36 @@ impl Converter<'_> {
         Ok(Values::Float(numbers))
     }
 
-    fn texts(&mut self, index: usize) -> Result<Values, Problem> {
+    fn texts(&self, index: usize) -> Result<Values, Problem> {
         let mut sink = TextSink::new(self.limits, self.table.path_count());
         let mut present = Vec::with_capacity(self.table.path_count());
         for batch in &self.table.batches {
             let texts = Texts::of(&batch.columns[index])
                 .ok_or_else(|| damaged("dictionary", "its values are not text"))?;
-            for row in self.table.kept_in(batch) {
-                let text = texts.get(row);
-                present.push(text.is_some());
-                sink.push(text.unwrap_or_default(), self.budget)?;
+            for rows in self.table.stretches_in(batch) {
+                if let Some(all) = texts.side_by_side(rows.clone()) {
+                    sink.push_all(&all, self.budget)?;
+                    present.resize(present.len() + rows.len(), true);
+                    continue;
+                }
+                for row in rows {
+                    let text = texts.get(row);
+                    present.push(text.is_some());
+                    sink.push(text.unwrap_or_default(), self.budget)?;
+                }
             }
         }
         let text = sink.into_column();
         Ok(Values::Text { text, present })
     }
 
-    fn written(&mut self, index: usize) -> Result<Values, Problem> {
+    fn written(&self, index: usize) -> Result<Values, Problem> {
         let mut sink = TextSink::new(self.limits, self.table.path_count());
         let mut present = Vec::with_capacity(self.table.path_count());
         let options = FormatOptions::default();
         for batch in &self.table.batches {
             let column = &batch.columns[index];
             let nulls = column.logical_nulls();
-            let budget = &mut *self.budget;
             guarded("attribute", || {
                 let formatter = ArrayFormatter::try_new(column, &options)
                     .map_err(|e| damaged("attribute", e.to_string()))?;
@@ -149,7 +161,7 @@ impl Converter<'_> {
                     if here && write!(text, "{}", formatter.value(row)).is_err() {
                         return Err(text.problem("the value cannot be written as text"));
                     }
-                    sink.push(&text.text, budget)?;
+                    sink.push(&text.text, self.budget)?;
                 }
                 Ok(())
             })?;
@@ -159,15 +171,25 @@ impl Converter<'_> {
     }
 }
 
-fn kind(data_type: &DataType, value_type: &DataType) -> Kind {
-    match value_type {
-        DataType::Null => Kind::Nothing,
+fn note(field: &Field, what: &str, diagnostics: &mut Diagnostics) {
+    diagnostics.push(
+        Code::Attribute,
+        || Place::element(format!("column {}", field.name())),
+        || format!("a column of type {} {what}", field.data_type()),
+        "Write it as bool, int, float or text to keep it as it is",
+    );
+}
+
+/// What values of a type become; none if there are no values of it.
+fn kind(data_type: &DataType, value_type: &DataType) -> Option<Kind> {
+    Some(match value_type {
+        DataType::Null => return None,
         DataType::Boolean => Kind::Bool,
         t if t.is_integer() => Kind::Int,
         t if t.is_floating() => Kind::Float,
         _ if is_text(data_type) => Kind::Text,
         _ => Kind::Written,
-    }
+    })
 }
 
 /// The values of the kept rows as numbers of one type; null where a value does not fit it.
@@ -181,7 +203,12 @@ pub(super) fn numbers<T: ArrowPrimitiveType>(
         let column = cast(&batch.columns[index], target)?;
         let column = column.as_primitive::<T>();
         let get = |row| column.is_valid(row).then(|| column.value(row));
-        out.extend(table.kept_in(batch).map(get));
+        for rows in table.stretches_in(batch) {
+            match column.null_count() {
+                0 => out.extend(column.values()[rows].iter().map(|&value| Some(value))),
+                _ => out.extend(rows.map(get)),
+            }
+        }
     }
     Ok(out)
 }
@@ -209,12 +236,26 @@ impl<'a> TextSink<'a> {
         }
     }
 
-    pub(super) fn push(&mut self, text: &str, budget: &mut Budget) -> Result<(), Problem> {
-        if text.len() > self.limits.text_bytes {
-            return Err(too_long(self.limits.text_bytes, text.len()));
+    pub(super) fn push(&mut self, text: &str, budget: &Budget) -> Result<(), Problem> {
+        self.check(text.len(), text.len(), budget)?;
+        self.column.push(text);
+        Ok(())
+    }
+
+    pub(super) fn push_all(&mut self, rows: &SideBySide, budget: &Budget) -> Result<(), Problem> {
+        let longest = rows.lengths().max().unwrap_or_default();
+        self.check(rows.text.len(), longest, budget)?;
+        self.column.push_all(rows.text, rows.ends());
+        Ok(())
+    }
+
+    /// Whether so many bytes more may be held, of which so many are one text.
+    fn check(&mut self, bytes: usize, longest: usize, budget: &Budget) -> Result<(), Problem> {
+        if longest > self.limits.text_bytes {
+            return Err(too_long(self.limits.text_bytes, longest));
         }
-        budget.charge(text.len() as u64)?;
-        self.bytes += text.len();
+        budget.charge(bytes as u64)?;
+        self.bytes += bytes;
         if self.bytes > TextColumn::MAX_BYTES {
             return Err(Problem::LimitReached {
                 what: "bytes in a column of text",
@@ -222,7 +263,6 @@ impl<'a> TextSink<'a> {
                 actual: self.bytes as u64,
             });
         }
-        self.column.push(text);
         Ok(())
     }
 

@@ -32,7 +32,7 @@ impl<'a> Decoder<'a> {
     pub(super) fn decode(
         &mut self,
         message: &Message,
-        budget: &mut Budget,
+        budget: &Budget,
     ) -> Result<Option<RecordBatch>, Problem> {
         let place = format!("message at byte {}", message.header.start);
         guarded(&place, || self.decode_unguarded(message, &place, budget))
@@ -42,7 +42,7 @@ impl<'a> Decoder<'a> {
         &mut self,
         message: &Message,
         place: &str,
-        budget: &mut Budget,
+        budget: &Budget,
     ) -> Result<Option<RecordBatch>, Problem> {
         let failed = |e: ArrowError| damaged(place, e.to_string());
         let header = arrow_ipc::root_as_message(&self.bytes[message.header.clone()])
@@ -102,7 +102,7 @@ impl Fault {
 }
 
 /// Compares what the head of a batch declares with the bytes of its body: the decoder takes it on trust.
-fn check_batch(batch: &IpcBatch<'_>, body: &[u8], budget: &mut Budget) -> Result<(), Fault> {
+fn check_batch(batch: &IpcBatch<'_>, body: &[u8], budget: &Budget) -> Result<(), Fault> {
     let lie = |detail: String| Err(Fault::Lie(detail));
     if batch.length() < 0 {
         return lie(format!("{} rows are declared", batch.length()));

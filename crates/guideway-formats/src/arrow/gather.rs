@@ -2,8 +2,9 @@ use std::ops::Range;
 
 use guideway_layout::{Geometry, Limits};
 use guideway_spline::{Point, Real};
+use rayon::prelude::*;
 
-use super::polygons::{Coordinates, Fault, Polygons, points};
+use super::polygons::{AT_ONCE, Coordinates, Fault, Polygons, pairs};
 use crate::Problem;
 
 /// The curves of all rows that can be drawn, joined to paths, and which rows these are.
@@ -230,5 +231,12 @@ impl Points {
 }
 
 fn extend<T: Real>(out: &mut Vec<Point<T>>, coordinates: &[T], range: Range<usize>) {
-    out.extend(points(coordinates, range));
+    let pairs = pairs(coordinates, range);
+    let point = |&[x, y]: &[T; 2]| Point::new(x, y);
+    if pairs.len() <= AT_ONCE {
+        out.extend(pairs.iter().map(point));
+    } else {
+        // Much of it is waiting for pages of memory.
+        out.par_extend(pairs.par_iter().with_min_len(AT_ONCE).map(point));
+    }
 }

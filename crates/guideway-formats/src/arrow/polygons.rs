@@ -6,11 +6,15 @@ use arrow_array::{Array, ArrayRef, FixedSizeListArray};
 use arrow_buffer::{NullBuffer, ScalarBuffer};
 use arrow_schema::DataType;
 use guideway_layout::{Code, Limits};
-use guideway_spline::{Point, Real};
+use guideway_spline::Real;
+use rayon::prelude::*;
 
 use super::CONTROL_POINTS;
 use super::schema::structure;
 use crate::Problem;
+
+/// So many points are gone through by one thread.
+pub(super) const AT_ONCE: usize = 1 << 14;
 
 /// The control polygons of one record batch.
 pub(super) struct Polygons {
@@ -158,7 +162,10 @@ impl Polygons {
 
     /// Number of control points of all rows together.
     pub(super) fn point_count(&self) -> u64 {
-        (0..self.len).map(|row| self.range(row).len() as u64).sum()
+        match self.range_of_rows(0..self.len) {
+            Some(range) => range.len() as u64,
+            None => (0..self.len).map(|row| self.range(row).len() as u64).sum(),
+        }
     }
 
     /// The rows that cannot be drawn, in order.
@@ -173,7 +180,8 @@ impl Polygons {
         // Most files are sound: that takes one pass over the numbers, without a branch for each.
         let short = (0..self.len).any(|row| self.range(row).len() < 4);
         let nulls = self.row_nulls.is_some() || !self.nulls.is_empty();
-        if !short && !nulls && all_within(coordinates, limit(limits)) {
+        let parts = coordinates.par_chunks(2 * AT_ONCE);
+        if !short && !nulls && parts.all(|part| all_within(part, limit(limits))) {
             return Vec::new();
         }
         (0..self.len)
@@ -207,13 +215,10 @@ impl Polygons {
     }
 }
 
-/// The points of a range of `coordinates`.
-pub(super) fn points<T: Real>(
-    coordinates: &[T],
-    range: Range<usize>,
-) -> impl Iterator<Item = Point<T>> {
-    let (pairs, _) = coordinates[2 * range.start..2 * range.end].as_chunks::<2>();
-    pairs.iter().map(|&[x, y]| Point::new(x, y))
+/// x and y of a range of points.
+pub(super) fn pairs<T>(coordinates: &[T], range: Range<usize>) -> &[[T; 2]] {
+    let (pairs, _) = coordinates[2 * range.start..2 * range.end].as_chunks();
+    pairs
 }
 
 /// Whether all values are finite and at most `limit` from zero.

@@ -7,7 +7,8 @@ use arrow_array::{Array, ArrayRef, NullArray, RecordBatch};
 use arrow_buffer::Buffer;
 use arrow_schema::{DataType, Schema};
 use guideway_layout::{
-    Code, Diagnostics, Layout, Level, Limits, Paths, Place, Provenance, Refused, TextColumn,
+    Attribute, Code, Diagnostics, Layout, Level, Limits, Paths, Place, Provenance, Refused,
+    TextColumn,
 };
 
 use super::attributes::{Converter, TextSink, cast, numbers};
@@ -21,6 +22,7 @@ use super::table::{Batch, Table};
 use super::text::Texts;
 use crate::source::Source;
 use crate::{Format, Problem, ReadError};
+use rayon::prelude::*;
 
 /// Reads a table of paths from an Arrow IPC file or stream.
 pub(crate) fn read(source: Source<'_>, bytes: &Buffer) -> Result<Layout, ReadError> {
@@ -60,6 +62,14 @@ struct Reader<'a> {
     last_id: Option<String>,
 }
 
+/// What the paths of a table are called.
+struct Identified {
+    ids: TextColumn,
+    refused: Refused,
+    /// Number of paths without an identifier.
+    unnamed: u64,
+}
+
 impl Reader<'_> {
     fn read_batches(&mut self, bytes: &Buffer, container: &Container) -> Result<(), Problem> {
         let total = container.messages.len();
@@ -71,7 +81,7 @@ impl Reader<'_> {
                     return Err(Problem::Cancelled);
                 }
             }
-            if let Some(batch) = decoder.decode(message, &mut self.budget)? {
+            if let Some(batch) = decoder.decode(message, &self.budget)? {
                 self.add(&batch, bytes.len(), total - index)?;
             }
         }
@@ -169,22 +179,35 @@ impl Reader<'_> {
             batches: std::mem::take(&mut self.batches),
             kept: std::mem::take(&mut self.gather.kept),
         };
-        let (ids, refused) = self.identify(&table, &refused)?;
         let geometry = std::mem::take(&mut self.gather).into_geometry();
-        let mut paths = Paths::from_columns(ids, geometry);
-        let levels = self.set_levels(&table, &mut paths)?;
-        self.set_style(&table, &mut paths)?;
-        let mut converter = Converter {
+        let converter = Converter {
             table: &table,
             limits: self.limits,
-            budget: &mut self.budget,
-            diagnostics: &mut self.diagnostics,
+            budget: &self.budget,
         };
+        let mut plans = Vec::new();
         for &index in &self.columns.attributes {
-            if let Some(attribute) = converter.attribute(index, schema.field(index))? {
-                paths.attributes.insert(attribute);
-            }
+            plans.extend(converter.plan(index, schema.field(index), &mut self.diagnostics)?);
         }
+        let (identified, attributes) = rayon::join(
+            || self.identify(&table, &refused),
+            || -> Vec<Result<Attribute, Problem>> {
+                let plans = plans.par_iter();
+                plans.map(|plan| converter.attribute(plan)).collect()
+            },
+        );
+        let Identified {
+            ids,
+            refused,
+            unnamed,
+        } = identified?;
+        self.note_unnamed(unnamed);
+        let mut paths = Paths::from_columns(ids, geometry);
+        for attribute in attributes {
+            paths.attributes.insert(attribute?);
+        }
+        let levels = self.set_levels(&table, &mut paths)?;
+        self.set_style(&table, &mut paths)?;
         Ok(Layout {
             provenance: Provenance {
                 source: self.source.name.to_owned(),
@@ -205,11 +228,7 @@ impl Reader<'_> {
     }
 
     /// The identifiers of drawn and of refused paths; the row number where there is none.
-    fn identify(
-        &mut self,
-        table: &Table,
-        faults: &[(usize, Fault)],
-    ) -> Result<(TextColumn, Refused), Problem> {
+    fn identify(&self, table: &Table, faults: &[(usize, Fault)]) -> Result<Identified, Problem> {
         let mut ids = TextSink::new(self.limits, table.path_count());
         let mut refused = Refused::default();
         let mut faults = faults.iter().peekable();
@@ -217,12 +236,19 @@ impl Reader<'_> {
         for batch in &table.batches {
             let texts = self.ids(&batch.columns)?;
             let text = |row: usize| texts.as_ref().and_then(|texts| texts.get(row));
-            for row in table.kept_in(batch) {
-                match text(row) {
-                    Some(id) => ids.push(id, &mut self.budget)?,
-                    None => {
-                        unnamed += 1;
-                        ids.push(&(batch.first_row + row).to_string(), &mut self.budget)?;
+            for rows in table.stretches_in(batch) {
+                let all = texts.as_ref().and_then(|t| t.side_by_side(rows.clone()));
+                if let Some(all) = all {
+                    ids.push_all(&all, &self.budget)?;
+                    continue;
+                }
+                for row in rows {
+                    match text(row) {
+                        Some(id) => ids.push(id, &self.budget)?,
+                        None => {
+                            unnamed += 1;
+                            ids.push(&(batch.first_row + row).to_string(), &self.budget)?;
+                        }
                     }
                 }
             }
@@ -234,15 +260,23 @@ impl Reader<'_> {
                 refused.push(id, fault.code(), &fault.detail(self.limits));
             }
         }
-        if unnamed > 0 {
-            self.diagnostics.push(
-                Code::Attribute,
-                || Place::element("column id"),
-                || format!("{unnamed} paths have no id; the number of their row is used"),
-                "Give every path an id, so that it is found again after the file has changed",
-            );
+        Ok(Identified {
+            ids: ids.into_column(),
+            refused,
+            unnamed,
+        })
+    }
+
+    fn note_unnamed(&mut self, unnamed: u64) {
+        if unnamed == 0 {
+            return;
         }
-        Ok((ids.into_column(), refused))
+        self.diagnostics.push(
+            Code::Attribute,
+            || Place::element("column id"),
+            || format!("{unnamed} paths have no id; the number of their row is used"),
+            "Give every path an id, so that it is found again after the file has changed",
+        );
     }
 
     fn set_levels(&mut self, table: &Table, paths: &mut Paths) -> Result<Vec<Level>, Problem> {

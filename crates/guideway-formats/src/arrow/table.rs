@@ -25,11 +25,19 @@ impl Table {
 
     /// The kept rows of a batch, counted from its first.
     pub(super) fn kept_in<'a>(&'a self, batch: &'a Batch) -> impl Iterator<Item = usize> + 'a {
+        self.stretches_in(batch).flatten()
+    }
+
+    /// The same, those that follow each other at once.
+    pub(super) fn stretches_in<'a>(
+        &'a self,
+        batch: &'a Batch,
+    ) -> impl Iterator<Item = Range<usize>> + 'a {
         let (start, end) = (batch.first_row, batch.first_row + batch.rows);
         let first = self.kept.partition_point(|r| r.end <= start);
         let last = self.kept.partition_point(|r| r.start < end);
         self.kept[first..last.max(first)]
             .iter()
-            .flat_map(move |r| r.start.max(start) - start..r.end.min(end) - start)
+            .map(move |r| r.start.max(start) - start..r.end.min(end) - start)
     }
 }

@@ -1,3 +1,5 @@
+use std::ops::Range;
+
 use arrow_array::cast::AsArray;
 use arrow_array::{Array, ArrayRef, LargeStringArray, StringArray, StringViewArray};
 use arrow_schema::DataType;
@@ -17,6 +19,27 @@ pub(super) enum Texts<'a> {
     },
     /// Made from values of another type.
     Made(StringArray),
+}
+
+/// Texts of some rows, none of them missing, as one text.
+pub(super) struct SideBySide<'a> {
+    pub(super) text: &'a str,
+    /// Where each row begins, and where the last ends, all in something longer.
+    offsets: &'a [i32],
+}
+
+impl SideBySide<'_> {
+    /// Where each row ends.
+    pub(super) fn ends(&self) -> impl Iterator<Item = usize> {
+        let ends = self.offsets.iter().skip(1);
+        ends.map(|end| (end - self.offsets[0]) as usize)
+    }
+
+    /// The length of each row.
+    pub(super) fn lengths(&self) -> impl Iterator<Item = usize> {
+        let neighbours = self.offsets.array_windows();
+        neighbours.map(|[start, end]| (end - start) as usize)
+    }
 }
 
 impl<'a> Texts<'a> {
@@ -52,6 +75,19 @@ impl<'a> Texts<'a> {
                 .map_err(|e| damaged("column id", e.to_string()))
         })?;
         Ok(Self::Made(made.as_string::<i32>().clone()))
+    }
+
+    /// Some rows at once, if they are stored so and all have a text.
+    pub(super) fn side_by_side(&self, rows: Range<usize>) -> Option<SideBySide<'_>> {
+        let array = match self {
+            Self::Small(array) => array,
+            Self::Made(array) => array,
+            _ => return None,
+        };
+        let offsets = &array.value_offsets()[rows.start..=rows.end];
+        let bytes = offsets[0] as usize..offsets[rows.len()] as usize;
+        let text = str::from_utf8(&array.value_data()[bytes]).ok()?;
+        (array.null_count() == 0).then_some(SideBySide { text, offsets })
     }
 
     /// The text of a row, if it has one.
