@@ -297,7 +297,7 @@ impl Bound {
             &buffers,
         )?;
         if self.paint.needs_order() {
-            let buffers = [frame, lists, references, line_ranks];
+            let buffers = [frame, lists, references, line_ranks, found];
             for sort in &kernels.sort {
                 self.add("sort", b, sort, Over::Tiles, &buffers)?;
             }

@@ -50,7 +50,6 @@ pub(super) struct Painters {
 impl Kernels {
     pub(super) fn new(gpu: &Gpu) -> Result<Self, String> {
         let tile = constant("TILE_PX", TILE_PX);
-        let tile_threads = constant("THREADS", TILE_THREADS);
         let [cull, recount, list_kept, starts, share, scatter] = stages(gpu, &[])?;
         Ok(Self {
             cull,
@@ -61,10 +60,7 @@ impl Kernels {
             starts,
             share,
             scatter,
-            sort: [
-                Kernel::new(gpu, &SORT[0], &[tile, tile_threads])?,
-                Kernel::new(gpu, &SORT[1], &[tile, tile_threads])?,
-            ],
+            sort: sorts(gpu, &[])?,
             shift: Kernel::new(gpu, &SHIFT, &[constant("THREADS", WORKGROUP)])?,
             touch: Kernel::new(gpu, &TOUCH, &[tile, constant("WORKGROUP", WORKGROUP)])?,
             painters: [
@@ -74,7 +70,7 @@ impl Kernels {
         })
     }
 
-    /// The same, but those of a frame of opaque colours count what they do.
+    /// The same, but those of a frame of colours count what they do.
     pub(super) fn counting(&self, gpu: &Gpu) -> Result<Self, String> {
         let counts = [("COUNTS", 1.0)];
         let mut all = self.clone();
@@ -87,10 +83,12 @@ impl Kernels {
             all.scatter,
         ] = stages(gpu, &counts)?;
         all.flatten = flatten(gpu, &counts)?;
+        all.sort = sorts(gpu, &counts)?;
         for samples in [Samples::Coarse, Samples::Fine] {
             let painters = &mut all.painters[samples as usize];
             (painters.cover, painters.shared) = covers(gpu, samples, &counts)?;
             painters.opaque = painter(gpu, &OPAQUE[samples as usize], &counts)?;
+            painters.translucent = layers(gpu, samples, false, &counts)?;
         }
         Ok(all)
     }
@@ -102,17 +100,13 @@ impl Kernels {
 
 impl Painters {
     fn new(gpu: &Gpu, samples: Samples) -> Result<Self, String> {
-        let layers = |is_density: f64| {
-            let constants = [("IS_DENSITY", is_density)];
-            painter(gpu, &LAYERS[samples as usize], &constants)
-        };
         let (cover, shared) = covers(gpu, samples, &[])?;
         Ok(Self {
             cover,
             shared,
             opaque: painter(gpu, &OPAQUE[samples as usize], &[])?,
-            translucent: layers(0.0)?,
-            density: layers(1.0)?,
+            translucent: layers(gpu, samples, false, &[])?,
+            density: layers(gpu, samples, true, &[])?,
             ids: painter(gpu, &IDS[samples as usize], &[])?,
         })
     }
@@ -198,6 +192,27 @@ fn covers(
     }
     let shared = |shows| Kernel::new(gpu, source, &[&own[..], &[("SHOWS", shows)]].concat());
     Ok((alone, Some([shared(0.0)?, shared(1.0)?])))
+}
+
+/// What brings short lists, and all others, into order; with more constants.
+fn sorts(gpu: &Gpu, more: &[Constant]) -> Result<[Kernel; 2], String> {
+    let own = [
+        constant("TILE_PX", TILE_PX),
+        constant("THREADS", TILE_THREADS),
+    ];
+    let kernel = |source| Kernel::new(gpu, source, &[&own, more].concat());
+    Ok([kernel(&SORT[0])?, kernel(&SORT[1])?])
+}
+
+/// What paints translucent paths, or density; with more constants.
+fn layers(
+    gpu: &Gpu,
+    samples: Samples,
+    is_density: bool,
+    more: &[Constant],
+) -> Result<Kernel, String> {
+    let own = [("IS_DENSITY", f64::from(u8::from(is_density)))];
+    painter(gpu, &LAYERS[samples as usize], &[&own[..], more].concat())
 }
 
 /// What paints a tile by a thread for each row of samples; with more constants.

@@ -115,9 +115,9 @@ macro_rules! sort {
                 "u;\nconst TAKES_ALL: bool = ",
                 $takes_all,
                 ";\n",
-                wgsl!("frame", "sort")
+                wgsl!("frame", "work", "sort", "found")
             ),
-            bindings: &["frame", "lists", "references", "line_ranks"],
+            bindings: &["frame", "lists", "references", "line_ranks", "found"],
         }
     };
 }

@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use guideway_render::{Cancel, RenderError, Shading, Style, View, Work};
 
-use super::bound::Paint;
 use super::params::Found;
 use super::prepared::PreparedTiles;
 use super::shot::Shot;
@@ -31,7 +30,7 @@ impl Counted {
 }
 
 impl PreparedTiles {
-    /// Counts the work of a frame with nothing kept. Where some paths are translucent it is not counted.
+    /// Counts the work of a frame with nothing kept. That of density is not counted.
     pub(super) fn counted(
         &mut self,
         view: &View,
@@ -40,9 +39,7 @@ impl PreparedTiles {
     ) -> Result<Work, RenderError> {
         self.mend()?;
         let paint = self.facts.paint;
-        let is_counted =
-            paint != Paint::Translucent && style.shading == Shading::Color && self.store.is_some();
-        if !is_counted {
+        if style.shading != Shading::Color || self.store.is_none() {
             return Ok(Work::default());
         }
         let counting = self

@@ -72,6 +72,7 @@ fn gather(tile: Tile, thread: u32, first: u32, end: u32) {
     if thread < TURN && first + thread < end {
         let capsule = capsule_at(tile, first + thread);
         let rank = line_ranks[references[first + thread]];
+        reads(2u);
         capsules[thread] = capsule;
         ranks[thread] = rank;
         colors[thread] = style_of(rank).color;
@@ -92,8 +93,12 @@ fn main(
     }
     let tile = tile_of(index);
     let list = list_of(index);
+    if thread == 0u {
+        reads(2u);
+    }
     if list.x >= list.y {
         write(tile, thread, select(frame.background, 0u, IS_DENSITY));
+        report_work();
         return;
     }
     for (var channel = 0u; channel < 4u; channel++) {
@@ -150,4 +155,5 @@ fn main(
         let shares = vec4f(sum) / (samples * PARTS);
         write(tile, thread, over_background(shares.rgb, shares.a / 255.0));
     }
+    report_work();
 }

@@ -56,6 +56,9 @@ fn main(
     }
     let tile = tile_of(index);
     let list = list_of(index);
+    if thread == 0u {
+        reads(2u);
+    }
     if list.x >= list.y {
         write(tile, thread, frame.background);
         report_work();

@@ -17,6 +17,7 @@ fn end_rounds() {
 
 fn tell_rounds(thread: u32) {
     if thread == 0u {
+        atomics(1u);
         atomicMax(&found.counters.rounds, atomicLoad(&most_rounds));
     }
 }

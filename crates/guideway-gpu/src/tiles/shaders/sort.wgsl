@@ -7,6 +7,7 @@ override THREADS: u32;
 @group(0) @binding(1) var<storage, read> lists: array<vec2u>;
 @group(0) @binding(2) var<storage, read_write> references: array<u32>;
 @group(0) @binding(3) var<storage, read> line_ranks: array<u32>;
+@group(0) @binding(4) var<storage, read_write> found: Found;
 
 // Of a list that is short, with ranks near each other: how far each rank is above the lowest, and its place
 // in the list in the lowest bits.
@@ -26,6 +27,7 @@ fn load_ranks(thread: u32, start: u32, count: u32) -> vec2u {
     workgroupBarrier();
     for (var i = thread; i < count; i += THREADS) {
         let rank = line_ranks[references[start + i]];
+        reads(2u);
         keys[i] = rank;
         atomicMin(&lowest, rank);
         atomicMax(&highest, rank);
@@ -49,9 +51,11 @@ fn order_keys(low: u32, high: u32) {
 fn order_references(low: u32, high: u32) {
     let a = references[low];
     let b = references[high];
+    reads(4u);
     if line_ranks[a] < line_ranks[b] {
         references[low] = b;
         references[high] = a;
+        writes(2u);
     }
 }
 
@@ -61,12 +65,14 @@ fn follow_keys(thread: u32, start: u32, count: u32) {
     var number = 0u;
     for (var i = thread; i < count; i += THREADS) {
         held[number] = references[start + (keys[i] & (SHORT - 1u))];
+        reads(1u);
         number++;
     }
     storageBarrier();
     number = 0u;
     for (var i = thread; i < count; i += THREADS) {
         references[start + i] = held[number];
+        writes(1u);
         number++;
     }
 }
@@ -83,8 +89,12 @@ fn main(
     }
     let start = lists[index].x;
     let end = lists[index].y;
+    if thread == 0u {
+        reads(2u);
+    }
     let count = end - start;
     if end > frame.reference_room || count <= 1u << ABOVE_BITS || (!TAKES_ALL && count > SHORT) {
+        report_work();
         return;
     }
     var is_short = count <= SHORT;
@@ -121,4 +131,5 @@ fn main(
     if is_short {
         follow_keys(thread, start, count);
     }
+    report_work();
 }

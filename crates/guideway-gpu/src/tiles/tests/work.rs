@@ -4,33 +4,41 @@ use guideway_render::Stage;
 
 use super::*;
 
-#[test]
-fn work_is_counted_exactly() {
-    let Some(tiles) = tiles() else { return };
-    let scene = |lines: usize| {
-        let mut layout = Layout::default();
-        let mut runs = Runs::default();
-        runs.push_line(Point::new(2.2, 9.0), Point::new(2.8, 9.0));
-        for _ in 0..lines {
-            layout.paths.push(&NewPath {
-                runs: &runs,
-                ..NewPath::default()
-            });
-        }
-        Arc::new(Scene::new(Arc::new(layout), &SceneOptions::default()).unwrap())
-    };
-    let style = Style {
+/// Level lines within one tile of 14 x 9, where 10 px are a metre.
+fn level_lines(count: usize, color_rgba: Option<u32>) -> Arc<Scene> {
+    let mut layout = Layout::default();
+    let mut runs = Runs::default();
+    runs.push_line(Point::new(2.2, 9.0), Point::new(2.8, 9.0));
+    for _ in 0..count {
+        let path = add(&mut layout, &runs);
+        let style = OwnStyle {
+            width_m: None,
+            color_rgba,
+        };
+        layout.paths.set_own_style(path, style);
+    }
+    Arc::new(Scene::new(Arc::new(layout), &SceneOptions::default()).unwrap())
+}
+
+/// 4 px there.
+fn wide() -> Style {
+    Style {
         line_rule: LineRule::World {
             width_m: 0.4,
             min_px: 0.0,
             max_px: f64::INFINITY,
         },
         ..Style::default()
-    };
-    // Strokes 4 px wide, all of them within one tile of 14 x 9.
+    }
+}
+
+#[test]
+fn work_is_counted_exactly() {
+    let Some(tiles) = tiles() else { return };
+    let style = wide();
     let view = view([10.5, 6.5], 10.0);
     for lines in [1, 2] {
-        let mut prepared = prepared(&tiles, &scene(lines));
+        let mut prepared = prepared(&tiles, &level_lines(lines, None));
         let mut count = || prepared.count_work(&view, &style, &Cancel::default());
         let work = count().unwrap();
         let n = lines as u64;
@@ -48,9 +56,39 @@ fn work_is_counted_exactly() {
     let work = count().unwrap();
     assert!(work.tests > Some(30 * 16) && work.bytes_written > Some(4 * 210 * 130));
     assert_eq!(count().unwrap(), work);
+}
+
+#[test]
+fn work_of_translucent_paths_is_counted_exactly() {
+    let Some(tiles) = tiles() else { return };
+    let view = view([10.5, 6.5], 10.0);
+    let mut read = Vec::new();
+    for lines in [1, 2] {
+        let mut prepared = prepared(&tiles, &level_lines(lines, Some(0x1020_3080)));
+        let mut count = || prepared.count_work(&view, &wide(), &Cancel::default());
+        let work = count().unwrap();
+        let n = lines as u64;
+        assert_eq!(work.tests, Some(n * 4 * u64::from(params::SAMPLE_ROWS)));
+        // As of one colour, and how long the one tile took.
+        assert_eq!(work.atomics, Some(5 + 2 * n + 1));
+        // As of one colour; the rank of a line; a list that is brought into order.
+        let sorted = if n > 1 { n } else { 0 };
+        let words = 1 + n * 3 + 3 * 14 * 9 + n + 210 * 130 + n + sorted;
+        assert_eq!(work.bytes_written, Some(4 * words));
+        read.push(work.bytes_read);
+        assert_eq!(count().unwrap(), work);
+    }
+    // Sorting reads a rank by its reference for each, and the references again.
+    assert!(read[1] >= read[0].map(|bytes| bytes + 4 * 2 * 3));
     let mut mixed = prepared(&tiles, &mixed(30, 3.0));
-    let work = mixed.count_work(&all(), &style, &Cancel::default());
-    assert_eq!(work.unwrap(), guideway_render::Work::default());
+    let work = mixed.count_work(&all(), &wide(), &Cancel::default());
+    assert!(work.unwrap().tests > Some(30 * 16));
+    let density = mixed.count_work(
+        &all(),
+        &style(Shading::Density(ToneMap::default())),
+        &Cancel::default(),
+    );
+    assert_eq!(density.unwrap(), guideway_render::Work::default());
 }
 
 #[test]
