@@ -3,7 +3,7 @@
 use std::sync::{Arc, LazyLock};
 
 use guideway_gl::GlDevice;
-use guideway_gpu::{Gpu, Grid, GridOptions, Tiles, TilesOptions};
+use guideway_gpu::{Gpu, GpuOptions, Grid, GridOptions, Tiles, TilesOptions};
 use guideway_render::Method;
 
 use crate::compare::Tolerance;
@@ -103,13 +103,30 @@ fn all() -> Vec<Result<DeviceCandidate, String>> {
             least_scenes: 150,
         })
     });
-    let tiles = tiles().map(|tiles| DeviceCandidate {
-        name: "gpu".to_owned(),
+    let mut all: Vec<_> = grids.into();
+    all.push(tiles().map(|tiles| judged_tiles("gpu", tiles)));
+    if gpu().is_ok_and(|gpu| gpu.is_software()) {
+        all.push(tiles_as_hardware().map(|tiles| judged_tiles("gpu as hardware", tiles)));
+    }
+    all
+}
+
+fn judged_tiles(name: &str, tiles: Tiles) -> DeviceCandidate {
+    DeviceCandidate {
+        name: name.to_owned(),
         method: Box::new(tiles),
         tolerance: Tolerance::STANDARD,
         least_scenes: 230,
-    });
-    std::iter::once(tiles).chain(grids).collect()
+    }
+}
+
+/// Method `gpu` with the shaders of graphics hardware, whatever the device is.
+fn tiles_as_hardware() -> Result<Tiles, String> {
+    let options = GpuOptions {
+        as_hardware: true,
+        ..GpuOptions::default()
+    };
+    Tiles::new(Gpu::with_options(options)?, TilesOptions::default())
 }
 
 /// The candidates whose device is here.

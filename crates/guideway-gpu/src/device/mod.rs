@@ -32,6 +32,8 @@ pub struct GpuOptions {
     pub without_clock: bool,
     /// Do not let threads see each other's values (subgroups), as if they could not.
     pub without_lanes: bool,
+    /// Run on a processor what is made for graphics hardware.
+    pub as_hardware: bool,
 }
 
 /// Fewer rounds than this would not do for the loops of one row of cells.
@@ -107,6 +109,14 @@ impl Gpu {
     pub(crate) fn most_lanes(&self) -> Option<u32> {
         let has_lanes = self.device.features().contains(wgpu::Features::SUBGROUP);
         has_lanes.then_some(self.info.subgroup_max_size)
+    }
+
+    /// How many threads run in step, always as many, where the device is a processor: there each thread that waits for others,
+    /// and each operation on memory that they share, takes long.
+    pub(crate) fn processor_lanes(&self) -> Option<u32> {
+        let (least, most) = (self.info.subgroup_min_size, self.most_lanes()?);
+        let is_meant = self.is_software() && !self.options.as_hardware && least == most;
+        is_meant.then_some(most)
     }
 
     pub(crate) fn options(&self) -> GpuOptions {

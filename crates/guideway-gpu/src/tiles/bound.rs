@@ -52,12 +52,14 @@ impl Paint {
         let words = u64::from(samples.a_row() * TILE_PX / u32::BITS);
         let longest = u64::from(found.longest);
         match self {
-            Self::One => u64::from(ROUNDS_A_LINE) * longest,
+            Self::One if found.rounds == 0 => u64::from(ROUNDS_A_LINE) * longest,
             Self::Touch => 0,
             // For each line its words, twice, and the pixels that it covers.
             Self::Ids => longest * (2 + 2 * words + u64::from(TILE_PX)),
             // Counted, for it depends on what the lines cover. A compiler may count otherwise.
-            Self::Opaque | Self::Translucent | Self::Density => u64::from(found.rounds) * 5 / 4,
+            Self::One | Self::Opaque | Self::Translucent | Self::Density => {
+                u64::from(found.rounds) * 5 / 4
+            }
         }
     }
 

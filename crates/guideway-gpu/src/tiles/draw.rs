@@ -202,8 +202,9 @@ impl PreparedTiles {
             // A list has had too few places.
             return self.draw(shot, paint, window, first_row, lines, drawing);
         }
-        let is_long = keeps_waiting(&self.shared.gpu, &found);
-        easel.has_long = paint == Paint::One && is_long;
+        let is_too_long = self.is_too_long(&found, paint, samples);
+        let is_long = is_too_long || keeps_waiting(&self.shared.gpu, &found);
+        self.easel.has_long = paint == Paint::One && is_long;
         if manner.shares {
             found.longest = found.longest_alone;
         }

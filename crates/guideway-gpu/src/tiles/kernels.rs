@@ -2,12 +2,12 @@
 
 use super::params::{
     CLUSTER_STROKES, COLUMNS, COUNTED_EACH, ENOUGH_GROUPS, ENOUGH_LISTS, Found, LEAST_ALONE,
-    LINE_THREADS, ROUNDS_A_LINE, SAMPLE_ROWS, STARTS_THREADS, Samples, TILE_PX, TILE_THREADS,
-    WAITED_FOR, WORKGROUP,
+    LINE_THREADS, PROCESSOR_LANES, ROUNDS_A_LINE, SAMPLE_ROWS, STARTS_THREADS, Samples, TILE_PX,
+    TILE_THREADS, WAITED_FOR, WORKGROUP,
 };
 use super::shaders::{
-    COVERS, COVERS_APART, CULL, FLATTEN, IDS, LAYERS, LIST_KEPT, OPAQUE, RECOUNT, SCATTER, SHARE,
-    SHIFT, SORT, STARTS, STRIKE, TOUCH,
+    COVERS, COVERS_APART, COVERS_IN_STEP, CULL, FLATTEN, FLATTEN_IN_STEP, IDS, LAYERS, LIST_KEPT,
+    OPAQUE, RECOUNT, SCATTER, SHARE, SHIFT, SORT, STARTS, STRIKE, TOUCH,
 };
 use crate::device::{Gpu, Kernel, Source};
 
@@ -126,6 +126,15 @@ pub(super) const MOST_PARTS_BITS: u32 = 3;
 
 /// With more constants.
 fn flatten(gpu: &Gpu, more: &[Constant]) -> Result<[[Kernel; 2]; 2], String> {
+    if gpu.processor_lanes() == Some(PROCESSOR_LANES) {
+        let own = [
+            constant("TILE_PX", TILE_PX),
+            constant("THREADS", PROCESSOR_LANES),
+        ];
+        let kernel = |source| Kernel::new(gpu, source, &[&own, more].concat());
+        let all = [kernel(&FLATTEN_IN_STEP[0])?, kernel(&FLATTEN_IN_STEP[1])?];
+        return Ok([all.clone(), all]);
+    }
     let kernel = |source, bits| {
         let own = [
             constant("TILE_PX", TILE_PX),
@@ -184,7 +193,13 @@ fn covers(
         }
         None => &COVERS_APART,
     };
-    let alone = Kernel::new(gpu, &sources.alone[samples as usize], &own)?;
+    let alone = if gpu.processor_lanes() == Some(PROCESSOR_LANES) {
+        let threads = constant("THREADS", PROCESSOR_LANES);
+        let own = [&PAINTED[..], more, &[threads]].concat();
+        Kernel::new(gpu, &COVERS_IN_STEP[samples as usize], &own)?
+    } else {
+        Kernel::new(gpu, &sources.alone[samples as usize], &own)?
+    };
     let source = &sources.shared[samples as usize];
     // All but the first one are of storage.
     if (gpu.storage_bindings() as usize) < source.bindings.len() - 1 {

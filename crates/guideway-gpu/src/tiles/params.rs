@@ -36,6 +36,8 @@ pub(super) const ENOUGH_LISTS: u32 = 512;
 pub(super) const LEAST_ALONE: u32 = 2048;
 /// Times that a thread goes round its loops for each line of one opaque colour, at most.
 pub(super) const ROUNDS_A_LINE: u32 = 11;
+/// Threads that cover a tile on a processor, where as many run in step: `LANES` of the shaders.
+pub(super) const PROCESSOR_LANES: u32 = 8;
 /// Most tiles that several workgroups cover: `SHARED_TILES` of the shaders.
 pub(super) const SHARED_TILES: u32 = 256;
 /// Most parts of their lists: `SHARED_PARTS` of the shaders.

@@ -43,12 +43,12 @@ pub(super) const STRIKE: Source = Source {
 };
 
 macro_rules! flatten {
-    ($points:literal) => {
+    ($points:literal, $($main:literal),+) => {
         Source {
             name: "flatten",
             wgsl: wgsl!(
                 "frame", "work", "found", "view", "cluster", "stroke", "style", $points, "curve",
-                "plan", "clip", "lines", "walk", "hidden", "emit", "flatten", "sums"
+                "plan", "clip", "lines", "walk", "hidden", "clusters", "emit", $($main),+
             ),
             bindings: &[
                 "frame",
@@ -67,7 +67,16 @@ macro_rules! flatten {
 }
 
 /// By [`Points`].
-pub(super) const FLATTEN: [Source; 2] = [flatten!("rounded"), flatten!("exact")];
+pub(super) const FLATTEN: [Source; 2] = [
+    flatten!("rounded", "flatten", "sums"),
+    flatten!("exact", "flatten", "sums"),
+];
+
+/// As [`FLATTEN`], by threads that all run in step on a processor.
+pub(super) const FLATTEN_IN_STEP: [Source; 2] = [
+    flatten!("rounded", "flatten_in_step"),
+    flatten!("exact", "flatten_in_step"),
+];
 
 /// Shaders that go through lines which are there.
 macro_rules! pass {
@@ -201,6 +210,20 @@ pub(super) const COVERS: Covers = all_covers!(["lanes"]);
 
 /// Where they do not.
 pub(super) const COVERS_APART: Covers = all_covers!(["sums", "lanes_apart"]);
+
+macro_rules! covers_in_step {
+    ($samples:literal) => {
+        tiles!(
+            $samples,
+            "cover",
+            ["cover_in_step", "show_in_step", "found"],
+            tile_bindings!("counts", "found")
+        )
+    };
+}
+
+/// As those alone in [`COVERS`], by threads that all run in step on a processor.
+pub(super) const COVERS_IN_STEP: [Source; 2] = [covers_in_step!(4), covers_in_step!(16)];
 
 macro_rules! opaque {
     ($samples:literal) => {

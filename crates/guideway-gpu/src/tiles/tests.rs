@@ -141,6 +141,10 @@ fn the_limits_of_a_device_change_no_bit() {
         longest_alone: Some(60),
         ..GpuOptions::default()
     });
+    let hardware = limited(GpuOptions {
+        as_hardware: true,
+        ..GpuOptions::default()
+    });
     for (scene, shading) in [
         (plain(3000, 8.0), Shading::Color),
         (mixed(3000, 8.0), Shading::Color),
@@ -156,6 +160,7 @@ fn the_limits_of_a_device_change_no_bit() {
             ("checked", &checked, false),
             ("apart", &apart, false),
             ("shared", &shared, false),
+            ("hardware", &hardware, false),
         ] {
             let mut prepared = prepared(device, &scene);
             for _ in 0..2 {

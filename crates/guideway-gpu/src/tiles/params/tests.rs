@@ -10,6 +10,8 @@ const SHADERS: &[&Source] = &[
     &STRIKE,
     &FLATTEN[0],
     &FLATTEN[1],
+    &FLATTEN_IN_STEP[0],
+    &FLATTEN_IN_STEP[1],
     &SHIFT,
     &TOUCH,
     &IDS[0],
@@ -27,6 +29,8 @@ const SHADERS: &[&Source] = &[
     &COVERS_APART.alone[1],
     &COVERS_APART.shared[0],
     &COVERS_APART.shared[1],
+    &COVERS_IN_STEP[0],
+    &COVERS_IN_STEP[1],
     &SORT[0],
     &SORT[1],
     &OPAQUE[0],
@@ -95,6 +99,7 @@ fn rows_of_a_pixel_have_as_many_samples_as_is_said() {
             &COVERS.shared,
             &COVERS_APART.alone,
             &COVERS_APART.shared,
+            &COVERS_IN_STEP,
             &OPAQUE,
             &LAYERS,
             &IDS,
@@ -114,6 +119,26 @@ fn lines_have_as_many_words_as_there_is_room_for() {
 fn opaque_tiles_have_as_many_threads_as_is_said() {
     let said = format!("const TILE_THREADS: u32 = {TILE_THREADS}u;");
     assert!(OPAQUE[0].wgsl.contains(&said), "{said}");
+}
+
+#[test]
+fn as_many_threads_are_in_step_as_is_said() {
+    let blocks = TILE_PX * SAMPLE_ROWS / PROCESSOR_LANES;
+    for said in [
+        format!("const LANES: u32 = {PROCESSOR_LANES}u;"),
+        format!("const BLOCKS: u32 = {blocks}u;"),
+        format!("const BLOCKS_A_PIXEL: u32 = {}u;", blocks / TILE_PX),
+    ] {
+        assert!(COVERS_IN_STEP[0].wgsl.contains(&said), "{said}");
+    }
+    let parts = CLUSTER_STROKES / PROCESSOR_LANES;
+    for said in [
+        format!("const LANES: u32 = {PROCESSOR_LANES}u;"),
+        format!("const PARTS_BITS: u32 = {}u;", parts.ilog2()),
+        format!("const MOST_PIECES: u32 = {STROKE_SEGMENTS}u;"),
+    ] {
+        assert!(FLATTEN_IN_STEP[0].wgsl.contains(&said), "{said}");
+    }
 }
 
 #[test]

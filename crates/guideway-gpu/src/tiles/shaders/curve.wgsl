@@ -14,6 +14,10 @@ fn point_px(curve: Curve, segment: u32, t: f32) -> vec2f {
     let b = control_px(curve, segment + 1u);
     let c = control_px(curve, segment + 2u);
     let d = control_px(curve, segment + 3u);
+    return mixed_px(a, b, c, d, t);
+}
+
+fn mixed_px(a: vec2f, b: vec2f, c: vec2f, d: vec2f, t: f32) -> vec2f {
     let s = 1.0 - t;
     let t2 = t * t;
     let t3 = t2 * t;

@@ -56,6 +56,7 @@ fn where_too_many_tiles_would_have_to_be_shared_windows_are_halved() {
     let Some(tiles) = tiles() else { return };
     let impatient = limited(GpuOptions {
         rounds_a_thread: Some(4_096),
+        as_hardware: true,
         ..GpuOptions::default()
     });
     let size = FrameSize::new(640, 400).unwrap();

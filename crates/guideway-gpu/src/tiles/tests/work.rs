@@ -1,6 +1,6 @@
 //! What a frame takes is counted to the last word, and timed.
 
-use guideway_render::Stage;
+use guideway_render::{Stage, Work};
 
 use super::*;
 
@@ -32,15 +32,37 @@ fn wide() -> Style {
     }
 }
 
+/// What counts as hardware does: a processor may have other kernels.
+fn as_hardware() -> Tiles {
+    limited(GpuOptions {
+        as_hardware: true,
+        ..GpuOptions::default()
+    })
+}
+
+/// Fails unless the kernels of this device count as many tests and words written.
+#[track_caller]
+fn assert_alike_here(work: &Work, scene: &Arc<Scene>, view: &View, style: &Style) {
+    let mut here = prepared(&tiles().unwrap(), scene);
+    let here = here.count_work(view, style, &Cancel::default()).unwrap();
+    assert_eq!(
+        (here.tests, here.bytes_written),
+        (work.tests, work.bytes_written)
+    );
+}
+
 #[test]
 fn work_is_counted_exactly() {
     let Some(tiles) = tiles() else { return };
+    let hardware = as_hardware();
     let style = wide();
     let view = view([10.5, 6.5], 10.0);
     for lines in [1, 2] {
-        let mut prepared = prepared(&tiles, &level_lines(lines, None));
+        let scene = level_lines(lines, None);
+        let mut prepared = prepared(&hardware, &scene);
         let mut count = || prepared.count_work(&view, &style, &Cancel::default());
         let work = count().unwrap();
+        assert_alike_here(&work, &scene, &view, &style);
         let n = lines as u64;
         assert_eq!(work.tests, Some(n * 4 * u64::from(params::SAMPLE_ROWS)));
         // The cluster and its paths; a line a workgroup; references and the longest list; a line in its tile; the list.
@@ -61,12 +83,15 @@ fn work_is_counted_exactly() {
 #[test]
 fn work_of_translucent_paths_is_counted_exactly() {
     let Some(tiles) = tiles() else { return };
+    let hardware = as_hardware();
     let view = view([10.5, 6.5], 10.0);
     let mut read = Vec::new();
     for lines in [1, 2] {
-        let mut prepared = prepared(&tiles, &level_lines(lines, Some(0x1020_3080)));
+        let scene = level_lines(lines, Some(0x1020_3080));
+        let mut prepared = prepared(&hardware, &scene);
         let mut count = || prepared.count_work(&view, &wide(), &Cancel::default());
         let work = count().unwrap();
+        assert_alike_here(&work, &scene, &view, &wide());
         let n = lines as u64;
         assert_eq!(work.tests, Some(n * 4 * u64::from(params::SAMPLE_ROWS)));
         // As of one colour, and how long the one tile took.
@@ -88,7 +113,7 @@ fn work_of_translucent_paths_is_counted_exactly() {
         &style(Shading::Density(ToneMap::default())),
         &Cancel::default(),
     );
-    assert_eq!(density.unwrap(), guideway_render::Work::default());
+    assert_eq!(density.unwrap(), Work::default());
 }
 
 #[test]
