@@ -86,17 +86,10 @@ fn test() -> Result<()> {
 
 fn fuzz(args: &[String]) -> Result<()> {
     prerequisites::cargo_fuzz()?;
-    cargo(&[
-        "run",
-        "--quiet",
-        "--package",
-        "guideway-laws",
-        "--example",
-        "fuzz",
-        "--",
-    ])
-    .args(args)
-    .run()
+    // As it is built for the tests: by itself, what it depends on has other features and is built once more.
+    cargo(&["build", "--quiet", "--workspace", "--example", "fuzz"]).run()?;
+    let built = std::env::current_exe()?.with_file_name("examples");
+    step::command(built.join("fuzz")).args(args).run()
 }
 
 /// What is asked goes to the test that does it by its environment.
