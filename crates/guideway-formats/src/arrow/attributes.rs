@@ -1,4 +1,5 @@
 use std::fmt::{self, Write};
+use std::ops::Range;
 
 use arrow_array::cast::AsArray;
 use arrow_array::types::{Float64Type, Int64Type};
@@ -11,7 +12,7 @@ use super::budget::Budget;
 use super::guard::{damaged, guarded};
 use super::schema::is_text;
 use super::table::Table;
-use super::text::{SideBySide, Texts};
+use super::text::Texts;
 use crate::Problem;
 
 /// What the values of a column become.
@@ -128,16 +129,13 @@ impl Converter<'_> {
             let texts = Texts::of(&batch.columns[index])
                 .ok_or_else(|| damaged("dictionary", "its values are not text"))?;
             for rows in self.table.stretches_in(batch) {
-                if let Some(all) = texts.side_by_side(rows.clone()) {
-                    sink.push_all(&all, self.budget)?;
-                    present.resize(present.len() + rows.len(), true);
-                    continue;
-                }
-                for row in rows {
-                    let text = texts.get(row);
-                    present.push(text.is_some());
-                    sink.push(text.unwrap_or_default(), self.budget)?;
-                }
+                let (first_row, first) = (rows.start, present.len());
+                present.resize(first + rows.len(), true);
+                let missing = |row: usize| {
+                    present[first + row - first_row] = false;
+                    String::new()
+                };
+                sink.push_rows(Some(&texts), rows, missing, self.budget)?;
             }
         }
         let text = sink.into_column();
@@ -242,10 +240,26 @@ impl<'a> TextSink<'a> {
         Ok(())
     }
 
-    pub(super) fn push_all(&mut self, rows: &SideBySide, budget: &Budget) -> Result<(), Problem> {
-        let longest = rows.lengths().max().unwrap_or_default();
-        self.check(rows.text.len(), longest, budget)?;
-        self.column.push_all(rows.text, rows.ends());
+    /// Appends some rows, and what `missing` says in place of those that have no text.
+    pub(super) fn push_rows(
+        &mut self,
+        texts: Option<&Texts>,
+        rows: Range<usize>,
+        mut missing: impl FnMut(usize) -> String,
+        budget: &Budget,
+    ) -> Result<(), Problem> {
+        if let Some(all) = texts.and_then(|texts| texts.side_by_side(rows.clone())) {
+            let longest = all.lengths().max().unwrap_or_default();
+            self.check(all.text.len(), longest, budget)?;
+            self.column.push_all(all.text, all.ends());
+            return Ok(());
+        }
+        for row in rows {
+            match texts.and_then(|texts| texts.get(row)) {
+                Some(text) => self.push(text, budget)?,
+                None => self.push(&missing(row), budget)?,
+            }
+        }
         Ok(())
     }
 

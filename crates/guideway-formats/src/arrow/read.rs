@@ -10,6 +10,7 @@ use guideway_layout::{
     Attribute, Code, Diagnostics, Layout, Level, Limits, Paths, Place, Provenance, Refused,
     TextColumn,
 };
+use rayon::prelude::*;
 
 use super::attributes::{Converter, TextSink, cast, numbers};
 use super::budget::Budget;
@@ -22,7 +23,6 @@ use super::table::{Batch, Table};
 use super::text::Texts;
 use crate::source::Source;
 use crate::{Format, Problem, ReadError};
-use rayon::prelude::*;
 
 /// Reads a table of paths from an Arrow IPC file or stream.
 pub(crate) fn read(source: Source<'_>, bytes: &Buffer) -> Result<Layout, ReadError> {
@@ -237,20 +237,11 @@ impl Reader<'_> {
             let texts = self.ids(&batch.columns)?;
             let text = |row: usize| texts.as_ref().and_then(|texts| texts.get(row));
             for rows in table.stretches_in(batch) {
-                let all = texts.as_ref().and_then(|t| t.side_by_side(rows.clone()));
-                if let Some(all) = all {
-                    ids.push_all(&all, &self.budget)?;
-                    continue;
-                }
-                for row in rows {
-                    match text(row) {
-                        Some(id) => ids.push(id, &self.budget)?,
-                        None => {
-                            unnamed += 1;
-                            ids.push(&(batch.first_row + row).to_string(), &self.budget)?;
-                        }
-                    }
-                }
+                let number = |row: usize| {
+                    unnamed += 1;
+                    (batch.first_row + row).to_string()
+                };
+                ids.push_rows(texts.as_ref(), rows, number, &self.budget)?;
             }
             let end = batch.first_row + batch.rows;
             while let Some(&(row, fault)) = faults.next_if(|f| f.0 < end) {
