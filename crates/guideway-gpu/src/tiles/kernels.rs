@@ -124,9 +124,14 @@ const PAINTED: [Constant; 3] = [
 /// Most workgroups that share one of few clusters, as a power of two.
 pub(super) const MOST_PARTS_BITS: u32 = 3;
 
+/// Whether a device gets the kernels for threads that run in step on a processor.
+pub(super) fn is_in_step(gpu: &Gpu) -> bool {
+    gpu.processor_lanes() == Some(PROCESSOR_LANES)
+}
+
 /// With more constants.
 fn flatten(gpu: &Gpu, more: &[Constant]) -> Result<[[Kernel; 2]; 2], String> {
-    if gpu.processor_lanes() == Some(PROCESSOR_LANES) {
+    if is_in_step(gpu) {
         let own = [
             constant("TILE_PX", TILE_PX),
             constant("THREADS", PROCESSOR_LANES),
@@ -193,7 +198,7 @@ fn covers(
         }
         None => &COVERS_APART,
     };
-    let alone = if gpu.processor_lanes() == Some(PROCESSOR_LANES) {
+    let alone = if is_in_step(gpu) {
         let threads = constant("THREADS", PROCESSOR_LANES);
         let own = [&PAINTED[..], more, &[threads]].concat();
         Kernel::new(gpu, &COVERS_IN_STEP[samples as usize], &own)?

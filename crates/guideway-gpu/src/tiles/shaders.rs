@@ -68,14 +68,14 @@ macro_rules! flatten {
 
 /// By [`Points`].
 pub(super) const FLATTEN: [Source; 2] = [
-    flatten!("rounded", "flatten", "sums"),
-    flatten!("exact", "flatten", "sums"),
+    flatten!("rounded", "pieces", "flatten", "sums"),
+    flatten!("exact", "pieces", "flatten", "sums"),
 ];
 
 /// As [`FLATTEN`], by threads that all run in step on a processor.
 pub(super) const FLATTEN_IN_STEP: [Source; 2] = [
-    flatten!("rounded", "flatten_in_step"),
-    flatten!("exact", "flatten_in_step"),
+    flatten!("rounded", "in_step", "flatten_in_step"),
+    flatten!("exact", "in_step", "flatten_in_step"),
 ];
 
 /// Shaders that go through lines which are there.
@@ -206,7 +206,7 @@ pub(super) struct Covers {
 }
 
 /// Where threads see each other's values.
-pub(super) const COVERS: Covers = all_covers!(["lanes"]);
+pub(super) const COVERS: Covers = all_covers!(["shuffle", "lanes"]);
 
 /// Where they do not.
 pub(super) const COVERS_APART: Covers = all_covers!(["sums", "lanes_apart"]);
@@ -216,7 +216,13 @@ macro_rules! covers_in_step {
         tiles!(
             $samples,
             "cover",
-            ["cover_in_step", "show_in_step", "found"],
+            [
+                "in_step",
+                "shuffle",
+                "cover_in_step",
+                "show_in_step",
+                "found"
+            ],
             tile_bindings!("counts", "found")
         )
     };

@@ -40,6 +40,14 @@ fn limited(options: GpuOptions) -> Tiles {
     Tiles::new(Gpu::with_options(options).unwrap(), OPTIONS).unwrap()
 }
 
+/// With the kernels of graphics hardware: a processor may have others.
+fn as_hardware() -> Tiles {
+    limited(GpuOptions {
+        as_hardware: true,
+        ..GpuOptions::default()
+    })
+}
+
 /// Bent paths of two segments, each `reach_m` long, over 100 m x 60 m.
 fn layout(paths: u32, reach_m: f64) -> Layout {
     let mut layout = Layout::default();
@@ -141,10 +149,7 @@ fn the_limits_of_a_device_change_no_bit() {
         longest_alone: Some(60),
         ..GpuOptions::default()
     });
-    let hardware = limited(GpuOptions {
-        as_hardware: true,
-        ..GpuOptions::default()
-    });
+    let hardware = as_hardware();
     for (scene, shading) in [
         (plain(3000, 8.0), Shading::Color),
         (mixed(3000, 8.0), Shading::Color),

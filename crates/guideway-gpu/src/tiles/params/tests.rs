@@ -124,8 +124,9 @@ fn opaque_tiles_have_as_many_threads_as_is_said() {
 #[test]
 fn as_many_threads_are_in_step_as_is_said() {
     let blocks = TILE_PX * SAMPLE_ROWS / PROCESSOR_LANES;
+    let said_lanes = format!("const LANES: u32 = {PROCESSOR_LANES}u;");
     for said in [
-        format!("const LANES: u32 = {PROCESSOR_LANES}u;"),
+        said_lanes.clone(),
         format!("const BLOCKS: u32 = {blocks}u;"),
         format!("const BLOCKS_A_PIXEL: u32 = {}u;", blocks / TILE_PX),
     ] {
@@ -133,7 +134,7 @@ fn as_many_threads_are_in_step_as_is_said() {
     }
     let parts = CLUSTER_STROKES / PROCESSOR_LANES;
     for said in [
-        format!("const LANES: u32 = {PROCESSOR_LANES}u;"),
+        said_lanes,
         format!("const PARTS_BITS: u32 = {}u;", parts.ilog2()),
         format!("const MOST_PIECES: u32 = {STROKE_SEGMENTS}u;"),
     ] {

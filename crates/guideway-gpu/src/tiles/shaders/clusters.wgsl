@@ -42,3 +42,54 @@ fn is_all_drawn(cluster: Cluster, box: vec4f) -> bool {
     let reach = reach_of(widest_px(cluster));
     return all(box.xy - reach >= frame.drawn_low_px) && all(box.zw + reach <= frame.drawn_high_px);
 }
+
+// Whether a launch is to draw a cluster, and where its points begin.
+struct Taken {
+    is_here: bool,
+    first_point: u32,
+}
+
+// Counts a cluster whose exact points are missing, if it is to tell of that.
+fn taken(cluster: Cluster, index: u32, tells: bool) -> Taken {
+    let is_of_round = chunk.round == 0u || (index % STRIDE == 0u) == (chunk.round == 1u);
+    let is_near = cluster.step_m > frame.most_step_m;
+    let is_here = index >= chunk.first_cluster && index < chunk.end_cluster && is_of_round
+        && is_near == (chunk.is_near != 0u);
+    if !is_here {
+        return Taken(false, 0u);
+    }
+    let first_point = first_point_of_cluster(cluster, index);
+    let has_points = !is_near || first_point != 0u;
+    if !has_points && tells {
+        atomicAdd(&found.counters.missing, 1u);
+    }
+    return Taken(has_points, first_point);
+}
+
+// The box of a cluster, which says whether its lines have to be cut.
+fn look_at(cluster: Cluster) -> vec4f {
+    let box = box_px(cluster);
+    is_inside = all(abs(box.xy) < frame.reach_px) && all(abs(box.zw) < frame.reach_px);
+    return box;
+}
+
+// Whether a stroke may leave a mark, and whether its lines are made.
+struct Need {
+    is_there: bool,
+    is_needed: bool,
+}
+
+fn need_of(cluster: Cluster, all_box: vec4f, curve: Curve, segments: u32, radius: f32) -> Need {
+    let has_any = segments > 0u;
+    if chunk.round < 2u && is_all_drawn(cluster, all_box) {
+        return Need(has_any, has_any);
+    }
+    let box = box_of(curve, segments);
+    let reach = reach_of(radius);
+    let is_there = has_any && is_drawn(box, reach);
+    if chunk.round < 2u {
+        return Need(is_there, has_any && is_made(box, reach));
+    }
+    let box_px = vec4f(px_from_level(box.xy), px_from_level(box.zw));
+    return Need(is_there, is_there && !is_hidden(box_px, radius + MARGIN_PX));
+}

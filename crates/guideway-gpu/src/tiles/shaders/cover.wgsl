@@ -95,10 +95,7 @@ fn cover_tile(own: Thread, index: u32) {
     if (known.x & FULL) != 0u {
         return;
     }
-    var list = known.yz;
-    if frame.list_room > 0u {
-        list = vec2u(0u, min(known.x, frame.list_room)) + index * frame.list_room;
-    }
+    let list = list_of_counted(index, known.x, known.yz);
     if list.x >= list.y {
         for (var pixel = thread; pixel < TILE_PX * TILE_PX; pixel += THREADS) {
             write(tile, pixel, frame.background);

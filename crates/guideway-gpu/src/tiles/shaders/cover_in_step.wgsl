@@ -5,15 +5,10 @@
 @group(0) @binding(7) var<storage, read_write> counts: array<u32>;
 @group(0) @binding(8) var<storage, read_write> found: Found;
 
-const LANES: u32 = 8u;
 // Blocks of rows of samples, one row for each lane, that a tile has, and a row of pixels.
 const BLOCKS: u32 = 32u;
 const BLOCKS_A_PIXEL: u32 = 2u;
 const IS_FINE: bool = WORDS > 2u;
-
-struct Thread {
-    @builtin(subgroup_invocation_id) lane: u32,
-}
 
 // Samples of the rows of this lane, and which of these have any to cover yet, a bit each; of fine ones all.
 var<private> samples: array<u32, BLOCKS * WORDS>;
@@ -85,18 +80,6 @@ fn cover_line(lane: u32, capsule: Capsule, rows: vec2u) {
     }
 }
 
-// The line that a lane looks at.
-fn line_of_lane(line: Capsule, lane: u32) -> Capsule {
-    return Capsule(
-        vec2f(subgroupShuffle(line.upper.x, lane), subgroupShuffle(line.upper.y, lane)),
-        vec2f(subgroupShuffle(line.along.x, lane), subgroupShuffle(line.along.y, lane)),
-        subgroupShuffle(line.left_y, lane),
-        subgroupShuffle(line.right_y, lane),
-        subgroupShuffle(line.per_row, lane),
-        subgroupShuffle(line.radius, lane),
-    );
-}
-
 // Covers a list, in turns of lines from all over it, one for each lane to look at: neighbours in the list lie near each other.
 fn cover_list(lane: u32, tile: Tile, list: vec2u) {
     let turns = (list.y - list.x + LANES - 1u) / LANES;
@@ -112,7 +95,7 @@ fn cover_list(lane: u32, tile: Tile, list: vec2u) {
         var i = 0u;
         loop {
             let rows = vec2u(subgroupShuffle(touched.x, i), subgroupShuffle(touched.y, i));
-            cover_line(lane, line_of_lane(own, i), rows);
+            cover_line(lane, capsule_of_lane(own, i), rows);
             i++;
             rounds++;
             if i == LANES {

@@ -63,20 +63,10 @@ fn main(
         let index = cluster_of_kind(i >> parts_bits);
         let cluster = clusters[index];
         reads(1u + CLUSTER_WORDS);
-        let is_of_round = chunk.round == 0u || (index % STRIDE == 0u) == (chunk.round == 1u);
-        let is_near = cluster.step_m > frame.most_step_m;
-        var is_here = index >= chunk.first_cluster && index < chunk.end_cluster && is_of_round
-            && is_near == (chunk.is_near != 0u);
-        var first_point = 0u;
-        if is_here {
-            first_point = first_point_of_cluster(cluster, index);
-            is_here = !is_near || first_point != 0u;
-            if !is_here && thread == 0u && part_of_cluster(i) == 0u {
-                atomicAdd(&found.counters.missing, 1u);
-            }
-        }
+        let take = taken(cluster, index, thread == 0u && part_of_cluster(i) == 0u);
+        let is_here = take.is_here && thread < cluster.strokes;
         var stroke = Stroke(0u, 0u);
-        if is_here && thread < cluster.strokes {
+        if is_here {
             stroke = strokes[cluster.first_stroke + thread];
             reads(2u);
         }
@@ -84,30 +74,16 @@ fn main(
             atomicStore(&group_drawn, 0u);
         }
         workgroupBarrier();
-        let curve = curve_of(cluster, first_point + first_point_of(stroke));
-        let all_box = box_px(cluster);
-        is_inside = all(abs(all_box.xy) < frame.reach_px) && all(abs(all_box.zw) < frame.reach_px);
+        let curve = curve_of(cluster, take.first_point + first_point_of(stroke));
+        let all_box = look_at(cluster);
         var plan = Plan(0u, 0u, 0u);
-        if is_here && thread < cluster.strokes {
+        if is_here {
             let segments = segments_of(stroke);
-            let radius = radius_of(stroke.rank);
-            var is_there = segments > 0u;
-            var is_needed = is_there;
-            if chunk.round == 2u || !is_all_drawn(cluster, all_box) {
-                let box = box_of(curve, segments);
-                let reach = reach_of(radius);
-                is_there = is_there && is_drawn(box, reach);
-                if chunk.round < 2u {
-                    is_needed = is_needed && is_made(box, reach);
-                } else {
-                    let box_px = vec4f(px_from_level(box.xy), px_from_level(box.zw));
-                    is_needed = is_there && !is_hidden(box_px, radius + MARGIN_PX);
-                }
-            }
-            if is_needed {
+            let need = need_of(cluster, all_box, curve, segments, radius_of(stroke.rank));
+            if need.is_needed {
                 plan = plan_of(curve, segments);
             }
-            if is_there && (stroke.extent & WHOLE_PATH) != 0u {
+            if need.is_there && (stroke.extent & WHOLE_PATH) != 0u {
                 atomicAdd(&group_drawn, 1u);
             }
         }

@@ -3,58 +3,20 @@
 
 override THREADS: u32;
 
-const LANES: u32 = 8u;
 // Workgroups that share a cluster of 64 strokes, as a power of two.
 const PARTS_BITS: u32 = 3u;
 const MOST_PIECES: u32 = 32u;
 
-struct Thread {
-    @builtin(subgroup_invocation_id) lane: u32,
-}
-
-// How many lines there are up to the end of each piece, of the stroke of each lane.
 var<workgroup> clusters_seen: u32;
+// How many lines there are up to the end of each piece, of the stroke of each lane.
 var<workgroup> piece_ends: array<u32, LANES * MOST_PIECES>;
+// Where those of this lane begin.
+var<private> first_piece: u32;
 
-fn lines_of_piece(segments: u32, square_bend: f32) -> u32 {
-    return select(1u, steps_of(square_bend), segments == 1u);
-}
-
-// As `plan_of`, but all pieces tell how many lines they have.
-fn plan_in_step(lane: u32, curve: Curve, segments: u32) -> Plan {
-    var plan = Plan(0u, 0u, 0u);
-    var end = lane * MOST_PIECES;
-    var first = control_px(curve, 1u);
-    var second = control_px(curve, 2u);
-    var before = square_bend_of(control_px(curve, 0u), first, second);
-    var piece = 0u;
-    var worst = before;
-    var segment = 0u;
-    loop {
-        let third = control_px(curve, segment + 3u);
-        let bend = square_bend_of(first, second, third);
-        first = second;
-        second = third;
-        if piece > 0u && !is_flat(piece + 1u, max(worst, bend)) {
-            plan.ends |= 1u << (segment - 1u);
-            plan.lines += lines_of_piece(piece, worst);
-            piece_ends[end] = plan.lines;
-            end++;
-            piece = 0u;
-            worst = before;
-        }
-        piece++;
-        worst = max(worst, bend);
-        before = bend;
-        segment++;
-        if segment >= segments {
-            break;
-        }
-    }
-    plan.ends |= 1u << (segments - 1u);
-    plan.lines += lines_of_piece(piece, worst);
-    piece_ends[end] = plan.lines;
-    return plan;
+fn with_piece(plan: Plan, last: u32, segments: u32, square_bend: f32) -> Plan {
+    let lines = plan.lines + lines_of_piece(segments, square_bend);
+    piece_ends[first_piece + countOneBits(plan.ends)] = lines;
+    return Plan(plan.ends | (1u << last), lines, 0u);
 }
 
 // The line of that number, of the stroke of a lane.
@@ -129,6 +91,7 @@ fn main(
     own: Thread,
 ) {
     let lane = own.lane;
+    first_piece = lane * MOST_PIECES;
     if lane == 0u {
         clusters_seen = clusters_of_kind();
     }
@@ -138,48 +101,24 @@ fn main(
         let cluster = clusters[index];
         reads(1u + CLUSTER_WORDS);
         let number = (i & ((1u << PARTS_BITS) - 1u)) * LANES + lane;
-        let is_of_round = chunk.round == 0u || (index % STRIDE == 0u) == (chunk.round == 1u);
-        let is_near = cluster.step_m > frame.most_step_m;
-        var is_here = index >= chunk.first_cluster && index < chunk.end_cluster && is_of_round
-            && is_near == (chunk.is_near != 0u);
-        var first_point = 0u;
-        if is_here {
-            first_point = first_point_of_cluster(cluster, index);
-            is_here = !is_near || first_point != 0u;
-            if !is_here && number == 0u {
-                atomicAdd(&found.counters.missing, 1u);
-            }
-        }
-        is_here = is_here && number < cluster.strokes;
+        let take = taken(cluster, index, number == 0u);
+        let is_here = take.is_here && number < cluster.strokes;
         var stroke = Stroke(0u, 0u);
         if is_here {
             stroke = strokes[cluster.first_stroke + number];
             reads(2u);
         }
-        let curve = curve_of(cluster, first_point + first_point_of(stroke));
-        let all_box = box_px(cluster);
-        is_inside = all(abs(all_box.xy) < frame.reach_px) && all(abs(all_box.zw) < frame.reach_px);
+        let curve = curve_of(cluster, take.first_point + first_point_of(stroke));
+        let all_box = look_at(cluster);
         let segments = segments_of(stroke);
         let radius = radius_of(stroke.rank);
-        var is_there = segments > 0u;
-        var is_needed = is_there;
-        if is_there && (chunk.round == 2u || !is_all_drawn(cluster, all_box)) {
-            let box = box_of(curve, segments);
-            let reach = reach_of(radius);
-            is_there = is_drawn(box, reach);
-            if chunk.round < 2u {
-                is_needed = is_made(box, reach);
-            } else {
-                let box_px = vec4f(px_from_level(box.xy), px_from_level(box.zw));
-                is_needed = is_there && !is_hidden(box_px, radius + MARGIN_PX);
-            }
-        }
+        let need = need_of(cluster, all_box, curve, segments, radius);
         var plan = Plan(0u, 0u, 0u);
-        if is_needed {
-            plan = plan_in_step(lane, curve, segments);
+        if need.is_needed {
+            plan = plan_of(curve, segments);
         }
         workgroupBarrier();
-        let drawn = subgroupAdd(select(0u, 1u, is_there && (stroke.extent & WHOLE_PATH) != 0u));
+        let drawn = subgroupAdd(select(0u, 1u, need.is_there && (stroke.extent & WHOLE_PATH) != 0u));
         if lane == 0u {
             atomicAdd(&found.counters.drawn, drawn);
             atomics(1u);

@@ -41,14 +41,6 @@ fn share_with(team: Team, item: u32) -> Share {
         let is_behind = subgroupShuffle(items_end, owner + half - 1u) <= item;
         owner += select(0u, half, is_behind && owner + half <= team.lanes);
     }
-    let line = dealt.capsule;
-    let capsule = Capsule(
-        vec2f(subgroupShuffle(line.upper.x, owner), subgroupShuffle(line.upper.y, owner)),
-        vec2f(subgroupShuffle(line.along.x, owner), subgroupShuffle(line.along.y, owner)),
-        subgroupShuffle(line.left_y, owner),
-        subgroupShuffle(line.right_y, owner),
-        subgroupShuffle(line.per_row, owner),
-        subgroupShuffle(line.radius, owner),
-    );
+    let capsule = capsule_of_lane(dealt.capsule, owner);
     return Share(capsule, subgroupShuffle(dealt.rows, owner), subgroupShuffle(dealt.first, owner));
 }

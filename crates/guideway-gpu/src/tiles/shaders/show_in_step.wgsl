@@ -61,12 +61,9 @@ fn main(
         return;
     }
     let tile = tile_of(index);
-    var list = list_of(index);
+    let list = list_of_counted(index, counts[index], list_of(index));
     if lane == 0u {
         reads(3u);
-    }
-    if frame.list_room > 0u {
-        list = vec2u(0u, min(counts[index], frame.list_room)) + index * frame.list_room;
     }
     clear(tile, lane);
     if list.x < list.y {

@@ -53,6 +53,14 @@ fn list_of(tile: u32) -> vec2u {
     return min(lists[tile], vec2u(frame.reference_room));
 }
 
+// The same of a tile for which so many lines were counted, or its places, where each tile has as many.
+fn list_of_counted(tile: u32, counted: u32, reserved: vec2u) -> vec2u {
+    if frame.list_room == 0u {
+        return reserved;
+    }
+    return vec2u(0u, min(counted, frame.list_room)) + tile * frame.list_room;
+}
+
 // The line at a place of the lists.
 fn capsule_at(tile: Tile, place: u32) -> Capsule {
     reads(1u);

@@ -32,18 +32,15 @@ fn wide() -> Style {
     }
 }
 
-/// What counts as hardware does: a processor may have other kernels.
-fn as_hardware() -> Tiles {
-    limited(GpuOptions {
-        as_hardware: true,
-        ..GpuOptions::default()
-    })
-}
-
 /// Fails unless the kernels of this device count as many tests and words written.
 #[track_caller]
-fn assert_alike_here(work: &Work, scene: &Arc<Scene>, view: &View, style: &Style) {
-    let mut here = prepared(&tiles().unwrap(), scene);
+fn assert_alike_here(
+    work: &Work,
+    tiles: &Tiles,
+    scene: &Arc<Scene>,
+    (view, style): (&View, &Style),
+) {
+    let mut here = prepared(tiles, scene);
     let here = here.count_work(view, style, &Cancel::default()).unwrap();
     assert_eq!(
         (here.tests, here.bytes_written),
@@ -62,7 +59,7 @@ fn work_is_counted_exactly() {
         let mut prepared = prepared(&hardware, &scene);
         let mut count = || prepared.count_work(&view, &style, &Cancel::default());
         let work = count().unwrap();
-        assert_alike_here(&work, &scene, &view, &style);
+        assert_alike_here(&work, &tiles, &scene, (&view, &style));
         let n = lines as u64;
         assert_eq!(work.tests, Some(n * 4 * u64::from(params::SAMPLE_ROWS)));
         // The cluster and its paths; a line a workgroup; references and the longest list; a line in its tile; the list.
@@ -91,7 +88,7 @@ fn work_of_translucent_paths_is_counted_exactly() {
         let mut prepared = prepared(&hardware, &scene);
         let mut count = || prepared.count_work(&view, &wide(), &Cancel::default());
         let work = count().unwrap();
-        assert_alike_here(&work, &scene, &view, &wide());
+        assert_alike_here(&work, &tiles, &scene, (&view, &wide()));
         let n = lines as u64;
         assert_eq!(work.tests, Some(n * 4 * u64::from(params::SAMPLE_ROWS)));
         // As of one colour, and how long the one tile took.
