@@ -19,15 +19,39 @@ pub(crate) fn load(file: &File) -> Result<Buffer, Problem> {
     }
     // SAFETY: the map is read-only and lives only as long as this read, which copies all that it
     // keeps. It relies, as every program that maps a file must, on no other process changing the file
-    // in that time; `docs/formats.md` tells writers to replace files rather than to change them.
-    let map = unsafe { memmap2::Mmap::map(file)? };
-    // Read ahead of who looks at it. If the system does not care to, it is read all the same.
+    // in that time; `docs/formats.md` tells writers to replace files rather than to change them. Who reads
+    // ahead may hold it longer, but looks at no byte.
+    let map = Arc::new(unsafe { memmap2::Mmap::map(file)? });
     #[cfg(unix)]
-    let _ = map.advise(memmap2::Advice::WillNeed);
+    read_ahead(Arc::clone(&map));
     let (start, len) = (map.as_ptr().cast_mut(), map.len());
     let start = NonNull::new(start).ok_or(Problem::Empty)?;
     // SAFETY: `start` is valid for `len` bytes as long as the map lives, and the buffer owns the map.
-    Ok(unsafe { Buffer::from_custom_allocation(start, len, Arc::new(map)) })
+    Ok(unsafe { Buffer::from_custom_allocation(start, len, map) })
+}
+
+/// Has the system read ahead of who looks at a file. It is asked for a piece at a time, for of more it reads only the first.
+#[cfg(all(feature = "mmap", unix))]
+fn read_ahead(map: std::sync::Arc<memmap2::Mmap>) {
+    const PIECE: usize = 1 << 20;
+    /// No more than this, lest what comes pushes out what was not looked at yet.
+    const MOST: usize = 1 << 28;
+    /// What the end of a file tells is asked for first.
+    const END: usize = 1 << 16;
+    let len = map.len();
+    if len <= PIECE {
+        return;
+    }
+    let ask = move || {
+        let from = len.saturating_sub(END);
+        let _ = map.advise_range(memmap2::Advice::WillNeed, from, len - from);
+        for from in (0..len.min(MOST)).step_by(PIECE) {
+            let piece = PIECE.min(len - from);
+            let _ = map.advise_range(memmap2::Advice::WillNeed, from, piece);
+        }
+    };
+    // If the system does not care to, or has no thread for it, the file is read all the same.
+    let _ = std::thread::Builder::new().spawn(ask);
 }
 
 /// The whole file, read into memory.

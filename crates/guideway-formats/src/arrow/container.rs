@@ -11,6 +11,8 @@ use crate::Problem;
 /// What a message begins with since Arrow 0.15; before, with its length at once.
 const CONTINUATION_MARKER: [u8; 4] = [0xFF; 4];
 const MAGIC: &[u8] = b"ARROW1";
+/// The length of a message's head.
+const LENGTH_BYTES: usize = 4;
 /// Footer length and the closing magic.
 const TRAILER_BYTES: usize = 4 + MAGIC.len();
 /// The magic at the start, padded.
@@ -23,11 +25,25 @@ pub(super) struct Container {
     pub(super) messages: Vec<Message>,
 }
 
-/// One message: a flatbuffer that describes it, and the buffers that it describes.
+/// One message: a flatbuffer that describes it, with its length before it, and the buffers that it describes.
 #[derive(Clone, Debug)]
 pub(super) struct Message {
-    pub(super) header: Range<usize>,
+    header: Range<usize>,
     pub(super) body: Range<usize>,
+}
+
+impl Message {
+    /// The flatbuffer. Only whoever asks for it waits until the file is read so far.
+    pub(super) fn header<'a>(&self, bytes: &'a [u8]) -> &'a [u8] {
+        let header = &bytes[self.header.clone()];
+        let header = header.strip_prefix(&CONTINUATION_MARKER).unwrap_or(header);
+        &header[header.len().min(LENGTH_BYTES)..]
+    }
+
+    /// Where it begins, as errors name it.
+    pub(super) fn place(&self) -> String {
+        format!("message at byte {}", self.header.start)
+    }
 }
 
 /// Finds all messages. Every range returned lies within `bytes`, and none shares a byte with another.
@@ -69,15 +85,11 @@ fn open_file(bytes: &[u8]) -> Result<Container, Problem> {
         .ok_or_else(|| damaged("footer", "there is no schema"))?;
     Ok(Container {
         schema: convert_schema(schema)?,
-        messages: file_messages(bytes, &footer, footer_at)?,
+        messages: file_messages(&footer, footer_at)?,
     })
 }
 
-fn file_messages(
-    bytes: &[u8],
-    footer: &Footer<'_>,
-    footer_at: usize,
-) -> Result<Vec<Message>, Problem> {
+fn file_messages(footer: &Footer<'_>, footer_at: usize) -> Result<Vec<Message>, Problem> {
     let dictionaries = footer.dictionaries().into_iter().flatten();
     let batches = footer.recordBatches().into_iter().flatten();
     let mut messages = Vec::new();
@@ -86,15 +98,8 @@ fn file_messages(
         let (header, end) = block_range(block)
             .filter(|(header, end)| header.start >= LEADER_BYTES && *end <= footer_at)
             .ok_or_else(|| damaged(place(), block_text(block)))?;
-        let prefix = if bytes[header.start..].starts_with(&CONTINUATION_MARKER) {
-            8
-        } else {
-            4
-        };
-        messages.push(Message {
-            body: header.end..end,
-            header: header.start + prefix..header.end,
-        });
+        let body = header.end..end;
+        messages.push(Message { header, body });
     }
     check_apart(&messages)?;
     Ok(messages)
@@ -137,7 +142,7 @@ fn open_stream(bytes: &[u8]) -> Result<Container, Problem> {
         .next()?
         .ok_or_else(|| damaged("stream", "it ends before its schema"))?;
     let schema = guarded("stream", || {
-        let message = arrow_ipc::root_as_message(&bytes[first.header.clone()])
+        let message = arrow_ipc::root_as_message(first.header(bytes))
             .map_err(|e| damaged("stream", e.to_string()))?;
         message
             .header_as_schema()
@@ -163,23 +168,24 @@ impl Walk<'_> {
             // A stream may end without its end mark.
             return Ok(None);
         }
+        let start = self.at;
         if self.bytes[self.at..].starts_with(&CONTINUATION_MARKER) {
             self.at += CONTINUATION_MARKER.len();
         }
-        let declared = self.take(4)?;
+        let declared = self.take(LENGTH_BYTES as i64)?;
         let header_len = i64::from(read_i32(self.bytes, declared.start));
         if header_len == 0 {
             return Ok(None);
         }
-        let header = self.take(header_len)?;
-        let place = || format!("message at byte {}", declared.start);
-        let body_len = guarded(&place(), || {
-            arrow_ipc::root_as_message(&self.bytes[header.clone()])
+        let header = start..self.take(header_len)?.end;
+        let mut message = Message { header, body: 0..0 };
+        let body_len = guarded(&message.place(), || {
+            arrow_ipc::root_as_message(message.header(self.bytes))
                 .map(|m| m.bodyLength())
-                .map_err(|e| damaged(place(), e.to_string()))
+                .map_err(|e| damaged(message.place(), e.to_string()))
         })?;
-        let body = self.take(body_len)?;
-        Ok(Some(Message { header, body }))
+        message.body = self.take(body_len)?;
+        Ok(Some(message))
     }
 
     fn take(&mut self, len: i64) -> Result<Range<usize>, Problem> {

@@ -34,7 +34,7 @@ impl<'a> Decoder<'a> {
         message: &Message,
         budget: &Budget,
     ) -> Result<Option<RecordBatch>, Problem> {
-        let place = format!("message at byte {}", message.header.start);
+        let place = message.place();
         guarded(&place, || self.decode_unguarded(message, &place, budget))
     }
 
@@ -45,7 +45,7 @@ impl<'a> Decoder<'a> {
         budget: &Budget,
     ) -> Result<Option<RecordBatch>, Problem> {
         let failed = |e: ArrowError| damaged(place, e.to_string());
-        let header = arrow_ipc::root_as_message(&self.bytes[message.header.clone()])
+        let header = arrow_ipc::root_as_message(message.header(self.bytes))
             .map_err(|e| damaged(place, e.to_string()))?;
         let body = self
             .bytes
