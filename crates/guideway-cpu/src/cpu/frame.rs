@@ -8,20 +8,22 @@ use std::time::Instant;
 use guideway_render::density::{ToneMap, Tones};
 use guideway_render::{Frame, RenderError, Shading, Stage, Style, View, elapsed_ms};
 
+use super::bins::Bins;
 use super::cluster::{Members, Scratch};
+use super::crossings::Drawn;
 use super::filled::{Filled, Known};
 use super::index::{Index, Made};
 use super::kept::Kept;
 use super::paint::{Band, Filling, Painter};
 use super::shot::{Precision, Shot};
 use super::sight::Sights;
-use super::tiles::{Bins, Grid, Parts};
+use super::tiles::{Grid, Parts};
 
 /// What a frame needs; kept for the next.
 pub(super) struct Buffers {
     pub(super) sights: Sights,
     pub(super) parts: Parts,
-    bins: Bins,
+    pub(super) bins: Bins,
     /// Keys of clusters whose lines have to be made, and of which members.
     pub(super) todo: Vec<(u32, Members)>,
     pub(super) counts: Vec<f32>,
@@ -54,7 +56,7 @@ impl Buffers {
         Self {
             sights: Sights::default(),
             parts: Parts::default(),
-            bins: Bins::default(),
+            bins: Bins::new(),
             todo: Vec::new(),
             counts: Vec::new(),
             scratches: (0..threads).map(|_| Mutex::default()).collect(),
@@ -203,7 +205,14 @@ impl Buffers {
         };
         let spare_bytes = easel.limit_bytes.saturating_sub(others_bytes);
         let binned: Result<_, u64> = self.time("bin", |b| {
-            b.bins.fill(&b.sights, &b.parts, &grid, spare_bytes)?;
+            let drawn = Drawn {
+                shot,
+                index,
+                sights: &b.sights,
+                parts: &b.parts,
+                grid: &grid,
+            };
+            b.bins.fill(drawn, spare_bytes)?;
             b.count(shot, index, &rows);
             Ok(())
         });

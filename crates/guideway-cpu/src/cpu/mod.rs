@@ -13,8 +13,10 @@
 
 mod ask;
 mod backdrop;
+mod bins;
 mod canvas;
 mod cluster;
+mod crossings;
 mod disc;
 mod extent;
 mod filled;

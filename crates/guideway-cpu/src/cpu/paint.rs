@@ -7,6 +7,7 @@ use guideway_spline::Point;
 use rayon::prelude::*;
 
 use super::backdrop::{Backdrop, solid_colors};
+use super::bins::Bins;
 use super::canvas::{Canvas, Look, Rows, TILE_PX};
 use super::disc::Discs;
 use super::filled::{Filled, Known};
@@ -14,16 +15,18 @@ use super::index::Index;
 use super::kept::Kept;
 use super::layers::{Counts, Layers};
 use super::polylines::ROUNDS;
-use super::seen::{Hit, Seen};
+use super::seen::{Hit, Seen, Share};
 use super::shot::Shot;
 use super::sight::Sights;
 use super::span::{LAYERED, SOLID, Samples};
 use super::stretch::{Pixels, Stretch};
-use super::tiles::{Bins, Grid, Parts};
+use super::tiles::{Grid, Parts};
 use super::vectors::by_lane_width;
 
 /// Pieces of several colours that are sorted at first; each time that more are needed, twice as many.
 const FIRST_SORTED: usize = 256;
+/// Clusters of a tile that hide so little of each other that all rounds of one are drawn at once.
+const FEW_CLUSTERS: usize = 6;
 /// Tiles that a thread draws in one go.
 const MOST_TILES: usize = 8;
 
@@ -253,7 +256,7 @@ impl<'a> Band<'a> {
                 height_px: rows.len(),
             };
             let mut drawn = stretch.tile(column, columns, rows);
-            if self.bins.tile(tile.index).is_empty() {
+            if self.bins.is_empty(tile.index) {
                 drawn.rows().for_each(|row| row.fill(empty));
             } else {
                 paint(&mut painter, &tile, &mut drawn);
@@ -291,12 +294,27 @@ fn paint_solid(band: &Band<'_>, painter: &mut Painter, tile: &Tile, closed: &Row
     } = painter;
     canvas.begin(tile.width_px, tile.height_px);
     canvas.close_pixels(closed);
-    for round in 0..ROUNDS {
-        for &key in band.bins.tile(tile.index) {
+    let crossings = band.bins.crossings(tile.index);
+    for of_cluster in crossings.chunk_by(|a, b| a.key == b.key) {
+        if canvas.is_full() {
+            return;
+        }
+        let seen = Seen::<SOLID>::new(band, tile, of_cluster[0].key);
+        seen.solid(canvas, discs, Share::Crossings(of_cluster));
+    }
+    let clusters = band.bins.clusters(tile.index);
+    let at_once = if clusters.len() <= FEW_CLUSTERS {
+        ROUNDS
+    } else {
+        1
+    };
+    for first in (0..ROUNDS).step_by(at_once) {
+        for &key in clusters {
             if canvas.is_full() {
                 return;
             }
-            Seen::<SOLID>::new(band, tile, key).solid(canvas, discs, round);
+            let share = Share::Rounds(first..first + at_once);
+            Seen::<SOLID>::new(band, tile, key).solid(canvas, discs, share);
         }
     }
 }
@@ -312,8 +330,11 @@ fn paint_layers(band: &Band<'_>, painter: &mut Painter, tile: &Tile) {
     } = painter;
     canvas.begin_layers(tile.width_px, tile.height_px);
     hits.clear();
-    for &key in band.bins.tile(tile.index) {
+    for &key in band.bins.clusters(tile.index) {
         Seen::<LAYERED>::new(band, tile, key).gather(key, hits);
+    }
+    for crossing in band.bins.crossings(tile.index) {
+        Seen::<LAYERED>::new(band, tile, crossing.key).add(crossing, hits);
     }
     let mut layers = Layers::new(band, tile, canvas, discs, None);
     let mut below = &mut hits[..];
@@ -346,12 +367,14 @@ fn paint_counts(band: &Band<'_>, painter: &mut Painter, tile: &Tile) {
     canvas.begin_layers(tile.width_px, tile.height_px);
     **counts = [[0; TILE_PX]; TILE_PX];
     let mut layers = Layers::new(band, tile, canvas, discs, Some(counts));
-    for &key in band.bins.tile(tile.index) {
-        hits.clear();
+    hits.clear();
+    for &key in band.bins.clusters(tile.index) {
         Seen::<LAYERED>::new(band, tile, key).gather(key, hits);
-        for hit in hits.iter() {
-            layers.add(hit);
-        }
+        hits.drain(..).for_each(|hit| layers.add(&hit));
+    }
+    for crossing in band.bins.crossings(tile.index) {
+        Seen::<LAYERED>::new(band, tile, crossing.key).add(crossing, hits);
+        hits.drain(..).for_each(|hit| layers.add(&hit));
     }
     layers.finish();
 }

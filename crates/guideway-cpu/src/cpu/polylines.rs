@@ -155,14 +155,10 @@ impl<T: Coordinate> Polylines<T> {
         self.rounds[round] = self.members.len() as u32;
     }
 
-    /// The pieces of a round.
-    pub(super) fn round(&self, round: usize) -> Range<usize> {
-        let start = if round == 0 {
-            0
-        } else {
-            self.rounds[round - 1]
-        };
-        start as usize..self.rounds[round] as usize
+    /// The pieces of some rounds that follow each other.
+    pub(super) fn of_rounds(&self, rounds: Range<usize>) -> Range<usize> {
+        let end = |rounds: usize| rounds.checked_sub(1).map_or(0, |last| self.rounds[last]);
+        end(rounds.start) as usize..end(rounds.end) as usize
     }
 
     /// Ends the list.

@@ -124,6 +124,11 @@ impl CpuPrepared {
         self.fills.known(&shot).count(&shot)
     }
 
+    /// Lists lines by tiles of clusters that cover so many.
+    pub(super) fn list_lines_from(&mut self, least_tiles: usize) {
+        self.buffers.bins.found.least_tiles = least_tiles;
+    }
+
     /// Number of clusters that the last frame made lines for.
     pub(super) fn made_clusters(&self) -> usize {
         self.buffers.todo.len()

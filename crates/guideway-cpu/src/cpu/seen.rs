@@ -5,6 +5,7 @@ use guideway_spline::{Bounds, Point};
 use super::LANES;
 use super::canvas::{Canvas, TILE_PX, set_bits};
 use super::cluster::Lines;
+use super::crossings::Crossing;
 use super::disc::{Disc, Discs};
 use super::fixed::Fixed;
 use super::paint::{Band, Tile};
@@ -22,6 +23,15 @@ pub(super) struct Hit {
     /// Key of the cluster's sight.
     pub(super) key: u32,
     pub(super) piece: u32,
+}
+
+/// What is drawn of a cluster at once.
+#[derive(Clone)]
+pub(super) enum Share<'a> {
+    /// Rounds that follow each other.
+    Rounds(Range<usize>),
+    /// What crosses the tile.
+    Crossings(&'a [Crossing]),
 }
 
 /// A cluster, as one tile of `C` columns of samples a pixel sees it.
@@ -83,15 +93,28 @@ impl<'a, const C: usize> Seen<'a, C> {
         for first in pieces.clone().step_by(LANES) {
             for lane in set_bits(placed.lines.hit_bits(first, pieces.end, &within)) {
                 let piece = first + lane;
-                let path = self.path(placed.lines.member(piece));
-                let ranks = self.band.index.ranks.as_ref();
-                hits.push(Hit {
-                    rank: ranks.map_or(path, |ranks| ranks[path as usize]),
-                    key,
-                    piece: piece as u32,
-                });
+                hits.push(self.hit(placed.lines, key, piece as u32));
             }
         }
+    }
+
+    /// Lists the piece of lines that cross the tile.
+    #[inline(always)]
+    pub(super) fn add(&self, crossing: &Crossing, hits: &mut Vec<Hit>) {
+        let Crossing { key, piece, .. } = *crossing;
+        match self.lines() {
+            Lines::Kept(_, lines) => hits.push(self.hit(lines, key, piece)),
+            Lines::Cut(lines) => hits.push(self.hit(lines, key, piece)),
+            Lines::None => {}
+        }
+    }
+
+    #[inline(always)]
+    fn hit<T: Coordinate>(&self, lines: &Polylines<T>, key: u32, piece: u32) -> Hit {
+        let path = self.path(lines.member(piece as usize));
+        let ranks = self.band.index.ranks.as_ref();
+        let rank = ranks.map_or(path, |ranks| ranks[path as usize]);
+        Hit { rank, key, piece }
     }
 
     /// The path of a member of the cluster.
@@ -124,9 +147,21 @@ impl<'a> Seen<'a, SOLID> {
         (self.sight.is_small).then(|| Fixed::new(lines, unit_px, middle_px))
     }
 
-    /// Covers samples with the lines of one round, all of one opaque colour.
+    /// Half the stroke width of a piece, in columns.
     #[inline(always)]
-    pub(super) fn solid(&self, canvas: &mut Canvas<SOLID>, discs: &mut Discs<SOLID>, round: usize) {
+    fn radius<T: Coordinate>(&self, placed: &Placed<'_, T, SOLID>, piece: usize) -> f32 {
+        let own_px = || (self.band.shot).radius_px(self.path(placed.lines.member(piece)));
+        columns::<SOLID>(self.band.common_radius_px.unwrap_or_else(own_px))
+    }
+
+    /// Covers samples with a share of the lines, all of one opaque colour.
+    #[inline(always)]
+    pub(super) fn solid(
+        &self,
+        canvas: &mut Canvas<SOLID>,
+        discs: &mut Discs<SOLID>,
+        share: Share<'_>,
+    ) {
         let corner = self.tile.corner.to_f32();
         let reach_px = self.sight.reach_px;
         if !canvas.is_open(reach_px.min - corner, reach_px.max - corner) {
@@ -138,13 +173,15 @@ impl<'a> Seen<'a, SOLID> {
                     canvas,
                     discs,
                     &self.placed(*unit_m, lines),
-                    round,
+                    share,
                     self.fixed(*unit_m, lines),
                 );
             }
             // Where a line was cut changes with the view.
             Lines::Cut(_) if self.band.shot.thinner_than.is_some() => {}
-            Lines::Cut(lines) => self.solid_of(canvas, discs, &self.placed_cut(lines), round, None),
+            Lines::Cut(lines) => {
+                self.solid_of(canvas, discs, &self.placed_cut(lines), share, None);
+            }
             Lines::None => {}
         }
     }
@@ -155,14 +192,24 @@ impl<'a> Seen<'a, SOLID> {
         canvas: &mut Canvas<SOLID>,
         discs: &mut Discs<SOLID>,
         placed: &Placed<'_, T, SOLID>,
-        round: usize,
+        share: Share<'_>,
         fixed: Option<Fixed<'_>>,
     ) {
-        let pieces = placed.lines.round(round);
+        let rounds = match share {
+            Share::Rounds(rounds) => rounds,
+            Share::Crossings(crossings) => {
+                for crossing in crossings {
+                    let disc = discs.of(self.radius(placed, crossing.piece as usize));
+                    let [start, end] = crossing.begins.map(|vertex| vertex as usize);
+                    cover(placed, &fixed, canvas, start..end, disc);
+                }
+                return;
+            }
+        };
+        let pieces = placed.lines.of_rounds(rounds);
         if pieces.is_empty() {
             return;
         }
-        let shot = self.band.shot;
         let is_wide = self.sight.columns().len() * self.sight.rows().len() > WIDE_TILES;
         match self.band.common_radius_px {
             Some(radius_px) if !is_wide => {
@@ -170,17 +217,13 @@ impl<'a> Seen<'a, SOLID> {
                 let begins = placed.lines.begins_of(pieces);
                 cover(placed, &fixed, canvas, begins, disc);
             }
-            common => {
+            _ => {
                 let within = self.within(placed);
                 for first in pieces.clone().step_by(LANES) {
                     for lane in set_bits(placed.lines.hit_bits(first, pieces.end, &within)) {
                         let piece = first + lane;
-                        let radius_px = match common {
-                            Some(radius_px) => radius_px,
-                            None => shot.radius_px(self.path(placed.lines.member(piece))),
-                        };
                         let begins = placed.lines.begins_of(piece..piece + 1);
-                        let disc = discs.of(columns::<SOLID>(radius_px));
+                        let disc = discs.of(self.radius(placed, piece));
                         cover(placed, &fixed, canvas, begins, disc);
                     }
                 }

@@ -15,6 +15,7 @@ use super::Cpu;
 use super::prepared::CpuPrepared;
 use crate::Oracle;
 
+mod crossings;
 mod fills;
 mod kept;
 mod lanes;

@@ -3,7 +3,6 @@ use std::ops::Range;
 use guideway_render::Strip;
 
 use super::canvas::TILE_PX;
-use super::sight::{Sight, Sights};
 
 /// The tiles of a band of the picture: whole rows of them.
 #[derive(Clone, Debug, Default)]
@@ -148,81 +147,6 @@ fn tiles(range_px: &Range<usize>) -> Range<usize> {
         return 0..0;
     }
     range_px.start / TILE_PX..range_px.end.div_ceil(TILE_PX)
-}
-
-/// Which clusters may leave a mark on each tile.
-#[derive(Default)]
-pub(super) struct Bins {
-    /// Where the clusters of each tile end.
-    ends: Vec<u32>,
-    /// Keys of what is seen of them.
-    keys: Vec<u32>,
-}
-
-impl Bins {
-    /// Bytes held.
-    pub(super) fn bytes(&self) -> u64 {
-        ((self.ends.capacity() + self.keys.capacity()) * size_of::<u32>()) as u64
-    }
-
-    /// Lists the clusters of each tile that is drawn, unless that takes more than so many bytes; then says how
-    /// many.
-    pub(super) fn fill(
-        &mut self,
-        sights: &Sights,
-        parts: &Parts,
-        grid: &Grid,
-        limit_bytes: u64,
-    ) -> Result<(), u64> {
-        self.ends.clear();
-        self.ends.resize(grid.len() + 1, 0);
-        for sight in sights.iter() {
-            // Ends begin as counts, one place later: there each becomes the start of its tile.
-            for_each_tile(sight, parts, grid, |tile| self.ends[tile + 1] += 1);
-        }
-        let total: u64 = self.ends.iter().map(|&n| u64::from(n)).sum();
-        let needed = (total + self.ends.len() as u64) * size_of::<u32>() as u64;
-        if needed > limit_bytes || total > u64::from(u32::MAX) {
-            return Err(needed);
-        }
-        let mut next = 0;
-        for end in &mut self.ends {
-            next += *end;
-            *end = next;
-        }
-        if self.keys.capacity() < total as usize {
-            self.keys = Vec::with_capacity(total as usize);
-        }
-        self.keys.clear();
-        self.keys.resize(total as usize, 0);
-        for (key, sight) in sights.with_keys() {
-            for_each_tile(sight, parts, grid, |tile| {
-                let place = &mut self.ends[tile];
-                self.keys[*place as usize] = key;
-                *place += 1;
-            });
-        }
-        Ok(())
-    }
-
-    /// The clusters of a tile, by ascending number.
-    pub(super) fn tile(&self, tile: usize) -> &[u32] {
-        let start = if tile == 0 { 0 } else { self.ends[tile - 1] };
-        &self.keys[start as usize..self.ends[tile] as usize]
-    }
-}
-
-/// Calls `found` with each tile of the grid that is drawn and that a cluster may leave a mark on.
-#[inline(always)]
-fn for_each_tile(sight: &Sight, parts: &Parts, grid: &Grid, mut found: impl FnMut(usize)) {
-    let rows = sight.rows();
-    for row in rows.start.max(grid.rows.start)..rows.end.min(grid.rows.end) {
-        for column in sight.columns() {
-            if !parts.at(column, row).is_empty() {
-                found((row - grid.rows.start) * grid.columns + column);
-            }
-        }
-    }
 }
 
 #[cfg(test)]
