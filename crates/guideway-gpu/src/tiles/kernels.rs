@@ -7,7 +7,7 @@ use super::params::{
 };
 use super::shaders::{
     COVERS, COVERS_APART, COVERS_IN_STEP, CULL, FLATTEN, FLATTEN_IN_STEP, IDS, LAYERS, LIST_KEPT,
-    OPAQUE, RECOUNT, SCATTER, SHARE, SHIFT, SORT, STARTS, STRIKE, TOUCH,
+    OPAQUE, OPAQUE_TEAMS, RECOUNT, SCATTER, SHARE, SHIFT, SORT, STARTS, STRIKE, TOUCH,
 };
 use crate::device::{Gpu, Kernel, Source};
 
@@ -87,7 +87,7 @@ impl Kernels {
         for samples in [Samples::Coarse, Samples::Fine] {
             let painters = &mut all.painters[samples as usize];
             (painters.cover, painters.shared) = covers(gpu, samples, &counts)?;
-            painters.opaque = painter(gpu, &OPAQUE[samples as usize], &counts)?;
+            painters.opaque = opaque(gpu, samples, &counts)?;
             painters.translucent = layers(gpu, samples, false, &counts)?;
         }
         Ok(all)
@@ -104,7 +104,7 @@ impl Painters {
         Ok(Self {
             cover,
             shared,
-            opaque: painter(gpu, &OPAQUE[samples as usize], &[])?,
+            opaque: opaque(gpu, samples, &[])?,
             translucent: layers(gpu, samples, false, &[])?,
             density: layers(gpu, samples, true, &[])?,
             ids: painter(gpu, &IDS[samples as usize], &[])?,
@@ -222,6 +222,19 @@ fn sorts(gpu: &Gpu, more: &[Constant]) -> Result<[Kernel; 2], String> {
     ];
     let kernel = |source| Kernel::new(gpu, source, &[&own, more].concat());
     Ok([kernel(&SORT[0])?, kernel(&SORT[1])?])
+}
+
+/// What paints opaque paths in many colours; with more constants.
+fn opaque(gpu: &Gpu, samples: Samples, more: &[Constant]) -> Result<Kernel, String> {
+    // Teams take longer where all samples are needed, and on a processor.
+    let is_for_teams = samples == Samples::Coarse && !is_in_step(gpu);
+    match gpu.most_lanes().filter(|_| is_for_teams) {
+        Some(most) => {
+            let own = [constant("MOST_LANES", most)];
+            painter(gpu, &OPAQUE_TEAMS, &[&own, more].concat())
+        }
+        None => painter(gpu, &OPAQUE[samples as usize], more),
+    }
 }
 
 /// What paints translucent paths, or density; with more constants.

@@ -238,7 +238,7 @@ macro_rules! opaque {
             "opaque",
             // What is set from outside has to come before arrays of a length that is, too.
             [
-                "sums", "rows", "portion", "order", "laid", "opaque", "rounds", "found"
+                "sums", "row", "rows", "portion", "order", "laid", "opaque", "rounds", "found"
             ],
             tile_bindings!("found")
         )
@@ -248,13 +248,32 @@ macro_rules! opaque {
 /// Opaque paths in many colours, by [`Samples`].
 pub(super) const OPAQUE: [Source; 2] = [opaque!(4), opaque!(16)];
 
+/// The same of few samples, where threads see each other's values.
+pub(super) const OPAQUE_TEAMS: Source = tiles!(
+    4,
+    "opaque",
+    // As above.
+    [
+        "row",
+        "shuffle",
+        "opaque_teams",
+        "sums",
+        "portion",
+        "order",
+        "laid",
+        "rounds",
+        "found"
+    ],
+    tile_bindings!("found")
+);
+
 macro_rules! layers {
     ($samples:literal) => {
         tiles!(
             $samples,
             "layers",
             // As above.
-            ["layers", "rows", "rounds", "found"],
+            ["layers", "row", "rows", "rounds", "found"],
             tile_bindings!("found")
         )
     };

@@ -35,6 +35,7 @@ const SHADERS: &[&Source] = &[
     &SORT[1],
     &OPAQUE[0],
     &OPAQUE[1],
+    &OPAQUE_TEAMS,
     &LAYERS[0],
     &LAYERS[1],
 ];
@@ -107,6 +108,8 @@ fn rows_of_a_pixel_have_as_many_samples_as_is_said() {
             assert!(sources[samples as usize].wgsl.starts_with(&said), "{said}");
         }
     }
+    let said = format!("const SAMPLES_A_ROW: u32 = {}u;", Samples::Coarse.a_row());
+    assert!(OPAQUE_TEAMS.wgsl.starts_with(&said), "{said}");
 }
 
 #[test]
@@ -118,7 +121,9 @@ fn lines_have_as_many_words_as_there_is_room_for() {
 #[test]
 fn opaque_tiles_have_as_many_threads_as_is_said() {
     let said = format!("const TILE_THREADS: u32 = {TILE_THREADS}u;");
-    assert!(OPAQUE[0].wgsl.contains(&said), "{said}");
+    for source in [&OPAQUE[0], &OPAQUE_TEAMS] {
+        assert!(source.wgsl.contains(&said), "{said}");
+    }
 }
 
 #[test]

@@ -1,15 +1,11 @@
 // The lines that are looked at together, by the rows of pixels that go through them. A thread has a row of samples.
 
-const PIXELS_A_WORD: u32 = 32u / SAMPLES_A_ROW;
 const TURN_WORDS: u32 = TURN / 32u;
 
 // Which lines each row of pixels goes through, a bit each.
 var<workgroup> lines_of_row: array<atomic<u32>, TILE_PX * TURN_WORDS>;
 var<workgroup> is_any_open: atomic<u32>;
 var<workgroup> stays: u32;
-
-// Samples of this thread's row that opaque paths have covered.
-var<private> covered: Row;
 
 // Begins with no line.
 fn clear_rows(thread: u32) {

@@ -68,8 +68,13 @@ fn capsule_at(tile: Tile, place: u32) -> Capsule {
 }
 
 fn capsule_of_line(tile: Tile, line: u32) -> Capsule {
+    return capsule_as_wide(tile, line, radius_of(rank_of(line)));
+}
+
+// The line with half of such a width.
+fn capsule_as_wide(tile: Tile, line: u32, radius_px: f32) -> Capsule {
     let corner = vec2f(f32(tile.left), f32(tile.top));
-    return capsule_of(line_of(words_of_line(line)), corner, radius_of(rank_of(line)));
+    return capsule_of(line_of(words_of_line(line)), corner, radius_px);
 }
 
 // The samples of one pixel in a word of a row.

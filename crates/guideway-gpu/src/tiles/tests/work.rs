@@ -4,7 +4,7 @@ use guideway_render::{Stage, Work};
 
 use super::*;
 
-/// Level lines within one tile of 14 x 9, where 10 px are a metre.
+/// Level lines within one tile of 14 x 9, where 10 px are a metre; if they have colours, each another one.
 fn level_lines(count: usize, color_rgba: Option<u32>) -> Arc<Scene> {
     let mut layout = Layout::default();
     let mut runs = Runs::default();
@@ -13,7 +13,7 @@ fn level_lines(count: usize, color_rgba: Option<u32>) -> Arc<Scene> {
         let path = add(&mut layout, &runs);
         let style = OwnStyle {
             width_m: None,
-            color_rgba,
+            color_rgba: color_rgba.map(|color| color + ((path as u32) << 8)),
         };
         layout.paths.set_own_style(path, style);
     }
@@ -75,6 +75,33 @@ fn work_is_counted_exactly() {
     let work = count().unwrap();
     assert!(work.tests > Some(30 * 16) && work.bytes_written > Some(4 * 210 * 130));
     assert_eq!(count().unwrap(), work);
+}
+
+#[test]
+fn work_of_opaque_paths_is_counted_alike_by_teams_and_by_rows() {
+    let Some(tiles) = tiles() else { return };
+    let teams = as_hardware();
+    let rows = limited(GpuOptions {
+        without_lanes: true,
+        ..GpuOptions::default()
+    });
+    let view = view([10.5, 6.5], 10.0);
+    for lines in [2, 3] {
+        let scene = level_lines(lines, Some(0x1020_30ff));
+        let mut prepared = prepared(&teams, &scene);
+        let mut count = || prepared.count_work(&view, &wide(), &Cancel::default());
+        let work = count().unwrap();
+        assert_alike_here(&work, &tiles, &scene, (&view, &wide()));
+        assert_alike_here(&work, &rows, &scene, (&view, &wide()));
+        let n = lines as u64;
+        assert_eq!(work.tests, Some(n * 4 * u64::from(params::SAMPLE_ROWS)));
+        // As of one colour, and how long the one tile took.
+        assert_eq!(work.atomics, Some(5 + 2 * n + 1));
+        // As of one colour; the rank of a line.
+        let words = 1 + n * 3 + 3 * 14 * 9 + n + 210 * 130 + n;
+        assert_eq!(work.bytes_written, Some(4 * words));
+        assert_eq!(count().unwrap(), work);
+    }
 }
 
 #[test]
