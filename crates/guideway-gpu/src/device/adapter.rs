@@ -1,5 +1,7 @@
 //! Which adapter to use.
 
+use std::sync::{LazyLock, Mutex, PoisonError};
+
 use wgpu::{Adapter, Backends, Device, DeviceDescriptor, DeviceType, Features, Instance, Queue};
 
 use super::GpuOptions;
@@ -8,13 +10,18 @@ const NONE_FOUND: &str = "no graphics adapter was found: there is no Vulkan load
      On Debian or Ubuntu install `libvulkan1` and `mesa-vulkan-drivers`, which also draw without graphics \
      hardware";
 
-/// Opens the first adapter that can be opened, hardware first.
-pub(super) fn open(options: GpuOptions) -> Result<(Adapter, Device, Queue), String> {
-    let descriptor = wgpu::InstanceDescriptor {
+/// All devices of the process come from one instance, and are opened one after the other: sixteen threads that each opened an
+/// instance of their own were seen to hang on an H200.
+static INSTANCE: LazyLock<Mutex<Instance>> = LazyLock::new(|| {
+    Mutex::new(Instance::new(wgpu::InstanceDescriptor {
         backends: Backends::PRIMARY,
         ..wgpu::InstanceDescriptor::new_without_display_handle()
-    };
-    let instance = Instance::new(descriptor);
+    }))
+});
+
+/// Opens the first adapter that can be opened, hardware first.
+pub(super) fn open(options: GpuOptions) -> Result<(Adapter, Device, Queue), String> {
+    let instance = INSTANCE.lock().unwrap_or_else(PoisonError::into_inner);
     let mut adapters = pollster::block_on(instance.enumerate_adapters(Backends::PRIMARY));
     adapters.sort_by_key(|adapter| preference(adapter.get_info().device_type));
     let mut refusals = Vec::new();
