@@ -141,7 +141,7 @@ fn for_each_tile(sight: &Sight, drawn: Drawn<'_>, mut found: impl FnMut(usize)) 
     for row in rows.start.max(grid.rows.start)..rows.end.min(grid.rows.end) {
         for column in sight.columns() {
             if !parts.at(column, row).is_empty() {
-                found((row - grid.rows.start) * grid.columns + column);
+                found(grid.tile(column, row));
             }
         }
     }

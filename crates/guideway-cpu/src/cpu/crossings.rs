@@ -1,7 +1,7 @@
 //! Which tiles the lines of wide clusters cross: of a cluster seen from near, most tiles within its box see next to nothing.
 
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Mutex, PoisonError};
 
 use guideway_spline::{Point, greater, lesser};
 use rayon::prelude::*;
@@ -9,9 +9,11 @@ use rayon::prelude::*;
 use super::canvas::TILE_PX;
 use super::cluster::Lines;
 use super::index::Index;
-use super::polylines::{Coordinate, Polylines};
+use super::polylines::Coordinate;
 use super::shot::Shot;
 use super::sight::{Sight, Sights};
+use super::stroke::Placed;
+use super::threads::{own, sum};
 use super::tiles::{Grid, Parts};
 
 /// Tiles within the box of a cluster, at least, from which on it pays to list its lines where they lie.
@@ -53,12 +55,8 @@ pub(super) struct Drawn<'a> {
     pub(super) grid: &'a Grid,
 }
 
-/// Lines as they lie in the picture.
-struct Lying<'a, T> {
-    lines: &'a Polylines<T>,
-    scale: f32,
-    offset: Point<f32>,
-}
+/// Lines as they lie in the picture, in pixels.
+type Lying<'a, T> = Placed<'a, T, 1>;
 
 impl Crossings {
     pub(super) fn new() -> Self {
@@ -72,7 +70,6 @@ impl Crossings {
 
     /// Finds those of all wide clusters, unless there are more than `most`; then of none.
     pub(super) fn find(&mut self, drawn: Drawn<'_>, most: usize) {
-        let grid = drawn.grid;
         let is_wide = |sight: &Sight| {
             let tiles = sight.columns().len() * sight.rows().len();
             let lines = || drawn.index.made[sight.cluster as usize].paths_and_lines[1];
@@ -91,11 +88,9 @@ impl Crossings {
         found.for_each(|(found, &key)| {
             found.clear();
             if total.load(Ordering::Relaxed) <= most {
-                let thread = rayon::current_thread_index().unwrap_or(0);
-                let entry = &entries[thread % entries.len()];
-                let mut entry = entry.lock().unwrap_or_else(PoisonError::into_inner);
-                entry.resize(grid.len(), 0);
-                find(drawn, key, &mut entry, found);
+                let mut entries = own(entries);
+                entries.resize(drawn.grid.len(), 0);
+                find(drawn, key, &mut entries, found);
                 total.fetch_add(found.len(), Ordering::Relaxed);
             }
         });
@@ -124,12 +119,8 @@ impl Crossings {
 
     pub(super) fn bytes(&self) -> u64 {
         let found: usize = self.of_clusters.iter().map(Vec::capacity).sum();
-        let entries = self.entries.iter().map(|entries| {
-            let entries = entries.lock().unwrap_or_else(PoisonError::into_inner);
-            entries.capacity()
-        });
-        let words = self.keys.capacity() + entries.sum::<usize>();
-        (found * size_of::<(u32, Crossing)>() + words * size_of::<u32>()) as u64
+        let words = self.keys.capacity() as u64 + sum(&self.entries, |e| e.capacity() as u64);
+        (found * size_of::<(u32, Crossing)>()) as u64 + words * size_of::<u32>() as u64
     }
 }
 
@@ -138,73 +129,59 @@ fn find(drawn: Drawn<'_>, key: u32, entries: &mut [u32], found: &mut Vec<(u32, C
     match &drawn.index.lines[sight.cluster as usize] {
         Lines::None => {}
         Lines::Kept(unit_m, lines) => {
-            let lying = Lying {
-                lines,
-                scale: (unit_m * drawn.shot.view.px_per_m()) as f32,
-                offset: sight.middle_px.to_f32(),
-            };
-            lying.find(drawn, key, entries, found);
+            let unit_px = unit_m * drawn.shot.view.px_per_m();
+            let lying = Lying::kept(lines, unit_px, sight.middle_px);
+            find_of(drawn, &lying, key, entries, found);
         }
         Lines::Cut(lines) => {
-            let (scale, offset) = (1.0, Point::default());
-            let lying = Lying {
-                lines,
-                scale,
-                offset,
-            };
-            lying.find(drawn, key, entries, found);
+            let lying = Lying::cut(lines, Point::default());
+            find_of(drawn, &lying, key, entries, found);
         }
     }
 }
 
-impl<T: Coordinate> Lying<'_, T> {
-    fn find(
-        &self,
-        drawn: Drawn<'_>,
-        key: u32,
-        entries: &mut [u32],
-        found: &mut Vec<(u32, Crossing)>,
-    ) {
-        let Drawn { shot, parts, .. } = drawn;
-        let paths = drawn.index.paths_of(drawn.sights.get(key).cluster);
-        let common_px = shot.common_radius_px();
-        for piece in 0..self.lines.pieces() {
-            let path = || paths[usize::from(self.lines.member(piece))];
-            let radius_px = common_px.unwrap_or_else(|| shot.radius_px(path()));
-            let reach_px = radius_px as f32 + MARGIN_PX;
-            let piece = piece as u32;
-            let begins = self.lines.begins_of(piece as usize..piece as usize + 1);
-            for (begin, vertex) in (begins.start as u32..).zip(begins) {
-                let line = [self.vertex(vertex), self.vertex(vertex + 1)];
-                for_each_tile(line, reach_px, drawn.grid, |column, row, tile| {
-                    // What was written there for other lists means nothing: the tile and the piece say so.
-                    let last = found.get_mut(entries[tile] as usize);
-                    match last.filter(|(at, last)| *at == tile as u32 && last.piece == piece) {
-                        Some((_, last)) => last.begins[1] = begin + 1,
-                        None if parts.at(column, row).is_empty() => {}
-                        None => {
-                            entries[tile] = found.len() as u32;
-                            let begins = [begin, begin + 1];
-                            found.push((tile as u32, Crossing { key, piece, begins }));
-                        }
+fn find_of<T: Coordinate>(
+    drawn: Drawn<'_>,
+    lying: &Lying<'_, T>,
+    key: u32,
+    entries: &mut [u32],
+    found: &mut Vec<(u32, Crossing)>,
+) {
+    let (shot, lines) = (drawn.shot, lying.lines);
+    let paths = drawn.index.paths_of(drawn.sights.get(key).cluster);
+    let common_px = shot.common_radius_px();
+    for piece in 0..lines.pieces() {
+        let path = || paths[usize::from(lines.member(piece))];
+        let radius_px = common_px.unwrap_or_else(|| shot.radius_px(path()));
+        let reach_px = radius_px as f32 + MARGIN_PX;
+        let begins = lines.begins_of(piece..piece + 1);
+        let piece = piece as u32;
+        for (begin, vertex) in (begins.start as u32..).zip(begins) {
+            let line = [lying.vertex(vertex), lying.vertex(vertex + 1)];
+            for_each_tile(line, reach_px, drawn.grid, |column, row| {
+                let tile = drawn.grid.tile(column, row);
+                // What was written there for other lists means nothing: the tile and the piece say so.
+                let last = found.get_mut(entries[tile] as usize);
+                match last.filter(|(at, last)| *at == tile as u32 && last.piece == piece) {
+                    Some((_, last)) => last.begins[1] = begin + 1,
+                    None if drawn.parts.at(column, row).is_empty() => {}
+                    None => {
+                        entries[tile] = found.len() as u32;
+                        let begins = [begin, begin + 1];
+                        found.push((tile as u32, Crossing { key, piece, begins }));
                     }
-                });
-            }
+                }
+            });
         }
-    }
-
-    fn vertex(&self, vertex: usize) -> Point<f32> {
-        let at = Point::new(self.lines.x[vertex].into(), self.lines.y[vertex].into());
-        at * self.scale + self.offset
     }
 }
 
-/// Calls `found` with the column, the row and the number of each tile that a line reaches into.
+/// Calls `found` with the column and the row of each tile that a line reaches into.
 fn for_each_tile(
     [a, b]: [Point<f32>; 2],
     reach_px: f32,
     grid: &Grid,
-    mut found: impl FnMut(usize, usize, usize),
+    mut found: impl FnMut(usize, usize),
 ) {
     /// Of lines that are more level than this, all rows of tiles see all.
     const LEVEL_PX: f32 = 1.0;
@@ -226,8 +203,7 @@ fn for_each_tile(
         };
         let columns = tiles(lesser(from, to) - reach_px, greater(from, to) + reach_px);
         for column in columns.start..columns.end.min(grid.columns) {
-            let tile = (row - grid.rows.start) * grid.columns + column;
-            found(column, row, tile);
+            found(column, row);
         }
     }
 }
@@ -275,8 +251,9 @@ mod tests {
                 _ => Point::new(next(), next()),
             };
             let mut found = vec![false; grid.len()];
-            for_each_tile([a, b], 2.0, &grid, |column, row, tile| {
-                assert_eq!(tile, (row - grid.rows.start) * grid.columns + column);
+            for_each_tile([a, b], 2.0, &grid, |column, row| {
+                let tile = (row - grid.rows.start) * grid.columns + column;
+                assert_eq!(tile, grid.tile(column, row));
                 assert!(!std::mem::replace(&mut found[tile], true));
             });
             for (tile, found) in found.into_iter().enumerate() {

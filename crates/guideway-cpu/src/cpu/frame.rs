@@ -1,8 +1,8 @@
 //! The way of a frame through its stages, and the buffers that it leaves to the next.
 
 use std::ops::Range;
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
 use guideway_render::density::{ToneMap, Tones};
@@ -17,6 +17,7 @@ use super::kept::Kept;
 use super::paint::{Band, Filling, Painter};
 use super::shot::{Precision, Shot};
 use super::sight::Sights;
+use super::threads::{own, sum};
 use super::tiles::{Grid, Parts};
 
 /// What a frame needs; kept for the next.
@@ -83,16 +84,10 @@ impl Buffers {
 
     /// Bytes of what is neither lines nor what lies where.
     fn scratch_bytes(&self) -> u64 {
-        let scratches = self.scratches.iter().map(|scratch| {
-            let scratch = scratch.lock().unwrap_or_else(PoisonError::into_inner);
-            scratch.bytes()
-        });
-        let lists = self.painters.iter().map(|painter| {
-            let painter = painter.lock().unwrap_or_else(PoisonError::into_inner);
-            painter.list_bytes()
-        });
         let todo = self.todo.capacity() * size_of::<(u32, Members)>();
-        self.sights.bytes() + self.parts.bytes() + todo as u64 + scratches.chain(lists).sum::<u64>()
+        let of_threads =
+            sum(&self.scratches, Scratch::bytes) + sum(&self.painters, Painter::list_bytes);
+        self.sights.bytes() + self.parts.bytes() + todo as u64 + of_threads
     }
 
     /// Counts paths and colours the counts; says in how many bands. A part of a picture is coloured by how all of it
@@ -295,9 +290,7 @@ impl Buffers {
                 if is_over || shot.cancel.check().is_err() {
                     return;
                 }
-                let thread = rayon::current_thread_index().unwrap_or(0);
-                let scratch = &self.scratches[thread % self.scratches.len()];
-                let mut scratch = scratch.lock().unwrap_or_else(PoisonError::into_inner);
+                let mut scratch = own(&self.scratches);
                 let before = lines.bytes();
                 let paths = index.paths_of(sight.cluster);
                 let cluster = (paths, extent.middle);

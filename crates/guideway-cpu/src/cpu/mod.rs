@@ -3,8 +3,9 @@
 //! Paths that are near each other form clusters, once (`index`). A frame (`frame`) goes through five stages: `cull`
 //! finds the clusters in sight (`sight`), and what of the picture has to be drawn (`kept`); `flatten` turns their
 //! curves into lines (`cluster`, `simplify`), unless those of an earlier frame will do; `bin` lists the clusters of
-//! each tile of 32 x 32 pixels (`tiles`); `cover` finds which samples of each tile the lines cover (`paint`, then
-//! `seen` for one colour or `layers` for several, `fixed` or `stroke` and `span`, `canvas`); `keep` keeps the picture.
+//! each tile of 32 x 32 pixels (`bins`), or of wide ones the lines that cross it (`crossings`); `cover` finds which
+//! samples of each tile the lines cover (`paint`, then `seen` for one colour or `layers` for several, `fixed` or
+//! `stroke` and `span`, `canvas`); `keep` keeps the picture.
 //! Of one colour, pixels that are full for certain in the views to come are found beside that, and not covered again
 //! (`filled`).
 //! What lies where is asked apart from that (`ask`).
@@ -39,6 +40,7 @@ mod stretch;
 mod stroke;
 #[cfg(test)]
 mod tests;
+mod threads;
 mod tiles;
 mod vectors;
 

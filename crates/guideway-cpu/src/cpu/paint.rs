@@ -1,5 +1,5 @@
 use std::cmp::Reverse;
-use std::sync::{Mutex, PoisonError};
+use std::sync::Mutex;
 
 use guideway_render::RenderError;
 use guideway_scene::Rgba;
@@ -20,6 +20,7 @@ use super::shot::Shot;
 use super::sight::Sights;
 use super::span::{LAYERED, SOLID, Samples};
 use super::stretch::{Pixels, Stretch};
+use super::threads::own;
 use super::tiles::{Grid, Parts};
 use super::vectors::by_lane_width;
 
@@ -235,9 +236,7 @@ impl<'a> Band<'a> {
             );
             return left.and(right);
         }
-        let thread = rayon::current_thread_index().unwrap_or(0);
-        let painter = &self.painters[thread % self.painters.len()];
-        let mut painter = painter.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut painter = own(self.painters);
         let tile_row = self.grid.rows.start + row;
         for column in stretch.columns.clone() {
             self.shot.cancel.check()?;
@@ -247,7 +246,7 @@ impl<'a> Band<'a> {
             }
             let (columns, rows) = (part.columns(), part.rows());
             let tile = Tile {
-                index: row * self.grid.columns + column,
+                index: self.grid.tile(column, tile_row),
                 corner: Point::new(
                     (column * TILE_PX + columns.start) as f64,
                     (tile_row * TILE_PX + rows.start) as f64,

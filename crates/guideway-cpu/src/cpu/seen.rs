@@ -57,23 +57,14 @@ impl<'a, const C: usize> Seen<'a, C> {
     /// Where kept lines lie.
     #[inline(always)]
     pub(super) fn placed<T>(&self, unit_m: f64, lines: &'a Polylines<T>) -> Placed<'a, T, C> {
-        let per_px = C as f64;
-        Placed {
-            lines,
-            scale: (unit_m * self.band.shot.view.px_per_m() * per_px) as f32,
-            offset: ((self.sight.middle_px - self.tile.corner) * per_px).to_f32(),
-        }
+        let unit_px = unit_m * self.band.shot.view.px_per_m();
+        Placed::kept(lines, unit_px, self.sight.middle_px - self.tile.corner)
     }
 
     /// Where lines cut at the picture lie.
     #[inline(always)]
     pub(super) fn placed_cut<T>(&self, lines: &'a Polylines<T>) -> Placed<'a, T, C> {
-        let columns = C as f32;
-        Placed {
-            lines,
-            scale: columns,
-            offset: self.tile.corner.to_f32() * -columns,
-        }
+        Placed::cut(lines, self.tile.corner)
     }
 
     /// Lists the pieces that may leave a mark on the tile.

@@ -41,6 +41,30 @@ pub(super) struct Boxes {
     inside: [u32; LANES],
 }
 
+impl<'a, T, const C: usize> Placed<'a, T, C> {
+    /// Kept lines, a unit of which is so many pixels, and whose middle lies so far from the corner.
+    #[inline(always)]
+    pub(super) fn kept(lines: &'a Polylines<T>, unit_px: f64, middle_px: Point<f64>) -> Self {
+        let per_px = C as f64;
+        Self {
+            lines,
+            scale: (unit_px * per_px) as f32,
+            offset: (middle_px * per_px).to_f32(),
+        }
+    }
+
+    /// Lines cut at the picture, in which the corner lies there.
+    #[inline(always)]
+    pub(super) fn cut(lines: &'a Polylines<T>, corner_px: Point<f64>) -> Self {
+        let columns = C as f32;
+        Self {
+            lines,
+            scale: columns,
+            offset: corner_px.to_f32() * -columns,
+        }
+    }
+}
+
 impl<T: Coordinate, const C: usize> Placed<'_, T, C> {
     /// Adds the lines that begin at the vertices of `range` to the shape of a canvas.
     #[inline(always)]

@@ -25,6 +25,12 @@ impl Grid {
     pub(super) fn len(&self) -> usize {
         self.columns * self.rows.len()
     }
+
+    /// The number of a tile, row after row.
+    #[inline(always)]
+    pub(super) fn tile(&self, column: usize, row: usize) -> usize {
+        (row - self.rows.start) * self.columns + column
+    }
 }
 
 /// The part of a tile that is drawn: pixels from its upper left corner.
@@ -98,8 +104,7 @@ impl Parts {
             for column in tiles(&columns_px) {
                 let [left, right] = within(&columns_px, column);
                 let [top, bottom] = within(&rows_px, row);
-                let place = self.place(column, row);
-                let part = &mut self.parts[place];
+                let part = &mut self.parts[self.grid.tile(column, row)];
                 *part = part.union(Part {
                     left,
                     right,
@@ -113,12 +118,7 @@ impl Parts {
     /// The part of one tile.
     #[inline(always)]
     pub(super) fn at(&self, column: usize, row: usize) -> Part {
-        self.parts[self.place(column, row)]
-    }
-
-    #[inline(always)]
-    fn place(&self, column: usize, row: usize) -> usize {
-        (row - self.grid.rows.start) * self.grid.columns + column
+        self.parts[self.grid.tile(column, row)]
     }
 
     /// Columns and rows of pixels of each part.

@@ -238,7 +238,16 @@ macro_rules! opaque {
             "opaque",
             // What is set from outside has to come before arrays of a length that is, too.
             [
-                "sums", "row", "rows", "portion", "order", "laid", "opaque", "rounds", "found"
+                "sums",
+                "row",
+                "rows",
+                "portion",
+                "order",
+                "laid",
+                "opaque_rows",
+                "opaque",
+                "rounds",
+                "found"
             ],
             tile_bindings!("found")
         )
@@ -261,6 +270,7 @@ pub(super) const OPAQUE_TEAMS: Source = tiles!(
         "portion",
         "order",
         "laid",
+        "opaque",
         "rounds",
         "found"
     ],

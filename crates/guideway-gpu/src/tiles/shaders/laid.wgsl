@@ -29,6 +29,14 @@ fn add_samples(word: u32, samples: u32, color: u32) {
     }
 }
 
+fn is_row_full() -> bool {
+    var all = ALL;
+    for (var word = 0u; word < WORDS; word++) {
+        all &= covered[word];
+    }
+    return all == ALL;
+}
+
 // Lays what a line covers of the row below all that is there.
 fn lay_line(color: u32, span: vec2u) {
     for (var word = 0u; word < WORDS; word++) {

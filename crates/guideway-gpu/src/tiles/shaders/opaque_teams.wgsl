@@ -1,8 +1,6 @@
-// Tiles of opaque paths in many colours, where threads that run in step see each other's values. Such a team has a row of samples for
-// each lane, and goes through a portion by itself: each lane looks at a line, and those that may show are laid one below the other,
-// each on all rows of the team at once. Teams wait for each other only where the portion ends.
-
-@group(0) @binding(7) var<storage, read_write> found: Found;
+// Lines laid by teams of threads that run in step and see each other's values. A team has a row of samples for each lane, and goes
+// through a portion by itself: each lane looks at a line, and those that may show are laid one below the other, each on all rows of
+// the team at once. Teams wait for each other only where the portion ends.
 
 // Most lanes that a team of this device has: loops of a known length take less time.
 override MOST_LANES: u32;
@@ -56,18 +54,33 @@ fn rows_to_lay(capsule: Capsule, columns: u32, first: u32, lanes: u32) -> vec2u 
     return rows;
 }
 
-fn is_row_full() -> bool {
-    var all = ALL;
-    for (var word = 0u; word < WORDS; word++) {
-        all &= covered[word];
-    }
-    return all == ALL;
+fn number_of(own: Thread) -> u32 {
+    return own.team * own.lanes + own.lane;
 }
 
-// Lays so many lines of a portion on the rows of the team, until all are full. Returns whether any is not.
-fn lay_portion(own: Thread, tile: Tile, count: u32) -> bool {
-    let first_row = own.team * own.lanes;
-    let row = first_row + own.lane;
+// Begins the row of a thread.
+fn begin_row(tile: Tile, thread: u32) {
+    covered = beyond(tile, thread);
+}
+
+// Whether it is so for any thread.
+fn is_any(thread: u32, is_so: bool) -> bool {
+    if thread == 0u {
+        atomicStore(&is_any_open, 0u);
+    }
+    workgroupBarrier();
+    if is_so {
+        atomicStore(&is_any_open, 1u);
+    }
+    workgroupBarrier();
+    return tell(thread, vec2u(atomicLoad(&is_any_open))).x != 0u;
+}
+
+// Lays so many lines of a portion, until all rows of the team are full. Returns whether any row is not; behind the last portion nobody
+// waits to know.
+fn lay_portion(own: Thread, tile: Tile, count: u32, is_last: bool) -> bool {
+    let row = number_of(own);
+    let first_row = row - own.lane;
     var columns = columns_open(own);
     for (var first = 0u; columns != 0u && first < count; first += own.lanes) {
         var capsule: Capsule;
@@ -98,58 +111,5 @@ fn lay_portion(own: Thread, tile: Tile, count: u32) -> bool {
         // Of these lines, and of what is open.
         rounds += 5u + WORDS;
     }
-    return columns != 0u;
-}
-
-// Whether it is so for any thread.
-fn is_any(thread: u32, is_so: bool) -> bool {
-    if thread == 0u {
-        atomicStore(&is_any_open, 0u);
-    }
-    workgroupBarrier();
-    if is_so {
-        atomicStore(&is_any_open, 1u);
-    }
-    workgroupBarrier();
-    return tell(thread, vec2u(atomicLoad(&is_any_open))).x != 0u;
-}
-
-@compute @workgroup_size(THREADS)
-fn main(
-    @builtin(workgroup_id) id: vec3u,
-    @builtin(num_workgroups) group_count: vec3u,
-    own: Thread,
-) {
-    let index = workgroup_index(id, group_count);
-    if index >= frame.columns * frame.rows {
-        return;
-    }
-    let thread = own.team * own.lanes + own.lane;
-    let tile = tile_of(index);
-    let list = list_of(index);
-    if thread == 0u {
-        reads(2u);
-    }
-    if list.x >= list.y {
-        write(tile, thread, frame.background);
-        report_work();
-        return;
-    }
-    begin_rounds(thread);
-    covered = beyond(tile, thread);
-    var left = left_of(thread, list);
-    var is_open = true;
-    while is_open && left.is_any {
-        let count = take_portion(thread, list, &left);
-        let is_own_open = lay_portion(own, tile, count);
-        // Behind the last portion nobody waits.
-        is_open = left.is_any && is_any(thread, is_own_open);
-        // Of a portion.
-        rounds += 64u;
-    }
-    show(tile, thread);
-    end_rounds();
-    workgroupBarrier();
-    tell_rounds(thread);
-    report_work();
+    return !is_last && is_any(number_of(own), columns != 0u);
 }

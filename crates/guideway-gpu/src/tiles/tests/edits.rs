@@ -130,9 +130,9 @@ fn an_edit_leaves_the_lines_of_what_it_does_not_touch() {
     ] {
         let mut pair = Pair::new(&tiles, &scene, style);
         let view = |step: usize| view([50.0, 30.0], 3.0 + 0.01 * step as f64);
-        // Made by one workgroup a cluster, or by several.
         // The first frame may try to make do with less room, and then keeps no lines: that depends on what is hidden by chance.
         for step in 0..2 {
+            // Made by one workgroup a cluster, or by several.
             pair.kept.easel.has_few = has_few;
             pair.check(&view(step));
         }
