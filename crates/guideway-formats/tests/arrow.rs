@@ -329,3 +329,58 @@ fn a_text_that_is_too_long_is_found_among_others() {
         assert!(error.to_string().contains("bytes in one text"), "{error}");
     }
 }
+
+#[test]
+fn numbers_of_all_batches_become_text_if_a_late_one_is_too_large() {
+    let large = |values: Vec<Option<u64>>| {
+        batch(vec![
+            ("large", Arc::new(UInt64Array::from(values))),
+            ("control_points", Arc::new(polygons(3))),
+        ])
+    };
+    let first = large(vec![Some(7), None, Some(0)]);
+    let last = large(vec![Some(1), Some(u64::MAX), None]);
+    let layout = read(&file(&[first.clone(), last], None));
+    let values = &attribute(&layout, "large").values;
+    let texts: Vec<_> = (0..6).map(|row| values.get(row)).collect();
+    let text = |text| Some(Value::Text(text));
+    let most = text("18446744073709551615");
+    assert_eq!(texts, [text("7"), None, text("0"), text("1"), most, None]);
+    let layout = read(&file(&[first], None));
+    let values = &attribute(&layout, "large").values;
+    assert_eq!(*values, Values::Int(vec![Some(7), None, Some(0)]));
+}
+
+#[test]
+fn a_path_of_many_batches_is_refused_for_its_last_row() {
+    let part = |ids: [&str; 2], parts: [u32; 2], bad: bool| {
+        let (item, offsets, values, _) = polygons(2).into_parts();
+        let nulls = arrow_buffer::NullBuffer::from(vec![!bad, true]);
+        let list = ListArray::new(item, offsets, values, Some(nulls));
+        batch(vec![
+            ("id", Arc::new(StringArray::from(ids.to_vec()))),
+            ("guideway.part", Arc::new(UInt32Array::from(parts.to_vec()))),
+            ("control_points", Arc::new(list)),
+            ("name", Arc::new(StringArray::from(ids.to_vec()))),
+        ])
+    };
+    let batches = |bad| {
+        [
+            part(["a", "b"], [0, 0], false),
+            part(["b", "b"], [1, 2], false),
+            part(["b", "b"], [3, 4], false),
+            part(["b", "c"], [5, 0], bad),
+        ]
+    };
+    for (bad, expected) in [(false, &["a", "b", "c"][..]), (true, &["a", "c"])] {
+        let layout = read(&file(&batches(bad), None));
+        assert_eq!(ids(&layout), expected);
+        let names = &attribute(&layout, "name").values;
+        assert_eq!(names.len(), expected.len());
+        for (row, &name) in expected.iter().enumerate() {
+            assert_eq!(names.get(row), Some(Value::Text(name)));
+        }
+        let refused: Vec<_> = layout.refused.iter().map(|r| r.id).collect();
+        assert_eq!(refused, if bad { &["b"][..] } else { &[] });
+    }
+}

@@ -54,10 +54,10 @@ impl Default for NewPath<'_> {
 pub struct Paths {
     ids: TextColumn,
     geometry: Geometry,
-    start_nodes: Vec<u32>,
-    end_nodes: Vec<u32>,
-    directions: Vec<Direction>,
-    levels: Vec<u32>,
+    start_nodes: Option<Vec<u32>>,
+    end_nodes: Option<Vec<u32>>,
+    directions: Option<Vec<Direction>>,
+    levels: Option<Vec<u32>>,
     vehicle_types: VehicleTypes,
     width_m: Option<Vec<f32>>,
     color_rgba: Option<Vec<u32>>,
@@ -81,10 +81,6 @@ impl Paths {
         Self {
             ids,
             geometry,
-            start_nodes: vec![NONE; rows],
-            end_nodes: vec![NONE; rows],
-            directions: vec![Direction::Forward; rows],
-            levels: vec![NONE; rows],
             vehicle_types: VehicleTypes::all(rows),
             ..Self::default()
         }
@@ -94,12 +90,15 @@ impl Paths {
     pub fn push(&mut self, path: &NewPath<'_>) -> usize {
         self.ids.push(path.id);
         self.geometry.push(path.runs);
-        self.start_nodes.push(path.start_node.unwrap_or(NONE));
-        self.end_nodes.push(path.end_node.unwrap_or(NONE));
-        self.directions.push(path.direction);
-        self.levels.push(path.level.unwrap_or(NONE));
-        self.vehicle_types.push(path.vehicle_types);
         let row = self.ids.len() - 1;
+        push_some(&mut self.start_nodes, row, path.start_node);
+        push_some(&mut self.end_nodes, row, path.end_node);
+        push_some(&mut self.levels, row, path.level);
+        let both = path.direction != Direction::Forward;
+        if let Some(column) = column_for(&mut self.directions, row, Direction::Forward, both) {
+            column.push(path.direction);
+        }
+        self.vehicle_types.push(path.vehicle_types);
         if let Some(column) = &mut self.width_m {
             column.push(f32::NAN);
         }
@@ -136,7 +135,7 @@ impl Paths {
     /// Sets the level of every path; `u32::MAX` means none.
     pub fn set_levels(&mut self, column: Vec<u32>) {
         assert_eq!(column.len(), self.len());
-        self.levels = column;
+        self.levels = Some(column);
     }
 
     /// Number of paths.
@@ -242,14 +241,15 @@ impl Paths {
 
     /// Heap bytes held.
     pub fn heap_bytes(&self) -> usize {
-        let row_bytes = 3 * size_of::<u32>() + size_of::<Direction>();
-        let styles = self.width_m.as_ref().map_or(0, Vec::capacity)
-            + self.color_rgba.as_ref().map_or(0, Vec::capacity)
-            + self.rank.as_ref().map_or(0, Vec::capacity);
         self.ids.heap_bytes()
             + self.geometry.heap_bytes()
-            + self.levels.capacity() * row_bytes
-            + styles * size_of::<u32>()
+            + bytes_of(&self.start_nodes)
+            + bytes_of(&self.end_nodes)
+            + bytes_of(&self.directions)
+            + bytes_of(&self.levels)
+            + bytes_of(&self.width_m)
+            + bytes_of(&self.color_rgba)
+            + bytes_of(&self.rank)
             + self.vehicle_types.heap_bytes()
             + self.attributes.heap_bytes()
     }
@@ -266,6 +266,17 @@ fn column_for<T: Clone>(
         column.get_or_insert_with(|| vec![none; rows]);
     }
     column.as_mut()
+}
+
+/// Appends to a column of so many rows that may not be there.
+fn push_some(column: &mut Option<Vec<u32>>, rows: usize, index: Option<u32>) {
+    if let Some(column) = column_for(column, rows, NONE, index.is_some()) {
+        column.push(index.unwrap_or(NONE));
+    }
+}
+
+fn bytes_of<T>(column: &Option<Vec<T>>) -> usize {
+    column.as_ref().map_or(0, |c| c.capacity() * size_of::<T>())
 }
 
 /// What a path brings of its own look.
@@ -302,22 +313,23 @@ impl<'a> PathRef<'a> {
 
     /// Row of the node where it begins.
     pub fn start_node(self) -> Option<u32> {
-        some(self.paths.start_nodes[self.row])
+        some(self.paths.start_nodes.as_ref(), self.row)
     }
 
     /// Row of the node where it ends.
     pub fn end_node(self) -> Option<u32> {
-        some(self.paths.end_nodes[self.row])
+        some(self.paths.end_nodes.as_ref(), self.row)
     }
 
     /// Which way vehicles go.
     pub fn direction(self) -> Direction {
-        self.paths.directions[self.row]
+        let column = self.paths.directions.as_ref();
+        column.map_or(Direction::Forward, |column| column[self.row])
     }
 
     /// Index of its level.
     pub fn level(self) -> Option<u32> {
-        some(self.paths.levels[self.row])
+        some(self.paths.levels.as_ref(), self.row)
     }
 
     /// Box of its control points, which holds the curve.
@@ -337,6 +349,31 @@ impl<'a> PathRef<'a> {
     }
 }
 
-fn some(index: u32) -> Option<u32> {
-    (index != NONE).then_some(index)
+fn some(column: Option<&Vec<u32>>, row: usize) -> Option<u32> {
+    column
+        .map(|column| column[row])
+        .filter(|&index| index != NONE)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_only_later_paths_have_is_not_given_to_those_before() {
+        let mut paths = Paths::default();
+        paths.push(&NewPath::default());
+        paths.push(&NewPath {
+            end_node: Some(3),
+            direction: Direction::Both,
+            level: Some(1),
+            ..NewPath::default()
+        });
+        paths.push(&NewPath::default());
+        let told = |path: PathRef| (path.start_node(), path.end_node(), path.level());
+        let (none, some) = ((None, None, None), (None, Some(3), Some(1)));
+        assert!(paths.iter().map(told).eq([none, some, none]));
+        let directions = [Direction::Forward, Direction::Both, Direction::Forward];
+        assert!(paths.iter().map(PathRef::direction).eq(directions));
+    }
 }

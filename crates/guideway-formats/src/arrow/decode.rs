@@ -28,6 +28,10 @@ impl<'a> Decoder<'a> {
         }
     }
 
+    pub(super) fn file_bytes(&self) -> usize {
+        self.bytes.len()
+    }
+
     /// The batch that a message holds, if it holds one and not, say, a dictionary.
     pub(super) fn decode(
         &mut self,

@@ -4,6 +4,7 @@ use guideway_layout::{Geometry, Limits};
 use guideway_spline::{Point, Real};
 use rayon::prelude::*;
 
+use super::batch::Batch;
 use super::polygons::{AT_ONCE, Coordinates, Fault, Polygons, pairs};
 use crate::Problem;
 
@@ -14,10 +15,10 @@ pub(super) struct Gather {
     run_ends: Vec<u32>,
     /// Set from the first row on that continues another; until then every run is a path.
     path_ends: Option<Vec<u32>>,
-    /// Rows of the table that begin a drawn path, in order.
-    pub(super) kept: Vec<Range<usize>>,
-    /// Rows of the table that begin a refused path, in order, with the reason.
-    pub(super) refused: Vec<(usize, Fault)>,
+    /// Rows of the table that begin a drawn path, in order, of which no batch was told yet.
+    kept: Vec<Range<usize>>,
+    /// Likewise those that begin a refused path, with the reason.
+    refused: Vec<(usize, Fault)>,
     rows: usize,
     last: Last,
 }
@@ -116,6 +117,38 @@ impl Gather {
     /// Rows seen so far.
     pub(super) fn rows(&self) -> usize {
         self.rows
+    }
+
+    /// So many rows stay what they are, whatever follows: all but those of a path that may go on and be refused.
+    pub(super) fn settled_rows(&self) -> usize {
+        match (&self.path_ends, self.last) {
+            (Some(_), Last::Drawn { row, .. }) => row,
+            _ => self.rows,
+        }
+    }
+
+    /// No rows follow.
+    pub(super) fn settle(&mut self) {
+        self.last = Last::Nothing;
+    }
+
+    /// Tells the next batch what became of its rows.
+    pub(super) fn tell(&mut self, batch: &mut Batch) {
+        let Range { start, end } = batch.rows;
+        let whole = self.kept.partition_point(|rows| rows.end <= end);
+        batch.kept.extend(self.kept.drain(..whole));
+        if let Some(rows) = self.kept.first_mut().filter(|rows| rows.start < end) {
+            batch.kept.push(rows.start..end);
+            rows.start = end;
+        }
+        for rows in &mut batch.kept {
+            *rows = rows.start - start..rows.end - start;
+        }
+        let refused = self.refused.partition_point(|&(row, _)| row < end);
+        let refused = self.refused.drain(..refused);
+        batch
+            .refused
+            .extend(refused.map(|(row, fault)| (row - start, fault)));
     }
 
     pub(super) fn into_geometry(self) -> Geometry {

@@ -5,16 +5,20 @@
 //! and what a few bytes may swell to is budgeted.
 
 mod attributes;
+mod batch;
 mod budget;
 mod container;
 mod decode;
 mod gather;
 mod guard;
+mod ids;
+mod look;
 mod polygons;
 mod read;
 mod schema;
 mod table;
 mod text;
+mod text_sink;
 mod write;
 mod write_columns;
 mod write_layout;

@@ -45,6 +45,22 @@ pub(super) enum Coordinates {
     F64(ScalarBuffer<f64>),
 }
 
+impl Coordinates {
+    pub(super) fn point_count(&self) -> usize {
+        match self {
+            Self::F32(c) => c.len() / 2,
+            Self::F64(c) => c.len() / 2,
+        }
+    }
+
+    pub(super) fn point_bytes(&self) -> usize {
+        match self {
+            Self::F32(_) => 8,
+            Self::F64(_) => 16,
+        }
+    }
+}
+
 /// Why the curve of a row cannot be drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Fault {

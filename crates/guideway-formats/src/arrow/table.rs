@@ -1,43 +1,73 @@
-use std::ops::Range;
+use arrow_schema::Schema;
+use guideway_layout::{Diagnostics, Geometry, Level, Limits, Paths, Refused};
+use rayon::prelude::*;
 
-use arrow_array::ArrayRef;
+use super::attributes::Growing;
+use super::batch::Batch;
+use super::budget::Budget;
+use super::ids::Ids;
+use super::look::Look;
+use super::schema::Columns;
+use crate::Problem;
 
-/// The columns of all record batches, and which rows begin a path that is drawn.
-pub(super) struct Table {
-    pub(super) batches: Vec<Batch>,
-    /// Ascending and apart.
-    pub(super) kept: Vec<Range<usize>>,
+/// All columns but the curves, made batch by batch.
+pub(super) struct Table<'a> {
+    ids: Ids<'a>,
+    attributes: Vec<Growing<'a>>,
+    look: Look<'a>,
 }
 
-/// One record batch.
-pub(super) struct Batch {
-    /// Number of its first row in the table.
-    pub(super) first_row: usize,
-    pub(super) rows: usize,
-    pub(super) columns: Vec<ArrayRef>,
-}
-
-impl Table {
-    /// Number of paths drawn.
-    pub(super) fn path_count(&self) -> usize {
-        self.kept.iter().map(Range::len).sum()
+impl<'a> Table<'a> {
+    /// With room for about so many rows.
+    pub(super) fn new(
+        schema: &'a Schema,
+        columns: &Columns,
+        rows: usize,
+        limits: &'a Limits,
+        budget: &'a Budget,
+    ) -> Self {
+        let attributes = columns.attributes.iter();
+        let attribute = |&index| Growing::new(index, schema.field(index), rows, limits, budget);
+        Self {
+            ids: Ids::new(columns.id, rows, limits, budget),
+            attributes: attributes.map(attribute).collect(),
+            look: Look::new(columns, rows, budget),
+        }
     }
 
-    /// The kept rows of a batch, counted from its first.
-    pub(super) fn kept_in<'a>(&'a self, batch: &'a Batch) -> impl Iterator<Item = usize> + 'a {
-        self.stretches_in(batch).flatten()
+    /// Appends the rows of a batch. Of several problems the first column's is told, whichever thread finds one first.
+    pub(super) fn add(&mut self, batch: &Batch) -> Result<(), Problem> {
+        let (ids, (attributes, look)) = rayon::join(
+            || self.ids.add(batch),
+            || {
+                rayon::join(
+                    || -> Vec<Result<(), Problem>> {
+                        let columns = self.attributes.par_iter_mut();
+                        columns.map(|column| column.add(batch)).collect()
+                    },
+                    || self.look.add(batch),
+                )
+            },
+        );
+        ids?;
+        attributes.into_iter().collect::<Result<(), Problem>>()?;
+        look
     }
 
-    /// The same, those that follow each other at once.
-    pub(super) fn stretches_in<'a>(
-        &'a self,
-        batch: &'a Batch,
-    ) -> impl Iterator<Item = Range<usize>> + 'a {
-        let (start, end) = (batch.first_row, batch.first_row + batch.rows);
-        let first = self.kept.partition_point(|r| r.end <= start);
-        let last = self.kept.partition_point(|r| r.start < end);
-        self.kept[first..last.max(first)]
-            .iter()
-            .map(move |r| r.start.max(start) - start..r.end.min(end) - start)
+    /// The paths with these curves, those that are refused, and the levels.
+    pub(super) fn finish(
+        self,
+        geometry: Geometry,
+        diagnostics: &mut Diagnostics,
+    ) -> (Paths, Refused, Vec<Level>) {
+        let attributes = self.attributes.into_iter();
+        let attributes: Vec<_> = attributes.filter_map(|a| a.finish(diagnostics)).collect();
+        let (ids, refused) = self.ids.finish(diagnostics);
+        let mut paths = Paths::from_columns(ids, geometry);
+        for attribute in attributes {
+            paths.attributes.insert(attribute);
+        }
+        let levels = self.look.finish(&mut paths, diagnostics);
+        (paths, refused, levels)
     }
 }
