@@ -27,7 +27,10 @@ pub fn read_file(path: &Path, options: &ReadOptions<'_>) -> Result<Layout, ReadE
     if is_arrow {
         let bytes = load(&file).map_err(fail)?;
         let name = &name;
-        return crate::arrow::read(Source { name, options }, &bytes);
+        let layout = crate::arrow::read(Source { name, options }, &bytes);
+        // A mapped file takes a while to let go of, for which nobody has to wait.
+        rayon::spawn(move || drop(bytes));
+        return layout;
     }
     if size >= MAPPED_FROM_BYTES {
         return read_bytes(&name, &load(&file).map_err(fail)?, options);

@@ -5,8 +5,11 @@ use guideway_spline::{Bounds, Point, Runs};
 use crate::RunPoints;
 
 mod edit;
+mod hulls;
 #[cfg(test)]
 mod tests;
+
+pub use hulls::Hulls;
 
 /// The control runs of all paths, in two flat buffers.
 ///

@@ -37,7 +37,7 @@ pub use check::{
     same_curves,
 };
 pub use diagnostic::{Code, Diagnostic, Diagnostics, Place, Severity};
-pub use geometry::Geometry;
+pub use geometry::{Geometry, Hulls};
 pub use limits::Limits;
 pub use merge::merge;
 pub use nodes::{Level, Nodes, Stations};

@@ -68,7 +68,12 @@ impl Frame {
     /// Takes another size if need be; the pixels are then undefined.
     pub fn resize(&mut self, size: FrameSize) {
         self.size = size;
-        self.rgba.resize(size.pixels(), [0; 4]);
+        if size.pixels() > self.rgba.capacity() {
+            // The system clears new memory when it is first written: by the threads that draw.
+            self.rgba = vec![[0; 4]; size.pixels()];
+        } else {
+            self.rgba.resize(size.pixels(), [0; 4]);
+        }
     }
 
     /// Size in pixels.

@@ -1,7 +1,7 @@
 use std::fmt;
 use std::sync::{Arc, OnceLock};
 
-use guideway_layout::{Layout, Level, PathRef};
+use guideway_layout::{Hulls, Layout, Level, PathRef};
 use guideway_spline::Bounds;
 use rayon::prelude::*;
 
@@ -71,6 +71,8 @@ pub struct Scene {
     draw_order: Vec<u32>,
     /// Found when it is first asked for.
     bounds: OnceLock<Option<Bounds<f64>>>,
+    /// Likewise.
+    hulls: OnceLock<Hulls>,
     legend: Option<Legend>,
 }
 
@@ -131,6 +133,7 @@ impl Scene {
             removed_count: 0,
             draw_order,
             bounds: OnceLock::new(),
+            hulls: OnceLock::new(),
             legend,
         })
     }
@@ -219,7 +222,13 @@ impl Scene {
     pub fn bounds(&self) -> Option<Bounds<f64>> {
         *self
             .bounds
-            .get_or_init(|| bounds(&self.layout, &self.draw_order))
+            .get_or_init(|| bounds(&self.layout, self.hulls(), &self.draw_order))
+    }
+
+    /// Where the control points of each path lie. Found when it is first asked for after a change.
+    pub fn hulls(&self) -> &Hulls {
+        let geometry = self.layout.paths.geometry();
+        self.hulls.get_or_init(|| geometry.hulls())
     }
 
     /// What the colours mean, if they were chosen by a column.
@@ -236,6 +245,7 @@ impl Scene {
     /// After curves have changed.
     pub(crate) fn forget_bounds(&mut self) {
         self.bounds = OnceLock::new();
+        self.hulls = OnceLock::new();
     }
 
     /// After rows or states have changed.
@@ -296,24 +306,31 @@ fn own_colors(layout: &Layout, base: Rgba) -> Colors {
 }
 
 /// The box of the curves themselves: that of their control points is up to three times as large. Only
-/// a path, and then a segment, whose hull reaches out of the box so far is looked at closely.
-fn bounds(layout: &Layout, drawn: &[u32]) -> Option<Bounds<f64>> {
+/// a path, and then a segment, whose hull reaches out of the box so far is looked at closely: first those that reach farthest.
+fn bounds(layout: &Layout, hulls: &Hulls, drawn: &[u32]) -> Option<Bounds<f64>> {
     /// Paths whose hulls are looked at as one first.
     const FEW: usize = 64;
+    const SIDES: [fn(Bounds<f64>) -> f64; 4] =
+        [|b| -b.min.x, |b| -b.min.y, |b| b.max.x, |b| b.max.y];
     let reaches_out = |hull: Option<Bounds<f64>>, all: Option<Bounds<f64>>| match (hull, all) {
         (Some(hull), Some(all)) => !(all.contains(hull.min) && all.contains(hull.max)),
         (hull, _) => hull.is_some(),
     };
-    let with = |mut all: Option<Bounds<f64>>, few: &[u32]| {
-        let rows = few.iter().map(|&path| path as usize);
-        if !reaches_out(layout.paths.geometry().hull_bounds(rows.clone()), all) {
+    let hull = |paths: &[u32]| hulls.of(paths.iter().map(|&path| path as usize));
+    let few = drawn
+        .par_chunks(FEW)
+        .filter_map(|few| Some((hull(few)?, few)));
+    let few: Vec<(Bounds<f64>, &[u32])> = few.collect();
+    let with = |mut all: Option<Bounds<f64>>, &(bounds, few): &(Bounds<f64>, &[u32])| {
+        if !reaches_out(Some(bounds), all) {
             return all;
         }
-        for path in rows.map(|row| layout.paths.get(row)) {
-            if !reaches_out(path.hull_bounds(), all) {
+        for path in few {
+            if !reaches_out(hull(&[*path]), all) {
                 continue;
             }
-            for segment in path.runs().flat_map(|run| run.segments()) {
+            let runs = layout.paths.get(*path as usize).runs();
+            for segment in runs.flat_map(|run| run.segments()) {
                 if reaches_out(Bounds::of_points(segment), all) {
                     let tight = Bounds::of_segment(&segment);
                     all = Some(all.map_or(tight, |all| all.union(tight)));
@@ -322,6 +339,11 @@ fn bounds(layout: &Layout, drawn: &[u32]) -> Option<Bounds<f64>> {
         }
         all
     };
-    let parts = drawn.par_chunks(FEW).fold(|| None, with);
+    let farthest = SIDES.map(|side| {
+        let by_reach = few.iter().max_by(|a, b| side(a.0).total_cmp(&side(b.0)));
+        by_reach.into_iter()
+    });
+    let first = farthest.into_iter().flatten().fold(None, with);
+    let parts = few.par_iter().fold(|| first, with);
     parts.flatten().reduce_with(Bounds::union)
 }

@@ -13,42 +13,37 @@ pub fn hilbert(point: Point<f64>, bounds: Bounds<f64>) -> u32 {
 
 /// The number of a cell of the square of 65,536 cells a side.
 fn along(x: u16, y: u16) -> u32 {
-    let (mut along, mut turn) = (0, 0);
+    let (mut along, mut step) = (0, 0);
     for shift in (0..u16::BITS).step_by(BITS as usize).rev() {
-        let [right, upper] = [x, y].map(|v| usize::from(v >> shift) & (SIDE - 1));
-        let step = STEPS[turn][right][upper];
-        along = along << (2 * BITS) | u32::from(step.along);
-        turn = usize::from(step.turn);
+        let [right, upper] = [x, y].map(|v| v >> shift & (SIDE - 1));
+        let cell = step & TURNS | right << BITS | upper;
+        step = STEPS[usize::from(cell)];
+        along = along << (2 * BITS) | u32::from(step & !TURNS);
     }
     along
 }
 
 /// Bits of each coordinate that are looked at together.
 const BITS: u32 = 4;
-const SIDE: usize = 1 << BITS;
+const SIDE: u16 = 1 << BITS;
+/// Which bits of a step say how a square is turned: whether both axes are reversed, and whether they are exchanged.
+const TURNS: u16 = 3 << (2 * BITS);
 
-/// Where a cell is along the curve through a square of so many a side, and how the square within it is turned.
-#[derive(Clone, Copy)]
-struct Step {
-    along: u8,
-    turn: u8,
-}
-
-/// For each of the four ways in which a square may be turned, whose bits say whether both axes are reversed and
-/// whether they are exchanged.
-static STEPS: [[[Step; SIDE]; SIDE]; 4] = {
-    let mut steps = [[[Step { along: 0, turn: 0 }; SIDE]; SIDE]; 4];
+/// For each cell of a square of so many a side, with how that is turned above its place: where the cell is along the curve, below how
+/// the square within it is turned.
+static STEPS: [u16; 4 << (2 * BITS)] = {
+    let mut steps = [0; 4 << (2 * BITS)];
     let mut i = 0;
-    while i < 4 * SIDE * SIDE {
-        let (turn, x, y) = (i / (SIDE * SIDE), i / SIDE % SIDE, i % SIDE);
-        steps[turn][x][y] = step(turn as u8, x as u8, y as u8);
+    while i < steps.len() {
+        let (turn, x, y) = (i >> (2 * BITS), i >> BITS, i);
+        steps[i] = step(turn as u8, x as u8, y as u8);
         i += 1;
     }
     steps
 };
 
-const fn step(mut turn: u8, x: u8, y: u8) -> Step {
-    let mut along = 0;
+const fn step(mut turn: u8, x: u8, y: u8) -> u16 {
+    let mut along: u8 = 0;
     let mut bit = BITS;
     while bit > 0 {
         bit -= 1;
@@ -63,7 +58,7 @@ const fn step(mut turn: u8, x: u8, y: u8) -> Step {
             turn ^= 1 | right << 1;
         }
     }
-    Step { along, turn }
+    (turn as u16) << (2 * BITS) | along as u16
 }
 
 #[cfg(test)]

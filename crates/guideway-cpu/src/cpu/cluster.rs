@@ -1,13 +1,13 @@
 use std::ops::Range;
 
-use guideway_layout::RunPoints;
+use guideway_layout::{Hulls, RunPoints};
 use guideway_scene::PathState;
 use guideway_spline::{Bounds, Point, hilbert};
 use rayon::prelude::*;
 
 use super::LANES;
 use super::canvas::{TILE_PX, set_bits};
-use super::extent::{Hull, read_ahead};
+use super::extent::read_ahead;
 use super::flatten::flatten;
 use super::polylines::{Pen, Polylines, ROUNDS};
 use super::shot::Shot;
@@ -70,16 +70,16 @@ fn spread_out(round: usize, paths: usize) -> impl Iterator<Item = usize> {
 }
 
 /// All rows, sorted so that near ones are near each other.
-pub(super) fn sorted_rows(hulls: &[Hull]) -> Vec<u32> {
-    let centers = hulls.par_iter().map(|hull| hull.map(Bounds::center));
-    let placed = centers.clone().flatten().map(|p| Bounds { min: p, max: p });
-    let Some(all) = placed.reduce_with(Bounds::union) else {
+pub(super) fn sorted_rows(hulls: &Hulls) -> Vec<u32> {
+    let Some(all) = hulls.all() else {
         return (0..hulls.len() as u32).collect();
     };
-    let place = |p: Point<f64>| u64::from(hilbert(p, all));
-    let keys = centers
-        .enumerate()
-        .map(|(row, center)| center.map_or(u64::from(u32::MAX), place) << 32 | row as u64);
+    let place = |hull: Bounds<f64>| u64::from(hilbert(hull.center(), all));
+    let rows = (0..hulls.len()).into_par_iter();
+    let keys = rows.map(|row| {
+        let place = hulls.of([row]).map_or(u64::from(u32::MAX), place);
+        place << 32 | row as u64
+    });
     let mut keys: Vec<u64> = keys.collect();
     keys.par_sort_unstable();
     keys.par_iter().map(|&key| key as u32).collect()

@@ -105,15 +105,10 @@ impl Extent {
 /// Where the control points of a path lie, in metres; none if it has none.
 pub(super) type Hull = Option<Bounds<f64>>;
 
-/// The hull of a row.
-pub(super) fn hull(scene: &Scene, row: u32) -> Hull {
-    scene.layout().paths.get(row as usize).hull_bounds()
-}
-
-/// Where the control points of those paths lie that are shown, in metres, by the hulls of all.
-pub(super) fn shown_bounds(scene: &Scene, paths: &[u32], hulls: &[Hull]) -> Hull {
-    let hulls = shown(scene, paths).filter_map(|path| hulls[path as usize]);
-    hulls.reduce(Bounds::union)
+/// Where the control points of those paths lie that are shown, in metres, by their hulls.
+pub(super) fn shown_bounds(scene: &Scene, paths: &[u32]) -> Hull {
+    let rows = shown(scene, paths).map(|path| path as usize);
+    scene.hulls().of(rows)
 }
 
 /// The same from the control points.

@@ -4,7 +4,7 @@ use guideway_spline::{Affine, Bounds};
 use rayon::prelude::*;
 
 use super::cluster::{CLUSTER_PATHS, Lines, Members, sorted_rows};
-use super::extent::{Extent, Hull, bounds_anew, hull, shown_bounds};
+use super::extent::{Extent, Hull, bounds_anew, shown_bounds};
 use super::place::Placement;
 use super::shot::{Precision, Shot, Widths, widths};
 use super::vectors::LaneWidth;
@@ -68,10 +68,8 @@ impl Made {
 impl Index {
     pub(super) fn new(scene: &Scene) -> Self {
         // Each path is read once for both.
-        let rows = (0..scene.row_count() as u32).into_par_iter();
-        let hulls: Vec<Hull> = rows.map(|row| hull(scene, row)).collect();
         let mut index = Self {
-            paths: sorted_rows(&hulls),
+            paths: sorted_rows(scene.hulls()),
             extents: Vec::new(),
             lines: Vec::new(),
             lines_bytes: 0,
@@ -83,7 +81,7 @@ impl Index {
         };
         let clusters = index.paths.par_chunks(CLUSTER_PATHS);
         index.extents = clusters
-            .map(|paths| shown_bounds(scene, paths, &hulls).map(Extent::new))
+            .map(|paths| shown_bounds(scene, paths).map(Extent::new))
             .collect();
         index.resize();
         index.order_anew(scene);

@@ -171,3 +171,30 @@ fn a_box_holds_the_points_of_some_paths() {
     assert_eq!(along_x(&[2, 0]), Some((0.0, 18.0)));
     assert_eq!(along_x(&[]), None);
 }
+
+#[test]
+fn hulls_hold_the_points_of_all_runs() {
+    let wide = three();
+    let narrow = points(0, 19).iter().map(|p| p.to_f32()).collect();
+    let narrow = Geometry::from_f32(narrow, vec![4, 9, 13, 19]);
+    for geometry in [wide, narrow.with_path_ends(vec![1, 3, 4])] {
+        let hulls = geometry.hulls();
+        assert_eq!(hulls.len(), 3);
+        for rows in [&[0][..], &[1], &[2], &[2, 0], &[0, 1, 2], &[]] {
+            let rows = || rows.iter().copied();
+            assert_eq!(hulls.of(rows()), geometry.hull_bounds(rows()));
+        }
+        assert_eq!(hulls.all(), geometry.hull_bounds(0..3));
+    }
+}
+
+#[test]
+fn a_path_without_points_lies_nowhere() {
+    let geometry = Geometry::from_f64(points(0, 4), vec![4]).with_path_ends(vec![0, 1, 1]);
+    let hulls = geometry.hulls();
+    assert_eq!((hulls.of([0]), hulls.of([0, 2])), (None, None));
+    assert_eq!(hulls.of([0, 1]), geometry.hull_bounds([1]));
+    assert_eq!(hulls.all(), hulls.of([1]));
+    let none = Geometry::default().hulls();
+    assert!(none.is_empty() && none.all().is_none());
+}
