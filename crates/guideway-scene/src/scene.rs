@@ -339,11 +339,11 @@ fn bounds(layout: &Layout, hulls: &Hulls, drawn: &[u32]) -> Option<Bounds<f64>> 
         }
         all
     };
-    let farthest = SIDES.map(|side| {
-        let by_reach = few.iter().max_by(|a, b| side(a.0).total_cmp(&side(b.0)));
-        by_reach.into_iter()
+    let farthest = SIDES.iter().filter_map(|side| {
+        let reach = |few: &(Bounds<f64>, _)| side(few.0);
+        few.iter().max_by(|a, b| reach(a).total_cmp(&reach(b)))
     });
-    let first = farthest.into_iter().flatten().fold(None, with);
+    let first = farthest.fold(None, with);
     let parts = few.par_iter().fold(|| first, with);
     parts.flatten().reduce_with(Bounds::union)
 }
