@@ -15,6 +15,8 @@ use guideway_tests::sketch::Drawing;
 
 /// Small pictures need bands only when there is next to no memory.
 const TIGHT_BUDGETS_BYTES: [u64; 5] = [16 << 20, 4 << 20, 1 << 20, 256 << 10, 64 << 10];
+/// Threads that draw within them.
+const TIGHT_THREADS: usize = 2;
 
 struct Outcome {
     scene: String,
@@ -111,19 +113,21 @@ fn drawn_alike(method: &dyn Method, drawing: &Drawing, bands: &mut u32) -> Resul
         draw(method, drawing, &within(plenty, 1)).map_err(|error| error.to_string())?;
     account(&report, drawing)?;
     let mut needed_bytes = 0;
-    for threads in [1, 3, 8, 2] {
+    for threads in [1, TIGHT_THREADS, 3, 8] {
         let (again, report) =
             draw(method, drawing, &within(plenty, threads)).map_err(|error| error.to_string())?;
         account(&report, drawing)?;
         if again != first {
             return Err(format!("{threads} threads draw another picture than one"));
         }
-        needed_bytes = report.peak_bytes + 4 * again.pixels().len() as u64;
+        if threads == TIGHT_THREADS {
+            needed_bytes = report.peak_bytes + size_of_val(again.pixels()) as u64;
+        }
     }
-    // A little less than as many threads needed may do, in bands.
+    // A little less may do, in bands.
     let short = [15, 12].map(|sixteenths| needed_bytes * sixteenths / 16);
     for memory_bytes in TIGHT_BUDGETS_BYTES.into_iter().chain(short) {
-        match draw(method, drawing, &within(memory_bytes, 2)) {
+        match draw(method, drawing, &within(memory_bytes, TIGHT_THREADS)) {
             Ok((again, report)) if again == first => *bands = report.bands.max(*bands),
             Ok(_) => return Err(format!("another picture within {memory_bytes} bytes")),
             Err(RenderError::Budget { .. }) => {}

@@ -91,13 +91,16 @@ impl Paths {
         self.ids.push(path.id);
         self.geometry.push(path.runs);
         let row = self.ids.len() - 1;
-        push_some(&mut self.start_nodes, row, path.start_node);
-        push_some(&mut self.end_nodes, row, path.end_node);
-        push_some(&mut self.levels, row, path.level);
-        let both = path.direction != Direction::Forward;
-        if let Some(column) = column_for(&mut self.directions, row, Direction::Forward, both) {
-            column.push(path.direction);
-        }
+        let index = |index: Option<u32>| index.unwrap_or(NONE);
+        push(&mut self.start_nodes, row, NONE, index(path.start_node));
+        push(&mut self.end_nodes, row, NONE, index(path.end_node));
+        push(&mut self.levels, row, NONE, index(path.level));
+        push(
+            &mut self.directions,
+            row,
+            Direction::Forward,
+            path.direction,
+        );
         self.vehicle_types.push(path.vehicle_types);
         if let Some(column) = &mut self.width_m {
             column.push(f32::NAN);
@@ -269,9 +272,10 @@ fn column_for<T: Clone>(
 }
 
 /// Appends to a column of so many rows that may not be there.
-fn push_some(column: &mut Option<Vec<u32>>, rows: usize, index: Option<u32>) {
-    if let Some(column) = column_for(column, rows, NONE, index.is_some()) {
-        column.push(index.unwrap_or(NONE));
+fn push<T: Clone + PartialEq>(column: &mut Option<Vec<T>>, rows: usize, none: T, value: T) {
+    let is_needed = value != none;
+    if let Some(column) = column_for(column, rows, none, is_needed) {
+        column.push(value);
     }
 }
 

@@ -325,11 +325,11 @@ fn bounds(layout: &Layout, hulls: &Hulls, drawn: &[u32]) -> Option<Bounds<f64>> 
         if !reaches_out(Some(bounds), all) {
             return all;
         }
-        for path in few {
-            if !reaches_out(hull(&[*path]), all) {
+        for &path in few {
+            if !reaches_out(hull(&[path]), all) {
                 continue;
             }
-            let runs = layout.paths.get(*path as usize).runs();
+            let runs = layout.paths.get(path as usize).runs();
             for segment in runs.flat_map(|run| run.segments()) {
                 if reaches_out(Bounds::of_points(segment), all) {
                     let tight = Bounds::of_segment(&segment);

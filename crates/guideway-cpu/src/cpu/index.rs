@@ -67,7 +67,6 @@ impl Made {
 
 impl Index {
     pub(super) fn new(scene: &Scene) -> Self {
-        // Each path is read once for both.
         let mut index = Self {
             paths: sorted_rows(scene.hulls()),
             extents: Vec::new(),

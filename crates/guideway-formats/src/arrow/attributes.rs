@@ -1,3 +1,5 @@
+use std::fmt::Display;
+
 use arrow_array::Array;
 use arrow_array::cast::AsArray;
 use arrow_array::types::{Float32Type, Float64Type, Int64Type};
@@ -49,10 +51,7 @@ impl<'a> Growing<'a> {
         limits: &'a Limits,
         budget: &'a Budget,
     ) -> Self {
-        let labels = || Labels {
-            sink: TextSink::new(limits, budget, rows),
-            present: Vec::with_capacity(rows),
-        };
+        let labels = || Labels::new(rows, limits, budget);
         let held = match value_type(field) {
             DataType::Null => Held::Nothing,
             DataType::Boolean => Held::Bool(Vec::with_capacity(rows)),
@@ -131,29 +130,37 @@ impl<'a> Growing<'a> {
 }
 
 impl<'a> Labels<'a> {
+    fn new(rows: usize, limits: &'a Limits, budget: &'a Budget) -> Self {
+        Self {
+            sink: TextSink::new(limits, budget, rows),
+            present: Vec::with_capacity(rows),
+        }
+    }
+
     fn of_numbers(
         numbers: &[Option<i64>],
         limits: &'a Limits,
         budget: &'a Budget,
     ) -> Result<Self, Problem> {
-        let mut labels = Self {
-            sink: TextSink::new(limits, budget, numbers.len()),
-            present: Vec::with_capacity(numbers.len()),
-        };
-        for number in numbers {
-            labels.present.push(number.is_some());
-            match number {
-                Some(number) => labels.sink.push_written(number)?,
-                None => labels.sink.push("")?,
-            }
+        let mut labels = Self::new(numbers.len(), limits, budget);
+        for &number in numbers {
+            labels.push(number)?;
         }
         Ok(labels)
     }
 
+    /// Appends what a value is written as.
+    fn push(&mut self, value: Option<impl Display>) -> Result<(), Problem> {
+        self.present.push(value.is_some());
+        match value {
+            Some(value) => self.sink.push_written(value),
+            None => self.sink.push(""),
+        }
+    }
+
     fn add_texts(&mut self, batch: &Batch, index: usize) -> Result<(), Problem> {
         let Self { sink, present } = self;
-        let texts = Texts::of(&batch.columns[index])
-            .ok_or_else(|| damaged("dictionary", "its values are not text"))?;
+        let texts = Texts::of_text(&batch.columns[index])?;
         for rows in batch.kept.iter().cloned() {
             let (first_row, first) = (rows.start, present.len());
             present.resize(first + rows.len(), true);
@@ -175,12 +182,7 @@ impl<'a> Labels<'a> {
                 .map_err(|e| damaged("attribute", e.to_string()))?;
             for row in batch.kept.iter().cloned().flatten() {
                 let here = nulls.as_ref().is_none_or(|n| n.is_valid(row));
-                self.present.push(here);
-                if here {
-                    self.sink.push_written(formatter.value(row))?;
-                } else {
-                    self.sink.push("")?;
-                }
+                self.push(here.then(|| formatter.value(row)))?;
             }
             Ok(())
         })

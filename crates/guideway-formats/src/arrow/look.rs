@@ -7,7 +7,6 @@ use guideway_layout::{Code, Diagnostics, Level, Paths, Place};
 
 use super::batch::{Batch, cast, count_lost};
 use super::budget::Budget;
-use super::guard::damaged;
 use super::schema::Columns;
 use super::text::Texts;
 use crate::Problem;
@@ -109,8 +108,7 @@ impl<'a> Look<'a> {
         let Some(levels) = &mut self.levels else {
             return Ok(());
         };
-        let texts = Texts::of(&batch.columns[levels.index])
-            .ok_or_else(|| damaged("dictionary", "its values are not text"))?;
+        let texts = Texts::of_text(&batch.columns[levels.index])?;
         for row in batch.kept.iter().cloned().flatten() {
             let Some(id) = texts.get(row) else {
                 levels.values.push(u32::MAX);

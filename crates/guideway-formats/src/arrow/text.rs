@@ -44,7 +44,7 @@ impl SideBySide<'_> {
 
 impl<'a> Texts<'a> {
     /// The column as text, if it is that.
-    pub(super) fn of(column: &'a ArrayRef) -> Option<Self> {
+    fn of(column: &'a ArrayRef) -> Option<Self> {
         Some(match column.data_type() {
             DataType::Utf8 => Self::Small(column.as_string()),
             DataType::LargeUtf8 => Self::Large(column.as_string()),
@@ -63,6 +63,11 @@ impl<'a> Texts<'a> {
             }
             _ => return None,
         })
+    }
+
+    /// A column whose type says that it is text.
+    pub(super) fn of_text(column: &'a ArrayRef) -> Result<Self, Problem> {
+        Self::of(column).ok_or_else(|| damaged("dictionary", "its values are not text"))
     }
 
     /// The column as text; whole numbers are written out.
