@@ -54,6 +54,8 @@ pub(super) struct Canvas<const C: usize> {
     open_pixels: Rows,
     /// Blocks that have such a pixel.
     open: Flags<C>,
+    /// Whether solid strokes take note of pixels that are covered.
+    closes: bool,
     opaque: Box<[[Block; TILE_PX]; C]>,
     /// Blocks where something translucent lies.
     glazed: Flags<C>,
@@ -73,6 +75,7 @@ impl<const C: usize> Canvas<C> {
             touched: [0; C],
             open_pixels: [0; TILE_PX],
             open: [0; C],
+            closes: true,
             opaque: Box::new(Self::NO_BLOCKS),
             glazed: [0; C],
             clear: Vec::new(),
@@ -95,6 +98,7 @@ impl<const C: usize> Canvas<C> {
             set_bits(touched).for_each(|row| blocks[row] = [0; ROWS]);
         }
         (self.touched, self.glazed) = ([0; C], [0; C]);
+        self.closes = true;
         for (window, open) in self.open.iter_mut().enumerate() {
             let is_seen = window * Self::WINDOW_PX < width_px;
             *open = if is_seen {
@@ -160,6 +164,16 @@ impl<const C: usize> Canvas<C> {
                 self.close(window, row, all);
             }
         }
+    }
+
+    /// From now on, pixels that solid strokes cover stay open: to take note of them would cost more than to cover them again.
+    pub(super) fn stay_open(&mut self) {
+        self.closes = false;
+    }
+
+    /// How many pixels are open.
+    pub(super) fn open_count(&self) -> u32 {
+        self.open_pixels.iter().map(|row| row.count_ones()).sum()
     }
 
     /// Starts a tile that is covered.
@@ -233,7 +247,7 @@ impl<const C: usize> Canvas<C> {
             all &= *word;
         }
         self.touched[window] |= 1 << row;
-        if Self::IS_SOLID {
+        if Self::IS_SOLID && self.closes {
             self.close(window, row, all);
         }
     }

@@ -28,6 +28,10 @@ use super::vectors::by_lane_width;
 const FIRST_SORTED: usize = 256;
 /// Clusters of a tile that hide so little of each other that all rounds of one are drawn at once.
 const FEW_CLUSTERS: usize = 6;
+/// Stretches of lines of wide clusters on a tile that hide as little.
+const FEW_CROSSINGS: usize = 64;
+/// Where the first round leaves so large a part of a tile open, pixels that are covered are not worth to be noted.
+const OPEN_PART: f32 = 0.95;
 /// Tiles that a thread draws in one go.
 const MOST_TILES: usize = 8;
 
@@ -294,6 +298,14 @@ fn paint_solid(band: &Band<'_>, painter: &mut Painter, tile: &Tile, closed: &Row
     canvas.begin(tile.width_px, tile.height_px);
     canvas.close_pixels(closed);
     let crossings = band.bins.crossings(tile.index);
+    let clusters = band.bins.clusters(tile.index);
+    let is_sparse = clusters.len() <= FEW_CLUSTERS;
+    // What is found out for other frames is which pixels are covered.
+    let may_stay_open = band.filling.is_none();
+    if may_stay_open && is_sparse && crossings.len() <= FEW_CROSSINGS {
+        canvas.stay_open();
+    }
+    let least_open = canvas.open_count() as f32 * OPEN_PART;
     for of_cluster in crossings.chunk_by(|a, b| a.key == b.key) {
         if canvas.is_full() {
             return;
@@ -301,13 +313,11 @@ fn paint_solid(band: &Band<'_>, painter: &mut Painter, tile: &Tile, closed: &Row
         let seen = Seen::<SOLID>::new(band, tile, of_cluster[0].key);
         seen.solid(canvas, discs, Share::Crossings(of_cluster));
     }
-    let clusters = band.bins.clusters(tile.index);
-    let at_once = if clusters.len() <= FEW_CLUSTERS {
-        ROUNDS
-    } else {
-        1
-    };
+    let at_once = if is_sparse { ROUNDS } else { 1 };
     for first in (0..ROUNDS).step_by(at_once) {
+        if may_stay_open && first == 1 && canvas.open_count() as f32 >= least_open {
+            canvas.stay_open();
+        }
         for &key in clusters {
             if canvas.is_full() {
                 return;

@@ -81,3 +81,29 @@ fn a_tile_is_full_when_all_that_is_seen_is_covered() {
     stroke(&mut canvas, 4.5, 4.5, 1.5, 2.5);
     assert!(canvas.is_full());
 }
+
+#[test]
+fn a_tile_looks_the_same_whether_or_not_it_is_noted_what_is_covered() {
+    let counts = |canvas: &Canvas<SOLID>| {
+        let rows = canvas.shape.iter().flatten();
+        rows.map(pixel_counts::<SOLID>).collect::<Vec<_>>()
+    };
+    let mut canvases = [Canvas::<SOLID>::new(), Canvas::new()];
+    for canvas in &mut canvases {
+        canvas.begin(29, 31);
+    }
+    canvases[1].stay_open();
+    for i in 0..40_u16 {
+        let [x, y] = [7, 11].map(|step| f32::from(i * step % 31));
+        for canvas in &mut canvases {
+            stroke(canvas, x, x + 6.3, y, 2.7);
+        }
+    }
+    let [closed, open] = canvases.each_ref().map(Canvas::open_count);
+    assert!(closed < 29 * 31 / 2);
+    assert_eq!(open, 29 * 31);
+    assert_eq!(counts(&canvases[0]), counts(&canvases[1]));
+    canvases[1].begin(29, 31);
+    stroke(&mut canvases[1], 4.0, 20.0, 9.0, 4.0);
+    assert!(canvases[1].open_count() < open);
+}
