@@ -23,7 +23,9 @@ pub(crate) fn load(file: &File) -> Result<Buffer, Problem> {
     // ahead may hold it longer, but looks at no byte.
     let map = Arc::new(unsafe { memmap2::Mmap::map(file)? });
     #[cfg(unix)]
-    read_ahead(Arc::clone(&map));
+    if let Ok(file) = file.try_clone() {
+        read_ahead(Arc::clone(&map), file);
+    }
     let (start, len) = (map.as_ptr().cast_mut(), map.len());
     let start = NonNull::new(start).ok_or(Problem::Empty)?;
     // SAFETY: `start` is valid for `len` bytes as long as the map lives, and the buffer owns the map.
@@ -32,8 +34,11 @@ pub(crate) fn load(file: &File) -> Result<Buffer, Problem> {
 
 /// Has the system read ahead of who looks at a file. It is asked for a piece at a time, for of more it reads only the first.
 #[cfg(all(feature = "mmap", unix))]
-fn read_ahead(map: std::sync::Arc<memmap2::Mmap>) {
+fn read_ahead(map: std::sync::Arc<memmap2::Mmap>, file: File) {
+    use std::os::unix::fs::FileExt;
     const PIECE: usize = 1 << 20;
+    /// So many pieces come at a time: of more, all would come late.
+    const PIECES: usize = 4;
     /// No more than this, lest what comes pushes out what was not looked at yet.
     const MOST: usize = 1 << 28;
     /// What the end of a file tells is asked for first.
@@ -48,6 +53,10 @@ fn read_ahead(map: std::sync::Arc<memmap2::Mmap>) {
         for from in (0..len.min(MOST)).step_by(PIECE) {
             let piece = PIECE.min(len - from);
             let _ = map.advise_range(memmap2::Advice::WillNeed, from, piece);
+            if let Some(before) = from.checked_sub(PIECES * PIECE) {
+                // Waits until that is there.
+                let _ = file.read_at(&mut [0], (before + PIECE - 1) as u64);
+            }
         }
     };
     // If the system does not care to, or has no thread for it, the file is read all the same.
