@@ -1,15 +1,17 @@
 use std::ops::Range;
+use std::sync::OnceLock;
 
 use guideway_spline::{Bounds, Point, Runs};
 
 use crate::RunPoints;
+use crate::ahead::ask_for;
 
 mod edit;
 mod hulls;
 #[cfg(test)]
 mod tests;
 
-pub use hulls::Hulls;
+pub use hulls::{Hulls, add_boxes};
 
 /// The control runs of all paths, in two flat buffers.
 ///
@@ -20,7 +22,10 @@ pub use hulls::Hulls;
 pub struct Geometry {
     points: Points,
     run_ends: Vec<u32>,
-    path_ends: Vec<u32>,
+    /// None while each run is a path.
+    path_ends: Option<Vec<u32>>,
+    /// Found when it is first asked for after a change.
+    hulls: OnceLock<Hulls>,
 }
 
 #[derive(Clone, Debug)]
@@ -43,7 +48,8 @@ impl Default for Geometry {
         Self {
             points: Points::F64(Vec::new()),
             run_ends: Vec::new(),
-            path_ends: Vec::new(),
+            path_ends: None,
+            hulls: OnceLock::new(),
         }
     }
 }
@@ -67,11 +73,11 @@ impl Geometry {
 
     fn from_points(points: Points, ends: Vec<u32>) -> Self {
         assert!(ends.is_sorted() && ends.last().map_or(0, |&e| e as usize) == points.len());
-        let path_ends = (1..=ends.len() as u32).collect();
         Self {
             points,
             run_ends: ends,
-            path_ends,
+            path_ends: None,
+            hulls: OnceLock::new(),
         }
     }
 
@@ -83,12 +89,29 @@ impl Geometry {
     pub fn with_path_ends(self, path_ends: Vec<u32>) -> Self {
         let runs = path_ends.last().map_or(0, |&e| e as usize);
         assert!(path_ends.is_sorted() && runs == self.run_count());
-        Self { path_ends, ..self }
+        Self {
+            path_ends: Some(path_ends),
+            hulls: OnceLock::new(),
+            ..self
+        }
+    }
+
+    /// The same with boxes of its paths that whoever made it has found: see [`add_boxes`].
+    ///
+    /// # Panics
+    /// When there are not as many as paths.
+    #[must_use]
+    pub fn with_hulls(self, hulls: Hulls) -> Self {
+        assert_eq!(hulls.len(), self.path_count());
+        Self {
+            hulls: hulls.into(),
+            ..self
+        }
     }
 
     /// Number of paths.
     pub fn path_count(&self) -> usize {
-        self.path_ends.len()
+        self.path_ends.as_ref().map_or(self.run_count(), Vec::len)
     }
 
     /// Number of runs of all paths together.
@@ -108,6 +131,10 @@ impl Geometry {
 
     /// Appends a path. Buffers of `f32` become `f64` first, so that nothing is lost.
     pub fn push(&mut self, runs: &Runs) {
+        self.hulls.take();
+        if runs.len() != 1 {
+            self.tell_path_ends();
+        }
         if let Points::F32(narrow) = &self.points {
             self.points = Points::F64(narrow.iter().map(|p| p.to_f64()).collect());
         }
@@ -117,7 +144,15 @@ impl Geometry {
                 self.run_ends.push(index(points.len()));
             }
         }
-        self.path_ends.push(self.run_ends.len() as u32);
+        if let Some(path_ends) = &mut self.path_ends {
+            path_ends.push(self.run_ends.len() as u32);
+        }
+    }
+
+    /// From now on a path may have any number of runs.
+    fn tell_path_ends(&mut self) {
+        let runs = self.run_count() as u32;
+        self.path_ends.get_or_insert_with(|| (1..=runs).collect());
     }
 
     /// The runs of one path.
@@ -144,7 +179,10 @@ impl Geometry {
 
     #[inline]
     fn runs_of(&self, paths: &Range<usize>) -> Range<usize> {
-        between(&self.path_ends, paths)
+        match &self.path_ends {
+            None => paths.clone(),
+            Some(ends) => between(ends, paths),
+        }
     }
 
     #[inline]
@@ -164,13 +202,27 @@ impl Geometry {
             .reduce(Bounds::union)
     }
 
+    /// Asks for the control points of a path, so that whoever reads them soon does not wait for them.
+    ///
+    /// # Panics
+    /// When `path` is not below [`Self::path_count`].
+    #[inline]
+    pub fn ask_for(&self, path: usize) {
+        match self.points_in(self.points_of(&self.runs_of(&(path..path + 1)))) {
+            RunPoints::F64(points) => ask_for(points),
+            RunPoints::F32(points) => ask_for(points),
+        }
+    }
+
     /// Heap bytes held.
     pub fn heap_bytes(&self) -> usize {
         let points = match &self.points {
             Points::F64(p) => p.capacity() * size_of::<Point<f64>>(),
             Points::F32(p) => p.capacity() * size_of::<Point<f32>>(),
         };
-        points + (self.run_ends.capacity() + self.path_ends.capacity()) * size_of::<u32>()
+        let hulls = self.hulls.get().map_or(0, Hulls::heap_bytes);
+        let path_ends = self.path_ends.as_ref().map_or(0, Vec::capacity);
+        points + hulls + (self.run_ends.capacity() + path_ends) * size_of::<u32>()
     }
 }
 

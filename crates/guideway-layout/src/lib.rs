@@ -16,6 +16,7 @@
 //! assert_eq!(layout.paths.id(0), "aisle-1");
 //! ```
 
+mod ahead;
 mod attribute;
 mod check;
 mod diagnostic;
@@ -37,7 +38,7 @@ pub use check::{
     same_curves,
 };
 pub use diagnostic::{Code, Diagnostic, Diagnostics, Place, Severity};
-pub use geometry::{Geometry, Hulls};
+pub use geometry::{Geometry, Hulls, add_boxes};
 pub use limits::Limits;
 pub use merge::merge;
 pub use nodes::{Level, Nodes, Stations};

@@ -1,6 +1,8 @@
 use guideway_spline::{Bounds, Point, Real};
 use rayon::prelude::*;
 
+use crate::ahead::{FEW, ask_ahead};
+
 /// So many points are gone through by one thread.
 pub(crate) const POINTS_AT_ONCE: usize = 1 << 14;
 
@@ -75,8 +77,13 @@ fn bounds<T: Real>(points: &[Point<T>]) -> Option<Bounds<T>> {
     if points.len() <= POINTS_AT_ONCE {
         return Bounds::of_slice(points);
     }
-    let parts = points.par_chunks(POINTS_AT_ONCE);
-    parts
-        .filter_map(Bounds::of_slice)
-        .reduce_with(Bounds::union)
+    let of_part = |part: &[Point<T>]| {
+        let few = part.chunks(FEW).filter_map(|few| {
+            ask_ahead(few);
+            Bounds::of_slice(few)
+        });
+        few.reduce(Bounds::union)
+    };
+    let parts = points.par_chunks(POINTS_AT_ONCE).filter_map(of_part);
+    parts.reduce_with(Bounds::union)
 }

@@ -71,8 +71,6 @@ pub struct Scene {
     draw_order: Vec<u32>,
     /// Found when it is first asked for.
     bounds: OnceLock<Option<Bounds<f64>>>,
-    /// Likewise.
-    hulls: OnceLock<Hulls>,
     legend: Option<Legend>,
 }
 
@@ -133,7 +131,6 @@ impl Scene {
             removed_count: 0,
             draw_order,
             bounds: OnceLock::new(),
-            hulls: OnceLock::new(),
             legend,
         })
     }
@@ -225,10 +222,9 @@ impl Scene {
             .get_or_init(|| bounds(&self.layout, self.hulls(), &self.draw_order))
     }
 
-    /// Where the control points of each path lie. Found when it is first asked for after a change.
+    /// Where the control points of each path lie. Found when it is first asked for after curves have changed.
     pub fn hulls(&self) -> &Hulls {
-        let geometry = self.layout.paths.geometry();
-        self.hulls.get_or_init(|| geometry.hulls())
+        self.layout.paths.geometry().hulls()
     }
 
     /// What the colours mean, if they were chosen by a column.
@@ -245,7 +241,6 @@ impl Scene {
     /// After curves have changed.
     pub(crate) fn forget_bounds(&mut self) {
         self.bounds = OnceLock::new();
-        self.hulls = OnceLock::new();
     }
 
     /// After rows or states have changed.

@@ -3,6 +3,7 @@ use crate::{Bounds, Point};
 /// Where a point of a box is along a curve that fills the plane without a jump, so that what is near each other along it
 /// is so in the plane too (Hilbert 1891). The longer side of the box is divided into 65,535 steps; a point outside is
 /// taken to its border.
+#[inline]
 pub fn hilbert(point: Point<f64>, bounds: Bounds<f64>) -> u32 {
     let size = bounds.size();
     let per_m = f64::from(u16::MAX) / size.x.max(size.y).max(f64::MIN_POSITIVE);
@@ -12,6 +13,7 @@ pub fn hilbert(point: Point<f64>, bounds: Bounds<f64>) -> u32 {
 }
 
 /// The number of a cell of the square of 65,536 cells a side.
+#[inline]
 fn along(x: u16, y: u16) -> u32 {
     let (mut along, mut step) = (0, 0);
     for shift in (0..u16::BITS).step_by(BITS as usize).rev() {

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::LANES;
 use super::canvas::{TILE_PX, set_bits};
-use super::extent::read_ahead;
+use super::extent::ask_for;
 use super::flatten::flatten;
 use super::polylines::{Pen, Polylines, ROUNDS};
 use super::shot::Shot;
@@ -206,7 +206,7 @@ impl Scratch {
             Point::new((p.x - middle_m.x) * per_m, (middle_m.y - p.y) * per_m).to_f32()
         };
         let members = (0..paths.len()).filter(|member| changed >> member & 1 == 1);
-        read_ahead(scene, members.map(|member| paths[member] as usize));
+        ask_for(scene, members.map(|member| paths[member] as usize));
         local.clear();
         sources.clear();
         let mut piece = 0;

@@ -114,18 +114,14 @@ pub(super) fn shown_bounds(scene: &Scene, paths: &[u32]) -> Hull {
 /// The same from the control points.
 pub(super) fn bounds_anew(scene: &Scene, paths: &[u32]) -> Hull {
     let rows = shown(scene, paths).map(|path| path as usize);
-    read_ahead(scene, rows.clone());
+    ask_for(scene, rows.clone());
     scene.layout().paths.geometry().hull_bounds(rows)
 }
 
-/// Reads a little of each path: they lie anywhere, and so their ways through the caches go side by side.
-pub(super) fn read_ahead(scene: &Scene, rows: impl Iterator<Item = usize>) {
+/// Asks for all paths, which lie anywhere, so that their ways through the caches go side by side.
+pub(super) fn ask_for(scene: &Scene, rows: impl Iterator<Item = usize>) {
     let geometry = scene.layout().paths.geometry();
-    let ends = rows.flat_map(|row| geometry.runs(row)).map(|run| {
-        let last = run.len().saturating_sub(1);
-        run.get(0).x + run.get(last).x
-    });
-    std::hint::black_box(ends.sum::<f64>());
+    rows.for_each(|row| geometry.ask_for(row));
 }
 
 fn shown(scene: &Scene, paths: &[u32]) -> impl Iterator<Item = u32> + Clone {

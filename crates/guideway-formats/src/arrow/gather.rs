@@ -1,7 +1,7 @@
 use std::ops::Range;
 
-use guideway_layout::{Geometry, Limits};
-use guideway_spline::{Point, Real};
+use guideway_layout::{Geometry, Hulls, Limits, add_boxes};
+use guideway_spline::{Bounds, Point, Real};
 use rayon::prelude::*;
 
 use super::batch::Batch;
@@ -27,8 +27,15 @@ pub(super) struct Gather {
 enum Points {
     #[default]
     None,
-    F32(Vec<Point<f32>>),
-    F64(Vec<Point<f64>>),
+    F32(Held<f32>),
+    F64(Held<f64>),
+}
+
+#[derive(Debug, Default)]
+struct Held<T> {
+    points: Vec<Point<T>>,
+    /// Where the runs lie, while each is a path.
+    boxes: Vec<Bounds<T>>,
 }
 
 /// What became of the path that the last row belongs to.
@@ -44,11 +51,11 @@ enum Last {
 }
 
 impl Gather {
-    /// Makes room for about so many points in all.
-    pub(super) fn reserve(&mut self, polygons: &Polygons, points: usize) {
+    /// Makes room for about so many points and rows in all.
+    pub(super) fn reserve(&mut self, polygons: &Polygons, points: usize, rows: usize) {
         self.points = match polygons.coordinates {
-            Coordinates::F32(_) => Points::F32(Vec::with_capacity(points)),
-            Coordinates::F64(_) => Points::F64(Vec::with_capacity(points)),
+            Coordinates::F32(_) => Points::F32(Held::with_room(points, rows)),
+            Coordinates::F64(_) => Points::F64(Held::with_room(points, rows)),
         };
     }
 
@@ -64,6 +71,11 @@ impl Gather {
         }
         self.add_rows(polygons, from..polygons.len());
         self.rows += polygons.len();
+        match &mut self.points {
+            Points::None => {}
+            Points::F32(held) => held.find_boxes(&self.run_ends),
+            Points::F64(held) => held.find_boxes(&self.run_ends),
+        }
         Ok(())
     }
 
@@ -152,14 +164,20 @@ impl Gather {
     }
 
     pub(super) fn into_geometry(self) -> Geometry {
-        let geometry = match self.points {
-            Points::None => Geometry::default(),
-            Points::F32(points) => Geometry::from_f32(points, self.run_ends),
-            Points::F64(points) => Geometry::from_f64(points, self.run_ends),
+        let (geometry, hulls): (_, Hulls) = match self.points {
+            Points::None => return Geometry::default(),
+            Points::F32(held) => (
+                Geometry::from_f32(held.points, self.run_ends),
+                held.boxes.into(),
+            ),
+            Points::F64(held) => (
+                Geometry::from_f64(held.points, self.run_ends),
+                held.boxes.into(),
+            ),
         };
         match self.path_ends {
             Some(path_ends) => geometry.with_path_ends(path_ends),
-            None => geometry,
+            None => geometry.with_hulls(hulls),
         }
     }
 
@@ -240,26 +258,40 @@ impl Points {
     fn len(&self) -> usize {
         match self {
             Self::None => 0,
-            Self::F32(p) => p.len(),
-            Self::F64(p) => p.len(),
+            Self::F32(held) => held.points.len(),
+            Self::F64(held) => held.points.len(),
         }
     }
 
     fn truncate(&mut self, len: usize) {
         match self {
             Self::None => {}
-            Self::F32(p) => p.truncate(len),
-            Self::F64(p) => p.truncate(len),
+            Self::F32(held) => held.points.truncate(len),
+            Self::F64(held) => held.points.truncate(len),
         }
     }
 
     fn extend(&mut self, coordinates: &Coordinates, range: Range<usize>) {
         match (self, coordinates) {
-            (Self::F32(p), Coordinates::F32(c)) => extend(p, c, range),
-            (Self::F64(p), Coordinates::F64(c)) => extend(p, c, range),
+            (Self::F32(held), Coordinates::F32(c)) => extend(&mut held.points, c, range),
+            (Self::F64(held), Coordinates::F64(c)) => extend(&mut held.points, c, range),
             // All batches of a file have one schema, and `reserve` saw the first of them.
             _ => unreachable!("one schema, one precision"),
         }
+    }
+}
+
+impl<T: Real> Held<T> {
+    fn with_room(points: usize, rows: usize) -> Self {
+        Self {
+            points: Vec::with_capacity(points),
+            boxes: Vec::with_capacity(rows),
+        }
+    }
+
+    /// Finds the boxes of the runs that were added last, while their points are still near.
+    fn find_boxes(&mut self, run_ends: &[u32]) {
+        add_boxes(&mut self.boxes, &self.points, run_ends);
     }
 }
 

@@ -110,11 +110,11 @@ impl<'a> Reader<'a> {
             let polygons = Polygons::of(first.column(columns.control_points))?;
             let point_bytes = polygons.coordinates.point_bytes();
             let points = (polygons.point_count() as usize).saturating_mul(count);
-            gather.reserve(&polygons, points.min(file_bytes / point_bytes));
             // Four points each, and a few bytes a column: many columns have room for fewer.
             let row_bytes = 4 * point_bytes + 8 * first.num_columns();
             rows = first.num_rows().saturating_mul(count);
             rows = rows.min(file_bytes / row_bytes);
+            gather.reserve(&polygons, points.min(file_bytes / point_bytes), rows);
         }
         Ok(Self {
             limits,

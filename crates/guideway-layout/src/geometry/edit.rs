@@ -7,6 +7,7 @@ use rayon::prelude::*;
 
 use super::{Geometry, Points, between, index, stretches};
 use crate::RunPoints;
+use crate::ahead::{FEW, ask_ahead};
 use crate::run_points::POINTS_AT_ONCE;
 
 impl Geometry {
@@ -15,6 +16,7 @@ impl Geometry {
     /// # Panics
     /// When one is not below [`Self::path_count`].
     pub fn transform(&mut self, paths: impl IntoIterator<Item = usize>, by: Affine) {
+        self.hulls.take();
         for rows in stretches(paths) {
             let range = self.points_of(&self.runs_of(&rows));
             match &mut self.points {
@@ -48,8 +50,8 @@ impl Geometry {
     pub fn first_beyond(&self, reach_m: f64) -> Option<usize> {
         let is_within = |p: Point<f64>| (p.x.abs() <= reach_m) & (p.y.abs() <= reach_m);
         let is_placed = |run: RunPoints<'_>| match run {
-            RunPoints::F64(points) => points.iter().all(|&p| is_within(p)),
-            RunPoints::F32(points) => points.iter().all(|p| is_within(p.to_f64())),
+            RunPoints::F64(points) => all(points, is_within),
+            RunPoints::F32(points) => all(points, |p| is_within(p.to_f64())),
         };
         let is_misplaced = |&path: &usize| {
             let mut runs = self.runs(path);
@@ -97,6 +99,9 @@ impl Geometry {
         let runs = other.runs_of(&paths);
         let range = other.points_of(&runs);
         let (base, first_run) = (self.points.len(), self.run_ends.len());
+        if other.path_ends.is_some() {
+            self.tell_path_ends();
+        }
         match (&mut self.points, &other.points) {
             (Points::F64(to), Points::F64(from)) => to.extend_from_slice(&from[range.clone()]),
             (Points::F32(to), Points::F32(from)) => to.extend_from_slice(&from[range.clone()]),
@@ -111,10 +116,10 @@ impl Geometry {
             .iter()
             .map(|&end| end as usize - range.start + base);
         self.run_ends.extend(ends.map(index));
-        let ends = other.path_ends[paths]
-            .iter()
-            .map(|&end| end as usize - runs.start + first_run);
-        self.path_ends.extend(ends.map(index));
+        if let Some(path_ends) = &mut self.path_ends {
+            let ends = paths.map(|path| other.runs_of(&(path..path + 1)).end);
+            path_ends.extend(ends.map(|end| index(end - runs.start + first_run)));
+        }
     }
 
     /// Gives paths the curves of another geometry, one after the other, in the precision held here. It costs no
@@ -124,6 +129,7 @@ impl Geometry {
     /// # Panics
     /// When there are more `paths` than curves, one is not there, or there would be more than 2^32 control points.
     pub fn replace_all(&mut self, paths: &[u32], with: &Self) {
+        self.hulls.take();
         let mut done = 0;
         let pairs = stretches(paths.iter().map(|&path| path as usize)).map(|rows| {
             let from = done..done + rows.len();
@@ -161,8 +167,15 @@ impl Geometry {
     /// Whether some paths have runs of as many points as others.
     fn is_alike(&self, paths: &Range<usize>, with: &Self, others: &Range<usize>) -> bool {
         let (own, other) = (self.runs_of(paths), with.runs_of(others));
-        has_same_lens((&self.path_ends, paths), (&with.path_ends, others))
-            && has_same_lens((&self.run_ends, &own), (&with.run_ends, &other))
+        let is_alike = match (&self.path_ends, &with.path_ends) {
+            (None, None) => paths.len() == others.len(),
+            _ => {
+                let runs = |geometry: &Self, path| geometry.runs_of(&(path..path + 1)).len();
+                let mut pairs = paths.clone().zip(others.clone());
+                paths.len() == others.len() && pairs.all(|(a, b)| runs(self, a) == runs(with, b))
+            }
+        };
+        is_alike && has_same_lens((&self.run_ends, &own), (&with.run_ends, &other))
     }
 
     /// Gives paths the points of others of as many.
@@ -194,6 +207,9 @@ impl Geometry {
                 drop(points.splice(range.clone(), new_points().map(Point::to_f32)));
             }
         }
+        if new_lens.len() != runs.len() {
+            self.tell_path_ends();
+        }
         let new_len = self.points.len();
         let mut end = range.start;
         let new_ends: Vec<u32> = new_lens
@@ -206,16 +222,30 @@ impl Geometry {
             *end = index(*end as usize + new_len - old_len);
         }
         let new_runs = new_ends.len();
-        for end in &mut self.path_ends[path..] {
+        let behind = self.path_ends.iter_mut().flat_map(|ends| &mut ends[path..]);
+        for end in behind {
             *end = index(*end as usize + new_runs - runs.len());
         }
         self.run_ends.splice(runs, new_ends);
     }
 }
 
+/// Whether something holds for all of some points.
+fn all<T: Copy>(points: &[T], holds: impl Fn(T) -> bool) -> bool {
+    points.chunks(FEW).all(|few| {
+        ask_ahead(few);
+        few.iter().all(|&p| holds(p))
+    })
+}
+
 /// Gives each of some points another value by its own.
 fn set_each<T: Copy + Send>(points: &mut [T], value: impl Fn(T) -> T + Sync) {
-    let set = |points: &mut [T]| points.iter_mut().for_each(|p| *p = value(*p));
+    let set = |points: &mut [T]| {
+        for few in points.chunks_mut(FEW) {
+            ask_ahead(few);
+            few.iter_mut().for_each(|p| *p = value(*p));
+        }
+    };
     if points.len() <= POINTS_AT_ONCE {
         set(points);
     } else {
@@ -226,9 +256,12 @@ fn set_each<T: Copy + Send>(points: &mut [T], value: impl Fn(T) -> T + Sync) {
 /// Gives each of some points a value by one of as many others.
 fn copy<A: Copy + Sync, B: Send>(to: &mut [B], from: &[A], value: impl Fn(A) -> B + Sync) {
     let set = |(to, from): (&mut [B], &[A])| {
-        to.iter_mut()
-            .zip(from)
-            .for_each(|(to, from)| *to = value(*from));
+        for (to, from) in to.chunks_mut(FEW).zip(from.chunks(FEW)) {
+            ask_ahead(to);
+            ask_ahead(from);
+            let pairs = to.iter_mut().zip(from);
+            pairs.for_each(|(to, from)| *to = value(*from));
+        }
     };
     if from.len() <= POINTS_AT_ONCE {
         set((to, from));

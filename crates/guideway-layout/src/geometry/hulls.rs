@@ -1,7 +1,10 @@
+use std::ops::Range;
+
 use guideway_spline::{Bounds, Point, Real, greater, lesser};
 use rayon::prelude::*;
 
-use super::{Geometry, Points};
+use super::{Geometry, Points, between};
+use crate::ahead::{FEW, ask_ahead, ask_for};
 
 /// Boxes of the control points of all paths, which hold their curves, in the precision of the points.
 #[derive(Clone, Debug)]
@@ -14,25 +17,70 @@ enum Boxes {
 }
 
 impl Geometry {
-    /// Where each path lies, in metres: all points are read once, by all threads.
-    pub fn hulls(&self) -> Hulls {
-        Hulls(match &self.points {
-            Points::F64(points) => Boxes::F64(self.boxes(points)),
-            Points::F32(points) => Boxes::F32(self.boxes(points)),
+    /// Where each path lies, in metres. Found when it is first asked for after a change: all points are read once, by all
+    /// threads.
+    pub fn hulls(&self) -> &Hulls {
+        self.hulls.get_or_init(|| {
+            Hulls(match &self.points {
+                Points::F64(points) => Boxes::F64(self.boxes(points)),
+                Points::F32(points) => Boxes::F32(self.boxes(points)),
+            })
         })
     }
 
     fn boxes<T: Real>(&self, points: &[Point<T>]) -> Vec<Bounds<T>> {
-        let rows = (0..self.path_count()).into_par_iter();
-        let of_row = |row| {
-            let points = &points[self.points_of(&self.runs_of(&(row..row + 1)))];
-            Bounds::of_slice(points).unwrap_or(none())
-        };
-        rows.map(of_row).collect()
+        let mut boxes = Vec::new();
+        let points_of = |path| self.points_of(&self.runs_of(&(path..path + 1)));
+        add(&mut boxes, 0..self.path_count(), points, points_of);
+        boxes
+    }
+}
+
+/// Adds the boxes of runs that have none yet, where run `i` has the points up to `ends[i]`: for [`Geometry::with_hulls`].
+/// Takes all threads, and least time where the points were just written.
+///
+/// # Panics
+/// When the ends fall, or lie behind the last point.
+pub fn add_boxes<T: Real>(boxes: &mut Vec<Bounds<T>>, points: &[Point<T>], ends: &[u32]) {
+    let points_of = |run| between(ends, &(run..run + 1));
+    add(boxes, boxes.len()..ends.len(), points, points_of);
+}
+
+fn add<T: Real>(
+    boxes: &mut Vec<Bounds<T>>,
+    rows: Range<usize>,
+    points: &[Point<T>],
+    points_of: impl Fn(usize) -> Range<usize> + Sync,
+) {
+    let of_row = |row| {
+        let points = &points[points_of(row)];
+        ask_ahead(points);
+        Bounds::of_slice(points).unwrap_or(none())
+    };
+    boxes.par_extend(rows.into_par_iter().map(of_row));
+}
+
+impl From<Vec<Bounds<f32>>> for Hulls {
+    fn from(boxes: Vec<Bounds<f32>>) -> Self {
+        Self(Boxes::F32(boxes))
+    }
+}
+
+impl From<Vec<Bounds<f64>>> for Hulls {
+    fn from(boxes: Vec<Bounds<f64>>) -> Self {
+        Self(Boxes::F64(boxes))
     }
 }
 
 impl Hulls {
+    /// Heap bytes held.
+    pub(super) fn heap_bytes(&self) -> usize {
+        match &self.0 {
+            Boxes::F64(boxes) => boxes.capacity() * size_of::<Bounds<f64>>(),
+            Boxes::F32(boxes) => boxes.capacity() * size_of::<Bounds<f32>>(),
+        }
+    }
+
     /// Number of paths.
     pub fn len(&self) -> usize {
         match &self.0 {
@@ -49,8 +97,8 @@ impl Hulls {
     /// Where all paths lie, in metres; none if they have no points.
     pub fn all(&self) -> Option<Bounds<f64>> {
         match &self.0 {
-            Boxes::F64(boxes) => shown(boxes.par_iter().copied().reduce(none, both)),
-            Boxes::F32(boxes) => shown(boxes.par_iter().copied().reduce(none, both)),
+            Boxes::F64(boxes) => shown(all(boxes)),
+            Boxes::F32(boxes) => shown(all(boxes)),
         }
     }
 
@@ -59,13 +107,31 @@ impl Hulls {
     /// # Panics
     /// When one is not below [`Self::len`].
     #[inline]
-    pub fn of(&self, paths: impl IntoIterator<Item = usize>) -> Option<Bounds<f64>> {
+    pub fn of(
+        &self,
+        paths: impl IntoIterator<Item = usize, IntoIter: Clone>,
+    ) -> Option<Bounds<f64>> {
         let paths = paths.into_iter();
         match &self.0 {
-            Boxes::F64(boxes) => shown(paths.fold(none(), |all, path| both(all, boxes[path]))),
-            Boxes::F32(boxes) => shown(paths.fold(none(), |all, path| both(all, boxes[path]))),
+            Boxes::F64(boxes) => shown(some(boxes, paths)),
+            Boxes::F32(boxes) => shown(some(boxes, paths)),
         }
     }
+}
+
+fn all<T: Real>(boxes: &[Bounds<T>]) -> Bounds<T> {
+    let few = boxes.par_chunks(FEW).map(|few| {
+        ask_ahead(few);
+        few.iter().copied().fold(none(), both)
+    });
+    few.reduce(none, both)
+}
+
+#[inline]
+fn some<T: Real>(boxes: &[Bounds<T>], paths: impl Iterator<Item = usize> + Clone) -> Bounds<T> {
+    // They may lie anywhere.
+    (paths.clone()).for_each(|path| ask_for(&boxes[path..=path]));
+    paths.fold(none(), |all, path| both(all, boxes[path]))
 }
 
 /// The box of no points.

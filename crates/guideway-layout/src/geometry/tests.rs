@@ -1,4 +1,4 @@
-use guideway_spline::Affine;
+use guideway_spline::{Affine, Runs};
 
 use super::*;
 
@@ -195,6 +195,73 @@ fn a_path_without_points_lies_nowhere() {
     assert_eq!((hulls.of([0]), hulls.of([0, 2])), (None, None));
     assert_eq!(hulls.of([0, 1]), geometry.hull_bounds([1]));
     assert_eq!(hulls.all(), hulls.of([1]));
-    let none = Geometry::default().hulls();
-    assert!(none.is_empty() && none.all().is_none());
+    let none = Geometry::default();
+    assert!(none.hulls().is_empty() && none.hulls().all().is_none());
+}
+
+#[test]
+fn boxes_of_runs_are_those_of_paths_and_follow_every_change() {
+    let is_known = |geometry: &Geometry| {
+        let hulls = geometry.hulls();
+        let same = |row: usize| hulls.of([row]) == geometry.hull_bounds([row]);
+        hulls.len() == geometry.path_count() && (0..hulls.len()).all(same)
+    };
+    let (points, ends) = (points(0, 19), [4, 9, 13, 19]);
+    let mut boxes = Vec::new();
+    for count in [1, 1, 4] {
+        add_boxes(&mut boxes, &points, &ends[..count]);
+        assert_eq!(boxes.len(), count);
+    }
+    let geometry = Geometry::from_f64(points, ends.to_vec()).with_hulls(boxes.into());
+    assert!(is_known(&geometry));
+    let with_other_paths = geometry.clone().with_path_ends(vec![1, 3, 4]);
+    let mut line = Runs::default();
+    line.push_line(Point::new(0.0, 90.0), Point::new(50.0, 0.0));
+    for mut geometry in [geometry, with_other_paths] {
+        assert!(is_known(&geometry));
+        geometry.transform([1], Affine::translation(Point::new(0.0, 70.0)));
+        assert!(is_known(&geometry));
+        geometry.replace_all(&[0], &three().select([2]));
+        assert!(is_known(&geometry));
+        geometry.push(&line);
+        assert!(is_known(&geometry));
+    }
+}
+
+#[test]
+#[should_panic(expected = "left == right")]
+fn boxes_of_other_paths_are_not_taken() {
+    let boxes: Vec<Bounds<f64>> = Vec::new();
+    let _ = three().with_hulls(boxes.into());
+}
+
+#[test]
+fn runs_are_paths_until_one_has_several_or_none() {
+    let single = || Geometry::from_f64(points(0, 8), vec![4, 8]);
+    let double = || Geometry::from_f64(points(100, 9), vec![4, 9]).with_path_ends(vec![2]);
+    let [first, second] = [0, 1].map(|row| shape(&single())[row].clone());
+    let [both] = [0].map(|row| shape(&double())[row].clone());
+
+    let mut lines = Runs::default();
+    let counts = [1, 2, 0, 1];
+    let mut pushed = single();
+    for count in counts {
+        lines.clear();
+        (0..count).for_each(|_| lines.push_line(Point::new(0.0, 0.0), Point::new(9.0, 1.0)));
+        pushed.push(&lines);
+    }
+    let runs = (0..pushed.path_count()).map(|path| pushed.runs(path).len());
+    assert_eq!(runs.collect::<Vec<_>>(), [&[1, 1][..], &counts].concat());
+    assert_eq!(shape(&pushed)[..2], [first.clone(), second.clone()]);
+
+    let mut replaced = single();
+    replaced.replace_all(&[0], &double());
+    assert_eq!(shape(&replaced), [both.clone(), second.clone()]);
+    replaced.replace_all(&[0], &single().select([0]));
+    assert_eq!(shape(&replaced), [first.clone(), second]);
+    let two = Geometry::from_f64([points(0, 4), points(100, 9)].concat(), vec![4, 8, 13]);
+    let two = two.with_path_ends(vec![1, 3]);
+    let mut exchanged = single();
+    exchanged.replace_all(&[1, 0], &two);
+    assert_eq!(shape(&exchanged), [both, first]);
 }
