@@ -1,9 +1,8 @@
 use std::ops::Range;
 
-use guideway_layout::{Hulls, RunPoints};
+use guideway_layout::RunPoints;
 use guideway_scene::PathState;
-use guideway_spline::{Bounds, Point, hilbert};
-use rayon::prelude::*;
+use guideway_spline::{Bounds, Point};
 
 use super::LANES;
 use super::canvas::{TILE_PX, set_bits};
@@ -12,7 +11,7 @@ use super::flatten::flatten;
 use super::polylines::{Pen, Polylines, ROUNDS};
 use super::shot::Shot;
 use super::sight::Sight;
-use super::simplify::{MOST_POINTS, simplify};
+use super::simplify::{HEADS, Heads, MOST_POINTS, simplify};
 use super::vectors::by_lane_width;
 
 /// Paths, near each other, that are culled and kept together.
@@ -67,22 +66,6 @@ fn spread_out(round: usize, paths: usize) -> impl Iterator<Item = usize> {
     const ENDS: [usize; ROUNDS + 1] = [0, 8, 16, 24, 36, CLUSTER_PATHS];
     let numbers = ENDS[round]..ENDS[round + 1];
     numbers.map(reversed).filter(move |&i| i < paths)
-}
-
-/// All rows, sorted so that near ones are near each other.
-pub(super) fn sorted_rows(hulls: &Hulls) -> Vec<u32> {
-    let Some(all) = hulls.all() else {
-        return (0..hulls.len() as u32).collect();
-    };
-    let place = |hull: Bounds<f64>| u64::from(hilbert(hull.center(), all));
-    let rows = (0..hulls.len()).into_par_iter();
-    let keys = rows.map(|row| {
-        let place = hulls.of([row]).map_or(u64::from(u32::MAX), place);
-        place << 32 | row as u64
-    });
-    let mut keys: Vec<u64> = keys.collect();
-    keys.par_sort_unstable();
-    keys.par_iter().map(|&key| key as u32).collect()
 }
 
 impl Lines {
@@ -318,12 +301,22 @@ fn simplify_all(scratch: &mut Scratch, tolerance: f32) {
     let round = |x: f32| (x + ROUND).to_bits() as i16;
     let mut pen = Pen::new();
     let (mut first, mut ended) = (0, 0);
-    for source in sources.iter() {
+    let mut heads = Heads::NONE;
+    for (i, source) in sources.iter().enumerate() {
+        let head = i % HEADS;
+        if head == 0 {
+            let runs = sources[i..].iter().scan(first, |start, source| {
+                let end = source.points_end;
+                Some(std::mem::replace(start, end)..end)
+            });
+            heads.find(local, runs, tolerance);
+        }
         (ended..source.round).for_each(|round| kept.end_round(round));
         ended = source.round;
         kept.push_pieces(before, source.pieces.clone());
         let points = source.points_end - first;
-        simplify(&local[first..], points, tolerance, vertices);
+        let head = (&mut heads, head);
+        simplify(&local[first..], points, head, tolerance, vertices);
         for (i, vertex) in vertices.iter().enumerate() {
             let vertex = Point {
                 x: round(vertex.x),

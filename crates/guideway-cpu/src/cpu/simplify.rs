@@ -1,3 +1,5 @@
+use std::ops::Range;
+
 use guideway_spline::{Point, greater, uniform};
 
 use super::LANES;
@@ -31,8 +33,38 @@ static FIRST_LANES: [u32; 2 * MOST] = {
     lanes
 };
 
+/// Runs whose first joints are found together.
+pub(super) const HEADS: usize = 16;
+
+/// The first joints of some runs. They are found long before they are looked at: processors wait for numbers that were just
+/// written as one vector and are read from its middle on.
+pub(super) struct Heads([Joints; HEADS]);
+
+impl Heads {
+    pub(super) const NONE: Self = Self([const { Joints::NONE }; HEADS]);
+
+    /// Finds those of some runs of control points, of which there are [`HEADS`] or fewer, and [`MOST_POINTS`] from each of
+    /// their first points on.
+    ///
+    /// # Panics
+    /// Where there are not.
+    #[inline(always)]
+    pub(super) fn find(
+        &mut self,
+        points: &[Point<f32>],
+        runs: impl Iterator<Item = Range<usize>>,
+        tolerance: f32,
+    ) {
+        for (joints, run) in self.0.iter_mut().zip(runs) {
+            joints.place(&points[run.start..], run.len());
+        }
+        (self.0.iter_mut()).for_each(|joints| joints.leave_room(tolerance));
+    }
+}
+
 /// Draws a run of control points, the first `len` of some, as straight lines, no point of either farther than `tolerance`
 /// from the other: gives the vertices in order. There are [`MOST_POINTS`] from each point of the run on: its own, or any.
+/// It is run number `head` of those whose first joints were found.
 ///
 /// # Panics
 /// Where there are not.
@@ -45,16 +77,19 @@ static FIRST_LANES: [u32; 2 * MOST] = {
 pub(super) fn simplify(
     mut points: &[Point<f32>],
     len: usize,
+    (heads, head): (&mut Heads, usize),
     tolerance: f32,
     vertices: &mut Vec<Point<f32>>,
 ) {
     vertices.clear();
+    let joints = &mut heads.0[head];
     let mut left = len;
     while left >= 4 {
-        let part = points.first_chunk().expect("points behind the run");
-        let joints = Joints::new(part, left.min(MOST_POINTS) - 2, tolerance);
         if left == len {
             vertices.push(joints.at(0));
+        } else {
+            joints.place(points, left);
+            joints.leave_room(tolerance);
         }
         let mut kept = joints.kept();
         let mut last = 0;
@@ -68,7 +103,7 @@ pub(super) fn simplify(
             kept &= kept - 1;
             if joint == last + 1 {
                 let bend = joints.bend_between(last, joint);
-                cut(uniform::segment(part, last), bend, tolerance, vertices);
+                cut(uniform::segment(points, last), bend, tolerance, vertices);
             }
             vertices.push(joints.at(joint));
             last = joint;
@@ -90,34 +125,38 @@ fn cut(segment: &[Point<f32>; 4], bend: f32, tolerance: f32, vertices: &mut Vec<
 }
 
 impl Joints {
-    /// The first joints of a run.
+    const NONE: Self = Self {
+        count: 0,
+        x: [0.0; 2 * MOST],
+        y: [0.0; 2 * MOST],
+        bend: [0.0; MOST + 1],
+        room: [0.0; 2 * MOST],
+    };
+
+    /// The first joints of a run of so many points.
     #[inline(always)]
-    fn new(points: &[Point<f32>; MOST_POINTS], count: usize, tolerance: f32) -> Self {
-        let mut joints = Self {
-            count,
-            x: [0.0; 2 * MOST],
-            y: [0.0; 2 * MOST],
-            bend: [0.0; MOST + 1],
-            room: [0.0; 2 * MOST],
-        };
+    fn place(&mut self, points: &[Point<f32>], len: usize) {
+        let points: &[Point<f32>; MOST_POINTS] =
+            points.first_chunk().expect("points behind the run");
+        self.count = len.min(MOST_POINTS).saturating_sub(2);
         for i in 0..MOST {
             let [a, b, c] = [points[i], points[i + 1], points[i + 2]];
-            joints.x[i] = (a.x + b.x * 4.0 + c.x) * (1.0 / 6.0);
-            joints.y[i] = (a.y + b.y * 4.0 + c.y) * (1.0 / 6.0);
+            self.x[i] = (a.x + b.x * 4.0 + c.x) * (1.0 / 6.0);
+            self.y[i] = (a.y + b.y * 4.0 + c.y) * (1.0 / 6.0);
             let x = a.x - b.x * 2.0 + c.x;
             let y = a.y - b.y * 2.0 + c.y;
-            joints.bend[i] = (x * x + y * y).sqrt() * 0.125;
+            self.bend[i] = (x * x + y * y).sqrt() * 0.125;
         }
-        // What lies behind the last joint does not matter to those between others.
+    }
+
+    /// How far each may be off. What lies behind the last does not matter to those between others.
+    #[inline(always)]
+    fn leave_room(&mut self, tolerance: f32) {
         for i in 1..MOST {
-            let bend = greater(
-                greater(joints.bend[i - 1], joints.bend[i]),
-                joints.bend[i + 1],
-            );
+            let bend = greater(greater(self.bend[i - 1], self.bend[i]), self.bend[i + 1]);
             let room = tolerance - bend;
-            joints.room[i] = room * room.abs();
+            self.room[i] = room * room.abs();
         }
-        joints
     }
 
     fn at(&self, joint: usize) -> Point<f32> {
@@ -205,7 +244,10 @@ mod tests {
         let mut vertices = Vec::new();
         // What lies behind a run does not matter.
         let after = [Point::new(f32::NAN, 1e9); MOST_POINTS];
-        simplify(&[run, &after].concat(), run.len(), tolerance, &mut vertices);
+        let (points, mut heads) = ([run, &after].concat(), Heads::NONE);
+        heads.find(&points, [0..3, 0..run.len()].into_iter(), tolerance);
+        let head = (&mut heads, 1);
+        simplify(&points, run.len(), head, tolerance, &mut vertices);
         vertices
     }
 
