@@ -1,8 +1,9 @@
 use std::ops::Range;
 
-use guideway_layout::RunPoints;
+use guideway_layout::{Hulls, RunPoints};
 use guideway_scene::PathState;
-use guideway_spline::{Bounds, Point};
+use guideway_spline::{Bounds, Point, hilbert};
+use rayon::prelude::*;
 
 use super::LANES;
 use super::canvas::{TILE_PX, set_bits};
@@ -66,6 +67,22 @@ fn spread_out(round: usize, paths: usize) -> impl Iterator<Item = usize> {
     const ENDS: [usize; ROUNDS + 1] = [0, 8, 16, 24, 36, CLUSTER_PATHS];
     let numbers = ENDS[round]..ENDS[round + 1];
     numbers.map(reversed).filter(move |&i| i < paths)
+}
+
+/// All rows, sorted so that near ones are near each other.
+pub(super) fn sorted_rows(hulls: &Hulls) -> Vec<u32> {
+    let Some(all) = hulls.all() else {
+        return (0..hulls.len() as u32).collect();
+    };
+    let place = |hull: Bounds<f64>| u64::from(hilbert(hull.center(), all));
+    let rows = (0..hulls.len()).into_par_iter();
+    let keys = rows.map(|row| {
+        let place = hulls.of([row]).map_or(u64::from(u32::MAX), place);
+        place << 32 | row as u64
+    });
+    let mut keys: Vec<u64> = keys.collect();
+    keys.par_sort_unstable();
+    keys.par_iter().map(|&key| key as u32).collect()
 }
 
 impl Lines {

@@ -3,11 +3,10 @@ use guideway_scene::{Rgba, Scene};
 use guideway_spline::{Affine, Bounds};
 use rayon::prelude::*;
 
-use super::cluster::{CLUSTER_PATHS, Lines, Members};
+use super::cluster::{CLUSTER_PATHS, Lines, Members, sorted_rows};
 use super::extent::{Extent, Hull, bounds_anew, shown_bounds};
 use super::place::Placement;
 use super::shot::{Precision, Shot, Widths, widths};
-use super::sorted::sorted_rows;
 use super::vectors::LaneWidth;
 
 /// The rows of a scene in clusters, and what holds for all of them.
