@@ -2,6 +2,8 @@
 //!
 //! Others than ours draw a path at a time, in draw order, as a picture of many colours needs.
 
+#[cfg(feature = "blend2d")]
+mod blend2d;
 #[cfg(feature = "cairo")]
 mod cairo;
 mod ours;
@@ -39,13 +41,19 @@ pub(crate) const METHODS: &[(&str, Draw)] = &[
     ("cairo", cairo::draw),
     #[cfg(feature = "python")]
     ("skia", python::skia),
-    #[cfg(feature = "python")]
-    ("blend2d", python::blend2d),
+    #[cfg(feature = "blend2d")]
+    ("blend2d", blend2d::draw::<0, false>),
+    #[cfg(feature = "blend2d")]
+    ("blend2d-kept", blend2d::draw::<0, true>),
+    #[cfg(feature = "blend2d")]
+    ("blend2d-threads", blend2d::draw::<2, false>),
+    #[cfg(feature = "blend2d")]
+    ("blend2d-kept-threads", blend2d::draw::<2, true>),
 ];
 
 /// Whether a renderer draws in a process of its own: the memory of this one says nothing of it.
 pub(crate) fn is_elsewhere(method: &str) -> bool {
-    ["skia", "blend2d"].contains(&method)
+    method == "skia"
 }
 
 pub(crate) fn draw(

@@ -1,5 +1,4 @@
-//! Renderers that have a Python package: `pip install skia-python blend2d-python`. The interpreter is `GUIDEWAY_PYTHON`,
-//! or else `python3`.
+//! Skia, by its Python package: `pip install skia-python`. The interpreter is `GUIDEWAY_PYTHON`, or else `python3`.
 
 use std::env;
 use std::fs;
@@ -14,36 +13,27 @@ use guideway_render::{Frame, View};
 
 use super::{FRAMES, WIDTH_PX, curves};
 
-pub(super) fn skia(layout: &Arc<Layout>, view: &View, frame: &mut Frame) -> Result<Vec<f64>> {
-    draw("skia", layout, view, frame)
-}
-
-/// Its package gives it no threads.
-pub(super) fn blend2d(layout: &Arc<Layout>, view: &View, frame: &mut Frame) -> Result<Vec<f64>> {
-    draw("blend2d", layout, view, frame)
-}
-
 /// Paths are made before the first frame begins.
-fn draw(name: &str, layout: &Layout, view: &View, frame: &mut Frame) -> Result<Vec<f64>> {
+pub(super) fn skia(layout: &Arc<Layout>, view: &View, frame: &mut Frame) -> Result<Vec<f64>> {
     let folder = tempfile::tempdir()?;
     let [curves, pixels] = ["curves", "pixels"].map(|file| folder.path().join(file));
     write_curves(layout, view, &curves)?;
     let python = env::var("GUIDEWAY_PYTHON").unwrap_or_else(|_| "python3".to_owned());
     let (width, height) = (view.size().width(), view.size().height());
     let output = Command::new(&python)
-        .args(["-c", include_str!("strokes.py"), name])
+        .args(["-c", include_str!("strokes.py")])
         .args([width, height].map(|side| side.to_string()))
         .args([WIDTH_PX.to_string(), FRAMES.to_string()])
         .args([&curves, &pixels])
         .output()
         .with_context(|| python.clone())?;
     let errors = String::from_utf8_lossy(&output.stderr);
-    ensure!(output.status.success(), "{name} by {python}: {errors}");
+    ensure!(output.status.success(), "skia by {python}: {errors}");
     let bytes = fs::read(pixels)?;
     let (read, _) = bytes.as_chunks::<4>();
     ensure!(
         read.len() == frame.pixels().len(),
-        "{name}: a picture of another size"
+        "skia: a picture of another size"
     );
     frame.pixels_mut().copy_from_slice(read);
     Ok(serde_json::from_slice(&output.stdout)?)

@@ -1,6 +1,6 @@
-"""Strokes curves with a renderer that has a Python package: skia-python, or blend2d-python.
+"""Strokes curves with Skia, by the Python package skia-python.
 
-Arguments: the renderer, the width and the height of the picture, the stroke's width, the number of frames, the file of the
+Arguments: the width and the height of the picture, the stroke's width, the number of frames, the file of the
 curves, and that for the pixels (rows of RGBA bytes). The curves are 32-bit words: for each path its number of Bezier curves,
 then its points as pairs of floats, one and three a curve. Prints the milliseconds of each frame as a JSON list; paths are made
 before.
@@ -10,9 +10,9 @@ import json
 import sys
 import time
 
-NAME, CURVES, PIXELS = sys.argv[1], sys.argv[6], sys.argv[7]
-WIDTH, HEIGHT, FRAMES = int(sys.argv[2]), int(sys.argv[3]), int(sys.argv[5])
-STROKE_PX = float(sys.argv[4])
+WIDTH, HEIGHT, FRAMES = int(sys.argv[1]), int(sys.argv[2]), int(sys.argv[4])
+STROKE_PX = float(sys.argv[3])
+CURVES, PIXELS = sys.argv[5:]
 
 
 def paths():
@@ -27,7 +27,7 @@ def paths():
 
 
 def made(new, move_to, cubic_to):
-    """All paths, as a renderer has them: made, begun and continued by its functions."""
+    """All paths, made, begun and continued by functions."""
     all_made = []
     for points in paths():
         path = new()
@@ -63,28 +63,7 @@ def skia_frame():
     return frame, lambda: surface.makeImageSnapshot().tobytes()
 
 
-def blend2d_frame():
-    import blend2d
-
-    image = blend2d.BLImage(WIDTH, HEIGHT, blend2d.BLFormat.PRGB32)
-    strokes = made(blend2d.BLPath, blend2d.BLPath.move_to, blend2d.BLPath.cubic_to)
-
-    def frame():
-        context = blend2d.BLContext(image)
-        context.set_fill_style((1.0, 1.0, 1.0))
-        context.fill_all()
-        context.set_stroke_style((0.0, 0.0, 0.0))
-        context.stroke_width = STROKE_PX
-        context.set_stroke_caps(blend2d.BLStrokeCap.CAP_ROUND)
-        context.stroke_join = blend2d.BLStrokeJoin.JOIN_ROUND
-        for path in strokes:
-            context.stroke_path(path)
-        context.flush()
-
-    return frame, lambda: image.getDataAsNumPy().tobytes()
-
-
-FRAME, RESULT = {"skia": skia_frame, "blend2d": blend2d_frame}[NAME]()
+FRAME, RESULT = skia_frame()
 TIMES_MS = []
 for _ in range(FRAMES):
     start = time.perf_counter()

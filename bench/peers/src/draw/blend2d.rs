@@ -1,0 +1,190 @@
+//! Blend2D by its C functions, from the static library in the folder that `BLEND2D_LIB_DIR` names. The Python package
+//! `blend2d-python` 1.0.0 has one.
+
+use std::ffi::c_void;
+use std::slice;
+use std::sync::Arc;
+
+use anyhow::{Result, ensure};
+use guideway_layout::{Layout, PathRef};
+use guideway_render::{Frame, View};
+
+use super::{FRAMES, WIDTH_PX, curves, time};
+
+/// Paths are made for each frame, or in the first one and kept. Without threads each call is done before it returns; with two, the
+/// caller is one of them.
+pub(super) fn draw<const THREADS: u32, const KEEPS: bool>(
+    layout: &Arc<Layout>,
+    view: &View,
+    frame: &mut Frame,
+) -> Result<Vec<f64>> {
+    const BLACK: u32 = 0xff00_0000;
+    const WHITE: u32 = 0xffff_ffff;
+    const ROUND_CAP: u32 = 2;
+    const ROUND_JOIN: u32 = 4;
+    let mut paths: Vec<Object> = Vec::new();
+    let [width, height] = [view.size().width(), view.size().height()].map(|side| side as i32);
+    // SAFETY: an object is what its function makes of it.
+    let mut image = Object::new(|image| unsafe { blImageInitAs(image, width, height, PRGB32) })?;
+    let options = ContextOptions {
+        threads: THREADS,
+        ..ContextOptions::default()
+    };
+    let times_ms = time(FRAMES, |_| {
+        if !KEEPS || paths.is_empty() {
+            paths.clear();
+            let made = layout.paths.iter().map(|path| made(&path, view));
+            paths = made.collect::<Result<_>>()?;
+        }
+        // SAFETY: image, options and paths live longer than the context.
+        let begin = |context: *mut _| unsafe { blContextInitAs(context, &mut image, &options) };
+        let mut context = Object::new(begin)?;
+        // SAFETY: each gets the object that it is for. All is drawn when the context has ended.
+        unsafe {
+            check(blContextFillAllRgba32(&mut context, WHITE))?;
+            check(blContextSetStrokeWidth(&mut context, WIDTH_PX))?;
+            check(blContextSetStrokeCaps(&mut context, ROUND_CAP))?;
+            check(blContextSetStrokeJoin(&mut context, ROUND_JOIN))?;
+            for path in &paths {
+                check(blContextStrokePathDRgba32(
+                    &mut context,
+                    &[0.0; 2],
+                    path,
+                    BLACK,
+                ))?;
+            }
+            check(blContextEnd(&mut context))
+        }
+    })?;
+    copy_pixels(&image, frame)?;
+    Ok(times_ms)
+}
+
+fn made(path: &PathRef<'_>, view: &View) -> Result<Object> {
+    // SAFETY: an object is what its function makes of it, and gets what it is for.
+    let mut made = Object::new(|path| unsafe { blPathInit(path) })?;
+    for run in curves(path, view) {
+        for (i, [a, b, c, d]) in run.enumerate() {
+            if i == 0 {
+                check(unsafe { blPathMoveTo(&mut made, a.x, a.y) })?;
+            }
+            check(unsafe { blPathCubicTo(&mut made, b.x, b.y, c.x, c.y, d.x, d.y) })?;
+        }
+    }
+    Ok(made)
+}
+
+fn copy_pixels(image: &Object, frame: &mut Frame) -> Result<()> {
+    let mut data = ImageData::default();
+    // SAFETY: an image tells where its pixels are as long as it lives; a row has as many words as it is wide.
+    check(unsafe { blImageGetData(image, &mut data) })?;
+    let width = data.width as usize;
+    for (row, pixels) in (0..).zip(frame.pixels_mut().chunks_exact_mut(width)) {
+        let words = unsafe {
+            let first = data.pixels.cast::<u8>().offset(row * data.stride_bytes);
+            slice::from_raw_parts(first.cast::<u32>(), width)
+        };
+        for (pixel, word) in pixels.iter_mut().zip(words) {
+            let [_, r, g, b] = word.to_be_bytes();
+            *pixel = [r, g, b, 255];
+        }
+    }
+    Ok(())
+}
+
+fn check(result: u32) -> Result<()> {
+    ensure!(result == 0, "blend2d: error {result:#x}");
+    Ok(())
+}
+
+/// Alpha, red, green and blue, from the highest bits of a word to the lowest.
+const PRGB32: u32 = 1;
+
+/// An image, a path or a context.
+#[repr(C)]
+struct Object([u64; 2]);
+
+impl Object {
+    fn new(init: impl FnOnce(*mut Self) -> u32) -> Result<Self> {
+        let mut object = Self([0; 2]);
+        let result = init(&mut object);
+        if result != 0 {
+            // There is nothing to be let go of.
+            std::mem::forget(object);
+            check(result)?;
+            unreachable!("an error was told");
+        }
+        Ok(object)
+    }
+}
+
+impl Drop for Object {
+    fn drop(&mut self) {
+        // SAFETY: it was made, and nobody has it any more.
+        unsafe { blVarDestroy((&raw mut *self).cast()) };
+    }
+}
+
+#[repr(C)]
+#[derive(Default)]
+struct ContextOptions {
+    flags: u32,
+    threads: u32,
+    others: [u32; 6],
+}
+
+#[repr(C)]
+struct ImageData {
+    pixels: *mut c_void,
+    stride_bytes: isize,
+    width: i32,
+    height: i32,
+    format: u32,
+    flags: u32,
+}
+
+impl Default for ImageData {
+    fn default() -> Self {
+        Self {
+            pixels: std::ptr::null_mut(),
+            stride_bytes: 0,
+            width: 0,
+            height: 0,
+            format: 0,
+            flags: 0,
+        }
+    }
+}
+
+unsafe extern "C" {
+    fn blVarDestroy(object: *mut c_void) -> u32;
+    fn blImageInitAs(image: *mut Object, width: i32, height: i32, format: u32) -> u32;
+    fn blImageGetData(image: *const Object, data: *mut ImageData) -> u32;
+    fn blPathInit(path: *mut Object) -> u32;
+    fn blPathMoveTo(path: *mut Object, x: f64, y: f64) -> u32;
+    fn blPathCubicTo(
+        path: *mut Object,
+        x1: f64,
+        y1: f64,
+        x2: f64,
+        y2: f64,
+        x3: f64,
+        y3: f64,
+    ) -> u32;
+    fn blContextInitAs(
+        context: *mut Object,
+        image: *mut Object,
+        options: *const ContextOptions,
+    ) -> u32;
+    fn blContextFillAllRgba32(context: *mut Object, rgba32: u32) -> u32;
+    fn blContextSetStrokeWidth(context: *mut Object, width: f64) -> u32;
+    fn blContextSetStrokeCaps(context: *mut Object, cap: u32) -> u32;
+    fn blContextSetStrokeJoin(context: *mut Object, join: u32) -> u32;
+    fn blContextStrokePathDRgba32(
+        context: *mut Object,
+        origin: *const [f64; 2],
+        path: *const Object,
+        rgba32: u32,
+    ) -> u32;
+    fn blContextEnd(context: *mut Object) -> u32;
+}
