@@ -23,9 +23,7 @@ pub(crate) fn load(file: &File) -> Result<Buffer, Problem> {
     // ahead may hold it longer, but looks at no byte.
     let map = Arc::new(unsafe { memmap2::Mmap::map(file)? });
     #[cfg(unix)]
-    if let Ok(file) = file.try_clone() {
-        read_ahead(Arc::clone(&map), file);
-    }
+    read_ahead(Arc::clone(&map), file);
     let (start, len) = (map.as_ptr().cast_mut(), map.len());
     let start = NonNull::new(start).ok_or(Problem::Empty)?;
     // SAFETY: `start` is valid for `len` bytes as long as the map lives, and the buffer owns the map.
@@ -34,7 +32,7 @@ pub(crate) fn load(file: &File) -> Result<Buffer, Problem> {
 
 /// Has the system read ahead of who looks at a file. It is asked for a piece at a time, for of more it reads only the first.
 #[cfg(all(feature = "mmap", unix))]
-fn read_ahead(map: std::sync::Arc<memmap2::Mmap>, file: File) {
+fn read_ahead(map: std::sync::Arc<memmap2::Mmap>, file: &File) {
     use std::os::unix::fs::FileExt;
     const PIECE: usize = 1 << 20;
     /// So many pieces come at a time: of more, all would come late.
@@ -47,6 +45,9 @@ fn read_ahead(map: std::sync::Arc<memmap2::Mmap>, file: File) {
     if len <= PIECE {
         return;
     }
+    let Ok(file) = file.try_clone() else {
+        return;
+    };
     let ask = move || {
         let from = len.saturating_sub(END);
         let _ = map.advise_range(memmap2::Advice::WillNeed, from, len - from);

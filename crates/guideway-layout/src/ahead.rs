@@ -18,6 +18,12 @@ pub(crate) fn ask_ahead<T>(few: &[T]) {
     }
 }
 
+/// Elements, a few at a time, for a loop that asks for those ahead of it.
+#[inline(always)]
+pub(crate) fn few<T>(elements: &[T]) -> impl Iterator<Item = &[T]> {
+    elements.chunks(FEW).inspect(|few| ask_ahead(few))
+}
+
 /// Asks for some elements, or the first of many.
 #[inline(always)]
 pub(crate) fn ask_for<T>(elements: &[T]) {
@@ -40,7 +46,7 @@ fn lines<T>(elements: &[T]) -> impl Iterator<Item = &[T]> {
     unsafe_code,
     reason = "there is no safe way to ask for memory; see SAFETY"
 )]
-fn ask<T>(address: *const T) {
+pub(crate) fn ask<T>(address: *const T) {
     use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
     // SAFETY: nothing is read or written, and any address may be asked for.
     unsafe { _mm_prefetch::<_MM_HINT_T0>(address.cast()) };
@@ -49,4 +55,4 @@ fn ask<T>(address: *const T) {
 /// Other processors are left to guess.
 #[inline(always)]
 #[cfg(not(target_arch = "x86_64"))]
-fn ask<T>(_address: *const T) {}
+pub(crate) fn ask<T>(_address: *const T) {}

@@ -76,8 +76,7 @@ impl Geometry {
         Self {
             points,
             run_ends: ends,
-            path_ends: None,
-            hulls: OnceLock::new(),
+            ..Self::default()
         }
     }
 

@@ -1,7 +1,7 @@
 use guideway_spline::{Bounds, Point, Real};
 use rayon::prelude::*;
 
-use crate::ahead::{FEW, ask_ahead};
+use crate::ahead::few;
 
 /// So many points are gone through by one thread.
 pub(crate) const POINTS_AT_ONCE: usize = 1 << 14;
@@ -78,11 +78,8 @@ fn bounds<T: Real>(points: &[Point<T>]) -> Option<Bounds<T>> {
         return Bounds::of_slice(points);
     }
     let of_part = |part: &[Point<T>]| {
-        let few = part.chunks(FEW).filter_map(|few| {
-            ask_ahead(few);
-            Bounds::of_slice(few)
-        });
-        few.reduce(Bounds::union)
+        let boxes = few(part).filter_map(Bounds::of_slice);
+        boxes.reduce(Bounds::union)
     };
     let parts = points.par_chunks(POINTS_AT_ONCE).filter_map(of_part);
     parts.reduce_with(Bounds::union)

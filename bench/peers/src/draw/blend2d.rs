@@ -2,6 +2,7 @@
 //! `blend2d-python` 1.0.0 has one.
 
 use std::ffi::c_void;
+use std::mem::ManuallyDrop;
 use std::slice;
 use std::sync::Arc;
 
@@ -9,7 +10,7 @@ use anyhow::{Result, ensure};
 use guideway_layout::{Layout, PathRef};
 use guideway_render::{Frame, View};
 
-use super::{FRAMES, WIDTH_PX, curves, time};
+use super::{FRAMES, WIDTH_PX, curves, store_words, time};
 
 /// Paths are made for each frame, or in the first one and kept. Without threads each call is done before it returns; with two, the
 /// caller is one of them.
@@ -76,19 +77,11 @@ fn made(path: &PathRef<'_>, view: &View) -> Result<Object> {
 
 fn copy_pixels(image: &Object, frame: &mut Frame) -> Result<()> {
     let mut data = ImageData::default();
-    // SAFETY: an image tells where its pixels are as long as it lives; a row has as many words as it is wide.
+    // SAFETY: an image tells where its rows are, one below the other, as long as it lives.
     check(unsafe { blImageGetData(image, &mut data) })?;
-    let width = data.width as usize;
-    for (row, pixels) in (0..).zip(frame.pixels_mut().chunks_exact_mut(width)) {
-        let words = unsafe {
-            let first = data.pixels.cast::<u8>().offset(row * data.stride_bytes);
-            slice::from_raw_parts(first.cast::<u32>(), width)
-        };
-        for (pixel, word) in pixels.iter_mut().zip(words) {
-            let [_, r, g, b] = word.to_be_bytes();
-            *pixel = [r, g, b, 255];
-        }
-    }
+    let stride = usize::try_from(data.stride_bytes)?;
+    let bytes = unsafe { slice::from_raw_parts(data.pixels, stride * data.height as usize) };
+    store_words(bytes, stride, data.width as usize, frame);
     Ok(())
 }
 
@@ -106,15 +99,10 @@ struct Object([u64; 2]);
 
 impl Object {
     fn new(init: impl FnOnce(*mut Self) -> u32) -> Result<Self> {
-        let mut object = Self([0; 2]);
-        let result = init(&mut object);
-        if result != 0 {
-            // There is nothing to be let go of.
-            std::mem::forget(object);
-            check(result)?;
-            unreachable!("an error was told");
-        }
-        Ok(object)
+        // Where it fails, there is nothing to be let go of.
+        let mut object = ManuallyDrop::new(Self([0; 2]));
+        check(init(&mut *object))?;
+        Ok(ManuallyDrop::into_inner(object))
     }
 }
 
@@ -134,26 +122,14 @@ struct ContextOptions {
 }
 
 #[repr(C)]
+#[derive(Default)]
 struct ImageData {
-    pixels: *mut c_void,
+    pixels: *mut u8,
     stride_bytes: isize,
     width: i32,
     height: i32,
     format: u32,
     flags: u32,
-}
-
-impl Default for ImageData {
-    fn default() -> Self {
-        Self {
-            pixels: std::ptr::null_mut(),
-            stride_bytes: 0,
-            width: 0,
-            height: 0,
-            format: 0,
-            flags: 0,
-        }
-    }
 }
 
 unsafe extern "C" {

@@ -5,7 +5,7 @@ use cairo::{Context, Format, ImageSurface, LineCap, LineJoin};
 use guideway_layout::Layout;
 use guideway_render::{Frame, View};
 
-use super::{FRAMES, WIDTH_PX, curves, time};
+use super::{FRAMES, WIDTH_PX, curves, store_words, time};
 
 /// It has no use for threads.
 pub(super) fn draw(layout: &Arc<Layout>, view: &View, frame: &mut Frame) -> Result<Vec<f64>> {
@@ -35,17 +35,6 @@ pub(super) fn draw(layout: &Arc<Layout>, view: &View, frame: &mut Frame) -> Resu
     drop(context);
     let stride = surface.stride() as usize;
     let data = surface.data()?;
-    let rows = data.chunks_exact(stride);
-    for (pixels, row) in frame
-        .pixels_mut()
-        .chunks_exact_mut(width as usize)
-        .zip(rows)
-    {
-        let (words, _) = row.as_chunks();
-        for (pixel, word) in pixels.iter_mut().zip(words) {
-            let [_, r, g, b] = u32::from_ne_bytes(*word).to_be_bytes();
-            *pixel = [r, g, b, 255];
-        }
-    }
+    store_words(&data, stride, width as usize, frame);
     Ok(times_ms)
 }

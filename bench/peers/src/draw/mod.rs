@@ -78,6 +78,19 @@ fn time(frames: usize, mut draw: impl FnMut(usize) -> Result<()>) -> Result<Vec<
     (0..frames).map(frame).collect()
 }
 
+/// Stores rows of words, which hold red, green and blue below their highest byte.
+#[cfg(any(feature = "blend2d", feature = "cairo"))]
+fn store_words(bytes: &[u8], stride: usize, width: usize, frame: &mut Frame) {
+    let rows = frame.pixels_mut().chunks_exact_mut(width);
+    for (pixels, row) in rows.zip(bytes.chunks_exact(stride)) {
+        let (words, _) = row.as_chunks();
+        for (pixel, word) in pixels.iter_mut().zip(words) {
+            let [_, r, g, b] = u32::from_ne_bytes(*word).to_be_bytes();
+            *pixel = [r, g, b, 255];
+        }
+    }
+}
+
 /// The segments of each run of a path as Bezier curves in pixels.
 fn curves<'a>(
     path: &PathRef<'a>,

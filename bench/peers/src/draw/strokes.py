@@ -10,6 +10,8 @@ import json
 import sys
 import time
 
+import skia
+
 WIDTH, HEIGHT, FRAMES = int(sys.argv[1]), int(sys.argv[2]), int(sys.argv[4])
 STROKE_PX = float(sys.argv[3])
 CURVES, PIXELS = sys.argv[5:]
@@ -26,49 +28,44 @@ def paths():
         at = end
 
 
-def made(new, move_to, cubic_to):
-    """All paths, made, begun and continued by functions."""
+def made():
+    """All paths, as Skia has them."""
     all_made = []
     for points in paths():
-        path = new()
-        move_to(path, *points[:2])
+        path = skia.Path()
+        path.moveTo(*points[:2])
         for i in range(2, len(points), 6):
-            cubic_to(path, *points[i : i + 6])
+            path.cubicTo(*points[i : i + 6])
         all_made.append(path)
     return all_made
 
 
-def skia_frame():
-    import skia
-
-    surface = skia.Surface.MakeRaster(
-        skia.ImageInfo.Make(WIDTH, HEIGHT, skia.kRGBA_8888_ColorType, skia.kPremul_AlphaType)
-    )
-    paint = skia.Paint(
-        AntiAlias=True,
-        Style=skia.Paint.kStroke_Style,
-        StrokeWidth=STROKE_PX,
-        StrokeCap=skia.Paint.kRound_Cap,
-        StrokeJoin=skia.Paint.kRound_Join,
-        Color=skia.ColorBLACK,
-    )
-    strokes = made(skia.Path, skia.Path.moveTo, skia.Path.cubicTo)
-
-    def frame():
-        with surface as canvas:
-            canvas.clear(skia.ColorWHITE)
-            for path in strokes:
-                canvas.drawPath(path, paint)
-
-    return frame, lambda: surface.makeImageSnapshot().tobytes()
+SURFACE = skia.Surface.MakeRaster(
+    skia.ImageInfo.Make(WIDTH, HEIGHT, skia.kRGBA_8888_ColorType, skia.kPremul_AlphaType)
+)
+PAINT = skia.Paint(
+    AntiAlias=True,
+    Style=skia.Paint.kStroke_Style,
+    StrokeWidth=STROKE_PX,
+    StrokeCap=skia.Paint.kRound_Cap,
+    StrokeJoin=skia.Paint.kRound_Join,
+    Color=skia.ColorBLACK,
+)
+STROKES = made()
 
 
-FRAME, RESULT = skia_frame()
+def draw():
+    with SURFACE as canvas:
+        canvas.clear(skia.ColorWHITE)
+        for path in STROKES:
+            canvas.drawPath(path, PAINT)
+
+
 TIMES_MS = []
 for _ in range(FRAMES):
     start = time.perf_counter()
-    FRAME()
+    draw()
     TIMES_MS.append(1000 * (time.perf_counter() - start))
 with open(PIXELS, "wb") as file:
-    file.write(RESULT())
+    file.write(SURFACE.makeImageSnapshot().tobytes())
 print(json.dumps(TIMES_MS))

@@ -45,6 +45,7 @@ pub(super) struct Scratch {
     local: Vec<Point<f32>>,
     vertices: Vec<Point<f32>>,
     sources: Vec<Source>,
+    heads: Heads,
     pixels: Vec<Point<f64>>,
 }
 
@@ -312,13 +313,13 @@ fn simplify_all(scratch: &mut Scratch, tolerance: f32) {
         before,
         local,
         sources,
+        heads,
         vertices,
         ..
     } = scratch;
     let round = |x: f32| (x + ROUND).to_bits() as i16;
     let mut pen = Pen::new();
     let (mut first, mut ended) = (0, 0);
-    let mut heads = Heads::NONE;
     for (i, source) in sources.iter().enumerate() {
         let head = i % HEADS;
         if head == 0 {
@@ -332,8 +333,8 @@ fn simplify_all(scratch: &mut Scratch, tolerance: f32) {
         ended = source.round;
         kept.push_pieces(before, source.pieces.clone());
         let points = source.points_end - first;
-        let head = (&mut heads, head);
-        simplify(&local[first..], points, head, tolerance, vertices);
+        let joints = heads.of(head);
+        simplify(&local[first..], points, joints, tolerance, vertices);
         for (i, vertex) in vertices.iter().enumerate() {
             let vertex = Point {
                 x: round(vertex.x),

@@ -13,7 +13,7 @@ const FEW: usize = 8;
 
 /// Some joints between the segments of a run, how far the segments there may bend away from straight lines between them, and
 /// how far that lets a joint be from a line that passes it: its square, with the sign. Behind them lie others, or nothing.
-struct Joints {
+pub(super) struct Joints {
     count: usize,
     x: [f32; 2 * MOST],
     y: [f32; 2 * MOST],
@@ -40,9 +40,13 @@ pub(super) const HEADS: usize = 16;
 /// written as one vector and are read from its middle on.
 pub(super) struct Heads([Joints; HEADS]);
 
-impl Heads {
-    pub(super) const NONE: Self = Self([const { Joints::NONE }; HEADS]);
+impl Default for Heads {
+    fn default() -> Self {
+        Self([const { Joints::NONE }; HEADS])
+    }
+}
 
+impl Heads {
     /// Finds those of some runs of control points, of which there are [`HEADS`] or fewer, and [`MOST_POINTS`] from each of
     /// their first points on.
     ///
@@ -55,16 +59,27 @@ impl Heads {
         runs: impl Iterator<Item = Range<usize>>,
         tolerance: f32,
     ) {
+        let mut count = 0;
         for (joints, run) in self.0.iter_mut().zip(runs) {
-            joints.place(&points[run.start..], run.len());
+            if !run.is_empty() {
+                joints.place(&points[run.start..], run.len());
+            }
+            count += 1;
         }
-        (self.0.iter_mut()).for_each(|joints| joints.leave_room(tolerance));
+        let found = self.0[..count].iter_mut();
+        found.for_each(|joints| joints.leave_room(tolerance));
+    }
+
+    /// Those of one of the runs.
+    #[inline(always)]
+    pub(super) fn of(&mut self, run: usize) -> &mut Joints {
+        &mut self.0[run]
     }
 }
 
 /// Draws a run of control points, the first `len` of some, as straight lines, no point of either farther than `tolerance`
 /// from the other: gives the vertices in order. There are [`MOST_POINTS`] from each point of the run on: its own, or any.
-/// It is run number `head` of those whose first joints were found.
+/// Its first joints are found: see [`Heads`].
 ///
 /// # Panics
 /// Where there are not.
@@ -77,12 +92,11 @@ impl Heads {
 pub(super) fn simplify(
     mut points: &[Point<f32>],
     len: usize,
-    (heads, head): (&mut Heads, usize),
+    joints: &mut Joints,
     tolerance: f32,
     vertices: &mut Vec<Point<f32>>,
 ) {
     vertices.clear();
-    let joints = &mut heads.0[head];
     let mut left = len;
     while left >= 4 {
         if left == len {
@@ -244,10 +258,9 @@ mod tests {
         let mut vertices = Vec::new();
         // What lies behind a run does not matter.
         let after = [Point::new(f32::NAN, 1e9); MOST_POINTS];
-        let (points, mut heads) = ([run, &after].concat(), Heads::NONE);
+        let (points, mut heads) = ([run, &after].concat(), Heads::default());
         heads.find(&points, [0..3, 0..run.len()].into_iter(), tolerance);
-        let head = (&mut heads, 1);
-        simplify(&points, run.len(), head, tolerance, &mut vertices);
+        simplify(&points, run.len(), heads.of(1), tolerance, &mut vertices);
         vertices
     }
 

@@ -71,10 +71,11 @@ impl Gather {
         }
         self.add_rows(polygons, from..polygons.len());
         self.rows += polygons.len();
+        // While the points that were added are still near.
         match &mut self.points {
             Points::None => {}
-            Points::F32(held) => held.find_boxes(&self.run_ends),
-            Points::F64(held) => held.find_boxes(&self.run_ends),
+            Points::F32(held) => add_boxes(&mut held.boxes, &held.points, &self.run_ends),
+            Points::F64(held) => add_boxes(&mut held.boxes, &held.points, &self.run_ends),
         }
         Ok(())
     }
@@ -287,11 +288,6 @@ impl<T: Real> Held<T> {
             points: Vec::with_capacity(points),
             boxes: Vec::with_capacity(rows),
         }
-    }
-
-    /// Finds the boxes of the runs that were added last, while their points are still near.
-    fn find_boxes(&mut self, run_ends: &[u32]) {
-        add_boxes(&mut self.boxes, &self.points, run_ends);
     }
 }
 

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::{Geometry, Points, between, index, stretches};
 use crate::RunPoints;
-use crate::ahead::{FEW, ask_ahead};
+use crate::ahead::{FEW, ask_ahead, few};
 use crate::run_points::POINTS_AT_ONCE;
 
 impl Geometry {
@@ -50,8 +50,8 @@ impl Geometry {
     pub fn first_beyond(&self, reach_m: f64) -> Option<usize> {
         let is_within = |p: Point<f64>| (p.x.abs() <= reach_m) & (p.y.abs() <= reach_m);
         let is_placed = |run: RunPoints<'_>| match run {
-            RunPoints::F64(points) => all(points, is_within),
-            RunPoints::F32(points) => all(points, |p| is_within(p.to_f64())),
+            RunPoints::F64(points) => few(points).flatten().all(|&p| is_within(p)),
+            RunPoints::F32(points) => few(points).flatten().all(|p| is_within(p.to_f64())),
         };
         let is_misplaced = |&path: &usize| {
             let mut runs = self.runs(path);
@@ -228,14 +228,6 @@ impl Geometry {
         }
         self.run_ends.splice(runs, new_ends);
     }
-}
-
-/// Whether something holds for all of some points.
-fn all<T: Copy>(points: &[T], holds: impl Fn(T) -> bool) -> bool {
-    points.chunks(FEW).all(|few| {
-        ask_ahead(few);
-        few.iter().all(|&p| holds(p))
-    })
 }
 
 /// Gives each of some points another value by its own.

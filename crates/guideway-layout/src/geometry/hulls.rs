@@ -4,7 +4,7 @@ use guideway_spline::{Bounds, Point, Real, greater, lesser};
 use rayon::prelude::*;
 
 use super::{Geometry, Points, between};
-use crate::ahead::{FEW, ask_ahead, ask_for};
+use crate::ahead::{FEW, ask, ask_ahead};
 
 /// Boxes of the control points of all paths, which hold their curves, in the precision of the points.
 #[derive(Clone, Debug)]
@@ -130,7 +130,7 @@ fn all<T: Real>(boxes: &[Bounds<T>]) -> Bounds<T> {
 #[inline]
 fn some<T: Real>(boxes: &[Bounds<T>], paths: impl Iterator<Item = usize> + Clone) -> Bounds<T> {
     // They may lie anywhere.
-    (paths.clone()).for_each(|path| ask_for(&boxes[path..=path]));
+    (paths.clone()).for_each(|path| ask(&boxes[path]));
     paths.fold(none(), |all, path| both(all, boxes[path]))
 }
 
