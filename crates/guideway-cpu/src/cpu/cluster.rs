@@ -5,14 +5,15 @@ use guideway_scene::PathState;
 use guideway_spline::{Bounds, Point, hilbert};
 use rayon::prelude::*;
 
-use super::LANES;
-use super::canvas::{TILE_PX, set_bits};
+use super::canvas::TILE_PX;
 use super::extent::ask_for;
 use super::flatten::flatten;
+use super::joins::Links;
+use super::joints::{Chains, Joints, Run};
 use super::polylines::{Pen, Polylines, ROUNDS};
 use super::shot::Shot;
 use super::sight::Sight;
-use super::simplify::{HEADS, Heads, MOST_POINTS, simplify};
+use super::simplify::simplify;
 use super::vectors::by_lane_width;
 
 /// Paths, near each other, that are culled and kept together.
@@ -40,33 +41,20 @@ pub(super) enum Lines {
 #[derive(Default)]
 pub(super) struct Scratch {
     kept: Polylines<i16>,
-    /// What the cluster had before.
-    before: Polylines<i16>,
     local: Vec<Point<f32>>,
+    runs: Vec<Run>,
+    joints: Joints,
+    links: Links,
+    chains: Chains,
     vertices: Vec<Point<f32>>,
-    sources: Vec<Source>,
-    heads: Heads,
     pixels: Vec<Point<f64>>,
 }
 
-/// What lines of a path are made from.
-struct Source {
-    round: usize,
-    member: u8,
-    /// The end of a run's points, or of those before.
-    points_end: usize,
-    /// Pieces that it and others behind it had before, and that are still good; none if its curve has changed.
-    pieces: Range<usize>,
-}
-
-/// The order in which the paths of a cluster are drawn. They are sorted along a curve that fills the plane,
-/// so with the bits of their numbers reversed the first spread over all of the cluster, and most of what
-/// comes later is covered before.
-fn spread_out(round: usize, paths: usize) -> impl Iterator<Item = usize> {
+/// Paths of a cluster in an order of which each beginning spreads over all of it: they are sorted along a curve that fills the
+/// plane, so this reverses the bits of their numbers.
+fn spread_out(paths: usize) -> impl Iterator<Item = usize> {
     let reversed = |i: usize| (usize::from((i as u8).reverse_bits()) * CLUSTER_PATHS) >> u8::BITS;
-    // The more is covered by those before, the more are looked at together.
-    const ENDS: [usize; ROUNDS + 1] = [0, 8, 16, 24, 36, CLUSTER_PATHS];
-    let numbers = ENDS[round]..ENDS[round + 1];
+    let numbers = 0..CLUSTER_PATHS;
     numbers.map(reversed).filter(move |&i| i < paths)
 }
 
@@ -87,14 +75,12 @@ pub(super) fn sorted_rows(hulls: &Hulls) -> Vec<u32> {
 }
 
 impl Lines {
-    /// Makes anew what a frame needs within some rows of tiles: the lines of some members, if those of the others
-    /// can be kept.
+    /// Makes anew what a frame needs within some rows of tiles.
     pub(super) fn make(
         &mut self,
         shot: &Shot<'_>,
         sight: &Sight,
         (paths, middle): (&[u32], Point<f64>),
-        changed: Members,
         rows: &Range<usize>,
         scratch: &mut Scratch,
     ) {
@@ -108,12 +94,11 @@ impl Lines {
             return;
         }
         let unit_m = shot.unit_m();
-        scratch.before = match std::mem::take(self) {
+        let mut lines = match std::mem::take(self) {
             Self::Kept(_, lines) => lines,
             Self::None | Self::Cut(_) => Polylines::default(),
         };
-        scratch.keep(shot, paths, changed, middle, unit_m);
-        let mut lines = std::mem::take(&mut scratch.before);
+        scratch.keep(shot, paths, middle, unit_m);
         lines.copy_from(&scratch.kept);
         *self = Self::Kept(unit_m, lines);
     }
@@ -124,7 +109,7 @@ impl Lines {
             Self::None => [0, 0],
             Self::Cut(lines) => lines.paths_and_lines(),
             Self::Kept(unit_m, lines) => {
-                count(lines, &within_units(shot, sight.middle_px, *unit_m))
+                lines.count_within(&within_units(shot, sight.middle_px, *unit_m))
             }
         }
     }
@@ -158,98 +143,46 @@ fn within_units(shot: &Shot<'_>, middle: Point<f64>, unit_m: f64) -> Bounds<f32>
     }
 }
 
-/// Paths and lines of the pieces within a box.
-fn count(lines: &Polylines<i16>, within: &Bounds<f32>) -> [u32; 2] {
-    let (mut drawn, mut made, mut last) = (0, 0, None);
-    let pieces = 0..lines.pieces();
-    for first in pieces.clone().step_by(LANES) {
-        for lane in set_bits(lines.hit_bits(first, pieces.end, within)) {
-            let piece = first + lane;
-            made += lines.lines(piece) as u32;
-            drawn += u32::from(last != Some(lines.member(piece)));
-            last = Some(lines.member(piece));
-        }
-    }
-    [drawn, made]
-}
-
 impl Scratch {
     /// Bytes held.
     pub(super) fn bytes(&self) -> u64 {
         let points = self.local.capacity() + self.vertices.capacity();
         let own = points * size_of::<Point<f32>>()
-            + self.sources.capacity() * size_of::<Source>()
+            + self.runs.capacity() * size_of::<Run>()
             + self.pixels.capacity() * size_of::<Point<f64>>();
-        self.kept.bytes() + own as u64
+        let lists = self.joints.bytes() + self.links.bytes() + self.chains.bytes();
+        self.kept.bytes() + lists + own as u64
     }
 
-    /// Lines of all paths that are shown, in units from `middle_m`: of members that have changed from their curves,
-    /// of the others from what there was before.
-    fn keep(
-        &mut self,
-        shot: &Shot<'_>,
-        paths: &[u32],
-        changed: Members,
-        middle_m: Point<f64>,
-        unit_m: f64,
-    ) {
+    /// Lines of all paths that are shown, in units from `middle_m`.
+    fn keep(&mut self, shot: &Shot<'_>, paths: &[u32], middle_m: Point<f64>, unit_m: f64) {
         let scene = shot.scene;
         let Self {
-            kept,
-            before,
-            local,
-            sources,
-            ..
+            kept, local, runs, ..
         } = self;
         kept.clear();
         let per_m = 1.0 / unit_m;
         let place = |p: Point<f64>| {
             Point::new((p.x - middle_m.x) * per_m, (middle_m.y - p.y) * per_m).to_f32()
         };
-        let members = (0..paths.len()).filter(|member| changed >> member & 1 == 1);
-        ask_for(scene, members.map(|member| paths[member] as usize));
+        ask_for(scene, paths.iter().map(|&path| path as usize));
         local.clear();
-        sources.clear();
-        let mut piece = 0;
-        for round in 0..ROUNDS {
-            for member in spread_out(round, paths.len()) {
-                let first = piece;
-                while piece < before.pieces() && usize::from(before.member(piece)) == member {
-                    piece += 1;
+        runs.clear();
+        for member in spread_out(paths.len()) {
+            let path = paths[member];
+            if scene.state(path) != PathState::Shown {
+                continue;
+            }
+            for run in scene.layout().paths.geometry().runs(path as usize) {
+                let first = local.len();
+                match run {
+                    RunPoints::F64(run) => local.extend(run.iter().map(|&p| place(p))),
+                    RunPoints::F32(run) => local.extend(run.iter().map(|p| place(p.to_f64()))),
                 }
-                let source = |points_end, pieces| Source {
-                    round,
-                    member: member as u8,
-                    points_end,
-                    pieces,
-                };
-                let path = paths[member];
-                if changed >> member & 1 == 0 {
-                    match sources.last_mut() {
-                        // What lies side by side is kept at once.
-                        Some(last)
-                            if !last.pieces.is_empty()
-                                && (last.round, last.pieces.end) == (round, first) =>
-                        {
-                            last.pieces.end = piece;
-                        }
-                        _ => sources.push(source(local.len(), first..piece)),
-                    }
-                } else if scene.state(path) == PathState::Shown {
-                    for run in scene.layout().paths.geometry().runs(path as usize) {
-                        match run {
-                            RunPoints::F64(run) => local.extend(run.iter().map(|&p| place(p))),
-                            RunPoints::F32(run) => {
-                                local.extend(run.iter().map(|p| place(p.to_f64())));
-                            }
-                        }
-                        sources.push(source(local.len(), 0..0));
-                    }
-                }
+                runs.extend(Run::new(member, first..local.len()));
             }
         }
-        local.resize(local.len() + MOST_POINTS, Point::default());
-        simplify_by(shot.lane_width, self, shot.tolerance_units());
+        simplify_by(shot.lane_width, self, shot.tolerance_units(), shot.joins());
     }
 
     /// Lines within some rows of tiles, counted as those of all of the picture.
@@ -283,7 +216,7 @@ impl Scratch {
                     }
                     if last != Some(start) {
                         pen.lift(cut);
-                        pen.set(member as u8, start.to_f32());
+                        pen.set(1 << member, start.to_f32());
                     }
                     pen.draw(end.to_f32(), cut);
                     last = Some(end);
@@ -299,55 +232,53 @@ impl Scratch {
 }
 
 by_lane_width!(
-    fn simplify_by(scratch: &mut Scratch, tolerance: f32)
+    fn simplify_by(scratch: &mut Scratch, tolerance: f32, joins: bool)
     by simplify_all
 );
 
-/// Makes kept lines of all runs.
+/// A number of less than 16 bits, rounded to the nearest integer.
 #[inline(always)]
-fn simplify_all(scratch: &mut Scratch, tolerance: f32) {
-    /// Adding this to a number of less than 16 bits rounds it to the nearest integer, in the low bits.
+pub(super) fn round(x: f32) -> i16 {
+    /// Adding this rounds it, in the lowest bits of the sum.
     const ROUND: f32 = 1.5 * (1 << 23) as f32;
+    (x + ROUND).to_bits() as i16
+}
+
+/// Makes kept lines of all runs, those that go on from each other as one if they may be joined.
+#[inline(always)]
+fn simplify_all(scratch: &mut Scratch, tolerance: f32, joins: bool) {
     let Scratch {
         kept,
-        before,
         local,
-        sources,
-        heads,
+        runs,
+        joints,
+        links,
+        chains,
         vertices,
         ..
     } = scratch;
-    let round = |x: f32| (x + ROUND).to_bits() as i16;
+    joints.find(local);
+    links.find(runs, joints, joins);
+    links.chain(runs, joints, chains);
+    chains.leave_room(tolerance);
     let mut pen = Pen::new();
-    let (mut first, mut ended) = (0, 0);
-    for (i, source) in sources.iter().enumerate() {
-        let head = i % HEADS;
-        if head == 0 {
-            let runs = sources[i..].iter().scan(first, |start, source| {
-                let end = source.points_end;
-                Some(std::mem::replace(start, end)..end)
-            });
-            heads.find(local, runs, tolerance);
-        }
-        (ended..source.round).for_each(|round| kept.end_round(round));
-        ended = source.round;
-        kept.push_pieces(before, source.pieces.clone());
-        let points = source.points_end - first;
-        let joints = heads.of(head);
-        simplify(&local[first..], points, joints, tolerance, vertices);
+    let mut ended = 0;
+    for (chain, joints) in chains.iter() {
+        (ended..chain.round).for_each(|round| kept.end_round(round));
+        ended = chain.round;
+        simplify(chains, joints, local, tolerance, vertices);
         for (i, vertex) in vertices.iter().enumerate() {
             let vertex = Point {
                 x: round(vertex.x),
                 y: round(vertex.y),
             };
             if i == 0 {
-                pen.set(source.member, vertex);
+                pen.set(chain.members, vertex);
             } else {
                 pen.draw(vertex, kept);
             }
         }
         pen.lift(kept);
-        first = source.points_end;
     }
     (ended..ROUNDS).for_each(|round| kept.end_round(round));
     kept.finish();

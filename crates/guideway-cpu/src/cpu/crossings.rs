@@ -151,7 +151,7 @@ fn find_of<T: Coordinate>(
     let paths = drawn.index.paths_of(drawn.sights.get(key).cluster);
     let common_px = shot.common_radius_px();
     for piece in 0..lines.pieces() {
-        let path = || paths[usize::from(lines.member(piece))];
+        let path = || paths[lines.member(piece)];
         let radius_px = common_px.unwrap_or_else(|| shot.radius_px(path()));
         let reach_px = radius_px as f32 + MARGIN_PX;
         let begins = lines.begins_of(piece..piece + 1);

@@ -31,6 +31,8 @@ const MOST_FINER: f64 = 1.5;
 const LEAST_SHARE: f64 = 0.9;
 /// What of the sides of a pixel is not looked up, in pixels of what is known: its margin holds for that.
 const SIDE_PX: f64 = 1.0 / 64.0;
+/// What is kept of each band, from one scale to the next: whoever zooms comes back.
+const KEPT: usize = 16;
 /// Bits of a word of pixels.
 const WORD_PX: i64 = u32::BITS as i64;
 /// Words of no pixels at the ends of a row, so that tiles that begin or end beyond read nothing else.
@@ -39,7 +41,8 @@ const PADDING: usize = 2;
 /// What is known of a scene between its frames.
 #[derive(Default)]
 pub(super) struct Fills {
-    bands: [Option<Filled>; BANDS],
+    /// What was found of each band last, in the order in which it was.
+    bands: [Vec<Filled>; BANDS],
     /// The one that is looked at first when the next is found.
     next: usize,
     /// What the last frame saw.
@@ -108,6 +111,11 @@ impl Look {
     }
 }
 
+/// Which of some rows of tiles are a band.
+fn rows_of(band: usize, rows: usize) -> Range<usize> {
+    rows * band / BANDS..rows * (band + 1) / BANDS
+}
+
 impl Fills {
     /// Knows nothing of the scene any more, only where it was not worth it.
     pub(super) fn forget(&mut self) {
@@ -122,12 +130,32 @@ impl Fills {
         bands.sum::<u64>() + size_of_val(&self.spare[..]) as u64
     }
 
-    /// What a frame can look up.
-    pub(super) fn known(&self, shot: &Shot<'_>) -> Known<'_> {
-        let bands = self.bands.each_ref();
-        Known {
-            bands: bands.map(|band| band.as_ref()?.known(shot)),
-        }
+    /// What a frame can look up, of what holds for views up to a scale: of each band what was found with the widest strokes.
+    pub(super) fn known(&self, shot: &Shot<'_>, most_px_per_m: f64) -> Known<'_> {
+        let rows = Grid::of(shot.strip).rows.len();
+        let bands = std::array::from_fn(|band| {
+            let rows = rows_of(band, rows);
+            let known = self.known_of(band, shot, most_px_per_m);
+            let rated = known.map(|known| {
+                let width = 1.0 / known.filled.most_px_per_m();
+                ((known.is_worth_it(shot, &rows), width), known)
+            });
+            let best = rated.reduce(|a, b| if b.0 > a.0 { b } else { a });
+            best.map(|(_, known)| known)
+        });
+        Known { bands }
+    }
+
+    /// All that is known of a band, and holds for views up to a scale.
+    fn known_of(
+        &self,
+        band: usize,
+        shot: &Shot<'_>,
+        most_px_per_m: f64,
+    ) -> impl Iterator<Item = KnownBand<'_>> {
+        let holds = move |found: &&Filled| found.most_px_per_m() >= most_px_per_m;
+        let found = self.bands[band].iter().filter(holds);
+        found.filter_map(|found| found.known(shot))
     }
 
     /// Where a frame is to find out what it fills for those after it: the next band that is not known, once the scene stays
@@ -148,16 +176,12 @@ impl Fills {
         if nearer > MOST_NEARER || is_thin() {
             return None;
         }
-        let known = self.known(shot);
         let rows = Grid::of(shot.strip).rows.len();
         let band = (self.next..self.next + BANDS).map(|band| band % BANDS);
         let mut unknown = band.filter_map(|band| {
-            let rows = rows * band / BANDS..rows * (band + 1) / BANDS;
-            let is_known = known.bands[band].is_some_and(|known| {
-                known.filled.most_px_per_m() >= ahead_px_per_m
-                    && known.finer <= MOST_FINER
-                    && known.share(shot, &rows) >= LEAST_SHARE
-            });
+            let rows = rows_of(band, rows);
+            let mut known = self.known_of(band, shot, ahead_px_per_m);
+            let is_known = known.any(|known| known.is_worth_it(shot, &rows));
             (!is_known && !rows.is_empty()).then_some((band, rows))
         });
         let (band, rows) = unknown.next()?;
@@ -175,10 +199,11 @@ impl Fills {
             self.bands = Default::default();
             return;
         }
-        let band = filled.band;
-        if let Some(before) = self.bands[band].replace(filled) {
-            self.spare = before.words;
+        let band = &mut self.bands[filled.band];
+        if band.len() == KEPT {
+            self.spare = band.remove(0).words;
         }
+        band.push(filled);
     }
 }
 
@@ -204,7 +229,7 @@ impl Filled {
     }
 
     /// The scale of the nearest view that it holds for.
-    fn most_px_per_m(&self) -> f64 {
+    pub(super) fn most_px_per_m(&self) -> f64 {
         self.look.view.px_per_m() * self.nearer
     }
 
@@ -261,16 +286,7 @@ impl Filled {
     }
 }
 
-impl<'a> Known<'a> {
-    /// What of it holds for all that a band will hold for.
-    pub(super) fn that_holds_for(&self, filled: &Filled) -> Self {
-        let most_px_per_m = filled.most_px_per_m();
-        let holds = |known: &KnownBand<'a>| known.filled.most_px_per_m() >= most_px_per_m;
-        Self {
-            bands: self.bands.map(|band| band.filter(holds)),
-        }
-    }
-
+impl Known<'_> {
     /// Number of pixels of a picture that are full for certain.
     #[cfg(test)]
     pub(super) fn count(&self, shot: &Shot<'_>) -> u32 {
@@ -292,6 +308,11 @@ impl<'a> Known<'a> {
 }
 
 impl KnownBand<'_> {
+    /// Whether so much of some rows of tiles can be looked up, and so easily, that they are not worth finding anew.
+    fn is_worth_it(&self, shot: &Shot<'_>, rows: &Range<usize>) -> bool {
+        self.finer <= MOST_FINER && self.share(shot, rows) >= LEAST_SHARE
+    }
+
     /// The part of some rows of tiles of a frame that can be looked up.
     fn share(&self, shot: &Shot<'_>, rows: &Range<usize>) -> f64 {
         let within = |first: f64, pixels: f64, own: f64| {

@@ -7,9 +7,10 @@ use std::time::Instant;
 
 use guideway_render::density::{ToneMap, Tones};
 use guideway_render::{Frame, RenderError, Shading, Stage, Style, View, elapsed_ms};
+use rayon::prelude::*;
 
 use super::bins::Bins;
-use super::cluster::{Members, Scratch};
+use super::cluster::Scratch;
 use super::crossings::Drawn;
 use super::filled::{Filled, Known};
 use super::index::{Index, Made};
@@ -25,8 +26,8 @@ pub(super) struct Buffers {
     pub(super) sights: Sights,
     pub(super) parts: Parts,
     pub(super) bins: Bins,
-    /// Keys of clusters whose lines have to be made, and of which members.
-    pub(super) todo: Vec<(u32, Members)>,
+    /// Keys of clusters whose lines have to be made.
+    pub(super) todo: Vec<u32>,
     pub(super) counts: Vec<f32>,
     scratches: Vec<Mutex<Scratch>>,
     painters: Vec<Mutex<Painter>>,
@@ -47,7 +48,7 @@ pub(super) struct Easel<'a, 'p> {
     pub(super) kept: Option<&'a Kept>,
     /// What is full for certain, and where it is found out what will be.
     pub(super) known: Known<'a>,
-    pub(super) filled: Option<&'a Filled>,
+    pub(super) filled: Option<(&'a Filled, Known<'a>)>,
     /// Most bytes for lines, and for what lies where.
     pub(super) limit_bytes: u64,
 }
@@ -84,7 +85,7 @@ impl Buffers {
 
     /// Bytes of what is neither lines nor what lies where.
     fn scratch_bytes(&self) -> u64 {
-        let todo = self.todo.capacity() * size_of::<(u32, Members)>();
+        let todo = self.todo.capacity() * size_of::<u32>();
         let of_threads =
             sum(&self.scratches, Scratch::bytes) + sum(&self.painters, Painter::list_bytes);
         self.sights.bytes() + self.parts.bytes() + todo as u64 + of_threads
@@ -216,9 +217,13 @@ impl Buffers {
         }
         self.time("cover", |b| {
             let mut counts = std::mem::take(&mut b.counts);
-            let thinner = easel.filled.map(|filled| shot.thinner(filled.nearer));
+            let thinner = easel.filled.map(|(filled, _)| shot.thinner(filled.nearer));
             let filling = easel.filled.zip(thinner.as_ref());
-            let filling = filling.map(|(filled, shot)| Filling { shot, filled });
+            let filling = filling.map(|((filled, known), shot)| Filling {
+                shot,
+                filled,
+                known,
+            });
             let band = Band {
                 shot,
                 grid: &grid,
@@ -265,9 +270,8 @@ impl Buffers {
         for (key, sight) in self.sights.with_keys() {
             if sight.is_in(rows) {
                 let made = &mut index.made[sight.cluster as usize];
-                let missing = made.missing(shot);
-                if sight.is_large || missing != 0 {
-                    self.todo.push((key, missing));
+                if sight.is_large || !made.is_good(shot) {
+                    self.todo.push(key);
                     // If this is not carried through, they have to be made anew.
                     made.precision = Precision::default();
                 }
@@ -275,51 +279,39 @@ impl Buffers {
         }
         let total = AtomicU64::new(index.lines_bytes);
         let mut lines = std::mem::take(&mut index.lines);
-        let place = |(key, _)| self.sights.get(key).cluster as usize;
-        for_each_at(
-            &mut lines,
-            0,
-            &self.todo,
-            &place,
-            &|(key, missing), lines| {
-                let is_over = total.load(Ordering::Relaxed) > limit_bytes;
-                let sight = self.sights.get(key);
-                let Some(extent) = index.extents[sight.cluster as usize] else {
-                    return;
-                };
-                if is_over || shot.cancel.check().is_err() {
-                    return;
-                }
-                let mut scratch = own(&self.scratches);
-                let before = lines.bytes();
-                let paths = index.paths_of(sight.cluster);
-                let cluster = (paths, extent.middle);
-                lines.make(shot, sight, cluster, missing, rows, &mut scratch);
-                total.fetch_add(lines.bytes().wrapping_sub(before), Ordering::Relaxed);
-            },
-        );
+        let place = |key| self.sights.get(key).cluster as usize;
+        for_each_at(&mut lines, 0, &self.todo, &place, &|key, lines| {
+            let is_over = total.load(Ordering::Relaxed) > limit_bytes;
+            let sight = self.sights.get(key);
+            let Some(extent) = index.extents[sight.cluster as usize] else {
+                return;
+            };
+            if is_over || shot.cancel.check().is_err() {
+                return;
+            }
+            let mut scratch = own(&self.scratches);
+            let before = lines.bytes();
+            let paths = index.paths_of(sight.cluster);
+            let cluster = (paths, extent.middle);
+            lines.make(shot, sight, cluster, rows, &mut scratch);
+            total.fetch_add(lines.bytes().wrapping_sub(before), Ordering::Relaxed);
+        });
         index.lines = lines;
         index.lines_bytes = total.into_inner();
         shot.cancel.check()?;
         if index.lines_bytes > limit_bytes {
             return Ok(Err(TooMuch(index.lines_bytes)));
         }
-        for &(key, missing) in &self.todo {
+        for &key in &self.todo {
             let sight = self.sights.get(key);
             let cluster = sight.cluster as usize;
-            let drift_m = index.made[cluster].drift_m;
             index.made[cluster] = Made {
                 precision: if sight.is_large {
                     Precision::default()
                 } else {
                     shot.precision()
                 },
-                changed: 0,
-                drift_m: if missing == Members::MAX {
-                    0.0
-                } else {
-                    drift_m
-                },
+                drift_m: 0.0,
                 paths_and_lines: index.lines[cluster].paths_and_lines(),
             };
         }
@@ -328,18 +320,21 @@ impl Buffers {
 
     /// Counts the paths and the lines that may leave a mark: each cluster with the band where it begins.
     fn count(&mut self, shot: &Shot<'_>, index: &Index, rows: &Range<usize>) {
-        for sight in self.sights.iter() {
-            if rows.contains(&sight.rows().start) {
-                let cluster = sight.cluster as usize;
-                let [drawn, made] = if sight.is_whole {
-                    index.made[cluster].paths_and_lines
-                } else {
-                    index.lines[cluster].count(shot, sight)
-                };
-                self.drawn += u64::from(drawn);
-                self.made += u64::from(made);
-            }
-        }
+        let begin_here = self
+            .sights
+            .par_iter()
+            .filter(|sight| rows.contains(&sight.rows().start));
+        let counts = begin_here.map(|sight| {
+            let cluster = sight.cluster as usize;
+            let counts = if sight.is_whole {
+                index.made[cluster].paths_and_lines
+            } else {
+                index.lines[cluster].count(shot, sight)
+            };
+            counts.map(u64::from)
+        });
+        let [drawn, made] = counts.reduce(|| [0, 0], |a, b| [a[0] + b[0], a[1] + b[1]]);
+        (self.drawn, self.made) = (self.drawn + drawn, self.made + made);
     }
 }
 

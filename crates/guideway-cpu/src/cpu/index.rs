@@ -35,8 +35,6 @@ pub(super) struct Index {
 pub(super) struct Made {
     /// That of the views that they are good for; the default if they have to be made anew.
     pub(super) precision: Precision,
-    /// Members that have changed since.
-    pub(super) changed: Members,
     /// How far their curves may be from where all were moved to with their lines, for points are rounded, in metres.
     pub(super) drift_m: f64,
     /// Number of paths and of lines.
@@ -55,13 +53,9 @@ pub(super) struct Leaving {
 }
 
 impl Made {
-    /// The members whose lines a frame cannot be drawn with.
-    pub(super) fn missing(&self, shot: &Shot<'_>) -> Members {
-        if self.precision == shot.precision() && self.drift_m <= MOST_DRIFT * shot.unit_m() {
-            self.changed
-        } else {
-            Members::MAX
-        }
+    /// Whether a frame can be drawn with them.
+    pub(super) fn is_good(&self, shot: &Shot<'_>) -> bool {
+        self.precision == shot.precision() && self.drift_m <= MOST_DRIFT * shot.unit_m()
     }
 }
 
@@ -208,9 +202,7 @@ impl Index {
         let mut changed = Vec::with_capacity(2 * leaving.len());
         let moves = by.and_then(Affine::as_translation).is_some();
         for (left, now) in leaving.iter().zip(extents) {
-            let Leaving {
-                cluster, members, ..
-            } = *left;
+            let cluster = left.cluster;
             let is_moved = moves && self.is_whole(left);
             let (extent, made) = (
                 &mut self.extents[cluster as usize],
@@ -223,10 +215,7 @@ impl Index {
                 made.drift_m += geometry.rounding_m(now.bounds);
                 continue;
             }
-            made.changed |= members;
-            if before.map(|extent| extent.middle) != extent.map(|extent| extent.middle) {
-                made.precision = Precision::default();
-            }
+            made.precision = Precision::default();
         }
         changed
     }

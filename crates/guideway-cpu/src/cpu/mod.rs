@@ -25,6 +25,8 @@ mod fixed;
 mod flatten;
 mod frame;
 mod index;
+mod joins;
+mod joints;
 mod kept;
 mod layers;
 mod paint;

@@ -75,6 +75,8 @@ pub(super) struct Filling<'a> {
     /// The frame, with thinner strokes.
     pub(super) shot: &'a Shot<'a>,
     pub(super) filled: &'a Filled,
+    /// What is full for certain wherever that will hold.
+    pub(super) known: Known<'a>,
 }
 
 /// The part of a tile that is drawn.
@@ -166,7 +168,11 @@ impl<'a> Band<'a> {
 
     /// Finds what thinner strokes fill of the pixels that are full.
     fn fill(&self, filling: Filling<'a>, painter: &mut Painter, tile: &Tile) {
-        let Filling { shot, filled } = filling;
+        let Filling {
+            shot,
+            filled,
+            known,
+        } = filling;
         if !filled.rows.contains(&(tile.corner.y as usize / TILE_PX)) {
             return;
         }
@@ -176,7 +182,7 @@ impl<'a> Band<'a> {
             widest_px: shot.widest_px(),
             ..*self
         };
-        let known = self.known.that_holds_for(filled).tile(tile.corner);
+        let known = known.tile(tile.corner);
         let (touched, in_view) = painter.solid.marked_pixels(tile.width_px, tile.height_px);
         let mut closed = in_view;
         for (closed, known) in closed.iter_mut().zip(&known) {

@@ -3,6 +3,8 @@ use std::ops::Range;
 use guideway_spline::{Bounds, Point, greater, lesser};
 
 use super::LANES;
+use super::canvas::set_bits;
+use super::cluster::Members;
 
 /// Pieces are drawn in so many rounds.
 pub(super) const ROUNDS: usize = 5;
@@ -51,8 +53,8 @@ pub(super) struct Polylines<T> {
     begins: Vec<u16>,
     /// The first vertex of each piece, and the end of the last.
     firsts: Vec<u32>,
-    /// Whose each piece is, as a number among the paths.
-    members: Vec<u8>,
+    /// Whose each piece is, or the chain of paths that it is a part of.
+    members: Vec<Members>,
     /// The box of each piece: least x and y, greatest x and y.
     boxes: [Vec<T>; 4],
     /// Where each round of pieces ends.
@@ -86,11 +88,10 @@ impl<T: Coordinate> Polylines<T> {
     /// Adds a piece: the vertices of as many lines as there are lanes, or fewer. It begins where the last one
     /// of the same path ended, or anywhere.
     #[inline(always)]
-    pub(super) fn push(&mut self, member: u8, vertices: &[Point<T>]) {
+    pub(super) fn push(&mut self, members: Members, vertices: &[Point<T>]) {
         let first = self.x.len();
-        self.counts[0] += u32::from(self.members.last() != Some(&member));
         self.firsts.push(first as u32);
-        self.members.push(member);
+        self.members.push(members);
         self.x.extend(vertices.iter().map(|v| v.x));
         self.y.extend(vertices.iter().map(|v| v.y));
         self.begins.resize(self.x.len().div_ceil(LANES), 0);
@@ -112,30 +113,6 @@ impl<T: Coordinate> Polylines<T> {
             .zip([least.x, least.y, most.x, most.y])
         {
             side.push(value);
-        }
-    }
-
-    /// Adds some pieces of other lines.
-    #[inline(always)]
-    pub(super) fn push_pieces(&mut self, other: &Self, pieces: Range<usize>) {
-        if pieces.is_empty() {
-            return;
-        }
-        let vertices = other.firsts[pieces.start] as usize..other.firsts[pieces.end] as usize;
-        let shift = self.x.len();
-        self.x.extend_from_slice(&other.x[vertices.clone()]);
-        self.y.extend_from_slice(&other.y[vertices.clone()]);
-        self.begins.resize(self.x.len().div_ceil(LANES), 0);
-        for piece in pieces.clone() {
-            let first = other.firsts[piece] as usize - vertices.start + shift;
-            let member = other.members[piece];
-            self.counts[0] += u32::from(self.members.last() != Some(&member));
-            self.firsts.push(first as u32);
-            self.members.push(member);
-            self.begin(first, other.lines(piece));
-        }
-        for (own, others) in self.boxes.iter_mut().zip(&other.boxes) {
-            own.extend_from_slice(&others[pieces.clone()]);
         }
     }
 
@@ -163,6 +140,8 @@ impl<T: Coordinate> Polylines<T> {
 
     /// Ends the list.
     pub(super) fn finish(&mut self) {
+        let members = self.members.iter().fold(0, |all, of_piece| all | of_piece);
+        self.counts[0] = members.count_ones();
         self.firsts.push(self.x.len() as u32);
         let padded = self.x.len() + LANES;
         self.x.resize(padded, T::default());
@@ -191,6 +170,19 @@ impl<T: Coordinate> Polylines<T> {
         self.counts
     }
 
+    /// Number of paths and of lines of the pieces whose box meets another.
+    pub(super) fn count_within(&self, within: &Bounds<f32>) -> [u32; 2] {
+        let pieces = 0..self.pieces();
+        let (mut drawn, mut made): (Members, _) = (0, 0);
+        for first in pieces.clone().step_by(LANES) {
+            for lane in set_bits(self.hit_bits(first, pieces.end, within)) {
+                drawn |= self.members[first + lane];
+                made += self.lines(first + lane) as u32;
+            }
+        }
+        [drawn.count_ones(), made]
+    }
+
     /// Counts as others.
     pub(super) fn set_paths_and_lines(&mut self, counts: [u32; 2]) {
         self.counts = counts;
@@ -211,9 +203,9 @@ impl<T: Coordinate> Polylines<T> {
         self.members.len()
     }
 
-    /// Whose a piece is.
-    pub(super) fn member(&self, piece: usize) -> u8 {
-        self.members[piece]
+    /// Whose a piece is, or one of those.
+    pub(super) fn member(&self, piece: usize) -> usize {
+        self.members[piece].trailing_zeros() as usize
     }
 
     /// Number of lines of a piece.
@@ -268,7 +260,7 @@ impl<T: Coordinate> Polylines<T> {
         let bytes = coordinates * size_of::<T>()
             + self.begins.capacity() * size_of::<u16>()
             + self.firsts.capacity() * size_of::<u32>()
-            + self.members.capacity();
+            + self.members.capacity() * size_of::<Members>();
         bytes as u64
     }
 }
@@ -287,7 +279,7 @@ pub(super) fn bits_below(lane: usize) -> u32 {
 pub(super) struct Pen<T> {
     vertices: [Point<T>; LANES + 1],
     len: usize,
-    member: u8,
+    members: Members,
 }
 
 impl<T: Coordinate> Pen<T> {
@@ -298,14 +290,14 @@ impl<T: Coordinate> Pen<T> {
                 y: T::default(),
             }; LANES + 1],
             len: 0,
-            member: 0,
+            members: 0,
         }
     }
 
-    /// Begins at a vertex of a path.
+    /// Begins at a vertex of a chain.
     #[inline(always)]
-    pub(super) fn set(&mut self, member: u8, vertex: Point<T>) {
-        (self.member, self.len) = (member, 1);
+    pub(super) fn set(&mut self, members: Members, vertex: Point<T>) {
+        (self.members, self.len) = (members, 1);
         self.vertices[0] = vertex;
     }
 
@@ -313,7 +305,7 @@ impl<T: Coordinate> Pen<T> {
     #[inline(always)]
     pub(super) fn draw(&mut self, vertex: Point<T>, lines: &mut Polylines<T>) {
         if self.len > LANES {
-            lines.push(self.member, &self.vertices);
+            lines.push(self.members, &self.vertices);
             self.vertices[0] = self.vertices[LANES];
             self.len = 1;
         }
@@ -321,11 +313,11 @@ impl<T: Coordinate> Pen<T> {
         self.len += 1;
     }
 
-    /// Ends the lines of a path.
+    /// Ends the lines of a chain.
     #[inline(always)]
     pub(super) fn lift(&mut self, lines: &mut Polylines<T>) {
         if self.len > 1 {
-            lines.push(self.member, &self.vertices[..self.len]);
+            lines.push(self.members, &self.vertices[..self.len]);
         }
         self.len = 0;
     }

@@ -121,7 +121,7 @@ impl CpuPrepared {
     pub(super) fn known_pixels(&self, view: &View, style: &Style) -> u32 {
         let (strip, cancel) = (Strip::whole(view), Cancel::default());
         let shot = (self.index).shot(&self.scene, self.lane_width, (&strip, style, &cancel));
-        self.fills.known(&shot).count(&shot)
+        self.fills.known(&shot, 0.0).count(&shot)
     }
 
     /// Lists lines by tiles of clusters that cover so many.
@@ -212,7 +212,7 @@ impl Prepared for CpuPrepared {
             can_keep && own_bytes + frame_bytes + kept.bytes() <= self.budget.memory_bytes
         });
         let kept_bytes = kept.as_ref().map_or(0, Kept::bytes);
-        let fills_bytes = self.fills.bytes().max(Filled::planned_bytes(pixels));
+        let fills_bytes = self.fills.bytes() + Filled::planned_bytes(pixels);
         let with_fills = own_bytes + frame_bytes + kept_bytes + fills_bytes;
         let can_fill = can_keep && with_fills <= self.budget.memory_bytes / 2;
         if can_fill {
@@ -255,8 +255,11 @@ impl Prepared for CpuPrepared {
                 shot: &shot,
                 frame,
                 kept: kept.as_ref().filter(|_| is_moved),
-                known: fills.known(&shot),
-                filled: filled.as_ref(),
+                known: fills.known(&shot, 0.0),
+                filled: filled.as_ref().map(|filled| {
+                    let known = fills.known(&shot, filled.most_px_per_m());
+                    (filled, known)
+                }),
                 limit_bytes,
             };
             let drawn = match style.shading {

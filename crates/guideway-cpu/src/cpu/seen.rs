@@ -110,8 +110,8 @@ impl<'a, const C: usize> Seen<'a, C> {
 
     /// The path of a member of the cluster.
     #[inline(always)]
-    pub(super) fn path(&self, member: u8) -> u32 {
-        self.band.index.paths_of(self.sight.cluster)[usize::from(member)]
+    pub(super) fn path(&self, member: usize) -> u32 {
+        self.band.index.paths_of(self.sight.cluster)[member]
     }
 
     /// What of the lines may leave a mark on the tile, in their own unit.

@@ -23,6 +23,7 @@ struct Grain {
 pub(super) struct Precision {
     unit_m: f64,
     tolerance_units: f32,
+    joins: bool,
 }
 
 /// Where all is one colour, borders of strokes are seen alone: at most a ninth of a pixel off.
@@ -148,7 +149,13 @@ impl Shot<'_> {
         Precision {
             unit_m: self.unit_m(),
             tolerance_units: self.tolerance_units(),
+            joins: self.joins(),
         }
+    }
+
+    /// Whether curves that go on from each other are drawn as one: of one colour and one width nobody can tell.
+    pub(super) fn joins(&self) -> bool {
+        self.solid.is_some() && self.widths.is_none()
     }
 
     fn grain(&self) -> Grain {

@@ -3,86 +3,26 @@ use std::ops::Range;
 use guideway_spline::{Point, greater, uniform};
 
 use super::LANES;
+use super::joints::Chains;
 
 /// Joints of a stretch that is simplified at once.
-const MOST: usize = LANES;
-/// Points of such a stretch: what has to lie behind the first point of a run.
-pub(super) const MOST_POINTS: usize = MOST + 2;
-/// Joints between two that are looked at as one vector.
+const MOST: usize = u64::BITS as usize;
+/// Joints between two that are looked at as one vector; of more, [`LANES`] are.
 const FEW: usize = 8;
 
-/// Some joints between the segments of a run, how far the segments there may bend away from straight lines between them, and
-/// how far that lets a joint be from a line that passes it: its square, with the sign. Behind them lie others, or nothing.
-pub(super) struct Joints {
-    count: usize,
-    x: [f32; 2 * MOST],
-    y: [f32; 2 * MOST],
-    bend: [f32; MOST + 1],
-    room: [f32; 2 * MOST],
-}
-
-/// From number `MOST - n` on, the first n bits of lanes are set.
-static FIRST_LANES: [u32; 2 * MOST] = {
-    let mut lanes = [0; 2 * MOST];
-    let (set, _) = lanes.split_at_mut(MOST);
+/// From number `LANES - n` on, the first n bits of lanes are set.
+static FIRST_LANES: [u32; 2 * LANES] = {
+    let mut lanes = [0; 2 * LANES];
+    let (set, _) = lanes.split_at_mut(LANES);
     let mut i = 0;
-    while i < MOST {
+    while i < LANES {
         set[i] = u32::MAX;
         i += 1;
     }
     lanes
 };
 
-/// Runs whose first joints are found together.
-pub(super) const HEADS: usize = 16;
-
-/// The first joints of some runs. They are found long before they are looked at: processors wait for numbers that were just
-/// written as one vector and are read from its middle on.
-pub(super) struct Heads([Joints; HEADS]);
-
-impl Default for Heads {
-    fn default() -> Self {
-        Self([const { Joints::NONE }; HEADS])
-    }
-}
-
-impl Heads {
-    /// Finds those of some runs of control points, of which there are [`HEADS`] or fewer, and [`MOST_POINTS`] from each of
-    /// their first points on.
-    ///
-    /// # Panics
-    /// Where there are not.
-    #[inline(always)]
-    pub(super) fn find(
-        &mut self,
-        points: &[Point<f32>],
-        runs: impl Iterator<Item = Range<usize>>,
-        tolerance: f32,
-    ) {
-        let mut count = 0;
-        for (joints, run) in self.0.iter_mut().zip(runs) {
-            if !run.is_empty() {
-                joints.place(&points[run.start..], run.len());
-            }
-            count += 1;
-        }
-        let found = self.0[..count].iter_mut();
-        found.for_each(|joints| joints.leave_room(tolerance));
-    }
-
-    /// Those of one of the runs.
-    #[inline(always)]
-    pub(super) fn of(&mut self, run: usize) -> &mut Joints {
-        &mut self.0[run]
-    }
-}
-
-/// Draws a run of control points, the first `len` of some, as straight lines, no point of either farther than `tolerance`
-/// from the other: gives the vertices in order. There are [`MOST_POINTS`] from each point of the run on: its own, or any.
-/// Its first joints are found: see [`Heads`].
-///
-/// # Panics
-/// Where there are not.
+/// Draws a chain as straight lines, no point of either farther than `tolerance` from the other: gives the vertices in order.
 ///
 /// A line from joint to joint is taken if all joints between are near enough. Between two joints, a curve
 /// leaves their chord by at most max |C''| / 8, and C'' is linear, so its greatest length is at a joint. The
@@ -90,40 +30,35 @@ impl Heads {
 /// off as the tolerance leaves beside what the curve may bend on either side of it.
 #[inline(always)]
 pub(super) fn simplify(
-    mut points: &[Point<f32>],
-    len: usize,
-    joints: &mut Joints,
+    chains: &Chains,
+    joints: Range<usize>,
+    points: &[Point<f32>],
     tolerance: f32,
     vertices: &mut Vec<Point<f32>>,
 ) {
     vertices.clear();
-    let mut left = len;
-    while left >= 4 {
-        if left == len {
-            vertices.push(joints.at(0));
-        } else {
-            joints.place(points, left);
-            joints.leave_room(tolerance);
-        }
-        let mut kept = joints.kept();
-        let mut last = 0;
-        // What ends with a part may go on behind it: then all but the first line waits for the next part.
-        if left > MOST_POINTS && kept.count_ones() > 2 {
-            kept &= !(1 << (joints.count - 1));
+    vertices.push(chains.at(joints.start));
+    let mut first = joints.start;
+    while joints.end - first >= 2 {
+        let end = joints.end.min(first + MOST);
+        let mut kept = kept(chains, first..end);
+        // What ends with a stretch may go on behind it: then all but the first line waits for the next one.
+        if end < joints.end && kept.count_ones() > 2 {
+            kept &= !(1 << (end - 1 - first));
         }
         kept &= !1;
+        let mut last = first;
         while kept != 0 {
-            let joint = kept.trailing_zeros() as usize;
+            let joint = first + kept.trailing_zeros() as usize;
             kept &= kept - 1;
             if joint == last + 1 {
-                let bend = joints.bend_between(last, joint);
-                cut(uniform::segment(points, last), bend, tolerance, vertices);
+                let segment = uniform::segment(points, chains.segment[last] as usize);
+                cut(segment, chains.bend[last], tolerance, vertices);
             }
-            vertices.push(joints.at(joint));
+            vertices.push(chains.at(joint));
             last = joint;
         }
-        points = &points[last..];
-        left -= last;
+        first = last;
     }
 }
 
@@ -138,87 +73,80 @@ fn cut(segment: &[Point<f32>; 4], bend: f32, tolerance: f32, vertices: &mut Vec<
     }
 }
 
-impl Joints {
-    const NONE: Self = Self {
-        count: 0,
-        x: [0.0; 2 * MOST],
-        y: [0.0; 2 * MOST],
-        bend: [0.0; MOST + 1],
-        room: [0.0; 2 * MOST],
-    };
-
-    /// The first joints of a run of so many points.
-    #[inline(always)]
-    fn place(&mut self, points: &[Point<f32>], len: usize) {
-        let points: &[Point<f32>; MOST_POINTS] =
-            points.first_chunk().expect("points behind the run");
-        self.count = len.min(MOST_POINTS).saturating_sub(2);
-        for i in 0..MOST {
-            let [a, b, c] = [points[i], points[i + 1], points[i + 2]];
-            self.x[i] = (a.x + b.x * 4.0 + c.x) * (1.0 / 6.0);
-            self.y[i] = (a.y + b.y * 4.0 + c.y) * (1.0 / 6.0);
-            let x = a.x - b.x * 2.0 + c.x;
-            let y = a.y - b.y * 2.0 + c.y;
-            self.bend[i] = (x * x + y * y).sqrt() * 0.125;
+/// Which joints to keep, a bit each: the first, the last, and where a line would be too far off, that
+/// farthest from it (Douglas and Peucker 1973).
+#[inline(always)]
+fn kept(chains: &Chains, joints: Range<usize>) -> u64 {
+    let first = joints.start;
+    let last = joints.len() - 1;
+    let mut kept: u64 = 1 | 1 << last;
+    let mut from = 0;
+    while from < last {
+        let to = from + 1 + (kept >> (from + 1) as u32).trailing_zeros() as usize;
+        match farthest(chains, first + from, first + to) {
+            Some(joint) => kept |= 1 << (joint - first),
+            None => from = to,
         }
     }
+    kept
+}
 
-    /// How far each may be off. What lies behind the last does not matter to those between others.
-    #[inline(always)]
-    fn leave_room(&mut self, tolerance: f32) {
-        for i in 1..MOST {
-            let bend = greater(greater(self.bend[i - 1], self.bend[i]), self.bend[i + 1]);
-            let room = tolerance - bend;
-            self.room[i] = room * room.abs();
-        }
-    }
-
-    fn at(&self, joint: usize) -> Point<f32> {
-        Point::new(self.x[joint], self.y[joint])
-    }
-
-    /// How far a segment may bend away from its chord.
-    fn bend_between(&self, first: usize, last: usize) -> f32 {
-        greater(self.bend[first], self.bend[last])
-    }
-
-    /// Which joints to keep, a bit each: the first, the last, and where a line would be too far off, that
-    /// farthest from it (Douglas and Peucker 1973).
-    #[inline(always)]
-    fn kept(&self) -> u32 {
-        let last = self.count - 1;
-        let mut kept: u32 = 1 | 1 << last;
-        let mut from = 0;
-        while from < last {
-            let to = from + 1 + (kept >> (from + 1) as u32).trailing_zeros() as usize;
-            let farthest = match to - from {
-                1 => None,
-                2..=FEW => self.farthest::<FEW>(from, to),
-                _ => self.farthest::<MOST>(from, to),
-            };
-            match farthest {
-                Some(joint) => kept |= 1 << joint,
-                None => from = to,
+/// The joint between two that is farthest beyond what it may be from the line between them; none if there is no such.
+#[inline(always)]
+fn farthest(chains: &Chains, from: usize, to: usize) -> Option<usize> {
+    let line = Line::new(chains.at(from), chains.at(to));
+    let between = from + 1;
+    let key = match to - between {
+        0 => return None,
+        1..=FEW => line.farthest::<FEW>(chains, between, between..to),
+        _ => {
+            let (mut first, mut key) = (between, 0);
+            while first < to {
+                key = key.max(line.farthest::<LANES>(chains, between, first..to));
+                first += LANES;
             }
+            key
         }
-        kept
-    }
+    };
+    (key > LANE_BITS).then_some(between + (key & LANE_BITS) as usize)
+}
 
-    /// The joint between two that is farthest beyond what it may be from the line between them; none if there is no such.
-    /// There are fewer than `N` between them.
+/// A line that joints are compared with. All lengths are times its own, so that nothing is divided.
+struct Line {
+    start: Point<f32>,
+    along: Point<f32>,
+    square: f32,
+}
+
+/// The bits of a key that say which joint it is for; those above say how far off that is.
+const LANE_BITS: u32 = MOST as u32 - 1;
+
+impl Line {
     #[inline(always)]
-    fn farthest<const N: usize>(&self, from: usize, to: usize) -> Option<usize> {
-        const LANE_BITS: u32 = MOST as u32 - 1;
+    fn new(start: Point<f32>, end: Point<f32>) -> Self {
         /// In place of shorter lines, whose squares may vanish: short beside all units.
         const POINT: Point<f32> = Point::new(1.0 / 1024.0, 0.0);
-        let start = self.at(from);
-        let along = self.at(to) - start;
+        let along = end - start;
         let is_point = along.dot(along) < POINT.dot(POINT);
         let along = if is_point { POINT } else { along };
-        let square = along.dot(along);
-        let between = from + 1;
-        let [xs, ys, rooms] = [&self.x, &self.y, &self.room].map(|all| &all[between..between + N]);
-        // All lengths are times that of the line, so that nothing is divided.
+        Self {
+            start,
+            along,
+            square: along.dot(along),
+        }
+    }
+
+    /// The greatest key of the first `N` of some joints, whose numbers are counted from `base`.
+    #[inline(always)]
+    fn farthest<const N: usize>(&self, chains: &Chains, base: usize, joints: Range<usize>) -> u32 {
+        let Self {
+            start,
+            along,
+            square,
+        } = *self;
+        let first = joints.start;
+        let (xs, ys) = (&chains.x[first..first + N], &chains.y[first..first + N]);
+        let rooms = &chains.room[first..first + N];
         let (mut ahead, mut beside) = ([0.0; N], [0.0; N]);
         for i in 0..N {
             let (x, y) = (xs[i] - start.x, ys[i] - start.y);
@@ -232,11 +160,11 @@ impl Joints {
             let off = beside[i] * beside[i] + beyond * beyond;
             over[i] = greater(off - rooms[i] * square, 0.0);
         }
-        // Floats that are not negative are in the order of their bits; the lowest make room for the lane.
-        let lanes = &FIRST_LANES[MOST + between - to..][..N];
+        // Floats that are not negative are in the order of their bits; the lowest make room for the number.
+        let lanes = &FIRST_LANES[LANES - joints.len().min(LANES)..][..N];
         let mut keys = [0; N];
         for i in 0..N {
-            keys[i] = (over[i].to_bits() & !LANE_BITS | i as u32) & lanes[i];
+            keys[i] = (over[i].to_bits() & !LANE_BITS | (first - base + i) as u32) & lanes[i];
         }
         let mut half = N / 2;
         while half > 0 {
@@ -245,22 +173,31 @@ impl Joints {
             }
             half /= 2;
         }
-        let lane = (keys[0] & LANE_BITS) as usize;
-        (keys[0] > LANE_BITS).then_some(between + lane)
+        keys[0]
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cpu::joins::Links;
+    use crate::cpu::joints::{Joints, Run};
 
     fn simplified(run: &[Point<f32>], tolerance: f32) -> Vec<Point<f32>> {
-        let mut vertices = Vec::new();
+        let (mut joints, mut chains) = (Joints::default(), Chains::default());
+        let mut links = Links::default();
         // What lies behind a run does not matter.
-        let after = [Point::new(f32::NAN, 1e9); MOST_POINTS];
-        let (points, mut heads) = ([run, &after].concat(), Heads::default());
-        heads.find(&points, [0..3, 0..run.len()].into_iter(), tolerance);
-        simplify(&points, run.len(), heads.of(1), tolerance, &mut vertices);
+        let after = [Point::new(f32::NAN, 1e9); 3];
+        let mut points = [run, &after].concat();
+        let runs: Vec<_> = Run::new(0, 0..run.len()).into_iter().collect();
+        joints.find(&mut points);
+        links.find(&runs, &joints, false);
+        links.chain(&runs, &joints, &mut chains);
+        chains.leave_room(tolerance);
+        let mut vertices = Vec::new();
+        for (_, joints) in chains.iter() {
+            simplify(&chains, joints, &points, tolerance, &mut vertices);
+        }
         vertices
     }
 

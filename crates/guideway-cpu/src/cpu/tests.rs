@@ -17,6 +17,7 @@ use crate::Oracle;
 
 mod crossings;
 mod fills;
+mod joins;
 mod kept;
 mod lanes;
 mod moved;

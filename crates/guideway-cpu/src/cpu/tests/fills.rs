@@ -85,6 +85,19 @@ fn it_is_found_while_nothing_moves() {
 }
 
 #[test]
+fn whoever_comes_back_finds_it_still_known() {
+    let there_and_back = zooms(0.55, 1.01);
+    let known = look(
+        &scene(crowded()),
+        &wide_px(3.0),
+        &[&there_and_back[..], &there_and_back].concat(),
+    );
+    let [first, again] = [0, there_and_back.len()].map(|start| known[start]);
+    // At first nothing is known; then as much as is found while nothing moves.
+    assert!(first == 0 && again > 5000, "{known:?}");
+}
+
+#[test]
 fn it_is_kept_where_the_view_goes_away_or_to_the_side() {
     let scene = scene(crowded());
     let places = [1.0, 1.0, 1.0, 1.0, 1.0, 0.8, 0.7, 0.6].map(|s| (s * 0.9, ORIGIN));

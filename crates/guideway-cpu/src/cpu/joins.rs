@@ -1,0 +1,353 @@
+//! Which curves go on from which: they are drawn as one, and the longest first, for those cover most.
+
+use guideway_spline::{Point, greater};
+
+use super::joints::{Chains, Joints, Run};
+use super::polylines::ROUNDS;
+
+/// Runs that are looked at together.
+const MOST: usize = u64::BITS as usize;
+/// No run.
+const NONE: u32 = u32::MAX;
+/// What goes on straight turns by less than some 20 degrees: this is the tangent.
+const STRAIGHT: f32 = 0.4;
+/// Cells that runs are looked up by, as a power of two.
+const CELLS: usize = 256;
+/// Classes of lengths, each twice as long as the next: all from so many units on are of the first.
+const CLASSES: usize = 6;
+const LONG: f32 = 1024.0;
+/// The part of all chains that is drawn by the end of each round, in 64ths: the more is covered by those before, the more
+/// are looked at together.
+const ENDS: [usize; ROUNDS] = [8, 16, 24, 36, 64];
+
+/// What goes on from what.
+#[derive(Default)]
+pub(super) struct Links {
+    /// The run behind each.
+    next: Vec<u32>,
+    /// The run that each chain begins with, and the class of its length.
+    heads: Vec<(u32, u8)>,
+    /// Those runs in the order in which chains are drawn.
+    order: Vec<u32>,
+}
+
+/// Some runs, by where they begin and end.
+struct Group {
+    ends: [[Point<f32>; 2]; MOST],
+    /// For each cell of the plane, by its lowest bits, the number behind that of a run which begins there, or 0.
+    cells: [u8; CELLS],
+    /// The same for the other runs of the cell, behind each.
+    others: [u8; MOST],
+    /// Whether there is a run before each, a bit.
+    taken: u64,
+}
+
+impl Links {
+    /// Finds which runs are drawn as one, if any may be joined, and in which order.
+    #[inline(always)]
+    pub(super) fn find(&mut self, runs: &[Run], joints: &Joints, joins: bool) {
+        self.next.clear();
+        self.next.resize(runs.len(), NONE);
+        self.heads.clear();
+        for (group, runs) in runs.chunks(MOST).enumerate() {
+            let first = group * MOST;
+            let next = &mut self.next[first..];
+            let mut group = Group::new(runs, joints);
+            if joins {
+                group.link(runs.len(), first, next);
+            }
+            // Of a ring none is the first: then one is.
+            let mut left = low_bits(runs.len());
+            for firsts in [!group.taken, u64::MAX] {
+                for i in 0..runs.len() {
+                    if left & firsts & 1 << i != 0 {
+                        let length = group.follow(i, first, next, &mut left);
+                        self.heads.push(((first + i) as u32, class(length)));
+                    }
+                }
+            }
+        }
+        self.sort();
+    }
+
+    #[inline(always)]
+    fn sort(&mut self) {
+        let mut places = [0; CLASSES + 1];
+        for &(_, class) in &self.heads {
+            places[usize::from(class) + 1] += 1;
+        }
+        for class in 0..CLASSES {
+            places[class + 1] += places[class];
+        }
+        self.order.resize(self.heads.len(), 0);
+        for &(run, class) in &self.heads {
+            let place = &mut places[usize::from(class)];
+            self.order[*place] = run;
+            *place += 1;
+        }
+    }
+
+    /// Puts the joints of the runs in order: those of a chain one after the other.
+    #[inline(always)]
+    pub(super) fn chain(&self, runs: &[Run], joints: &Joints, chains: &mut Chains) {
+        chains.begin(runs);
+        let mut round = 0;
+        for (i, &head) in self.order.iter().enumerate() {
+            while i * MOST >= ENDS[round] * self.order.len() {
+                round += 1;
+            }
+            let (mut run, mut members) = (head, 0);
+            while run != NONE {
+                members |= runs[run as usize].member;
+                chains.push(joints, &runs[run as usize], run != head);
+                run = self.next[run as usize];
+            }
+            chains.end(round, members);
+        }
+    }
+
+    pub(super) fn bytes(&self) -> u64 {
+        let words = self.next.capacity() + self.order.capacity();
+        (words * size_of::<u32>() + self.heads.capacity() * size_of::<(u32, u8)>()) as u64
+    }
+}
+
+/// What lies behind a run.
+enum Behind {
+    Run(usize),
+    /// Only such as do not go on straight.
+    Turns,
+    Nothing,
+}
+
+impl Group {
+    #[inline(always)]
+    fn new(runs: &[Run], joints: &Joints) -> Self {
+        let mut group = Self {
+            ends: [[Point { x: 0.0, y: 0.0 }; 2]; MOST],
+            cells: [0; CELLS],
+            others: [0; MOST],
+            taken: 0,
+        };
+        for (ends, run) in group.ends.iter_mut().zip(runs) {
+            *ends = run.ends(joints);
+        }
+        group
+    }
+
+    /// Joins runs: gives the number behind each, counted from `first`, to `next`.
+    #[inline(always)]
+    fn link(&mut self, runs: usize, first: usize, next: &mut [u32]) {
+        for i in 0..runs {
+            let cell = &mut self.cells[cell(self.ends[i][0])];
+            self.others[i] = std::mem::replace(cell, i as u8 + 1);
+        }
+        // What goes on nearly straight is joined first.
+        let mut left = low_bits(runs);
+        for may_turn in [false, true] {
+            let mut todo = left;
+            while todo != 0 {
+                let run = todo.trailing_zeros() as usize % MOST;
+                todo &= todo - 1;
+                match self.behind(run, may_turn) {
+                    Behind::Run(behind) => {
+                        self.taken |= 1 << behind;
+                        next[run] = (first + behind) as u32;
+                        left &= !(1 << run);
+                    }
+                    Behind::Turns => {}
+                    Behind::Nothing => left &= !(1 << run),
+                }
+            }
+        }
+    }
+
+    /// A run that begins where another ends, within a unit to the side as well as up and down.
+    #[inline(always)]
+    fn behind(&self, run: usize, may_turn: bool) -> Behind {
+        let [start, end] = self.ends[run];
+        let along = end - start;
+        let mut turns = Behind::Nothing;
+        let mut next = self.cells[cell(end)];
+        while next != 0 {
+            let behind = (usize::from(next) - 1) % MOST;
+            next = self.others[behind];
+            let [from, to] = self.ends[behind];
+            let gap = from - end;
+            if self.taken >> behind & 1 == 1 || greater(gap.x.abs(), gap.y.abs()) > 1.0 {
+                continue;
+            }
+            let on = to - from;
+            let aside = along.x * on.y - along.y * on.x;
+            if may_turn || aside.abs() < STRAIGHT * along.dot(on) {
+                return Behind::Run(behind);
+            }
+            turns = Behind::Turns;
+        }
+        turns
+    }
+
+    /// Goes along a chain: takes its runs from those that are left, opens it if it is a ring, and gives its length.
+    #[inline(always)]
+    fn follow(&self, start: usize, first: usize, next: &mut [u32], left: &mut u64) -> f32 {
+        let (mut run, mut length) = (start, 0.0);
+        loop {
+            *left &= !(1 << run);
+            let [start, end] = self.ends[run % MOST];
+            length += (end.x - start.x).abs() + (end.y - start.y).abs();
+            let behind = next[run];
+            if behind == NONE {
+                return length;
+            }
+            let behind = behind as usize - first;
+            if *left >> behind & 1 == 0 {
+                next[run] = NONE;
+                return length;
+            }
+            run = behind;
+        }
+    }
+}
+
+/// Which of [`CELLS`] a place is in.
+#[inline(always)]
+fn cell(at: Point<f32>) -> usize {
+    const SIDE: f32 = 16.0;
+    let [x, y] = [at.x, at.y].map(|v| (v * (1.0 / SIDE)).floor() as i32);
+    (x.wrapping_mul(7).wrapping_add(y.wrapping_mul(61)) as u32 % CELLS as u32) as usize
+}
+
+/// The class of a length: the longest are of the first.
+#[inline(always)]
+fn class(length: f32) -> u8 {
+    let mut class = 0;
+    for below in 0..CLASSES as u32 - 1 {
+        class += u8::from(length * ((1_u32 << below) as f32) < LONG);
+    }
+    class
+}
+
+fn low_bits(count: usize) -> u64 {
+    u64::MAX >> (MOST - count)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cpu::cluster::Members;
+    use crate::cpu::simplify::simplify;
+
+    const TOLERANCE: f32 = 6.5;
+
+    /// A straight run of control points whose curve goes from one place to another.
+    fn straight([a, b]: [[f32; 2]; 2]) -> Vec<Point<f32>> {
+        let [a, b] = [a, b].map(|[x, y]| Point::new(x, y));
+        let step = (b - a) * (1.0 / 8.0);
+        (-1..=9).map(|i| a + step * i as f32).collect()
+    }
+
+    /// Whose each chain is, in the order in which they are drawn, and its vertices.
+    fn drawn(curves: &[Vec<Point<f32>>], joins: bool) -> Vec<(Members, Vec<Point<f32>>)> {
+        let mut points = curves.concat();
+        let ends = curves.iter().scan(0, |end, curve| {
+            *end += curve.len();
+            Some(*end - curve.len()..*end)
+        });
+        let runs = ends
+            .enumerate()
+            .map(|(i, points)| Run::new(i % MOST, points).unwrap());
+        let runs: Vec<Run> = runs.collect();
+        let (mut joints, mut links, mut chains) =
+            (Joints::default(), Links::default(), Chains::default());
+        joints.find(&mut points);
+        links.find(&runs, &joints, joins);
+        links.chain(&runs, &joints, &mut chains);
+        chains.leave_room(TOLERANCE);
+        let lines = chains.iter().map(|(chain, joints)| {
+            let mut vertices = Vec::new();
+            simplify(&chains, joints, &points, TOLERANCE, &mut vertices);
+            (chain.members, vertices)
+        });
+        lines.collect()
+    }
+
+    #[test]
+    fn a_road_in_pieces_is_one_line_and_goes_straight_on() {
+        // In no order; a turn leaves it, and another one joins it.
+        let curves = [
+            straight([[300.0, 0.0], [400.0, 0.0]]),
+            straight([[200.0, 0.0], [250.0, 90.0]]),
+            straight([[100.0, 0.0], [200.0, 0.5]]),
+            straight([[150.0, 90.0], [200.0, 0.0]]),
+            straight([[0.0, 0.0], [100.0, 0.0]]),
+            straight([[200.0, 0.0], [300.0, 0.0]]),
+            straight([[200.0, 2.0], [210.0, 2.0]]),
+        ];
+        let joined = drawn(&curves, true);
+        let members: Vec<Members> = joined.iter().map(|(members, _)| *members).collect();
+        assert_eq!(members, [0b1010, 0b11_0101, 0b100_0000]);
+        let [(_, turns), (_, road), _] = &joined[..] else {
+            panic!("{joined:?}");
+        };
+        assert_eq!((road.len(), turns.len()), (2, 3));
+        assert_eq!((road[0].x, road[1].x), (0.0, 400.0));
+        assert_eq!(drawn(&curves, false).len(), curves.len());
+    }
+
+    #[test]
+    fn rings_are_opened_and_drawn_once() {
+        let corners = [[0.0, 0.0], [90.0, 0.0], [90.0, 90.0], [0.0, 90.0]];
+        let sides: Vec<_> = (0..4)
+            .map(|i| straight([corners[i], corners[(i + 1) % 4]]))
+            .collect();
+        let ring = drawn(&sides, true);
+        assert_eq!(ring.len(), 1);
+        let (members, vertices) = &ring[0];
+        assert_eq!((*members, vertices.len()), (0b1111, 5));
+        assert!(vertices[0].distance(vertices[4]) < 0.01);
+        // One that ends where it begins.
+        let point = straight([[7.0, 7.0], [7.0, 7.0]]);
+        assert_eq!(drawn(&[point], true)[0].1.len(), 2);
+    }
+
+    #[test]
+    fn each_curve_is_drawn_once_and_within_the_tolerance() {
+        let mut state = 5_u32;
+        let mut next = move || {
+            state = state.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
+            (state >> 8) as f32 / (1 << 24) as f32
+        };
+        // On a lattice, a little beside its nodes, so that many meet; more than are looked at together.
+        let mut node = |off: f32| {
+            let [x, y] = [next(), next()].map(|v| (v * 6.0).floor() * 40.0);
+            [x + next() * off, y + next() * off]
+        };
+        let curves: Vec<_> = (0..150).map(|_| straight([node(0.5), node(0.5)])).collect();
+        let chains = drawn(&curves, true);
+        assert!((20..120).contains(&chains.len()), "{}", chains.len());
+        let lines = chains
+            .iter()
+            .flat_map(|(_, vertices)| vertices.array_windows());
+        let lines: Vec<[Point<f32>; 2]> = lines.copied().collect();
+        let distance = |p: Point<f32>, [a, b]: [Point<f32>; 2]| {
+            let along = b - a;
+            let t = (p - a).dot(along) / along.dot(along).max(1e-30);
+            p.distance(a + along * t.clamp(0.0, 1.0))
+        };
+        for curve in &curves {
+            for i in 0..=32 {
+                let at = curve[1] + (curve[9] - curve[1]) * (i as f32 / 32.0);
+                let near = lines.iter().map(|&line| distance(at, line));
+                assert!(near.fold(f32::INFINITY, f32::min) <= TOLERANCE + 0.01);
+            }
+        }
+        // And nothing else is.
+        for [a, b] in lines {
+            let at = (a + b) * 0.5;
+            let near = curves
+                .iter()
+                .map(|curve| distance(at, [curve[1], curve[9]]));
+            assert!(near.fold(f32::INFINITY, f32::min) <= TOLERANCE + 0.01);
+        }
+    }
+}
