@@ -9,7 +9,7 @@ use super::canvas::TILE_PX;
 use super::extent::ask_for;
 use super::flatten::flatten;
 use super::joins::Links;
-use super::joints::{Chains, Joints, Run};
+use super::joints::{Chain, Joints, Run};
 use super::polylines::{Pen, Polylines, ROUNDS};
 use super::shot::Shot;
 use super::sight::Sight;
@@ -45,7 +45,7 @@ pub(super) struct Scratch {
     runs: Vec<Run>,
     joints: Joints,
     links: Links,
-    chains: Chains,
+    chains: Vec<Chain>,
     vertices: Vec<Point<f32>>,
     pixels: Vec<Point<f64>>,
 }
@@ -149,8 +149,9 @@ impl Scratch {
         let points = self.local.capacity() + self.vertices.capacity();
         let own = points * size_of::<Point<f32>>()
             + self.runs.capacity() * size_of::<Run>()
+            + self.chains.capacity() * size_of::<Chain>()
             + self.pixels.capacity() * size_of::<Point<f64>>();
-        let lists = self.joints.bytes() + self.links.bytes() + self.chains.bytes();
+        let lists = self.joints.bytes() + self.links.bytes();
         self.kept.bytes() + lists + own as u64
     }
 
@@ -257,16 +258,15 @@ fn simplify_all(scratch: &mut Scratch, tolerance: f32, joins: bool) {
         vertices,
         ..
     } = scratch;
-    joints.find(local);
+    joints.find(local, tolerance);
     links.find(runs, joints, joins);
     links.chain(runs, joints, chains);
-    chains.leave_room(tolerance);
     let mut pen = Pen::new();
     let mut ended = 0;
-    for (chain, joints) in chains.iter() {
+    for chain in chains {
         (ended..chain.round).for_each(|round| kept.end_round(round));
         ended = chain.round;
-        simplify(chains, joints, local, tolerance, vertices);
+        simplify(joints, chain.joints.clone(), local, tolerance, vertices);
         for (i, vertex) in vertices.iter().enumerate() {
             let vertex = Point {
                 x: round(vertex.x),

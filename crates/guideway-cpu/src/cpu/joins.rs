@@ -2,7 +2,7 @@
 
 use guideway_spline::{Point, greater};
 
-use super::joints::{Chains, Joints, Run};
+use super::joints::{Chain, Joints, Run};
 use super::polylines::ROUNDS;
 
 /// Runs that are looked at together.
@@ -87,22 +87,33 @@ impl Links {
         }
     }
 
-    /// Puts the joints of the runs in order: those of a chain one after the other.
+    /// Gives the chains in the order in which they are drawn; copies the joints of those of several runs.
     #[inline(always)]
-    pub(super) fn chain(&self, runs: &[Run], joints: &Joints, chains: &mut Chains) {
-        chains.begin(runs);
+    pub(super) fn chain(&self, runs: &[Run], joints: &mut Joints, chains: &mut Vec<Chain>) {
+        chains.clear();
         let mut round = 0;
         for (i, &head) in self.order.iter().enumerate() {
             while i * MOST >= ENDS[round] * self.order.len() {
                 round += 1;
             }
-            let (mut run, mut members) = (head, 0);
-            while run != NONE {
-                members |= runs[run as usize].member;
-                chains.push(joints, &runs[run as usize], run != head);
-                run = self.next[run as usize];
+            let first = &runs[head as usize];
+            let mut chain = Chain {
+                round,
+                members: first.member,
+                joints: first.joints(),
+            };
+            let mut run = self.next[head as usize];
+            if run != NONE {
+                let start = joints.end();
+                joints.copy(first, false);
+                while run != NONE {
+                    chain.members |= runs[run as usize].member;
+                    joints.copy(&runs[run as usize], true);
+                    run = self.next[run as usize];
+                }
+                chain.joints = start..joints.end();
             }
-            chains.end(round, members);
+            chains.push(chain);
         }
     }
 
@@ -257,15 +268,13 @@ mod tests {
             .enumerate()
             .map(|(i, points)| Run::new(i % MOST, points).unwrap());
         let runs: Vec<Run> = runs.collect();
-        let (mut joints, mut links, mut chains) =
-            (Joints::default(), Links::default(), Chains::default());
-        joints.find(&mut points);
+        let (mut joints, mut links, mut chains) = (Joints::default(), Links::default(), Vec::new());
+        joints.find(&mut points, TOLERANCE);
         links.find(&runs, &joints, joins);
-        links.chain(&runs, &joints, &mut chains);
-        chains.leave_room(TOLERANCE);
-        let lines = chains.iter().map(|(chain, joints)| {
+        links.chain(&runs, &mut joints, &mut chains);
+        let lines = chains.into_iter().map(|chain| {
             let mut vertices = Vec::new();
-            simplify(&chains, joints, &points, TOLERANCE, &mut vertices);
+            simplify(&joints, chain.joints, &points, TOLERANCE, &mut vertices);
             (chain.members, vertices)
         });
         lines.collect()

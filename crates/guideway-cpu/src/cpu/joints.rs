@@ -21,37 +21,31 @@ pub(super) struct Run {
     points: u32,
 }
 
-/// The joints of runs that lie one after the other, each with the number of the first of its points.
-#[derive(Default)]
-pub(super) struct Joints {
-    x: Vec<f32>,
-    y: Vec<f32>,
-    /// |C''| / 8 there.
-    bend: Vec<f32>,
-}
-
-/// Joints in the order in which they are drawn: the runs of a chain share those where they meet.
-#[derive(Default)]
-pub(super) struct Chains {
-    pub(super) x: Vec<f32>,
-    pub(super) y: Vec<f32>,
-    /// How far the segment behind a joint may bend away from a straight line.
-    pub(super) bend: Vec<f32>,
-    /// How far that lets a joint be from a line that passes it: its square, with the sign.
-    pub(super) room: Vec<f32>,
-    /// The first control point of the segment behind a joint.
-    pub(super) segment: Vec<u32>,
-    len: usize,
-    chains: Vec<Chain>,
-}
-
 /// What is drawn without lifting the pen.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Chain {
     pub(super) round: usize,
     /// Whose it is.
     pub(super) members: Members,
-    end: usize,
+    pub(super) joints: Range<usize>,
+}
+
+/// The joints of runs, each with the number of the first of its points, and behind them copies of those of chains: the runs of
+/// a chain share those where they meet.
+#[derive(Default)]
+pub(super) struct Joints {
+    pub(super) x: Vec<f32>,
+    pub(super) y: Vec<f32>,
+    /// How far the segment behind a joint may bend away from a straight line: the greatest |C''| / 8.
+    pub(super) bend: Vec<f32>,
+    /// How far that lets a joint be from a line that passes it: its square, with the sign. That of the first and the last of a
+    /// chain means nothing.
+    pub(super) room: Vec<f32>,
+    /// The numbers of which the copies are.
+    copied: Vec<u32>,
+    /// The number of the first copy.
+    first_copy: usize,
+    tolerance: f32,
 }
 
 impl Run {
@@ -64,128 +58,119 @@ impl Run {
         })
     }
 
-    fn joints(&self) -> usize {
-        self.points as usize - 2
+    pub(super) fn joints(&self) -> Range<usize> {
+        let first = self.first as usize;
+        first..first + self.points as usize - 2
     }
 
     /// Where it begins and ends.
     pub(super) fn ends(&self, joints: &Joints) -> [Point<f32>; 2] {
-        let first = self.first as usize;
-        [first, first + self.joints() - 1].map(|i| Point::new(joints.x[i], joints.y[i]))
+        let Range { start, end } = self.joints();
+        [start, end - 1].map(|i| joints.at(i))
     }
 }
 
 impl Joints {
-    /// Finds those of all runs; between two of them lie some that mean nothing.
+    /// Finds those of all runs, for lines that are off by at most a tolerance; between two runs lie some that mean nothing.
     #[inline(always)]
-    pub(super) fn find(&mut self, points: &mut Vec<Point<f32>>) {
+    pub(super) fn find(&mut self, points: &mut Vec<Point<f32>>, tolerance: f32) {
         let len = points.len().next_multiple_of(LANES);
-        points.resize(len + 2, Point::default());
-        for list in [&mut self.x, &mut self.y, &mut self.bend] {
-            list.resize(len + SLACK, 0.0);
+        points.resize(len + 3, Point::default());
+        self.first_copy = len;
+        self.tolerance = tolerance;
+        self.copied.clear();
+        // Copies are no more than runs have.
+        let most = 2 * len + SLACK;
+        for list in [&mut self.x, &mut self.y, &mut self.bend, &mut self.room] {
+            if list.len() < most {
+                list.resize(most, 0.0);
+            }
         }
         for first in (0..len).step_by(LANES) {
-            let Some(points) = points[first..].first_chunk::<{ LANES + 2 }>() else {
+            let Some(points) = points[first..].first_chunk::<{ LANES + 3 }>() else {
                 return;
             };
             let (mut xs, mut ys, mut bends) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
             for i in 0..LANES {
-                let [a, b, c] = [points[i], points[i + 1], points[i + 2]];
+                let [a, b, c, d] = [points[i], points[i + 1], points[i + 2], points[i + 3]];
                 xs[i] = (a.x + b.x * 4.0 + c.x) * (1.0 / 6.0);
                 ys[i] = (a.y + b.y * 4.0 + c.y) * (1.0 / 6.0);
-                let x = a.x - b.x * 2.0 + c.x;
-                let y = a.y - b.y * 2.0 + c.y;
-                bends[i] = (x * x + y * y).sqrt() * 0.125;
+                let here = [a.x - b.x * 2.0 + c.x, a.y - b.y * 2.0 + c.y];
+                let next = [b.x - c.x * 2.0 + d.x, b.y - c.y * 2.0 + d.y];
+                let here = here[0] * here[0] + here[1] * here[1];
+                let next = next[0] * next[0] + next[1] * next[1];
+                bends[i] = greater(here, next).sqrt() * 0.125;
             }
             self.x[first..first + LANES].copy_from_slice(&xs);
             self.y[first..first + LANES].copy_from_slice(&ys);
             self.bend[first..first + LANES].copy_from_slice(&bends);
         }
-    }
-
-    pub(super) fn bytes(&self) -> u64 {
-        let floats = self.x.capacity() + self.y.capacity() + self.bend.capacity();
-        (floats * size_of::<f32>()) as u64
-    }
-}
-
-impl Chains {
-    /// Lets go of all; makes room for the joints of some runs.
-    #[inline(always)]
-    pub(super) fn begin(&mut self, runs: &[Run]) {
-        let joints: usize = runs.iter().map(Run::joints).sum();
-        for list in [&mut self.x, &mut self.y, &mut self.bend, &mut self.room] {
-            list.resize(joints + SLACK, 0.0);
+        let lists = self.bend[..len].array_windows().zip(&mut self.room[1..]);
+        for (&[before, behind], room) in lists {
+            *room = room_beside(tolerance, before, behind);
         }
-        self.segment.resize(joints + SLACK, 0);
-        self.chains.clear();
-        self.len = 0;
     }
 
-    /// Adds the joints of a run, which goes on from the last one or begins anew.
+    /// Adds copies of those of a run, which goes on from the last one or begins anew.
     #[inline(always)]
-    pub(super) fn push(&mut self, joints: &Joints, run: &Run, goes_on: bool) {
-        let from = run.first as usize;
-        let mut to = self.len;
+    pub(super) fn copy(&mut self, run: &Run, goes_on: bool) {
+        let joints = run.joints();
+        let mut to = self.end();
         if goes_on {
             // Its first joint takes the place of the last one before, and lines leave room for the gap.
             to -= 1;
-            let gap = [joints.x[from] - self.x[to], joints.y[from] - self.y[to]];
-            self.bend[to - 1] += gap[0].abs() + gap[1].abs();
+            self.copied.pop();
+            let gap = self.at(joints.start) - self.at(to);
+            self.bend[to - 1] += gap.x.abs() + gap.y.abs();
         }
-        self.len = to + run.joints();
-        let mut copied = 0;
-        while copied < run.joints() {
-            let (from, to) = (from + copied, to + copied);
-            copied += AT_ONCE;
-            self.x[to..to + AT_ONCE].copy_from_slice(&joints.x[from..from + AT_ONCE]);
-            self.y[to..to + AT_ONCE].copy_from_slice(&joints.y[from..from + AT_ONCE]);
-            let bends = &joints.bend[from..from + AT_ONCE + 1];
-            let (own, segments) = (&mut self.bend[to..to + AT_ONCE], &mut self.segment[to..]);
-            for i in 0..AT_ONCE {
-                own[i] = greater(bends[i], bends[i + 1]);
+        let mut from = joints.start;
+        let seam = to;
+        while from < joints.end {
+            for list in [&mut self.x, &mut self.y, &mut self.bend, &mut self.room] {
+                let Some(&joints) = list[from..].first_chunk::<AT_ONCE>() else {
+                    return;
+                };
+                list[to..to + AT_ONCE].copy_from_slice(&joints);
             }
-            for (segment, i) in segments[..AT_ONCE].iter_mut().zip(from as u32..) {
-                *segment = i;
+            from += AT_ONCE;
+            to += AT_ONCE;
+        }
+        self.copied.extend(joints.start as u32..joints.end as u32);
+        if goes_on {
+            for joint in [seam - 1, seam] {
+                let [before, behind] = [self.bend[joint - 1], self.bend[joint]];
+                self.room[joint] = room_beside(self.tolerance, before, behind);
             }
         }
     }
 
-    /// Ends a chain.
-    #[inline(always)]
-    pub(super) fn end(&mut self, round: usize, members: Members) {
-        self.chains.push(Chain {
-            round,
-            members,
-            end: self.len,
-        });
-    }
-
-    /// Finds how far each joint may be off, once all are there. What is found for the first and the last of a chain means
-    /// nothing.
-    #[inline(always)]
-    pub(super) fn leave_room(&mut self, tolerance: f32) {
-        let lists = self.bend.array_windows().zip(&mut self.room[1..]);
-        for (&[before, behind], room) in lists {
-            let left = tolerance - greater(before, behind);
-            *room = left * left.abs();
-        }
-    }
-
-    /// All chains, with the numbers of their joints.
-    pub(super) fn iter(&self) -> impl Iterator<Item = (Chain, Range<usize>)> {
-        self.chains.iter().scan(0, |start, &chain| {
-            Some((chain, std::mem::replace(start, chain.end)..chain.end))
-        })
+    /// The number of the next copy.
+    pub(super) fn end(&self) -> usize {
+        self.first_copy + self.copied.len()
     }
 
     pub(super) fn at(&self, joint: usize) -> Point<f32> {
         Point::new(self.x[joint], self.y[joint])
     }
 
+    /// The first control point of the segment behind a joint.
+    pub(super) fn segment(&self, joint: usize) -> usize {
+        match joint.checked_sub(self.first_copy) {
+            Some(copy) => self.copied[copy] as usize,
+            None => joint,
+        }
+    }
+
     pub(super) fn bytes(&self) -> u64 {
         let lists = [&self.x, &self.y, &self.bend, &self.room].map(Vec::capacity);
-        let words = lists.into_iter().sum::<usize>() + self.segment.capacity();
-        (words * size_of::<f32>() + self.chains.capacity() * size_of::<Chain>()) as u64
+        let words = lists.into_iter().sum::<usize>() + self.copied.capacity();
+        (words * size_of::<f32>()) as u64
     }
+}
+
+/// How far a joint between two segments that bend may be from a line that passes it: its square, with the sign.
+#[inline(always)]
+fn room_beside(tolerance: f32, before: f32, behind: f32) -> f32 {
+    let left = tolerance - greater(before, behind);
+    left * left.abs()
 }

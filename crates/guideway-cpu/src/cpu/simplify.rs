@@ -3,12 +3,10 @@ use std::ops::Range;
 use guideway_spline::{Point, greater, uniform};
 
 use super::LANES;
-use super::joints::Chains;
+use super::joints::Joints;
 
 /// Joints of a stretch that is simplified at once.
 const MOST: usize = u64::BITS as usize;
-/// Joints between two that are looked at as one vector; of more, [`LANES`] are.
-const FEW: usize = 8;
 
 /// From number `LANES - n` on, the first n bits of lanes are set.
 static FIRST_LANES: [u32; 2 * LANES] = {
@@ -30,18 +28,18 @@ static FIRST_LANES: [u32; 2 * LANES] = {
 /// off as the tolerance leaves beside what the curve may bend on either side of it.
 #[inline(always)]
 pub(super) fn simplify(
-    chains: &Chains,
+    all: &Joints,
     joints: Range<usize>,
     points: &[Point<f32>],
     tolerance: f32,
     vertices: &mut Vec<Point<f32>>,
 ) {
     vertices.clear();
-    vertices.push(chains.at(joints.start));
+    vertices.push(all.at(joints.start));
     let mut first = joints.start;
     while joints.end - first >= 2 {
         let end = joints.end.min(first + MOST);
-        let mut kept = kept(chains, first..end);
+        let mut kept = kept(all, first..end);
         // What ends with a stretch may go on behind it: then all but the first line waits for the next one.
         if end < joints.end && kept.count_ones() > 2 {
             kept &= !(1 << (end - 1 - first));
@@ -52,10 +50,10 @@ pub(super) fn simplify(
             let joint = first + kept.trailing_zeros() as usize;
             kept &= kept - 1;
             if joint == last + 1 {
-                let segment = uniform::segment(points, chains.segment[last] as usize);
-                cut(segment, chains.bend[last], tolerance, vertices);
+                let segment = uniform::segment(points, all.segment(last));
+                cut(segment, all.bend[last], tolerance, vertices);
             }
-            vertices.push(chains.at(joint));
+            vertices.push(all.at(joint));
             last = joint;
         }
         first = last;
@@ -64,6 +62,7 @@ pub(super) fn simplify(
 
 /// Adds the inner vertices of a segment that is bent too much for one line, at equal parts of its
 /// parameter: n parts are n^2 times as straight.
+#[inline(always)]
 fn cut(segment: &[Point<f32>; 4], bend: f32, tolerance: f32, vertices: &mut Vec<Point<f32>>) {
     if bend > tolerance {
         let parts = (bend / tolerance).sqrt().ceil();
@@ -73,41 +72,58 @@ fn cut(segment: &[Point<f32>; 4], bend: f32, tolerance: f32, vertices: &mut Vec<
     }
 }
 
-/// Which joints to keep, a bit each: the first, the last, and where a line would be too far off, that
+/// Which joints to keep, a bit each: the first, the last, those that have no room, and where a line would be too far off, that
 /// farthest from it (Douglas and Peucker 1973).
 #[inline(always)]
-fn kept(chains: &Chains, joints: Range<usize>) -> u64 {
+fn kept(all: &Joints, joints: Range<usize>) -> u64 {
     let first = joints.start;
     let last = joints.len() - 1;
-    let mut kept: u64 = 1 | 1 << last;
-    let mut from = 0;
-    while from < last {
-        let to = from + 1 + (kept >> (from + 1) as u32).trailing_zeros() as usize;
-        match farthest(chains, first + from, first + to) {
-            Some(joint) => kept |= 1 << (joint - first),
-            None => from = to,
+    let between = u64::MAX >> (u64::BITS as usize - joints.len()) >> 1 & !1;
+    let mut kept: u64 = 1 | 1 << last | without_room(all, joints) & between;
+    // Between two that follow each other there is nothing to look at.
+    let mut ends = kept & !(kept << 1) & !1;
+    while ends != 0 {
+        let end = ends.trailing_zeros() as usize;
+        ends &= ends - 1;
+        let mut from = u64::BITS as usize - 1 - (kept & ((1 << end) - 1)).leading_zeros() as usize;
+        while from < end {
+            let to = from + 1 + (kept >> (from + 1) as u32).trailing_zeros() as usize;
+            match farthest(all, first + from, first + to) {
+                Some(joint) => kept |= 1 << (joint - first),
+                None => from = to,
+            }
         }
     }
     kept
 }
 
+/// Which joints are on segments that bend too much for any line over several, a bit each, and some behind them.
+#[inline(always)]
+fn without_room(all: &Joints, joints: Range<usize>) -> u64 {
+    let mut found = 0;
+    for (chunk, first) in joints.step_by(LANES).enumerate() {
+        let Some(rooms) = all.room[first..].first_chunk::<LANES>() else {
+            break;
+        };
+        let mut bits = [0; LANES];
+        for i in 0..LANES {
+            bits[i] = if rooms[i] < 0.0 { 1_u32 << i } else { 0 };
+        }
+        found |= u64::from(bits.iter().fold(0, |all, bit| all | bit)) << (chunk * LANES);
+    }
+    found
+}
+
 /// The joint between two that is farthest beyond what it may be from the line between them; none if there is no such.
 #[inline(always)]
-fn farthest(chains: &Chains, from: usize, to: usize) -> Option<usize> {
-    let line = Line::new(chains.at(from), chains.at(to));
+fn farthest(all: &Joints, from: usize, to: usize) -> Option<usize> {
+    let line = Line::new(all.at(from), all.at(to));
     let between = from + 1;
-    let key = match to - between {
-        0 => return None,
-        1..=FEW => line.farthest::<FEW>(chains, between, between..to),
-        _ => {
-            let (mut first, mut key) = (between, 0);
-            while first < to {
-                key = key.max(line.farthest::<LANES>(chains, between, first..to));
-                first += LANES;
-            }
-            key
-        }
-    };
+    let (mut first, mut key) = (between, 0);
+    while first < to {
+        key = key.max(line.greatest_key(all, between, first..to));
+        first += LANES;
+    }
     (key > LANE_BITS).then_some(between + (key & LANE_BITS) as usize)
 }
 
@@ -136,37 +152,37 @@ impl Line {
         }
     }
 
-    /// The greatest key of the first `N` of some joints, whose numbers are counted from `base`.
+    /// The greatest key of the first [`LANES`] of some joints, whose numbers are counted from `base`.
     #[inline(always)]
-    fn farthest<const N: usize>(&self, chains: &Chains, base: usize, joints: Range<usize>) -> u32 {
+    fn greatest_key(&self, all: &Joints, base: usize, joints: Range<usize>) -> u32 {
         let Self {
             start,
             along,
             square,
         } = *self;
         let first = joints.start;
-        let (xs, ys) = (&chains.x[first..first + N], &chains.y[first..first + N]);
-        let rooms = &chains.room[first..first + N];
-        let (mut ahead, mut beside) = ([0.0; N], [0.0; N]);
-        for i in 0..N {
+        let (xs, ys) = (&all.x[first..first + LANES], &all.y[first..first + LANES]);
+        let rooms = &all.room[first..first + LANES];
+        let (mut ahead, mut beside) = ([0.0; LANES], [0.0; LANES]);
+        for i in 0..LANES {
             let (x, y) = (xs[i] - start.x, ys[i] - start.y);
             ahead[i] = x * along.x + y * along.y;
             beside[i] = x * along.y - y * along.x;
         }
-        let mut over = [0.0; N];
-        for i in 0..N {
+        let mut over = [0.0; LANES];
+        for i in 0..LANES {
             let half = square * 0.5;
             let beyond = greater((ahead[i] - half).abs() - half, 0.0);
             let off = beside[i] * beside[i] + beyond * beyond;
             over[i] = greater(off - rooms[i] * square, 0.0);
         }
         // Floats that are not negative are in the order of their bits; the lowest make room for the number.
-        let lanes = &FIRST_LANES[LANES - joints.len().min(LANES)..][..N];
-        let mut keys = [0; N];
-        for i in 0..N {
+        let lanes = &FIRST_LANES[LANES - joints.len().min(LANES)..][..LANES];
+        let mut keys = [0; LANES];
+        for i in 0..LANES {
             keys[i] = (over[i].to_bits() & !LANE_BITS | (first - base + i) as u32) & lanes[i];
         }
-        let mut half = N / 2;
+        let mut half = LANES / 2;
         while half > 0 {
             for i in 0..half {
                 keys[i] = keys[i].max(keys[i + half]);
@@ -184,19 +200,17 @@ mod tests {
     use crate::cpu::joints::{Joints, Run};
 
     fn simplified(run: &[Point<f32>], tolerance: f32) -> Vec<Point<f32>> {
-        let (mut joints, mut chains) = (Joints::default(), Chains::default());
-        let mut links = Links::default();
+        let (mut joints, mut links, mut chains) = (Joints::default(), Links::default(), Vec::new());
         // What lies behind a run does not matter.
         let after = [Point::new(f32::NAN, 1e9); 3];
         let mut points = [run, &after].concat();
         let runs: Vec<_> = Run::new(0, 0..run.len()).into_iter().collect();
-        joints.find(&mut points);
+        joints.find(&mut points, tolerance);
         links.find(&runs, &joints, false);
-        links.chain(&runs, &joints, &mut chains);
-        chains.leave_room(tolerance);
+        links.chain(&runs, &mut joints, &mut chains);
         let mut vertices = Vec::new();
-        for (_, joints) in chains.iter() {
-            simplify(&chains, joints, &points, tolerance, &mut vertices);
+        for chain in chains {
+            simplify(&joints, chain.joints, &points, tolerance, &mut vertices);
         }
         vertices
     }
