@@ -1,3 +1,4 @@
+mod bits;
 mod show;
 #[cfg(test)]
 mod tests;
@@ -7,6 +8,8 @@ use std::ops::Range;
 use guideway_scene::Rgba;
 use guideway_spline::Point;
 
+pub(super) use self::bits::set_bits;
+use self::bits::{full_pixels, high_bits, low_bits, pixel_counts};
 pub(super) use self::show::Look;
 use super::span::{ROWS, SOLID, Spans};
 
@@ -37,6 +40,13 @@ pub(super) trait Cuts {
     fn pixels(&self, row: usize) -> u32;
     /// The samples covered in a row.
     fn spans(&self, row: usize) -> Spans;
+}
+
+/// Rows of pixels of a tile, and which pixels of each: a bit each.
+#[derive(Clone, Copy)]
+pub(super) struct Part {
+    pub(super) rows: u32,
+    pub(super) pixels: u32,
 }
 
 /// A flag for each pixel of a tile: a word for each row.
@@ -204,11 +214,12 @@ impl<const C: usize> Canvas<C> {
         open & high_bits(least.x as u32) & low_bits((most.x as u32).saturating_add(1)) != 0
     }
 
-    /// Adds a stroke to the shape, which touches no other pixels than those of some rows and columns.
+    /// Adds a part of a stroke to the shape.
     #[inline(always)]
-    pub(super) fn stroke(&mut self, stroke: &impl Cuts, rows: Range<usize>, pixels: u32) {
+    pub(super) fn stroke(&mut self, stroke: &impl Cuts, part: Part) {
+        let Part { rows, pixels } = part;
         let is_wide = pixels.count_ones() > stroke.width_px().saturating_add(WIDE_PX);
-        for row in rows {
+        for row in set_bits(rows) {
             let pixels = if is_wide {
                 pixels & stroke.pixels(row)
             } else {
@@ -355,61 +366,4 @@ impl<const C: usize> Canvas<C> {
         }
         taken
     }
-}
-
-/// The pixels of a word all of whose samples are set, a bit each.
-#[inline(always)]
-fn full_pixels<const C: usize>(word: u32) -> u32 {
-    // The lowest bit of each stands for all.
-    let mut all = word;
-    let mut shift = 1;
-    while shift < C {
-        all &= all >> shift;
-        shift *= 2;
-    }
-    if C == 16 {
-        return all & 1 | all >> 15 & 2;
-    }
-    // Brings every eighth bit together, in the highest byte.
-    (all & 0x0101_0101).wrapping_mul(0x0102_0408) >> 24
-}
-
-/// The numbers of the bits that are set.
-#[inline(always)]
-pub(super) fn set_bits(mut bits: u32) -> impl Iterator<Item = usize> {
-    std::iter::from_fn(move || {
-        let lowest = (bits != 0).then(|| bits.trailing_zeros() as usize);
-        bits &= bits.wrapping_sub(1);
-        lowest
-    })
-}
-
-/// A word with its lowest `count` bits set: all, if that is more than it has.
-#[inline(always)]
-fn low_bits(count: u32) -> u32 {
-    !high_bits(count)
-}
-
-/// A word without its lowest `count` bits: none, if that is all it has.
-#[inline(always)]
-fn high_bits(count: u32) -> u32 {
-    // As a choice between two values this is one instruction on a vector.
-    u32::MAX.unbounded_shl(count)
-}
-
-/// How many samples are set of each pixel of a block: bits are summed within bytes, then bytes within pixels.
-#[inline(always)]
-fn pixel_counts<const C: usize>(block: &Block) -> [u16; MOST_WINDOW_PX] {
-    let mut bytes = 0;
-    for &word in block {
-        let pairs = word - (word >> 1 & 0x5555_5555);
-        let fours = (pairs & 0x3333_3333) + (pairs >> 2 & 0x3333_3333);
-        // At most 8 a word, so 128 in all: the bytes do not overflow.
-        bytes += (fours + (fours >> 4)) & 0x0f0f_0f0f;
-    }
-    let bytes = u32::to_le_bytes(bytes).map(u16::from);
-    std::array::from_fn(|pixel| {
-        let of_pixel = bytes.iter().skip(pixel * C / 8).take(C / 8);
-        of_pixel.sum()
-    })
 }

@@ -90,7 +90,8 @@ impl<'a> Fixed<'a> {
             };
             let begins = self.lines.begin_bits(first) & bits_below(range.end - first);
             let boxes = ends.boxes(caps.reach);
-            let todo = begins & boxes.visible(canvas.open());
+            let open = boxes.open(canvas.open());
+            let todo = begins & open.lines;
             if todo == 0 {
                 continue;
             }
@@ -99,13 +100,13 @@ impl<'a> Fixed<'a> {
                 let batch = ends.as_floats(disc.radius);
                 let slopes = batch.slopes();
                 for lane in set_bits(todo & borders.level) {
-                    batch.stroke(lane % LANES, &slopes, &boxes, canvas, disc);
+                    let part = boxes.part(lane % LANES, &open);
+                    batch.stroke(lane % LANES, &slopes, part, canvas, disc);
                 }
             }
             for lane in set_bits(todo & !borders.level) {
                 let stroke = Stroke::new(&ends, &borders, lane % LANES, caps);
-                let (rows, pixels) = boxes.pixels(lane % LANES);
-                canvas.stroke(&(&stroke, caps), rows, pixels);
+                canvas.stroke(&(&stroke, caps), boxes.part(lane % LANES, &open));
             }
         }
     }

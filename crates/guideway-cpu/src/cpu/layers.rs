@@ -4,7 +4,7 @@ use guideway_scene::Rgba;
 use guideway_spline::Point;
 
 use super::LANES;
-use super::canvas::{Canvas, TILE_PX};
+use super::canvas::{Canvas, TILE_PX, set_bits};
 use super::cluster::Lines;
 use super::disc::Discs;
 use super::paint::{Band, Tile};
@@ -139,18 +139,19 @@ impl<'a> Layers<'a> {
     fn flush(&mut self) {
         let batch = Batch::new(self.x, self.y, self.radius);
         let boxes = batch.boxes();
-        let mut todo = bits_below(self.len) & boxes.visible(self.canvas.open());
+        let open = boxes.open(self.canvas.open());
+        let todo = bits_below(self.len) & open.lines;
         self.len = 0;
         if todo == 0 {
             return;
         }
         let slopes = batch.slopes();
-        while todo != 0 {
-            let lane = todo.trailing_zeros() as usize % LANES;
-            todo &= todo - 1;
+        for lane in set_bits(todo) {
+            let lane = lane % LANES;
             self.choose_layer(self.paths[lane]);
             let disc = self.discs.of(self.radius);
-            batch.stroke(lane, &slopes, &boxes, self.canvas, disc);
+            let part = boxes.part(lane, &open);
+            batch.stroke(lane, &slopes, part, self.canvas, disc);
         }
     }
 

@@ -32,6 +32,8 @@ const FEW_CLUSTERS: usize = 6;
 const FEW_CROSSINGS: usize = 64;
 /// Where the first round leaves so large a part of a tile open, pixels that are covered are not worth to be noted.
 const OPEN_PART: f32 = 0.95;
+/// Where so little of a tile is open from the start, lines that come first hide few of those behind.
+const KNOWN_PART: f32 = 0.75;
 /// Tiles that a thread draws in one go.
 const MOST_TILES: usize = 8;
 
@@ -302,7 +304,9 @@ fn paint_solid(band: &Band<'_>, painter: &mut Painter, tile: &Tile, closed: &Row
         ..
     } = painter;
     canvas.begin(tile.width_px, tile.height_px);
+    let seen = canvas.open_count() as f32;
     canvas.close_pixels(closed);
+    let open = canvas.open_count() as f32;
     let crossings = band.bins.crossings(tile.index);
     let clusters = band.bins.clusters(tile.index);
     let is_sparse = clusters.len() <= FEW_CLUSTERS;
@@ -311,7 +315,7 @@ fn paint_solid(band: &Band<'_>, painter: &mut Painter, tile: &Tile, closed: &Row
     if may_stay_open && is_sparse && crossings.len() <= FEW_CROSSINGS {
         canvas.stay_open();
     }
-    let least_open = canvas.open_count() as f32 * OPEN_PART;
+    let least_open = open * OPEN_PART;
     for of_cluster in crossings.chunk_by(|a, b| a.key == b.key) {
         if canvas.is_full() {
             return;
@@ -319,7 +323,8 @@ fn paint_solid(band: &Band<'_>, painter: &mut Painter, tile: &Tile, closed: &Row
         let seen = Seen::<SOLID>::new(band, tile, of_cluster[0].key);
         seen.solid(canvas, discs, Share::Crossings(of_cluster));
     }
-    let at_once = if is_sparse { ROUNDS } else { 1 };
+    let is_known = open <= seen * KNOWN_PART;
+    let at_once = if is_sparse || is_known { ROUNDS } else { 1 };
     for first in (0..ROUNDS).step_by(at_once) {
         if may_stay_open && first == 1 && canvas.open_count() as f32 >= least_open {
             canvas.stay_open();

@@ -3,7 +3,7 @@ use std::ops::Range;
 use guideway_spline::{Point, greater, lesser};
 
 use super::LANES;
-use super::canvas::{Canvas, Cuts, TILE_PX};
+use super::canvas::{Canvas, Cuts, Part, TILE_PX, set_bits};
 use super::disc::Disc;
 use super::polylines::{Coordinate, Polylines, bits_below};
 use super::span::{Capsule, Samples, Spans, phases, round};
@@ -13,6 +13,13 @@ pub(super) struct Placed<'a, T, const C: usize> {
     pub(super) lines: &'a Polylines<T>,
     pub(super) scale: f32,
     pub(super) offset: Point<f32>,
+}
+
+/// The rows of pixels of each line that have open blocks within its reach: a bit each.
+pub(super) struct OpenRows {
+    rows: [u32; LANES],
+    /// Which lines have such a row, a bit each.
+    pub(super) lines: u32,
 }
 
 /// Lines side by side, one a lane, all of one radius.
@@ -75,15 +82,15 @@ impl<T: Coordinate, const C: usize> Placed<'_, T, C> {
             };
             let begins = self.lines.begin_bits(first) & bits_below(range.end - first);
             let boxes = batch.boxes();
-            let mut todo = begins & boxes.visible(canvas.open());
+            let open = boxes.open(canvas.open());
+            let todo = begins & open.lines;
             if todo == 0 {
                 continue;
             }
             let slopes = batch.slopes();
-            while todo != 0 {
-                let lane = todo.trailing_zeros() as usize % LANES;
-                todo &= todo - 1;
-                batch.stroke(lane, &slopes, &boxes, canvas, disc);
+            for lane in set_bits(todo) {
+                let part = boxes.part(lane % LANES, &open);
+                batch.stroke(lane % LANES, &slopes, part, canvas, disc);
             }
         }
     }
@@ -135,18 +142,17 @@ impl<const C: usize> Batch<C> {
         batch
     }
 
-    /// Adds one line to the shape of a canvas.
+    /// Adds what may be seen of one line to the shape of a canvas.
     #[inline(always)]
     pub(super) fn stroke(
         &self,
         lane: usize,
         slopes: &Slopes,
-        boxes: &Boxes,
+        part: Part,
         canvas: &mut Canvas<C>,
         disc: &Disc<C>,
     ) {
-        let (rows, pixels) = boxes.pixels(lane);
-        canvas.stroke(&(&self.capsule(slopes, lane), disc), rows, pixels);
+        canvas.stroke(&(&self.capsule(slopes, lane), disc), part);
     }
 
     #[inline(always)]
@@ -261,21 +267,24 @@ impl Boxes {
         boxes
     }
 
-    /// The rows of pixels that a line may touch, and which pixels of each: a bit each.
+    /// The part of a line that may cover samples of open blocks.
     #[inline(always)]
-    pub(super) fn pixels(&self, lane: usize) -> (Range<usize>, u32) {
-        let rows = self.first_row[lane] as usize..self.last_row[lane] as usize + 1;
+    pub(super) fn part(&self, lane: usize, open: &OpenRows) -> Part {
         let pixels = u32::MAX << self.first_column[lane]
             & u32::MAX >> (TILE_PX as u32 - 1 - self.last_column[lane]);
-        (rows, pixels)
+        Part {
+            rows: open.rows[lane],
+            pixels,
+        }
     }
 
-    /// Which lines may cover samples of blocks that are open: a bit each.
+    /// Where lines may cover samples of blocks that are open.
     #[inline(always)]
-    pub(super) fn visible<const C: usize>(&self, open: &[u32; C]) -> u32 {
+    pub(super) fn open<const C: usize>(&self, open: &[u32; C]) -> OpenRows {
         let window_px = Canvas::<C>::WINDOW_PX as u32;
+        let mut all = [0; LANES];
         let mut bits = [0; LANES];
-        for (i, bit) in bits.iter_mut().enumerate() {
+        for i in 0..LANES {
             let rows =
                 u32::MAX << self.first_row[i] & u32::MAX >> (TILE_PX as u32 - 1 - self.last_row[i]);
             let mut open_rows = 0;
@@ -285,13 +294,13 @@ impl Boxes {
                     (self.first_column[i] < left + window_px) & (self.last_column[i] >= left);
                 open_rows |= if is_touched { open } else { 0 };
             }
-            *bit = if open_rows & rows & self.inside[i] != 0 {
-                1 << i
-            } else {
-                0
-            };
+            all[i] = open_rows & rows & self.inside[i];
+            bits[i] = if all[i] != 0 { 1 << i } else { 0 };
         }
-        bits.iter().fold(0, |all, bit| all | bit)
+        OpenRows {
+            rows: all,
+            lines: bits.iter().fold(0, |all, bit| all | bit),
+        }
     }
 }
 

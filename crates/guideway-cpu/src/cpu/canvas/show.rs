@@ -1,6 +1,7 @@
 //! What was covered becomes pixels.
 
-use super::{Canvas, pixel_counts};
+use super::Canvas;
+use super::bits::pixel_counts;
 use crate::cpu::backdrop::{Backdrop, SolidColors};
 use crate::cpu::span::{LAYERED, SOLID, Samples};
 use crate::cpu::stretch::Pixels;

@@ -10,7 +10,11 @@ fn stroke<const C: usize>(canvas: &mut Canvas<C>, from: f32, to: f32, y: f32, ra
     let mut disc = Disc::<C>::default();
     disc.resize(radius * C as f32);
     let capsule = Capsule::level::<C>([from, to].map(|x| x * C as f32), y * C as f32);
-    canvas.stroke(&(&capsule, &disc), 0..TILE_PX, u32::MAX);
+    let all = Part {
+        rows: u32::MAX,
+        pixels: u32::MAX,
+    };
+    canvas.stroke(&(&capsule, &disc), all);
 }
 
 fn pixel(canvas: &Layers, x: usize, y: usize, background: Rgba) -> [u8; 4] {

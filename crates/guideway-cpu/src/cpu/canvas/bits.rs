@@ -1,0 +1,60 @@
+//! Words whose bits stand for samples, pixels or rows.
+
+use super::{Block, MOST_WINDOW_PX};
+
+/// The pixels of a word all of whose samples are set, a bit each.
+#[inline(always)]
+pub(super) fn full_pixels<const C: usize>(word: u32) -> u32 {
+    // The lowest bit of each stands for all.
+    let mut all = word;
+    let mut shift = 1;
+    while shift < C {
+        all &= all >> shift;
+        shift *= 2;
+    }
+    if C == 16 {
+        return all & 1 | all >> 15 & 2;
+    }
+    // Brings every eighth bit together, in the highest byte.
+    (all & 0x0101_0101).wrapping_mul(0x0102_0408) >> 24
+}
+
+/// The numbers of the bits that are set.
+#[inline(always)]
+pub(in crate::cpu) fn set_bits(mut bits: u32) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let lowest = (bits != 0).then(|| bits.trailing_zeros() as usize);
+        bits &= bits.wrapping_sub(1);
+        lowest
+    })
+}
+
+/// A word with its lowest `count` bits set: all, if that is more than it has.
+#[inline(always)]
+pub(super) fn low_bits(count: u32) -> u32 {
+    !high_bits(count)
+}
+
+/// A word without its lowest `count` bits: none, if that is all it has.
+#[inline(always)]
+pub(super) fn high_bits(count: u32) -> u32 {
+    // As a choice between two values this is one instruction on a vector.
+    u32::MAX.unbounded_shl(count)
+}
+
+/// How many samples are set of each pixel of a block: bits are summed within bytes, then bytes within pixels.
+#[inline(always)]
+pub(super) fn pixel_counts<const C: usize>(block: &Block) -> [u16; MOST_WINDOW_PX] {
+    let mut bytes = 0;
+    for &word in block {
+        let pairs = word - (word >> 1 & 0x5555_5555);
+        let fours = (pairs & 0x3333_3333) + (pairs >> 2 & 0x3333_3333);
+        // At most 8 a word, so 128 in all: the bytes do not overflow.
+        bytes += (fours + (fours >> 4)) & 0x0f0f_0f0f;
+    }
+    let bytes = u32::to_le_bytes(bytes).map(u16::from);
+    std::array::from_fn(|pixel| {
+        let of_pixel = bytes.iter().skip(pixel * C / 8).take(C / 8);
+        of_pixel.sum()
+    })
+}
