@@ -24,7 +24,21 @@ pub fn point<T: Real>(p: &[Point<T>; 4], t: T) -> Point<T> {
     (p[0] * b0 + p[1] * b1 + p[2] * b2 + p[3] * b3) * sixth
 }
 
+/// The coefficients of the segment as a polynomial of `t`, that of `t^0` first.
+#[inline(always)]
+pub fn polynomial<T: Real>(p: &[Point<T>; 4]) -> [Point<T>; 4] {
+    let (half, sixth) = (T::of(0.5), T::of(1.0 / 6.0));
+    let (d0, d1, d2) = (p[1] - p[0], p[2] - p[1], p[3] - p[2]);
+    [
+        start(p),
+        (d0 + d1) * half,
+        (d1 - d0) * half,
+        (d2 - d1 - (d1 - d0)) * sixth,
+    ]
+}
+
 /// Where the segment begins.
+#[inline]
 pub fn start<T: Real>(p: &[Point<T>; 4]) -> Point<T> {
     (p[0] + p[1] * T::of(4.0) + p[2]) * T::of(1.0 / 6.0)
 }

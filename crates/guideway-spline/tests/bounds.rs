@@ -37,6 +37,8 @@ proptest! {
             }
         }
         prop_assert!(near(d[0], uniform::point(&points, t)));
+        let [c0, c1, c2, c3] = uniform::polynomial(&points);
+        prop_assert!(near(d[0], ((c3 * t + c2) * t + c1) * t + c0));
         let [left, right] = uniform::halves(&points);
         let half = if t < 0.5 {
             uniform::point(&left, 2.0 * t)

@@ -1,9 +1,8 @@
 use std::ops::Range;
 
-use guideway_layout::{Hulls, RunPoints};
+use guideway_layout::RunPoints;
 use guideway_scene::PathState;
-use guideway_spline::{Bounds, Point, hilbert};
-use rayon::prelude::*;
+use guideway_spline::{Bounds, Point};
 
 use super::canvas::TILE_PX;
 use super::extent::ask_for;
@@ -13,7 +12,7 @@ use super::joints::{Chain, Joints, Run};
 use super::polylines::{Pen, Polylines, ROUNDS};
 use super::shot::Shot;
 use super::sight::Sight;
-use super::simplify::simplify;
+use super::simplify::Chords;
 use super::vectors::by_lane_width;
 
 /// Paths, near each other, that are culled and kept together.
@@ -46,7 +45,7 @@ pub(super) struct Scratch {
     joints: Joints,
     links: Links,
     chains: Vec<Chain>,
-    vertices: Vec<Point<f32>>,
+    chords: Chords,
     pixels: Vec<Point<f64>>,
 }
 
@@ -56,22 +55,6 @@ fn spread_out(paths: usize) -> impl Iterator<Item = usize> {
     let reversed = |i: usize| (usize::from((i as u8).reverse_bits()) * CLUSTER_PATHS) >> u8::BITS;
     let numbers = 0..CLUSTER_PATHS;
     numbers.map(reversed).filter(move |&i| i < paths)
-}
-
-/// All rows, sorted so that near ones are near each other.
-pub(super) fn sorted_rows(hulls: &Hulls) -> Vec<u32> {
-    let Some(all) = hulls.all() else {
-        return (0..hulls.len() as u32).collect();
-    };
-    let place = |hull: Bounds<f64>| u64::from(hilbert(hull.center(), all));
-    let rows = (0..hulls.len()).into_par_iter();
-    let keys = rows.map(|row| {
-        let place = hulls.of([row]).map_or(u64::from(u32::MAX), place);
-        place << 32 | row as u64
-    });
-    let mut keys: Vec<u64> = keys.collect();
-    keys.par_sort_unstable();
-    keys.par_iter().map(|&key| key as u32).collect()
 }
 
 impl Lines {
@@ -146,12 +129,11 @@ fn within_units(shot: &Shot<'_>, middle: Point<f64>, unit_m: f64) -> Bounds<f32>
 impl Scratch {
     /// Bytes held.
     pub(super) fn bytes(&self) -> u64 {
-        let points = self.local.capacity() + self.vertices.capacity();
-        let own = points * size_of::<Point<f32>>()
+        let own = self.local.capacity() * size_of::<Point<f32>>()
             + self.runs.capacity() * size_of::<Run>()
             + self.chains.capacity() * size_of::<Chain>()
             + self.pixels.capacity() * size_of::<Point<f64>>();
-        let lists = self.joints.bytes() + self.links.bytes();
+        let lists = self.joints.bytes() + self.links.bytes() + self.chords.bytes();
         self.kept.bytes() + lists + own as u64
     }
 
@@ -217,7 +199,8 @@ impl Scratch {
                     }
                     if last != Some(start) {
                         pen.lift(cut);
-                        pen.set(1 << member, start.to_f32());
+                        pen.set(1 << member);
+                        pen.draw(start.to_f32(), cut);
                     }
                     pen.draw(end.to_f32(), cut);
                     last = Some(end);
@@ -255,29 +238,26 @@ fn simplify_all(scratch: &mut Scratch, tolerance: f32, joins: bool) {
         joints,
         links,
         chains,
-        vertices,
+        chords,
         ..
     } = scratch;
     joints.find(local, tolerance);
     links.find(runs, joints, joins);
     links.chain(runs, joints, chains);
+    chords.find(joints, chains);
     let mut pen = Pen::new();
     let mut ended = 0;
     for chain in chains {
         (ended..chain.round).for_each(|round| kept.end_round(round));
         ended = chain.round;
-        simplify(joints, chain.joints.clone(), local, tolerance, vertices);
-        for (i, vertex) in vertices.iter().enumerate() {
+        pen.set(chain.members);
+        chords.vertices(joints, &chain.joints, local, tolerance, |vertex| {
             let vertex = Point {
                 x: round(vertex.x),
                 y: round(vertex.y),
             };
-            if i == 0 {
-                pen.set(chain.members, vertex);
-            } else {
-                pen.draw(vertex, kept);
-            }
-        }
+            pen.draw(vertex, kept);
+        });
         pen.lift(kept);
     }
     (ended..ROUNDS).for_each(|round| kept.end_round(round));

@@ -3,8 +3,9 @@ use guideway_scene::{Rgba, Scene};
 use guideway_spline::{Affine, Bounds};
 use rayon::prelude::*;
 
-use super::cluster::{CLUSTER_PATHS, Lines, Members, sorted_rows};
+use super::cluster::{CLUSTER_PATHS, Lines, Members};
 use super::extent::{Extent, Hull, bounds_anew, shown_bounds};
+use super::order::sorted_rows;
 use super::place::Placement;
 use super::shot::{Precision, Shot, Widths, widths};
 use super::vectors::LaneWidth;

@@ -246,7 +246,7 @@ fn low_bits(count: usize) -> u64 {
 mod tests {
     use super::*;
     use crate::cpu::cluster::Members;
-    use crate::cpu::simplify::simplify;
+    use crate::cpu::simplify::Chords;
 
     const TOLERANCE: f32 = 6.5;
 
@@ -272,9 +272,12 @@ mod tests {
         joints.find(&mut points, TOLERANCE);
         links.find(&runs, &joints, joins);
         links.chain(&runs, &mut joints, &mut chains);
+        let mut chords = Chords::default();
+        chords.find(&joints, &chains);
         let lines = chains.into_iter().map(|chain| {
             let mut vertices = Vec::new();
-            simplify(&joints, chain.joints, &points, TOLERANCE, &mut vertices);
+            let emit = |vertex| vertices.push(vertex);
+            chords.vertices(&joints, &chain.joints, &points, TOLERANCE, emit);
             (chain.members, vertices)
         });
         lines.collect()

@@ -144,6 +144,27 @@ impl Joints {
         }
     }
 
+    /// Which joints are on segments that bend too much for any line over several, a bit each, and a word more.
+    #[inline(always)]
+    pub(super) fn find_without_room(&self, found: &mut Vec<u64>) {
+        found.resize(self.end().div_ceil(u64::BITS as usize) + 1, 0);
+        let (rooms, _) = self.room.as_chunks::<LANES>();
+        for (word, rooms) in found
+            .iter_mut()
+            .zip(rooms.chunks(u64::BITS as usize / LANES))
+        {
+            *word = 0;
+            for (rooms, chunk) in rooms.iter().zip(0..) {
+                let mut bits = [0; LANES];
+                for i in 0..LANES {
+                    bits[i] = if rooms[i] < 0.0 { 1_u32 << i } else { 0 };
+                }
+                let bits = bits.iter().fold(0, |all, bit| all | bit);
+                *word |= u64::from(bits) << (chunk * LANES);
+            }
+        }
+    }
+
     /// The number of the next copy.
     pub(super) fn end(&self) -> usize {
         self.first_copy + self.copied.len()

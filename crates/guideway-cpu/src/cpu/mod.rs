@@ -1,6 +1,6 @@
 //! Method `cpu`: lines by tile, covered until nothing is left to be covered, in parallel.
 //!
-//! Paths that are near each other form clusters, once (`index`). A frame (`frame`) goes through five stages: `cull`
+//! Paths that are near each other (`order`) form clusters, once (`index`). A frame (`frame`) goes through five stages: `cull`
 //! finds the clusters in sight (`sight`), and what of the picture has to be drawn (`kept`); `flatten` turns their
 //! curves into lines (`cluster`, `simplify`), unless those of an earlier frame will do; `bin` lists the clusters of
 //! each tile of 32 x 32 pixels (`bins`), or of wide ones the lines that cross it (`crossings`); `cover` finds which
@@ -29,6 +29,7 @@ mod joins;
 mod joints;
 mod kept;
 mod layers;
+mod order;
 mod paint;
 mod place;
 mod polylines;

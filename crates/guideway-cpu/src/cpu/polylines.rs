@@ -294,14 +294,13 @@ impl<T: Coordinate> Pen<T> {
         }
     }
 
-    /// Begins at a vertex of a chain.
+    /// Begins with a chain.
     #[inline(always)]
-    pub(super) fn set(&mut self, members: Members, vertex: Point<T>) {
-        (self.members, self.len) = (members, 1);
-        self.vertices[0] = vertex;
+    pub(super) fn set(&mut self, members: Members) {
+        (self.members, self.len) = (members, 0);
     }
 
-    /// Draws a line.
+    /// Goes to the first vertex, or draws a line to another.
     #[inline(always)]
     pub(super) fn draw(&mut self, vertex: Point<T>, lines: &mut Polylines<T>) {
         if self.len > LANES {

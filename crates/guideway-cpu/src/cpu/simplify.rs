@@ -3,10 +3,12 @@ use std::ops::Range;
 use guideway_spline::{Point, greater, uniform};
 
 use super::LANES;
-use super::joints::Joints;
+use super::joints::{Chain, Joints};
 
-/// Joints of a stretch that is simplified at once.
-const MOST: usize = u64::BITS as usize;
+/// Bits of a word.
+const WORD: usize = u64::BITS as usize;
+/// Farthest that two joints may be from each other for one line.
+const MOST: usize = 1 << 8;
 
 /// From number `LANES - n` on, the first n bits of lanes are set.
 static FIRST_LANES: [u32; 2 * LANES] = {
@@ -20,103 +22,183 @@ static FIRST_LANES: [u32; 2 * LANES] = {
     lanes
 };
 
-/// Draws a chain as straight lines, no point of either farther than `tolerance` from the other: gives the vertices in order.
+/// Draws chains as straight lines, no point of either farther than a tolerance from the other.
 ///
-/// A line from joint to joint is taken if all joints between are near enough. Between two joints, a curve
+/// A line from joint to joint is taken if all joints between are near enough; else it is one to that farthest from it, and one
+/// from there on (Douglas and Peucker 1973). Between two joints, a curve
 /// leaves their chord by at most max |C''| / 8, and C'' is linear, so its greatest length is at a joint. The
 /// points that near to a line form a convex set, so it holds all chords of joints that it holds: a joint may be as far
 /// off as the tolerance leaves beside what the curve may bend on either side of it.
-#[inline(always)]
-pub(super) fn simplify(
-    all: &Joints,
-    joints: Range<usize>,
-    points: &[Point<f32>],
-    tolerance: f32,
-    vertices: &mut Vec<Point<f32>>,
-) {
-    vertices.clear();
-    vertices.push(all.at(joints.start));
-    let mut first = joints.start;
-    while joints.end - first >= 2 {
-        let end = joints.end.min(first + MOST);
-        let mut kept = kept(all, first..end);
-        // What ends with a stretch may go on behind it: then all but the first line waits for the next one.
-        if end < joints.end && kept.count_ones() > 2 {
-            kept &= !(1 << (end - 1 - first));
-        }
-        kept &= !1;
-        let mut last = first;
-        while kept != 0 {
-            let joint = first + kept.trailing_zeros() as usize;
-            kept &= kept - 1;
-            if joint == last + 1 {
-                let segment = uniform::segment(points, all.segment(last));
-                cut(segment, all.bend[last], tolerance, vertices);
-            }
-            vertices.push(all.at(joint));
-            last = joint;
-        }
-        first = last;
+///
+/// Lines of all chains are looked at together, then both parts of those that were too far off: what is found of one decides nothing for the next, so
+/// that a processor need not wait.
+#[derive(Default)]
+pub(super) struct Chords {
+    /// At which joints lines end, a bit each. What it says of the first and the last of a chain, and between chains, means nothing.
+    ends: Vec<u64>,
+    /// Those that joints are compared with, and those that come next.
+    spans: Vec<Span>,
+    halves: Vec<Span>,
+    keys: Vec<u32>,
+}
+
+/// A line from one joint to another that has some between them.
+#[derive(Clone, Copy, Debug, Default)]
+struct Span {
+    from: u32,
+    to: u32,
+}
+
+impl Span {
+    /// Whether a joint lies between its ends.
+    fn is_long(self) -> bool {
+        self.to > self.from + 1
     }
 }
 
-/// Adds the inner vertices of a segment that is bent too much for one line, at equal parts of its
+impl Chords {
+    /// Finds those of some chains.
+    #[inline(always)]
+    pub(super) fn find(&mut self, all: &Joints, chains: &[Chain]) {
+        all.find_without_room(&mut self.ends);
+        self.spans.clear();
+        for chain in chains {
+            let (mut from, last) = (chain.joints.start, chain.joints.end - 1);
+            for next in (from + 1..=last).step_by(WORD) {
+                let ends = self.ends_from(next, last);
+                // Between two that follow each other there is nothing to look at.
+                let mut far = ends & !(ends << 1 | u64::from(from + 1 == next));
+                while far != 0 {
+                    let end = far.trailing_zeros() as usize;
+                    far &= far - 1;
+                    let before = ends & ((1 << end) - 1);
+                    if let Some(bit) = before.checked_ilog2() {
+                        from = next + bit as usize;
+                    }
+                    self.push(from, next + end);
+                }
+                if let Some(bit) = ends.checked_ilog2() {
+                    from = next + bit as usize;
+                }
+            }
+        }
+        while !self.spans.is_empty() {
+            self.keys.resize(self.spans.len(), 0);
+            for (key, &span) in self.keys.iter_mut().zip(&self.spans) {
+                *key = farthest(all, span);
+            }
+            self.divide();
+        }
+    }
+
+    /// Takes, in place of all lines, both parts of those that some joint is too far from.
+    #[inline(always)]
+    fn divide(&mut self) {
+        let Self {
+            ends,
+            spans,
+            halves,
+            keys,
+        } = self;
+        // No branches: half of all lines are too far off, and nothing tells which.
+        halves.resize(2 * spans.len(), Span::default());
+        let mut count = 0;
+        for (&Span { from, to }, &key) in spans.iter().zip(&*keys) {
+            let is_off = key > NUMBER_BITS;
+            let joint = from + 1 + (key & NUMBER_BITS);
+            ends[joint as usize / WORD] |= u64::from(is_off) << (joint as usize % WORD);
+            for half in [Span { from, to: joint }, Span { from: joint, to }] {
+                halves[count] = half;
+                count += usize::from(is_off & half.is_long());
+            }
+        }
+        halves.truncate(count);
+        std::mem::swap(spans, halves);
+    }
+
+    /// Takes a line to be looked at, in parts if it is too long.
+    #[inline(always)]
+    fn push(&mut self, mut from: usize, end: usize) {
+        while from < end {
+            let to = end.min(from + MOST);
+            self.ends[to / WORD] |= 1 << (to % WORD);
+            let span = Span {
+                from: from as u32,
+                to: to as u32,
+            };
+            if span.is_long() {
+                self.spans.push(span);
+            }
+            from = to;
+        }
+    }
+
+    /// At which of the next joints of a chain lines end, a bit each, up to its last, where one always does.
+    #[inline(always)]
+    fn ends_from(&self, first: usize, last: usize) -> u64 {
+        let (word, bit) = (first / WORD, first % WORD);
+        let ends = self.ends[word] >> bit | self.ends[word + 1] << 1 << (WORD - 1 - bit);
+        match last - first {
+            beyond @ 0..WORD => ends & u64::MAX >> (WORD - 1 - beyond) | 1 << beyond,
+            _ => ends,
+        }
+    }
+
+    /// The vertices of a chain's lines, in order.
+    #[inline(always)]
+    pub(super) fn vertices(
+        &self,
+        all: &Joints,
+        joints: &Range<usize>,
+        points: &[Point<f32>],
+        tolerance: f32,
+        mut emit: impl FnMut(Point<f32>),
+    ) {
+        let (mut from, last) = (joints.start, joints.end - 1);
+        emit(all.at(from));
+        for next in (from + 1..=last).step_by(WORD) {
+            let mut ends = self.ends_from(next, last);
+            while ends != 0 {
+                let to = next + ends.trailing_zeros() as usize;
+                ends &= ends - 1;
+                if to == from + 1 {
+                    let segment = uniform::segment(points, all.segment(from));
+                    cut(segment, all.bend[from], tolerance, &mut emit);
+                }
+                emit(all.at(to));
+                from = to;
+            }
+        }
+    }
+
+    pub(super) fn bytes(&self) -> u64 {
+        let spans = self.spans.capacity() + self.halves.capacity();
+        let bytes = self.ends.capacity() * size_of::<u64>()
+            + spans * size_of::<Span>()
+            + self.keys.capacity() * size_of::<u32>();
+        bytes as u64
+    }
+}
+
+/// Gives the inner vertices of a segment that is bent too much for one line, at equal parts of its
 /// parameter: n parts are n^2 times as straight.
 #[inline(always)]
-fn cut(segment: &[Point<f32>; 4], bend: f32, tolerance: f32, vertices: &mut Vec<Point<f32>>) {
+fn cut(segment: &[Point<f32>; 4], bend: f32, tolerance: f32, emit: &mut impl FnMut(Point<f32>)) {
     if bend > tolerance {
         let parts = (bend / tolerance).sqrt().ceil();
+        let [c0, c1, c2, c3] = uniform::polynomial(segment);
+        let step = 1.0 / parts;
         for i in 1..parts as u32 {
-            vertices.push(uniform::point(segment, i as f32 / parts));
+            let t = i as f32 * step;
+            emit(((c3 * t + c2) * t + c1) * t + c0);
         }
     }
 }
 
-/// Which joints to keep, a bit each: the first, the last, those that have no room, and where a line would be too far off, that
-/// farthest from it (Douglas and Peucker 1973).
+/// The key of the joint that is farthest beyond what it may be from a line.
 #[inline(always)]
-fn kept(all: &Joints, joints: Range<usize>) -> u64 {
-    let first = joints.start;
-    let last = joints.len() - 1;
-    let between = u64::MAX >> (u64::BITS as usize - joints.len()) >> 1 & !1;
-    let mut kept: u64 = 1 | 1 << last | without_room(all, joints) & between;
-    // Between two that follow each other there is nothing to look at.
-    let mut ends = kept & !(kept << 1) & !1;
-    while ends != 0 {
-        let end = ends.trailing_zeros() as usize;
-        ends &= ends - 1;
-        let mut from = u64::BITS as usize - 1 - (kept & ((1 << end) - 1)).leading_zeros() as usize;
-        while from < end {
-            let to = from + 1 + (kept >> (from + 1) as u32).trailing_zeros() as usize;
-            match farthest(all, first + from, first + to) {
-                Some(joint) => kept |= 1 << (joint - first),
-                None => from = to,
-            }
-        }
-    }
-    kept
-}
-
-/// Which joints are on segments that bend too much for any line over several, a bit each, and some behind them.
-#[inline(always)]
-fn without_room(all: &Joints, joints: Range<usize>) -> u64 {
-    let mut found = 0;
-    for (chunk, first) in joints.step_by(LANES).enumerate() {
-        let Some(rooms) = all.room[first..].first_chunk::<LANES>() else {
-            break;
-        };
-        let mut bits = [0; LANES];
-        for i in 0..LANES {
-            bits[i] = if rooms[i] < 0.0 { 1_u32 << i } else { 0 };
-        }
-        found |= u64::from(bits.iter().fold(0, |all, bit| all | bit)) << (chunk * LANES);
-    }
-    found
-}
-
-/// The joint between two that is farthest beyond what it may be from the line between them; none if there is no such.
-#[inline(always)]
-fn farthest(all: &Joints, from: usize, to: usize) -> Option<usize> {
+fn farthest(all: &Joints, span: Span) -> u32 {
+    let [from, to] = [span.from, span.to].map(|joint| joint as usize);
     let line = Line::new(all.at(from), all.at(to));
     let between = from + 1;
     let (mut first, mut key) = (between, 0);
@@ -124,7 +206,7 @@ fn farthest(all: &Joints, from: usize, to: usize) -> Option<usize> {
         key = key.max(line.greatest_key(all, between, first..to));
         first += LANES;
     }
-    (key > LANE_BITS).then_some(between + (key & LANE_BITS) as usize)
+    key
 }
 
 /// A line that joints are compared with. All lengths are times its own, so that nothing is divided.
@@ -134,8 +216,8 @@ struct Line {
     square: f32,
 }
 
-/// The bits of a key that say which joint it is for; those above say how far off that is.
-const LANE_BITS: u32 = MOST as u32 - 1;
+/// The bits of a key that say which joint it is for, counted from the first between; those above say how far off that is: 0 if it is near enough.
+const NUMBER_BITS: u32 = MOST as u32 - 1;
 
 impl Line {
     #[inline(always)]
@@ -180,7 +262,7 @@ impl Line {
         let lanes = &FIRST_LANES[LANES - joints.len().min(LANES)..][..LANES];
         let mut keys = [0; LANES];
         for i in 0..LANES {
-            keys[i] = (over[i].to_bits() & !LANE_BITS | (first - base + i) as u32) & lanes[i];
+            keys[i] = (over[i].to_bits() & !NUMBER_BITS | (first - base + i) as u32) & lanes[i];
         }
         let mut half = LANES / 2;
         while half > 0 {
@@ -208,9 +290,11 @@ mod tests {
         joints.find(&mut points, tolerance);
         links.find(&runs, &joints, false);
         links.chain(&runs, &mut joints, &mut chains);
-        let mut vertices = Vec::new();
+        let (mut chords, mut vertices) = (Chords::default(), Vec::new());
+        chords.find(&joints, &chains);
         for chain in chains {
-            simplify(&joints, chain.joints, &points, tolerance, &mut vertices);
+            let emit = |vertex| vertices.push(vertex);
+            chords.vertices(&joints, &chain.joints, &points, tolerance, emit);
         }
         vertices
     }
@@ -236,6 +320,7 @@ mod tests {
             (19, 9.0),
             (60, 2.0),
             (60, 200.0),
+            (700, 1.0),
         ] {
             let (mut at, mut heading) = (Point::new(0.0, 0.0), 0.0_f32);
             let run: Vec<_> = (0..points)
@@ -288,8 +373,10 @@ mod tests {
             simplified(&run, 0.1),
             [Point::new(1.0, 0.5), Point::new(9.0, 4.5)]
         );
-        let run: Vec<_> = (0..100).map(|i| Point::new(i as f32, 7.0)).collect();
-        assert!(simplified(&run, 0.1).len() < 10);
+        // Two that are as long as one may be, and the rest.
+        let run: Vec<_> = (0..600).map(|i| Point::new(i as f32, 7.0)).collect();
+        let ends = [1.0, 257.0, 513.0, 598.0];
+        assert_eq!(simplified(&run, 0.1), ends.map(|x| Point::new(x, 7.0)));
         assert_eq!(simplified(&[Point::new(2.0, 3.0); 4], 0.1).len(), 2);
         assert!(simplified(&run[..3], 0.1).is_empty());
     }
