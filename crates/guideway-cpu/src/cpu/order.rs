@@ -4,8 +4,6 @@ use guideway_layout::Hulls;
 use guideway_spline::hilbert;
 use rayon::prelude::*;
 
-use super::cluster::CLUSTER_PATHS;
-
 /// Rows that are put into drawers at once.
 const PART: usize = 1 << 16;
 /// Bits that say which drawer a key is for.
@@ -14,8 +12,10 @@ const DRAWERS: usize = 1 << DRAWER_BITS;
 /// So many keys are sorted by all threads.
 const MANY: usize = 1 << 15;
 
-/// All rows, along a curve that fills the plane. What is as near as a thousandth of the picture's side stays in the order of rows,
-/// unless it is more than a cluster holds.
+/// All rows, along a curve that fills the plane.
+///
+/// By the highest bits of their places they are put into drawers, and by as many more into others within: what is left to be sorted
+/// lies within a thousandth of the plane's side.
 pub(super) fn sorted_rows(hulls: &Hulls) -> Vec<u32> {
     let Some(all) = hulls.all() else {
         return (0..hulls.len() as u32).collect();
@@ -51,7 +51,7 @@ pub(super) fn sorted_rows(hulls: &Hulls) -> Vec<u32> {
                 keys.extend_from_slice(part.of(drawer));
             }
             within.put(keys, 1);
-            within.sort_crowded();
+            within.sort();
             for (row, &key) in rows.iter_mut().zip(&within.keys) {
                 *row = key as u32;
             }
@@ -95,13 +95,12 @@ impl Drawers {
         &self.keys[start as usize..self.ends[drawer] as usize]
     }
 
-    /// Sorts what is in each drawer that holds more than a cluster.
-    fn sort_crowded(&mut self) {
+    /// Sorts what is in each drawer.
+    fn sort(&mut self) {
         let mut start = 0;
         for &end in &self.ends {
             let keys = &mut self.keys[start..end as usize];
             match keys.len() {
-                0..=CLUSTER_PATHS => {}
                 ..MANY => keys.sort_unstable(),
                 _ => keys.par_sort_unstable(),
             }
@@ -115,6 +114,7 @@ mod tests {
     use guideway_spline::{Bounds, Point};
 
     use super::*;
+    use crate::cpu::cluster::CLUSTER_PATHS;
 
     /// Boxes of points anywhere in a square.
     fn scattered(count: usize, side: f32) -> Vec<Bounds<f32>> {
