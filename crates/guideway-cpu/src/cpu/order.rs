@@ -160,7 +160,7 @@ mod tests {
     }
 
     #[test]
-    fn what_lies_in_one_place_or_nowhere_is_not_lost() {
+    fn what_lies_in_one_place_keeps_its_order() {
         let at = Point::new(3.0, 4.0);
         let boxes = vec![Bounds { min: at, max: at }; 100];
         assert!(sorted_rows(&boxes.into()).into_iter().eq(0..100));
