@@ -5,7 +5,6 @@ use guideway_scene::PathState;
 use guideway_spline::{Bounds, Point};
 
 use super::canvas::TILE_PX;
-use super::extent::ask_for;
 use super::flatten::flatten;
 use super::joins::Links;
 use super::joints::{Chain, Joints, Run};
@@ -148,7 +147,6 @@ impl Scratch {
         let place = |p: Point<f64>| {
             Point::new((p.x - middle_m.x) * per_m, (middle_m.y - p.y) * per_m).to_f32()
         };
-        ask_for(scene, paths.iter().map(|&path| path as usize));
         local.clear();
         runs.clear();
         for member in spread_out(paths.len()) {

@@ -12,6 +12,7 @@ use rayon::prelude::*;
 use super::bins::Bins;
 use super::cluster::Scratch;
 use super::crossings::Drawn;
+use super::extent::ask_for;
 use super::filled::{Filled, Known};
 use super::index::{Index, Made};
 use super::kept::Kept;
@@ -280,7 +281,11 @@ impl Buffers {
         let total = AtomicU64::new(index.lines_bytes);
         let mut lines = std::mem::take(&mut index.lines);
         let place = |key| self.sights.get(key).cluster as usize;
-        for_each_at(&mut lines, 0, &self.todo, &place, &|key, lines| {
+        let ask = |key| {
+            let paths = index.paths_of(self.sights.get(key).cluster);
+            ask_for(shot.scene, paths.iter().map(|&path| path as usize));
+        };
+        for_each_at(&mut lines, 0, &self.todo, (&place, &ask), &|key, lines| {
             let is_over = total.load(Ordering::Relaxed) > limit_bytes;
             let sight = self.sights.get(key);
             let Some(extent) = index.extents[sight.cluster as usize] else {
@@ -339,17 +344,23 @@ impl Buffers {
 }
 
 /// Calls `work` for some elements, in parallel: for each key, whose places rise, with that at its place. The first
-/// of `all` has the place `first`.
+/// of `all` has the place `first`. `ask` is called for each key while the one before it is worked on, so that what it needs is near by then.
 fn for_each_at<T: Send, K: Copy + Sync>(
     all: &mut [T],
     first: usize,
     keys: &[K],
-    place: &(impl Fn(K) -> usize + Sync),
+    (place, ask): (&(impl Fn(K) -> usize + Sync), &(impl Fn(K) + Sync)),
     work: &(impl Fn(K, &mut T) + Sync),
 ) {
     const AT_ONCE: usize = 8;
     if keys.len() <= AT_ONCE {
-        for &key in keys {
+        if let Some(&key) = keys.first() {
+            ask(key);
+        }
+        for (i, &key) in keys.iter().enumerate() {
+            if let Some(&next) = keys.get(i + 1) {
+                ask(next);
+            }
             work(key, &mut all[place(key) - first]);
         }
         return;
@@ -358,7 +369,7 @@ fn for_each_at<T: Send, K: Copy + Sync>(
     let middle = place(right[0]);
     let (before, behind) = all.split_at_mut(middle - first);
     rayon::join(
-        || for_each_at(before, first, left, place, work),
-        || for_each_at(behind, middle, right, place, work),
+        || for_each_at(before, first, left, (place, ask), work),
+        || for_each_at(behind, middle, right, (place, ask), work),
     );
 }

@@ -2,6 +2,7 @@
 
 use guideway_spline::{Point, greater};
 
+use super::LANES;
 use super::joints::{Chain, Joints, Run};
 use super::polylines::ROUNDS;
 
@@ -11,8 +12,6 @@ const MOST: usize = u64::BITS as usize;
 const NONE: u32 = u32::MAX;
 /// What goes on straight turns by less than some 20 degrees: this is the tangent.
 const STRAIGHT: f32 = 0.4;
-/// Cells that runs are looked up by, as a power of two.
-const CELLS: usize = 256;
 /// Classes of lengths, each twice as long as the next: all from so many units on are of the first.
 const CLASSES: usize = 6;
 const LONG: f32 = 1024.0;
@@ -31,15 +30,28 @@ pub(super) struct Links {
     order: Vec<u32>,
 }
 
-/// Some runs, by where they begin and end.
+/// Some runs.
 struct Group {
-    ends: [[Point<f32>; 2]; MOST],
-    /// For each cell of the plane, by its lowest bits, the number behind that of a run which begins there, or 0.
-    cells: [u8; CELLS],
-    /// The same for the other runs of the cell, behind each.
-    others: [u8; MOST],
+    /// Where each begins and ends, nowhere for those that there are not, and how it gets from one to the other.
+    starts: Side,
+    ends: Side,
+    along: Side,
     /// Whether there is a run before each, a bit.
     taken: u64,
+}
+
+/// For each of some runs, which may follow it: a bit each.
+struct Behind {
+    /// Those that begin where it ends, within a unit to the side as well as up and down.
+    near: [u64; MOST],
+    /// Of those, the ones that go on nearly straight.
+    straight: [u64; MOST],
+}
+
+/// Points, for vectors.
+struct Side {
+    x: [f32; MOST],
+    y: [f32; MOST],
 }
 
 impl Links {
@@ -54,16 +66,15 @@ impl Links {
             let next = &mut self.next[first..];
             let mut group = Group::new(runs, joints);
             if joins {
-                group.link(runs.len(), first, next);
+                group.link(first, &mut next[..runs.len()]);
             }
             // Of a ring none is the first: then one is.
             let mut left = low_bits(runs.len());
             for firsts in [!group.taken, u64::MAX] {
-                for i in 0..runs.len() {
-                    if left & firsts & 1 << i != 0 {
-                        let length = group.follow(i, first, next, &mut left);
-                        self.heads.push(((first + i) as u32, class(length)));
-                    }
+                while left & firsts != 0 {
+                    let head = (left & firsts).trailing_zeros() as usize;
+                    let length = group.follow(head, first, next, &mut left);
+                    self.heads.push(((first + head) as u32, class(length)));
                 }
             }
         }
@@ -123,79 +134,75 @@ impl Links {
     }
 }
 
-/// What lies behind a run.
-enum Behind {
-    Run(usize),
-    /// Only such as do not go on straight.
-    Turns,
-    Nothing,
-}
-
 impl Group {
     #[inline(always)]
     fn new(runs: &[Run], joints: &Joints) -> Self {
+        let nowhere = || Side {
+            x: [f32::NAN; MOST],
+            y: [f32::NAN; MOST],
+        };
         let mut group = Self {
-            ends: [[Point { x: 0.0, y: 0.0 }; 2]; MOST],
-            cells: [0; CELLS],
-            others: [0; MOST],
+            starts: nowhere(),
+            ends: nowhere(),
+            along: nowhere(),
             taken: 0,
         };
-        for (ends, run) in group.ends.iter_mut().zip(runs) {
-            *ends = run.ends(joints);
+        for (i, run) in runs.iter().enumerate().take(MOST) {
+            let [start, end] = run.ends(joints);
+            group.starts.set(i, start);
+            group.ends.set(i, end);
+            group.along.set(i, end - start);
         }
         group
     }
 
     /// Joins runs: gives the number behind each, counted from `first`, to `next`.
     #[inline(always)]
-    fn link(&mut self, runs: usize, first: usize, next: &mut [u32]) {
-        for i in 0..runs {
-            let cell = &mut self.cells[cell(self.ends[i][0])];
-            self.others[i] = std::mem::replace(cell, i as u8 + 1);
-        }
-        // What goes on nearly straight is joined first.
-        let mut left = low_bits(runs);
-        for may_turn in [false, true] {
-            let mut todo = left;
-            while todo != 0 {
-                let run = todo.trailing_zeros() as usize % MOST;
-                todo &= todo - 1;
-                match self.behind(run, may_turn) {
-                    Behind::Run(behind) => {
-                        self.taken |= 1 << behind;
-                        next[run] = (first + behind) as u32;
-                        left &= !(1 << run);
-                    }
-                    Behind::Turns => {}
-                    Behind::Nothing => left &= !(1 << run),
+    fn link(&mut self, first: usize, next: &mut [u32]) {
+        let Behind { near, straight } = self.behind();
+        // What goes on nearly straight is joined first. No branches: nothing tells which do.
+        for behind in [straight, near] {
+            for (next, behind) in next.iter_mut().zip(behind) {
+                let is_free = u64::from(*next == NONE).wrapping_neg();
+                let behind = behind & !self.taken & is_free;
+                let last = (behind | 1).ilog2();
+                self.taken |= behind & 1 << last;
+                if behind != 0 {
+                    *next = first as u32 + last;
                 }
             }
         }
     }
 
-    /// A run that begins where another ends, within a unit to the side as well as up and down.
+    /// Compares all runs with all others.
     #[inline(always)]
-    fn behind(&self, run: usize, may_turn: bool) -> Behind {
-        let [start, end] = self.ends[run];
-        let along = end - start;
-        let mut turns = Behind::Nothing;
-        let mut next = self.cells[cell(end)];
-        while next != 0 {
-            let behind = (usize::from(next) - 1) % MOST;
-            next = self.others[behind];
-            let [from, to] = self.ends[behind];
-            let gap = from - end;
-            if self.taken >> behind & 1 == 1 || greater(gap.x.abs(), gap.y.abs()) > 1.0 {
-                continue;
+    fn behind(&self) -> Behind {
+        const HALF: usize = u32::BITS as usize;
+        let (mut near, mut straight) = ([0; MOST], [0; MOST]);
+        for half in [0, HALF] {
+            for first in (0..MOST).step_by(LANES) {
+                let (mut near_bits, mut straight_bits) = ([0_u32; LANES], [0_u32; LANES]);
+                for behind in 0..HALF {
+                    let start = self.starts.at(half + behind);
+                    let on = self.along.at(half + behind);
+                    for i in 0..LANES {
+                        let end = self.ends.at(first + i);
+                        let along = self.along.at(first + i);
+                        let gap = greater((end.x - start.x).abs(), (end.y - start.y).abs());
+                        let aside = along.x * on.y - along.y * on.x;
+                        let is_straight = aside.abs() < STRAIGHT * along.dot(on);
+                        let near = if gap <= 1.0 { 1 << behind } else { 0 };
+                        near_bits[i] |= near;
+                        straight_bits[i] |= if is_straight { near } else { 0 };
+                    }
+                }
+                for i in 0..LANES {
+                    near[first + i] |= u64::from(near_bits[i]) << half;
+                    straight[first + i] |= u64::from(straight_bits[i]) << half;
+                }
             }
-            let on = to - from;
-            let aside = along.x * on.y - along.y * on.x;
-            if may_turn || aside.abs() < STRAIGHT * along.dot(on) {
-                return Behind::Run(behind);
-            }
-            turns = Behind::Turns;
         }
-        turns
+        Behind { near, straight }
     }
 
     /// Goes along a chain: takes its runs from those that are left, opens it if it is a ring, and gives its length.
@@ -204,8 +211,8 @@ impl Group {
         let (mut run, mut length) = (start, 0.0);
         loop {
             *left &= !(1 << run);
-            let [start, end] = self.ends[run % MOST];
-            length += (end.x - start.x).abs() + (end.y - start.y).abs();
+            let along = self.along.at(run);
+            length += along.x.abs() + along.y.abs();
             let behind = next[run];
             if behind == NONE {
                 return length;
@@ -220,12 +227,16 @@ impl Group {
     }
 }
 
-/// Which of [`CELLS`] a place is in.
-#[inline(always)]
-fn cell(at: Point<f32>) -> usize {
-    const SIDE: f32 = 16.0;
-    let [x, y] = [at.x, at.y].map(|v| (v * (1.0 / SIDE)).floor() as i32);
-    (x.wrapping_mul(7).wrapping_add(y.wrapping_mul(61)) as u32 % CELLS as u32) as usize
+impl Side {
+    #[inline(always)]
+    fn at(&self, run: usize) -> Point<f32> {
+        Point::new(self.x[run % MOST], self.y[run % MOST])
+    }
+
+    #[inline(always)]
+    fn set(&mut self, run: usize, to: Point<f32>) {
+        (self.x[run % MOST], self.y[run % MOST]) = (to.x, to.y);
+    }
 }
 
 /// The class of a length: the longest are of the first.
@@ -304,6 +315,17 @@ mod tests {
         assert_eq!((road.len(), turns.len()), (2, 3));
         assert_eq!((road[0].x, road[1].x), (0.0, 400.0));
         assert_eq!(drawn(&curves, false).len(), curves.len());
+    }
+
+    #[test]
+    fn what_begins_within_a_unit_of_an_end_goes_on_from_it_wherever_that_is() {
+        for at in (0..400).map(|i| i as f32 * 0.37 - 70.0) {
+            let road = |gap| {
+                let before = straight([[at - 90.0, at], [at, at]]);
+                drawn(&[straight([[at + gap, at], [at + 90.0, at]]), before], true).len()
+            };
+            assert_eq!((road(0.9), road(1.1), road(-0.9)), (1, 2, 1), "{at}");
+        }
     }
 
     #[test]
