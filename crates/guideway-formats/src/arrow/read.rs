@@ -45,8 +45,9 @@ fn read_table(source: Source<'_>, bytes: &Buffer) -> Result<Layout, Problem> {
     let mut next = batches.next()?;
     let mut reader = Reader::new(next.as_ref(), &batches, schema, &columns, diagnostics)?;
     while let Some(batch) = next {
-        reader.add(&batch)?;
-        next = batches.next()?;
+        let (added, decoded) = rayon::join(|| reader.add(&batch), || batches.next());
+        added?;
+        next = decoded?;
     }
     reader.into_layout(source.name, version)
 }
