@@ -1,6 +1,6 @@
 use std::sync::Arc;
 
-use guideway_layout::{Attribute, Attributes, Layout, NewPath, Paths, Value, Values};
+use guideway_layout::{Attribute, Attributes, Cells, Layout, NewPath, Paths, Value, Values};
 use guideway_scene::PathState;
 use guideway_spline::Runs;
 
@@ -102,10 +102,8 @@ fn of_rows(all: &Attributes, rows: &[usize]) -> Attributes {
 
 /// The values of some rows, in this order.
 fn chosen(values: &Values, rows: &[usize]) -> Values {
-    fn pick<T: Copy>(column: &[Option<T>], rows: &[usize]) -> Vec<Option<T>> {
-        rows.iter()
-            .map(|&row| column.get(row).copied().flatten())
-            .collect()
+    fn pick<T: Copy + Default>(column: &Cells<T>, rows: &[usize]) -> Cells<T> {
+        rows.iter().map(|&row| column.get(row)).collect()
     }
     match values {
         Values::Bool(column) => Values::Bool(pick(column, rows)),

@@ -215,7 +215,10 @@ fn attributes_keep_their_type_and_others_become_text() {
         ("control_points", Arc::new(polygons(3))),
     ]);
     let small = attribute(&layout, "small");
-    assert_eq!(small.values, Values::Int(vec![Some(1), None, Some(-3)]));
+    assert_eq!(
+        small.values,
+        Values::Int([Some(1), None, Some(-3)].into_iter().collect())
+    );
     assert_eq!(small.source_type.as_deref(), Some("Int8"));
     let text = |name: &str, row| match attribute(&layout, name).values.get(row) {
         Some(Value::Text(text)) => Some(text.to_owned()),
@@ -228,7 +231,7 @@ fn attributes_keep_their_type_and_others_become_text() {
     assert_eq!(text("nested", 1), None);
     assert_eq!(
         attribute(&layout, "busy").values,
-        Values::Bool(vec![Some(true), None, Some(false)])
+        Values::Bool([Some(true), None, Some(false)].into_iter().collect())
     );
     // large, day and nested, and the id that is absent.
     assert_eq!(layout.diagnostics.count(Code::Attribute), 4);
@@ -348,7 +351,10 @@ fn numbers_of_all_batches_become_text_if_a_late_one_is_too_large() {
     assert_eq!(texts, [text("7"), None, text("0"), text("1"), most, None]);
     let layout = read(&file(&[first], None));
     let values = &attribute(&layout, "large").values;
-    assert_eq!(*values, Values::Int(vec![Some(7), None, Some(0)]));
+    assert_eq!(
+        *values,
+        Values::Int([Some(7), None, Some(0)].into_iter().collect())
+    );
 }
 
 #[test]

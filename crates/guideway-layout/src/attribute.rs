@@ -1,4 +1,4 @@
-use crate::TextColumn;
+use crate::{Cells, TextColumn};
 
 /// Any further columns of a table, by name, in the order of the file.
 #[derive(Clone, Debug, Default)]
@@ -101,11 +101,11 @@ impl Attribute {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Values {
     /// Yes or no.
-    Bool(Vec<Option<bool>>),
+    Bool(Cells<bool>),
     /// Whole numbers.
-    Int(Vec<Option<i64>>),
+    Int(Cells<i64>),
     /// Numbers.
-    Float(Vec<Option<f64>>),
+    Float(Cells<f64>),
     /// Text; `present[row]` tells an empty text from none.
     Text {
         /// The text of each row.
@@ -118,9 +118,9 @@ pub enum Values {
 impl Values {
     fn empty_for(value: Value<'_>) -> Self {
         match value {
-            Value::Bool(_) => Self::Bool(Vec::new()),
-            Value::Int(_) => Self::Int(Vec::new()),
-            Value::Float(_) => Self::Float(Vec::new()),
+            Value::Bool(_) => Self::Bool(Cells::default()),
+            Value::Int(_) => Self::Int(Cells::default()),
+            Value::Float(_) => Self::Float(Cells::default()),
             Value::Text(_) => Self::Text {
                 text: TextColumn::default(),
                 present: Vec::new(),
@@ -146,9 +146,9 @@ impl Values {
     /// The value of a row, if it has one.
     pub fn get(&self, row: usize) -> Option<Value<'_>> {
         match self {
-            Self::Bool(v) => v.get(row).copied().flatten().map(Value::Bool),
-            Self::Int(v) => v.get(row).copied().flatten().map(Value::Int),
-            Self::Float(v) => v.get(row).copied().flatten().map(Value::Float),
+            Self::Bool(v) => v.get(row).map(Value::Bool),
+            Self::Int(v) => v.get(row).map(Value::Int),
+            Self::Float(v) => v.get(row).map(Value::Float),
             Self::Text { text, present } => {
                 let here = present.get(row).copied().unwrap_or(false);
                 here.then(|| Value::Text(text.get(row)))
@@ -183,14 +183,11 @@ impl Values {
             Self::set_text(text, present, row, &value.to_string());
             return;
         }
-        if self.len() <= row {
-            self.pad_to(row + 1);
-        }
         match (self, value) {
-            (Self::Bool(v), Value::Bool(x)) => v[row] = Some(x),
-            (Self::Int(v), Value::Int(x)) => v[row] = Some(x),
-            (Self::Float(v), Value::Float(x)) => v[row] = Some(x),
-            (Self::Float(v), Value::Int(x)) => v[row] = Some(x as f64),
+            (Self::Bool(v), Value::Bool(x)) => v.set(row, x),
+            (Self::Int(v), Value::Int(x)) => v.set(row, x),
+            (Self::Float(v), Value::Float(x)) => v.set(row, x),
+            (Self::Float(v), Value::Int(x)) => v.set(row, x as f64),
             _ => unreachable!("the column was widened for this value"),
         }
     }
@@ -217,9 +214,9 @@ impl Values {
 
     fn pad_to(&mut self, rows: usize) {
         match self {
-            Self::Bool(v) => v.resize(rows, None),
-            Self::Int(v) => v.resize(rows, None),
-            Self::Float(v) => v.resize(rows, None),
+            Self::Bool(v) => v.pad_to(rows),
+            Self::Int(v) => v.pad_to(rows),
+            Self::Float(v) => v.pad_to(rows),
             Self::Text { text, present } => {
                 while present.len() < rows {
                     text.push("");
@@ -231,9 +228,9 @@ impl Values {
 
     fn heap_bytes(&self) -> usize {
         match self {
-            Self::Bool(v) => v.capacity() * size_of::<Option<bool>>(),
-            Self::Int(v) => v.capacity() * size_of::<Option<i64>>(),
-            Self::Float(v) => v.capacity() * size_of::<Option<f64>>(),
+            Self::Bool(v) => v.heap_bytes(),
+            Self::Int(v) => v.heap_bytes(),
+            Self::Float(v) => v.heap_bytes(),
             Self::Text { text, present } => text.heap_bytes() + present.capacity(),
         }
     }

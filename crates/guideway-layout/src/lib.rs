@@ -18,6 +18,7 @@
 
 mod ahead;
 mod attribute;
+mod cells;
 mod check;
 mod diagnostic;
 mod geometry;
@@ -33,6 +34,7 @@ mod vehicle_types;
 use std::sync::Arc;
 
 pub use attribute::{Attribute, Attributes, Value, Values};
+pub use cells::Cells;
 pub use check::{
     At, CheckOptions, check, check_across, name as element_name, place as element_place,
     same_curves,

@@ -82,8 +82,8 @@ type Labels<'a> = Box<dyn Fn(u32) -> Option<String> + 'a>;
 fn numbers<'a>(layout: &'a Layout, column: &str) -> Option<Numbers<'a>> {
     let finite = |v: f64| v.is_finite().then_some(v);
     match &layout.paths.attributes.get(column)?.values {
-        Values::Int(v) => Some(Box::new(|path| Some((*v.get(path as usize)?)? as f64))),
-        Values::Float(v) => Some(Box::new(move |path| finite((*v.get(path as usize)?)?))),
+        Values::Int(v) => Some(Box::new(|path| Some(v.get(path as usize)? as f64))),
+        Values::Float(v) => Some(Box::new(move |path| finite(v.get(path as usize)?))),
         Values::Bool(_) | Values::Text { .. } => None,
     }
 }

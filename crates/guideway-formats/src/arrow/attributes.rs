@@ -5,7 +5,7 @@ use arrow_array::cast::AsArray;
 use arrow_array::types::{Float32Type, Float64Type, Int64Type};
 use arrow_cast::display::{ArrayFormatter, FormatOptions};
 use arrow_schema::{DataType, Field};
-use guideway_layout::{Attribute, Code, Diagnostics, Limits, Place, Values};
+use guideway_layout::{Attribute, Cells, Code, Diagnostics, Limits, Place, Values};
 
 use super::batch::{Batch, cast, count_lost};
 use super::budget::Budget;
@@ -28,9 +28,9 @@ pub(super) struct Growing<'a> {
 enum Held<'a> {
     /// There are none.
     Nothing,
-    Bool(Vec<Option<bool>>),
-    Int(Vec<Option<i64>>),
-    Float(Vec<Option<f64>>),
+    Bool(Cells<bool>),
+    Int(Cells<i64>),
+    Float(Cells<f64>),
     Text(Labels<'a>),
     /// Text made from values of a type that layouts do not have.
     Written(Labels<'a>),
@@ -54,9 +54,9 @@ impl<'a> Growing<'a> {
         let labels = || Labels::new(rows, limits, budget);
         let held = match value_type(field) {
             DataType::Null => Held::Nothing,
-            DataType::Boolean => Held::Bool(Vec::with_capacity(rows)),
-            t if t.is_integer() => Held::Int(Vec::with_capacity(rows)),
-            t if t.is_floating() => Held::Float(Vec::with_capacity(rows)),
+            DataType::Boolean => Held::Bool(Cells::with_capacity(rows)),
+            t if t.is_integer() => Held::Int(Cells::with_capacity(rows)),
+            t if t.is_floating() => Held::Float(Cells::with_capacity(rows)),
             _ if is_text(field.data_type()) => Held::Text(labels()),
             _ => Held::Written(labels()),
         };
@@ -77,7 +77,8 @@ impl<'a> Growing<'a> {
                 let column = cast(column, &DataType::Boolean)?;
                 let column = column.as_boolean();
                 let get = |row| column.is_valid(row).then(|| column.value(row));
-                out.extend(batch.kept.iter().cloned().flatten().map(get));
+                let rows = batch.kept.iter().cloned().flatten();
+                rows.for_each(|row| out.push(get(row)));
             }
             Held::Int(out) => {
                 let numbers = cast(column, &DataType::Int64)?;
@@ -87,13 +88,13 @@ impl<'a> Growing<'a> {
                     self.held = Held::Written(labels);
                     return self.add(batch);
                 }
-                batch.extend(out, numbers.as_primitive::<Int64Type>(), |v| v);
+                batch.add_cells(out, numbers.as_primitive::<Int64Type>(), |v| v);
             }
             Held::Float(out) => match column.as_primitive_opt::<Float32Type>() {
-                Some(narrow) => batch.extend(out, narrow, |v| v.map(f64::from)),
+                Some(narrow) => batch.add_cells(out, narrow, f64::from),
                 None => {
                     let numbers = cast(column, &DataType::Float64)?;
-                    batch.extend(out, numbers.as_primitive::<Float64Type>(), |v| v);
+                    batch.add_cells(out, numbers.as_primitive::<Float64Type>(), |v| v);
                 }
             },
             Held::Text(labels) => labels.add_texts(batch, self.index)?,
@@ -138,12 +139,12 @@ impl<'a> Labels<'a> {
     }
 
     fn of_numbers(
-        numbers: &[Option<i64>],
+        numbers: &Cells<i64>,
         limits: &'a Limits,
         budget: &'a Budget,
     ) -> Result<Self, Problem> {
         let mut labels = Self::new(numbers.len(), limits, budget);
-        for &number in numbers {
+        for number in numbers.iter() {
             labels.push(number)?;
         }
         Ok(labels)

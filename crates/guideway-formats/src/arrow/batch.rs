@@ -2,6 +2,7 @@ use std::ops::Range;
 
 use arrow_array::{Array, ArrayRef, ArrowPrimitiveType, PrimitiveArray};
 use arrow_schema::DataType;
+use guideway_layout::Cells;
 
 use super::guard::{damaged, guarded};
 use super::polygons::Fault;
@@ -31,11 +32,30 @@ impl Batch {
                 let values = &column.values()[rows];
                 out.extend(values.iter().map(|&v| value(Some(v))));
             } else {
-                let get = |row| column.is_valid(row).then(|| column.value(row));
-                out.extend(rows.map(|row| value(get(row))));
+                out.extend(rows.map(|row| value(get(column, row))));
             }
         }
     }
+
+    /// Appends the values of the kept rows that have one.
+    pub(super) fn add_cells<T: ArrowPrimitiveType, V: Copy + Default>(
+        &self,
+        out: &mut Cells<V>,
+        column: &PrimitiveArray<T>,
+        value: impl Fn(T::Native) -> V,
+    ) {
+        for rows in self.kept.iter().cloned() {
+            if column.null_count() == 0 {
+                out.extend_present(column.values()[rows].iter().map(|&v| value(v)));
+            } else {
+                rows.for_each(|row| out.push(get(column, row).map(&value)));
+            }
+        }
+    }
+}
+
+fn get<T: ArrowPrimitiveType>(column: &PrimitiveArray<T>, row: usize) -> Option<T::Native> {
+    column.is_valid(row).then(|| column.value(row))
 }
 
 /// The column in another type; values that do not fit it become null.

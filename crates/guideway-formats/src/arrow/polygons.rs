@@ -240,9 +240,16 @@ pub(super) fn pairs<T>(coordinates: &[T], range: Range<usize>) -> &[[T; 2]] {
 /// Whether all values are finite and at most `limit` from zero.
 fn all_within<T: Real>(values: &[T], limit: T) -> bool {
     // Comparison with NaN is false. A block at a time: a loop that may stop anywhere is not vectorised.
-    values
-        .chunks(1024)
-        .all(|block| block.iter().fold(true, |ok, v| ok & (v.abs() <= limit)))
+    for block in values.chunks(1024) {
+        let mut is_within = true;
+        for &value in block {
+            is_within &= (-limit <= value) & (value <= limit);
+        }
+        if !is_within {
+            return false;
+        }
+    }
+    true
 }
 
 /// The largest coordinate, at most the largest finite number.

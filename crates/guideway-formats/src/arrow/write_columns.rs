@@ -100,7 +100,7 @@ impl Column {
             Values::Float(values) => {
                 let exact = |v: &f64| f64::from(*v as f32).to_bits() == v.to_bits() || v.is_nan();
                 match source {
-                    Some("Float32") if values.iter().flatten().all(exact) => ColumnType::Float32,
+                    Some("Float32") if values.values().all(|v| exact(&v)) => ColumnType::Float32,
                     _ => ColumnType::Float64,
                 }
             }
@@ -109,7 +109,7 @@ impl Column {
                 let fits = |t: &ColumnType| {
                     let range = t.int_range();
                     range.is_some_and(|(low, high)| {
-                        values.iter().flatten().all(|v| (low..=high).contains(v))
+                        values.values().all(|v| (low..=high).contains(&v))
                     })
                 };
                 let narrow = ColumnType::INTS.into_iter().find(named).filter(fits);

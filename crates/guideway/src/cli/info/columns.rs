@@ -47,16 +47,16 @@ pub(super) fn of_table(attributes: &Attributes, rows: usize) -> Vec<Column> {
 
 fn of(attribute: &Attribute, rows: u64) -> Column {
     let mut column = match &attribute.values {
-        Values::Bool(v) => tally("yes/no", v.iter().flatten().copied(), bool::to_string),
+        Values::Bool(v) => tally("yes/no", v.values(), bool::to_string),
         Values::Int(v) => Column {
-            min: v.iter().flatten().min().map(|&n| n as f64),
-            max: v.iter().flatten().max().map(|&n| n as f64),
-            ..tally("whole number", v.iter().flatten().copied(), i64::to_string)
+            min: v.values().min().map(|n| n as f64),
+            max: v.values().max().map(|n| n as f64),
+            ..tally("whole number", v.values(), i64::to_string)
         },
         Values::Float(v) => {
-            let finite = || v.iter().flatten().copied().filter(|n| n.is_finite());
+            let finite = || v.values().filter(|n| n.is_finite());
             // Zero and minus zero are one number.
-            let bits = v.iter().flatten().map(|&n| (n + 0.0).to_bits());
+            let bits = v.values().map(|n| (n + 0.0).to_bits());
             Column {
                 min: finite().reduce(f64::min),
                 max: finite().reduce(f64::max),
