@@ -48,12 +48,32 @@ fn read_ahead(file: &File, len: usize) {
     let read = move || {
         let mut piece = vec![0; PIECE];
         let _ = file.read_at(&mut piece[..END], (len - END) as u64);
+        let mut is_there = true;
         for from in (0..len.min(MOST)).step_by(PIECE) {
-            let _ = file.read_at(&mut piece, from as u64);
+            // Whatever follows what is not there has to be read, and asking would look as if reads were in no order.
+            is_there = is_there && is_in_memory(&file, (len.min(from + PIECE) - 1) as u64);
+            if !is_there {
+                let _ = file.read_at(&mut piece, from as u64);
+            }
         }
     };
     // If the system has no thread for it, the file is read all the same.
     let _ = std::thread::Builder::new().spawn(read);
+}
+
+/// Whether a byte of a file can be had without waiting. What others have just written or read can, and need not be read once more.
+#[cfg(all(feature = "mmap", target_os = "linux"))]
+fn is_in_memory(file: &File, at: u64) -> bool {
+    use rustix::io::{ReadWriteFlags, preadv2};
+    let mut byte = [0];
+    let mut bytes = [std::io::IoSliceMut::new(&mut byte)];
+    preadv2(file, &mut bytes, at, ReadWriteFlags::NOWAIT).is_ok_and(|count| count > 0)
+}
+
+/// Elsewhere there is no telling.
+#[cfg(all(feature = "mmap", unix, not(target_os = "linux")))]
+fn is_in_memory(_file: &File, _at: u64) -> bool {
+    false
 }
 
 /// The whole file, read into memory.
