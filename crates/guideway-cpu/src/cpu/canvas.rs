@@ -151,29 +151,46 @@ impl<const C: usize> Canvas<C> {
         ((blocks - empty) * Self::WINDOW_PX as u32, closed)
     }
 
-    /// Covers some pixels, of a tile on which nothing lies yet.
+    /// Covers some pixels, of a tile on which nothing lies yet. At the samples of a window that they cover nobody looks any more.
     #[inline(always)]
     pub(super) fn close_pixels(&mut self, pixels: &Rows) {
-        for (row, &pixels) in pixels.iter().enumerate() {
-            let closed = self.open_pixels[row] & pixels;
-            if closed == 0 {
-                continue;
+        let mut closed = [0; TILE_PX];
+        for row in 0..TILE_PX {
+            closed[row] = self.open_pixels[row] & pixels[row];
+            self.open_pixels[row] &= !pixels[row];
+        }
+        for window in 0..C {
+            let of_window = low_bits(Self::WINDOW_PX as u32) << (window * Self::WINDOW_PX);
+            let (mut whole, mut part) = ([0; TILE_PX], [0; TILE_PX]);
+            for row in 0..TILE_PX {
+                let closed = closed[row] & of_window;
+                whole[row] = if closed == of_window { 1 << row } else { 0 };
+                part[row] = if closed != 0 { 1 << row } else { 0 };
             }
-            for window in 0..C {
-                let left = window * Self::WINDOW_PX;
-                let mut mask = 0;
-                for pixel in 0..Self::WINDOW_PX {
-                    mask |= (closed >> (left + pixel) & 1) * (low_bits(C as u32) << (pixel * C));
-                }
-                let mut all = u32::MAX;
-                for word in &mut self.shape[window][row] {
-                    *word |= mask;
-                    all &= *word;
-                }
-                self.touched[window] |= u32::from(mask != 0) << row;
-                self.close(window, row, all);
+            let whole: u32 = whole.iter().fold(0, |all, bit| all | bit);
+            let part: u32 = part.iter().fold(0, |all, bit| all | bit);
+            self.open[window] &= !whole;
+            for row in set_bits(part & !whole) {
+                self.close_part(window, row % TILE_PX, closed[row % TILE_PX]);
             }
         }
+    }
+
+    /// Covers some pixels of a row in one window.
+    #[inline(always)]
+    fn close_part(&mut self, window: usize, row: usize, pixels: u32) {
+        let pixels = pixels >> (window * Self::WINDOW_PX);
+        let mut mask = 0;
+        for pixel in 0..Self::WINDOW_PX {
+            mask |= (pixels >> pixel & 1) * (low_bits(C as u32) << (pixel * C));
+        }
+        let mut all = u32::MAX;
+        for word in &mut self.shape[window][row] {
+            *word |= mask;
+            all &= *word;
+        }
+        self.touched[window] |= 1 << row;
+        self.close(window, row, all);
     }
 
     /// From now on, pixels that solid strokes cover stay open: to take note of them would cost more than to cover them again.

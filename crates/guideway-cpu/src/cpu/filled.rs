@@ -12,6 +12,7 @@ use guideway_spline::Point;
 use super::canvas::{Rows, TILE_PX};
 use super::shot::{Precision, Shot};
 use super::tiles::Grid;
+use super::vectors::{LaneWidth, by_lane_width};
 
 /// A picture is found out about in so many bands of rows of tiles, one a frame.
 const BANDS: usize = 4;
@@ -292,18 +293,28 @@ impl Known<'_> {
     pub(super) fn count(&self, shot: &Shot<'_>) -> u32 {
         let (side, grid) = (TILE_PX as f64, Grid::of(shot.strip));
         let rows = (grid.rows.clone()).flat_map(|y| (0..grid.columns).map(move |x| (x, y)));
-        let tiles = rows.map(|(x, y)| self.tile(Point::new(x as f64, y as f64) * side));
+        let tiles =
+            rows.map(|(x, y)| self.tile(shot.lane_width, Point::new(x as f64, y as f64) * side));
         tiles.flatten().map(u32::count_ones).sum()
     }
 
     /// The pixels of a tile that are full for certain.
-    #[inline(always)]
-    pub(super) fn tile(&self, corner: Point<f64>) -> Rows {
+    pub(super) fn tile(&self, lane_width: LaneWidth, corner: Point<f64>) -> Rows {
         let mut full = [0; TILE_PX];
-        for band in self.bands.iter().flatten() {
-            band.add_full(corner, &mut full);
-        }
+        add_full_by(lane_width, self, corner, &mut full);
         full
+    }
+}
+
+by_lane_width!(
+    fn add_full_by(known: &Known<'_>, corner: Point<f64>, full: &mut Rows)
+    by add_full
+);
+
+#[inline(always)]
+fn add_full(known: &Known<'_>, corner: Point<f64>, full: &mut Rows) {
+    for band in known.bands.iter().flatten() {
+        band.add_full(corner, full);
     }
 }
 

@@ -160,7 +160,7 @@ impl<'a> Band<'a> {
 
     /// Covers samples with all that lies on a tile and is not known to be full.
     fn paint_solid(&self, painter: &mut Painter, tile: &Tile) {
-        let full = self.known.tile(tile.corner);
+        let full = self.known.tile(self.shot.lane_width, tile.corner);
         if full == [u32::MAX; TILE_PX] {
             painter.solid.begin_closed();
         } else {
@@ -184,7 +184,7 @@ impl<'a> Band<'a> {
             widest_px: shot.widest_px(),
             ..*self
         };
-        let known = known.tile(tile.corner);
+        let known = known.tile(shot.lane_width, tile.corner);
         let (touched, in_view) = painter.solid.marked_pixels(tile.width_px, tile.height_px);
         let mut closed = in_view;
         for (closed, known) in closed.iter_mut().zip(&known) {
