@@ -24,9 +24,9 @@ pub(crate) fn few<T>(elements: &[T]) -> impl Iterator<Item = &[T]> {
     elements.chunks(FEW).inspect(|few| ask_ahead(few))
 }
 
-/// Asks for some elements, or the first of many.
+/// Asks for some elements, or the first of many, so that whoever reads them soon does not wait for them.
 #[inline(always)]
-pub(crate) fn ask_for<T>(elements: &[T]) {
+pub fn ask_for<T>(elements: &[T]) {
     for line in lines(elements).take(MOST_LINES) {
         ask(line.as_ptr());
     }

@@ -33,6 +33,7 @@ mod vehicle_types;
 
 use std::sync::Arc;
 
+pub use ahead::ask_for;
 pub use attribute::{Attribute, Attributes, Value, Values};
 pub use cells::Cells;
 pub use check::{

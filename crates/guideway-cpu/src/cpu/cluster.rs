@@ -105,6 +105,16 @@ impl Lines {
         }
     }
 
+    /// Asks for them, so that whoever draws them soon does not wait.
+    #[inline(always)]
+    pub(super) fn ask_for(&self) {
+        match self {
+            Self::None => {}
+            Self::Kept(_, lines) => lines.ask_for(),
+            Self::Cut(lines) => lines.ask_for(),
+        }
+    }
+
     /// Bytes held.
     pub(super) fn bytes(&self) -> u64 {
         match self {

@@ -15,7 +15,7 @@ use super::index::Index;
 use super::kept::Kept;
 use super::layers::{Counts, Layers};
 use super::polylines::ROUNDS;
-use super::seen::{Hit, Seen, Share};
+use super::seen::{Hit, Seen, Share, ask_for_next};
 use super::shot::Shot;
 use super::sight::Sights;
 use super::span::{LAYERED, SOLID, Samples};
@@ -329,10 +329,11 @@ fn paint_solid(band: &Band<'_>, painter: &mut Painter, tile: &Tile, closed: &Row
         if may_stay_open && first == 1 && canvas.open_count() as f32 >= least_open {
             canvas.stay_open();
         }
-        for &key in clusters {
+        for (i, &key) in clusters.iter().enumerate() {
             if canvas.is_full() {
                 return;
             }
+            ask_for_next(band, clusters, i);
             let share = Share::Rounds(first..first + at_once);
             Seen::<SOLID>::new(band, tile, key).solid(canvas, discs, share);
         }
@@ -350,7 +351,9 @@ fn paint_layers(band: &Band<'_>, painter: &mut Painter, tile: &Tile) {
     } = painter;
     canvas.begin_layers(tile.width_px, tile.height_px);
     hits.clear();
-    for &key in band.bins.clusters(tile.index) {
+    let clusters = band.bins.clusters(tile.index);
+    for (i, &key) in clusters.iter().enumerate() {
+        ask_for_next(band, clusters, i);
         Seen::<LAYERED>::new(band, tile, key).gather(key, hits);
     }
     for crossing in band.bins.crossings(tile.index) {
@@ -388,7 +391,9 @@ fn paint_counts(band: &Band<'_>, painter: &mut Painter, tile: &Tile) {
     **counts = [[0; TILE_PX]; TILE_PX];
     let mut layers = Layers::new(band, tile, canvas, discs, Some(counts));
     hits.clear();
-    for &key in band.bins.clusters(tile.index) {
+    let clusters = band.bins.clusters(tile.index);
+    for (i, &key) in clusters.iter().enumerate() {
+        ask_for_next(band, clusters, i);
         Seen::<LAYERED>::new(band, tile, key).gather(key, hits);
         hits.drain(..).for_each(|hit| layers.add(&hit));
     }

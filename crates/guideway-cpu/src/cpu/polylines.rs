@@ -1,5 +1,6 @@
 use std::ops::Range;
 
+use guideway_layout::ask_for;
 use guideway_spline::{Bounds, Point, greater, lesser};
 
 use super::LANES;
@@ -163,6 +164,18 @@ impl<T: Coordinate> Polylines<T> {
             copy(to, from);
         }
         (self.rounds, self.counts) = (other.rounds, other.counts);
+    }
+
+    /// Asks for the vertices and the boxes of pieces.
+    #[inline(always)]
+    pub(super) fn ask_for(&self) {
+        ask_for(&self.x);
+        ask_for(&self.y);
+        ask_for(&self.begins);
+        ask_for(&self.firsts);
+        for side in &self.boxes {
+            ask_for(side);
+        }
     }
 
     /// Number of paths and of lines.

@@ -223,6 +223,15 @@ impl<'a> Seen<'a, SOLID> {
     }
 }
 
+/// Asks for the lines of the cluster behind one of a tile's, to be drawn next: clusters lie anywhere in memory.
+#[inline(always)]
+pub(super) fn ask_for_next(band: &Band<'_>, clusters: &[u32], drawn: usize) {
+    if let Some(&next) = clusters.get(drawn + 1) {
+        let sight = band.sights.get(next);
+        band.index.lines[sight.cluster as usize].ask_for();
+    }
+}
+
 /// Covers samples with the lines that begin at some vertices.
 #[inline(always)]
 fn cover<T: Coordinate>(
