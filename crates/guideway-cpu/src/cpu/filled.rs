@@ -19,7 +19,7 @@ const BANDS: usize = 4;
 /// Frames that a band is to hold for, where the view comes nearer: until all others are found and have been of use.
 const FRAMES: i32 = 2 * BANDS as i32;
 /// A band that does not hold for so many more is found anew.
-const FRAMES_AHEAD: i32 = 2;
+const FRAMES_AHEAD: i32 = 1;
 /// How much nearer views may come, at most, for which it is found what is full: strokes of much nearer ones fill less.
 const MOST_NEARER: f64 = 1.25;
 /// What is found has to be so large a part of what is not empty, or it is not worth it.
