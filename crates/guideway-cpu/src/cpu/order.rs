@@ -160,6 +160,25 @@ mod tests {
     }
 
     #[test]
+    fn rows_without_points_come_behind_all_others_in_their_order() {
+        let [inf, none] = [f32::INFINITY, f32::NEG_INFINITY];
+        let mut boxes = scattered(5_000, 1.0);
+        for row in (0..5_000).step_by(7) {
+            boxes[row] = Bounds {
+                min: Point::new(inf, inf),
+                max: Point::new(none, none),
+            };
+        }
+        let rows = sorted_rows(&boxes.into());
+        let (with, without) = rows.split_at(5_000 - 5_000_usize.div_ceil(7));
+        assert!(with.iter().all(|row| row % 7 != 0));
+        assert!(without.iter().copied().eq((0..5_000).step_by(7)));
+        let mut with = with.to_vec();
+        with.sort_unstable();
+        assert!(with.into_iter().eq((0..5_000).filter(|row| row % 7 != 0)));
+    }
+
+    #[test]
     fn what_lies_in_one_place_keeps_its_order() {
         let at = Point::new(3.0, 4.0);
         let boxes = vec![Bounds { min: at, max: at }; 100];
