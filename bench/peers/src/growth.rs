@@ -53,8 +53,8 @@ fn plot(curves: &[(&str, Vec<(usize, f64)>)]) -> String {
     let x = |paths: f64| 70.0 + (paths.log10() - 3.0) * 130.0;
     let y = |ms: f64| 330.0 - (ms.log10() + 1.0) * 62.0;
     let mut svg = String::from(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 720 390\" font-family=\"sans-serif\" \
-         font-size=\"12\">\n<rect width=\"720\" height=\"390\" fill=\"white\"/>\n\
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 760 390\" font-family=\"sans-serif\" \
+         font-size=\"12\">\n<rect width=\"760\" height=\"390\" fill=\"white\"/>\n\
          <text x=\"330\" y=\"378\" text-anchor=\"middle\">paths</text>\n\
          <text x=\"14\" y=\"14\">milliseconds a frame</text>\n",
     );
