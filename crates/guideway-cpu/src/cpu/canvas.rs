@@ -151,7 +151,7 @@ impl<const C: usize> Canvas<C> {
         ((blocks - empty) * Self::WINDOW_PX as u32, closed)
     }
 
-    /// Covers some pixels, of a tile on which nothing lies yet. At the samples of a window that they cover nobody looks any more.
+    /// Covers some pixels, of a tile on which nothing lies yet. Nobody looks any more at the samples of a window without open ones.
     #[inline(always)]
     pub(super) fn close_pixels(&mut self, pixels: &Rows) {
         let mut closed = [0; TILE_PX];
@@ -161,36 +161,32 @@ impl<const C: usize> Canvas<C> {
         }
         for window in 0..C {
             let of_window = low_bits(Self::WINDOW_PX as u32) << (window * Self::WINDOW_PX);
-            let (mut whole, mut part) = ([0; TILE_PX], [0; TILE_PX]);
+            let (mut open, mut part) = ([0; TILE_PX], [0; TILE_PX]);
             for row in 0..TILE_PX {
-                let closed = closed[row] & of_window;
-                whole[row] = if closed == of_window { 1 << row } else { 0 };
-                part[row] = if closed != 0 { 1 << row } else { 0 };
+                let is_open = self.open_pixels[row] & of_window != 0;
+                open[row] = if is_open { 1 << row } else { 0 };
+                let is_part = is_open & (closed[row] & of_window != 0);
+                part[row] = if is_part { 1 << row } else { 0 };
             }
-            let whole: u32 = whole.iter().fold(0, |all, bit| all | bit);
-            let part: u32 = part.iter().fold(0, |all, bit| all | bit);
-            self.open[window] &= !whole;
-            for row in set_bits(part & !whole) {
-                self.close_part(window, row % TILE_PX, closed[row % TILE_PX]);
+            self.open[window] &= open.iter().fold(0, |all, bit| all | bit);
+            for row in set_bits(part.iter().fold(0, |all, bit| all | bit)) {
+                self.set_samples(window, row % TILE_PX, closed[row % TILE_PX]);
             }
         }
     }
 
-    /// Covers some pixels of a row in one window.
+    /// Sets all samples of some pixels of a row in one window.
     #[inline(always)]
-    fn close_part(&mut self, window: usize, row: usize, pixels: u32) {
+    fn set_samples(&mut self, window: usize, row: usize, pixels: u32) {
         let pixels = pixels >> (window * Self::WINDOW_PX);
         let mut mask = 0;
         for pixel in 0..Self::WINDOW_PX {
             mask |= (pixels >> pixel & 1) * (low_bits(C as u32) << (pixel * C));
         }
-        let mut all = u32::MAX;
         for word in &mut self.shape[window][row] {
             *word |= mask;
-            all &= *word;
         }
         self.touched[window] |= 1 << row;
-        self.close(window, row, all);
     }
 
     /// From now on, pixels that solid strokes cover stay open: to take note of them would cost more than to cover them again.

@@ -63,10 +63,10 @@ impl Links {
         self.heads.clear();
         for (group, runs) in runs.chunks(MOST).enumerate() {
             let first = group * MOST;
-            let next = &mut self.next[first..];
+            let next = &mut self.next[first..][..runs.len()];
             let mut group = Group::new(runs, joints);
             if joins {
-                group.link(first, &mut next[..runs.len()]);
+                group.link(first, next);
             }
             // Of a ring none is the first: then one is.
             let mut left = low_bits(runs.len());

@@ -161,13 +161,10 @@ mod tests {
 
     #[test]
     fn rows_without_points_come_behind_all_others_in_their_order() {
-        let [inf, none] = [f32::INFINITY, f32::NEG_INFINITY];
+        let [min, max] = [f32::INFINITY, f32::NEG_INFINITY].map(|v| Point::new(v, v));
         let mut boxes = scattered(5_000, 1.0);
         for row in (0..5_000).step_by(7) {
-            boxes[row] = Bounds {
-                min: Point::new(inf, inf),
-                max: Point::new(none, none),
-            };
+            boxes[row] = Bounds { min, max };
         }
         let rows = sorted_rows(&boxes.into());
         let (with, without) = rows.split_at(5_000 - 5_000_usize.div_ceil(7));
