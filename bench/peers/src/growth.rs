@@ -14,11 +14,9 @@ const PATHS: [usize; 9] = [
 ];
 /// A renderer that takes longer for a frame is not asked for a larger one.
 const MOST_MS: f64 = 1_000.0;
-/// Ours, and those of the others in turn.
-const OWN_COLOR: &str = "#0b57d0";
-const COLORS: [&str; 10] = [
-    "#c2410c", "#a16207", "#15803d", "#0f766e", "#7e22ce", "#be185d", "#334155", "#0891b2",
-    "#dc2626", "#65a30d",
+const COLORS: [&str; 11] = [
+    "#0b57d0", "#c2410c", "#a16207", "#15803d", "#0f766e", "#7e22ce", "#be185d", "#334155",
+    "#0891b2", "#dc2626", "#65a30d",
 ];
 
 /// Draws layouts of rising size by all methods, prints a line for each, and writes a plot of frame times.
@@ -78,10 +76,7 @@ fn plot(curves: &[(&str, Vec<(usize, f64)>)]) -> String {
         ));
     }
     for (row, (method, points)) in curves.iter().enumerate() {
-        let color = match row.checked_sub(1) {
-            None => OWN_COLOR,
-            Some(other) => COLORS[other % COLORS.len()],
-        };
+        let color = COLORS[row % COLORS.len()];
         let places = points.iter().map(|&(paths, ms)| (x(paths as f64), y(ms)));
         let line: Vec<_> = places.map(|(x, y)| format!("{x:.1},{y:.1}")).collect();
         add(format_args!(

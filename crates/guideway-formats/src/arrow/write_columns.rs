@@ -98,9 +98,9 @@ impl Column {
             Values::Bool(_) => ColumnType::Bool,
             Values::Text { .. } => ColumnType::Text,
             Values::Float(values) => {
-                let exact = |v: &f64| f64::from(*v as f32).to_bits() == v.to_bits() || v.is_nan();
+                let exact = |v: f64| f64::from(v as f32).to_bits() == v.to_bits() || v.is_nan();
                 match source {
-                    Some("Float32") if values.values().all(|v| exact(&v)) => ColumnType::Float32,
+                    Some("Float32") if values.values().all(exact) => ColumnType::Float32,
                     _ => ColumnType::Float64,
                 }
             }
