@@ -91,7 +91,10 @@ impl Lines {
             Self::None => [0, 0],
             Self::Cut(lines) => lines.paths_and_lines(),
             Self::Kept(unit_m, lines) => {
-                lines.count_within(&within_units(shot, sight.middle_px, *unit_m))
+                let within = within_units(shot, sight.middle_px, *unit_m);
+                let mut counts = [0, 0];
+                count_within_by(shot.lane_width, lines, &within, &mut counts);
+                counts
             }
         }
     }
@@ -123,6 +126,16 @@ impl Lines {
             Self::Cut(lines) => lines.bytes(),
         }
     }
+}
+
+by_lane_width!(
+    fn count_within_by(lines: &Polylines<i16>, within: &Bounds<f32>, counts: &mut [u32; 2])
+    by count_within
+);
+
+#[inline(always)]
+fn count_within(lines: &Polylines<i16>, within: &Bounds<f32>, counts: &mut [u32; 2]) {
+    *counts = lines.count_within(within);
 }
 
 /// Where centre lines leave a mark, in units from the middle of a cluster, y down.

@@ -209,9 +209,16 @@ impl Buffers {
                 parts: &b.parts,
                 grid: &grid,
             };
-            b.bins.fill(drawn, spare_bytes)?;
-            b.count(shot, index, &rows);
-            Ok(())
+            // Listing is mostly the work of one thread: others count meanwhile.
+            let (bins, sights) = (&mut b.bins, &b.sights);
+            let (filled, counts) = rayon::join(
+                || bins.fill(drawn, spare_bytes),
+                || count(sights, shot, index, &rows),
+            );
+            if filled.is_ok() {
+                (b.drawn, b.made) = (b.drawn + counts[0], b.made + counts[1]);
+            }
+            filled
         });
         if let Err(needed) = binned {
             return Ok(Err(TooMuch(others_bytes + needed)));
@@ -322,25 +329,23 @@ impl Buffers {
         }
         Ok(Ok(index.lines_bytes))
     }
+}
 
-    /// Counts the paths and the lines that may leave a mark: each cluster with the band where it begins.
-    fn count(&mut self, shot: &Shot<'_>, index: &Index, rows: &Range<usize>) {
-        let begin_here = self
-            .sights
-            .par_iter()
-            .filter(|sight| rows.contains(&sight.rows().start));
-        let counts = begin_here.map(|sight| {
-            let cluster = sight.cluster as usize;
-            let counts = if sight.is_whole {
-                index.made[cluster].paths_and_lines
-            } else {
-                index.lines[cluster].count(shot, sight)
-            };
-            counts.map(u64::from)
-        });
-        let [drawn, made] = counts.reduce(|| [0, 0], |a, b| [a[0] + b[0], a[1] + b[1]]);
-        (self.drawn, self.made) = (self.drawn + drawn, self.made + made);
-    }
+/// Counts the paths and the lines that may leave a mark: each cluster with the band where it begins.
+fn count(sights: &Sights, shot: &Shot<'_>, index: &Index, rows: &Range<usize>) -> [u64; 2] {
+    let begin_here = sights
+        .par_iter()
+        .filter(|sight| rows.contains(&sight.rows().start));
+    let counts = begin_here.map(|sight| {
+        let cluster = sight.cluster as usize;
+        let counts = if sight.is_whole {
+            index.made[cluster].paths_and_lines
+        } else {
+            index.lines[cluster].count(shot, sight)
+        };
+        counts.map(u64::from)
+    });
+    counts.reduce(|| [0, 0], |a, b| [a[0] + b[0], a[1] + b[1]])
 }
 
 /// Calls `work` for some elements, in parallel: for each key, whose places rise, with that at its place. The first

@@ -4,7 +4,6 @@ use guideway_layout::ask_for;
 use guideway_spline::{Bounds, Point, greater, lesser};
 
 use super::LANES;
-use super::canvas::set_bits;
 use super::cluster::Members;
 
 /// Pieces are drawn in so many rounds.
@@ -184,13 +183,20 @@ impl<T: Coordinate> Polylines<T> {
     }
 
     /// Number of paths and of lines of the pieces whose box meets another.
+    #[inline(always)]
     pub(super) fn count_within(&self, within: &Bounds<f32>) -> [u32; 2] {
-        let pieces = 0..self.pieces();
+        let end = self.pieces();
         let (mut drawn, mut made): (Members, _) = (0, 0);
-        for first in pieces.clone().step_by(LANES) {
-            for lane in set_bits(self.hit_bits(first, pieces.end, within)) {
-                drawn |= self.members[first + lane];
-                made += self.lines(first + lane) as u32;
+        for first in (0..end).step_by(LANES) {
+            let hits = self.hit_bits(first, end, within);
+            let of_lanes = first..end.min(first + LANES);
+            let firsts = self.firsts[of_lanes.start..=of_lanes.end].array_windows();
+            let pieces = self.members[of_lanes].iter().zip(firsts);
+            // No branches: which pieces are in sight nothing foretells.
+            for (lane, (&members, &[first, end])) in pieces.enumerate() {
+                let is_hit = hits >> lane & 1;
+                drawn |= members & Members::from(is_hit).wrapping_neg();
+                made += (end - first - 1) & is_hit.wrapping_neg();
             }
         }
         [drawn.count_ones(), made]
@@ -219,11 +225,6 @@ impl<T: Coordinate> Polylines<T> {
     /// Whose a piece is, or one of those.
     pub(super) fn member(&self, piece: usize) -> usize {
         self.members[piece].trailing_zeros() as usize
-    }
-
-    /// Number of lines of a piece.
-    pub(super) fn lines(&self, piece: usize) -> usize {
-        self.begins_of(piece..piece + 1).len()
     }
 
     /// The vertices where the lines of some pieces begin, and some between where none does.

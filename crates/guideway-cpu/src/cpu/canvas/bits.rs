@@ -5,18 +5,19 @@ use super::{Block, MOST_WINDOW_PX};
 /// The pixels of a word all of whose samples are set, a bit each.
 #[inline(always)]
 pub(super) fn full_pixels<const C: usize>(word: u32) -> u32 {
-    // The lowest bit of each stands for all.
-    let mut all = word;
-    let mut shift = 1;
-    while shift < C {
-        all &= all >> shift;
-        shift *= 2;
-    }
+    // A sum carries into the highest bit of a pixel if all below it are set.
+    let high = high_bits_of_pixels::<C>();
+    let full = ((word & !high) + (high >> (C - 1))) & word & high;
     if C == 16 {
-        return all & 1 | all >> 15 & 2;
+        return full >> 15 & 1 | full >> 30;
     }
-    // Brings every eighth bit together, in the highest byte.
-    (all & 0x0101_0101).wrapping_mul(0x0102_0408) >> 24
+    // Brings every eighth bit together, in the highest ones.
+    full.wrapping_mul(1 << 21 | 1 << 14 | 1 << 7 | 1) >> 28
+}
+
+/// The highest bit of each pixel of a word.
+const fn high_bits_of_pixels<const C: usize>() -> u32 {
+    if C == 16 { 0x8000_8000 } else { 0x8080_8080 }
 }
 
 /// The numbers of the bits that are set.

@@ -24,6 +24,23 @@ fn pixel(canvas: &Layers, x: usize, y: usize, background: Rgba) -> [u8; 4] {
 }
 
 #[test]
+fn pixels_are_full_where_all_of_their_bits_are_set() {
+    fn check<const C: usize>(word: u32) {
+        let of_pixel = |pixel: usize| word >> (pixel * C) & low_bits(C as u32);
+        let full = (0..TILE_PX / C).map(|i| u32::from(of_pixel(i) == low_bits(C as u32)) << i);
+        assert_eq!(full_pixels::<C>(word), full.sum(), "{word:#x}");
+    }
+    // Pixels that are empty, full, or lack the first or the last bit.
+    let bytes = [0, 0xff, 0xfe, 0x7f];
+    for number in 0..bytes.len().pow(4) {
+        let word = [0, 2, 4, 6].map(|shift| bytes[number >> shift & 3]);
+        let word = u32::from_le_bytes(word);
+        check::<SOLID>(word);
+        check::<LAYERED>(word);
+    }
+}
+
+#[test]
 fn bits_are_counted_by_pixel() {
     let mut block = [0; ROWS];
     assert_eq!(pixel_counts::<SOLID>(&block), [0; 4]);
