@@ -172,8 +172,7 @@ impl CpuPrepared {
 fn install<R: Send>(pool: Option<&ThreadPool>, work: impl FnOnce() -> R + Send) -> R {
     match pool {
         Some(pool) => pool.install(work),
-        // Once for all, not for each loop.
-        None => rayon::scope(|_| work()),
+        None => work(),
     }
 }
 
