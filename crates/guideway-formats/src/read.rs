@@ -1,16 +1,14 @@
 use std::fs::{File, Metadata};
-use std::io::{self, Read, Seek};
+use std::io::{self, Read};
 use std::path::Path;
 
 use guideway_layout::{Layout, Limits};
 
-use crate::load::load;
+use crate::input::Input;
+#[cfg(unix)]
+use crate::input::OnDisk;
 use crate::source::{ReadOptions, Source};
 use crate::{Format, Problem, ReadError, sniff};
-
-/// Text files of this size and more are mapped, so that they take no memory of their own. Smaller ones are read: one
-/// that another program is just writing then cannot do harm.
-const MAPPED_FROM_BYTES: u64 = 64 << 20;
 
 /// Reads a layout file. The format is found from the content, whatever the file is called.
 ///
@@ -21,19 +19,13 @@ pub fn read_file(path: &Path, options: &ReadOptions<'_>) -> Result<Layout, ReadE
     let name = path.display().to_string();
     let fail = |problem| ReadError::new(&name, problem);
     let mut file = open(path).map_err(fail)?;
-    let is_arrow = is_arrow(&mut file).map_err(fail)?;
     let size = file.metadata().map_err(io_problem).map_err(fail)?.len();
     check_size(size, &options.limits).map_err(fail)?;
-    if is_arrow {
-        let bytes = load(&file).map_err(fail)?;
+    #[cfg(unix)]
+    if is_arrow(&mut file).map_err(fail)? {
         let name = &name;
-        let layout = crate::arrow::read(Source { name, options }, &bytes);
-        // A mapped file takes a while to let go of, for which nobody has to wait.
-        rayon::spawn(move || drop(bytes));
-        return layout;
-    }
-    if size >= MAPPED_FROM_BYTES {
-        return read_bytes(&name, &load(&file).map_err(fail)?, options);
+        let file = OnDisk::new(file, path).map_err(|e| fail(io_problem(e)))?;
+        return crate::arrow::read(Source { name, options }, &Input::File(&file));
     }
     let bytes = read_whole(&mut file, options).map_err(fail)?;
     read_bytes(&name, &bytes, options)
@@ -57,7 +49,7 @@ pub fn read_bytes(
     match sniff(bytes) {
         _ if is_utf16(bytes) => Err(source.fail(UTF_16)),
         Some(Format::Lif) => crate::lif::read(source, bytes),
-        Some(Format::Arrow) => crate::arrow::read(source, &bytes.into()),
+        Some(Format::Arrow) => crate::arrow::read(source, &Input::Bytes(bytes)),
         Some(Format::OpenTcs) => crate::opentcs::read(source, bytes),
         Some(Format::Dxf) => crate::dxf::read(source, bytes),
         Some(Format::Svg) => crate::svg::read(source, bytes),
@@ -70,13 +62,14 @@ pub fn read_bytes(
     }
 }
 
-/// Whether it is an Arrow file, which need not be read whole.
+/// Whether it is an Arrow file, of which all threads read what they need.
+#[cfg(unix)]
 fn is_arrow(file: &mut File) -> Result<bool, Problem> {
     let mut first_bytes = Vec::new();
     file.take(8)
         .read_to_end(&mut first_bytes)
         .map_err(io_problem)?;
-    file.rewind().map_err(io_problem)?;
+    io::Seek::rewind(file).map_err(io_problem)?;
     Ok(sniff(&first_bytes) == Some(Format::Arrow))
 }
 

@@ -5,14 +5,14 @@ use std::sync::Arc;
 
 use arrow_array::types::Int32Type;
 use arrow_array::{
-    ArrayRef, BooleanArray, Date32Array, DictionaryArray, FixedSizeListArray, Float64Array,
-    Int8Array, Int64Array, LargeStringArray, ListArray, RecordBatch, StringArray, StringViewArray,
-    UInt32Array, UInt64Array,
+    Array, ArrayRef, BooleanArray, Date32Array, DictionaryArray, FixedSizeBinaryArray,
+    FixedSizeListArray, Float64Array, Int8Array, Int64Array, LargeStringArray, ListArray,
+    NullArray, RecordBatch, StringArray, StringViewArray, StructArray, UInt32Array, UInt64Array,
 };
 use arrow_ipc::CompressionType;
 use arrow_ipc::writer::{FileWriter, IpcWriteOptions, StreamWriter};
 use arrow_schema::{DataType, Field, Schema};
-use guideway_formats::{ReadOptions, read_bytes};
+use guideway_formats::{ReadOptions, read_bytes, read_file};
 use guideway_layout::{Attribute, Code, Layout, RunPoints, Value, Values};
 use guideway_spline::Point;
 
@@ -22,11 +22,7 @@ fn polygons(rows: usize) -> ListArray {
     let coordinates = arrow_array::Float32Array::from_iter_values(coordinates);
     let item = Arc::new(Field::new("item", DataType::Float32, true));
     let points = FixedSizeListArray::new(item, 2, Arc::new(coordinates), None);
-    let item = Arc::new(Field::new(
-        "item",
-        arrow_array::Array::data_type(&points).clone(),
-        true,
-    ));
+    let item = Arc::new(Field::new("item", points.data_type().clone(), true));
     let offsets = arrow_buffer::OffsetBuffer::from_lengths(vec![4; rows]);
     ListArray::new(item, offsets, Arc::new(points), None)
 }
@@ -167,6 +163,100 @@ fn every_kind_of_list_is_read() {
     let layout = read_columns(vec![("control_points", column)]);
     let run = layout.paths.get(0).runs().next().expect("a run");
     assert!(matches!(run, RunPoints::F64(_)));
+}
+
+#[test]
+fn points_are_found_behind_columns_of_every_kind() {
+    let list = || polygons(3);
+    let items = || {
+        Arc::new(Field::new(
+            "item",
+            list().value(0).data_type().clone(),
+            true,
+        ))
+    };
+    let cast = |to| arrow_cast::cast(&list(), &to).expect("a cast");
+    let numbers = || -> ArrayRef { Arc::new(Int8Array::from(vec![1, 2, 3])) };
+    let texts = StringArray::from(vec!["a", "bc", ""]);
+    let text = |to| arrow_cast::cast(&texts, &to).expect("a cast");
+    let keys = DictionaryArray::<Int32Type>::from_iter(["a", "b", "a"]);
+    let records = StructArray::try_from(vec![("a", numbers()), ("b", text(DataType::Utf8))]);
+    let columns: Vec<ArrayRef> = vec![
+        Arc::new(NullArray::new(3)),
+        Arc::new(BooleanArray::from(vec![true, false, true])),
+        numbers(),
+        Arc::new(Date32Array::from(vec![1, 2, 3])),
+        text(DataType::Utf8),
+        text(DataType::LargeUtf8),
+        text(DataType::Utf8View),
+        text(DataType::Binary),
+        text(DataType::LargeBinary),
+        Arc::new(FixedSizeBinaryArray::try_from_iter(["ab"; 3].iter()).expect("an array")),
+        Arc::new(keys),
+        Arc::new(list()),
+        cast(DataType::LargeList(items())),
+        cast(DataType::FixedSizeList(items(), 4)),
+        cast(DataType::ListView(items())),
+        Arc::new(records.expect("columns of one length")),
+    ];
+    let check = |before: &[ArrayRef]| {
+        let names: Vec<String> = (0..before.len()).map(|i| i.to_string()).collect();
+        let before = names.iter().map(String::as_str).zip(before.iter().cloned());
+        let mut columns: Vec<(&str, ArrayRef)> = before.collect();
+        columns.push(("control_points", Arc::new(list())));
+        columns.push(("behind", Arc::new(list())));
+        let layout = read_columns(columns);
+        for path in 0..3 {
+            let run = layout.paths.get(path).runs().next().expect("a run");
+            let points: Vec<Point<f64>> = run.iter().collect();
+            let expected = |x| Point::new(f64::from(x), path as f64);
+            assert_eq!(
+                points,
+                (0..4).map(expected).collect::<Vec<_>>(),
+                "{names:?}"
+            );
+        }
+    };
+    for column in &columns {
+        check(std::slice::from_ref(column));
+        check(&[column.clone(), column.clone()]);
+    }
+}
+
+#[test]
+fn a_file_and_its_bytes_are_one_layout() {
+    // More than is read ahead at once, with rows that are refused.
+    let rows = 60_000;
+    let list = polygons(rows);
+    let nulls = (0..rows).map(|row| row % 7_001 != 3).collect::<Vec<bool>>();
+    let (item, offsets, values, _) = list.into_parts();
+    let list = ListArray::new(item, offsets, values, Some(nulls.into()));
+    let ids: Vec<String> = (0..rows).map(|row| format!("path-{row}")).collect();
+    let batch = batch(vec![
+        ("control_points", Arc::new(list)),
+        ("id", Arc::new(StringArray::from(ids))),
+    ]);
+    for compression in [None, Some(CompressionType::LZ4_FRAME)] {
+        let bytes = file(
+            &[batch.clone(), batch.slice(5, 100), batch.clone()],
+            compression,
+        );
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("paths");
+        std::fs::write(&path, &bytes).expect("a file");
+        let of_file = read_file(&path, &ReadOptions::default()).expect("a layout");
+        let of_bytes = read(&bytes);
+        assert_eq!(of_file.refused.len(), 2 * rows.div_ceil(7_001));
+        for (a, b) in of_file.paths.iter().zip(of_bytes.paths.iter()) {
+            let points = a.runs().flat_map(|run| run.iter().collect::<Vec<_>>());
+            let of_bytes = b.runs().flat_map(|run| run.iter().collect::<Vec<_>>());
+            assert!(a.id() == b.id() && points.eq(of_bytes), "{}", a.id());
+            let row: f64 = a.id()[5..].parse().expect("a number");
+            let run = a.runs().next().expect("a run");
+            assert_eq!(run.get(3), Point::new(3.0, row));
+        }
+        assert_eq!(of_file.paths.len(), of_bytes.paths.len());
+    }
 }
 
 #[test]

@@ -1,5 +1,7 @@
 use std::ops::{Add, Mul, Neg, Sub};
 
+use bytemuck::{Pod, Zeroable};
+
 use crate::Real;
 
 /// A point or vector in the plane. In layouts: metres, y up.
@@ -11,6 +13,20 @@ pub struct Point<T> {
     /// Up.
     pub y: T,
 }
+
+// SAFETY: a point of zeros is one of two numbers that are zero.
+#[allow(
+    unsafe_code,
+    reason = "no derive does this for a type with a parameter; see SAFETY"
+)]
+unsafe impl<T: Zeroable> Zeroable for Point<T> {}
+
+// SAFETY: two numbers of one type, one behind the other, have nothing between or behind them, and any bits are numbers.
+#[allow(
+    unsafe_code,
+    reason = "no derive does this for a type with a parameter; see SAFETY"
+)]
+unsafe impl<T: Pod> Pod for Point<T> {}
 
 impl<T: Real> Point<T> {
     /// The point (x, y).

@@ -1,12 +1,12 @@
 use std::ops::Range;
 
-use arrow_buffer::Buffer;
 use arrow_ipc::{Block, Endianness, Footer, Schema as IpcSchema};
 use arrow_schema::Schema;
 use guideway_layout::Place;
 
 use super::guard::{damaged, guarded};
 use crate::Problem;
+use crate::input::Input;
 
 /// What a message begins with since Arrow 0.15; before, with its length at once.
 const CONTINUATION_MARKER: [u8; 4] = [0xFF; 4];
@@ -33,11 +33,13 @@ pub(super) struct Message {
 }
 
 impl Message {
-    /// The flatbuffer. Only whoever asks for it waits until the file is read so far.
-    pub(super) fn header<'a>(&self, bytes: &'a [u8]) -> &'a [u8] {
-        let header = &bytes[self.header.clone()];
-        let header = header.strip_prefix(&CONTINUATION_MARKER).unwrap_or(header);
-        &header[header.len().min(LENGTH_BYTES)..]
+    /// The flatbuffer.
+    pub(super) fn header(&self, input: &Input<'_>) -> Result<Vec<u8>, Problem> {
+        let mut header = input.bytes(self.header.clone())?;
+        let marker = header.strip_prefix(&CONTINUATION_MARKER);
+        let prefix = header.len() - marker.unwrap_or(&header).len() + LENGTH_BYTES;
+        header.drain(..prefix.min(header.len()));
+        Ok(header)
     }
 
     /// Where it begins, as errors name it.
@@ -46,26 +48,33 @@ impl Message {
     }
 }
 
-/// Finds all messages. Every range returned lies within `bytes`, and none shares a byte with another.
-pub(super) fn open(bytes: &Buffer) -> Result<Container, Problem> {
-    if bytes.starts_with(MAGIC) {
-        open_file(bytes)
+/// Finds all messages. Every range returned lies within the input, and none shares a byte with another.
+pub(super) fn open(input: &Input<'_>) -> Result<Container, Problem> {
+    let first = input.bytes(0..MAGIC.len().min(input.len()))?;
+    if first == MAGIC {
+        open_file(input)
     } else {
-        open_stream(bytes)
+        open_stream(input)
     }
 }
 
-fn open_file(bytes: &[u8]) -> Result<Container, Problem> {
+fn open_file(input: &Input<'_>) -> Result<Container, Problem> {
     let truncated = |detail: &str| Problem::Truncated {
-        at: bytes.len() as u64,
+        at: input.len() as u64,
         detail: detail.into(),
     };
-    let trailer_at = bytes
+    let missing = || truncated("the footer at the end of an Arrow file is missing");
+    let trailer_at = input
         .len()
         .checked_sub(TRAILER_BYTES)
-        .filter(|&at| at >= LEADER_BYTES && bytes[at + 4..] == *MAGIC)
-        .ok_or_else(|| truncated("the footer at the end of an Arrow file is missing"))?;
-    let declared = i64::from(read_i32(bytes, trailer_at));
+        .filter(|&at| at >= LEADER_BYTES)
+        .ok_or_else(missing)?;
+    let mut magic = [0; MAGIC.len()];
+    input.read(trailer_at + LENGTH_BYTES, &mut magic)?;
+    if magic != *MAGIC {
+        return Err(missing());
+    }
+    let declared = i64::from(read_i32(input, trailer_at)?);
     let footer_at = usize::try_from(declared)
         .ok()
         .and_then(|len| trailer_at.checked_sub(len))
@@ -76,17 +85,19 @@ fn open_file(bytes: &[u8]) -> Result<Container, Problem> {
                 format!("a length of {declared} bytes is declared"),
             )
         })?;
+    let footer = input.bytes(footer_at..trailer_at)?;
     let footer = guarded("footer", || {
-        arrow_ipc::root_as_footer(&bytes[footer_at..trailer_at])
-            .map_err(|e| damaged("footer", e.to_string()))
+        arrow_ipc::root_as_footer(&footer).map_err(|e| damaged("footer", e.to_string()))
     })?;
     let schema = footer
         .schema()
         .ok_or_else(|| damaged("footer", "there is no schema"))?;
-    Ok(Container {
+    let container = Container {
         schema: convert_schema(schema)?,
         messages: file_messages(&footer, footer_at)?,
-    })
+    };
+    input.read_ahead();
+    Ok(container)
 }
 
 fn file_messages(footer: &Footer<'_>, footer_at: usize) -> Result<Vec<Message>, Problem> {
@@ -136,21 +147,22 @@ fn check_apart(messages: &[Message]) -> Result<(), Problem> {
     Ok(())
 }
 
-fn open_stream(bytes: &[u8]) -> Result<Container, Problem> {
-    let mut walk = Walk { bytes, at: 0 };
-    let first = walk
+fn open_stream(input: &Input<'_>) -> Result<Container, Problem> {
+    input.read_ahead();
+    let mut walk = Walk { input, at: 0 };
+    let (_, first) = walk
         .next()?
         .ok_or_else(|| damaged("stream", "it ends before its schema"))?;
     let schema = guarded("stream", || {
-        let message = arrow_ipc::root_as_message(first.header(bytes))
-            .map_err(|e| damaged("stream", e.to_string()))?;
+        let message =
+            arrow_ipc::root_as_message(&first).map_err(|e| damaged("stream", e.to_string()))?;
         message
             .header_as_schema()
             .ok_or_else(|| damaged("stream", "it does not begin with a schema"))
             .and_then(convert_schema)
     })?;
     let mut messages = Vec::new();
-    while let Some(message) = walk.next()? {
+    while let Some((message, _)) = walk.next()? {
         messages.push(message);
     }
     Ok(Container { schema, messages })
@@ -158,34 +170,37 @@ fn open_stream(bytes: &[u8]) -> Result<Container, Problem> {
 
 /// Goes through the messages of a stream, one after the other.
 struct Walk<'a> {
-    bytes: &'a [u8],
+    input: &'a Input<'a>,
     at: usize,
 }
 
 impl Walk<'_> {
-    fn next(&mut self) -> Result<Option<Message>, Problem> {
-        if self.at == self.bytes.len() {
+    /// The next message, and its flatbuffer.
+    fn next(&mut self) -> Result<Option<(Message, Vec<u8>)>, Problem> {
+        let (start, left) = (self.at, self.input.len() - self.at);
+        if left == 0 {
             // A stream may end without its end mark.
             return Ok(None);
         }
-        let start = self.at;
-        if self.bytes[self.at..].starts_with(&CONTINUATION_MARKER) {
+        let marker = start..start + left.min(CONTINUATION_MARKER.len());
+        if self.input.bytes(marker)? == CONTINUATION_MARKER {
             self.at += CONTINUATION_MARKER.len();
         }
         let declared = self.take(LENGTH_BYTES as i64)?;
-        let header_len = i64::from(read_i32(self.bytes, declared.start));
+        let header_len = i64::from(read_i32(self.input, declared.start)?);
         if header_len == 0 {
             return Ok(None);
         }
         let header = start..self.take(header_len)?.end;
         let mut message = Message { header, body: 0..0 };
+        let header = message.header(self.input)?;
         let body_len = guarded(&message.place(), || {
-            arrow_ipc::root_as_message(message.header(self.bytes))
+            arrow_ipc::root_as_message(&header)
                 .map(|m| m.bodyLength())
                 .map_err(|e| damaged(message.place(), e.to_string()))
         })?;
         message.body = self.take(body_len)?;
-        Ok(Some(message))
+        Ok(Some((message, header)))
     }
 
     fn take(&mut self, len: i64) -> Result<Range<usize>, Problem> {
@@ -198,9 +213,9 @@ impl Walk<'_> {
         })?;
         let end = start
             .checked_add(len)
-            .filter(|&end| end <= self.bytes.len());
+            .filter(|&end| end <= self.input.len());
         self.at = end.ok_or_else(|| Problem::Truncated {
-            at: self.bytes.len() as u64,
+            at: self.input.len() as u64,
             detail: format!("{len} bytes are declared at byte {start}"),
         })?;
         Ok(start..self.at)
@@ -220,9 +235,9 @@ fn convert_schema(schema: IpcSchema<'_>) -> Result<Schema, Problem> {
     })
 }
 
-/// The number at `at`, which the caller knows to be within `bytes`.
-fn read_i32(bytes: &[u8], at: usize) -> i32 {
-    let mut number = [0; 4];
-    number.copy_from_slice(&bytes[at..at + 4]);
-    i32::from_le_bytes(number)
+/// The number at `at`, which the caller knows to be within the input.
+fn read_i32(input: &Input<'_>, at: usize) -> Result<i32, Problem> {
+    let mut number = [0; LENGTH_BYTES];
+    input.read(at, &mut number)?;
+    Ok(i32::from_le_bytes(number))
 }

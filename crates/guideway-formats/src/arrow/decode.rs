@@ -1,35 +1,50 @@
 use std::collections::HashMap;
+use std::ops::Range;
 
 use arrow_array::{ArrayRef, RecordBatch};
-use arrow_buffer::Buffer;
 use arrow_ipc::reader::{read_dictionary, read_record_batch};
 use arrow_ipc::{MessageHeader, RecordBatch as IpcBatch};
 use arrow_schema::{ArrowError, SchemaRef};
 
+use super::body::{ALIGNMENT, Bodies, Body};
 use super::budget::Budget;
 use super::container::Message;
 use super::guard::{damaged, guarded};
+use super::schema::points_buffer;
 use crate::Problem;
+use crate::input::Input;
 
 /// Turns messages into record batches; buffers that are neither compressed nor misaligned are not
 /// copied.
 pub(super) struct Decoder<'a> {
-    bytes: &'a Buffer,
+    input: &'a Input<'a>,
     schema: SchemaRef,
     dictionaries: HashMap<i64, ArrayRef>,
+    bodies: Bodies,
+    /// Which buffer of a batch the coordinates of points are in, if that can be told.
+    points: Option<usize>,
+}
+
+/// A record batch, and where the part of it is that is left to be read.
+pub(super) struct Decoded {
+    pub(super) batch: RecordBatch,
+    pub(super) body: Body,
 }
 
 impl<'a> Decoder<'a> {
-    pub(super) fn new(bytes: &'a Buffer, schema: SchemaRef) -> Self {
+    /// Of tables in which column `points` holds the points.
+    pub(super) fn new(input: &'a Input<'a>, schema: SchemaRef, points: usize) -> Self {
         Self {
-            bytes,
+            points: points_buffer(&schema, points),
+            input,
             schema,
             dictionaries: HashMap::new(),
+            bodies: Bodies::default(),
         }
     }
 
     pub(super) fn file_bytes(&self) -> usize {
-        self.bytes.len()
+        self.input.len()
     }
 
     /// The batch that a message holds, if it holds one and not, say, a dictionary.
@@ -37,23 +52,25 @@ impl<'a> Decoder<'a> {
         &mut self,
         message: &Message,
         budget: &Budget,
-    ) -> Result<Option<RecordBatch>, Problem> {
+    ) -> Result<Option<Decoded>, Problem> {
         let place = message.place();
-        guarded(&place, || self.decode_unguarded(message, &place, budget))
+        let header = message.header(self.input)?;
+        guarded(&place, || {
+            self.decode_unguarded(message, &header, &place, budget)
+        })
     }
 
     fn decode_unguarded(
         &mut self,
         message: &Message,
+        header: &[u8],
         place: &str,
         budget: &Budget,
-    ) -> Result<Option<RecordBatch>, Problem> {
+    ) -> Result<Option<Decoded>, Problem> {
         let failed = |e: ArrowError| damaged(place, e.to_string());
-        let header = arrow_ipc::root_as_message(message.header(self.bytes))
-            .map_err(|e| damaged(place, e.to_string()))?;
-        let body = self
-            .bytes
-            .slice_with_length(message.body.start, message.body.len());
+        let header =
+            arrow_ipc::root_as_message(header).map_err(|e| damaged(place, e.to_string()))?;
+        let at = message.body.clone();
         let version = header.version();
         match header.header_type() {
             MessageHeader::DictionaryBatch => {
@@ -63,30 +80,56 @@ impl<'a> Decoder<'a> {
                 let batch = dictionary
                     .data()
                     .ok_or_else(|| damaged(place, "the dictionary is missing"))?;
-                check_batch(&batch, &body, budget).map_err(|e| e.at(place))?;
+                let body = self.bodies.read(self.input, at, 0..0)?;
+                check_batch(&batch, body.bytes(), budget).map_err(|e| e.at(place))?;
                 if dictionary.isDelta() {
                     // Joining copies the whole dictionary, for every addition again.
                     let known = self.dictionaries.get(&dictionary.id());
                     budget.charge(known.map_or(0, |d| d.get_buffer_memory_size()) as u64)?;
                 }
                 let dictionaries = &mut self.dictionaries;
-                read_dictionary(&body, dictionary, &self.schema, dictionaries, &version)
-                    .map_err(failed)?;
+                read_dictionary(
+                    body.bytes(),
+                    dictionary,
+                    &self.schema,
+                    dictionaries,
+                    &version,
+                )
+                .map_err(failed)?;
                 Ok(None)
             }
             MessageHeader::RecordBatch => {
                 let batch = header
                     .header_as_record_batch()
                     .ok_or_else(|| damaged(place, "the record batch is missing"))?;
-                check_batch(&batch, &body, budget).map_err(|e| e.at(place))?;
-                let schema = self.schema.clone();
-                read_record_batch(&body, batch, schema, &self.dictionaries, None, &version)
-                    .map(Some)
+                let left_out = self.left_out(&batch, at.len());
+                let body = self.bodies.read(self.input, at, left_out)?;
+                check_batch(&batch, body.bytes(), budget).map_err(|e| e.at(place))?;
+                let (bytes, schema) = (body.bytes(), self.schema.clone());
+                read_record_batch(bytes, batch, schema, &self.dictionaries, None, &version)
+                    .map(|batch| Some(Decoded { batch, body }))
                     .map_err(failed)
             }
             MessageHeader::NONE => Ok(None),
             other => Err(damaged(place, format!("a message of type {other:?}"))),
         }
+    }
+
+    /// Where the coordinates of points lie in the body of a batch, if they can be left out.
+    fn left_out(&self, batch: &IpcBatch<'_>, body_bytes: usize) -> Range<usize> {
+        let buffers = batch.buffers().filter(|_| batch.compression().is_none());
+        let buffer = self
+            .points
+            .zip(buffers)
+            .filter(|(index, buffers)| *index < buffers.len())
+            .map(|(index, buffers)| *buffers.get(index));
+        let range = buffer.and_then(|buffer| {
+            let start = usize::try_from(buffer.offset()).ok()?;
+            let end = start.checked_add(usize::try_from(buffer.length()).ok()?)?;
+            // What is not aligned would be copied.
+            (end <= body_bytes && start.is_multiple_of(ALIGNMENT)).then_some(start..end)
+        });
+        range.unwrap_or_default()
     }
 }
 

@@ -1,12 +1,12 @@
 use std::ops::Range;
 
-use guideway_layout::{Geometry, Hulls, Limits, add_boxes};
-use guideway_spline::{Bounds, Point, Real};
-use rayon::prelude::*;
+use guideway_layout::{Geometry, Hulls, Limits};
 
 use super::batch::Batch;
-use super::polygons::{AT_ONCE, Coordinates, Fault, Polygons, pairs};
+use super::points::Points;
+use super::polygons::{Fault, Polygons};
 use crate::Problem;
+use crate::input::Input;
 
 /// The curves of all rows that can be drawn, joined to paths, and which rows these are.
 #[derive(Debug, Default)]
@@ -21,21 +21,6 @@ pub(super) struct Gather {
     refused: Vec<(usize, Fault)>,
     rows: usize,
     last: Last,
-}
-
-#[derive(Debug, Default)]
-enum Points {
-    #[default]
-    None,
-    F32(Held<f32>),
-    F64(Held<f64>),
-}
-
-#[derive(Debug, Default)]
-struct Held<T> {
-    points: Vec<Point<T>>,
-    /// Where the runs lie, while each is a path.
-    boxes: Vec<Bounds<T>>,
 }
 
 /// What became of the path that the last row belongs to.
@@ -53,17 +38,19 @@ enum Last {
 impl Gather {
     /// Makes room for about so many points and rows in all.
     pub(super) fn reserve(&mut self, polygons: &Polygons, points: usize, rows: usize) {
-        self.points = match polygons.coordinates {
-            Coordinates::F32(_) => Points::F32(Held::with_room(points, rows)),
-            Coordinates::F64(_) => Points::F64(Held::with_room(points, rows)),
-        };
+        self.points = Points::with_room(&polygons.coordinates, points, rows);
     }
 
     /// Appends a batch whose rows are a path each.
-    pub(super) fn add(&mut self, polygons: &Polygons, limits: &Limits) -> Result<(), Problem> {
+    pub(super) fn add(
+        &mut self,
+        polygons: &Polygons,
+        input: &Input<'_>,
+        limits: &Limits,
+    ) -> Result<(), Problem> {
         self.check_room(polygons, limits)?;
         let mut from = 0;
-        for (row, fault) in polygons.faults(limits) {
+        for (row, fault) in self.points.bring(polygons, input, limits)? {
             self.add_rows(polygons, from..row);
             self.refused.push((self.rows + row, fault));
             self.last = Last::Refused;
@@ -72,11 +59,7 @@ impl Gather {
         self.add_rows(polygons, from..polygons.len());
         self.rows += polygons.len();
         // While the points that were added are still near.
-        match &mut self.points {
-            Points::None => {}
-            Points::F32(held) => add_boxes(&mut held.boxes, &held.points, &self.run_ends),
-            Points::F64(held) => add_boxes(&mut held.boxes, &held.points, &self.run_ends),
-        }
+        self.points.add_boxes(&self.run_ends);
         Ok(())
     }
 
@@ -87,13 +70,15 @@ impl Gather {
         &mut self,
         polygons: &Polygons,
         continues: &[bool],
+        input: &Input<'_>,
         limits: &Limits,
     ) -> Result<(), Problem> {
         self.check_room(polygons, limits)?;
         if self.path_ends.is_none() {
             self.path_ends = Some((1..=self.run_ends.len() as u32).collect());
         }
-        let mut faults = polygons.faults(limits).into_iter().peekable();
+        let faults = self.points.bring(polygons, input, limits)?;
+        let mut faults = faults.into_iter().peekable();
         for (row, &continues) in continues.iter().enumerate() {
             let fault = faults.next_if(|f| f.0 == row).map(|f| f.1);
             match (continues, self.last, fault) {
@@ -115,7 +100,8 @@ impl Gather {
                     self.last = Last::Refused;
                 }
                 (true, Last::Drawn { .. }, None) => {
-                    self.add_run(polygons, row);
+                    self.points.take(polygons.range(row));
+                    self.run_ends.push(self.points.len() as u32);
                     if let Some(end) = self.path_ends.as_mut().and_then(|ends| ends.last_mut()) {
                         *end += 1;
                     }
@@ -165,17 +151,7 @@ impl Gather {
     }
 
     pub(super) fn into_geometry(self) -> Geometry {
-        let (geometry, hulls): (_, Hulls) = match self.points {
-            Points::None => return Geometry::default(),
-            Points::F32(held) => (
-                Geometry::from_f32(held.points, self.run_ends),
-                held.boxes.into(),
-            ),
-            Points::F64(held) => (
-                Geometry::from_f64(held.points, self.run_ends),
-                held.boxes.into(),
-            ),
-        };
+        let (geometry, hulls): (Geometry, Hulls) = self.points.into_geometry(self.run_ends);
         match self.path_ends {
             Some(path_ends) => geometry.with_path_ends(path_ends),
             None => geometry.with_hulls(hulls),
@@ -184,7 +160,7 @@ impl Gather {
 
     fn check_room(&self, polygons: &Polygons, limits: &Limits) -> Result<(), Problem> {
         let rows = (self.rows + polygons.len()) as u64;
-        let points = self.points.len() as u64 + polygons.point_count();
+        let points = (self.points.len() + polygons.range_of_rows(0..polygons.len()).len()) as u64;
         let over = |what, limit, actual| Problem::LimitReached {
             what,
             limit,
@@ -207,17 +183,9 @@ impl Gather {
             return;
         }
         let first_run = self.run_ends.len();
-        match polygons.range_of_rows(rows.clone()) {
-            Some(range) => {
-                // `u32` holds it: the number of points was checked.
-                let shift = self.points.len();
-                let ends = rows.clone().map(|row| polygons.range(row).end);
-                self.run_ends
-                    .extend(ends.map(|end| (end - range.start + shift) as u32));
-                self.points.extend(&polygons.coordinates, range);
-            }
-            None => rows.clone().for_each(|row| self.add_run(polygons, row)),
-        }
+        // `u32` holds it: the number of points was checked.
+        polygons.add_ends(rows.clone(), self.points.len(), &mut self.run_ends);
+        self.points.take(polygons.range_of_rows(rows.clone()));
         if let Some(path_ends) = &mut self.path_ends {
             path_ends.extend(first_run as u32 + 1..=self.run_ends.len() as u32);
         }
@@ -230,12 +198,6 @@ impl Gather {
             Some(last) if last.end == table_rows.start => last.end = table_rows.end,
             _ => self.kept.push(table_rows),
         }
-    }
-
-    fn add_run(&mut self, polygons: &Polygons, row: usize) {
-        self.points
-            .extend(&polygons.coordinates, polygons.range(row));
-        self.run_ends.push(self.points.len() as u32);
     }
 
     /// Takes back the path drawn last, which begins with this run.
@@ -252,52 +214,5 @@ impl Gather {
                 self.kept.pop();
             }
         }
-    }
-}
-
-impl Points {
-    fn len(&self) -> usize {
-        match self {
-            Self::None => 0,
-            Self::F32(held) => held.points.len(),
-            Self::F64(held) => held.points.len(),
-        }
-    }
-
-    fn truncate(&mut self, len: usize) {
-        match self {
-            Self::None => {}
-            Self::F32(held) => held.points.truncate(len),
-            Self::F64(held) => held.points.truncate(len),
-        }
-    }
-
-    fn extend(&mut self, coordinates: &Coordinates, range: Range<usize>) {
-        match (self, coordinates) {
-            (Self::F32(held), Coordinates::F32(c)) => extend(&mut held.points, c, range),
-            (Self::F64(held), Coordinates::F64(c)) => extend(&mut held.points, c, range),
-            // All batches of a file have one schema, and `reserve` saw the first of them.
-            _ => unreachable!("one schema, one precision"),
-        }
-    }
-}
-
-impl<T: Real> Held<T> {
-    fn with_room(points: usize, rows: usize) -> Self {
-        Self {
-            points: Vec::with_capacity(points),
-            boxes: Vec::with_capacity(rows),
-        }
-    }
-}
-
-fn extend<T: Real>(out: &mut Vec<Point<T>>, coordinates: &[T], range: Range<usize>) {
-    let pairs = pairs(coordinates, range);
-    let point = |&[x, y]: &[T; 2]| Point::new(x, y);
-    if pairs.len() <= AT_ONCE {
-        out.extend(pairs.iter().map(point));
-    } else {
-        // Much of it is waiting for pages of memory.
-        out.par_extend(pairs.par_iter().with_min_len(AT_ONCE).map(point));
     }
 }

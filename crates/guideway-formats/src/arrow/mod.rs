@@ -6,6 +6,7 @@
 
 mod attributes;
 mod batch;
+mod body;
 mod budget;
 mod container;
 mod decode;
@@ -13,6 +14,7 @@ mod gather;
 mod guard;
 mod ids;
 mod look;
+mod points;
 mod polygons;
 mod read;
 mod schema;

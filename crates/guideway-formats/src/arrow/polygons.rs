@@ -1,4 +1,5 @@
-use std::ops::Range;
+use std::ops::{Range, Sub};
+use std::sync::Arc;
 
 use arrow_array::cast::AsArray;
 use arrow_array::types::{Float32Type, Float64Type};
@@ -6,37 +7,40 @@ use arrow_array::{Array, ArrayRef, FixedSizeListArray};
 use arrow_buffer::{NullBuffer, ScalarBuffer};
 use arrow_schema::DataType;
 use guideway_layout::{Code, Limits};
-use guideway_spline::Real;
-use rayon::prelude::*;
+use guideway_spline::{Point, Real, greater};
 
 use super::CONTROL_POINTS;
+use super::batch::cast;
+use super::body::Body;
+use super::budget::Budget;
 use super::schema::structure;
 use crate::Problem;
 
-/// So many points are gone through by one thread.
-pub(super) const AT_ONCE: usize = 1 << 14;
+/// Points of a curve, at least.
+const LEAST_POINTS: usize = 4;
+/// Bytes of a point of the greater precision.
+const MOST_POINT_BYTES: u64 = 16;
 
-/// The control polygons of one record batch.
+/// The control polygons of one record batch: row after row of points.
 pub(super) struct Polygons {
     rows: Rows,
     row_nulls: Option<NullBuffer>,
     /// Coordinates of all points, x and y in turn.
     pub(super) coordinates: Coordinates,
+    /// Where in the input they are if they were not read yet.
+    pub(super) left_out: Option<usize>,
     /// Points and coordinates that have no value, if there are any.
     nulls: Vec<(NullBuffer, usize)>,
     len: usize,
 }
 
-/// Where the points of each row are.
+/// Which points each row has.
 enum Rows {
-    /// Row after row: row `i` has the points `offsets[i]..offsets[i + 1]`.
+    /// Row `i` has the points `offsets[i]..offsets[i + 1]`.
     Offsets(ScalarBuffer<i32>),
     LargeOffsets(ScalarBuffer<i64>),
-    /// Row after row, so many each.
+    /// So many each.
     Fixed(usize),
-    /// Anywhere: start and length of each row.
-    Views(ScalarBuffer<i32>, ScalarBuffer<i32>),
-    LargeViews(ScalarBuffer<i64>, ScalarBuffer<i64>),
 }
 
 /// The coordinates, in the precision of the file.
@@ -46,13 +50,6 @@ pub(super) enum Coordinates {
 }
 
 impl Coordinates {
-    pub(super) fn point_count(&self) -> usize {
-        match self {
-            Self::F32(c) => c.len() / 2,
-            Self::F64(c) => c.len() / 2,
-        }
-    }
-
     pub(super) fn point_bytes(&self) -> usize {
         match self {
             Self::F32(_) => 8,
@@ -97,11 +94,12 @@ impl Fault {
 
 impl Polygons {
     /// The polygons of a column, whichever kind of list it is.
-    pub(super) fn of(column: &ArrayRef) -> Result<Self, Problem> {
+    pub(super) fn of(column: &ArrayRef, body: &Body, budget: &Budget) -> Result<Self, Problem> {
         let unfit = || {
             let expected = "list<fixed_size_list<float32 or float64, 2>>";
             structure(CONTROL_POINTS, expected, &column.data_type().to_string())
         };
+        let column = &row_after_row(column, budget)?;
         let (rows, items) = match column.data_type() {
             DataType::List(_) => {
                 let list = column.as_list::<i32>();
@@ -116,30 +114,20 @@ impl Polygons {
                 let list = column.as_fixed_size_list();
                 (Rows::Fixed(list.value_length() as usize), list.values())
             }
-            DataType::ListView(_) => {
-                let list = column.as_list_view::<i32>();
-                let rows = Rows::Views(list.offsets().clone(), list.sizes().clone());
-                (rows, list.values())
-            }
-            DataType::LargeListView(_) => {
-                let list = column.as_list_view::<i64>();
-                let rows = Rows::LargeViews(list.offsets().clone(), list.sizes().clone());
-                (rows, list.values())
-            }
             _ => return Err(unfit()),
         };
         let points = items.as_fixed_size_list_opt().ok_or_else(unfit)?;
         if points.value_length() != 2 {
             return Err(unfit());
         }
-        let coordinates = match points.values().data_type() {
+        let (coordinates, left_out) = match points.values().data_type() {
             DataType::Float32 => {
-                let values = points.values().as_primitive::<Float32Type>();
-                Coordinates::F32(values.values().clone())
+                let values = points.values().as_primitive::<Float32Type>().values();
+                (Coordinates::F32(values.clone()), body.left_out(values)?)
             }
             DataType::Float64 => {
-                let values = points.values().as_primitive::<Float64Type>();
-                Coordinates::F64(values.values().clone())
+                let values = points.values().as_primitive::<Float64Type>().values();
+                (Coordinates::F64(values.clone()), body.left_out(values)?)
             }
             _ => return Err(unfit()),
         };
@@ -147,6 +135,7 @@ impl Polygons {
             rows,
             row_nulls: some_nulls(column.nulls()),
             coordinates,
+            left_out,
             nulls: point_nulls(points),
             len: column.len(),
         })
@@ -162,55 +151,69 @@ impl Polygons {
             Rows::Offsets(o) => o[row] as usize..o[row + 1] as usize,
             Rows::LargeOffsets(o) => o[row] as usize..o[row + 1] as usize,
             Rows::Fixed(count) => row * count..(row + 1) * count,
-            Rows::Views(o, s) => o[row] as usize..o[row] as usize + s[row] as usize,
-            Rows::LargeViews(o, s) => o[row] as usize..o[row] as usize + s[row] as usize,
         }
     }
 
-    /// The points of a range of rows as one range, if they lie row after row.
-    pub(super) fn range_of_rows(&self, rows: Range<usize>) -> Option<Range<usize>> {
+    /// Range of the points of some rows.
+    pub(super) fn range_of_rows(&self, rows: Range<usize>) -> Range<usize> {
+        if rows.is_empty() {
+            return 0..0;
+        }
+        self.range(rows.start).start..self.range(rows.end - 1).end
+    }
+
+    /// Appends where the points of some rows end, the first of which has number `first` in the list that these are of.
+    pub(super) fn add_ends(&self, rows: Range<usize>, first: usize, ends: &mut Vec<u32>) {
+        let start = self.range_of_rows(rows.clone()).start;
+        let end = |of_batch: usize| (of_batch - start + first) as u32;
+        let behind = rows.start + 1..rows.end + 1;
         match &self.rows {
-            Rows::Views(..) | Rows::LargeViews(..) => None,
-            _ if rows.is_empty() => Some(0..0),
-            _ => Some(self.range(rows.start).start..self.range(rows.end - 1).end),
+            Rows::Offsets(o) => ends.extend(o[behind].iter().map(|&o| end(o as usize))),
+            Rows::LargeOffsets(o) => ends.extend(o[behind].iter().map(|&o| end(o as usize))),
+            Rows::Fixed(count) => ends.extend(behind.map(|row| end(row * count))),
         }
     }
 
-    /// Number of control points of all rows together.
-    pub(super) fn point_count(&self) -> u64 {
-        match self.range_of_rows(0..self.len) {
-            Some(range) => range.len() as u64,
-            None => (0..self.len).map(|row| self.range(row).len() as u64).sum(),
+    /// Number of points of the row that has the fewest.
+    fn fewest(&self) -> usize {
+        fn least<T: Copy + Ord + Sub<Output = T>>(offsets: &[T]) -> Option<T> {
+            offsets
+                .array_windows()
+                .map(|&[start, end]| end - start)
+                .min()
         }
+        let fewest = match &self.rows {
+            Rows::Offsets(o) => least(o).map(|few| few as usize),
+            Rows::LargeOffsets(o) => least(o).map(|few| few as usize),
+            Rows::Fixed(count) => Some(*count),
+        };
+        fewest.unwrap_or(usize::MAX)
     }
 
-    /// The rows that cannot be drawn, in order.
-    pub(super) fn faults(&self, limits: &Limits) -> Vec<(usize, Fault)> {
-        match &self.coordinates {
-            Coordinates::F32(c) => self.faults_in(c, limits),
-            Coordinates::F64(c) => self.faults_in(c, limits),
-        }
-    }
-
-    fn faults_in<T: Real>(&self, coordinates: &[T], limits: &Limits) -> Vec<(usize, Fault)> {
-        // Most files are sound: that takes one pass over the numbers, without a branch for each.
-        let short = (0..self.len).any(|row| self.range(row).len() < 4);
+    /// The rows that cannot be drawn, in order, by the points of all rows.
+    pub(super) fn faults<T: Real>(
+        &self,
+        points: &[Point<T>],
+        are_within: bool,
+        limits: &Limits,
+    ) -> Vec<(usize, Fault)> {
+        // Most files are sound, and the points were looked at as they came.
+        let short = self.fewest() < LEAST_POINTS;
         let nulls = self.row_nulls.is_some() || !self.nulls.is_empty();
-        let parts = coordinates.par_chunks(2 * AT_ONCE);
-        if !short && !nulls && parts.all(|part| all_within(part, limit(limits))) {
+        if are_within && !short && !nulls {
             return Vec::new();
         }
         (0..self.len)
-            .filter_map(|row| Some((row, self.fault(row, coordinates, limits)?)))
+            .filter_map(|row| Some((row, self.fault(row, points, limits)?)))
             .collect()
     }
 
-    fn fault<T: Real>(&self, row: usize, coordinates: &[T], limits: &Limits) -> Option<Fault> {
+    fn fault<T: Real>(&self, row: usize, points: &[Point<T>], limits: &Limits) -> Option<Fault> {
         if self.row_nulls.as_ref().is_some_and(|n| n.is_null(row)) {
             return Some(Fault::NoPoints);
         }
         let range = self.range(row);
-        if range.len() < 4 {
+        if range.len() < LEAST_POINTS {
             return Some(Fault::TooFew(range.len()));
         }
         for (nulls, per_point) in &self.nulls {
@@ -219,31 +222,45 @@ impl Polygons {
                 return Some(Fault::NoCoordinate(at / per_point));
             }
         }
-        let values = &coordinates[2 * range.start..2 * range.end];
-        let limit = limit::<T>(limits);
-        if all_within(values, limit) {
+        let first = self.range(0).start;
+        let points = &points[range.start - first..range.end - first];
+        if all_within(points, limits) {
             return None;
         }
-        let at = |bad: &dyn Fn(T) -> bool| values.iter().position(|&v| bad(v)).map(|i| i / 2);
-        at(&|v| !v.is_finite())
-            .map(Fault::NonFinite)
-            .or_else(|| at(&|v| v.abs() > limit).map(Fault::OutOfRange))
+        let limit = limit(limits);
+        let is_far = |p: &Point<T>| greater(p.x.abs(), p.y.abs()) > limit;
+        let non_finite = points.iter().position(|p| !p.is_finite());
+        let far = || points.iter().position(is_far).map(Fault::OutOfRange);
+        non_finite.map(Fault::NonFinite).or_else(far)
     }
 }
 
-/// x and y of a range of points.
-pub(super) fn pairs<T>(coordinates: &[T], range: Range<usize>) -> &[[T; 2]] {
-    let (pairs, _) = coordinates[2 * range.start..2 * range.end].as_chunks();
-    pairs
+/// The column with the points of its rows one behind the other: views may name the same points again and again, and then these
+/// are copied again and again.
+fn row_after_row(column: &ArrayRef, budget: &Budget) -> Result<ArrayRef, Problem> {
+    let (items, points) = match column.data_type() {
+        DataType::ListView(items) => {
+            let sizes = column.as_list_view::<i32>().sizes();
+            (items, sizes.iter().map(|&size| size as u64).sum::<u64>())
+        }
+        DataType::LargeListView(items) => {
+            let sizes = column.as_list_view::<i64>().sizes();
+            (items, sizes.iter().map(|&size| size as u64).sum::<u64>())
+        }
+        _ => return Ok(Arc::clone(column)),
+    };
+    budget.charge(points.saturating_mul(MOST_POINT_BYTES))?;
+    cast(column, &DataType::LargeList(Arc::clone(items)))
 }
 
-/// Whether all values are finite and at most `limit` from zero.
-fn all_within<T: Real>(values: &[T], limit: T) -> bool {
+/// Whether all coordinates are finite and within the limit.
+pub(super) fn all_within<T: Real>(points: &[Point<T>], limits: &Limits) -> bool {
+    let limit = limit::<T>(limits);
     // Comparison with NaN is false. A block at a time: a loop that may stop anywhere is not vectorised.
-    for block in values.chunks(1024) {
+    for block in points.chunks(512) {
         let mut is_within = true;
-        for &value in block {
-            is_within &= (-limit <= value) & (value <= limit);
+        for p in block {
+            is_within &= (-limit <= p.x) & (p.x <= limit) & (-limit <= p.y) & (p.y <= limit);
         }
         if !is_within {
             return false;

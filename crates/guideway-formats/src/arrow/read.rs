@@ -4,40 +4,41 @@ use std::sync::Arc;
 use arrow_array::cast::AsArray;
 use arrow_array::types::Int64Type;
 use arrow_array::{Array, NullArray, RecordBatch};
-use arrow_buffer::Buffer;
 use arrow_schema::{DataType, Schema};
 use guideway_layout::{Code, Diagnostics, Layout, Limits, Place, Provenance};
 
 use super::batch::{Batch, cast};
 use super::budget::Budget;
 use super::container::{self, Message};
-use super::decode::Decoder;
+use super::decode::{Decoded, Decoder};
 use super::gather::Gather;
 use super::ids;
 use super::polygons::Polygons;
 use super::schema::{self, Columns};
 use super::table::Table;
+use crate::input::Input;
 use crate::source::Source;
 use crate::{Format, Problem, ReadError};
 
 /// Reads a table of paths from an Arrow IPC file or stream.
-pub(crate) fn read(source: Source<'_>, bytes: &Buffer) -> Result<Layout, ReadError> {
+pub(crate) fn read(source: Source<'_>, input: &Input<'_>) -> Result<Layout, ReadError> {
     // Among the threads that share the work, so that none is woken for each batch.
-    let layout = rayon::scope(|_| read_table(source, bytes));
+    let layout = rayon::scope(|_| read_table(source, input));
     layout.map_err(|problem| source.fail(problem))
 }
 
-fn read_table(source: Source<'_>, bytes: &Buffer) -> Result<Layout, Problem> {
+fn read_table(source: Source<'_>, input: &Input<'_>) -> Result<Layout, Problem> {
     let limits = &source.options.limits;
     let mut diagnostics = Diagnostics::keeping(limits.diagnostics_per_code);
-    let container = container::open(bytes)?;
+    let container = container::open(input)?;
     let schema = &container.schema;
     let version = schema::version(schema, &mut diagnostics)?;
     let columns = Columns::find(schema, &mut diagnostics)?;
-    let budget = Budget::for_file(bytes.len());
+    let budget = Budget::for_file(input.len());
     let mut batches = Batches {
         source,
-        decoder: Decoder::new(bytes, Arc::new(schema.clone())),
+        input,
+        decoder: Decoder::new(input, Arc::new(schema.clone()), columns.control_points),
         messages: container.messages.iter(),
         total: container.messages.len(),
         budget: &budget,
@@ -55,6 +56,7 @@ fn read_table(source: Source<'_>, bytes: &Buffer) -> Result<Layout, Problem> {
 /// The batches of a file, one after the other.
 struct Batches<'a> {
     source: Source<'a>,
+    input: &'a Input<'a>,
     decoder: Decoder<'a>,
     messages: slice::Iter<'a, Message>,
     total: usize,
@@ -62,7 +64,7 @@ struct Batches<'a> {
 }
 
 impl Batches<'_> {
-    fn next(&mut self) -> Result<Option<RecordBatch>, Problem> {
+    fn next(&mut self) -> Result<Option<Decoded>, Problem> {
         while let Some(message) = self.messages.next() {
             if let Some(progress) = self.source.options.progress {
                 let done = self.total - self.messages.len() - 1;
@@ -80,6 +82,7 @@ impl Batches<'_> {
 }
 
 struct Reader<'a> {
+    input: &'a Input<'a>,
     limits: &'a Limits,
     columns: &'a Columns,
     budget: &'a Budget,
@@ -96,7 +99,7 @@ struct Reader<'a> {
 impl<'a> Reader<'a> {
     /// With room as if all batches were like the first one, but for no more than the file can hold.
     fn new(
-        first: Option<&RecordBatch>,
+        first: Option<&Decoded>,
         batches: &Batches<'a>,
         schema: &'a Schema,
         columns: &'a Columns,
@@ -108,16 +111,20 @@ impl<'a> Reader<'a> {
         if let Some(first) = first {
             let file_bytes = batches.decoder.file_bytes();
             let count = 1 + batches.messages.len();
-            let polygons = Polygons::of(first.column(columns.control_points))?;
+            let Decoded { batch, body } = first;
+            let column = batch.column(columns.control_points);
+            let polygons = Polygons::of(column, body, batches.budget)?;
             let point_bytes = polygons.coordinates.point_bytes();
-            let points = (polygons.point_count() as usize).saturating_mul(count);
+            let points = polygons.range_of_rows(0..polygons.len()).len();
+            let points = points.saturating_mul(count);
             // Four points each, and a few bytes a column: many columns have room for fewer.
-            let row_bytes = 4 * point_bytes + 8 * first.num_columns();
-            rows = first.num_rows().saturating_mul(count);
+            let row_bytes = 4 * point_bytes + 8 * batch.num_columns();
+            rows = batch.num_rows().saturating_mul(count);
             rows = rows.min(file_bytes / row_bytes);
             gather.reserve(&polygons, points.min(file_bytes / point_bytes), rows);
         }
         Ok(Self {
+            input: batches.input,
             limits,
             columns,
             budget: batches.budget,
@@ -131,20 +138,21 @@ impl<'a> Reader<'a> {
     }
 
     /// Takes the curves of a batch, so that their buffers can go, while the table gets those before it.
-    fn add(&mut self, batch: &RecordBatch) -> Result<(), Problem> {
-        let polygons = Polygons::of(batch.column(self.columns.control_points))?;
-        self.check_size(&polygons)?;
+    fn add(&mut self, Decoded { batch, body }: &Decoded) -> Result<(), Problem> {
+        let column = batch.column(self.columns.control_points);
+        let polygons = Polygons::of(column, body, self.budget)?;
         let first_row = self.gather.rows();
         let continues = match self.columns.part {
             None => None,
             Some(part) => Some(self.continues(batch, part, first_row)?),
         };
         let settled = self.settled();
-        let (gather, table, limits) = (&mut self.gather, &mut self.table, self.limits);
+        let (gather, table) = (&mut self.gather, &mut self.table);
+        let (input, limits) = (self.input, self.limits);
         let (gathered, tabled) = rayon::join(
             || match continues {
-                None => gather.add(&polygons, limits),
-                Some(continues) => gather.add_parts(&polygons, &continues, limits),
+                None => gather.add(&polygons, input, limits),
+                Some(continues) => gather.add_parts(&polygons, &continues, input, limits),
             },
             || settled.iter().try_for_each(|batch| table.add(batch)),
         );
@@ -171,14 +179,6 @@ impl<'a> Reader<'a> {
             self.gather.tell(batch);
         }
         batches
-    }
-
-    /// Views may name the same points again and again, which are then copied again and again.
-    fn check_size(&mut self, polygons: &Polygons) -> Result<(), Problem> {
-        let held = polygons.coordinates.point_count() as u64;
-        let again = polygons.point_count().saturating_sub(held);
-        let point_bytes = polygons.coordinates.point_bytes() as u64;
-        self.budget.charge(again.saturating_mul(point_bytes))
     }
 
     /// Which rows continue the path of the row before.

@@ -90,6 +90,48 @@ pub(super) fn version(schema: &Schema, diagnostics: &mut Diagnostics) -> Result<
     }
 }
 
+/// Which buffer of a record batch holds the coordinates of column `points`: buffers follow each other as columns do, those of a
+/// column's children behind its own. None where some column before has a number of them that its type does not tell.
+pub(super) fn points_buffer(schema: &Schema, points: usize) -> Option<usize> {
+    let fields = schema.fields();
+    let before = fields[..points].iter();
+    let before: usize = before.map(|f| buffers(f.data_type())).sum::<Option<_>>()?;
+    let (DataType::List(items) | DataType::LargeList(items) | DataType::FixedSizeList(items, _)) =
+        fields[points].data_type()
+    else {
+        return None;
+    };
+    let DataType::FixedSizeList(coordinates, 2) = items.data_type() else {
+        return None;
+    };
+    let is_plain = matches!(
+        coordinates.data_type(),
+        DataType::Float32 | DataType::Float64
+    );
+    // The last one of the column's.
+    let own = buffers(fields[points].data_type())?;
+    is_plain.then_some(before + own - 1)
+}
+
+/// Number of buffers of a column, with those of its children.
+fn buffers(column: &DataType) -> Option<usize> {
+    Some(match column {
+        DataType::Null => 0,
+        DataType::Utf8 | DataType::LargeUtf8 | DataType::Binary | DataType::LargeBinary => 3,
+        DataType::List(items) | DataType::LargeList(items) | DataType::Map(items, _) => {
+            2 + buffers(items.data_type())?
+        }
+        DataType::FixedSizeList(items, _) => 1 + buffers(items.data_type())?,
+        DataType::Struct(fields) => {
+            let fields = fields.iter().map(|f| buffers(f.data_type()));
+            1 + fields.sum::<Option<usize>>()?
+        }
+        DataType::Boolean | DataType::FixedSizeBinary(_) | DataType::Dictionary(..) => 2,
+        plain if plain.is_primitive() => 2,
+        _ => return None,
+    })
+}
+
 /// The problem of a table whose structure is not that of a layout.
 pub(super) fn structure(place: &str, expected: &str, found: &str) -> Problem {
     Problem::Structure {
