@@ -272,7 +272,8 @@ fn states(layout: &Layout, level: Option<&str>) -> Result<Vec<PathState>, SceneE
 }
 
 fn draw_order(layout: &Layout, states: &[PathState]) -> Vec<u32> {
-    let mut order: Vec<u32> = (0..layout.paths.len() as u32).collect();
+    let rows = 0..layout.paths.len() as u32;
+    let mut order: Vec<u32> = rows.into_par_iter().collect();
     if !states.is_empty() {
         order.retain(|&path| states[path as usize] == PathState::Shown);
     }

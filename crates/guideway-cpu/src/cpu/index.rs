@@ -86,7 +86,8 @@ impl Index {
     fn resize(&mut self) {
         let clusters = self.paths.len().div_ceil(CLUSTER_PATHS);
         self.extents.resize(clusters, None);
-        self.lines.resize_with(clusters, Lines::default);
+        let new = (self.lines.len()..clusters).into_par_iter();
+        self.lines.par_extend(new.map(|_| Lines::default()));
         self.made.resize(clusters, Made::default());
     }
 

@@ -162,9 +162,13 @@ impl Group {
         let Behind { near, straight } = self.behind();
         // What goes on nearly straight is joined first. No branches: nothing tells which do.
         for behind in [straight, near] {
-            for (next, behind) in next.iter_mut().zip(behind) {
+            let mut runs = not_zero(&behind) & low_bits(next.len());
+            while runs != 0 {
+                let run = runs.trailing_zeros() as usize;
+                runs &= runs - 1;
+                let next = &mut next[run];
                 let is_free = u64::from(*next == NONE).wrapping_neg();
-                let behind = behind & !self.taken & is_free;
+                let behind = behind[run] & !self.taken & is_free;
                 let last = (behind | 1).ilog2();
                 self.taken |= behind & 1 << last;
                 if behind != 0 {
@@ -247,6 +251,16 @@ fn class(length: f32) -> u8 {
         class += u8::from(length * ((1_u32 << below) as f32) < LONG);
     }
     class
+}
+
+/// Which of some words are not zero, a bit each.
+#[inline(always)]
+fn not_zero(words: &[u64; MOST]) -> u64 {
+    let mut bits = 0;
+    for (i, &word) in words.iter().enumerate() {
+        bits |= u64::from(word != 0) << i;
+    }
+    bits
 }
 
 fn low_bits(count: usize) -> u64 {

@@ -148,20 +148,24 @@ impl Joints {
     #[inline(always)]
     pub(super) fn find_without_room(&self, found: &mut Vec<u64>) {
         found.resize(self.end().div_ceil(u64::BITS as usize) + 1, 0);
-        let (rooms, _) = self.room.as_chunks::<LANES>();
-        for (word, rooms) in found
-            .iter_mut()
-            .zip(rooms.chunks(u64::BITS as usize / LANES))
-        {
-            *word = 0;
-            for (rooms, chunk) in rooms.iter().zip(0..) {
-                let mut bits = [0; LANES];
+        const HALF: usize = u32::BITS as usize;
+        let (rooms, _) = self.room.as_chunks::<HALF>();
+        let mut halves = rooms.iter().map(|rooms| {
+            let mut bits = [0; LANES];
+            for (chunk, rooms) in rooms.as_chunks::<LANES>().0.iter().enumerate() {
                 for i in 0..LANES {
-                    bits[i] = if rooms[i] < 0.0 { 1_u32 << i } else { 0 };
+                    bits[i] |= if rooms[i] < 0.0 {
+                        1_u32 << (chunk * LANES + i)
+                    } else {
+                        0
+                    };
                 }
-                let bits = bits.iter().fold(0, |all, bit| all | bit);
-                *word |= u64::from(bits) << (chunk * LANES);
             }
+            bits.iter().fold(0, |all, bit| all | bit)
+        });
+        for word in found {
+            let [low, high] = [(); 2].map(|()| halves.next().unwrap_or(0));
+            *word = u64::from(low) | u64::from(high) << HALF;
         }
     }
 
