@@ -24,7 +24,7 @@ pub fn read_file(path: &Path, options: &ReadOptions<'_>) -> Result<Layout, ReadE
     #[cfg(unix)]
     if is_arrow(&mut file).map_err(fail)? {
         let name = &name;
-        let file = OnDisk::new(file, path).map_err(|e| fail(io_problem(e)))?;
+        let file = OnDisk::new(file, size, path);
         return crate::arrow::read(Source { name, options }, &Input::File(&file));
     }
     let bytes = read_whole(&mut file, options).map_err(fail)?;

@@ -160,7 +160,8 @@ impl Group {
     #[inline(always)]
     fn link(&mut self, first: usize, next: &mut [u32]) {
         let Behind { near, straight } = self.behind();
-        // What goes on nearly straight is joined first. No branches: nothing tells which do.
+        // What goes on nearly straight is joined first, and only what something goes on from is looked at. No branches within: nothing tells
+        // which is still free.
         for behind in [straight, near] {
             let mut runs = not_zero(&behind) & low_bits(next.len());
             while runs != 0 {

@@ -9,6 +9,8 @@ use super::cluster::Members;
 
 /// Joints that are copied at once: a run rarely has more.
 const AT_ONCE: usize = LANES;
+/// Bits of half a word.
+const HALF: usize = u32::BITS as usize;
 /// What lies behind the last joint of a list, so that any can be the first of a vector.
 const SLACK: usize = 2 * LANES;
 
@@ -148,24 +150,13 @@ impl Joints {
     #[inline(always)]
     pub(super) fn find_without_room(&self, found: &mut Vec<u64>) {
         found.resize(self.end().div_ceil(u64::BITS as usize) + 1, 0);
-        const HALF: usize = u32::BITS as usize;
-        let (rooms, _) = self.room.as_chunks::<HALF>();
-        let mut halves = rooms.iter().map(|rooms| {
-            let mut bits = [0; LANES];
-            for (chunk, rooms) in rooms.as_chunks::<LANES>().0.iter().enumerate() {
-                for i in 0..LANES {
-                    bits[i] |= if rooms[i] < 0.0 {
-                        1_u32 << (chunk * LANES + i)
-                    } else {
-                        0
-                    };
-                }
-            }
-            bits.iter().fold(0, |all, bit| all | bit)
-        });
-        for word in found {
-            let [low, high] = [(); 2].map(|()| halves.next().unwrap_or(0));
-            *word = u64::from(low) | u64::from(high) << HALF;
+        for (word, rooms) in found.iter_mut().zip(self.room.chunks(u64::BITS as usize)) {
+            let (halves, _) = rooms.as_chunks();
+            let halves = halves
+                .iter()
+                .zip(0..)
+                .map(|(rooms, half)| u64::from(without_room(rooms)) << (half * HALF));
+            *word = halves.fold(0, |all, half| all | half);
         }
     }
 
@@ -198,4 +189,20 @@ impl Joints {
 fn room_beside(tolerance: f32, before: f32, behind: f32) -> f32 {
     let left = tolerance - greater(before, behind);
     left * left.abs()
+}
+
+/// Which of half a word of joints have no room, a bit each.
+#[inline(always)]
+fn without_room(rooms: &[f32; HALF]) -> u32 {
+    let mut bits = [0; LANES];
+    for (lanes, chunk) in rooms.as_chunks::<LANES>().0.iter().zip(0..) {
+        for i in 0..LANES {
+            bits[i] |= if lanes[i] < 0.0 {
+                1 << (chunk * LANES + i)
+            } else {
+                0
+            };
+        }
+    }
+    bits.iter().fold(0, |all, bit| all | bit)
 }

@@ -69,9 +69,7 @@ fn open_file(input: &Input<'_>) -> Result<Container, Problem> {
         .checked_sub(TRAILER_BYTES)
         .filter(|&at| at >= LEADER_BYTES)
         .ok_or_else(missing)?;
-    let mut magic = [0; MAGIC.len()];
-    input.read(trailer_at + LENGTH_BYTES, &mut magic)?;
-    if magic != *MAGIC {
+    if input.bytes(trailer_at + LENGTH_BYTES..input.len())? != MAGIC {
         return Err(missing());
     }
     let declared = i64::from(read_i32(input, trailer_at)?);

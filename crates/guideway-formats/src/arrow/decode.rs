@@ -6,10 +6,11 @@ use arrow_ipc::reader::{read_dictionary, read_record_batch};
 use arrow_ipc::{MessageHeader, RecordBatch as IpcBatch};
 use arrow_schema::{ArrowError, SchemaRef};
 
-use super::body::{ALIGNMENT, Bodies, Body};
+use super::body::{ALIGNMENT, Bodies};
 use super::budget::Budget;
 use super::container::Message;
 use super::guard::{damaged, guarded};
+use super::polygons::Polygons;
 use super::schema::points_buffer;
 use crate::Problem;
 use crate::input::Input;
@@ -21,21 +22,24 @@ pub(super) struct Decoder<'a> {
     schema: SchemaRef,
     dictionaries: HashMap<i64, ArrayRef>,
     bodies: Bodies,
-    /// Which buffer of a batch the coordinates of points are in, if that can be told.
-    points: Option<usize>,
+    /// The column of points.
+    points: usize,
+    /// Which buffer of a batch its coordinates are in, if that can be told.
+    coordinates: Option<usize>,
 }
 
-/// A record batch, and where the part of it is that is left to be read.
+/// A record batch, and its points, which may be left to be read.
 pub(super) struct Decoded {
     pub(super) batch: RecordBatch,
-    pub(super) body: Body,
+    pub(super) polygons: Polygons,
 }
 
 impl<'a> Decoder<'a> {
     /// Of tables in which column `points` holds the points.
     pub(super) fn new(input: &'a Input<'a>, schema: SchemaRef, points: usize) -> Self {
         Self {
-            points: points_buffer(&schema, points),
+            points,
+            coordinates: points_buffer(&schema, points),
             input,
             schema,
             dictionaries: HashMap::new(),
@@ -106,9 +110,11 @@ impl<'a> Decoder<'a> {
                 let body = self.bodies.read(self.input, at, left_out)?;
                 check_batch(&batch, body.bytes(), budget).map_err(|e| e.at(place))?;
                 let (bytes, schema) = (body.bytes(), self.schema.clone());
-                read_record_batch(bytes, batch, schema, &self.dictionaries, None, &version)
-                    .map(|batch| Some(Decoded { batch, body }))
-                    .map_err(failed)
+                let batch =
+                    read_record_batch(bytes, batch, schema, &self.dictionaries, None, &version)
+                        .map_err(failed)?;
+                let polygons = Polygons::of(batch.column(self.points), &body, budget)?;
+                Ok(Some(Decoded { batch, polygons }))
             }
             MessageHeader::NONE => Ok(None),
             other => Err(damaged(place, format!("a message of type {other:?}"))),
@@ -119,7 +125,7 @@ impl<'a> Decoder<'a> {
     fn left_out(&self, batch: &IpcBatch<'_>, body_bytes: usize) -> Range<usize> {
         let buffers = batch.buffers().filter(|_| batch.compression().is_none());
         let buffer = self
-            .points
+            .coordinates
             .zip(buffers)
             .filter(|(index, buffers)| *index < buffers.len())
             .map(|(index, buffers)| *buffers.get(index));

@@ -238,18 +238,26 @@ impl Polygons {
 /// The column with the points of its rows one behind the other: views may name the same points again and again, and then these
 /// are copied again and again.
 fn row_after_row(column: &ArrayRef, budget: &Budget) -> Result<ArrayRef, Problem> {
-    let (items, points) = match column.data_type() {
+    let (items, values, points) = match column.data_type() {
         DataType::ListView(items) => {
-            let sizes = column.as_list_view::<i32>().sizes();
-            (items, sizes.iter().map(|&size| size as u64).sum::<u64>())
+            let views = column.as_list_view::<i32>();
+            let sizes = views.sizes().iter().map(|&size| size as u64);
+            (items, views.values(), sizes.sum::<u64>())
         }
         DataType::LargeListView(items) => {
-            let sizes = column.as_list_view::<i64>().sizes();
-            (items, sizes.iter().map(|&size| size as u64).sum::<u64>())
+            let views = column.as_list_view::<i64>();
+            let sizes = views.sizes().iter().map(|&size| size as u64);
+            (items, views.values(), sizes.sum::<u64>())
         }
         _ => return Ok(Arc::clone(column)),
     };
-    budget.charge(points.saturating_mul(MOST_POINT_BYTES))?;
+    let again = points.saturating_sub(values.len() as u64);
+    let point_bytes = match items.data_type() {
+        DataType::FixedSizeList(coordinate, 2) => coordinate.data_type().primitive_width(),
+        _ => None,
+    };
+    let point_bytes = point_bytes.map_or(MOST_POINT_BYTES, |bytes| 2 * bytes as u64);
+    budget.charge(again.saturating_mul(point_bytes))?;
     cast(column, &DataType::LargeList(Arc::clone(items)))
 }
 

@@ -13,7 +13,6 @@ use super::container::{self, Message};
 use super::decode::{Decoded, Decoder};
 use super::gather::Gather;
 use super::ids;
-use super::polygons::Polygons;
 use super::schema::{self, Columns};
 use super::table::Table;
 use crate::input::Input;
@@ -85,7 +84,6 @@ struct Reader<'a> {
     input: &'a Input<'a>,
     limits: &'a Limits,
     columns: &'a Columns,
-    budget: &'a Budget,
     diagnostics: Diagnostics,
     gather: Gather,
     table: Table<'a>,
@@ -111,9 +109,7 @@ impl<'a> Reader<'a> {
         if let Some(first) = first {
             let file_bytes = batches.decoder.file_bytes();
             let count = 1 + batches.messages.len();
-            let Decoded { batch, body } = first;
-            let column = batch.column(columns.control_points);
-            let polygons = Polygons::of(column, body, batches.budget)?;
+            let Decoded { batch, polygons } = first;
             let point_bytes = polygons.coordinates.point_bytes();
             let points = polygons.range_of_rows(0..polygons.len()).len();
             let points = points.saturating_mul(count);
@@ -121,13 +117,12 @@ impl<'a> Reader<'a> {
             let row_bytes = 4 * point_bytes + 8 * batch.num_columns();
             rows = batch.num_rows().saturating_mul(count);
             rows = rows.min(file_bytes / row_bytes);
-            gather.reserve(&polygons, points.min(file_bytes / point_bytes), rows);
+            gather.reserve(polygons, points.min(file_bytes / point_bytes), rows);
         }
         Ok(Self {
             input: batches.input,
             limits,
             columns,
-            budget: batches.budget,
             diagnostics,
             gather,
             table: Table::new(schema, columns, rows, limits, batches.budget),
@@ -138,9 +133,7 @@ impl<'a> Reader<'a> {
     }
 
     /// Takes the curves of a batch, so that their buffers can go, while the table gets those before it.
-    fn add(&mut self, Decoded { batch, body }: &Decoded) -> Result<(), Problem> {
-        let column = batch.column(self.columns.control_points);
-        let polygons = Polygons::of(column, body, self.budget)?;
+    fn add(&mut self, Decoded { batch, polygons }: &Decoded) -> Result<(), Problem> {
         let first_row = self.gather.rows();
         let continues = match self.columns.part {
             None => None,
@@ -151,8 +144,8 @@ impl<'a> Reader<'a> {
         let (input, limits) = (self.input, self.limits);
         let (gathered, tabled) = rayon::join(
             || match continues {
-                None => gather.add(&polygons, input, limits),
-                Some(continues) => gather.add_parts(&polygons, &continues, input, limits),
+                None => gather.add(polygons, input, limits),
+                Some(continues) => gather.add_parts(polygons, &continues, input, limits),
             },
             || settled.iter().try_for_each(|batch| table.add(batch)),
         );

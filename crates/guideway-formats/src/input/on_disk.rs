@@ -1,7 +1,7 @@
 use std::fs::File;
 use std::io;
 use std::os::unix::fs::FileExt;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, OnceLock, PoisonError};
 use std::thread;
 use std::time::Duration;
@@ -16,10 +16,9 @@ const PATIENCE: Duration = Duration::from_micros(100);
 /// A file.
 pub(crate) struct OnDisk {
     file: File,
+    path: PathBuf,
     len: usize,
-    /// What the thread that reads ahead reads through: where two read through one, the system takes neither for one who reads
-    /// on and on.
-    again: Mutex<Option<File>>,
+    /// Once it is read ahead.
     ahead: OnceLock<Arc<Ahead>>,
 }
 
@@ -41,15 +40,14 @@ struct State {
 }
 
 impl OnDisk {
-    /// An open file; `path` is where it was found.
-    pub(crate) fn new(file: File, path: &Path) -> io::Result<Self> {
-        let bytes = file.metadata()?.len();
-        Ok(Self {
+    /// An open file of so many bytes; `path` is where it was found.
+    pub(crate) fn new(file: File, bytes: u64, path: &Path) -> Self {
+        Self {
             file,
+            path: path.to_owned(),
             len: usize::try_from(bytes).unwrap_or(usize::MAX),
-            again: Mutex::new(File::open(path).ok()),
             ahead: OnceLock::new(),
-        })
+        }
     }
 
     pub(super) fn len(&self) -> usize {
@@ -59,14 +57,20 @@ impl OnDisk {
     /// Has a thread that does nothing else read the file from its beginning to its end, so that the disk never waits for those
     /// who look at what was read. They wait for that thread.
     pub(super) fn read_ahead(&self) {
-        let mut again = self.again.lock().unwrap_or_else(PoisonError::into_inner);
-        let Some(file) = again.take().filter(|_| self.len > PIECE) else {
+        if self.len <= PIECE {
             return;
-        };
-        let ahead = Arc::clone(self.ahead.get_or_init(Arc::default));
-        let (reader, len) = (Reader { file, ahead }, self.len);
-        // If the system has no thread for it, the reader is dropped, and the file is read all the same.
-        let _ = thread::Builder::new().spawn(move || reader.read(len, MOST));
+        }
+        self.ahead.get_or_init(|| {
+            let ahead = Arc::<Ahead>::default();
+            let reader = Reader {
+                path: self.path.clone(),
+                ahead: Arc::clone(&ahead),
+            };
+            let len = self.len;
+            // If the system has no thread for it, the reader is dropped, and the file is read all the same.
+            let _ = thread::Builder::new().spawn(move || reader.read(len, MOST));
+            ahead
+        });
     }
 
     pub(super) fn read(&self, from: usize, to: &mut [u8]) -> io::Result<()> {
@@ -87,12 +91,16 @@ impl Drop for OnDisk {
 
 /// Reads a file ahead: what it reads is thrown away, but is in memory then.
 struct Reader {
-    file: File,
+    path: PathBuf,
     ahead: Arc<Ahead>,
 }
 
 impl Reader {
     fn read(self, len: usize, most: usize) {
+        // Where two read through one open file, the system takes neither for one who reads on and on.
+        let Ok(file) = File::open(&self.path) else {
+            return;
+        };
         let mut piece = vec![0; PIECE];
         let mut is_there = true;
         for from in (0..len).step_by(PIECE) {
@@ -104,8 +112,8 @@ impl Reader {
             let end = len.min(from + PIECE);
             // Whatever follows what is not there has to be read, and asking would look as if reads were in no order.
             // The first bytes of a file were looked at already: the middle of a piece tells.
-            is_there = is_there && is_in_memory(&self.file, usize::midpoint(from, end) as u64);
-            if !is_there && self.file.read_at(&mut piece, from as u64).is_err() {
+            is_there = is_there && is_in_memory(&file, usize::midpoint(from, end) as u64);
+            if !is_there && file.read_at(&mut piece, from as u64).is_err() {
                 return;
             }
             self.ahead.change(|state| state.reached = end);
@@ -182,7 +190,7 @@ mod tests {
     }
 
     /// A file, and where it is.
-    fn file() -> (tempfile::TempDir, std::path::PathBuf) {
+    fn file() -> (tempfile::TempDir, PathBuf) {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("bytes");
         let bytes: Vec<u8> = (0..LEN).map(byte).collect();
@@ -193,7 +201,7 @@ mod tests {
     #[test]
     fn any_part_is_read_before_while_and_after_it_is_read_ahead() {
         let (_folder, path) = file();
-        let file = OnDisk::new(File::open(&path).unwrap(), &path).unwrap();
+        let file = OnDisk::new(File::open(&path).unwrap(), LEN as u64, &path);
         assert_eq!(file.len(), LEN);
         for round in 0..3 {
             for from in [LEN - 9, 0, 2 * PIECE - 4, PIECE + 1] {
@@ -208,7 +216,7 @@ mod tests {
     #[test]
     fn what_is_gone_is_an_error_and_nobody_waits_for_it() {
         let (_folder, path) = file();
-        let file = OnDisk::new(File::open(&path).unwrap(), &path).unwrap();
+        let file = OnDisk::new(File::open(&path).unwrap(), LEN as u64, &path);
         let shorter = File::options().write(true).open(&path).unwrap();
         shorter.set_len(PIECE as u64).unwrap();
         file.read_ahead();
@@ -219,7 +227,7 @@ mod tests {
         // A folder opens, and cannot be read.
         let ahead = Arc::default();
         let reader = Reader {
-            file: File::open(path.parent().unwrap()).unwrap(),
+            path: path.parent().unwrap().to_owned(),
             ahead: Arc::clone(&ahead),
         };
         reader.read(LEN, MOST);
@@ -232,7 +240,7 @@ mod tests {
         for is_over in [false, true] {
             let ahead = Arc::default();
             let reader = Reader {
-                file: File::open(&path).unwrap(),
+                path: path.clone(),
                 ahead: Arc::clone(&ahead),
             };
             let reading = thread::spawn(move || reader.read(LEN, PIECE));
