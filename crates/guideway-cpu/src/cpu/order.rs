@@ -9,13 +9,15 @@ const PART: usize = 1 << 16;
 /// Bits that say which drawer a key is for.
 const DRAWER_BITS: u32 = 10;
 const DRAWERS: usize = 1 << DRAWER_BITS;
+/// So few keys in one of the drawers within others are not sorted: they lie beside each other however they follow.
+const FEW: usize = 16;
 /// So many keys are sorted by all threads.
 const MANY: usize = 1 << 15;
 
 /// All rows, along a curve that fills the plane.
 ///
-/// By the highest bits of their places they are put into drawers, and by as many more into others within: what is left to be sorted
-/// lies within a thousandth of the plane's side.
+/// By the highest bits of their places they are put into drawers, and by as many more into others within: what is left lies within
+/// a thousandth of the plane's side, and is sorted only where it is much.
 pub(super) fn sorted_rows(hulls: &Hulls) -> Vec<u32> {
     let Some(all) = hulls.all() else {
         return (0..hulls.len() as u32).collect();
@@ -26,11 +28,12 @@ pub(super) fn sorted_rows(hulls: &Hulls) -> Vec<u32> {
         u64::from(place) << u32::BITS | row as u64
     };
     let count = hulls.len();
-    let parts = (0..count.div_ceil(PART)).into_par_iter().map(|part| {
-        let rows = part * PART..count.min((part + 1) * PART);
-        let keys: Vec<u64> = rows.map(key).collect();
+    let parts = (0..count.div_ceil(PART)).into_par_iter();
+    let parts = parts.map_init(Vec::<u64>::new, |keys, part| {
+        keys.clear();
+        keys.extend((part * PART..count.min((part + 1) * PART)).map(key));
         let mut drawers = Drawers::default();
-        drawers.put(&keys, 0);
+        drawers.put(keys, 0);
         drawers
     });
     let parts: Vec<Drawers> = parts.collect();
@@ -95,12 +98,13 @@ impl Drawers {
         &self.keys[start as usize..self.ends[drawer] as usize]
     }
 
-    /// Sorts what is in each drawer.
+    /// Sorts what is in each drawer, if it is much.
     fn sort(&mut self) {
         let mut start = 0;
         for &end in &self.ends {
             let keys = &mut self.keys[start..end as usize];
             match keys.len() {
+                0..=FEW => {}
                 ..MANY => keys.sort_unstable(),
                 _ => keys.par_sort_unstable(),
             }
