@@ -262,9 +262,10 @@ fn simplify_all(scratch: &mut Scratch, tolerance: f32, joins: bool) {
         chords,
         ..
     } = scratch;
-    joints.find(local, tolerance);
-    links.find(runs, joints, joins);
-    links.chain(runs, joints, chains);
+    joints.begin(local);
+    links.find(runs, local, joins);
+    links.chain((runs, local), joints, chains);
+    joints.find_room(tolerance);
     chords.find(joints, chains);
     let mut pen = Pen::new();
     let mut ended = 0;

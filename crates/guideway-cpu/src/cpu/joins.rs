@@ -57,14 +57,14 @@ struct Side {
 impl Links {
     /// Finds which runs are drawn as one, if any may be joined, and in which order.
     #[inline(always)]
-    pub(super) fn find(&mut self, runs: &[Run], joints: &Joints, joins: bool) {
+    pub(super) fn find(&mut self, runs: &[Run], points: &[Point<f32>], joins: bool) {
         self.next.clear();
         self.next.resize(runs.len(), NONE);
         self.heads.clear();
         for (group, runs) in runs.chunks(MOST).enumerate() {
             let first = group * MOST;
             let next = &mut self.next[first..][..runs.len()];
-            let mut group = Group::new(runs, joints);
+            let mut group = Group::new(runs, points);
             if joins {
                 group.link(first, next);
             }
@@ -98,33 +98,33 @@ impl Links {
         }
     }
 
-    /// Gives the chains in the order in which they are drawn; copies the joints of those of several runs.
+    /// Gives the chains in the order in which they are drawn, and their joints.
     #[inline(always)]
-    pub(super) fn chain(&self, runs: &[Run], joints: &mut Joints, chains: &mut Vec<Chain>) {
+    pub(super) fn chain(
+        &self,
+        (runs, points): (&[Run], &[Point<f32>]),
+        joints: &mut Joints,
+        chains: &mut Vec<Chain>,
+    ) {
         chains.clear();
         let mut round = 0;
         for (i, &head) in self.order.iter().enumerate() {
             while i * MOST >= ENDS[round] * self.order.len() {
                 round += 1;
             }
-            let first = &runs[head as usize];
-            let mut chain = Chain {
-                round,
-                members: first.member,
-                joints: first.joints(),
-            };
-            let mut run = self.next[head as usize];
-            if run != NONE {
-                let start = joints.end();
-                joints.copy(first, false);
-                while run != NONE {
-                    chain.members |= runs[run as usize].member;
-                    joints.copy(&runs[run as usize], true);
-                    run = self.next[run as usize];
-                }
-                chain.joints = start..joints.end();
+            let start = joints.len();
+            let (mut run, mut members, mut goes_on) = (head, 0, false);
+            while run != NONE {
+                let this = &runs[run as usize];
+                joints.add(this, goes_on, points);
+                members |= this.member;
+                (run, goes_on) = (self.next[run as usize], true);
             }
-            chains.push(chain);
+            chains.push(Chain {
+                round,
+                members,
+                joints: start..joints.len(),
+            });
         }
     }
 
@@ -136,7 +136,7 @@ impl Links {
 
 impl Group {
     #[inline(always)]
-    fn new(runs: &[Run], joints: &Joints) -> Self {
+    fn new(runs: &[Run], points: &[Point<f32>]) -> Self {
         let nowhere = || Side {
             x: [f32::NAN; MOST],
             y: [f32::NAN; MOST],
@@ -148,7 +148,7 @@ impl Group {
             taken: 0,
         };
         for (i, run) in runs.iter().enumerate().take(MOST) {
-            let [start, end] = run.ends(joints);
+            let [start, end] = run.ends(points);
             group.starts.set(i, start);
             group.ends.set(i, end);
             group.along.set(i, end - start);
@@ -247,11 +247,10 @@ impl Side {
 /// The class of a length: the longest are of the first.
 #[inline(always)]
 fn class(length: f32) -> u8 {
-    let mut class = 0;
-    for below in 0..CLASSES as u32 - 1 {
-        class += u8::from(length * ((1_u32 << below) as f32) < LONG);
-    }
-    class
+    // What is half as long has an exponent that is one less.
+    let shorter =
+        (LONG.to_bits() as i32 - 1 - length.to_bits() as i32) >> (f32::MANTISSA_DIGITS - 1);
+    (shorter + 1).clamp(0, CLASSES as i32 - 1) as u8
 }
 
 /// Which of some words are not zero, a bit each.
@@ -295,9 +294,10 @@ mod tests {
             .map(|(i, points)| Run::new(i % MOST, points).unwrap());
         let runs: Vec<Run> = runs.collect();
         let (mut joints, mut links, mut chains) = (Joints::default(), Links::default(), Vec::new());
-        joints.find(&mut points, TOLERANCE);
-        links.find(&runs, &joints, joins);
-        links.chain(&runs, &mut joints, &mut chains);
+        joints.begin(&mut points);
+        links.find(&runs, &points, joins);
+        links.chain((&runs, &points), &mut joints, &mut chains);
+        joints.find_room(TOLERANCE);
         let mut chords = Chords::default();
         chords.find(&joints, &chains);
         let lines = chains.into_iter().map(|chain| {

@@ -7,8 +7,6 @@ use guideway_spline::{Point, greater};
 use super::LANES;
 use super::cluster::Members;
 
-/// Joints that are copied at once: a run rarely has more.
-const AT_ONCE: usize = LANES;
 /// Bits of half a word.
 const HALF: usize = u32::BITS as usize;
 /// What lies behind the last joint of a list, so that any can be the first of a vector.
@@ -32,10 +30,11 @@ pub(super) struct Chain {
     pub(super) joints: Range<usize>,
 }
 
-/// The joints of runs, each with the number of the first of its points, and behind them copies of those of chains: the runs of
-/// a chain share those where they meet.
+/// The joints of chains, one chain after the other: the runs of a chain share those where they meet.
 #[derive(Default)]
 pub(super) struct Joints {
+    /// How many there are; what the lists hold behind them means nothing.
+    len: usize,
     pub(super) x: Vec<f32>,
     pub(super) y: Vec<f32>,
     /// How far the segment behind a joint may bend away from a straight line: the greatest |C''| / 8.
@@ -43,11 +42,8 @@ pub(super) struct Joints {
     /// How far that lets a joint be from a line that passes it: its square, with the sign. That of the first and the last of a
     /// chain means nothing.
     pub(super) room: Vec<f32>,
-    /// The numbers of which the copies are.
-    copied: Vec<u32>,
-    /// The number of the first copy.
-    first_copy: usize,
-    tolerance: f32,
+    /// The number of the first control point of the segment behind a joint.
+    segment: Vec<u32>,
 }
 
 impl Run {
@@ -60,39 +56,58 @@ impl Run {
         })
     }
 
-    pub(super) fn joints(&self) -> Range<usize> {
-        let first = self.first as usize;
-        first..first + self.points as usize - 2
-    }
-
     /// Where it begins and ends.
-    pub(super) fn ends(&self, joints: &Joints) -> [Point<f32>; 2] {
-        let Range { start, end } = self.joints();
-        [start, end - 1].map(|i| joints.at(i))
+    #[inline(always)]
+    pub(super) fn ends(&self, points: &[Point<f32>]) -> [Point<f32>; 2] {
+        let run = &points[self.first as usize..][..self.points as usize];
+        let (Some(first), Some(last)) = (run.first_chunk::<3>(), run.last_chunk::<3>()) else {
+            return [Point::default(); 2];
+        };
+        // Both at once, by one vector.
+        let [a, b, c] = [0, 1, 2].map(|i| [first[i].x, first[i].y, last[i].x, last[i].y]);
+        let mut ends = [0.0; 4];
+        for i in 0..4 {
+            ends[i] = (a[i] + b[i] * 4.0 + c[i]) * (1.0 / 6.0);
+        }
+        [Point::new(ends[0], ends[1]), Point::new(ends[2], ends[3])]
     }
 }
 
 impl Joints {
-    /// Finds those of all runs, for lines that are off by at most a tolerance; between two runs lie some that mean nothing.
-    #[inline(always)]
-    pub(super) fn find(&mut self, points: &mut Vec<Point<f32>>, tolerance: f32) {
-        let len = points.len().next_multiple_of(LANES);
-        points.resize(len + 3, Point::default());
-        self.first_copy = len;
-        self.tolerance = tolerance;
-        self.copied.clear();
-        // Copies are no more than runs have.
-        let most = 2 * len + SLACK;
+    /// Begins with none, of some control points, behind which there have to be some that mean nothing.
+    pub(super) fn begin(&mut self, points: &mut Vec<Point<f32>>) {
+        points.resize(points.len() + SLACK, Point::default());
+        self.len = 0;
+        // There are fewer than points.
+        let most = points.len() + SLACK;
         for list in [&mut self.x, &mut self.y, &mut self.bend, &mut self.room] {
             if list.len() < most {
                 list.resize(most, 0.0);
             }
         }
-        for first in (0..len).step_by(LANES) {
-            let Some(points) = points[first..].first_chunk::<{ LANES + 3 }>() else {
+        if self.segment.len() < most {
+            self.segment.resize(most, 0);
+        }
+    }
+
+    /// Adds those of a run, which goes on from the last one or begins a chain.
+    #[inline(always)]
+    pub(super) fn add(&mut self, run: &Run, goes_on: bool, points: &[Point<f32>]) {
+        let first = run.first as usize;
+        if goes_on {
+            // Its first joint takes the place of the last one before, and lines leave room for the gap.
+            self.len -= 1;
+            let gap = run.ends(points)[0] - self.at(self.len);
+            self.bend[self.len - 1] += gap.x.abs() + gap.y.abs();
+        }
+        let count = run.points as usize - 2;
+        for done in (0..count).step_by(LANES) {
+            let (from, to) = (first + done, self.len + done);
+            let Some(points) = points[from..].first_chunk::<{ LANES + 3 }>() else {
                 return;
             };
             let (mut xs, mut ys, mut bends) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+            let mut segments = [0; LANES];
             for i in 0..LANES {
                 let [a, b, c, d] = [points[i], points[i + 1], points[i + 2], points[i + 3]];
                 xs[i] = (a.x + b.x * 4.0 + c.x) * (1.0 / 6.0);
@@ -102,54 +117,31 @@ impl Joints {
                 let here = here[0] * here[0] + here[1] * here[1];
                 let next = next[0] * next[0] + next[1] * next[1];
                 bends[i] = greater(here, next).sqrt() * 0.125;
+                segments[i] = (from + i) as u32;
             }
-            self.x[first..first + LANES].copy_from_slice(&xs);
-            self.y[first..first + LANES].copy_from_slice(&ys);
-            self.bend[first..first + LANES].copy_from_slice(&bends);
+            self.x[to..to + LANES].copy_from_slice(&xs);
+            self.y[to..to + LANES].copy_from_slice(&ys);
+            self.bend[to..to + LANES].copy_from_slice(&bends);
+            self.segment[to..to + LANES].copy_from_slice(&segments);
         }
-        let lists = self.bend[..len].array_windows().zip(&mut self.room[1..]);
-        for (&[before, behind], room) in lists {
-            *room = room_beside(tolerance, before, behind);
-        }
+        self.len += count;
     }
 
-    /// Adds copies of those of a run, which goes on from the last one or begins anew.
+    /// Finds how much room all have, for lines that are off by at most a tolerance.
     #[inline(always)]
-    pub(super) fn copy(&mut self, run: &Run, goes_on: bool) {
-        let joints = run.joints();
-        let mut to = self.end();
-        if goes_on {
-            // Its first joint takes the place of the last one before, and lines leave room for the gap.
-            to -= 1;
-            self.copied.pop();
-            let gap = self.at(joints.start) - self.at(to);
-            self.bend[to - 1] += gap.x.abs() + gap.y.abs();
-        }
-        let mut from = joints.start;
-        let seam = to;
-        while from < joints.end {
-            for list in [&mut self.x, &mut self.y, &mut self.bend, &mut self.room] {
-                let Some(&joints) = list[from..].first_chunk::<AT_ONCE>() else {
-                    return;
-                };
-                list[to..to + AT_ONCE].copy_from_slice(&joints);
-            }
-            from += AT_ONCE;
-            to += AT_ONCE;
-        }
-        self.copied.extend(joints.start as u32..joints.end as u32);
-        if goes_on {
-            for joint in [seam - 1, seam] {
-                let [before, behind] = [self.bend[joint - 1], self.bend[joint]];
-                self.room[joint] = room_beside(self.tolerance, before, behind);
-            }
+    pub(super) fn find_room(&mut self, tolerance: f32) {
+        let lists = self.bend[..self.len]
+            .array_windows()
+            .zip(&mut self.room[1..]);
+        for (&[before, behind], room) in lists {
+            *room = room_beside(tolerance, before, behind);
         }
     }
 
     /// Which joints are on segments that bend too much for any line over several, a bit each, and a word more.
     #[inline(always)]
     pub(super) fn find_without_room(&self, found: &mut Vec<u64>) {
-        found.resize(self.end().div_ceil(u64::BITS as usize) + 1, 0);
+        found.resize(self.len.div_ceil(u64::BITS as usize) + 1, 0);
         for (word, rooms) in found.iter_mut().zip(self.room.chunks(u64::BITS as usize)) {
             let (halves, _) = rooms.as_chunks();
             let halves = halves
@@ -160,9 +152,9 @@ impl Joints {
         }
     }
 
-    /// The number of the next copy.
-    pub(super) fn end(&self) -> usize {
-        self.first_copy + self.copied.len()
+    /// How many there are.
+    pub(super) fn len(&self) -> usize {
+        self.len
     }
 
     pub(super) fn at(&self, joint: usize) -> Point<f32> {
@@ -171,15 +163,12 @@ impl Joints {
 
     /// The first control point of the segment behind a joint.
     pub(super) fn segment(&self, joint: usize) -> usize {
-        match joint.checked_sub(self.first_copy) {
-            Some(copy) => self.copied[copy] as usize,
-            None => joint,
-        }
+        self.segment[joint] as usize
     }
 
     pub(super) fn bytes(&self) -> u64 {
         let lists = [&self.x, &self.y, &self.bend, &self.room].map(Vec::capacity);
-        let words = lists.into_iter().sum::<usize>() + self.copied.capacity();
+        let words = lists.into_iter().sum::<usize>() + self.segment.capacity();
         (words * size_of::<f32>()) as u64
     }
 }

@@ -287,9 +287,10 @@ mod tests {
         let after = [Point::new(f32::NAN, 1e9); 3];
         let mut points = [run, &after].concat();
         let runs: Vec<_> = Run::new(0, 0..run.len()).into_iter().collect();
-        joints.find(&mut points, tolerance);
-        links.find(&runs, &joints, false);
-        links.chain(&runs, &mut joints, &mut chains);
+        joints.begin(&mut points);
+        links.find(&runs, &points, false);
+        links.chain((&runs, &points), &mut joints, &mut chains);
+        joints.find_room(tolerance);
         let (mut chords, mut vertices) = (Chords::default(), Vec::new());
         chords.find(&joints, &chains);
         for chain in chains {
