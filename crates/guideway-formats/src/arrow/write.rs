@@ -15,7 +15,7 @@ use super::write_columns::{Cells, Column, IdCells, Polygon};
 use super::{CONTROL_POINTS, ID, VERSION, VERSION_KEY};
 
 /// Rows of a record batch.
-const BATCH_ROWS: usize = 65_536;
+const BATCH_ROWS: usize = 16_384;
 /// A batch ends early at so many control points, so that few long curves take no more memory.
 const BATCH_POINTS: usize = 4 << 20;
 /// Likewise for text.
