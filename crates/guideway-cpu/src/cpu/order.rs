@@ -103,10 +103,10 @@ impl Drawers {
         let mut start = 0;
         for &end in &self.ends {
             let keys = &mut self.keys[start..end as usize];
-            match keys.len() {
-                0..=FEW => {}
-                ..MANY => keys.sort_unstable(),
-                _ => keys.par_sort_unstable(),
+            if keys.len() >= MANY {
+                keys.par_sort_unstable();
+            } else if keys.len() > FEW {
+                keys.sort_unstable();
             }
             start = end as usize;
         }
