@@ -4,8 +4,12 @@
 //! the logarithm shows both, and equalising the histogram spends the colours where the pixels are.
 
 use guideway_scene::Rgba;
+use rayon::prelude::*;
 
 use crate::Frame;
+
+/// So many pixels are gone through by one thread.
+const AT_ONCE: usize = 1 << 16;
 
 /// How counts become lightness.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -60,12 +64,21 @@ impl Tones {
         }
     }
 
-    /// Looks at a part of the picture: the mean number of covering paths of each pixel.
+    /// Looks at a part of the picture: the mean number of covering paths of each pixel, none of which is negative.
     pub fn look(&mut self, counts: &[f32]) {
-        self.most = counts.iter().copied().fold(self.most, f32::max);
-        if self.tone == ToneMap::Equalised {
-            self.histogram.add(counts);
-        }
+        let is_equalised = self.tone == ToneMap::Equalised;
+        let parts = counts.par_chunks(AT_ONCE).map(|counts| {
+            // The bits of numbers go up as they do, and their greatest is found by vectors.
+            let most = counts.iter().map(|count| count.to_bits()).max();
+            let mut histogram = Histogram::default();
+            if is_equalised {
+                histogram.add(counts);
+            }
+            (most.unwrap_or(0), histogram)
+        });
+        let (most, histogram) = parts.reduce(Default::default, |a, b| (a.0.max(b.0), a.1.and(b.1)));
+        self.most = self.most.max(f32::from_bits(most));
+        self.histogram = std::mem::take(&mut self.histogram).and(histogram);
     }
 
     /// Colours a frame, which is a part of the picture.
@@ -74,35 +87,59 @@ impl Tones {
     /// When there is not one count a pixel.
     pub fn shade(&self, counts: &[f32], background: Rgba, frame: &mut Frame) {
         assert_eq!(counts.len(), frame.pixels().len(), "one count a pixel");
-        match self.tone {
-            ToneMap::Linear => {
-                let most = f64::from(self.most);
-                paint(counts, background, frame, |count| f64::from(count) / most);
+        let most = f64::from(self.most);
+        let most_log = most.ln_1p();
+        let ranks = self.histogram.ranks();
+        // At least one pixel, for there may be none.
+        let most_rank = ranks.up_to(self.most).max(1.0);
+        let ramp = Ramp::new(self.most, background, |count| match self.tone {
+            ToneMap::Linear => f64::from(count) / most,
+            ToneMap::Log => f64::from(count).ln_1p() / most_log,
+            ToneMap::Equalised => ranks.up_to(count) / most_rank,
+        });
+        let pixels = frame.pixels_mut().par_chunks_mut(AT_ONCE);
+        let parts = pixels.zip(counts.par_chunks(AT_ONCE));
+        parts.for_each(|(pixels, counts)| {
+            for (pixel, &count) in pixels.iter_mut().zip(counts) {
+                *pixel = ramp.at(count);
             }
-            ToneMap::Log => {
-                let most = f64::from(self.most).ln_1p();
-                paint(counts, background, frame, |count| {
-                    f64::from(count).ln_1p() / most
-                });
-            }
-            ToneMap::Equalised => {
-                let ranks = self.histogram.ranks();
-                // At least one pixel, for there may be none.
-                let most = ranks.up_to(self.most).max(1.0);
-                paint(counts, background, frame, |count| ranks.up_to(count) / most);
-            }
-        }
+        });
     }
 }
 
-/// Colours pixels by how far along the steps their count is, from 0 to 1.
-fn paint(counts: &[f32], background: Rgba, frame: &mut Frame, along: impl Fn(f32) -> f64) {
-    for (pixel, &count) in frame.pixels_mut().iter_mut().zip(counts) {
-        let along = along(count) * (STEPS.len() - 1) as f64;
-        let below = (along as usize).min(STEPS.len() - 2);
-        let color = STEPS[below].lerp(STEPS[below + 1], along - below as f64);
-        let shown = background.lerp(color, f64::from(count.min(1.0)));
-        *pixel = [shown.r, shown.g, shown.b, shown.a];
+/// The pixels of counts, of each that is a thousandth more, and a thousandth of itself, than the one before. Those of up to
+/// 2048 that are a whole number of paths or, below one, of samples are among them.
+struct Ramp(Vec<[u8; 4]>);
+
+impl Ramp {
+    /// Bits that tell one from the next: so many parts has what lies between two powers of two.
+    const BITS: u32 = 10;
+    const BITS_BELOW: u32 = f32::MANTISSA_DIGITS - 1 - Self::BITS;
+
+    /// Up to the largest count; `along` says how far along the steps a count is, from 0 to 1.
+    fn new(most: f32, background: Rgba, along: impl Fn(f32) -> f64) -> Self {
+        let pixels = (0..=Self::place(most)).map(|place| {
+            let bits = ((place as u32) << Self::BITS_BELOW) + 1_f32.to_bits();
+            let count = (f32::from_bits(bits) - 1.0).min(most);
+            let along = along(count) * (STEPS.len() - 1) as f64;
+            let below = (along as usize).min(STEPS.len() - 2);
+            let color = STEPS[below].lerp(STEPS[below + 1], along - below as f64);
+            let shown = background.lerp(color, f64::from(count.min(1.0)));
+            [shown.r, shown.g, shown.b, shown.a]
+        });
+        Self(pixels.collect())
+    }
+
+    #[inline]
+    fn at(&self, count: f32) -> [u8; 4] {
+        self.0[Self::place(count).min(self.0.len() - 1)]
+    }
+
+    /// The nearest of them. The bits of a number go up evenly from one power of two to the next.
+    #[inline]
+    fn place(count: f32) -> usize {
+        let beyond_one = (1.0 + count).to_bits() - 1_f32.to_bits();
+        ((beyond_one + (1 << (Self::BITS_BELOW - 1))) >> Self::BITS_BELOW) as usize
     }
 }
 
@@ -122,15 +159,28 @@ impl Histogram {
     /// Bins from one power of two to the next. Whole counts up to twice as many lie in the middle of one,
     /// and bins are wide enough that a count has the same colour however a method samples it.
     const A_DOUBLING: u32 = 8;
+    /// What the bits of a number go up by from one to the next.
+    const BIN: u32 = (2_f32.to_bits() - 1_f32.to_bits()) / Self::A_DOUBLING;
 
     fn add(&mut self, counts: &[f32]) {
         for &count in counts {
-            let bin = Self::place(count).round() as usize;
+            let bin = Self::bin(count);
             if self.bins.len() <= bin {
                 self.bins.resize(bin + 1, 0);
             }
             self.bins[bin] += u32::from(bin > 0);
         }
+    }
+
+    /// All pixels of both.
+    fn and(mut self, other: Self) -> Self {
+        if self.bins.len() < other.bins.len() {
+            return other.and(self);
+        }
+        for (pixels, more) in self.bins.iter_mut().zip(other.bins) {
+            *pixels += more;
+        }
+        self
     }
 
     fn ranks(&self) -> Ranks {
@@ -146,9 +196,16 @@ impl Histogram {
     /// Where a count lies, in bins beyond one path. The bits of a number go up evenly from one power of two
     /// to the next, as a logarithm by straight lines.
     fn place(count: f32) -> f64 {
-        let beyond_one = count.max(1.0).to_bits() - 1_f32.to_bits();
-        let a_doubling = 2_f32.to_bits() - 1_f32.to_bits();
-        f64::from(beyond_one) / f64::from(a_doubling / Self::A_DOUBLING)
+        f64::from(Self::beyond_one(count)) / f64::from(Self::BIN)
+    }
+
+    /// The bin in whose middle a count lies, or nearly.
+    fn bin(count: f32) -> usize {
+        ((Self::beyond_one(count) + Self::BIN / 2) / Self::BIN) as usize
+    }
+
+    fn beyond_one(count: f32) -> u32 {
+        count.max(1.0).to_bits() - 1_f32.to_bits()
     }
 }
 
@@ -213,6 +270,49 @@ mod tests {
         let shown = colors(&[1.0, 1.0, 0.0], ToneMap::Equalised);
         assert_eq!(shown[..2], [0; 2].map(step));
         assert_eq!(shown[2], [255; 4]);
+    }
+
+    #[test]
+    fn colours_of_many_pixels_are_those_of_their_counts_within_a_level() {
+        let mut frame = Frame::new(FrameSize::new(1000, 150).unwrap());
+        let count = |i: usize| 0.7 + (i % 1009) as f32 * 0.37;
+        let counts: Vec<f32> = (0..frame.pixels().len()).map(count).collect();
+        assert!(counts.len() > 2 * AT_ONCE, "several threads look at them");
+        let most = f64::from(count(1008));
+        let exact = |count: f32, along: f64| {
+            let below = (along * 5.0).min(4.0) as usize;
+            let color = STEPS[below].lerp(STEPS[below + 1], along * 5.0 - below as f64);
+            let Rgba { r, g, b, a } = Rgba::WHITE.lerp(color, f64::from(count.min(1.0)));
+            [r, g, b, a]
+        };
+        for tone in [ToneMap::Log, ToneMap::Linear] {
+            shade(&counts, tone, Rgba::WHITE, &mut frame);
+            for (shown, &count) in frame.pixels().iter().zip(&counts) {
+                let along = match tone {
+                    ToneMap::Log => f64::from(count).ln_1p() / most.ln_1p(),
+                    _ => f64::from(count) / most,
+                };
+                let exact = exact(count, along);
+                let off = (0..4).map(|i| shown[i].abs_diff(exact[i])).max();
+                assert!(off <= Some(1), "{tone:?} {count}: {shown:?}, {exact:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn parts_of_a_picture_that_are_looked_at_apart_are_one_picture() {
+        let mut at_once = Frame::new(FrameSize::new(100, 30).unwrap());
+        let mut by_parts = at_once.clone();
+        let counts: Vec<f32> = (0..3000).map(|i| (i * i % 97) as f32 * 0.25).collect();
+        shade(&counts, ToneMap::Equalised, Rgba::WHITE, &mut at_once);
+        let mut tones = Tones::new(ToneMap::Equalised);
+        counts.chunks(700).for_each(|part| tones.look(part));
+        tones.shade(&counts, Rgba::WHITE, &mut by_parts);
+        assert!(by_parts == at_once);
+        let mut of_a_part = Tones::new(ToneMap::Equalised);
+        of_a_part.look(&counts[..700]);
+        of_a_part.shade(&counts, Rgba::WHITE, &mut by_parts);
+        assert!(by_parts != at_once);
     }
 
     #[test]
