@@ -1,6 +1,6 @@
 use std::sync::Arc;
 
-use guideway_render::{Budget, Cancel, FrameSize, Method, RenderError, Style, View};
+use guideway_render::{Budget, Cancel, FrameSize, Method, RenderError, Shading, Style, View};
 use guideway_scene::Scene;
 use serde::{Deserialize, Serialize};
 
@@ -49,6 +49,9 @@ pub struct Comparison {
     /// What its paths look like.
     #[serde(default)]
     pub dress: Dress,
+    /// Whether pixels show how many paths there are, in place of their colours.
+    #[serde(default)]
+    pub is_density: bool,
     /// How the first frame saw it.
     pub view: ViewFacts,
     /// What changed from frame to frame.
@@ -147,6 +150,7 @@ pub fn compare(
             segments: layout.paths.geometry().segment_count(),
         },
         dress: contest.dress,
+        is_density: contest.style.shading != Shading::Color,
         view: ViewFacts::from(&view),
         motion: contest.motion,
         edit_share: is_edited.then_some(contest.edit.share),

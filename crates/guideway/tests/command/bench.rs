@@ -147,13 +147,14 @@ fn a_scene_is_dressed_and_seen_from_nearer() {
         assert_eq!(report["methods"][0]["measured"]["paths"]["total"], 60);
         (
             report["view"]["px_per_m"].as_f64().unwrap(),
-            report["dress"].clone(),
+            (report["dress"].clone(), report["is_density"].clone()),
         )
     };
     let (all, own) = px_per_m(&[]);
-    let (near, mixed) = px_per_m(&["--magnify", "20", "--dress", "mixed"]);
+    let (near, mixed) = px_per_m(&["--magnify", "20", "--dress", "mixed", "--shade", "density"]);
     assert!((near / all - 20.0).abs() < 1e-6);
-    assert_eq!([own, mixed], ["own", "mixed"]);
+    assert_eq!(own, ("own".into(), false.into()));
+    assert_eq!(mixed, ("mixed".into(), true.into()));
 }
 
 #[test]

@@ -1,11 +1,12 @@
 use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
-use guideway::render::{Budget, FrameSize, Style};
+use guideway::render::density::ToneMap;
+use guideway::render::{Budget, FrameSize, Shading, Style};
 use guideway::scene::LineRule;
 use guideway_bench::{Contest, Dataset, Dress, Motion, Moves, plain_scene};
 
-use crate::cli::render::Rule;
+use crate::cli::render::{Rule, Shade};
 use crate::cli::{Failure, Output, input, values};
 
 /// Paths of a dataset unless told.
@@ -44,6 +45,9 @@ pub(crate) struct Args {
     /// What paths look like
     #[arg(long, default_value = "own")]
     dress: Look,
+    /// What a pixel shows: the colours of paths, or how many there are
+    #[arg(long, default_value = "colour")]
+    shade: Shade,
     /// What changes from frame to frame
     #[arg(long, default_value = "still")]
     motion: Move,
@@ -161,6 +165,10 @@ impl Args {
                     },
                     (None, Rule::World) => LineRule::default(),
                     (None, Rule::Thesis) => LineRule::Thesis,
+                },
+                shading: match self.shade {
+                    Shade::Colour => Shading::Color,
+                    Shade::Density => Shading::Density(ToneMap::default()),
                 },
                 ..Style::default()
             },

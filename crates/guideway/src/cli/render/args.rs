@@ -125,7 +125,7 @@ pub(crate) enum Rule {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Shade {
+pub(crate) enum Shade {
     #[value(alias = "color")]
     Colour,
     Density,

@@ -18,7 +18,7 @@ use guideway::render::FrameSize;
 use guideway::scene::Scene;
 use guideway::{SaveError, save_png_by, write_png_by};
 
-pub(crate) use args::{Args, Rule};
+pub(crate) use args::{Args, Rule, Shade};
 pub(crate) use below::Below;
 #[cfg(feature = "viewer")]
 pub(crate) use floor_plan::Floor;
