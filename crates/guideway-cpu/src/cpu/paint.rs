@@ -1,6 +1,7 @@
 use std::cmp::Reverse;
 use std::sync::Mutex;
 
+use bytemuck::cast_slice_mut;
 use guideway_render::RenderError;
 use guideway_scene::Rgba;
 use guideway_spline::Point;
@@ -133,11 +134,7 @@ impl<'a> Band<'a> {
         solid: Option<Rgba>,
     ) -> Result<(), RenderError> {
         let background = self.shot.style.background;
-        let load = |row_px: usize, pixels: &mut [[u8; 4]]| {
-            if let Some(kept) = self.kept {
-                kept.load(row_px, pixels);
-            }
-        };
+        let load = |row_px: usize, pixels: &mut [[u8; 4]]| self.load(row_px, pixels);
         let Some(color) = solid else {
             let backdrop = Backdrop::new(background);
             let empty = background.to_u32().to_be_bytes();
@@ -202,7 +199,7 @@ impl<'a> Band<'a> {
     pub(super) fn density(&self, pixels: &mut [f32]) -> Result<(), RenderError> {
         self.for_each_tile(
             pixels,
-            |_, _| {},
+            |row_px, pixels| self.load(row_px, cast_slice_mut(pixels)),
             0.0,
             |painter, tile, pixels| {
                 self.paint(painter, tile, Matter::Counts);
@@ -213,6 +210,13 @@ impl<'a> Band<'a> {
                 }
             },
         )
+    }
+
+    /// What rows of pixels show that are not drawn, from one of the picture on.
+    fn load(&self, row_px: usize, pixels: &mut [[u8; 4]]) {
+        if let Some(kept) = self.kept {
+            kept.load(row_px, pixels);
+        }
     }
 
     /// Calls `paint` for each part of a tile that is drawn and not empty, with its rows of pixels; `load` before,

@@ -1,6 +1,7 @@
 use std::sync::Arc;
 use std::time::Instant;
 
+use bytemuck::cast_slice;
 use guideway_render::density::Tones;
 use guideway_render::{
     Budget, Cancel, Edited, Frame, Preparation, Prepared, RenderError, Report, Shading, Stage,
@@ -206,7 +207,7 @@ impl Prepared for CpuPrepared {
             own_bytes += (pixels * size_of::<f32>()) as u64;
         }
         // Only whole pictures are kept. If the memory does not do, that of the last frame is not there any more.
-        let can_keep = strip.is_whole() && !is_density;
+        let can_keep = strip.is_whole();
         let kept = self.kept.take();
         let mut kept = kept.filter(|kept| {
             can_keep && own_bytes + frame_bytes + kept.bytes() <= self.budget.memory_bytes
@@ -214,7 +215,7 @@ impl Prepared for CpuPrepared {
         let kept_bytes = kept.as_ref().map_or(0, Kept::bytes);
         let fills_bytes = self.fills.bytes() + Filled::planned_bytes(pixels);
         let with_fills = own_bytes + frame_bytes + kept_bytes + fills_bytes;
-        let can_fill = can_keep && with_fills <= self.budget.memory_bytes / 2;
+        let can_fill = can_keep && !is_density && with_fills <= self.budget.memory_bytes / 2;
         if can_fill {
             own_bytes += fills_bytes;
         } else {
@@ -273,15 +274,22 @@ impl Prepared for CpuPrepared {
                 fills.keep(filled);
             }
             if can_keep {
-                buffers.time("keep", |b| match &mut kept {
-                    Some(kept) if is_moved => kept.store(&b.parts, frame.pixels()),
-                    Some(kept) if kept.is_alike(&shot) => {
-                        // Not where lines may soon need the room.
-                        if own_bytes + frame_bytes + b.peak_bytes <= budget.memory_bytes / 2 {
-                            kept.store_all(&shot, frame.pixels());
+                buffers.time("keep", |b| {
+                    let pixels = if is_density {
+                        cast_slice(&b.counts)
+                    } else {
+                        frame.pixels()
+                    };
+                    match &mut kept {
+                        Some(kept) if is_moved => kept.store(&b.parts, pixels),
+                        Some(kept) if kept.is_alike(&shot) => {
+                            // Not where lines may soon need the room.
+                            if own_bytes + frame_bytes + b.peak_bytes <= budget.memory_bytes / 2 {
+                                kept.store_all(&shot, pixels);
+                            }
                         }
+                        _ => kept = Some(Kept::new(&shot)),
                     }
-                    _ => kept = Some(Kept::new(&shot)),
                 });
             }
             Ok(bands)

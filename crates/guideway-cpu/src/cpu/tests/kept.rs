@@ -8,6 +8,14 @@ fn moved(px_per_m: f64, right_px: f64, down_px: f64) -> View {
     view(center, px_per_m)
 }
 
+/// How many paths there are, in strokes of 1.5 pixels.
+fn density(tone: ToneMap) -> Style {
+    Style {
+        shading: Shading::Density(tone),
+        ..wide_px(1.5)
+    }
+}
+
 /// Draws by what is kept of earlier frames, and says whether that saved anything.
 fn draw_again(prepared: &mut CpuPrepared, view: &View, style: &Style) -> (Frame, bool) {
     let (frame, _) = draw_with(prepared, view, style);
@@ -21,6 +29,7 @@ fn a_picture_moved_by_whole_pixels_is_a_fresh_one_to_the_bit() {
         (scene(layout()), Style::default()),
         (colored(layout(), |_| 255), wide_px(2.5)),
         (colored(layout(), |i| [255, 90][i % 2]), wide_px(1.5)),
+        (scene(layout()), density(ToneMap::Equalised)),
     ] {
         for px_per_m in [0.3, 0.5] {
             let mut prepared = CpuPrepared::new(Arc::clone(&scene), &Budget::default()).unwrap();
@@ -64,12 +73,18 @@ fn what_is_cut_at_the_picture_is_right_to_the_bit_where_that_is_moved() {
 
 #[test]
 fn after_an_edit_only_what_it_touches_is_drawn_and_all_is_right_to_the_bit() {
+    for style in [Style::default(), density(ToneMap::Log)] {
+        only_what_an_edit_touches_is_drawn(&style);
+    }
+}
+
+fn only_what_an_edit_touches_is_drawn(style: &Style) {
     let before = scene(wandering(3000, 11, 3.0, ORIGIN));
-    let (view, style) = (view(ORIGIN, 0.5), Style::default());
+    let view = view(ORIGIN, 0.5);
     let mut prepared = CpuPrepared::new(Arc::clone(&before), &Budget::default()).unwrap();
     let mut anew = CpuPrepared::new(before, &Budget::default()).unwrap();
     for _ in 0..2 {
-        draw_again(&mut prepared, &view, &style);
+        draw_again(&mut prepared, &view, style);
     }
     let mut runs = Runs::default();
     runs.push_line(Point::new(-80.0, -3.0), Point::new(70.0, 5.0));
@@ -107,9 +122,9 @@ fn after_an_edit_only_what_it_touches_is_drawn_and_all_is_right_to_the_bit() {
         for prepared in [&mut prepared, &mut anew] {
             prepared.edit(&edit).unwrap();
         }
-        let (again, has_reused) = draw_again(&mut prepared, &view, &style);
+        let (again, has_reused) = draw_again(&mut prepared, &view, style);
         anew.forget_picture();
-        let (fresh, _) = draw_again(&mut anew, &view, &style);
+        let (fresh, _) = draw_again(&mut anew, &view, style);
         assert!(again == fresh, "{edit:?}");
         assert_eq!(has_reused, is_little, "{edit:?}");
     }
@@ -119,8 +134,8 @@ fn after_an_edit_only_what_it_touches_is_drawn_and_all_is_right_to_the_bit() {
         prepared.edit(&edit).unwrap();
     }
     let view = self::view(Point::new(10.0, 0.0), 0.5);
-    let (again, has_reused) = draw_again(&mut prepared, &view, &style);
+    let (again, has_reused) = draw_again(&mut prepared, &view, style);
     anew.forget_picture();
-    let (fresh, _) = draw_again(&mut anew, &view, &style);
+    let (fresh, _) = draw_again(&mut anew, &view, style);
     assert!(again == fresh && has_reused);
 }
