@@ -399,11 +399,17 @@ fn paint_counts(band: &Band<'_>, painter: &mut Painter, tile: &Tile) {
     for (i, &key) in clusters.iter().enumerate() {
         ask_for_next(band, clusters, i);
         Seen::<LAYERED>::new(band, tile, key).gather(key, hits);
-        hits.drain(..).for_each(|hit| layers.add(&hit));
+        // No closure, for that would be compiled for any processor.
+        for hit in hits.iter() {
+            layers.add(hit);
+        }
+        hits.clear();
     }
     for crossing in band.bins.crossings(tile.index) {
         Seen::<LAYERED>::new(band, tile, crossing.key).add(crossing, hits);
-        hits.drain(..).for_each(|hit| layers.add(&hit));
+    }
+    for hit in hits.iter() {
+        layers.add(hit);
     }
     layers.finish();
 }

@@ -210,10 +210,10 @@ impl<T: Coordinate> Polylines<T> {
     /// The box of a piece.
     #[inline(always)]
     pub(super) fn bounds(&self, piece: usize) -> Bounds<f32> {
-        let [left, top, right, bottom] = self.boxes.each_ref().map(|side| side[piece].into());
+        let [left, top, right, bottom] = &self.boxes;
         Bounds {
-            min: Point::new(left, top),
-            max: Point::new(right, bottom),
+            min: Point::new(left[piece].into(), top[piece].into()),
+            max: Point::new(right[piece].into(), bottom[piece].into()),
         }
     }
 

@@ -43,19 +43,16 @@ pub(super) fn high_bits(count: u32) -> u32 {
     u32::MAX.unbounded_shl(count)
 }
 
-/// How many samples are set of each pixel of a block: bits are summed within bytes, then bytes within pixels.
+/// How many samples are set of each pixel of a block: the sums of all pixels side by side in one word, where each has room, for it
+/// has at most half of `1 << C` samples.
 #[inline(always)]
 pub(super) fn pixel_counts<const C: usize>(block: &Block) -> [u16; MOST_WINDOW_PX] {
-    let mut bytes = 0;
-    for &word in block {
-        let pairs = word - (word >> 1 & 0x5555_5555);
-        let fours = (pairs & 0x3333_3333) + (pairs >> 2 & 0x3333_3333);
-        // At most 8 a word, so 128 in all: the bytes do not overflow.
-        bytes += (fours + (fours >> 4)) & 0x0f0f_0f0f;
+    let of_pixel = low_bits(C as u32);
+    let mut sums = 0;
+    for word in block {
+        for pixel in 0..u32::BITS as usize / C {
+            sums += (word >> (pixel * C) & of_pixel).count_ones() << (pixel * C);
+        }
     }
-    let bytes = u32::to_le_bytes(bytes).map(u16::from);
-    std::array::from_fn(|pixel| {
-        let of_pixel = bytes.iter().skip(pixel * C / 8).take(C / 8);
-        of_pixel.sum()
-    })
+    std::array::from_fn(|pixel| sums.unbounded_shr((pixel * C) as u32) as u16 & of_pixel as u16)
 }
