@@ -43,16 +43,23 @@ pub(super) fn high_bits(count: u32) -> u32 {
     u32::MAX.unbounded_shl(count)
 }
 
-/// How many samples are set of each pixel of a block: the sums of all pixels side by side in one word, where each has room, for it
-/// has at most half of `1 << C` samples.
+/// How many samples are set of each pixel of a block: bits are summed within bytes, then bytes within pixels.
 #[inline(always)]
 pub(super) fn pixel_counts<const C: usize>(block: &Block) -> [u16; MOST_WINDOW_PX] {
-    let of_pixel = low_bits(C as u32);
-    let mut sums = 0;
-    for word in block {
-        for pixel in 0..u32::BITS as usize / C {
-            sums += (word >> (pixel * C) & of_pixel).count_ones() << (pixel * C);
-        }
+    let bytes: [u8; size_of::<Block>()] = bytemuck::cast(*block);
+    let mut counts = [0; size_of::<Block>()];
+    for (count, byte) in counts.iter_mut().zip(bytes) {
+        *count = byte.count_ones() as u8;
     }
-    std::array::from_fn(|pixel| sums.unbounded_shr((pixel * C) as u32) as u16 & of_pixel as u16)
+    let counts: Block = bytemuck::cast(counts);
+    // At most 8 a word, so 128 in all: the bytes do not overflow.
+    let mut sums = 0;
+    for words in counts {
+        sums += words;
+    }
+    if C == 16 {
+        let pairs = (sums & 0x00ff_00ff) + (sums >> 8 & 0x00ff_00ff);
+        return [pairs as u16, (pairs >> 16) as u16, 0, 0];
+    }
+    u32::to_le_bytes(sums).map(u16::from)
 }
