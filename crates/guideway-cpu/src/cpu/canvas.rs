@@ -359,24 +359,24 @@ impl<const C: usize> Canvas<C> {
             self.glazed[window] |= 1 << row;
             *block = ALL;
         }
-        let mut taken = [0.0; MOST_WINDOW_PX];
+        // Column by column, for sums of neighbours would be found one after the other.
+        let mut taken = [[0.0; C]; MOST_WINDOW_PX];
         for (clear, word) in block.iter_mut().zip(fresh) {
-            let pixels = clear.chunks_exact_mut(C).zip(&mut taken);
-            for (i, (clear, taken)) in pixels.enumerate() {
-                let bits = word >> (i * C);
-                let mut sum = 0.0;
-                for (j, clear) in clear.iter_mut().enumerate() {
-                    let part = if bits >> j & 1 == 1 {
-                        *clear * opacity
+            let (pixels, _) = clear.as_chunks_mut::<C>();
+            for (pixel, (clear, taken)) in pixels.iter_mut().zip(&mut taken).enumerate() {
+                let bits = word >> (pixel * C);
+                for column in 0..C {
+                    let is_taken = bits >> column & 1 == 1;
+                    let part = if is_taken {
+                        clear[column] * opacity
                     } else {
                         0.0
                     };
-                    sum += part;
-                    *clear -= part;
+                    taken[column] += part;
+                    clear[column] -= part;
                 }
-                *taken += sum;
             }
         }
-        taken
+        taken.map(|columns| columns.into_iter().sum())
     }
 }
