@@ -359,9 +359,15 @@ impl<const C: usize> Canvas<C> {
             self.glazed[window] |= 1 << row;
             *block = ALL;
         }
+        let mut rows = 0_u32;
+        for (row, word) in fresh.iter().enumerate() {
+            rows |= u32::from(*word != 0) << row;
+        }
+        let rows = rows.trailing_zeros() as usize..(u32::BITS - rows.leading_zeros()) as usize;
         // Column by column, for sums of neighbours would be found one after the other.
         let mut taken = [[0.0; C]; MOST_WINDOW_PX];
-        for (clear, word) in block.iter_mut().zip(fresh) {
+        for row in rows {
+            let (clear, word) = (&mut block[row % ROWS], fresh[row % ROWS]);
             let (pixels, _) = clear.as_chunks_mut::<C>();
             for (pixel, (clear, taken)) in pixels.iter_mut().zip(&mut taken).enumerate() {
                 let bits = word >> (pixel * C);
