@@ -90,17 +90,6 @@ pub(super) struct Tile {
     height_px: usize,
 }
 
-/// What is painted on a tile.
-#[derive(Clone, Copy)]
-enum Matter<'a> {
-    /// One opaque colour, beside some pixels.
-    Solid(&'a Rows),
-    /// Colours by draw rank.
-    Layers,
-    /// The number of paths.
-    Counts,
-}
-
 impl Painter {
     pub(super) fn new() -> Self {
         Self {
@@ -139,7 +128,7 @@ impl<'a> Band<'a> {
             let backdrop = Backdrop::new(background);
             let empty = background.to_u32().to_be_bytes();
             return self.for_each_tile(pixels, load, empty, |painter, tile, pixels| {
-                self.paint(painter, tile, Matter::Layers);
+                paint_layers_by(self.shot.lane_width, self, painter, tile);
                 let look = Look::Layers(&painter.layers, &backdrop);
                 look.show(self.shot.lane_width, tile.width_px, pixels);
             });
@@ -161,7 +150,7 @@ impl<'a> Band<'a> {
         if full == [u32::MAX; TILE_PX] {
             painter.solid.begin_closed();
         } else {
-            self.paint(painter, tile, Matter::Solid(&full));
+            paint_solid_by(self.shot.lane_width, self, painter, tile, &full);
         }
     }
 
@@ -187,7 +176,7 @@ impl<'a> Band<'a> {
         for (closed, known) in closed.iter_mut().zip(&known) {
             *closed = !*closed | known;
         }
-        thinner.paint(painter, tile, Matter::Solid(&closed));
+        paint_solid_by(shot.lane_width, &thinner, painter, tile, &closed);
         let (_, mut full) = painter.solid.marked_pixels(tile.width_px, tile.height_px);
         for (full, in_view) in full.iter_mut().zip(&in_view) {
             *full &= in_view;
@@ -202,7 +191,7 @@ impl<'a> Band<'a> {
             |row_px, pixels| self.load(row_px, cast_slice_mut(pixels)),
             0.0,
             |painter, tile, pixels| {
-                self.paint(painter, tile, Matter::Counts);
+                paint_counts_by(self.shot.lane_width, self, painter, tile);
                 for (pixels, counts) in pixels.rows().zip(painter.counts.iter()) {
                     for (pixel, &count) in pixels.iter_mut().zip(counts) {
                         *pixel = count as f32 / Samples::<LAYERED>::COUNT as f32;
@@ -279,25 +268,21 @@ impl<'a> Band<'a> {
         }
         Ok(())
     }
-
-    fn paint(&self, painter: &mut Painter, tile: &Tile, matter: Matter<'_>) {
-        paint_by(self.shot.lane_width, self, painter, tile, matter);
-    }
 }
 
+// A function each: in one, each would be compiled with less care for the others' sake.
 by_lane_width!(
-    fn paint_by(band: &Band<'_>, painter: &mut Painter, tile: &Tile, matter: Matter<'_>)
-    by paint
+    fn paint_solid_by(band: &Band<'_>, painter: &mut Painter, tile: &Tile, closed: &Rows)
+    by paint_solid
 );
-
-#[inline(always)]
-fn paint(band: &Band<'_>, painter: &mut Painter, tile: &Tile, matter: Matter<'_>) {
-    match matter {
-        Matter::Solid(closed) => paint_solid(band, painter, tile, closed),
-        Matter::Layers => paint_layers(band, painter, tile),
-        Matter::Counts => paint_counts(band, painter, tile),
-    }
-}
+by_lane_width!(
+    fn paint_layers_by(band: &Band<'_>, painter: &mut Painter, tile: &Tile)
+    by paint_layers
+);
+by_lane_width!(
+    fn paint_counts_by(band: &Band<'_>, painter: &mut Painter, tile: &Tile)
+    by paint_counts
+);
 
 /// Covers samples with all that lies on the tile, in any order, until all are covered.
 #[inline(always)]
