@@ -94,12 +94,9 @@ impl Joints {
     #[inline(always)]
     pub(super) fn add(&mut self, run: &Run, goes_on: bool, points: &[Point<f32>]) {
         let first = run.first as usize;
-        if goes_on {
-            // Its first joint takes the place of the last one before, and lines leave room for the gap.
-            self.len -= 1;
-            let gap = run.ends(points)[0] - self.at(self.len);
-            self.bend[self.len - 1] += gap.x.abs() + gap.y.abs();
-        }
+        // Its first joint takes the place of the last one before.
+        self.len -= usize::from(goes_on);
+        let before = self.at(self.len);
         let count = run.points as usize - 2;
         for done in (0..count).step_by(LANES) {
             let (from, to) = (first + done, self.len + done);
@@ -123,6 +120,11 @@ impl Joints {
             self.y[to..to + LANES].copy_from_slice(&ys);
             self.bend[to..to + LANES].copy_from_slice(&bends);
             self.segment[to..to + LANES].copy_from_slice(&segments);
+        }
+        if goes_on {
+            // Lines leave room for the gap.
+            let gap = self.at(self.len) - before;
+            self.bend[self.len - 1] += gap.x.abs() + gap.y.abs();
         }
         self.len += count;
     }

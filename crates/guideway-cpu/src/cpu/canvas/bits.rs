@@ -57,9 +57,9 @@ pub(super) fn pixel_counts<const C: usize>(block: &Block) -> [u16; MOST_WINDOW_P
     for words in counts {
         sums += words;
     }
-    if C == 16 {
-        let pairs = (sums & 0x00ff_00ff) + (sums >> 8 & 0x00ff_00ff);
-        return [pairs as u16, (pairs >> 16) as u16, 0, 0];
-    }
-    u32::to_le_bytes(sums).map(u16::from)
+    let bytes = u32::to_le_bytes(sums).map(u16::from);
+    std::array::from_fn(|pixel| {
+        let of_pixel = bytes.iter().skip(pixel * C / 8).take(C / 8);
+        of_pixel.sum()
+    })
 }
