@@ -2,6 +2,7 @@ use std::cmp::Reverse;
 use std::sync::Mutex;
 
 use bytemuck::cast_slice_mut;
+use guideway_layout::ask_for;
 use guideway_render::RenderError;
 use guideway_scene::Rgba;
 use guideway_spline::Point;
@@ -263,6 +264,8 @@ impl<'a> Band<'a> {
             if self.bins.is_empty(tile.index) {
                 drawn.rows().for_each(|row| row.fill(empty));
             } else {
+                // Written a frame ago, they are in no near cache.
+                drawn.rows().for_each(|row| ask_for(row));
                 paint(&mut painter, &tile, &mut drawn);
             }
         }

@@ -1,7 +1,7 @@
 //! What was covered becomes pixels.
 
-use super::Canvas;
-use super::bits::pixel_counts;
+use super::bits::{pixel_counts, set_bits};
+use super::{Canvas, TILE_PX};
 use crate::cpu::backdrop::{Backdrop, SolidColors};
 use crate::cpu::span::{LAYERED, SOLID, Samples};
 use crate::cpu::stretch::Pixels;
@@ -81,16 +81,29 @@ impl<const C: usize> Canvas<C> {
     /// The pixels of one row of a solid shape.
     #[inline(always)]
     fn solid_row(&self, row: usize, colors: &SolidColors, pixels: &mut [[u8; 4]]) {
-        for (window, pixels) in pixels.chunks_mut(Self::WINDOW_PX).enumerate() {
-            if self.open[window] >> row & 1 == 0 {
-                pixels.fill(colors[Samples::<SOLID>::COUNT]);
-            } else if self.touched[window] >> row & 1 == 0 {
-                pixels.fill(colors[0]);
-            } else {
-                let counts = pixel_counts::<C>(&self.shape[window][row]);
-                for (pixel, count) in pixels.iter_mut().zip(counts) {
-                    *pixel = colors[usize::from(count)];
-                }
+        if let Ok(whole) = pixels.try_into() {
+            return self.whole_row(row, colors, whole);
+        }
+        let mut whole = [[0; 4]; TILE_PX];
+        self.whole_row(row, colors, &mut whole);
+        pixels.copy_from_slice(&whole[..pixels.len()]);
+    }
+
+    /// The same for as many pixels as a tile is wide. Branches are left to windows that are covered in part.
+    #[inline(always)]
+    fn whole_row(&self, row: usize, colors: &SolidColors, pixels: &mut [[u8; 4]; TILE_PX]) {
+        let [none, all] = [colors[0], colors[Samples::<SOLID>::COUNT]];
+        let mut in_part = 0;
+        for (window, pixels) in pixels.chunks_exact_mut(Self::WINDOW_PX).enumerate() {
+            let is_open = self.open[window] >> row & 1;
+            pixels.fill(if is_open == 1 { none } else { all });
+            in_part |= (is_open & self.touched[window] >> row) << window;
+        }
+        for window in set_bits(in_part) {
+            let counts = pixel_counts::<C>(&self.shape[window % C][row]);
+            let pixels = &mut pixels[window % C * Self::WINDOW_PX..][..Self::WINDOW_PX];
+            for (pixel, count) in pixels.iter_mut().zip(counts) {
+                *pixel = colors[usize::from(count)];
             }
         }
     }
