@@ -89,7 +89,8 @@ impl<const C: usize> Canvas<C> {
         pixels.copy_from_slice(&whole[..pixels.len()]);
     }
 
-    /// The same for as many pixels as a tile is wide. Branches are left to windows that are covered in part.
+    /// The same for as many pixels as a tile is wide: of a number that is known, the compiler fills them by vectors. Branches are left
+    /// to windows that are covered in part.
     #[inline(always)]
     fn whole_row(&self, row: usize, colors: &SolidColors, pixels: &mut [[u8; 4]; TILE_PX]) {
         let [none, all] = [colors[0], colors[Samples::<SOLID>::COUNT]];
