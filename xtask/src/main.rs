@@ -4,11 +4,10 @@ mod prerequisites;
 mod step;
 
 use std::process::ExitCode;
-use std::time::Instant;
 
 use anyhow::{Result, bail};
 
-use step::{cargo, heading};
+use step::{cargo, elapsed_s, heading};
 
 const HELP: &str = "\
 cargo xtask test        everything: format, lints, all tests, docs, licences (what CI runs)
@@ -20,7 +19,7 @@ cargo xtask soak [MINUTES [SEED [FILE]]]
 ";
 
 fn main() -> ExitCode {
-    let started = Instant::now();
+    elapsed_s();
     let args: Vec<String> = std::env::args().skip(1).collect();
     let task = args.first().map_or("", String::as_str);
     let outcome = match (task, &args.get(1..).unwrap_or_default()) {
@@ -35,10 +34,7 @@ fn main() -> ExitCode {
     };
     match outcome {
         Ok(()) => {
-            println!(
-                "\nall checks passed in {:.0} s",
-                started.elapsed().as_secs_f64()
-            );
+            println!("\nall checks passed in {:.0} s", elapsed_s());
             ExitCode::SUCCESS
         }
         Err(error) => {

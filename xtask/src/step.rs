@@ -1,6 +1,7 @@
 use std::ffi::{OsStr, OsString};
 use std::process::Command;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{LazyLock, Mutex, PoisonError};
+use std::time::Instant;
 
 use anyhow::{Context, Result, bail};
 
@@ -13,8 +14,16 @@ pub(crate) struct Captured {
     pub(crate) stderr: String,
 }
 
+static STARTED: LazyLock<Instant> = LazyLock::new(Instant::now);
+
+/// Seconds since this was first asked.
+pub(crate) fn elapsed_s() -> f64 {
+    STARTED.elapsed().as_secs_f64()
+}
+
+/// Says what comes now, and how long all before it took.
 pub(crate) fn heading(title: &str) {
-    println!("\n== {title}");
+    println!("\n== {title} (after {:.0} s)", elapsed_s());
 }
 
 pub(crate) fn command(program: impl AsRef<OsStr>) -> Step {
