@@ -11,6 +11,7 @@ mod write;
 mod write_columns;
 mod write_edges;
 mod write_network;
+mod write_objects;
 
 pub(crate) use self::rest::count_beside;
 pub use self::write::{WriteOptions, write_layout};

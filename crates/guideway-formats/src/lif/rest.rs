@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};
 
 use guideway_layout::Layout;
+use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::value::RawValue;
 use serde_json::{Map, Value};
@@ -165,18 +166,24 @@ impl<'a> Rest<'a> {
         layout.refused.len().saturating_sub(kept)
     }
 
-    /// An object of a level as it was, with what is new.
-    pub(super) fn keep(&self, level: &str, id_key: &str, new: Value) -> Value {
-        match (self.before(level, id_key, &new), new) {
-            (Some(old), Value::Object(new)) => Value::Object(self.renewed(old, new)),
-            (_, new) => new,
+    /// An object of a level as it was, with what is new; none if it was not there.
+    pub(super) fn kept(
+        &self,
+        level: &str,
+        id_key: &str,
+        id: &str,
+        new: &impl Serialize,
+    ) -> Option<Object> {
+        let old = self.before(level, id_key, id)?;
+        match serde_json::to_value(new) {
+            Ok(Value::Object(new)) => Some(self.renewed(old, new)),
+            _ => None,
         }
     }
 
     /// What an object was in the file.
-    fn before(&self, level: &str, id_key: &str, new: &Value) -> Option<Object> {
+    fn before(&self, level: &str, id_key: &str, id: &str) -> Option<Object> {
         let level = self.levels.get(level)?;
-        let id = new.get(id_key)?.as_str()?;
         // An edge whose vehicle types have curves of their own was read as a path for each.
         let of_edge = id.rsplit_once(" [").map(|(edge, _)| edge);
         let own = level.object(id_key, id);

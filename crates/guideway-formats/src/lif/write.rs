@@ -3,16 +3,23 @@
 use std::io::{self, Write};
 use std::time::SystemTime;
 
-use guideway_layout::{Layout, Values};
-use guideway_spline::Point;
+use guideway_layout::{Layout, Level};
+use rayon::prelude::*;
+use serde::Serialize;
 use serde_json::{Map, Value, json};
 
 use super::rest::Rest;
-use super::write_columns::Version;
-use super::write_edges::Edges;
+use super::write_columns::{Version, column_json};
+use super::write_edges::{EdgeRef, Edges};
 use super::write_network::Network;
+use super::write_objects::Position;
 use crate::Losses;
-use crate::clamped::rounded;
+
+/// One thread writes so many lines before it looks for others.
+const TASK: usize = 1 << 8;
+
+/// So many tasks are in memory at once.
+const AT_ONCE: usize = 1 << 5;
 
 /// How to write a layout.
 #[derive(Clone, Copy, Debug)]
@@ -147,33 +154,79 @@ impl File<'_> {
         }
         members.entry("layoutVersion").or_insert_with(|| "1".into());
         begin(out, members)?;
-        let keep = |id_key, new: Value, out: &mut W| {
-            let kept = self.rest.keep(&level.id, id_key, new);
-            write!(out, "{kept}")
-        };
-        list(out, "nodes", network.nodes_on(index), |node, out| {
-            keep("nodeId", network.node_json(layout, node, version), out)
+        table(out, "nodes", network.nodes_on(index), |&node, line| {
+            let id = network.node_id(node);
+            let object = network.node(layout, node, version);
+            self.object(level, "nodeId", id, &object, line)
         })?;
-        let refused = self.rest.refused(&level.id);
         let edges = network
             .paths_on(index)
-            .flat_map(|path| self.edges.json(path))
-            .chain(refused);
-        list(out, "edges", edges, |edge, out| keep("edgeId", edge, out))?;
-        list(
+            .flat_map(|path| self.edges.of_path(path));
+        let edges = edges.map(EdgeLine::OfPath);
+        let refused = self.rest.refused(&level.id).map(EdgeLine::Refused);
+        table(
+            out,
+            "edges",
+            edges.chain(refused),
+            |edge, line| match edge {
+                EdgeLine::OfPath(edge) => {
+                    self.object(level, "edgeId", edge.id, &self.edges.object(edge), line)
+                }
+                EdgeLine::Refused(edge) => serde_json::to_writer(line, edge),
+            },
+        )?;
+        table(
             out,
             "stations",
             network.stations_on(index),
-            |station, out| {
-                keep(
-                    "stationId",
-                    station_json(layout, network, station, version),
-                    out,
-                )
+            |&station, line| {
+                let id = layout.stations.id(station);
+                self.object(level, "stationId", id, &self.station(station), line)
             },
         )?;
         write!(out, "}}")
     }
+
+    /// Writes an object of a level, with what it had in the file.
+    fn object(
+        &self,
+        level: &Level,
+        id_key: &str,
+        id: &str,
+        new: &impl Serialize,
+        line: &mut Vec<u8>,
+    ) -> serde_json::Result<()> {
+        match self.rest.kept(&level.id, id_key, id, new) {
+            Some(kept) => serde_json::to_writer(line, &kept),
+            None => serde_json::to_writer(line, new),
+        }
+    }
+
+    fn station(&self, station: u32) -> Map<String, Value> {
+        let stations = &self.layout.stations;
+        let nodes = stations.nodes(station).iter();
+        let nodes: Vec<&str> = nodes.map(|&node| self.network.node_id(node)).collect();
+        let mut object = Map::new();
+        object.insert("stationId".into(), stations.id(station).into());
+        object.insert("interactionNodeIds".into(), nodes.into());
+        for &name in station_names(self.version) {
+            let column = stations.attributes.get(name);
+            if let Some(value) = column.and_then(|c| column_json(&c.values, station as usize)) {
+                object.insert(name.into(), value);
+            }
+        }
+        if let Some(position) = stations.position_m(station) {
+            object.insert("stationPosition".into(), json!(Position::from(position)));
+        }
+        object
+    }
+}
+
+/// A line of the list of edges.
+enum EdgeLine<'a> {
+    OfPath(EdgeRef<'a>),
+    /// What is no path, as it was.
+    Refused(Value),
 }
 
 /// Writes a list of a name, behind other members.
@@ -191,14 +244,41 @@ fn list<T, W: Write>(
     write!(out, "]")
 }
 
+/// Writes a list of a name with a line for each item, which several threads write at once.
+fn table<T: Send + Sync, W: Write>(
+    out: &mut W,
+    name: &str,
+    mut items: impl Iterator<Item = T>,
+    write_line: impl Fn(&T, &mut Vec<u8>) -> serde_json::Result<()> + Sync,
+) -> io::Result<()> {
+    write!(out, ",\n\"{name}\": [")?;
+    // No comma before the first.
+    let mut left_out = 1;
+    loop {
+        let part: Vec<T> = items.by_ref().take(AT_ONCE * TASK).collect();
+        if part.is_empty() {
+            return write!(out, "]");
+        }
+        let texts = part.par_chunks(TASK).map(|items| {
+            let mut text = Vec::new();
+            for item in items {
+                text.extend_from_slice(b",\n");
+                write_line(item, &mut text)?;
+            }
+            Ok(text)
+        });
+        let texts: serde_json::Result<Vec<Vec<u8>>> = texts.collect();
+        for text in texts? {
+            out.write_all(&text[left_out..])?;
+            left_out = 0;
+        }
+    }
+}
+
 /// A name for the project: that of the file that it was read from.
 fn source_name(layout: &Layout) -> &str {
     let source = &layout.provenance.source;
     source.rsplit(['/', '\\']).next().unwrap_or(source)
-}
-
-pub(super) fn position_json(position: Point<f64>) -> Value {
-    json!({ "x": rounded(position.x), "y": rounded(position.y) })
 }
 
 /// What a station has beside its identifier, its nodes and its place.
@@ -206,36 +286,5 @@ fn station_names(version: Version) -> &'static [&'static str] {
     match version {
         Version::V1 => &["stationName", "stationHeight"],
         Version::V2 => &["stationName", "stationHeight", "stationType"],
-    }
-}
-
-fn station_json(layout: &Layout, network: &Network<'_>, station: u32, version: Version) -> Value {
-    let stations = &layout.stations;
-    let nodes = stations.nodes(station).iter();
-    let nodes: Vec<&str> = nodes.map(|&node| network.node_id(node)).collect();
-    let mut json = Map::new();
-    json.insert("stationId".into(), stations.id(station).into());
-    json.insert("interactionNodeIds".into(), nodes.into());
-    for &name in station_names(version) {
-        let column = stations.attributes.get(name);
-        if let Some(value) = column.and_then(|c| column_json(&c.values, station as usize)) {
-            json.insert(name.into(), value);
-        }
-    }
-    if let Some(position) = stations.position_m(station) {
-        json.insert("stationPosition".into(), position_json(position));
-    }
-    Value::Object(json)
-}
-
-/// A value of a column as it is.
-pub(super) fn column_json(values: &Values, row: usize) -> Option<Value> {
-    use guideway_layout::Value as Of;
-    match values.get(row)? {
-        Of::Bool(value) => Some(value.into()),
-        Of::Int(value) => Some(value.into()),
-        // JSON has no other numbers.
-        Of::Float(value) => value.is_finite().then(|| value.into()),
-        Of::Text(value) => Some(value.into()),
     }
 }

@@ -1,9 +1,8 @@
 //! What an edge can have for a vehicle type, and how a column becomes it.
 
-use guideway_layout::{Attribute, Layout};
+use guideway_layout::{Attribute, Layout, Values};
 use serde_json::{Map, Value, json};
 
-use super::write::column_json;
 use crate::Losses;
 
 /// A version of LIF.
@@ -190,6 +189,18 @@ impl Column<'_> {
                 }
             }
         }
+    }
+}
+
+/// A value of a column as it is.
+pub(super) fn column_json(values: &Values, row: usize) -> Option<Value> {
+    use guideway_layout::Value as Of;
+    match values.get(row)? {
+        Of::Bool(value) => Some(value.into()),
+        Of::Int(value) => Some(value.into()),
+        // JSON has no other numbers.
+        Of::Float(value) => value.is_finite().then(|| value.into()),
+        Of::Text(value) => Some(value.into()),
     }
 }
 

@@ -1,14 +1,19 @@
 //! Paths as edges: LIF knows one-way edges only, so a two-way path is two.
 
 use guideway_layout::{Direction, Layout, PathRef};
-use serde_json::{Value, json};
 
-use super::model::EDGE_PROPERTIES;
-use super::write::position_json;
 use super::write_columns::{Columns, Version};
-use super::write_network::{Names, Network, path_types, types_json};
+use super::write_network::{Names, Network, path_types};
+use super::write_objects::{EdgeObject, ForTypes, Trajectory};
 use crate::Losses;
 use crate::clamped::{Clamped, SAME_POSITION_M};
+
+/// Which edge of a path it is.
+pub(super) struct EdgeRef<'a> {
+    pub(super) id: &'a str,
+    path: PathRef<'a>,
+    is_back: bool,
+}
 
 pub(super) struct Edges<'a> {
     layout: &'a Layout,
@@ -46,35 +51,36 @@ impl<'a> Edges<'a> {
     }
 
     /// The edges of a path.
-    pub(super) fn json(&self, path: u32) -> impl Iterator<Item = Value> + use<'_, 'a> {
+    pub(super) fn of_path(&self, path: u32) -> impl Iterator<Item = EdgeRef<'_>> {
         let path = self.layout.paths.get(path as usize);
-        let there = self.edge(path, path.id(), false);
+        let edge = move |id, is_back| EdgeRef { id, path, is_back };
         let back = self.back[path.row()].as_deref();
-        let back = back.map(|id| self.edge(path, id, true));
-        std::iter::once(there).chain(back)
+        let back = back.map(|id| edge(id, true));
+        std::iter::once(edge(path.id(), false)).chain(back)
     }
 
-    fn edge(&self, path: PathRef<'_>, id: &str, is_back: bool) -> Value {
+    /// What is written of an edge.
+    pub(super) fn object<'e>(&'e self, edge: &EdgeRef<'e>) -> EdgeObject<'e> {
+        let &EdgeRef { id, path, is_back } = edge;
         let mut nodes = self.network.ends(path.row());
         if is_back {
             nodes.reverse();
         }
-        let mut properties = self.columns.json(path.row());
-        if let Some(trajectory) = self.trajectory(path, nodes, is_back) {
-            properties.insert("trajectory".into(), trajectory);
+        EdgeObject {
+            version: self.version,
+            id,
+            ends: nodes.map(|node| self.network.node_id(node)),
+            properties: ForTypes {
+                version: self.version,
+                types: path_types(self.layout, path.row()),
+                columns: self.columns.json(path.row()),
+                trajectory: self.trajectory(path, nodes, is_back),
+            },
         }
-        let types = path_types(self.layout, path.row());
-        let key = self.version.one_of(EDGE_PROPERTIES);
-        json!({
-            "edgeId": id,
-            "startNodeId": self.network.node_id(nodes[0]),
-            "endNodeId": self.network.node_id(nodes[1]),
-            key: types_json(&types, self.version, &properties),
-        })
     }
 
     /// The curve, but of the straight line from node to node, which needs none.
-    fn trajectory(&self, path: PathRef<'_>, nodes: [u32; 2], is_back: bool) -> Option<Value> {
+    fn trajectory(&self, path: PathRef<'_>, nodes: [u32; 2], is_back: bool) -> Option<Trajectory> {
         let mut curve = Clamped::whole(path)?;
         let last = *curve.knots.last()?;
         if is_back {
@@ -87,15 +93,6 @@ impl<'a> Edges<'a> {
             let apart = line[0].distance(nodes[0]).max(line[1].distance(nodes[1]));
             apart <= SAME_POSITION_M
         });
-        if from_node_to_node {
-            return None;
-        }
-        let knots = curve.knots.iter().map(|knot| knot / last);
-        let points = curve.points.iter().map(|&p| position_json(p));
-        Some(json!({
-            "degree": curve.degree,
-            "knotVector": knots.collect::<Vec<f64>>(),
-            "controlPoints": points.collect::<Vec<Value>>(),
-        }))
+        (!from_node_to_node).then(|| curve.into())
     }
 }

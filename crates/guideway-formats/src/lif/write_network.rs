@@ -2,15 +2,14 @@
 //! no two nodes of one name.
 
 use std::borrow::Cow;
-use std::collections::HashMap;
 
 use guideway_layout::{Layout, Level, PathRef};
 use guideway_spline::Point;
-use serde_json::{Map, Value, json};
+use hashbrown::HashMap;
+use serde_json::Map;
 
-use super::model::NODE_PROPERTIES;
-use super::write::{column_json, position_json};
-use super::write_columns::Version;
+use super::write_columns::{Version, column_json};
+use super::write_objects::{ForTypes, NodeObject};
 use crate::Losses;
 
 /// Ends of paths without nodes share one if they are this near, in metres.
@@ -181,27 +180,30 @@ impl<'a> Network<'a> {
         self.nodes[node as usize].position_m
     }
 
-    pub(super) fn node_json(&self, layout: &Layout, row: u32, version: Version) -> Value {
+    /// What is written of a node.
+    pub(super) fn node(&self, layout: &'a Layout, row: u32, version: Version) -> NodeObject<'_> {
         let node = &self.nodes[row as usize];
-        let text = |name| {
+        let column = |name| {
             let column = layout.nodes.attributes.get(name)?;
             column_json(&column.values, row as usize)
         };
-        let mut json = Map::new();
-        json.insert("nodeId".into(), node.id.as_ref().into());
-        if let Some(name) = text("nodeName") {
-            json.insert(version.of("nodeName", "nodeDescriptor").into(), name);
+        let map = || self.levels[node.level].id.as_str().into();
+        NodeObject {
+            version,
+            id: &node.id,
+            name: column("nodeName"),
+            map: column("mapId").unwrap_or_else(map),
+            position: node.position_m.into(),
+            properties: ForTypes {
+                version,
+                types: match node.types.as_slice() {
+                    [] => vec![ANY_TYPE],
+                    types => types.to_vec(),
+                },
+                columns: Map::new(),
+                trajectory: None,
+            },
         }
-        let map = text("mapId").unwrap_or_else(|| self.levels[node.level].id.as_str().into());
-        json.insert("mapId".into(), map);
-        json.insert("nodePosition".into(), position_json(node.position_m));
-        let types = match node.types.as_slice() {
-            [] => &[ANY_TYPE],
-            types => types,
-        };
-        let key = version.one_of(NODE_PROPERTIES);
-        json.insert(key.into(), types_json(types, version, &Map::new()));
-        Value::Object(json)
     }
 }
 
@@ -211,28 +213,6 @@ pub(super) fn path_types(layout: &Layout, path: usize) -> Vec<&str> {
     match types.len() {
         0 => vec![ANY_TYPE],
         _ => types.collect(),
-    }
-}
-
-/// What holds for some vehicle types: an entry each in 1.0, one for all in 2.0.
-pub(super) fn types_json(types: &[&str], version: Version, rest: &Map<String, Value>) -> Value {
-    let entry = |key: &str, types: Value| {
-        let mut entry = rest.clone();
-        entry.insert(key.into(), types);
-        Value::Object(entry)
-    };
-    match version {
-        Version::V1 => types
-            .iter()
-            .map(|&t| entry("vehicleTypeId", t.into()))
-            .collect(),
-        Version::V2 => {
-            let split = |t: &&str| {
-                let (manufacturer, series) = t.split_once(' ').unwrap_or(("", t));
-                json!({ "manufacturer": manufacturer, "seriesName": series })
-            };
-            json!([entry("mobileRobotTypes", types.iter().map(split).collect())])
-        }
     }
 }
 
@@ -305,17 +285,23 @@ impl<'a> Names<'a> {
     }
 }
 
-/// Nodes that were made, by the square of side [`JOINED_M`] that they are in.
+/// Nodes that were made, by the square that they are in. None is as near to another of its level as [`JOINED_M`], so that a square
+/// has few.
 #[derive(Default)]
 struct Joints(HashMap<Square, Vec<(Point<f64>, u32)>>);
 
 /// A level, and the column and row of a square.
 type Square = (usize, i64, i64);
 
+/// The side of a square: what is near is seldom in another one.
+const SQUARE_M: f64 = 8.0 * JOINED_M;
+
 impl Joints {
     fn near(&self, level: usize, position: Point<f64>) -> Option<u32> {
-        let (_, x, y) = square(level, position);
-        let around = (x - 1..=x + 1).flat_map(|x| (y - 1..=y + 1).map(move |y| (level, x, y)));
+        let reach = Point::new(JOINED_M, JOINED_M);
+        let [(_, left, low), (_, right, high)] =
+            [position - reach, position + reach].map(|corner| square(level, corner));
+        let around = (left..=right).flat_map(|x| (low..=high).map(move |y| (level, x, y)));
         let all = around.filter_map(|square| self.0.get(&square)).flatten();
         let near = all.filter(|(other, _)| other.distance(position) <= JOINED_M);
         near.map(|(_, node)| *node).min()
@@ -328,6 +314,6 @@ impl Joints {
 }
 
 fn square(level: usize, position: Point<f64>) -> Square {
-    let [x, y] = [position.x, position.y].map(|v| (v / JOINED_M).floor() as i64);
+    let [x, y] = [position.x, position.y].map(|v| (v / SQUARE_M).floor() as i64);
     (level, x, y)
 }
