@@ -1,15 +1,17 @@
 //! Which vector instructions work is done with.
 
-/// Which vector instructions to use. All give the same bits.
+/// Which vector instructions to use. All give the same bits: tests force each, and compare. Compiled for them alone, for each costs as much
+/// building as all else here.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(not(test), expect(dead_code, reason = "tests force each, and compare"))]
 pub(super) enum LaneWidth {
     /// The widest that there are.
     #[default]
     Widest,
     /// None beyond what every processor of this kind has.
+    #[cfg(test)]
     Baseline,
     /// Eight lanes, where there are.
+    #[cfg(test)]
     Eight,
 }
 
@@ -26,6 +28,7 @@ macro_rules! by_lane_width {
                 $work($($arg),+);
             }
 
+            #[cfg(test)]
             #[multiversion::multiversion(targets("x86_64+avx2+bmi1+bmi2+lzcnt+popcnt"))]
             fn eight($($arg: $type),+) {
                 $work($($arg),+);
@@ -33,7 +36,9 @@ macro_rules! by_lane_width {
 
             match lane_width {
                 $crate::cpu::vectors::LaneWidth::Widest => widest($($arg),+),
+                #[cfg(test)]
                 $crate::cpu::vectors::LaneWidth::Eight => eight($($arg),+),
+                #[cfg(test)]
                 $crate::cpu::vectors::LaneWidth::Baseline => $work($($arg),+),
             }
         }
