@@ -77,7 +77,8 @@ fn test() -> Result<()> {
         }
     }
     heading("fuzzing");
-    fuzz(&["0.5".to_owned()])
+    // Twenty seconds each.
+    fuzz(&["0.33".to_owned()])
 }
 
 fn fuzz(args: &[String]) -> Result<()> {
