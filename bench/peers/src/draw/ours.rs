@@ -24,11 +24,7 @@ pub(super) fn draw(layout: &Arc<Layout>, view: &View, frame: &mut Frame) -> Resu
             none => none.insert(Cpu.prepare(scene(layout)?, &Budget::default())?),
         };
         let view = Motion::Zoom.view(view, number)?;
-        let report = prepared.render(&view, &style(), &Cancel::default(), frame)?;
-        eprintln!(
-            "{report}: {:.1?}, {} lines, {} bytes",
-            report.stages, report.lines, report.peak_bytes
-        );
+        prepared.render(&view, &style(), &Cancel::default(), frame)?;
         Ok(())
     })
 }

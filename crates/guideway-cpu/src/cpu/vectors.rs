@@ -1,7 +1,7 @@
 //! Which vector instructions work is done with.
 
-/// Which vector instructions to use. All give the same bits: tests force each, and compare. Compiled for them alone, for each costs as much
-/// building as all else here.
+/// Which vector instructions to use. All give the same bits: tests force each, and compare. For them alone are the others compiled: they cost as
+/// much building as all else here.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum LaneWidth {
     /// The widest that there are.
