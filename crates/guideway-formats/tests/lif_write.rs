@@ -102,6 +102,26 @@ fn paths_without_nodes_get_them_and_share_those_that_meet() {
 }
 
 #[test]
+fn many_lines_that_several_threads_write_come_back_in_their_order() {
+    let mut layout = Layout::default();
+    let ids: Vec<String> = (0..9_000).map(|i| format!("path {i}")).collect();
+    for (id, y) in ids.iter().zip(0..) {
+        let y = f64::from(y);
+        let mut runs = Runs::default();
+        runs.push_line(Point::new(0.0, y), Point::new(5.0, y));
+        layout.paths.push(&NewPath {
+            id,
+            runs: &runs,
+            ..NewPath::default()
+        });
+    }
+    let again = read(&written(&layout, Version::V1).0);
+    assert!(again.paths.iter().map(|path| path.id()).eq(&ids));
+    assert_eq!(again.nodes.len(), 2 * ids.len());
+    assert_same_curves(&layout, &again, "LIF");
+}
+
+#[test]
 fn a_curve_back_is_the_curve_reversed() {
     let mut layout = Layout::default();
     let mut runs = Runs::default();
