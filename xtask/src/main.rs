@@ -4,10 +4,11 @@ mod prerequisites;
 mod step;
 
 use std::process::ExitCode;
+use std::sync::LazyLock;
 
 use anyhow::{Result, bail};
 
-use step::{cargo, elapsed_s, heading};
+use step::{STARTED, cargo, elapsed_s, heading};
 
 const HELP: &str = "\
 cargo xtask test        everything: format, lints, all tests, docs, licences (what CI runs)
@@ -19,7 +20,7 @@ cargo xtask soak [MINUTES [SEED [FILE]]]
 ";
 
 fn main() -> ExitCode {
-    elapsed_s();
+    LazyLock::force(&STARTED);
     let args: Vec<String> = std::env::args().skip(1).collect();
     let task = args.first().map_or("", String::as_str);
     let outcome = match (task, &args.get(1..).unwrap_or_default()) {

@@ -14,9 +14,10 @@ pub(crate) struct Captured {
     pub(crate) stderr: String,
 }
 
-static STARTED: LazyLock<Instant> = LazyLock::new(Instant::now);
+/// When this program began.
+pub(crate) static STARTED: LazyLock<Instant> = LazyLock::new(Instant::now);
 
-/// Seconds since this was first asked.
+/// Seconds since then.
 pub(crate) fn elapsed_s() -> f64 {
     STARTED.elapsed().as_secs_f64()
 }

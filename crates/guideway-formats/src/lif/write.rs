@@ -1,6 +1,7 @@
 //! A layout as LIF 1.0 or 2.0: a line for each node, edge and station, written as it comes.
 
 use std::io::{self, Write};
+use std::iter;
 use std::time::SystemTime;
 
 use guideway_layout::{Layout, Level};
@@ -251,28 +252,20 @@ fn table<T: Send + Sync, W: Write>(
     mut items: impl Iterator<Item = T>,
     write_line: impl Fn(&T, &mut Vec<u8>) -> serde_json::Result<()> + Sync,
 ) -> io::Result<()> {
-    write!(out, ",\n\"{name}\": [")?;
-    // No comma before the first.
-    let mut left_out = 1;
-    loop {
+    let lines = |items: &[T]| -> serde_json::Result<Vec<u8>> {
+        let mut text = Vec::new();
+        for (i, item) in items.iter().enumerate() {
+            text.extend_from_slice(if i == 0 { b"" } else { b",\n" });
+            write_line(item, &mut text)?;
+        }
+        Ok(text)
+    };
+    let parts = iter::from_fn(|| {
         let part: Vec<T> = items.by_ref().take(AT_ONCE * TASK).collect();
-        if part.is_empty() {
-            return write!(out, "]");
-        }
-        let texts = part.par_chunks(TASK).map(|items| {
-            let mut text = Vec::new();
-            for item in items {
-                text.extend_from_slice(b",\n");
-                write_line(item, &mut text)?;
-            }
-            Ok(text)
-        });
-        let texts: serde_json::Result<Vec<Vec<u8>>> = texts.collect();
-        for text in texts? {
-            out.write_all(&text[left_out..])?;
-            left_out = 0;
-        }
-    }
+        (!part.is_empty()).then_some(part)
+    });
+    let texts = parts.flat_map(|part| part.par_chunks(TASK).map(lines).collect::<Vec<_>>());
+    list(out, name, texts, |text, out| out.write_all(&text?))
 }
 
 /// A name for the project: that of the file that it was read from.

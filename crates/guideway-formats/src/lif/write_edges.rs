@@ -67,7 +67,6 @@ impl<'a> Edges<'a> {
             nodes.reverse();
         }
         EdgeObject {
-            version: self.version,
             id,
             ends: nodes.map(|node| self.network.node_id(node)),
             properties: ForTypes {

@@ -116,8 +116,8 @@ impl<'a> Network<'a> {
             let own = [path.start_node(), path.end_node()];
             let mut nodes = [0; 2];
             for (i, position) in [ends.0, ends.1].into_iter().enumerate() {
-                let joint = joints.near(level, position);
-                nodes[i] = own[i].or(joint).unwrap_or_else(|| {
+                let known = own[i].or_else(|| joints.near(level, position));
+                nodes[i] = known.unwrap_or_else(|| {
                     made += 1;
                     let id = names.new_like(&format!("node {made}"));
                     let node = self.push_node(id.into(), position, level);
@@ -189,7 +189,6 @@ impl<'a> Network<'a> {
         };
         let map = || self.levels[node.level].id.as_str().into();
         NodeObject {
-            version,
             id: &node.id,
             name: column("nodeName"),
             map: column("mapId").unwrap_or_else(map),

@@ -10,7 +10,6 @@ use super::write_columns::Version;
 use crate::clamped::{Clamped, rounded};
 
 pub(super) struct NodeObject<'a> {
-    pub(super) version: Version,
     pub(super) id: &'a str,
     pub(super) name: Option<Value>,
     pub(super) map: Value,
@@ -20,20 +19,20 @@ pub(super) struct NodeObject<'a> {
 
 impl Serialize for NodeObject<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let version = self.properties.version;
         let mut members = serializer.serialize_map(None)?;
         members.serialize_entry("nodeId", self.id)?;
         if let Some(name) = &self.name {
-            members.serialize_entry(self.version.of("nodeName", "nodeDescriptor"), name)?;
+            members.serialize_entry(version.of("nodeName", "nodeDescriptor"), name)?;
         }
         members.serialize_entry("mapId", &self.map)?;
         members.serialize_entry("nodePosition", &self.position)?;
-        members.serialize_entry(self.version.one_of(NODE_PROPERTIES), &self.properties)?;
+        members.serialize_entry(version.one_of(NODE_PROPERTIES), &self.properties)?;
         members.end()
     }
 }
 
 pub(super) struct EdgeObject<'a> {
-    pub(super) version: Version,
     pub(super) id: &'a str,
     /// The nodes where it begins and ends.
     pub(super) ends: [&'a str; 2],
@@ -42,11 +41,12 @@ pub(super) struct EdgeObject<'a> {
 
 impl Serialize for EdgeObject<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let version = self.properties.version;
         let mut members = serializer.serialize_map(None)?;
         members.serialize_entry("edgeId", self.id)?;
         members.serialize_entry("startNodeId", self.ends[0])?;
         members.serialize_entry("endNodeId", self.ends[1])?;
-        members.serialize_entry(self.version.one_of(EDGE_PROPERTIES), &self.properties)?;
+        members.serialize_entry(version.one_of(EDGE_PROPERTIES), &self.properties)?;
         members.end()
     }
 }
