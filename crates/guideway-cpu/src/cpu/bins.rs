@@ -1,7 +1,19 @@
 //! What lies on each tile.
 
+use std::ops::Range;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+
+use rayon::prelude::*;
+
 use super::crossings::{Crossing, Crossings, Drawn};
 use super::sight::Sight;
+
+/// Portions that what is listed is cut into: enough that threads share them evenly, and not too many, for each tile asks
+/// all of them.
+const PORTIONS_A_THREAD: usize = 4;
+const MOST_PORTIONS: usize = 32;
+/// Of so little one thread makes a portion sooner than two.
+const LEAST_OF_A_PORTION: usize = 512;
 
 /// What may leave a mark on each tile.
 pub(super) struct Bins {
@@ -12,10 +24,15 @@ pub(super) struct Bins {
     pub(super) found: Crossings,
 }
 
-/// A list for each tile.
+/// A list for each tile, in portions, each of which one thread makes.
 #[derive(Default)]
 struct Lists<T> {
-    /// Where they end. At first where they begin, and before that, one tile later, how long they are.
+    portions: Vec<Portion<T>>,
+}
+
+#[derive(Default)]
+struct Portion<T> {
+    /// Where the list of each tile ends. At first where it begins, and before that, one tile later, how long it is.
     ends: Vec<u32>,
     items: Vec<T>,
 }
@@ -44,82 +61,109 @@ impl Bins {
         let found_bytes = self.found.bytes();
         let limit_bytes = limit_bytes.saturating_sub(found_bytes);
         let tiles = drawn.grid.len();
-        self.crossings.begin(tiles);
-        let crossings = || self.found.iter();
-        crossings().for_each(|&(tile, _)| self.crossings.count(tile as usize));
-        let with_found = |bytes| bytes + found_bytes;
-        self.crossings.make_room(limit_bytes).map_err(with_found)?;
-        crossings().for_each(|&(tile, crossing)| self.crossings.place(tile as usize, crossing));
+        let found = self.found.lists();
+        let size = (found.len(), found.iter().map(Vec::len).sum());
+        self.crossings
+            .fill(tiles, size, limit_bytes, |lists| {
+                let crossings = found[lists].iter().flatten();
+                crossings.map(|&(tile, crossing)| (tile as usize, crossing))
+            })
+            .map_err(|bytes| bytes + found_bytes)?;
 
-        let limit_bytes = limit_bytes.saturating_sub(self.crossings.bytes());
-        let others = || self.found.others(drawn.sights);
-        self.clusters.begin(tiles);
-        for (_, sight) in others() {
-            for_each_tile(sight, drawn, |tile| self.clusters.count(tile));
-        }
-        let with_crossings = |bytes| with_found(bytes) + self.crossings.bytes();
+        let crossings_bytes = self.crossings.bytes();
+        let limit_bytes = limit_bytes.saturating_sub(crossings_bytes);
+        let sights = drawn.sights;
+        let size = (sights.chunks(), sights.len());
         self.clusters
-            .make_room(limit_bytes)
-            .map_err(with_crossings)?;
-        for (key, sight) in others() {
-            for_each_tile(sight, drawn, |tile| self.clusters.place(tile, key));
-        }
-        Ok(())
-    }
-
-    /// Whether nothing lies on a tile.
-    pub(super) fn is_empty(&self, tile: usize) -> bool {
-        self.clusters(tile).is_empty() && self.crossings(tile).is_empty()
+            .fill(tiles, size, limit_bytes, |chunks| {
+                let others = self.found.others(sights, chunks);
+                others
+                    .flat_map(|(key, sight)| drawn_tiles(sight, drawn).map(move |tile| (tile, key)))
+            })
+            .map_err(|bytes| bytes + found_bytes + crossings_bytes)
     }
 
     /// The clusters of a tile, by ascending number.
-    pub(super) fn clusters(&self, tile: usize) -> &[u32] {
-        self.clusters.of(tile)
+    pub(super) fn clusters(&self, tile: usize) -> impl Iterator<Item = u32> {
+        self.clusters.of(tile).flatten().copied()
     }
 
-    /// The lines of wide clusters on a tile, by ascending number of these.
-    pub(super) fn crossings(&self, tile: usize) -> &[Crossing] {
+    /// The lines of wide clusters on a tile, by ascending number of these. All of a cluster are in one piece.
+    pub(super) fn crossings(&self, tile: usize) -> impl Iterator<Item = &[Crossing]> {
         self.crossings.of(tile)
     }
 }
 
-impl<T: Copy + Default> Lists<T> {
-    fn begin(&mut self, tiles: usize) {
+impl<T: Copy + Default + Send> Lists<T> {
+    /// Lists what `found` gives, with its tile, for a range of so many steps through so many things, unless that takes more
+    /// than so many bytes; then says how many.
+    fn fill<I: Iterator<Item = (usize, T)>>(
+        &mut self,
+        tiles: usize,
+        (steps, things): (usize, usize),
+        limit_bytes: u64,
+        found: impl Fn(Range<usize>) -> I + Sync,
+    ) -> Result<(), u64> {
+        let most_portions = (PORTIONS_A_THREAD * rayon::current_num_threads()).min(MOST_PORTIONS);
+        let portions = (things / LEAST_OF_A_PORTION).clamp(1, most_portions);
+        self.portions.resize_with(portions, Portion::default);
+        let (total_bytes, all_fit) = (AtomicU64::new(0), AtomicBool::new(true));
+        let numbered = self.portions.par_iter_mut().enumerate().with_max_len(1);
+        numbered.for_each(|(i, portion)| {
+            let range = steps * i / portions..steps * (i + 1) / portions;
+            let items = portion.count(tiles, found(range.clone()));
+            let bytes = (items * size_of::<T>() + tiles * size_of::<u32>()) as u64;
+            let before = total_bytes.fetch_add(bytes, Ordering::Relaxed);
+            if before + bytes <= limit_bytes && u32::try_from(items).is_ok() {
+                portion.place(items, found(range));
+            } else {
+                all_fit.store(false, Ordering::Relaxed);
+            }
+        });
+        if all_fit.into_inner() {
+            Ok(())
+        } else {
+            Err(total_bytes.into_inner())
+        }
+    }
+
+    /// What was listed for a tile, in one piece for each portion.
+    fn of(&self, tile: usize) -> impl Iterator<Item = &[T]> {
+        let portions = self.portions.iter();
+        portions.map(move |portion| portion.of(tile))
+    }
+
+    fn bytes(&self) -> u64 {
+        self.portions.iter().map(Portion::bytes).sum()
+    }
+}
+
+impl<T: Copy + Default> Portion<T> {
+    /// Counts what lies on each tile; says how much it is.
+    fn count(&mut self, tiles: usize, found: impl Iterator<Item = (usize, T)>) -> usize {
         self.ends.clear();
         self.ends.resize(tiles + 1, 0);
+        found.for_each(|(tile, _)| self.ends[tile + 1] += 1);
+        self.ends.iter().map(|&len| len as usize).sum()
     }
 
-    #[inline(always)]
-    fn count(&mut self, tile: usize) {
-        self.ends[tile + 1] += 1;
-    }
-
-    /// After all were counted.
-    fn make_room(&mut self, limit_bytes: u64) -> Result<(), u64> {
-        let total: u64 = self.ends.iter().map(|&n| u64::from(n)).sum();
-        let ends_bytes = size_of_val(&self.ends[..]) as u64;
-        let needed = total * size_of::<T>() as u64 + ends_bytes;
-        if needed > limit_bytes || total > u64::from(u32::MAX) {
-            return Err(needed);
-        }
+    /// Places what was counted, 2^32 at most.
+    fn place(&mut self, items: usize, found: impl Iterator<Item = (usize, T)>) {
         let mut next = 0;
         for end in &mut self.ends {
             next += *end;
             *end = next;
         }
-        if self.items.capacity() < total as usize {
-            self.items = Vec::with_capacity(total as usize);
+        if self.items.capacity() < items {
+            self.items = Vec::with_capacity(items);
         }
         self.items.clear();
-        self.items.resize(total as usize, T::default());
-        Ok(())
-    }
-
-    #[inline(always)]
-    fn place(&mut self, tile: usize, item: T) {
-        let place = &mut self.ends[tile];
-        self.items[*place as usize] = item;
-        *place += 1;
+        self.items.resize(items, T::default());
+        found.for_each(|(tile, item)| {
+            let place = &mut self.ends[tile];
+            self.items[*place as usize] = item;
+            *place += 1;
+        });
     }
 
     fn of(&self, tile: usize) -> &[T] {
@@ -133,16 +177,15 @@ impl<T: Copy + Default> Lists<T> {
     }
 }
 
-/// Calls `found` with each tile of the grid that is drawn and that a cluster may leave a mark on.
+/// The tiles of the grid that are drawn and that a cluster may leave a mark on.
 #[inline(always)]
-fn for_each_tile(sight: &Sight, drawn: Drawn<'_>, mut found: impl FnMut(usize)) {
+fn drawn_tiles<'a>(sight: &Sight, drawn: Drawn<'a>) -> impl Iterator<Item = usize> + 'a {
     let Drawn { grid, parts, .. } = drawn;
-    let rows = sight.rows();
-    for row in rows.start.max(grid.rows.start)..rows.end.min(grid.rows.end) {
-        for column in sight.columns() {
-            if !parts.at(column, row).is_empty() {
-                found(grid.tile(column, row));
-            }
-        }
-    }
+    let (rows, columns) = (sight.rows(), sight.columns());
+    let rows = rows.start.max(grid.rows.start)..rows.end.min(grid.rows.end);
+    rows.flat_map(move |row| {
+        let columns = columns.clone();
+        let drawn = columns.filter(move |&column| !parts.at(column, row).is_empty());
+        drawn.map(move |column| grid.tile(column, row))
+    })
 }

@@ -1,5 +1,6 @@
 //! Which tiles the lines of wide clusters cross: of a cluster seen from near, most tiles within its box see next to nothing.
 
+use std::ops::Range;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -102,19 +103,22 @@ impl Crossings {
         }
     }
 
-    /// The other clusters with their keys.
+    /// The other clusters of some chunks, with their keys.
     pub(super) fn others<'a>(
         &'a self,
         sights: &'a Sights,
+        chunks: Range<usize>,
     ) -> impl Iterator<Item = (u32, &'a Sight)> {
-        let mut wide = self.keys.iter().peekable();
-        let all = sights.with_keys();
+        let first_key = Sights::first_key(chunks.start);
+        let wide = self.keys.partition_point(|&key| key < first_key);
+        let mut wide = self.keys[wide..].iter().peekable();
+        let all = sights.with_keys_of(chunks);
         all.filter(move |(key, _)| wide.next_if_eq(&key).is_none())
     }
 
-    /// All of them with their tiles, cluster by cluster.
-    pub(super) fn iter(&self) -> impl Iterator<Item = &(u32, Crossing)> {
-        self.of_clusters.iter().take(self.keys.len()).flatten()
+    /// For each wide cluster what of it crosses which tile.
+    pub(super) fn lists(&self) -> &[Vec<(u32, Crossing)>] {
+        &self.of_clusters[..self.keys.len()]
     }
 
     pub(super) fn bytes(&self) -> u64 {
@@ -209,7 +213,7 @@ fn for_each_tile(
 }
 
 /// The tiles from one place to another; none left of or above the first.
-fn tiles(from_px: f32, to_px: f32) -> std::ops::Range<usize> {
+fn tiles(from_px: f32, to_px: f32) -> Range<usize> {
     let tile = |px: f32| px * (1.0 / TILE_PX as f32);
     // A float below zero becomes 0.
     tile(from_px) as usize..(tile(to_px) + 1.0) as usize

@@ -16,9 +16,10 @@ use super::extent::ask_for;
 use super::filled::{Filled, Known};
 use super::index::{Index, Made};
 use super::kept::Kept;
-use super::paint::{Band, Filling, Painter};
+use super::paint::{Band, Filling};
+use super::painter::Painter;
 use super::shot::{Precision, Shot};
-use super::sight::Sights;
+use super::sight::{Sight, Sights};
 use super::threads::{own, sum};
 use super::tiles::{Grid, Parts};
 
@@ -209,7 +210,6 @@ impl Buffers {
                 parts: &b.parts,
                 grid: &grid,
             };
-            // Listing is mostly the work of one thread: others count meanwhile.
             let (bins, sights) = (&mut b.bins, &b.sights);
             let (filled, counts) = rayon::join(
                 || bins.fill(drawn, spare_bytes),
@@ -333,18 +333,22 @@ impl Buffers {
 
 /// Counts the paths and the lines that may leave a mark: each cluster with the band where it begins.
 fn count(sights: &Sights, shot: &Shot<'_>, index: &Index, rows: &Range<usize>) -> [u64; 2] {
-    let begin_here = sights
-        .par_iter()
-        .filter(|sight| rows.contains(&sight.rows().start));
-    let counts = begin_here.map(|sight| {
-        let cluster = sight.cluster as usize;
-        let counts = if sight.is_whole {
-            index.made[cluster].paths_and_lines
-        } else {
-            index.lines[cluster].count(shot, sight)
-        };
-        counts.map(u64::from)
-    });
+    let of_chunk = |sights: &[Sight]| {
+        let begin_here = sights.iter();
+        let begin_here = begin_here.filter(|sight| rows.contains(&sight.rows().start));
+        let counts = begin_here.map(|sight| {
+            let cluster = sight.cluster as usize;
+            if sight.is_whole {
+                index.made[cluster].paths_and_lines
+            } else {
+                index.lines[cluster].count(shot, sight)
+            }
+        });
+        counts.fold([0, 0], |sum, of_one| {
+            [0, 1].map(|i| sum[i] + u64::from(of_one[i]))
+        })
+    };
+    let counts = sights.par_chunks().map(of_chunk);
     counts.reduce(|| [0, 0], |a, b| [a[0] + b[0], a[1] + b[1]])
 }
 

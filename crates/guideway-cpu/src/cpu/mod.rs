@@ -31,6 +31,7 @@ mod kept;
 mod layers;
 mod order;
 mod paint;
+mod painter;
 mod place;
 mod polylines;
 mod prepared;

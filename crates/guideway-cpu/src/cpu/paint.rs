@@ -10,14 +10,14 @@ use rayon::prelude::*;
 
 use super::backdrop::{Backdrop, solid_colors};
 use super::bins::Bins;
-use super::canvas::{Canvas, Look, Rows, TILE_PX};
-use super::disc::Discs;
+use super::canvas::{Look, Rows, TILE_PX};
 use super::filled::{Filled, Known};
 use super::index::Index;
 use super::kept::Kept;
-use super::layers::{Counts, Layers};
+use super::layers::Layers;
+use super::painter::Painter;
 use super::polylines::ROUNDS;
-use super::seen::{Hit, Seen, Share, ask_for_next};
+use super::seen::{Seen, Share, ask_for_next};
 use super::shot::Shot;
 use super::sight::Sights;
 use super::span::{LAYERED, SOLID, Samples};
@@ -38,16 +38,6 @@ const OPEN_PART: f32 = 0.95;
 const KNOWN_PART: f32 = 0.75;
 /// Tiles that a thread draws in one go.
 const MOST_TILES: usize = 8;
-
-/// What one thread paints with.
-pub(super) struct Painter {
-    solid: Canvas<SOLID>,
-    solid_discs: Discs<SOLID>,
-    layers: Canvas<LAYERED>,
-    discs: Discs<LAYERED>,
-    hits: Vec<Hit>,
-    counts: Box<Counts>,
-}
 
 /// A band of the picture with all that goes on it.
 #[derive(Clone, Copy)]
@@ -89,31 +79,6 @@ pub(super) struct Tile {
     pub(super) corner: Point<f64>,
     width_px: usize,
     height_px: usize,
-}
-
-impl Painter {
-    pub(super) fn new() -> Self {
-        Self {
-            solid: Canvas::new(),
-            solid_discs: Discs::default(),
-            layers: Canvas::new(),
-            discs: Discs::default(),
-            hits: Vec::new(),
-            counts: Box::new([[0; TILE_PX]; TILE_PX]),
-        }
-    }
-
-    /// Most bytes that one holds, apart from a list of what lies on a tile.
-    pub(super) fn bytes(is_opaque: bool) -> u64 {
-        let canvases = Canvas::<SOLID>::bytes(true) + Canvas::<LAYERED>::bytes(is_opaque);
-        let discs = Discs::<SOLID>::bytes() + Discs::<LAYERED>::bytes();
-        canvases + discs + size_of::<Counts>() as u64
-    }
-
-    /// Bytes of the list of what lies on a tile.
-    pub(super) fn list_bytes(&self) -> u64 {
-        (self.hits.capacity() * size_of::<Hit>()) as u64
-    }
 }
 
 impl<'a> Band<'a> {
@@ -261,7 +226,10 @@ impl<'a> Band<'a> {
                 height_px: rows.len(),
             };
             let mut drawn = stretch.tile(column, columns, rows);
-            if self.bins.is_empty(tile.index) {
+            painter.clusters.clear();
+            painter.clusters.extend(self.bins.clusters(tile.index));
+            let mut crossings = self.bins.crossings(tile.index);
+            if painter.clusters.is_empty() && crossings.all(<[_]>::is_empty) {
                 drawn.rows().for_each(|row| row.fill(empty));
             } else {
                 // Written a frame ago, they are in no near cache.
@@ -293,22 +261,22 @@ fn paint_solid(band: &Band<'_>, painter: &mut Painter, tile: &Tile, closed: &Row
     let Painter {
         solid: canvas,
         solid_discs: discs,
+        clusters,
         ..
     } = painter;
     canvas.begin(tile.width_px, tile.height_px);
     let seen = canvas.open_count() as f32;
     canvas.close_pixels(closed);
     let open = canvas.open_count() as f32;
-    let crossings = band.bins.crossings(tile.index);
-    let clusters = band.bins.clusters(tile.index);
     let is_sparse = clusters.len() <= FEW_CLUSTERS;
     // What is found out for other frames is which pixels are covered.
     let may_stay_open = band.filling.is_none();
-    if may_stay_open && is_sparse && crossings.len() <= FEW_CROSSINGS {
+    let crossings = || band.bins.crossings(tile.index);
+    if may_stay_open && is_sparse && crossings().map(<[_]>::len).sum::<usize>() <= FEW_CROSSINGS {
         canvas.stay_open();
     }
     let least_open = open * OPEN_PART;
-    for of_cluster in crossings.chunk_by(|a, b| a.key == b.key) {
+    for of_cluster in crossings().flat_map(|all| all.chunk_by(|a, b| a.key == b.key)) {
         if canvas.is_full() {
             return;
         }
@@ -339,16 +307,16 @@ fn paint_layers(band: &Band<'_>, painter: &mut Painter, tile: &Tile) {
         layers: canvas,
         discs,
         hits,
+        clusters,
         ..
     } = painter;
     canvas.begin_layers(tile.width_px, tile.height_px);
     hits.clear();
-    let clusters = band.bins.clusters(tile.index);
     for (i, &key) in clusters.iter().enumerate() {
         ask_for_next(band, clusters, i);
         Seen::<LAYERED>::new(band, tile, key).gather(key, hits);
     }
-    for crossing in band.bins.crossings(tile.index) {
+    for crossing in band.bins.crossings(tile.index).flatten() {
         Seen::<LAYERED>::new(band, tile, crossing.key).add(crossing, hits);
     }
     let mut layers = Layers::new(band, tile, canvas, discs, None);
@@ -377,13 +345,13 @@ fn paint_counts(band: &Band<'_>, painter: &mut Painter, tile: &Tile) {
         discs,
         hits,
         counts,
+        clusters,
         ..
     } = painter;
     canvas.begin_layers(tile.width_px, tile.height_px);
     **counts = [[0; TILE_PX]; TILE_PX];
     let mut layers = Layers::new(band, tile, canvas, discs, Some(counts));
     hits.clear();
-    let clusters = band.bins.clusters(tile.index);
     for (i, &key) in clusters.iter().enumerate() {
         ask_for_next(band, clusters, i);
         Seen::<LAYERED>::new(band, tile, key).gather(key, hits);
@@ -393,7 +361,7 @@ fn paint_counts(band: &Band<'_>, painter: &mut Painter, tile: &Tile) {
         }
         hits.clear();
     }
-    for crossing in band.bins.crossings(tile.index) {
+    for crossing in band.bins.crossings(tile.index).flatten() {
         Seen::<LAYERED>::new(band, tile, crossing.key).add(crossing, hits);
     }
     for hit in hits.iter() {

@@ -16,7 +16,7 @@ use super::filled::{Filled, Fills};
 use super::frame::{Buffers, Easel, TooMuch};
 use super::index::Index;
 use super::kept::Kept;
-use super::paint::Painter;
+use super::painter::Painter;
 use super::vectors::LaneWidth;
 
 /// Largest frame that is planned for.
@@ -316,15 +316,14 @@ impl Prepared for CpuPrepared {
             tones,
             ..
         } = self;
+        let mut leave = |paths: &[u32]| {
+            let last = paths.iter().copied().max();
+            let are_there = last.is_none_or(|path| (path as usize) < scene.row_count());
+            are_there.then(|| install(pool.as_ref(), || index.leave(scene, paths)))
+        };
         let leaving = match edit {
-            Edit::Transform { .. } | Edit::Reshape { .. } | Edit::SetStates(_) => {
-                let paths: Vec<u32> = edit.paths().collect();
-                let are_there = paths
-                    .iter()
-                    .all(|&path| (path as usize) < scene.row_count());
-                let leave = || index.leave(scene, &paths);
-                are_there.then(|| install(pool.as_ref(), leave))
-            }
+            Edit::Transform { paths, .. } | Edit::Reshape { paths, .. } => leave(paths),
+            Edit::SetStates(_) => leave(&edit.paths().collect::<Vec<u32>>()),
             Edit::Restyle(_) | Edit::Insert(_) => None,
         };
         let leaving = leaving.unwrap_or_default();

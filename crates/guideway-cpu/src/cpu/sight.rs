@@ -12,7 +12,7 @@ use super::fixed;
 use super::shot::Shot;
 
 /// Clusters that one thread looks at in one go.
-const CHUNK: usize = 1024;
+const CHUNK: usize = 512;
 
 /// What a frame sees of a cluster.
 #[derive(Debug)]
@@ -107,12 +107,35 @@ impl Sights {
         self.chunks.par_iter().flatten()
     }
 
+    /// All of them in chunks, in parallel.
+    pub(super) fn par_chunks(&self) -> impl ParallelIterator<Item = &[Sight]> {
+        self.chunks.par_iter().map(Vec::as_slice)
+    }
+
     /// All of them with their keys.
     pub(super) fn with_keys(&self) -> impl Iterator<Item = (u32, &Sight)> {
-        self.chunks.iter().enumerate().flat_map(|(chunk, sights)| {
-            let keys = (chunk * CHUNK) as u32..;
-            keys.zip(sights)
-        })
+        self.with_keys_of(0..self.chunks())
+    }
+
+    /// Those of some chunks with their keys.
+    pub(super) fn with_keys_of(&self, chunks: Range<usize>) -> impl Iterator<Item = (u32, &Sight)> {
+        let numbered = chunks.clone().zip(&self.chunks[chunks]);
+        numbered.flat_map(|(chunk, sights)| (Self::first_key(chunk)..).zip(sights))
+    }
+
+    /// The least key in a chunk.
+    pub(super) fn first_key(chunk: usize) -> u32 {
+        (chunk * CHUNK) as u32
+    }
+
+    /// Number of clusters in sight.
+    pub(super) fn len(&self) -> usize {
+        self.chunks.iter().map(Vec::len).sum()
+    }
+
+    /// Number of chunks.
+    pub(super) fn chunks(&self) -> usize {
+        self.chunks.len()
     }
 
     /// The one of a key.
