@@ -184,10 +184,8 @@ impl<'a> Builder<'a> {
         }
         if point.x.abs().max(point.y.abs()) > limit {
             let message = || {
-                format!(
-                    "the position ({} m, {} m) is beyond {limit} m",
-                    point.x, point.y
-                )
+                let [x, y] = [point.x, point.y].map(short);
+                format!("the position ({x} m, {y} m) is beyond {limit} m")
             };
             self.find(
                 Code::OutOfRange,
@@ -235,6 +233,15 @@ impl<'a> Builder<'a> {
             limit,
             actual,
         }))
+    }
+}
+
+/// A number, by its exponent where its digits would fill the line.
+fn short(number: f64) -> String {
+    if number.abs() < 1e15 {
+        number.to_string()
+    } else {
+        format!("{number:e}")
     }
 }
 

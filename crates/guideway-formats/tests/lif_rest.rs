@@ -178,6 +178,23 @@ fn a_curve_for_some_vehicle_types_keeps_what_is_theirs() {
 }
 
 #[test]
+fn two_entries_for_one_vehicle_type_stay_two() {
+    let mut file = site();
+    let entries = &mut file["layouts"][0]["edges"][0]["vehicleTypeEdgeProperties"];
+    entries[1]["vehicleTypeId"] = "a".into();
+    let layout = read(&file);
+    let types: Vec<&str> = layout.paths.vehicle_types().of(0).collect();
+    assert_eq!(types, ["a"]);
+    let again = written(&layout, Version::V1);
+    let again = &again["layouts"][0]["edges"][0]["vehicleTypeEdgeProperties"];
+    let speeds = |entries: &Value| -> Vec<Value> {
+        let entries = entries.as_array().unwrap().iter();
+        entries.map(|entry| entry["maxSpeed"].clone()).collect()
+    };
+    assert_eq!(speeds(again), [1.0, 2.0]);
+}
+
+#[test]
 fn real_files_keep_what_they_have() {
     let Some(folder) = real_layouts("lif") else {
         return;

@@ -1,7 +1,7 @@
 //! From an edge to paths: one for each distinct curve, for vehicle types may have their own.
 
 use std::borrow::Cow;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use guideway_layout::{Code, NewPath};
 use guideway_spline::{Point, Runs};
@@ -28,6 +28,14 @@ struct End<'r> {
     row: Option<u32>,
     position: Option<Point<f64>>,
     level: Option<u32>,
+}
+
+impl Curve<'_, '_> {
+    /// A vehicle type may have several entries.
+    fn name_types_once(&mut self) {
+        let mut known = HashSet::new();
+        self.types.retain(|name| known.insert(name.clone()));
+    }
 }
 
 impl Mapper<'_> {
@@ -138,6 +146,7 @@ impl Mapper<'_> {
                 curves[index].properties.push(entry);
             }
         }
+        curves.iter_mut().for_each(Curve::name_types_once);
         if curves.is_empty() {
             self.builder
                 .report_missing(&|| within(at, lists[0].0), "an entry for a vehicle type");
