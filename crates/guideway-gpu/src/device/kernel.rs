@@ -77,7 +77,7 @@ impl Kernel {
 }
 
 /// Compiles a shader, without checks of every access while it runs: they cost a fifth of a frame
-/// (docs/performance.md).
+/// (docs/performance/gpu.md, 3).
 #[allow(
     unsafe_code,
     reason = "wgpu trusts a shader only so: those of this crate bound every index by a count that they are \
