@@ -42,6 +42,8 @@ pub(super) struct Made {
     pub(super) paths_and_lines: [u32; 2],
 }
 
+/// Paths of an edit that one thread looks up in one go.
+const PATHS_AT_ONCE: usize = 1 << 16;
 /// Farthest that curves may drift from their lines, in units of these.
 const MOST_DRIFT: f64 = 0.25;
 
@@ -255,11 +257,21 @@ impl Index {
                 self.place_of[path as usize] = place;
             }
         }
-        let mut members: Vec<Members> = vec![0; self.lines.len()];
-        for &path in paths {
-            let place = self.place_of[path as usize] as usize;
-            members[place / CLUSTER_PATHS] |= 1 << (place % CLUSTER_PATHS);
-        }
+        let (clusters, place_of) = (self.lines.len(), &self.place_of);
+        let members_of = |mut members: Vec<Members>, paths: &[u32]| {
+            for &path in paths {
+                let place = place_of[path as usize] as usize;
+                members[place / CLUSTER_PATHS] |= 1 << (place % CLUSTER_PATHS);
+            }
+            members
+        };
+        let both = |mut a: Vec<Members>, b: Vec<Members>| {
+            a.iter_mut().zip(b).for_each(|(a, b)| *a |= b);
+            a
+        };
+        let parts = paths.par_chunks(PATHS_AT_ONCE);
+        let parts = parts.fold(|| vec![0; clusters], members_of);
+        let members = parts.reduce_with(both).unwrap_or_default();
         let named = (0..).zip(members).filter(|(_, members)| *members != 0);
         named.collect()
     }

@@ -13,7 +13,8 @@ impl Edit {
     /// Whether it can be done.
     pub(super) fn check(&self, scene: &Scene) -> Result<(), EditError> {
         let rows = scene.row_count();
-        if let Some(path) = self.paths().find(|&path| path as usize >= rows) {
+        let is_unknown = |&path: &u32| path as usize >= rows;
+        if let Some(path) = self.paths().max().filter(is_unknown) {
             return Err(EditError::UnknownPath { path, rows });
         }
         let geometry = scene.layout().paths.geometry();
@@ -78,7 +79,9 @@ impl Insertion {
 
 /// A row that is named more than once; rows in order, as selections have them, are only looked through.
 fn named_twice(rows: &[u32]) -> Option<u32> {
-    if rows.is_sorted_by(|a, b| a < b) {
+    // Without a way out of the loop, many are compared at once.
+    let pairs = rows.array_windows();
+    if pairs.fold(true, |is_sorted, [a, b]| is_sorted & (a < b)) {
         return None;
     }
     let mut sorted = rows.to_vec();
