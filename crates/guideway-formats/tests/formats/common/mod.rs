@@ -7,7 +7,6 @@ use guideway_layout::{Code, Layout};
 use guideway_spline::Point;
 
 /// The folder of real layouts, which lies beside the repository. It is not part of it, for licences.
-#[allow(dead_code, reason = "not every test binary reads real files")]
 pub(crate) fn real_layouts(format: &str) -> Option<PathBuf> {
     let shared = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/layouts");
     let folder = shared.join(format);
@@ -19,13 +18,11 @@ pub(crate) fn real_layouts(format: &str) -> Option<PathBuf> {
 }
 
 /// A layout from text that must be readable.
-#[allow(dead_code, reason = "not every test binary reads text")]
 pub(crate) fn read(text: &str) -> Layout {
     read_bytes("test", text.as_bytes(), &ReadOptions::default()).unwrap_or_else(|e| panic!("{e}"))
 }
 
 /// Where each path begins and ends.
-#[allow(dead_code, reason = "not every test binary looks at ends")]
 pub(crate) fn ends(layout: &Layout, id: &str) -> (Point<f64>, Point<f64>) {
     let path = layout.paths.iter().find(|p| p.id() == id);
     let path = path.unwrap_or_else(|| panic!("no path {id}"));
@@ -33,20 +30,17 @@ pub(crate) fn ends(layout: &Layout, id: &str) -> (Point<f64>, Point<f64>) {
 }
 
 /// The kinds of findings, in their order.
-#[allow(dead_code, reason = "not every test binary looks at findings")]
 pub(crate) fn codes(layout: &Layout) -> Vec<Code> {
     layout.diagnostics.counts().map(|(code, _)| code).collect()
 }
 
 /// A count under the format's own name; zero if it is not counted.
-#[allow(dead_code, reason = "not every test binary counts")]
 pub(crate) fn count(layout: &Layout, name: &str) -> u64 {
     let counts = &layout.provenance.counts;
     counts.iter().find(|(n, _)| n == name).map_or(0, |c| c.1)
 }
 
 /// Checks counts written as `points 55, paths 68` against a layout; names that are absent mean zero.
-#[allow(dead_code, reason = "not every test binary counts")]
 pub(crate) fn assert_counts(layout: &Layout, all: &[&str], expected: &str, file: &str) {
     for name in all {
         let mut stated = expected.split(", ").filter_map(|c| c.rsplit_once(' '));

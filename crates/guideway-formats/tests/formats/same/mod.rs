@@ -1,7 +1,5 @@
 //! Whether two layouts are the same, and layouts to try it on: what the tests of writers share.
 
-#![allow(dead_code, reason = "not every test binary needs all of it")]
-
 use guideway_formats::Losses;
 use guideway_layout::{Direction, Layout, Level, NewPath, PathRef, Value};
 use guideway_spline::{Point, Runs, nearest_on_run, polyline_to_runs, uniform};

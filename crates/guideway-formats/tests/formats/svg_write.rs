@@ -1,17 +1,12 @@
 //! What is written as SVG comes back as it was, but for what a drawing cannot hold.
 
-#![allow(clippy::unwrap_used, reason = "a test may fail by a panic")]
-
-mod common;
-mod same;
-
-use common::{codes, read};
+use crate::common::{codes, read};
+use crate::same::{arbitrary_layout, assert_same_curves, assert_same_ids, lost, push_lines};
 use guideway_formats::Losses;
 use guideway_formats::svg::{Outline, Page, Stroke, write_layout};
 use guideway_layout::{Code, Direction, Layout, NewPath, Value};
 use guideway_spline::{Point, Runs};
 use proptest::prelude::*;
-use same::{arbitrary_layout, assert_same_curves, assert_same_ids, lost, push_lines};
 
 fn written(layout: &Layout) -> (String, Losses) {
     let mut bytes = Vec::new();

@@ -1,17 +1,12 @@
 //! What is written as DXF comes back as it was, but for what a drawing cannot hold.
 
-#![allow(clippy::unwrap_used, reason = "a test may fail by a panic")]
-
-mod common;
-mod same;
-
-use common::{codes, count, read};
+use crate::common::{codes, count, read};
+use crate::same::{arbitrary_layout, assert_same_curves, assert_same_ids, lost, push_lines};
 use guideway_formats::Losses;
 use guideway_formats::dxf::write_layout;
 use guideway_layout::{Direction, Layout, NewPath, Value};
 use guideway_spline::{Point, Runs};
 use proptest::prelude::*;
-use same::{arbitrary_layout, assert_same_curves, assert_same_ids, lost, push_lines};
 
 fn written(layout: &Layout) -> (String, Losses) {
     let mut bytes = Vec::new();

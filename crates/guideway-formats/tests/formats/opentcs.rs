@@ -1,10 +1,6 @@
 //! openTCS: the real files, and what is easy to get wrong: units, the y axis, legacy positions.
 
-#![allow(clippy::unwrap_used, reason = "a test may fail by a panic")]
-
-mod common;
-
-use common::{assert_counts, codes, ends, read, real_layouts};
+use crate::common::{assert_counts, codes, ends, read, real_layouts};
 use guideway_formats::{ReadOptions, read_file};
 use guideway_layout::{Code, Direction, Layout, Severity, Value};
 use guideway_spline::{Point, uniform};

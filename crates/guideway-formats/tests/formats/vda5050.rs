@@ -1,10 +1,6 @@
 //! Orders of VDA 5050: the real files, and what the versions do differently.
 
-#![allow(clippy::unwrap_used, reason = "a test may fail by a panic")]
-
-mod common;
-
-use common::{assert_counts, codes, ends, read, real_layouts};
+use crate::common::{assert_counts, codes, ends, read, real_layouts};
 use guideway_formats::{ReadOptions, read_file};
 use guideway_layout::{Code, Layout};
 use guideway_spline::Point;
@@ -50,7 +46,7 @@ fn real_files_have_the_counts_that_others_find() {
         assert_eq!(layout.provenance.format_version, "1.1 to 2.1", "{file}");
         assert_eq!(layout.diagnostics.count(Code::Version), 1, "`version`");
         let edges = layout.path_count() as u64;
-        assert_eq!(edges, common::count(&layout, "edges"), "{file}");
+        assert_eq!(edges, crate::common::count(&layout, "edges"), "{file}");
     }
 }
 
@@ -150,5 +146,5 @@ fn a_node_that_is_passed_twice_is_one_node() {
     );
     assert_eq!((layout.nodes.len(), layout.paths.len()), (2, 2));
     assert_eq!(layout.paths.get(1).end_node(), Some(0));
-    assert_eq!(common::count(&layout, "nodes"), 3);
+    assert_eq!(crate::common::count(&layout, "nodes"), 3);
 }

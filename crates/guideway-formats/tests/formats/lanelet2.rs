@@ -1,10 +1,6 @@
 //! Lanelet2: the real map, and the middle between bounds.
 
-#![allow(clippy::unwrap_used, reason = "a test may fail by a panic")]
-
-mod common;
-
-use common::{assert_counts, codes, ends, read, real_layouts};
+use crate::common::{assert_counts, codes, ends, read, real_layouts};
 use guideway_formats::{ReadOptions, read_file};
 use guideway_layout::{Code, Direction, Layout, Value};
 use guideway_spline::Point;

@@ -1,10 +1,6 @@
 //! DXF: the real files, text against binary, and where shapes, blocks and styles end up.
 
-#![allow(clippy::unwrap_used, reason = "a test may fail by a panic")]
-
-mod common;
-
-use common::{assert_counts, codes, count, ends, read, real_layouts};
+use crate::common::{assert_counts, codes, count, ends, read, real_layouts};
 use guideway_formats::{ReadOptions, read_bytes, read_file};
 use guideway_layout::{CheckOptions, Code, Layout, Severity, Value, check};
 use guideway_spline::{Point, uniform};

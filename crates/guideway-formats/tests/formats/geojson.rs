@@ -1,10 +1,6 @@
 //! GeoJSON and the route graphs of Nav2: the real files, and every quirk that was seen in one.
 
-#![allow(clippy::unwrap_used, reason = "a test may fail by a panic")]
-
-mod common;
-
-use common::{assert_counts, codes, count, ends, read, real_layouts};
+use crate::common::{assert_counts, codes, count, ends, read, real_layouts};
 use guideway_formats::{ReadOptions, read_file};
 use guideway_layout::{CheckOptions, Code, Layout, Severity, Value, check};
 use guideway_spline::Point;

@@ -1,10 +1,6 @@
 //! What is written as GeoJSON comes back as it was, but for what the format cannot hold.
 
-#![allow(clippy::unwrap_used, reason = "a test may fail by a panic")]
-
-mod common;
-
-use common::{codes, read, real_layouts};
+use crate::common::{codes, read, real_layouts};
 use guideway_formats::geojson::{WriteOptions, write_layout};
 use guideway_formats::{ReadOptions, read_file};
 use guideway_layout::{Code, Layout, NewPath, Value};

@@ -1,13 +1,9 @@
 //! A LIF file that is written again keeps what a layout has not of it.
 
-#![allow(clippy::unwrap_used, reason = "a test may fail by a panic")]
-
-mod common;
-
 use std::fs;
 use std::time::SystemTime;
 
-use common::real_layouts;
+use crate::common::real_layouts;
 use guideway_formats::lif::{Version, WriteOptions, write_layout};
 use guideway_formats::{ReadOptions, read_bytes, read_file};
 use guideway_layout::Layout;

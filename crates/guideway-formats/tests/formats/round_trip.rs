@@ -1,20 +1,15 @@
 //! Every real layout through every pair of formats that hold curves, and back: the same curves.
 
-#![allow(clippy::unwrap_used, reason = "a test may fail by a panic")]
-
-mod common;
-mod same;
-
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
-use common::real_layouts;
+use crate::common::real_layouts;
+use crate::same::{assert_same_curves, assert_same_ids, assert_same_network};
 use guideway_formats::lif::{Version, WriteOptions};
 use guideway_formats::{ReadOptions, arrow, dxf, lif, read_file, svg};
 use guideway_layout::{Code, Layout, NewPath};
 use guideway_spline::{Point, Runs};
-use same::{assert_same_curves, assert_same_ids, assert_same_network};
 
 /// A format that holds curves.
 #[derive(Clone, Copy, Debug, PartialEq)]

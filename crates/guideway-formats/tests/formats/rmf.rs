@@ -1,10 +1,6 @@
 //! Open-RMF: the real files, and what is easy to get wrong: pixels, scale, levels, types of parameters.
 
-#![allow(clippy::unwrap_used, reason = "a test may fail by a panic")]
-
-mod common;
-
-use common::{assert_counts, codes, ends, read, real_layouts};
+use crate::common::{assert_counts, codes, ends, read, real_layouts};
 use guideway_formats::{ReadOptions, read_file};
 use guideway_layout::{Code, Direction, Layout, Value};
 use guideway_spline::Point;
@@ -76,7 +72,7 @@ fn real_files_have_the_counts_of_their_sources() {
         let Some(layout) = real(file) else { return };
         assert_eq!(layout.provenance.format, "Open-RMF");
         assert_counts(&layout, COUNTED, expected, file);
-        let count = |name| common::count(&layout, name);
+        let count = |name| crate::common::count(&layout, name);
         let edges = ["lanes", "human_lanes", "walls", "doors"]
             .map(count)
             .iter()

@@ -1,19 +1,16 @@
 //! What is written as LIF 1.0 and 2.0 comes back as it was, but for what the format cannot hold.
 
-#![allow(clippy::unwrap_used, reason = "a test may fail by a panic")]
-
-mod common;
-mod same;
-
 use std::time::{Duration, SystemTime};
 
-use common::{codes, read};
+use crate::common::{codes, read};
+use crate::same::{
+    arbitrary_layout, assert_same_curves, assert_same_ids, assert_same_network, lost,
+};
 use guideway_formats::Losses;
 use guideway_formats::lif::{Version, WriteOptions, write_layout};
 use guideway_layout::{Code, Direction, Layout, NewPath, Value};
 use guideway_spline::{Point, Runs};
 use proptest::prelude::*;
-use same::{arbitrary_layout, assert_same_curves, assert_same_ids, assert_same_network, lost};
 
 const VERSIONS: [Version; 2] = [Version::V1, Version::V2];
 
@@ -137,7 +134,7 @@ fn a_curve_back_is_the_curve_reversed() {
     });
     let again = read(&written(&layout, Version::V1).0);
     let (there, back) = (again.paths.get(0), again.paths.get(1));
-    assert!(same::apart_m(there, back) < 1e-6);
+    assert!(crate::same::apart_m(there, back) < 1e-6);
     let ((start, end), (back_start, back_end)) = (there.ends().unwrap(), back.ends().unwrap());
     assert!(start.distance(back_end) < 1e-6 && end.distance(back_start) < 1e-6);
     assert!(start.distance(end) > 1.0);
