@@ -128,7 +128,7 @@ impl Desk {
     /// None where there is nothing to save, such as a file that is not read yet.
     pub(super) fn try_to_save_as(&self, path: &Path) -> Option<Layout> {
         self.keys(&["ctrl+shift+s"]);
-        thread::sleep(Duration::from_millis(500));
+        thread::sleep(UNTIL_ASKED);
         self.keys(&["ctrl+a"]);
         self.type_text(&path.display().to_string());
         self.keys(&["Return"]);
@@ -136,6 +136,9 @@ impl Desk {
         is_written.then(|| guideway::open(path).expect("what was saved can be read"))
     }
 }
+
+/// What is typed before the window asks for a name is taken for commands, such as to hide what is selected.
+pub(super) const UNTIL_ASKED: Duration = Duration::from_millis(1500);
 
 /// Starts the viewer with files on a screen.
 fn start(display: &str, files: &[&Path]) -> Child {

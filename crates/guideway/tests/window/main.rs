@@ -12,7 +12,7 @@ use std::process::Command;
 use std::thread;
 use std::time::Duration;
 
-use desk::{Desk, MOST_TRIES, is_installed, looks};
+use desk::{Desk, MOST_TRIES, UNTIL_ASKED, is_installed, looks};
 use guideway::layout::{Layout, PathRef};
 use guideway::spline::Point;
 
@@ -78,7 +78,7 @@ fn a_site_is_edited_by_keys_and_mouse_and_saved() {
     desk.keys(&["f", "a", "n", "l", "g"]);
     let picture = folder.path().join("site.png");
     desk.keys(&["ctrl+e"]);
-    thread::sleep(Duration::from_millis(500));
+    thread::sleep(UNTIL_ASKED);
     desk.keys(&["ctrl+a"]);
     desk.type_text(&picture.display().to_string());
     desk.keys(&["Return"]);
