@@ -1,7 +1,7 @@
 //! DXF: the real files, text against binary, and where shapes, blocks and styles end up.
 
-use crate::common::{assert_counts, codes, count, ends, read, real_layouts};
-use guideway_formats::{ReadOptions, read_bytes, read_file};
+use crate::common::{assert_counts, codes, count, ends, read, real, real_layouts};
+use guideway_formats::{ReadOptions, read_bytes};
 use guideway_layout::{CheckOptions, Code, Layout, Severity, Value, check};
 use guideway_spline::{Point, uniform};
 
@@ -74,11 +74,6 @@ const COUNTED: &[&str] = &[
     "layers",
 ];
 
-fn real(file: &str) -> Option<Layout> {
-    let path = real_layouts("dxf")?.join(file);
-    Some(read_file(&path, &ReadOptions::default()).unwrap_or_else(|e| panic!("{e}")))
-}
-
 /// A drawing in metres, its sections written as `code value` on lines.
 fn drawing(tables: &str, blocks: &str, entities: &str) -> Layout {
     read(&text(&format!(
@@ -126,7 +121,7 @@ fn real_files_have_the_counts_that_others_find() {
     };
     assert_eq!(folder.read_dir().unwrap().count(), REAL.len());
     for (file, expected) in REAL {
-        let layout = real(file).unwrap();
+        let layout = real("dxf", file).unwrap();
         let kinds = COUNTED.iter().filter(|kind| {
             // Of blocks, the list has only the commonest kinds.
             !kind.ends_with("in blocks") || expected.contains(*kind)
@@ -156,7 +151,9 @@ fn real_files_have_the_counts_that_others_find() {
 #[test]
 fn closed_splines_of_real_files_close() {
     for file in ["bjnortier_issue27a.dxf", "bjnortier_issue27c.dxf"] {
-        let Some(layout) = real(file) else { return };
+        let Some(layout) = real("dxf", file) else {
+            return;
+        };
         let (start, end) = layout.paths.get(0).ends().unwrap();
         assert!(start.distance(end) < 1e-6, "{file}: {start:?} {end:?}");
         let found = check(&layout, &CheckOptions::default());
@@ -167,7 +164,7 @@ fn closed_splines_of_real_files_close() {
 #[test]
 fn outlines_of_real_files_meet() {
     // Each line of the map begins where another ends.
-    let Some(layout) = real("ezdxf_3_us_main.dxf") else {
+    let Some(layout) = real("dxf", "ezdxf_3_us_main.dxf") else {
         return;
     };
     let key = |p: Point<f64>| ((p.x * 1e9).round() as i64, (p.y * 1e9).round() as i64);

@@ -1,7 +1,6 @@
 //! GeoJSON and the route graphs of Nav2: the real files, and every quirk that was seen in one.
 
-use crate::common::{assert_counts, codes, count, ends, read, real_layouts};
-use guideway_formats::{ReadOptions, read_file};
+use crate::common::{assert_counts, codes, count, ends, read, real, real_layouts};
 use guideway_layout::{CheckOptions, Code, Layout, Severity, Value, check};
 use guideway_spline::Point;
 
@@ -77,11 +76,6 @@ const COUNTED: &[&str] = &[
     "MultiLineString",
     "lineVertices",
 ];
-
-fn real(folder: &str, file: &str) -> Option<Layout> {
-    let path = real_layouts(folder)?.join(file);
-    Some(read_file(&path, &ReadOptions::default()).unwrap_or_else(|e| panic!("{e}")))
-}
 
 /// A collection of features, in metres.
 fn collection(features: &str) -> Layout {

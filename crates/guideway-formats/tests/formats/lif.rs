@@ -1,7 +1,6 @@
 //! LIF: the real files, and every quirk that was seen in one.
 
-use crate::common::{assert_counts, codes, ends, read, real_layouts};
-use guideway_formats::{ReadOptions, read_file};
+use crate::common::{assert_counts, codes, ends, read, real, real_layouts};
 use guideway_layout::{CheckOptions, Code, Layout, Severity, Value, check};
 use guideway_spline::Point;
 
@@ -82,11 +81,6 @@ const COUNTED: &[&str] = &[
     "vehicleTypes",
 ];
 
-fn real(file: &str) -> Option<Layout> {
-    let path = real_layouts("lif")?.join(file);
-    Some(read_file(&path, &ReadOptions::default()).unwrap_or_else(|e| panic!("{e}")))
-}
-
 /// One layout of two nodes, 10 m apart, and one edge with the properties given.
 fn edge_with(properties: &str) -> String {
     format!(
@@ -114,7 +108,7 @@ fn real_files_have_the_counts_that_others_find() {
     };
     assert_eq!(folder.read_dir().unwrap().count(), REAL.len());
     for (file, expected) in REAL {
-        let layout = real(file).unwrap();
+        let layout = real("lif", file).unwrap();
         assert_counts(&layout, COUNTED, expected, file);
         let stated = if file.starts_with("lif200") {
             "2.0"
@@ -131,14 +125,17 @@ fn real_files_have_the_counts_that_others_find() {
 
 #[test]
 fn the_official_examples_of_1_0_say_0_11() {
-    if let Some(layout) = real(REAL[1].0) {
+    if let Some(layout) = real("lif", REAL[1].0) {
         assert_eq!(codes(&layout), [Code::Version]);
     }
 }
 
 #[test]
 fn trajectories_are_drawn_where_they_are_written() {
-    if let Some(layout) = real("lif100_example17_edge_with_trajectory_definition.json") {
+    if let Some(layout) = real(
+        "lif",
+        "lif100_example17_edge_with_trajectory_definition.json",
+    ) {
         // The curves of this example begin 5.00 m and 11.40 m from their nodes.
         let checked = check(&layout, &CheckOptions::default());
         let gaps: Vec<&str> = checked
@@ -151,7 +148,10 @@ fn trajectories_are_drawn_where_they_are_written() {
             assert!(found, "{gaps:?}");
         }
     }
-    if let Some(layout) = real("lif200_example17_edge_with_trajectory_definition.json") {
+    if let Some(layout) = real(
+        "lif",
+        "lif200_example17_edge_with_trajectory_definition.json",
+    ) {
         let checked = check(&layout, &CheckOptions::default());
         assert_eq!(checked.count(Code::NodeGap), 0);
         let (start, end) = ends(&layout, "N1-N2");
@@ -171,7 +171,9 @@ fn a_lift_is_not_drawn_across_one_plane() {
         "lif100_example14_two_levels_of_a_facility_in_one_lif_file.json",
         "lif200_example14_two_levels_of_a_facility_in_one_lif_file.json",
     ] {
-        let Some(layout) = real(file) else { return };
+        let Some(layout) = real("lif", file) else {
+            return;
+        };
         assert!(!layout.refused.is_empty(), "{file}");
         assert!(layout.refused.iter().all(|r| r.code == Code::CrossLevel));
         assert_eq!(layout.path_count(), 5);
@@ -181,7 +183,7 @@ fn a_lift_is_not_drawn_across_one_plane() {
 
 #[test]
 fn the_malformed_example_shows_its_control_polygon() {
-    if let Some(layout) = real("continua_example.lif.json") {
+    if let Some(layout) = real("lif", "continua_example.lif.json") {
         assert!(codes(&layout).contains(&Code::TooFewPoints));
         let (start, end) = ends(&layout, "edge-001");
         assert_eq!(start, Point::new(1000.0, 1500.0));

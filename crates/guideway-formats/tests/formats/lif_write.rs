@@ -4,7 +4,7 @@ use std::time::{Duration, SystemTime};
 
 use crate::common::{codes, read};
 use crate::same::{
-    arbitrary_layout, assert_same_curves, assert_same_ids, assert_same_network, lost,
+    apart_m, arbitrary_layout, assert_same_curves, assert_same_ids, assert_same_network, lost,
 };
 use guideway_formats::Losses;
 use guideway_formats::lif::{Version, WriteOptions, write_layout};
@@ -134,7 +134,7 @@ fn a_curve_back_is_the_curve_reversed() {
     });
     let again = read(&written(&layout, Version::V1).0);
     let (there, back) = (again.paths.get(0), again.paths.get(1));
-    assert!(crate::same::apart_m(there, back) < 1e-6);
+    assert!(apart_m(there, back) < 1e-6);
     let ((start, end), (back_start, back_end)) = (there.ends().unwrap(), back.ends().unwrap());
     assert!(start.distance(back_end) < 1e-6 && end.distance(back_start) < 1e-6);
     assert!(start.distance(end) > 1.0);

@@ -1,6 +1,6 @@
 //! OpenDRIVE: the real files, and lanes beside lines, arcs, spirals and polynomials.
 
-use crate::common::{assert_counts, codes, ends, read, real_layouts};
+use crate::common::{assert_counts, codes, count, ends, read, real_layouts};
 use guideway_formats::{ReadOptions, read_file};
 use guideway_layout::{Code, Layout, Value};
 use guideway_spline::{Point, nearest_on_run};
@@ -46,7 +46,7 @@ fn real_files_have_the_counts_of_their_sources() {
         let middles = text.matches("<center>").count();
         assert_eq!(
             layout.paths.len() + middles,
-            crate::common::count(&layout, "lanes") as usize,
+            count(&layout, "lanes") as usize,
             "{file}"
         );
         assert!(layout.refused.is_empty(), "{file}");

@@ -1,7 +1,6 @@
 //! openTCS: the real files, and what is easy to get wrong: units, the y axis, legacy positions.
 
-use crate::common::{assert_counts, codes, ends, read, real_layouts};
-use guideway_formats::{ReadOptions, read_file};
+use crate::common::{assert_counts, codes, ends, read, real, real_layouts};
 use guideway_layout::{Code, Direction, Layout, Severity, Value};
 use guideway_spline::{Point, uniform};
 
@@ -53,11 +52,6 @@ const COUNTED: &[&str] = &[
     "BEZIER_3",
 ];
 
-fn real(file: &str) -> Option<Layout> {
-    let path = real_layouts("opentcs")?.join(file);
-    Some(read_file(&path, &ReadOptions::default()).unwrap_or_else(|e| panic!("{e}")))
-}
-
 /// Two points, 10 m apart, and the paths given.
 fn model(paths: &str) -> String {
     format!(
@@ -80,7 +74,7 @@ fn real_files_have_the_counts_that_others_find() {
     };
     assert_eq!(folder.read_dir().unwrap().count(), REAL.len());
     for (file, version, expected) in REAL {
-        let layout = real(file).unwrap();
+        let layout = real("opentcs", file).unwrap();
         assert_counts(&layout, COUNTED, expected, file);
         assert_eq!(layout.provenance.format_version, *version);
         assert_eq!(
@@ -95,7 +89,9 @@ fn real_files_have_the_counts_that_others_find() {
 #[test]
 fn curves_of_real_files_meet_their_points() {
     for (file, ..) in REAL {
-        let Some(layout) = real(file) else { return };
+        let Some(layout) = real("opentcs", file) else {
+            return;
+        };
         for path in layout.paths.iter() {
             let (start, end) = path.ends().unwrap();
             let node = |row: Option<u32>| layout.nodes.position_m(row.unwrap());
@@ -117,7 +113,9 @@ fn curves_of_real_files_meet_their_points() {
 #[test]
 fn control_points_of_real_files_lie_near_their_ends() {
     for (file, ..) in REAL.iter().filter(|r| r.0.starts_with("Demo")) {
-        let Some(layout) = real(file) else { return };
+        let Some(layout) = real("opentcs", file) else {
+            return;
+        };
         for path in layout.paths.iter() {
             let (start, end) = path.ends().unwrap();
             let middle = start.lerp(end, 0.5);
@@ -137,7 +135,7 @@ fn control_points_of_real_files_lie_near_their_ends() {
 
 #[test]
 fn versions_of_the_demo_plant_have_one_size() {
-    let (Some(old), Some(new)) = (real(REAL[0].0), real(REAL[2].0)) else {
+    let (Some(old), Some(new)) = (real("opentcs", REAL[0].0), real("opentcs", REAL[2].0)) else {
         return;
     };
     let (old, new) = (
@@ -157,7 +155,7 @@ fn versions_of_the_demo_plant_have_one_size() {
 
 #[test]
 fn legacy_files_are_shown_as_drawn() {
-    let Some(layout) = real(REAL[0].0) else {
+    let Some(layout) = real("opentcs", REAL[0].0) else {
         return;
     };
     assert_eq!(codes(&layout), [Code::LegacyPosition]);
@@ -172,7 +170,9 @@ fn legacy_files_are_shown_as_drawn() {
 #[test]
 fn the_sample_has_every_connection_type() {
     for file in ["PlantModelV004.sample.xml", "PlantModelV7.sample.xml"] {
-        let Some(layout) = real(file) else { return };
+        let Some(layout) = real("opentcs", file) else {
+            return;
+        };
         assert_eq!(codes(&layout), [Code::ApproximateShape]);
         assert_eq!(layout.diagnostics.count(Code::ApproximateShape), 2);
         let segments = |id: &str| {
@@ -199,7 +199,7 @@ fn the_sample_has_every_connection_type() {
 
 #[test]
 fn three_part_curves_pass_through_their_middle() {
-    let Some(layout) = real("PlantModelV7.sample.xml") else {
+    let Some(layout) = real("opentcs", "PlantModelV7.sample.xml") else {
         return;
     };
     let mut paths = layout.paths.iter();
@@ -302,7 +302,7 @@ fn envelopes_are_columns_of_keys_and_of_areas_in_metres() {
 
 #[test]
 fn a_real_file_has_the_areas_of_its_paths_and_points() {
-    let Some(layout) = real("Demo-01_v7.0.0.xml") else {
+    let Some(layout) = real("opentcs", "Demo-01_v7.0.0.xml") else {
         return;
     };
     let tables = [(&layout.paths.attributes, 4), (&layout.nodes.attributes, 8)];

@@ -1,7 +1,6 @@
 //! Open-RMF: the real files, and what is easy to get wrong: pixels, scale, levels, types of parameters.
 
-use crate::common::{assert_counts, codes, ends, read, real_layouts};
-use guideway_formats::{ReadOptions, read_file};
+use crate::common::{assert_counts, codes, ends, read, real};
 use guideway_layout::{Code, Direction, Layout, Value};
 use guideway_spline::Point;
 
@@ -53,11 +52,6 @@ const COUNTED: &[&str] = &[
     "lifts",
 ];
 
-fn real(file: &str) -> Option<Layout> {
-    let path = real_layouts("rmf_building")?.join(file);
-    Some(read_file(&path, &ReadOptions::default()).unwrap_or_else(|e| panic!("{e}")))
-}
-
 fn assert_near(found: Point<f64>, x: f64, y: f64) {
     let expected = Point::new(x, y);
     assert!(
@@ -69,7 +63,9 @@ fn assert_near(found: Point<f64>, x: f64, y: f64) {
 #[test]
 fn real_files_have_the_counts_of_their_sources() {
     for (file, expected) in REAL {
-        let Some(layout) = real(file) else { return };
+        let Some(layout) = real("rmf_building", file) else {
+            return;
+        };
         assert_eq!(layout.provenance.format, "Open-RMF");
         assert_counts(&layout, COUNTED, expected, file);
         let count = |name| crate::common::count(&layout, name);
@@ -85,7 +81,7 @@ fn real_files_have_the_counts_of_their_sources() {
 
 #[test]
 fn the_airport_is_as_long_as_it_was_measured() {
-    let Some(layout) = real("airport_terminal.building.yaml") else {
+    let Some(layout) = real("rmf_building", "airport_terminal.building.yaml") else {
         return;
     };
     // 0.0821 m a pixel; the vertices of lanes and walls span 282 m by 83 m.
@@ -103,7 +99,7 @@ fn the_airport_is_as_long_as_it_was_measured() {
 
 #[test]
 fn the_levels_of_the_hotel_lie_over_each_other() {
-    let Some(layout) = real("hotel.building.yaml") else {
+    let Some(layout) = real("rmf_building", "hotel.building.yaml") else {
         return;
     };
     assert_eq!(layout.levels[2].elevation_m, Some(16.0));

@@ -1,6 +1,6 @@
 //! SVG: the real files, and what is easy to get wrong: units, transforms, references, styles, arcs.
 
-use crate::common::{assert_counts, codes, ends, read, real_layouts};
+use crate::common::{assert_counts, codes, count, ends, read, real_layouts};
 use guideway_formats::{ReadOptions, read_file};
 use guideway_layout::{Code, Layout, Value};
 use guideway_spline::{Point, uniform};
@@ -33,10 +33,7 @@ fn real_files_have_the_counts_of_their_sources() {
         };
         let layout = read_file(&folder.join(file), &ReadOptions::default()).unwrap();
         assert_counts(&layout, COUNTED, expected, file);
-        let shapes: u64 = COUNTED[..7]
-            .iter()
-            .map(|tag| crate::common::count(&layout, tag))
-            .sum();
+        let shapes: u64 = COUNTED[..7].iter().map(|tag| count(&layout, tag)).sum();
         assert_eq!(layout.path_count() as u64, shapes, "{file}");
         // This one is a test of resvg for path data that must not be drawn.
         let refused = usize::from(*file == "resvg_path_A.svg");

@@ -1,7 +1,6 @@
 //! Orders of VDA 5050: the real files, and what the versions do differently.
 
-use crate::common::{assert_counts, codes, ends, read, real_layouts};
-use guideway_formats::{ReadOptions, read_file};
+use crate::common::{assert_counts, codes, count, ends, read, real, real_layouts};
 use guideway_layout::{Code, Layout};
 use guideway_spline::Point;
 
@@ -16,11 +15,6 @@ const REAL: &[(&str, &str)] = &[
         "nodes 2, edges 1, trajectories 1",
     ),
 ];
-
-fn real(file: &str) -> Option<Layout> {
-    let path = real_layouts("vda5050")?.join(file);
-    Some(read_file(&path, &ReadOptions::default()).unwrap_or_else(|e| panic!("{e}")))
-}
 
 /// Three nodes at 0, 10 and 20 m, with sequence ids 0, 2 and 4, and the edges given.
 fn order(edges: &str) -> Layout {
@@ -40,19 +34,19 @@ fn real_files_have_the_counts_that_others_find() {
     };
     assert_eq!(folder.read_dir().unwrap().count(), REAL.len());
     for (file, expected) in REAL {
-        let layout = real(file).unwrap();
+        let layout = real("vda5050", file).unwrap();
         assert_counts(&layout, &["nodes", "edges", "trajectories"], expected, file);
         assert_eq!(layout.provenance.format, "VDA 5050", "{file}");
         assert_eq!(layout.provenance.format_version, "1.1 to 2.1", "{file}");
         assert_eq!(layout.diagnostics.count(Code::Version), 1, "`version`");
         let edges = layout.path_count() as u64;
-        assert_eq!(edges, crate::common::count(&layout, "edges"), "{file}");
+        assert_eq!(edges, count(&layout, "edges"), "{file}");
     }
 }
 
 #[test]
 fn a_trajectory_of_one_point_is_the_straight_line() {
-    if let Some(layout) = real("order_v2_0_jsonSampleFull.json") {
+    if let Some(layout) = real("vda5050", "order_v2_0_jsonSampleFull.json") {
         assert_eq!(layout.diagnostics.count(Code::TooFewPoints), 1);
         let (start, end) = ends(&layout, "some-edge-id");
         assert!(start.distance(Point::new(1.2, 3.4)) < 1e-12);
@@ -64,7 +58,7 @@ fn a_trajectory_of_one_point_is_the_straight_line() {
 
 #[test]
 fn nodes_without_a_position_leave_their_edges_undrawn() {
-    if let Some(layout) = real("order_v1_1_nullOptionalFields.json") {
+    if let Some(layout) = real("vda5050", "order_v1_1_nullOptionalFields.json") {
         assert_eq!((layout.nodes.len(), layout.paths.len()), (1, 0));
         assert!(layout.refused.iter().all(|r| r.code == Code::UnknownNode));
         assert_eq!(layout.diagnostics.count(Code::BadWeight), 1);
@@ -146,5 +140,5 @@ fn a_node_that_is_passed_twice_is_one_node() {
     );
     assert_eq!((layout.nodes.len(), layout.paths.len()), (2, 2));
     assert_eq!(layout.paths.get(1).end_node(), Some(0));
-    assert_eq!(crate::common::count(&layout, "nodes"), 3);
+    assert_eq!(count(&layout, "nodes"), 3);
 }

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use guideway_formats::{ReadOptions, read_bytes};
+use guideway_formats::{ReadOptions, read_bytes, read_file};
 use guideway_layout::{Code, Layout};
 use guideway_spline::Point;
 
@@ -15,6 +15,12 @@ pub(crate) fn real_layouts(format: &str) -> Option<PathBuf> {
     }
     println!("SKIPPED: the real layouts are not at {}", folder.display());
     None
+}
+
+/// A real file, which must be readable; none where there are none.
+pub(crate) fn real(format: &str, file: &str) -> Option<Layout> {
+    let path = real_layouts(format)?.join(file);
+    Some(read_file(&path, &ReadOptions::default()).unwrap_or_else(|e| panic!("{e}")))
 }
 
 /// A layout from text that must be readable.
