@@ -33,6 +33,9 @@ struct End<'r> {
 impl Curve<'_, '_> {
     /// A vehicle type may have several entries.
     fn name_types_once(&mut self) {
+        if self.types.len() < 2 {
+            return;
+        }
         let mut known = HashSet::new();
         self.types.retain(|name| known.insert(name.clone()));
     }
