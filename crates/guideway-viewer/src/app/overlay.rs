@@ -1,4 +1,6 @@
 use std::sync::Arc;
+#[cfg(test)]
+use std::sync::mpsc::Receiver;
 use std::time::{Duration, Instant};
 
 use guideway_document::Document;
@@ -52,14 +54,32 @@ impl Overlay {
         if self.task.is_some() || self.asked.as_ref() == Some(&asked) {
             return;
         }
-        self.asked = Some(asked);
-        let (document, view, options) = (Arc::clone(document), *view, *options);
-        self.task = Some(Task::start(wake, move || {
-            Made::new(&document, &view, &options)
-        }));
+        let document = Arc::clone(document);
+        self.begin(asked, wake, move |asked| Made::new(&document, asked));
         if self.last().is_none_or(|last| last.elapsed < patience) {
             self.poll(patience);
         }
+    }
+
+    fn begin(
+        &mut self,
+        asked: Asked,
+        wake: &Wake,
+        make: impl FnOnce(&Asked) -> Made + Send + 'static,
+    ) {
+        self.asked = Some(asked.clone());
+        self.task = Some(Task::start(wake, move || make(&asked)));
+    }
+
+    /// Has the last one made again, which comes to no end before there is something to receive, or nobody to send it.
+    #[cfg(test)]
+    pub(crate) fn make_again(&mut self, document: &Arc<Document>, wake: &Wake, rest: Receiver<()>) {
+        let asked = self.asked.clone().expect("one was asked for");
+        let document = Arc::clone(document);
+        self.begin(asked, wake, move |asked| {
+            let _ = rest.recv();
+            Made::new(&document, asked)
+        });
     }
 
     /// Takes what was made, if it is there within `patience`.
@@ -93,12 +113,12 @@ impl Overlay {
 }
 
 impl Made {
-    fn new(document: &Document, view: &View, options: &MarkOptions) -> Self {
+    fn new(document: &Document, asked: &Asked) -> Self {
         let started = Instant::now();
         Self {
-            view: *view,
-            marks: marks(document, view, options),
-            selection: outline(document, document.selection(), view),
+            view: asked.view,
+            marks: marks(document, &asked.view, &asked.options),
+            selection: outline(document, document.selection(), &asked.view),
             elapsed: started.elapsed(),
         }
     }
