@@ -1,3 +1,4 @@
+use std::fs;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::{Child, Command, ExitStatus, Stdio};
@@ -6,6 +7,7 @@ use std::thread;
 use std::time::Duration;
 
 use guideway::layout::Layout;
+use tempfile::TempDir;
 
 /// How often something is looked for before it is given up.
 const MOST_LOOKS: usize = 600;
@@ -20,12 +22,17 @@ pub(super) struct Desk {
     screen: Child,
     pub(super) viewer: Child,
     display: String,
+    /// Where the screen keeps its pixels, as a file of the X window dump format.
+    pixels: TempDir,
 }
 
 impl Desk {
     /// None where this computer lacks a screen to run on.
     pub(super) fn with(files: &[&Path]) -> Option<Self> {
+        let pixels = tempfile::tempdir().ok()?;
         let mut screen = Command::new("Xvfb")
+            .arg("-fbdir")
+            .arg(pixels.path())
             .args([
                 "-displayfd",
                 "1",
@@ -36,6 +43,8 @@ impl Desk {
                 "tcp",
                 // Else it starts anew when its only viewer crashes, and refuses the next one meanwhile.
                 "-noreset",
+                // Else a key whose release is late counts several times.
+                "-r",
             ])
             .stdout(Stdio::piped())
             .stderr(Stdio::null())
@@ -51,6 +60,7 @@ impl Desk {
             viewer: start(&display, files),
             screen,
             display,
+            pixels,
         };
         desk.focus();
         Some(desk)
@@ -126,19 +136,43 @@ impl Desk {
     }
 
     /// None where there is nothing to save, such as a file that is not read yet.
-    pub(super) fn try_to_save_as(&self, path: &Path) -> Option<Layout> {
-        self.keys(&["ctrl+shift+s"]);
-        thread::sleep(UNTIL_ASKED);
-        self.keys(&["ctrl+a"]);
-        self.type_text(&path.display().to_string());
-        self.keys(&["Return"]);
-        let is_written = looks().take(30).any(|()| path.exists());
+    fn try_to_save_as(&self, path: &Path) -> Option<Layout> {
+        let is_answered = self.answer("ctrl+shift+s", path);
+        let is_written = is_answered && looks().take(30).any(|()| path.exists());
         is_written.then(|| guideway::open(path).expect("what was saved can be read"))
     }
-}
 
-/// What is typed before the window asks for a name is taken for commands, such as to hide what is selected.
-pub(super) const UNTIL_ASKED: Duration = Duration::from_millis(1500);
+    /// Names a file where these keys have the window ask for one. What is typed before it asks would be taken for
+    /// commands, such as to hide what is selected. False if it does not ask.
+    pub(super) fn answer(&self, keys: &str, path: &Path) -> bool {
+        self.keys(&[keys]);
+        let is_asked = looks().take(30).any(|()| self.is_asked());
+        if is_asked {
+            self.keys(&["ctrl+a"]);
+            self.type_text(&path.display().to_string());
+            self.keys(&["Return"]);
+        }
+        is_asked
+    }
+
+    /// Whether the window asks something: all else, which is mostly white, is grey then.
+    pub(super) fn is_asked(&self) -> bool {
+        const COLOR_BYTES: usize = 12;
+        let file = self.pixels.path().join("Xvfb_screen0");
+        let dump = fs::read(file).expect("the screen is on");
+        let number = |index: usize| {
+            let bytes = dump[4 * index..][..4].try_into();
+            u32::from_be_bytes(bytes.expect("four of them")) as usize
+        };
+        let (header_len, color_count) = (number(0), number(19));
+        let (pixels, _) = dump[header_len + COLOR_BYTES * color_count..].as_chunks::<4>();
+        let is_dimmed = |pixel: &&[u8; 4]| {
+            let [first, second, third, _] = **pixel;
+            first == second && second == third && (128..192).contains(&first)
+        };
+        pixels.iter().filter(is_dimmed).count() > pixels.len() / 2
+    }
+}
 
 /// Starts the viewer with files on a screen.
 fn start(display: &str, files: &[&Path]) -> Child {

@@ -12,7 +12,7 @@ use std::process::Command;
 use std::thread;
 use std::time::Duration;
 
-use desk::{Desk, MOST_TRIES, UNTIL_ASKED, is_installed, looks};
+use desk::{Desk, MOST_TRIES, is_installed, looks};
 use guideway::layout::{Layout, PathRef};
 use guideway::spline::Point;
 
@@ -77,11 +77,7 @@ fn a_site_is_edited_by_keys_and_mouse_and_saved() {
     // All of it, and nothing but paths.
     desk.keys(&["f", "a", "n", "l", "g"]);
     let picture = folder.path().join("site.png");
-    desk.keys(&["ctrl+e"]);
-    thread::sleep(UNTIL_ASKED);
-    desk.keys(&["ctrl+a"]);
-    desk.type_text(&picture.display().to_string());
-    desk.keys(&["Return"]);
+    assert!(desk.answer("ctrl+e", &picture));
     assert!(looks().any(|()| picture.exists()));
     assert_is_as_rendered(&picture, &site, &folder.path().join("rendered.png"));
 
@@ -167,12 +163,16 @@ fn what_a_hand_has_done_outlives_a_crash() {
     desk.keys(&["Delete"]);
     assert!(looks().any(|()| written() > before));
     desk.crash(&[&site]);
-    // It asks whether the work of last time is to be done again. Until it does, a click there selects, if anything.
-    let again = (0..MOST_TRIES).find_map(|_| {
+    assert!(
+        looks().any(|()| desk.is_asked()),
+        "whether the work of last time is to be done again"
+    );
+    let is_clicked = (0..MOST_TRIES).any(|_| {
         desk.click(498, 409);
-        desk.try_to_save_as(&file("again.arrow"))
+        !desk.is_asked()
     });
-    let again = again.expect("it is written");
+    assert!(is_clicked);
+    let again = desk.saved_as(&file("again.arrow"));
     let rest = moved.paths.iter().filter(|path| !is_of_mezzanine(path));
     assert!(
         again
