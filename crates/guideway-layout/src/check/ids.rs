@@ -49,6 +49,9 @@ fn report(kind: &str, id: &str, rows: &[usize], found: &mut Diagnostics) {
 
 /// What an earlier layout has too, for each; what one has several times is told once.
 pub(super) fn check_across(layouts: &[&Layout]) -> Vec<Diagnostics> {
+    if layouts.len() < 2 {
+        return vec![Diagnostics::default(); layouts.len()];
+    }
     let mut first_layouts: HashMap<(&str, &str), usize> = HashMap::new();
     let mut found = Vec::with_capacity(layouts.len());
     for (own, layout) in layouts.iter().enumerate() {
