@@ -55,7 +55,12 @@ pub(super) fn place<'a>(
         };
         let is_inside = picture.contains(room.min) && picture.contains(room.max);
         if is_inside && !taken.iter().any(|other| other.intersects(room)) {
-            taken.push(room);
+            // Two names without a space between them would be read as one.
+            let space = Point::new(size.char_px, 0.0);
+            taken.push(Bounds {
+                min: room.min - space,
+                max: room.max + space,
+            });
             labels.push(Label { text, at_px });
         }
     }
@@ -66,5 +71,27 @@ fn shortened(name: &str) -> String {
     match name.char_indices().nth(LONGEST) {
         Some((end, _)) => format!("{}…", &name[..end]),
         None => name.to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_on_a_line_have_room_for_a_space_between_them() {
+        let size = LabelSize {
+            char_px: 7.0,
+            line_px: 14.0,
+        };
+        let picture = FrameSize::new(100, 100).unwrap();
+        let placed = |gap_px: f64| {
+            let places = [20.0, 20.0 + 3.0 * size.char_px + gap_px];
+            let names = ["one", "two"]
+                .into_iter()
+                .zip(places.map(|x| Point::new(x, 50.0)));
+            place(names, std::iter::empty(), size, picture).len()
+        };
+        assert_eq!([1.0, 6.5, 7.5].map(placed), [1, 1, 2]);
     }
 }
