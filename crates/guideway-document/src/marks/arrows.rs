@@ -12,8 +12,13 @@ const LEAST_PX: f64 = 24.0;
 const MOST_A_SEGMENT: f64 = 64.0;
 
 /// The arrows of one path in a view, evenly along it, so that they stay on their places as the view moves. `is_pair`: another
-/// one leads back on it.
-pub(super) fn along(path: PathRef<'_>, is_pair: bool, view: &View) -> Vec<Arrow> {
+/// one leads back on it. `line_radius_px` is half the width of its line.
+pub(super) fn along(
+    path: PathRef<'_>,
+    is_pair: bool,
+    line_radius_px: f64,
+    view: &View,
+) -> Vec<Arrow> {
     let seen = view.world_bounds();
     let tolerance_m = 0.5 / view.px_per_m();
     let segments: Vec<_> = path.runs().flat_map(|run| run.segments()).collect();
@@ -26,6 +31,15 @@ pub(super) fn along(path: PathRef<'_>, is_pair: bool, view: &View) -> Vec<Arrow>
     }
     let spacing_m = length_m / (length_px / SPACING_PX).round().max(1.0);
     let is_two_way = is_pair || path.direction() == Direction::Both;
+    let arrow = |segment, t| {
+        let (at_px, direction) = place(segment, t, view)?;
+        Some(Arrow {
+            at_px,
+            direction,
+            is_two_way,
+            line_radius_px,
+        })
+    };
     let mut arrows = Vec::new();
     let mut from_m = 0.0;
     for (segment, segment_m) in segments.iter().zip(lengths_m) {
@@ -41,7 +55,7 @@ pub(super) fn along(path: PathRef<'_>, is_pair: bool, view: &View) -> Vec<Arrow>
             }
             for k in first as i64..end as i64 {
                 let t = (((k as f64 + 0.5) * spacing_m - from_m) / segment_m).clamp(0.0, 1.0);
-                arrows.extend(arrow(segment, t, view, is_two_way));
+                arrows.extend(arrow(segment, t));
             }
         }
         from_m = to_m;
@@ -49,15 +63,15 @@ pub(super) fn along(path: PathRef<'_>, is_pair: bool, view: &View) -> Vec<Arrow>
     arrows
 }
 
-fn arrow(segment: &[Point<f64>; 4], t: f64, view: &View, is_two_way: bool) -> Option<Arrow> {
+/// A place of the view and the way that a segment goes there; none outside of the view.
+fn place(segment: &[Point<f64>; 4], t: f64, view: &View) -> Option<(Point<f64>, Point<f64>)> {
     let at = uniform::point(segment, t);
     let velocity = uniform::derivative(segment, t);
     let speed = velocity.norm();
     let is_seen = view.world_bounds().contains(at) && speed > 0.0;
-    is_seen.then(|| Arrow {
-        at_px: view.pixel_from_world(at),
-        direction: Point::new(velocity.x / speed, -velocity.y / speed),
-        is_two_way,
+    is_seen.then(|| {
+        let direction = Point::new(velocity.x / speed, -velocity.y / speed);
+        (view.pixel_from_world(at), direction)
     })
 }
 

@@ -10,7 +10,7 @@ mod outline;
 mod shapes;
 
 use guideway_render::View;
-use guideway_scene::PathState;
+use guideway_scene::{LineRule, PathState};
 use guideway_spline::Point;
 
 use crate::{Document, Twins};
@@ -26,8 +26,8 @@ pub const MOST_MARKED: usize = 2_000;
 /// What is wanted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MarkOptions {
-    /// Which way vehicles go.
-    pub arrows: bool,
+    /// Which way vehicles go, along lines that are drawn by this rule.
+    pub arrows: Option<LineRule>,
     /// Nodes and stations.
     pub symbols: bool,
     /// Names of paths, nodes and stations, of this size.
@@ -43,6 +43,8 @@ pub struct Arrow {
     pub direction: Point<f64>,
     /// Whether it points back as well.
     pub is_two_way: bool,
+    /// Half the width of the line that it lies on, in pixels.
+    pub line_radius_px: f64,
 }
 
 /// Everything drawn over a view.
@@ -92,13 +94,14 @@ pub fn marks(document: &Document, view: &View, options: &MarkOptions) -> Marks {
         left_out,
         ..Marks::default()
     };
-    if options.arrows {
+    if let Some(line_rule) = options.arrows {
         // The first of a pair has the arrows of both.
         let twins = Twins::among(document, &paths);
         let is_first = |path: &&u32| twins.of(**path).is_none_or(|twin| **path < twin);
         let of = |&path: &u32| {
             let is_pair = twins.of(path).is_some();
-            arrows::along(layout.paths.get(path as usize), is_pair, view)
+            let radius_px = line_rule.radius_px(scene.width_m(path), view.px_per_m());
+            arrows::along(layout.paths.get(path as usize), is_pair, radius_px, view)
         };
         let arrows = paths.iter().filter(is_first).flat_map(of);
         marks.arrows = arrows.take(2 * MOST_MARKED).collect();

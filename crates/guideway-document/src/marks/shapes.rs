@@ -13,8 +13,12 @@ pub enum Kind {
     Station,
 }
 
-/// Length of an arrow's head, and half of its width.
-const HEAD: (f64, f64) = (9.0, 4.0);
+/// Length of an arrow's head, as a multiple of half its width.
+const HEAD_LENGTH: f64 = 2.25;
+/// Least half of the width of an arrow's head.
+const HEAD_RADIUS: f64 = 4.0;
+/// Width of an arrow's head, as a multiple of that of its line.
+const HEAD_WIDTH: f64 = 2.0;
 /// How far ahead of its place a head begins, so that the arrows of two opposite paths are not one over the other.
 const AHEAD: f64 = 2.0;
 /// From the middle of a node's diamond to its corners.
@@ -24,7 +28,8 @@ const STATION: f64 = 6.0;
 
 impl Marks {
     /// Draws the convex shapes of all arrows and symbols, from the lowest. `place` says where a pixel of the view is
-    /// drawn; there the shapes are `scale` times as large as on a screen of one pixel a point.
+    /// drawn; there the shapes are `scale` times as large as on a screen of one pixel a point, and arrows wider than
+    /// their lines.
     pub fn draw_shapes(
         &self,
         scale: f64,
@@ -33,19 +38,20 @@ impl Marks {
     ) {
         for arrow in &self.arrows {
             let at = place(arrow.at_px);
+            let drawn_from_px = place(arrow.at_px + arrow.direction).distance(at);
+            let line_radius = arrow.line_radius_px * drawn_from_px;
+            let radius = (HEAD_WIDTH * line_radius).max(HEAD_RADIUS * scale);
             let signs = if arrow.is_two_way {
                 &[1.0, -1.0][..]
             } else {
                 &[1.0]
             };
             for sign in signs {
-                let ahead = arrow.direction * (sign * scale);
-                let side = Point::new(-ahead.y, ahead.x) * HEAD.1;
-                let base = at + ahead * AHEAD;
-                draw(
-                    Kind::Arrow,
-                    &[base + ahead * HEAD.0, base + side, base - side],
-                );
+                let ahead = arrow.direction * *sign;
+                let side = Point::new(-ahead.y, ahead.x) * radius;
+                let base = at + ahead * (AHEAD * scale);
+                let tip = base + ahead * (HEAD_LENGTH * radius);
+                draw(Kind::Arrow, &[tip, base + side, base - side]);
             }
         }
         let mut symbols = |kind, places: &[Point<f64>], corners: [(f64, f64); 4], size: f64| {
@@ -72,6 +78,7 @@ mod tests {
             at_px: Point::new(10.0, 20.0),
             direction: Point::new(0.0, -1.0),
             is_two_way,
+            line_radius_px: 1.0,
         };
         let marks = Marks {
             arrows: vec![arrow(false), arrow(true)],
@@ -88,5 +95,33 @@ mod tests {
         let tips = shapes[..3].iter().map(|(_, corners)| corners[0].y);
         assert_eq!(tips.collect::<Vec<_>>(), [18.0, 18.0, 62.0]);
         assert_eq!(shapes[3].1[0], Point::new(2.0, -6.0));
+    }
+
+    #[test]
+    fn arrows_are_wider_than_their_lines() {
+        for (line_radius_px, scale, radius) in [(0.75, 1.0, 4.0), (6.0, 1.0, 12.0), (3.0, 2.0, 8.0)]
+        {
+            let arrow = Arrow {
+                at_px: Point::new(10.0, 20.0),
+                direction: Point::new(1.0, 0.0),
+                is_two_way: false,
+                line_radius_px,
+            };
+            let marks = Marks {
+                arrows: vec![arrow],
+                ..Marks::default()
+            };
+            marks.draw_shapes(
+                scale,
+                |at| at,
+                |_, corners| {
+                    assert_eq!(
+                        (corners[1].y - 20.0, corners[2].y - 20.0),
+                        (radius, -radius)
+                    );
+                    assert_eq!(corners[0].x - corners[1].x, 2.25 * radius);
+                },
+            );
+        }
     }
 }

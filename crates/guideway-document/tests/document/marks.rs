@@ -2,12 +2,17 @@ use guideway_document::marks::{LabelSize, MOST_MARKED, MarkOptions, Outline, mar
 use guideway_document::{Combine, Rows, Twins};
 use guideway_layout::{Layout, NewPath};
 use guideway_render::View;
+use guideway_scene::LineRule;
 use guideway_spline::{Point, Runs};
 
 use crate::site::{document_of, lanes, p, view};
 
 const ALL: MarkOptions = MarkOptions {
-    arrows: true,
+    arrows: Some(LineRule::World {
+        width_m: 0.1,
+        min_px: 1.5,
+        max_px: 12.0,
+    }),
     symbols: true,
     labels: Some(LabelSize {
         char_px: 7.0,

@@ -115,7 +115,7 @@ impl Look {
 
     pub(crate) fn marks(&self, label_size: LabelSize) -> MarkOptions {
         MarkOptions {
-            arrows: self.has_arrows,
+            arrows: self.has_arrows.then(|| self.line_rule()),
             symbols: self.has_symbols,
             labels: self.has_labels.then_some(label_size),
         }

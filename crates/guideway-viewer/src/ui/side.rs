@@ -151,11 +151,12 @@ impl App {
             moves = ui.button("Move").clicked();
         });
         ui.horizontal(|ui| {
-            ui.add(
-                DragValue::new(&mut numbers.copies)
-                    .range(1..=1000)
-                    .suffix(" times"),
-            );
+            let times = match numbers.copies {
+                1 => " time",
+                _ => " times",
+            };
+            let copies_of_it = DragValue::new(&mut numbers.copies).range(1..=1000);
+            ui.add(copies_of_it.suffix(times));
             copies = ui.button("Copy, each farther by that").clicked();
         });
         ui.horizontal(|ui| {
