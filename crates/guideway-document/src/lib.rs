@@ -24,7 +24,7 @@ mod trail;
 mod twins;
 
 pub use document::{Combine, Document};
-pub use edit::{Change, NodeMoves, PointRef, Saved};
+pub use edit::{Change, NodeMoves, PointRef, Saved, drawn_path};
 pub use index::Index;
 pub use journal::{Act, Replayed, replay};
 pub use locate::locate;

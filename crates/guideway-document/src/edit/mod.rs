@@ -11,7 +11,7 @@ use guideway_spline::Point;
 
 use crate::{Act, Document, Rows};
 
-pub use operations::PointRef;
+pub use operations::{PointRef, drawn_path};
 
 /// One change; several make a step.
 #[derive(Clone, Debug)]

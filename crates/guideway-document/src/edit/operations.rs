@@ -1,6 +1,6 @@
 use std::sync::Arc;
 
-use guideway_layout::{Direction, PathRef};
+use guideway_layout::{Direction, Layout, NewPath, PathRef};
 use guideway_scene::{Edit, EditError, Insertion, PathState};
 use guideway_spline::{Affine, Point, Runs};
 
@@ -263,4 +263,14 @@ fn reshape(paths: Vec<u32>, curves: &[Runs]) -> Change {
         paths: paths.into(),
         curves: Arc::new(geometry_of(curves)),
     })
+}
+
+/// A layout of nothing but the path that [`Document::draw_path`] makes of these points; none where it makes none.
+pub fn drawn_path(points_m: &[Point<f64>]) -> Option<Layout> {
+    let mut layout = Layout::default();
+    layout.paths.push(&NewPath {
+        runs: &through_ends(points_m)?,
+        ..NewPath::default()
+    });
+    Some(layout)
 }

@@ -17,7 +17,7 @@ use crate::{Document, Twins};
 
 pub use handles::{Handle, handles};
 pub use labels::{Label, LabelSize};
-pub use outline::{Outline, outline};
+pub use outline::{Outline, outline, path_outline};
 pub use shapes::Kind;
 
 /// Most paths, nodes or stations of a view that still has marks for them.

@@ -1,3 +1,4 @@
+use guideway_layout::PathRef;
 use guideway_render::View;
 use guideway_spline::{Bounds, Point, uniform};
 
@@ -30,15 +31,19 @@ pub fn outline(document: &Document, paths: &Rows, view: &View) -> Outline {
     let mut is_too_much = near.len() > MOST_POINTS;
     let mut paths_left = near.iter();
     while let Some(&path) = paths_left.next().filter(|_| !is_too_much) {
-        let path = document.layout().paths.get(path as usize);
-        for segment in path.runs().flat_map(|run| run.segments()) {
-            pen.draw(&segment, MOST_HALVINGS);
-        }
+        pen.draw(document.layout().paths.get(path as usize));
         is_too_much = pen.points > MOST_POINTS;
     }
     if is_too_much {
         return Outline::Cells(cells(document, paths, view), CELL_PX);
     }
+    Outline::Lines(pen.lines)
+}
+
+/// Outlines one path, of whatever layout.
+pub fn path_outline(path: PathRef<'_>, view: &View) -> Outline {
+    let mut pen = Pen::new(view);
+    pen.draw(path);
     Outline::Lines(pen.lines)
 }
 
@@ -115,7 +120,13 @@ impl<'a> Pen<'a> {
         }
     }
 
-    fn draw(&mut self, segment: &[Point<f64>; 4], halvings_left: u32) {
+    fn draw(&mut self, path: PathRef<'_>) {
+        for segment in path.runs().flat_map(|run| run.segments()) {
+            self.draw_segment(&segment, MOST_HALVINGS);
+        }
+    }
+
+    fn draw_segment(&mut self, segment: &[Point<f64>; 4], halvings_left: u32) {
         if self.points > MOST_POINTS {
             return;
         }
@@ -134,7 +145,7 @@ impl<'a> Pen<'a> {
             return;
         }
         for half in uniform::halves(segment) {
-            self.draw(&half, halvings_left - 1);
+            self.draw_segment(&half, halvings_left - 1);
         }
     }
 

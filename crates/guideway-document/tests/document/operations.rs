@@ -1,8 +1,8 @@
 use std::f64::consts::FRAC_PI_2;
 
 use guideway_document::measure::length_m;
-use guideway_document::{Change, Combine, Document, Index, PointRef, Snap};
-use guideway_layout::{Layout, NewPath, Value};
+use guideway_document::{Change, Combine, Document, Index, PointRef, Snap, drawn_path};
+use guideway_layout::{Layout, NewPath, PathRef, Value};
 use guideway_scene::{Edit, EditError, LayoutCopy};
 use guideway_spline::{Affine, Bounds, Point, Runs};
 
@@ -238,9 +238,17 @@ fn a_drawn_path_begins_and_ends_where_it_was_drawn() {
     assert_eq!((path.start_node(), path.end_node()), (Some(0), Some(2)));
     let (start, end) = path.ends().unwrap();
     assert!(is_near(start, points[0]) && is_near(end, points[2]));
+    let ahead = drawn_path(&points).unwrap();
+    let points_of = |path: PathRef<'_>| {
+        path.runs()
+            .flat_map(|r| r.iter().collect::<Vec<_>>())
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(points_of(ahead.paths.get(0)), points_of(path));
     assert_eq!(document.selection().iter().collect::<Vec<_>>(), [2]);
     for nothing in [&[][..], &[p(1.0, 1.0)], &[p(1.0, 1.0), p(1.0, 1.0)]] {
         assert!(document.draw_path("none".into(), nothing, 0.5).is_err());
+        assert!(drawn_path(nothing).is_none());
     }
 }
 

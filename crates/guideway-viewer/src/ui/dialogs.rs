@@ -6,6 +6,9 @@ use eframe::egui::{
 use crate::app::command::ENTRIES;
 use crate::app::{App, Layer, PromptKind};
 
+/// All of them, on a window that is not very small.
+const KEYS_HEIGHT: f32 = 740.0;
+
 impl App {
     /// What lies over everything else: questions, notices, help.
     pub(super) fn dialogs(&mut self, ctx: &Context) {
@@ -16,7 +19,8 @@ impl App {
         self.show_notices(ctx);
         if self.shows_keys {
             let mut is_open = true;
-            Window::new("Keys").open(&mut is_open).show(ctx, |ui| {
+            let window = Window::new("Keys").open(&mut is_open);
+            window.default_height(KEYS_HEIGHT).show(ctx, |ui| {
                 ScrollArea::vertical().show(ui, keys);
             });
             self.shows_keys = is_open;
@@ -193,13 +197,16 @@ impl App {
 }
 
 fn keys(ui: &mut Ui) {
+    let (left, right) = ENTRIES.split_at(ENTRIES.len().div_ceil(2));
     Grid::new("keys")
-        .num_columns(2)
+        .num_columns(4)
         .striped(true)
         .show(ui, |ui| {
-            for entry in ENTRIES {
-                ui.monospace(ui.ctx().format_shortcut(&entry.shortcut));
-                ui.label(entry.label);
+            for (row, entry) in left.iter().enumerate() {
+                for entry in [Some(entry), right.get(row)].into_iter().flatten() {
+                    ui.monospace(ui.ctx().format_shortcut(&entry.shortcut));
+                    ui.label(entry.label);
+                }
                 ui.end_row();
             }
         });

@@ -3,6 +3,7 @@
 mod bar;
 mod canvas;
 mod dialogs;
+mod draft;
 mod find;
 mod paint;
 mod side;

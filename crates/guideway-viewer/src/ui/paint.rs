@@ -16,7 +16,7 @@ use crate::app::sheets::{
 use crate::app::{App, Gesture, Look, Tool};
 
 const SELECTED: Color32 = Color32::from_rgb(30, 120, 255);
-const HOVERED: Color32 = Color32::from_rgb(255, 140, 0);
+pub(super) const HOVERED: Color32 = Color32::from_rgb(255, 140, 0);
 
 impl App {
     pub(super) fn paint(&mut self, ui: &Ui, screen: Screen, view: &View) {
@@ -108,23 +108,7 @@ impl App {
                 painter.rect_filled(rect, 0.0, SELECTED.gamma_multiply(0.12));
                 painter.rect_stroke(rect, 0.0, Stroke::new(1.0, SELECTED), StrokeKind::Middle);
             }
-            Gesture::Points(points) => {
-                let next = self.pointer_px.map(|at| view.world_from_pixel(at));
-                let modifiers = painter.ctx().input(|input| input.modifiers);
-                let next = next.map(|at_m| self.snapped(view, at_m, modifiers));
-                let all: Vec<Point<f64>> = points.iter().copied().chain(next).collect();
-                let line = |&at| screen.point(view.pixel_from_world(at));
-                let line: Vec<Pos2> = all.iter().map(line).collect();
-                if self.tool == Tool::Measure
-                    && let Some(last) = line.last()
-                {
-                    self.write(painter, *last + Vec2::new(12.0, -12.0), &measured(&all));
-                }
-                for at in &line {
-                    painter.circle_filled(*at, 3.0, HOVERED);
-                }
-                painter.line(line, Stroke::new(1.5, HOVERED));
-            }
+            Gesture::Points(points) => self.paint_draft(painter, screen, view, points),
             _ => {}
         }
     }
@@ -202,7 +186,7 @@ fn mapped(screen: Screen, of: &View, on: &View) -> Rect {
     Rect::from_two_pos(corner(bounds.min), corner(bounds.max))
 }
 
-fn paint_outline(
+pub(super) fn paint_outline(
     painter: &Painter,
     outline: &Outline,
     color: Color32,
@@ -235,7 +219,6 @@ fn paint_marks(
     look: &Look,
     to_screen: impl Fn(Point<f64>) -> Pos2,
 ) {
-    let (ink, paper) = (color(look.mark_ink()), color(look.paper()));
     let mut mesh = Mesh::default();
     let place = |pixel| {
         let at = to_screen(pixel);
@@ -253,12 +236,34 @@ fn paint_marks(
     painter.add(mesh);
     let font = FontId::monospace(LABEL_POINTS);
     for label in &marks.labels {
-        let galley = painter.layout_no_wrap(label.text.clone(), font.clone(), ink);
-        let corner = to_screen(label.at_px) - Vec2::new(0.0, galley.size().y / 2.0);
-        let back = Rect::from_min_size(corner, galley.size());
-        painter.rect_filled(back, 2.0, paper.gamma_multiply(LABEL_PAPER_OPACITY));
-        painter.galley(corner, galley, ink);
+        write_on_paper(
+            painter,
+            look,
+            to_screen(label.at_px),
+            &label.text,
+            font.clone(),
+        );
     }
+}
+
+/// Writes over whatever is there, and keeps that from making it hard to read.
+pub(super) fn write_on_paper(
+    painter: &Painter,
+    look: &Look,
+    left_middle: Pos2,
+    text: &str,
+    font: FontId,
+) {
+    let ink = color(look.mark_ink());
+    let galley = painter.layout_no_wrap(text.to_owned(), font, ink);
+    let corner = left_middle - Vec2::new(0.0, galley.size().y / 2.0);
+    let back = Rect::from_min_size(corner, galley.size());
+    painter.rect_filled(
+        back,
+        2.0,
+        color(look.paper()).gamma_multiply(LABEL_PAPER_OPACITY),
+    );
+    painter.galley(corner, galley, ink);
 }
 
 fn paint_handles(painter: &Painter, screen: Screen, handles: &[guideway_document::marks::Handle]) {
@@ -277,22 +282,6 @@ fn paint_handles(painter: &Painter, screen: Screen, handles: &[guideway_document
             Stroke::new(1.5, SELECTED),
             StrokeKind::Middle,
         );
-    }
-}
-
-fn measured(points: &[Point<f64>]) -> String {
-    let lengths = points.array_windows().map(|[a, b]| a.distance(*b));
-    let (last_m, all_m) = lengths.fold((0.0, 0.0), |(_, all), length| (length, all + length));
-    let Some([a, b]) = points.last_chunk() else {
-        return String::new();
-    };
-    let way = *b - *a;
-    let angle = way.y.atan2(way.x).to_degrees();
-    let last = format!("{} at {angle:.1}°", length_text(last_m));
-    if points.len() > 2 {
-        format!("{last}, {} in all", length_text(all_m))
-    } else {
-        last
     }
 }
 

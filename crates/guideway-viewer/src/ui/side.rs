@@ -2,11 +2,11 @@ use eframe::egui::{
     CollapsingHeader, ComboBox, DragValue, Grid, Label, RichText, Slider, TextEdit, Ui,
 };
 use guideway_document::Document;
-use guideway_document::measure::{Bend, bends, length_m, tightest_radius_m};
+use guideway_document::measure::{Bend, bends};
 use guideway_layout::Layout;
 use guideway_spline::{Affine, Point};
 
-use super::paint::length_text;
+use super::draft::shape_text;
 use crate::app::{App, MOST_HOVERED};
 
 /// Columns that every layout can be coloured by.
@@ -113,15 +113,7 @@ impl App {
             ));
         }
         let bends = bends(path);
-        let radius_m = tightest_radius_m(&bends);
-        ui.label(match radius_m.is_finite() && radius_m < 1e5 {
-            true => format!(
-                "{} long, tightest bend {}",
-                length_text(length_m(path)),
-                length_text(radius_m)
-            ),
-            false => format!("{} long, straight", length_text(length_m(path))),
-        });
+        ui.label(shape_text(path, &bends));
         plot(ui, &bends);
         attributes(ui, document, row);
     }
