@@ -4,20 +4,20 @@ use guideway_spline::{Bounds, Point, nearest_on_run, segment_length, uniform};
 
 use super::Arrow;
 
-/// One arrow for so much of a path.
-const SPACING_PX: f64 = 160.0;
-/// A path shorter than this has none.
-const LEAST_PX: f64 = 24.0;
+/// One arrow for so many points of a path.
+const SPACING: f64 = 160.0;
+/// A path of fewer points than this has none.
+const LEAST: f64 = 24.0;
 /// Most arrows of one segment in a view; those nearest to the middle of the view.
 const MOST_A_SEGMENT: f64 = 64.0;
 
 /// The arrows of one path in a view, evenly along it, so that they stay on their places as the view moves. `is_pair`: another
-/// one leads back on it. `line_radius_px` is half the width of its line.
+/// one leads back on it. `line_radius_px` is half the width of its line. There are `px_per_point` pixels to a point.
 pub(super) fn along(
     path: PathRef<'_>,
     is_pair: bool,
     line_radius_px: f64,
-    view: &View,
+    (view, px_per_point): (&View, f64),
 ) -> Vec<Arrow> {
     let seen = view.world_bounds();
     let tolerance_m = 0.5 / view.px_per_m();
@@ -26,10 +26,10 @@ pub(super) fn along(
     let lengths_m: Vec<f64> = lengths_m.collect();
     let length_m: f64 = lengths_m.iter().sum();
     let length_px = length_m * view.px_per_m();
-    if length_px < LEAST_PX {
+    if length_px < LEAST * px_per_point {
         return Vec::new();
     }
-    let spacing_m = length_m / (length_px / SPACING_PX).round().max(1.0);
+    let spacing_m = length_m / (length_px / (SPACING * px_per_point)).round().max(1.0);
     let is_two_way = is_pair || path.direction() == Direction::Both;
     let arrow = |segment, t| {
         let (at_px, direction) = place(segment, t, view)?;
@@ -77,12 +77,12 @@ fn place(segment: &[Point<f64>; 4], t: f64, view: &View) -> Option<(Point<f64>, 
 
 /// Where the name of a path goes: on its middle segment; none if the path is too short for one or that is not
 /// in the view.
-pub(super) fn middle(path: PathRef<'_>, view: &View) -> Option<Point<f64>> {
+pub(super) fn middle(path: PathRef<'_>, view: &View, px_per_point: f64) -> Option<Point<f64>> {
     let size_px = path.hull_bounds()?.size() * view.px_per_m();
     let count: usize = path.runs().map(|run| run.segments().len()).sum();
     let segment = path.runs().flat_map(|run| run.segments()).nth(count / 2)?;
     let t = if count.is_multiple_of(2) { 0.0 } else { 0.5 };
     let at = uniform::point(&segment, t);
-    let fits = size_px.norm() >= 2.0 * LEAST_PX && view.world_bounds().contains(at);
+    let fits = size_px.norm() >= 2.0 * LEAST * px_per_point && view.world_bounds().contains(at);
     fits.then(|| view.pixel_from_world(at))
 }

@@ -3,6 +3,7 @@
 //! All of it is bounded by what a screen can show, however many paths there are: where a view holds more than
 //! can be told apart there are no marks, and [`Marks::left_out`] says so.
 
+mod apart;
 mod arrows;
 mod handles;
 mod labels;
@@ -15,10 +16,14 @@ use guideway_spline::Point;
 
 use crate::{Document, Twins};
 
+use apart::{Apart, is_crowded};
 pub use handles::{Handle, handles};
 pub use labels::{Label, LabelSize};
 pub use outline::{Outline, outline, path_outline};
 pub use shapes::Kind;
+
+/// Symbols and arrows nearer to each other than so many points lie over each other.
+const SYMBOL: f64 = 8.0;
 
 /// Most paths, nodes or stations of a view that still has marks for them.
 pub const MOST_MARKED: usize = 2_000;
@@ -26,6 +31,8 @@ pub const MOST_MARKED: usize = 2_000;
 /// What is wanted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MarkOptions {
+    /// Pixels of the view to a point of the screen, which says how large marks are.
+    pub px_per_point: f64,
     /// Which way vehicles go, along lines that are drawn by this rule.
     pub arrows: Option<LineRule>,
     /// Nodes and stations.
@@ -77,19 +84,25 @@ pub fn marks(document: &Document, view: &View, options: &MarkOptions) -> Marks {
         .filter(|&(_, at)| seen.contains(at))
         .take(MOST_MARKED + 1)
         .collect();
-    let left_out = [paths.len(), nodes.len(), stations.len()]
+    let mut left_out = [paths.len(), nodes.len(), stations.len()]
         .iter()
         .any(|&count| count > MOST_MARKED);
+    let pixel = |at| view.pixel_from_world(at);
+    let node_px = |node: &u32| pixel(document.node_position_m(*node));
+    let least_px = SYMBOL * options.px_per_point;
     for list in [&mut paths, &mut nodes] {
         if list.len() > MOST_MARKED {
             list.clear();
         }
         list.sort_unstable();
     }
+    if is_crowded(nodes.iter().map(node_px), least_px) {
+        left_out = true;
+        nodes.clear();
+    }
     if stations.len() > MOST_MARKED {
         stations.clear();
     }
-    let pixel = |at| view.pixel_from_world(at);
     let mut marks = Marks {
         left_out,
         ..Marks::default()
@@ -101,16 +114,16 @@ pub fn marks(document: &Document, view: &View, options: &MarkOptions) -> Marks {
         let of = |&path: &u32| {
             let is_pair = twins.of(path).is_some();
             let radius_px = line_rule.radius_px(scene.width_m(path), view.px_per_m());
-            arrows::along(layout.paths.get(path as usize), is_pair, radius_px, view)
+            let path = layout.paths.get(path as usize);
+            arrows::along(path, is_pair, radius_px, (view, options.px_per_point))
         };
+        let mut others = Apart::new(least_px);
         let arrows = paths.iter().filter(is_first).flat_map(of);
+        let arrows = arrows.filter(|arrow| others.take(arrow.at_px));
         marks.arrows = arrows.take(2 * MOST_MARKED).collect();
     }
     if options.symbols {
-        marks.nodes = nodes
-            .iter()
-            .map(|&n| pixel(document.node_position_m(n)))
-            .collect();
+        marks.nodes = nodes.iter().map(node_px).collect();
         marks.stations = stations.iter().map(|&(_, at)| pixel(at)).collect();
     }
     if let Some(size) = options.labels {
@@ -119,10 +132,11 @@ pub fn marks(document: &Document, view: &View, options: &MarkOptions) -> Marks {
             .map(|&(s, at)| (layout.stations.id(s), pixel(at)));
         let nodes = nodes
             .iter()
-            .map(|&n| (layout.nodes.id(n), pixel(document.node_position_m(n))));
+            .map(|node| (layout.nodes.id(*node), node_px(node)));
         let middles = paths.iter().filter_map(|&path| {
             let path = layout.paths.get(path as usize);
-            Some((path.id(), arrows::middle(path, view)?))
+            let middle = arrows::middle(path, view, options.px_per_point)?;
+            Some((path.id(), middle))
         });
         let symbols = marks.stations.iter().copied();
         let names = stations.chain(nodes).chain(middles);

@@ -8,6 +8,7 @@ use guideway_spline::{Point, Runs};
 use crate::site::{document_of, lanes, p, view};
 
 const ALL: MarkOptions = MarkOptions {
+    px_per_point: 1.0,
     arrows: Some(LineRule::World {
         width_m: 0.1,
         min_px: 1.5,

@@ -54,7 +54,7 @@ impl App {
     /// Arrows, symbols, names and the scale bar of a view.
     pub(super) fn marks_sheet(&self, view: &View) -> Sheet {
         let mut sheet = Sheet::default();
-        let options = self.look.marks(self.label_size());
+        let options = self.look.marks(self.label_size(), self.px_per_point);
         let layer = self.layers.get(self.active).filter(|l| l.is_visible);
         if let Some(document) = layer.and_then(|layer| layer.document.as_ref()) {
             self.add_marks(&mut sheet, &marks(document, view, &options));

@@ -358,3 +358,18 @@ fn the_keys_are_shown_and_put_away() {
     );
     assert_ne!(desk.at(0.0, 0.0), Pos2::ZERO);
 }
+
+#[test]
+fn marks_that_are_left_out_are_told_of() {
+    let mut desk = Desk::looking_at(lanes(400));
+    let hint = "zoom in for all marks";
+    desk.wait(|app| app.layers[0].is_settled());
+    desk.harness.step();
+    assert!(desk.harness.query_by_label(hint).is_some());
+    for _ in 0..12 {
+        desk.key(NONE, Key::Plus);
+    }
+    desk.wait(|app| app.layers[0].is_settled());
+    desk.harness.step();
+    assert!(desk.harness.query_by_label(hint).is_none());
+}

@@ -94,16 +94,18 @@ impl App {
             }
             ui.label(self.tool_hint());
             ui.separator();
-            let shown = self
-                .layers
-                .get(self.active)
-                .and_then(|layer| layer.shown.as_ref());
-            if let Some(shown) = shown {
+            let layer = self.layers.get(self.active);
+            if let Some(shown) = layer.and_then(|layer| layer.shown.as_ref()) {
                 ui.monospace(format!(
                     "{} {:.1} ms",
                     shown.report.method,
                     shown.report.frame_ms()
                 ));
+                ui.separator();
+            }
+            let over = layer.and_then(|layer| layer.overlay.last());
+            if self.look.has_marks() && over.is_some_and(|made| made.marks.left_out) {
+                ui.label("zoom in for all marks");
                 ui.separator();
             }
             if let (Some(hit), Some(document)) = (self.hovered(), self.document()) {
