@@ -8,6 +8,11 @@ use guideway_spline::Point;
 pub(crate) struct MovedNodes(BTreeMap<u32, Point<f64>>);
 
 impl MovedNodes {
+    /// Whether all are where their layout has them, for all that is known.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
     /// Takes note of where some nodes are now.
     pub(crate) fn extend(&mut self, to: &[(u32, Point<f64>)]) {
         self.0.extend(to.iter().copied());

@@ -1,6 +1,9 @@
 use std::sync::Arc;
 
-use guideway_layout::{Attribute, Attributes, Cells, Layout, NewPath, Paths, Value, Values};
+use guideway_layout::{
+    Attribute, Attributes, Cells, CheckOptions, Diagnostics, Layout, NewPath, Paths, Value, Values,
+    check,
+};
 use guideway_scene::PathState;
 use guideway_spline::Runs;
 
@@ -13,6 +16,7 @@ pub struct Snapshot {
     layout: Arc<Layout>,
     removed: Rows,
     moved_nodes: MovedNodes,
+    state: u64,
 }
 
 impl Document {
@@ -25,6 +29,7 @@ impl Document {
             layout: self.scene.shared_layout(),
             removed: rows.filter(is_removed).collect(),
             moved_nodes: self.moved_nodes.clone(),
+            state: self.state(),
         }
     }
 
@@ -35,6 +40,46 @@ impl Document {
 }
 
 impl Snapshot {
+    /// [`Document::state`] at that moment.
+    pub fn state(&self) -> u64 {
+        self.state
+    }
+
+    /// What its reader found, and what is odd in it as it is. Rows are those of the document, where a removed path
+    /// still has one.
+    pub fn findings(&self, options: &CheckOptions) -> Diagnostics {
+        let old = &*self.layout;
+        let mut found = old.diagnostics.clone();
+        let is_as_read = self.removed.is_empty() && self.moved_nodes.is_empty();
+        found.append(if is_as_read {
+            check(old, options)
+        } else {
+            check(&self.with_rows_kept(), options)
+        });
+        found
+    }
+
+    /// What there is to be found odd, with nothing where a path was removed.
+    fn with_rows_kept(&self) -> Layout {
+        let old = &*self.layout;
+        let mut paths = Paths::default();
+        let mut runs = Runs::default();
+        for row in 0..old.paths.len() {
+            if self.removed.contains(row as u32) {
+                paths.push(&NewPath::default());
+            } else {
+                push(&mut paths, &old.paths, row, &mut runs);
+            }
+        }
+        Layout {
+            paths,
+            nodes: self.moved_nodes.nodes(old),
+            stations: self.moved_nodes.stations(old),
+            levels: old.levels.clone(),
+            ..Layout::default()
+        }
+    }
+
     /// The layout: removed paths left out, moved nodes and stations at their places, rows numbered anew.
     pub fn to_layout(&self) -> Layout {
         let old = &*self.layout;
@@ -58,21 +103,8 @@ impl Snapshot {
         let rows: Vec<usize> = (0..old.len()).filter(is_there).collect();
         let mut paths = Paths::default();
         let mut runs = Runs::default();
-        for path in rows.iter().map(|&row| old.get(row)) {
-            runs.clear();
-            for run in path.runs() {
-                runs.push(&run.iter().collect::<Vec<_>>());
-            }
-            let types: Vec<&str> = old.vehicle_types().of(path.row()).collect();
-            paths.push(&NewPath {
-                id: path.id(),
-                runs: &runs,
-                start_node: path.start_node(),
-                end_node: path.end_node(),
-                direction: path.direction(),
-                level: path.level(),
-                vehicle_types: &types,
-            });
+        for &row in &rows {
+            push(&mut paths, old, row, &mut runs);
         }
         if let Some(width_m) = old.width_m() {
             paths.set_width_m(rows.iter().map(|&row| width_m[row]).collect());
@@ -86,6 +118,25 @@ impl Snapshot {
         paths.attributes = of_rows(&old.attributes, &rows);
         paths
     }
+}
+
+/// Adds a path of other ones, by runs that are used again.
+fn push(paths: &mut Paths, of: &Paths, row: usize, runs: &mut Runs) {
+    let path = of.get(row);
+    runs.clear();
+    for run in path.runs() {
+        runs.push(&run.iter().collect::<Vec<_>>());
+    }
+    let types: Vec<&str> = of.vehicle_types().of(row).collect();
+    paths.push(&NewPath {
+        id: path.id(),
+        runs,
+        start_node: path.start_node(),
+        end_node: path.end_node(),
+        direction: path.direction(),
+        level: path.level(),
+        vehicle_types: &types,
+    });
 }
 
 /// The attributes of some rows, in this order.

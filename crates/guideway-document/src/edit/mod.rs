@@ -106,6 +106,11 @@ impl Document {
         self.history.now() != self.history.saved
     }
 
+    /// A number for the state that it is in; the same again where all that was done since is undone.
+    pub fn state(&self) -> u64 {
+        self.history.now()
+    }
+
     /// Takes the present state as saved. Returns what was taken so before.
     pub fn set_saved(&mut self) -> Saved {
         let now = self.history.now();

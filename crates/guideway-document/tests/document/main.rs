@@ -1,6 +1,7 @@
 //! A layout looked at and edited, without any window.
 
 mod find;
+mod findings;
 mod marks;
 mod operations;
 mod query;

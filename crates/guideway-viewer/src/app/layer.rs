@@ -5,7 +5,6 @@ use std::time::Duration;
 
 use eframe::egui::{Context, TextureHandle, TextureOptions};
 use guideway_document::{Combine, Document, Replayed, Rows};
-use guideway_layout::Diagnostics;
 use guideway_render::{Report, View};
 use guideway_scene::{Scene, SceneError, SceneOptions};
 use guideway_spline::Bounds;
@@ -15,6 +14,7 @@ use self::saving::Journal;
 use super::overlay::Overlay;
 use crate::host::{Host, Job, Stage};
 use crate::work::Wake;
+use crate::work::findings::Findings;
 use crate::work::loader::{Loaded, Loader};
 use crate::work::renderer::{FALLBACK, Outcome, Picture, Renderer, Shot};
 use crate::work::task::Task;
@@ -33,7 +33,7 @@ pub(crate) struct Layer {
     /// None until it is there, and while long work is done on it. Shared with the thread that makes its overlay.
     pub(crate) document: Option<Arc<Document>>,
     away: Away,
-    pub(crate) findings: Option<Diagnostics>,
+    pub(crate) findings: Option<Findings>,
     pub(crate) overlay: Overlay,
     /// What its scene is made with.
     options: SceneOptions,
@@ -42,6 +42,8 @@ pub(crate) struct Layer {
     /// The last picture, and what it shows.
     pub(crate) shown: Option<Shown>,
     loader: Option<Loader>,
+    /// Findings on their way that were asked for.
+    checking: Option<Task<Findings>>,
     /// Other colours on their way.
     coloring: Option<Task<Result<Scene, SceneError>>>,
     /// What a query asks for, and what the selection does with it.
@@ -117,6 +119,7 @@ impl Layer {
             overlay: Overlay::default(),
             trouble: None,
             shown: None,
+            checking: None,
             coloring: None,
             selecting: None,
             owes_scene: false,
@@ -238,6 +241,7 @@ impl Layer {
         news.extend(self.take_back(Duration::ZERO, wake));
         news.extend(self.record());
         news.extend(self.take_answers(wake));
+        news.extend(self.take_findings());
         if self.has_settled()
             && let Some(loader) = &mut self.loader
         {
@@ -333,7 +337,7 @@ impl Layer {
         document.tell(move |edit| orders.edit(edit.clone()));
         (self.overlay, self.away) = Default::default();
         let is_again = self.document.replace(Arc::new(document)).is_some();
-        self.findings = None;
+        (self.findings, self.checking) = (None, None);
         if is_again || std::mem::take(&mut self.owes_scene) {
             self.send_scene();
         }

@@ -112,6 +112,8 @@ pub(crate) struct Numbers {
     pub(crate) by_y_m: f64,
     pub(crate) angle_deg: f64,
     pub(crate) copies: u32,
+    /// Bends tighter than this are findings; 0 if none are.
+    pub(crate) least_radius_m: f64,
 }
 
 /// Notices kept; older ones are forgotten.
@@ -147,6 +149,7 @@ impl App {
                 by_y_m: 0.0,
                 angle_deg: 90.0,
                 copies: 1,
+                least_radius_m: 0.0,
             },
             snaps_to_grid: false,
             shows_keys: false,

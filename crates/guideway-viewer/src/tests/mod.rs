@@ -4,6 +4,8 @@ mod beside;
 mod content;
 mod desk;
 mod drags;
+mod files;
+mod findings;
 mod fingers;
 mod hand;
 mod journeys;

@@ -7,7 +7,7 @@ use guideway_render::View;
 use guideway_spline::Point;
 
 use super::canvas::Screen;
-use super::paint::{HOVERED, length_text, paint_outline, write_on_paper};
+use super::paint::{HOVERED, OUTLINE, length_text, paint_outline, write_on_paper};
 use crate::app::{App, Tool};
 
 /// A path less bent than this is as good as straight.
@@ -43,7 +43,9 @@ impl App {
             drawn_path(&all).map_or_else(String::new, |layout| {
                 let path = layout.paths.get(0);
                 let outline = path_outline(path, view);
-                paint_outline(painter, &outline, HOVERED, |pixel| screen.point(pixel));
+                paint_outline(painter, &outline, Stroke::new(OUTLINE, HOVERED), |pixel| {
+                    screen.point(pixel)
+                });
                 shape_text(path, &bends(path))
             })
         };

@@ -5,6 +5,7 @@ mod canvas;
 mod dialogs;
 mod draft;
 mod find;
+mod findings;
 mod paint;
 mod side;
 

@@ -17,6 +17,8 @@ use crate::app::{App, Gesture, Look, Tool};
 
 const SELECTED: Color32 = Color32::from_rgb(30, 120, 255);
 pub(super) const HOVERED: Color32 = Color32::from_rgb(255, 140, 0);
+/// Least width of an outline, in points.
+pub(super) const OUTLINE: f32 = 2.5;
 
 impl App {
     pub(super) fn paint(&mut self, ui: &Ui, screen: Screen, view: &View) {
@@ -84,16 +86,22 @@ impl App {
             }
             screen.point(view.pixel_from_world(made.view.world_from_pixel(pixel)))
         };
-        paint_outline(painter, &made.selection, SELECTED, now);
+        // Half as wide as lines are, so that it shows on wide ones too.
+        let rule = self.look.line_rule();
+        let line_width = 2.0 * rule.radius_px(None, view.px_per_m()) / scale;
+        let outlined = |color| Stroke::new(OUTLINE.max(line_width as f32 / 2.0), color);
+        paint_outline(painter, &made.selection, outlined(SELECTED), now);
         if let Gesture::Move { by_m, .. } = self.gesture {
             let by_px = Vec2::new(by_m.x as f32, -by_m.y as f32) * (view.px_per_m() / scale) as f32;
-            paint_outline(painter, &made.selection, HOVERED, |pixel| {
+            paint_outline(painter, &made.selection, outlined(HOVERED), |pixel| {
                 now(pixel) + by_px
             });
         }
         if let (Some(hit), Some(document)) = (hovered, document) {
             let lines = outline(document, &Rows::from_iter([hit.path]), view);
-            paint_outline(painter, &lines, HOVERED, |pixel| screen.point(pixel));
+            paint_outline(painter, &lines, outlined(HOVERED), |pixel| {
+                screen.point(pixel)
+            });
         }
         paint_marks(painter, &made.marks, &self.look, now);
         if let (Tool::Points, Some(document)) = (self.tool, document) {
@@ -189,14 +197,14 @@ fn mapped(screen: Screen, of: &View, on: &View) -> Rect {
 pub(super) fn paint_outline(
     painter: &Painter,
     outline: &Outline,
-    color: Color32,
+    stroke: Stroke,
     to_screen: impl Fn(Point<f64>) -> Pos2,
 ) {
     match outline {
         Outline::Lines(lines) => {
             let shape = |line: &Vec<Point<f64>>| {
                 let points: Vec<Pos2> = line.iter().map(|&p| to_screen(p)).collect();
-                Shape::line(points, Stroke::new(2.5, color))
+                Shape::line(points, stroke)
             };
             painter.extend(lines.iter().map(shape));
         }
@@ -205,7 +213,7 @@ pub(super) fn paint_outline(
             let far = Point::new(*side, *side);
             for &cell in cells {
                 let rect = Rect::from_two_pos(to_screen(cell), to_screen(cell + far));
-                mesh.add_colored_rect(rect, color.gamma_multiply(0.5));
+                mesh.add_colored_rect(rect, stroke.color.gamma_multiply(0.5));
             }
             painter.add(mesh);
         }

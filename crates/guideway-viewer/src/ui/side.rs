@@ -12,8 +12,6 @@ use crate::app::{App, MOST_HOVERED};
 /// Columns that every layout can be coloured by.
 const BUILT_IN_COLUMNS: [&str; 3] = ["direction", "level", "vehicle_type"];
 const MOST_ATTRIBUTES: usize = 40;
-/// Findings of one kind that are listed.
-const MOST_FINDINGS: usize = 200;
 
 impl App {
     pub(super) fn side(&mut self, ui: &mut Ui) {
@@ -262,46 +260,6 @@ impl App {
             });
         if let Some(chosen) = chosen {
             self.set_method(chosen);
-        }
-    }
-
-    fn findings(&mut self, ui: &mut Ui) {
-        let Some(layer) = self.layers.get(self.active) else {
-            return;
-        };
-        let Some(findings) = &layer.findings else {
-            ui.label("The file is still being looked through.");
-            return;
-        };
-        if findings.is_empty() {
-            ui.label("Nothing odd.");
-        }
-        let mut fly_to = None;
-        for (code, count) in findings.counts() {
-            let title = format!("{}: {code} ({count})", code.severity());
-            CollapsingHeader::new(title).show(ui, |ui| {
-                ui.small(code.meaning());
-                let of_code = findings.iter().filter(|f| f.code == code);
-                let listed: Vec<_> = of_code.take(MOST_FINDINGS).collect();
-                for finding in &listed {
-                    let text = format!("{}: {}", finding.place, finding.message);
-                    if ui.link(text).on_hover_text(&finding.remedy).clicked() {
-                        fly_to = Some(finding.place.clone());
-                    }
-                }
-                if count > listed.len() as u64 {
-                    ui.small(format!("and {} more", count - listed.len() as u64));
-                }
-            });
-        }
-        if layer.is_changed() {
-            ui.small("These are of the file as it was read.");
-        }
-        if let (Some(place), Some(document)) = (fly_to, self.document()) {
-            match guideway_document::locate(document.layout(), &place) {
-                Some(found) => self.fly_to(found),
-                None => self.notify(format!("{place} is a place in the file, not in the plane")),
-            }
         }
     }
 }

@@ -6,10 +6,11 @@ use std::thread;
 use std::time::Duration;
 
 use guideway_document::{Document, Replayed};
-use guideway_layout::{CheckOptions, Diagnostics, Layout, check};
+use guideway_layout::CheckOptions;
 use guideway_scene::{Scene, SceneOptions};
 
 use super::Wake;
+use super::findings::Findings;
 use super::recovery::Found;
 use crate::host::{Host, Job, Trouble};
 
@@ -32,7 +33,7 @@ pub(crate) enum Loaded {
     /// It can be edited; how much of the work that was found is done again.
     Document(Box<Document>, Option<Replayed>),
     /// What is odd in it.
-    Findings(Diagnostics),
+    Findings(Findings),
     /// There is nothing, and this is why.
     Failed(Trouble),
 }
@@ -73,9 +74,10 @@ impl Loader {
             let done = found.map(|found| found.do_again(&mut document, &watched));
             match done.transpose() {
                 Ok(done) => {
-                    let layout = document.scene().shared_layout();
+                    let snapshot = document.snapshot();
                     tell(Loaded::Document(Box::new(document), done));
-                    tell(Loaded::Findings(findings(&layout)));
+                    let findings = Findings::of(&snapshot, &CheckOptions::default());
+                    tell(Loaded::Findings(findings));
                 }
                 Err(trouble) => tell(Loaded::Failed(trouble)),
             }
@@ -123,13 +125,6 @@ fn read(host: &dyn Host, path: &Path, options: &SceneOptions, job: &Job) -> Resu
             message: error.to_string(),
             remedy: "Open the file again".into(),
         })
-}
-
-/// What the reader found, and what is odd in the layout as it is.
-pub(crate) fn findings(layout: &Layout) -> Diagnostics {
-    let mut found = layout.diagnostics.clone();
-    found.append(check(layout, &CheckOptions::default()));
-    found
 }
 
 fn without_column(options: &SceneOptions) -> SceneOptions {

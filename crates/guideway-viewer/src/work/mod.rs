@@ -2,6 +2,7 @@
 //! wakes the window when there is news.
 
 pub(crate) mod beside;
+pub(crate) mod findings;
 pub(crate) mod loader;
 pub(crate) mod recovery;
 pub(crate) mod renderer;

@@ -1,12 +1,14 @@
-//! What is asked of a layout beside the window: other colours, and the paths that meet a query.
+//! What is asked of a layout beside the window: other colours, the paths that meet a query, and what is odd.
 
 use std::sync::Arc;
 
 use guideway_document::{Combine, Query, QueryError};
+use guideway_layout::CheckOptions;
 use guideway_scene::{Scene, SceneOptions};
 
 use super::{Layer, LayerNews, PATIENCE, Work};
 use crate::work::Wake;
+use crate::work::findings::Findings;
 use crate::work::task::Task;
 
 impl Layer {
@@ -43,6 +45,32 @@ impl Layer {
             self.selecting = Some((task, how));
         }
         Ok(())
+    }
+
+    /// Looks through the document as it is now.
+    pub(crate) fn check(&mut self, options: CheckOptions, wake: &Wake) {
+        if let Some(document) = &self.document {
+            let snapshot = document.snapshot();
+            let check = move || Findings::of(&snapshot, &options);
+            self.checking = Some(Task::start(wake, check));
+        }
+    }
+
+    /// Whether it is being looked through, or there is nothing yet that can be.
+    pub(crate) fn is_checking(&self) -> bool {
+        self.checking.is_some() || self.findings.is_none()
+    }
+
+    pub(super) fn take_findings(&mut self) -> Option<LayerNews> {
+        let outcome = self.checking.as_ref().and_then(Task::outcome)?;
+        self.checking = None;
+        match outcome {
+            Ok(findings) => {
+                self.findings = Some(findings);
+                None
+            }
+            Err(trouble) => Some(LayerNews::Notice(trouble.to_string())),
+        }
     }
 
     /// Takes what was asked of the layout as it was then.
