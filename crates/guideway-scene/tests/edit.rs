@@ -128,7 +128,7 @@ fn what_cannot_be_is_refused_and_changes_nothing() {
             paths: [0].into(),
             curves: Arc::default(),
         },
-        Edit::SetStates([(9, PathState::Hidden)].into()),
+        Edit::SetStates([9, 11].map(|path| (path, PathState::Hidden)).into()),
         Edit::Insert([Insertion::default()].into()),
         Edit::Insert(
             [Insertion {

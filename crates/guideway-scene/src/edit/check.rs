@@ -14,7 +14,8 @@ impl Edit {
     pub(super) fn check(&self, scene: &Scene) -> Result<(), EditError> {
         let rows = scene.row_count();
         let is_unknown = |&path: &u32| path as usize >= rows;
-        if let Some(path) = self.paths().max().filter(is_unknown) {
+        let greatest = self.paths().max().filter(is_unknown);
+        if let Some(path) = greatest.and_then(|_| self.paths().find(is_unknown)) {
             return Err(EditError::UnknownPath { path, rows });
         }
         let geometry = scene.layout().paths.geometry();
