@@ -3,8 +3,8 @@
 use guideway_render::{Cancel, NO_PATH, RenderError, Style, View};
 use wgpu::BufferUsages;
 
-use super::bound::Paint;
 use super::draw::Drawing;
+use super::paint::Paint;
 use super::prepared::PreparedTiles;
 use super::shot::Shot;
 use super::window::Window;

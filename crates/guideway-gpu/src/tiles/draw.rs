@@ -7,11 +7,12 @@ use guideway_render::{Cancel, RenderError, Stage, View, elapsed_ms};
 use wgpu::BufferUsages;
 
 use super::NAME;
-use super::bound::{Bound, Buffers, Manner, Paint};
+use super::bound::{Bound, Buffers, Manner};
 use super::canvas::Canvas;
 use super::easel::list_room;
 use super::kept::Kept;
 use super::kernels::keeps_waiting;
+use super::paint::Paint;
 use super::params::{
     FEW_CLUSTERS, Found, SAMPLE_ROWS, SHARED_PARTS, SHARED_TILES, Samples, TILE_PX,
 };

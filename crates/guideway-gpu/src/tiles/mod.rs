@@ -3,7 +3,7 @@
 //!
 //! The folder in the order of the data: `pack` makes of the scene what the device reads, `store` holds it there, its
 //! points in `chunk`s, `places` knows where and `edit` changes it; `shot` is a view, `level` the scale and place that its
-//! lines are made for, `window` a part of its picture, `twins` are the exact points of what it comes near to, `room` holds
+//! lines are made for, `paint` how its tiles are painted, `window` a part of its picture, `twins` are the exact points of what it comes near to, `room` holds
 //! the lines that a frame finds, `canvas` its tiles and pixels, `bound` the work between them, `easel` all that a picture is
 //! made with; `draw` does it, in `rounds` where that saves work, `kept` is what it need not draw again, `touched` what it must after an edit; `prepared` answers
 //! for all of it, `ask` says what is where, and `work` what a frame takes.
@@ -19,6 +19,7 @@ mod kept;
 mod kernels;
 mod level;
 mod pack;
+mod paint;
 mod params;
 mod places;
 mod prepared;

@@ -8,11 +8,11 @@ use guideway_render::{
 };
 use guideway_scene::{Edit, Scene};
 
-use super::bound::Paint;
 use super::draw::Drawing;
 use super::easel::Easel;
 use super::kernels::Kernels;
 use super::pack::{Packed, Packing};
+use super::paint::Paint;
 use super::params::{Found, Stroke};
 use super::places::Places;
 use super::ranks::Ranks;

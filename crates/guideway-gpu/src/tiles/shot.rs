@@ -5,10 +5,10 @@ use guideway_scene::{LineRule, Scene};
 use guideway_spline::{Bounds, Point};
 
 use super::NAME;
-use super::bound::Paint;
 use super::canvas::Canvas;
 use super::level::Level;
 use super::pack::device_color;
+use super::paint::Paint;
 use super::params::{ENOUGH_THREADS, FrameParams, MOST_THREADS_A_LINE, Samples, TILE_PX};
 use super::prepared::Facts;
 use super::room::Room;
