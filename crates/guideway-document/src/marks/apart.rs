@@ -31,13 +31,13 @@ impl Apart {
     }
 }
 
-/// Whether symbols at these places would hide each other, a third of them or more, and what they are of.
+/// Whether symbols at these places are so near to each other that they hide what they are of: of those that are to be told
+/// apart, fewer than two thirds are twice as far from each other. Those at one place are of several levels, and count once.
 pub(super) fn is_crowded(places_px: impl Iterator<Item = Point<f64>>, least_px: f64) -> bool {
-    let mut apart = Apart::new(least_px);
-    let mut count = [0_usize; 2];
-    places_px.for_each(|at_px| count[usize::from(apart.take(at_px))] += 1);
-    let [hidden, seen] = count;
-    2 * hidden > seen
+    let (mut near, mut far) = (Apart::new(least_px), Apart::new(2.0 * least_px));
+    let apart: Vec<_> = places_px.filter(|at_px| near.take(*at_px)).collect();
+    let far_apart = apart.iter().filter(|at_px| far.take(**at_px)).count();
+    3 * far_apart < 2 * apart.len()
 }
 
 #[cfg(test)]
@@ -58,9 +58,11 @@ mod tests {
 
     #[test]
     fn a_crowd_is_told_from_a_few() {
-        assert!(!is_crowded(row(8.0), 8.0) && is_crowded(row(3.0), 8.0));
-        let few = row(20.0).chain(row(20.0).take(10));
-        assert!(!is_crowded(few, 8.0));
+        assert!(!is_crowded(row(16.0), 8.0) && is_crowded(row(12.0), 8.0));
+        let with_few_near = row(20.0).chain(row(20.0).take(10).map(|at| at + Point::new(9.0, 0.0)));
+        assert!(!is_crowded(with_few_near, 8.0));
+        let on_two_levels = row(20.0).chain(row(20.0));
+        assert!(!is_crowded(on_two_levels, 8.0));
         assert!(!is_crowded(std::iter::empty(), 8.0));
     }
 }
