@@ -23,7 +23,12 @@ impl Document {
     /// What there is now. It takes next to no time; the first edit after it takes a copy of the layout, unless
     /// the snapshot is gone by then.
     pub fn snapshot(&self) -> Snapshot {
-        let rows = 0..self.scene.row_count() as u32;
+        let has_removed = self.scene.path_count() < self.layout().path_count();
+        let rows = 0..if has_removed {
+            self.scene.row_count() as u32
+        } else {
+            0
+        };
         let is_removed = |&row: &u32| self.scene.state(row) == PathState::Removed;
         Snapshot {
             layout: self.scene.shared_layout(),
@@ -123,10 +128,7 @@ impl Snapshot {
 /// Adds a path of other ones, by runs that are used again.
 fn push(paths: &mut Paths, of: &Paths, row: usize, runs: &mut Runs) {
     let path = of.get(row);
-    runs.clear();
-    for run in path.runs() {
-        runs.push(&run.iter().collect::<Vec<_>>());
-    }
+    path.copy_runs(runs);
     let types: Vec<&str> = of.vehicle_types().of(row).collect();
     paths.push(&NewPath {
         id: path.id(),

@@ -2,7 +2,7 @@
 
 use guideway_spline::{Affine, Runs};
 
-use crate::{Attributes, Diagnostics, Layout, Level, NewPath, PathRef, Provenance, Value};
+use crate::{Attributes, Diagnostics, Layout, Level, NewPath, Provenance, Value};
 
 /// Names of the column that tells which file a row is from: the first that no file has itself.
 const SOURCE: [&str; 2] = ["source", "source_file"];
@@ -117,7 +117,7 @@ impl Merged {
         let first = all.paths.len();
         let mut runs = Runs::default();
         for path in other.paths.iter() {
-            fill(&mut runs, path);
+            path.copy_runs(&mut runs);
             let types: Vec<&str> = other.paths.vehicle_types().of(path.row()).collect();
             all.paths.push(&NewPath {
                 id: path.id(),
@@ -207,14 +207,6 @@ impl Layout {
 /// Whether the identifier or the name of one level is that of the other.
 fn is_same(a: &Level, b: &Level) -> bool {
     a.id == b.id || a.name.is_some() && a.name == b.name
-}
-
-fn fill(runs: &mut Runs, path: PathRef<'_>) {
-    runs.clear();
-    for run in path.runs() {
-        let points: Vec<_> = run.iter().collect();
-        runs.push(&points);
-    }
 }
 
 /// What is known of several sources: each name once, and the sums of the counts.

@@ -315,6 +315,14 @@ impl<'a> PathRef<'a> {
         self.paths.geometry.runs(self.row)
     }
 
+    /// Puts a copy of its control runs in place of those that are there.
+    pub fn copy_runs(self, runs: &mut Runs) {
+        runs.clear();
+        for run in self.runs() {
+            runs.push(&run.iter().collect::<Vec<_>>());
+        }
+    }
+
     /// Row of the node where it begins.
     pub fn start_node(self) -> Option<u32> {
         some(self.paths.start_nodes.as_ref(), self.row)

@@ -6,9 +6,7 @@ use guideway_spline::{Point, Runs};
 /// The curve of a path as runs of its own.
 pub(super) fn runs_of(path: PathRef<'_>) -> Runs {
     let mut runs = Runs::default();
-    for run in path.runs() {
-        runs.push(&run.iter().collect::<Vec<_>>());
-    }
+    path.copy_runs(&mut runs);
     runs
 }
 

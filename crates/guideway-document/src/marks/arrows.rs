@@ -17,7 +17,8 @@ pub(super) fn along(
     path: PathRef<'_>,
     is_pair: bool,
     line_radius_px: f64,
-    (view, px_per_point): (&View, f64),
+    view: &View,
+    px_per_point: f64,
 ) -> Vec<Arrow> {
     let seen = view.world_bounds();
     let tolerance_m = 0.5 / view.px_per_m();

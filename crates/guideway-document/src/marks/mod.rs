@@ -88,7 +88,6 @@ pub fn marks(document: &Document, view: &View, options: &MarkOptions) -> Marks {
         .iter()
         .any(|&count| count > MOST_MARKED);
     let pixel = |at| view.pixel_from_world(at);
-    let node_px = |node: &u32| pixel(document.node_position_m(*node));
     let least_px = SYMBOL * options.px_per_point;
     for list in [&mut paths, &mut nodes] {
         if list.len() > MOST_MARKED {
@@ -96,9 +95,12 @@ pub fn marks(document: &Document, view: &View, options: &MarkOptions) -> Marks {
         }
         list.sort_unstable();
     }
-    if is_crowded(nodes.iter().map(node_px), least_px) {
+    let node_px = |&node: &u32| pixel(document.node_position_m(node));
+    let mut nodes_px: Vec<Point<f64>> = nodes.iter().map(node_px).collect();
+    if is_crowded(&nodes_px, least_px) {
         left_out = true;
         nodes.clear();
+        nodes_px.clear();
     }
     if stations.len() > MOST_MARKED {
         stations.clear();
@@ -115,7 +117,7 @@ pub fn marks(document: &Document, view: &View, options: &MarkOptions) -> Marks {
             let is_pair = twins.of(path).is_some();
             let radius_px = line_rule.radius_px(scene.width_m(path), view.px_per_m());
             let path = layout.paths.get(path as usize);
-            arrows::along(path, is_pair, radius_px, (view, options.px_per_point))
+            arrows::along(path, is_pair, radius_px, view, options.px_per_point)
         };
         let mut others = Apart::new(least_px);
         let arrows = paths.iter().filter(is_first).flat_map(of);
@@ -123,16 +125,15 @@ pub fn marks(document: &Document, view: &View, options: &MarkOptions) -> Marks {
         marks.arrows = arrows.take(2 * MOST_MARKED).collect();
     }
     if options.symbols {
-        marks.nodes = nodes.iter().map(node_px).collect();
+        marks.nodes.clone_from(&nodes_px);
         marks.stations = stations.iter().map(|&(_, at)| pixel(at)).collect();
     }
     if let Some(size) = options.labels {
         let stations = stations
             .iter()
             .map(|&(s, at)| (layout.stations.id(s), pixel(at)));
-        let nodes = nodes
-            .iter()
-            .map(|node| (layout.nodes.id(*node), node_px(node)));
+        let names = nodes.iter().map(|&node| layout.nodes.id(node));
+        let nodes = names.zip(nodes_px);
         let middles = paths.iter().filter_map(|&path| {
             let path = layout.paths.get(path as usize);
             let middle = arrows::middle(path, view, options.px_per_point)?;

@@ -1,7 +1,9 @@
 //! What is written as DXF comes back as it was, but for what a drawing cannot hold.
 
 use crate::common::{codes, count, read};
-use crate::same::{arbitrary_layout, assert_same_curves, assert_same_ids, lost, push_lines};
+use crate::same::{
+    arbitrary_layout, assert_same_curves, assert_same_ids, broken, lost, push_lines,
+};
 use guideway_formats::Losses;
 use guideway_formats::dxf::write_layout;
 use guideway_layout::{Direction, Layout, NewPath, Value};
@@ -97,16 +99,7 @@ fn layers_that_no_drawing_can_have_are_changed_and_said() {
 
 #[test]
 fn what_has_no_place_is_listed() {
-    let mut layout = Layout::default();
-    let mut runs = Runs::default();
-    runs.push_line(Point::new(0.0, 0.0), Point::new(1.0, 0.0));
-    runs.push_line(Point::new(5.0, 0.0), Point::new(6.0, 0.0));
-    layout.paths.push(&NewPath {
-        id: "E",
-        runs: &runs,
-        direction: Direction::Both,
-        ..NewPath::default()
-    });
+    let mut layout = broken(Point::new(6.0, 0.0), Direction::Both);
     layout.paths.set_color_rgba(vec![0xFFFF_FF80]);
     layout.paths.set_rank(vec![3]);
     let (text, losses) = written(&layout);

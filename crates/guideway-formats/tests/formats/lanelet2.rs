@@ -1,16 +1,14 @@
 //! Lanelet2: the real map, and the middle between bounds.
 
-use crate::common::{assert_counts, codes, ends, read, real_layouts};
-use guideway_formats::{ReadOptions, read_file};
+use crate::common::{assert_counts, codes, ends, read, real};
 use guideway_layout::{Code, Direction, Layout, Value};
 use guideway_spline::Point;
 
 #[test]
 fn the_real_map_has_the_counts_of_its_source() {
-    let Some(folder) = real_layouts("lanelet2") else {
+    let Some(layout) = real("lanelet2", "mapping_example.osm") else {
         return;
     };
-    let layout = read_file(&folder.join("mapping_example.osm"), &ReadOptions::default()).unwrap();
     let expected = "nodes 2258, ways 1141, lanelets 371";
     assert_counts(
         &layout,

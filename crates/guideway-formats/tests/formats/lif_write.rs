@@ -4,7 +4,8 @@ use std::time::{Duration, SystemTime};
 
 use crate::common::{codes, read};
 use crate::same::{
-    apart_m, arbitrary_layout, assert_same_curves, assert_same_ids, assert_same_network, lost,
+    apart_m, arbitrary_layout, assert_same_curves, assert_same_ids, assert_same_network, broken,
+    lost,
 };
 use guideway_formats::Losses;
 use guideway_formats::lif::{Version, WriteOptions, write_layout};
@@ -208,15 +209,7 @@ fn the_versions_translate_into_each_other() {
 
 #[test]
 fn a_broken_path_stays_broken() {
-    let mut layout = Layout::default();
-    let mut runs = Runs::default();
-    runs.push_line(Point::new(0.0, 0.0), Point::new(1.0, 0.0));
-    runs.push_line(Point::new(5.0, 0.0), Point::new(6.0, 0.0));
-    layout.paths.push(&NewPath {
-        id: "E",
-        runs: &runs,
-        ..NewPath::default()
-    });
+    let layout = broken(Point::new(6.0, 0.0), Direction::Forward);
     let again = read(&written(&layout, Version::V1).0);
     assert_same_curves(&layout, &again, "broken");
     assert_eq!(codes(&again), [Code::KnotMultiplicity]);

@@ -1,7 +1,6 @@
 //! SVG: the real files, and what is easy to get wrong: units, transforms, references, styles, arcs.
 
-use crate::common::{assert_counts, codes, count, ends, read, real_layouts};
-use guideway_formats::{ReadOptions, read_file};
+use crate::common::{assert_counts, codes, count, ends, read, real};
 use guideway_layout::{Code, Layout, Value};
 use guideway_spline::{Point, uniform};
 
@@ -28,10 +27,9 @@ const COUNTED: &[&str] = &[
 #[test]
 fn real_files_have_the_counts_of_their_sources() {
     for (file, expected) in REAL {
-        let Some(folder) = real_layouts("svg") else {
+        let Some(layout) = real("svg", file) else {
             return;
         };
-        let layout = read_file(&folder.join(file), &ReadOptions::default()).unwrap();
         assert_counts(&layout, COUNTED, expected, file);
         let shapes: u64 = COUNTED[..7].iter().map(|tag| count(&layout, tag)).sum();
         assert_eq!(layout.path_count() as u64, shapes, "{file}");

@@ -1,10 +1,12 @@
 //! What is written as SVG comes back as it was, but for what a drawing cannot hold.
 
 use crate::common::{codes, read};
-use crate::same::{arbitrary_layout, assert_same_curves, assert_same_ids, lost, push_lines};
+use crate::same::{
+    arbitrary_layout, assert_same_curves, assert_same_ids, broken, lost, push_lines,
+};
 use guideway_formats::Losses;
 use guideway_formats::svg::{Outline, Page, Stroke, write_layout};
-use guideway_layout::{Code, Direction, Layout, NewPath, Value};
+use guideway_layout::{Code, Direction, Layout, Value};
 use guideway_spline::{Point, Runs};
 use proptest::prelude::*;
 
@@ -51,15 +53,7 @@ proptest! {
 
 #[test]
 fn a_broken_path_stays_broken_and_lines_are_lines() {
-    let mut layout = Layout::default();
-    let mut runs = Runs::default();
-    runs.push_line(Point::new(0.0, 0.0), Point::new(1.0, 0.0));
-    runs.push_line(Point::new(5.0, 0.0), Point::new(6.0, 2.0));
-    layout.paths.push(&NewPath {
-        id: "E",
-        runs: &runs,
-        ..NewPath::default()
-    });
+    let layout = broken(Point::new(6.0, 2.0), Direction::Forward);
     let (text, _) = written(&layout);
     assert!(text.contains(r#"d="M0 0L1 0M5 0L6 -2""#), "{text}");
     assert_same_curves(&layout, &read(&text), "broken");

@@ -1,4 +1,4 @@
-use guideway_document::marks::{Kind, LabelSize, MarkOptions};
+use guideway_document::marks::Kind;
 use guideway_render::density::ToneMap;
 use guideway_render::{Shading, Style};
 use guideway_scene::{ColorBy, LineRule, Rgba, SceneOptions};
@@ -116,14 +116,5 @@ impl Look {
     /// Whether anything is drawn over paths.
     pub(crate) fn has_marks(&self) -> bool {
         self.has_arrows || self.has_symbols || self.has_labels
-    }
-
-    pub(crate) fn marks(&self, label_size: LabelSize, px_per_point: f64) -> MarkOptions {
-        MarkOptions {
-            px_per_point,
-            arrows: self.has_arrows.then(|| self.line_rule()),
-            symbols: self.has_symbols,
-            labels: self.has_labels.then_some(label_size),
-        }
     }
 }

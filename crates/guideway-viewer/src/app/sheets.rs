@@ -1,6 +1,6 @@
 //! What lies below and over the paths of a picture, for its export: the same as on the screen.
 
-use guideway_document::marks::{LabelSize, Marks, marks};
+use guideway_document::marks::{LabelSize, MarkOptions, Marks, marks};
 use guideway_document::{grid_lines_px, round_step};
 use guideway_render::{Sheet, Text, View};
 use guideway_scene::Rgba;
@@ -22,11 +22,22 @@ pub(crate) const LABEL_PAPER_OPACITY: f32 = 0.75;
 
 impl App {
     /// How large names are in the picture.
-    pub(crate) fn label_size(&self) -> LabelSize {
+    fn label_size(&self) -> LabelSize {
         let points = f64::from(LABEL_POINTS) * self.px_per_point;
         LabelSize {
             char_px: points * Text::CHAR_SHARE,
             line_px: points * 1.2,
+        }
+    }
+
+    /// What is drawn over paths.
+    pub(crate) fn mark_options(&self) -> MarkOptions {
+        let look = &self.look;
+        MarkOptions {
+            px_per_point: self.px_per_point,
+            arrows: look.has_arrows.then(|| look.line_rule()),
+            symbols: look.has_symbols,
+            labels: look.has_labels.then(|| self.label_size()),
         }
     }
 
@@ -54,7 +65,7 @@ impl App {
     /// Arrows, symbols, names and the scale bar of a view.
     pub(super) fn marks_sheet(&self, view: &View) -> Sheet {
         let mut sheet = Sheet::default();
-        let options = self.look.marks(self.label_size(), self.px_per_point);
+        let options = self.mark_options();
         let layer = self.layers.get(self.active).filter(|l| l.is_visible);
         if let Some(document) = layer.and_then(|layer| layer.document.as_ref()) {
             self.add_marks(&mut sheet, &marks(document, view, &options));

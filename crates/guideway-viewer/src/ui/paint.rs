@@ -63,7 +63,7 @@ impl App {
 
     fn paint_overlay(&mut self, painter: &Painter, screen: Screen, view: &View) {
         let scale = f64::from(screen.px_per_point);
-        let options = self.look.marks(self.label_size(), self.px_per_point);
+        let options = self.mark_options();
         let hovered = self.hovered().copied();
         let (patience, wake) = (self.patience, &self.wake);
         let Some(layer) = self.layers.get_mut(self.active) else {

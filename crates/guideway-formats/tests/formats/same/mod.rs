@@ -8,6 +8,21 @@ use proptest::prelude::*;
 /// How far a curve may be from what it was before it was written, in metres.
 pub(crate) const TOLERANCE_M: f64 = 1e-4;
 
+/// A path of two lines, `E`, the second of which begins 4 m behind the first and goes to `end`.
+pub(crate) fn broken(end: Point<f64>, direction: Direction) -> Layout {
+    let mut layout = Layout::default();
+    let mut runs = Runs::default();
+    runs.push_line(Point::new(0.0, 0.0), Point::new(1.0, 0.0));
+    runs.push_line(Point::new(5.0, 0.0), end);
+    layout.paths.push(&NewPath {
+        id: "E",
+        runs: &runs,
+        direction,
+        ..NewPath::default()
+    });
+    layout
+}
+
 /// How far two curves are apart: from above if they have the same segments, else at many points.
 pub(crate) fn apart_m(a: PathRef<'_>, b: PathRef<'_>) -> f64 {
     let beziers = |p: PathRef<'_>| -> Vec<[Point<f64>; 4]> {
