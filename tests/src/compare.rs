@@ -2,11 +2,11 @@
 
 use guideway_render::Frame;
 
-/// How far two pictures of one size are apart, in levels of 0 to 255. Colours count as much as they show:
+/// How far two pictures of one size are apart, in levels of 0 to 255. Colors count as much as they show:
 /// they are multiplied with their opacity first.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Difference {
-    /// Mean over all pixels and their colours; a pixel's opacity counts where it is further off.
+    /// Mean over all pixels and their colors; a pixel's opacity counts where it is further off.
     pub mean_abs: f64,
     /// Share of the pixels whose worst channel is within [`Tolerance::within`].
     pub share_within: f64,

@@ -27,7 +27,7 @@ pub fn write(name: &str, expected: &Frame, actual: &Frame) -> io::Result<PathBuf
     Ok(file)
 }
 
-/// Writes pictures as one, so many in a row, on grey.
+/// Writes pictures as one, so many in a row, on gray.
 ///
 /// # Errors
 /// When the file cannot be written.

@@ -1,8 +1,8 @@
-//! How far pictures of lines one pixel wide, drawn by a rasteriser of lines, are from the oracle's.
+//! How far pictures of lines one pixel wide, drawn by a rasterizer of lines, are from the oracle's.
 //!
 //! Such lines cannot agree pixel by pixel. Without anti-aliasing a pixel is line or background where the
 //! oracle gives it a share; with it there are a few samples a pixel, and ends are cut off square. What must
-//! agree is where lines are: so neighbours count.
+//! agree is where lines are: so neighbors count.
 
 use guideway_render::Frame;
 use guideway_scene::LineRule;
@@ -14,7 +14,7 @@ use crate::sketch::{Drawing, Sketch};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
     /// Of the pixels that the oracle covers by more than half, this share may have nothing drawn on it or its
-    /// eight neighbours.
+    /// eight neighbors.
     pub lost: f64,
     /// Of the pixels that are line in either picture, the second, a share, may be off by more than the
     /// first, in levels of 0 to 255.
@@ -42,11 +42,11 @@ impl Tolerance {
 pub struct Difference {
     /// Line in either picture.
     pub marked: usize,
-    /// Drawn on, but the oracle leaves it and its eight neighbours alone. There may be none.
+    /// Drawn on, but the oracle leaves it and its eight neighbors alone. There may be none.
     pub stray: usize,
     /// Covered by more than half by the oracle.
     pub covered: usize,
-    /// Of those, with nothing drawn on them or their eight neighbours.
+    /// Of those, with nothing drawn on them or their eight neighbors.
     pub lost: usize,
     /// Off by more than the tolerance has it.
     pub beyond: usize,
@@ -55,7 +55,7 @@ pub struct Difference {
 /// Pixels that may be lost or off in any picture: a share of next to none is none.
 const FEW: f64 = 8.0;
 
-/// The drawing of a sketch with lines one pixel wide in one colour.
+/// The drawing of a sketch with lines one pixel wide in one color.
 pub fn drawing(sketch: Sketch) -> Drawing {
     let mut drawing = sketch.in_one_color().build();
     drawing.style.line_rule = LineRule::World {
@@ -102,7 +102,7 @@ fn measure(expected: &Frame, actual: &Frame, background: [u8; 4], levels: f64) -
         rows.flat_map(|y| columns.clone().map(move |x| (x, y)))
             .any(|(x, y)| ink(frame, x, y) > 0.0)
     };
-    // The colour of the lines shows as much as the darkest pixel, if there is any line.
+    // The color of the lines shows as much as the darkest pixel, if there is any line.
     let pixels = expected.pixels().iter().chain(actual.pixels());
     let most = pixels
         .map(|&p| pixel_difference(background, p))

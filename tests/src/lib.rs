@@ -1,4 +1,4 @@
-//! What the whole-system tests share: scenes of one behaviour each, the methods that draw them, and the
+//! What the whole-system tests share: scenes of one behavior each, the methods that draw them, and the
 //! comparison of their pictures with the oracle's.
 
 pub mod compare;

@@ -8,7 +8,7 @@ impl Lcg {
     /// A sequence of its own for each seed.
     pub fn new(seed: u64) -> Self {
         let mut lcg = Self(seed);
-        // The first numbers of neighbouring seeds are alike.
+        // The first numbers of neighboring seeds are alike.
         for _ in 0..4 {
             lcg.unit();
         }

@@ -57,7 +57,7 @@ struct Stroke {
 }
 
 impl Sketch {
-    /// An empty picture at one pixel a metre, with lines 2 pixels wide.
+    /// An empty picture at one pixel a meter, with lines 2 pixels wide.
     ///
     /// # Panics
     /// When a side is not at least 1.
@@ -82,7 +82,7 @@ impl Sketch {
         self
     }
 
-    /// Moves the layout and the view to another place in the world, in metres.
+    /// Moves the layout and the view to another place in the world, in meters.
     pub fn at(mut self, x_m: f64, y_m: f64) -> Self {
         self.origin_m = Point::new(x_m, y_m);
         self
@@ -112,7 +112,7 @@ impl Sketch {
         self
     }
 
-    /// Sets the colour of all paths that have none of their own, 0xRRGGBBAA.
+    /// Sets the color of all paths that have none of their own, 0xRRGGBBAA.
     pub fn common_color(mut self, rgba: u32) -> Self {
         self.options.color = Some(Rgba::from_u32(rgba));
         self
@@ -166,7 +166,7 @@ impl Sketch {
         self.runs(&runs)
     }
 
-    /// Sets the colour of the path added last, 0xRRGGBBAA.
+    /// Sets the color of the path added last, 0xRRGGBBAA.
     pub fn color(self, rgba: u32) -> Self {
         self.of_last(|stroke| stroke.color_rgba = rgba)
     }
@@ -191,7 +191,7 @@ impl Sketch {
         self
     }
 
-    /// The same paths without colours of their own.
+    /// The same paths without colors of their own.
     pub fn in_one_color(mut self) -> Self {
         for stroke in &mut self.strokes {
             stroke.color_rgba = 0;

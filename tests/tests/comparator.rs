@@ -8,7 +8,7 @@ use guideway_tests::sketch::Sketch;
 const RED: u32 = 0xd020_20ff;
 const BLUE: u32 = 0x2040_d0ff;
 
-/// A plain picture: three paths of two colours and two widths, nothing symmetric.
+/// A plain picture: three paths of two colors and two widths, nothing symmetric.
 fn sketch() -> Sketch {
     Sketch::new(96, 64)
         .line((8.0, 52.0), (88.0, 20.0))
@@ -72,7 +72,7 @@ fn tiny_noise_passes() {
 }
 
 #[test]
-fn colours_that_do_not_show_are_not_compared() {
+fn colors_that_do_not_show_are_not_compared() {
     let nothing = |rgba: u32| picture(&Sketch::new(9, 9).background(rgba));
     let (black, white) = (nothing(0), nothing(0xffff_ff00));
     assert_ne!(black, white);

@@ -26,7 +26,7 @@ fn crossing_a_border() -> Drawing {
 fn picture(variant: &str, drawing: &Drawing) -> Option<Frame> {
     let grid = here(grid(variant))?;
     let drawn = draw(&grid, drawing, &Budget::default());
-    Some(drawn.expect("one colour and one width").0)
+    Some(drawn.expect("one color and one width").0)
 }
 
 #[test]

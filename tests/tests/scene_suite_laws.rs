@@ -73,7 +73,7 @@ proptest! {
     }
 
     #[test]
-    fn the_order_of_paths_of_one_colour_changes_nothing(sketch in any_sketch(), seed in 0..1000_u64) {
+    fn the_order_of_paths_of_one_color_changes_nothing(sketch in any_sketch(), seed in 0..1000_u64) {
         let sketch = sketch.in_one_color();
         let mut order: Vec<usize> = (0..sketch.len()).collect();
         let mut lcg = Lcg::new(seed);

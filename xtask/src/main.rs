@@ -11,7 +11,7 @@ use anyhow::{Result, bail};
 use step::{STARTED, cargo, elapsed_s, heading};
 
 const HELP: &str = "\
-cargo xtask test        everything: format, lints, all tests, docs, licences (what CI runs)
+cargo xtask test        everything: format, lints, all tests, docs, licenses (what CI runs)
 cargo xtask quick       format, lints and tests, without installing anything
 cargo xtask fuzz [MINUTES [TARGET...]]
                         each fuzz target for so long (1 unless said)
@@ -58,7 +58,7 @@ fn test() -> Result<()> {
     cargo(&["doc", "--workspace", "--no-deps", "--quiet"])
         .env("RUSTDOCFLAGS", "-D warnings")
         .run()?;
-    heading("licences, sources and bans");
+    heading("licenses, sources and bans");
     step::command(&deny)
         .args(["check", "bans", "licenses", "sources"])
         .run()?;

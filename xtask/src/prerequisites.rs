@@ -66,7 +66,7 @@ pub(crate) fn cargo_fuzz() -> Result<()> {
     install_tool("cargo-fuzz", CARGO_FUZZ_VERSION)
 }
 
-/// Builds a tool into cargo's own folder. Not optimised: it runs for seconds, and that saves minutes of building.
+/// Builds a tool into cargo's own folder. Not optimized: it runs for seconds, and that saves minutes of building.
 fn install_tool(name: &str, version: &str) -> Result<()> {
     cargo(&["install", name, "--version", version, "--locked", "--quiet"])
         .args(["--debug", "--config", "profile.dev.debug=0"])

@@ -49,7 +49,7 @@ pub struct Comparison {
     /// What its paths look like.
     #[serde(default)]
     pub dress: Dress,
-    /// Whether pixels show how many paths there are, in place of their colours.
+    /// Whether pixels show how many paths there are, in place of their colors.
     #[serde(default)]
     pub is_density: bool,
     /// How the first frame saw it.
@@ -100,9 +100,9 @@ pub struct SceneFacts {
 pub struct ViewFacts {
     /// Width and height in pixels.
     pub size_px: [u32; 2],
-    /// The point in the middle, in metres.
+    /// The point in the middle, in meters.
     pub center_m: [f64; 2],
-    /// Scale in pixels a metre.
+    /// Scale in pixels a meter.
     pub px_per_m: f64,
 }
 

@@ -53,7 +53,7 @@ impl Dataset {
     }
 }
 
-/// A scene with the layout's own colours and every path shown.
+/// A scene with the layout's own colors and every path shown.
 pub fn plain_scene(layout: Layout) -> Arc<Scene> {
     let scene = Scene::new(Arc::new(layout), &SceneOptions::default());
     Arc::new(scene.expect("only a level or a column that was asked for can be missing"))

@@ -13,7 +13,7 @@ pub enum Dress {
     /// As the layout says; a dataset is black.
     #[default]
     Own,
-    /// Each path has a colour of its own, opaque, and a width.
+    /// Each path has a color of its own, opaque, and a width.
     Mixed,
     /// The same, half of them translucent.
     Translucent,
@@ -21,7 +21,7 @@ pub enum Dress {
 
 /// Widths of [`Dress::Mixed`]: around the 0.1 m of paths that have none.
 const WIDTHS_M: [f32; 4] = [0.05, 0.1, 0.15, 0.2];
-/// A step through colours that does not soon come back (Fibonacci hashing, Knuth 6.4).
+/// A step through colors that does not soon come back (Fibonacci hashing, Knuth 6.4).
 const NEXT_COLOR: u32 = 0x9e37_79b9;
 
 impl Dress {

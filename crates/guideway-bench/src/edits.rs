@@ -5,7 +5,7 @@ use guideway_render::RenderError;
 use guideway_scene::{Edit, Scene};
 use guideway_spline::{Affine, Point};
 
-/// How far [`crate::Motion::Edit`] moves a path, in metres. Exact in `f32`, so that there and back is where
+/// How far [`crate::Motion::Edit`] moves a path, in meters. Exact in `f32`, so that there and back is where
 /// it began.
 const BY_M: Point<f64> = Point { x: 0.5, y: 0.25 };
 
@@ -69,7 +69,7 @@ impl Edits {
     }
 }
 
-/// Each path by itself: neighbours never go the same way.
+/// Each path by itself: neighbors never go the same way.
 fn apart(scene: &Scene, paths: &Arc<[u32]>) -> [Edit; 2] {
     let rows = paths.iter().map(|&path| path as usize);
     let before = scene.layout().paths.geometry().select(rows);

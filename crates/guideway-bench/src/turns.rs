@@ -23,7 +23,7 @@ pub(crate) fn measure(
     let is_open = |track: &Result<Track, _>| matches!(track, Ok(t) if !t.is_done(&shot.frames));
     while tracks.iter().any(is_open) {
         for step in 0..runners.len() {
-            // Another one begins each time, so that none always comes after the same neighbour.
+            // Another one begins each time, so that none always comes after the same neighbor.
             let who = (turn + step) % runners.len();
             let Ok(track) = &mut tracks[who] else {
                 continue;

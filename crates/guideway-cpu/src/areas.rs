@@ -1,4 +1,4 @@
-//! Areas of one colour: pixels by the samples that any of them covers, as the oracle has it.
+//! Areas of one color: pixels by the samples that any of them covers, as the oracle has it.
 
 use std::ops::Range;
 
@@ -14,7 +14,7 @@ const BAND_PX: usize = 8;
 /// Samples of a row in one word.
 const WORD: usize = u64::BITS as usize;
 
-/// Convex polygons in metres, that together are one area.
+/// Convex polygons in meters, that together are one area.
 #[derive(Clone, Debug, Default)]
 pub struct Areas {
     points: Vec<Point<f64>>,
@@ -49,7 +49,7 @@ impl Areas {
     }
 }
 
-/// Lays areas over a strip of a picture, which keeps what shines through: where several of them are, the colour
+/// Lays areas over a strip of a picture, which keeps what shines through: where several of them are, the color
 /// counts once.
 ///
 /// # Panics
@@ -148,7 +148,7 @@ impl Samples {
         }
     }
 
-    /// Lays the colour over each pixel for its share of samples.
+    /// Lays the color over each pixel for its share of samples.
     fn lay(&self, color: Rgba, pixels: &mut [[u8; 4]]) {
         let mut covered = vec![0_u32; self.width_px];
         for (row, pixels) in pixels.chunks_exact_mut(self.width_px).enumerate() {
@@ -195,7 +195,7 @@ fn cut(corners: &[Point<f64>], y: f64) -> (f64, f64) {
     (left, right)
 }
 
-/// The mean of a pixel of which a share lies under a colour, both with straight alpha.
+/// The mean of a pixel of which a share lies under a color, both with straight alpha.
 fn mixed(below: [u8; 4], color: Rgba, share: f64) -> [u8; 4] {
     let [opacity, b] = [color.a, below[3]].map(|alpha| f64::from(alpha) / 255.0);
     let a = opacity * share;

@@ -11,7 +11,7 @@ use guideway_spline::{Point, Runs};
 /// Most bytes of a report, with the times of its stages.
 const REPORT_BYTES: u64 = 1024;
 
-/// Waves beside and across each other, of one colour or of two.
+/// Waves beside and across each other, of one color or of two.
 fn scene(colors: usize) -> Arc<Scene> {
     let mut layout = Layout::default();
     for path in 0..3000 {
@@ -71,7 +71,7 @@ fn a_steady_frame_asks_for_no_memory() {
             ("zoom", vec![view(0.0, 1.6), view(0.0, 1.7), view(0.0, 1.8)]),
         ] {
             let bytes = most_bytes(&scene, &views);
-            assert!(bytes <= REPORT_BYTES, "{motion}, {colors} colours: {bytes}");
+            assert!(bytes <= REPORT_BYTES, "{motion}, {colors} colors: {bytes}");
         }
     }
     // The counter does count: a first frame makes all lines.

@@ -6,9 +6,9 @@ use crate::random::Random;
 use crate::shape::{self, Run};
 use crate::{GeneratedPath, Kind};
 
-/// Width of the field of [`d2`], in metres: a tenth of a metre is a pixel of 1920 across.
+/// Width of the field of [`d2`], in meters: a tenth of a meter is a pixel of 1920 across.
 pub const D2_WIDTH_M: f64 = 192.0;
-/// Height of the field of [`d2`], in metres.
+/// Height of the field of [`d2`], in meters.
 pub const D2_HEIGHT_M: f64 = 108.0;
 
 const PIXEL_M: f64 = D2_WIDTH_M / 1920.0;

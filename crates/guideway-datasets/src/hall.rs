@@ -15,7 +15,7 @@ const BLOCKS: usize = ROADS - 1;
 const RIGHT: Point<f64> = Point::new(1.0, 0.0);
 const UP: Point<f64> = Point::new(0.0, 1.0);
 
-/// What a hall is built to, in metres; the middle of the hall is the origin.
+/// What a hall is built to, in meters; the middle of the hall is the origin.
 pub(crate) struct Hall {
     number: u32,
     aisles: Vec<Aisle>,
@@ -38,7 +38,7 @@ struct Aisle {
     way: f64,
 }
 
-/// How large a hall may become, in metres.
+/// How large a hall may become, in meters.
 pub(crate) fn most_size_m(paths: usize) -> Point<f64> {
     let aisles = aisle_guess(paths) + AISLE_VARIATION;
     Point::new(f64::from(aisles) * MOST_SPACING_M + 12.0, 118.0)

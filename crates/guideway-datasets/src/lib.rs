@@ -32,11 +32,11 @@ pub struct GeneratedPath {
     pub id: String,
     /// What the path is for.
     pub kind: Kind,
-    /// Speed allowed, in metres a second.
+    /// Speed allowed, in meters a second.
     pub max_speed_m_s: f32,
     /// Number of the hall, from 0.
     pub hall: u32,
-    /// Uniform cubic control points, in metres.
+    /// Uniform cubic control points, in meters.
     pub run: [Point<f32>; RUN_POINTS],
 }
 
@@ -97,7 +97,7 @@ impl Kind {
         }
     }
 
-    /// Speed allowed, in metres a second.
+    /// Speed allowed, in meters a second.
     fn max_speed_m_s(self) -> f32 {
         match self {
             Self::Cross => 2.0,

@@ -41,7 +41,7 @@ pub enum Combine {
 }
 
 impl Document {
-    /// A document of a layout, in the colours that the options say.
+    /// A document of a layout, in the colors that the options say.
     ///
     /// # Errors
     /// When the options name a level or a column that the layout has not.
@@ -115,7 +115,7 @@ impl Document {
         self.scene.take_copy(copy);
     }
 
-    /// Takes the colours of another scene of the same layout; false, and nothing is changed, if that is of another
+    /// Takes the colors of another scene of the same layout; false, and nothing is changed, if that is of another
     /// one: the layout was edited since.
     pub fn take_colors(&mut self, mut scene: Scene) -> bool {
         let old = &self.scene;

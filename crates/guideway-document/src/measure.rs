@@ -3,10 +3,10 @@
 use guideway_layout::{PathRef, RunPoints};
 use guideway_spline::{run_length, segment_length, uniform};
 
-/// Lengths are right to a tenth of a millimetre a run.
+/// Lengths are right to a tenth of a millimeter a run.
 const LENGTH_TOLERANCE_M: f64 = 1e-4;
 
-/// Length of a path along its curve, in metres.
+/// Length of a path along its curve, in meters.
 pub fn length_m(path: PathRef<'_>) -> f64 {
     let runs = path.runs().map(|run| match run {
         RunPoints::F64(points) => run_length(points, LENGTH_TOLERANCE_M),
@@ -18,9 +18,9 @@ pub fn length_m(path: PathRef<'_>) -> f64 {
 /// How much a path is bent somewhere.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bend {
-    /// How far along the path, in metres.
+    /// How far along the path, in meters.
     pub along_m: f64,
-    /// Signed curvature in one over metres: positive where the path turns left. The radius is its inverse.
+    /// Signed curvature in one over meters: positive where the path turns left. The radius is its inverse.
     pub curvature: f64,
 }
 
@@ -51,7 +51,7 @@ pub fn bends(path: PathRef<'_>) -> Vec<Bend> {
     bends
 }
 
-/// The tightest radius of a path in metres, by its [`bends`]; infinite where it is straight.
+/// The tightest radius of a path in meters, by its [`bends`]; infinite where it is straight.
 pub fn tightest_radius_m(bends: &[Bend]) -> f64 {
     let most = bends
         .iter()

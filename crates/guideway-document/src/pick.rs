@@ -15,9 +15,9 @@ pub struct Hit {
     pub segment: usize,
     /// Parameter in the segment, 0 to 1.
     pub t: f64,
-    /// The place itself, in metres.
+    /// The place itself, in meters.
     pub point_m: Point<f64>,
-    /// How far it is from where it was looked for, in metres.
+    /// How far it is from where it was looked for, in meters.
     pub distance_m: f64,
 }
 

@@ -7,11 +7,11 @@ use crate::Document;
 /// What a place is drawn to.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Snap {
-    /// Nodes this near, in metres; they come first.
+    /// Nodes this near, in meters; they come first.
     pub node_reach_m: Option<f64>,
     /// A node that does not count, for it is what moves.
     pub moving_node: Option<u32>,
-    /// Crossings of a grid of this step, in metres.
+    /// Crossings of a grid of this step, in meters.
     pub grid_m: Option<f64>,
     /// Directions from the point before: so many a turn, at the distance pointed at.
     pub directions: Option<u32>,

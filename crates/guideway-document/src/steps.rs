@@ -70,9 +70,9 @@ mod tests {
         let size = FrameSize::new(400, 300).unwrap();
         let view = View::new(size, Point::new(3.0, -2.0), 20.0).unwrap();
         let [x_px, y_px] = grid_lines_px(&view, 96.0);
-        let metres = |x, y| view.world_from_pixel(Point::new(x, y));
-        let xs: Vec<_> = x_px.iter().map(|&x| metres(x, 0.0).x.round()).collect();
-        let ys: Vec<_> = y_px.iter().map(|&y| metres(0.0, y).y.round()).collect();
+        let meters = |x, y| view.world_from_pixel(Point::new(x, y));
+        let xs: Vec<_> = x_px.iter().map(|&x| meters(x, 0.0).x.round()).collect();
+        let ys: Vec<_> = y_px.iter().map(|&y| meters(0.0, y).y.round()).collect();
         assert_eq!((xs, ys), (vec![-5.0, 0.0, 5.0, 10.0], vec![-5.0, 0.0, 5.0]));
         let far = View::new(size, Point::new(1e9, 1e9), 1e6).unwrap();
         assert!(

@@ -6,7 +6,7 @@ use guideway_spline::Point;
 
 use crate::{Document, Hit, nearest};
 
-/// How far two paths of a pair may be from each other, in metres.
+/// How far two paths of a pair may be from each other, in meters.
 const APART_M: f64 = 1e-3;
 /// Places along a path that are compared with the other one.
 const PLACES: usize = 5;

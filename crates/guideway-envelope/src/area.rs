@@ -6,7 +6,7 @@ use guideway_spline::Point;
 
 use crate::{Convex, Sweep, Without};
 
-/// The column of such areas: the coordinates of a GeoJSON MultiPolygon (RFC 7946, 3.1.7), in metres.
+/// The column of such areas: the coordinates of a GeoJSON MultiPolygon (RFC 7946, 3.1.7), in meters.
 const AREA: &str = "vehicleEnvelope.area";
 
 /// What rounding may make of the area of a polygon, as a share of it.

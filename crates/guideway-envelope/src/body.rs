@@ -4,7 +4,7 @@ use guideway_spline::Point;
 
 use crate::Convex;
 
-/// A rectangle that moves: how far it reaches from its reference point, in metres, zero or more.
+/// A rectangle that moves: how far it reaches from its reference point, in meters, zero or more.
 ///
 /// The reference point is what follows the path: the middle between the driven wheels, say.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -4,7 +4,7 @@ use guideway_spline::{Bounds, Point};
 
 type P = Point<f64>;
 
-/// A convex polygon in metres: its corners counter-clockwise, from the leftmost (of these the lowest). A
+/// A convex polygon in meters: its corners counter-clockwise, from the leftmost (of these the lowest). A
 /// line has two corners, a point one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Convex {

@@ -2,8 +2,8 @@
 //!
 //! A [`Body`] follows a path with its reference point, at a [`Heading`]: a [`Sweep`]. It is cut into stretches of
 //! the path, each held by a convex polygon that is as near to it as is asked for; questions about distances are
-//! answered by halving the stretches for which it matters, so that an answer within a centimetre does not take
-//! polygons within a centimetre everywhere.
+//! answered by halving the stretches for which it matters, so that an answer within a centimeter does not take
+//! polygons within a centimeter everywhere.
 //!
 //! ```
 //! use guideway_envelope::{Body, Heading, Sweep};

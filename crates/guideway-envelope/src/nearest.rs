@@ -15,12 +15,12 @@ pub struct Nearest {
     pub places: [Point<f64>; 2],
 }
 
-/// Where two sweeps may be near each other: while the reference point of each is within the radius of its centre.
+/// Where two sweeps may be near each other: while the reference point of each is within the radius of its center.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Meeting {
-    /// The centre for each of the two, in metres.
+    /// The center for each of the two, in meters.
     pub centers_m: [Point<f64>; 2],
-    /// The radius, in metres.
+    /// The radius, in meters.
     pub radius_m: f64,
 }
 

@@ -25,7 +25,7 @@ pub const LEAST_TOLERANCE_M: f64 = 1e-4;
 
 impl Sweep {
     /// The area swept along a path at any one of some headings; none if the path has no direction that a heading
-    /// could follow, for it is shorter than a hundredth of a millimetre.
+    /// could follow, for it is shorter than a hundredth of a millimeter.
     ///
     /// At a cusp the vehicle goes on the other way, without turning. At a kink it turns on the spot, by the smaller
     /// angle. Nothing is swept between parts that do not meet.

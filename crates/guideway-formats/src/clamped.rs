@@ -3,19 +3,19 @@
 use guideway_layout::{PathRef, RunPoints};
 use guideway_spline::{Point, uniform};
 
-/// Positions this near are one, in metres. It is also the step to which written positions are rounded, so
+/// Positions this near are one, in meters. It is also the step to which written positions are rounded, so
 /// that a sum that went 1e-16 wrong does not take twenty digits.
 pub(crate) const SAME_POSITION_M: f64 = 1e-6;
 
-/// Runs of a path this near are joined, in metres: in single precision, those that meet do so no better. It is
+/// Runs of a path this near are joined, in meters: in single precision, those that meet do so no better. It is
 /// half of what a curve may be off.
 const JOINED_M: f64 = 5e-5;
 
 /// A coordinate as it is written.
-pub(crate) fn rounded(metres: f64) -> f64 {
+pub(crate) fn rounded(meters: f64) -> f64 {
     let steps = 1.0 / SAME_POSITION_M;
     // Adding zero turns -0 into 0.
-    (metres * steps).round() / steps + 0.0
+    (meters * steps).round() / steps + 0.0
 }
 
 /// A curve of degree 1 (straight lines) or 3, without weights.

@@ -2,7 +2,7 @@
 
 use guideway_spline::{Affine, Point, Runs, arc_to_runs};
 
-/// Appends the arc of the unit circle from the angle `start` on, mapped; so a circle of any centre and
+/// Appends the arc of the unit circle from the angle `start` on, mapped; so a circle of any center and
 /// radius, or an ellipse. Angles in radians. False if it would be farther than `most_m` in any direction.
 ///
 /// A uniform B-spline is mapped by mapping its control points. The map stretches no direction more than by

@@ -71,11 +71,11 @@ impl Losses {
         self.add("widths", count, "widths of paths");
     }
 
-    /// Notes the colours, for a format without.
+    /// Notes the colors, for a format without.
     pub(crate) fn colors(&mut self, layout: &Layout) {
         let own = layout.paths.color_rgba().unwrap_or_default();
         let count = own.iter().filter(|&&c| c != 0).count();
-        self.add("colours", count, "colours of paths");
+        self.add("colors", count, "colors of paths");
     }
 
     /// Notes the draw ranks, for a format without.

@@ -14,7 +14,7 @@ pub(crate) struct Spline {
     pub(crate) degree: usize,
     /// Empty for evenly spaced clamped ones.
     pub(crate) knots: Vec<f64>,
-    /// In metres, all finite.
+    /// In meters, all finite.
     pub(crate) points: Vec<Point<f64>>,
     /// Empty for 1 each; otherwise as many as points, all finite and above zero.
     pub(crate) weights: Vec<f64>,

@@ -1,19 +1,19 @@
-//! Longitude and latitude as metres on a plane.
+//! Longitude and latitude as meters on a plane.
 
 use guideway_spline::{Bounds, Point};
 
-/// Longitude and latitude in degrees about a middle, which becomes the origin. Only its neighbourhood is
+/// Longitude and latitude in degrees about a middle, which becomes the origin. Only its neighborhood is
 /// true to scale, which a layout does not leave.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct LocalDegrees {
     middle: Point<f64>,
-    metres_per_degree: Point<f64>,
+    meters_per_degree: Point<f64>,
 }
 
 impl LocalDegrees {
     /// About the middle of a box.
     ///
-    /// Metres a degree are those at the middle, on the ellipsoid of WGS 84: the radii of curvature along the
+    /// Meters a degree are those at the middle, on the ellipsoid of WGS 84: the radii of curvature along the
     /// meridian, a (1 - e^2) / (1 - e^2 sin^2)^(3/2), and across it, a / (1 - e^2 sin^2)^(1/2).
     pub(crate) fn about(bounds: Bounds<f64>) -> Self {
         const SEMI_MAJOR_M: f64 = 6_378_137.0;
@@ -25,13 +25,13 @@ impl LocalDegrees {
         let across_m = SEMI_MAJOR_M / root;
         Self {
             middle,
-            metres_per_degree: Point::new(across_m * cos, meridian_m) * 1_f64.to_radians(),
+            meters_per_degree: Point::new(across_m * cos, meridian_m) * 1_f64.to_radians(),
         }
     }
 
-    pub(crate) fn to_metres(self, position: Point<f64>) -> Point<f64> {
+    pub(crate) fn to_meters(self, position: Point<f64>) -> Point<f64> {
         let offset = position - self.middle;
-        let scale = self.metres_per_degree;
+        let scale = self.meters_per_degree;
         Point::new(offset.x * scale.x, offset.y * scale.y)
     }
 }

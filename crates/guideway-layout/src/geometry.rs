@@ -16,7 +16,7 @@ pub use hulls::{Hulls, add_boxes};
 /// The control runs of all paths, in two flat buffers.
 ///
 /// A path is a list of runs; a run of n control points (n >= 4) is a uniform cubic B-spline of n - 3
-/// segments. Coordinates are metres. They are kept in the precision of the source: a file of `f32`
+/// segments. Coordinates are meters. They are kept in the precision of the source: a file of `f32`
 /// costs 8 bytes a point, and nothing is lost either way.
 #[derive(Clone, Debug)]
 pub struct Geometry {
@@ -225,11 +225,11 @@ impl Geometry {
     }
 }
 
-/// What lies between the ends of some neighbours in a list that begins at 0.
+/// What lies between the ends of some neighbors in a list that begins at 0.
 #[inline]
-fn between(ends: &[u32], neighbours: &Range<usize>) -> Range<usize> {
+fn between(ends: &[u32], neighbors: &Range<usize>) -> Range<usize> {
     let end = |count: usize| count.checked_sub(1).map_or(0, |last| ends[last] as usize);
-    end(neighbours.start)..end(neighbours.end)
+    end(neighbors.start)..end(neighbors.end)
 }
 
 /// Rows that follow each other, a stretch at a time.

@@ -1,6 +1,6 @@
 //! The layout model: what a layout file means, free of any file format and of any renderer.
 //!
-//! Metres, y up, `f64`. Paths are held in columns rather than as an object each, so that a million of
+//! Meters, y up, `f64`. Paths are held in columns rather than as an object each, so that a million of
 //! them load, hold and iterate cheaply. Every path of the input is either in [`Layout::paths`] or in
 //! [`Layout::refused`] with its reason: nothing is lost in silence.
 //!

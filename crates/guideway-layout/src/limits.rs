@@ -17,11 +17,11 @@ pub struct Limits {
     pub elements: u64,
     /// Longest identifier or attribute text, in bytes.
     pub text_bytes: usize,
-    /// Largest absolute coordinate, in metres.
+    /// Largest absolute coordinate, in meters.
     pub coordinate_m: f64,
     /// Diagnostics kept whole for each code; beyond that they are counted.
     pub diagnostics_per_code: usize,
-    /// Largest deviation when a curve cannot be converted exactly, in metres.
+    /// Largest deviation when a curve cannot be converted exactly, in meters.
     pub conversion_tolerance_m: f64,
 }
 

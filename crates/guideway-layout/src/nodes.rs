@@ -47,7 +47,7 @@ impl Nodes {
         self.ids.get(node as usize)
     }
 
-    /// Position of a node, in metres.
+    /// Position of a node, in meters.
     pub fn position_m(&self, node: u32) -> Point<f64> {
         self.positions_m[node as usize]
     }
@@ -113,7 +113,7 @@ impl Stations {
         self.ids.get(station as usize)
     }
 
-    /// Position of a station, in metres, if the file gives one.
+    /// Position of a station, in meters, if the file gives one.
     pub fn position_m(&self, station: u32) -> Option<Point<f64>> {
         self.positions_m[station as usize]
     }

@@ -20,7 +20,7 @@ pub enum Direction {
 pub struct NewPath<'a> {
     /// Identifier, as the file has it. Need not be unique: duplicates are reported, not dropped.
     pub id: &'a str,
-    /// The curve, in metres.
+    /// The curve, in meters.
     pub runs: &'a Runs,
     /// Row in [`crate::Nodes`] where it begins.
     pub start_node: Option<u32>,
@@ -114,7 +114,7 @@ impl Paths {
         row
     }
 
-    /// Sets the stroke width of every path, in metres; NaN where the view's rule decides.
+    /// Sets the stroke width of every path, in meters; NaN where the view's rule decides.
     ///
     /// # Panics
     /// When the length is not [`Self::len`]; so for the other column setters.
@@ -123,7 +123,7 @@ impl Paths {
         self.width_m = Some(column);
     }
 
-    /// Sets the colour of every path, 0xRRGGBBAA; 0 where the view's rule decides.
+    /// Sets the color of every path, 0xRRGGBBAA; 0 where the view's rule decides.
     pub fn set_color_rgba(&mut self, column: Vec<u32>) {
         assert_eq!(column.len(), self.len());
         self.color_rgba = Some(column);
@@ -201,12 +201,12 @@ impl Paths {
         }
     }
 
-    /// Stroke widths in metres, if the file gives any; NaN where it does not.
+    /// Stroke widths in meters, if the file gives any; NaN where it does not.
     pub fn width_m(&self) -> Option<&[f32]> {
         self.width_m.as_deref()
     }
 
-    /// Colours 0xRRGGBBAA, if the file gives any; 0 where it does not.
+    /// Colors 0xRRGGBBAA, if the file gives any; 0 where it does not.
     pub fn color_rgba(&self) -> Option<&[u32]> {
         self.color_rgba.as_deref()
     }
@@ -286,9 +286,9 @@ fn bytes_of<T>(column: &Option<Vec<T>>) -> usize {
 /// What a path brings of its own look.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct OwnStyle {
-    /// Stroke width in metres: zero or more.
+    /// Stroke width in meters: zero or more.
     pub width_m: Option<f32>,
-    /// Colour 0xRRGGBBAA; not 0, which stands for none in [`Paths::color_rgba`].
+    /// Color 0xRRGGBBAA; not 0, which stands for none in [`Paths::color_rgba`].
     pub color_rgba: Option<u32>,
 }
 
@@ -310,7 +310,7 @@ impl<'a> PathRef<'a> {
         self.paths.ids.get(self.row)
     }
 
-    /// Control runs, in metres.
+    /// Control runs, in meters.
     pub fn runs(self) -> impl ExactSizeIterator<Item = RunPoints<'a>> + Clone {
         self.paths.geometry.runs(self.row)
     }

@@ -30,7 +30,7 @@ impl<'a> RunPoints<'a> {
         self.len() == 0
     }
 
-    /// One control point, in metres.
+    /// One control point, in meters.
     ///
     /// # Panics
     /// When `index` is not below [`Self::len`].
@@ -42,12 +42,12 @@ impl<'a> RunPoints<'a> {
         }
     }
 
-    /// The control points in order, in metres.
+    /// The control points in order, in meters.
     pub fn iter(self) -> impl ExactSizeIterator<Item = Point<f64>> + Clone + 'a {
         (0..self.len()).map(move |i| self.get(i))
     }
 
-    /// Box of the control points, in metres; none if there are none. Found in the precision in which they are held.
+    /// Box of the control points, in meters; none if there are none. Found in the precision in which they are held.
     pub fn bounds(self) -> Option<Bounds<f64>> {
         match self {
             Self::F64(points) => bounds(points),

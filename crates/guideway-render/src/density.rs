@@ -1,7 +1,7 @@
-//! Density shading: from how many paths cover a pixel, on average over its square, to a colour.
+//! Density shading: from how many paths cover a pixel, on average over its square, to a color.
 //!
 //! With a million paths on two million pixels a linear scale shows either the crowd or the single path;
-//! the logarithm shows both, and equalising the histogram spends the colours where the pixels are.
+//! the logarithm shows both, and equalizing the histogram spends the colors where the pixels are.
 
 use guideway_scene::Rgba;
 use rayon::prelude::*;
@@ -19,10 +19,10 @@ pub enum ToneMap {
     /// By the logarithm of one plus the count.
     #[default]
     Log,
-    /// By how many of the pixels under more than one path have no larger count, so that each colour shows
+    /// By how many of the pixels under more than one path have no larger count, so that each color shows
     /// on as many. As datashader's `eq_hist` (<https://datashader.org>), but that one path and less share
-    /// the first colour: their opacity tells them apart already.
-    Equalised,
+    /// the first color: their opacity tells them apart already.
+    Equalized,
 }
 
 /// Steps from few to many, dark to light on any background: lightness rises evenly.
@@ -35,7 +35,7 @@ const STEPS: [Rgba; 6] = [
     Rgba::opaque(250, 240, 150),
 ];
 
-/// Colours a frame from `counts`, the mean number of covering paths of each pixel, all of which it has.
+/// Colors a frame from `counts`, the mean number of covering paths of each pixel, all of which it has.
 ///
 /// # Panics
 /// When there is not one count a pixel.
@@ -45,8 +45,8 @@ pub fn shade(counts: &[f32], tone: ToneMap, background: Rgba, frame: &mut Frame)
     tones.shade(counts, background, frame);
 }
 
-/// How counts become colours in one picture, all of which was looked at. The largest count gets the last colour, unless
-/// nothing is above one path and the histogram is equalised; below one path the background shows through.
+/// How counts become colors in one picture, all of which was looked at. The largest count gets the last color, unless
+/// nothing is above one path and the histogram is equalized; below one path the background shows through.
 #[derive(Clone, Debug)]
 pub struct Tones {
     tone: ToneMap,
@@ -66,12 +66,12 @@ impl Tones {
 
     /// Looks at a part of the picture: the mean number of covering paths of each pixel, none of which is negative.
     pub fn look(&mut self, counts: &[f32]) {
-        let is_equalised = self.tone == ToneMap::Equalised;
+        let is_equalized = self.tone == ToneMap::Equalized;
         let parts = counts.par_chunks(AT_ONCE).map(|counts| {
             // The bits of numbers go up as they do, and their greatest is found by vectors.
             let most = counts.iter().map(|count| count.to_bits()).max();
             let mut histogram = Histogram::default();
-            if is_equalised {
+            if is_equalized {
                 histogram.add(counts);
             }
             (most.unwrap_or(0), histogram)
@@ -81,7 +81,7 @@ impl Tones {
         self.histogram = std::mem::take(&mut self.histogram).and(histogram);
     }
 
-    /// Colours a frame, which is a part of the picture.
+    /// Colors a frame, which is a part of the picture.
     ///
     /// # Panics
     /// When there is not one count a pixel.
@@ -95,7 +95,7 @@ impl Tones {
         let ramp = Ramp::new(self.most, background, |count| match self.tone {
             ToneMap::Linear => f64::from(count) / most,
             ToneMap::Log => f64::from(count).ln_1p() / most_log,
-            ToneMap::Equalised => ranks.up_to(count) / most_rank,
+            ToneMap::Equalized => ranks.up_to(count) / most_rank,
         });
         let pixels = frame.pixels_mut().par_chunks_mut(AT_ONCE);
         let parts = pixels.zip(counts.par_chunks(AT_ONCE));
@@ -157,7 +157,7 @@ struct Ranks {
 
 impl Histogram {
     /// Bins from one power of two to the next. Whole counts up to twice as many lie in the middle of one,
-    /// and bins are wide enough that a count has the same colour however a method samples it.
+    /// and bins are wide enough that a count has the same color however a method samples it.
     const A_DOUBLING: u32 = 8;
     /// What the bits of a number go up by from one to the next.
     const BIN: u32 = (2_f32.to_bits() - 1_f32.to_bits()) / Self::A_DOUBLING;
@@ -230,7 +230,7 @@ mod tests {
     #[test]
     fn nothing_shows_the_background_and_most_the_last_step() {
         let mut frame = Frame::new(FrameSize::new(3, 1).unwrap());
-        for tone in [ToneMap::Linear, ToneMap::Log, ToneMap::Equalised] {
+        for tone in [ToneMap::Linear, ToneMap::Log, ToneMap::Equalized] {
             shade(&[0.0, 10.0, 1000.0], tone, Rgba::WHITE, &mut frame);
             assert_eq!(frame.pixels()[0], [255; 4]);
             assert_eq!(frame.pixels()[2], [250, 240, 150, 255]);
@@ -250,9 +250,9 @@ mod tests {
     }
 
     #[test]
-    fn equalising_gives_every_fifth_of_the_crowded_pixels_a_step() {
+    fn equalizing_gives_every_fifth_of_the_crowded_pixels_a_step() {
         let counts = [3.0, 1.0, 1024.0, 8.0, 0.5, 2.0, 3.5];
-        let shown = colors(&counts, ToneMap::Equalised);
+        let shown = colors(&counts, ToneMap::Equalized);
         let half = Rgba::WHITE.lerp(STEPS[0], 0.5);
         let mut expected = [2, 0, 5, 4, 0, 1, 3].map(step);
         expected[4] = [half.r, half.g, half.b, half.a];
@@ -261,19 +261,19 @@ mod tests {
 
     #[test]
     fn many_equal_pixels_take_many_steps() {
-        let shown = colors(&[2.0, 2.0, 4.0, 2.0, 2.0], ToneMap::Equalised);
+        let shown = colors(&[2.0, 2.0, 4.0, 2.0, 2.0], ToneMap::Equalized);
         assert_eq!(shown, [4, 4, 5, 4, 4].map(step));
     }
 
     #[test]
-    fn nothing_beyond_one_path_has_the_first_colour() {
-        let shown = colors(&[1.0, 1.0, 0.0], ToneMap::Equalised);
+    fn nothing_beyond_one_path_has_the_first_color() {
+        let shown = colors(&[1.0, 1.0, 0.0], ToneMap::Equalized);
         assert_eq!(shown[..2], [0; 2].map(step));
         assert_eq!(shown[2], [255; 4]);
     }
 
     #[test]
-    fn colours_of_many_pixels_are_those_of_their_counts_within_a_level() {
+    fn colors_of_many_pixels_are_those_of_their_counts_within_a_level() {
         let mut frame = Frame::new(FrameSize::new(1000, 150).unwrap());
         let count = |i: usize| 0.7 + (i % 1009) as f32 * 0.37;
         let counts: Vec<f32> = (0..frame.pixels().len()).map(count).collect();
@@ -304,12 +304,12 @@ mod tests {
         let mut at_once = Frame::new(FrameSize::new(100, 30).unwrap());
         let mut by_parts = at_once.clone();
         let counts: Vec<f32> = (0..3000).map(|i| (i * i % 97) as f32 * 0.25).collect();
-        shade(&counts, ToneMap::Equalised, Rgba::WHITE, &mut at_once);
-        let mut tones = Tones::new(ToneMap::Equalised);
+        shade(&counts, ToneMap::Equalized, Rgba::WHITE, &mut at_once);
+        let mut tones = Tones::new(ToneMap::Equalized);
         counts.chunks(700).for_each(|part| tones.look(part));
         tones.shade(&counts, Rgba::WHITE, &mut by_parts);
         assert!(by_parts == at_once);
-        let mut of_a_part = Tones::new(ToneMap::Equalised);
+        let mut of_a_part = Tones::new(ToneMap::Equalized);
         of_a_part.look(&counts[..700]);
         of_a_part.shade(&counts, Rgba::WHITE, &mut by_parts);
         assert!(by_parts != at_once);

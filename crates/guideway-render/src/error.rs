@@ -28,15 +28,15 @@ pub enum RenderError {
         /// Height of the picture, in pixels.
         height: u32,
     },
-    /// The view's centre or scale is not usable.
+    /// The view's center or scale is not usable.
     #[error(
-        "the view around ({x_m}, {y_m}) at {px_per_m} pixels a metre cannot be drawn: the centre must be \
-         within 1e12 m and the scale between 1e-9 and 1e9 pixels a metre"
+        "the view around ({x_m}, {y_m}) at {px_per_m} pixels a meter cannot be drawn: the center must be \
+         within 1e12 m and the scale between 1e-9 and 1e9 pixels a meter"
     )]
     View {
-        /// Centre asked for, in metres.
+        /// Center asked for, in meters.
         x_m: f64,
-        /// Centre asked for, in metres.
+        /// Center asked for, in meters.
         y_m: f64,
         /// Scale asked for.
         px_per_m: f64,

@@ -2,8 +2,8 @@
 //!
 //! The picture that all methods agree on:
 //!
-//! - A path covers a point when its distance to the path's centre line is at most half the stroke width.
-//! - The colour of a point is that of the covering path drawn last, over what lies below if it is
+//! - A path covers a point when its distance to the path's center line is at most half the stroke width.
+//! - The color of a point is that of the covering path drawn last, over what lies below if it is
 //!   translucent. A pixel is the mean over its square, of sRGB values as they are stored.
 //! - In density shading a pixel shows how many paths cover it on average ([`density`]).
 //!

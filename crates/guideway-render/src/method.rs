@@ -171,7 +171,7 @@ impl Default for Style {
 /// What a pixel shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Shading {
-    /// The colours of the paths.
+    /// The colors of the paths.
     #[default]
     Color,
     /// How many paths cover it.

@@ -4,7 +4,7 @@ use guideway_spline::Point;
 /// Shapes and texts in the pixels of a picture, that lie over its paths or below them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Sheet {
-    /// Convex polygons by colour, from the lowest; a colour counts once where several of its polygons are.
+    /// Convex polygons by color, from the lowest; a color counts once where several of its polygons are.
     pub areas: Vec<(Rgba, Vec<Vec<Point<f64>>>)>,
     /// Texts, over all areas.
     pub texts: Vec<Text>,
@@ -19,7 +19,7 @@ pub struct Text {
     pub at_px: Point<f64>,
     /// Width of a letter, in pixels.
     pub char_px: f64,
-    /// Colour of the letters.
+    /// Color of the letters.
     pub ink: Rgba,
     /// What is behind them; it may be translucent.
     pub paper: Rgba,
@@ -31,7 +31,7 @@ impl Text {
 }
 
 impl Sheet {
-    /// Adds a polygon on top of all of other colours, unless the one on top has its colour.
+    /// Adds a polygon on top of all of other colors, unless the one on top has its color.
     pub fn add(&mut self, color: Rgba, corners: &[Point<f64>]) {
         match self.areas.last_mut() {
             Some((last, polygons)) if *last == color => polygons.push(corners.to_vec()),
@@ -63,7 +63,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn colours_keep_their_order_and_sizes_grow() {
+    fn colors_keep_their_order_and_sizes_grow() {
         let mut sheet = Sheet::default();
         let at = |x, y| Point::new(x, y);
         sheet.add_rectangle(Rgba::BLACK, at(1.0, 2.0), at(3.0, 5.0));

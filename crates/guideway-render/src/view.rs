@@ -2,7 +2,7 @@ use guideway_spline::{Bounds, Point};
 
 use crate::{FrameSize, RenderError};
 
-/// Which part of the world is seen, and how large. World: metres, y up. Pixels: y down, (0, 0) the upper
+/// Which part of the world is seen, and how large. World: meters, y up. Pixels: y down, (0, 0) the upper
 /// left corner of the upper left pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct View {
@@ -15,8 +15,8 @@ impl View {
     /// A view of `size` with `center_m` in its middle.
     ///
     /// # Errors
-    /// [`RenderError::View`] when the centre is not within 1e12 m of the origin or the scale not within
-    /// 1e-9 to 1e9 pixels a metre.
+    /// [`RenderError::View`] when the center is not within 1e12 m of the origin or the scale not within
+    /// 1e-9 to 1e9 pixels a meter.
     pub fn new(size: FrameSize, center_m: Point<f64>, px_per_m: f64) -> Result<Self, RenderError> {
         let far = !(center_m.x.abs() <= 1e12 && center_m.y.abs() <= 1e12);
         if far || !(1e-9..=1e9).contains(&px_per_m) {
@@ -34,7 +34,7 @@ impl View {
     }
 
     /// The view that shows all of `bounds` with a margin of a twentieth on each side. A box of no size is
-    /// shown at 100 pixels a metre; none at all, the origin.
+    /// shown at 100 pixels a meter; none at all, the origin.
     ///
     /// # Errors
     /// As [`View::new`].
@@ -59,12 +59,12 @@ impl View {
         self.size
     }
 
-    /// The world point in the middle, in metres.
+    /// The world point in the middle, in meters.
     pub fn center_m(&self) -> Point<f64> {
         self.center_m
     }
 
-    /// Scale in pixels a metre.
+    /// Scale in pixels a meter.
     pub fn px_per_m(&self) -> f64 {
         self.px_per_m
     }
@@ -88,7 +88,7 @@ impl View {
         )
     }
 
-    /// The part of the world that is seen, in metres.
+    /// The part of the world that is seen, in meters.
     pub fn world_bounds(&self) -> Bounds<f64> {
         let half_m = self.half_size_px() * (1.0 / self.px_per_m);
         Bounds {

@@ -1,7 +1,7 @@
 use std::fmt;
 use std::str::FromStr;
 
-/// A colour of 8 bits a channel, not premultiplied, in sRGB.
+/// A color of 8 bits a channel, not premultiplied, in sRGB.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Rgba {
     /// Red.
@@ -20,7 +20,7 @@ impl Rgba {
     /// Opaque black.
     pub const BLACK: Self = Self::opaque(0, 0, 0);
 
-    /// An opaque colour.
+    /// An opaque color.
     pub const fn opaque(r: u8, g: u8, b: u8) -> Self {
         Self { r, g, b, a: 255 }
     }
@@ -41,7 +41,7 @@ impl Rgba {
         self.a == 255
     }
 
-    /// The colour at fraction `t` of the way to `other`.
+    /// The color at fraction `t` of the way to `other`.
     pub fn lerp(self, other: Self, t: f64) -> Self {
         let mix = |a: u8, b: u8| (f64::from(a) + (f64::from(b) - f64::from(a)) * t).round() as u8;
         Self {
@@ -70,7 +70,7 @@ impl FromStr for Rgba {
     fn from_str(text: &str) -> Result<Self, Self::Err> {
         let digits = text.strip_prefix('#').unwrap_or(text);
         let refuse =
-            || format!("`{text}` is not a colour: write RRGGBB or RRGGBBAA, such as ffcc00");
+            || format!("`{text}` is not a color: write RRGGBB or RRGGBBAA, such as ffcc00");
         if !digits.bytes().all(|b| b.is_ascii_hexdigit()) {
             return Err(refuse());
         }
@@ -88,7 +88,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn colours_are_read_as_written() {
+    fn colors_are_read_as_written() {
         assert_eq!("#ff8000".parse(), Ok(Rgba::opaque(255, 128, 0)));
         assert_eq!(
             "01020304".parse(),

@@ -5,21 +5,21 @@ use guideway_layout::{Direction, Layout, Values};
 
 use crate::{Rgba, SceneError};
 
-/// Which column decides the colour.
+/// Which column decides the color.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ColorBy {
     /// Name of an attribute, or `level`, `direction` or `vehicle_type`.
     pub column: String,
 }
 
-/// What the colours of a scene mean.
+/// What the colors of a scene mean.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Legend {
     /// The column that decided.
     pub column: String,
     /// Classes, or the ends and steps of a scale, in reading order.
     pub entries: Vec<LegendEntry>,
-    /// Whether colours between the entries occur too.
+    /// Whether colors between the entries occur too.
     pub is_continuous: bool,
 }
 
@@ -28,13 +28,13 @@ pub struct Legend {
 pub struct LegendEntry {
     /// The value, as a person reads it.
     pub label: String,
-    /// Its colour.
+    /// Its color.
     pub color: Rgba,
     /// Drawn paths of that class; none on a scale.
     pub paths: Option<u64>,
 }
 
-/// Okabe and Ito's palette (2008), told apart with any colour vision, without its black and with its
+/// Okabe and Ito's palette (2008), told apart with any color vision, without its black and with its
 /// yellow darkened to show on white.
 const CLASSES: [Rgba; 7] = [
     Rgba::opaque(0, 114, 178),
@@ -45,7 +45,7 @@ const CLASSES: [Rgba; 7] = [
     Rgba::opaque(86, 180, 233),
     Rgba::opaque(190, 170, 30),
 ];
-/// Steps of the cividis scale (Nuñez, Anderton, Renslow 2018): even in lightness with any colour vision.
+/// Steps of the cividis scale (Nuñez, Anderton, Renslow 2018): even in lightness with any color vision.
 const SCALE: [Rgba; 5] = [
     Rgba::opaque(0, 32, 77),
     Rgba::opaque(66, 77, 108),
@@ -151,7 +151,7 @@ fn scale(layout: &Layout, by: &ColorBy, drawn: &[u32], number: Numbers<'_>) -> (
     )
 }
 
-/// The commonest values get a colour each; the rest share one.
+/// The commonest values get a color each; the rest share one.
 fn classes(layout: &Layout, by: &ColorBy, drawn: &[u32], label: Labels<'_>) -> (Vec<Rgba>, Legend) {
     let mut counts: HashMap<String, u64> = HashMap::new();
     let mut missing = 0;

@@ -29,7 +29,7 @@ pub enum Edit {
         /// Their new curves, in the same order.
         curves: Arc<Geometry>,
     },
-    /// Gives paths another width and colour of their own. A scene coloured by a column keeps its colours.
+    /// Gives paths another width and color of their own. A scene colored by a column keeps its colors.
     Restyle(Arc<[(u32, OwnStyle)]>),
     /// Shows, hides, removes or brings back paths.
     SetStates(Arc<[(u32, PathState)]>),
@@ -42,7 +42,7 @@ pub enum Edit {
 pub struct Insertion {
     /// Identifier.
     pub id: String,
-    /// The curve, in metres.
+    /// The curve, in meters.
     pub runs: Runs,
     /// Row of the node where it begins.
     pub start_node: Option<u32>,
@@ -54,7 +54,7 @@ pub struct Insertion {
     pub level: Option<u32>,
     /// Vehicle types that may use it; none means all.
     pub vehicle_types: Vec<String>,
-    /// Width and colour of its own.
+    /// Width and color of its own.
     pub style: OwnStyle,
     /// Row of the path whose attributes it gets; none if it has none.
     pub attributes_of: Option<u32>,
@@ -292,7 +292,7 @@ impl Scene {
             colors.resize(rows, Rgba::BLACK);
         }
         for (row, path) in (first..).zip(paths) {
-            // What decides the colours decides them of a copy as well.
+            // What decides the colors decides them of a copy as well.
             let color = match path.attributes_of.filter(|_| self.legend().is_some()) {
                 Some(from) => self.color(from),
                 None => self.own_color(row),

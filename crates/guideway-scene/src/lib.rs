@@ -1,8 +1,8 @@
-//! From a layout to a scene: what is drawn, in which colour and width, and what lies over what.
+//! From a layout to a scene: what is drawn, in which color and width, and what lies over what.
 //!
 //! A [`Scene`] resolves styles once, so that every render method agrees on them. It holds the layout's
-//! own control points: methods take them relative to the centre of the view in `f64`, which keeps
-//! millimetres at 10,000 km from the origin without a second copy.
+//! own control points: methods take them relative to the center of the view in `f64`, which keeps
+//! millimeters at 10,000 km from the origin without a second copy.
 
 mod color;
 mod color_by;

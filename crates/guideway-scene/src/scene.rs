@@ -11,9 +11,9 @@ use crate::color_by::{self, ColorBy, Legend};
 /// How a layout is to look.
 #[derive(Clone, Debug, Default)]
 pub struct SceneOptions {
-    /// Colour of paths that have none of their own; black unless set.
+    /// Color of paths that have none of their own; black unless set.
     pub color: Option<Rgba>,
-    /// Colour every path by a column instead.
+    /// Color every path by a column instead.
     pub color_by: Option<ColorBy>,
     /// Draw only the level of this name or id.
     pub level: Option<String>,
@@ -29,7 +29,7 @@ pub enum SceneError {
         /// Those that there are.
         known: Vec<String>,
     },
-    /// There is no such column to colour by.
+    /// There is no such column to color by.
     UnknownColumn {
         /// The column asked for.
         asked: String,
@@ -63,7 +63,7 @@ impl std::error::Error for SceneError {}
 pub struct Scene {
     pub(crate) layout: Arc<Layout>,
     pub(crate) colors: Colors,
-    /// Colour of paths that have none of their own.
+    /// Color of paths that have none of their own.
     base: Rgba,
     /// One a path; empty while all are shown.
     pub(crate) states: Vec<PathState>,
@@ -184,7 +184,7 @@ impl Scene {
         self.states.get(path as usize).copied().unwrap_or_default()
     }
 
-    /// Colour of a path.
+    /// Color of a path.
     pub fn color(&self, path: u32) -> Rgba {
         match &self.colors {
             Colors::One(color) => *color,
@@ -192,7 +192,7 @@ impl Scene {
         }
     }
 
-    /// The colour of all drawn paths, if they have one in common; black if there are none.
+    /// The color of all drawn paths, if they have one in common; black if there are none.
     pub fn common_color(&self) -> Option<Rgba> {
         let mut colors = self.draw_order.iter().map(|&path| self.color(path));
         let first = colors.next().unwrap_or(Rgba::BLACK);
@@ -208,13 +208,13 @@ impl Scene {
         }
     }
 
-    /// Width of a path in metres, if it has one of its own.
+    /// Width of a path in meters, if it has one of its own.
     pub fn width_m(&self, path: u32) -> Option<f32> {
         let width_m = *self.layout.paths.width_m()?.get(path as usize)?;
         (width_m.is_finite() && width_m >= 0.0).then_some(width_m)
     }
 
-    /// Box that holds all drawn paths, in metres; none if there are none. Found when it is first asked for
+    /// Box that holds all drawn paths, in meters; none if there are none. Found when it is first asked for
     /// after a change.
     pub fn bounds(&self) -> Option<Bounds<f64>> {
         *self
@@ -227,12 +227,12 @@ impl Scene {
         self.layout.paths.geometry().hulls()
     }
 
-    /// What the colours mean, if they were chosen by a column.
+    /// What the colors mean, if they were chosen by a column.
     pub fn legend(&self) -> Option<&Legend> {
         self.legend.as_ref()
     }
 
-    /// Colour of a path without a column that decides.
+    /// Color of a path without a column that decides.
     pub(crate) fn own_color(&self, path: u32) -> Rgba {
         let own = self.layout.paths.own_style(path as usize).color_rgba;
         own.map_or(self.base, Rgba::from_u32)

@@ -3,7 +3,7 @@
 pub enum LineRule {
     /// A width in the world, held between a least and a greatest width in pixels.
     World {
-        /// Width in metres of paths that have none of their own.
+        /// Width in meters of paths that have none of their own.
         width_m: f64,
         /// Least width in pixels.
         min_px: f64,

@@ -25,7 +25,7 @@ fn scene() -> Scene {
     Scene::new(Arc::new(layout), &SceneOptions::default()).expect("options that fit any layout")
 }
 
-/// All that a renderer sees of a path: its row, control points, colour and width.
+/// All that a renderer sees of a path: its row, control points, color and width.
 type Look = (u32, Vec<Point<f64>>, Rgba, Option<f32>);
 
 fn look(scene: &Scene) -> Vec<Look> {

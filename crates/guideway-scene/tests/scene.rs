@@ -1,4 +1,4 @@
-//! What a scene makes of a layout: order, colours, levels, legends.
+//! What a scene makes of a layout: order, colors, levels, legends.
 
 use std::sync::Arc;
 
@@ -76,7 +76,7 @@ fn one_level_is_drawn_and_the_rest_is_hidden() {
 }
 
 #[test]
-fn own_colours_win_over_the_common_one() {
+fn own_colors_win_over_the_common_one() {
     let mut colored = layout(2);
     colored.paths.set_color_rgba(vec![0xff00_00ff, 0]);
     let options = SceneOptions {
@@ -98,7 +98,7 @@ fn widths_that_are_none_are_left_to_the_rule() {
 }
 
 #[test]
-fn classes_get_a_colour_each_the_commonest_first() {
+fn classes_get_a_color_each_the_commonest_first() {
     let mut kinds = layout(30);
     for row in 0..29 {
         let kind = if row < 12 {
@@ -161,6 +161,6 @@ fn built_in_columns_and_unknown_ones() {
     let levels = scene(layout(4), &by("level"));
     assert_eq!(levels.legend().unwrap().entries.len(), 2);
     assert_ne!(levels.color(0), levels.color(1));
-    let error = Scene::new(Arc::new(layout(1)), &by("colour of the sky")).unwrap_err();
+    let error = Scene::new(Arc::new(layout(1)), &by("color of the sky")).unwrap_err();
     assert!(error.to_string().contains("vehicle_type"), "{error}");
 }

@@ -29,7 +29,7 @@ impl Affine {
         }
     }
 
-    /// Turns about a point, from x towards y.
+    /// Turns about a point, from x toward y.
     pub fn rotation(angle_rad: f64, about: Point<f64>) -> Self {
         let (sin, cos) = angle_rad.sin_cos();
         Self::about(about, Point::new(cos, sin), Point::new(-sin, cos))

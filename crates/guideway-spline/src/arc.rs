@@ -5,7 +5,7 @@ use crate::{Conversion, Point, Runs};
 /// The most cubics that [`arc_to_runs`] makes of an arc.
 pub const MAX_ARC_PIECES: u32 = 4096;
 
-/// Appends an arc of a circle: `center` and `radius` in metres, `start_angle` and `sweep` in radians
+/// Appends an arc of a circle: `center` and `radius` in meters, `start_angle` and `sweep` in radians
 /// counter-clockwise from the x axis; a negative sweep goes clockwise, and one beyond a full turn is
 /// a full turn. All must be finite.
 ///

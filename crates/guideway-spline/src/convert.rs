@@ -33,7 +33,7 @@ impl Conversion {
 ///
 /// Without weights (or with all weights equal), degrees 1 to 3 are exact. Spans of a cubic between
 /// evenly spaced knots keep their control points as they are and share one run. Everything else is
-/// approximated span by span, each by as many cubics as `tolerance_m` (metres) asks for, within
+/// approximated span by span, each by as many cubics as `tolerance_m` (meters) asks for, within
 /// [`MAX_HALVINGS`]; a tolerance below the rounding error of the span is raised to it.
 ///
 /// Spans of zero width are skipped. At an inner knot of multiplicity above the degree the curve breaks,

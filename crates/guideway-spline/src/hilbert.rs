@@ -68,7 +68,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_curve_passes_every_cell_once_from_neighbour_to_neighbour() {
+    fn the_curve_passes_every_cell_once_from_neighbor_to_neighbor() {
         // The first cells along the curve are those of a small square in its corner.
         const SIDE: u16 = 256;
         let cells = (0..SIDE).flat_map(|x| (0..SIDE).map(move |y| (along(x, y), x, y)));

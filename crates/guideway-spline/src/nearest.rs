@@ -24,7 +24,7 @@ pub struct Nearest {
 /// Branch and bound: a part of the curve is within f of its chord, f being the greatest distance of its
 /// Bezier points from the chord (see [`flatten_run`](crate::flatten_run)); so it can be skipped if the
 /// chord is farther from `query` than the best found plus f. Halving divides f by four: a few steps
-/// a segment, but sqrt(radius / tolerance) of them around the centre of an arc.
+/// a segment, but sqrt(radius / tolerance) of them around the center of an arc.
 pub fn nearest_on_run<T: Real>(
     points: &[Point<T>],
     query: Point<f64>,

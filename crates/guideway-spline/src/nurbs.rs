@@ -95,7 +95,7 @@ pub enum NurbsError {
 }
 
 impl Nurbs {
-    /// A curve of `degree` p over n `points` (metres), n + p + 1 `knots` and, if rational, n `weights`.
+    /// A curve of `degree` p over n `points` (meters), n + p + 1 `knots` and, if rational, n `weights`.
     ///
     /// # Errors
     /// Says the first thing that is wrong with the numbers, with what was expected.

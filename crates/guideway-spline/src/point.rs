@@ -4,7 +4,7 @@ use bytemuck::{Pod, Zeroable};
 
 use crate::Real;
 
-/// A point or vector in the plane. In layouts: metres, y up.
+/// A point or vector in the plane. In layouts: meters, y up.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[repr(C)]
 pub struct Point<T> {

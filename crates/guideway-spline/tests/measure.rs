@@ -102,7 +102,7 @@ fn lengths_that_are_known() {
 }
 
 #[test]
-fn the_centre_of_a_circle_is_equally_far_from_all() {
+fn the_center_of_a_circle_is_equally_far_from_all() {
     let center = Point::new(1e5, -1e5);
     let mut runs = Runs::default();
     arc_to_runs(center, 4.0, 0.0, 7.0, 1e-9, &mut runs);

@@ -97,7 +97,7 @@ impl Camera {
 
     /// Looks at a place, from near enough to see it.
     pub(crate) fn fly_to(&mut self, bounds: Bounds<f64>) {
-        // A dot is shown with a few metres around it.
+        // A dot is shown with a few meters around it.
         let least_m = 5.0;
         let size_m = bounds.size();
         self.fit(bounds.inflated(((least_m - size_m.x.max(size_m.y)) / 2.0).max(0.0)));

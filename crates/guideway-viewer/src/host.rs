@@ -132,7 +132,7 @@ pub struct Export {
 
 /// What lies on the floor, ready to be drawn.
 pub trait FloorPlan: Send + Sync {
-    /// Where it is, in metres; none if it is empty.
+    /// Where it is, in meters; none if it is empty.
     fn bounds(&self) -> Option<Bounds<f64>>;
 
     /// Draws it over nothing.

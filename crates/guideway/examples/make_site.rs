@@ -170,7 +170,7 @@ fn trajectory(from: Xy, to: Xy, way: &Way) -> Value {
     }
 }
 
-/// The ground floor: 145 by 77 metres.
+/// The ground floor: 145 by 77 meters.
 fn hall() -> Level {
     let mut hall = Level::default();
     const EAST: Xy = (1.0, 0.0);
@@ -421,7 +421,7 @@ pub(crate) fn site() -> String {
 
 /// Many such halls in rows, each with names of its own.
 pub(crate) fn campus(columns: u32, rows: u32) -> String {
-    /// From one hall to the next, in metres.
+    /// From one hall to the next, in meters.
     const STEP: Xy = (150.0, 95.0);
     let hall = layouts();
     let mut all = hall.clone();

@@ -24,7 +24,7 @@
 //! ```
 //!
 //! This crate only puts the others within reach: [`layout`] is the model, [`formats`] reads and writes
-//! files, [`envelope`] finds what vehicles sweep, [`scene`] decides colours and order, [`render`] is what every method agrees on, and
+//! files, [`envelope`] finds what vehicles sweep, [`scene`] decides colors and order, [`render`] is what every method agrees on, and
 //! [`methods`] lists what can draw on this computer. The command `guideway` is built on the same calls.
 
 mod files;

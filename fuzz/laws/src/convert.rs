@@ -8,7 +8,7 @@ use guideway_spline::{Affine, Bounds, Point};
 
 use crate::read::{assert_finite, options};
 
-/// How far a curve may be from what it was before it was written, in metres.
+/// How far a curve may be from what it was before it was written, in meters.
 const TOLERANCE_M: f64 = 1e-4;
 
 /// Positions farther out than this are left alone: near the largest coordinate, a copy could go beyond it.

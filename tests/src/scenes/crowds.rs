@@ -142,7 +142,7 @@ pub(super) fn cases() -> Vec<SceneCase> {
     for (name, tone) in [
         ("linear", ToneMap::Linear),
         ("log", ToneMap::Log),
-        ("equalised", ToneMap::Equalised),
+        ("equalized", ToneMap::Equalized),
     ] {
         cases.push(case(format!("density/site-{name}"), move || {
             site(Sketch::new(160, 120).width(1.5), 600, 17).density(tone)
@@ -225,7 +225,7 @@ fn wandering(points: usize, seed: u64) -> Vec<(f64, f64)> {
     let (mut x, mut y, mut heading) = (80.0, 60.0, 0.0);
     (0..points)
         .map(|_| {
-            // Back towards the middle, the more so the further away.
+            // Back toward the middle, the more so the further away.
             let home = f64::atan2(60.0 - y, 80.0 - x);
             let pull = f64::hypot((x - 80.0) / 70.0, (y - 60.0) / 50.0)
                 .powi(4)

@@ -1,4 +1,4 @@
-//! Scenes of one behaviour each, named `topic/case`.
+//! Scenes of one behavior each, named `topic/case`.
 
 mod crowds;
 mod frames;

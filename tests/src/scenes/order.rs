@@ -1,4 +1,4 @@
-//! What lies over what, and in which colour.
+//! What lies over what, and in which color.
 
 use super::{SceneCase, case};
 use crate::sketch::Sketch;

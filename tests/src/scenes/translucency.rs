@@ -69,7 +69,7 @@ pub(super) fn cases() -> Vec<SceneCase> {
                 sketch.line((4.0, y), (92.0, 64.0 - y)).color(0x1020_30a0)
             })
         }),
-        case("translucent/common-colour", || {
+        case("translucent/common-color", || {
             Sketch::new(64, 64)
                 .width(9.0)
                 .common_color(0x3070_2060)

@@ -1,6 +1,6 @@
 //! One module a renderer. Each draws a few frames and gives the time of each in milliseconds.
 //!
-//! Others than ours draw a path at a time, in draw order, as a picture of many colours needs.
+//! Others than ours draw a path at a time, in draw order, as a picture of many colors needs.
 
 #[cfg(feature = "blend2d")]
 mod blend2d;

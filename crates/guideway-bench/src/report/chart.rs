@@ -1,4 +1,4 @@
-//! Line charts as SVG that follows the colours of its page.
+//! Line charts as SVG that follows the colors of its page.
 
 use super::xml::escape;
 use crate::words::digits;

@@ -117,7 +117,7 @@ fn what_is_missing_is_said() {
 }
 
 #[test]
-fn chips_that_hardly_rasterise_are_told_of_beside_tessellation() {
+fn chips_that_hardly_rasterize_are_told_of_beside_tessellation() {
     let on = |device| {
         let run = run_with(&plan(&["grid", "tessellation"]), &Cancel::default(), |_| {
             Some(Fake { device, ..FAKE })

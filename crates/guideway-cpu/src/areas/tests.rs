@@ -128,7 +128,7 @@ fn the_comparison_finds_what_is_missing() {
 }
 
 #[test]
-fn over_nothing_the_colour_itself_is_seen() {
+fn over_nothing_the_color_itself_is_seen() {
     let view = view(10.0);
     let mut frame = Frame::new(view.size());
     lay_areas(&some_areas(), &Strip::whole(&view), INK, &mut frame);

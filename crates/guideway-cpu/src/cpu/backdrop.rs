@@ -1,13 +1,13 @@
-//! The colours of pixels over what lies below all paths.
+//! The colors of pixels over what lies below all paths.
 
 use guideway_scene::Rgba;
 
 use super::span::{SOLID, Samples};
 
-/// Colours by the number of samples covered.
+/// Colors by the number of samples covered.
 pub(super) type SolidColors = [[u8; 4]; Samples::<SOLID>::COUNT + 1];
 
-/// The colours of pixels of which one opaque colour covers from none to all samples.
+/// The colors of pixels of which one opaque color covers from none to all samples.
 pub(super) fn solid_colors(color: Rgba, background: Rgba) -> SolidColors {
     let backdrop = Backdrop::new(background);
     std::array::from_fn(|count| {

@@ -54,8 +54,8 @@ pub(super) type Rows = [u32; TILE_PX];
 
 /// Which samples of one tile are covered, and by what, from the highest draw rank down.
 ///
-/// Strokes gather as a shape; a fill then lays one colour below all that is there, and starts a new shape.
-/// Of one opaque colour all strokes are one shape, whatever their order: such a canvas is solid.
+/// Strokes gather as a shape; a fill then lays one color below all that is there, and starts a new shape.
+/// Of one opaque color all strokes are one shape, whatever their order: such a canvas is solid.
 pub(super) struct Canvas<const C: usize> {
     shape: Box<[[Block; TILE_PX]; C]>,
     /// Blocks where the shape may not be empty.
@@ -286,7 +286,7 @@ impl<const C: usize> Canvas<C> {
         }
     }
 
-    /// Lays a colour over the shape, below all that was laid before, and starts a new one.
+    /// Lays a color over the shape, below all that was laid before, and starts a new one.
     #[inline(always)]
     pub(super) fn fill(&mut self, color: Rgba) {
         let [r, g, b] = [color.r, color.g, color.b].map(f32::from);
@@ -364,7 +364,7 @@ impl<const C: usize> Canvas<C> {
             rows |= u32::from(*word != 0) << row;
         }
         let rows = rows.trailing_zeros() as usize..(u32::BITS - rows.leading_zeros()) as usize;
-        // Column by column, for sums of neighbours would be found one after the other.
+        // Column by column, for sums of neighbors would be found one after the other.
         let mut taken = [[0.0; C]; MOST_WINDOW_PX];
         for row in rows {
             let (clear, word) = (&mut block[row % ROWS], fresh[row % ROWS]);

@@ -29,7 +29,7 @@ const _: () = assert!(CLUSTER_PATHS == Members::BITS as usize);
 pub(super) enum Lines {
     #[default]
     None,
-    /// In units of so many metres from the middle of the cluster: good for every view of that unit.
+    /// In units of so many meters from the middle of the cluster: good for every view of that unit.
     Kept(f64, Polylines<i16>),
     /// In pixels of one frame, cut where they leave the picture: of what is too large for the other.
     Cut(Polylines<f32>),
@@ -138,7 +138,7 @@ fn count_within(lines: &Polylines<i16>, within: &Bounds<f32>, counts: &mut [u32;
     *counts = lines.count_within(within);
 }
 
-/// Where centre lines leave a mark, in units from the middle of a cluster, y down.
+/// Where center lines leave a mark, in units from the middle of a cluster, y down.
 fn within_units(shot: &Shot<'_>, middle: Point<f64>, unit_m: f64) -> Bounds<f32> {
     let per_px = 1.0 / (shot.view.px_per_m() * unit_m);
     let seen = shot.seen_px();

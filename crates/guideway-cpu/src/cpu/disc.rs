@@ -4,7 +4,7 @@ use super::LANES;
 use super::fixed::Caps;
 use super::span::{ROWS, SOLID, Samples, clamp};
 
-/// Fractions of the distance between rows of samples that the centres of discs are rounded to: 1/128 of a
+/// Fractions of the distance between rows of samples that the centers of discs are rounded to: 1/128 of a
 /// pixel.
 pub(super) const PHASES: i32 = 8;
 /// Half a chord where there is none: far to the other side.
@@ -12,15 +12,15 @@ pub(super) const NONE: f32 = -1e9;
 /// The radius up to which half chords are kept, in pixels: larger discs are found as they are needed.
 const MOST_KEPT_PX: usize = 8;
 
-/// A disc of one radius around any centre: half of each chord that a row of samples cuts from it.
+/// A disc of one radius around any center: half of each chord that a row of samples cuts from it.
 #[derive(Debug, Default)]
 pub(super) struct Disc<const C: usize> {
     pub(super) radius: f32,
-    /// For each phase of the centre, half chords from far above it to far below; none of a large disc.
+    /// For each phase of the center, half chords from far above it to far below; none of a large disc.
     halves: Vec<f32>,
-    /// The same for lines in whole numbers, all of one colour.
+    /// The same for lines in whole numbers, all of one color.
     pub(super) caps: Caps,
-    /// Rows of a phase, and those before the one at the centre.
+    /// Rows of a phase, and those before the one at the center.
     rows: i32,
     rows_above: i32,
 }
@@ -48,7 +48,7 @@ impl<const C: usize> Disc<C> {
         }
     }
 
-    /// Half chords of a row of pixels, when the centre is so many phases below the first row of all.
+    /// Half chords of a row of pixels, when the center is so many phases below the first row of all.
     #[inline(always)]
     pub(super) fn half_chords(&self, center: i32, pixel_row: usize) -> [f32; LANES] {
         let first_row = (pixel_row * LANES) as i32;
@@ -72,7 +72,7 @@ impl<const C: usize> Disc<C> {
     }
 }
 
-/// Half the chord of a disc so many phases from its centre.
+/// Half the chord of a disc so many phases from its center.
 #[inline(always)]
 fn half_chord<const C: usize>(radius: f32, off_phases: i32) -> f32 {
     let off = off_phases as f32 * (Samples::<C>::ROW_STEP / PHASES as f32);

@@ -3,7 +3,7 @@
 use guideway_scene::{PathState, Scene};
 use guideway_spline::{Affine, Bounds, Point};
 
-/// Where a cluster lies, in metres.
+/// Where a cluster lies, in meters.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Extent {
     /// Where its control points lie, or a little more.
@@ -102,10 +102,10 @@ impl Extent {
     }
 }
 
-/// Where the control points of a path lie, in metres; none if it has none.
+/// Where the control points of a path lie, in meters; none if it has none.
 pub(super) type Hull = Option<Bounds<f64>>;
 
-/// Where the control points of those paths lie that are shown, in metres, by their hulls.
+/// Where the control points of those paths lie that are shown, in meters, by their hulls.
 pub(super) fn shown_bounds(scene: &Scene, paths: &[u32]) -> Hull {
     let rows = shown(scene, paths).map(|path| path as usize);
     scene.hulls().of(rows)

@@ -93,7 +93,7 @@ impl Buffers {
         self.sights.bytes() + self.parts.bytes() + todo as u64 + of_threads
     }
 
-    /// Counts paths and colours the counts; says in how many bands. A part of a picture is coloured by how all of it
+    /// Counts paths and colors the counts; says in how many bands. A part of a picture is colored by how all of it
     /// is, which is looked at once.
     pub(super) fn draw_density(
         &mut self,

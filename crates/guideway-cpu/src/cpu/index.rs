@@ -27,7 +27,7 @@ pub(super) struct Index {
     /// Draw rank of each row; none if it is its row.
     pub(super) ranks: Option<Vec<u32>>,
     pub(super) widths: Widths,
-    /// The colour of all paths, if it is one and opaque.
+    /// The color of all paths, if it is one and opaque.
     pub(super) solid: Option<Rgba>,
 }
 
@@ -36,7 +36,7 @@ pub(super) struct Index {
 pub(super) struct Made {
     /// That of the views that they are good for; the default if they have to be made anew.
     pub(super) precision: Precision,
-    /// How far their curves may be from where all were moved to with their lines, for points are rounded, in metres.
+    /// How far their curves may be from where all were moved to with their lines, for points are rounded, in meters.
     pub(super) drift_m: f64,
     /// Number of paths and of lines.
     pub(super) paths_and_lines: [u32; 2],
@@ -93,7 +93,7 @@ impl Index {
         self.made.resize(clusters, Made::default());
     }
 
-    /// After ranks, colours or widths have changed.
+    /// After ranks, colors or widths have changed.
     pub(super) fn order_anew(&mut self, scene: &Scene) {
         let order = scene.draw_order();
         self.ranks = (!order.is_sorted()).then(|| {

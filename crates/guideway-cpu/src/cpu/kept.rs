@@ -14,7 +14,7 @@ use super::tiles::Parts;
 /// Boxes of changes that are kept in mind: more are all of the picture.
 const MOST_CHANGES: usize = 4096;
 
-/// The picture of the last frame, moved without being copied: it wraps around at its sides. A pixel is a colour, or
+/// The picture of the last frame, moved without being copied: it wraps around at its sides. A pixel is a color, or
 /// the bytes of the number of paths there.
 ///
 /// Pixels are kept only once a second frame of the same scale is asked for: a zoom has no use for them.

@@ -1,4 +1,4 @@
-//! Strokes of several colours, from the highest draw rank down, sixteen lines at a time.
+//! Strokes of several colors, from the highest draw rank down, sixteen lines at a time.
 
 use guideway_scene::Rgba;
 use guideway_spline::Point;
@@ -13,7 +13,7 @@ use super::seen::{Hit, Seen, columns};
 use super::span::LAYERED;
 use super::stroke::{Batch, Placed};
 
-/// Strokes of one opaque colour after which it is worth a look whether anything is left to be covered.
+/// Strokes of one opaque color after which it is worth a look whether anything is left to be covered.
 const STROKES_A_FILL: usize = 32;
 
 /// How many paths cover each pixel of a tile, times its samples.
@@ -33,7 +33,7 @@ pub(super) struct Layers<'a> {
     tile: &'a Tile,
     canvas: &'a mut Canvas<LAYERED>,
     discs: &'a mut Discs<LAYERED>,
-    /// Where shapes are counted instead of laid as colours.
+    /// Where shapes are counted instead of laid as colors.
     counts: Option<&'a mut Counts>,
     x: [[f32; LANES]; 2],
     y: [[f32; LANES]; 2],

@@ -4,9 +4,9 @@
 //! finds the clusters in sight (`sight`), and what of the picture has to be drawn (`kept`); `flatten` turns their
 //! curves into lines (`cluster`, `simplify`), unless those of an earlier frame will do; `bin` lists the clusters of
 //! each tile of 32 x 32 pixels (`bins`), or of wide ones the lines that cross it (`crossings`); `cover` finds which
-//! samples of each tile the lines cover (`paint`, then `seen` for one colour or `layers` for several, `fixed` or
+//! samples of each tile the lines cover (`paint`, then `seen` for one color or `layers` for several, `fixed` or
 //! `stroke` and `span`, `canvas`); `keep` keeps the picture.
-//! Of one colour, pixels that are full for certain in the views to come are found beside that, and not covered again
+//! Of one color, pixels that are full for certain in the views to come are found beside that, and not covered again
 //! (`filled`).
 //! What lies where is asked apart from that (`ask`).
 //! Coverage is an OR of bits, and all that is added up is a whole number or added in draw order, so the picture

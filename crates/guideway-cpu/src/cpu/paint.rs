@@ -26,7 +26,7 @@ use super::threads::own;
 use super::tiles::{Grid, Parts};
 use super::vectors::by_lane_width;
 
-/// Pieces of several colours that are sorted at first; each time that more are needed, twice as many.
+/// Pieces of several colors that are sorted at first; each time that more are needed, twice as many.
 const FIRST_SORTED: usize = 256;
 /// Clusters of a tile that hide so little of each other that all rounds of one are drawn at once.
 const FEW_CLUSTERS: usize = 6;
@@ -82,7 +82,7 @@ pub(super) struct Tile {
 }
 
 impl<'a> Band<'a> {
-    /// Paints the colours into the pixels of the band.
+    /// Paints the colors into the pixels of the band.
     pub(super) fn color(
         &self,
         pixels: &mut [[u8; 4]],

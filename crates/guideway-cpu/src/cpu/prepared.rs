@@ -354,7 +354,7 @@ impl Prepared for CpuPrepared {
             }
         });
         if let Some(kept) = kept {
-            // One colour is covered otherwise than several.
+            // One color is covered otherwise than several.
             if before == (index.solid, index.widths) {
                 kept.change(&changes);
             } else {

@@ -145,7 +145,7 @@ impl<'a> Seen<'a, SOLID> {
         columns::<SOLID>(self.band.common_radius_px.unwrap_or_else(own_px))
     }
 
-    /// Covers samples with a share of the lines, all of one opaque colour.
+    /// Covers samples with a share of the lines, all of one opaque color.
     #[inline(always)]
     pub(super) fn solid(
         &self,

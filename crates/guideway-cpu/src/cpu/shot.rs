@@ -17,7 +17,7 @@ struct Grain {
     tolerance: f32,
 }
 
-/// What kept lines are rounded to, in metres, and farthest that they may be from their curves, in units of that: views of the
+/// What kept lines are rounded to, in meters, and farthest that they may be from their curves, in units of that: views of the
 /// same draw the same lines.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Precision {
@@ -26,7 +26,7 @@ pub(super) struct Precision {
     joins: bool,
 }
 
-/// Where all is one colour, borders of strokes are seen alone: at most a ninth of a pixel off.
+/// Where all is one color, borders of strokes are seen alone: at most a ninth of a pixel off.
 const SOLID: Grain = Grain {
     units_a_px: 64.0,
     tolerance: 6.5,
@@ -55,13 +55,13 @@ pub(super) struct Shot<'a> {
     pub(super) cancel: &'a Cancel,
     pub(super) widths: Widths,
     pub(super) lane_width: LaneWidth,
-    /// The colour of all that is drawn, if it is one and opaque.
+    /// The color of all that is drawn, if it is one and opaque.
     pub(super) solid: Option<Rgba>,
     /// How much nearer the view is that strokes are thinner than all of; none if they are as wide as they have to be.
     pub(super) thinner_than: Option<f64>,
 }
 
-/// The least and the greatest width of paths that have one of their own, in metres; none if none has.
+/// The least and the greatest width of paths that have one of their own, in meters; none if none has.
 pub(super) type Widths = Option<(f32, f32)>;
 
 /// Widths of all paths that are drawn.
@@ -153,7 +153,7 @@ impl Shot<'_> {
         }
     }
 
-    /// Whether curves that go on from each other are drawn as one: of one colour and one width nobody can tell.
+    /// Whether curves that go on from each other are drawn as one: of one color and one width nobody can tell.
     pub(super) fn joins(&self) -> bool {
         self.solid.is_some() && self.widths.is_none()
     }
@@ -181,7 +181,7 @@ impl Shot<'_> {
         }
     }
 
-    /// Where centre lines leave a mark. A pixel is added so that the caps of lines that are cut there stay
+    /// Where center lines leave a mark. A pixel is added so that the caps of lines that are cut there stay
     /// out of sight.
     pub(super) fn seen_px(&self) -> Bounds<f64> {
         self.picture_px().inflated(self.widest_px() + 1.0)

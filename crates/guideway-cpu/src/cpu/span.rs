@@ -7,9 +7,9 @@ use super::place::STEPS_PX;
 
 /// Rows of samples of a pixel.
 pub(super) const ROWS: usize = LANES;
-/// Samples of each of them where colours or paths are told apart: those of the oracle.
+/// Samples of each of them where colors or paths are told apart: those of the oracle.
 pub(super) const LAYERED: usize = 16;
-/// Samples of each of them where all is one colour. Every other row is shifted by half their distance, so that
+/// Samples of each of them where all is one color. Every other row is shifted by half their distance, so that
 /// upright borders are told apart as finely as level ones.
 pub(super) const SOLID: usize = 8;
 
@@ -64,7 +64,7 @@ impl<const C: usize> Samples<C> {
     }
 }
 
-/// The centre of a disc in phases from the first row of samples, for `y` in columns.
+/// The center of a disc in phases from the first row of samples, for `y` in columns.
 #[inline(always)]
 pub(super) fn phases<const C: usize>(y: f32) -> i32 {
     // Beyond what a float can be rounded to by addition nothing is in sight.

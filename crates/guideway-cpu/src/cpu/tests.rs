@@ -141,7 +141,7 @@ fn errors(ours: &Frame, other: &Frame) -> (Vec<u8>, f64) {
     (errors, mean)
 }
 
-/// Of the colours as they weigh: what is hardly there may have any colour.
+/// Of the colors as they weigh: what is hardly there may have any color.
 fn differences(a: [u8; 4], b: [u8; 4]) -> [u8; 4] {
     let weighed = |[r, g, b, a]: [u8; 4]| {
         let weigh = |c: u8| ((u32::from(c) * u32::from(a) + 127) / 255) as u8;
@@ -303,7 +303,7 @@ fn thin_strokes_that_share_pixels_are_neither_too_dark_nor_too_pale() {
 fn strips_are_rows_of_the_whole() {
     let scene = colored(wandering(3000, 11, 3.0, ORIGIN), |i| [255, 200][i % 2]);
     let cancel = Cancel::default();
-    let densities = [ToneMap::Log, ToneMap::Equalised].map(Shading::Density);
+    let densities = [ToneMap::Log, ToneMap::Equalized].map(Shading::Density);
     for shading in [Shading::Color].into_iter().chain(densities) {
         // Lines that are kept from one strip to the next, and others that are cut for each.
         for px_per_m in [0.8, 20.0, 60_000.0] {

@@ -102,7 +102,7 @@ impl Band {
         }
     }
 
-    /// The mean colour of each pixel, rounded to nearest.
+    /// The mean color of each pixel, rounded to nearest.
     pub(super) fn write_colors(&self, pixels: &mut [[u8; 4]]) {
         let width = self.columns / SIDE;
         for (index, pixel) in pixels.iter_mut().enumerate() {
@@ -151,7 +151,7 @@ fn premultiplied(color: Rgba) -> [f32; 4] {
     ]
 }
 
-/// Where nothing is, the background has the say on the colour that does not show.
+/// Where nothing is, the background has the say on the color that does not show.
 fn straight([r, g, b, a]: [f64; 4], background: Rgba) -> [u8; 4] {
     if a == 0.0 {
         return [background.r, background.g, background.b, 0];

@@ -40,7 +40,7 @@ fn layout(paths: &[Runs]) -> Layout {
     layout
 }
 
-/// One metre a pixel, the origin in the lower left corner.
+/// One meter a pixel, the origin in the lower left corner.
 fn view(width: u32, height: u32) -> View {
     let middle = point(f64::from(width) / 2.0, f64::from(height) / 2.0);
     View::new(FrameSize::new(width, height).unwrap(), middle, 1.0).unwrap()
@@ -148,7 +148,7 @@ fn a_path_that_crosses_itself_is_not_darker_there() {
 }
 
 #[test]
-fn straight_alpha_keeps_its_colour_over_nothing() {
+fn straight_alpha_keeps_its_color_over_nothing() {
     let style = Style {
         background: Rgba::from_u32(0x1122_3300),
         ..wide(2.0)

@@ -18,7 +18,7 @@ pub use operations::{PointRef, drawn_path};
 pub enum Change {
     /// Of the scene.
     Scene(Edit),
-    /// Nodes to other places, in metres.
+    /// Nodes to other places, in meters.
     MoveNodes(NodeMoves),
 }
 

@@ -166,7 +166,7 @@ impl Document {
         Ok(())
     }
 
-    /// Adds a path that begins and ends at the first and the last point and bends towards those between, and
+    /// Adds a path that begins and ends at the first and the last point and bends toward those between, and
     /// selects it. Ends within `node_reach_m` of a node belong to it.
     ///
     /// # Errors

@@ -55,7 +55,7 @@ pub(super) fn refined(runs: &Runs) -> Runs {
     fine
 }
 
-/// A curve that begins and ends at the first and the last of `points`, bends towards those between and is
+/// A curve that begins and ends at the first and the last of `points`, bends toward those between and is
 /// straight if there are only two; none of fewer, or if all are the same.
 pub(super) fn through_ends(points: &[Point<f64>]) -> Option<Runs> {
     let [first, second, ..] = points else {

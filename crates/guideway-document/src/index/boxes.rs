@@ -6,7 +6,7 @@ use rayon::prelude::*;
 /// Rows of one cluster.
 const CLUSTER: usize = 64;
 
-/// A box a row, found by where it is. Neighbours lie in clusters, so that a question looks at few rows; a change
+/// A box a row, found by where it is. Neighbors lie in clusters, so that a question looks at few rows; a change
 /// costs no more than the clusters that it touches, and however much changes, a question never takes longer than a
 /// look at every box.
 ///

@@ -16,7 +16,7 @@ const MOST_HALVINGS: u32 = 48;
 /// Chosen paths, to be drawn over a picture.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Outline {
-    /// The centre lines of the paths, in pixels, as far as they are near the view.
+    /// The center lines of the paths, in pixels, as far as they are near the view.
     Lines(Vec<Vec<Point<f64>>>),
     /// Where there are too many for lines: the upper left corners of the cells of a grid that the boxes of
     /// the paths have their middle in, and the side of a cell, in pixels.

@@ -45,7 +45,7 @@ fn selections_combine_and_leave_out_what_is_hidden() {
 }
 
 #[test]
-fn other_colours_bring_nothing_hidden_back() {
+fn other_colors_bring_nothing_hidden_back() {
     let mut document = document(6);
     document.select([2].into_iter().collect(), Combine::Replace);
     document.hide_selection();
@@ -70,7 +70,7 @@ fn other_colours_bring_nothing_hidden_back() {
 }
 
 #[test]
-fn a_copy_is_asked_about_and_coloured_as_what_it_was_copied_from() {
+fn a_copy_is_asked_about_and_colored_as_what_it_was_copied_from() {
     let mut document = document(12);
     let by_speed = SceneOptions {
         color_by: Some(ColorBy {

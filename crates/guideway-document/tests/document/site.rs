@@ -12,7 +12,7 @@ pub(crate) fn p(x: f64, y: f64) -> Point<f64> {
     Point::new(x, y)
 }
 
-/// `count` straight paths of 10 m, one metre apart, named `path-0` and so on; every third goes both ways.
+/// `count` straight paths of 10 m, one meter apart, named `path-0` and so on; every third goes both ways.
 pub(crate) fn lanes(count: usize) -> Layout {
     let mut layout = Layout::default();
     for row in 0..count {

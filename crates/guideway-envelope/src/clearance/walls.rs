@@ -36,7 +36,7 @@ struct TooNear {
 }
 
 impl Walls {
-    /// The curves of some paths of a floor plan, as lines within a millimetre.
+    /// The curves of some paths of a floor plan, as lines within a millimeter.
     pub fn new(plan: &Layout, is_wall: impl Fn(usize) -> bool) -> Self {
         let (mut lines, mut paths, mut ids) = (Vec::new(), Vec::new(), TextColumn::default());
         for path in plan.paths.iter() {

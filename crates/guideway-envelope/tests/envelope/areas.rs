@@ -105,7 +105,7 @@ fn areas_that_only_meet_at_the_joint_are_not_too_near() {
     let first = "[[[[0,-1],[21,-1],[21,1],[0,1],[0,-1]]]]";
     let second = "[[[[19,-1],[40,-1],[40,1],[19,1],[19,-1]]]]";
     assert!(!is_too_near(&[first, second], 0.5));
-    // One of four in a row comes back to the first, half a metre from it, far from any joint.
+    // One of four in a row comes back to the first, half a meter from it, far from any joint.
     let armed = "[[[[59,-1],[80,-1],[80,2],[5,2],[5,1.5],[78,1.5],[78,1],[59,1],[59,-1]]]]";
     let all = [first, "[]", "[]", armed];
     assert!(!is_too_near(&all, 0.4));

@@ -60,11 +60,11 @@ proptest! {
     fn near_a_meeting_nothing_counts(a in case(), b in case(), below in 0.0..2.0, radius in 0.5..4.0) {
         let start = |case: &Case| case.curve.0[0][0];
         let b = moved(&b, start(&a) - start(&b));
-        let centre = start(&a);
-        let meeting = Meeting { centers_m: [centre; 2], radius_m: radius };
+        let center = start(&a);
+        let meeting = Meeting { centers_m: [center; 2], radius_m: radius };
         let answer = nearest(&a, &b, below, &[meeting]);
         let beyond = |radius: f64| {
-            move |p: Pose, q: Pose| p.at.distance(centre) > radius || q.at.distance(centre) > radius
+            move |p: Pose, q: Pose| p.at.distance(center) > radius || q.at.distance(center) > radius
         };
         // A pose is in place within a step, and stretches are cut within the tolerance.
         let (all, sure) = (

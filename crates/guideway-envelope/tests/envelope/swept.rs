@@ -209,7 +209,7 @@ fn shrunk(polygon: &Convex, by: f64) -> Convex {
     Convex::hull(points.map(|&p| center + (p - center) * by)).expect("corners")
 }
 
-/// The judge turns this vehicle two thousandths of a millimetre before the kink.
+/// The judge turns this vehicle two thousandths of a millimeter before the kink.
 #[test]
 fn a_kink_is_where_the_judge_has_it() {
     let (kink, body) = (p(2.683_207, 1.539_235), Body::vehicle(0.2, 1.276_964, 0.0));

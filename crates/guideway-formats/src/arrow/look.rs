@@ -136,7 +136,7 @@ impl<'a> Look<'a> {
             paths.set_levels(levels.values);
         }
         if let Some(widths) = self.widths {
-            widths.note_unfit("width_m", "a number of metres from 0", diagnostics);
+            widths.note_unfit("width_m", "a number of meters from 0", diagnostics);
             paths.set_width_m(widths.values);
         }
         if let Some(colors) = self.colors {

@@ -40,7 +40,7 @@ const PART: &str = "guideway.part";
 const LEVEL: &str = "level";
 /// Name of the column of stroke widths.
 const WIDTH: &str = "width_m";
-/// Name of the column of colours.
+/// Name of the column of colors.
 const COLOR: &str = "color";
 /// Name of the column of draw ranks.
 const RANK: &str = "rank";

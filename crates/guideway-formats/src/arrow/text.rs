@@ -37,8 +37,8 @@ impl SideBySide<'_> {
 
     /// The length of each row.
     pub(super) fn lengths(&self) -> impl Iterator<Item = usize> {
-        let neighbours = self.offsets.array_windows();
-        neighbours.map(|[start, end]| (end - start) as usize)
+        let neighbors = self.offsets.array_windows();
+        neighbors.map(|[start, end]| (end - start) as usize)
     }
 }
 

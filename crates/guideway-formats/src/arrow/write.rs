@@ -161,7 +161,7 @@ impl ArrowWriter {
         })
     }
 
-    /// Appends a row: a run of control points, in metres, and a value or none for every column.
+    /// Appends a row: a run of control points, in meters, and a value or none for every column.
     ///
     /// # Errors
     /// When the run has fewer than four points, a value does not fit its column, or the disk is full.

@@ -8,7 +8,7 @@ use super::write_columns::{Column, ColumnType};
 use super::{COLOR, CONTROL_POINTS, ID, LEVEL, PART, RANK, WIDTH};
 use crate::Losses;
 
-/// Coordinates are stored in `f32` if that moves none of them by more than this, in metres.
+/// Coordinates are stored in `f32` if that moves none of them by more than this, in meters.
 const F32_ERROR_M: f64 = 1e-5;
 
 /// How to write a layout.

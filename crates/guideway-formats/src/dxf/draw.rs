@@ -1,4 +1,4 @@
-//! From entities to paths: blocks are put in place, and layers and colours handed down.
+//! From entities to paths: blocks are put in place, and layers and colors handed down.
 
 use guideway_layout::{Code, NewPath, Place, Value};
 use guideway_spline::Runs;
@@ -32,7 +32,7 @@ pub(super) struct Around<'a> {
 /// Makes the paths of a drawing.
 pub(super) struct Painter<'a> {
     pub(super) builder: Builder<'a>,
-    /// The colour of every path.
+    /// The color of every path.
     pub(super) colors: Vec<u32>,
     /// How many more entities references may make.
     entities_left: u64,

@@ -116,7 +116,7 @@ fn report_others(builder: &mut Builder<'_>, section: &str, counts: &Counts) {
     }
 }
 
-/// Metres of the units of `$INSUNITS`, as the DXF reference numbers them; 0 is no unit.
+/// Meters of the units of `$INSUNITS`, as the DXF reference numbers them; 0 is no unit.
 const UNITS_M: [f64; 25] = [
     0.0,
     0.0254,
@@ -155,7 +155,7 @@ fn unit(builder: &mut Builder<'_>, code: i64) -> f64 {
     }
     let at = || Place::element("$INSUNITS");
     let message =
-        || format!("the unit is {code}, which is none: positions are read as millimetres");
+        || format!("the unit is {code}, which is none: positions are read as millimeters");
     let remedy = "If that is wrong, set the unit of the drawing in the CAD program";
     builder.find(Code::AssumedUnit, &at, message, remedy);
     1e-3

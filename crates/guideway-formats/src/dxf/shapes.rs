@@ -1,4 +1,4 @@
-//! From shapes to runs, in metres and as seen from above.
+//! From shapes to runs, in meters and as seen from above.
 
 use guideway_layout::Code;
 use guideway_spline::{MAX_DEGREE, Point, Runs};
@@ -8,7 +8,7 @@ use super::space::{Affine, Vector};
 use crate::builder::{At, Builder};
 use crate::{ReadError, ellipse, spline};
 
-/// Bulges below this are straight: on 100 m of way, such an arc is 5 micrometres high.
+/// Bulges below this are straight: on 100 m of way, such an arc is 5 micrometers high.
 const LEAST_BULGE: f64 = 1e-7;
 
 /// Why a shape is not drawn, although its numbers are sound.
@@ -23,9 +23,9 @@ pub(super) enum Excess {
 /// What holds for every shape.
 #[derive(Clone, Copy)]
 pub(super) struct Bounds {
-    /// How far a curve may be from its shape, in metres.
+    /// How far a curve may be from its shape, in meters.
     pub(super) tolerance_m: f64,
-    /// Largest absolute coordinate, in metres.
+    /// Largest absolute coordinate, in meters.
     pub(super) coordinate_m: f64,
     /// Most control points.
     pub(super) points: u64,
@@ -89,7 +89,7 @@ pub(super) fn append_polyline(
     Ok(())
 }
 
-/// The arc from a vertex to the next, if its bulge b makes one: it turns by 4 atan b, and its centre lies
+/// The arc from a vertex to the next, if its bulge b makes one: it turns by 4 atan b, and its center lies
 /// (1 - b^2) / (4 b) of the chord to the left of the chord's middle.
 fn bent(from: &Vertex, to: &Vertex) -> Option<Arc> {
     let (bulge, start, end) = (from.bulge, from.position, to.position);

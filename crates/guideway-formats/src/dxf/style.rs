@@ -1,4 +1,4 @@
-//! Layers and colours.
+//! Layers and colors.
 
 use std::collections::HashMap;
 
@@ -6,13 +6,13 @@ use super::records::Record;
 
 const WHITE: u32 = 0xFFFF_FFFF;
 
-/// The colour to draw with, 0 where the view decides: over what is white. It stands for black on white paper
+/// The color to draw with, 0 where the view decides: over what is white. It stands for black on white paper
 /// and white on a black screen, on which most drawings are made.
 pub(super) fn on_paper(color: u32) -> u32 {
     if color == WHITE { 0 } else { color }
 }
 
-/// The colour of an entity.
+/// The color of an entity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Color {
     OfLayer,
@@ -23,7 +23,7 @@ pub(super) enum Color {
 }
 
 impl Color {
-    /// The colour of a record: 420 is red, green and blue in one number, 62 an index.
+    /// The color of a record: 420 is red, green and blue in one number, 62 an index.
     pub(super) fn of(record: &Record<'_>) -> Self {
         if let Some(rgb) = record.whole(420) {
             return Self::Rgba(((rgb as u32) << 8) | 0xFF);
@@ -36,14 +36,14 @@ impl Color {
     }
 }
 
-/// The colour of an index of AutoCAD's palette, 0xRRGGBBAA; 0 for what is no index. 7 is black on white and
+/// The color of an index of AutoCAD's palette, 0xRRGGBBAA; 0 for what is no index. 7 is black on white and
 /// white on black; minus marks a layer that is off.
 pub(super) fn indexed(index: i64) -> u32 {
     const FIRST: [u32; 10] = [
         0, 0xFF0000FF, 0xFFFF00FF, 0x00FF00FF, 0x00FFFFFF, 0x0000FFFF, 0xFF00FFFF, WHITE,
         0x808080FF, 0xC0C0C0FF,
     ];
-    const GREYS: [u32; 6] = [0x33, 0x50, 0x69, 0x82, 0xBE, 0xFF];
+    const GRAYS: [u32; 6] = [0x33, 0x50, 0x69, 0x82, 0xBE, 0xFF];
     /// The brightest channel of the shades of a hue.
     const VALUES: [f64; 5] = [255.0, 165.0, 127.0, 76.0, 38.0];
     let index = index.unsigned_abs();
@@ -66,7 +66,7 @@ pub(super) fn indexed(index: i64) -> u32 {
             let [r, g, b] = [0.0, 4.0, 2.0].map(channel);
             (r << 24) | (g << 16) | (b << 8) | 0xFF
         }
-        250..=255 => (GREYS[index as usize - 250] * 0x0101_0100) | 0xFF,
+        250..=255 => (GRAYS[index as usize - 250] * 0x0101_0100) | 0xFF,
         _ => 0,
     }
 }

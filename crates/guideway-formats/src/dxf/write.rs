@@ -1,4 +1,4 @@
-//! A layout as a drawing: ASCII DXF of release 2007, in metres, which every CAD program since reads.
+//! A layout as a drawing: ASCII DXF of release 2007, in meters, which every CAD program since reads.
 
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -22,7 +22,7 @@ const MOST_TEXT_BYTES: usize = 240;
 
 /// Writes a layout: a LINE for each straight path, an LWPOLYLINE where several straight lines follow each
 /// other, and a SPLINE of degree 3, which is the same curve over clamped knots, for any other. The layer is
-/// that of the column `layer`, or else the level. Positions are to a micrometre. Returns what the format
+/// that of the column `layer`, or else the level. Positions are to a micrometer. Returns what the format
 /// cannot hold.
 ///
 /// # Errors
@@ -115,7 +115,7 @@ fn write_id<W: Write>(pairs: &mut Pairs<'_, W>, id: &str) -> io::Result<()> {
     }
 }
 
-/// Red, green and blue of a path in one number, if it has a colour of its own.
+/// Red, green and blue of a path in one number, if it has a color of its own.
 fn own_color(layout: &Layout, path: PathRef<'_>) -> Option<u32> {
     let color = layout.paths.color_rgba()?[path.row()];
     (color != 0).then_some(color >> 8)
@@ -127,13 +127,13 @@ fn losses(layout: &Layout) -> Losses {
     let colors = || layout.paths.color_rgba().unwrap_or_default().iter();
     let translucent = colors().filter(|&&c| c != 0 && c & 0xFF != 0xFF).count();
     losses.add(
-        "colours",
+        "colors",
         translucent,
-        "translucent colours: they become opaque",
+        "translucent colors: they become opaque",
     );
     let white = colors().filter(|&&c| c >> 8 == 0xFF_FFFF).count();
     let detail = "paths in white: programs take it for black on paper";
-    losses.add("colours", white, detail);
+    losses.add("colors", white, detail);
     losses.ranks(layout);
     losses.network(layout);
     losses.columns(&layout.paths.attributes, "paths", |name| name == LAYER);

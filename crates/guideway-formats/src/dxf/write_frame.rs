@@ -29,7 +29,7 @@ pub(super) fn write_start<W: Write>(
     pairs.text(3, "ANSI_1252")?;
     pairs.text(9, "$HANDSEED")?;
     pairs.handle(5, first_handle + most_entities)?;
-    // Metres, by the metric defaults.
+    // Meters, by the metric defaults.
     pairs.text(9, "$INSUNITS")?;
     pairs.whole(70, 6)?;
     pairs.text(9, "$MEASUREMENT")?;

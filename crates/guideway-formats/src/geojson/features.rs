@@ -35,7 +35,7 @@ impl<'a> Mapper<'a> {
     pub(super) fn new(source: Source<'a>, file_bytes: usize) -> Self {
         Self {
             builder: Builder::new(source, file_bytes),
-            unit: Unit::Metres,
+            unit: Unit::Meters,
             is_graph: false,
             nodes: NodeRows::default(),
             counts: Vec::new(),

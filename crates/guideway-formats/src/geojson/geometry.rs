@@ -147,7 +147,7 @@ impl Mapper<'_> {
     ) -> Result<(), ReadError> {
         let points = coordinates.map_or(&[][..], |c| &c.points);
         for (i, &point) in points.iter().enumerate() {
-            let position = self.unit.to_metres(point);
+            let position = self.unit.to_meters(point);
             if !self.builder.check_point(position, at) {
                 continue;
             }
@@ -181,8 +181,8 @@ impl Mapper<'_> {
         let end = self.node("endid", properties, at)?;
         let mut runs = Runs::default();
         for line in coordinates.into_iter().flat_map(Coordinates::lines) {
-            let metres: Vec<Point<f64>> = line.iter().map(|&p| self.unit.to_metres(p)).collect();
-            let mut drawn = metres;
+            let meters: Vec<Point<f64>> = line.iter().map(|&p| self.unit.to_meters(p)).collect();
+            let mut drawn = meters;
             drawn.retain(|&point| self.builder.check_point(point, at));
             if drawn.len() < 2 {
                 let message = || format!("{} positions, a line needs 2", drawn.len());

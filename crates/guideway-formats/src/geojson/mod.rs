@@ -1,7 +1,7 @@
-//! GeoJSON, plain and as the route graphs of Nav2: positions in metres or degrees, y up.
+//! GeoJSON, plain and as the route graphs of Nav2: positions in meters or degrees, y up.
 //!
 //! Nav2 keeps its graphs in GeoJSON: points are nodes, and lines with the properties `startid` and
-//! `endid` are edges. Its positions are metres, whatever the file says.
+//! `endid` are edges. Its positions are meters, whatever the file says.
 
 mod coordinates;
 mod features;

@@ -1,4 +1,4 @@
-//! In what unit the positions are: degrees, as the standard says, or metres, as people write.
+//! In what unit the positions are: degrees, as the standard says, or meters, as people write.
 
 use guideway_layout::{Code, Place};
 use guideway_spline::{Bounds, Point};
@@ -6,9 +6,9 @@ use guideway_spline::{Bounds, Point};
 use crate::builder::Builder;
 use crate::wgs84::LocalDegrees;
 
-/// How the positions of a file become metres.
+/// How the positions of a file become meters.
 pub(super) enum Unit {
-    Metres,
+    Meters,
     /// Longitude and latitude.
     Degrees(LocalDegrees),
 }
@@ -21,7 +21,7 @@ impl Unit {
         bounds: Option<Bounds<f64>>,
     ) -> Self {
         let Some(bounds) = bounds else {
-            return Self::Metres;
+            return Self::Meters;
         };
         let x = bounds.min.x.abs().max(bounds.max.x.abs());
         let y = bounds.min.y.abs().max(bounds.max.y.abs());
@@ -29,11 +29,11 @@ impl Unit {
         let named_degrees = crs.map(|name| name.ends_with("CRS84") || name.ends_with(":4326"));
         let (message, unit) = match (named_degrees, can_be_degrees) {
             (Some(true), true) => return Self::Degrees(LocalDegrees::about(bounds)),
-            (Some(false), _) => return Self::Metres,
+            (Some(false), _) => return Self::Meters,
             (Some(true), false) => (
                 "the file says that positions are in degrees, but some are beyond 180 or 90: they \
-                 are read as metres",
-                Self::Metres,
+                 are read as meters",
+                Self::Meters,
             ),
             (None, true) => (
                 "the file names no `crs`, and all positions are within 180 and 90: they are read \
@@ -42,20 +42,20 @@ impl Unit {
             ),
             (None, false) => (
                 "the file names no `crs`, and some positions are beyond 180 or 90: they are read as \
-                 metres",
-                Self::Metres,
+                 meters",
+                Self::Meters,
             ),
         };
         let at = || Place::element("the root");
-        let remedy = "If that is wrong, add a `crs`: any but CRS84 and EPSG:4326 stands for metres";
+        let remedy = "If that is wrong, add a `crs`: any but CRS84 and EPSG:4326 stands for meters";
         builder.find(Code::AssumedUnit, &at, || message.to_owned(), remedy);
         unit
     }
 
-    pub(super) fn to_metres(&self, position: Point<f64>) -> Point<f64> {
+    pub(super) fn to_meters(&self, position: Point<f64>) -> Point<f64> {
         match self {
-            Self::Metres => position,
-            Self::Degrees(degrees) => degrees.to_metres(position),
+            Self::Meters => position,
+            Self::Degrees(degrees) => degrees.to_meters(position),
         }
     }
 }

@@ -13,7 +13,7 @@ const RESERVED: [&str; 3] = ["id", "startid", "endid"];
 /// How to write a layout.
 #[derive(Clone, Debug)]
 pub struct WriteOptions {
-    /// Farthest that the lines written for a curve may be from it, in metres.
+    /// Farthest that the lines written for a curve may be from it, in meters.
     pub tolerance_m: f64,
 }
 
@@ -23,8 +23,8 @@ impl Default for WriteOptions {
     }
 }
 
-/// Writes a layout as GeoJSON: nodes as points, paths as lines, columns as properties; positions in metres,
-/// to a micrometre. Where paths have nodes it is a route graph as Nav2 reads it. Returns what the format
+/// Writes a layout as GeoJSON: nodes as points, paths as lines, columns as properties; positions in meters,
+/// to a micrometer. Where paths have nodes it is a route graph as Nav2 reads it. Returns what the format
 /// cannot hold.
 ///
 /// # Errors
@@ -36,7 +36,7 @@ pub fn write_layout(
 ) -> io::Result<Losses> {
     let mut losses = losses_of(layout);
     let mut curves = 0;
-    // What Nav2 and those who draw its graphs in QGIS write: a plane in metres.
+    // What Nav2 and those who draw its graphs in QGIS write: a plane in meters.
     out.write_all(
         br#"{"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::3857"}},"features":["#,
     )?;

@@ -6,7 +6,7 @@ use guideway_layout::{Code, Direction, Layout, NewPath, Place, Value};
 use guideway_spline::{Point, Runs, polyline_to_runs};
 use roxmltree::Node;
 
-use super::centre::{align, middle};
+use super::center::{align, middle};
 use super::osm::{is_deleted, positions, tag};
 use crate::ReadError;
 use crate::builder::{At, Builder, NO_ROOM, Table};

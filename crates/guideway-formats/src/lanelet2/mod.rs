@@ -1,9 +1,9 @@
-//! Maps of Lanelet2: OSM XML, longitude and latitude or local metres, y up.
+//! Maps of Lanelet2: OSM XML, longitude and latitude or local meters, y up.
 //!
 //! A lanelet is a relation of a left and a right bound, and vehicles go between them. Bounds, walls and
 //! markings are ways, which are lists of nodes.
 
-mod centre;
+mod center;
 mod map;
 mod osm;
 

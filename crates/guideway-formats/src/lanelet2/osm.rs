@@ -1,4 +1,4 @@
-//! The elements of an OSM file by their identifiers, positions in metres.
+//! The elements of an OSM file by their identifiers, positions in meters.
 
 use std::collections::HashMap;
 
@@ -22,7 +22,7 @@ pub(super) fn is_deleted(element: Node<'_, '_>) -> bool {
     element.attribute("action") == Some("delete") || element.attribute("visible") == Some("false")
 }
 
-/// Where every node is, in metres; nodes without a sound position are not there.
+/// Where every node is, in meters; nodes without a sound position are not there.
 pub(super) fn positions<'d>(
     builder: &mut Builder<'_>,
     xml: &Xml<'_>,
@@ -51,7 +51,7 @@ pub(super) fn positions<'d>(
     let mut positions = HashMap::with_capacity(found.len());
     for (node, local, degrees) in found {
         let at: At<'_> = &|| xml.place(node);
-        let projected = || Some(frame?.to_metres(degrees.filter(sound)?));
+        let projected = || Some(frame?.to_meters(degrees.filter(sound)?));
         let position = if is_local { local } else { projected() };
         let Some(position) = position else {
             let (code, message) = match degrees {
@@ -81,7 +81,7 @@ pub(super) fn positions<'d>(
     if !is_local && frame.is_some() {
         let at: At<'_> = &|| Place::element("the positions");
         let message = || {
-            "longitude and latitude become metres about the middle of the map, true to scale there"
+            "longitude and latitude become meters about the middle of the map, true to scale there"
                 .to_owned()
         };
         let remedy = "Nothing to do; with `local_x` and `local_y` at every node, those are drawn";

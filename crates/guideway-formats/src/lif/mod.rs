@@ -1,4 +1,4 @@
-//! The Layout Interchange Format of the VDMA: JSON, metres, y up.
+//! The Layout Interchange Format of the VDMA: JSON, meters, y up.
 //!
 //! 1.0 and 2.0 are told apart by their structure, for the version that files state is often not theirs:
 //! the official examples of 1.0 say 0.11.0.

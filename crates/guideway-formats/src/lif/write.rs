@@ -32,7 +32,7 @@ pub struct WriteOptions {
 }
 
 /// Writes a layout: levels as layouts, nodes, stations, and paths as edges. What is no straight line from
-/// node to node gets a trajectory, the same curve over clamped knots. Positions are to a micrometre. What the layout
+/// node to node gets a trajectory, the same curve over clamped knots. Positions are to a micrometer. What the layout
 /// has not of a file of the same version is kept as it was: actions, descriptions, values for each vehicle type.
 /// Returns what the format cannot hold.
 ///

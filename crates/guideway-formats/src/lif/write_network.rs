@@ -12,7 +12,7 @@ use super::write_columns::{Version, column_json};
 use super::write_objects::{ForTypes, NodeObject};
 use crate::Losses;
 
-/// Ends of paths without nodes share one if they are this near, in metres.
+/// Ends of paths without nodes share one if they are this near, in meters.
 const JOINED_M: f64 = 1e-3;
 
 /// Stands for all vehicle types, of which LIF asks for at least one by name.

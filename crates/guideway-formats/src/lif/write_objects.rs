@@ -108,7 +108,7 @@ impl<'a> RobotType<'a> {
     }
 }
 
-/// A place in metres.
+/// A place in meters.
 #[derive(Serialize)]
 pub(super) struct Position {
     x: f64,

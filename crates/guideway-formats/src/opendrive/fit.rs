@@ -12,7 +12,7 @@ const MOST_HALVINGS: u32 = 14;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stretch<'l> {
     pub(super) line: &'l Line,
-    /// From the start of the reference line, in metres.
+    /// From the start of the reference line, in meters.
     pub(super) start_m: f64,
     pub(super) length_m: f64,
     /// How far it is to the left, by the distance from the start of the stretch.

@@ -1,4 +1,4 @@
-//! Lane sections: where the centre of every lane is beside the reference line.
+//! Lane sections: where the center of every lane is beside the reference line.
 
 use guideway_layout::Code;
 use roxmltree::Node;
@@ -74,10 +74,10 @@ impl<'d, 't> Section<'d, 't> {
         lane.id != 0 || self.lanes.len() == 1
     }
 
-    /// The offset of the centre of every lane to the left, as polynomials about s that hold from there on.
-    pub(super) fn centres(&self, middle: Cubic, s: f64) -> Vec<Cubic> {
+    /// The offset of the center of every lane to the left, as polynomials about s that hold from there on.
+    pub(super) fn centers(&self, middle: Cubic, s: f64) -> Vec<Cubic> {
         let (mut inner, mut side) = (middle, 0);
-        let centre = |lane: &Lane<'_, '_>| {
+        let center = |lane: &Lane<'_, '_>| {
             if lane.id.signum() != side {
                 (inner, side) = (middle, lane.id.signum());
             }
@@ -89,11 +89,11 @@ impl<'d, 't> Section<'d, 't> {
                 true => middle.plus(lane.borders.from(s), sign),
                 false => inner.plus(lane.widths.from(s), sign),
             };
-            let centre = Cubic::default().plus(inner, 0.5).plus(outer, 0.5);
+            let center = Cubic::default().plus(inner, 0.5).plus(outer, 0.5);
             inner = outer;
-            centre
+            center
         };
-        self.lanes.iter().map(centre).collect()
+        self.lanes.iter().map(center).collect()
     }
 }
 

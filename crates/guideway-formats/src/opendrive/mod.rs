@@ -1,7 +1,7 @@
-//! Roads of ASAM OpenDRIVE: XML, metres, y up.
+//! Roads of ASAM OpenDRIVE: XML, meters, y up.
 //!
 //! A road has a reference line of lines, arcs, spirals and polynomials, and lanes beside it whose widths are
-//! polynomials along it. The centre line of every lane is a path.
+//! polynomials along it. The center line of every lane is a path.
 
 mod fit;
 mod lanes;

@@ -19,7 +19,7 @@ const GAUSS: [(f64, f64); 4] = [
 /// One record of a plan view: how the reference line goes on from a place.
 #[derive(Clone, Debug)]
 pub(super) struct Line {
-    /// Where it begins along the road, and how long it is, in metres.
+    /// Where it begins along the road, and how long it is, in meters.
     pub(super) start_m: f64,
     pub(super) length_m: f64,
     pub(super) origin: Point<f64>,

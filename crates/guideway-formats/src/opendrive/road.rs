@@ -13,7 +13,7 @@ use crate::builder::{At, Builder, NO_ROOM, Table};
 use crate::source::Source;
 use crate::xml::{Xml, child, children};
 
-/// Stretches shorter than this are rounding of the tool that wrote the file, in metres.
+/// Stretches shorter than this are rounding of the tool that wrote the file, in meters.
 const SHORT_M: f64 = 1e-9;
 
 /// What stands beside roads, and a picture of paths does not show.
@@ -148,8 +148,8 @@ impl<'a, 'd, 't> Mapper<'a, 'd, 't> {
                     continue;
                 };
                 let middle = road.offsets.from(cut[0]);
-                let centres = section.centres(middle, cut[0]);
-                for (stretches, offset) in stretches.iter_mut().zip(centres) {
+                let centers = section.centers(middle, cut[0]);
+                for (stretches, offset) in stretches.iter_mut().zip(centers) {
                     stretches.push(Stretch {
                         line,
                         start_m: cut[0] - line.start_m,
@@ -217,7 +217,7 @@ impl<'a, 'd, 't> Mapper<'a, 'd, 't> {
             let remedy = "The reference line stops or is very bent there; look whether it is right";
             self.find(Code::ApproximateShape, lane, message, remedy);
         }
-        // Traffic keeps to one side: what is on the other side comes towards.
+        // Traffic keeps to one side: what is on the other side comes toward.
         if (number > 0) != road.is_left_hand && number != 0 {
             runs = reversed(&runs);
         }

@@ -9,7 +9,7 @@ use roxmltree::Node;
 use super::plant::Plant;
 use crate::xml::{child, children};
 
-/// Millimetres a layout unit where the file does not say; the editor always writes this.
+/// Millimeters a layout unit where the file does not say; the editor always writes this.
 const DEFAULT_SCALE: f64 = 50.0;
 
 /// The `visualLayout` of a model.
@@ -71,8 +71,8 @@ impl<'d> Drawing<'d> {
         }
     }
 
-    /// A control point in metres. In the file it is in layout units, with y down.
-    pub(super) fn to_metres(&self, point: Point<f64>) -> Point<f64> {
+    /// A control point in meters. In the file it is in layout units, with y down.
+    pub(super) fn to_meters(&self, point: Point<f64>) -> Point<f64> {
         Point::new(
             point.x * self.scale.x / 1000.0,
             -point.y * self.scale.y / 1000.0,

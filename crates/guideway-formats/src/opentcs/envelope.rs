@@ -11,7 +11,7 @@ use crate::xml::children;
 
 impl<'d, 't> Plant<'_, 'd, 't> {
     /// Keys of envelopes as one column, their areas as another: the coordinates of a GeoJSON MultiPolygon
-    /// (RFC 7946, 3.1.7), in metres.
+    /// (RFC 7946, 3.1.7), in meters.
     pub(super) fn set_envelopes(
         &mut self,
         table: Table,
@@ -34,7 +34,7 @@ impl<'d, 't> Plant<'_, 'd, 't> {
         self.builder.set(table, row, "vehicleEnvelope.area", area)
     }
 
-    /// The corners of an envelope in metres, the first one again at the end.
+    /// The corners of an envelope in meters, the first one again at the end.
     fn ring(&mut self, envelope: Node<'d, 't>) -> Option<Vec<[f64; 2]>> {
         let mut ring = Vec::new();
         for vertex in children(envelope, "vertex") {
@@ -52,7 +52,7 @@ impl<'d, 't> Plant<'_, 'd, 't> {
         Some(ring)
     }
 
-    /// A corner in metres; says so if it cannot be one, and the envelope is left out.
+    /// A corner in meters; says so if it cannot be one, and the envelope is left out.
     fn corner(&mut self, vertex: Node<'d, 't>) -> Option<[f64; 2]> {
         for key in ["x", "y"] {
             if vertex.attribute(key).is_none() {

@@ -1,8 +1,8 @@
-//! Plant models of openTCS: XML, millimetres, y up; control points in layout units, y down.
+//! Plant models of openTCS: XML, millimeters, y up; control points in layout units, y down.
 //!
 //! Up to 0.0.3, what is drawn is in the properties of `modelLayoutElement`; later it is in elements of
 //! its own. Up to 6.0.0, a point has a position in the plant and another in the drawing; they may be
-//! metres apart, and the control points go with the drawing.
+//! meters apart, and the control points go with the drawing.
 
 mod drawing;
 mod envelope;

@@ -19,7 +19,7 @@ const MOST_BLOCKS: usize = 16;
 /// How a path is drawn.
 struct Shape {
     kind: String,
-    /// In metres.
+    /// In meters.
     control: Vec<Point<f64>>,
 }
 
@@ -118,7 +118,7 @@ impl<'d, 't> Plant<'_, 'd, 't> {
             );
             return;
         };
-        let point = drawing.to_metres(Point::new(x, y));
+        let point = drawing.to_meters(Point::new(x, y));
         let xml = self.xml;
         if self.builder.check_point(point, &|| xml.place(path)) {
             control.push(point);

@@ -15,7 +15,7 @@ use crate::xml::{Xml, child, children};
 /// Most properties that become columns; a file could else make columns without end.
 const MOST_PROPERTIES: usize = 64;
 
-/// Positions nearer than this are the same: the file has whole millimetres.
+/// Positions nearer than this are the same: the file has whole millimeters.
 const SAME_POSITION_M: f64 = 5e-4;
 
 /// Fills a layout from a model.

@@ -1,4 +1,4 @@
-//! From the positions of a level to metres with y up, the levels of a building above each other.
+//! From the positions of a level to meters with y up, the levels of a building above each other.
 //!
 //! Source: `building.py`, `level.py` and `transform.py` of
 //! [`rmf_building_map_tools`](https://github.com/open-rmf/rmf_traffic_editor).
@@ -10,10 +10,10 @@ use super::level::Level;
 use crate::builder::{At, Builder};
 use crate::wgs84::{LocalDegrees, is_on_earth};
 
-/// Metres a pixel where nothing was measured: what the editor begins with.
+/// Meters a pixel where nothing was measured: what the editor begins with.
 const ASSUMED_SCALE: f64 = 0.05;
 
-/// Radius of the sphere of web Mercator, in metres.
+/// Radius of the sphere of web Mercator, in meters.
 const MERCATOR_RADIUS_M: f64 = 6_378_137.0;
 
 /// What the positions of a file are.
@@ -21,15 +21,15 @@ const MERCATOR_RADIUS_M: f64 = 6_378_137.0;
 pub(super) enum Coordinates {
     /// Pixels of a floor plan, y down.
     Image,
-    /// Metres, y up.
-    Metres,
+    /// Meters, y up.
+    Meters,
     /// Longitude and latitude.
     Degrees,
-    /// Metres of web Mercator, which are too long away from the equator.
+    /// Meters of web Mercator, which are too long away from the equator.
     Mercator,
 }
 
-/// How the positions of one level become metres.
+/// How the positions of one level become meters.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Frame {
     Plane(Affine),
@@ -37,10 +37,10 @@ pub(super) enum Frame {
 }
 
 impl Frame {
-    pub(super) fn to_metres(self, position: Point<f64>) -> Point<f64> {
+    pub(super) fn to_meters(self, position: Point<f64>) -> Point<f64> {
         match self {
             Self::Plane(affine) => affine.apply(position),
-            Self::Degrees(degrees) => degrees.to_metres(position),
+            Self::Degrees(degrees) => degrees.to_meters(position),
         }
     }
 }
@@ -55,7 +55,7 @@ pub(super) fn frames(
     let positions = levels.iter().flat_map(|level| &level.positions).flatten();
     let same = match coordinates {
         Coordinates::Image => return image_frames(builder, levels, reference),
-        Coordinates::Metres => Frame::Plane(Affine::IDENTITY),
+        Coordinates::Meters => Frame::Plane(Affine::IDENTITY),
         Coordinates::Degrees => {
             let sound = positions.copied().filter(|&p| is_on_earth(p));
             let bounds = Bounds::of_points(sound);
@@ -66,7 +66,7 @@ pub(super) fn frames(
         Coordinates::Mercator => {
             let bounds = Bounds::of_points(positions.copied().filter(|p| p.is_finite()));
             let middle = bounds.map_or(Point::new(0.0, 0.0), |b| b.min.lerp(b.max, 0.5));
-            // A metre at a latitude is 1 / cos of it long, which is cosh(y / R).
+            // A meter at a latitude is 1 / cos of it long, which is cosh(y / R).
             let scale = 1.0 / (middle.y / MERCATOR_RADIUS_M).cosh();
             let to_origin = Affine::translation(-middle);
             Frame::Plane(to_origin.then(Affine::scale(scale, scale, Point::new(0.0, 0.0))))
@@ -132,7 +132,7 @@ fn similarity(scale: f64, angle_rad: f64, offset_m: Point<f64>) -> Frame {
     Frame::Plane(affine)
 }
 
-/// The mean of metres a pixel over all distances measured on a level.
+/// The mean of meters a pixel over all distances measured on a level.
 fn measured_scale(builder: &mut Builder<'_>, level: &Level<'_>) -> Option<f64> {
     let mut scales = Vec::new();
     for (index, measured) in level.measurements.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! What a level of a file holds, before its positions are metres.
+//! What a level of a file holds, before its positions are meters.
 
 use guideway_layout::{Code, Place};
 use guideway_spline::Point;

@@ -45,7 +45,7 @@ impl<'y> Site<'_, 'y> {
                 .and_then(Item::number);
             let frame = frames.get(floor.unwrap_or(reference));
             let position = x.zip(y).zip(frame);
-            let position = position.map(|((x, y), frame)| frame.to_metres(Point::new(x, y)));
+            let position = position.map(|((x, y), frame)| frame.to_meters(Point::new(x, y)));
             let at: At<'_> = &|| place(&format!("lifts.{name}"), lift);
             if position.is_none() {
                 let message = || "there is no position".to_owned();
@@ -59,9 +59,9 @@ impl<'y> Site<'_, 'y> {
             let element = Value::Text("lift");
             self.builder.set(Table::Stations, row, "element", element)?;
             for key in ["width", "depth"] {
-                if let Some(metres) = lift.get(key).and_then(Item::number) {
+                if let Some(meters) = lift.get(key).and_then(Item::number) {
                     self.builder
-                        .set(Table::Stations, row, key, Value::Float(metres))?;
+                        .set(Table::Stations, row, key, Value::Float(meters))?;
                 }
             }
         }

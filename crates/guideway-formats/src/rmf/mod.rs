@@ -1,8 +1,8 @@
-//! Buildings and navigation graphs of Open-RMF: YAML; pixels of a floor plan with y down, or metres, or
+//! Buildings and navigation graphs of Open-RMF: YAML; pixels of a floor plan with y down, or meters, or
 //! degrees.
 //!
 //! Both have levels with vertices and lanes between them. A building is what people draw over floor plans;
-//! a navigation graph is what is generated from it, in metres.
+//! a navigation graph is what is generated from it, in meters.
 
 mod frame;
 mod level;

@@ -68,7 +68,7 @@ impl<'a, 'y> Site<'a, 'y> {
         let levels = all?;
         let is_graph = is_graph(&levels);
         let coordinates = match is_graph {
-            true => Coordinates::Metres,
+            true => Coordinates::Meters,
             false => self.coordinates(root),
         };
         let name = root.get("reference_level_name").and_then(Item::text);
@@ -112,7 +112,7 @@ impl<'a, 'y> Site<'a, 'y> {
         };
         match found.text() {
             Some("reference_image") => Coordinates::Image,
-            Some("cartesian_meters") => Coordinates::Metres,
+            Some("cartesian_meters") => Coordinates::Meters,
             Some("wgs84") => Coordinates::Degrees,
             Some("web_mercator") => Coordinates::Mercator,
             other => {
@@ -177,7 +177,7 @@ impl<'a, 'y> Site<'a, 'y> {
             return Ok(None);
         };
         let at: At<'_> = &|| level.item_place("vertices", index, vertex);
-        let position = frame.to_metres(position);
+        let position = frame.to_meters(position);
         if !self.builder.check_point(position, at) {
             return Ok(None);
         }

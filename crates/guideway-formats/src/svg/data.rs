@@ -5,11 +5,11 @@ use svgtypes::{PathParser, PathSegment};
 
 use crate::ellipse;
 
-/// Draws lines and curves in user units, as control points in metres.
+/// Draws lines and curves in user units, as control points in meters.
 pub(super) struct Pen {
-    pub(super) metres_from_user: Affine,
+    pub(super) meters_from_user: Affine,
     pub(super) tolerance_m: f64,
-    /// Largest absolute coordinate, in metres.
+    /// Largest absolute coordinate, in meters.
     pub(super) most_m: f64,
     pub(super) most_points: u64,
     pub(super) runs: Runs,
@@ -22,14 +22,14 @@ pub(super) struct Pen {
 
 impl Pen {
     pub(super) fn new(
-        metres_from_user: Affine,
+        meters_from_user: Affine,
         tolerance_m: f64,
         most_m: f64,
         most_points: u64,
     ) -> Self {
         let origin = Point::new(0.0, 0.0);
         Self {
-            metres_from_user,
+            meters_from_user,
             tolerance_m,
             most_m,
             most_points,
@@ -51,7 +51,7 @@ impl Pen {
     }
 
     pub(super) fn line_to(&mut self, to: Point<f64>) {
-        let [from, end] = [self.at, to].map(|p| self.metres_from_user.apply(p));
+        let [from, end] = [self.at, to].map(|p| self.meters_from_user.apply(p));
         self.runs.push_line(from, end);
         self.go(to, None);
     }
@@ -64,13 +64,13 @@ impl Pen {
     }
 
     fn cubic_to(&mut self, first: Point<f64>, second: Point<f64>, to: Point<f64>) {
-        let bezier = [self.at, first, second, to].map(|p| self.metres_from_user.apply(p));
+        let bezier = [self.at, first, second, to].map(|p| self.meters_from_user.apply(p));
         self.runs.push_bezier(&bezier);
         self.go(to, Some((3, second)));
     }
 
     fn quadratic_to(&mut self, middle: Point<f64>, to: Point<f64>) {
-        let bezier = [self.at, middle, to].map(|p| self.metres_from_user.apply(p));
+        let bezier = [self.at, middle, to].map(|p| self.meters_from_user.apply(p));
         self.runs.push_quadratic(&bezier);
         self.go(to, Some((2, middle)));
     }
@@ -89,7 +89,7 @@ impl Pen {
 
     /// An arc of the ellipse that the unit circle becomes, counter-clockwise in a plane with y up.
     pub(super) fn arc(&mut self, ellipse: Affine, start: f64, sweep: f64) {
-        let map = ellipse.then(self.metres_from_user);
+        let map = ellipse.then(self.meters_from_user);
         let (tolerance_m, most_m) = (self.tolerance_m, self.most_m);
         let drawn = ellipse::append_arc(map, start, sweep, tolerance_m, most_m, &mut self.runs);
         self.is_too_far |= !drawn;
@@ -159,7 +159,7 @@ impl Pen {
         }
     }
 
-    /// From end points to centre and angles: SVG 2, appendix B.2.4.
+    /// From end points to center and angles: SVG 2, appendix B.2.4.
     fn arc_to(
         &mut self,
         [rx, ry]: [f64; 2],

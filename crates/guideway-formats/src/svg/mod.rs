@@ -1,4 +1,4 @@
-//! SVG drawings: user units that become metres by the size of the page, y down.
+//! SVG drawings: user units that become meters by the size of the page, y down.
 //!
 //! Built on `svgtypes`, which is beneath `usvg`, and not on `usvg`: that computes in single precision, makes
 //! arcs into curves that may be a tenth of a unit wrong, leaves out what is not painted without a word, and

@@ -6,7 +6,7 @@ use guideway_spline::{Affine, Point};
 use roxmltree::Node;
 use svgtypes::{Align, AspectRatio, Length, LengthUnit, Transform, ViewBox};
 
-/// Metres a pixel of CSS, which is 1/96 of an inch.
+/// Meters a pixel of CSS, which is 1/96 of an inch.
 pub(super) const PIXEL_M: f64 = 0.0254 / 96.0;
 
 /// Pixels of an `em`, where no text has another size.

@@ -1,4 +1,4 @@
-//! From shapes to paths, with their colour, width and group.
+//! From shapes to paths, with their color, width and group.
 
 use guideway_layout::{Code, Direction, NewPath, Value};
 use guideway_spline::Affine;
@@ -34,7 +34,7 @@ impl<'d, 't> Walker<'_, 'd, 't> {
         };
         let limits = &self.builder.source.options.limits;
         let mut pen = Pen::new(
-            around.metres_from_user,
+            around.meters_from_user,
             limits.conversion_tolerance_m,
             limits.coordinate_m,
             self.builder.points_left,
@@ -71,7 +71,7 @@ impl<'d, 't> Walker<'_, 'd, 't> {
             ..NewPath::default()
         })?;
         self.colors.push(color);
-        let Affine { x, y, .. } = around.metres_from_user;
+        let Affine { x, y, .. } = around.meters_from_user;
         let width_m = style.stroke_width * x.cross(y).abs().sqrt();
         let is_sound = width_m <= self.builder.source.options.limits.coordinate_m;
         if style.has_stroke() && !is_sound {

@@ -117,7 +117,7 @@ impl Style {
         self.stroke != Paint::None && self.stroke_width > 0.0
     }
 
-    /// The colour to draw with, 0xRRGGBBAA: of the line, or of the area if there is no line. 0 where the view
+    /// The color to draw with, 0xRRGGBBAA: of the line, or of the area if there is no line. 0 where the view
     /// decides; none if there is neither, or nothing of it is left to see.
     pub(super) fn color_rgba(&self) -> Option<u32> {
         let (paint, opacity) = match self.has_stroke() {

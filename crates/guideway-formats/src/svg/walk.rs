@@ -32,7 +32,7 @@ const REPEATED_A_BYTE: u64 = 16;
 /// What an element takes from those around it.
 #[derive(Clone, Copy)]
 pub(super) struct Around<'p> {
-    pub(super) metres_from_user: Affine,
+    pub(super) meters_from_user: Affine,
     pub(super) viewport: Viewport,
     pub(super) style: Style,
     /// The label or identifier of the group that it is in.
@@ -102,13 +102,13 @@ impl<'a, 'd, 't> Walker<'a, 'd, 't> {
             }
             (None, ..) => Affine::IDENTITY,
         };
-        let metres_from_user = Affine {
+        let meters_from_user = Affine {
             x: pixel_from_user.x * PIXEL_M,
             y: pixel_from_user.y * -PIXEL_M,
             origin: Point::new(0.0, 0.0),
         };
         let around = Around {
-            metres_from_user,
+            meters_from_user,
             viewport,
             style: Style::INITIAL.of(root, self.sheet, viewport),
             group: None,
@@ -178,7 +178,7 @@ impl<'a, 'd, 't> Walker<'a, 'd, 't> {
             };
         };
         let inner = Around {
-            metres_from_user: own.then(around.metres_from_user),
+            meters_from_user: own.then(around.meters_from_user),
             style: around.style.of(node, self.sheet, around.viewport),
             depth: around.depth + 1,
             ..*around
@@ -269,7 +269,7 @@ impl<'a, 'd, 't> Walker<'a, 'd, 't> {
         self.children(
             node,
             &Around {
-                metres_from_user: map.then(around.metres_from_user),
+                meters_from_user: map.then(around.meters_from_user),
                 viewport,
                 ..*around
             },
@@ -300,7 +300,7 @@ impl<'a, 'd, 't> Walker<'a, 'd, 't> {
         self.builder.check_text(&references)?;
         self.repeated_left = self.repeated_left.saturating_sub(references.len() as u64);
         let inner = Around {
-            metres_from_user: Affine::translation(offset).then(around.metres_from_user),
+            meters_from_user: Affine::translation(offset).then(around.meters_from_user),
             references: &references,
             ..*around
         };

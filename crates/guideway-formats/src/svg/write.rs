@@ -1,4 +1,4 @@
-//! Drawings as SVG: true curves, in metres over a page of their real size.
+//! Drawings as SVG: true curves, in meters over a page of their real size.
 
 use std::fmt::Write as _;
 use std::io::{self, Write};
@@ -13,16 +13,16 @@ use crate::clamped::SAME_POSITION_M;
 /// Name of the column that holds the groups of a drawing.
 const GROUP: &str = "group";
 
-/// Width of paths that have none of their own, in metres.
+/// Width of paths that have none of their own, in meters.
 const WIDTH_M: f64 = 0.1;
 
-/// What is left free around all paths, as a share of their extent, and at least, in metres.
+/// What is left free around all paths, as a share of their extent, and at least, in meters.
 const MARGIN: f64 = 0.02;
 const LEAST_MARGIN_M: f64 = 0.5;
 
-/// Writes a layout: a user unit is a metre, and the page is as large as the site, so that whoever measures in
-/// the drawing measures metres. A path is a `path` with its identifier, its colour and its width; levels, or the
-/// column `group`, are groups. Positions are to a micrometre. Returns what the format cannot hold.
+/// Writes a layout: a user unit is a meter, and the page is as large as the site, so that whoever measures in
+/// the drawing measures meters. A path is a `path` with its identifier, its color and its width; levels, or the
+/// column `group`, are groups. Positions are to a micrometer. Returns what the format cannot hold.
 ///
 /// # Errors
 /// When `out` fails.
@@ -125,7 +125,7 @@ fn corners(layout: &Layout) -> (Point<f64>, Point<f64>) {
     let size = bounds.size();
     let margin_m = (MARGIN * size.x.max(size.y)).max(LEAST_MARGIN_M);
     let Bounds { min, max } = bounds.inflated(margin_m);
-    // To the millimetre.
+    // To the millimeter.
     let down = |v: f64| (v * 1e3).floor() / 1e3;
     let up = |v: f64| (v * 1e3).ceil() / 1e3;
     (

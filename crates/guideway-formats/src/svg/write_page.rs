@@ -80,7 +80,7 @@ pub struct Stroke {
 }
 
 impl Stroke {
-    /// A colour 0xRRGGBBAA and a width in units of the page.
+    /// A color 0xRRGGBBAA and a width in units of the page.
     pub fn of(rgba: u32, width: f64) -> Self {
         Self { rgba, width }
     }
@@ -183,7 +183,7 @@ impl<'w, W: Write> Page<'w, W> {
         writeln!(self.out, "</g>")
     }
 
-    /// A rectangle `[x, y, width, height]` of a colour 0xRRGGBBAA.
+    /// A rectangle `[x, y, width, height]` of a color 0xRRGGBBAA.
     ///
     /// # Errors
     /// When the target fails.
@@ -193,7 +193,7 @@ impl<'w, W: Write> Page<'w, W> {
         writeln!(self.out, r#"<rect {place} stroke="none"{fill}/>"#)
     }
 
-    /// A layer of one colour 0xRRGGBBAA, which counts once wherever some of its areas lie on each other. Each area
+    /// A layer of one color 0xRRGGBBAA, which counts once wherever some of its areas lie on each other. Each area
     /// is a path of convex polygons that go the same way round, rounded to multiples of `step`.
     ///
     /// # Errors
@@ -222,7 +222,7 @@ impl<'w, W: Write> Page<'w, W> {
         self.end_group()
     }
 
-    /// A text of a colour 0xRRGGBBAA in letters of one width, which together are as wide as said.
+    /// A text of a color 0xRRGGBBAA in letters of one width, which together are as wide as said.
     ///
     /// # Errors
     /// When the target fails.

@@ -1,4 +1,4 @@
-//! Orders of VDA 5050, the interface between a fleet control and its vehicles: JSON, metres, y up.
+//! Orders of VDA 5050, the interface between a fleet control and its vehicles: JSON, meters, y up.
 //!
 //! 1.1 to 2.1 name the nodes of an edge; from 3.0 on, an edge lies between the nodes whose `sequenceId`
 //! is one less and one more than its own. The keys tell the two apart, and not the version stated.

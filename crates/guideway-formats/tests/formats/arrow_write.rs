@@ -137,7 +137,7 @@ fn what_a_table_cannot_hold_is_said() {
         );
     }
     assert_eq!(back.levels[0].id, "L1");
-    // 0.1 is no binary fraction: `f32` holds it to a nanometre, which is exact enough.
+    // 0.1 is no binary fraction: `f32` holds it to a nanometer, which is exact enough.
     let run = back.paths.get(0).runs().next().expect("a run");
     assert!(matches!(run, RunPoints::F32(_)));
     let far = WriteOptions {

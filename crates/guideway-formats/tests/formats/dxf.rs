@@ -74,7 +74,7 @@ const COUNTED: &[&str] = &[
     "layers",
 ];
 
-/// A drawing in metres, its sections written as `code value` on lines.
+/// A drawing in meters, its sections written as `code value` on lines.
 fn drawing(tables: &str, blocks: &str, entities: &str) -> Layout {
     read(&text(&format!(
         "0 SECTION\n2 HEADER\n9 $INSUNITS\n70 6\n0 ENDSEC\n\
@@ -246,8 +246,8 @@ fn a_binary_file_is_read_as_the_text_it_came_from() {
 }
 
 #[test]
-fn units_become_metres() {
-    for (code, metres) in [
+fn units_become_meters() {
+    for (code, meters) in [
         (1, 0.0254),
         (2, 0.3048),
         (4, 0.001),
@@ -259,7 +259,7 @@ fn units_become_metres() {
             "0 SECTION\n2 HEADER\n9 $ACADVER\n1 AC1015\n9 $INSUNITS\n70 {code}\n0 ENDSEC\n\
              0 SECTION\n2 ENTITIES\n0 LINE\n5 A\n10 0\n20 0\n11 1000\n21 0\n0 ENDSEC\n0 EOF"
         )));
-        assert_near(ends(&layout, "A").1, 1000.0 * metres, 0.0);
+        assert_near(ends(&layout, "A").1, 1000.0 * meters, 0.0);
         assert_eq!(
             layout.diagnostics.count(Code::AssumedUnit),
             u64::from(code == 0)
@@ -274,7 +274,7 @@ fn arcs_go_counter_clockwise_in_their_own_plane() {
     let (start, end) = ends(&drawing("", "", arc), "A");
     assert_near(start, 12.0, 0.0);
     assert_near(end, 10.0, 2.0);
-    // An extrusion downwards mirrors x, centre and all.
+    // An extrusion downwards mirrors x, center and all.
     let (start, end) = ends(
         &drawing("", "", &format!("{arc}210 0\n220 0\n230 -1\n")),
         "A",
@@ -432,7 +432,7 @@ fn a_small_file_does_not_become_more_than_its_share() {
 }
 
 #[test]
-fn colours_come_from_the_entity_its_layer_or_its_block() {
+fn colors_come_from_the_entity_its_layer_or_its_block() {
     let tables = "0 LAYER\n2 red\n70 0\n62 1\n0 LAYER\n2 green\n70 0\n62 3\n";
     let line = |handle: &str, layer: &str, color: &str| {
         format!("0 LINE\n5 {handle}\n8 {layer}\n{color}10 0\n20 0\n11 1\n21 0\n")

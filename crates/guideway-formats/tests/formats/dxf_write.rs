@@ -104,8 +104,8 @@ fn what_has_no_place_is_listed() {
     layout.paths.set_rank(vec![3]);
     let (text, losses) = written(&layout);
     let expected = [
-        ("colours", 1),
-        ("colours", 1),
+        ("colors", 1),
+        ("colors", 1),
         ("draw ranks", 1),
         ("directions", 1),
         ("broken paths", 1),

@@ -77,7 +77,7 @@ const COUNTED: &[&str] = &[
     "lineVertices",
 ];
 
-/// A collection of features, in metres.
+/// A collection of features, in meters.
 fn collection(features: &str) -> Layout {
     read(&format!(
         r#"{{"type": "FeatureCollection", "crs": {{"type": "name", "properties": {{"name": "EPSG:3857"}}}},
@@ -139,7 +139,7 @@ fn real_roads_have_the_counts_that_others_find() {
             let there = (0..layout.paths.len()).filter(|&row| values.get(row).is_some());
             assert_eq!(there.count(), *expected, "{name} of {file}");
         }
-        // Kilometres, for these were converted to metres about their middle.
+        // Kilometers, for these were converted to meters about their middle.
         let bounds = layout.paths.hull_bounds().unwrap();
         assert!(bounds.max.x - bounds.min.x > 5_000.0, "{bounds:?}");
     }
@@ -266,7 +266,7 @@ fn a_file_may_be_one_feature_or_one_geometry() {
 }
 
 #[test]
-fn degrees_become_metres_about_the_middle() {
+fn degrees_become_meters_about_the_middle() {
     // A degree of latitude at 45 degrees north is 111,131.8 m, and of longitude 78,846.8 m (WGS 84).
     let line = feature("", "LineString", "[[10, 44.5], [10, 45.5]]");
     let across = feature("", "LineString", "[[9.5, 45], [10.5, 45]]");
@@ -286,7 +286,7 @@ fn degrees_become_metres_about_the_middle() {
 }
 
 #[test]
-fn positions_beyond_the_globe_are_metres() {
+fn positions_beyond_the_globe_are_meters() {
     let line = feature("", "LineString", "[[0, 0], [181, 0]]");
     for crs in ["", r#""crs": {"properties": {"name": "EPSG:4326"}},"#] {
         let layout = read(&format!(r#"{{{crs} "features": [{line}]}}"#));

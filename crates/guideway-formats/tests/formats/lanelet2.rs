@@ -22,7 +22,7 @@ fn the_real_map_has_the_counts_of_its_source() {
     assert_eq!(layout.refused.iter().next().unwrap().code, Code::NotDrawn);
 }
 
-/// A map in local metres of nodes at positions, ways of nodes, and one lanelet.
+/// A map in local meters of nodes at positions, ways of nodes, and one lanelet.
 fn map(nodes: &[(f64, f64)], ways: &[&[usize]], members: &str, tags: &str) -> Layout {
     let node = |(i, (x, y)): (usize, &(f64, f64))| {
         format!("<node id='{i}'><tag k='local_x' v='{x}'/><tag k='local_y' v='{y}'/></node>")
@@ -70,7 +70,7 @@ fn a_lanelet_goes_with_its_left_bound_on_the_left() {
 }
 
 #[test]
-fn a_centre_line_that_somebody_drew_counts() {
+fn a_center_line_that_somebody_drew_counts() {
     let nodes = [
         (0.0, 4.0),
         (9.0, 4.0),
@@ -114,7 +114,7 @@ fn tags_become_columns_and_directions() {
 }
 
 #[test]
-fn degrees_become_metres_about_the_middle_and_it_is_said() {
+fn degrees_become_meters_about_the_middle_and_it_is_said() {
     let layout = read(
         "<osm version='0.6'><node id='1' lat='49' lon='8.4'/><node id='2' lat='49' lon='8.41'/>\
          <way id='w'><nd ref='1'/><nd ref='2'/></way></osm>",

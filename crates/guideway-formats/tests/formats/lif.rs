@@ -51,7 +51,7 @@ const REAL: &[(&str, &str)] = &[
         "layouts 2, nodes 4, edges 5, vehicleTypes 1",
     ),
     (
-        "lif100_example16_rack_station_modelled_by_three_nodes.json",
+        "lif100_example16_rack_station_modeled_by_three_nodes.json",
         "layouts 1, nodes 4, edges 6, stations 3, vehicleTypes 1",
     ),
     (

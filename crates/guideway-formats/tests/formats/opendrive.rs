@@ -79,7 +79,7 @@ fn assert_ends(layout: &Layout, id: &str, expected: [(f64, f64); 2]) {
 }
 
 #[test]
-fn lanes_lie_beside_a_line_and_come_towards_on_the_left() {
+fn lanes_lie_beside_a_line_and_come_toward_on_the_left() {
     let layout = read(&road(&geometry(50.0, "<line/>"), "", WIDTH));
     assert_ends(&layout, "R.0.1", [(50.0, 2.0), (0.0, 2.0)]);
     assert_ends(&layout, "R.0.-1", [(0.0, -2.0), (50.0, -2.0)]);

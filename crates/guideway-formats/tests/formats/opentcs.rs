@@ -264,7 +264,7 @@ fn unknown_points_and_loops_are_named() {
 }
 
 #[test]
-fn envelopes_are_columns_of_keys_and_of_areas_in_metres() {
+fn envelopes_are_columns_of_keys_and_of_areas_in_meters() {
     let corner = |x: &str, y: &str| format!(r#"<vertex x="{x}" y="{y}"/>"#);
     let square = corner("0", "0") + &corner("1000", "0") + &corner("1000", "-2500");
     let line = corner("0", "0") + &corner("1", "0");

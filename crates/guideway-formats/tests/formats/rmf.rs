@@ -119,7 +119,7 @@ fn the_levels_of_the_hotel_lie_over_each_other() {
     }
 }
 
-/// A building of one level, 10 pixels a metre.
+/// A building of one level, 10 pixels a meter.
 fn building(head: &str, vertices: &str, lanes: &str) -> Layout {
     read(&format!(
         "{head}\nlevels:\n  L1:\n    vertices: [[0, 0, 0, a], [100, 0, 0, b], {vertices}]\n    \
@@ -128,7 +128,7 @@ fn building(head: &str, vertices: &str, lanes: &str) -> Layout {
 }
 
 #[test]
-fn pixels_become_metres_and_y_turns_up() {
+fn pixels_become_meters_and_y_turns_up() {
     let layout = building("", "[50, 20, 0, c]", "[0, 2, {}]");
     let (start, end) = ends(&layout, "L1.lanes[0]");
     assert_near(start, 0.0, 0.0);
@@ -137,7 +137,7 @@ fn pixels_become_metres_and_y_turns_up() {
 }
 
 #[test]
-fn metres_stay_as_they_are() {
+fn meters_stay_as_they_are() {
     let layout = building(
         "coordinate_system: cartesian_meters",
         "[50, 20, 0, c]",
@@ -147,7 +147,7 @@ fn metres_stay_as_they_are() {
 }
 
 #[test]
-fn degrees_become_metres_about_their_middle() {
+fn degrees_become_meters_about_their_middle() {
     let layout = read(
         "coordinate_system: wgs84\nlevels:\n  L1:\n    \
          vertices: [[103.78, 1.3, 0, a], [103.79, 1.3, 0, b]]\n    lanes: [[0, 1, {}]]\n",
@@ -163,8 +163,8 @@ fn degrees_become_metres_about_their_middle() {
 }
 
 #[test]
-fn mercator_metres_shrink_with_the_latitude() {
-    // y = R ln tan(45 + 60 / 2 degrees) is 60 degrees north, where metres are twice as long.
+fn mercator_meters_shrink_with_the_latitude() {
+    // y = R ln tan(45 + 60 / 2 degrees) is 60 degrees north, where meters are twice as long.
     let y = 6_378_137.0 * (75_f64.to_radians()).tan().ln();
     let layout = read(&format!(
         "coordinate_system: web_mercator\nlevels:\n  L1:\n    \
@@ -179,7 +179,7 @@ fn without_a_measurement_the_scale_is_assumed_and_said() {
     let layout = read("levels:\n  L1:\n    vertices: [[0, 0], [100, 0, 0, b]]\n");
     assert!(
         !codes(&layout).contains(&Code::AssumedUnit),
-        "a graph has metres"
+        "a graph has meters"
     );
     let layout = read("levels:\n  L1:\n    vertices: [[0, 0, 0, a], [100, 0, 0, b]]\n");
     assert_eq!(codes(&layout), [Code::AssumedUnit]);
@@ -196,7 +196,7 @@ fn another_level_is_laid_over_the_reference() {
              vertices: [[7, 7, 0, c], [7, 207, 0, d]]\n    lanes: [[0, 1, {{}}]]\n{second}"
         )
     };
-    // The plan above has half the metres a pixel, is turned by a quarter, and is moved.
+    // The plan above has half the meters a pixel, is turned by a quarter, and is moved.
     let layout = read(&text("    fiducials: [[7, 7, one], [7, 207, two]]\n"));
     let (start, end) = ends(&layout, "L2.lanes[0]");
     assert_near(start, 0.0, 0.0);
@@ -243,7 +243,7 @@ fn parameters_become_columns_by_their_types() {
 }
 
 #[test]
-fn navigation_graphs_have_bare_parameters_and_metres() {
+fn navigation_graphs_have_bare_parameters_and_meters() {
     let layout = read(
         "building_name: site\nlevels:\n  L1:\n    lanes:\n    - - 0\n      - 1\n      - {graph_idx: 0, speed_limit: 1.5}\n    \
          vertices:\n    - [1, 2, {name: dock, is_charger: true}]\n    - [4, 6, {name: ''}]\nlifts:\n  lift: {position: [1, 2, 0]}\n",

@@ -39,7 +39,7 @@ fn real_files_have_the_counts_of_their_sources() {
     }
 }
 
-/// A page on which a user unit is a metre.
+/// A page on which a user unit is a meter.
 fn page(content: &str) -> Layout {
     read(&format!(
         r#"<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"
@@ -146,7 +146,7 @@ fn references_repeat_shapes_under_their_own_names() {
 }
 
 #[test]
-fn colours_and_widths_come_from_attributes_rules_and_styles() {
+fn colors_and_widths_come_from_attributes_rules_and_styles() {
     let layout = page(
         r##"<style>.a { stroke: #0f0 } #d { stroke-width: 3 }</style>
         <g stroke="blue" stroke-width="2" opacity="0.5">

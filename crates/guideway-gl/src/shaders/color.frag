@@ -1,4 +1,4 @@
-// One colour for all.
+// One color for all.
 layout(location = 0) out vec4 rgba;
 
 void main() {

@@ -51,7 +51,7 @@ impl Target {
         Self::bytes_for(u64::from(self.width) * u64::from(self.height), self.samples)
     }
 
-    /// Fills it with one colour, and draws into it from now on through a square viewport of `viewport_side`
+    /// Fills it with one color, and draws into it from now on through a square viewport of `viewport_side`
     /// whose middle is at pixel (`middle_x`, `middle_y`).
     pub(crate) fn begin(&self, rgba: [f32; 4], middle_x: i32, middle_y: i32, viewport_side: u32) {
         let raw = &self.gl.raw;

@@ -4,7 +4,7 @@ use super::camera::rgba;
 
 /// What lies below the lines, and how it is stored on the device.
 ///
-/// The mean of several samples is right for colours multiplied with their opacity. With an opaque background,
+/// The mean of several samples is right for colors multiplied with their opacity. With an opaque background,
 /// or one sample, that is the same.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Background {
@@ -31,7 +31,7 @@ impl Background {
         }
     }
 
-    /// Makes pixels from the device what frames hold: colours apart from their opacity.
+    /// Makes pixels from the device what frames hold: colors apart from their opacity.
     pub(super) fn restore(&self, pixels: &mut [[u8; 4]]) {
         if !self.is_multiplied {
             return;

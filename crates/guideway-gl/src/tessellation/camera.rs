@@ -50,7 +50,7 @@ pub(super) fn uniforms(plan: &Plan, view: &View, tile: &Tile, color: Rgba) -> sh
     }
 }
 
-/// A colour as OpenGL takes it.
+/// A color as OpenGL takes it.
 pub(super) fn rgba(color: Rgba) -> [f32; 4] {
     [color.r, color.g, color.b, color.a].map(|channel| f32::from(channel) / 255.0)
 }

@@ -33,7 +33,7 @@ use renderer::{Renderer, Start};
 /// Largest frame that is planned for.
 const PLANNED_PIXELS: u64 = 3840 * 2160;
 
-/// Draws lines one pixel wide in one colour, by the tessellation stages of OpenGL.
+/// Draws lines one pixel wide in one color, by the tessellation stages of OpenGL.
 #[derive(Clone, Debug)]
 pub struct Tessellation {
     device: Arc<GlDevice>,
@@ -66,10 +66,10 @@ impl Method for Tessellation {
             name: self.name(),
             summary: match self.options.commands {
                 Commands::PerPath => {
-                    "hardware tessellation of thesis 4.2, one indirect command a path; 1 px lines, one colour"
+                    "hardware tessellation of thesis 4.2, one indirect command a path; 1 px lines, one color"
                 }
                 Commands::Compact => {
-                    "hardware tessellation of thesis 4.2, one draw of all visible patches; 1 px lines, one colour"
+                    "hardware tessellation of thesis 4.2, one draw of all visible patches; 1 px lines, one color"
                 }
             },
             device: self.device.description().to_owned(),

@@ -210,10 +210,10 @@ impl Widths {
     }
 }
 
-/// The one opaque colour of a scene's paths, black if there are none; or what it has instead.
+/// The one opaque color of a scene's paths, black if there are none; or what it has instead.
 pub(super) fn one_color(scene: &Scene) -> Result<Rgba, &'static str> {
     match scene.common_color() {
-        None => Err("paths of several colours"),
+        None => Err("paths of several colors"),
         Some(color) if !color.is_opaque() => Err("translucent paths"),
         Some(color) => Ok(color),
     }

@@ -65,7 +65,7 @@ impl Renderer {
         let unsupported = |what: &str, remedy: &str| unsupported(method, what, remedy);
         let failed = |what| RenderError::Device { method, what };
         let color = one_color(&scene)
-            .map_err(|what| unsupported(what, "Draw it in one colour, or by another method."))?;
+            .map_err(|what| unsupported(what, "Draw it in one color, or by another method."))?;
 
         let mut stages = Vec::new();
         let mut since = Instant::now();
@@ -185,7 +185,7 @@ impl Renderer {
     /// How the view is cut, once it is sure that it can be drawn.
     fn tiling(&self, view: &View, style: &Style) -> Result<Tiling, RenderError> {
         if style.shading != Shading::Color {
-            let remedy = "Ask for colours, or for another method.";
+            let remedy = "Ask for colors, or for another method.";
             return Err(unsupported(self.method, "density", remedy));
         }
         let error_px = camera::error_px(&self.plan, view);

@@ -23,7 +23,7 @@ pub(super) const fn px_per_line(antialias: Antialias) -> f32 {
 }
 /// How far a line may be from the curve that it stands for, in pixels.
 pub(super) const FLATNESS_PX: f32 = 0.1;
-/// Positions are rounded to this fraction of a pixel, as rasterisers do anyway: whole pixels can then be
+/// Positions are rounded to this fraction of a pixel, as rasterizers do anyway: whole pixels can then be
 /// added and taken away without a change of shape.
 pub(super) const STEPS_PER_PX: f32 = 256.0;
 
@@ -64,7 +64,7 @@ macro_rules! shared {
 }
 
 shared! {
-    /// What is seen, and how. World positions are metres from the origin of the scene; pixels are counted
+    /// What is seen, and how. World positions are meters from the origin of the scene; pixels are counted
     /// from the middle of the picture, y down.
     View {
         /// Middle of the view, as the sum of two numbers.

@@ -5,7 +5,7 @@ use super::shared::{CORNERS, DrawElements, PathRecord};
 use crate::options::Commands;
 
 /// What one frame asks of memory: the pre-pass over `paths`, and in each tile the commands and the vertices
-/// of what is seen. What rasterising writes depends on the device and is left out.
+/// of what is seen. What rasterizing writes depends on the device and is left out.
 pub(super) fn work(commands: Commands, paths: u64, seen: Seen, tiles: u32) -> Work {
     let index = size_of::<u32>() as u64;
     let vertices = seen.segments * u64::from(CORNERS);

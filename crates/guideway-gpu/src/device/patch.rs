@@ -138,7 +138,7 @@ mod tests {
     }
 
     #[test]
-    fn neighbours_become_one_run_up_to_its_most() {
+    fn neighbors_become_one_run_up_to_its_most() {
         let mut patch = Patch::default();
         for word in (0..100).chain(200..201) {
             patch.set(word, &7_u32);

@@ -11,7 +11,7 @@ use super::params::ViewParams;
 use super::unsupported;
 use crate::device::{Bindings, DeviceBuffer, FETCHED, Gpu, Kernel, Memory};
 
-/// Bytes of a pixel: what is remembered of it, or its colour.
+/// Bytes of a pixel: what is remembered of it, or its color.
 pub(super) const PIXEL_BYTES: u64 = size_of::<u32>() as u64;
 /// Bytes of the work of a pixel: tests and look-ups.
 const WORK_BYTES: u64 = size_of::<[u32; 2]>() as u64;

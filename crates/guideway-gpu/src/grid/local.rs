@@ -1,4 +1,4 @@
-//! The scene as the device sees it: in `f32` metres from the middle of its box, under a uniform grid.
+//! The scene as the device sees it: in `f32` meters from the middle of its box, under a uniform grid.
 
 use guideway_render::{FrameSize, View};
 use guideway_scene::{LineRule, Scene};

@@ -33,7 +33,7 @@ const NAME: &str = "grid";
 
 /// The method `grid`: compute shaders through wgpu.
 ///
-/// It draws opaque paths of one colour and one width. A path counts as drawn wherever it is, for the method
+/// It draws opaque paths of one color and one width. A path counts as drawn wherever it is, for the method
 /// looks at cells and never at paths.
 #[derive(Clone)]
 pub struct Grid(Arc<Variant>);
@@ -71,7 +71,7 @@ impl Method for Grid {
         MethodInfo {
             name: NAME,
             summary: "The thesis' per-pixel tests of lines in a uniform grid, as written or mended by \
-                      options; one colour",
+                      options; one color",
             device: self.0.gpu.adapter_name(),
         }
     }

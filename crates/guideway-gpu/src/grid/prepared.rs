@@ -68,16 +68,16 @@ pub(super) fn plan_bytes(variant: &Variant, scene: &Scene) -> u64 {
         + 2 * PLANNED_PIXELS * PIXEL_BYTES
 }
 
-/// The colour of all paths.
+/// The color of all paths.
 fn one_color(scene: &Scene) -> Result<Rgba, RenderError> {
     match scene.common_color() {
         None => Err(unsupported(
-            "paths of several colours",
+            "paths of several colors",
             "Leave --color-by out, or use `--method cpu`.",
         )),
         Some(color) if !color.is_opaque() => Err(unsupported(
             "translucent paths",
-            "Ask for an opaque colour, or use `--method cpu`.",
+            "Ask for an opaque color, or use `--method cpu`.",
         )),
         Some(color) => Ok(color),
     }

@@ -47,7 +47,7 @@ impl Shot {
         if style.shading != Shading::Color {
             return Err(unsupported(
                 "how many paths cover a pixel",
-                "Ask for colour shading, or use `--method cpu`.",
+                "Ask for color shading, or use `--method cpu`.",
             ));
         }
         let px_per_m = view.px_per_m();
@@ -67,7 +67,7 @@ impl Shot {
             return Err(unsupported(
                 format!(
                     "this view: in the single precision of the device, lines of so large a scene at \
-                     {px_per_m} pixels a metre may be {rounding_px:.2} pixels off, and {MOST_ROUNDING_PX} \
+                     {px_per_m} pixels a meter may be {rounding_px:.2} pixels off, and {MOST_ROUNDING_PX} \
                      is allowed"
                 ),
                 "Zoom out, draw a part of the layout, or use `--method cpu`.",
@@ -134,7 +134,7 @@ impl Shot {
         }
     }
 
-    /// Corners of the box outside of which nothing is drawn, in metres from the middle of the scene.
+    /// Corners of the box outside of which nothing is drawn, in meters from the middle of the scene.
     pub(super) fn box_m(&self) -> Bounds<f64> {
         let point = |[x, y]: [f32; 2]| Point::new(f64::from(x), f64::from(y));
         Bounds {
@@ -149,7 +149,7 @@ impl Shot {
     }
 }
 
-/// A colour as it is in the bytes of a picture.
+/// A color as it is in the bytes of a picture.
 fn in_bytes(color: Rgba) -> u32 {
     u32::from_le_bytes([color.r, color.g, color.b, color.a])
 }

@@ -80,7 +80,7 @@ impl PreparedTiles {
         })
     }
 
-    /// Sends colours and widths of these rows.
+    /// Sends colors and widths of these rows.
     fn send_styles(&mut self, rows: &[u32]) -> Result<u64, RenderError> {
         let Some(store) = &mut self.store else {
             return Ok(0);

@@ -70,7 +70,7 @@ impl Kernels {
         })
     }
 
-    /// The same, but those of a frame of colours count what they do.
+    /// The same, but those of a frame of colors count what they do.
     pub(super) fn counting(&self, gpu: &Gpu) -> Result<Self, String> {
         let counts = [("COUNTS", 1.0)];
         let mut all = self.clone();
@@ -183,7 +183,7 @@ fn stages(gpu: &Gpu, more: &[Constant]) -> Result<[Kernel; 6], String> {
     ])
 }
 
-/// What paints one opaque colour, a workgroup a tile and several; with more constants.
+/// What paints one opaque color, a workgroup a tile and several; with more constants.
 fn covers(
     gpu: &Gpu,
     samples: Samples,
@@ -224,7 +224,7 @@ fn sorts(gpu: &Gpu, more: &[Constant]) -> Result<[Kernel; 2], String> {
     Ok([kernel(&SORT[0])?, kernel(&SORT[1])?])
 }
 
-/// What paints opaque paths in many colours; with more constants.
+/// What paints opaque paths in many colors; with more constants.
 fn opaque(gpu: &Gpu, samples: Samples, more: &[Constant]) -> Result<Kernel, String> {
     // Teams take longer where all samples are needed, and on a processor.
     let is_for_teams = samples == Samples::Coarse && !is_in_step(gpu);

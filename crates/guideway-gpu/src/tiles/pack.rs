@@ -86,7 +86,7 @@ impl Packing {
         }
     }
 
-    /// Sorts parts so that neighbours stay together: by the middle of their ends. The strokes of a path lie in this order.
+    /// Sorts parts so that neighbors stay together: by the middle of their ends. The strokes of a path lie in this order.
     pub(super) fn sort(&self, layout: &Layout, parts: &mut [Part]) {
         parts.sort_by_cached_key(|part| {
             let mut points = part.points(layout);
@@ -115,7 +115,7 @@ pub(super) fn moves_m(size_m: f64) -> f64 {
 }
 
 impl Packed {
-    /// Packs parts. Neighbours in the world become neighbours in memory.
+    /// Packs parts. Neighbors in the world become neighbors in memory.
     pub(super) fn of(scene: &Scene, mut parts: Vec<Part>, packing: Packing) -> Self {
         let (mut packed, mut exact) = (Self::default(), Self::default());
         packing.sort(scene.layout(), &mut parts);
@@ -287,7 +287,7 @@ pub(super) fn style(scene: &Scene, row: u32) -> PathStyle {
     }
 }
 
-/// A colour as the device's pixels have it: red in the lowest byte.
+/// A color as the device's pixels have it: red in the lowest byte.
 pub(super) fn device_color(color: guideway_scene::Rgba) -> u32 {
     u32::from_le_bytes([color.r, color.g, color.b, color.a])
 }

@@ -7,19 +7,19 @@ use crate::device::Kernel;
 /// How the tiles are painted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Paint {
-    /// One opaque colour: no order is needed.
+    /// One opaque color: no order is needed.
     One,
     Opaque,
     Translucent,
     Density,
-    /// Not colours, but which path lies on top.
+    /// Not colors, but which path lies on top.
     Ids,
     /// No pixels at all: marks the paths that reach into the picture.
     Touch,
 }
 
 impl Paint {
-    /// What the colours of a scene make necessary.
+    /// What the colors of a scene make necessary.
     pub(super) fn of(scene: &Scene) -> Self {
         if !scene.is_opaque() {
             Self::Translucent

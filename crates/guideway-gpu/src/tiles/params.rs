@@ -34,7 +34,7 @@ pub(super) const WAITED_FOR: u32 = 96;
 pub(super) const ENOUGH_LISTS: u32 = 512;
 /// Lists that are not longer than this are not.
 pub(super) const LEAST_ALONE: u32 = 2048;
-/// Times that a thread goes round its loops for each line of one opaque colour, at most.
+/// Times that a thread goes round its loops for each line of one opaque color, at most.
 pub(super) const ROUNDS_A_LINE: u32 = 11;
 /// Threads that cover a tile on a processor, where as many run in step: `LANES` of the shaders.
 pub(super) const PROCESSOR_LANES: u32 = 8;
@@ -244,7 +244,7 @@ impl Samples {
         }
     }
 
-    /// Threads of a tile of one opaque colour. So many workgroups run at a time as have room for the samples that they
+    /// Threads of a tile of one opaque color. So many workgroups run at a time as have room for the samples that they
     /// share: the more samples, the more threads for them.
     pub(super) fn cover_threads(self) -> u32 {
         match self {

@@ -63,7 +63,7 @@ pub(super) struct Facts {
     pub(super) greatest_step_m: f32,
     /// The greatest width that a path has of its own.
     pub(super) widest_m: Option<f32>,
-    /// One colour, and no widths.
+    /// One color, and no widths.
     pub(super) is_plain: bool,
     pub(super) paint: Paint,
 }
@@ -203,7 +203,7 @@ impl PreparedTiles {
         Ok(())
     }
 
-    /// After colours, widths or states have changed.
+    /// After colors, widths or states have changed.
     pub(super) fn look_anew(&mut self) {
         let facts = Facts::of(&self.scene);
         self.facts = Facts {

@@ -197,7 +197,7 @@ macro_rules! all_covers {
     };
 }
 
-/// One opaque colour, by [`Samples`].
+/// One opaque color, by [`Samples`].
 pub(super) struct Covers {
     /// A workgroup a tile.
     pub(super) alone: [Source; 2],
@@ -254,7 +254,7 @@ macro_rules! opaque {
     };
 }
 
-/// Opaque paths in many colours, by [`Samples`].
+/// Opaque paths in many colors, by [`Samples`].
 pub(super) const OPAQUE: [Source; 2] = [opaque!(4), opaque!(16)];
 
 /// The same of few samples, where threads see each other's values.

@@ -215,7 +215,7 @@ pub(super) fn all_parts(scene: &Scene, ranks: &Ranks) -> Vec<Part> {
     parts
 }
 
-/// Whether all paths have one colour, and none a width of its own.
+/// Whether all paths have one color, and none a width of its own.
 pub(super) fn is_plain(scene: &Scene) -> bool {
     let mut widths = scene.draw_order().iter().map(|&path| scene.width_m(path));
     scene.common_color().is_some() && widths.all(|width| width.is_none())

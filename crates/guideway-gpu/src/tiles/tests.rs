@@ -84,7 +84,7 @@ fn plain(paths: u32, reach_m: f64) -> Arc<Scene> {
     Arc::new(Scene::new(layout, &SceneOptions::default()).unwrap())
 }
 
-/// Each path with a colour, some with a width, a few translucent.
+/// Each path with a color, some with a width, a few translucent.
 fn mixed(paths: u32, reach_m: f64) -> Arc<Scene> {
     let mut layout = layout(paths, reach_m);
     for path in 0..paths {

@@ -5,7 +5,7 @@ use guideway_spline::{Point, uniform};
 /// One segment as a Bezier curve, with the length below which its vectors are rounding.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cubic {
-    /// The Bezier points, in metres.
+    /// The Bezier points, in meters.
     pub(super) points: [Point<f64>; 4],
     noise_m: f64,
 }

@@ -18,7 +18,7 @@ pub fn name(kind: &str, row: usize, id: &str) -> String {
     }
 }
 
-/// A position in metres, to the millimetre.
+/// A position in meters, to the millimeter.
 #[derive(Clone, Copy, Debug)]
 pub struct At(pub Point<f64>);
 

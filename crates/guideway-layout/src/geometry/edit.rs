@@ -62,7 +62,7 @@ impl Geometry {
             .find_first(is_misplaced)
     }
 
-    /// Farthest from where a map takes them that points in a box are held, along an axis, in metres.
+    /// Farthest from where a map takes them that points in a box are held, along an axis, in meters.
     pub fn rounding_m(&self, mapped: Bounds<f64>) -> f64 {
         let farthest = mapped.corners().map(|p| p.x.abs().max(p.y.abs()));
         let half_step = match &self.points {
@@ -263,7 +263,7 @@ fn copy<A: Copy + Sync, B: Send>(to: &mut [B], from: &[A], value: impl Fn(A) -> 
     }
 }
 
-/// Whether some neighbours in a list of ends are as long as others in another, each.
+/// Whether some neighbors in a list of ends are as long as others in another, each.
 fn has_same_lens(
     (ends, own): (&[u32], &Range<usize>),
     (other_ends, others): (&[u32], &Range<usize>),

@@ -17,7 +17,7 @@ enum Boxes {
 }
 
 impl Geometry {
-    /// Where each path lies, in metres. Found when it is first asked for after a change: all points are read once, by all
+    /// Where each path lies, in meters. Found when it is first asked for after a change: all points are read once, by all
     /// threads.
     pub fn hulls(&self) -> &Hulls {
         self.hulls.get_or_init(|| {
@@ -94,7 +94,7 @@ impl Hulls {
         self.len() == 0
     }
 
-    /// Where all paths lie, in metres; none if they have no points.
+    /// Where all paths lie, in meters; none if they have no points.
     pub fn all(&self) -> Option<Bounds<f64>> {
         match &self.0 {
             Boxes::F64(boxes) => shown(all(boxes)),
@@ -102,7 +102,7 @@ impl Hulls {
         }
     }
 
-    /// Where some paths lie, in metres; none if they have no points.
+    /// Where some paths lie, in meters; none if they have no points.
     ///
     /// # Panics
     /// When one is not below [`Self::len`].

@@ -6,7 +6,7 @@ use guideway_spline::{Bounds, Point};
 use super::{Edit, EditError, Insertion};
 use crate::Scene;
 
-/// Farthest that an edit may put a control point from the origin, in metres.
+/// Farthest that an edit may put a control point from the origin, in meters.
 const REACH_M: f64 = 1e9;
 
 impl Edit {

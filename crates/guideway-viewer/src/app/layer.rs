@@ -44,7 +44,7 @@ pub(crate) struct Layer {
     loader: Option<Loader>,
     /// Findings on their way that were asked for.
     checking: Option<Task<Findings>>,
-    /// Other colours on their way.
+    /// Other colors on their way.
     coloring: Option<Task<Result<Scene, SceneError>>>,
     /// What a query asks for, and what the selection does with it.
     selecting: Option<(Task<Rows>, Combine)>,

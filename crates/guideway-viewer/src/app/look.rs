@@ -7,7 +7,7 @@ use guideway_scene::{ColorBy, LineRule, Rgba, SceneOptions};
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Look {
     pub(crate) is_dark: bool,
-    /// The column that decides the colour.
+    /// The column that decides the color.
     pub(crate) color_by: Option<String>,
     pub(crate) is_thesis_rule: bool,
     /// Width of paths that have none of their own.
@@ -56,13 +56,13 @@ impl Look {
         }
     }
 
-    /// Colour of lines and texts beside the paths.
+    /// Color of lines and texts beside the paths.
     pub(crate) fn mark_ink(&self) -> Rgba {
-        let grey = if self.is_dark { 220 } else { 40 };
-        Rgba::opaque(grey, grey, grey)
+        let gray = if self.is_dark { 220 } else { 40 };
+        Rgba::opaque(gray, gray, gray)
     }
 
-    /// Colour of a mark.
+    /// Color of a mark.
     pub(crate) fn mark_color(&self, kind: Kind) -> Rgba {
         match kind {
             Kind::Arrow => self.mark_ink(),

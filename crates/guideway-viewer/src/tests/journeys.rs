@@ -193,7 +193,7 @@ fn a_name_is_looked_for_and_flown_to() {
 }
 
 #[test]
-fn colours_asked_for_while_the_layout_is_edited_come_all_the_same() {
+fn colors_asked_for_while_the_layout_is_edited_come_all_the_same() {
     let mut desk = Desk::looking_at(lanes(6));
     desk.app().look.color_by = Some("speed".into());
     desk.app().recolor();
@@ -209,7 +209,7 @@ fn colours_asked_for_while_the_layout_is_edited_come_all_the_same() {
     assert_eq!(
         scene.color(3),
         scene.color(9),
-        "a copy has the colour of its path"
+        "a copy has the color of its path"
     );
     desk.app().look.color_by = Some("no such column".into());
     desk.app().recolor();

@@ -9,7 +9,7 @@ use guideway_spline::{Affine, Point};
 use super::draft::shape_text;
 use crate::app::{App, MOST_HOVERED};
 
-/// Columns that every layout can be coloured by.
+/// Columns that every layout can be colored by.
 const BUILT_IN_COLUMNS: [&str; 3] = ["direction", "level", "vehicle_type"];
 const MOST_ATTRIBUTES: usize = 40;
 
@@ -177,7 +177,7 @@ impl App {
     fn looks(&mut self, ui: &mut Ui) {
         let before = self.look.clone();
         let columns = self.document().map_or(Vec::new(), |d| columns(d.layout()));
-        ComboBox::from_label("Colour")
+        ComboBox::from_label("Color")
             .selected_text(self.look.color_by.as_deref().unwrap_or("of the file"))
             .show_ui(ui, |ui| {
                 ui.selectable_value(&mut self.look.color_by, None, "of the file");
@@ -199,9 +199,9 @@ impl App {
         ui.checkbox(&mut self.look.has_grid, "Grid");
         ui.checkbox(&mut self.look.is_dark, "Dark");
         ui.checkbox(&mut self.swept.is_shown, "Areas that a vehicle sweeps");
-        let title = ui.label("Vehicle: length x width, rear, in metres, or `file`");
+        let title = ui.label("Vehicle: length x width, rear, in meters, or `file`");
         ui.add(TextEdit::singleline(&mut self.swept.vehicle))
-            .labelled_by(title.id);
+            .labeled_by(title.id);
         if let Some(trouble) = &self.swept.drawn.trouble {
             ui.colored_label(ui.visuals().error_fg_color, trouble);
         }

@@ -117,7 +117,7 @@ impl Drop for Loader {
 
 fn read(host: &dyn Host, path: &Path, options: &SceneOptions, job: &Job) -> Result<Scene, Trouble> {
     let layout = Arc::new(host.open(path, job)?);
-    // A colour that another file has columns for need not be one of this file.
+    // A color that another file has columns for need not be one of this file.
     let scene = Scene::new(Arc::clone(&layout), options);
     scene
         .or_else(|_| Scene::new(layout, &without_column(options)))

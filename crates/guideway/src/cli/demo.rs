@@ -97,7 +97,7 @@ fn speeds(legend: &Legend) -> String {
         ))
     });
     format!(
-        "coloured by the greatest speed:\n{}",
+        "colored by the greatest speed:\n{}",
         entries.collect::<String>()
     )
 }

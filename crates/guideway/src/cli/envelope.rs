@@ -14,7 +14,7 @@ pub(crate) fn source(text: &str) -> Result<Source, String> {
     }
     let refuse = || {
         format!(
-            "write the vehicle's length and width in metres, each above 0 and up to {MOST_M}, and with a comma how far \
+            "write the vehicle's length and width in meters, each above 0 and up to {MOST_M}, and with a comma how far \
              its reference point is from its rear end, such as 2x1.2 or 2x1.2,0.5; or `file` for what the file gives"
         )
     };

@@ -14,7 +14,7 @@ use super::{Failure, Output, values};
 
 /// What a file can be given after its name, for the help of every command that reads several.
 pub(crate) const PLACEMENT_HELP: &str = "Several files become one layout. Each can be scaled about the \
-    origin, then turned counter-clockwise by degrees, then moved by metres:\n  \
+    origin, then turned counter-clockwise by degrees, then moved by meters:\n  \
     FILE@scale=0.001,rotate=90,offset=12.5,-3";
 
 /// A file, and how it is put among others.
@@ -24,7 +24,7 @@ pub(crate) struct Input {
     pub(crate) scale: Option<f64>,
     pub(crate) rotate_deg: Option<f64>,
     pub(crate) offset_m: Option<Point<f64>>,
-    /// Of an image: pixels a metre.
+    /// Of an image: pixels a meter.
     pub(crate) px_per_m: Option<f64>,
 }
 

@@ -53,8 +53,8 @@ pub(crate) fn number(value: f64) -> String {
     Value::Float(value).to_string()
 }
 
-/// A length in metres, to the millimetre, with its thousands apart.
-pub(crate) fn metres(value: f64) -> String {
+/// A length in meters, to the millimeter, with its thousands apart.
+pub(crate) fn meters(value: f64) -> String {
     if !value.is_finite() || value.abs() >= 1e15 {
         return format!("{value} m");
     }
@@ -93,9 +93,9 @@ mod tests {
         assert_eq!(bytes(12), "12 bytes");
         assert_eq!(bytes(1_250), "1.2 kB");
         assert_eq!(bytes(999_900), "1.0 MB");
-        assert_eq!(metres(-1234.5), "-1,234.5 m");
-        assert_eq!(metres(12.0), "12 m");
-        assert_eq!(metres(0.9996), "1 m");
+        assert_eq!(meters(-1234.5), "-1,234.5 m");
+        assert_eq!(meters(12.0), "12 m");
+        assert_eq!(meters(0.9996), "1 m");
         assert_eq!(number(f64::from(0.3_f32)), "0.3");
         assert_eq!(number(0.1), "0.1");
         assert_eq!(number(f64::NAN), "NaN");

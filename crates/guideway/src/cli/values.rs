@@ -40,7 +40,7 @@ pub(crate) fn size(text: &str) -> Result<FrameSize, String> {
 
 /// A point such as `12.5,-3`.
 pub(crate) fn point(text: &str) -> Result<Point<f64>, String> {
-    let refuse = || "write x and y in metres with a comma between, such as 12.5,-3".to_owned();
+    let refuse = || "write x and y in meters with a comma between, such as 12.5,-3".to_owned();
     let (x, y) = text.split_once(',').ok_or_else(refuse)?;
     let number = |text: &str| text.trim().parse::<f64>().map_err(|_| refuse());
     let point = Point::new(number(x)?, number(y)?);

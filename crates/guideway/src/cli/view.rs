@@ -209,7 +209,7 @@ fn below(export: &Export) -> Result<Below, Failure> {
     })
 }
 
-/// A picture of what is seen, with what the colours mean.
+/// A picture of what is seen, with what the colors mean.
 fn wishes(export: &Export) -> Wishes {
     let Export {
         scene, view, style, ..

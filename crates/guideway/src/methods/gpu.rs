@@ -7,7 +7,7 @@ use super::{Entry, MethodOption, Stop};
 
 pub(super) const TILES: Entry = Entry {
     name: "gpu",
-    summary: "Every frame from the control points, by compute shaders; every path its own colour and width",
+    summary: "Every frame from the control points, by compute shaders; every path its own color and width",
     options: &[
         MethodOption {
             name: "rebuild",
@@ -39,7 +39,7 @@ pub(super) const TILES: Entry = Entry {
 
 pub(super) const GRID: Entry = Entry {
     name: "grid",
-    summary: "The thesis' test of every pixel against the lines of its cell; one colour",
+    summary: "The thesis' test of every pixel against the lines of its cell; one color",
     options: &[
         MethodOption {
             name: "scan",

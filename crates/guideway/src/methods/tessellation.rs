@@ -7,7 +7,7 @@ use super::{Entry, MethodOption, Stop};
 
 pub(super) const PER_PATH: Entry = Entry {
     name: "tessellation",
-    summary: "The thesis' hardware tessellation, a draw command a path; one colour, 1 pixel wide",
+    summary: "The thesis' hardware tessellation, a draw command a path; one color, 1 pixel wide",
     options: OPTIONS,
     is_general: false,
     start: |options| start(options, Commands::PerPath),

@@ -135,7 +135,7 @@ fn every_option_of_the_look_changes_the_picture() {
         &["--color-by", "vehicle_type"],
         &["--shade", "density"],
         &["--shade", "density", "--tone", "linear"],
-        &["--shade", "density", "--tone", "equalised"],
+        &["--shade", "density", "--tone", "equalized"],
         &["--level", "Mezzanine"],
     ] {
         assert!(pixels(more) != plain, "{more:?}");

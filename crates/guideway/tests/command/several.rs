@@ -182,7 +182,7 @@ fn every_format_is_written_and_read_again() {
 }
 
 #[test]
-fn a_view_is_saved_as_curves_with_its_colours() {
+fn a_view_is_saved_as_curves_with_its_colors() {
     let folder = tempfile::tempdir().unwrap();
     let picture = folder.path().join("site.svg");
     let render = |more: &[&str]| {

@@ -155,7 +155,7 @@ impl Desk {
         is_asked
     }
 
-    /// Whether the window asks something: all else, which is mostly white, is grey then.
+    /// Whether the window asks something: all else, which is mostly white, is gray then.
     pub(super) fn is_asked(&self) -> bool {
         const COLOR_BYTES: usize = 12;
         let file = self.pixels.path().join("Xvfb_screen0");

@@ -133,7 +133,7 @@ pub(super) fn builds(run: &Run) -> Section {
     }
     blocks.push(Block::Table(build_table(run)));
     Section {
-        id: "initialisation",
+        id: "initialization",
         title: "Building the grid",
         blocks,
     }

@@ -137,7 +137,7 @@ fn why_not(row: &Row) -> Cell {
 }
 
 /// A warning beside tessellation on chips that are built to compute: an H100 or H200 has 66 or more
-/// texture-processing clusters, of which two rasterise triangles.
+/// texture-processing clusters, of which two rasterize triangles.
 fn computes_only(run: &Run) -> Option<Block> {
     let devices = run.methods.iter().filter_map(|method| {
         let is_raster = method.method.starts_with(TESSELLATION);

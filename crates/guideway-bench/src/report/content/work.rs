@@ -22,7 +22,7 @@ pub(super) fn borders(run: &Run) -> Section {
     };
     let table = Table {
         name: "borders",
-        title: "Coverage of one hall at 20 pixels a metre, against the oracle's".to_owned(),
+        title: "Coverage of one hall at 20 pixels a meter, against the oracle's".to_owned(),
         is_folded: false,
         columns: vec![
             Column::new("Method", "method"),

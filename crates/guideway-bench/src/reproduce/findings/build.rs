@@ -1,7 +1,7 @@
 //! Claims on building the grid.
 
 use super::table::at_most_paths;
-use super::{Judgement, in_all};
+use super::{Judgment, in_all};
 use crate::reproduce::names::{BIN, COUNT, GRID, GRID_SCAN, PREFIX_SUM, SAMPLE};
 use crate::reproduce::{Results, Run};
 use crate::words::{count, digits, percent, time, times};
@@ -21,7 +21,7 @@ fn phases_ms(measured: &Measured) -> Option<f64> {
         .sum()
 }
 
-pub(super) fn sampling(run: &Run) -> Judgement {
+pub(super) fn sampling(run: &Run) -> Judgment {
     in_all(Dataset::ALL.map(|dataset| {
         let curve = Results::curve(&run.results.growth, dataset, GRID);
         let (few, many) = (curve.first()?, curve.last()?);
@@ -45,7 +45,7 @@ pub(super) fn sampling(run: &Run) -> Judgement {
     }))
 }
 
-pub(super) fn contention(run: &Run) -> Judgement {
+pub(super) fn contention(run: &Run) -> Judgment {
     let both = |dataset| {
         let (paths, [measured]) = at_most_paths(run, dataset, [GRID])?;
         Some((paths, phase_ms(measured, COUNT)? + phase_ms(measured, BIN)?))
@@ -64,7 +64,7 @@ pub(super) fn contention(run: &Run) -> Judgement {
     Some((d2_ms >= d1_ms * 1.1, evidence))
 }
 
-pub(super) fn prefix_sum(run: &Run) -> Judgement {
+pub(super) fn prefix_sum(run: &Run) -> Judgment {
     in_all(Dataset::ALL.map(|dataset| {
         let (paths, [measured]) = at_most_paths(run, dataset, [GRID])?;
         let mut phases = Vec::new();
@@ -86,7 +86,7 @@ pub(super) fn prefix_sum(run: &Run) -> Judgement {
     }))
 }
 
-pub(super) fn scan(run: &Run) -> Judgement {
+pub(super) fn scan(run: &Run) -> Judgment {
     in_all(Dataset::ALL.map(|dataset| {
         let (paths, [naive, scan]) = at_most_paths(run, dataset, [GRID, GRID_SCAN])?;
         let (naive_ms, scan_ms) = (phase_ms(naive, PREFIX_SUM)?, phase_ms(scan, PREFIX_SUM)?);
@@ -109,7 +109,7 @@ pub(super) fn scan(run: &Run) -> Judgement {
     }))
 }
 
-pub(super) fn dynamic(run: &Run) -> Judgement {
+pub(super) fn dynamic(run: &Run) -> Judgment {
     let frame_ms = run.plan.search.target_ms;
     in_all(Dataset::ALL.map(|dataset| {
         let (paths, [measured]) = at_most_paths(run, dataset, [GRID])?;

@@ -1,7 +1,7 @@
 //! Claims on the time of a frame and on what is seen.
 
 use super::table::at_most_paths;
-use super::{Judgement, in_all};
+use super::{Judgment, in_all};
 use crate::reproduce::names::{CULL, GRID, GRID_MENDED, TESSELLATION, TESSELLATION_COMPACT};
 use crate::reproduce::{Reading, Results, Run};
 use crate::words::{count, digits, percent, time, times};
@@ -10,7 +10,7 @@ use crate::{Dataset, Measured};
 /// A change below this is taken for none.
 const NOTABLE: f64 = 1.1;
 
-pub(super) fn occupancy(run: &Run) -> Judgement {
+pub(super) fn occupancy(run: &Run) -> Judgment {
     in_all(Dataset::ALL.map(|dataset| {
         let curve = Results::curve(&run.results.occupancy, dataset, GRID);
         let [none, half, all] = &curve[..] else {
@@ -31,15 +31,15 @@ pub(super) fn occupancy(run: &Run) -> Judgement {
     }))
 }
 
-pub(super) fn zoom_of_grid(run: &Run) -> Judgement {
+pub(super) fn zoom_of_grid(run: &Run) -> Judgment {
     zoom(run, GRID)
 }
 
-pub(super) fn zoom_of_tessellation(run: &Run) -> Judgement {
+pub(super) fn zoom_of_tessellation(run: &Run) -> Judgment {
     zoom(run, TESSELLATION)
 }
 
-fn zoom(run: &Run, method: &str) -> Judgement {
+fn zoom(run: &Run, method: &str) -> Judgment {
     in_all(Dataset::ALL.map(|dataset| {
         let curve = Results::curve(&run.results.zoom, dataset, method);
         let (far, near) = (curve.first()?, curve.last()?);
@@ -86,7 +86,7 @@ fn tests(far: &(&Reading, &Measured), near: &(&Reading, &Measured)) -> String {
     }
 }
 
-pub(super) fn bottleneck(run: &Run) -> Judgement {
+pub(super) fn bottleneck(run: &Run) -> Judgment {
     in_all(Dataset::ALL.map(|dataset| {
         let (paths, [each, one]) = at_most_paths(run, dataset, [TESSELLATION, TESSELLATION_COMPACT])?;
         let (each_ms, one_ms) = (each.frame_ms.mean, one.frame_ms.mean);
@@ -107,7 +107,7 @@ pub(super) fn bottleneck(run: &Run) -> Judgement {
     }))
 }
 
-pub(super) fn culling(run: &Run) -> Judgement {
+pub(super) fn culling(run: &Run) -> Judgment {
     in_all(Dataset::ALL.map(|dataset| {
         let (paths, [measured]) = at_most_paths(run, dataset, [TESSELLATION])?;
         let cull_ms = measured.stages.iter().find(|s| s.name == CULL)?.ms;
@@ -124,7 +124,7 @@ pub(super) fn culling(run: &Run) -> Judgement {
     }))
 }
 
-pub(super) fn overlap(run: &Run) -> Judgement {
+pub(super) fn overlap(run: &Run) -> Judgment {
     let (paths, [d1]) = at_most_paths(run, Dataset::D1, [TESSELLATION])?;
     let (same, [d2]) = at_most_paths(run, Dataset::D2, [TESSELLATION])?;
     if paths != same {
@@ -142,7 +142,7 @@ pub(super) fn overlap(run: &Run) -> Judgement {
     Some((ratio <= 1.25, evidence))
 }
 
-pub(super) fn borders(run: &Run) -> Judgement {
+pub(super) fn borders(run: &Run) -> Judgment {
     let lost = |method: &str| {
         let all = run.results.borders.iter();
         all.filter(|b| b.method == method).find_map(|b| b.lost)

@@ -38,13 +38,13 @@ pub enum Verdict {
 }
 
 /// Whether a claim holds and why; none when the run lacks what it takes to say.
-type Judgement = Option<(bool, String)>;
+type Judgment = Option<(bool, String)>;
 
 struct Claim {
     title: &'static str,
     section: &'static str,
     text: &'static str,
-    judge: fn(&Run) -> Judgement,
+    judge: fn(&Run) -> Judgment,
 }
 
 const CLAIMS: [Claim; 14] = [
@@ -157,7 +157,7 @@ pub fn findings(run: &Run) -> Vec<Finding> {
 }
 
 /// Sentences of every dataset that has one, and whether the claim holds in all of those.
-fn in_all(each: impl IntoIterator<Item = Judgement>) -> Judgement {
+fn in_all(each: impl IntoIterator<Item = Judgment>) -> Judgment {
     let judged: Vec<(bool, String)> = each.into_iter().flatten().collect();
     let sentences: Vec<&str> = judged.iter().map(|(_, text)| text.as_str()).collect();
     let evidence = sentences.join(" ");

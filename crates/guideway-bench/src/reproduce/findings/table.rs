@@ -1,13 +1,13 @@
 //! Table 5.1 and its memory.
 
-use super::{Judgement, in_all};
+use super::{Judgment, in_all};
 use crate::reproduce::names::{GRID, TESSELLATION};
 use crate::reproduce::run::{MostPaths, Reading};
 use crate::reproduce::{Limit, Results, Run};
 use crate::words::{count, digits, megabytes, times};
 use crate::{Dataset, Measured};
 
-pub(super) fn more_paths(run: &Run) -> Judgement {
+pub(super) fn more_paths(run: &Run) -> Judgment {
     in_all(Dataset::ALL.map(|dataset| {
         let (grid, tessellation) = (
             found(run, dataset, GRID)?,
@@ -52,7 +52,7 @@ fn shown(run: &Run, found: &MostPaths) -> String {
     }
 }
 
-pub(super) fn more_memory(run: &Run) -> Judgement {
+pub(super) fn more_memory(run: &Run) -> Judgment {
     in_all(Dataset::ALL.map(|dataset| {
         let (paths, [grid, tessellation]) = at_most_paths(run, dataset, [GRID, TESSELLATION])?;
         let ratio = grid.peak_bytes as f64 / tessellation.peak_bytes.max(1) as f64;

@@ -122,10 +122,10 @@ fn draw(
     Ok(None)
 }
 
-/// The file of a picture, with one channel if it has no colours.
+/// The file of a picture, with one channel if it has no colors.
 fn png(frame: &Frame) -> Vec<u8> {
-    let is_grey = |&[r, g, b, a]: &[u8; 4]| r == g && g == b && a == 255;
-    let (color, bytes): (_, Vec<u8>) = if frame.pixels().iter().all(is_grey) {
+    let is_gray = |&[r, g, b, a]: &[u8; 4]| r == g && g == b && a == 255;
+    let (color, bytes): (_, Vec<u8>) = if frame.pixels().iter().all(is_gray) {
         (
             png::ColorType::Grayscale,
             frame.pixels().iter().map(|p| p[0]).collect(),
@@ -167,7 +167,7 @@ mod tests {
     }
 
     #[test]
-    fn pictures_keep_their_pixels_grey_or_not() {
+    fn pictures_keep_their_pixels_gray_or_not() {
         for (pixel, channels) in [([9, 9, 9, 255], 1), ([9, 8, 9, 255], 4), ([9, 9, 9, 8], 4)] {
             let mut frame = Frame::new(FrameSize::new(3, 2).unwrap());
             frame.pixels_mut().fill(pixel);

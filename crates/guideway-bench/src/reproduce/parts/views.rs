@@ -101,7 +101,7 @@ fn panned(size: FrameSize, bounds: Bounds<f64>, share: f64) -> Result<View, Rend
     View::new(size, center, px_per_m)
 }
 
-/// Share of the pixels whose centres are inside the box.
+/// Share of the pixels whose centers are inside the box.
 fn share_inside(view: &View, bounds: Bounds<f64>) -> f64 {
     let size = view.size();
     let center_m =

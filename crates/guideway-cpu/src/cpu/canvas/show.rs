@@ -7,20 +7,20 @@ use crate::cpu::span::{LAYERED, SOLID, Samples};
 use crate::cpu::stretch::Pixels;
 use crate::cpu::vectors::{LaneWidth, by_lane_width};
 
-/// The colours of a part of a tile.
+/// The colors of a part of a tile.
 type Colors<'s, 'a> = Pixels<'s, 'a, [u8; 4]>;
 
 /// How a canvas is shown.
 #[derive(Clone, Copy)]
 pub(in crate::cpu) enum Look<'a> {
-    /// One opaque colour, by how much of a pixel it covers.
+    /// One opaque color, by how much of a pixel it covers.
     Solid(&'a Canvas<SOLID>, &'a SolidColors),
-    /// Colours over what lies below them.
+    /// Colors over what lies below them.
     Layers(&'a Canvas<LAYERED>, &'a Backdrop),
 }
 
 impl Look<'_> {
-    /// Gives the pixels of a part of a tile, so wide, their colours.
+    /// Gives the pixels of a part of a tile, so wide, their colors.
     pub(in crate::cpu) fn show(
         self,
         lane_width: LaneWidth,
@@ -49,7 +49,7 @@ fn show(look: Look<'_>, width_px: usize, pixels: &mut Colors<'_, '_>) {
 }
 
 impl<const C: usize> Canvas<C> {
-    /// The colours of each row of pixels that were laid over the background.
+    /// The colors of each row of pixels that were laid over the background.
     #[inline(always)]
     pub(super) fn row_over(&self, row: usize, backdrop: &Backdrop, pixels: &mut [[u8; 4]]) {
         for (pixel, sum) in pixels.iter_mut().zip(&self.sums[row]) {

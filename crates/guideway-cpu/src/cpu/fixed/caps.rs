@@ -15,14 +15,14 @@ pub(in crate::cpu) struct Caps {
     /// What part of a pixel each row of samples lies below the first, in 2^15: held here, for of a constant the compiler makes
     /// something longer.
     pub(super) parts: [i16; LANES],
-    /// For each place of the centre between two rows, half chords of the rows from far above it to far below.
+    /// For each place of the center between two rows, half chords of the rows from far above it to far below.
     halves: Vec<i16>,
-    /// Rows of such a place, and those before the one at the centre.
+    /// Rows of such a place, and those before the one at the center.
     rows: i32,
     rows_above: i32,
 }
 
-/// Where the half chords of a disc are: those of all rows around its centre, and those of the tile's first row of pixels.
+/// Where the half chords of a disc are: those of all rows around its center, and those of the tile's first row of pixels.
 #[derive(Clone, Copy)]
 pub(super) struct Around {
     first: i32,
@@ -53,7 +53,7 @@ impl Caps {
         (rows * ROW_STEPS as usize * size_of::<i16>()) as u64
     }
 
-    /// Around a centre so many steps below the upper border of the tile.
+    /// Around a center so many steps below the upper border of the tile.
     #[inline(always)]
     pub(super) fn around(&self, center: i16) -> Around {
         // Rows lie in the middle of what they stand for.
@@ -81,7 +81,7 @@ impl Caps {
     }
 }
 
-/// Half the chord of a disc so far from its centre.
+/// Half the chord of a disc so far from its center.
 fn half_chord(radius: f32, off: f32) -> i16 {
     if off.abs() > radius + SLACK {
         return NONE;

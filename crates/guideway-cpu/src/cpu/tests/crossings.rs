@@ -28,7 +28,7 @@ fn lists_of_lines_do_not_show() {
                 let moved = view(ORIGIN + Point::new(9.0 / px_per_m, 0.0), px_per_m);
                 [first, draw_with(prepared, &moved, &style).0]
             });
-            assert!(pictures[0] == pictures[1], "{px_per_m} px a metre");
+            assert!(pictures[0] == pictures[1], "{px_per_m} px a meter");
         }
     }
 }

@@ -8,7 +8,7 @@ fn draw_again(prepared: &mut CpuPrepared, view: &View, style: &Style) -> (Frame,
     (frame, prepared.known_pixels(view, style))
 }
 
-/// Looks at a scene from place to place, each a scale and a centre: every picture is a fresh one to the bit. Gives how many
+/// Looks at a scene from place to place, each a scale and a center: every picture is a fresh one to the bit. Gives how many
 /// pixels were known after each.
 #[track_caller]
 fn look(scene: &Arc<Scene>, style: &Style, places: &[(f64, Point<f64>)]) -> Vec<u32> {
@@ -25,7 +25,7 @@ fn look(scene: &Arc<Scene>, style: &Style, places: &[(f64, Point<f64>)]) -> Vec<
     known.collect()
 }
 
-/// Strokes of 3 px fill most of it where a metre is a pixel.
+/// Strokes of 3 px fill most of it where a meter is a pixel.
 fn crowded() -> Layout {
     wandering(6000, 11, 3.0, ORIGIN)
 }
@@ -35,7 +35,7 @@ fn more_crowded() -> Layout {
     wandering(16_000, 11, 3.0, ORIGIN)
 }
 
-/// A little nearer each frame, and away again, to the side of the centre.
+/// A little nearer each frame, and away again, to the side of the center.
 fn zooms(px_per_m: f64, speed: f64) -> Vec<(f64, Point<f64>)> {
     let steps = (0..14).chain((0..10).rev());
     let place = |step: i32| {
@@ -116,7 +116,7 @@ fn it_is_not_found_where_that_is_in_vain() {
         look(scene, style, &places)
     };
     let none = |known: Vec<u32>| assert!(known.iter().all(|&known| known == 0), "{known:?}");
-    // Coming nearer too fast, too thin, of several colours, and so few that nothing is full.
+    // Coming nearer too fast, too thin, of several colors, and so few that nothing is full.
     none(still(&scene(crowded()), &wide_px(3.0), 0.3, 1.06));
     none(still(&scene(crowded()), &wide_px(0.6), 0.5, 1.0));
     none(still(&colored(crowded(), |_| 255), &wide_px(3.0), 0.5, 1.0));

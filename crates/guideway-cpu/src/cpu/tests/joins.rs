@@ -59,7 +59,7 @@ fn roads_in_pieces_are_fewer_lines_and_look_right() {
         check_near(&ours, &roads_of_one_color, &view, &style);
     }
     let joined = lines(&roads_of_one_color, &wide_px(3.0));
-    // In several colours, or widths, it matters which is which.
+    // In several colors, or widths, it matters which is which.
     let colored = lines(&colored(roads(), |_| 255), &wide_px(3.0));
     let mut of_widths = roads();
     let count = of_widths.paths.len();

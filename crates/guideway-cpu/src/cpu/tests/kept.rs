@@ -29,7 +29,7 @@ fn a_picture_moved_by_whole_pixels_is_a_fresh_one_to_the_bit() {
         (scene(layout()), Style::default()),
         (colored(layout(), |_| 255), wide_px(2.5)),
         (colored(layout(), |i| [255, 90][i % 2]), wide_px(1.5)),
-        (scene(layout()), density(ToneMap::Equalised)),
+        (scene(layout()), density(ToneMap::Equalized)),
     ] {
         for px_per_m in [0.3, 0.5] {
             let mut prepared = CpuPrepared::new(Arc::clone(&scene), &Budget::default()).unwrap();
@@ -107,7 +107,7 @@ fn only_what_an_edit_touches_is_drawn(style: &Style) {
         (moved(4.0, -30.0, Arc::new([3, 1700])), true),
         (Edit::SetStates(Arc::new([(9, PathState::Hidden)])), true),
         (Edit::Insert(Arc::new([inserted])), true),
-        // From one colour to two, within two, and from one width to two.
+        // From one color to two, within two, and from one width to two.
         (
             Edit::Restyle(Arc::new([(3, of(None, Some(0xff00_40ff)))])),
             false,

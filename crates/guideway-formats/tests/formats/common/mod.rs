@@ -6,7 +6,7 @@ use guideway_formats::{ReadOptions, read_bytes, read_file};
 use guideway_layout::{Code, Layout};
 use guideway_spline::Point;
 
-/// The folder of real layouts, which lies beside the repository. It is not part of it, for licences.
+/// The folder of real layouts, which lies beside the repository. It is not part of it, for licenses.
 pub(crate) fn real_layouts(format: &str) -> Option<PathBuf> {
     let shared = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/layouts");
     let folder = shared.join(format);

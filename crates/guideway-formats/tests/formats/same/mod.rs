@@ -5,7 +5,7 @@ use guideway_layout::{Direction, Layout, Level, NewPath, PathRef, Value};
 use guideway_spline::{Point, Runs, nearest_on_run, polyline_to_runs, uniform};
 use proptest::prelude::*;
 
-/// How far a curve may be from what it was before it was written, in metres.
+/// How far a curve may be from what it was before it was written, in meters.
 pub(crate) const TOLERANCE_M: f64 = 1e-4;
 
 /// A path of two lines, `E`, the second of which begins 4 m behind the first and goes to `end`.

@@ -24,7 +24,7 @@ fn pixel(frame: &Frame, x: u32, y: u32) -> [u8; 4] {
 }
 
 #[test]
-fn pixels_are_counted_from_the_upper_left_and_metres_up() {
+fn pixels_are_counted_from_the_upper_left_and_meters_up() {
     // One line near the upper edge, from the left; nothing else.
     let scene = scene(&[line((0.5, 97.5), (40.5, 97.5))]);
     for method in every_variant() {
@@ -231,7 +231,7 @@ fn what_cannot_be_drawn_is_refused_with_a_remedy() {
         errors.push(render(&close, &one_pixel()));
         assert_eq!(render(&view(50, 50), &one_pixel()), None);
         for (error, named) in errors.into_iter().zip([
-            "several colours",
+            "several colors",
             "translucent",
             "density",
             "single precision",
@@ -287,7 +287,7 @@ fn what_is_drawn_otherwise_is_told_and_cancelling_stops() {
 }
 
 #[test]
-fn a_translucent_background_keeps_the_colour_of_the_line() {
+fn a_translucent_background_keeps_the_color_of_the_line() {
     let scene = scene(&[line((10.0, 20.0), (90.0, 70.0))]);
     let style = Style {
         background: Rgba::from_u32(0xff80_4000),

@@ -4,7 +4,7 @@
 override CELLS: u32;
 
 struct Grid {
-    // Lower left corner, in metres from the middle of the scene.
+    // Lower left corner, in meters from the middle of the scene.
     origin_m: vec2f,
     // 0 along a side that has no length: there is one cell then.
     cells_per_m: vec2f,

@@ -1,5 +1,5 @@
 // Coverage by the nearest line (thesis, 4.3.6). What a pixel remembers from pass to pass is the square of
-// its distance in metres, as bits: those of positive numbers are in the order of the numbers.
+// its distance in meters, as bits: those of positive numbers are in the order of the numbers.
 
 // Whether edges are smooth.
 override SMOOTH: bool;

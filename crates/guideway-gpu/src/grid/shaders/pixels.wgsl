@@ -10,7 +10,7 @@ override COUNT: bool;
 @group(0) @binding(2) var<storage, read> starts: array<u32>;
 @group(0) @binding(3) var<storage, read> counts: array<u32>;
 @group(0) @binding(4) var<storage, read> lists_m: array<vec4f>;
-// Between passes what the pixel remembers, with the last its colour.
+// Between passes what the pixel remembers, with the last its color.
 @group(0) @binding(5) var<storage, read_write> pixels: array<u32>;
 // Tests of lines and look-ups of cells, a pixel.
 @group(0) @binding(6) var<storage, read_write> work: array<vec2u>;
@@ -71,7 +71,7 @@ fn main(
     }
 }
 
-// The colour over the background. Where nothing shows, the background has the say on the colour.
+// The color over the background. Where nothing shows, the background has the say on the color.
 fn blend(share: f32) -> u32 {
     let ink = unpack4x8unorm(view.color);
     let below = unpack4x8unorm(view.background);

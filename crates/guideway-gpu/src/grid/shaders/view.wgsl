@@ -1,7 +1,7 @@
 // What is seen: the same for all pixels of a picture.
 
 struct View {
-    // The middle of the picture, in metres from the middle of the scene.
+    // The middle of the picture, in meters from the middle of the scene.
     center_m: vec2f,
     half_size_px: vec2f,
     // Outside of this box nothing is drawn.
@@ -12,7 +12,7 @@ struct View {
     m_per_px: f32,
     px_per_m: f32,
     radius_m: f32,
-    // Colours as in the picture's bytes: red first.
+    // Colors as in the picture's bytes: red first.
     color: u32,
     background: u32,
     // The band of rows that is drawn.

@@ -1,4 +1,4 @@
-// Colours of 8 bits, red lowest, over each other with straight alpha.
+// Colors of 8 bits, red lowest, over each other with straight alpha.
 
 fn channels(color: u32) -> vec4f {
     return vec4f(
@@ -9,7 +9,7 @@ fn channels(color: u32) -> vec4f {
     );
 }
 
-// What a pixel shows: colours summed by their share of it, with how much of it they hide, over the background.
+// What a pixel shows: colors summed by their share of it, with how much of it they hide, over the background.
 fn over_background(colors: vec3f, hidden: f32) -> u32 {
     if hidden == 0.0 {
         return frame.background;

@@ -49,7 +49,7 @@ fn capsule_of(line: vec4f, corner_px: vec2f, radius_px: f32) -> Capsule {
     );
 }
 
-// The centre's x and half the chord, at y, of the disc that holds the border there.
+// The center's x and half the chord, at y, of the disc that holds the border there.
 fn disc_at(capsule: Capsule, y: f32, border_y: f32) -> vec2f {
     let t = clamp((y - border_y) * capsule.per_row, 0.0, 1.0);
     let off = y - (capsule.upper.y + t * capsule.along.y);

@@ -1,4 +1,4 @@
-// Tiles of a scene of one opaque colour: it does not matter which line covers a sample.
+// Tiles of a scene of one opaque color: it does not matter which line covers a sample.
 
 @group(0) @binding(7) var<storage, read_write> counts: array<u32>;
 @group(0) @binding(8) var<storage, read_write> found: Found;

@@ -1,4 +1,4 @@
-// Tiles of a scene of one opaque colour, on a processor: as many threads as run in step cover one, and each keeps rows of samples for
+// Tiles of a scene of one opaque color, on a processor: as many threads as run in step cover one, and each keeps rows of samples for
 // itself, for barriers, atomic operations and memory that threads share take long there. A branch that no thread takes still takes its
 // time, and so does a round of a loop behind its end, if the loop looks for that first.
 
@@ -80,7 +80,7 @@ fn cover_line(lane: u32, capsule: Capsule, rows: vec2u) {
     }
 }
 
-// Covers a list, in turns of lines from all over it, one for each lane to look at: neighbours in the list lie near each other.
+// Covers a list, in turns of lines from all over it, one for each lane to look at: neighbors in the list lie near each other.
 fn cover_list(lane: u32, tile: Tile, list: vec2u) {
     let turns = (list.y - list.x + LANES - 1u) / LANES;
     var turn = 0u;

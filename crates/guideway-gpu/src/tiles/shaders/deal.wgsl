@@ -53,7 +53,7 @@ fn cover_items(team: Team, items: u32) {
     }
 }
 
-// Covers a list in turns, each of lines from all over it, for neighbours in the list lie near each other: what the
+// Covers a list in turns, each of lines from all over it, for neighbors in the list lie near each other: what the
 // first ones have filled, the others need not. All teams have as many, and those that go on together lie apart.
 fn cover_list(team: Team, tile: Tile, list: vec2u) {
     let looks = list.y - list.x > SHORT;

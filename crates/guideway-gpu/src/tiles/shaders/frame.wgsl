@@ -45,7 +45,7 @@ struct Frame {
     // How many lines, and references of tiles to lines, there is room for.
     line_room: u32,
     reference_room: u32,
-    // Colours as in the picture's bytes, red first.
+    // Colors as in the picture's bytes, red first.
     color: u32,
     background: u32,
     // Points in larger steps would be off too far: their clusters are drawn from exact points.

@@ -3,12 +3,12 @@
 const IS_FINE: bool = WORDS > 2u;
 const PIXELS: u32 = WORDS * PIXELS_A_WORD;
 
-// Sums of colours, times the samples that show them: where a row of a pixel has four samples, one word of three parts of ten bits,
+// Sums of colors, times the samples that show them: where a row of a pixel has four samples, one word of three parts of ten bits,
 // and where it has sixteen, red and blue in one word, and green in another. So many words of all pixels of a word:
 const SUM_WORDS: u32 = select(8u, 4u, IS_FINE);
 var<private> sums: array<u32, WORDS * SUM_WORDS>;
 
-// Adds a colour for samples of a word.
+// Adds a color for samples of a word.
 fn add_samples(word: u32, samples: u32, color: u32) {
     let first = word * SUM_WORDS;
     if IS_FINE {

@@ -2,7 +2,7 @@
 // What a path covers is gathered first, and then laid below all that was laid before. Each row of pixels goes through the lines that
 // reach into open pixels of it.
 
-// Whether it is not colours that are shown, but how many paths cover a pixel.
+// Whether it is not colors that are shown, but how many paths cover a pixel.
 override IS_DENSITY: bool;
 
 var<workgroup> capsules: array<Capsule, TURN>;
@@ -39,7 +39,7 @@ fn take(first_sample: u32, bits: u32, opacity: f32) -> f32 {
     return taken;
 }
 
-// Lays a colour over what was gathered of a row, where nothing hides it, and gathers anew.
+// Lays a color over what was gathered of a row, where nothing hides it, and gathers anew.
 fn lay(row: u32, color: u32, gathered: ptr<function, Row>) {
     let opacity = f32(color >> 24u) / 255.0;
     let first_pixel = (row / SAMPLE_ROWS) * TILE_PX;

@@ -1,4 +1,4 @@
-// Tiles of opaque paths in many colours, whose lines come in falling draw rank: each is laid below all that are there.
+// Tiles of opaque paths in many colors, whose lines come in falling draw rank: each is laid below all that are there.
 
 @group(0) @binding(7) var<storage, read_write> found: Found;
 

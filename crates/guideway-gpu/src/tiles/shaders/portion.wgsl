@@ -12,7 +12,7 @@ const BUCKETS_EACH: u32 = BUCKETS / TILE_THREADS;
 
 // References of the lines that were taken, at first as they come, then the ranks of each bucket together, then references in order.
 var<workgroup> portion: array<u32, PORTION>;
-// How many lines each bucket has, then where it ends; at last sums of colours. The less a workgroup shares, the more run at a time.
+// How many lines each bucket has, then where it ends; at last sums of colors. The less a workgroup shares, the more run at a time.
 var<workgroup> scratch: array<atomic<u32>, BUCKETS>;
 var<workgroup> lowest: atomic<u32>;
 var<workgroup> highest: atomic<u32>;

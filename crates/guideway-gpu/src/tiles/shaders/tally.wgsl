@@ -1,4 +1,4 @@
-// How often a workgroup means a tile: neighbours mean the same few, and one addition for all of them is enough.
+// How often a workgroup means a tile: neighbors mean the same few, and one addition for all of them is enough.
 
 // Places, each for the tiles that are a multiple of so many columns and rows apart.
 const TALLY_SIDE: u32 = 16u;

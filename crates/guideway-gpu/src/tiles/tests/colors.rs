@@ -1,8 +1,8 @@
-//! Opaque paths in many colours: what lies on top is seen, however long the lists and whatever the ranks.
+//! Opaque paths in many colors: what lies on top is seen, however long the lists and whatever the ranks.
 
 use super::*;
 
-/// Paths with a colour each, opaque, and some with a width.
+/// Paths with a color each, opaque, and some with a width.
 fn colored(mut layout: Layout) -> Layout {
     for path in 0..layout.paths.len() as u32 {
         let style = OwnStyle {
@@ -22,7 +22,7 @@ pub(super) fn opaque(layout: Layout) -> Arc<Scene> {
     scene(colored(layout))
 }
 
-/// A path that goes up and down very often, within a few metres, below some others and above most.
+/// A path that goes up and down very often, within a few meters, below some others and above most.
 fn crowded_by_one() -> Layout {
     let mut layout = layout(200, 6.0);
     let control: Vec<_> = (0..2000)

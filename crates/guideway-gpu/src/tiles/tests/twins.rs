@@ -11,7 +11,7 @@ use super::params::{Cluster, Points};
 use super::*;
 
 /// Paths close to each other, some of several strokes (two of them to and fro in the middle of [`near`]), and one path
-/// two kilometres away: steps are small beside the whole.
+/// two kilometers away: steps are small beside the whole.
 fn dense(paths: u32, reach_m: f64) -> Layout {
     let mut layout = layout(paths, reach_m);
     for row in (0..paths).step_by(100) {
@@ -46,7 +46,7 @@ fn scene(layout: Layout) -> Arc<Scene> {
     Arc::new(Scene::new(Arc::new(layout), &SceneOptions::default()).unwrap())
 }
 
-/// In one colour, and in many.
+/// In one color, and in many.
 fn scenes() -> [Arc<Scene>; 2] {
     let mut colored = dense(3000, 1.0);
     for path in 0..colored.paths.len() {
@@ -191,7 +191,7 @@ fn narrow() -> Tiles {
     })
 }
 
-/// Stars of so many clusters each, side by side, beside the path two kilometres away.
+/// Stars of so many clusters each, side by side, beside the path two kilometers away.
 fn stars(clusters: u32, length_m: f64, centers: &[Point<f64>]) -> Arc<Scene> {
     let mut layout = dense(0, 1.0);
     for &center in centers {

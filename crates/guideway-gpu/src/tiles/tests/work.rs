@@ -4,7 +4,7 @@ use guideway_render::{Stage, Work};
 
 use super::*;
 
-/// Level lines within one tile of 14 x 9, where 10 px are a metre; if they have colours, each another one.
+/// Level lines within one tile of 14 x 9, where 10 px are a meter; if they have colors, each another one.
 fn level_lines(count: usize, color_rgba: Option<u32>) -> Arc<Scene> {
     let mut layout = Layout::default();
     let mut runs = Runs::default();
@@ -95,9 +95,9 @@ fn work_of_opaque_paths_is_counted_alike_by_teams_and_by_rows() {
         assert_alike_here(&work, &rows, &scene, (&view, &wide()));
         let n = lines as u64;
         assert_eq!(work.tests, Some(n * 4 * u64::from(params::SAMPLE_ROWS)));
-        // As of one colour, and how long the one tile took.
+        // As of one color, and how long the one tile took.
         assert_eq!(work.atomics, Some(5 + 2 * n + 1));
-        // As of one colour; the rank of a line.
+        // As of one color; the rank of a line.
         let words = 1 + n * 3 + 3 * 14 * 9 + n + 210 * 130 + n;
         assert_eq!(work.bytes_written, Some(4 * words));
         assert_eq!(count().unwrap(), work);
@@ -118,9 +118,9 @@ fn work_of_translucent_paths_is_counted_exactly() {
         assert_alike_here(&work, &tiles, &scene, (&view, &wide()));
         let n = lines as u64;
         assert_eq!(work.tests, Some(n * 4 * u64::from(params::SAMPLE_ROWS)));
-        // As of one colour, and how long the one tile took.
+        // As of one color, and how long the one tile took.
         assert_eq!(work.atomics, Some(5 + 2 * n + 1));
-        // As of one colour; the rank of a line; a list that is brought into order.
+        // As of one color; the rank of a line; a list that is brought into order.
         let sorted = if n > 1 { n } else { 0 };
         let words = 1 + n * 3 + 3 * 14 * 9 + n + 210 * 130 + n + sorted;
         assert_eq!(work.bytes_written, Some(4 * words));

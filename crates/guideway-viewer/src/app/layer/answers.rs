@@ -1,4 +1,4 @@
-//! What is asked of a layout beside the window: other colours, the paths that meet a query, and what is odd.
+//! What is asked of a layout beside the window: other colors, the paths that meet a query, and what is odd.
 
 use std::sync::Arc;
 
@@ -12,7 +12,7 @@ use crate::work::findings::Findings;
 use crate::work::task::Task;
 
 impl Layer {
-    /// Gives the paths other colours, unless they have them, or get them already.
+    /// Gives the paths other colors, unless they have them, or get them already.
     pub(crate) fn recolor(&mut self, options: SceneOptions, wake: &Wake) {
         let is_same =
             self.options.color == options.color && self.options.color_by == options.color_by;
@@ -23,7 +23,7 @@ impl Layer {
         }
     }
 
-    /// Whether other colours, or what a query asks for, are on their way.
+    /// Whether other colors, or what a query asks for, are on their way.
     pub(crate) fn is_busy(&self) -> bool {
         self.coloring.is_some() || self.selecting.is_some() || self.away.is_at_work()
     }

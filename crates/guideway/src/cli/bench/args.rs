@@ -45,8 +45,8 @@ pub(crate) struct Args {
     /// What paths look like
     #[arg(long, default_value = "own")]
     dress: Look,
-    /// What a pixel shows: the colours of paths, or how many there are
-    #[arg(long, default_value = "colour")]
+    /// What a pixel shows: the colors of paths, or how many there are
+    #[arg(long, default_value = "color")]
     shade: Shade,
     /// What changes from frame to frame
     #[arg(long, default_value = "still")]
@@ -93,7 +93,7 @@ enum Move {
 enum Look {
     /// As the layout says; a dataset is black
     Own,
-    /// Each path has a colour of its own, and one of four widths
+    /// Each path has a color of its own, and one of four widths
     Mixed,
     /// The same, half of them translucent
     Translucent,
@@ -167,7 +167,7 @@ impl Args {
                     (None, Rule::Thesis) => LineRule::Thesis,
                 },
                 shading: match self.shade {
-                    Shade::Colour => Shading::Color,
+                    Shade::Color => Shading::Color,
                     Shade::Density => Shading::Density(ToneMap::default()),
                 },
                 ..Style::default()

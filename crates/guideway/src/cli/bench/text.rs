@@ -61,8 +61,8 @@ fn what(comparison: &Comparison) -> String {
     };
     let dress = match comparison.dress {
         Dress::Own => "",
-        Dress::Mixed => ", in many colours",
-        Dress::Translucent => ", in many colours, half of them translucent",
+        Dress::Mixed => ", in many colors",
+        Dress::Translucent => ", in many colors, half of them translucent",
     };
     let shade = if comparison.is_density {
         ", by how many lie where"
@@ -70,7 +70,7 @@ fn what(comparison: &Comparison) -> String {
         ""
     };
     format!(
-        "{}: {}, {}{dress}{shade}; {width} x {height} pixels at {:.4} pixels a metre, {motion}\n{} each after {} to warm up, in turns; \
+        "{}: {}, {}{dress}{shade}; {width} x {height} pixels at {:.4} pixels a meter, {motion}\n{} each after {} to warm up, in turns; \
          times are medians, ratios of frames to the first method\n\n",
         text::plain(&comparison.scene.name, 200),
         text::counted(comparison.scene.paths as u64, "path"),

@@ -15,15 +15,15 @@ use crate::cli::{Failure, Output, envelope, text, values};
 pub(super) struct ClearanceArgs {
     /// Least distance of vehicles on two paths, and from the floor plan; 0 finds what overlaps. Not looked at
     /// unless given
-    #[arg(long, value_name = "METRES", value_parser = values::not_negative, allow_hyphen_values = true)]
+    #[arg(long, value_name = "METERS", value_parser = values::not_negative, allow_hyphen_values = true)]
     clearance: Option<f64>,
-    /// The vehicle: its length and width in metres, and how far its reference point is from its rear end (the middle
+    /// The vehicle: its length and width in meters, and how far its reference point is from its rear end (the middle
     /// unless given); or `file` for the corridors that the file gives, the default
     #[arg(long, value_name = "LENGTHxWIDTH[,REAR]", value_parser = envelope::source, requires = "clearance")]
     envelope: Option<Source>,
     /// How near to an end that two paths have in common no distance between them counts [default: six times the
     /// distance of the vehicle's farthest corner from its reference point]
-    #[arg(long, value_name = "METRES", value_parser = values::not_negative, requires = "clearance")]
+    #[arg(long, value_name = "METERS", value_parser = values::not_negative, requires = "clearance")]
     near_node: Option<f64>,
     /// Drawing or layout whose lines are walls
     #[arg(long, value_name = "FILE", value_parser = Input::parser(), requires = "clearance")]

@@ -33,13 +33,13 @@ pub(crate) struct Args {
     #[arg(long, value_name = "N", default_value_t = 10)]
     show: usize,
     /// Farthest that a path may begin or end from its node [default: 0.01]
-    #[arg(long, value_name = "METRES", value_parser = values::not_negative, allow_hyphen_values = true)]
+    #[arg(long, value_name = "METERS", value_parser = values::not_negative, allow_hyphen_values = true)]
     gap: Option<f64>,
     /// Greatest jump of direction that still counts as smooth [default: 5]
     #[arg(long, value_name = "DEGREES", value_parser = values::not_negative, allow_hyphen_values = true)]
     kink: Option<f64>,
     /// Tightest bend that vehicles can drive; not looked at unless given
-    #[arg(long, value_name = "METRES", value_parser = values::positive, allow_hyphen_values = true)]
+    #[arg(long, value_name = "METERS", value_parser = values::positive, allow_hyphen_values = true)]
     min_radius: Option<f64>,
     #[command(flatten)]
     clearance: clearance::ClearanceArgs,

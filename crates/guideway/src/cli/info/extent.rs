@@ -5,7 +5,7 @@ use rayon::prelude::*;
 /// Largest error of a segment's length, as a fraction of the size of its control polygon.
 const TOLERANCE: f64 = 1e-7;
 
-/// How long all paths are together, in metres, and the box that holds them tightly.
+/// How long all paths are together, in meters, and the box that holds them tightly.
 pub(super) struct Extent {
     pub(super) length_m: f64,
     pub(super) bounds: Option<Bounds<f64>>,

@@ -1,6 +1,6 @@
 use super::columns::{Column, Top};
 use super::summary::{Kind, Summary};
-use crate::cli::text::{bytes, count, counted, metres, number, plain, time};
+use crate::cli::text::{bytes, count, counted, meters, number, plain, time};
 
 /// Longest name or value shown, in characters.
 const WIDEST: usize = 40;
@@ -27,7 +27,7 @@ pub(super) fn text(of: &Summary) -> String {
             counted(of.control_points, "control point")
         ),
     );
-    lines.put("length", &metres(of.length_m));
+    lines.put("length", &meters(of.length_m));
     lines.put("bounds", &bounds(of));
     lines.put("nodes", &count(of.nodes));
     lines.put("stations", &count(of.stations));
@@ -35,7 +35,7 @@ pub(super) fn text(of: &Summary) -> String {
         let name = plain(level.name.as_deref().unwrap_or(&level.id), WIDEST);
         let height = level
             .elevation_m
-            .map_or_else(String::new, |m| format!(" at {}", metres(m)));
+            .map_or_else(String::new, |m| format!(" at {}", meters(m)));
         format!("{name}{height} ({})", counted(level.paths, "path"))
     });
     lines.put("levels", &join(levels));
@@ -121,8 +121,8 @@ fn bounds(of: &Summary) -> String {
     let ([x0, y0], [x1, y1]) = (bounds.min, bounds.max);
     format!(
         "{} x {}, from ({x0:.3}, {y0:.3}) to ({x1:.3}, {y1:.3})",
-        metres(x1 - x0),
-        metres(y1 - y0)
+        meters(x1 - x0),
+        meters(y1 - y0)
     )
 }
 

@@ -48,10 +48,10 @@ struct ViewArgs {
     /// Show everything; the default
     #[arg(long)]
     fit: bool,
-    /// Point in the middle of the picture, in metres [default: the middle of the layout]
+    /// Point in the middle of the picture, in meters [default: the middle of the layout]
     #[arg(long, value_name = "X,Y", value_parser = values::point, allow_hyphen_values = true)]
     center: Option<Point<f64>>,
-    /// Pixels a metre [default: so that everything is seen]
+    /// Pixels a meter [default: so that everything is seen]
     #[arg(long, value_name = "PX_PER_M", value_parser = values::positive, allow_hyphen_values = true)]
     scale: Option<f64>,
     /// Draw only the level of this name or id
@@ -61,7 +61,7 @@ struct ViewArgs {
     /// at offset, such as `hall.png@px-per-m=20,offset=-3,-2`
     #[arg(long, value_name = "FILE", value_parser = Input::parser())]
     floor_plan: Option<Input>,
-    /// The areas that a vehicle sweeps, under the paths: its length and width in metres, and how far its reference
+    /// The areas that a vehicle sweeps, under the paths: its length and width in meters, and how far its reference
     /// point is from its rear end (the middle unless given); or `file` for the corridors that the file gives
     #[arg(long, value_name = "LENGTHxWIDTH[,REAR]", value_parser = envelope::source)]
     envelope: Option<Source>,
@@ -71,7 +71,7 @@ struct ViewArgs {
 #[command(next_help_heading = "How it looks")]
 struct LookArgs {
     /// Width of paths that have none of their own [default: 0.1]
-    #[arg(long, value_name = "METRES", value_parser = values::not_negative, allow_hyphen_values = true)]
+    #[arg(long, value_name = "METERS", value_parser = values::not_negative, allow_hyphen_values = true)]
     width: Option<f64>,
     /// Least width of a path in pixels [default: 1.5]
     #[arg(long, value_name = "N", value_parser = values::not_negative, allow_hyphen_values = true)]
@@ -87,22 +87,22 @@ struct LookArgs {
         hide_default_value = true
     )]
     line_rule: Rule,
-    /// Colour of paths that have none of their own [default: 000000]
+    /// Color of paths that have none of their own [default: 000000]
     #[arg(long, value_name = "RRGGBB")]
     color: Option<Rgba>,
-    /// Colour every path by a column: `level`, `direction`, `vehicle_type` or one of the file
+    /// Color every path by a column: `level`, `direction`, `vehicle_type` or one of the file
     #[arg(long, value_name = "COLUMN")]
     color_by: Option<String>,
-    /// Put what the colours mean into the picture too
+    /// Put what the colors mean into the picture too
     #[arg(long, requires = "color_by")]
     legend: bool,
     /// What lies below the paths [default: ffffff]
     #[arg(long, value_name = "RRGGBB")]
     background: Option<Rgba>,
-    /// What a pixel shows: the colours of paths, or how many there are
-    #[arg(long, default_value = "colour")]
+    /// What a pixel shows: the colors of paths, or how many there are
+    #[arg(long, default_value = "color")]
     shade: Shade,
-    /// How the number of paths becomes a colour, with `--shade density` [default: log]
+    /// How the number of paths becomes a color, with `--shade density` [default: log]
     #[arg(long)]
     tone: Option<Tone>,
 }
@@ -126,8 +126,8 @@ pub(crate) enum Rule {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Shade {
-    #[value(alias = "color")]
-    Colour,
+    #[value(alias = "colour")]
+    Color,
     Density,
 }
 
@@ -135,7 +135,7 @@ pub(crate) enum Shade {
 enum Tone {
     Log,
     Linear,
-    Equalised,
+    Equalized,
 }
 
 impl Args {
@@ -252,15 +252,15 @@ impl LookArgs {
 
     fn shading(&self) -> Result<Shading, Failure> {
         match (self.shade, self.tone) {
-            (Shade::Colour, None) => Ok(Shading::Color),
-            (Shade::Colour, Some(_)) => Err(Failure::arguments(
-                "--tone says how the number of paths becomes a colour, which needs --shade density",
+            (Shade::Color, None) => Ok(Shading::Color),
+            (Shade::Color, Some(_)) => Err(Failure::arguments(
+                "--tone says how the number of paths becomes a color, which needs --shade density",
                 "Add it, such as `--shade density --tone linear`",
             )),
             (Shade::Density, tone) => Ok(Shading::Density(match tone {
                 None | Some(Tone::Log) => ToneMap::Log,
                 Some(Tone::Linear) => ToneMap::Linear,
-                Some(Tone::Equalised) => ToneMap::Equalised,
+                Some(Tone::Equalized) => ToneMap::Equalized,
             })),
         }
     }

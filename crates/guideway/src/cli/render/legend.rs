@@ -1,4 +1,4 @@
-//! What the colours of a picture mean, in its upper left corner.
+//! What the colors of a picture mean, in its upper left corner.
 
 use guideway::render::{FrameSize, Sheet, Text};
 use guideway::scene::{Legend, LegendEntry, Rgba, Scene};
@@ -110,7 +110,7 @@ mod tests {
     }
 
     #[test]
-    fn the_legend_shows_its_colours_in_the_upper_left() {
+    fn the_legend_shows_its_colors_in_the_upper_left() {
         for (height, line) in [(200, 16), (1200, 24), (2400, 32)] {
             let size = FrameSize::new(800, height).unwrap();
             let view = View::new(size, Point::default(), 1.0).unwrap();

@@ -24,7 +24,7 @@ pub(crate) struct Wishes {
     pub(crate) px_per_m: Option<f64>,
     pub(crate) scene: SceneOptions,
     pub(crate) style: Style,
-    /// Whether the picture shows what its colours mean.
+    /// Whether the picture shows what its colors mean.
     pub(crate) has_legend: bool,
     pub(crate) budget: Budget,
     /// What lies over the paths.

@@ -93,7 +93,7 @@ pub(crate) fn what_was_drawn(drawn: &Drawn) -> String {
 }
 
 fn legend_text(legend: &Legend) -> String {
-    let mut text = format!("colours by {}:\n", text::plain(&legend.column, 60));
+    let mut text = format!("colors by {}:\n", text::plain(&legend.column, 60));
     for entry in &legend.entries {
         let color = entry.color;
         let label = text::plain(&entry.label, 60);

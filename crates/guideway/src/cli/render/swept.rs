@@ -14,7 +14,7 @@ use serde_json::{Value, json};
 
 use crate::cli::{Failure, envelope, text};
 
-/// The colour of all areas together.
+/// The color of all areas together.
 const COLOR: Rgba = Rgba {
     r: 0xF2,
     g: 0x8C,

@@ -1,4 +1,4 @@
-//! A view as SVG: the same paths in the same order, colours and widths, as true curves.
+//! A view as SVG: the same paths in the same order, colors and widths, as true curves.
 
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
@@ -35,7 +35,7 @@ pub(crate) fn draw(
 ) -> Result<Drawn, Failure> {
     if wishes.style.shading != Shading::Color {
         return Err(Failure::arguments(
-            "an SVG picture has the colours of paths, not how many there are",
+            "an SVG picture has the colors of paths, not how many there are",
             "Leave --shade out, or save the picture as PNG",
         ));
     }

@@ -17,9 +17,9 @@ const MOST_PIXELS: u64 = 1 << 26;
 
 /// An image on the floor.
 pub(crate) struct Image {
-    /// The image, and copies of half the size each, down to one pixel: colours times opacity.
+    /// The image, and copies of half the size each, down to one pixel: colors times opacity.
     levels: Vec<Level>,
-    /// From pixels of the image, y down, to metres.
+    /// From pixels of the image, y down, to meters.
     world_from_image: Affine,
     px_per_m: f64,
     rotation_rad: f64,
@@ -39,7 +39,7 @@ impl Image {
         let Some(px_per_m) = input.px_per_m else {
             return Err(Failure::arguments(
                 format!("{name}: how large the image is on the floor is not said"),
-                "Say how many of its pixels are a metre, and where its lower left corner is, such as \
+                "Say how many of its pixels are a meter, and where its lower left corner is, such as \
                  `hall.png@px-per-m=20,offset=-3,-2`",
             ));
         };
@@ -168,7 +168,7 @@ impl Level {
         self.pixels[y * self.width + x]
     }
 
-    /// The colour between the four pixels around a place; nothing outside of the image.
+    /// The color between the four pixels around a place; nothing outside of the image.
     fn sample(&self, x: f64, y: f64) -> [f64; 4] {
         if !(0.0..=self.width as f64).contains(&x) || !(0.0..=self.height as f64).contains(&y) {
             return [0.0; 4];
@@ -191,7 +191,7 @@ impl Level {
     }
 }
 
-/// From a colour times its opacity to straight alpha.
+/// From a color times its opacity to straight alpha.
 fn straight([r, g, b, alpha]: [f64; 4]) -> [u8; 4] {
     if alpha <= 0.0 {
         return [0; 4];
@@ -220,7 +220,7 @@ fn decode(path: &Path) -> Result<Level, String> {
     let info = reader.next_frame(&mut bytes).map_err(|e| e.to_string())?;
     let pixel = |p: &[u8]| {
         let [r, g, b, a] = match *p {
-            [grey, alpha] => [grey, grey, grey, alpha],
+            [gray, alpha] => [gray, gray, gray, alpha],
             [r, g, b, a] => [r, g, b, a],
             _ => [0; 4],
         };
@@ -241,7 +241,7 @@ mod tests {
 
     use super::*;
 
-    /// Two by two pixels of a metre each: red, green, blue and white from the upper left, at (10, 20).
+    /// Two by two pixels of a meter each: red, green, blue and white from the upper left, at (10, 20).
     fn image(rotate_deg: f64) -> Image {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.png");

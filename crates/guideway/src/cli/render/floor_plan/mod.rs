@@ -1,4 +1,4 @@
-//! What lies below a layout: the paths of another file in a pale colour, or an image.
+//! What lies below a layout: the paths of another file in a pale color, or an image.
 
 mod image;
 
@@ -17,7 +17,7 @@ use super::vector;
 use crate::cli::input::{self, Input};
 use crate::cli::{Failure, Output};
 
-/// The colour of all paths of a floor plan.
+/// The color of all paths of a floor plan.
 const PALE: Rgba = Rgba::opaque(0xC2, 0xCA, 0xD3);
 
 /// How wide they are: walls and shelves are outlines.
@@ -126,7 +126,7 @@ pub(super) fn lay_over(below: &Frame, frame: &mut Frame) {
     }
 }
 
-/// A colour over another, both with straight alpha (Porter and Duff 1984).
+/// A color over another, both with straight alpha (Porter and Duff 1984).
 pub(super) fn over(above: [u8; 4], below: [u8; 4]) -> [u8; 4] {
     if above[3] == 255 || below[3] == 0 {
         return above;

@@ -129,7 +129,7 @@ fn strips_together_are_the_picture_drawn_at_once() {
     for (wishes, below) in [
         (wishes(Shading::Color, true), Below::default()),
         (
-            wishes(Shading::Density(ToneMap::Equalised), false),
+            wishes(Shading::Density(ToneMap::Equalized), false),
             Below::default(),
         ),
         (wishes(Shading::Color, false), below),

@@ -2,7 +2,7 @@
 
 use guideway_spline::Point;
 
-/// Lines within this of each other have the same length, in metres.
+/// Lines within this of each other have the same length, in meters.
 const SHORT_M: f64 = 1e-9;
 
 /// Puts two bounds into one direction, in which the left one is to the left.
