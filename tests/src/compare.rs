@@ -1,6 +1,6 @@
 //! How far two pictures are apart, and whether that is near enough.
 
-use guideway_render::Frame;
+use guideway_scene::Frame;
 
 /// How far two pictures of one size are apart, in levels of 0 to 255. Colors count as much as they show:
 /// they are multiplied with their opacity first.

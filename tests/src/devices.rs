@@ -2,9 +2,10 @@
 
 use std::sync::{Arc, LazyLock};
 
-use guideway_gl::GlDevice;
-use guideway_gpu::{Gpu, GpuOptions, Grid, GridOptions, Tiles, TilesOptions};
-use guideway_render::Method;
+use guideway_gpu::{Gpu, GpuOptions, Tiles, TilesOptions};
+use guideway_grid::{Grid, GridOptions};
+use guideway_scene::Method;
+use guideway_tessellation::GlDevice;
 
 use crate::compare::Tolerance;
 
@@ -64,7 +65,7 @@ pub fn gpu() -> Result<Arc<Gpu>, String> {
     GPU.clone()
 }
 
-/// The device of [`guideway_gl`].
+/// The device of [`guideway_tessellation`].
 ///
 /// # Errors
 /// What is missing for it.

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use guideway_layout::{Geometry, OwnStyle};
-use guideway_render::View;
+use guideway_scene::View;
 use guideway_scene::{Edit, Insertion, PathState, Scene};
 use guideway_spline::{Affine, Point, Runs};
 
@@ -155,7 +155,7 @@ fn own_style(area: &Area, lcg: &mut Lcg) -> OwnStyle {
 #[cfg(test)]
 mod tests {
     use guideway_cpu::Oracle;
-    use guideway_render::{Budget, Frame, Method};
+    use guideway_scene::{Budget, Frame, Method};
 
     use super::*;
     use crate::methods::show;

@@ -4,7 +4,7 @@ use std::fs::{self, File};
 use std::io::{self, BufWriter};
 use std::path::{Path, PathBuf};
 
-use guideway_render::Frame;
+use guideway_scene::Frame;
 
 use crate::compare::pixel_difference;
 

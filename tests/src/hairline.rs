@@ -4,7 +4,7 @@
 //! oracle gives it a share; with it there are a few samples a pixel, and ends are cut off square. What must
 //! agree is where lines are: so neighbors count.
 
-use guideway_render::Frame;
+use guideway_scene::Frame;
 use guideway_scene::LineRule;
 
 use crate::compare::pixel_difference;

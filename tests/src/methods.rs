@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use guideway_cpu::{Cpu, Oracle};
-use guideway_render::{
+use guideway_scene::{
     Budget, Cancel, Frame, FrameSize, Method, Prepared, RenderError, Report, Style, View,
 };
 

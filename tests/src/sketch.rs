@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use guideway_layout::{Code, Geometry, Layout, Level, NewPath, Paths, TextColumn};
-use guideway_render::density::ToneMap;
-use guideway_render::{FrameSize, Shading, Style, View};
+use guideway_scene::density::ToneMap;
+use guideway_scene::{FrameSize, Shading, Style, View};
 use guideway_scene::{LineRule, Rgba, Scene, SceneOptions};
 use guideway_spline::{Point, Runs};
 

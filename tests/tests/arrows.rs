@@ -6,46 +6,22 @@ use std::process::Command;
 /// What each crate may depend on inside the workspace.
 const ALLOWED: &[(&str, &[&str])] = &[
     ("guideway-spline", &[]),
-    ("guideway-layout", &["guideway-spline"]),
-    ("guideway-formats", &["guideway-spline", "guideway-layout"]),
-    ("guideway-datasets", &["guideway-spline", "guideway-layout"]),
-    ("guideway-scene", &["guideway-spline", "guideway-layout"]),
-    ("guideway-envelope", &["guideway-spline", "guideway-layout"]),
-    ("guideway-render", &["guideway-spline", "guideway-scene"]),
+    ("guideway-layout", SPLINE),
+    ("guideway-formats", MODEL),
+    ("guideway-datasets", MODEL),
+    ("guideway-scene", MODEL),
+    ("guideway-envelope", MODEL),
+    ("guideway-cpu", SCENE),
+    ("guideway-gpu", SCENE),
+    ("guideway-tessellation", SCENE),
+    ("guideway-document", SCENE),
     (
-        "guideway-cpu",
+        "guideway-grid",
         &[
             "guideway-spline",
             "guideway-layout",
             "guideway-scene",
-            "guideway-render",
-        ],
-    ),
-    (
-        "guideway-gpu",
-        &[
-            "guideway-spline",
-            "guideway-layout",
-            "guideway-scene",
-            "guideway-render",
-        ],
-    ),
-    (
-        "guideway-gl",
-        &[
-            "guideway-spline",
-            "guideway-layout",
-            "guideway-scene",
-            "guideway-render",
-        ],
-    ),
-    (
-        "guideway-document",
-        &[
-            "guideway-spline",
-            "guideway-layout",
-            "guideway-scene",
-            "guideway-render",
+            "guideway-gpu",
         ],
     ),
     (
@@ -54,7 +30,6 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "guideway-spline",
             "guideway-layout",
             "guideway-scene",
-            "guideway-render",
             "guideway-document",
         ],
     ),
@@ -75,10 +50,23 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "guideway-layout",
             "guideway-datasets",
             "guideway-scene",
-            "guideway-render",
+        ],
+    ),
+    (
+        "guideway-reproduce",
+        &[
+            "guideway-spline",
+            "guideway-layout",
+            "guideway-datasets",
+            "guideway-scene",
+            "guideway-bench",
         ],
     ),
 ];
+
+const SPLINE: &[&str] = &["guideway-spline"];
+const MODEL: &[&str] = &["guideway-spline", "guideway-layout"];
+const SCENE: &[&str] = &["guideway-spline", "guideway-layout", "guideway-scene"];
 
 /// Crates that only one room may name.
 const KEPT_TO: &[(&str, &str)] = &[
@@ -92,10 +80,13 @@ const KEPT_TO: &[(&str, &str)] = &[
     ),
     ("clap", "guideway"),
     ("indicatif", "guideway"),
-    ("png", "guideway guideway-bench guideway-tests"),
-    ("wgpu", "guideway-gpu"),
-    ("glow", "guideway-gl"),
-    ("khronos-egl", "guideway-gl"),
+    (
+        "png",
+        "guideway guideway-bench guideway-reproduce guideway-tests",
+    ),
+    ("wgpu", "guideway-gpu guideway-grid"),
+    ("glow", "guideway-tessellation"),
+    ("khronos-egl", "guideway-tessellation"),
     ("winit", "guideway-viewer"),
     ("eframe", "guideway-viewer"),
     ("etcetera", "guideway"),

@@ -1,6 +1,6 @@
 //! The comparator must fail where pictures are wrong: a comparator that cannot fail judges nothing.
 
-use guideway_render::{Frame, FrameSize};
+use guideway_scene::{Frame, FrameSize};
 use guideway_tests::compare::{Difference, Tolerance, check};
 use guideway_tests::methods::judge;
 use guideway_tests::sketch::Sketch;

@@ -1,6 +1,6 @@
 //! Methods on graphics devices draw what they can as the oracle does, each within its own tolerance.
 
-use guideway_render::{Budget, Frame, RenderError};
+use guideway_scene::{Budget, Frame, RenderError};
 use guideway_tests::compare::{Difference, check};
 use guideway_tests::devices::{DeviceCandidate, candidates};
 use guideway_tests::evidence;

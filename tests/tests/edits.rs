@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use guideway_cpu::Oracle;
-use guideway_render::density::ToneMap;
-use guideway_render::{Budget, Edited, Frame, Method, Prepared, Report, Style, View};
+use guideway_scene::density::ToneMap;
+use guideway_scene::{Budget, Edited, Frame, Method, Prepared, Report, Style, View};
 use guideway_scene::{Edit, Scene};
 use guideway_spline::{Affine, Point};
 use guideway_tests::compare::{Tolerance, check};

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use guideway_cpu::Cpu;
 use guideway_datasets::{GeneratedPath, RUN_POINTS, d1, d2};
 use guideway_layout::{Geometry, Layout, NewPath, Paths};
-use guideway_render::{Budget, Frame, FrameSize, Method, Prepared, Style, View};
+use guideway_scene::{Budget, Frame, FrameSize, Method, Prepared, Style, View};
 use guideway_scene::{LineRule, Scene, SceneOptions};
 use guideway_spline::{Point, Runs};
 use guideway_tests::compare::{Tolerance, check};

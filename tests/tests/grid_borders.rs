@@ -1,7 +1,7 @@
 //! Lines entered in cells without their radius lose coverage across the borders of cells; entered with it,
 //! they do not.
 
-use guideway_render::{Budget, Frame};
+use guideway_scene::{Budget, Frame};
 use guideway_tests::compare::check;
 use guideway_tests::devices::{SMOOTH_EDGES, grid, here};
 use guideway_tests::methods::{draw, judge};

@@ -5,8 +5,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
 use std::thread;
 
-use guideway_gl::{Antialias, Commands, GlDevice, Tessellation, TessellationOptions};
-use guideway_render::{Budget, Frame, RenderError, Report};
+use guideway_scene::{Budget, Frame, RenderError, Report};
+use guideway_tessellation::{Antialias, Commands, GlDevice, Tessellation, TessellationOptions};
 use guideway_tests::devices::{gl, here};
 use guideway_tests::evidence;
 use guideway_tests::hairline::{Difference, Tolerance, check, drawing};

@@ -6,7 +6,7 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
-use guideway_render::{Budget, Frame, Method, RenderError};
+use guideway_scene::{Budget, Frame, Method, RenderError};
 use guideway_tests::compare::{Difference, check};
 use guideway_tests::evidence;
 use guideway_tests::methods::{Candidate, account, draw, judge, methods};

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use guideway_render::{Budget, Frame, Method};
+use guideway_scene::{Budget, Frame, Method};
 use guideway_tests::compare::{Tolerance, check};
 use guideway_tests::methods::{draw, judge, methods};
 use guideway_tests::random::Lcg;

@@ -18,7 +18,7 @@ use std::{env, fs};
 use anyhow::{Result, bail, ensure};
 use guideway_bench::Summary;
 use guideway_layout::Layout;
-use guideway_render::{Frame, FrameSize, View};
+use guideway_scene::{Frame, FrameSize, View};
 use serde_json::{Value, json};
 
 fn main() -> Result<()> {

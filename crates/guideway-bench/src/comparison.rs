@@ -1,14 +1,14 @@
 use std::sync::Arc;
 
-use guideway_render::{Budget, Cancel, FrameSize, Method, RenderError, Shading, Style, View};
 use guideway_scene::Scene;
+use guideway_scene::{Budget, Cancel, FrameSize, Method, RenderError, Shading, Style, View};
 use serde::{Deserialize, Serialize};
 
 use crate::edits::{Edits, Moves};
 use crate::measured::Fault;
-use crate::near::near;
 use crate::runner::{Frames, Runner, Shot};
-use crate::{Dress, Machine, Motion, Outcome, Row, Start, turns};
+use crate::zoomed_view::zoomed_view;
+use crate::{Dress, Machine, Motion, Outcome, Row, Start, interleaved};
 
 /// One case in which methods are compared.
 #[derive(Clone, Debug)]
@@ -125,7 +125,7 @@ pub fn compare(
     start: Start<'_>,
     cancel: &Cancel,
 ) -> Result<Comparison, RenderError> {
-    let view = near(contest.size, &contest.scene, contest.magnify)?;
+    let view = zoomed_view(contest.size, &contest.scene, contest.magnify)?;
     let is_edited = contest.motion == Motion::Edit;
     let shot = Shot {
         view,
@@ -180,7 +180,7 @@ fn outcomes(
         cancel.check()?;
         ready.push(runner.map(|runner| runners.push(runner)));
     }
-    let mut measured = turns::measure(&mut runners, shot, cancel)?.into_iter();
+    let mut measured = interleaved::measure(&mut runners, shot, cancel)?.into_iter();
     let outcome = |ready: Result<(), String>| match ready {
         Err(why_not) => Outcome::WhyNot(why_not),
         Ok(()) => match measured.next() {

@@ -45,7 +45,7 @@ impl Dataset {
 
     /// The same as [`Self::scene`] in less time, where a larger scene has it inside. D1 plans its halls for
     /// the whole number of paths, D2 throws one path after the other.
-    pub(crate) fn part(self, larger: &Scene, paths: usize) -> Option<Arc<Scene>> {
+    pub fn part(self, larger: &Scene, paths: usize) -> Option<Arc<Scene>> {
         match self {
             Self::D1 => None,
             Self::D2 => Some(plain_scene(first(larger.layout(), paths))),

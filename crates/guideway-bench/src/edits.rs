@@ -1,7 +1,7 @@
 use std::cell::OnceCell;
 use std::sync::Arc;
 
-use guideway_render::RenderError;
+use guideway_scene::RenderError;
 use guideway_scene::{Edit, Scene};
 use guideway_spline::{Affine, Point};
 
@@ -20,7 +20,7 @@ pub struct Moves {
 
 /// An edit that every other frame takes back.
 #[derive(Clone, Debug)]
-pub(crate) struct Edits {
+pub struct Edits {
     there_and_back: [Edit; 2],
     before: Arc<Scene>,
     /// Made when the first method asks for it.
@@ -29,7 +29,7 @@ pub(crate) struct Edits {
 
 impl Edits {
     /// Moves a share of the paths, evenly among all, and one at the least.
-    pub(crate) fn new(scene: &Arc<Scene>, moves: Moves) -> Self {
+    pub fn new(scene: &Arc<Scene>, moves: Moves) -> Self {
         let paths = spread(scene.row_count(), moves.share);
         Self {
             there_and_back: if moves.is_apart {
@@ -46,17 +46,17 @@ impl Edits {
     }
 
     /// Paths that each edit moves.
-    pub(crate) fn path_count(&self) -> usize {
+    pub fn path_count(&self) -> usize {
         self.there_and_back[0].paths().count()
     }
 
     /// What frame number `frame` changes.
-    pub(crate) fn edit(&self, frame: usize) -> &Edit {
+    pub fn edit(&self, frame: usize) -> &Edit {
         &self.there_and_back[frame % 2]
     }
 
     /// The scene that frame number `frame` shows, for a method that cannot change the one that it has.
-    pub(crate) fn scene(&self, frame: usize) -> Result<&Arc<Scene>, RenderError> {
+    pub fn scene(&self, frame: usize) -> Result<&Arc<Scene>, RenderError> {
         if frame % 2 == 1 {
             return Ok(&self.before);
         }

@@ -1,34 +1,35 @@
-//! Measures render methods side by side, and reproduces the thesis' tables and figures with them.
+//! Measures render methods side by side on the same frames.
 //!
-//! [`compare`] lets methods draw the same frames in turns. [`reproduce::reproduce`] follows a plan through
-//! every measurement of the thesis and writes down a run; [`report::files`] makes the page and the tables
-//! from that alone. No method is known by more than its name: the caller starts them ([`Start`]).
+//! [`compare`] renders the same frames with several methods, one frame each in turn ([`interleaved`]), and
+//! returns times, memory and work per method. A method is known by its name alone: the caller starts it
+//! ([`Start`]).
 
 mod comparison;
 mod dataset;
 mod dress;
 mod edits;
+pub mod format;
+pub mod interleaved;
 mod machine;
 mod measured;
 mod motion;
-mod near;
-pub mod report;
-pub mod reproduce;
-mod runner;
+pub mod runner;
 mod statistics;
-mod turns;
-mod words;
+mod zoomed_view;
 
-use guideway_render::Method;
+use guideway_scene::Method;
 
 pub use comparison::{Comparison, Contest, Contestant, SceneFacts, ViewFacts, compare};
 pub use dataset::{Dataset, plain_scene};
 pub use dress::Dress;
-pub use edits::Moves;
+pub use edits::{Edits, Moves};
 pub use machine::Machine;
-pub use measured::{FrameTime, Measured, Outcome, PathCounts, Prepare, Row, StageTime, WorkCounts};
+pub use measured::{
+    Fault, FrameTime, Measured, Outcome, PathCounts, Prepare, Row, StageTime, WorkCounts,
+};
 pub use motion::Motion;
 pub use statistics::Summary;
+pub use zoomed_view::zoomed_view;
 
-/// Starts the method of this name with its options, such as `grid+scan`, or says why it does not run here.
+/// Starts a method from its name and options, such as `grid+scan`; the error says why it cannot run here.
 pub type Start<'a> = &'a dyn Fn(&str) -> Result<Box<dyn Method>, String>;

@@ -1,6 +1,6 @@
 //! What was measured, as it is kept in files (docs/bench.md).
 
-use guideway_render::{Clock, Preparation, RenderError, Report, Work};
+use guideway_scene::{Clock, Preparation, RenderError, Report, Work};
 use serde::{Deserialize, Serialize};
 
 use crate::Summary;
@@ -164,7 +164,7 @@ impl From<Work> for WorkCounts {
 
 impl WorkCounts {
     /// The work of a frame of so many pixels.
-    pub(crate) fn of_frame(work: Work, pixels: usize) -> Self {
+    pub fn of_frame(work: Work, pixels: usize) -> Self {
         Self {
             tests_a_pixel: work.tests.map(|tests| tests as f64 / pixels as f64),
             ..Self::from(work)
@@ -173,7 +173,8 @@ impl WorkCounts {
 }
 
 impl Prepare {
-    pub(crate) fn new(preparation: &Preparation, wall_ms: f64) -> Self {
+    /// From what a method reports, and the wall time of preparation.
+    pub fn new(preparation: &Preparation, wall_ms: f64) -> Self {
         let stages = preparation.stages.iter();
         Self {
             // The sum of no stages is negative zero.
@@ -187,7 +188,7 @@ impl Prepare {
     }
 
     /// The mean of several times of making the same scene ready; none of none.
-    pub(crate) fn mean(all: &[Self]) -> Option<Self> {
+    pub fn mean(all: &[Self]) -> Option<Self> {
         let first = all.first()?;
         let mean = |of: &dyn Fn(&Self) -> f64| all.iter().map(of).sum::<f64>() / all.len() as f64;
         let stages = first.stages.iter().enumerate().map(|(i, stage)| StageTime {
@@ -204,7 +205,8 @@ impl Prepare {
 }
 
 impl StageTime {
-    pub(crate) fn new(name: &str, clock: Clock, ms: f64) -> Self {
+    /// The time of a named stage by one clock.
+    pub fn new(name: &str, clock: Clock, ms: f64) -> Self {
         Self {
             name: name.to_owned(),
             clock: match clock {
@@ -230,7 +232,7 @@ impl From<&Report> for PathCounts {
 
 /// Why a method was not measured.
 #[derive(Debug, thiserror::Error)]
-pub(crate) enum Fault {
+pub enum Fault {
     /// It refused or failed, with what to do about it where that is known.
     #[error("{}", with_remedy(.0))]
     Method(#[from] RenderError),

@@ -1,4 +1,4 @@
-use guideway_render::{RenderError, View};
+use guideway_scene::{RenderError, View};
 use guideway_spline::Point;
 use serde::{Deserialize, Serialize};
 
@@ -52,7 +52,7 @@ impl Motion {
 
 #[cfg(test)]
 mod tests {
-    use guideway_render::FrameSize;
+    use guideway_scene::FrameSize;
 
     use super::*;
 

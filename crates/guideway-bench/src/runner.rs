@@ -1,18 +1,20 @@
+//! One method under measurement: prepares a scene once, then draws and times its frames.
+
 use std::sync::Arc;
 use std::time::Instant;
 
-use guideway_render::{
+use guideway_scene::Scene;
+use guideway_scene::{
     Budget, Cancel, Edited, Frame, FrameSize, Method, Prepared, RenderError, Report, Style, View,
     Work, elapsed_ms,
 };
-use guideway_scene::Scene;
 
 use crate::Motion;
 use crate::edits::Edits;
 use crate::measured::Prepare;
 
 /// A method with a scene made ready.
-pub(crate) struct Runner<'m> {
+pub struct Runner<'m> {
     method: &'m dyn Method,
     budget: Budget,
     prepared: Box<dyn Prepared>,
@@ -22,53 +24,54 @@ pub(crate) struct Runner<'m> {
 
 /// What is drawn, and how often.
 #[derive(Clone)]
-pub(crate) struct Shot {
+pub struct Shot {
     /// What the first frame sees.
-    pub(crate) view: View,
+    pub view: View,
     /// What changes from frame to frame.
-    pub(crate) motion: Motion,
+    pub motion: Motion,
     /// What [`Motion::Edit`] changes.
-    pub(crate) edits: Option<Edits>,
+    pub edits: Option<Edits>,
     /// How it looks.
-    pub(crate) style: Style,
+    pub style: Style,
     /// How often.
-    pub(crate) frames: Frames,
+    pub frames: Frames,
 }
 
 /// How many frames are taken.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Frames {
+pub struct Frames {
     /// Frames after the first that do not count.
-    pub(crate) warmup: usize,
+    pub warmup: usize,
     /// Frames that count.
-    pub(crate) count: usize,
+    pub count: usize,
     /// Once a method has drawn for so long, one frame that counts is enough.
-    pub(crate) enough_ms: f64,
+    pub enough_ms: f64,
 }
 
 /// One drawn frame.
-pub(crate) struct Sample {
+pub struct Sample {
     /// Until the picture was complete where it was made, with the update.
-    pub(crate) frame_ms: f64,
+    pub frame_ms: f64,
     /// Seen from outside.
-    pub(crate) wall_ms: f64,
+    pub wall_ms: f64,
     /// Making the changed scene ready.
-    pub(crate) update: Option<Update>,
+    pub update: Option<Update>,
     /// What the method says.
-    pub(crate) report: Report,
+    pub report: Report,
 }
 
 /// Making a changed scene ready.
 #[derive(Clone, Copy)]
-pub(crate) struct Update {
-    pub(crate) ms: f64,
+pub struct Update {
+    /// Wall time in milliseconds.
+    pub ms: f64,
     /// Brought to the device; none where all of the scene was made ready anew.
-    pub(crate) bytes: Option<u64>,
+    pub bytes: Option<u64>,
 }
 
 impl<'m> Runner<'m> {
     /// Makes a scene ready.
-    pub(crate) fn new(
+    pub fn new(
         method: &'m dyn Method,
         scene: &Arc<Scene>,
         budget: Budget,
@@ -84,18 +87,18 @@ impl<'m> Runner<'m> {
     }
 
     /// What making the scene ready took, the first time.
-    pub(crate) fn preparation(&self) -> &Prepare {
+    pub fn preparation(&self) -> &Prepare {
         &self.prepare
     }
 
     /// Bytes held from frame to frame, and most held while making ready.
-    pub(crate) fn held_and_peak_bytes(&self) -> (u64, u64) {
+    pub fn held_and_peak_bytes(&self) -> (u64, u64) {
         let preparation = self.prepared.preparation();
         (preparation.held_bytes, preparation.peak_bytes)
     }
 
     /// Draws one picture and returns it.
-    pub(crate) fn picture(
+    pub fn picture(
         &mut self,
         view: &View,
         style: &Style,
@@ -106,7 +109,7 @@ impl<'m> Runner<'m> {
     }
 
     /// Draws frame `number` of a shot.
-    pub(crate) fn draw(
+    pub fn draw(
         &mut self,
         shot: &Shot,
         number: usize,
@@ -146,7 +149,7 @@ impl<'m> Runner<'m> {
     }
 
     /// Counts the work of the first frame of a shot.
-    pub(crate) fn count_work(&mut self, shot: &Shot, cancel: &Cancel) -> Result<Work, RenderError> {
+    pub fn count_work(&mut self, shot: &Shot, cancel: &Cancel) -> Result<Work, RenderError> {
         self.prepared.count_work(&shot.view, &shot.style, cancel)
     }
 }
@@ -165,7 +168,7 @@ fn prepare(
 #[cfg(test)]
 mod tests {
     use guideway_cpu::Oracle;
-    use guideway_render::{MethodInfo, Preparation};
+    use guideway_scene::{MethodInfo, Preparation};
 
     use super::*;
     use crate::{Dataset, Moves};

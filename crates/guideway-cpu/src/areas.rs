@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-use guideway_render::{Frame, Strip, View};
 use guideway_scene::Rgba;
+use guideway_scene::{Frame, Strip, View};
 use guideway_spline::Point;
 use rayon::prelude::*;
 

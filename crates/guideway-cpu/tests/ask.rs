@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use guideway_cpu::Cpu;
 use guideway_layout::{Layout, NewPath, OwnStyle};
-use guideway_render::{Budget, Cancel, FrameSize, Method, NO_PATH, Prepared, Style, View};
+use guideway_scene::{Budget, Cancel, FrameSize, Method, NO_PATH, Prepared, Style, View};
 use guideway_scene::{Edit, LineRule, PathState, Scene, SceneOptions};
 use guideway_spline::{Point, Runs, uniform};
 
@@ -16,7 +16,7 @@ const STYLE: Style = Style {
         min_px: 1.0,
         max_px: 40.0,
     },
-    shading: guideway_render::Shading::Color,
+    shading: guideway_scene::Shading::Color,
     background: guideway_scene::Rgba::WHITE,
 };
 

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use guideway_cpu::Cpu;
 use guideway_layout::{Layout, NewPath};
-use guideway_render::{Budget, Cancel, Frame, FrameSize, Method, Style, View};
+use guideway_scene::{Budget, Cancel, Frame, FrameSize, Method, Style, View};
 use guideway_scene::{Scene, SceneOptions};
 use guideway_spline::{Point, Runs};
 

@@ -1,6 +1,6 @@
 //! Round numbers for a grid and a scale bar.
 
-use guideway_render::View;
+use guideway_scene::View;
 use guideway_spline::Point;
 
 /// The least of 1, 2 and 5 times a power of ten that is at least `least`, which is above zero.
@@ -41,7 +41,7 @@ pub fn grid_lines_px(view: &View, least_px: f64) -> [Vec<f64>; 2] {
 
 #[cfg(test)]
 mod tests {
-    use guideway_render::FrameSize;
+    use guideway_scene::FrameSize;
 
     use super::*;
 

@@ -1,16 +1,12 @@
 //! Render methods on graphics devices, by compute shaders through wgpu.
 //!
-//! [`Gpu`] is the device, to be shared by methods. [`Tiles`] is method `gpu`, [`Grid`] the per-pixel method of the thesis
-//! (section 4.3), with the improvements that it names as options.
+//! [`Gpu`] is the device, shared by methods; [`device`] has the buffers, kernels and submissions that a
+//! method is made of. [`Tiles`] is method `gpu`.
 
-mod device;
-mod grid;
-#[cfg(test)]
-mod reflection;
-#[cfg(test)]
-mod testing;
+pub mod device;
+#[cfg(any(test, feature = "testing"))]
+pub mod testing;
 mod tiles;
 
 pub use device::{Gpu, GpuOptions};
-pub use grid::{Antialias, Binning, Grid, GridOptions, PrefixSum};
 pub use tiles::{Tiles, TilesOptions};

@@ -1,5 +1,5 @@
 use guideway_document::Trail;
-use guideway_render::{FrameSize, View};
+use guideway_scene::{FrameSize, View};
 use guideway_spline::{Bounds, Point};
 
 /// What is looked at, and where one has looked before. Positions in the picture are pixels of the screen.

@@ -4,8 +4,8 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use guideway_layout::Layout;
-use guideway_render::{Frame, Method, Sheet, Style, View};
 use guideway_scene::Scene;
+use guideway_scene::{Frame, Method, Sheet, Style, View};
 use guideway_spline::Bounds;
 
 /// What the viewer needs of the program around it: files and ways of drawing. Called from several threads.

@@ -1,7 +1,7 @@
 //! The window in which layouts are looked at and edited.
 //!
 //! It shows and asks, and holds no algorithm: what is edited is a
-//! [`Document`](guideway_document::Document), what draws is a [`Method`](guideway_render::Method), and files are
+//! [`Document`](guideway_document::Document), what draws is a [`Method`](guideway_scene::Method), and files are
 //! the business of its [`Host`]. Reading, drawing and saving happen beside the window: it shows the last picture
 //! where it now belongs, until the next one is there.
 

@@ -11,7 +11,7 @@ use eframe::egui::{
     Rect, TouchPhase, Vec2,
 };
 use guideway_document::{Combine, Document, Rows};
-use guideway_render::elapsed_ms;
+use guideway_scene::elapsed_ms;
 use guideway_spline::{Bounds, Point};
 
 use crate::Opening;

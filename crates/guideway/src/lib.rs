@@ -37,7 +37,7 @@ pub use guideway_cpu as cpu;
 pub use guideway_envelope as envelope;
 pub use guideway_formats as formats;
 pub use guideway_layout as layout;
-pub use guideway_render as render;
+pub use guideway_scene as render;
 pub use guideway_scene as scene;
 pub use guideway_spline as spline;
 

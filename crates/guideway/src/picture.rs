@@ -2,7 +2,7 @@ use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
-use guideway_render::{Frame, FrameSize};
+use guideway_scene::{Frame, FrameSize};
 
 use crate::{SaveError, replace_file};
 

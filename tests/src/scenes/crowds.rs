@@ -2,8 +2,8 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use guideway_render::density::ToneMap;
 use guideway_scene::LineRule;
+use guideway_scene::density::ToneMap;
 
 use super::shapes::LOOP;
 use super::{SceneCase, case};

@@ -35,7 +35,7 @@ pub(super) fn cases() -> Vec<SceneCase> {
     cases.extend([
         case("nothing/empty-layout", || Sketch::new(64, 48)),
         case("nothing/empty-layout-of-density", || {
-            Sketch::new(64, 48).density(guideway_render::density::ToneMap::Log)
+            Sketch::new(64, 48).density(guideway_scene::density::ToneMap::Log)
         }),
         case("nothing/everything-outside", || {
             Sketch::new(64, 48)

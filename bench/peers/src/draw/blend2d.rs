@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use anyhow::{Result, ensure};
 use guideway_layout::{Layout, PathRef};
-use guideway_render::{Frame, View};
+use guideway_scene::{Frame, View};
 
 use super::{FRAMES, WIDTH_PX, curves, store_words, time};
 

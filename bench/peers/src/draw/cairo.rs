@@ -3,7 +3,7 @@ use std::sync::Arc;
 use anyhow::Result;
 use cairo::{Context, Format, ImageSurface, LineCap, LineJoin};
 use guideway_layout::Layout;
-use guideway_render::{Frame, View};
+use guideway_scene::{Frame, View};
 
 use super::{FRAMES, WIDTH_PX, curves, store_words, time};
 

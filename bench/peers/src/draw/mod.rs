@@ -17,7 +17,7 @@ use std::time::Instant;
 
 use anyhow::{Result, bail};
 use guideway_layout::{Layout, PathRef};
-use guideway_render::{Frame, View, elapsed_ms};
+use guideway_scene::{Frame, View, elapsed_ms};
 use guideway_spline::{Point, uniform};
 
 pub(crate) use ours::oracle;

@@ -4,7 +4,7 @@ use anyhow::Result;
 use guideway_bench::Motion;
 use guideway_cpu::{Cpu, Oracle};
 use guideway_layout::Layout;
-use guideway_render::{Budget, Cancel, Frame, Method, Style, View};
+use guideway_scene::{Budget, Cancel, Frame, Method, Style, View};
 use guideway_scene::{LineRule, Scene, SceneOptions};
 
 use super::{OWN_FRAMES, WIDTH_PX, time};

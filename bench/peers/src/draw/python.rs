@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use anyhow::{Context, Result, ensure};
 use guideway_layout::Layout;
-use guideway_render::{Frame, View};
+use guideway_scene::{Frame, View};
 
 use super::{FRAMES, WIDTH_PX, curves};
 

@@ -2,7 +2,7 @@ use std::sync::Arc;
 
 use anyhow::{Context, Result};
 use guideway_layout::{Layout, PathRef};
-use guideway_render::{Frame, View};
+use guideway_scene::{Frame, View};
 use tiny_skia::{Color, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, Stroke, Transform};
 
 use super::{FRAMES, WIDTH_PX, curves, time};

@@ -2,7 +2,7 @@ use std::sync::Arc;
 
 use anyhow::Result;
 use guideway_layout::{Layout, PathRef};
-use guideway_render::{Frame, View};
+use guideway_scene::{Frame, View};
 use vello_cpu::color::palette::css;
 use vello_cpu::kurbo::{BezPath, Cap, Join, Rect, Stroke};
 use vello_cpu::{Pixmap, RenderContext, RenderSettings, Resources};

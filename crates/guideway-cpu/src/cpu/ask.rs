@@ -2,8 +2,8 @@
 
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 
-use guideway_render::{NO_PATH, RenderError};
 use guideway_scene::PathState;
+use guideway_scene::{NO_PATH, RenderError};
 use guideway_spline::{Bounds, Point};
 use rayon::prelude::*;
 
@@ -23,7 +23,7 @@ pub(super) struct Question<'a> {
 }
 
 impl Question<'_> {
-    /// See [`guideway_render::Prepared::top_paths`].
+    /// See [`guideway_scene::Prepared::top_paths`].
     pub(super) fn top_paths(&self) -> Result<Vec<u32>, RenderError> {
         let [width, height] = {
             let size = self.shot.view.size();
@@ -47,7 +47,7 @@ impl Question<'_> {
         Ok(tops.into_iter().map(path).collect())
     }
 
-    /// See [`guideway_render::Prepared::paths_in`].
+    /// See [`guideway_scene::Prepared::paths_in`].
     pub(super) fn paths_in(&self) -> Result<Vec<u32>, RenderError> {
         let picture = self.shot.picture_px();
         let rows = self.shot.scene.row_count();

@@ -6,7 +6,7 @@
 use std::ops::Range;
 use std::sync::atomic::{AtomicU32, Ordering};
 
-use guideway_render::{Style, View};
+use guideway_scene::{Style, View};
 use guideway_spline::Point;
 
 use super::canvas::{Rows, TILE_PX};

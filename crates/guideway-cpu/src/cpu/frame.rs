@@ -5,8 +5,8 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
-use guideway_render::density::{ToneMap, Tones};
-use guideway_render::{Frame, RenderError, Shading, Stage, Style, View, elapsed_ms};
+use guideway_scene::density::{ToneMap, Tones};
+use guideway_scene::{Frame, RenderError, Shading, Stage, Style, View, elapsed_ms};
 use rayon::prelude::*;
 
 use super::bins::Bins;

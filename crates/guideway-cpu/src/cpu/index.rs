@@ -1,4 +1,4 @@
-use guideway_render::{Cancel, Shading, Strip, Style};
+use guideway_scene::{Cancel, Shading, Strip, Style};
 use guideway_scene::{Rgba, Scene};
 use guideway_spline::{Affine, Bounds};
 use rayon::prelude::*;

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use guideway_render::{FrameSize, Style};
+use guideway_scene::{FrameSize, Style};
 use guideway_spline::{Bounds, Point};
 use rayon::prelude::*;
 

@@ -50,8 +50,8 @@ mod vectors;
 
 use std::sync::Arc;
 
-use guideway_render::{Budget, Method, MethodInfo, Prepared, RenderError};
 use guideway_scene::Scene;
+use guideway_scene::{Budget, Method, MethodInfo, Prepared, RenderError};
 
 /// Lanes that work beside each other: rows of samples of a pixel, or lines. One vector of AVX-512, two of
 /// AVX2, four of SSE and NEON.

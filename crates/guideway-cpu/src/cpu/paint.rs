@@ -3,7 +3,7 @@ use std::sync::Mutex;
 
 use bytemuck::cast_slice_mut;
 use guideway_layout::ask_for;
-use guideway_render::RenderError;
+use guideway_scene::RenderError;
 use guideway_scene::Rgba;
 use guideway_spline::Point;
 use rayon::prelude::*;

@@ -1,6 +1,6 @@
 //! Where the world lies in the picture, so that a picture moved by whole pixels is the same to the bit.
 
-use guideway_render::View;
+use guideway_scene::View;
 use guideway_spline::Point;
 
 /// Steps of a pixel that clusters and all their lines are rounded to.
@@ -65,7 +65,7 @@ pub(super) fn power_of_two_below(x: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use guideway_render::FrameSize;
+    use guideway_scene::FrameSize;
 
     use super::*;
 

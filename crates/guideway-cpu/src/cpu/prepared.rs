@@ -2,8 +2,8 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use bytemuck::cast_slice;
-use guideway_render::density::Tones;
-use guideway_render::{
+use guideway_scene::density::Tones;
+use guideway_scene::{
     Budget, Cancel, Edited, Frame, Preparation, Prepared, RenderError, Report, Shading, Stage,
     Strip, Style, View, elapsed_ms,
 };
@@ -42,7 +42,7 @@ pub(super) struct CpuPrepared {
     pub(super) lane_width: LaneWidth,
 }
 
-/// See [`guideway_render::Method::plan_bytes`].
+/// See [`guideway_scene::Method::plan_bytes`].
 pub(super) fn plan_bytes(scene: &Scene, budget: &Budget) -> u64 {
     let frame = PLANNED_PIXELS * size_of::<[u8; 4]>() as u64;
     let lines = scene.row_count() as u64 * PLANNED_PATH_BYTES;

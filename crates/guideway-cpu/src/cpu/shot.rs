@@ -1,6 +1,6 @@
 use std::ops::Range;
 
-use guideway_render::{Cancel, Strip, Style, View};
+use guideway_scene::{Cancel, Strip, Style, View};
 use guideway_scene::{Rgba, Scene};
 use guideway_spline::{Bounds, Point};
 

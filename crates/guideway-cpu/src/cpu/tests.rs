@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use guideway_layout::{Layout, NewPath, OwnStyle};
-use guideway_render::density::ToneMap;
-use guideway_render::{
+use guideway_scene::density::ToneMap;
+use guideway_scene::{
     Budget, Cancel, Edited, Frame, FrameSize, Method, Prepared, RenderError, Report, Shading,
     Style, View,
 };

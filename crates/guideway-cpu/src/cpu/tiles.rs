@@ -1,6 +1,6 @@
 use std::ops::Range;
 
-use guideway_render::Strip;
+use guideway_scene::Strip;
 
 use super::canvas::TILE_PX;
 
@@ -151,7 +151,7 @@ fn tiles(range_px: &Range<usize>) -> Range<usize> {
 
 #[cfg(test)]
 mod tests {
-    use guideway_render::{FrameSize, View};
+    use guideway_scene::{FrameSize, View};
     use guideway_spline::Point;
 
     use super::*;

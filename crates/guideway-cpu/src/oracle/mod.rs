@@ -12,7 +12,7 @@ mod tests;
 use std::sync::Arc;
 use std::time::Instant;
 
-use guideway_render::{
+use guideway_scene::{
     Budget, Cancel, Edited, Frame, Method, MethodInfo, Preparation, Prepared, RenderError, Report,
     Shading, Stage, Style, View, density, elapsed_ms,
 };

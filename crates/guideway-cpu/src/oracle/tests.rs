@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 
 use guideway_layout::{Layout, NewPath};
-use guideway_render::density::ToneMap;
-use guideway_render::{
+use guideway_scene::density::ToneMap;
+use guideway_scene::{
     Budget, Cancel, Frame, FrameSize, Method, RenderError, Report, Shading, Style, View,
 };
 use guideway_scene::{LineRule, Rgba, Scene, SceneOptions};
@@ -240,7 +240,7 @@ fn density_is_the_mean_number_of_paths() {
     let mut counts = [0.0; 80];
     counts[20..30].fill(1.5);
     counts[30..40].fill(0.5);
-    guideway_render::density::shade(&counts, ToneMap::Linear, Rgba::WHITE, &mut expected);
+    guideway_scene::density::shade(&counts, ToneMap::Linear, Rgba::WHITE, &mut expected);
     let (frame, _) = draw(
         layout(&[half_a_row, row]),
         Rgba::BLACK,

@@ -1,5 +1,5 @@
 use guideway_layout::{Direction, PathRef};
-use guideway_render::View;
+use guideway_scene::View;
 use guideway_spline::{Bounds, Point, nearest_on_run, segment_length, uniform};
 
 use super::Arrow;

@@ -1,4 +1,4 @@
-use guideway_render::View;
+use guideway_scene::View;
 use guideway_spline::Point;
 
 use super::MOST_MARKED;

@@ -1,4 +1,4 @@
-use guideway_render::FrameSize;
+use guideway_scene::FrameSize;
 use guideway_spline::{Bounds, Point};
 
 /// Most names in one view.

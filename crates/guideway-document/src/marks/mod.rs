@@ -10,7 +10,7 @@ mod labels;
 mod outline;
 mod shapes;
 
-use guideway_render::View;
+use guideway_scene::View;
 use guideway_scene::{LineRule, PathState};
 use guideway_spline::Point;
 

@@ -1,5 +1,5 @@
 use guideway_layout::PathRef;
-use guideway_render::View;
+use guideway_scene::View;
 use guideway_spline::{Bounds, Point, uniform};
 
 use crate::{Document, Rows};

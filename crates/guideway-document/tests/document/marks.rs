@@ -1,8 +1,8 @@
 use guideway_document::marks::{LabelSize, MOST_MARKED, MarkOptions, Outline, marks, outline};
 use guideway_document::{Combine, Rows, Twins};
 use guideway_layout::{Layout, NewPath};
-use guideway_render::View;
 use guideway_scene::LineRule;
+use guideway_scene::View;
 use guideway_spline::{Point, Runs};
 
 use crate::site::{document_of, lanes, p, view};

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use guideway_document::Document;
 use guideway_layout::{Direction, Layout, NewPath, Value};
-use guideway_render::{FrameSize, View};
+use guideway_scene::{FrameSize, View};
 use guideway_scene::{Scene, SceneOptions};
 use guideway_spline::{Point, Runs};
 

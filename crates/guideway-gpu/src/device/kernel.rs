@@ -3,18 +3,18 @@
 use super::{DeviceBuffer, Gpu};
 
 /// A compute shader.
-pub(crate) struct Source {
+pub struct Source {
     /// What it does, for messages.
-    pub(crate) name: &'static str,
+    pub name: &'static str,
     /// WGSL, with the entry point `main`.
-    pub(crate) wgsl: &'static str,
+    pub wgsl: &'static str,
     /// The variables that it binds, in the order of their bindings in group 0.
-    pub(crate) bindings: &'static [&'static str],
+    pub bindings: &'static [&'static str],
 }
 
 /// A compute pipeline. Clones share it.
 #[derive(Clone)]
-pub(crate) struct Kernel {
+pub struct Kernel {
     name: &'static str,
     pub(super) pipeline: wgpu::ComputePipeline,
     layout: wgpu::BindGroupLayout,
@@ -22,15 +22,11 @@ pub(crate) struct Kernel {
 }
 
 /// The buffers of one kernel, in the order of [`Source::bindings`].
-pub(crate) struct Bindings(pub(super) wgpu::BindGroup);
+pub struct Bindings(pub(super) wgpu::BindGroup);
 
 impl Kernel {
     /// Compiles it, with these values for its overrides.
-    pub(crate) fn new(
-        gpu: &Gpu,
-        source: &Source,
-        constants: &[(&str, f64)],
-    ) -> Result<Self, String> {
+    pub fn new(gpu: &Gpu, source: &Source, constants: &[(&str, f64)]) -> Result<Self, String> {
         let what = format!("the shader `{}` cannot be compiled", source.name);
         let device = &gpu.device;
         gpu.checked(&what, || {
@@ -57,7 +53,7 @@ impl Kernel {
     }
 
     /// Binds buffers, one a binding.
-    pub(crate) fn bind(&self, gpu: &Gpu, buffers: &[&DeviceBuffer]) -> Result<Bindings, String> {
+    pub fn bind(&self, gpu: &Gpu, buffers: &[&DeviceBuffer]) -> Result<Bindings, String> {
         debug_assert_eq!(buffers.len(), self.bindings, "{}", self.name);
         let entries: Vec<_> = (0..)
             .zip(buffers)

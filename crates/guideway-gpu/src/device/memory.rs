@@ -3,13 +3,13 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use guideway_render::{Budget, RenderError};
+use guideway_scene::{Budget, RenderError};
 use wgpu::BufferUsages;
 
 use super::Gpu;
 
 /// What one prepared scene may hold, and what it holds.
-pub(crate) struct Memory {
+pub struct Memory {
     gpu: Arc<Gpu>,
     method: &'static str,
     budget_bytes: u64,
@@ -18,7 +18,7 @@ pub(crate) struct Memory {
 }
 
 /// A part of the budget, given back when dropped.
-pub(crate) struct Held {
+pub struct Held {
     bytes: u64,
     all: Arc<AtomicU64>,
 }
@@ -30,23 +30,26 @@ impl Drop for Held {
 }
 
 /// A buffer on the device, and its part of the budget.
-pub(crate) struct DeviceBuffer {
+pub struct DeviceBuffer {
     buffer: wgpu::Buffer,
     _held: Held,
 }
 
 impl DeviceBuffer {
-    pub(crate) fn raw(&self) -> &wgpu::Buffer {
+    /// The buffer itself.
+    pub fn raw(&self) -> &wgpu::Buffer {
         &self.buffer
     }
 
-    pub(crate) fn bytes(&self) -> u64 {
+    /// Size of the buffer in bytes.
+    pub fn bytes(&self) -> u64 {
         self.buffer.size()
     }
 }
 
 impl Memory {
-    pub(crate) fn new(gpu: Arc<Gpu>, method: &'static str, budget: &Budget) -> Self {
+    /// An empty account of `method` against a budget.
+    pub fn new(gpu: Arc<Gpu>, method: &'static str, budget: &Budget) -> Self {
         Self {
             gpu,
             method,
@@ -57,23 +60,23 @@ impl Memory {
     }
 
     /// Bytes held now.
-    pub(crate) fn held_bytes(&self) -> u64 {
+    pub fn held_bytes(&self) -> u64 {
         self.held_bytes.load(Ordering::Relaxed)
     }
 
     /// Bytes that may yet be held.
-    pub(crate) fn spare_bytes(&self) -> u64 {
+    pub fn spare_bytes(&self) -> u64 {
         self.budget_bytes.saturating_sub(self.held_bytes())
     }
 
     /// Most bytes held at once since it was last asked.
-    pub(crate) fn take_peak_bytes(&mut self) -> u64 {
+    pub fn take_peak_bytes(&mut self) -> u64 {
         let held_bytes = self.held_bytes();
         std::mem::replace(&mut self.peak_bytes, held_bytes)
     }
 
     /// Takes a part of the budget for memory outside of the device.
-    pub(crate) fn hold(&mut self, what: &'static str, bytes: u64) -> Result<Held, RenderError> {
+    pub fn hold(&mut self, what: &'static str, bytes: u64) -> Result<Held, RenderError> {
         let needed_bytes = self.held_bytes().saturating_add(bytes);
         if needed_bytes > self.budget_bytes {
             return Err(RenderError::Budget {
@@ -92,7 +95,7 @@ impl Memory {
     }
 
     /// A buffer of zeros.
-    pub(crate) fn zeros(
+    pub fn zeros(
         &mut self,
         what: &'static str,
         bytes: u64,
@@ -102,7 +105,7 @@ impl Memory {
     }
 
     /// A buffer of these values, for shaders to read. At least one.
-    pub(crate) fn upload<T: bytemuck::NoUninit>(
+    pub fn upload<T: bytemuck::NoUninit>(
         &mut self,
         what: &'static str,
         values: &[T],
@@ -142,7 +145,7 @@ impl Memory {
     }
 
     /// What the device did, as an error of the method.
-    pub(crate) fn trouble(&self, what: String) -> RenderError {
+    pub fn trouble(&self, what: String) -> RenderError {
         RenderError::Device {
             method: self.method,
             what,

@@ -10,10 +10,10 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use wgpu::{DeviceType, ErrorFilter};
 
-pub(crate) use kernel::{Bindings, Kernel, Source};
-pub(crate) use memory::{DeviceBuffer, Held, Memory};
+pub use kernel::{Bindings, Kernel, Source};
+pub use memory::{DeviceBuffer, Held, Memory};
 pub(crate) use patch::{Patch, Patcher};
-pub(crate) use runner::{Dispatch, FETCHED, Runner};
+pub use runner::{Dispatch, FETCHED, Runner};
 
 /// What a device is asked to do with less than it could: for tests, and to stand in for a weaker one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -106,30 +106,31 @@ impl Gpu {
     }
 
     /// How many threads at most run in step and see each other's values; none if they do not.
-    pub(crate) fn most_lanes(&self) -> Option<u32> {
+    pub fn most_lanes(&self) -> Option<u32> {
         let has_lanes = self.device.features().contains(wgpu::Features::SUBGROUP);
         has_lanes.then_some(self.info.subgroup_max_size)
     }
 
     /// How many threads run in step, always as many, where the device is a processor: there each thread that waits for others,
     /// and each operation on memory that they share, takes long.
-    pub(crate) fn processor_lanes(&self) -> Option<u32> {
+    pub fn processor_lanes(&self) -> Option<u32> {
         let (least, most) = (self.info.subgroup_min_size, self.most_lanes()?);
         let is_meant = self.is_software() && !self.options.as_hardware && least == most;
         is_meant.then_some(most)
     }
 
-    pub(crate) fn options(&self) -> GpuOptions {
+    /// The limits that the device was opened with.
+    pub fn options(&self) -> GpuOptions {
         self.options
     }
 
     /// Most buffers of storage that a shader may see.
-    pub(crate) fn storage_bindings(&self) -> u32 {
+    pub fn storage_bindings(&self) -> u32 {
         self.device.limits().max_storage_buffers_per_shader_stage
     }
 
     /// Most bytes that a shader may see of one buffer.
-    pub(crate) fn binding_bytes(&self) -> u64 {
+    pub fn binding_bytes(&self) -> u64 {
         let limits = self.device.limits();
         limits
             .max_storage_buffer_binding_size
@@ -137,14 +138,14 @@ impl Gpu {
     }
 
     /// Most workgroups of one dispatch, in rows of as many as fit one dimension.
-    pub(crate) fn most_workgroups(&self) -> u32 {
+    pub fn most_workgroups(&self) -> u32 {
         let side = self.device.limits().max_compute_workgroups_per_dimension;
         side.saturating_mul(side)
     }
 
     /// How many distance tests, or work of that size, a device of this kind does in about 100 ms even if
     /// it is a slow one: what is submitted at a time, so that the computer stays usable.
-    pub(crate) fn tests_a_submit(&self) -> u64 {
+    pub fn tests_a_submit(&self) -> u64 {
         match self.info.device_type {
             DeviceType::DiscreteGpu => 20_000_000_000,
             DeviceType::IntegratedGpu | DeviceType::VirtualGpu | DeviceType::Other => 2_000_000_000,
@@ -153,7 +154,7 @@ impl Gpu {
     }
 
     /// Most times that a thread may go round its loops, all loops together.
-    pub(crate) fn rounds_a_thread(&self) -> u32 {
+    pub fn rounds_a_thread(&self) -> u32 {
         let safe = if self.is_software() {
             // Mesa's llvmpipe leaves every loop of a thread at round 65,535, without a word
             // (`LP_MAX_TGSI_LOOP_ITERATIONS`).
@@ -207,8 +208,8 @@ impl Gpu {
     }
 
     /// Takes the device away, as a driver that crashed does.
-    #[cfg(test)]
-    pub(crate) fn lose(&self) {
+    #[cfg(any(test, feature = "testing"))]
+    pub fn lose(&self) {
         self.device.destroy();
     }
 }

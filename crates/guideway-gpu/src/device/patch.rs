@@ -1,6 +1,6 @@
 //! Changes of parts of buffers, many small ones at once.
 
-use guideway_render::RenderError;
+use guideway_scene::RenderError;
 use wgpu::BufferUsages;
 
 use super::{Bindings, DeviceBuffer, Dispatch, Gpu, Kernel, Memory, Runner, Source};
@@ -129,7 +129,7 @@ impl Patcher {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::reflection::{assert_binds_what_it_is_given, assert_laid_out, members};
+    use crate::testing::reflection::{assert_binds_what_it_is_given, assert_laid_out, members};
 
     #[test]
     fn the_shader_is_what_it_is_taken_for() {

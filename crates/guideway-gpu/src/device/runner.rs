@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
 
-use guideway_render::{Clock, RenderError, Stage, elapsed_ms};
+use guideway_scene::{Clock, RenderError, Stage, elapsed_ms};
 use wgpu::BufferUsages;
 
 use super::kernel::Bindings;
@@ -20,7 +20,7 @@ const MOST_STAGES: usize = 12;
 const TICKS_BYTES: u64 = (MOST_STAGES * 2) as u64 * wgpu::QUERY_SIZE as u64;
 
 /// Submits work and waits for it, so that a caller may stop between two submits and none piles up.
-pub(crate) struct Runner {
+pub struct Runner {
     gpu: Arc<Gpu>,
     clock: Option<DeviceClock>,
 }
@@ -33,10 +33,13 @@ struct DeviceClock {
 }
 
 /// A kernel over so many workgroups.
-pub(crate) struct Dispatch<'a> {
-    pub(crate) kernel: &'a Kernel,
-    pub(crate) bindings: &'a Bindings,
-    pub(crate) workgroups: u32,
+pub struct Dispatch<'a> {
+    /// The pipeline to run.
+    pub kernel: &'a Kernel,
+    /// Its buffers.
+    pub bindings: &'a Bindings,
+    /// Number of workgroups.
+    pub workgroups: u32,
 }
 
 /// Bytes of a buffer that a submission fills.
@@ -48,7 +51,11 @@ struct Coming<'a> {
 }
 
 impl Runner {
-    pub(crate) fn new(gpu: Arc<Gpu>, memory: &mut Memory) -> Result<Self, RenderError> {
+    /// A runner on a device, with a clock where the device has one.
+    ///
+    /// # Errors
+    /// When the clock's buffers do not fit the budget.
+    pub fn new(gpu: Arc<Gpu>, memory: &mut Memory) -> Result<Self, RenderError> {
         let clock = match gpu.tick_ns {
             None => None,
             Some(tick_ns) => {
@@ -72,7 +79,7 @@ impl Runner {
     }
 
     /// A stage of so many milliseconds, by the clock that times what this runs.
-    pub(crate) fn stage(&self, name: &'static str, elapsed_ms: f64) -> Stage {
+    pub fn stage(&self, name: &'static str, elapsed_ms: f64) -> Stage {
         let clock = match self.clock {
             Some(_) => Clock::Device,
             None => Clock::Host,
@@ -85,7 +92,7 @@ impl Runner {
     }
 
     /// Sets a buffer that shaders read, from the next submit on.
-    pub(crate) fn set<T: bytemuck::NoUninit>(
+    pub fn set<T: bytemuck::NoUninit>(
         &self,
         what: &'static str,
         buffer: &DeviceBuffer,
@@ -95,7 +102,7 @@ impl Runner {
     }
 
     /// As [`Self::set`], for the first of many values.
-    pub(crate) fn set_all<T: bytemuck::NoUninit>(
+    pub fn set_all<T: bytemuck::NoUninit>(
         &self,
         what: &'static str,
         buffer: &DeviceBuffer,
@@ -105,7 +112,7 @@ impl Runner {
     }
 
     /// As [`Self::set_all`], for values behind a number of others.
-    pub(crate) fn set_from<T: bytemuck::NoUninit>(
+    pub fn set_from<T: bytemuck::NoUninit>(
         &self,
         what: &'static str,
         buffer: &DeviceBuffer,
@@ -120,11 +127,7 @@ impl Runner {
     }
 
     /// Submits dispatches without waiting for them: what is submitted later comes after them.
-    pub(crate) fn start(
-        &self,
-        what: &'static str,
-        dispatches: &[Dispatch<'_>],
-    ) -> Result<(), String> {
+    pub fn start(&self, what: &'static str, dispatches: &[Dispatch<'_>]) -> Result<(), String> {
         self.gpu.checked(what, || {
             let mut encoder = self.encoder(what);
             self.encode(&mut encoder, what, dispatches, None);
@@ -133,18 +136,14 @@ impl Runner {
     }
 
     /// Runs dispatches one after the other, each seeing what those before it wrote. Returns milliseconds.
-    pub(crate) fn run(
-        &self,
-        what: &'static str,
-        dispatches: &[Dispatch<'_>],
-    ) -> Result<f64, String> {
+    pub fn run(&self, what: &'static str, dispatches: &[Dispatch<'_>]) -> Result<f64, String> {
         let stages = self.run_stages(what, &[], &[(what, dispatches)])?;
         Ok(stages.iter().map(|stage| stage.elapsed_ms).sum())
     }
 
     /// Sets the first bytes of buffers to zero and runs stages of dispatches, all in one submit. Where there is no clock that
     /// tells the stages apart, the first one has the time of all.
-    pub(crate) fn run_stages(
+    pub fn run_stages(
         &self,
         what: &'static str,
         cleared: &[(&DeviceBuffer, u64)],
@@ -219,7 +218,7 @@ impl Runner {
     }
 
     /// Fetches the first `bytes` of a buffer, by way of one that can be mapped.
-    pub(crate) fn fetch(
+    pub fn fetch(
         &self,
         what: &'static str,
         from: &DeviceBuffer,
@@ -232,7 +231,7 @@ impl Runner {
     }
 
     /// The same by way of smaller ones in turn: while a part is taken, the next is under way.
-    pub(crate) fn fetch_in_parts(
+    pub fn fetch_in_parts(
         &self,
         what: &'static str,
         from: &DeviceBuffer,
@@ -353,4 +352,4 @@ impl Runner {
 }
 
 /// How a buffer that can be mapped is used.
-pub(crate) const FETCHED: BufferUsages = BufferUsages::MAP_READ.union(BufferUsages::COPY_DST);
+pub const FETCHED: BufferUsages = BufferUsages::MAP_READ.union(BufferUsages::COPY_DST);

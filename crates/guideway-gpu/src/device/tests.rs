@@ -1,4 +1,4 @@
-use guideway_render::{Budget, RenderError};
+use guideway_scene::{Budget, RenderError};
 use wgpu::BufferUsages;
 
 use super::*;

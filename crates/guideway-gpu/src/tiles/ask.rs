@@ -1,6 +1,6 @@
 //! Which paths are where: under each pixel of a small view, or anywhere in it.
 
-use guideway_render::{Cancel, NO_PATH, RenderError, Style, View};
+use guideway_scene::{Cancel, NO_PATH, RenderError, Style, View};
 use wgpu::BufferUsages;
 
 use super::draw::Drawing;
@@ -14,7 +14,7 @@ use crate::device::FETCHED;
 const FIRST_STROKES: u32 = 4096;
 
 impl PreparedTiles {
-    /// See [`guideway_render::Prepared::top_paths`].
+    /// See [`guideway_scene::Prepared::top_paths`].
     pub(super) fn tops(
         &mut self,
         view: &View,
@@ -40,7 +40,7 @@ impl PreparedTiles {
         Ok(tops.into_iter().map(path_of).collect())
     }
 
-    /// See [`guideway_render::Prepared::paths_in`].
+    /// See [`guideway_scene::Prepared::paths_in`].
     pub(super) fn touching(
         &mut self,
         view: &View,

@@ -1,6 +1,6 @@
 //! The dispatches of a frame, with what each of them binds: made once for as long as the buffers are the same.
 
-use guideway_render::Stage;
+use guideway_scene::Stage;
 
 use super::canvas::Canvas;
 use super::chunk::Drawn;

@@ -1,6 +1,6 @@
 //! The tiles and pixels of one size of picture.
 
-use guideway_render::{FrameSize, RenderError};
+use guideway_scene::{FrameSize, RenderError};
 use wgpu::BufferUsages;
 
 use super::NAME;

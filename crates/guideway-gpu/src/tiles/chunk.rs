@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use guideway_render::RenderError;
+use guideway_scene::RenderError;
 use wgpu::BufferUsages;
 
 use super::params::{ChunkParams, Cluster, Points};

@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::time::Instant;
 
-use guideway_render::{Cancel, RenderError, Stage, View, elapsed_ms};
+use guideway_scene::{Cancel, RenderError, Stage, View, elapsed_ms};
 use wgpu::BufferUsages;
 
 use super::NAME;

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use guideway_layout::Layout;
-use guideway_render::{Edited, RenderError};
 use guideway_scene::{Edit, PathState};
+use guideway_scene::{Edited, RenderError};
 
 use super::pack::{Local, Packed, Packing, Part, style};
 use super::params::{Cluster, PathStyle, Points, Stroke};
@@ -35,7 +35,7 @@ struct Changes {
 }
 
 impl PreparedTiles {
-    /// See [`guideway_render::Prepared::edit`].
+    /// See [`guideway_scene::Prepared::edit`].
     pub(super) fn change(&mut self, edit: &Edit) -> Result<Edited, RenderError> {
         let first_new = self.scene.row_count() as u32;
         let scene = Arc::make_mut(&mut self.scene);

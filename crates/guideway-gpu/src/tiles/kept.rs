@@ -1,6 +1,6 @@
 //! A finished picture, and what of it a view moved by whole pixels can keep.
 
-use guideway_render::{RenderError, Stage, Style, View};
+use guideway_scene::{RenderError, Stage, Style, View};
 use guideway_spline::Bounds;
 use wgpu::BufferUsages;
 

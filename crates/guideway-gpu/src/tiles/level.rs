@@ -1,7 +1,7 @@
 //! The scale and place that lines are made for. Views of about the same share a level, and so the lines: which level it is
 //! says the view alone.
 
-use guideway_render::View;
+use guideway_scene::View;
 use guideway_spline::Point;
 
 /// Levels for each doubling of the scale: lines are made for one that differs from the view's by a twelfth at most.
@@ -61,7 +61,7 @@ impl Level {
 
 #[cfg(test)]
 mod tests {
-    use guideway_render::FrameSize;
+    use guideway_scene::FrameSize;
 
     use super::*;
 

@@ -36,8 +36,8 @@ mod work;
 
 use std::sync::{Arc, OnceLock};
 
-use guideway_render::{Budget, Method, MethodInfo, Prepared, RenderError};
 use guideway_scene::Scene;
+use guideway_scene::{Budget, Method, MethodInfo, Prepared, RenderError};
 
 use crate::device::Gpu;
 use kernels::Kernels;

@@ -2,7 +2,7 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 use std::time::Instant;
 
-use guideway_render::{
+use guideway_scene::{
     Budget, Cancel, Edited, Frame, Preparation, Prepared, RenderError, Report, Shading, Stage,
     Style, View, Work, density, elapsed_ms,
 };
@@ -89,7 +89,7 @@ impl Facts {
     }
 }
 
-/// See [`guideway_render::Method::plan_bytes`].
+/// See [`guideway_scene::Method::plan_bytes`].
 pub(super) fn plan_bytes(scene: &Scene, budget: &Budget) -> u64 {
     let geometry = scene.layout().paths.geometry();
     let paths = scene.draw_order().len() as u64;

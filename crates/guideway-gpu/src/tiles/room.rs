@@ -1,6 +1,6 @@
 //! What a frame finds: lines, and which tiles they may touch.
 
-use guideway_render::RenderError;
+use guideway_scene::RenderError;
 use wgpu::BufferUsages;
 
 use super::NAME;

@@ -1,7 +1,7 @@
 //! One frame as the device is told of it.
 
-use guideway_render::{RenderError, Style, View};
 use guideway_scene::{LineRule, Scene};
+use guideway_scene::{RenderError, Style, View};
 use guideway_spline::{Bounds, Point};
 
 use super::NAME;

@@ -1,6 +1,6 @@
 //! The scene on the device, in as many pieces as it takes, with what the processor must know to change it.
 
-use guideway_render::RenderError;
+use guideway_scene::RenderError;
 use guideway_scene::{Rgba, Scene};
 use wgpu::BufferUsages;
 

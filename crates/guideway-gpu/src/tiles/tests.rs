@@ -4,7 +4,7 @@
 use std::sync::{Arc, LazyLock};
 
 use guideway_layout::{Layout, NewPath, OwnStyle};
-use guideway_render::{
+use guideway_scene::{
     Budget, Cancel, Frame, FrameSize, Method, NO_PATH, Prepared, Report, Shading, Style, View,
     density::ToneMap,
 };

@@ -1,6 +1,6 @@
 //! Lines that are kept, and which clusters edits have touched since.
 
-use guideway_render::{RenderError, View};
+use guideway_scene::{RenderError, View};
 use wgpu::BufferUsages;
 
 use super::level::Level;

@@ -3,7 +3,7 @@
 
 use std::collections::HashMap;
 
-use guideway_render::RenderError;
+use guideway_scene::RenderError;
 use wgpu::BufferUsages;
 
 use super::NAME;

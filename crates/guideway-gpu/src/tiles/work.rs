@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use guideway_render::{Cancel, RenderError, Shading, Style, View, Work};
+use guideway_scene::{Cancel, RenderError, Shading, Style, View, Work};
 
 use super::params::Found;
 use super::prepared::PreparedTiles;

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use guideway_render::{FrameSize, RenderError, Style, View};
+use guideway_scene::{FrameSize, RenderError, Style, View};
 
 use super::files::Saver;
 use super::swept::swept_rows;
@@ -126,7 +126,7 @@ mod tests {
     fn export(width: u32, height: u32) -> Export {
         let scene = Scene::new(Arc::new(lanes(1)), &SceneOptions::default()).unwrap();
         let size = FrameSize::new(width, height).unwrap();
-        let mut grid = guideway_render::Sheet::default();
+        let mut grid = guideway_scene::Sheet::default();
         grid.add_rectangle(Rgba::BLACK, Point::new(1.0, 2.0), Point::new(3.0, 4.0));
         Export {
             scene: Arc::new(scene),

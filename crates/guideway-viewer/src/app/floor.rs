@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use eframe::egui::Context;
-use guideway_render::View;
+use guideway_scene::View;
 
 use super::App;
 use crate::host::{FloorPlan, Trouble};

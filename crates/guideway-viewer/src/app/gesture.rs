@@ -1,7 +1,7 @@
 use eframe::egui::Modifiers;
 use guideway_document::marks::{Handle, handles};
 use guideway_document::{Combine, Document, Hit, PointRef, Rows, Snap, round_step};
-use guideway_render::View;
+use guideway_scene::View;
 use guideway_spline::{Affine, Bounds, Point};
 
 use super::App;

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use eframe::egui::{Context, TextureHandle, TextureOptions};
 use guideway_document::{Combine, Document, Replayed, Rows};
-use guideway_render::{Report, View};
+use guideway_scene::{Report, View};
 use guideway_scene::{Scene, SceneError, SceneOptions};
 use guideway_spline::Bounds;
 

@@ -1,7 +1,7 @@
 use guideway_document::marks::Kind;
-use guideway_render::density::ToneMap;
-use guideway_render::{Shading, Style};
+use guideway_scene::density::ToneMap;
 use guideway_scene::{ColorBy, LineRule, Rgba, SceneOptions};
+use guideway_scene::{Shading, Style};
 
 /// How layouts look, for all files alike.
 #[derive(Clone, Debug, PartialEq)]

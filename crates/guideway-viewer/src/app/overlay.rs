@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use guideway_document::Document;
 use guideway_document::marks::{MarkOptions, Marks, Outline, marks, outline};
-use guideway_render::View;
+use guideway_scene::View;
 
 use crate::work::Wake;
 use crate::work::task::Task;

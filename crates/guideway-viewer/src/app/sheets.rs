@@ -2,8 +2,8 @@
 
 use guideway_document::marks::{LabelSize, MarkOptions, Marks, marks};
 use guideway_document::{grid_lines_px, round_step};
-use guideway_render::{Sheet, Text, View};
 use guideway_scene::Rgba;
+use guideway_scene::{Sheet, Text, View};
 use guideway_spline::Point;
 
 use super::App;

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use eframe::egui::Context;
 use guideway_document::Document;
-use guideway_render::View;
+use guideway_scene::View;
 
 use super::App;
 use crate::work::beside::Beside;

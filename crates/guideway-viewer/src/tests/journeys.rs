@@ -4,7 +4,7 @@ use std::time::Duration;
 use eframe::egui::{Event, Key, Modifiers, Pos2, Vec2};
 use egui_kittest::kittest::Queryable;
 use guideway_cpu::Cpu;
-use guideway_render::{Budget, Cancel, Frame, Method};
+use guideway_scene::{Budget, Cancel, Frame, Method};
 use guideway_spline::Point;
 
 use super::desk::Desk;
@@ -35,9 +35,9 @@ fn the_picture_is_the_one_that_the_method_draws() {
     };
     let options = look.scene_options();
     let scene = guideway_scene::Scene::new(layout, &options).unwrap();
-    let size = guideway_render::FrameSize::new(300, 200).unwrap();
+    let size = guideway_scene::FrameSize::new(300, 200).unwrap();
     let shot = Shot {
-        view: guideway_render::View::fit(size, scene.bounds()).unwrap(),
+        view: guideway_scene::View::fit(size, scene.bounds()).unwrap(),
         style: look.style(),
     };
     let scene = Arc::new(scene);
@@ -56,7 +56,7 @@ fn the_picture_is_the_one_that_the_method_draws() {
     // Over the paper of the window it is what `guideway render` draws on white.
     let mut frame = Frame::new(size);
     let mut prepared = Cpu.prepare(scene, &Budget::default()).unwrap();
-    let style = guideway_render::Style {
+    let style = guideway_scene::Style {
         background: guideway_scene::Rgba::WHITE,
         ..shot.style
     };

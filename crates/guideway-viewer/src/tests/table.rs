@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use guideway_cpu::Cpu;
 use guideway_layout::{Layout, NewPath, Value};
-use guideway_render::{
+use guideway_scene::{
     Budget, Cancel, Edited, Frame, Method, MethodInfo, Preparation, Prepared, RenderError, Report,
     Style, View,
 };

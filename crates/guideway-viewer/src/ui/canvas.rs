@@ -2,7 +2,7 @@ use eframe::egui::{
     Event, Key, MouseWheelSource, MouseWheelUnit, PointerButton, Pos2, Rect, Response, Sense, Ui,
     Vec2,
 };
-use guideway_render::{FrameSize, View};
+use guideway_scene::{FrameSize, View};
 use guideway_spline::Point;
 
 use crate::app::{App, Gesture, Tool, leave_field};

@@ -46,7 +46,7 @@ impl App {
             };
             let title = ui.label(title);
             let field = TextEdit::singleline(&mut prompt.text).desired_width(480.0);
-            let field = ui.add(field).labeled_by(title.id);
+            let field = ui.add(field).labelled_by(title.id);
             if std::mem::take(&mut prompt.is_new) {
                 field.request_focus();
             }

@@ -3,7 +3,7 @@ use guideway_document::drawn_path;
 use guideway_document::marks::path_outline;
 use guideway_document::measure::{Bend, bends, length_m, tightest_radius_m};
 use guideway_layout::PathRef;
-use guideway_render::View;
+use guideway_scene::View;
 use guideway_spline::Point;
 
 use super::canvas::Screen;

@@ -11,7 +11,7 @@ impl App {
     pub(super) fn finder(&mut self, ui: &mut Ui) {
         let name = ui.label("Name");
         let field = TextEdit::singleline(&mut self.find.text).hint_text("path, node or station");
-        let field = ui.add(field).labeled_by(name.id);
+        let field = ui.add(field).labelled_by(name.id);
         if std::mem::take(&mut self.find.wants_focus) {
             field.request_focus();
         }
@@ -44,7 +44,7 @@ impl App {
         let name = ui.label("Query");
         let field =
             TextEdit::singleline(&mut self.find.query).hint_text("maxSpeed > 1 and id ~ dock");
-        let field = ui.add(field).labeled_by(name.id);
+        let field = ui.add(field).labelled_by(name.id);
         if field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter)) {
             self.select_where(Combine::Replace);
         }

@@ -4,8 +4,8 @@ use eframe::egui::{
 };
 use guideway_document::marks::{Marks, Outline, handles, outline};
 use guideway_document::{Rows, grid_lines_px};
-use guideway_render::View;
 use guideway_scene::Rgba;
+use guideway_scene::View;
 use guideway_spline::Point;
 
 use super::canvas::Screen;

@@ -201,7 +201,7 @@ impl App {
         ui.checkbox(&mut self.swept.is_shown, "Areas that a vehicle sweeps");
         let title = ui.label("Vehicle: length x width, rear, in meters, or `file`");
         ui.add(TextEdit::singleline(&mut self.swept.vehicle))
-            .labeled_by(title.id);
+            .labelled_by(title.id);
         if let Some(trouble) = &self.swept.drawn.trouble {
             ui.colored_label(ui.visuals().error_fg_color, trouble);
         }

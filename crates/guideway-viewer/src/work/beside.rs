@@ -1,7 +1,7 @@
 //! Pictures that are drawn beside the window and laid under those of the layouts.
 
 use eframe::egui::{ColorImage, Context, TextureHandle, TextureOptions};
-use guideway_render::{Frame, View};
+use guideway_scene::{Frame, View};
 
 use super::Wake;
 use super::renderer::color_image;

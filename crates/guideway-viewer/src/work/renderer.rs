@@ -4,7 +4,7 @@ use std::thread::{self, JoinHandle};
 use std::time::Instant;
 
 use eframe::egui::{Color32, ColorImage};
-use guideway_render::{
+use guideway_scene::{
     Budget, Cancel, Edited, Frame, Method, Prepared, RenderError, Report, Style, View, elapsed_ms,
 };
 use guideway_scene::{Edit, Scene};

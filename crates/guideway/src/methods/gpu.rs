@@ -1,7 +1,8 @@
 use std::sync::{Arc, LazyLock};
 
-use guideway_gpu::{Gpu, Grid, GridOptions, Tiles, TilesOptions};
-use guideway_render::Method;
+use guideway_gpu::{Gpu, Tiles, TilesOptions};
+use guideway_grid::{Grid, GridOptions};
+use guideway_scene::Method;
 
 use super::{Entry, MethodOption, Stop};
 

@@ -4,7 +4,7 @@ mod gpu;
 mod tessellation;
 
 use guideway_cpu::{Cpu, Oracle};
-use guideway_render::{Method, MethodInfo};
+use guideway_scene::{Method, MethodInfo};
 
 /// The name that stands for the best method for one picture.
 pub const AUTO: &str = "auto";

@@ -1,7 +1,7 @@
 use std::sync::{Arc, LazyLock};
 
-use guideway_gl::{Commands, GlDevice, Tessellation, TessellationOptions};
-use guideway_render::Method;
+use guideway_scene::Method;
+use guideway_tessellation::{Commands, GlDevice, Tessellation, TessellationOptions};
 
 use super::{Entry, MethodOption, Stop};
 

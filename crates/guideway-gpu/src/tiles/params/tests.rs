@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::device::Source;
-use crate::reflection::{assert_binds_what_it_is_given, assert_laid_out, members};
+use crate::testing::reflection::{assert_binds_what_it_is_given, assert_laid_out, members};
 use crate::tiles::shaders::*;
 
 const SHADERS: &[&Source] = &[

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use guideway_render::Work;
 use guideway_scene::Edit;
+use guideway_scene::Work;
 use guideway_spline::Affine;
 
 use super::kernels::is_in_step;

@@ -1,6 +1,6 @@
 //! What a frame takes is counted to the last word, and timed.
 
-use guideway_render::{Stage, Work};
+use guideway_scene::{Stage, Work};
 
 use super::*;
 

@@ -278,7 +278,7 @@ impl Soak {
         let paths = self.first.paths.len();
         let ctx = self.desk.harness.ctx.clone();
         self.desk.app().perform(Command::Fit, &ctx);
-        let is_whole = |report: &guideway_render::Report| report.drawn == paths as u64;
+        let is_whole = |report: &guideway_scene::Report| report.drawn == paths as u64;
         self.desk.wait(|app| {
             let shown = app.layers[0].shown.as_ref();
             shown.is_some_and(|shown| is_whole(&shown.report))

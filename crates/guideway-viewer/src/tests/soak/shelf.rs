@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 
 use guideway_layout::Layout;
-use guideway_render::{Frame, Method, View};
+use guideway_scene::{Frame, Method, View};
 
 use crate::host::{Export, FloorPlan, Host, Job, MethodChoice, Trouble};
 use crate::tests::table::Table;

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 
 use guideway::render::Cancel;
 use guideway_bench::Start;
-use guideway_bench::reproduce::{Plan, Run, reproduce, resume};
+use guideway_reproduce::reproduce::{Plan, Run, reproduce, resume};
 
 use super::activity::Activity;
 use super::{Exit, Failure, Output, interrupt, values};

@@ -3,8 +3,8 @@ use std::io::{BufReader, Read};
 use std::path::Path;
 
 use guideway::SaveError;
-use guideway_bench::report;
-use guideway_bench::reproduce::{ResumeError, Run};
+use guideway_reproduce::report;
+use guideway_reproduce::reproduce::{ResumeError, Run};
 use serde::Deserialize;
 
 use super::text::REPORT;

@@ -1,7 +1,7 @@
 use std::path::Path;
 
-use guideway_bench::report::PAGE;
-use guideway_bench::reproduce::{Finding, PartFacts, Run, Verdict, findings};
+use guideway_reproduce::report::PAGE;
+use guideway_reproduce::reproduce::{Finding, PartFacts, Run, Verdict, findings};
 use serde_json::json;
 
 use super::saved::RUN;

@@ -1,0 +1,44 @@
+use std::collections::BTreeMap;
+
+use guideway_scene::Scene;
+use guideway_scene::{FrameSize, RenderError, View};
+use guideway_spline::{Bounds, Point};
+
+/// All of a scene, or so many times nearer what is around its busiest place.
+///
+/// # Errors
+/// When there is no such view ([`View::fit`], [`View::new`]).
+pub fn zoomed_view(size: FrameSize, scene: &Scene, times: f64) -> Result<View, RenderError> {
+    let all = View::fit(size, scene.bounds())?;
+    if times <= 1.0 {
+        return View::new(size, all.center_m(), all.px_per_m() * times);
+    }
+    let center = busiest(scene).unwrap_or(all.center_m());
+    View::new(size, center, all.px_per_m() * times)
+}
+
+/// The middle of the path that is nearest to the middle of those in the fullest part of the box.
+fn busiest(scene: &Scene) -> Option<Point<f64>> {
+    const PARTS: f64 = 16.0;
+    let bounds = scene.bounds()?;
+    let part = |at: f64, low: f64, extent: f64| {
+        let along = (at - low) / extent.max(f64::MIN_POSITIVE) * PARTS;
+        along.clamp(0.0, PARTS - 1.0) as usize
+    };
+    let hulls = scene
+        .layout()
+        .paths
+        .iter()
+        .filter_map(|path| path.hull_bounds());
+    let mut parts: BTreeMap<(usize, usize), Vec<Point<f64>>> = BTreeMap::new();
+    for middle in hulls.map(Bounds::center) {
+        let column = part(middle.x, bounds.min.x, bounds.size().x);
+        let row = part(middle.y, bounds.min.y, bounds.size().y);
+        parts.entry((column, row)).or_default().push(middle);
+    }
+    let fullest = parts.into_values().max_by_key(Vec::len)?;
+    let sum = fullest.iter().copied().reduce(|a, b| a + b)?;
+    let mean = sum * (1.0 / fullest.len() as f64);
+    let nearest = |a: &Point<f64>, b: &Point<f64>| a.distance(mean).total_cmp(&b.distance(mean));
+    fullest.into_iter().min_by(nearest)
+}

@@ -1,0 +1,131 @@
+//! The pixels of a picture, in bands of rows that fit a binding and the budget.
+
+use std::ops::Range;
+
+use guideway_scene::{FrameSize, RenderError};
+use wgpu::BufferUsages;
+
+use crate::build::Chunk;
+use crate::kernels::Kernels;
+use crate::params::ViewParams;
+use crate::unsupported;
+use guideway_gpu::device::{Bindings, DeviceBuffer, FETCHED, Gpu, Kernel, Memory};
+
+/// Bytes of a pixel: what is remembered of it, or its color.
+pub(super) const PIXEL_BYTES: u64 = size_of::<u32>() as u64;
+/// Bytes of the work of a pixel: tests and look-ups.
+const WORK_BYTES: u64 = size_of::<[u32; 2]>() as u64;
+
+/// What a canvas is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Purpose {
+    Picture,
+    /// The numbers of tests and look-ups of each pixel.
+    Work,
+}
+
+impl Purpose {
+    pub(super) fn kernel(self, kernels: &Kernels) -> &Kernel {
+        match self {
+            Self::Picture => &kernels.pixels,
+            Self::Work => &kernels.counting_pixels,
+        }
+    }
+}
+
+/// Buffers for one size of picture.
+pub(super) struct Canvas {
+    pub(super) size: FrameSize,
+    /// Rows of all bands but the last.
+    band_rows: u32,
+    pub(super) view: DeviceBuffer,
+    pixels: DeviceBuffer,
+    work: DeviceBuffer,
+    pub(super) fetched: DeviceBuffer,
+    /// One a chunk.
+    pub(super) bindings: Vec<Bindings>,
+    pub(super) purpose: Purpose,
+}
+
+impl Canvas {
+    pub(super) fn new(
+        gpu: &Gpu,
+        memory: &mut Memory,
+        size: FrameSize,
+        purpose: Purpose,
+        kernels: &Kernels,
+        grid: &DeviceBuffer,
+        chunks: &[Chunk],
+    ) -> Result<Self, RenderError> {
+        let uniform = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
+        let storage = BufferUsages::STORAGE | BufferUsages::COPY_SRC;
+        let view = memory.zeros("the view", size_of::<ViewParams>() as u64, uniform)?;
+        let (work_bytes, fetched_bytes) = match purpose {
+            Purpose::Picture => (0, PIXEL_BYTES),
+            Purpose::Work => (WORK_BYTES, WORK_BYTES),
+        };
+        let pixel_bytes = PIXEL_BYTES + work_bytes + fetched_bytes;
+        let width = u64::from(size.width());
+        let fit_binding = gpu.binding_bytes() / (width * fetched_bytes);
+        let fit_budget = memory.spare_bytes().saturating_sub(WORK_BYTES) / (width * pixel_bytes);
+        if fit_binding == 0 {
+            return Err(unsupported(
+                format!(
+                    "rows of {width} pixels: this device lets a shader see only {} bytes at once",
+                    gpu.binding_bytes()
+                ),
+                "Ask for a narrower picture.",
+            ));
+        }
+        // Without room for one row, the allocations say what it would have taken.
+        let rows = fit_binding.min(fit_budget.max(1)).min(size.height().into());
+        let pixels = width * rows;
+        let pixels_held = memory.zeros("the pixels", pixels * PIXEL_BYTES, storage)?;
+        // A buffer cannot be empty.
+        let work = (pixels * work_bytes).max(WORK_BYTES);
+        let work = memory.zeros("the counted work", work, storage)?;
+        let fetched = memory.zeros("the picture read back", pixels * fetched_bytes, FETCHED)?;
+        let kernel = purpose.kernel(kernels);
+        let bind = |chunk: &Chunk| {
+            let buffers = [
+                &view,
+                grid,
+                &chunk.starts,
+                &chunk.counts,
+                &chunk.lists_m,
+                &pixels_held,
+                &work,
+            ];
+            kernel.bind(gpu, &buffers)
+        };
+        let bindings: Result<_, _> = chunks.iter().map(bind).collect();
+        Ok(Self {
+            bindings: bindings.map_err(|what| memory.trouble(what))?,
+            size,
+            band_rows: rows as u32,
+            view,
+            pixels: pixels_held,
+            work,
+            fetched,
+            purpose,
+        })
+    }
+
+    /// Bands of rows, from the top.
+    pub(super) fn bands(&self) -> impl ExactSizeIterator<Item = Range<u32>> + use<> {
+        let (rows, height) = (self.band_rows, self.size.height());
+        (0..height.div_ceil(rows)).map(move |band| {
+            let first = band * rows;
+            first..height.min(first + rows)
+        })
+    }
+
+    /// What is fetched of a band, and how many bytes of it a row has.
+    pub(super) fn result(&self) -> (&DeviceBuffer, u64) {
+        let width = u64::from(self.size.width());
+        match self.purpose {
+            Purpose::Picture => (&self.pixels, width * PIXEL_BYTES),
+            Purpose::Work => (&self.work, width * WORK_BYTES),
+        }
+    }
+}

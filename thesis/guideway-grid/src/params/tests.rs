@@ -1,0 +1,55 @@
+//! Every shader against what this side takes it for.
+
+use naga::TypeInner;
+
+use super::*;
+use guideway_gpu::testing::reflection::{
+    assert_binds_what_it_is_given, assert_laid_out, members, parse,
+};
+
+const SHADERS: &[&Source] = &[
+    &SAMPLE,
+    &COUNT,
+    &PREFIX_NAIVE,
+    &SCAN_BLOCKS,
+    &SCAN_SUMS,
+    &ADD_SUMS,
+    &BIN,
+    &PIXELS_NEAREST,
+    &PIXELS_SAMPLES,
+];
+
+#[test]
+fn every_shader_binds_what_it_is_given() {
+    for source in SHADERS {
+        assert_binds_what_it_is_given(source);
+    }
+}
+
+#[test]
+fn uniforms_are_laid_out_alike() {
+    let items = members!(Items: first, end, first_part, end_part);
+    assert_laid_out(SHADERS, "Items", &items);
+    let grid = members!(GridParams: origin_m, cells_per_m, reach_m);
+    assert_laid_out(SHADERS, "Grid", &grid);
+    let view = members!(ViewParams: center_m, half_size_px, box_low_m, box_high_m, excess_m, m_per_px,
+        px_per_m, radius_m, color, background, width_px, first_row, rows, first_tile, end_tile,
+        first_cell_row, end_cell_row, first_line, end_line, is_first_pass, is_last_pass);
+    assert_laid_out(SHADERS, "View", &view);
+}
+
+#[test]
+fn a_line_has_the_bytes_that_it_is_given() {
+    for source in [&SAMPLE, &COUNT, &BIN] {
+        let module = parse(source);
+        let lines = module
+            .global_variables
+            .iter()
+            .find(|(_, v)| v.name.as_deref() == Some("lines_m"));
+        let (_, lines) = lines.expect("lines");
+        let TypeInner::Array { stride, .. } = module.types[lines.ty].inner else {
+            panic!("lines are an array");
+        };
+        assert_eq!(u64::from(stride), LINE_BYTES);
+    }
+}

@@ -1,0 +1,152 @@
+use super::{Block, Section, why_not};
+use crate::report::table::{Cell, Column, Table};
+use crate::reproduce::{Border, Reading, Run};
+use guideway_bench::format::{megabytes, percent};
+
+/// Share of the coverage from which on a method that lacks it draws the wrong picture. Lines of one pixel, in
+/// place of three, lack two thirds.
+const BLIND: f64 = 0.9;
+
+/// Coverage against the oracle's.
+pub(super) fn borders(run: &Run) -> Section {
+    let share = |share: Option<f64>| share.map_or(Cell::Nothing, |s| Cell::text(percent(s)));
+    let row = |border: &Border| {
+        vec![
+            Cell::text(border.method.clone()),
+            share(border.lost),
+            share(border.added),
+            Cell::from(border.lost),
+            Cell::from(border.added),
+            border.why_not.as_ref().map_or(Cell::Nothing, Cell::text),
+        ]
+    };
+    let table = Table {
+        name: "borders",
+        title: "Coverage of one hall at 20 pixels a meter, against the oracle's".to_owned(),
+        is_folded: false,
+        columns: vec![
+            Column::new("Method", "method"),
+            Column::in_page("Missing"),
+            Column::in_page("Surplus"),
+            Column::in_file("lost"),
+            Column::in_file("added"),
+            Column::new("Not measured", "why_not"),
+        ],
+        rows: run.results.borders.iter().map(row).collect(),
+    };
+    let mut blocks = vec![
+        Block::Text(
+                "How much of the coverage of the exact oracle each method lacks, and how much it adds. Some \
+                 of both is the shape of its edges, which fade otherwise than a true area does; what the \
+                 grid as written lacks beyond its mended variant is lost at the borders of cells."
+                    .to_owned(),
+            ),
+        Block::Table(table),
+    ];
+    blocks.extend(blind(run));
+    Section {
+        id: "borders",
+        title: "Lines at the borders of cells",
+        blocks,
+    }
+}
+
+/// A warning about methods whose pictures lack nearly everything.
+fn blind(run: &Run) -> Option<Block> {
+    let borders = run.results.borders.iter();
+    let blind = borders.filter(|border| border.lost.is_some_and(|lost| lost > BLIND));
+    let names: Vec<&str> = blind.map(|border| border.method.as_str()).collect();
+    (!names.is_empty()).then(|| {
+        Block::Text(format!(
+            "Mind the times of {}: hardly anything of this picture was drawn.",
+            names.join(", ")
+        ))
+    })
+}
+
+/// Counters that need no hardware to compare.
+pub(super) fn section(run: &Run) -> Section {
+    let table = Table {
+        name: "work",
+        title: "Work of one frame with most pixels inside the grid, and of building".to_owned(),
+        is_folded: false,
+        columns: vec![
+            Column::new("Dataset", "dataset"),
+            Column::new("Method", "method"),
+            Column::new("Paths", "paths"),
+            Column::new("Lines", "lines"),
+            Column::new("Tests a pixel", "tests_a_pixel"),
+            Column::in_file("tests"),
+            Column::new("Atomics", "atomics"),
+            Column::in_page("Read (MB)"),
+            Column::in_page("Written (MB)"),
+            Column::in_file("bytes_read"),
+            Column::in_file("bytes_written"),
+            Column::new("Build: atomics", "build_atomics"),
+            Column::in_page("Build: read (MB)"),
+            Column::in_page("Build: written (MB)"),
+            Column::in_file("build_bytes_read"),
+            Column::in_file("build_bytes_written"),
+            Column::new("Held (MB)", "held_mb"),
+            Column::new("Peak (MB)", "peak_mb"),
+            Column::new("Not measured", "why_not"),
+        ],
+        rows: fullest(run).into_iter().map(row).collect(),
+    };
+    Section {
+        id: "work",
+        title: "Counted work",
+        blocks: vec![
+            Block::Text(
+                "Numbers that any device would give, so that machines need not be alike to be compared: \
+                 tests of a point against a line, atomic operations, and the bytes that threads ask for and \
+                 write before any cache. Empty where a method does not count."
+                    .to_owned(),
+            ),
+            Block::Table(table),
+        ],
+    }
+}
+
+/// The reading with most pixels inside, of each dataset and method.
+fn fullest(run: &Run) -> Vec<&Reading> {
+    let mut fullest: Vec<&Reading> = Vec::new();
+    for reading in &run.results.occupancy {
+        let same = |other: &&mut &Reading| {
+            (other.dataset, &other.row.method) == (reading.dataset, &reading.row.method)
+        };
+        match fullest.iter_mut().find(same) {
+            Some(known) if known.at < reading.at => *known = reading,
+            Some(_) => {}
+            None => fullest.push(reading),
+        }
+    }
+    fullest
+}
+
+fn row(reading: &Reading) -> Vec<Cell> {
+    let measured = reading.row.measured();
+    let work = measured.map(|m| m.work).unwrap_or_default();
+    let build = measured.map(|m| m.prepare.work).unwrap_or_default();
+    vec![
+        Cell::text(reading.dataset.name()),
+        Cell::text(reading.row.method.clone()),
+        Cell::Count(reading.paths as u64),
+        Cell::from(measured.map(|m| m.lines)),
+        Cell::from(work.tests_a_pixel),
+        Cell::from(work.tests),
+        Cell::from(work.atomics),
+        Cell::from(work.bytes_read.map(megabytes)),
+        Cell::from(work.bytes_written.map(megabytes)),
+        Cell::from(work.bytes_read),
+        Cell::from(work.bytes_written),
+        Cell::from(build.atomics),
+        Cell::from(build.bytes_read.map(megabytes)),
+        Cell::from(build.bytes_written.map(megabytes)),
+        Cell::from(build.bytes_read),
+        Cell::from(build.bytes_written),
+        Cell::from(measured.map(|m| megabytes(m.held_bytes))),
+        Cell::from(measured.map(|m| megabytes(m.peak_bytes))),
+        why_not(&reading.row),
+    ]
+}

@@ -1,0 +1,184 @@
+//! The page: one file that needs no other, no script and no network.
+
+use super::content::{Block, Section};
+use super::xml::{element, escape};
+use crate::reproduce::{Finding, Picture, Run, Verdict};
+use guideway_bench::Machine;
+use guideway_bench::format::{count, time};
+
+const STYLE: &str = include_str!("style.css");
+
+/// The whole page. It is XML too, so that any reader of either can check it.
+pub(super) fn page(run: &Run, sections: &[Section]) -> String {
+    let title = if run.plan.is_quick {
+        "Guideway: the thesis reproduced in small"
+    } else {
+        "Guideway: the thesis reproduced"
+    };
+    let mut html = format!(
+        "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"en-GB\">\n<head>\n\
+         <meta charset=\"utf-8\"/>\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n\
+         <title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<header>\n<h1>{title}</h1>\n"
+    );
+    html += &header(run);
+    html += "<nav><ol>\n";
+    for section in sections {
+        html += &format!(
+            "<li><a href=\"#{}\">{}</a></li>\n",
+            section.id,
+            escape(section.title)
+        );
+    }
+    html += "</ol></nav>\n</header>\n<main>\n";
+    for section in sections {
+        html += &format!(
+            "<section id=\"{}\">\n{}",
+            section.id,
+            element("h2", section.title)
+        );
+        section.blocks.iter().for_each(|b| html += &block(b));
+        html += "</section>\n";
+    }
+    html + "</main>\n</body>\n</html>\n"
+}
+
+fn header(run: &Run) -> String {
+    let mut html = String::new();
+    if run.is_partial {
+        html += &notice(
+            "Stopped before its end: what was measured until then is here, the rest is missing.",
+        );
+    }
+    if run.plan.is_quick {
+        html += &notice(
+            "This is the quick run: fewer paths, smaller pictures and fewer frames than in the thesis, so that it \
+             ends in minutes even on a processor that plays the graphics device. Its numbers compare with \
+             each other, not with the thesis'.",
+        );
+    }
+    let machines = || run.sittings.iter().map(|sitting| &sitting.machine);
+    if machines().any(|machine| machine.profile != "release") {
+        html += &notice(
+            "Compiled by the debug profile: work on the processor takes longer than it has to.",
+        );
+    }
+    let processors = distinct(machines().map(processor));
+    if processors.len() > 1 {
+        html += &notice(
+            "Its sittings had different processors: times that the processor takes part in do not all compare.",
+        );
+    }
+    let devices = run.methods.iter().filter_map(|m| m.device.clone());
+    html += "<dl>\n";
+    for (name, values) in [
+        ("Measured", vec![measured(run)]),
+        ("Processor", processors),
+        ("System", distinct(machines().map(|m| m.os.clone()))),
+        ("Devices", distinct(devices)),
+        ("Guideway", distinct(machines().map(build))),
+    ] {
+        let value = escape(&values.join("; "));
+        html += &format!("<dt>{name}</dt><dd>{value}</dd>\n");
+    }
+    html + "</dl>\n"
+}
+
+fn measured(run: &Run) -> String {
+    let started: Vec<&str> = run.sittings.iter().map(|s| s.started.as_str()).collect();
+    let elapsed = time(run.elapsed_s() * 1e3);
+    let took = match started.len() {
+        0 | 1 => elapsed,
+        several => format!("{several} sittings of {elapsed} together"),
+    };
+    format!("{}, in {took}", started.join("; "))
+}
+
+fn processor(machine: &Machine) -> String {
+    let memory = machine
+        .memory_bytes
+        .map(|b| format!(", {} GB of memory", count(b / 1_000_000_000)));
+    format!(
+        "{}, {} threads{}",
+        machine.cpu.as_deref().unwrap_or("unknown"),
+        machine.cores,
+        memory.unwrap_or_default()
+    )
+}
+
+fn build(machine: &Machine) -> String {
+    format!("{}, {} build", machine.guideway, machine.profile)
+}
+
+/// Every value once, in the order of their first places.
+fn distinct(values: impl Iterator<Item = String>) -> Vec<String> {
+    let mut distinct = Vec::new();
+    for value in values {
+        if !distinct.contains(&value) {
+            distinct.push(value);
+        }
+    }
+    distinct
+}
+
+fn notice(text: &str) -> String {
+    format!("<p class=\"notice\">{}</p>\n", escape(text))
+}
+
+fn block(block: &Block) -> String {
+    match block {
+        Block::Text(text) => element("p", text),
+        Block::Findings(findings) => findings.iter().map(finding).collect(),
+        Block::Table(table) if table.rows.is_empty() => {
+            element("p", &format!("{}: nothing was measured.", table.title))
+        }
+        Block::Table(table) => table.html(),
+        Block::Chart(chart) if chart.is_empty() => {
+            element("p", &format!("{}: nothing was measured.", chart.title))
+        }
+        Block::Chart(chart) => chart.html(),
+        Block::Pictures(caption, pictures) if pictures.is_empty() => element(
+            "p",
+            &format!("{caption}: no method that draws it runs here."),
+        ),
+        Block::Pictures(caption, pictures) => {
+            let pictures: String = pictures.iter().map(picture).collect();
+            let caption = escape(caption);
+            format!(
+                "<figure><figcaption>{caption}</figcaption>\n<div class=\"pictures\">\n{pictures}</div></figure>\n"
+            )
+        }
+    }
+}
+
+fn finding(finding: &Finding) -> String {
+    let (class, verdict) = match finding.verdict {
+        Verdict::Holds => ("holds", "holds here"),
+        Verdict::DoesNotHold => ("fails", "does not hold here"),
+        Verdict::NotMeasured => ("unknown", "not measured"),
+    };
+    format!(
+        "<article class=\"{class}\">\n<h3>{} <span class=\"verdict\">{verdict}</span></h3>\n\
+         <blockquote>{} <cite>({})</cite></blockquote>\n<p>{}</p>\n</article>\n",
+        escape(&finding.title),
+        escape(&finding.claim),
+        escape(&finding.section),
+        escape(&finding.evidence),
+    )
+}
+
+fn picture(picture: &Picture) -> String {
+    let [width, height] = picture
+        .size_px
+        .map(|px| u64::from(px) * u64::from(picture.enlarged));
+    let class = if picture.enlarged > 1 {
+        " class=\"enlarged\""
+    } else {
+        ""
+    };
+    let caption = escape(&picture.caption);
+    format!(
+        "<figure><img{class} width=\"{width}\" height=\"{height}\" alt=\"{caption}\" \
+         src=\"data:image/png;base64,{}\"/><figcaption>{caption}</figcaption></figure>\n",
+        escape(&picture.png_base64)
+    )
+}

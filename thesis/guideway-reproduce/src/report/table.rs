@@ -1,0 +1,204 @@
+use super::xml::escape;
+use guideway_bench::format::{count, digits};
+
+/// A table of the page, which is a CSV file too.
+#[derive(Clone, Debug)]
+pub(crate) struct Table {
+    /// Name of the CSV file and anchor in the page, such as `table-5.1`.
+    pub(crate) name: &'static str,
+    /// What it shows.
+    pub(crate) title: String,
+    /// Whether the page shows it only on demand, below the chart that is made from it.
+    pub(crate) is_folded: bool,
+    /// Columns from left to right.
+    pub(crate) columns: Vec<Column>,
+    /// One cell a column each.
+    pub(crate) rows: Vec<Vec<Cell>>,
+}
+
+/// A column of the page, of the file, or of both.
+#[derive(Clone, Debug)]
+pub(crate) struct Column {
+    /// Heading in the page.
+    heading: Option<String>,
+    /// Name in the file, with its unit.
+    key: Option<String>,
+}
+
+/// What stands in a cell.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Cell {
+    Text(String),
+    Number(f64),
+    Count(u64),
+    /// A median, and the 5th and 95th percentile.
+    Range([f64; 3]),
+    Nothing,
+}
+
+impl Column {
+    pub(crate) fn new(heading: impl Into<String>, key: impl Into<String>) -> Self {
+        Self {
+            heading: Some(heading.into()),
+            key: Some(key.into()),
+        }
+    }
+
+    pub(crate) fn in_page(heading: impl Into<String>) -> Self {
+        Self {
+            heading: Some(heading.into()),
+            key: None,
+        }
+    }
+
+    pub(crate) fn in_file(key: impl Into<String>) -> Self {
+        Self {
+            heading: None,
+            key: Some(key.into()),
+        }
+    }
+}
+
+impl Cell {
+    pub(crate) fn text(text: impl Into<String>) -> Self {
+        Self::Text(text.into())
+    }
+
+    fn shown(&self) -> String {
+        match self {
+            Self::Text(text) => text.clone(),
+            Self::Number(value) => digits(*value),
+            Self::Count(value) => count(*value),
+            Self::Range(values) => {
+                let [median, p5, p95] = values.map(digits);
+                format!("{median} ({p5} to {p95})")
+            }
+            Self::Nothing => String::new(),
+        }
+    }
+
+    fn written(&self) -> String {
+        match self {
+            Self::Text(text) if text.contains([',', '"', '\n', '\r']) => {
+                format!("\"{}\"", text.replace('"', "\"\""))
+            }
+            Self::Text(text) => text.clone(),
+            Self::Number(value) => value.to_string(),
+            Self::Count(value) => value.to_string(),
+            Self::Range(values) => values.map(|value| value.to_string()).join(" "),
+            Self::Nothing => String::new(),
+        }
+    }
+}
+
+impl From<Option<f64>> for Cell {
+    fn from(value: Option<f64>) -> Self {
+        value.map_or(Self::Nothing, Self::Number)
+    }
+}
+
+impl From<Option<u64>> for Cell {
+    fn from(value: Option<u64>) -> Self {
+        value.map_or(Self::Nothing, Self::Count)
+    }
+}
+
+impl Table {
+    /// The table as a file by RFC 4180, numbers in full.
+    pub(crate) fn csv(&self) -> String {
+        let line = |cells: Vec<String>| cells.join(",") + "\r\n";
+        let keys = self.columns.iter().filter_map(|column| column.key.clone());
+        let mut file = line(keys.collect());
+        for row in &self.rows {
+            let cells = row.iter().zip(&self.columns);
+            let kept = cells.filter(|(_, column)| column.key.is_some());
+            file += &line(kept.map(|(cell, _)| cell.written()).collect());
+        }
+        file
+    }
+
+    /// The table as markup, numbers to three digits. Columns with nothing in them are left out.
+    pub(crate) fn html(&self) -> String {
+        let has_cells = |column: usize| {
+            let mut cells = self.rows.iter().filter_map(|row| row.get(column));
+            cells.any(|cell| *cell != Cell::Nothing)
+        };
+        let shown: Vec<(usize, &str)> = (self.columns.iter().enumerate())
+            .filter_map(|(i, column)| Some((i, column.heading.as_deref()?)))
+            .filter(|&(i, _)| has_cells(i))
+            .collect();
+        let mut html = String::from("<div class=\"wide\"><table>\n<thead><tr>");
+        for (_, heading) in &shown {
+            html += &format!("<th scope=\"col\">{}</th>", escape(heading));
+        }
+        html += "</tr></thead>\n<tbody>\n";
+        for row in &self.rows {
+            html += "<tr>";
+            for cell in shown.iter().filter_map(|&(i, _)| row.get(i)) {
+                let class = match cell {
+                    Cell::Text(_) => "",
+                    _ => " class=\"number\"",
+                };
+                html += &format!("<td{class}>{}</td>", escape(&cell.shown()));
+            }
+            html += "</tr>\n";
+        }
+        html += "</tbody></table></div>\n";
+        let title = escape(&self.title);
+        let name = self.name;
+        if self.is_folded {
+            format!("<details id=\"{name}\"><summary>{title}</summary>\n{html}</details>\n")
+        } else {
+            format!("<figure id=\"{name}\"><figcaption>{title}</figcaption>\n{html}</figure>\n")
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_file_has_numbers_in_full_and_the_page_readable_ones() {
+        let table = Table {
+            name: "table-1",
+            title: "A <title>".into(),
+            is_folded: false,
+            columns: vec![
+                Column::new("Method", "method"),
+                Column::in_file("mean_ms"),
+                Column::in_page("Mean (ms)"),
+                Column::new("Paths", "paths"),
+                Column::new("Not measured", "why_not"),
+            ],
+            rows: vec![
+                vec![
+                    Cell::text("a,\"b\""),
+                    Cell::Number(1.23456),
+                    Cell::Range([1.23456, 1.0, 2.0]),
+                    Cell::Count(1000),
+                    Cell::Nothing,
+                ],
+                vec![
+                    Cell::text("c"),
+                    Cell::Nothing,
+                    Cell::Nothing,
+                    Cell::Nothing,
+                    Cell::Nothing,
+                ],
+            ],
+        };
+        let expected = "method,mean_ms,paths,why_not\r\n\"a,\"\"b\"\"\",1.23456,1000,\r\nc,,,\r\n";
+        assert_eq!(table.csv(), expected);
+        let html = table.html();
+        roxmltree::Document::parse(&html).expect("well-formed");
+        assert!(
+            html.contains("A &lt;title&gt;") && html.contains(">1,000<"),
+            "{html}"
+        );
+        assert!(
+            html.contains(">1.23 (1.00 to 2.00)<") && !html.contains("Not measured"),
+            "{html}"
+        );
+    }
+}
