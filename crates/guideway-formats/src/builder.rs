@@ -6,16 +6,16 @@ use guideway_spline::{Point, Runs};
 use crate::{Problem, ReadError, source::Source, text::printable};
 
 /// Where something is in the file. The text is only made when a finding is kept.
-pub(crate) type At<'f> = &'f dyn Fn() -> Place;
+pub(crate) type PlaceFn<'f> = &'f dyn Fn() -> Place;
 
 /// So many control points may a file become, and so many more for each of its bytes: a few weighted curves,
 /// or things that refer to others, could else become more than any machine holds.
 const LEAST_POINTS: u64 = 1 << 18;
-pub(crate) const POINTS_A_BYTE: u64 = 4;
+pub(crate) const POINTS_PER_BYTE: u64 = 4;
 
 /// Why a curve has no room.
-pub(crate) const NO_ROOM: &str =
-    "the file becomes too many control points for its size, of which this would be more";
+pub(crate) const POINT_BUDGET_EXCEEDED: &str =
+    "too many control points for a file of this size; this curve would exceed the limit";
 
 /// Fills a layout within the limits.
 pub(crate) struct Builder<'a> {
@@ -48,7 +48,7 @@ impl<'a> Builder<'a> {
         Self {
             source,
             layout,
-            points_left: LEAST_POINTS + file_bytes as u64 * POINTS_A_BYTE,
+            points_left: LEAST_POINTS + file_bytes as u64 * POINTS_PER_BYTE,
             text_bytes: 0,
             most_text_bytes: most_text(file_bytes as u64),
             file_bytes: file_bytes as u64,
@@ -71,10 +71,10 @@ impl<'a> Builder<'a> {
     }
 
     /// Records a finding.
-    pub(crate) fn find(
+    pub(crate) fn report(
         &mut self,
         code: Code,
-        at: At<'_>,
+        at: PlaceFn<'_>,
         message: impl FnOnce() -> String,
         remedy: &str,
     ) {
@@ -102,7 +102,7 @@ impl<'a> Builder<'a> {
 
     /// Whether a curve fits into what the file may become. From the first that does not, none does: looking
     /// for one that still fits could take for ever.
-    pub(crate) fn has_room(&mut self, runs: &Runs) -> bool {
+    pub(crate) fn within_point_budget(&mut self, runs: &Runs) -> bool {
         let fits = self.points_left > 0 && runs.points().len() as u64 <= self.points_left;
         if !fits {
             self.points_left = 0;
@@ -111,7 +111,7 @@ impl<'a> Builder<'a> {
     }
 
     /// Whether a curve can be drawn: no part of it is beyond the largest coordinate, or not finite.
-    pub(crate) fn is_within_reach(&self, runs: &Runs) -> bool {
+    pub(crate) fn within_coordinate_limit(&self, runs: &Runs) -> bool {
         let most = self.source.options.limits.coordinate_m;
         let mut points = runs.points().iter();
         points.all(|p| p.x.abs() <= most && p.y.abs() <= most)
@@ -175,11 +175,11 @@ impl<'a> Builder<'a> {
     }
 
     /// Whether a point can be drawn; says so if not.
-    pub(crate) fn check_point(&mut self, point: Point<f64>, at: At<'_>) -> bool {
+    pub(crate) fn check_point(&mut self, point: Point<f64>, at: PlaceFn<'_>) -> bool {
         let limit = self.source.options.limits.coordinate_m;
         if !point.is_finite() {
             let message = || format!("the position ({}, {}) is not finite", point.x, point.y);
-            self.find(Code::NonFinite, at, message, "Correct the position");
+            self.report(Code::NonFinite, at, message, "Correct the position");
             return false;
         }
         if point.x.abs().max(point.y.abs()) > limit {
@@ -187,7 +187,7 @@ impl<'a> Builder<'a> {
                 let [x, y] = [point.x, point.y].map(short);
                 format!("the position ({x} m, {y} m) is beyond {limit} m")
             };
-            self.find(
+            self.report(
                 Code::OutOfRange,
                 at,
                 message,

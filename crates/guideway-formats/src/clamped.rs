@@ -5,7 +5,7 @@ use guideway_spline::{Point, uniform};
 
 /// Positions this near are one, in meters. It is also the step to which written positions are rounded, so
 /// that a sum that went 1e-16 wrong does not take twenty digits.
-pub(crate) const SAME_POSITION_M: f64 = 1e-6;
+pub(crate) const POSITION_STEP_M: f64 = 1e-6;
 
 /// Runs of a path this near are joined, in meters: in single precision, those that meet do so no better. It is
 /// half of what a curve may be off.
@@ -13,29 +13,29 @@ const JOINED_M: f64 = 5e-5;
 
 /// A coordinate as it is written.
 pub(crate) fn rounded(meters: f64) -> f64 {
-    let steps = 1.0 / SAME_POSITION_M;
+    let steps = 1.0 / POSITION_STEP_M;
     // Adding zero turns -0 into 0.
     (meters * steps).round() / steps + 0.0
 }
 
 /// A curve of degree 1 (straight lines) or 3, without weights.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Clamped {
+pub(crate) struct ClampedCurve {
     pub(crate) degree: usize,
     /// Whole numbers from 0 up, one a segment; the outer ones are there degree + 1 times.
     pub(crate) knots: Vec<f64>,
     pub(crate) points: Vec<Point<f64>>,
 }
 
-impl Clamped {
+impl ClampedCurve {
     /// A whole path; none if it has no curve. Where it is broken, a knot is there degree + 1 times.
-    pub(crate) fn whole(path: PathRef<'_>) -> Option<Self> {
+    pub(crate) fn from_path(path: PathRef<'_>) -> Option<Self> {
         let runs: Vec<_> = path.runs().collect();
         (!runs.is_empty()).then(|| Self::of(&runs))
     }
 
     /// The parts of a path that hang together.
-    pub(crate) fn parts(path: PathRef<'_>) -> Vec<Self> {
+    pub(crate) fn connected_parts(path: PathRef<'_>) -> Vec<Self> {
         let runs: Vec<_> = path.runs().collect();
         let parts = runs.chunk_by(|a, b| meets(end(*a), start(*b)));
         parts.map(Self::of).collect()
@@ -51,7 +51,7 @@ impl Clamped {
 
     fn of(runs: &[RunPoints<'_>]) -> Self {
         let mut segments = runs.iter().flat_map(|run| run.segments());
-        let is_straight = segments.all(|s| is_straight(&uniform::to_bezier(&s), SAME_POSITION_M));
+        let is_straight = segments.all(|s| is_straight(&uniform::to_bezier(&s), POSITION_STEP_M));
         let degree = if is_straight { 1 } else { 3 };
         let mut curve = Self {
             degree,
@@ -165,7 +165,7 @@ mod tests {
             }
             let layout = path_of(&runs);
             let path = layout.paths.get(0);
-            let whole = Clamped::whole(path).unwrap();
+            let whole = ClampedCurve::from_path(path).unwrap();
             let curve = Nurbs::new(3, whole.knots.clone(), whole.points.clone(), None).unwrap();
             let segments: Vec<_> = path.runs().flat_map(RunPoints::segments).collect();
             for (i, segment) in segments.iter().enumerate() {
@@ -176,7 +176,7 @@ mod tests {
                     assert!(apart < 1e-9, "{lengths:?} segment {i} at {t}: {apart}");
                 }
             }
-            assert_eq!(Clamped::parts(path).len(), lengths.len());
+            assert_eq!(ClampedCurve::connected_parts(path).len(), lengths.len());
         }
     }
 
@@ -186,7 +186,7 @@ mod tests {
             [(0.0, 0.0), (4.0, 0.0), (4.0, 3.0), (9.0, 3.0)].map(|(x, y)| Point::new(x, y));
         let mut runs = Runs::default();
         guideway_spline::polyline_to_runs(&points, &mut runs);
-        let whole = Clamped::whole(path_of(&runs).paths.get(0)).unwrap();
+        let whole = ClampedCurve::from_path(path_of(&runs).paths.get(0)).unwrap();
         assert_eq!((whole.degree, &whole.points[..]), (1, &points[..]));
         assert_eq!(whole.knots, [0.0, 0.0, 1.0, 2.0, 3.0, 3.0]);
         assert_eq!(whole.as_line(), None);
@@ -197,7 +197,7 @@ mod tests {
         let is_line = |at: [f64; 4]| {
             let mut runs = Runs::default();
             runs.push_bezier(&at.map(|s| Point::new(3.0, 4.0) * s));
-            let curve = Clamped::whole(path_of(&runs).paths.get(0)).unwrap();
+            let curve = ClampedCurve::from_path(path_of(&runs).paths.get(0)).unwrap();
             curve.as_line().is_some_and(|[start, end]| {
                 meets(start, Point::new(0.0, 0.0)) && meets(end, Point::new(3.0, 4.0))
             })

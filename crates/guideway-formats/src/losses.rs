@@ -65,29 +65,29 @@ impl Losses {
     }
 
     /// Notes the widths, for a format without.
-    pub(crate) fn widths(&mut self, layout: &Layout) {
+    pub(crate) fn add_widths(&mut self, layout: &Layout) {
         let own = layout.paths.width_m().unwrap_or_default();
         let count = own.iter().filter(|w| w.is_finite()).count();
         self.add("widths", count, "widths of paths");
     }
 
     /// Notes the colors, for a format without.
-    pub(crate) fn colors(&mut self, layout: &Layout) {
+    pub(crate) fn add_colors(&mut self, layout: &Layout) {
         let own = layout.paths.color_rgba().unwrap_or_default();
         let count = own.iter().filter(|&&c| c != 0).count();
         self.add("colors", count, "colors of paths");
     }
 
     /// Notes the draw ranks, for a format without.
-    pub(crate) fn ranks(&mut self, layout: &Layout) {
+    pub(crate) fn add_ranks(&mut self, layout: &Layout) {
         let count = layout.paths.rank().map_or(0, <[i32]>::len);
         self.add("draw ranks", count, "draw ranks of paths");
     }
 
     /// Notes the nodes and all that refers to them, for a format of curves alone.
-    pub(crate) fn network(&mut self, layout: &Layout) {
+    pub(crate) fn add_network(&mut self, layout: &Layout) {
         self.add("nodes", layout.nodes.len(), "nodes");
-        self.stations(layout);
+        self.add_stations(layout);
         let is_both = |p: &PathRef<'_>| p.direction() == Direction::Both;
         let both = layout.paths.iter().filter(is_both).count();
         self.add("directions", both, "two-way paths: which ways lead along");
@@ -98,12 +98,12 @@ impl Losses {
     }
 
     /// Notes the stations, for a format without.
-    pub(crate) fn stations(&mut self, layout: &Layout) {
+    pub(crate) fn add_stations(&mut self, layout: &Layout) {
         self.add("stations", layout.stations.len(), "stations");
     }
 
     /// Notes the columns of a table that a format has no room for.
-    pub(crate) fn columns(
+    pub(crate) fn add_columns(
         &mut self,
         attributes: &Attributes,
         of: &str,

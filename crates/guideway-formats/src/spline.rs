@@ -3,7 +3,7 @@
 use guideway_layout::Code;
 use guideway_spline::{Nurbs, Point, Runs, knots, nurbs_to_runs, polyline_to_runs};
 
-use crate::builder::{At, Builder, NO_ROOM};
+use crate::builder::{Builder, POINT_BUDGET_EXCEEDED, PlaceFn};
 
 /// Most control points of a curve that is approximated rather than converted exactly: each span can
 /// become a thousand cubics, so a small file could ask for more than any machine has.
@@ -23,7 +23,7 @@ pub(crate) struct Spline {
 impl Builder<'_> {
     /// Puts a curve into empty `runs`, or its control polygon if the numbers make no curve. They stay empty
     /// if there are fewer than two points.
-    pub(crate) fn append_spline(&mut self, spline: &Spline, at: At<'_>, runs: &mut Runs) {
+    pub(crate) fn append_spline(&mut self, spline: &Spline, at: PlaceFn<'_>, runs: &mut Runs) {
         if let Some(curve) = self.curve(spline, at) {
             if self.convert(&curve, at, runs) {
                 return;
@@ -31,7 +31,7 @@ impl Builder<'_> {
             if curve.is_rational() {
                 let message = || "the weights differ too much to compute with".to_owned();
                 let remedy = "1 is used for all; give weights that are more alike";
-                self.find(Code::BadWeight, at, message, remedy);
+                self.report(Code::BadWeight, at, message, remedy);
                 let (degree, knots) = (curve.degree(), curve.knots().to_vec());
                 let plain = Nurbs::new(degree, knots, spline.points.clone(), None);
                 if plain.is_ok_and(|plain| self.convert(&plain, at, runs)) {
@@ -46,13 +46,18 @@ impl Builder<'_> {
     }
 
     /// Converts a curve; fails if numbers overflow on the way, and then leaves nothing.
-    fn convert(&mut self, curve: &Nurbs, at: At<'_>, runs: &mut Runs) -> bool {
+    fn convert(&mut self, curve: &Nurbs, at: PlaceFn<'_>, runs: &mut Runs) -> bool {
         let tolerance = self.source.options.limits.conversion_tolerance_m;
         let done = nurbs_to_runs(curve, tolerance, runs);
         // What is exact is as large as in the file; what is not can be a thousand times as large.
-        if !done.exact && !self.has_room(runs) {
+        if !done.exact && !self.within_point_budget(runs) {
             let remedy = "The control polygon is drawn; split the file, or lower the degree";
-            self.find(Code::ApproximateShape, at, || NO_ROOM.to_owned(), remedy);
+            self.report(
+                Code::ApproximateShape,
+                at,
+                || POINT_BUDGET_EXCEEDED.to_owned(),
+                remedy,
+            );
             runs.clear();
             polyline_to_runs(curve.points(), runs);
             return true;
@@ -66,19 +71,19 @@ impl Builder<'_> {
             let message =
                 || format!("the curve is drawn within {error} m, not within {tolerance} m");
             let remedy = "Split the curve, or give weights that are more alike";
-            self.find(Code::ApproximateShape, at, message, remedy);
+            self.report(Code::ApproximateShape, at, message, remedy);
         }
         true
     }
 
-    fn curve(&mut self, spline: &Spline, at: At<'_>) -> Option<Nurbs> {
+    fn curve(&mut self, spline: &Spline, at: PlaceFn<'_>) -> Option<Nurbs> {
         let (degree, count) = (spline.degree, spline.points.len());
         if count <= degree {
             let least = degree + 1;
             let message =
                 || format!("{count} control points, a curve of degree {degree} needs {least}");
             let remedy = "Straight lines are drawn between those there are; lower the degree";
-            self.find(Code::TooFewPoints, at, message, remedy);
+            self.report(Code::TooFewPoints, at, message, remedy);
             return None;
         }
         let knots = self.knots_of(spline, at)?;
@@ -90,7 +95,7 @@ impl Builder<'_> {
                 )
             };
             let remedy = "The control polygon is drawn; split the curve, or lower its degree";
-            self.find(Code::ApproximateShape, at, message, remedy);
+            self.report(Code::ApproximateShape, at, message, remedy);
             return None;
         }
         let weights = rational.then(|| spline.weights.clone());
@@ -107,12 +112,12 @@ impl Builder<'_> {
     }
 
     /// The knots to compute with; none if there are too many or too few.
-    fn knots_of(&mut self, spline: &Spline, at: At<'_>) -> Option<Vec<f64>> {
+    fn knots_of(&mut self, spline: &Spline, at: PlaceFn<'_>) -> Option<Vec<f64>> {
         let (degree, points, values) = (spline.degree, spline.points.len(), &spline.knots);
         if values.is_empty() {
             let message = || "there are no knots".to_owned();
             let remedy = "Evenly spaced clamped knots are used";
-            self.find(Code::MissingKnots, at, message, remedy);
+            self.report(Code::MissingKnots, at, message, remedy);
             return Some(knots::uniform_clamped(degree, points));
         }
         let (count, expected) = (values.len(), points + degree + 1);
@@ -133,7 +138,7 @@ impl Builder<'_> {
     }
 
     /// Reports knots that are legal, and yet not what most curves have.
-    fn check_shape(&mut self, curve: &Nurbs, at: At<'_>) {
+    fn check_shape(&mut self, curve: &Nurbs, at: PlaceFn<'_>) {
         let (degree, knots, points) = (curve.degree(), curve.knots(), curve.points().len());
         let clamped = knots[0] == knots[degree] && knots[points] == knots[points + degree];
         if !clamped {
@@ -142,19 +147,19 @@ impl Builder<'_> {
                     .to_owned()
             };
             let remedy = "It is drawn as written";
-            self.find(Code::UnclampedKnots, at, message, remedy);
+            self.report(Code::UnclampedKnots, at, message, remedy);
         }
         let inner = knots.get(degree + 1..points).unwrap_or_default();
         let broken = inner.windows(degree + 1).find(|w| w[0] == w[degree]);
         if let Some(window) = broken {
             let message = || format!("the knot {} is there more than {degree} times", window[0]);
             let remedy = "The curve is broken there; remove the knots that are too many";
-            self.find(Code::KnotMultiplicity, at, message, remedy);
+            self.report(Code::KnotMultiplicity, at, message, remedy);
         }
     }
 
-    fn report_knots(&mut self, at: At<'_>, message: impl FnOnce() -> String) {
+    fn report_knots(&mut self, at: PlaceFn<'_>, message: impl FnOnce() -> String) {
         let remedy = "The control polygon is drawn; correct the knots";
-        self.find(Code::BadKnots, at, message, remedy);
+        self.report(Code::BadKnots, at, message, remedy);
     }
 }

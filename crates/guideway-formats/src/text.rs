@@ -5,7 +5,7 @@ use guideway_layout::Limits;
 use crate::{Problem, ReadError, source::Source};
 
 /// The text of a file, without a byte order mark.
-pub(crate) fn decode<'b>(source: &Source<'_>, bytes: &'b [u8]) -> Result<&'b str, ReadError> {
+pub(crate) fn decode_utf8<'b>(source: &Source<'_>, bytes: &'b [u8]) -> Result<&'b str, ReadError> {
     let text = std::str::from_utf8(bytes).map_err(|error| {
         let at = error.valid_up_to() as u64;
         source.fail(match error.error_len() {
@@ -37,7 +37,7 @@ pub(crate) fn printable(text: &str) -> String {
 }
 
 /// Line and column of a byte, from 1.
-pub(crate) fn position(text: &str, at: usize) -> (u64, u64) {
+pub(crate) fn line_column(text: &str, at: usize) -> (u64, u64) {
     let before = &text.as_bytes()[..at.min(text.len())];
     let line = 1 + before.iter().filter(|&&b| b == b'\n').count() as u64;
     let column = before.iter().rev().take_while(|&&b| b != b'\n').count() as u64 + 1;
@@ -48,14 +48,14 @@ pub(crate) fn position(text: &str, at: usize) -> (u64, u64) {
 ///
 /// Parsers hold a record for every element and go one call deeper for every level, so both are bounded
 /// before they see the text.
-pub(crate) struct Tally<'a> {
+pub(crate) struct ElementCounter<'a> {
     text: &'a str,
     limits: &'a Limits,
     depth: usize,
     elements: u64,
 }
 
-impl<'a> Tally<'a> {
+impl<'a> ElementCounter<'a> {
     pub(crate) fn new(text: &'a str, limits: &'a Limits) -> Self {
         Self {
             text,
@@ -84,7 +84,7 @@ impl<'a> Tally<'a> {
         if self.depth <= self.limits.depth {
             return Ok(());
         }
-        let (line, column) = position(self.text, at);
+        let (line, column) = line_column(self.text, at);
         Err(Problem::TooDeep {
             limit: self.limits.depth as u64,
             line,

@@ -7,7 +7,7 @@ use guideway_spline::{MAX_DEGREE, Point, Runs, polyline_to_runs};
 use serde::de::{IgnoredAny, MapAccess};
 
 use crate::ReadError;
-use crate::builder::{At, Builder};
+use crate::builder::{Builder, PlaceFn};
 use crate::json::{Field, FromJson, Key, items, record, within};
 use crate::spline::Spline;
 
@@ -36,7 +36,7 @@ impl Builder<'_> {
     pub(crate) fn append_trajectory(
         &mut self,
         trajectory: &Trajectory,
-        at: At<'_>,
+        at: PlaceFn<'_>,
         runs: &mut Runs,
     ) -> Result<(), ReadError> {
         self.check_repeated(trajectory.repeated, at);
@@ -61,7 +61,7 @@ impl Builder<'_> {
         Ok(())
     }
 
-    fn control(&mut self, trajectory: &Trajectory, at: At<'_>) -> Result<Control, ReadError> {
+    fn control(&mut self, trajectory: &Trajectory, at: PlaceFn<'_>) -> Result<Control, ReadError> {
         self.check_list(&trajectory.points, at, "controlPoints");
         if trajectory.points.get().is_none() {
             self.report_missing(&|| within(at, "controlPoints"), "a list of control points");
@@ -75,7 +75,7 @@ impl Builder<'_> {
             whole: true,
         };
         for (i, field) in items(&trajectory.points) {
-            let at_point: At<'_> = &|| within(at, &format!("controlPoints[{i}]"));
+            let at_point: PlaceFn<'_> = &|| within(at, &format!("controlPoints[{i}]"));
             let point = self.record(field, at_point).and_then(|p| {
                 self.check_repeated(p.repeated, at_point);
                 Some((self.point(&p.x, &p.y, at_point)?, &p.weight))
@@ -91,7 +91,7 @@ impl Builder<'_> {
         Ok(control)
     }
 
-    fn weight(&mut self, field: &Field<f64>, at: At<'_>) -> f64 {
+    fn weight(&mut self, field: &Field<f64>, at: PlaceFn<'_>) -> f64 {
         self.check_type(field, &|| within(at, "weight"), "a number");
         let weight = field.get().copied().unwrap_or(1.0);
         if weight.is_finite() && weight > 0.0 {
@@ -99,11 +99,11 @@ impl Builder<'_> {
         }
         let message = || format!("the weight is {weight}");
         let remedy = "1 is used; give a number above 0";
-        self.find(Code::BadWeight, at, message, remedy);
+        self.report(Code::BadWeight, at, message, remedy);
         1.0
     }
 
-    fn degree(&mut self, field: &Field<f64>, at: At<'_>) -> Option<usize> {
+    fn degree(&mut self, field: &Field<f64>, at: PlaceFn<'_>) -> Option<usize> {
         self.check_type(field, &|| within(at, "degree"), "a number");
         // Both versions give 1 as the default.
         let degree = match field {
@@ -117,12 +117,12 @@ impl Builder<'_> {
         let message =
             || format!("the degree is {degree}, a whole number from 1 to {most} expected");
         let remedy = "The control polygon is drawn; correct the degree";
-        self.find(Code::BadDegree, at, message, remedy);
+        self.report(Code::BadDegree, at, message, remedy);
         None
     }
 
     /// The knots there are; none if one of them is no number.
-    fn knots(&mut self, trajectory: &Trajectory, at: At<'_>) -> Option<Vec<f64>> {
+    fn knots(&mut self, trajectory: &Trajectory, at: PlaceFn<'_>) -> Option<Vec<f64>> {
         self.check_list(&trajectory.knots, at, "knotVector");
         items(&trajectory.knots)
             .map(|(i, knot)| self.number(knot, &|| within(at, &format!("knotVector[{i}]"))))

@@ -6,7 +6,7 @@ use guideway_layout::Place;
 use roxmltree::{Document, Error, Node, ParsingOptions};
 
 use crate::source::Source;
-use crate::text::{Tally, position, printable};
+use crate::text::{ElementCounter, line_column, printable};
 use crate::{Problem, ReadError};
 
 /// Most attributes of one element. The parser compares each with every other; no format has half of it.
@@ -103,17 +103,17 @@ pub(crate) fn child<'d, 't>(node: Node<'d, 't>, tag: &'static str) -> Option<Nod
 }
 
 fn check(source: &Source<'_>, text: &str, mut doctype: Doctype) -> Result<(), Problem> {
-    let mut tally = Tally::new(text, &source.options.limits);
+    let mut counter = ElementCounter::new(text, &source.options.limits);
     let mut namespaces = 0;
     let mut at = 0;
     while let Some(found) = text[at..].find('<') {
         at += found;
         let rest = &text[at..];
         let length = if rest.starts_with("<!--") {
-            tally.count()?;
+            counter.count()?;
             through(rest, "-->")
         } else if rest.starts_with("<![CDATA[") {
-            tally.count()?;
+            counter.count()?;
             through(rest, "]]>")
         } else if rest.starts_with("<!") {
             if doctype == Doctype::Refused {
@@ -125,19 +125,19 @@ fn check(source: &Source<'_>, text: &str, mut doctype: Doctype) -> Result<(), Pr
             check_entities(text, at, definition.unwrap_or_default())?;
             definition.map(str::len)
         } else if rest.starts_with("<?") {
-            tally.count()?;
+            counter.count()?;
             through(rest, "?>")
         } else if rest.starts_with("</") {
-            tally.leave();
+            counter.leave();
             through(rest, ">")
         } else {
-            tally.count()?;
+            counter.count()?;
             let tag = Tag::scan(rest);
             namespaces += tag.namespaces;
             check_count("attributes of one element", MOST_ATTRIBUTES, tag.attributes)?;
             check_count("namespaces in the file", MOST_NAMESPACES, namespaces)?;
             if !tag.closed {
-                tally.enter(at)?;
+                counter.enter(at)?;
             }
             tag.length
         };
@@ -163,7 +163,7 @@ fn through(text: &str, end: &str) -> Option<usize> {
 }
 
 fn cut(text: &str, at: usize) -> Problem {
-    let (line, column) = position(text, at);
+    let (line, column) = line_column(text, at);
     Problem::Truncated {
         at: text.len() as u64,
         detail: format!("what begins at line {line}, column {column} has no end"),
@@ -240,7 +240,7 @@ fn no_doctype(text: &str, at: usize) -> Problem {
     Problem::Unsupported {
         place: Place {
             element: "the head of the file".into(),
-            line: u32::try_from(position(text, at).0).ok(),
+            line: u32::try_from(line_column(text, at).0).ok(),
         },
         what: "a document type definition (<!DOCTYPE ...>), or one whose entities hold more than text,"
             .into(),
@@ -266,7 +266,7 @@ fn problem(error: &Error, text: &str, elements: u64) -> Problem {
         Error::DtdDetected => no_doctype(text, 0),
         other => {
             let place = other.pos();
-            let (line, column) = position(text, text.len());
+            let (line, column) = line_column(text, text.len());
             if (u64::from(place.row), u64::from(place.col)) == (line, column) {
                 return Problem::Truncated {
                     at: text.len() as u64,

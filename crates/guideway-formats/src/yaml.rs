@@ -10,7 +10,7 @@ use guideway_layout::Value;
 use saphyr_parser::{Event, Parser, ScalarStyle, ScanError};
 
 use crate::source::Source;
-use crate::text::{Tally, position, printable};
+use crate::text::{ElementCounter, line_column, printable};
 use crate::{Problem, ReadError};
 
 /// So many values may all aliases of a file stand for, beside as many as it has bytes.
@@ -46,7 +46,7 @@ impl<'t> Yaml<'t> {
                 repeated: Vec::new(),
                 next_document: None,
             },
-            tally: Tally::new(text, &source.options.limits),
+            counter: ElementCounter::new(text, &source.options.limits),
             text,
             open: Vec::new(),
             anchors: HashMap::new(),
@@ -87,7 +87,7 @@ struct Open<'t> {
 
 struct Reader<'t, 's> {
     yaml: Yaml<'t>,
-    tally: Tally<'s>,
+    counter: ElementCounter<'s>,
     text: &'t str,
     open: Vec<Open<'t>>,
     /// Which value an anchor names, by the number that the parser gives it.
@@ -109,7 +109,7 @@ impl<'t> Reader<'t, '_> {
             }
             Event::MappingStart(anchor, _) => self.enter(begins(Content::Map(Vec::new())), anchor),
             Event::SequenceEnd | Event::MappingEnd => {
-                self.tally.leave();
+                self.counter.leave();
                 match self.open.pop() {
                     Some(open) => self.close(open.node, open.anchor),
                     None => Ok(()),
@@ -151,14 +151,14 @@ impl<'t> Reader<'t, '_> {
             && matches!(open.node.content, Content::Map(_))
             && open.key.is_none()
         {
-            self.tally.count()?;
+            self.counter.count()?;
             open.key = Some(text);
             return Ok(());
         }
         let is_plain = style == ScalarStyle::Plain;
         let content = Content::Scalar { text, is_plain };
         let size = 1;
-        self.tally.count()?;
+        self.counter.count()?;
         self.close(
             Node {
                 line,
@@ -170,9 +170,9 @@ impl<'t> Reader<'t, '_> {
     }
 
     fn enter(&mut self, node: Node<'t>, anchor: usize) -> Result<(), Problem> {
-        self.tally.count()?;
-        // The parser knows the line, and counts characters where the tally counts bytes.
-        self.tally.enter(0).map_err(|problem| match problem {
+        self.counter.count()?;
+        // The parser knows the line, and counts characters where the counter counts bytes.
+        self.counter.enter(0).map_err(|problem| match problem {
             Problem::TooDeep { limit, .. } => Problem::TooDeep {
                 limit,
                 line: node.line.into(),
@@ -350,7 +350,7 @@ fn syntax(line: u32, message: &str) -> Problem {
 
 fn problem(error: &ScanError, text: &str) -> Problem {
     let place = error.marker();
-    let (last_line, last_column) = position(text.trim_end(), usize::MAX);
+    let (last_line, last_column) = line_column(text.trim_end(), usize::MAX);
     let (line, column) = (place.line() as u64, place.col() as u64 + 1);
     if (line, column) >= (last_line, last_column) {
         return Problem::Truncated {

@@ -202,7 +202,7 @@ fn losses(layout: &Layout, sources: &[Source<'_>]) -> Losses {
     let mut losses = Losses::of(layout);
     let detail = "nodes: only the names of those where paths begin and end are kept";
     losses.add("nodes", layout.nodes.len(), detail);
-    losses.stations(layout);
+    losses.add_stations(layout);
     let described = layout.levels.iter();
     let described = described.filter(|l| l.name.is_some() || l.elevation_m.is_some());
     let detail = "names or elevations of levels: only identifiers are kept";
@@ -212,7 +212,7 @@ fn losses(layout: &Layout, sources: &[Source<'_>]) -> Losses {
         let is_it = |s: &Source<'_>| matches!(s, Source::Attribute(a) if a.name == name);
         sources.iter().any(is_it)
     };
-    losses.columns(&layout.paths.attributes, "paths", is_held);
+    losses.add_columns(&layout.paths.attributes, "paths", is_held);
     let findings: u64 = layout.diagnostics.counts().map(|(_, n)| n).sum();
     losses.add("diagnostics", findings as usize, "findings of the reader");
     losses

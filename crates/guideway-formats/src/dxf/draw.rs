@@ -9,7 +9,7 @@ use super::shapes::{Bounds, Excess, append_arc, append_polyline, append_spline};
 use super::space::{Affine, Vector};
 use super::style::{Color, decoded, on_paper};
 use crate::ReadError;
-use crate::builder::{At, Builder, NO_ROOM, POINTS_A_BYTE, Table};
+use crate::builder::{Builder, POINT_BUDGET_EXCEEDED, POINTS_PER_BYTE, PlaceFn, Table};
 
 /// So many entities may come from references to blocks, beside some for each byte of the file, and so many
 /// control points instead of what other files may become: a small file could else ask for more than any
@@ -40,7 +40,7 @@ pub(super) struct Painter<'a> {
 
 impl<'a> Painter<'a> {
     pub(super) fn new(mut builder: Builder<'a>, file_bytes: usize) -> Self {
-        builder.points_left = LEAST_POINTS + file_bytes as u64 * POINTS_A_BYTE;
+        builder.points_left = LEAST_POINTS + file_bytes as u64 * POINTS_PER_BYTE;
         Self {
             builder,
             colors: Vec::new(),
@@ -54,7 +54,7 @@ impl<'a> Painter<'a> {
         entity: &Entity<'_>,
         around: &Around<'_>,
     ) -> Result<(), ReadError> {
-        let at: At<'_> = &|| Place {
+        let at: PlaceFn<'_> = &|| Place {
             element: format!("{} {}", entity.kind, name(entity, around)),
             line: entity.line,
         };
@@ -98,7 +98,7 @@ impl<'a> Painter<'a> {
         if let Err(excess) = self.append(&entity.shape, &around.map, at, &mut runs)? {
             let (code, detail) = match excess {
                 Excess::Far => (Code::OutOfRange, "it goes beyond the largest coordinate"),
-                Excess::Points => (Code::Implausible, NO_ROOM),
+                Excess::Points => (Code::Implausible, POINT_BUDGET_EXCEEDED),
             };
             return self.refuse(entity, around, code, detail, at);
         }
@@ -126,7 +126,7 @@ impl<'a> Painter<'a> {
         &mut self,
         shape: &Shape,
         map: &Affine,
-        at: At<'_>,
+        at: PlaceFn<'_>,
         runs: &mut Runs,
     ) -> Result<Result<(), Excess>, ReadError> {
         let limits = &self.builder.source.options.limits;
@@ -169,7 +169,7 @@ impl<'a> Painter<'a> {
         (entity, insert): (&Entity<'_>, &Insert),
         around: &Around<'_>,
         inner: &Around<'_>,
-        at: At<'_>,
+        at: PlaceFn<'_>,
     ) -> Result<(), ReadError> {
         let block = &drawing.blocks[insert.block as usize];
         let Some(base) = block.base else {
@@ -225,13 +225,13 @@ impl<'a> Painter<'a> {
         around: &Around<'_>,
         code: Code,
         detail: &str,
-        at: At<'_>,
+        at: PlaceFn<'_>,
     ) -> Result<(), ReadError> {
         let remedy = match code {
             Code::NotDrawn => "Nothing to do if it is not meant to be seen",
             _ => "It is left out; correct it in the tool that wrote the file",
         };
-        self.builder.find(code, at, || detail.to_owned(), remedy);
+        self.builder.report(code, at, || detail.to_owned(), remedy);
         self.builder.refuse(&name(entity, around), code, detail)
     }
 }

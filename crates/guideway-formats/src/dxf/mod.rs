@@ -28,7 +28,7 @@ use self::pairs::{Pairs, SENTINEL};
 use self::records::{Record, Records};
 use self::space::Affine;
 use crate::ReadError;
-use crate::builder::{At, Builder};
+use crate::builder::{Builder, PlaceFn};
 use crate::source::Source;
 
 /// Names and layers of what references make are repeated in the layout, so even a small file may have much text.
@@ -107,11 +107,11 @@ pub(crate) fn read(source: Source<'_>, bytes: &[u8]) -> Result<Layout, ReadError
 fn report_others(builder: &mut Builder<'_>, section: &str, counts: &Counts) {
     for (kind, count) in &counts.0 {
         if known_kind(kind.as_bytes()).is_none() && kind != "VERTEX" {
-            let at: At<'_> = &|| Place::element(section);
+            let at: PlaceFn<'_> = &|| Place::element(section);
             let message = || format!("entities of the kind {kind}: {count}");
             let remedy =
                 "They are left out: what is read are lines, arcs, ellipses, splines and blocks";
-            builder.find(Code::NotDrawn, at, message, remedy);
+            builder.report(Code::NotDrawn, at, message, remedy);
         }
     }
 }
@@ -157,7 +157,7 @@ fn unit(builder: &mut Builder<'_>, code: i64) -> f64 {
     let message =
         || format!("the unit is {code}, which is none: positions are read as millimeters");
     let remedy = "If that is wrong, set the unit of the drawing in the CAD program";
-    builder.find(Code::AssumedUnit, &at, message, remedy);
+    builder.report(Code::AssumedUnit, &at, message, remedy);
     1e-3
 }
 

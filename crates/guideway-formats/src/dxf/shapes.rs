@@ -5,7 +5,7 @@ use guideway_spline::{MAX_DEGREE, Point, Runs};
 
 use super::entity::{Arc, Polyline, Spline, Vertex};
 use super::space::{Affine, Vector};
-use crate::builder::{At, Builder};
+use crate::builder::{Builder, PlaceFn};
 use crate::{ReadError, ellipse, spline};
 
 /// Bulges below this are straight: on 100 m of way, such an arc is 5 micrometers high.
@@ -115,7 +115,7 @@ pub(super) fn append_spline(
     builder: &mut Builder<'_>,
     shape: &Spline,
     map: &Affine,
-    at: At<'_>,
+    at: PlaceFn<'_>,
     runs: &mut Runs,
 ) -> Result<(), ReadError> {
     let count = shape
@@ -139,7 +139,7 @@ pub(super) fn append_spline(
         };
         let remedy =
             "A smooth curve through them is drawn, which may differ a little between programs";
-        builder.find(Code::ApproximateShape, at, message, remedy);
+        builder.report(Code::ApproximateShape, at, message, remedy);
         let tangents = shape.tangents.map(|t| Some(map.direction(t?).flat()));
         append_interpolation(&flat(&shape.fit), tangents, shape.is_closed, runs);
         return Ok(());
@@ -152,7 +152,7 @@ pub(super) fn append_spline(
     else {
         let message = || format!("the degree is {}, 1 to {most} expected", shape.degree);
         let remedy = "The control polygon is drawn; correct the degree";
-        builder.find(Code::BadDegree, at, message, remedy);
+        builder.report(Code::BadDegree, at, message, remedy);
         guideway_spline::polyline_to_runs(&points, runs);
         return Ok(());
     };
@@ -166,7 +166,7 @@ pub(super) fn append_spline(
     Ok(())
 }
 
-fn weights(builder: &mut Builder<'_>, shape: &Spline, at: At<'_>) -> Vec<f64> {
+fn weights(builder: &mut Builder<'_>, shape: &Spline, at: PlaceFn<'_>) -> Vec<f64> {
     let (weights, points) = (&shape.weights, shape.points.len());
     let bad = weights.iter().find(|&&w| w <= 0.0);
     let message = match bad {
@@ -178,7 +178,7 @@ fn weights(builder: &mut Builder<'_>, shape: &Spline, at: At<'_>) -> Vec<f64> {
         None => return weights.clone(),
     };
     let remedy = "1 is used for all; give each control point a weight above 0";
-    builder.find(Code::BadWeight, at, || message, remedy);
+    builder.report(Code::BadWeight, at, || message, remedy);
     Vec::new()
 }
 

@@ -9,7 +9,7 @@ use guideway_layout::{Layout, PathRef, Value};
 use super::write_frame::{write_end, write_start};
 use super::write_pairs::Pairs;
 use crate::Losses;
-use crate::clamped::{Clamped, rounded};
+use crate::clamped::{ClampedCurve, rounded};
 
 /// The application under whose name an entity keeps the identifier of its path.
 pub(super) const APPLICATION: &str = "GUIDEWAY";
@@ -35,7 +35,7 @@ pub fn write_layout(layout: &Layout, out: &mut impl Write) -> io::Result<Losses>
     write_start(&mut pairs, &layers.names, most_entities)?;
     let mut broken = 0;
     for path in layout.paths.iter() {
-        let parts = Clamped::parts(path);
+        let parts = ClampedCurve::connected_parts(path);
         broken += usize::from(parts.len() > 1);
         for (i, part) in parts.iter().enumerate() {
             let id = match i {
@@ -58,7 +58,7 @@ pub fn write_layout(layout: &Layout, out: &mut impl Write) -> io::Result<Losses>
 
 fn write_entity<W: Write>(
     pairs: &mut Pairs<'_, W>,
-    curve: &Clamped,
+    curve: &ClampedCurve,
     layer: &str,
     rgb: Option<u32>,
 ) -> io::Result<()> {
@@ -123,7 +123,7 @@ fn own_color(layout: &Layout, path: PathRef<'_>) -> Option<u32> {
 
 fn losses(layout: &Layout) -> Losses {
     let mut losses = Losses::of(layout);
-    losses.widths(layout);
+    losses.add_widths(layout);
     let colors = || layout.paths.color_rgba().unwrap_or_default().iter();
     let translucent = colors().filter(|&&c| c != 0 && c & 0xFF != 0xFF).count();
     losses.add(
@@ -134,9 +134,9 @@ fn losses(layout: &Layout) -> Losses {
     let white = colors().filter(|&&c| c >> 8 == 0xFF_FFFF).count();
     let detail = "paths in white: programs take it for black on paper";
     losses.add("colors", white, detail);
-    losses.ranks(layout);
-    losses.network(layout);
-    losses.columns(&layout.paths.attributes, "paths", |name| name == LAYER);
+    losses.add_ranks(layout);
+    losses.add_network(layout);
+    losses.add_columns(&layout.paths.attributes, "paths", |name| name == LAYER);
     losses
 }
 

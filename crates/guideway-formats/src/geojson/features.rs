@@ -9,7 +9,7 @@ use super::model::{Feature, Geometry, Root};
 use super::properties::{Properties, Property};
 use super::unit::Unit;
 use crate::ReadError;
-use crate::builder::{At, Builder, Table};
+use crate::builder::{Builder, PlaceFn, Table};
 use crate::json::{Field, within};
 use crate::node_rows::NodeRows;
 use crate::source::Source;
@@ -46,7 +46,7 @@ impl<'a> Mapper<'a> {
     }
 
     pub(super) fn map(mut self, mut root: Root<'_>) -> Result<Layout, ReadError> {
-        let at_root: At<'_> = &|| Place::element("the root");
+        let at_root: PlaceFn<'_> = &|| Place::element("the root");
         self.builder.check_repeated(root.repeated, at_root);
         let crs = self.crs(&root)?;
         let features = root.take_features();
@@ -83,7 +83,7 @@ impl<'a> Mapper<'a> {
     }
 
     fn crs(&mut self, root: &Root<'_>) -> Result<Option<String>, ReadError> {
-        let at: At<'_> = &|| Place::element("crs");
+        let at: PlaceFn<'_> = &|| Place::element("crs");
         self.builder.check_type(&root.crs, at, "an object");
         let properties = root.crs.get().and_then(|crs| crs.properties.get());
         let Some(properties) = properties else {
@@ -93,7 +93,11 @@ impl<'a> Mapper<'a> {
         Ok(name.map(str::to_owned))
     }
 
-    fn map_feature(&mut self, feature: &Field<Feature<'_>>, at: At<'_>) -> Result<(), ReadError> {
+    fn map_feature(
+        &mut self,
+        feature: &Field<Feature<'_>>,
+        at: PlaceFn<'_>,
+    ) -> Result<(), ReadError> {
         let Some(feature) = self.builder.record(feature, at) else {
             let detail = "this is not an object, so there is nothing to draw";
             return self.builder.refuse(&at().element, Code::WrongType, detail);
@@ -107,7 +111,7 @@ impl<'a> Mapper<'a> {
         let none = Properties::default();
         let properties = feature.properties.get().unwrap_or(&none);
         let id = self.id(feature, properties, at)?;
-        let at_geometry: At<'_> = &|| within(at, "geometry");
+        let at_geometry: PlaceFn<'_> = &|| within(at, "geometry");
         self.builder
             .check_type(&feature.geometry, at_geometry, "an object");
         let geometry = feature.geometry.get().map(AsRef::as_ref);
@@ -119,7 +123,7 @@ impl<'a> Mapper<'a> {
         &self,
         feature: &Feature<'_>,
         properties: &Properties<'_>,
-        at: At<'_>,
+        at: PlaceFn<'_>,
     ) -> Result<String, ReadError> {
         let own = feature.id.get();
         let property = properties.get("id");
@@ -143,7 +147,7 @@ impl<'a> Mapper<'a> {
         table: Table,
         row: usize,
         properties: &Properties<'_>,
-        at: At<'_>,
+        at: PlaceFn<'_>,
     ) -> Result<(), ReadError> {
         let mut left_out = properties.left_out;
         for (name, property) in properties.iter() {
@@ -170,7 +174,7 @@ impl<'a> Mapper<'a> {
                 format!("{left_out} properties are too many, or have too long a name, for columns")
             };
             let remedy = "They are left out; nothing else changes by that";
-            self.builder.find(Code::Attribute, at, message, remedy);
+            self.builder.report(Code::Attribute, at, message, remedy);
         }
         Ok(())
     }
@@ -181,7 +185,7 @@ impl<'a> Mapper<'a> {
             let message = || format!("positions with a height: {heights}");
             let remedy = "The heights are left out: the picture is flat";
             let at = || Place::element("coordinates");
-            self.builder.find(Code::Attribute, &at, message, remedy);
+            self.builder.report(Code::Attribute, &at, message, remedy);
         }
         let mut counts = vec![("features".to_owned(), features as u64)];
         counts.append(&mut self.counts);

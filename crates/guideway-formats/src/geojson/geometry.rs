@@ -8,7 +8,7 @@ use super::features::Mapper;
 use super::model::Geometry;
 use super::properties::{Properties, Property};
 use crate::ReadError;
-use crate::builder::{At, Table};
+use crate::builder::{PlaceFn, Table};
 use crate::json::{items, within};
 
 /// What each type of geometry is, and how deep its positions lie.
@@ -37,7 +37,7 @@ impl Mapper<'_> {
         id: &str,
         geometry: Option<&Geometry<'_>>,
         properties: &Properties<'_>,
-        at: At<'_>,
+        at: PlaceFn<'_>,
     ) -> Result<(), ReadError> {
         let Some(geometry) = geometry else {
             return self.map_without_geometry(id, properties, at);
@@ -52,13 +52,13 @@ impl Mapper<'_> {
             self.builder
                 .check_list(&geometry.geometries, at, "geometries");
             for (i, inner) in items(&geometry.geometries) {
-                let at_inner: At<'_> = &|| within(at, &format!("geometries[{i}]"));
+                let at_inner: PlaceFn<'_> = &|| within(at, &format!("geometries[{i}]"));
                 let inner = self.builder.record(inner, at_inner);
                 self.map_geometry(&format!("{id} [{}]", i + 1), inner, properties, at_inner)?;
             }
             return Ok(());
         }
-        let at_list: At<'_> = &|| within(at, "coordinates");
+        let at_list: PlaceFn<'_> = &|| within(at, "coordinates");
         self.builder
             .check_type(&geometry.coordinates, at_list, "a list");
         if geometry.coordinates.is_absent() {
@@ -80,7 +80,7 @@ impl Mapper<'_> {
     fn kind(
         &mut self,
         geometry: &Geometry<'_>,
-        at: At<'_>,
+        at: PlaceFn<'_>,
     ) -> Result<Option<(&'static str, Kind, usize)>, ReadError> {
         let Some(name) = self.builder.text(&geometry.kind, at)? else {
             if geometry.kind.is_absent() {
@@ -92,7 +92,7 @@ impl Mapper<'_> {
         if known.is_none() {
             let message = || format!("the type of geometry `{name}` is not known");
             let remedy = "Use one of the seven types of RFC 7946";
-            self.builder.find(Code::UnknownValue, at, message, remedy);
+            self.builder.report(Code::UnknownValue, at, message, remedy);
         }
         Ok(known)
     }
@@ -102,7 +102,7 @@ impl Mapper<'_> {
         &mut self,
         id: &str,
         properties: &Properties<'_>,
-        at: At<'_>,
+        at: PlaceFn<'_>,
     ) -> Result<(), ReadError> {
         if self.is_graph && properties.get("startid").is_some() {
             return self.map_path(id, None, properties, at);
@@ -119,13 +119,18 @@ impl Mapper<'_> {
         }
     }
 
-    fn check(&mut self, found: &Coordinates, depth: usize, at: At<'_>) -> Result<(), ReadError> {
+    fn check(
+        &mut self,
+        found: &Coordinates,
+        depth: usize,
+        at: PlaceFn<'_>,
+    ) -> Result<(), ReadError> {
         self.builder.check_curve_points(found.points.len())?;
         self.heights += found.heights;
         if found.wrong > 0 {
             let message = || format!("{} values are not positions of two numbers", found.wrong);
             let remedy = "They are left out; correct the writer of the file";
-            self.builder.find(Code::WrongType, at, message, remedy);
+            self.builder.report(Code::WrongType, at, message, remedy);
         }
         if !found.points.is_empty() && found.depth != depth {
             let message = || {
@@ -133,7 +138,7 @@ impl Mapper<'_> {
                 format!("positions are {nested} lists deep, {depth} deep expected for this type")
             };
             let remedy = "They are drawn all the same; correct the type";
-            self.builder.find(Code::WrongType, at, message, remedy);
+            self.builder.report(Code::WrongType, at, message, remedy);
         }
         Ok(())
     }
@@ -143,7 +148,7 @@ impl Mapper<'_> {
         id: &str,
         coordinates: Option<&Coordinates>,
         properties: &Properties<'_>,
-        at: At<'_>,
+        at: PlaceFn<'_>,
     ) -> Result<(), ReadError> {
         let points = coordinates.map_or(&[][..], |c| &c.points);
         for (i, &point) in points.iter().enumerate() {
@@ -165,7 +170,7 @@ impl Mapper<'_> {
         if points.is_empty() {
             let message = || format!("`{id}` has no position");
             let remedy = "It is left out; give it one";
-            self.builder.find(Code::MissingField, at, message, remedy);
+            self.builder.report(Code::MissingField, at, message, remedy);
         }
         Ok(())
     }
@@ -175,7 +180,7 @@ impl Mapper<'_> {
         id: &str,
         coordinates: Option<&Coordinates>,
         properties: &Properties<'_>,
-        at: At<'_>,
+        at: PlaceFn<'_>,
     ) -> Result<(), ReadError> {
         let start = self.node("startid", properties, at)?;
         let end = self.node("endid", properties, at)?;
@@ -187,7 +192,7 @@ impl Mapper<'_> {
             if drawn.len() < 2 {
                 let message = || format!("{} positions, a line needs 2", drawn.len());
                 let remedy = "There is no line to draw here; give it two positions or more";
-                self.builder.find(Code::TooFewPoints, at, message, remedy);
+                self.builder.report(Code::TooFewPoints, at, message, remedy);
             }
             polyline_to_runs(&drawn, &mut runs);
         }
@@ -214,7 +219,7 @@ impl Mapper<'_> {
         &mut self,
         key: &str,
         properties: &Properties<'_>,
-        at: At<'_>,
+        at: PlaceFn<'_>,
     ) -> Result<Option<u32>, ReadError> {
         if !self.is_graph {
             return Ok(None);

@@ -30,7 +30,7 @@ pub(crate) fn read(source: Source<'_>, bytes: &[u8]) -> Result<Layout, ReadError
             found,
         })
     };
-    let text = text::decode(&source, bytes)?;
+    let text = text::decode_utf8(&source, bytes)?;
     let Field::Value(root) = json::parse::<Root<'_>>(&source, text)? else {
         return Err(fail("the root", "an object", "something else".into()));
     };

@@ -4,13 +4,13 @@ use guideway_layout::{Code, Place};
 use guideway_spline::{Bounds, Point};
 
 use crate::builder::Builder;
-use crate::wgs84::LocalDegrees;
+use crate::wgs84::LocalProjection;
 
 /// How the positions of a file become meters.
 pub(super) enum Unit {
     Meters,
     /// Longitude and latitude.
-    Degrees(LocalDegrees),
+    Degrees(LocalProjection),
 }
 
 impl Unit {
@@ -28,7 +28,7 @@ impl Unit {
         let can_be_degrees = x <= 180.0 && y <= 90.0;
         let named_degrees = crs.map(|name| name.ends_with("CRS84") || name.ends_with(":4326"));
         let (message, unit) = match (named_degrees, can_be_degrees) {
-            (Some(true), true) => return Self::Degrees(LocalDegrees::about(bounds)),
+            (Some(true), true) => return Self::Degrees(LocalProjection::centered_on(bounds)),
             (Some(false), _) => return Self::Meters,
             (Some(true), false) => (
                 "the file says that positions are in degrees, but some are beyond 180 or 90: they \
@@ -38,7 +38,7 @@ impl Unit {
             (None, true) => (
                 "the file names no `crs`, and all positions are within 180 and 90: they are read \
                  as degrees",
-                Self::Degrees(LocalDegrees::about(bounds)),
+                Self::Degrees(LocalProjection::centered_on(bounds)),
             ),
             (None, false) => (
                 "the file names no `crs`, and some positions are beyond 180 or 90: they are read as \
@@ -48,7 +48,7 @@ impl Unit {
         };
         let at = || Place::element("the root");
         let remedy = "If that is wrong, add a `crs`: any but CRS84 and EPSG:4326 stands for meters";
-        builder.find(Code::AssumedUnit, &at, || message.to_owned(), remedy);
+        builder.report(Code::AssumedUnit, &at, || message.to_owned(), remedy);
         unit
     }
 

@@ -5,7 +5,7 @@ use guideway_layout::{Attributes, Direction, Layout, PathRef, RunPoints, Value};
 use guideway_spline::{Point, flatten_run};
 
 use crate::Losses;
-use crate::clamped::{SAME_POSITION_M, rounded};
+use crate::clamped::{POSITION_STEP_M, rounded};
 
 /// The properties that mean something to a reader.
 const RESERVED: [&str; 3] = ["id", "startid", "endid"];
@@ -196,7 +196,7 @@ fn lines(path: PathRef<'_>, tolerance_m: f64) -> Vec<Vec<Point<f64>>> {
         }
         let end = lines.last().and_then(|line| line.last());
         match end {
-            Some(end) if end.distance(line[0]) <= SAME_POSITION_M => {
+            Some(end) if end.distance(line[0]) <= POSITION_STEP_M => {
                 let last = lines.len() - 1;
                 lines[last].extend_from_slice(&line[1..]);
             }
@@ -209,25 +209,25 @@ fn lines(path: PathRef<'_>, tolerance_m: f64) -> Vec<Vec<Point<f64>>> {
 /// Whether a run is one straight line, evenly passed.
 fn is_line(run: RunPoints<'_>) -> bool {
     let second = |i: usize| run.get(i) + run.get(i + 2) - run.get(i + 1) * 2.0;
-    (0..run.len() - 2).all(|i| second(i).norm() <= SAME_POSITION_M)
+    (0..run.len() - 2).all(|i| second(i).norm() <= POSITION_STEP_M)
 }
 
 /// What GeoJSON has no place for.
 fn losses_of(layout: &Layout) -> Losses {
     let mut losses = Losses::of(layout);
-    losses.widths(layout);
-    losses.colors(layout);
-    losses.ranks(layout);
+    losses.add_widths(layout);
+    losses.add_colors(layout);
+    losses.add_ranks(layout);
     let is_held = |name: &str| !RESERVED.contains(&name);
-    losses.columns(&layout.paths.attributes, "paths", is_held);
-    losses.columns(&layout.nodes.attributes, "nodes", is_held);
+    losses.add_columns(&layout.paths.attributes, "paths", is_held);
+    losses.add_columns(&layout.nodes.attributes, "nodes", is_held);
     let ids: HashSet<&str> = (0..layout.nodes.len() as u32)
         .map(|node| layout.nodes.id(node))
         .collect();
     let repeated = layout.nodes.len() - ids.len();
     let detail = "nodes with a name used before: paths will be joined to the first";
     losses.add("nodes", repeated, detail);
-    losses.stations(layout);
+    losses.add_stations(layout);
     let detail = "levels: only their names are kept, of paths";
     losses.add("levels", layout.levels.len(), detail);
     losses

@@ -8,11 +8,11 @@ use guideway_spline::Point;
 use super::attributes::{Attributes, Scalar};
 use super::field::{Field, Kind};
 use crate::ReadError;
-use crate::builder::{At, Builder, Table};
+use crate::builder::{Builder, PlaceFn, Table};
 
 impl Builder<'_> {
     /// A record in a list or field; says so if it is missing or of another type.
-    pub(crate) fn record<'f, T>(&mut self, field: &'f Field<T>, at: At<'_>) -> Option<&'f T> {
+    pub(crate) fn record<'f, T>(&mut self, field: &'f Field<T>, at: PlaceFn<'_>) -> Option<&'f T> {
         if field.is_absent() {
             self.report_missing(at, "an object");
         }
@@ -24,7 +24,7 @@ impl Builder<'_> {
     pub(crate) fn text<'f>(
         &mut self,
         field: &'f Field<Cow<'_, str>>,
-        at: At<'_>,
+        at: PlaceFn<'_>,
     ) -> Result<Option<&'f str>, ReadError> {
         self.check_type(field, at, "a text");
         let text = field.get().map(AsRef::as_ref);
@@ -36,10 +36,10 @@ impl Builder<'_> {
     pub(crate) fn id<'f>(
         &mut self,
         field: &'f Field<Cow<'_, str>>,
-        at: At<'_>,
+        at: PlaceFn<'_>,
         key: &str,
     ) -> Result<Cow<'f, str>, ReadError> {
-        let at_key: At<'_> = &|| within(at, key);
+        let at_key: PlaceFn<'_> = &|| within(at, key);
         match self.text(field, at_key)? {
             Some(id) => Ok(Cow::Borrowed(id)),
             None => {
@@ -52,7 +52,7 @@ impl Builder<'_> {
     }
 
     /// A number that is needed.
-    pub(crate) fn number(&mut self, field: &Field<f64>, at: At<'_>) -> Option<f64> {
+    pub(crate) fn number(&mut self, field: &Field<f64>, at: PlaceFn<'_>) -> Option<f64> {
         if field.is_absent() {
             self.report_missing(at, "a number");
         }
@@ -61,12 +61,12 @@ impl Builder<'_> {
     }
 
     /// Says if a list is something else.
-    pub(crate) fn check_list<T>(&mut self, field: &Field<T>, at: At<'_>, key: &str) {
+    pub(crate) fn check_list<T>(&mut self, field: &Field<T>, at: PlaceFn<'_>, key: &str) {
         self.check_type(field, &|| within(at, key), "a list");
     }
 
     /// Says if a value is of another type than the field's.
-    pub(crate) fn check_type<T>(&mut self, field: &Field<T>, at: At<'_>, expected: &str) {
+    pub(crate) fn check_type<T>(&mut self, field: &Field<T>, at: PlaceFn<'_>, expected: &str) {
         let Some(kind) = field.wrong_kind() else {
             return;
         };
@@ -75,24 +75,24 @@ impl Builder<'_> {
             _ => "It is left out; correct the writer of the file",
         };
         let message = || found(kind, expected);
-        self.find(Code::WrongType, at, message, remedy);
+        self.report(Code::WrongType, at, message, remedy);
     }
 
     /// Says if a key came twice in an object.
-    pub(crate) fn check_repeated(&mut self, key: Option<&'static str>, at: At<'_>) {
+    pub(crate) fn check_repeated(&mut self, key: Option<&'static str>, at: PlaceFn<'_>) {
         if let Some(key) = key {
             let message = || format!("the key `{key}` is there more than once");
             let remedy = "The last one counts; remove the others";
-            self.find(Code::DuplicateKey, at, message, remedy);
+            self.report(Code::DuplicateKey, at, message, remedy);
         }
     }
 
     /// Says that something names a node that is not there.
-    pub(crate) fn report_unknown_node(&mut self, node: &str, by: &str, at: At<'_>) {
+    pub(crate) fn report_unknown_node(&mut self, node: &str, by: &str, at: PlaceFn<'_>) {
         let message =
             || format!("`{by}` names the node `{node}`, which is not there or has no position");
         let remedy = "Add the node, or correct the name";
-        self.find(Code::UnknownNode, at, message, remedy);
+        self.report(Code::UnknownNode, at, message, remedy);
     }
 
     /// A point that can be drawn.
@@ -100,7 +100,7 @@ impl Builder<'_> {
         &mut self,
         x: &Field<f64>,
         y: &Field<f64>,
-        at: At<'_>,
+        at: PlaceFn<'_>,
     ) -> Option<Point<f64>> {
         let x = self.number(x, &|| within(at, "x"));
         let y = self.number(y, &|| within(at, "y"));
@@ -115,7 +115,7 @@ impl Builder<'_> {
         row: usize,
         name: &str,
         field: &Field<Cow<'_, str>>,
-        at: At<'_>,
+        at: PlaceFn<'_>,
     ) -> Result<(), ReadError> {
         match self.text(field, &|| within(at, name))? {
             Some(text) => self.set(table, row, name, Value::Text(text)),
@@ -130,7 +130,7 @@ impl Builder<'_> {
         row: usize,
         name: &str,
         field: &Field<f64>,
-        at: At<'_>,
+        at: PlaceFn<'_>,
     ) -> Result<(), ReadError> {
         self.check_type(field, &|| within(at, name), "a number");
         match field.get() {
@@ -145,13 +145,13 @@ impl Builder<'_> {
         table: Table,
         row: usize,
         attributes: &Attributes<'_>,
-        at: At<'_>,
+        at: PlaceFn<'_>,
     ) -> Result<(), ReadError> {
         for (name, field) in attributes.iter() {
             if let Some(kind) = field.wrong_kind() {
                 let message = || format!("the attribute is {kind}, which no column can hold");
                 let remedy = "It is left out; nothing else changes by that";
-                self.find(Code::Attribute, &|| within(at, name), message, remedy);
+                self.report(Code::Attribute, &|| within(at, name), message, remedy);
             }
             let value = match field.get() {
                 Some(Scalar::Truth(value)) => Value::Bool(*value),
@@ -168,10 +168,10 @@ impl Builder<'_> {
         Ok(())
     }
 
-    pub(crate) fn report_missing(&mut self, at: At<'_>, expected: &str) {
+    pub(crate) fn report_missing(&mut self, at: PlaceFn<'_>, expected: &str) {
         let message = || format!("{expected} is missing");
         let remedy = "Add it in the tool that wrote the file";
-        self.find(Code::MissingField, at, message, remedy);
+        self.report(Code::MissingField, at, message, remedy);
     }
 }
 
@@ -183,7 +183,7 @@ pub(crate) fn items<T>(
 }
 
 /// The place of a field of an object.
-pub(crate) fn within(at: At<'_>, field: &str) -> Place {
+pub(crate) fn within(at: PlaceFn<'_>, field: &str) -> Place {
     Place::element(format!("{}.{field}", at().element))
 }
 

@@ -3,7 +3,7 @@
 use guideway_layout::Limits;
 
 use crate::Problem;
-use crate::text::Tally;
+use crate::text::ElementCounter;
 
 /// Holds a text to the limits. It need not be sound JSON.
 pub(super) fn check(text: &str, limits: &Limits) -> Result<(), Problem> {
@@ -66,7 +66,7 @@ fn skip_text(rest: &mut std::slice::Iter<'_, u8>) {
 
 /// The place at which a text exceeds the limits.
 fn find_excess(text: &str, limits: &Limits) -> Result<(), Problem> {
-    let mut tally = Tally::new(text, limits);
+    let mut counter = ElementCounter::new(text, limits);
     let mut rest = text.as_bytes().iter();
     while let Some(&byte) = rest.next() {
         if byte == b'"' {
@@ -75,11 +75,11 @@ fn find_excess(text: &str, limits: &Limits) -> Result<(), Problem> {
         }
         let (deeper, elements) = STEPS[usize::from(byte)];
         if elements > 0 {
-            tally.count()?;
+            counter.count()?;
         }
         match deeper {
-            1 => tally.enter(text.len() - rest.len() - 1)?,
-            -1 => tally.leave(),
+            1 => counter.enter(text.len() - rest.len() - 1)?,
+            -1 => counter.leave(),
             _ => {}
         }
     }

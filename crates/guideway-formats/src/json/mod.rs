@@ -21,7 +21,7 @@ pub(crate) use self::record::record;
 use serde::Deserialize;
 
 use crate::source::Source;
-use crate::text::{position, printable};
+use crate::text::{line_column, printable};
 use crate::{Problem, ReadError};
 
 /// Parses a whole text as one value.
@@ -41,7 +41,7 @@ pub(crate) fn parse<'t, T: FromJson<'t>>(
 /// What is wrong with a text, of which the part from byte `at` on was parsed.
 fn problem(error: &serde_json::Error, text: &str, at: usize) -> Problem {
     let (line, column) = match (
-        position(text, at),
+        line_column(text, at),
         error.line() as u64,
         error.column() as u64,
     ) {
@@ -49,7 +49,7 @@ fn problem(error: &serde_json::Error, text: &str, at: usize) -> Problem {
         ((line, _), lines, within) => (line + lines - 1, within),
     };
     if error.is_eof() {
-        let (line, column) = position(text, text.len());
+        let (line, column) = line_column(text, text.len());
         return Problem::Truncated {
             at: text.len() as u64,
             detail: format!("the JSON goes on after line {line}, column {column}"),

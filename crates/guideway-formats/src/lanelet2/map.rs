@@ -9,7 +9,7 @@ use roxmltree::Node;
 use super::center::{align, middle};
 use super::osm::{is_deleted, positions, tag};
 use crate::ReadError;
-use crate::builder::{At, Builder, NO_ROOM, Table};
+use crate::builder::{Builder, POINT_BUDGET_EXCEEDED, PlaceFn, Table};
 use crate::source::Source;
 use crate::xml::{Xml, children};
 
@@ -70,17 +70,17 @@ impl<'a, 'd, 't> Mapper<'a, 'd, 't> {
             self.map_lanelet(lanelet)?;
         }
         for (kind, count) in &relations {
-            let at: At<'_> = &|| Place::element("relations");
+            let at: PlaceFn<'_> = &|| Place::element("relations");
             let message = || format!("relations of the type {kind}: {count}");
             let remedy =
                 "They are left out, their ways are drawn: what is read are ways and lanelets";
-            self.builder.find(Code::NotDrawn, at, message, remedy);
+            self.builder.report(Code::NotDrawn, at, message, remedy);
         }
         if counts[2].1 == 0 {
             let message = || "there is no lanelet: the ways of the map are drawn".to_owned();
             let remedy = "Give relations the tag type=lanelet if there should be some";
-            let at: At<'_> = &|| xml.place(root);
-            self.builder.find(Code::Implausible, at, message, remedy);
+            let at: PlaceFn<'_> = &|| xml.place(root);
+            self.builder.report(Code::Implausible, at, message, remedy);
         }
         let provenance = &mut self.builder.layout.provenance;
         crate::Format::Lanelet2
@@ -103,10 +103,10 @@ impl<'a, 'd, 't> Mapper<'a, 'd, 't> {
         let missing = children(way, "nd").count() - points.len();
         if missing > 0 {
             let xml = self.xml;
-            let at: At<'_> = &|| xml.place(way);
+            let at: PlaceFn<'_> = &|| xml.place(way);
             let message = || format!("{missing} of its nodes are not there or have no position");
             let remedy = "It is drawn without them; save the whole map";
-            self.builder.find(Code::UnknownNode, at, message, remedy);
+            self.builder.report(Code::UnknownNode, at, message, remedy);
         }
         self.push(way, &points, "way", Direction::Both)
     }
@@ -133,13 +133,13 @@ impl<'a, 'd, 't> Mapper<'a, 'd, 't> {
         };
         // Bounds are shared, so many lanelets could walk a few long ones without end: each walk is paid for.
         if self.builder.points_left == 0 {
-            return self.refuse(lanelet, Code::Implausible, NO_ROOM);
+            return self.refuse(lanelet, Code::Implausible, POINT_BUDGET_EXCEEDED);
         }
         let walked = [left, right].map(|bound| children(bound, "nd").count() as u64);
         let left_over = self.builder.points_left.checked_sub(walked[0] + walked[1]);
         self.builder.points_left = left_over.unwrap_or(0);
         if left_over.is_none() {
-            return self.refuse(lanelet, Code::Implausible, NO_ROOM);
+            return self.refuse(lanelet, Code::Implausible, POINT_BUDGET_EXCEEDED);
         }
         let (mut left, mut right) = (self.points(left)?, self.points(right)?);
         if left.is_empty() || right.is_empty() {
@@ -179,8 +179,8 @@ impl<'a, 'd, 't> Mapper<'a, 'd, 't> {
         if runs.is_empty() {
             return self.refuse(element, Code::TooFewPoints, "it has fewer than two points");
         }
-        if !self.builder.has_room(&runs) {
-            return self.refuse(element, Code::Implausible, NO_ROOM);
+        if !self.builder.within_point_budget(&runs) {
+            return self.refuse(element, Code::Implausible, POINT_BUDGET_EXCEEDED);
         }
         let id = id(element);
         self.builder.check_text(id)?;
@@ -205,9 +205,9 @@ impl<'a, 'd, 't> Mapper<'a, 'd, 't> {
             if !self.columns.contains(key) {
                 if self.columns.len() == MOST_COLUMNS {
                     let message = || format!("more than {MOST_COLUMNS} different tags");
-                    let at: At<'_> = &|| xml.place(element);
+                    let at: PlaceFn<'_> = &|| xml.place(element);
                     self.builder
-                        .find(Code::Attribute, at, message, "The others are left out");
+                        .report(Code::Attribute, at, message, "The others are left out");
                     continue;
                 }
                 self.builder.check_text(key)?;
@@ -225,8 +225,8 @@ impl<'a, 'd, 't> Mapper<'a, 'd, 't> {
     fn refuse(&mut self, element: Node<'d, 't>, code: Code, detail: &str) -> Result<(), ReadError> {
         let xml = self.xml;
         let remedy = "It is left out; correct it in the tool that wrote the file";
-        let at: At<'_> = &|| xml.place(element);
-        self.builder.find(code, at, || detail.to_owned(), remedy);
+        let at: PlaceFn<'_> = &|| xml.place(element);
+        self.builder.report(code, at, || detail.to_owned(), remedy);
         self.builder.check_text(id(element))?;
         self.builder.refuse(id(element), code, detail)
     }

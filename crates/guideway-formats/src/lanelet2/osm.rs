@@ -6,8 +6,8 @@ use guideway_layout::{Code, Place};
 use guideway_spline::{Bounds, Point};
 use roxmltree::Node;
 
-use crate::builder::{At, Builder};
-use crate::wgs84::{LocalDegrees, is_on_earth};
+use crate::builder::{Builder, PlaceFn};
+use crate::wgs84::{LocalProjection, is_lon_lat};
 use crate::xml::{Xml, children};
 
 /// The value of a tag of an element.
@@ -43,14 +43,14 @@ pub(super) fn positions<'d>(
         is_local &= local.is_some();
         found.push((node, local, degrees));
     }
-    let sound = |p: &Point<f64>| p.is_finite() && is_on_earth(*p);
+    let sound = |p: &Point<f64>| p.is_finite() && is_lon_lat(*p);
     let all_degrees = found
         .iter()
         .filter_map(|(_, _, degrees)| degrees.filter(sound));
-    let frame = Bounds::of_points(all_degrees).map(LocalDegrees::about);
+    let frame = Bounds::of_points(all_degrees).map(LocalProjection::centered_on);
     let mut positions = HashMap::with_capacity(found.len());
     for (node, local, degrees) in found {
-        let at: At<'_> = &|| xml.place(node);
+        let at: PlaceFn<'_> = &|| xml.place(node);
         let projected = || Some(frame?.to_meters(degrees.filter(sound)?));
         let position = if is_local { local } else { projected() };
         let Some(position) = position else {
@@ -62,7 +62,7 @@ pub(super) fn positions<'d>(
                 None => (Code::MissingField, "there is no `lat` and `lon`".to_owned()),
             };
             let remedy = "What is drawn through it leaves it out; correct its position";
-            builder.find(code, at, || message, remedy);
+            builder.report(code, at, || message, remedy);
             continue;
         };
         if builder.check_point(position, at)
@@ -70,7 +70,7 @@ pub(super) fn positions<'d>(
             && positions.insert(id, position).is_some()
         {
             let message = || format!("the node {id} is there more than once");
-            builder.find(
+            builder.report(
                 Code::DuplicateId,
                 at,
                 message,
@@ -79,13 +79,13 @@ pub(super) fn positions<'d>(
         }
     }
     if !is_local && frame.is_some() {
-        let at: At<'_> = &|| Place::element("the positions");
+        let at: PlaceFn<'_> = &|| Place::element("the positions");
         let message = || {
             "longitude and latitude become meters about the middle of the map, true to scale there"
                 .to_owned()
         };
         let remedy = "Nothing to do; with `local_x` and `local_y` at every node, those are drawn";
-        builder.find(Code::AssumedUnit, at, message, remedy);
+        builder.report(Code::AssumedUnit, at, message, remedy);
     }
     positions
 }

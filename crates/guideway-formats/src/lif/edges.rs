@@ -9,7 +9,7 @@ use guideway_spline::{Point, Runs};
 use super::map::Mapper;
 use super::model::{EDGE_PROPERTIES, Edge, EdgeProperties, PHYSICAL_LINE};
 use crate::ReadError;
-use crate::builder::{At, Table};
+use crate::builder::{PlaceFn, Table};
 use crate::json::{Field, items, within};
 use crate::trajectory::Trajectory;
 
@@ -46,7 +46,7 @@ impl Mapper<'_> {
         &mut self,
         edge: &Field<Edge<'_>>,
         level: u32,
-        at: At<'_>,
+        at: PlaceFn<'_>,
     ) -> Result<(), ReadError> {
         let Some(edge) = self.builder.record(edge, at) else {
             self.count_edge();
@@ -66,7 +66,7 @@ impl Mapper<'_> {
                 (false, []) => format!("{id} [{}]", i + 1).into(),
                 (false, types) => format!("{id} [{}]", types.join(", ")).into(),
             };
-            let at_curve: At<'_> = &|| match curve.entry {
+            let at_curve: PlaceFn<'_> = &|| match curve.entry {
                 Some((key, i)) => within(at, &format!("{key}[{i}]")),
                 None => at(),
             };
@@ -80,7 +80,7 @@ impl Mapper<'_> {
         field: &'r Field<Cow<'_, str>>,
         edge: &str,
         level: u32,
-        at: At<'_>,
+        at: PlaceFn<'_>,
     ) -> Result<End<'r>, ReadError> {
         let name = self.builder.text(field, at)?;
         if field.is_absent() {
@@ -103,7 +103,7 @@ impl Mapper<'_> {
     fn curves<'r, 'a>(
         &mut self,
         edge: &'r Edge<'a>,
-        at: At<'_>,
+        at: PlaceFn<'_>,
     ) -> Result<Vec<Curve<'r, 'a>>, ReadError> {
         let mut curves: Vec<Curve<'r, 'a>> = Vec::new();
         let mut known: HashMap<Vec<u64>, usize> = HashMap::new();
@@ -119,14 +119,14 @@ impl Mapper<'_> {
         for (key, list) in lists {
             self.builder.check_list(list, at, key);
             for (i, field) in items(list) {
-                let at_entry: At<'_> = &|| within(at, &format!("{key}[{i}]"));
+                let at_entry: PlaceFn<'_> = &|| within(at, &format!("{key}[{i}]"));
                 let Some(entry) = self.builder.record(field, at_entry) else {
                     continue;
                 };
                 self.builder.check_repeated(entry.repeated, at_entry);
                 let types =
                     self.vehicle_types(&entry.vehicle_type, &entry.robot_types, at_entry)?;
-                let at_curve: At<'_> = &|| within(at_entry, "trajectory");
+                let at_curve: PlaceFn<'_> = &|| within(at_entry, "trajectory");
                 self.builder
                     .check_type(&entry.trajectory, at_curve, "an object");
                 let trajectory = entry.trajectory.get().map(AsRef::as_ref);
@@ -169,19 +169,19 @@ impl Mapper<'_> {
         curve: &Curve<'_, '_>,
         ends: [&End<'_>; 2],
         level: u32,
-        at: At<'_>,
+        at: PlaceFn<'_>,
     ) -> Result<(), ReadError> {
         let [start, end] = ends;
         if start.row.is_some() && end.row.is_some() && start.level != end.level {
             let detail = self.between_levels(start, end);
             let message = || format!("`{name}` {detail}");
             let remedy = "Nothing to do if this is a lift; else move the node";
-            self.builder.find(Code::CrossLevel, at, message, remedy);
+            self.builder.report(Code::CrossLevel, at, message, remedy);
             return self.builder.refuse(name, Code::CrossLevel, &detail);
         }
         let mut runs = Runs::default();
         if let Some(trajectory) = curve.trajectory {
-            let at_curve: At<'_> = &|| within(at, "trajectory");
+            let at_curve: PlaceFn<'_> = &|| within(at, "trajectory");
             self.builder
                 .append_trajectory(trajectory, at_curve, &mut runs)?;
         }
@@ -223,7 +223,7 @@ impl Mapper<'_> {
         &mut self,
         row: usize,
         curve: &Curve<'_, '_>,
-        at: At<'_>,
+        at: PlaceFn<'_>,
     ) -> Result<(), ReadError> {
         let Some((first, others)) = curve.properties.split_first() else {
             return Ok(());
@@ -234,7 +234,7 @@ impl Mapper<'_> {
         if differs {
             let message = || "vehicle types share this curve and differ in other things".to_owned();
             let remedy = "The attributes of the first are shown";
-            self.builder.find(Code::Attribute, at, message, remedy);
+            self.builder.report(Code::Attribute, at, message, remedy);
         }
         let line_guided = first
             .attributes
@@ -245,7 +245,7 @@ impl Mapper<'_> {
                 || "vehicles follow a line on the floor, whose shape is not in the file".into();
             let remedy = "A straight line is drawn";
             self.builder
-                .find(Code::ApproximateShape, at, message, remedy);
+                .report(Code::ApproximateShape, at, message, remedy);
         }
         Ok(())
     }

@@ -8,7 +8,7 @@ use guideway_spline::Point;
 
 use super::model::{self, Node, Position, RobotType, Root, Station};
 use crate::ReadError;
-use crate::builder::{At, Builder, Table};
+use crate::builder::{Builder, PlaceFn, Table};
 use crate::json::{Field, items, within};
 use crate::node_rows::NodeRows;
 use crate::source::Source;
@@ -53,7 +53,7 @@ impl<'a> Mapper<'a> {
     }
 
     pub(super) fn map<'t>(mut self, root: &Root<'t>, file: &'t str) -> Result<Layout, ReadError> {
-        let at_root: At<'_> = &|| Place::element("the root");
+        let at_root: PlaceFn<'_> = &|| Place::element("the root");
         self.builder.check_repeated(root.repeated, at_root);
         self.map_version(root)?;
         let parts = self.parts(root)?;
@@ -112,13 +112,13 @@ impl<'a> Mapper<'a> {
         let Some(meta) = root.meta.get() else {
             return Ok(());
         };
-        let at: At<'_> = &|| Place::element("metaInformation.lifVersion");
+        let at: PlaceFn<'_> = &|| Place::element("metaInformation.lifVersion");
         let stated = self.builder.text(&meta.lif_version, at)?;
         if let Some(stated) = stated.filter(|s| s.split('.').next() != version.split('.').next()) {
             let message =
                 || format!("the file states version {stated}, its structure is {version}");
             let remedy = "Nothing to do: the structure counts";
-            self.builder.find(Code::Version, at, message, remedy);
+            self.builder.report(Code::Version, at, message, remedy);
         }
         Ok(())
     }
@@ -128,7 +128,7 @@ impl<'a> Mapper<'a> {
         self.collect(&root.layouts, "layouts", &mut parts);
         for (i, origin) in items(&root.origins) {
             let place = format!("origins[{i}]");
-            let at: At<'_> = &|| Place::element(place.as_str());
+            let at: PlaceFn<'_> = &|| Place::element(place.as_str());
             if let Some(origin) = self.builder.record(origin, at) {
                 self.builder.check_repeated(origin.repeated, at);
                 self.builder.check_list(&origin.layouts, at, "layouts");
@@ -136,7 +136,7 @@ impl<'a> Mapper<'a> {
             }
         }
         for part in &parts {
-            let at: At<'_> = &|| Place::element(part.place.as_str());
+            let at: PlaceFn<'_> = &|| Place::element(part.place.as_str());
             self.builder.check_repeated(part.layout.repeated, at);
             self.builder.check_list(&part.layout.nodes, at, "nodes");
             self.builder.check_list(&part.layout.edges, at, "edges");
@@ -164,7 +164,7 @@ impl<'a> Mapper<'a> {
     }
 
     fn map_level(&mut self, part: &Part<'_, '_>) -> Result<(), ReadError> {
-        let at: At<'_> = &|| Place::element(part.place.as_str());
+        let at: PlaceFn<'_> = &|| Place::element(part.place.as_str());
         let id = self.builder.id(&part.layout.id, at, "layoutId")?;
         let name = self
             .builder
@@ -173,7 +173,7 @@ impl<'a> Mapper<'a> {
         if !new {
             let message = || format!("the layoutId `{id}` is used more than once");
             let remedy = "Both are kept, and `--level` shows the first; rename one";
-            self.builder.find(Code::DuplicateId, at, message, remedy);
+            self.builder.report(Code::DuplicateId, at, message, remedy);
         }
         self.builder.layout.levels.push(Level {
             id: id.into_owned(),
@@ -187,7 +187,7 @@ impl<'a> Mapper<'a> {
         &mut self,
         node: &Field<Node<'_>>,
         level: u32,
-        at: At<'_>,
+        at: PlaceFn<'_>,
     ) -> Result<(), ReadError> {
         self.counts.nodes += 1;
         let Some(node) = self.builder.record(node, at) else {
@@ -232,7 +232,7 @@ impl<'a> Mapper<'a> {
         &mut self,
         station: &Field<Station<'_>>,
         level: u32,
-        at: At<'_>,
+        at: PlaceFn<'_>,
     ) -> Result<(), ReadError> {
         self.counts.stations += 1;
         let Some(station) = self.builder.record(station, at) else {
@@ -244,7 +244,7 @@ impl<'a> Mapper<'a> {
         let id = self.builder.id(&station.id, at, "stationId")?;
         let mut nodes = Vec::new();
         for (i, name) in items(&station.nodes) {
-            let at_name: At<'_> = &|| within(at, &format!("interactionNodeIds[{i}]"));
+            let at_name: PlaceFn<'_> = &|| within(at, &format!("interactionNodeIds[{i}]"));
             let Some(name) = self.builder.text(name, at_name)? else {
                 continue;
             };
@@ -253,7 +253,7 @@ impl<'a> Mapper<'a> {
                 None => self.builder.report_unknown_node(name, &id, at_name),
             }
         }
-        let at_position: At<'_> = &|| within(at, "stationPosition");
+        let at_position: PlaceFn<'_> = &|| within(at, "stationPosition");
         let position = self.position(&station.position, at_position, false);
         let row = self
             .builder
@@ -280,7 +280,7 @@ impl<'a> Mapper<'a> {
         &mut self,
         vehicle_type: &Field<Cow<'_, str>>,
         robot_types: &Field<Vec<Field<RobotType<'_>>>>,
-        at: At<'_>,
+        at: PlaceFn<'_>,
     ) -> Result<Vec<String>, ReadError> {
         let mut names = Vec::new();
         if let Some(name) = self
@@ -315,7 +315,7 @@ impl<'a> Mapper<'a> {
     fn position(
         &mut self,
         field: &Field<Position>,
-        at: At<'_>,
+        at: PlaceFn<'_>,
         needed: bool,
     ) -> Option<Point<f64>> {
         if field.is_absent() && !needed {

@@ -30,7 +30,7 @@ const MOST_KEPT_BYTES: usize = 256 << 20;
 
 /// Reads a LIF file.
 pub(crate) fn read(source: Source<'_>, bytes: &[u8]) -> Result<Layout, ReadError> {
-    let text = text::decode(&source, bytes)?;
+    let text = text::decode_utf8(&source, bytes)?;
     let root = match json::parse::<Root<'_>>(&source, text)? {
         Field::Value(root) => root,
         other => {

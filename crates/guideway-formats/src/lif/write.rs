@@ -50,12 +50,12 @@ pub fn write_layout(
         None => Losses::of(layout),
     };
     let rest = rest.unwrap_or_default();
-    losses.widths(layout);
-    losses.colors(layout);
-    losses.ranks(layout);
+    losses.add_widths(layout);
+    losses.add_colors(layout);
+    losses.add_ranks(layout);
     let is_held = |name: &str| matches!(name, "nodeName" | "mapId");
-    losses.columns(&layout.nodes.attributes, "nodes", is_held);
-    losses.columns(&layout.stations.attributes, "stations", |name| {
+    losses.add_columns(&layout.nodes.attributes, "nodes", is_held);
+    losses.add_columns(&layout.stations.attributes, "stations", |name| {
         station_names(version).contains(&name)
     });
     let network = Network::of(layout, &mut losses);

@@ -136,7 +136,7 @@ impl<'a> Columns<'a> {
                 is_renamed: attribute.name != target,
             });
         }
-        losses.columns(&layout.paths.attributes, "paths", |name| {
+        losses.add_columns(&layout.paths.attributes, "paths", |name| {
             columns.iter().any(|c| c.attribute.name == name)
         });
         for column in &columns {

@@ -6,7 +6,7 @@ use super::write_columns::{Columns, Version};
 use super::write_network::{Names, Network, path_types};
 use super::write_objects::{EdgeObject, ForTypes, Trajectory};
 use crate::Losses;
-use crate::clamped::{Clamped, SAME_POSITION_M};
+use crate::clamped::{ClampedCurve, POSITION_STEP_M};
 
 /// Which edge of a path it is.
 pub(super) struct EdgeRef<'a> {
@@ -80,7 +80,7 @@ impl<'a> Edges<'a> {
 
     /// The curve, but of the straight line from node to node, which needs none.
     fn trajectory(&self, path: PathRef<'_>, nodes: [u32; 2], is_back: bool) -> Option<Trajectory> {
-        let mut curve = Clamped::whole(path)?;
+        let mut curve = ClampedCurve::from_path(path)?;
         let last = *curve.knots.last()?;
         if is_back {
             curve.points.reverse();
@@ -90,7 +90,7 @@ impl<'a> Edges<'a> {
         let from_node_to_node = curve.as_line().is_some_and(|line| {
             let nodes = nodes.map(|node| self.network.position_m(node));
             let apart = line[0].distance(nodes[0]).max(line[1].distance(nodes[1]));
-            apart <= SAME_POSITION_M
+            apart <= POSITION_STEP_M
         });
         (!from_node_to_node).then(|| curve.into())
     }

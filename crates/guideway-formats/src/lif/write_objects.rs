@@ -7,7 +7,7 @@ use serde_json::{Map, Value};
 
 use super::model::{EDGE_PROPERTIES, NODE_PROPERTIES};
 use super::write_columns::Version;
-use crate::clamped::{Clamped, rounded};
+use crate::clamped::{ClampedCurve, rounded};
 
 pub(super) struct NodeObject<'a> {
     pub(super) id: &'a str,
@@ -132,9 +132,9 @@ pub(super) struct Trajectory {
     control_points: Vec<Position>,
 }
 
-impl From<Clamped> for Trajectory {
+impl From<ClampedCurve> for Trajectory {
     /// With knots from 0 to 1.
-    fn from(curve: Clamped) -> Self {
+    fn from(curve: ClampedCurve) -> Self {
         let last = curve.knots.last().copied().unwrap_or(1.0);
         Self {
             degree: curve.degree,

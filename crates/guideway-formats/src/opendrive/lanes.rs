@@ -49,7 +49,7 @@ impl<'d, 't> Section<'d, 't> {
                 if id != 0 && widths.is_empty() && borders.is_empty() {
                     let message = || "there is no width".to_owned();
                     let remedy = "It is drawn without width; give it a width";
-                    mapper.find(Code::MissingField, node, message, remedy);
+                    mapper.report(Code::MissingField, node, message, remedy);
                 }
                 lanes.push(Lane {
                     node,

@@ -19,7 +19,7 @@ use crate::{Problem, ReadError, text};
 
 /// Reads roads.
 pub(crate) fn read(source: Source<'_>, bytes: &[u8]) -> Result<Layout, ReadError> {
-    let text = text::decode(&source, bytes)?;
+    let text = text::decode_utf8(&source, bytes)?;
     let xml = Xml::parse(&source, text, Doctype::Refused)?;
     let root = xml.root();
     if root.tag_name().name() != "OpenDRIVE" {

@@ -24,14 +24,14 @@ impl<'d, 't> Mapper<'_, 'd, 't> {
         if !(0.0..=most).contains(&length_m) || start_m.abs() > most {
             let message = || format!("the length is {length_m} m, at {start_m} m of the road");
             let remedy = "It is left out; correct the length";
-            self.find(Code::OutOfRange, node, message, remedy);
+            self.report(Code::OutOfRange, node, message, remedy);
             return None;
         }
         let Some(shape) = self.shape(node, heading, length_m) else {
             let message =
                 || "it holds no line, arc, spiral or polynomial, or one without end".to_owned();
             let remedy = "It is left out, and the lanes there too; correct it";
-            self.find(Code::UnknownValue, node, message, remedy);
+            self.report(Code::UnknownValue, node, message, remedy);
             return None;
         };
         Some(Line {

@@ -9,7 +9,7 @@ use super::lanes::{Section, offsets, sections};
 use super::polynomial::Piecewise;
 use super::reference::Line;
 use crate::ReadError;
-use crate::builder::{At, Builder, NO_ROOM, Table};
+use crate::builder::{Builder, POINT_BUDGET_EXCEEDED, PlaceFn, Table};
 use crate::source::Source;
 use crate::xml::{Xml, child, children};
 
@@ -61,10 +61,10 @@ impl<'a, 'd, 't> Mapper<'a, 'd, 't> {
             let lists = roads().flat_map(|road| children(road, list));
             let count = lists.flat_map(|list| children(list, tag)).count();
             if count > 0 {
-                let at: At<'_> = &|| Place::element(list);
+                let at: PlaceFn<'_> = &|| Place::element(list);
                 let remedy = "They are left out: what is read are the lanes of roads";
                 let message = || format!("elements <{tag}>: {count}");
-                self.builder.find(Code::NotDrawn, at, message, remedy);
+                self.builder.report(Code::NotDrawn, at, message, remedy);
             }
         }
         let header = child(root, "header");
@@ -108,7 +108,7 @@ impl<'a, 'd, 't> Mapper<'a, 'd, 't> {
         };
         if sections.is_empty() {
             let message = || "the road has no lanes".to_owned();
-            self.find(Code::NotDrawn, node, message, "Give it a lane section");
+            self.report(Code::NotDrawn, node, message, "Give it a lane section");
         }
         let ends = sections.iter().skip(1).map(|next| next.start_m);
         let road_end_m = road
@@ -189,8 +189,8 @@ impl<'a, 'd, 't> Mapper<'a, 'd, 't> {
                 break;
             }
         }
-        let refused = if !self.builder.has_room(&runs) {
-            Some((Code::Implausible, NO_ROOM))
+        let refused = if !self.builder.within_point_budget(&runs) {
+            Some((Code::Implausible, POINT_BUDGET_EXCEEDED))
         } else if runs.is_empty() {
             Some((
                 Code::MissingField,
@@ -201,21 +201,21 @@ impl<'a, 'd, 't> Mapper<'a, 'd, 't> {
                 Code::NonFinite,
                 "the reference line stops, or its numbers are too large to compute with",
             ))
-        } else if !self.builder.is_within_reach(&runs) {
+        } else if !self.builder.within_coordinate_limit(&runs) {
             Some((Code::OutOfRange, "it goes beyond the largest coordinate"))
         } else {
             None
         };
         if let Some((code, detail)) = refused {
             let remedy = "It is left out; correct the road in the tool that wrote the file";
-            self.find(code, lane, || detail.to_owned(), remedy);
+            self.report(code, lane, || detail.to_owned(), remedy);
             return self.builder.refuse(id, code, detail);
         }
         if error_m > tolerance_m {
             let message =
                 || format!("the curve is drawn within {error_m} m, not within {tolerance_m} m");
             let remedy = "The reference line stops or is very bent there; look whether it is right";
-            self.find(Code::ApproximateShape, lane, message, remedy);
+            self.report(Code::ApproximateShape, lane, message, remedy);
         }
         // Traffic keeps to one side: what is on the other side comes toward.
         if (number > 0) != road.is_left_hand && number != 0 {
@@ -256,7 +256,7 @@ impl<'a, 'd, 't> Mapper<'a, 'd, 't> {
     ) -> Result<(), ReadError> {
         self.lanes += 1;
         let remedy = "It is left out; correct the file";
-        self.find(Code::MissingField, lane, || detail.to_owned(), remedy);
+        self.report(Code::MissingField, lane, || detail.to_owned(), remedy);
         let id = self.xml.place(lane).to_string();
         self.builder.refuse(&id, Code::MissingField, detail)
     }
@@ -276,12 +276,12 @@ impl<'a, 'd, 't> Mapper<'a, 'd, 't> {
             }),
         };
         let remedy = "What depends on it is left out; correct the number";
-        self.find(code, node, || message, remedy);
+        self.report(code, node, || message, remedy);
         None
     }
 
     /// Records a finding at an element.
-    pub(super) fn find(
+    pub(super) fn report(
         &mut self,
         code: Code,
         node: Node<'d, 't>,
@@ -290,7 +290,7 @@ impl<'a, 'd, 't> Mapper<'a, 'd, 't> {
     ) {
         let xml = self.xml;
         self.builder
-            .find(code, &|| xml.place(node), message, remedy);
+            .report(code, &|| xml.place(node), message, remedy);
     }
 }
 

@@ -97,6 +97,6 @@ fn scale<'d, 't>(plant: &mut Plant<'_, 'd, 't>, node: Node<'d, 't>, key: &'stati
     }
     let message = || format!("{key} is {scale}");
     let remedy = "50 mm a unit is used; give a number above 0";
-    plant.find(Code::UnknownValue, node, message, remedy);
+    plant.report(Code::UnknownValue, node, message, remedy);
     DEFAULT_SCALE
 }

@@ -46,7 +46,7 @@ impl<'d, 't> Plant<'_, 'd, 't> {
         if ring.len() < 4 {
             let message = || "the envelope has fewer than three corners".to_owned();
             let remedy = "Give it at least three, or remove it";
-            self.find(Code::MissingField, envelope, message, remedy);
+            self.report(Code::MissingField, envelope, message, remedy);
             return None;
         }
         Some(ring)
@@ -57,7 +57,7 @@ impl<'d, 't> Plant<'_, 'd, 't> {
         for key in ["x", "y"] {
             if vertex.attribute(key).is_none() {
                 let message = || format!("a corner of the envelope has no {key}");
-                self.find(Code::MissingField, vertex, message, "Give it one");
+                self.report(Code::MissingField, vertex, message, "Give it one");
                 return None;
             }
         }

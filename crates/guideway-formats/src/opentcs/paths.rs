@@ -110,7 +110,7 @@ impl<'d, 't> Plant<'_, 'd, 't> {
         self.control_points += 1;
         let (Some(x), Some(y)) = (x, y) else {
             let message = || "a control point lacks a coordinate".to_owned();
-            self.find(
+            self.report(
                 Code::MissingField,
                 path,
                 message,
@@ -152,7 +152,7 @@ impl<'d, 't> Plant<'_, 'd, 't> {
                     )
                 };
                 let remedy = "A straight line is drawn";
-                self.find(Code::ApproximateShape, path, message, remedy);
+                self.report(Code::ApproximateShape, path, message, remedy);
                 runs.push_line(start, end);
             }
             // The editor writes one point where both handles are the same.
@@ -178,14 +178,14 @@ impl<'d, 't> Plant<'_, 'd, 't> {
     fn report_handles(&mut self, path: Node<'d, 't>, expected: &str, actual: usize) {
         let message = || format!("{actual} control points, {expected} expected");
         let remedy = "Straight lines are drawn through them; draw the path again in the editor";
-        self.find(Code::TooFewPoints, path, message, remedy);
+        self.report(Code::TooFewPoints, path, message, remedy);
     }
 
     fn report_kind(&mut self, path: Node<'d, 't>, kind: &str) {
         let start: String = kind.chars().take(40).collect();
         let message = || format!("the connection type \"{start}\" is not known");
         let remedy = "Straight lines are drawn through its control points";
-        self.find(Code::UnknownValue, path, message, remedy);
+        self.report(Code::UnknownValue, path, message, remedy);
     }
 
     fn set_path_attributes(

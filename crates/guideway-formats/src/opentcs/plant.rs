@@ -89,7 +89,7 @@ impl<'a, 'd, 't> Plant<'a, 'd, 't> {
                 other => format!("the file states version {other}, which is not known"),
             };
             let remedy = "It is read by its structure; look whether the picture is right";
-            self.find(Code::Version, model, message, remedy);
+            self.report(Code::Version, model, message, remedy);
         }
         Ok(())
     }
@@ -147,7 +147,7 @@ impl<'a, 'd, 't> Plant<'a, 'd, 't> {
         let Some(position_mm) = drawn.or(plant) else {
             let message = || "there is no position".to_owned();
             let remedy = "Give it one in the tool that wrote the file";
-            self.find(Code::MissingField, node, message, remedy);
+            self.report(Code::MissingField, node, message, remedy);
             return None;
         };
         let position = position_mm * 1e-3;
@@ -192,7 +192,7 @@ impl<'a, 'd, 't> Plant<'a, 'd, 't> {
         if number.is_none() {
             let start: String = text.chars().take(40).collect();
             let message = || format!("{key} is \"{start}\", a number was expected");
-            self.find(Code::WrongType, node, message, "Correct the number");
+            self.report(Code::WrongType, node, message, "Correct the number");
         }
         number
     }
@@ -201,7 +201,7 @@ impl<'a, 'd, 't> Plant<'a, 'd, 't> {
     pub(super) fn name(&mut self, node: Node<'d, 't>) -> Result<String, ReadError> {
         let Some(name) = node.attribute("name") else {
             let message = || "there is no name".to_owned();
-            self.find(Code::MissingField, node, message, "Give it a name");
+            self.report(Code::MissingField, node, message, "Give it a name");
             return Ok(self.xml.place(node).to_string());
         };
         self.builder.check_text(name)?;
@@ -209,7 +209,7 @@ impl<'a, 'd, 't> Plant<'a, 'd, 't> {
     }
 
     /// Records a finding at an element.
-    pub(super) fn find(
+    pub(super) fn report(
         &mut self,
         code: Code,
         node: Node<'d, 't>,
@@ -218,13 +218,13 @@ impl<'a, 'd, 't> Plant<'a, 'd, 't> {
     ) {
         let xml = self.xml;
         self.builder
-            .find(code, &|| xml.place(node), message, remedy);
+            .report(code, &|| xml.place(node), message, remedy);
     }
 
     pub(super) fn report_unknown_node(&mut self, node: Node<'d, 't>, point: &str) {
         let message = || format!("the point \"{point}\" is not there or has no position");
         let remedy = "Add the point, or correct the name";
-        self.find(Code::UnknownNode, node, message, remedy);
+        self.report(Code::UnknownNode, node, message, remedy);
     }
 
     pub(super) fn text_attribute(
@@ -254,7 +254,7 @@ impl<'a, 'd, 't> Plant<'a, 'd, 't> {
             Some(other) => {
                 let start: String = other.chars().take(40).collect();
                 let message = || format!("{name} is \"{start}\", true or false was expected");
-                self.find(Code::WrongType, node, message, "Correct the value");
+                self.report(Code::WrongType, node, message, "Correct the value");
                 return Ok(());
             }
             None => return Ok(()),
@@ -279,7 +279,7 @@ impl<'a, 'd, 't> Plant<'a, 'd, 't> {
                 if self.properties.len() == MOST_PROPERTIES {
                     let message = || format!("more than {MOST_PROPERTIES} different properties");
                     let remedy = "The others are left out";
-                    self.find(Code::Attribute, property, message, remedy);
+                    self.report(Code::Attribute, property, message, remedy);
                     continue;
                 }
                 self.builder.check_text(name)?;
@@ -303,7 +303,7 @@ impl<'a, 'd, 't> Plant<'a, 'd, 't> {
             };
             let remedy = "They are shown as drawn, where the curves meet them";
             self.builder
-                .find(Code::LegacyPosition, &at, message, remedy);
+                .report(Code::LegacyPosition, &at, message, remedy);
         }
     }
 

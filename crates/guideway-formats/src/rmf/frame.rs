@@ -7,8 +7,8 @@ use guideway_layout::{Code, Place};
 use guideway_spline::{Affine, Bounds, Point};
 
 use super::level::Level;
-use crate::builder::{At, Builder};
-use crate::wgs84::{LocalDegrees, is_on_earth};
+use crate::builder::{Builder, PlaceFn};
+use crate::wgs84::{LocalProjection, is_lon_lat};
 
 /// Meters a pixel where nothing was measured: what the editor begins with.
 const ASSUMED_SCALE: f64 = 0.05;
@@ -33,7 +33,7 @@ pub(super) enum Coordinates {
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Frame {
     Plane(Affine),
-    Degrees(LocalDegrees),
+    Degrees(LocalProjection),
 }
 
 impl Frame {
@@ -57,10 +57,10 @@ pub(super) fn frames(
         Coordinates::Image => return image_frames(builder, levels, reference),
         Coordinates::Meters => Frame::Plane(Affine::IDENTITY),
         Coordinates::Degrees => {
-            let sound = positions.copied().filter(|&p| is_on_earth(p));
+            let sound = positions.copied().filter(|&p| is_lon_lat(p));
             let bounds = Bounds::of_points(sound);
             bounds.map_or(Frame::Plane(Affine::IDENTITY), |bounds| {
-                Frame::Degrees(LocalDegrees::about(bounds))
+                Frame::Degrees(LocalProjection::centered_on(bounds))
             })
         }
         Coordinates::Mercator => {
@@ -89,8 +89,8 @@ fn image_frames(builder: &mut Builder<'_>, levels: &[Level<'_>], reference: usiz
             )
         };
         let remedy = "Measure a distance in the editor; all lengths depend on it";
-        let at: At<'_> = &|| reference_level.place("measurements");
-        builder.find(Code::AssumedUnit, at, message, remedy);
+        let at: PlaceFn<'_> = &|| reference_level.place("measurements");
+        builder.report(Code::AssumedUnit, at, message, remedy);
         ASSUMED_SCALE
     });
     let frame = |(index, level): (usize, &Level<'_>)| {
@@ -113,8 +113,8 @@ fn image_frames(builder: &mut Builder<'_>, levels: &[Level<'_>], reference: usiz
                 };
                 let remedy =
                     "It is drawn where its own floor plan has it; add fiducials in the editor";
-                let at: At<'_> = &|| level.place("fiducials");
-                builder.find(Code::AssumedUnit, at, message, remedy);
+                let at: PlaceFn<'_> = &|| level.place("fiducials");
+                builder.report(Code::AssumedUnit, at, message, remedy);
                 let scale = measured_scale(builder, level).unwrap_or(reference_scale);
                 similarity(scale, 0.0, Point::new(0.0, 0.0))
             }
@@ -158,11 +158,11 @@ fn measured_scale(builder: &mut Builder<'_>, level: &Level<'_>) -> Option<f64> {
             )
         };
         let remedy = "It is left out; measure the distance again in the editor";
-        let at: At<'_> = &|| Place {
+        let at: PlaceFn<'_> = &|| Place {
             line: Some(measured.line),
             ..level.place(&format!("measurements[{index}]"))
         };
-        builder.find(Code::Implausible, at, message, remedy);
+        builder.report(Code::Implausible, at, message, remedy);
     }
     let count = scales.len() as f64;
     (count > 0.0).then(|| scales.iter().sum::<f64>() / count)

@@ -4,7 +4,7 @@ use guideway_layout::{Code, Place};
 use guideway_spline::Point;
 
 use crate::ReadError;
-use crate::builder::{At, Builder};
+use crate::builder::{Builder, PlaceFn};
 use crate::yaml::Item;
 
 /// One level, its vertices in the unit of the file.
@@ -32,13 +32,13 @@ impl<'y> Level<'y> {
     ) -> Result<Self, ReadError> {
         builder.check_text(name)?;
         if !content.is_map() {
-            let at: At<'_> = &|| Place {
+            let at: PlaceFn<'_> = &|| Place {
                 element: format!("levels.{name}"),
                 line: Some(content.line()),
             };
             let message = || format!("an object was expected, {} was found", content.kind());
             let remedy = "The level is empty; give it vertices and lanes";
-            builder.find(Code::WrongType, at, message, remedy);
+            builder.report(Code::WrongType, at, message, remedy);
         }
         let mut level = Self {
             name,
@@ -50,7 +50,7 @@ impl<'y> Level<'y> {
         for (index, vertex) in level.list(builder, "vertices").enumerate() {
             let position = position(vertex);
             if position.is_none() {
-                let at: At<'_> = &|| level.item_place("vertices", index, vertex);
+                let at: PlaceFn<'_> = &|| level.item_place("vertices", index, vertex);
                 let message = || {
                     format!(
                         "a list that begins with x and y expected, {} found",
@@ -58,7 +58,7 @@ impl<'y> Level<'y> {
                     )
                 };
                 let remedy = "Write it as [x, y, ...]; what begins or ends there is not drawn";
-                builder.find(Code::MissingField, at, message, remedy);
+                builder.report(Code::MissingField, at, message, remedy);
             }
             level.positions.push(position);
         }
@@ -91,9 +91,9 @@ impl<'y> Level<'y> {
         let odd =
             found.filter(|f| !f.is_list() && f.entries().next().is_some() || f.value().is_some());
         if let Some(odd) = odd {
-            let at: At<'_> = &|| self.place(key);
+            let at: PlaceFn<'_> = &|| self.place(key);
             let message = || format!("a list was expected, {} was found", odd.kind());
-            builder.find(
+            builder.report(
                 Code::WrongType,
                 at,
                 message,

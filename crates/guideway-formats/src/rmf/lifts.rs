@@ -9,7 +9,7 @@ use super::frame::Frame;
 use super::level::Level;
 use super::site::{Site, place};
 use crate::ReadError;
-use crate::builder::{At, Table};
+use crate::builder::{PlaceFn, Table};
 use crate::yaml::Item;
 
 impl<'y> Site<'_, 'y> {
@@ -46,11 +46,11 @@ impl<'y> Site<'_, 'y> {
             let frame = frames.get(floor.unwrap_or(reference));
             let position = x.zip(y).zip(frame);
             let position = position.map(|((x, y), frame)| frame.to_meters(Point::new(x, y)));
-            let at: At<'_> = &|| place(&format!("lifts.{name}"), lift);
+            let at: PlaceFn<'_> = &|| place(&format!("lifts.{name}"), lift);
             if position.is_none() {
                 let message = || "there is no position".to_owned();
                 let remedy = "Give it a place in the editor";
-                self.builder.find(Code::MissingField, at, message, remedy);
+                self.builder.report(Code::MissingField, at, message, remedy);
             }
             let position = position.filter(|&p| self.builder.check_point(p, at));
             let row = self

@@ -28,7 +28,7 @@ pub(crate) fn is_rmf(text: &[u8]) -> bool {
 
 /// Reads a building or a navigation graph.
 pub(crate) fn read(source: Source<'_>, bytes: &[u8]) -> Result<Layout, ReadError> {
-    let text = text::decode(&source, bytes)?;
+    let text = text::decode_utf8(&source, bytes)?;
     let yaml = Yaml::parse(&source, text)?;
     let levels = yaml.root().and_then(|root| root.get("levels"));
     let Some((root, levels)) = yaml.root().zip(levels.filter(|levels| levels.is_map())) else {

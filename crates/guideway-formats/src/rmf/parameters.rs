@@ -4,7 +4,7 @@ use guideway_layout::{Code, Value};
 
 use super::site::Site;
 use crate::ReadError;
-use crate::builder::{At, Table};
+use crate::builder::{PlaceFn, Table};
 use crate::yaml::Item;
 
 /// Most parameters that become columns of a table; a file could else make columns without end.
@@ -17,7 +17,7 @@ impl<'y> Site<'_, 'y> {
         table: Table,
         row: usize,
         parameters: Item<'y>,
-        at: At<'_>,
+        at: PlaceFn<'_>,
     ) -> Result<(), ReadError> {
         for (key, item) in parameters.entries() {
             let value = match parameter(item) {
@@ -35,7 +35,7 @@ impl<'y> Site<'_, 'y> {
                 if self.columns.len() == MOST_COLUMNS {
                     let message = || format!("more than {MOST_COLUMNS} different parameters");
                     self.builder
-                        .find(Code::Attribute, at, message, "The others are left out");
+                        .report(Code::Attribute, at, message, "The others are left out");
                     continue;
                 }
                 self.builder.check_text(key)?;

@@ -9,7 +9,7 @@ use super::frame::{Coordinates, Frame, frames};
 use super::level::{Level, ends};
 use super::parameters::parameter;
 use crate::ReadError;
-use crate::builder::{At, Builder, Table};
+use crate::builder::{Builder, PlaceFn, Table};
 use crate::source::Source;
 use crate::yaml::{Item, Yaml};
 
@@ -53,13 +53,13 @@ impl<'a, 'y> Site<'a, 'y> {
         levels: Item<'y>,
     ) -> Result<Layout, ReadError> {
         for (key, line) in &yaml.repeated {
-            let at: At<'_> = &|| Place {
+            let at: PlaceFn<'_> = &|| Place {
                 element: "an object".into(),
                 line: Some(*line),
             };
             let message = || format!("the key `{key}` is there more than once");
             self.builder
-                .find(Code::DuplicateKey, at, message, "Remove the others");
+                .report(Code::DuplicateKey, at, message, "Remove the others");
         }
         let all: Result<Vec<_>, _> = levels
             .entries()
@@ -75,17 +75,17 @@ impl<'a, 'y> Site<'a, 'y> {
         let reference = levels.iter().position(|level| Some(level.name) == name);
         if let (Some(named), None) = (root.get("reference_level_name"), reference) {
             let message = || format!("there is no level `{}`", name.unwrap_or(named.kind()));
-            let at: At<'_> = &|| place("reference_level_name", named);
+            let at: PlaceFn<'_> = &|| place("reference_level_name", named);
             let remedy = "The first level is taken; correct the name";
-            self.builder.find(Code::UnknownValue, at, message, remedy);
+            self.builder.report(Code::UnknownValue, at, message, remedy);
         }
         if let Some(line) = yaml.next_document {
-            let at: At<'_> = &|| Place {
+            let at: PlaceFn<'_> = &|| Place {
                 element: "the next document".into(),
                 line: Some(line),
             };
             let message = || "the file holds more than one document".to_owned();
-            self.builder.find(
+            self.builder.report(
                 Code::NotDrawn,
                 at,
                 message,
@@ -117,10 +117,10 @@ impl<'a, 'y> Site<'a, 'y> {
             Some("web_mercator") => Coordinates::Mercator,
             other => {
                 let name = other.unwrap_or(found.kind());
-                let at: At<'_> = &|| place("coordinate_system", found);
+                let at: PlaceFn<'_> = &|| place("coordinate_system", found);
                 let message = || format!("the coordinate system `{name}` is not known");
                 let remedy = "Pixels of a floor plan are assumed, as where there is none";
-                self.builder.find(Code::UnknownValue, at, message, remedy);
+                self.builder.report(Code::UnknownValue, at, message, remedy);
                 Coordinates::Image
             }
         }
@@ -155,11 +155,11 @@ impl<'a, 'y> Site<'a, 'y> {
         for key in NOT_DRAWN {
             let count = level.count(key);
             if count > 0 {
-                let at: At<'_> = &|| level.place(key);
+                let at: PlaceFn<'_> = &|| level.place(key);
                 let remedy =
                     "They are left out: what is read are vertices, lanes, walls, doors and lifts";
                 self.builder
-                    .find(Code::NotDrawn, at, || format!("{key}: {count}"), remedy);
+                    .report(Code::NotDrawn, at, || format!("{key}: {count}"), remedy);
             }
         }
         Ok(())
@@ -176,7 +176,7 @@ impl<'a, 'y> Site<'a, 'y> {
         let Some(position) = level.position(index) else {
             return Ok(None);
         };
-        let at: At<'_> = &|| level.item_place("vertices", index, vertex);
+        let at: PlaceFn<'_> = &|| level.item_place("vertices", index, vertex);
         let position = frame.to_meters(position);
         if !self.builder.check_point(position, at) {
             return Ok(None);
@@ -209,7 +209,7 @@ impl<'a, 'y> Site<'a, 'y> {
         (key, element, index): (&str, &str, usize),
         edge: Item<'y>,
     ) -> Result<(), ReadError> {
-        let at: At<'_> = &|| level.item_place(key, index, edge);
+        let at: PlaceFn<'_> = &|| level.item_place(key, index, edge);
         let id = format!("{}.{key}[{index}]", level.name);
         let known = ends(edge).map(|ends| ends.map(|end| nodes.get(end).copied().flatten()));
         let Some([Some(start), Some(end)]) = known else {
@@ -219,7 +219,7 @@ impl<'a, 'y> Site<'a, 'y> {
             };
             let remedy = "It is left out; correct the vertices in the editor";
             self.builder
-                .find(Code::UnknownNode, at, || detail.to_owned(), remedy);
+                .report(Code::UnknownNode, at, || detail.to_owned(), remedy);
             return self.builder.refuse(&id, Code::UnknownNode, detail);
         };
         if let Some(odd) = edge.item(2).filter(|p| !p.is_map()) {
@@ -265,10 +265,10 @@ impl<'a, 'y> Site<'a, 'y> {
     }
 
     /// Says that something is not what it should be, and is left out.
-    pub(super) fn report_type(&mut self, at: At<'_>, expected: &str, found: Item<'_>) {
+    pub(super) fn report_type(&mut self, at: PlaceFn<'_>, expected: &str, found: Item<'_>) {
         let message = || format!("{expected} was expected, {} was found", found.kind());
         let remedy = "It is left out; correct it";
-        self.builder.find(Code::WrongType, at, message, remedy);
+        self.builder.report(Code::WrongType, at, message, remedy);
     }
 
     fn count_graph(&mut self, graph: i64) {

@@ -5,7 +5,7 @@ use roxmltree::Node;
 
 use super::shapes::SHAPES;
 use super::walk::Walker;
-use crate::builder::At;
+use crate::builder::PlaceFn;
 
 /// What shows something that is no path.
 const NOT_DRAWN: [&str; 4] = ["text", "image", "foreignObject", "video"];
@@ -23,9 +23,9 @@ impl<'d, 't> Walker<'_, 'd, 't> {
             let tagged = |node: &Node<'_, '_>| node.is_element() && node.tag_name().name() == tag;
             root.descendants().filter(tagged).count() as u64
         };
-        let at: At<'_> = &|| Place::element("the drawing");
+        let at: PlaceFn<'_> = &|| Place::element("the drawing");
         let mut note = |message: String, remedy: &str| {
-            self.builder.find(Code::NotDrawn, at, || message, remedy);
+            self.builder.report(Code::NotDrawn, at, || message, remedy);
         };
         for tag in NOT_DRAWN {
             let found = count(tag);

@@ -28,7 +28,7 @@ use crate::{Problem, ReadError, text};
 
 /// Reads a drawing.
 pub(crate) fn read(source: Source<'_>, bytes: &[u8]) -> Result<Layout, ReadError> {
-    let text = text::decode(&source, bytes)?;
+    let text = text::decode_utf8(&source, bytes)?;
     let xml = Xml::parse(&source, text, Doctype::Bounded)?;
     let root = xml.root();
     if root.tag_name().name() != "svg" {

@@ -8,7 +8,7 @@ use super::data::Pen;
 use super::shapes::draw;
 use super::walk::{Around, Walker};
 use crate::ReadError;
-use crate::builder::{NO_ROOM, Table};
+use crate::builder::{POINT_BUDGET_EXCEEDED, Table};
 
 impl<'d, 't> Walker<'_, 'd, 't> {
     /// Draws a shape, or refuses it with the reason.
@@ -28,7 +28,7 @@ impl<'d, 't> Walker<'_, 'd, 't> {
             Ok(color) => color,
             Err(detail) => {
                 let remedy = "Nothing to do if it is not meant to be seen";
-                self.find(Code::NotDrawn, node, || detail.to_owned(), remedy);
+                self.report(Code::NotDrawn, node, || detail.to_owned(), remedy);
                 return self.refuse(node, around, Code::NotDrawn, detail);
             }
         };
@@ -42,24 +42,24 @@ impl<'d, 't> Walker<'_, 'd, 't> {
         let drawn = draw(node, around.viewport, &mut pen);
         let runs = &pen.runs;
         let wrong = drawn.err();
-        let refused = if pen.is_too_far() || !self.builder.is_within_reach(runs) {
+        let refused = if pen.is_too_far() || !self.builder.within_coordinate_limit(runs) {
             Some((Code::OutOfRange, "it goes beyond the largest coordinate"))
         } else if runs.is_empty() {
             Some((Code::TooFewPoints, "there is no line and no curve in it"))
-        } else if !self.builder.has_room(runs) {
-            Some((Code::Implausible, NO_ROOM))
+        } else if !self.builder.within_point_budget(runs) {
+            Some((Code::Implausible, POINT_BUDGET_EXCEEDED))
         } else {
             None
         };
         if let Some((code, detail)) = refused {
             let remedy = "It is left out; correct it in the tool that wrote the file";
             let detail = wrong.as_deref().unwrap_or(detail);
-            self.find(code, node, || detail.to_owned(), remedy);
+            self.report(code, node, || detail.to_owned(), remedy);
             return self.refuse(node, around, code, detail);
         }
         if let Some(wrong) = wrong {
             let remedy = "It is drawn up to there; correct it";
-            self.find(Code::WrongType, node, || wrong, remedy);
+            self.report(Code::WrongType, node, || wrong, remedy);
         }
         self.clipped += u64::from(style.is_clipped);
         let id = format!("{}{}", around.references, self.name(node));
@@ -77,7 +77,7 @@ impl<'d, 't> Walker<'_, 'd, 't> {
         if style.has_stroke() && !is_sound {
             let message = || format!("the line is {width_m} m wide");
             let remedy = "The width of the view is used; correct the width";
-            self.find(Code::OutOfRange, node, message, remedy);
+            self.report(Code::OutOfRange, node, message, remedy);
         }
         self.widths_m.push(match style.has_stroke() && is_sound {
             true => width_m as f32,

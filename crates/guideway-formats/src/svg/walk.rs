@@ -135,7 +135,7 @@ impl<'a, 'd, 't> Walker<'a, 'd, 't> {
                     .to_owned()
             };
             let remedy = "If that is wrong, give the page its size, such as width=\"210mm\"";
-            self.find(Code::AssumedUnit, root, message, remedy);
+            self.report(Code::AssumedUnit, root, message, remedy);
         }
         size
     }
@@ -158,7 +158,7 @@ impl<'a, 'd, 't> Walker<'a, 'd, 't> {
                 )
             };
             let remedy = "It is left out; a reference to what it is within has no end";
-            self.find(Code::Implausible, node, message, remedy);
+            self.report(Code::Implausible, node, message, remedy);
             return Ok(());
         }
         if !around.references.is_empty() && !self.pay(node, is_shape) {
@@ -166,7 +166,7 @@ impl<'a, 'd, 't> Walker<'a, 'd, 't> {
         }
         let Some(own) = transform(node) else {
             let message = || "the `transform` is wrong".to_owned();
-            self.find(
+            self.report(
                 Code::WrongType,
                 node,
                 message,
@@ -207,7 +207,7 @@ impl<'a, 'd, 't> Walker<'a, 'd, 't> {
         if found.is_none() {
             let message = || format!("the `viewBox` is \"{text}\", four numbers were expected");
             let remedy = "It is read as if there were none; correct it";
-            self.find(Code::WrongType, node, message, remedy);
+            self.report(Code::WrongType, node, message, remedy);
         }
         found
     }
@@ -233,7 +233,7 @@ impl<'a, 'd, 't> Walker<'a, 'd, 't> {
             let message = || "references repeat more than a file of this size may".to_owned();
             let remedy =
                 "It is left out, and what references would repeat after it; draw less by reference";
-            self.find(Code::Implausible, node, message, remedy);
+            self.report(Code::Implausible, node, message, remedy);
         }
         self.repeated_left = left.unwrap_or(0);
         left.is_some()
@@ -285,7 +285,7 @@ impl<'a, 'd, 't> Walker<'a, 'd, 't> {
                 None => "it names nothing".to_owned(),
             };
             let remedy = "It is left out; what it refers to must be in the file";
-            self.find(Code::UnknownValue, node, message, remedy);
+            self.report(Code::UnknownValue, node, message, remedy);
             return Ok(());
         };
         let viewport = around.viewport;
@@ -334,7 +334,7 @@ impl<'a, 'd, 't> Walker<'a, 'd, 't> {
     }
 
     /// Records a finding at an element.
-    pub(super) fn find(
+    pub(super) fn report(
         &mut self,
         code: Code,
         node: Node<'d, 't>,
@@ -343,7 +343,7 @@ impl<'a, 'd, 't> Walker<'a, 'd, 't> {
     ) {
         let xml = self.xml;
         self.builder
-            .find(code, &|| xml.place(node), message, remedy);
+            .report(code, &|| xml.place(node), message, remedy);
     }
 
     /// Whether an element is of another language than the drawing.

@@ -8,7 +8,7 @@ use guideway_spline::{Bounds, Point};
 
 use super::write_page::{Outline, Page, Stroke};
 use crate::Losses;
-use crate::clamped::SAME_POSITION_M;
+use crate::clamped::POSITION_STEP_M;
 
 /// Name of the column that holds the groups of a drawing.
 const GROUP: &str = "group";
@@ -57,7 +57,7 @@ pub fn write_layout(layout: &Layout, out: &mut impl Write) -> io::Result<Losses>
             }
             current = group;
         }
-        let mut outline = Outline::new(SAME_POSITION_M);
+        let mut outline = Outline::new(POSITION_STEP_M);
         for segment in path.runs().flat_map(|run| run.segments()) {
             // Up is down on a page.
             outline.push(&segment.map(|p| Point::new(p.x, -p.y)));
@@ -87,8 +87,8 @@ fn losses(layout: &Layout) -> Losses {
         ranks,
         "draw ranks: paths are written in their order",
     );
-    losses.network(layout);
-    losses.columns(&layout.paths.attributes, "paths", |name| name == GROUP);
+    losses.add_network(layout);
+    losses.add_columns(&layout.paths.attributes, "paths", |name| name == GROUP);
     let detail = match layout.paths.attributes.get(GROUP) {
         Some(_) => "levels",
         None => "levels: they become groups",

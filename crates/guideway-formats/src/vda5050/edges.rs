@@ -8,7 +8,7 @@ use guideway_spline::Runs;
 use super::map::Mapper;
 use super::model::Edge;
 use crate::ReadError;
-use crate::builder::{At, Table};
+use crate::builder::{PlaceFn, Table};
 use crate::json::{Field, within};
 
 /// One end of an edge.
@@ -20,7 +20,11 @@ struct End {
 }
 
 impl Mapper<'_> {
-    pub(super) fn map_edge(&mut self, edge: &Field<Edge<'_>>, at: At<'_>) -> Result<(), ReadError> {
+    pub(super) fn map_edge(
+        &mut self,
+        edge: &Field<Edge<'_>>,
+        at: PlaceFn<'_>,
+    ) -> Result<(), ReadError> {
         let Some(edge) = self.builder.record(edge, at) else {
             let detail = "this is not an object, so there is nothing to draw";
             return self.builder.refuse(&at().element, Code::WrongType, detail);
@@ -38,7 +42,7 @@ impl Mapper<'_> {
             return self.refuse_between_levels(&id, from, to, at);
         }
         let mut runs = Runs::default();
-        let at_curve: At<'_> = &|| within(at, "trajectory");
+        let at_curve: PlaceFn<'_> = &|| within(at, "trajectory");
         self.builder
             .check_type(&edge.trajectory, at_curve, "an object");
         if let Some(trajectory) = edge.trajectory.get() {
@@ -72,7 +76,7 @@ impl Mapper<'_> {
         field: &Field<Cow<'_, str>>,
         sequence: Option<u64>,
         edge: &str,
-        at: At<'_>,
+        at: PlaceFn<'_>,
     ) -> Result<End, ReadError> {
         let name = self.builder.text(field, at)?;
         let row_of = |name| self.nodes.get(&self.builder.layout.nodes, name);
@@ -92,7 +96,7 @@ impl Mapper<'_> {
                     format!("`{edge}` needs the node {name}, which is not there or has no position")
                 };
                 let remedy = "Add the node with its position, or correct the name";
-                self.builder.find(Code::UnknownNode, at, message, remedy);
+                self.builder.report(Code::UnknownNode, at, message, remedy);
             }
         }
         let level = row.and_then(|row| self.builder.layout.nodes.level(row));
@@ -104,7 +108,7 @@ impl Mapper<'_> {
         id: &str,
         from: u32,
         to: u32,
-        at: At<'_>,
+        at: PlaceFn<'_>,
     ) -> Result<(), ReadError> {
         let levels = &self.builder.layout.levels;
         let [from, to] = [from, to].map(|level| &levels[level as usize].id);
@@ -113,7 +117,7 @@ impl Mapper<'_> {
         );
         let message = || format!("`{id}` {detail}");
         let remedy = "Nothing to do if this is a lift; else correct the mapId of the node";
-        self.builder.find(Code::CrossLevel, at, message, remedy);
+        self.builder.report(Code::CrossLevel, at, message, remedy);
         self.builder.refuse(id, Code::CrossLevel, &detail)
     }
 }

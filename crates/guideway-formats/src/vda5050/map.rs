@@ -6,7 +6,7 @@ use guideway_layout::{Code, Layout, Level, Place, Value};
 
 use super::model::{Node, Position, Root};
 use crate::ReadError;
-use crate::builder::{At, Builder, Table};
+use crate::builder::{Builder, PlaceFn, Table};
 use crate::json::{Field, items, within};
 use crate::node_rows::NodeRows;
 use crate::source::Source;
@@ -33,7 +33,7 @@ impl<'a> Mapper<'a> {
     }
 
     pub(super) fn map(mut self, root: &Root<'_>) -> Result<Layout, ReadError> {
-        let at_root: At<'_> = &|| Place::element("the root");
+        let at_root: PlaceFn<'_> = &|| Place::element("the root");
         self.builder.check_repeated(root.repeated, at_root);
         self.map_version(root)?;
         for (i, node) in items(&root.nodes) {
@@ -58,7 +58,7 @@ impl<'a> Mapper<'a> {
 
     /// The version stated is taken where the keys of the edges do not tell against it.
     fn map_version(&mut self, root: &Root<'_>) -> Result<(), ReadError> {
-        let at: At<'_> = &|| Place::element("version");
+        let at: PlaceFn<'_> = &|| Place::element("version");
         let stated = self.builder.text(&root.version, at)?.unwrap_or_default();
         let edges = || items(&root.edges).filter_map(|(_, edge)| edge.get());
         let names_nodes = edges().any(|e| !e.start.is_absent() || !e.end.is_absent());
@@ -73,7 +73,7 @@ impl<'a> Mapper<'a> {
             let message =
                 || format!("the order states version `{stated}`, its structure is {found}");
             let remedy = "Nothing to do: the structure counts";
-            self.builder.find(Code::Version, at, message, remedy);
+            self.builder.report(Code::Version, at, message, remedy);
         }
         let provenance = &mut self.builder.layout.provenance;
         crate::Format::Vda5050
@@ -84,13 +84,13 @@ impl<'a> Mapper<'a> {
         Ok(())
     }
 
-    fn map_node(&mut self, node: &Field<Node<'_>>, at: At<'_>) -> Result<(), ReadError> {
+    fn map_node(&mut self, node: &Field<Node<'_>>, at: PlaceFn<'_>) -> Result<(), ReadError> {
         let Some(node) = self.builder.record(node, at) else {
             return Ok(());
         };
         self.builder.check_repeated(node.repeated, at);
         let id = self.builder.id(&node.id, at, "nodeId")?;
-        let at_position: At<'_> = &|| within(at, "nodePosition");
+        let at_position: PlaceFn<'_> = &|| within(at, "nodePosition");
         let Some(position) = self.builder.record(&node.position, at_position) else {
             return Ok(());
         };
@@ -118,7 +118,11 @@ impl<'a> Mapper<'a> {
             .set_attributes(Table::Nodes, row, of_position, at_position)
     }
 
-    fn level(&mut self, position: &Position<'_>, at: At<'_>) -> Result<Option<u32>, ReadError> {
+    fn level(
+        &mut self,
+        position: &Position<'_>,
+        at: PlaceFn<'_>,
+    ) -> Result<Option<u32>, ReadError> {
         let id = self
             .builder
             .text(&position.map_id, &|| within(at, "mapId"))?;
@@ -137,10 +141,10 @@ impl<'a> Mapper<'a> {
     }
 
     /// A place in the order.
-    pub(super) fn sequence(&mut self, field: &Field<f64>, at: At<'_>) -> Option<u64> {
+    pub(super) fn sequence(&mut self, field: &Field<f64>, at: PlaceFn<'_>) -> Option<u64> {
         /// Whole numbers up to here are exact.
         const MOST: f64 = (1_u64 << 53) as f64;
-        let at: At<'_> = &|| within(at, "sequenceId");
+        let at: PlaceFn<'_> = &|| within(at, "sequenceId");
         self.builder.check_type(field, at, "a whole number");
         let &number = field.get()?;
         if number.fract() == 0.0 && (0.0..=MOST).contains(&number) {
@@ -148,7 +152,7 @@ impl<'a> Mapper<'a> {
         }
         let message = || format!("the sequenceId is {number:?}, a whole number from 0 expected");
         let remedy = "It is left out; correct the writer of the order";
-        self.builder.find(Code::UnknownValue, at, message, remedy);
+        self.builder.report(Code::UnknownValue, at, message, remedy);
         None
     }
 

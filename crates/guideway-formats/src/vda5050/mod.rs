@@ -17,7 +17,7 @@ use crate::{Problem, ReadError, text};
 
 /// Reads an order.
 pub(crate) fn read(source: Source<'_>, bytes: &[u8]) -> Result<Layout, ReadError> {
-    let text = text::decode(&source, bytes)?;
+    let text = text::decode_utf8(&source, bytes)?;
     let Field::Value(root) = json::parse::<Root<'_>>(&source, text)? else {
         return Err(source.fail(not_an_order("the root", "an object", "something else")));
     };
