@@ -1,10 +1,10 @@
 use std::ops::Range;
 use std::sync::OnceLock;
 
+use guideway_spline::mem::prefetch;
 use guideway_spline::{Bounds, Point, Runs};
 
 use crate::RunPoints;
-use crate::ahead::ask_for;
 
 mod edit;
 mod hulls;
@@ -201,15 +201,15 @@ impl Geometry {
             .reduce(Bounds::union)
     }
 
-    /// Asks for the control points of a path, so that whoever reads them soon does not wait for them.
+    /// Prefetches the control points of a path that will be read soon.
     ///
     /// # Panics
     /// When `path` is not below [`Self::path_count`].
     #[inline]
-    pub fn ask_for(&self, path: usize) {
+    pub fn prefetch(&self, path: usize) {
         match self.points_in(self.points_of(&self.runs_of(&(path..path + 1)))) {
-            RunPoints::F64(points) => ask_for(points),
-            RunPoints::F32(points) => ask_for(points),
+            RunPoints::F64(points) => prefetch(points),
+            RunPoints::F32(points) => prefetch(points),
         }
     }
 

@@ -16,7 +16,6 @@
 //! assert_eq!(layout.paths.id(0), "aisle-1");
 //! ```
 
-mod ahead;
 mod attribute;
 mod cells;
 mod check;
@@ -33,7 +32,6 @@ mod vehicle_types;
 
 use std::sync::Arc;
 
-pub use ahead::ask_for;
 pub use attribute::{Attribute, Attributes, Value, Values};
 pub use cells::Cells;
 pub use check::{

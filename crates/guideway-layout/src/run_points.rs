@@ -1,7 +1,6 @@
+use guideway_spline::mem::prefetched_chunks;
 use guideway_spline::{Bounds, Point, Real};
 use rayon::prelude::*;
-
-use crate::ahead::few;
 
 /// So many points are gone through by one thread.
 pub(crate) const POINTS_AT_ONCE: usize = 1 << 14;
@@ -78,7 +77,7 @@ fn bounds<T: Real>(points: &[Point<T>]) -> Option<Bounds<T>> {
         return Bounds::of_slice(points);
     }
     let of_part = |part: &[Point<T>]| {
-        let boxes = few(part).filter_map(Bounds::of_slice);
+        let boxes = prefetched_chunks(part).filter_map(Bounds::of_slice);
         boxes.reduce(Bounds::union)
     };
     let parts = points.par_chunks(POINTS_AT_ONCE).filter_map(of_part);

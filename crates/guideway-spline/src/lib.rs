@@ -22,6 +22,7 @@ mod flatten;
 mod hilbert;
 pub mod knots;
 mod length;
+pub mod mem;
 mod nearest;
 mod nurbs;
 mod point;

@@ -121,7 +121,7 @@ pub(super) fn bounds_anew(scene: &Scene, paths: &[u32]) -> Hull {
 /// Asks for all paths, which lie anywhere, so that their ways through the caches go side by side.
 pub(super) fn ask_for(scene: &Scene, rows: impl Iterator<Item = usize>) {
     let geometry = scene.layout().paths.geometry();
-    rows.for_each(|row| geometry.ask_for(row));
+    rows.for_each(|row| geometry.prefetch(row));
 }
 
 fn shown(scene: &Scene, paths: &[u32]) -> impl Iterator<Item = u32> + Clone {

@@ -2,10 +2,10 @@ use std::cmp::Reverse;
 use std::sync::Mutex;
 
 use bytemuck::cast_slice_mut;
-use guideway_layout::ask_for;
 use guideway_scene::RenderError;
 use guideway_scene::Rgba;
 use guideway_spline::Point;
+use guideway_spline::mem::prefetch;
 use rayon::prelude::*;
 
 use super::backdrop::{Backdrop, solid_colors};
@@ -233,7 +233,7 @@ impl<'a> Band<'a> {
                 drawn.rows().for_each(|row| row.fill(empty));
             } else {
                 // Written a frame ago, they are in no near cache.
-                drawn.rows().for_each(|row| ask_for(row));
+                drawn.rows().for_each(|row| prefetch(row));
                 paint(&mut painter, &tile, &mut drawn);
             }
         }

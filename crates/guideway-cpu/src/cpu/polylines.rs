@@ -1,6 +1,6 @@
 use std::ops::Range;
 
-use guideway_layout::ask_for;
+use guideway_spline::mem::prefetch;
 use guideway_spline::{Bounds, Point, greater, lesser};
 
 use super::LANES;
@@ -168,12 +168,12 @@ impl<T: Coordinate> Polylines<T> {
     /// Asks for the vertices and the boxes of pieces.
     #[inline(always)]
     pub(super) fn ask_for(&self) {
-        ask_for(&self.x);
-        ask_for(&self.y);
-        ask_for(&self.begins);
-        ask_for(&self.firsts);
+        prefetch(&self.x);
+        prefetch(&self.y);
+        prefetch(&self.begins);
+        prefetch(&self.firsts);
         for side in &self.boxes {
-            ask_for(side);
+            prefetch(side);
         }
     }
 

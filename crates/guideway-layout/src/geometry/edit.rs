@@ -2,12 +2,12 @@
 
 use std::ops::Range;
 
+use guideway_spline::mem::{CHUNK_LEN, prefetch_ahead, prefetched_chunks};
 use guideway_spline::{Affine, Bounds, Point};
 use rayon::prelude::*;
 
 use super::{Geometry, Points, between, index, stretches};
 use crate::RunPoints;
-use crate::ahead::{FEW, ask_ahead, few};
 use crate::run_points::POINTS_AT_ONCE;
 
 impl Geometry {
@@ -50,8 +50,10 @@ impl Geometry {
     pub fn first_beyond(&self, reach_m: f64) -> Option<usize> {
         let is_within = |p: Point<f64>| (p.x.abs() <= reach_m) & (p.y.abs() <= reach_m);
         let is_placed = |run: RunPoints<'_>| match run {
-            RunPoints::F64(points) => few(points).flatten().all(|&p| is_within(p)),
-            RunPoints::F32(points) => few(points).flatten().all(|p| is_within(p.to_f64())),
+            RunPoints::F64(points) => prefetched_chunks(points).flatten().all(|&p| is_within(p)),
+            RunPoints::F32(points) => prefetched_chunks(points)
+                .flatten()
+                .all(|p| is_within(p.to_f64())),
         };
         let is_misplaced = |&path: &usize| {
             let mut runs = self.runs(path);
@@ -233,9 +235,9 @@ impl Geometry {
 /// Gives each of some points another value by its own.
 fn set_each<T: Copy + Send>(points: &mut [T], value: impl Fn(T) -> T + Sync) {
     let set = |points: &mut [T]| {
-        for few in points.chunks_mut(FEW) {
-            ask_ahead(few);
-            few.iter_mut().for_each(|p| *p = value(*p));
+        for chunk in points.chunks_mut(CHUNK_LEN) {
+            prefetch_ahead(chunk);
+            chunk.iter_mut().for_each(|p| *p = value(*p));
         }
     };
     if points.len() <= POINTS_AT_ONCE {
@@ -248,9 +250,9 @@ fn set_each<T: Copy + Send>(points: &mut [T], value: impl Fn(T) -> T + Sync) {
 /// Gives each of some points a value by one of as many others.
 fn copy<A: Copy + Sync, B: Send>(to: &mut [B], from: &[A], value: impl Fn(A) -> B + Sync) {
     let set = |(to, from): (&mut [B], &[A])| {
-        for (to, from) in to.chunks_mut(FEW).zip(from.chunks(FEW)) {
-            ask_ahead(to);
-            ask_ahead(from);
+        for (to, from) in to.chunks_mut(CHUNK_LEN).zip(from.chunks(CHUNK_LEN)) {
+            prefetch_ahead(to);
+            prefetch_ahead(from);
             let pairs = to.iter_mut().zip(from);
             pairs.for_each(|(to, from)| *to = value(*from));
         }

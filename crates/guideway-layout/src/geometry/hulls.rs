@@ -1,10 +1,10 @@
 use std::ops::Range;
 
+use guideway_spline::mem::{CHUNK_LEN, prefetch_address, prefetch_ahead};
 use guideway_spline::{Bounds, Point, Real, greater, lesser};
 use rayon::prelude::*;
 
 use super::{Geometry, Points, between};
-use crate::ahead::{FEW, ask, ask_ahead};
 
 /// Boxes of the control points of all paths, which hold their curves, in the precision of the points.
 #[derive(Clone, Debug)]
@@ -54,7 +54,7 @@ fn add<T: Real>(
 ) {
     let of_row = |row| {
         let points = &points[points_of(row)];
-        ask_ahead(points);
+        prefetch_ahead(points);
         Bounds::of_slice(points).unwrap_or(none())
     };
     boxes.par_extend(rows.into_par_iter().map(of_row));
@@ -120,17 +120,17 @@ impl Hulls {
 }
 
 fn all<T: Real>(boxes: &[Bounds<T>]) -> Bounds<T> {
-    let few = boxes.par_chunks(FEW).map(|few| {
-        ask_ahead(few);
-        few.iter().copied().fold(none(), both)
+    let chunks = boxes.par_chunks(CHUNK_LEN).map(|chunk| {
+        prefetch_ahead(chunk);
+        chunk.iter().copied().fold(none(), both)
     });
-    few.reduce(none, both)
+    chunks.reduce(none, both)
 }
 
 #[inline]
 fn some<T: Real>(boxes: &[Bounds<T>], paths: impl Iterator<Item = usize> + Clone) -> Bounds<T> {
     // They may lie anywhere.
-    (paths.clone()).for_each(|path| ask(&boxes[path]));
+    (paths.clone()).for_each(|path| prefetch_address(&boxes[path]));
     paths.fold(none(), |all, path| both(all, boxes[path]))
 }
 
