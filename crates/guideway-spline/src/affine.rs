@@ -1,27 +1,29 @@
+//! [`Affine`]: affine maps of the plane, such as translations, rotations and reflections.
+
 use crate::Point;
 
-/// A map of the plane that keeps straight lines straight: `p` goes to `x * p.x + y * p.y + origin`.
+/// An affine map of the plane: `p` maps to `x * p.x + y * p.y + origin`.
 ///
-/// A B-spline follows its control points under every such map: mapping them maps the curve.
+/// B-splines are affinely invariant: mapping the control points maps the curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Affine {
-    /// Where (1, 0) goes, seen from [`Self::origin`].
+    /// Image of the vector (1, 0).
     pub x: Point<f64>,
-    /// Where (0, 1) goes, seen from [`Self::origin`].
+    /// Image of the vector (0, 1).
     pub y: Point<f64>,
-    /// Where (0, 0) goes.
+    /// Image of the point (0, 0).
     pub origin: Point<f64>,
 }
 
 impl Affine {
-    /// Everything stays where it is.
+    /// The map that moves no point.
     pub const IDENTITY: Self = Self {
         x: Point::new(1.0, 0.0),
         y: Point::new(0.0, 1.0),
         origin: Point::new(0.0, 0.0),
     };
 
-    /// Moves by a distance.
+    /// Moves every point by a vector.
     pub fn translation(by: Point<f64>) -> Self {
         Self {
             origin: by,
@@ -29,18 +31,18 @@ impl Affine {
         }
     }
 
-    /// Turns about a point, from x toward y.
+    /// Rotates about a point, counter-clockwise for positive angles.
     pub fn rotation(angle_rad: f64, about: Point<f64>) -> Self {
         let (sin, cos) = angle_rad.sin_cos();
         Self::about(about, Point::new(cos, sin), Point::new(-sin, cos))
     }
 
-    /// Scales along the axes, away from a point.
+    /// Scales along the axes about a fixed point.
     pub fn scale(x: f64, y: f64, about: Point<f64>) -> Self {
         Self::about(about, Point::new(x, 0.0), Point::new(0.0, y))
     }
 
-    /// Mirrors in the line through a point, in a direction of any length but zero.
+    /// Reflects across the line through a point along `direction`, a vector of any nonzero length.
     pub fn mirror(through: Point<f64>, direction: Point<f64>) -> Self {
         let unit = direction * (1.0 / direction.norm());
         // p -> 2 (p . u) u - p.
@@ -56,13 +58,13 @@ impl Affine {
         }
     }
 
-    /// Where a point goes.
+    /// Image of a point.
     #[inline]
     pub fn apply(self, p: Point<f64>) -> Point<f64> {
         self.x * p.x + self.y * p.y + self.origin
     }
 
-    /// This map, and then another.
+    /// The composition that applies `self` first and `next` second.
     #[must_use]
     pub fn then(self, next: Self) -> Self {
         let direction = |d: Point<f64>| next.x * d.x + next.y * d.y;
@@ -73,13 +75,13 @@ impl Affine {
         }
     }
 
-    /// The distance that it moves every point by; none if it does anything else.
+    /// The vector that a pure translation moves every point by; `None` for all other maps.
     pub fn as_translation(self) -> Option<Point<f64>> {
-        let moves_only = self.x == Self::IDENTITY.x && self.y == Self::IDENTITY.y;
-        moves_only.then_some(self.origin)
+        let is_translation = self.x == Self::IDENTITY.x && self.y == Self::IDENTITY.y;
+        is_translation.then_some(self.origin)
     }
 
-    /// Whether all of it is finite.
+    /// Whether all coefficients are finite.
     pub fn is_finite(self) -> bool {
         self.x.is_finite() && self.y.is_finite() && self.origin.is_finite()
     }
@@ -96,7 +98,7 @@ mod tests {
     }
 
     #[test]
-    fn maps_do_what_they_are_called() {
+    fn constructors_map_points_as_named() {
         let p = Point::new(3.0, 1.0);
         let about = Point::new(1.0, 1.0);
         assert!(is_near(Affine::IDENTITY.apply(p), p));
@@ -104,8 +106,8 @@ mod tests {
         assert_eq!(Affine::translation(by).as_translation(), Some(by));
         assert_eq!(Affine::rotation(0.1, about).as_translation(), None);
         assert_eq!(Affine::scale(1.0, 2.0, about).as_translation(), None);
-        let turned = Affine::rotation(FRAC_PI_2, about).apply(p);
-        assert!(is_near(turned, Point::new(1.0, 3.0)));
+        let rotated = Affine::rotation(FRAC_PI_2, about).apply(p);
+        assert!(is_near(rotated, Point::new(1.0, 3.0)));
         let scaled = Affine::scale(2.0, 3.0, about).apply(p);
         assert!(is_near(scaled, Point::new(5.0, 1.0)));
         let mirrored = Affine::mirror(about, Point::new(5.0, 5.0)).apply(p);
@@ -113,7 +115,7 @@ mod tests {
     }
 
     #[test]
-    fn one_after_the_other_is_one() {
+    fn then_composes_in_order() {
         let a = Affine::rotation(0.3, Point::new(2.0, -1.0));
         let b = Affine::scale(0.5, -2.0, Point::new(7.0, 1.0));
         let p = Point::new(-4.0, 9.0);

@@ -1,14 +1,16 @@
 //! B-spline basis functions of any degree over any knot vector (thesis eq. 3.1, Cox-de Boor).
 
-use crate::MAX_DEGREE;
+/// Highest degree of a curve that can be evaluated or converted: it sizes the arrays of one span,
+/// which live on the stack.
+pub const MAX_DEGREE: usize = 25;
 
-/// The values of the p + 1 basis functions that do not vanish on one span.
+/// Values of the p + 1 basis functions that do not vanish on one span.
 pub type BasisValues = [f64; MAX_DEGREE + 1];
 
 /// Index k of the span with u_k <= u < u_(k + 1), p <= k < n, for n control points.
 ///
-/// A `u` outside [u_p, u_n] gets the nearest span that is not empty; so does u = u_n, which belongs to
-/// the last span. Source: Piegl & Tiller, The NURBS Book, A2.1.
+/// The domain is [u_p, u_n]. A `u` outside of it gets the nearest span that is not empty; u = u_n
+/// belongs to the last span. Source: Piegl & Tiller, The NURBS Book, A2.1.
 ///
 /// # Panics
 /// When there are fewer than 2p + 2 knots.
@@ -23,13 +25,13 @@ pub fn find_span(degree: usize, knots: &[f64], u: f64) -> usize {
     degree + left.max(1) - 1
 }
 
-/// N_(k - p, p)(u) to N_(k, p)(u), the basis functions that do not vanish on span k, in the first p + 1
-/// places; zero in the rest. They are not negative and add up to 1.
+/// Values of N_(k - p, p)(u) to N_(k, p)(u), the basis functions that do not vanish on span k, in
+/// the first p + 1 elements; the other elements are zero. The values are not negative and sum to 1.
 ///
 /// Source: Piegl & Tiller, The NURBS Book, A2.2: no recursion, and no 0/0 on a span with a width.
 ///
 /// # Panics
-/// When the degree is above [`MAX_DEGREE`], or the span has fewer than p + 1 knots on either side.
+/// When the degree exceeds [`MAX_DEGREE`], or the span has fewer than p + 1 knots on either side.
 pub fn nonzero_basis(degree: usize, knots: &[f64], span: usize, u: f64) -> BasisValues {
     let mut values = [0.0; MAX_DEGREE + 1];
     values[0] = 1.0;
@@ -46,7 +48,8 @@ pub fn nonzero_basis(degree: usize, knots: &[f64], span: usize, u: f64) -> Basis
     values
 }
 
-/// N_(i, p)(u) of thesis eq. 3.1, with 0/0 = 0; the right end of the domain belongs to its last span.
+/// Value of N_(i, p)(u), thesis eq. 3.1 with 0/0 = 0. The right end of the domain belongs to its
+/// last span.
 ///
 /// Zero outside of the domain [u_p, u_n].
 ///

@@ -1,6 +1,8 @@
+//! [`Bounds`]: axis-aligned boxes, of points and the tight ones of segments and runs.
+
 use crate::{Point, Real, greater, lesser, uniform};
 
-/// An axis-aligned box, its borders included.
+/// A closed axis-aligned box.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounds<T> {
     /// Lower left corner.
@@ -10,7 +12,7 @@ pub struct Bounds<T> {
 }
 
 impl<T: Real> Bounds<T> {
-    /// The smallest box that holds all points; none if there are no points.
+    /// The smallest box that contains all points; `None` if there are no points.
     pub fn of_points(points: impl IntoIterator<Item = Point<T>>) -> Option<Self> {
         points
             .into_iter()
@@ -18,44 +20,45 @@ impl<T: Real> Bounds<T> {
             .reduce(Self::union)
     }
 
-    /// The same for points that lie side by side, which takes less time.
+    /// As [`Self::of_points`], faster, for points in one slice.
     pub fn of_slice(points: &[Point<T>]) -> Option<Self> {
-        // Points in turns, so that none waits for the one before.
-        const TURNS: usize = 4;
+        // Independent minima, so that no point waits for the comparison of the one before.
+        const LANES: usize = 4;
         let first = *points.first()?;
-        let (mut min, mut max) = ([first; TURNS], [first; TURNS]);
-        let (turns, rest) = points.as_chunks::<TURNS>();
-        let mut look = |turn: &[Point<T>]| {
-            for ((min, max), p) in min.iter_mut().zip(&mut max).zip(turn) {
+        let (mut min, mut max) = ([first; LANES], [first; LANES]);
+        let (chunks, rest) = points.as_chunks::<LANES>();
+        let mut add = |chunk: &[Point<T>]| {
+            for ((min, max), p) in min.iter_mut().zip(&mut max).zip(chunk) {
                 *min = Point::new(lesser(p.x, min.x), lesser(p.y, min.y));
                 *max = Point::new(greater(p.x, max.x), greater(p.y, max.y));
             }
         };
-        turns.iter().for_each(|turn| look(turn));
-        look(rest);
+        chunks.iter().for_each(|chunk| add(chunk));
+        add(rest);
         let boxes = min.into_iter().zip(max).map(|(min, max)| Self { min, max });
         boxes.reduce(Self::union)
     }
 
-    /// The smallest box that holds a segment of a uniform cubic B-spline, apart from rounding.
+    /// The smallest box that contains a segment of a uniform cubic B-spline, apart from rounding.
     ///
-    /// [`Bounds::of_points`] of its control points holds it too, quicker but wider.
+    /// [`Bounds::of_points`] of its control points is faster and wider.
     pub fn of_segment(p: &[Point<T>; 4]) -> Self {
         let at = |point| Self {
             min: point,
             max: point,
         };
         let ends = at(uniform::start(p)).union(at(uniform::end(p)));
-        // On each axis, the extremes are at the ends or where the derivative vanishes.
-        let [x0, x1] = turns(p.map(|p| p.x));
-        let [y0, y1] = turns(p.map(|p| p.y));
+        // The extremes of a coordinate are at the ends or where its derivative vanishes.
+        let [x0, x1] = critical_parameters(p.map(|p| p.x));
+        let [y0, y1] = critical_parameters(p.map(|p| p.y));
         [x0, x1, y0, y1]
             .into_iter()
             .filter(|&t| t > T::zero() && t < T::one())
             .fold(ends, |bounds, t| bounds.union(at(uniform::point(p, t))))
     }
 
-    /// The smallest box that holds a run, apart from rounding; none if it has fewer than four points.
+    /// The smallest box that contains a run, apart from rounding; `None` for fewer than four
+    /// points.
     pub fn of_run(points: &[Point<T>]) -> Option<Self> {
         points
             .array_windows()
@@ -63,7 +66,7 @@ impl<T: Real> Bounds<T> {
             .reduce(Self::union)
     }
 
-    /// The smallest box that holds both.
+    /// The smallest box that contains both.
     pub fn union(self, other: Self) -> Self {
         Self {
             min: Point::new(self.min.x.min(other.min.x), self.min.y.min(other.min.y)),
@@ -107,7 +110,7 @@ impl<T: Real> Bounds<T> {
         self.max - self.min
     }
 
-    /// The middle.
+    /// The center.
     pub fn center(self) -> Point<T> {
         let half = T::of(0.5);
         Point::new(
@@ -117,12 +120,13 @@ impl<T: Real> Bounds<T> {
     }
 }
 
-/// Where one coordinate of a segment turns: roots of its derivative, NaN or infinite if there are none.
-fn turns<T: Real>(p: [T; 4]) -> [T; 2] {
+/// Roots of the derivative of one coordinate of a segment; NaN or infinite where there is none.
+fn critical_parameters<T: Real>(p: [T; 4]) -> [T; 2] {
     // 2 C'(t) = c + 2 b t + a t^2
     let (d0, d1, d2) = (p[1] - p[0], p[2] - p[1], p[3] - p[2]);
     let (a, b, c) = (d0 - d1 - d1 + d2, d1 - d0, d0 + d1);
-    // The sum has no cancellation; the other root follows from the product c/a (Numerical Recipes, 5.6).
+    // Adding numbers of one sign avoids cancellation; the other root follows from the product c/a.
+    // Source: Numerical Recipes, 5.6.
     let root = (b * b - a * c).sqrt();
     let q = -(b + root.copysign(b));
     [q / a, c / q]

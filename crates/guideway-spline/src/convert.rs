@@ -1,21 +1,25 @@
-//! Other curves as runs: exactly up to degree 3 without weights, within a tolerance otherwise.
+//! Conversion of NURBS, Bezier curves and polylines to runs.
+//!
+//! Curves without weights up to degree 3 convert exactly. For all others the module fits cubics and
+//! bounds their error.
 
 use crate::{MAX_DEGREE, Nurbs, NurbsError, Point, Runs, knots};
 
-/// How often one span of a curve is halved at most, to reach the tolerance.
+/// Most halvings of one span of a curve on the way to the tolerance.
 ///
-/// Each halving takes the error to about a sixteenth, so 10 of them gain a factor of 10^12.
+/// Derived: a halving divides the error by about 16, so 10 of them gain a factor of 10^12.
 pub const MAX_HALVINGS: u32 = 10;
 
-/// What a conversion did.
+/// Result of a conversion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Conversion {
-    /// Whether the runs are the curve itself, apart from rounding.
+    /// Whether the runs equal the curve, apart from rounding.
     pub exact: bool,
-    /// No point of either curve is farther than this from the other, apart from rounding. Zero if
-    /// exact; above the tolerance only where a limit on the number of pieces ended the conversion.
+    /// Upper bound, in meters, of the Hausdorff distance between curve and runs, apart from
+    /// rounding. Zero if exact; above the tolerance only if the conversion reached its limit of
+    /// pieces.
     pub error_bound_m: f64,
-    /// Number of cubic segments appended.
+    /// Number of appended cubic segments.
     pub pieces: usize,
 }
 
@@ -29,15 +33,15 @@ impl Conversion {
     }
 }
 
-/// Appends a NURBS curve, from the first to the last parameter of its domain.
+/// Appends a NURBS curve over its whole domain.
 ///
-/// Without weights (or with all weights equal), degrees 1 to 3 are exact. Spans of a cubic between
-/// evenly spaced knots keep their control points as they are and share one run. Everything else is
-/// approximated span by span, each by as many cubics as `tolerance_m` (meters) asks for, within
-/// [`MAX_HALVINGS`]; a tolerance below the rounding error of the span is raised to it.
+/// Without weights (or with equal weights), degrees 1 to 3 are exact. Spans of a cubic between
+/// uniform knots keep their control points and share one run. The function approximates every other
+/// curve span by span, with as many cubics as `tolerance_m` (meters) requires, within
+/// [`MAX_HALVINGS`]. It raises a tolerance below the rounding error of the span to that error.
 ///
-/// Spans of zero width are skipped. At an inner knot of multiplicity above the degree the curve breaks,
-/// and the runs on the two sides do not meet.
+/// Spans of zero width yield nothing. At an inner knot of multiplicity above the degree the curve
+/// breaks, and the runs on the two sides do not meet.
 pub fn nurbs_to_runs(curve: &Nurbs, tolerance_m: f64, out: &mut Runs) -> Conversion {
     if curve.degree() <= 3 && !curve.is_rational() {
         let mut pieces = 0;
@@ -58,7 +62,7 @@ pub fn nurbs_to_runs(curve: &Nurbs, tolerance_m: f64, out: &mut Runs) -> Convers
         },
     };
     for span in curve.spans() {
-        // Near the origin, products lose less to rounding.
+        // Coordinates relative to the span lose less to rounding in products.
         fit.origin = curve.points()[span];
         let bezier = bezier_of_span(curve, span, fit.origin);
         fit.push(&bezier, MAX_HALVINGS);
@@ -66,11 +70,11 @@ pub fn nurbs_to_runs(curve: &Nurbs, tolerance_m: f64, out: &mut Runs) -> Convers
     fit.done
 }
 
-/// Appends a Bezier curve of degree 1 to [`MAX_DEGREE`]: degrees 1 to 3 exactly, others as
-/// [`nurbs_to_runs`].
+/// Appends a Bezier curve of degree 1 to [`MAX_DEGREE`]: degrees 1 to 3 exactly, higher ones as
+/// [`nurbs_to_runs`] does.
 ///
 /// # Errors
-/// When there are fewer than 2 points or more than [`MAX_DEGREE`] + 1, or one is not finite.
+/// When there are fewer than 2 points or more than [`MAX_DEGREE`] + 1, or a point is not finite.
 pub fn bezier_to_runs(
     points: &[Point<f64>],
     tolerance_m: f64,
@@ -82,7 +86,7 @@ pub fn bezier_to_runs(
     Ok(nurbs_to_runs(&curve, tolerance_m, out))
 }
 
-/// Appends the straight lines from point to point, exactly. Fewer than two points append nothing.
+/// Appends the lines of a polyline, exactly. Fewer than two points append nothing.
 pub fn polyline_to_runs(points: &[Point<f64>], out: &mut Runs) -> Conversion {
     for ends in points.windows(2) {
         let step = ends[1] - ends[0];
@@ -108,7 +112,7 @@ fn push_exact(curve: &Nurbs, span: usize, out: &mut Runs) {
     }
 }
 
-/// Whether the knots of one span are evenly spaced, as near as their own rounding lets them.
+/// Whether the knots of one span are uniform, up to their rounding error.
 fn is_uniform(knots: &[f64]) -> bool {
     let width = knots[3] - knots[2];
     let greatest = knots[0].abs().max(knots[knots.len() - 1].abs());
@@ -117,7 +121,7 @@ fn is_uniform(knots: &[f64]) -> bool {
     gaps.all(|gap| (gap - width).abs() <= slack)
 }
 
-/// A Bernstein coefficient of a rational curve: w P and w.
+/// A Bernstein coefficient of a rational curve in homogeneous coordinates: w P and w.
 #[derive(Clone, Copy, Default)]
 struct Coefficient {
     point: Point<f64>,
@@ -137,14 +141,15 @@ impl Coefficient {
     }
 }
 
-/// Of a curve of any degree p, in the first p + 1 places.
+/// Coefficients of a curve of any degree p, in the first p + 1 elements.
 type Coefficients = [Coefficient; MAX_DEGREE + 1];
 
-/// The span [a, b] as a Bezier curve, points relative to `origin`, in the first p + 1 of N places.
+/// The span [a, b] as a Bezier curve, points relative to `origin`, in the first p + 1 of N
+/// elements.
 ///
-/// Coefficient j is the blossom (polar form) of the span at p - j times a and j times b: what Boehm's
-/// knot insertion arrives at when a and b are p-fold (Ramshaw 1989; The NURBS Book, 5.2). Every step
-/// is a convex combination, so rounding does not grow.
+/// Coefficient j is the blossom (polar form) of the span at p - j times a and j times b, the result
+/// of Boehm's knot insertion until a and b are p-fold. Every step is a convex combination, so
+/// rounding errors do not grow. Sources: Ramshaw 1989; Piegl & Tiller, The NURBS Book, section 5.2.
 fn bezier_of_span<const N: usize>(
     curve: &Nurbs,
     span: usize,
@@ -176,7 +181,7 @@ fn bezier_of_span<const N: usize>(
     bezier
 }
 
-/// Fits cubics to rational Bezier curves N/w, points relative to an origin.
+/// Fits cubics to rational Bezier curves N/w, with points relative to `origin`.
 struct Fit<'a> {
     degree: usize,
     origin: Point<f64>,
@@ -186,11 +191,11 @@ struct Fit<'a> {
 }
 
 impl Fit<'_> {
-    /// Appends cubics for one curve, halving it until they are near enough.
+    /// Appends cubics for one curve, and halves it until their error is within the tolerance.
     fn push(&mut self, curve: &Coefficients, halvings_left: u32) {
         let cubic = self.hermite(curve);
         let error = self.error_bound(curve, &cubic);
-        // Rounding alone costs this much: no halving gains below it.
+        // Rounding error of the coordinates: no halving gets below it.
         let largest = curve[..=self.degree].iter().map(|c| c.project().norm());
         let floor = 16.0 * f64::EPSILON * largest.fold(0.0, f64::max);
         if halvings_left > 0 && error > self.tolerance_m.max(floor) {
@@ -204,12 +209,12 @@ impl Fit<'_> {
         self.done.pieces += 1;
     }
 
-    /// The cubic with the same ends and the same derivatives there: its error falls with the fourth
-    /// power of the length of the piece.
+    /// Hermite cubic: same ends and same end derivatives as the curve. Its error falls with the
+    /// fourth power of the length of the piece.
     fn hermite(&self, curve: &Coefficients) -> [Point<f64>; 4] {
         let p = self.degree;
         let third = p as f64 / 3.0;
-        // C' = p (w1 / w0) (P1 - P0) at the start: The NURBS Book, eq. 4.9.
+        // C' = p (w1 / w0) (P1 - P0) at the start. Source: The NURBS Book, eq. 4.9.
         let inner = |end: Coefficient, next: Coefficient| {
             let start = end.project();
             start + (next.project() - start) * (third * next.weight / end.weight)
@@ -222,11 +227,11 @@ impl Fit<'_> {
         ]
     }
 
-    /// An upper bound of |N/w - Q| at equal parameters, hence of the distance between the curves.
+    /// Upper bound of |N/w - Q| at equal parameters, and so of the distance between the curves.
     ///
-    /// N/w - Q = (N - Q w)/w. The numerator is a polynomial of degree p + 3; it and w lie within the
-    /// hulls of their Bernstein coefficients. Coefficient k of it, by the Bernstein product, is the sum
-    /// over i + j = k of (N_i - Q_j w_i) C(p, i) C(3, j) / C(p + 3, k).
+    /// N/w - Q = (N - Q w)/w. The numerator is a polynomial of degree p + 3; numerator and w lie
+    /// within the hulls of their Bernstein coefficients. By the Bernstein product, coefficient k of
+    /// the numerator is the sum over i + j = k of (N_i - Q_j w_i) C(p, i) C(3, j) / C(p + 3, k).
     fn error_bound(&self, curve: &Coefficients, q: &[Point<f64>; 4]) -> f64 {
         let p = self.degree;
         let coefficient = |k: usize| {
@@ -236,7 +241,7 @@ impl Fit<'_> {
                 (curve[i].point - q[k - i] * curve[i].weight) * share
             });
             let size = terms.fold(Point::new(0.0, 0.0), |a, b| a + b).norm();
-            // An overflow must not pass for a small error.
+            // `f64::max` ignores NaN, so an overflow would pass for a small error.
             if size.is_nan() { f64::INFINITY } else { size }
         };
         let largest = (0..=p + 3).map(coefficient).fold(0.0, f64::max);
@@ -244,21 +249,21 @@ impl Fit<'_> {
         largest / weights.fold(f64::INFINITY, f64::min)
     }
 
-    /// The two halves of a curve (de Casteljau).
+    /// The two halves of a curve. Source: de Casteljau; The NURBS Book, A1.5.
     fn halves(&self, curve: &Coefficients) -> [Coefficients; 2] {
         let p = self.degree;
         let (mut left, mut right) = (*curve, *curve);
-        for (r, kept) in left.iter_mut().enumerate().take(p + 1).skip(1) {
+        for (r, coefficient) in left.iter_mut().enumerate().take(p + 1).skip(1) {
             for i in 0..=p - r {
                 right[i] = right[i].lerp(right[i + 1], 0.5);
             }
-            *kept = right[0];
+            *coefficient = right[0];
         }
         [left, right]
     }
 }
 
-/// n over k.
+/// Binomial coefficient, n over k.
 fn binomial(n: usize, k: usize) -> f64 {
     (0..k).fold(1.0, |b, i| b * (n - i) as f64 / (i + 1) as f64)
 }

@@ -1,36 +1,46 @@
+//! Flattening: turns a run into a polyline within a proven Hausdorff distance.
+
 use crate::{Point, Real, uniform};
 
-/// The most lines that [`flatten_run`] draws for one segment.
+/// Most lines per segment that [`flatten_run`] emits.
 ///
-/// It holds any tolerance above 1/(8 * 65536^2), or 3e-11, of the second derivative of the segment, which
-/// is at most four times the reach of its control points.
+/// Derived: enough for any tolerance above 1/(8 * 65536^2), or 3e-11, of the second derivative of
+/// the segment, which is at most four times the extent of its control points.
 pub const MAX_LINES_PER_SEGMENT: usize = 1 << 16;
 
-/// How many segments the first line of a run is tried over.
+/// Segments that the search tries to cover with the first line of a run.
 const FIRST_REACH: usize = 8;
 
-/// Draws a run as straight lines, as few as a greedy search finds, with no point of either farther than
-/// `tolerance` (unit of the points) from the other: the Hausdorff distance.
+/// Flattens a run to a polyline with as few lines as a greedy search finds. The Hausdorff distance
+/// of curve and polyline is at most `tolerance` (in the unit of the points).
 ///
-/// `emit` gets the vertices in order: the start of the run, then the end of each line. A run that is a
-/// single point gives that point twice; fewer than four control points give nothing. Nothing is
-/// allocated, and n segments cost O(n log n).
+/// `emit` gets the vertices in order: the start of the run, then the end of each line. A run whose
+/// points are all equal yields that point twice; fewer than four control points yield nothing. The
+/// function allocates no memory and takes O(n log n) for n segments.
 ///
-/// A line may span many segments. It is taken if every Bezier point of the stretch from A to E lies
-/// within the tolerance of the line segment AE, because then
+/// ```text
+///     b1 . . . b2          b: Bezier points of the segments from A to E
+///    .            .        AE: the line that replaces them
+///   A ------------- E
+/// ```
 ///
-/// - the curve is near the line: the set of points that near to AE (a capsule) is convex, so it holds
-///   the hulls of the Bezier points, and these hold the curve;
-/// - the line is near the curve: the nearest point on AE moves continuously along the curve, from A to
-///   E, so every point of AE is the nearest one of some point of the curve, which is within the tolerance.
+/// A line may replace many segments. The search accepts it if every Bezier point of the curve from
+/// A to E lies within the tolerance of the line segment AE, because then
 ///
-/// A segment that is too bent for one line is cut into n equal parts of its parameter, with
-/// n = ceil(sqrt(max |C''| / (8 tolerance))): points of a chord and of the curve at equal parameters are
-/// at most max |C''| / (8 n^2) apart, and C'' is linear, so its greatest length is at an end.
+/// - the curve is near the line: the set of points that near to AE (a capsule) is convex, so it
+///   contains the hulls of the Bezier points, and these contain the curve;
+/// - the line is near the curve: the point of AE nearest to C(t) moves continuously from A to E, so
+///   every point of AE is the nearest one to some point of the curve, which is within the
+///   tolerance.
 ///
-/// The proof is for exact arithmetic: rounding adds some units in the last place of the coordinates. A
-/// `tolerance` that is not above zero (an error of the caller, found by a debug assertion) counts as the
-/// smallest number, and [`MAX_LINES_PER_SEGMENT`] then ends the work. Points must be finite.
+/// A segment too bent for one line is divided into n equal parts of its parameter, with
+/// n = ceil(sqrt(max |C''| / (8 tolerance))): points of chord and curve at equal parameters are at
+/// most max |C''| / (8 n^2) apart, and C'' is linear, so |C''| is greatest at an end.
+///
+/// The proof assumes exact arithmetic: rounding adds some units in the last place of the
+/// coordinates. A `tolerance` of zero or less (an error of the caller, which a debug assertion
+/// reports) counts as the smallest positive number; [`MAX_LINES_PER_SEGMENT`] then bounds the work.
+/// Points must be finite.
 pub fn flatten_run<T: Real>(points: &[Point<T>], tolerance: T, emit: &mut impl FnMut(Point<T>)) {
     debug_assert!(tolerance > T::zero(), "a tolerance of {tolerance:?}");
     let Some(first) = points.first_chunk() else {
@@ -44,7 +54,7 @@ pub fn flatten_run<T: Real>(points: &[Point<T>], tolerance: T, emit: &mut impl F
     while let Some(segment) = rest.first_chunk() {
         let count = longest_line(rest, from, reach, tolerance);
         if count == 0 {
-            cut(segment, tolerance, emit);
+            subdivide(segment, tolerance, emit);
         }
         let done = count.max(1);
         from = uniform::end(uniform::segment(rest, done - 1));
@@ -54,11 +64,11 @@ pub fn flatten_run<T: Real>(points: &[Point<T>], tolerance: T, emit: &mut impl F
     }
 }
 
-/// How many segments, from the first on, one line from `from` can stand for; 0 if not even one.
+/// Number of leading segments of `rest` that one line from `from` can replace; 0 if not even one.
 ///
-/// Whether a line is near enough is not monotone in its length, so this finds a good length, not
-/// always the greatest. Trying lengths around `reach`, the double of the last one, keeps the cost of
-/// all lines together to O(n log n).
+/// Nearness is not monotone in the length of the line, so the result is a good length, not always
+/// the greatest. The search starts at `reach`, twice the length of the last line, which bounds the
+/// cost of all lines together by O(n log n).
 fn longest_line<T: Real>(rest: &[Point<T>], from: Point<T>, reach: usize, tolerance: T) -> usize {
     let most = rest.len() - 3;
     let (mut good, mut bad) = (0, most + 1);
@@ -78,7 +88,8 @@ fn longest_line<T: Real>(rest: &[Point<T>], from: Point<T>, reach: usize, tolera
     good
 }
 
-/// Whether all Bezier points of the run are within the tolerance of the line from its start to its end.
+/// Whether all Bezier points of the run lie within the tolerance of the line from `from` to its
+/// end.
 fn is_near_line<T: Real>(run: &[Point<T>], from: Point<T>, tolerance: T) -> bool {
     let third = T::of(1.0 / 3.0);
     let two = T::of(2.0);
@@ -105,8 +116,8 @@ fn is_near_line<T: Real>(run: &[Point<T>], from: Point<T>, tolerance: T) -> bool
     })
 }
 
-/// Emits the inner vertices of one segment cut into equal parts.
-fn cut<T: Real>(segment: &[Point<T>; 4], tolerance: T, emit: &mut impl FnMut(Point<T>)) {
+/// Emits the inner vertices of one segment, divided into equal parts of its parameter.
+fn subdivide<T: Real>(segment: &[Point<T>; 4], tolerance: T, emit: &mut impl FnMut(Point<T>)) {
     let at = |t: T| uniform::second_derivative(segment, t).norm();
     let bend = at(T::zero()).max(at(T::one()));
     let parts = (bend / (T::of(8.0) * tolerance)).sqrt().ceil();

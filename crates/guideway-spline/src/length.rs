@@ -1,10 +1,12 @@
+//! Arc length of segments and runs, by adaptive Gauss-Legendre quadrature of the speed.
+
 use crate::{Point, Real, uniform};
 
-/// How often a segment is halved at most; only parts with a cusp go on being halved.
+/// Most halvings of a segment. Only parts around a cusp reach it.
 const MAX_HALVINGS: u32 = 24;
 
-/// Abscissas above zero and weights of 8-point Gauss-Legendre quadrature on [-1, 1] (Abramowitz &
-/// Stegun, table 25.4).
+/// Positive abscissas and their weights of 8-point Gauss-Legendre quadrature on [-1, 1]. Source:
+/// Abramowitz & Stegun, table 25.4.
 const GAUSS: [(f64, f64); 4] = [
     (0.183_434_642_495_649_8, 0.362_683_783_378_362),
     (0.525_532_409_916_329, 0.313_706_645_877_887_3),
@@ -12,17 +14,18 @@ const GAUSS: [(f64, f64); 4] = [
     (0.960_289_856_497_536_3, 0.101_228_536_290_376_26),
 ];
 
-/// Arc length of one segment, to within an estimated error of `tolerance` (both in the unit of the
-/// points, as are the next).
+/// Arc length of one segment, with an estimated error of at most `tolerance`. Length and tolerance
+/// are in the unit of the points.
 ///
-/// A part is taken when one of two holds, and halved otherwise:
+/// The segment is halved until each part meets one of two conditions:
 ///
-/// - chord and control polygon, which are never longer and never shorter, differ by less than the tolerance;
-/// - all its Bezier legs point the same way within 60 degrees, so that the speed has no kink, and
-///   Gauss-Legendre quadrature of the speed gives the same for the whole as for its halves. Without the
-///   condition on the legs, a cusp can make the two agree by chance.
+/// - the lengths of chord and control polygon, a lower and an upper bound, differ by less than the
+///   tolerance;
+/// - all Bezier legs point the same way within 60 degrees, so that the speed has no kink, and
+///   quadrature over the part agrees with quadrature over its halves. Without the condition on the
+///   legs, the two can agree by chance at a cusp.
 ///
-/// A tolerance below rounding is raised to it.
+/// A tolerance below the rounding error is raised to it.
 pub fn segment_length<T: Real>(segment: &[Point<T>; 4], tolerance: f64) -> f64 {
     let origin = segment[0].to_f64();
     let part = segment.map(|p| p.to_f64() - origin);
@@ -30,7 +33,8 @@ pub fn segment_length<T: Real>(segment: &[Point<T>; 4], tolerance: f64) -> f64 {
     refine(&part, tolerance.max(1e-14 * size), MAX_HALVINGS)
 }
 
-/// Arc length of a run, to within an estimated error of `tolerance`; zero for fewer than four points.
+/// Arc length of a run, with an estimated error of at most `tolerance`, both in the unit of the
+/// points. Zero for fewer than four points.
 pub fn run_length<T: Real>(points: &[Point<T>], tolerance: f64) -> f64 {
     let share = tolerance / (points.len() as f64).max(1.0);
     let lengths = points.array_windows().map(|s| segment_length(s, share));
@@ -59,13 +63,13 @@ fn refine(part: &[Point<f64>; 4], tolerance: f64, halvings_left: u32) -> f64 {
     lengths[0] + lengths[1]
 }
 
-/// Length of a vector that is far from the limits of numbers: [`Point::norm`] goes on to them, which took half of the time
-/// of measuring a layout.
+/// Length of a vector whose square neither overflows nor underflows. Measured: [`Point::norm`],
+/// which has no such limits, took half of the time of measuring a layout.
 fn norm(vector: Point<f64>) -> f64 {
     vector.dot(vector).sqrt()
 }
 
-/// Integral of the speed.
+/// Integral of the speed over the part, by 8-point Gauss-Legendre quadrature.
 fn gauss(part: &[Point<f64>; 4]) -> f64 {
     let speed = |t: f64| norm(uniform::derivative(part, t));
     let pair = |&(x, weight): &(f64, f64)| weight * (speed(0.5 - 0.5 * x) + speed(0.5 + 0.5 * x));

@@ -1,7 +1,7 @@
 //! Curve mathematics for path layouts.
 //!
-//! Everything that Guideway draws is one primitive: a *run* of uniform cubic B-spline control points.
-//! A run of n points (n >= 4) is n - 3 segments, each
+//! Guideway draws one primitive: a *run* of uniform cubic B-spline control points. A run of n
+//! points (n >= 4) has n - 3 segments (thesis eq. 3.2), each
 //!
 //! ```text
 //! C(t) = 1/6 [t^3 t^2 t 1] | -1  3 -3  1 | | P0 |
@@ -10,8 +10,19 @@
 //!                          |  1  4  1  0 | | P3 |
 //! ```
 //!
-//! Any other curve converts to runs: exactly where it is a non-rational curve up to degree 3, within a
-//! stated tolerance otherwise.
+//! Other curves convert to runs: non-rational curves up to degree 3 exactly, all others within a
+//! tolerance that the caller gives.
+//!
+//! | module | input | output |
+//! |---|---|---|
+//! | `point`, `real`, `bounds`, `affine` | | points, numbers, boxes and maps of the plane |
+//! | [`uniform`], `runs` | control points | points and derivatives of a segment; a curve |
+//! | [`basis`], [`knots`], `nurbs` | degree, knots, weights | a NURBS curve and its points |
+//! | `convert`, `arc` | NURBS, Bezier curves, polylines, arcs | runs and an error bound |
+//! | `flatten` | a run and a tolerance | a polyline |
+//! | `length`, `nearest` | a run | its arc length; the point nearest to another |
+//! | `hilbert` | a point of a box | its index along the Hilbert curve |
+//! | [`mem`] | a slice | a prefetch into the cache |
 
 mod affine;
 mod arc;
@@ -32,13 +43,14 @@ pub mod uniform;
 
 pub use affine::Affine;
 pub use arc::{MAX_ARC_PIECES, arc_to_runs};
+pub use basis::MAX_DEGREE;
 pub use bounds::Bounds;
 pub use convert::{Conversion, MAX_HALVINGS, bezier_to_runs, nurbs_to_runs, polyline_to_runs};
 pub use flatten::{MAX_LINES_PER_SEGMENT, flatten_run};
 pub use hilbert::hilbert;
 pub use length::{run_length, segment_length};
 pub use nearest::{Nearest, nearest_on_run};
-pub use nurbs::{MAX_DEGREE, Nurbs, NurbsError};
+pub use nurbs::{Nurbs, NurbsError};
 pub use point::Point;
 pub use real::{Real, greater, lesser};
 pub use runs::Runs;

@@ -1,9 +1,12 @@
+//! Nearest point of a run to a query point, by branch and bound over Bezier hulls.
+
 use crate::{Point, Real, uniform};
 
-/// How often a segment is halved at most: its parts are then as short as the rounding of t.
+/// Most halvings of a segment. Derived: parts of 2^-50 are about as short as the rounding error of
+/// t.
 const MAX_HALVINGS: u32 = 50;
 
-/// The point of a run that is nearest to another point.
+/// The point of a run that is nearest to a query point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Nearest {
     /// Index of the segment in the run.
@@ -12,19 +15,25 @@ pub struct Nearest {
     pub t: f64,
     /// The point on the curve.
     pub point: Point<f64>,
-    /// How far it is from the other.
+    /// Distance to the query point.
     pub distance: f64,
 }
 
-/// The point of a run nearest to `query`; none if the run has fewer than four points.
+/// The point of a run nearest to `query`; `None` if the run has fewer than four points.
 ///
-/// No other point of the run is nearer by more than `tolerance` (unit of the points), which is raised
-/// to 10^-12 of the distances involved if it is below.
+/// No other point of the run is nearer by more than `tolerance` (in the unit of the points), which
+/// is raised to 10^-12 of the distances involved if it is lower.
 ///
-/// Branch and bound: a part of the curve is within f of its chord, f being the greatest distance of its
-/// Bezier points from the chord (see [`flatten_run`](crate::flatten_run)); so it can be skipped if the
-/// chord is farther from `query` than the best found plus f. Halving divides f by four: a few steps
-/// a segment, but sqrt(radius / tolerance) of them around the center of an arc.
+/// ```text
+///       . - ~ - .          f: greatest distance of a Bezier point from the chord
+///    A ----------- E       the part lies within f of its chord AE (see `flatten_run`)
+///           |
+///           | d            the part can be skipped if d - f >= best distance so far
+///         query
+/// ```
+///
+/// Cost: halving divides f by four, so a segment takes a few steps, but around the center of an arc
+/// sqrt(radius / tolerance) of them.
 pub fn nearest_on_run<T: Real>(
     points: &[Point<T>],
     query: Point<f64>,
@@ -33,7 +42,7 @@ pub fn nearest_on_run<T: Real>(
     // Relative to the query, so that far from the origin no digits are lost.
     let local = |segment: &[Point<T>; 4]| segment.map(|p| p.to_f64() - query);
     let segments = || points.array_windows().map(local).enumerate();
-    // A good guess first lets whole segments be skipped.
+    // A good first guess lets the search skip whole segments.
     let starts = segments().map(|(i, p)| Nearest::new(i, 0.0, uniform::start(&p)));
     let mut best = starts.min_by(|a, b| a.distance.total_cmp(&b.distance))?;
     for (index, p) in segments() {
@@ -51,7 +60,7 @@ pub fn nearest_on_run<T: Real>(
 }
 
 impl Nearest {
-    /// A candidate: `point` is still relative to the query.
+    /// A candidate whose `point` is relative to the query.
     fn new(segment: usize, t: f64, point: Point<f64>) -> Self {
         Self {
             segment,
@@ -62,7 +71,7 @@ impl Nearest {
     }
 }
 
-/// Looks through the segment `index` for a point nearer to the origin.
+/// Search of the segment `index` for a point nearer to the origin, which is the query.
 struct Search {
     index: usize,
     tolerance: f64,
@@ -70,7 +79,7 @@ struct Search {
 }
 
 impl Search {
-    /// `part` is the segment from t = a to b.
+    /// Visits the part of the segment from t = a to b.
     fn visit(&mut self, part: &[Point<f64>; 4], (a, b): (f64, f64), halvings_left: u32) {
         let [start, first, second, end] = uniform::to_bezier(part);
         let chord = Chord { start, end };
@@ -106,12 +115,12 @@ struct Chord {
 }
 
 impl Chord {
-    /// Fraction of the way at the point of the chord nearest to `point`.
+    /// Parameter, 0 to 1, of the point of the chord nearest to `point`.
     fn nearest(&self, point: Point<f64>) -> f64 {
-        let way = self.end - self.start;
-        let length_squared = way.dot(way);
+        let vector = self.end - self.start;
+        let length_squared = vector.dot(vector);
         if length_squared > 0.0 {
-            ((point - self.start).dot(way) / length_squared).clamp(0.0, 1.0)
+            ((point - self.start).dot(vector) / length_squared).clamp(0.0, 1.0)
         } else {
             0.0
         }

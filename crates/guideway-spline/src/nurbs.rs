@@ -1,10 +1,9 @@
-use crate::basis::{find_span, nonzero_basis};
+//! [`Nurbs`]: a validated non-uniform rational B-spline curve, and its evaluation.
+
+use crate::basis::{MAX_DEGREE, find_span, nonzero_basis};
 use crate::{Point, knots};
 
-/// The greatest degree of a curve that can be evaluated or converted.
-pub const MAX_DEGREE: usize = 25;
-
-/// A non-uniform rational B-spline curve of degree 1 to [`MAX_DEGREE`], checked when it is made.
+/// A non-uniform rational B-spline curve of degree 1 to [`MAX_DEGREE`], validated on construction.
 ///
 /// ```text
 /// C(u) = sum N_(i,p)(u) w_i P_i / sum N_(i,p)(u) w_i     u_p <= u <= u_n
@@ -19,59 +18,59 @@ pub struct Nurbs {
     weights: Option<Vec<f64>>,
 }
 
-/// Why numbers do not make a [`Nurbs`].
+/// Reason why [`Nurbs::new`] rejects its input.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum NurbsError {
-    /// The degree is 0 or too high.
-    #[error("degree {actual} is not within 1 to {MAX_DEGREE}")]
+    /// The degree is 0 or exceeds [`MAX_DEGREE`].
+    #[error("degree {actual} is outside of 1 to {MAX_DEGREE}")]
     Degree {
-        /// Degree given.
+        /// Given degree.
         actual: usize,
     },
     /// A curve of degree p needs at least p + 1 control points.
-    #[error("{actual} control points, at least {least} expected")]
+    #[error("expected at least {least} control points, found {actual}")]
     TooFewPoints {
-        /// Points given.
+        /// Number of given points.
         actual: usize,
-        /// Points needed for the degree.
+        /// Number of points that the degree requires.
         least: usize,
     },
-    /// There must be n + p + 1 knots.
-    #[error("{actual} knots, {expected} expected")]
+    /// The number of knots is not n + p + 1.
+    #[error("expected {expected} knots, found {actual}")]
     KnotCount {
-        /// Knots given.
+        /// Number of given knots.
         actual: usize,
-        /// Knots needed for the degree and the points.
+        /// Number of knots that the degree and the points require.
         expected: usize,
     },
-    /// There must be as many weights as control points.
-    #[error("{actual} weights, {expected} expected")]
+    /// The numbers of weights and control points differ.
+    #[error("expected {expected} weights, found {actual}")]
     WeightCount {
-        /// Weights given.
+        /// Number of given weights.
         actual: usize,
         /// Number of control points.
         expected: usize,
     },
     /// A knot is infinite or not a number.
-    #[error("knot {index} is {actual}, a finite number expected")]
+    #[error("knot {index} is {actual}, expected a finite number")]
     NonFiniteKnot {
         /// Index of the knot.
         index: usize,
-        /// Its value.
+        /// Value of the knot.
         actual: f64,
     },
-    /// A knot is below the one before it.
-    #[error("knot {index} is {actual}, at least {least} expected")]
+    /// A knot is lower than its predecessor.
+    #[error("knot {index} is {actual}, expected at least {least}")]
     FallingKnots {
-        /// Index of the knot that is too low.
+        /// Index of the knot.
         index: usize,
-        /// Its value.
+        /// Value of the knot.
         actual: f64,
-        /// Value of the knot before it.
+        /// Value of its predecessor.
         least: f64,
     },
-    /// The knots u_p and u_n are equal (or too far apart for a number): there is no curve.
-    #[error("the domain is from knot {start} to {end}, a finite width above zero expected")]
+    /// The domain [u_p, u_n] is empty, or its width exceeds the range of `f64`.
+    #[error("the domain is [{start}, {end}], expected a positive finite width")]
     DomainWidth {
         /// Knot u_p.
         start: f64,
@@ -85,20 +84,21 @@ pub enum NurbsError {
         index: usize,
     },
     /// A weight is not a positive finite number.
-    #[error("weight {index} is {actual}, a finite number above zero expected")]
+    #[error("weight {index} is {actual}, expected a positive finite number")]
     Weight {
         /// Index of the weight.
         index: usize,
-        /// Its value.
+        /// Value of the weight.
         actual: f64,
     },
 }
 
 impl Nurbs {
-    /// A curve of `degree` p over n `points` (meters), n + p + 1 `knots` and, if rational, n `weights`.
+    /// A curve of `degree` p with n `points` (meters), n + p + 1 `knots` and, if rational, n
+    /// `weights`.
     ///
     /// # Errors
-    /// Says the first thing that is wrong with the numbers, with what was expected.
+    /// Returns the first rule that the numbers break, with the expected value.
     pub fn new(
         degree: usize,
         knots: Vec<f64>,
@@ -123,7 +123,7 @@ impl Nurbs {
         })
     }
 
-    /// A smooth closed curve of `degree` over control points that are each given once.
+    /// A smooth closed curve of `degree`; `points` holds each control point once.
     ///
     /// # Errors
     /// As [`Nurbs::new`].
@@ -147,26 +147,26 @@ impl Nurbs {
         &self.points
     }
 
-    /// The n weights, if given.
+    /// The n weights, if the curve has any.
     pub fn weights(&self) -> Option<&[f64]> {
         self.weights.as_deref()
     }
 
-    /// Whether two weights differ; if not, the curve is polynomial whatever the weights.
+    /// Whether two weights differ. With equal weights the curve is polynomial.
     pub fn is_rational(&self) -> bool {
         let weights = self.weights.as_deref().unwrap_or_default();
         weights.iter().any(|&w| w != weights[0])
     }
 
-    /// First and last parameter of the curve: u_p and u_n.
+    /// First and last parameter of the curve, u_p and u_n.
     pub fn domain(&self) -> (f64, f64) {
         (self.knots[self.degree], self.knots[self.points.len()])
     }
 
-    /// The point at parameter `u`, or at the nearest end of the domain if it is outside.
+    /// The point at parameter `u`, clamped to the domain.
     ///
-    /// Where the curve breaks, at an inner knot more than p-fold, it is the side to the right. Source:
-    /// Piegl & Tiller, The NURBS Book, A4.1.
+    /// At an inner knot of multiplicity above p the curve breaks; the result is the limit from the
+    /// right. Source: Piegl & Tiller, The NURBS Book, A4.1.
     pub fn point(&self, u: f64) -> Point<f64> {
         let (first, last) = self.domain();
         let u = u.clamp(first, last);
@@ -181,7 +181,7 @@ impl Nurbs {
         sum * (1.0 / total)
     }
 
-    /// Indices k of the spans [u_k, u_(k + 1)] of the domain that have a width.
+    /// Indices k of the spans [u_k, u_(k + 1)] of the domain with a positive width.
     pub(crate) fn spans(&self) -> impl Iterator<Item = usize> {
         (self.degree..self.points.len()).filter(|&k| self.knots[k] < self.knots[k + 1])
     }

@@ -1,3 +1,5 @@
+//! [`Point`]: a point or vector in the plane, with its arithmetic.
+
 use std::ops::{Add, Mul, Neg, Sub};
 
 use bytemuck::{Pod, Zeroable};
@@ -8,20 +10,21 @@ use crate::Real;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[repr(C)]
 pub struct Point<T> {
-    /// To the right.
+    /// Coordinate to the right.
     pub x: T,
-    /// Up.
+    /// Coordinate upward.
     pub y: T,
 }
 
-// SAFETY: a point of zeros is one of two numbers that are zero.
+// SAFETY: all bytes zero are two numbers of value zero.
 #[allow(
     unsafe_code,
     reason = "no derive does this for a type with a parameter; see SAFETY"
 )]
 unsafe impl<T: Zeroable> Zeroable for Point<T> {}
 
-// SAFETY: two numbers of one type, one behind the other, have nothing between or behind them, and any bits are numbers.
+// SAFETY: `repr(C)` puts the two numbers of one type next to each other without padding, and any
+// bits of a `Pod` are a number.
 #[allow(
     unsafe_code,
     reason = "no derive does this for a type with a parameter; see SAFETY"
@@ -49,7 +52,7 @@ impl<T: Real> Point<T> {
         self.x * other.y - self.y * other.x
     }
 
-    /// Length as a vector.
+    /// Euclidean length of the vector.
     pub fn norm(self) -> T {
         self.x.hypot(self.y)
     }
@@ -59,7 +62,7 @@ impl<T: Real> Point<T> {
         (self - other).norm()
     }
 
-    /// The point at fraction `t` of the way to `other`.
+    /// Linear interpolation: this point at t = 0, `other` at t = 1.
     pub fn lerp(self, other: Self, t: T) -> Self {
         self * (T::one() - t) + other * t
     }

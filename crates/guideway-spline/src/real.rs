@@ -1,3 +1,6 @@
+//! [`Real`]: the floating-point types of coordinates, and minima of two compiled to one
+//! instruction.
+
 use std::fmt::Debug;
 
 /// A floating-point number: `f32` or `f64`.
@@ -20,7 +23,7 @@ impl Real for f64 {
 impl Real for f32 {
     #[allow(
         clippy::cast_possible_truncation,
-        reason = "rounding to f32 is what it is for"
+        reason = "the function exists to round to f32"
     )]
     fn of(value: f64) -> Self {
         value as Self
@@ -30,13 +33,13 @@ impl Real for f32 {
     }
 }
 
-/// The lesser of two numbers, by one instruction: `f64::min` looks for NaN too. The second if one is NaN.
+/// Minimum of two numbers, in one instruction: `f64::min` handles NaN too. `b` if one is NaN.
 #[inline(always)]
 pub fn lesser<T: PartialOrd>(a: T, b: T) -> T {
     if a < b { a } else { b }
 }
 
-/// The greater of two numbers, likewise.
+/// Maximum of two numbers, in one instruction. `b` if one is NaN.
 #[inline(always)]
 pub fn greater<T: PartialOrd>(a: T, b: T) -> T {
     if a > b { a } else { b }

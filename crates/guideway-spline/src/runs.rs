@@ -1,8 +1,11 @@
+//! [`Runs`]: a curve as a list of uniform cubic B-spline runs, built from lines, segments or
+//! Beziers.
+
 use crate::{Point, uniform};
 
-/// The curve of one path: runs of uniform cubic control points, one after the other.
+/// The curve of one path: a list of runs of uniform cubic control points.
 ///
-/// Runs of one path usually meet end to end, but need not. Each has at least four points.
+/// Each run has at least four points. Consecutive runs usually meet end to end, but need not.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Runs {
     points: Vec<Point<f64>>,
@@ -19,7 +22,7 @@ impl Runs {
     /// Appends a run.
     ///
     /// # Panics
-    /// When it has fewer than four points.
+    /// When the run has fewer than four points.
     pub fn push(&mut self, run: &[Point<f64>]) {
         assert!(
             run.len() >= 4,
@@ -30,14 +33,14 @@ impl Runs {
         self.ends.push(self.points.len());
     }
 
-    /// Appends a straight line, exactly: four control points in line, evenly spaced.
+    /// Appends a straight line, exactly, as four evenly spaced control points.
     pub fn push_line(&mut self, start: Point<f64>, end: Point<f64>) {
         let step = end - start;
         self.push(&[start - step, start, end, end + step]);
     }
 
-    /// Appends one segment. It continues the last run if its first three points are the last three
-    /// there, which draws the same and takes a quarter of the room.
+    /// Appends one segment. If its first three points equal the last three of the last run, it
+    /// extends that run by one point, which draws the same with a quarter of the memory.
     pub fn push_segment(&mut self, segment: &[Point<f64>; 4]) {
         match self.ends.last_mut() {
             Some(end) if self.points.ends_with(&segment[..3]) => {
@@ -55,6 +58,7 @@ impl Runs {
 
     /// Appends a quadratic Bezier curve, exactly.
     pub fn push_quadratic(&mut self, bezier: &[Point<f64>; 3]) {
+        // Degree elevation: Piegl & Tiller, The NURBS Book, section 5.5.
         let [start, middle, end] = *bezier;
         let two_thirds = 2.0 / 3.0;
         self.push_bezier(&[
@@ -65,7 +69,7 @@ impl Runs {
         ]);
     }
 
-    /// All runs in order.
+    /// The control points of each run, in order.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = &[Point<f64>]> {
         (0..self.ends.len()).map(|i| {
             let start = if i == 0 { 0 } else { self.ends[i - 1] };
@@ -88,7 +92,7 @@ impl Runs {
         &self.points
     }
 
-    /// Takes all runs out; the buffers stay for the next curve.
+    /// Removes all runs and keeps the buffers for the next curve.
     pub fn clear(&mut self) {
         self.points.clear();
         self.ends.clear();

@@ -1,4 +1,5 @@
-//! Boxes hold the curve, the tight ones without room to spare; arcs; the other forms of a segment.
+//! Boxes contain the curve and the tight ones touch it; arcs keep their bound; forms of a segment
+//! agree.
 
 mod common;
 
@@ -8,24 +9,31 @@ use proptest::prelude::*;
 
 proptest! {
     #[test]
-    fn boxes_hold_the_curve(run in run()) {
+    fn boxes_contain_the_curve(run in run()) {
         let rounding = 1e-14 * scale(&run);
         let samples = Bounds::of_points(run_samples(&run, 64)).unwrap();
         let tight = Bounds::of_run(&run).unwrap();
         let hull = Bounds::of_points(run.iter().copied()).unwrap();
         for count in 0..=run.len() {
-            let few = &run[..count];
-            prop_assert_eq!(Bounds::of_slice(few), Bounds::of_points(few.iter().copied()));
+            let points = &run[..count];
+            prop_assert_eq!(
+                Bounds::of_slice(points),
+                Bounds::of_points(points.iter().copied())
+            );
         }
         prop_assert_eq!(tight.inflated(rounding).union(samples), tight.inflated(rounding));
         prop_assert_eq!(hull.inflated(rounding).union(tight), hull.inflated(rounding));
-        // Between samples a coordinate gets past them by h^2/8 |C''| at most; |C''| <= 4 * 20 * sqrt(2).
+        // Between samples, a coordinate exceeds theirs by at most h^2/8 |C''|, and
+        // |C''| <= 4 * 20 * sqrt(2).
         let reach = 120.0 / (8.0 * 64.0 * 64.0) + rounding;
         prop_assert_eq!(samples.inflated(reach).union(tight), samples.inflated(reach));
     }
 
     #[test]
-    fn forms_of_a_segment(points in prop::array::uniform4(point_within(50.0)), t in 0.0..=1.0) {
+    fn forms_of_a_segment_agree(
+        points in prop::array::uniform4(point_within(50.0)),
+        t in 0.0..=1.0,
+    ) {
         let near = |a: P, b: P| a.distance(b) < 1e-12 * 50.0;
         let bezier = uniform::to_bezier(&points);
         let back = uniform::from_bezier(&bezier);
@@ -49,7 +57,7 @@ proptest! {
     }
 
     #[test]
-    fn arcs_are_within_their_bound(
+    fn arcs_stay_within_their_bound(
         center in point_within(100.0),
         radius in 0.01..100.0,
         start in -9.0..9.0,
@@ -72,7 +80,7 @@ proptest! {
 }
 
 #[test]
-fn the_bound_of_an_arc_is_reached() {
+fn error_bound_of_an_arc_is_tight() {
     let mut runs = Runs::default();
     let quarter = std::f64::consts::FRAC_PI_2;
     let done = arc_to_runs(Point::new(0.0, 0.0), 1.0, 0.0, quarter, 1e-3, &mut runs);
@@ -83,8 +91,8 @@ fn the_bound_of_an_arc_is_reached() {
 }
 
 #[test]
-fn boxes_of_known_curves() {
-    // The Bezier curve (0,0) (0,4) (8,4) (8,0) has its top at height 3.
+fn box_of_a_known_curve_is_tight() {
+    // The top of the Bezier curve (0,0) (0,4) (8,4) (8,0) is at height 3.
     let corners = [(0.0, 0.0), (0.0, 4.0), (8.0, 4.0), (8.0, 0.0)];
     let segment = uniform::from_bezier(&corners.map(|(x, y)| Point::new(x, y)));
     let bounds = Bounds::of_segment(&segment);
@@ -94,7 +102,7 @@ fn boxes_of_known_curves() {
 }
 
 #[test]
-fn curvature_of_a_circle() {
+fn curvature_of_an_arc_is_its_inverse_radius() {
     let mut runs = Runs::default();
     let center = Point::new(3.0, 4.0);
     for (sweep, expected) in [(0.5, 0.2), (-0.5, -0.2)] {

@@ -1,4 +1,4 @@
-//! Converted runs draw the curve that Cox-de Boor evaluation draws.
+//! Converted runs draw the same curve as Cox-de Boor evaluation.
 
 mod common;
 
@@ -19,7 +19,7 @@ fn segments(runs: &Runs) -> Vec<[P; 4]> {
     runs.iter().flat_map(of_run).collect()
 }
 
-/// Largest difference at equal parameters; each segment is one span.
+/// Largest difference at equal parameters, where each segment is one span.
 fn difference(curve: &Nurbs, runs: &Runs) -> f64 {
     let (segments, spans) = (segments(runs), spans(curve));
     assert_eq!(segments.len(), spans.len());
@@ -32,7 +32,7 @@ fn difference(curve: &Nurbs, runs: &Runs) -> f64 {
     differences.fold(0.0, f64::max)
 }
 
-/// How far samples of either curve are from the other, less what sampling may have added.
+/// Hausdorff distance between the samples of both curves, less the error of sampling.
 fn distance(curve: &Nurbs, runs: &Runs) -> f64 {
     let samples: Vec<_> = spans(curve)
         .into_iter()
@@ -55,7 +55,7 @@ fn distance(curve: &Nurbs, runs: &Runs) -> f64 {
 
 proptest! {
     #[test]
-    fn low_degrees_are_exact(curve in nurbs(1..=3, Just(false))) {
+    fn converts_low_degrees_exactly(curve in nurbs(1..=3, Just(false))) {
         let mut runs = Runs::default();
         let done = nurbs_to_runs(&curve, 1e-3, &mut runs);
         prop_assert!(done.exact && done.error_bound_m == 0.0);
@@ -64,7 +64,7 @@ proptest! {
     }
 
     #[test]
-    fn basis_adds_up_to_one(curve in nurbs(1..=25, Just(false)), at in 0.0..=1.0) {
+    fn basis_sums_to_one(curve in nurbs(1..=25, Just(false)), at in 0.0..=1.0) {
         let (first, last) = curve.domain();
         let u = first + (last - first) * at;
         let values = (0..curve.points().len())
@@ -75,13 +75,14 @@ proptest! {
     }
 
     #[test]
-    fn basis_is_the_recurrence(curve in nurbs(1..=5, Just(false)), at in 0.0..1.0_f64) {
+    fn basis_matches_the_recurrence(curve in nurbs(1..=5, Just(false)), at in 0.0..1.0_f64) {
         let (first, last) = curve.domain();
         let u = (first + (last - first) * at).min(last.next_down());
         for i in 0..curve.points().len() {
             let expected = recurrence(i, curve.degree(), curve.knots(), u);
             let actual = basis::basis(i, curve.degree(), curve.knots(), u);
-            prop_assert!((actual - expected).abs() < 1e-12, "N_{} is {}, not {}", i, actual, expected);
+            let is_near = (actual - expected).abs() < 1e-12;
+            prop_assert!(is_near, "N_{} is {}, not {}", i, actual, expected);
         }
     }
 }
@@ -90,7 +91,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
 
     #[test]
-    fn others_are_within_their_bound(
+    fn approximation_stays_within_its_bound(
         curve in prop_oneof![nurbs(1..=5, Just(true)), nurbs(4..=7, Just(false))],
         tolerance in prop_oneof![Just(1e-1), Just(1e-3)],
     ) {
@@ -104,7 +105,7 @@ proptest! {
     }
 }
 
-/// Thesis eq. 3.1 as written.
+/// The recurrence of thesis eq. 3.1, literally.
 fn recurrence(i: usize, p: usize, knots: &[f64], u: f64) -> f64 {
     if p == 0 {
         return if knots[i] <= u && u < knots[i + 1] {
@@ -131,7 +132,7 @@ fn zigzag(count: usize) -> Vec<P> {
 }
 
 #[test]
-fn the_comparison_finds_a_wrong_curve() {
+fn comparator_detects_wrong_curves() {
     let points = zigzag(7);
     let weights = vec![1.0, 2.0, 1.0, 0.5, 1.0, 3.0, 1.0];
     let knots = knots::uniform_clamped(3, 7);
@@ -148,7 +149,7 @@ fn the_comparison_finds_a_wrong_curve() {
     let unweighted = Nurbs::new(3, knots, points.clone(), None).unwrap();
     assert!(distance(&unweighted, &runs) > 0.1);
 
-    // A part that is missing shows in one direction only.
+    // A missing part raises the distance in one direction only.
     let mut part = Runs::default();
     runs.iter().skip(1).for_each(|run| part.push(run));
     assert!(distance(&curve, &part) > 0.1);
@@ -164,7 +165,7 @@ fn the_comparison_finds_a_wrong_curve() {
 }
 
 #[test]
-fn evenly_spaced_cubics_keep_their_points() {
+fn uniform_cubics_keep_their_control_points() {
     let points = zigzag(9);
     for start in [0.0, 0.1, -1e4] {
         let knots = (0..13).map(|i| start + 0.1 * f64::from(i)).collect();
@@ -187,7 +188,7 @@ fn evenly_spaced_cubics_keep_their_points() {
 }
 
 #[test]
-fn a_long_clamped_curve_is_few_runs() {
+fn long_clamped_curve_yields_few_runs() {
     let points = zigzag(100);
     let curve = Nurbs::new(3, knots::uniform_clamped(3, 100), points, None).unwrap();
     let mut runs = Runs::default();
@@ -196,7 +197,7 @@ fn a_long_clamped_curve_is_few_runs() {
 }
 
 #[test]
-fn a_full_inner_knot_breaks_the_curve() {
+fn inner_knot_of_full_multiplicity_breaks_the_curve() {
     let knots = vec![0.0, 0.0, 1.0, 1.0, 2.0, 2.0];
     let corners = [(0.0, 0.0), (1.0, 0.0), (5.0, 5.0), (6.0, 5.0)];
     let points = corners.map(|(x, y)| Point::new(x, y));
@@ -217,8 +218,8 @@ fn a_full_inner_knot_breaks_the_curve() {
 }
 
 #[test]
-fn a_limit_gives_the_best_effort_and_says_so() {
-    // One weight far above the rest bends within a sliver of the parameter range.
+fn piece_limit_yields_best_effort_with_its_error_bound() {
+    // One dominant weight concentrates the bend in a sliver of the parameter range.
     let points = zigzag(4);
     let weights = vec![1.0, 1e15, 1e-3, 1.0];
     let curve = Nurbs::new(3, knots::uniform_clamped(3, 4), points, Some(weights)).unwrap();
@@ -227,7 +228,7 @@ fn a_limit_gives_the_best_effort_and_says_so() {
     assert!(done.error_bound_m > 1e-9 && done.pieces <= 1024, "{done:?}");
     assert!(runs.points().iter().all(|p| p.is_finite()));
 
-    // No tolerance at all ends at the rounding error, not at the limit.
+    // A tolerance of zero ends at the rounding error, before the limit.
     let quartic = zigzag(5);
     let done = bezier_to_runs(&quartic, 0.0, &mut runs).unwrap();
     assert!(done.error_bound_m < 1e-10, "{done:?}");
@@ -238,7 +239,7 @@ fn a_limit_gives_the_best_effort_and_says_so() {
 }
 
 #[test]
-fn bezier_curves_of_any_degree() {
+fn converts_bezier_curves_of_any_degree() {
     for degree in 1..=25 {
         let points = zigzag(degree + 1);
         let knots = knots::uniform_clamped(degree, degree + 1);
@@ -255,7 +256,7 @@ fn bezier_curves_of_any_degree() {
 }
 
 #[test]
-fn polylines_are_exact() {
+fn converts_polylines_exactly() {
     let corners = zigzag(5);
     let mut runs = Runs::default();
     let done = polyline_to_runs(&corners, &mut runs);
@@ -277,7 +278,7 @@ fn polylines_are_exact() {
 }
 
 #[test]
-fn errors_name_what_was_expected() {
+fn errors_state_expected_and_actual_values() {
     let p = zigzag(4);
     let new = |degree, knots: &[f64], weights: Option<&[f64]>| {
         Nurbs::new(
@@ -290,25 +291,28 @@ fn errors_name_what_was_expected() {
         .to_string()
     };
     let k = [0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0];
-    assert_eq!(new(0, &k, None), "degree 0 is not within 1 to 25");
-    assert_eq!(new(4, &k, None), "4 control points, at least 5 expected");
-    assert_eq!(new(3, &k[1..], None), "7 knots, 8 expected");
-    assert_eq!(new(3, &k, Some(&[1.0])), "1 weights, 4 expected");
+    assert_eq!(new(0, &k, None), "degree 0 is outside of 1 to 25");
+    assert_eq!(
+        new(4, &k, None),
+        "expected at least 5 control points, found 4"
+    );
+    assert_eq!(new(3, &k[1..], None), "expected 8 knots, found 7");
+    assert_eq!(new(3, &k, Some(&[1.0])), "expected 4 weights, found 1");
     assert_eq!(
         new(3, &k, Some(&[1.0, 0.0, 1.0, 1.0])),
-        "weight 1 is 0, a finite number above zero expected"
+        "weight 1 is 0, expected a positive finite number"
     );
     let mut wrong = k;
     wrong[7] = 0.5;
-    assert_eq!(new(3, &wrong, None), "knot 7 is 0.5, at least 1 expected");
+    assert_eq!(new(3, &wrong, None), "knot 7 is 0.5, expected at least 1");
     wrong[7] = f64::INFINITY;
     assert_eq!(
         new(3, &wrong, None),
-        "knot 7 is inf, a finite number expected"
+        "knot 7 is inf, expected a finite number"
     );
     assert_eq!(
         new(3, &[2.0; 8], None),
-        "the domain is from knot 2 to 2, a finite width above zero expected"
+        "the domain is [2, 2], expected a positive finite width"
     );
     let infinite = Nurbs::new(3, k.to_vec(), vec![Point::new(f64::NAN, 0.0); 4], None);
     assert_eq!(

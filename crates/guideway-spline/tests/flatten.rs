@@ -1,4 +1,4 @@
-//! Lines of a flattened run: never farther from the curve than the tolerance, nor the curve from them.
+//! The Hausdorff distance between a run and its polyline is at most the tolerance.
 
 mod common;
 
@@ -12,7 +12,7 @@ fn vertices<T: Real>(run: &[Point<T>], tolerance: T) -> Vec<Point<T>> {
     vertices
 }
 
-/// Points on the lines, close together.
+/// Dense points on the lines.
 fn along(vertices: &[P]) -> Vec<P> {
     let on_line = |ends: &[P]| {
         let (a, b) = (ends[0], ends[1]);
@@ -21,7 +21,7 @@ fn along(vertices: &[P]) -> Vec<P> {
     vertices.windows(2).flat_map(on_line).collect()
 }
 
-/// The greater of both one-way distances, less what sampling may have added.
+/// Hausdorff distance, less the error of sampling.
 fn hausdorff(run: &[P], vertices: &[P]) -> f64 {
     let curve = run_samples(run, 48);
     let there = one_way(&curve, vertices);
@@ -33,35 +33,43 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
 
     #[test]
-    fn within_the_tolerance(run in run(), tolerance in prop_oneof![Just(2.0), Just(0.1), Just(2e-3)]) {
+    fn stays_within_the_tolerance(
+        run in run(),
+        tolerance in prop_oneof![Just(2.0), Just(0.1), Just(2e-3)],
+    ) {
         let vertices = vertices(&run, tolerance);
         let curve = run_samples(&run, 1);
         prop_assert_eq!(vertices[0], curve[0]);
         prop_assert_eq!(vertices.last(), curve.last());
         let distance = hausdorff(&run, &vertices);
-        prop_assert!(distance <= tolerance * (1.0 + 1e-9), "{} with {} vertices", distance, vertices.len());
+        let count = vertices.len();
+        prop_assert!(distance <= tolerance * (1.0 + 1e-9), "{} with {} vertices", distance, count);
     }
 
     #[test]
-    fn within_the_tolerance_in_f32(run in run(), tolerance in prop_oneof![Just(0.1), Just(2e-3)]) {
+    fn stays_within_the_tolerance_in_f32(
+        run in run(),
+        tolerance in prop_oneof![Just(0.1), Just(2e-3)],
+    ) {
         let narrow: Vec<_> = run.iter().map(|p| p.to_f32()).collect();
         let wide: Vec<P> = narrow.iter().map(|p| p.to_f64()).collect();
         let rounding = 8.0 * f64::from(f32::EPSILON) * scale(&wide);
-        // Below the rounding of the coordinates no tolerance can be held.
+        // No tolerance below the rounding error of the coordinates can be met.
         prop_assume!(rounding < 0.1 * tolerance);
-        let vertices: Vec<P> = vertices(&narrow, f32::of(tolerance)).iter().map(|p| p.to_f64()).collect();
+        let vertices = vertices(&narrow, f32::of(tolerance));
+        let vertices: Vec<P> = vertices.iter().map(|p| p.to_f64()).collect();
         prop_assert!(hausdorff(&wide, &vertices) <= tolerance + rounding);
     }
 }
 
-/// A run along a curve given by its parameter, in n steps.
+/// A run whose n + 3 control points follow a parametric curve.
 fn trace(n: usize, at: impl Fn(f64) -> (f64, f64)) -> Vec<P> {
     let points = (0..n + 3).map(|i| at(i as f64 / n as f64));
     points.map(|(x, y)| Point::new(x, y)).collect()
 }
 
 #[test]
-fn a_straight_run_is_one_line() {
+fn straight_run_yields_one_line() {
     for offset in [0.0, 1e7] {
         let run = trace(100, |t| (offset + 70.0 * t, offset - 30.0 * t));
         assert_eq!(vertices(&run, 1e-3).len(), 2);
@@ -71,9 +79,9 @@ fn a_straight_run_is_one_line() {
 }
 
 #[test]
-fn lines_are_few() {
-    // The fewest chords within `tolerance` of a circle span 2 acos(1 - tolerance / r) each; with
-    // their ends on the circle. The hull test may cost a little more.
+fn line_count_is_near_the_optimum() {
+    // The longest chord within `tolerance` of a circle, with its ends on the circle, spans
+    // 2 acos(1 - tolerance / r). The test of the Bezier hull may need a few more lines.
     let (radius, tolerance) = (50.0, 0.01);
     let turn = std::f64::consts::TAU;
     let circle = trace(1000, |t| {
@@ -86,14 +94,14 @@ fn lines_are_few() {
         "{lines} lines, {fewest} at best"
     );
 
-    // A bend between two straights costs its own lines only.
+    // A bend between two straights takes lines for the bend only.
     let corner = trace(200, |t| if t < 0.5 { (t, 0.0) } else { (0.5, t - 0.5) });
     let lines = vertices(&corner, 1e-4).len() - 1;
     assert!(lines <= 8, "{lines} lines");
 }
 
 #[test]
-fn one_segment_is_cut_evenly() {
+fn divides_a_bent_segment_evenly() {
     let run = [(0.0, 0.0), (0.0, 60.0), (60.0, 60.0), (60.0, 0.0)].map(|(x, y)| Point::new(x, y));
     let bend = 60.0 * std::f64::consts::SQRT_2;
     for tolerance in [1.0, 1e-2, 1e-6] {
@@ -107,7 +115,7 @@ fn one_segment_is_cut_evenly() {
 }
 
 #[test]
-fn degenerate_runs_give_two_points() {
+fn degenerate_run_yields_two_points() {
     let point = Point::new(3.0, -2.0);
     let vertices_of_point = vertices(&[point; 9], 1e-3);
     assert_eq!(vertices_of_point.len(), 2);
@@ -117,8 +125,8 @@ fn degenerate_runs_give_two_points() {
 }
 
 #[test]
-fn there_and_back_is_not_lost() {
-    // Both ends are at the origin: the line between them is far from the turn.
+fn keeps_a_spike_between_equal_ends() {
+    // Both ends are at the origin, so the line between them is far from the turn.
     let there_and_back = trace(40, |t| (20.0 * (0.5 - (t - 0.5).abs()), 0.0));
     let vertices = vertices(&there_and_back, 0.01);
     assert!(vertices.iter().any(|v| v.x > 9.6));
@@ -126,7 +134,7 @@ fn there_and_back_is_not_lost() {
 }
 
 #[test]
-fn the_comparison_finds_wrong_lines() {
+fn comparator_detects_wrong_lines() {
     let run = trace(20, |t| (10.0 * t, (6.0 * t).sin()));
     let good = vertices(&run, 0.01);
     assert!(hausdorff(&run, &good) <= 0.01);
@@ -134,7 +142,7 @@ fn the_comparison_finds_wrong_lines() {
     let mut moved = good.clone();
     moved[2].y += 0.05;
     assert!(hausdorff(&run, &moved) > 0.01);
-    // A spur is near the curve nowhere, though the curve is near the lines everywhere.
+    // A spur is far from the curve, though every point of the curve is near the lines.
     let mut spur = good.clone();
     spur.insert(2, Point::new(good[1].x, 5.0));
     spur.insert(2, good[1]);

@@ -1,4 +1,4 @@
-//! Lengths and nearest points against dense polylines.
+//! Lengths and nearest points agree with dense polylines.
 
 mod common;
 
@@ -12,7 +12,8 @@ fn polyline_length(vertices: &[P]) -> f64 {
     vertices.windows(2).map(|l| l[0].distance(l[1])).sum()
 }
 
-/// Length of the Bezier control polygons of a segment halved so many times: never below its own.
+/// Length of the Bezier control polygons of a segment after `halvings`: an upper bound of its
+/// length.
 fn control_polygon_length(segment: &[P; 4], halvings: u32) -> f64 {
     if halvings == 0 {
         return polyline_length(&uniform::to_bezier(segment));
@@ -28,20 +29,24 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(128))]
 
     #[test]
-    fn length_is_between_chords_and_control_polygons(run in run()) {
+    fn length_lies_between_chords_and_control_polygons(run in run()) {
         let least = polyline_length(&run_samples(&run, 256));
         let most: f64 = run.array_windows().map(|s| control_polygon_length(s, 8)).sum();
         let length = run_length(&run, 1e-6);
         let slack = 1e-6 + 1e-15 * scale(&run) * 256.0 * run.len() as f64;
         prop_assert!(least - slack <= length, "{} < {}", length, least);
         prop_assert!(length <= most + slack, "{} > {}", length, most);
-        prop_assert!(most - least <= 0.001 * most + slack, "{} {} say little", least, most);
+        prop_assert!(most - least <= 0.001 * most + slack, "{} {} are too far apart", least, most);
         let parts: f64 = run.array_windows().map(|s| segment_length(s, 1e-8)).sum();
         prop_assert!((parts - length).abs() <= 2e-6);
     }
 
     #[test]
-    fn nearest_is_that_of_brute_force(run in run(), away in point_within(30.0), tolerance in prop_oneof![Just(0.1), Just(1e-6)]) {
+    fn nearest_matches_brute_force(
+        run in run(),
+        away in point_within(30.0),
+        tolerance in prop_oneof![Just(0.1), Just(1e-6)],
+    ) {
         let query = run[0] + away;
         let samples = run_samples(&run, 128);
         let expected = distance_to_polyline(query, &samples);
@@ -56,7 +61,7 @@ proptest! {
     }
 
     #[test]
-    fn a_point_of_the_run_is_its_own_nearest(run in run(), at in 0.0..1.0, t in 0.0..=1.0) {
+    fn point_of_the_run_is_its_own_nearest(run in run(), at in 0.0..1.0, t in 0.0..=1.0) {
         let index = ((run.len() - 3) as f64 * at) as usize;
         let query = uniform::point(uniform::segment(&run, index), t);
         let found = nearest_on_run(&run, query, 1e-9).unwrap();
@@ -65,7 +70,7 @@ proptest! {
 }
 
 #[test]
-fn lengths_that_are_known() {
+fn lengths_of_known_curves() {
     let mut runs = Runs::default();
     let length = |runs: &Runs| -> f64 { runs.iter().map(|r| run_length(r, 1e-9)).sum() };
     runs.push_line(Point::new(1.0, 1.0), Point::new(4.0, 5.0));
@@ -81,12 +86,13 @@ fn lengths_that_are_known() {
     let expected = (2.0 * 5.0_f64.sqrt() + 2.0_f64.asinh()) / 4.0;
     assert!((length(&runs) - expected).abs() < 1e-12);
 
-    // Out and back over its own way, with a cusp at each end: x = 3 t (1 - t) goes to 3/4.
+    // Out and back along a line, with a cusp at the turn: x = 3 t (1 - t) reaches 3/4.
     runs.clear();
     runs.push_bezier(&[0.0, 1.0, 1.0, 0.0].map(|x| Point::new(x, 0.0)));
     assert!((length(&runs) - 1.5).abs() < 1e-9);
 
-    // In line, with a sharp turn where quadrature of the whole and of its halves agree by chance.
+    // Collinear with a sharp turn, where quadrature over the whole and over its halves agree by
+    // chance.
     let along = [
         -7.932_900_435_681_415,
         5.713_928_133_972_491,
@@ -102,7 +108,7 @@ fn lengths_that_are_known() {
 }
 
 #[test]
-fn the_center_of_a_circle_is_equally_far_from_all() {
+fn nearest_to_the_center_of_a_circle_is_at_its_radius() {
     let center = Point::new(1e5, -1e5);
     let mut runs = Runs::default();
     arc_to_runs(center, 4.0, 0.0, 7.0, 1e-9, &mut runs);
@@ -114,7 +120,7 @@ fn the_center_of_a_circle_is_equally_far_from_all() {
 }
 
 #[test]
-fn a_point_run_is_found() {
+fn finds_a_run_of_equal_points() {
     let found = nearest_on_run(&[Point::new(3.0_f32, 4.0); 6], Point::new(0.0, 0.0), 0.0).unwrap();
     assert!((found.distance - 5.0).abs() < 1e-12);
 }

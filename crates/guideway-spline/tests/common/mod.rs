@@ -10,7 +10,7 @@ pub(crate) fn point_within(reach: f64) -> impl Strategy<Value = P> {
     (-reach..reach, -reach..reach).prop_map(|(x, y)| Point::new(x, y))
 }
 
-/// Valid curves of all kinds of knots: open, clamped, closed, and uneven with repeated ones.
+/// Valid curves with all kinds of knots: open, clamped, closed, and non-uniform with repetitions.
 pub(crate) fn nurbs(
     degrees: std::ops::RangeInclusive<usize>,
     rational: impl Strategy<Value = bool>,
@@ -49,14 +49,15 @@ pub(crate) fn nurbs(
         )
 }
 
-/// Parameter ranges of the spans with a width.
+/// Parameter ranges of the spans with a positive width.
 pub(crate) fn spans(curve: &Nurbs) -> Vec<(f64, f64)> {
     let (p, n) = (curve.degree(), curve.points().len());
     let pairs = curve.knots()[p..=n].windows(2);
     pairs.map(|k| (k[0], k[1])).filter(|(a, b)| a < b).collect()
 }
 
-/// `count` + 1 points of a span. Its right end is taken from the left, as the curve may break there.
+/// `count` + 1 points of a span. The last one is the limit from the left: the curve may break
+/// there.
 pub(crate) fn span_samples(curve: &Nurbs, (a, b): (f64, f64), count: usize) -> Vec<P> {
     let at = |i: usize| {
         let u = a + (b - a) * (i as f64 / count as f64);
@@ -65,7 +66,7 @@ pub(crate) fn span_samples(curve: &Nurbs, (a, b): (f64, f64), count: usize) -> V
     (0..=count).map(at).collect()
 }
 
-/// `count` points a segment, and the end.
+/// The start of a run and `count` points per segment.
 pub(crate) fn run_samples(run: &[P], count: usize) -> Vec<P> {
     let mut samples = vec![uniform::start(uniform::segment(run, 0))];
     for i in 0..run.len() - 3 {
@@ -78,7 +79,7 @@ pub(crate) fn run_samples(run: &[P], count: usize) -> Vec<P> {
 pub(crate) fn distance_to_line(p: P, a: P, b: P) -> f64 {
     let (v, c) = (p - a, b - a);
     let t = v.dot(c) / c.dot(c);
-    // NaN if a = b: clamp leaves it, max takes it out.
+    // t is NaN if a = b: `clamp` keeps NaN, `max` replaces it.
     (v - c * t.clamp(0.0, 1.0).max(0.0)).norm()
 }
 
@@ -89,14 +90,14 @@ pub(crate) fn distance_to_polyline(p: P, polyline: &[P]) -> f64 {
         .fold(f64::INFINITY, f64::min)
 }
 
-/// The farthest that a vertex of one is from the lines of the other.
+/// One-way Hausdorff distance from the vertices of one polyline to the lines of another.
 pub(crate) fn one_way(from: &[P], to: &[P]) -> f64 {
     from.iter()
         .map(|p| distance_to_polyline(*p, to))
         .fold(0.0, f64::max)
 }
 
-/// How far a densely sampled curve may be from the lines between its samples: twice the estimate
+/// Bound of the distance between a densely sampled curve and its polyline: twice the estimate
 /// h^2/8 |C''| from second differences.
 pub(crate) fn sagitta(samples: &[P]) -> f64 {
     let bends = samples
@@ -105,7 +106,7 @@ pub(crate) fn sagitta(samples: &[P]) -> f64 {
     bends.fold(0.0, f64::max) / 4.0
 }
 
-/// An upper estimate of the largest coordinate: what relative errors relate to.
+/// Largest absolute coordinate, at least 1: the reference of relative errors.
 pub(crate) fn scale(points: &[P]) -> f64 {
     points
         .iter()
@@ -113,7 +114,7 @@ pub(crate) fn scale(points: &[P]) -> f64 {
         .fold(1.0, f64::max)
 }
 
-/// Runs of all shapes: free, all points equal, in line and back (cusps), loops, far from the origin.
+/// Runs of all shapes: free, all points equal, collinear with cusps, loops, far from the origin.
 pub(crate) fn run() -> impl Strategy<Value = Vec<P>> {
     let free = prop::collection::vec(point_within(20.0), 4..40);
     let walk = prop::collection::vec((0.2..2.0, -0.6..0.6), 4..60).prop_map(|steps| {
