@@ -1,8 +1,8 @@
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(
-    // Panics of the Arrow library are caught by its reader. The fuzzer's own hook would end the run at them; without it
-    // only a panic that is not caught does.
+    // The Arrow reader catches panics of the Arrow library. The panic hook of the fuzzer would
+    // abort at them, so it is removed: only an uncaught panic ends the run.
     init: drop(std::panic::take_hook()),
     |bytes: &[u8]| guideway_laws::read(bytes)
 );

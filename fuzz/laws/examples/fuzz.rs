@@ -1,4 +1,5 @@
-//! Fuzzes all targets, or those that are named, for so many minutes each: `cargo xtask fuzz [MINUTES [TARGET...]]`.
+//! Fuzzes the named targets, or all of them, for some minutes each:
+//! `cargo xtask fuzz [MINUTES [TARGET...]]`.
 
 use std::collections::VecDeque;
 use std::error::Error;
@@ -10,7 +11,7 @@ use std::thread;
 
 use guideway_laws::{TARGETS, Target};
 
-/// An input that takes longer than this is a finding.
+/// An input that takes longer counts as a failure.
 const TIMEOUT_S: u32 = 20;
 
 type Outcome<T> = Result<T, Box<dyn Error + Send + Sync>>;
@@ -21,19 +22,19 @@ fn main() -> Outcome<()> {
     let names: Vec<String> = args.collect();
     if let Some(name) = names.iter().find(|n| TARGETS.iter().all(|t| t.name != **n)) {
         let all: Vec<&str> = TARGETS.iter().map(|t| t.name).collect();
-        return Err(format!("there is no target {name}; there is {}", all.join(", ")).into());
+        return Err(format!("unknown target {name}; targets: {}", all.join(", ")).into());
     }
     if !cargo_fuzz("build").status()?.success() {
-        return Err("the targets cannot be built".into());
+        return Err("`cargo fuzz build` failed".into());
     }
     let is_wanted = |t: &&Target| names.is_empty() || names.iter().any(|n| n == t.name);
     match fuzz_all(TARGETS.iter().filter(is_wanted).collect(), minutes * 60.0) {
         0 => Ok(()),
-        failures => Err(format!("{failures} targets found something; see above").into()),
+        failures => Err(format!("{failures} targets failed; see the inputs above").into()),
     }
 }
 
-/// Fuzzes as many targets at once as there are cores. Returns how many found something.
+/// Fuzzes one target per core at a time. Returns the number of failed targets.
 fn fuzz_all(targets: VecDeque<&Target>, seconds: f64) -> usize {
     let cores = thread::available_parallelism().map_or(1, usize::from);
     let left = Mutex::new(targets);
@@ -46,9 +47,9 @@ fn fuzz_all(targets: VecDeque<&Target>, seconds: f64) -> usize {
         let mut failures = 0;
         while let Some(target) = next() {
             match fuzz(target, seconds.ceil() as u64) {
-                Ok(said) => println!("{}: {said}", target.name),
+                Ok(summary) => println!("{}: {summary}", target.name),
                 Err(error) => {
-                    println!("{}: FOUND SOMETHING\n{error}", target.name);
+                    println!("{}: FAILED\n{error}", target.name);
                     failures += 1;
                 }
             }
@@ -61,7 +62,7 @@ fn fuzz_all(targets: VecDeque<&Target>, seconds: f64) -> usize {
     })
 }
 
-/// Fuzzes one target, and says in a line what was done.
+/// Fuzzes one target. Returns a summary in one line.
 fn fuzz(target: &Target, seconds: u64) -> Outcome<String> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let corpus = folder.join("corpus").join(target.name);
@@ -77,22 +78,22 @@ fn fuzz(target: &Target, seconds: u64) -> Outcome<String> {
         command.arg(format!("-dict={}", dictionary.display()));
     }
     let output = command.output()?;
-    let said = String::from_utf8_lossy(&output.stderr);
+    let log = String::from_utf8_lossy(&output.stderr);
     if !output.status.success() {
-        let lines: Vec<&str> = said.lines().collect();
+        let lines: Vec<&str> = log.lines().collect();
         return Err(lines[lines.len().saturating_sub(40)..].join("\n").into());
     }
     let number = |name: &str| {
-        let line = said.lines().find(|line| line.contains(name));
+        let line = log.lines().find(|line| line.contains(name));
         line.and_then(|line| line.split_whitespace().last())
             .unwrap_or("?")
     };
     let (runs, peak) = (number("number_of_executed_units"), number("peak_rss_mb"));
-    Ok(format!("{seconds} s, {runs} runs, {peak} MB at most"))
+    Ok(format!("{seconds} s, {runs} runs, peak {peak} MB"))
 }
 
-/// Without a sanitizer, which would need a nightly compiler: this code is safe Rust, so its own checks are what there
-/// is to find.
+/// A `cargo fuzz` command without sanitizers. They need a nightly compiler and find nothing in safe
+/// Rust that its own checks do not.
 fn cargo_fuzz(subcommand: &str) -> Command {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let mut command = Command::new(env!("CARGO"));

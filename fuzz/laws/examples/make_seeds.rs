@@ -1,4 +1,4 @@
-//! Writes the seeds that no person can: journals and Arrow files, into `fuzz/seeds`.
+//! Writes the binary seeds, journals and Arrow files, to `fuzz/seeds`.
 
 use std::error::Error;
 use std::fs;
@@ -10,10 +10,10 @@ use guideway_formats::arrow::{self, Precision, WriteOptions};
 use guideway_laws::document;
 use guideway_spline::{Affine, Point};
 
-/// Something that a person does.
-type Deed = fn(&mut Document) -> Result<(), Box<dyn Error>>;
+/// An editing session.
+type Session = fn(&mut Document) -> Result<(), Box<dyn Error>>;
 
-const JOURNALS: [(&str, Deed); 5] = [
+const JOURNALS: [(&str, Session); 5] = [
     ("move", |document| {
         document.select([1, 2].into_iter().collect(), Combine::Replace);
         let by = Affine::translation(Point::new(1.0, 2.0));
@@ -58,9 +58,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     fs::create_dir_all(&journals)?;
     fs::create_dir_all(&arrows)?;
     let mut last = document();
-    for (name, deed) in JOURNALS {
+    for (name, session) in JOURNALS {
         let mut document = document();
-        deed(&mut document)?;
+        session(&mut document)?;
         let records = document
             .take_acts()
             .iter()

@@ -1,3 +1,5 @@
+//! Law of conversion: a layout written in any format reads back with the same bounds.
+
 use std::fs;
 use std::time::SystemTime;
 
@@ -8,14 +10,17 @@ use guideway_spline::{Affine, Bounds, Point};
 
 use crate::read::{assert_finite, options};
 
-/// How far a curve may be from what it was before it was written, in meters.
+/// Largest deviation of the bounds after writing and reading, in meters.
 const TOLERANCE_M: f64 = 1e-4;
 
-/// Positions farther out than this are left alone: near the largest coordinate, a copy could go beyond it.
+/// Layouts with larger coordinates are skipped: their copy could exceed the coordinate limit.
 const FARTHEST_M: f64 = 1e8;
 
-/// Writes a layout and a copy of it beside it, as one, in every format, and reads it back: what was written is
-/// sound, and all curves are where they were. So it is in the layout's own format, if that is LIF.
+/// Merges a layout with a moved copy, writes the result in every format, and reads it back. Also
+/// writes the layout alone as LIF, whose writer copies unmodeled fields of the source.
+///
+/// # Panics
+/// When a writer fails, its output cannot be read, or the bounds change by more than 0.1 mm.
 pub fn convert(bytes: &[u8]) {
     let Ok(layout) = read_bytes("fuzzed", bytes, &options()) else {
         return;
@@ -23,33 +28,32 @@ pub fn convert(bytes: &[u8]) {
     let Some(bounds) = bounds(&layout).filter(|b| reach_m(b) < FARTHEST_M) else {
         return;
     };
-    // What is beside the layout in its own file is kept in LIF.
     for version in [Version::V1, Version::V2] {
-        comes_back(&layout, Format::Lif(version));
+        assert_round_trip(&layout, Format::Lif(version));
     }
     let mut moved = layout.clone();
     moved.transform(Affine::translation(Point::new(bounds.size().x, 1.0)));
     check_across(&[&layout, &moved]);
     let both = merge(vec![layout, moved]);
     for format in Format::ALL {
-        comes_back(&both, format);
+        assert_round_trip(&both, format);
     }
 }
 
-fn comes_back(layout: &Layout, format: Format) {
+fn assert_round_trip(layout: &Layout, format: Format) {
     let written = format.write(layout);
     let again = read_bytes("written", &written, &ReadOptions::default())
         .unwrap_or_else(|error| panic!("{format:?}: {error}"));
     assert_finite(&again);
     let (before, after) = (bounds(layout), bounds(&again));
     let (Some(before), Some(after)) = (before, after) else {
-        panic!("{format:?}: {before:?} became {after:?}");
+        panic!("{format:?}: bounds {before:?} before, {after:?} after");
     };
-    let apart = [before.min - after.min, before.max - after.max];
-    let apart_m = apart.into_iter().map(Point::norm).fold(0.0, f64::max);
+    let shifts = [before.min - after.min, before.max - after.max];
+    let shift_m = shifts.into_iter().map(Point::norm).fold(0.0, f64::max);
     assert!(
-        apart_m <= TOLERANCE_M,
-        "{format:?}: {before:?} became {after:?}"
+        shift_m <= TOLERANCE_M,
+        "{format:?}: bounds {before:?} before, {after:?} after"
     );
 }
 
@@ -92,16 +96,16 @@ impl Format {
     }
 }
 
-/// An Arrow file; it is only written to a disk.
+/// Bytes of an Arrow file. Its writer needs a path, so it writes to a temporary folder.
 pub(crate) fn arrow_bytes(layout: &Layout) -> Vec<u8> {
-    let folder = tempfile::tempdir().expect("a folder for files that pass");
+    let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join("layout.arrow");
     arrow::write_layout(layout, &path, &arrow::WriteOptions::default())
         .unwrap_or_else(|error| panic!("{error}"));
-    fs::read(&path).expect("the file that was just written")
+    fs::read(&path).expect("the file exists: it was just written")
 }
 
-/// The box of all curves; none if there is no curve.
+/// Box of all curves; `None` if there is no curve.
 fn bounds(layout: &Layout) -> Option<Bounds<f64>> {
     let runs = layout.paths.iter().flat_map(|path| path.runs());
     let segments = runs.flat_map(|run| run.segments());

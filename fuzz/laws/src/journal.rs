@@ -1,3 +1,5 @@
+//! Law of journals: replaying any bytes leaves a valid document whose edits can be undone.
+
 use std::sync::{Arc, mpsc};
 
 use guideway_document::{Document, replay};
@@ -7,8 +9,10 @@ use guideway_spline::{Point, Runs};
 
 use crate::read::assert_finite;
 
-/// Does what a journal says with a small layout. Whatever it says, the document stays one that can be drawn, saved
-/// and taken back, and a renderer that only hears of the edits has the same paths.
+/// Replays a journal on a small document, and sends its edits to a copy of the scene.
+///
+/// # Panics
+/// When the document or the copy becomes invalid, they differ, or undo does not restore all paths.
 pub fn journal(bytes: &[u8]) {
     let mut document = document();
     let untouched = document.to_layout().paths.len();
@@ -30,7 +34,8 @@ pub fn journal(bytes: &[u8]) {
     assert_eq!(document.to_layout().paths.len(), untouched);
 }
 
-/// The document that the journals of the seeds belong to: eight parallel paths with nodes, types and a column.
+/// The document of the seed journals: eight parallel paths with nodes, vehicle types and an
+/// attribute.
 pub fn document() -> Document {
     Document::new(Arc::new(site()), &SceneOptions::default())
         .expect("no level or column is asked for")
@@ -63,7 +68,7 @@ fn site() -> Layout {
     layout
 }
 
-/// The journal with the length and the checksum of each record made right, so that mutants reach what is within.
+/// The journal with corrected lengths and checksums, so that mutants reach the decoder of records.
 fn with_checksums(bytes: &[u8]) -> Vec<u8> {
     let mut journal = Vec::with_capacity(bytes.len());
     let mut rest = bytes;
@@ -80,7 +85,7 @@ fn with_checksums(bytes: &[u8]) -> Vec<u8> {
     journal
 }
 
-/// Fowler, Noll and Vo's hash of 32 bits, which is the checksum of a record.
+/// FNV-1a hash of 32 bits (Fowler, Noll, Vo), the checksum of a record.
 fn fnv_1a(bytes: &[u8]) -> u32 {
     let step = |hash: u32, &byte: &u8| (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193);
     bytes.iter().fold(0x811c_9dc5, step)

@@ -1,5 +1,13 @@
-//! What must hold whatever the bytes: the bodies of the fuzz targets in the folder around this one. A test runs
-//! them over all seeds and some thousand mutants, the same in every run.
+//! Laws: functions that panic if any bytes make Guideway misbehave. They are the bodies of the fuzz
+//! targets in the parent folder.
+//!
+//! | law | input | holds |
+//! |---|---|---|
+//! | [`read`] | a file of any format | readers return a drawable layout or an error with a remedy |
+//! | [`convert`] | a file of any format | written files read back with the same bounds |
+//! | [`journal`] | a journal of edits | the document stays valid and every edit can be undone |
+//!
+//! A test runs the laws over all seeds and over the same mutants in every run.
 
 mod convert;
 mod journal;
@@ -14,11 +22,11 @@ pub use self::read::read;
 /// A fuzz target.
 #[derive(Clone, Copy, Debug)]
 pub struct Target {
-    /// Its name, which is also that of its program and its dictionary.
+    /// Name of the target, its binary and its dictionary.
     pub name: &'static str,
-    /// Panics if the law is broken.
+    /// Panics if the bytes break the law.
     pub law: fn(&[u8]),
-    /// Folders of seeds, from the root of the repository.
+    /// Folders of seeds, relative to the root of the repository.
     pub seeds: &'static [&'static str],
 }
 
@@ -54,7 +62,7 @@ targets! {
 }
 
 impl Target {
-    /// The folders of seeds.
+    /// Paths of the folders of seeds.
     pub fn seed_folders(&self) -> impl Iterator<Item = PathBuf> {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
         self.seeds.iter().map(move |folder| root.join(folder))

@@ -1,7 +1,9 @@
+//! Law of reading: bytes yield a drawable layout with complete findings, or an error with a remedy.
+
 use guideway_formats::{ReadOptions, read_bytes};
 use guideway_layout::{CheckOptions, Layout, Limits, check};
 
-/// How bytes are read here: what is held stays far below a fuzzer's own limit, and a run is short.
+/// Options with low limits: memory stays far below the limit of the fuzzer, and runs stay short.
 pub(crate) fn options() -> ReadOptions<'static> {
     ReadOptions {
         limits: Limits {
@@ -13,8 +15,10 @@ pub(crate) fn options() -> ReadOptions<'static> {
     }
 }
 
-/// Reads and checks a layout. An error is fine; a panic, a curve that cannot be drawn or a finding without
-/// words is not.
+/// Reads and checks a layout.
+///
+/// # Panics
+/// When a reader panics, an error or a finding lacks a text, or a coordinate is not finite.
 pub fn read(bytes: &[u8]) {
     let layout = match read_bytes("fuzzed", bytes, &options()) {
         Ok(layout) => layout,

@@ -1,5 +1,4 @@
-//! Every law over every seed, and over some thousand mutants of them: what a fuzzer would try first, on any
-//! compiler and the same in every run.
+//! Runs every law over its seeds and 500 mutants of them, on any compiler and equal in every run.
 
 #![allow(clippy::unwrap_used, reason = "a test may fail by a panic")]
 
@@ -15,8 +14,8 @@ use mutate::Mutator;
 
 const MUTANTS: usize = 500;
 
-/// Larger seeds are for the tests of bad files; mutants of them only take long.
-const MOST_BYTES: usize = 1 << 16;
+/// Larger seeds only serve the tests of bad files: their mutants take too long.
+const MAX_BYTES: usize = 1 << 16;
 
 fn seeds(target: &Target) -> Vec<Vec<u8>> {
     let files = target.seed_folders().flat_map(|folder| {
@@ -26,11 +25,11 @@ fn seeds(target: &Target) -> Vec<Vec<u8>> {
     let mut files: Vec<_> = files.filter(|f| !f.ends_with("expect.tsv")).collect();
     files.sort();
     let seeds = files.into_iter().map(|file| fs::read(file).unwrap());
-    seeds.filter(|bytes| bytes.len() <= MOST_BYTES).collect()
+    seeds.filter(|bytes| bytes.len() <= MAX_BYTES).collect()
 }
 
-/// The first bytes that break a law, if any do.
-fn breaks(law: fn(&[u8]), seeds: &[Vec<u8>]) -> Option<Vec<u8>> {
+/// The first bytes that break a law, if any.
+fn counterexample(law: fn(&[u8]), seeds: &[Vec<u8>]) -> Option<Vec<u8>> {
     let mut mutator = Mutator::new(seeds);
     let mutants = (0..MUTANTS).map(|_| mutator.mutant());
     let mut all = seeds.iter().cloned().chain(mutants);
@@ -38,36 +37,40 @@ fn breaks(law: fn(&[u8]), seeds: &[Vec<u8>]) -> Option<Vec<u8>> {
 }
 
 #[test]
-fn no_seed_and_no_mutant_breaks_a_law() {
+fn laws_hold_for_seeds_and_mutants() {
     let broken = thread::scope(|scope| {
         let run = |target: &'static Target| {
             move || {
                 let seeds = seeds(target);
                 assert!(!seeds.is_empty(), "{} has no seeds", target.name);
-                let bytes = breaks(target.law, &seeds)?;
+                let bytes = counterexample(target.law, &seeds)?;
                 let file = Path::new(env!("CARGO_TARGET_TMPDIR")).join(target.name);
                 fs::write(&file, bytes).unwrap();
-                Some(format!("{}: broken by {}", target.name, file.display()))
+                Some(format!(
+                    "{}: {} breaks the law",
+                    target.name,
+                    file.display()
+                ))
             }
         };
         let threads: Vec<_> = TARGETS.iter().map(|t| scope.spawn(run(t))).collect();
-        let ends = threads.into_iter().map(|thread| thread.join().unwrap());
-        ends.flatten().collect::<Vec<String>>()
+        let results = threads.into_iter().map(|thread| thread.join().unwrap());
+        results.flatten().collect::<Vec<String>>()
     });
     assert!(broken.is_empty(), "{}", broken.join("\n"));
 }
 
 #[test]
-fn a_broken_law_is_found() {
+fn finds_a_counterexample() {
     let seeds = [b"[1, 2, 3]".to_vec(), b"{\"x\": 4}".to_vec()];
     let law = |bytes: &[u8]| assert!(!bytes.starts_with(b"[") || bytes.contains(&b'2'));
-    assert!(breaks(law, &seeds).is_some());
-    assert!(breaks(|_| {}, &seeds).is_none());
+    assert!(counterexample(law, &seeds).is_some());
+    assert!(counterexample(|_| {}, &seeds).is_none());
 }
 
-/// What is done in the seeds can be done: they were not made for another version of journals.
+/// Replays every seed to its end, which fails for seeds of another version of the journal.
 #[test]
-fn seeds_of_journals_are_whole() {
+fn seed_journals_match_the_current_version() {
     let target = TARGETS.iter().find(|t| t.name == "journal").unwrap();
     for bytes in seeds(target) {
         journal(&bytes);

@@ -1,7 +1,9 @@
+//! [`Mutator`]: derives mutants from seeds, equal in every run.
+
 use rand_core::Rng;
 use rand_pcg::Pcg64Mcg;
 
-/// Values that readers stumble over.
+/// Tokens that often expose defects of readers.
 const ODD: [&[u8]; 16] = [
     b"",
     b"0",
@@ -21,7 +23,7 @@ const ODD: [&[u8]; 16] = [
     b"\xFF\xFF\xFF\xFF",
 ];
 
-/// Makes mutants of seeds, the same in every run.
+/// Derives mutants from seeds by random changes with a fixed start value.
 pub(crate) struct Mutator<'a> {
     seeds: &'a [Vec<u8>],
     random: Pcg64Mcg,
@@ -71,14 +73,14 @@ impl<'a> Mutator<'a> {
         }
     }
 
-    /// A part of so many bytes, mostly a short one.
-    fn range(&mut self, of: usize) -> (usize, usize) {
-        let start = self.below(of + 1);
+    /// Start and length of a random range within `len` bytes, mostly a short one.
+    fn range(&mut self, len: usize) -> (usize, usize) {
+        let start = self.below(len + 1);
         let most = match self.below(4) {
-            0 => of,
+            0 => len,
             _ => 16,
         };
-        (start, self.below(most.min(of - start) + 1))
+        (start, self.below(most.min(len - start) + 1))
     }
 
     fn seed(&mut self) -> &'a [u8] {
