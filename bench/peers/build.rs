@@ -1,4 +1,4 @@
-//! Links Blend2D, where it is asked for.
+//! Links Blend2D if the feature `blend2d` is on.
 
 use std::env;
 
@@ -8,11 +8,13 @@ fn main() {
         return;
     }
     let Some(folder) = env::var_os("BLEND2D_LIB_DIR") else {
-        println!("cargo::error=BLEND2D_LIB_DIR has to name the folder of libblend2d.a");
+        println!(
+            "cargo::error=feature `blend2d` needs BLEND2D_LIB_DIR, the folder of libblend2d.a"
+        );
         return;
     };
     println!("cargo::rustc-link-search=native={}", folder.display());
-    // What sets it up is not called by name.
+    // Static constructors initialize the library, and no symbol refers to them.
     println!("cargo::rustc-link-lib=static:+whole-archive=blend2d");
     println!("cargo::rustc-link-lib=stdc++");
 }

@@ -1,24 +1,26 @@
-//! `peers METHOD d1|d2 PATHS [PNG]` strokes a generated layout with one renderer and prints a line of JSON.
-//! `peers compare d1|d2 PATHS` runs all, each in a process of its own, and prints the ratios. `peers errors d1|d2 PATHS`
-//! compares the picture of each with that of `oracle`. `peers growth SVG` plots the times of a frame against the number of
-//! paths.
+//! Benchmark of Guideway against other renderers on the same curves.
 //!
-//! All draw every path 3 pixels wide with round caps and joins, black on white, all in view at 1920 x
-//! 1080. A frame's time starts from the layout in memory: what a renderer makes of it first counts too, but for those
-//! that Python drives.
+//! - `peers METHOD d1|d2 PATHS [PNG]` strokes a generated layout with one renderer and prints one
+//!   line of JSON.
+//! - `peers compare d1|d2 PATHS` runs all renderers, each in a separate process, and prints ratios.
+//! - `peers errors d1|d2 PATHS` compares the picture of each renderer with that of `oracle`.
+//! - `peers growth SVG` plots frame times against the number of paths.
+//!
+//! All renderers stroke every path 3 pixels wide with round caps and joins, black on white, with
+//! the whole layout in view at 1920 x 1080. Frame times start from the layout in memory and include
+//! the conversion to the paths of the renderer, except for renderers that Python drives.
 
 mod data;
 mod draw;
 mod growth;
 mod memory;
+mod times;
 
 use std::process::Command;
 use std::{env, fs};
 
 use anyhow::{Result, bail, ensure};
-use guideway_bench::Summary;
-use guideway_layout::Layout;
-use guideway_scene::{Frame, FrameSize, View};
+use guideway_scene::Frame;
 use serde_json::{Value, json};
 
 fn main() -> Result<()> {
@@ -38,7 +40,8 @@ fn main() -> Result<()> {
         _ => {
             let methods: Vec<_> = draw::METHODS.iter().map(|(method, _)| *method).collect();
             bail!(
-                "usage: peers {} d1|d2 PATHS [PNG] | peers compare|errors d1|d2 PATHS | peers growth SVG",
+                "usage: peers {} d1|d2 PATHS [PNG] | peers compare|errors d1|d2 PATHS | \
+                 peers growth SVG",
                 methods.join("|")
             )
         }
@@ -46,14 +49,15 @@ fn main() -> Result<()> {
     Ok(())
 }
 
+/// Measures all renderers and returns the ratios of each to Guideway.
 fn compare(set: &str, paths: &str) -> Result<Value> {
     let mut all = Vec::new();
     for (method, _) in draw::METHODS {
-        all.push((method, in_own_process(method, set, paths)?));
+        all.push((method, measure_in_process(method, set, paths)?));
     }
-    let ours = all[0].1.clone();
-    let ratios = all[1..].iter().map(|(method, theirs)| {
-        let ratio = |of: &str| Some(theirs[of].as_f64()? / ours[of].as_f64()?);
+    let guideway = all[0].1.clone();
+    let ratios = all[1..].iter().map(|(method, peer)| {
+        let ratio = |key: &str| Some(peer[key].as_f64()? / guideway[key].as_f64()?);
         json!({
             "method": method,
             "first_frame": ratio("first_frame_ms"),
@@ -64,7 +68,8 @@ fn compare(set: &str, paths: &str) -> Result<Value> {
     Ok(json!({ "times_cpu": ratios.collect::<Value>() }))
 }
 
-fn in_own_process(method: &str, set: &str, paths: &str) -> Result<Value> {
+/// Runs [`measure`] in a separate process, whose peak memory belongs to one renderer.
+fn measure_in_process(method: &str, set: &str, paths: &str) -> Result<Value> {
     let output = Command::new(env::current_exe()?)
         .args([method, set, paths])
         .output()?;
@@ -75,11 +80,12 @@ fn in_own_process(method: &str, set: &str, paths: &str) -> Result<Value> {
     Ok(serde_json::from_str(&line)?)
 }
 
+/// Times and memory of one renderer.
 fn measure(method: &str, set: &str, paths: &str, png: Option<&str>) -> Result<Value> {
     let layout = data::layout(set, paths.parse()?)?;
-    memory::forget_peak()?;
-    let layout_rss_bytes = memory::held_bytes()?;
-    let (view, mut frame) = view(&layout)?;
+    memory::reset_peak()?;
+    let layout_rss_bytes = memory::resident_bytes()?;
+    let (view, mut frame) = data::view(&layout)?;
     let times_ms = draw::draw(method, &layout, &view, &mut frame)?;
     let drawing_rss_bytes = memory::peak_bytes()?;
     if let Some(path) = png {
@@ -89,30 +95,26 @@ fn measure(method: &str, set: &str, paths: &str, png: Option<&str>) -> Result<Va
         "method": method,
         "paths": layout.paths.len(),
         "first_frame_ms": times_ms[0],
-        "frame_ms": further_ms(&times_ms),
+        "frame_ms": times::median_after_first_ms(&times_ms),
         "layout_rss_bytes": layout_rss_bytes,
-        "drawing_rss_bytes": (!draw::is_elsewhere(method)).then_some(drawing_rss_bytes),
+        "drawing_rss_bytes": (!draw::is_external(method)).then_some(drawing_rss_bytes),
     }))
 }
 
-/// The median of all frames but the first, in milliseconds.
-fn further_ms(times_ms: &[f64]) -> f64 {
-    Summary::of(&times_ms[1..]).map_or(f64::NAN, |times| times.median)
-}
-
+/// Prints the errors of the picture of each renderer against the one of `oracle`.
 fn errors(set: &str, paths: &str) -> Result<()> {
     let layout = data::layout(set, paths.parse()?)?;
-    let (view, mut exact) = view(&layout)?;
+    let (view, mut exact) = data::view(&layout)?;
     draw::oracle(&layout, &view, &mut exact)?;
     for (method, _) in draw::METHODS {
-        let (_, mut frame) = self::view(&layout)?;
+        let (_, mut frame) = data::view(&layout)?;
         draw::draw(method, &layout, &view, &mut frame)?;
         let pairs = frame.bytes().iter().zip(exact.bytes());
         let levels: Vec<u8> = pairs.map(|(a, b)| a.abs_diff(*b)).collect();
         let (pixels, _) = levels.as_chunks::<4>();
         let worst = |pixel: &[u8; 4]| pixel.iter().copied().max().unwrap_or(0);
         let beyond = |level: u8| pixels.iter().filter(|p| worst(p) > level).count();
-        // Opacity is the same everywhere: three channels count.
+        // Alpha is the same everywhere, so the mean is over three channels.
         let sum: u64 = levels.iter().map(|&level| u64::from(level)).sum();
         println!(
             "{}",
@@ -127,13 +129,6 @@ fn errors(set: &str, paths: &str) -> Result<()> {
         );
     }
     Ok(())
-}
-
-/// All of a layout, and a picture of it to be drawn.
-fn view(layout: &Layout) -> Result<(View, Frame)> {
-    let size = FrameSize::new(1920, 1080)?;
-    let view = View::fit(size, layout.paths.hull_bounds())?;
-    Ok((view, Frame::new(size)))
 }
 
 fn write_png(frame: &Frame, path: &str) -> Result<()> {

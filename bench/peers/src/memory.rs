@@ -1,21 +1,21 @@
-//! Memory of this process, as the system counts it.
+//! Memory of this process, from `/proc/self` of Linux.
 
 use std::fs;
 
 use anyhow::{Context, Result};
 
-/// Most bytes held since the start, or since [`forget_peak`].
+/// Peak resident bytes since the start, or since [`reset_peak`].
 pub(crate) fn peak_bytes() -> Result<u64> {
     status_bytes("VmHWM")
 }
 
-/// Bytes held now.
-pub(crate) fn held_bytes() -> Result<u64> {
+/// Current resident bytes.
+pub(crate) fn resident_bytes() -> Result<u64> {
     status_bytes("VmRSS")
 }
 
-/// Lets the system count the most memory held from now on.
-pub(crate) fn forget_peak() -> Result<()> {
+/// Resets the peak to the current value.
+pub(crate) fn reset_peak() -> Result<()> {
     Ok(fs::write("/proc/self/clear_refs", "5")?)
 }
 
@@ -24,7 +24,7 @@ fn status_bytes(figure: &str) -> Result<u64> {
     let line = status
         .lines()
         .find_map(|l| l.strip_prefix(figure)?.strip_prefix(':'))
-        .context("no such figure")?;
+        .with_context(|| format!("`{figure}` is missing in /proc/self/status"))?;
     let kib: u64 = line.trim().trim_end_matches("kB").trim().parse()?;
     Ok(kib * 1024)
 }

@@ -1,8 +1,11 @@
-//! `readers FILE...` reads each file by Guideway and by the fastest known readers of its format, all from memory, in turns, and prints a
-//! line of JSON for each: medians, and megabytes a second.
+//! Benchmark of Guideway against the fastest known readers of each format.
 //!
-//! Guideway reads and checks a whole layout: curves, nodes, attributes, findings. Most others only make a tree of the text, or not
-//! even that; `does` says which.
+//! `readers FILE...` reads each file with all readers of its format, alternating and from memory,
+//! and prints one line of JSON per file: median times, and megabytes per second.
+//!
+//! Guideway reads and checks a whole layout: curves, nodes, attributes, findings. Most other
+//! readers build a tree of the text or only a list of events; the key `does` states the result of
+//! each.
 
 use std::hint::black_box;
 use std::path::Path;
@@ -13,16 +16,18 @@ use anyhow::{Context, Result, anyhow, bail};
 use guideway_formats::{Format, ReadOptions, read_bytes, sniff};
 use serde_json::{Value, json};
 
-/// Rounds at most, of which the median counts.
+/// Most rounds; the result is their median.
 const ROUNDS: usize = 9;
-/// Nothing is begun anew after so long.
-const MOST_S: f64 = 20.0;
+/// No round starts after this time.
+const MAX_S: f64 = 20.0;
 
+/// Reads a whole file and drops the result.
 type Read = fn(&[u8]) -> Result<()>;
 
+/// A reader under test.
 struct Reader {
     name: &'static str,
-    /// What of the work of reading a layout it does.
+    /// Result of the reader: layout, drawing, tree, batches or events.
     does: &'static str,
     read: Read,
 }
@@ -43,7 +48,7 @@ const JSON: &[Reader] = &[
         Ok(())
     }),
     reader("simd-json", "tree", |bytes| {
-        // It changes what it reads.
+        // simd-json modifies its input.
         black_box(simd_json::to_borrowed_value(&mut bytes.to_vec())?);
         Ok(())
     }),
@@ -105,9 +110,10 @@ fn main() -> Result<()> {
     Ok(())
 }
 
+/// Times of all readers of a file, in rounds that alternate between them.
 fn compare(file: &Path) -> Result<Value> {
     let bytes = fs::read(file).with_context(|| file.display().to_string())?;
-    let format = sniff(&bytes).context("no format that is known")?;
+    let format = sniff(&bytes).with_context(|| format!("{}: unknown format", file.display()))?;
     let others = match format {
         Format::Lif | Format::GeoJson | Format::Vda5050 => JSON,
         Format::Dxf => DXF,
@@ -120,7 +126,7 @@ fn compare(file: &Path) -> Result<Value> {
     let mut times_s = vec![Vec::new(); readers.len()];
     let began = Instant::now();
     for round in 0..ROUNDS {
-        if round > 0 && began.elapsed().as_secs_f64() > MOST_S {
+        if round > 0 && began.elapsed().as_secs_f64() > MAX_S {
             break;
         }
         for (reader, times_s) in readers.iter().zip(&mut times_s) {

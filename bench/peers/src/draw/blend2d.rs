@@ -1,5 +1,5 @@
-//! Blend2D by its C functions, from the static library in the folder that `BLEND2D_LIB_DIR` names. The Python package
-//! `blend2d-python` 1.0.0 has one.
+//! Blend2D, by its C functions. The variable `BLEND2D_LIB_DIR` names the folder of the static
+//! library, which the Python package `blend2d-python` 1.0.0 contains.
 
 use std::ffi::c_void;
 use std::mem::ManuallyDrop;
@@ -10,11 +10,11 @@ use anyhow::{Result, ensure};
 use guideway_layout::{Layout, PathRef};
 use guideway_scene::{Frame, View};
 
-use super::{FRAMES, WIDTH_PX, curves, store_words, time};
+use super::shared::{FRAMES, WIDTH_PX, curves, store_words, time};
 
-/// Paths are made for each frame, or in the first one and kept. Without threads each call is done before it returns; with two, the
-/// caller is one of them.
-pub(super) fn draw<const THREADS: u32, const KEEPS: bool>(
+/// Builds the paths in every frame, or once if `REUSES_PATHS`. With zero threads, each call returns
+/// when its pixels are drawn; with two, the calling thread is one of them.
+pub(super) fn draw<const THREADS: u32, const REUSES_PATHS: bool>(
     layout: &Arc<Layout>,
     view: &View,
     frame: &mut Frame,
@@ -25,22 +25,23 @@ pub(super) fn draw<const THREADS: u32, const KEEPS: bool>(
     const ROUND_JOIN: u32 = 4;
     let mut paths: Vec<Object> = Vec::new();
     let [width, height] = [view.size().width(), view.size().height()].map(|side| side as i32);
-    // SAFETY: an object is what its function makes of it.
+    // SAFETY: the function initializes the object that it gets.
     let mut image = Object::new(|image| unsafe { blImageInitAs(image, width, height, PRGB32) })?;
     let options = ContextOptions {
         threads: THREADS,
         ..ContextOptions::default()
     };
     let times_ms = time(FRAMES, |_| {
-        if !KEEPS || paths.is_empty() {
+        if !REUSES_PATHS || paths.is_empty() {
             paths.clear();
-            let made = layout.paths.iter().map(|path| made(&path, view));
-            paths = made.collect::<Result<_>>()?;
+            let built = layout.paths.iter().map(|path| build_path(&path, view));
+            paths = built.collect::<Result<_>>()?;
         }
         // SAFETY: image, options and paths live longer than the context.
         let begin = |context: *mut _| unsafe { blContextInitAs(context, &mut image, &options) };
         let mut context = Object::new(begin)?;
-        // SAFETY: each gets the object that it is for. All is drawn when the context has ended.
+        // SAFETY: each function gets an initialized object of its type. `blContextEnd` waits for
+        // all drawing.
         unsafe {
             check(blContextFillAllRgba32(&mut context, WHITE))?;
             check(blContextSetStrokeWidth(&mut context, WIDTH_PX))?;
@@ -61,23 +62,24 @@ pub(super) fn draw<const THREADS: u32, const KEEPS: bool>(
     Ok(times_ms)
 }
 
-fn made(path: &PathRef<'_>, view: &View) -> Result<Object> {
-    // SAFETY: an object is what its function makes of it, and gets what it is for.
-    let mut made = Object::new(|path| unsafe { blPathInit(path) })?;
+fn build_path(path: &PathRef<'_>, view: &View) -> Result<Object> {
+    // SAFETY: `blPathInit` initializes the object; the other functions get an initialized path.
+    let mut built = Object::new(|path| unsafe { blPathInit(path) })?;
     for run in curves(path, view) {
         for (i, [a, b, c, d]) in run.enumerate() {
             if i == 0 {
-                check(unsafe { blPathMoveTo(&mut made, a.x, a.y) })?;
+                check(unsafe { blPathMoveTo(&mut built, a.x, a.y) })?;
             }
-            check(unsafe { blPathCubicTo(&mut made, b.x, b.y, c.x, c.y, d.x, d.y) })?;
+            check(unsafe { blPathCubicTo(&mut built, b.x, b.y, c.x, c.y, d.x, d.y) })?;
         }
     }
-    Ok(made)
+    Ok(built)
 }
 
 fn copy_pixels(image: &Object, frame: &mut Frame) -> Result<()> {
     let mut data = ImageData::default();
-    // SAFETY: an image tells where its rows are, one below the other, as long as it lives.
+    // SAFETY: `blImageGetData` states the address and stride of the rows, valid while the image
+    // lives.
     check(unsafe { blImageGetData(image, &mut data) })?;
     let stride = usize::try_from(data.stride_bytes)?;
     let bytes = unsafe { slice::from_raw_parts(data.pixels, stride * data.height as usize) };
@@ -86,20 +88,20 @@ fn copy_pixels(image: &Object, frame: &mut Frame) -> Result<()> {
 }
 
 fn check(result: u32) -> Result<()> {
-    ensure!(result == 0, "blend2d: error {result:#x}");
+    ensure!(result == 0, "blend2d failed with error {result:#x}");
     Ok(())
 }
 
-/// Alpha, red, green and blue, from the highest bits of a word to the lowest.
+/// Pixel format `BL_FORMAT_PRGB32`: premultiplied alpha, red, green, blue from high to low byte.
 const PRGB32: u32 = 1;
 
-/// An image, a path or a context.
+/// `BLObjectCore`: an image, a path or a context.
 #[repr(C)]
 struct Object([u64; 2]);
 
 impl Object {
     fn new(init: impl FnOnce(*mut Self) -> u32) -> Result<Self> {
-        // Where it fails, there is nothing to be let go of.
+        // A failed initialization leaves nothing to destroy.
         let mut object = ManuallyDrop::new(Self([0; 2]));
         check(init(&mut *object))?;
         Ok(ManuallyDrop::into_inner(object))
@@ -108,7 +110,7 @@ impl Object {
 
 impl Drop for Object {
     fn drop(&mut self) {
-        // SAFETY: it was made, and nobody has it any more.
+        // SAFETY: the object is initialized, and this is its last use.
         unsafe { blVarDestroy((&raw mut *self).cast()) };
     }
 }

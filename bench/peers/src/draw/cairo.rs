@@ -1,3 +1,5 @@
+//! Cairo: single-threaded.
+
 use std::sync::Arc;
 
 use anyhow::Result;
@@ -5,9 +7,8 @@ use cairo::{Context, Format, ImageSurface, LineCap, LineJoin};
 use guideway_layout::Layout;
 use guideway_scene::{Frame, View};
 
-use super::{FRAMES, WIDTH_PX, curves, store_words, time};
+use super::shared::{FRAMES, WIDTH_PX, curves, store_words, time};
 
-/// It has no use for threads.
 pub(super) fn draw(layout: &Arc<Layout>, view: &View, frame: &mut Frame) -> Result<Vec<f64>> {
     let [width, height] = [view.size().width(), view.size().height()].map(|side| side as i32);
     let mut surface = ImageSurface::create(Format::Rgb24, width, height)?;

@@ -1,4 +1,5 @@
-//! Skia, by its Python package: `pip install skia-python`. The interpreter is `GUIDEWAY_PYTHON`, or else `python3`.
+//! Skia, by the Python package `skia-python`. The variable `GUIDEWAY_PYTHON` names the interpreter;
+//! the default is `python3`.
 
 use std::env;
 use std::fs;
@@ -11,9 +12,9 @@ use anyhow::{Context, Result, ensure};
 use guideway_layout::Layout;
 use guideway_scene::{Frame, View};
 
-use super::{FRAMES, WIDTH_PX, curves};
+use super::shared::{FRAMES, WIDTH_PX, curves};
 
-/// Paths are made before the first frame begins.
+/// Draws frames in a Python process, which builds its paths before the first frame.
 pub(super) fn skia(layout: &Arc<Layout>, view: &View, frame: &mut Frame) -> Result<Vec<f64>> {
     let folder = tempfile::tempdir()?;
     let [curves, pixels] = ["curves", "pixels"].map(|file| folder.path().join(file));
@@ -33,13 +34,13 @@ pub(super) fn skia(layout: &Arc<Layout>, view: &View, frame: &mut Frame) -> Resu
     let (read, _) = bytes.as_chunks::<4>();
     ensure!(
         read.len() == frame.pixels().len(),
-        "skia: a picture of another size"
+        "skia: the picture has another size"
     );
     frame.pixels_mut().copy_from_slice(read);
     Ok(serde_json::from_slice(&output.stdout)?)
 }
 
-/// As strokes.py reads them.
+/// Writes the curves in the binary format that strokes.py documents.
 fn write_curves(layout: &Layout, view: &View, file: &Path) -> Result<()> {
     let mut file = BufWriter::new(fs::File::create(file)?);
     for path in layout.paths.iter() {
@@ -51,8 +52,8 @@ fn write_curves(layout: &Layout, view: &View, file: &Path) -> Result<()> {
             file.write_all(&(run.len() as u32).to_ne_bytes())?;
             let ends = run.iter().flat_map(|[_, rest @ ..]| rest);
             for point in std::iter::once(start).chain(ends) {
-                for place in [point.x, point.y] {
-                    file.write_all(&(place as f32).to_ne_bytes())?;
+                for coordinate in [point.x, point.y] {
+                    file.write_all(&(coordinate as f32).to_ne_bytes())?;
                 }
             }
         }

@@ -1,9 +1,9 @@
 """Strokes curves with Skia, by the Python package skia-python.
 
-Arguments: the width and the height of the picture, the stroke's width, the number of frames, the file of the
-curves, and that for the pixels (rows of RGBA bytes). The curves are 32-bit words: for each path its number of Bezier curves,
-then its points as pairs of floats, one and three a curve. Prints the milliseconds of each frame as a JSON list; paths are made
-before.
+Arguments: width and height of the picture, stroke width, number of frames, input file of the
+curves, output file of the pixels (rows of RGBA bytes). The input consists of 32-bit words: per path
+the number n of Bezier curves, then 1 + 3 n points as pairs of floats. Prints the milliseconds of
+each frame as a JSON list; they exclude the construction of the paths.
 """
 
 import json
@@ -28,16 +28,16 @@ def paths():
         at = end
 
 
-def made():
-    """All paths, as Skia has them."""
-    all_made = []
+def build_paths():
+    """All paths as Skia objects."""
+    built = []
     for points in paths():
         path = skia.Path()
         path.moveTo(*points[:2])
         for i in range(2, len(points), 6):
             path.cubicTo(*points[i : i + 6])
-        all_made.append(path)
-    return all_made
+        built.append(path)
+    return built
 
 
 SURFACE = skia.Surface.MakeRaster(
@@ -51,7 +51,7 @@ PAINT = skia.Paint(
     StrokeJoin=skia.Paint.kRound_Join,
     Color=skia.ColorBLACK,
 )
-STROKES = made()
+STROKES = build_paths()
 
 
 def draw():

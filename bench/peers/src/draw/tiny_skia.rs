@@ -1,3 +1,5 @@
+//! tiny-skia: single-threaded, with paths built per frame or once.
+
 use std::sync::Arc;
 
 use anyhow::{Context, Result};
@@ -5,20 +7,24 @@ use guideway_layout::{Layout, PathRef};
 use guideway_scene::{Frame, View};
 use tiny_skia::{Color, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, Stroke, Transform};
 
-use super::{FRAMES, WIDTH_PX, curves, time};
+use super::shared::{FRAMES, WIDTH_PX, curves, time};
 
-/// Paths are made for each frame and forgotten.
+/// Builds the paths in every frame.
 pub(super) fn draw(layout: &Arc<Layout>, view: &View, frame: &mut Frame) -> Result<Vec<f64>> {
     draw_paths(layout, view, false, frame)
 }
 
-/// Paths are made once and kept, as by a program that draws again.
+/// Builds the paths in the first frame and reuses them, as a program that redraws does.
 pub(super) fn draw_kept(layout: &Arc<Layout>, view: &View, frame: &mut Frame) -> Result<Vec<f64>> {
     draw_paths(layout, view, true, frame)
 }
 
-/// It has no use for threads.
-fn draw_paths(layout: &Layout, view: &View, is_kept: bool, frame: &mut Frame) -> Result<Vec<f64>> {
+fn draw_paths(
+    layout: &Layout,
+    view: &View,
+    reuses_paths: bool,
+    frame: &mut Frame,
+) -> Result<Vec<f64>> {
     let stroke = Stroke {
         width: WIDTH_PX as f32,
         line_cap: LineCap::Round,
@@ -29,19 +35,20 @@ fn draw_paths(layout: &Layout, view: &View, is_kept: bool, frame: &mut Frame) ->
         anti_alias: true,
         ..Paint::default()
     };
-    let mut pixmap = Pixmap::new(view.size().width(), view.size().height()).context("size")?;
+    let mut pixmap = Pixmap::new(view.size().width(), view.size().height())
+        .context("tiny-skia rejects the picture size")?;
     let outlines = || layout.paths.iter().filter_map(|p| outline(&p, view));
-    let mut kept = Vec::new();
+    let mut built = Vec::new();
     let times_ms = time(FRAMES, |frame| {
-        if is_kept && frame == 0 {
-            kept.extend(outlines());
+        if reuses_paths && frame == 0 {
+            built.extend(outlines());
         }
         pixmap.fill(Color::WHITE);
         let mut draw = |path: &Path| {
             pixmap.stroke_path(path, &paint, &stroke, Transform::identity(), None);
         };
-        if is_kept {
-            kept.iter().for_each(&mut draw);
+        if reuses_paths {
+            built.iter().for_each(&mut draw);
         } else {
             outlines().for_each(|path| draw(&path));
         }

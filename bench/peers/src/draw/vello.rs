@@ -1,3 +1,5 @@
+//! vello_cpu, on one thread or on all cores.
+
 use std::sync::Arc;
 
 use anyhow::Result;
@@ -7,14 +9,14 @@ use vello_cpu::color::palette::css;
 use vello_cpu::kurbo::{BezPath, Cap, Join, Rect, Stroke};
 use vello_cpu::{Pixmap, RenderContext, RenderSettings, Resources};
 
-use super::{FRAMES, WIDTH_PX, curves, time};
+use super::shared::{FRAMES, WIDTH_PX, curves, time};
 
-/// On the caller's thread alone.
+/// Draws on the calling thread only.
 pub(super) fn draw(layout: &Arc<Layout>, view: &View, frame: &mut Frame) -> Result<Vec<f64>> {
     draw_with(0, layout, view, frame)
 }
 
-/// On the caller's thread and as many others as there are cores.
+/// Draws on the calling thread and one more thread per core.
 pub(super) fn draw_threaded(
     layout: &Arc<Layout>,
     view: &View,
