@@ -2,7 +2,9 @@
 
 use guideway_spline::Runs;
 
-use crate::{Attributes, Diagnostics, Layout, Level, NewPath, Provenance, Value};
+use crate::{
+    Attributes, Diagnostics, Layout, Level, NewPath, Nodes, Paths, Provenance, Stations, Value,
+};
 
 /// Names for the column with the source of each row; the first one that no input uses applies.
 const SOURCE: [&str; 2] = ["source", "source_file"];
@@ -53,75 +55,17 @@ struct Styles {
 }
 
 impl Merged {
+    /// Appends all elements of a layout; their references keep pointing to their own elements.
     fn add(&mut self, mut other: Layout) {
-        let levels = self.add_levels(&other.levels);
-        let level = |level: Option<u32>| level.map(|level| levels[level as usize]);
-        let all = &mut self.layout;
-        let source = Value::Text(&other.provenance.source);
-        let label = |attributes: &mut Attributes, first: usize, from: &Attributes, count: usize| {
-            attributes.extend(first, from);
-            for row in first..first + count {
-                attributes.set(row, self.source, source);
-            }
+        let offsets = Offsets {
+            levels: self.add_levels(&other.levels),
+            first_node: self.layout.nodes.len() as u32,
         };
-
-        let first_node = all.nodes.len() as u32;
-        for node in 0..other.nodes.len() as u32 {
-            let nodes = &other.nodes;
-            all.nodes.push(
-                nodes.id(node),
-                nodes.position_m(node),
-                level(nodes.level(node)),
-            );
-        }
-        let (nodes, first) = (&other.nodes, first_node as usize);
-        label(
-            &mut all.nodes.attributes,
-            first,
-            &nodes.attributes,
-            nodes.len(),
-        );
-        let node = |node: u32| first_node + node;
-
-        let first = all.stations.len();
-        for station in 0..other.stations.len() as u32 {
-            let stations = &other.stations;
-            let nodes = stations.nodes(station).iter().map(|&n| node(n)).collect();
-            let position_m = stations.position_m(station);
-            let level = level(stations.level(station));
-            all.stations
-                .push(stations.id(station), position_m, nodes, level);
-        }
-        let stations = &other.stations;
-        label(
-            &mut all.stations.attributes,
-            first,
-            &stations.attributes,
-            stations.len(),
-        );
-
-        let first = all.paths.len();
-        let mut runs = Runs::default();
-        for path in other.paths.iter() {
-            path.copy_runs(&mut runs);
-            let types: Vec<&str> = other.paths.vehicle_types().of(path.row()).collect();
-            all.paths.push(&NewPath {
-                id: path.id(),
-                runs: &runs,
-                start_node: path.start_node().map(node),
-                end_node: path.end_node().map(node),
-                direction: path.direction(),
-                level: level(path.level()),
-                vehicle_types: &types,
-            });
-        }
-        let paths = &other.paths;
-        label(
-            &mut all.paths.attributes,
-            first,
-            &paths.attributes,
-            paths.len(),
-        );
+        let source = (self.source, other.provenance.source.as_str());
+        let all = &mut self.layout;
+        add_nodes(&mut all.nodes, &other.nodes, &offsets, source);
+        add_stations(&mut all.stations, &other.stations, &offsets, source);
+        add_paths(&mut all.paths, &other.paths, &offsets, source);
         self.styles.add(&other);
         for refused in other.refused.iter() {
             all.refused.push(refused.id, refused.code, refused.detail);
@@ -161,6 +105,81 @@ impl Merged {
             paths.set_rank(styles.rank);
         }
         layout
+    }
+}
+
+/// Maps the rows of one layout to those of the merge.
+struct Offsets {
+    /// Merged row of each level.
+    levels: Vec<u32>,
+    /// Merged row of the first node.
+    first_node: u32,
+}
+
+impl Offsets {
+    fn level(&self, level: Option<u32>) -> Option<u32> {
+        level.map(|level| self.levels[level as usize])
+    }
+
+    fn node(&self, node: u32) -> u32 {
+        self.first_node + node
+    }
+}
+
+fn add_nodes(all: &mut Nodes, other: &Nodes, offsets: &Offsets, source: (&str, &str)) {
+    let first = all.len();
+    for node in 0..other.len() as u32 {
+        let level = offsets.level(other.level(node));
+        all.push(other.id(node), other.position_m(node), level);
+    }
+    let attributes = &mut all.attributes;
+    add_attributes(attributes, first, &other.attributes, other.len(), source);
+}
+
+fn add_stations(all: &mut Stations, other: &Stations, offsets: &Offsets, source: (&str, &str)) {
+    let first = all.len();
+    for station in 0..other.len() as u32 {
+        let nodes = other.nodes(station).iter();
+        let nodes = nodes.map(|&node| offsets.node(node)).collect();
+        let level = offsets.level(other.level(station));
+        all.push(other.id(station), other.position_m(station), nodes, level);
+    }
+    let attributes = &mut all.attributes;
+    add_attributes(attributes, first, &other.attributes, other.len(), source);
+}
+
+fn add_paths(all: &mut Paths, other: &Paths, offsets: &Offsets, source: (&str, &str)) {
+    let first = all.len();
+    let node = |node: Option<u32>| node.map(|node| offsets.node(node));
+    let mut runs = Runs::default();
+    for path in other.iter() {
+        path.copy_runs(&mut runs);
+        let types: Vec<&str> = other.vehicle_types().of(path.row()).collect();
+        all.push(&NewPath {
+            id: path.id(),
+            runs: &runs,
+            start_node: node(path.start_node()),
+            end_node: node(path.end_node()),
+            direction: path.direction(),
+            level: offsets.level(path.level()),
+            vehicle_types: &types,
+        });
+    }
+    let attributes = &mut all.attributes;
+    add_attributes(attributes, first, &other.attributes, other.len(), source);
+}
+
+/// Appends the attributes of `rows` rows, and sets the column of the source for them.
+fn add_attributes(
+    all: &mut Attributes,
+    first: usize,
+    other: &Attributes,
+    rows: usize,
+    (column, source): (&str, &str),
+) {
+    all.extend(first, other);
+    for row in first..first + rows {
+        all.set(row, column, Value::Text(source));
     }
 }
 
