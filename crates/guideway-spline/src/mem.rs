@@ -5,9 +5,9 @@
 
 /// Bytes per cache line of x86-64 processors.
 const LINE_BYTES: usize = 64;
-/// Distance between the elements in use and the ones that [`prefetch_ahead`] requests.
+/// Distance from the elements in use to those that [`prefetch_ahead`] requests.
 const AHEAD_BYTES: usize = 2048;
-/// Most cache lines that one call of [`prefetch`] requests besides the last one of its slice.
+/// Most cache lines per call of [`prefetch`], in addition to the last one of the slice.
 const MAX_LINES: usize = 16;
 /// Elements per chunk of [`prefetched_chunks`]: a loop requests memory once per chunk.
 pub const CHUNK_LEN: usize = 32;
@@ -23,8 +23,8 @@ pub fn prefetch<T>(elements: &[T]) {
     }
 }
 
-/// Prefetches as many cache lines as `chunk` covers, 2 KiB behind its start. Nothing needs to lie
-/// there: any address is allowed.
+/// Prefetches as many cache lines as `chunk` covers, 2 KiB after its start. The memory there need
+/// not exist: any address is allowed.
 #[inline(always)]
 pub fn prefetch_ahead<T>(chunk: &[T]) {
     for line in cache_lines(chunk) {
@@ -40,7 +40,7 @@ pub fn prefetched_chunks<T>(elements: &[T]) -> impl Iterator<Item = &[T]> {
         .inspect(|chunk| prefetch_ahead(chunk))
 }
 
-/// Elements of each cache line, provided the slice starts on one.
+/// Chunks of one cache line each, if the slice starts at the start of one.
 fn cache_lines<T>(elements: &[T]) -> impl Iterator<Item = &[T]> {
     elements.chunks(const { LINE_BYTES.div_ceil(size_of::<T>()) })
 }

@@ -27,6 +27,6 @@ fn every_entry_has_meaning_example_and_remedy() {
     for (code, (_, text)) in Code::ALL.iter().zip(entries()) {
         assert!(text.contains(code.meaning()), "{code}: {}", code.meaning());
         assert!(text.contains("\n> "), "{code} has no example");
-        assert!(text.contains("\nTo mend it: "), "{code} has no remedy");
+        assert!(text.contains("\nRemedy: "), "{code} has no remedy");
     }
 }
