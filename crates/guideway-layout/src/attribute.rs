@@ -112,7 +112,7 @@ pub enum Values {
     Text {
         /// The text of each row.
         text: TextColumn,
-        /// Whether the row has a value.
+        /// One flag per row, true if it has a value.
         present: Vec<bool>,
     },
 }
@@ -140,7 +140,7 @@ impl Values {
         }
     }
 
-    /// Whether there are no rows.
+    /// Returns `true` if there are no rows.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }

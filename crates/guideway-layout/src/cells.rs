@@ -6,7 +6,7 @@
 pub struct Cells<T> {
     /// Arbitrary in rows without a value.
     values: Vec<T>,
-    /// Whether each row has a value; `None` while all rows have one.
+    /// One flag per row, true if it has a value; `None` while all rows have one.
     present: Option<Vec<bool>>,
 }
 
@@ -24,7 +24,7 @@ impl<T: Copy + Default> Cells<T> {
         self.values.len()
     }
 
-    /// Whether there are no rows.
+    /// Returns `true` if there are no rows.
     pub fn is_empty(&self) -> bool {
         self.values.is_empty()
     }

@@ -138,7 +138,7 @@ impl Diagnostics {
             .sum()
     }
 
-    /// Whether there are no findings.
+    /// Returns `true` if there are no findings.
     pub fn is_empty(&self) -> bool {
         self.counts.is_empty()
     }

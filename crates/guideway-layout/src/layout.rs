@@ -48,8 +48,8 @@ impl Layout {
             + self.stations.heap_bytes()
     }
 
-    /// Maps curves, nodes and stations. Scales widths by the square root of the area scale. Leaves
-    /// attribute columns unchanged, whatever they measure.
+    /// Maps curves, nodes and stations, and scales widths by the square root of the area scale.
+    /// Attributes do not change, whatever they measure.
     pub fn transform(&mut self, by: Affine) {
         self.paths.transform(0..self.paths.len(), by);
         self.nodes.transform(by);

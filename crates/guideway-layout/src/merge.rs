@@ -209,7 +209,7 @@ impl Layout {
     }
 }
 
-/// Whether two levels have the same identifier or the same name.
+/// Returns `true` if two levels have the same identifier or the same name.
 fn is_same(a: &Level, b: &Level) -> bool {
     a.id == b.id || a.name.is_some() && a.name == b.name
 }

@@ -39,7 +39,7 @@ impl Nodes {
         self.ids.len()
     }
 
-    /// Whether there are no nodes.
+    /// Returns `true` if there are no nodes.
     pub fn is_empty(&self) -> bool {
         self.ids.is_empty()
     }
@@ -105,7 +105,7 @@ impl Stations {
         self.ids.len()
     }
 
-    /// Whether there are no stations.
+    /// Returns `true` if there are no stations.
     pub fn is_empty(&self) -> bool {
         self.ids.is_empty()
     }

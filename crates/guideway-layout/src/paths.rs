@@ -107,7 +107,7 @@ impl Paths {
         self.ids.len()
     }
 
-    /// Whether there are no paths.
+    /// Returns `true` if there are no paths.
     pub fn is_empty(&self) -> bool {
         self.ids.is_empty()
     }

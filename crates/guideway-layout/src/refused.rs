@@ -34,7 +34,7 @@ impl Refused {
         self.codes.len()
     }
 
-    /// Whether no path was refused.
+    /// Returns `true` if no path was refused.
     pub fn is_empty(&self) -> bool {
         self.codes.is_empty()
     }

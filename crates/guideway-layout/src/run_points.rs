@@ -26,7 +26,7 @@ impl<'a> RunPoints<'a> {
         }
     }
 
-    /// Whether there are no control points, which no run of a layout has.
+    /// Returns `true` if there are no control points, which no run of a layout has.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }

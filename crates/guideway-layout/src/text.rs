@@ -55,7 +55,7 @@ impl TextColumn {
         self.ends.len()
     }
 
-    /// Whether there are no rows.
+    /// Returns `true` if there are no rows.
     pub fn is_empty(&self) -> bool {
         self.ends.is_empty()
     }

@@ -81,7 +81,7 @@ impl Affine {
         is_translation.then_some(self.origin)
     }
 
-    /// Whether all coefficients are finite.
+    /// Returns `true` if all coefficients are finite.
     pub fn is_finite(self) -> bool {
         self.x.is_finite() && self.y.is_finite() && self.origin.is_finite()
     }

@@ -83,7 +83,7 @@ impl<T: Real> Bounds<T> {
         }
     }
 
-    /// Whether the two boxes share a point.
+    /// Returns `true` if the two boxes share a point.
     pub fn intersects(self, other: Self) -> bool {
         self.min.x <= other.max.x
             && other.min.x <= self.max.x
@@ -91,7 +91,7 @@ impl<T: Real> Bounds<T> {
             && other.min.y <= self.max.y
     }
 
-    /// Whether `point` is inside or on the border.
+    /// Returns `true` if `point` is inside or on the border.
     pub fn contains(self, point: Point<T>) -> bool {
         self.min.x <= point.x
             && point.x <= self.max.x

@@ -13,7 +13,7 @@ pub const MAX_HALVINGS: u32 = 10;
 /// Result of a conversion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Conversion {
-    /// Whether the runs equal the curve, apart from rounding.
+    /// True if the runs equal the curve, apart from rounding.
     pub exact: bool,
     /// Upper bound, in meters, of the Hausdorff distance between curve and runs, apart from
     /// rounding. Zero if exact; above the tolerance only if the conversion reached its limit of
@@ -112,7 +112,7 @@ fn push_exact(curve: &Nurbs, span: usize, out: &mut Runs) {
     }
 }
 
-/// Whether the knots of one span are uniform, up to their rounding error.
+/// Returns `true` if the knots of one span are uniform, up to their rounding error.
 fn is_uniform(knots: &[f64]) -> bool {
     let width = knots[3] - knots[2];
     let greatest = knots[0].abs().max(knots[knots.len() - 1].abs());

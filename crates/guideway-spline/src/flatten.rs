@@ -88,8 +88,8 @@ fn longest_line<T: Real>(rest: &[Point<T>], from: Point<T>, reach: usize, tolera
     good
 }
 
-/// Whether all Bezier points of the run lie within the tolerance of the line from `from` to its
-/// end.
+/// Returns `true` if all Bezier points of the run lie within the tolerance of the line from `from`
+/// to its end.
 fn is_near_line<T: Real>(run: &[Point<T>], from: Point<T>, tolerance: T) -> bool {
     let third = T::of(1.0 / 3.0);
     let two = T::of(2.0);

@@ -152,7 +152,7 @@ impl Nurbs {
         self.weights.as_deref()
     }
 
-    /// Whether two weights differ. With equal weights the curve is polynomial.
+    /// Returns `true` if two weights differ. With equal weights the curve is polynomial.
     pub fn is_rational(&self) -> bool {
         let weights = self.weights.as_deref().unwrap_or_default();
         weights.iter().any(|&w| w != weights[0])

@@ -37,7 +37,7 @@ impl<T: Real> Point<T> {
         Self { x, y }
     }
 
-    /// Whether both coordinates are finite.
+    /// Returns `true` if both coordinates are finite.
     pub fn is_finite(self) -> bool {
         self.x.is_finite() && self.y.is_finite()
     }

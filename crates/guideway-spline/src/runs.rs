@@ -82,7 +82,7 @@ impl Runs {
         self.ends.len()
     }
 
-    /// Whether there are no runs.
+    /// Returns `true` if there are no runs.
     pub fn is_empty(&self) -> bool {
         self.ends.is_empty()
     }

@@ -47,7 +47,7 @@ pub(crate) const METHODS: &[(&str, Draw)] = &[
     ("blend2d-kept-threads", blend2d::draw::<2, true>),
 ];
 
-/// Whether a renderer runs in another process, whose memory is not measured.
+/// Returns `true` if a renderer runs in another process, whose memory is not measured.
 pub(crate) fn is_external(method: &str) -> bool {
     method == "skia"
 }

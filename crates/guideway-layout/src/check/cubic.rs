@@ -93,7 +93,7 @@ pub(super) fn split(p: &[Point<f64>; 4], t: f64) -> [[Point<f64>; 4]; 2] {
 ///
 /// Samples the segment, then refines the best sample by ternary search.
 pub(super) fn greatest_curvature(segment: &[Point<f64>; 4], rounding: f64) -> (f64, Point<f64>) {
-    // Enough for the curvature of a cubic, which has few maxima.
+    // The curvature of a cubic has few maxima, so 16 steps separate them.
     const STEPS: u32 = 16;
     let noise_m = rounding
         * segment

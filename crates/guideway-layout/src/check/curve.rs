@@ -1,7 +1,7 @@
 //! [`Curve`]: the curve of one path in forms that are independent of its division into runs.
 //!
-//! The checks compare two curves by increasing cost: end points, area beside the chord, control
-//! points, and last, points at equal steps of arc length.
+//! `same_curve` compares two curves by tests of increasing cost: end points, area between curve and
+//! chord, control points, points at equal steps of arc length.
 
 use guideway_spline::{Point, segment_length, uniform};
 
@@ -57,7 +57,8 @@ impl Curve {
         area
     }
 
-    /// Whether each control point is within `within_m` of that of a path: then so is the curve.
+    /// Returns `true` if each control point is within `within_m` of that of a path: then so is the
+    /// curve.
     pub(super) fn has_points_of(&self, path: PathRef<'_>, reversed: bool, within_m: f64) -> bool {
         if path.runs().map(|run| run.segments().len()).sum::<usize>() != self.segments.len() {
             return false;
@@ -117,7 +118,7 @@ pub(super) struct ChordArea {
 }
 
 impl ChordArea {
-    /// Adds the sector from the origin to a Bezier curve.
+    /// Adds the area of the sector between the origin and a Bezier curve.
     fn add(&mut self, b: &Segment) {
         let near = b[0].cross(b[1]) + b[2].cross(b[3]);
         let far = b[0].cross(b[2]) + b[1].cross(b[2]) + b[1].cross(b[3]);
@@ -126,7 +127,7 @@ impl ChordArea {
         self.length_bound_m += b.windows(2).map(|leg| leg[0].distance(leg[1])).sum::<f64>();
     }
 
-    /// Whether the areas allow curves whose distance is at most `within_m` everywhere.
+    /// Returns `true` if the areas allow curves whose distance is at most `within_m` everywhere.
     pub(super) fn may_match(self, other: Self, reversed: bool, within_m: f64) -> bool {
         let own_m2 = if reversed {
             -self.area_m2

@@ -29,7 +29,7 @@ pub(super) struct Member {
     pub(super) first: usize,
     /// Row of this path.
     pub(super) row: usize,
-    /// Whether it runs from the end of that curve to its start.
+    /// True if it runs from the end of that curve to its start.
     pub(super) reversed: bool,
 }
 
@@ -149,8 +149,8 @@ impl<'a> Groups<'a> {
         }
     }
 
-    /// Whether the loaded curve is that of a leader. `samples` caches the points of the loaded
-    /// curve.
+    /// Returns `true` if the loaded curve is that of a leader. `samples` caches the points of the
+    /// loaded curve.
     fn matches(
         &mut self,
         leader: usize,

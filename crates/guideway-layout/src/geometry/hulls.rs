@@ -96,7 +96,7 @@ impl Hulls {
         }
     }
 
-    /// Whether there are no paths.
+    /// Returns `true` if there are no paths.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }

@@ -1,4 +1,4 @@
-//! Curves of all paths, in flat buffers.
+//! Geometry: stores the curves of all paths in flat buffers, maps and replaces them.
 //!
 //! | module | does |
 //! |---|---|

@@ -104,7 +104,8 @@ impl Geometry {
         *self = all;
     }
 
-    /// Whether `paths` have the same numbers of runs and points as `others` of another geometry.
+    /// Returns `true` if `paths` have the same numbers of runs and points as `others` of another
+    /// geometry.
     fn has_run_lengths_of(&self, paths: &Range<usize>, with: &Self, others: &Range<usize>) -> bool {
         let (own, other) = (self.runs_of(paths), with.runs_of(others));
         let has_run_counts = match (&self.path_ends, &with.path_ends) {
@@ -118,7 +119,7 @@ impl Geometry {
         has_run_counts && has_lengths_of((&self.run_ends, &own), (&with.run_ends, &other))
     }
 
-    /// Overwrites the points of `paths` by those of `others`, which are as many.
+    /// Overwrites the points of `paths` by those of `others`, whose runs have the same lengths.
     fn copy_points_from(&mut self, paths: &Range<usize>, with: &Self, others: &Range<usize>) {
         let to = self.points_of(&self.runs_of(paths));
         let from = with.points_of(&with.runs_of(others));
@@ -189,7 +190,8 @@ fn copy<A: Copy + Sync, B: Send>(to: &mut [B], from: &[A], convert: impl Fn(A) -
     }
 }
 
-/// Whether consecutive groups of one list of ends have the same lengths as groups of another.
+/// Returns `true` if consecutive groups of one list of ends have the same lengths as groups of
+/// another.
 fn has_lengths_of(
     (ends, own): (&[u32], &Range<usize>),
     (other_ends, others): (&[u32], &Range<usize>),

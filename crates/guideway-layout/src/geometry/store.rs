@@ -12,9 +12,9 @@ use crate::RunPoints;
 
 /// The control runs of all paths, in two flat buffers.
 ///
-/// A path is a list of runs; a run of n control points (n >= 4) is a uniform cubic B-spline of n -
-/// 3 segments. Coordinates are in meters, in the precision of the source: points of an `f32` file
-/// take 8 bytes each and stay exact.
+/// A path is a list of runs. A run of n control points (n >= 4) is a uniform cubic B-spline of
+/// n - 3 segments. Coordinates are in meters, in the precision of the source: points of an `f32`
+/// file take 8 bytes each and stay exact.
 ///
 /// ```text
 /// points     p0 p1 p2 p3 | p4 p5 p6 p7 p8 | p9 p10 p11 p12
