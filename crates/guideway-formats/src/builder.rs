@@ -1,36 +1,41 @@
-//! What all text readers share on the way to a layout: budgets, diagnostics, straight lines.
+//! Layout builder: collects the paths, nodes and stations that a text reader finds into a
+//! [`Layout`], holds them to the limits and to budgets by file size, and records diagnostics.
 
 use guideway_layout::{Attributes, Code, Diagnostics, Layout, NewPath, Place, TextColumn, Value};
 use guideway_spline::{Point, Runs};
 
 use crate::{Problem, ReadError, source::Source, text::printable};
 
-/// Where something is in the file. The text is only made when a finding is kept.
+/// Makes the place of an element in the file. The builder calls it only for diagnostics it stores:
+/// formatting a place for each of a million faulty elements would dominate the read.
 pub(crate) type PlaceFn<'f> = &'f dyn Fn() -> Place;
 
-/// So many control points may a file become, and so many more for each of its bytes: a few weighted curves,
-/// or things that refer to others, could else become more than any machine holds.
-const LEAST_POINTS: u64 = 1 << 18;
+/// Control points that any file may expand to, however small.
+///
+/// A few weighted curves, or elements that refer to others, could else expand to more than any
+/// machine holds.
+const MIN_POINT_BUDGET: u64 = 1 << 18;
+/// Control points that a file may expand to in addition, per byte.
 pub(crate) const POINTS_PER_BYTE: u64 = 4;
 
-/// Why a curve has no room.
+/// Detail of a path that [`Builder::within_point_budget`] turns down.
 pub(crate) const POINT_BUDGET_EXCEEDED: &str =
     "too many control points for a file of this size; this curve would exceed the limit";
 
-/// Fills a layout within the limits.
+/// Fills a layout within the limits of a read.
 pub(crate) struct Builder<'a> {
     pub(crate) source: Source<'a>,
     pub(crate) layout: Layout,
-    /// How many more control points the file may become.
+    /// Control points that the file may still expand to.
     pub(crate) points_left: u64,
     text_bytes: u64,
-    most_text_bytes: u64,
+    max_text_bytes: u64,
     file_bytes: u64,
-    /// How much of the file is read, for readers that go through it once.
+    /// Bytes of the file that were read, for readers that pass through it once.
     read_bytes: u64,
 }
 
-/// Which table an attribute belongs to.
+/// The table that an attribute belongs to.
 #[derive(Clone, Copy)]
 pub(crate) enum Table {
     Paths,
@@ -39,6 +44,7 @@ pub(crate) enum Table {
 }
 
 impl<'a> Builder<'a> {
+    /// Makes a builder of an empty layout for a file of `file_bytes` bytes.
     pub(crate) fn new(source: Source<'a>, file_bytes: usize) -> Self {
         let mut layout = Layout {
             diagnostics: Diagnostics::with_limit(source.options.limits.diagnostics_per_code),
@@ -48,15 +54,18 @@ impl<'a> Builder<'a> {
         Self {
             source,
             layout,
-            points_left: LEAST_POINTS + file_bytes as u64 * POINTS_PER_BYTE,
+            points_left: MIN_POINT_BUDGET + file_bytes as u64 * POINTS_PER_BYTE,
             text_bytes: 0,
-            most_text_bytes: most_text(file_bytes as u64),
+            max_text_bytes: max_text_bytes(file_bytes as u64),
             file_bytes: file_bytes as u64,
             read_bytes: 0,
         }
     }
 
-    /// So many more bytes of the file are read. Tells whoever follows now and then.
+    /// Adds to the bytes read, and reports progress once per MiB.
+    ///
+    /// # Errors
+    /// When the caller cancels the read.
     pub(crate) fn advance(&mut self, bytes: usize) -> Result<(), ReadError> {
         const STEP: u64 = 1 << 20;
         let before = self.read_bytes / STEP;
@@ -70,7 +79,7 @@ impl<'a> Builder<'a> {
         self.source.check_cancelled()
     }
 
-    /// Records a finding.
+    /// Records a diagnostic. Control characters of the file are escaped in its texts.
     pub(crate) fn report(
         &mut self,
         code: Code,
@@ -88,20 +97,25 @@ impl<'a> Builder<'a> {
     }
 
     /// Appends a path and returns its row.
+    ///
+    /// # Errors
+    /// When the layout would exceed a limit, or the caller cancels the read.
     pub(crate) fn push_path(&mut self, path: &NewPath<'_>) -> Result<usize, ReadError> {
         self.charge_text(path.id)?;
         let limits = &self.source.options.limits;
         let geometry = self.layout.paths.geometry();
         let points = geometry.point_count() + path.runs.points().len();
-        self.check("control points", limits.control_points, points as u64)?;
+        self.check_limit("control points", limits.control_points, points as u64)?;
         self.check_paths()?;
         let points = path.runs.points().len() as u64;
         self.points_left = self.points_left.saturating_sub(points);
         Ok(self.layout.paths.push(path))
     }
 
-    /// Whether a curve fits into what the file may become. From the first that does not, none does: looking
-    /// for one that still fits could take for ever.
+    /// Returns whether a curve fits into the point budget of the file.
+    ///
+    /// The first curve that does not fit empties the budget: a file could else make the reader
+    /// convert curves without end in search of one that fits.
     pub(crate) fn within_point_budget(&mut self, runs: &Runs) -> bool {
         let fits = self.points_left > 0 && runs.points().len() as u64 <= self.points_left;
         if !fits {
@@ -110,14 +124,14 @@ impl<'a> Builder<'a> {
         fits
     }
 
-    /// Whether a curve can be drawn: no part of it is beyond the largest coordinate, or not finite.
+    /// Returns whether all control points are finite and within the coordinate limit.
     pub(crate) fn within_coordinate_limit(&self, runs: &Runs) -> bool {
-        let most = self.source.options.limits.coordinate_m;
+        let limit = self.source.options.limits.coordinate_m;
         let mut points = runs.points().iter();
-        points.all(|p| p.x.abs() <= most && p.y.abs() <= most)
+        points.all(|p| p.x.abs() <= limit && p.y.abs() <= limit)
     }
 
-    /// Records a path that cannot be drawn.
+    /// Records a path that cannot be drawn, with the reason.
     pub(crate) fn refuse(&mut self, id: &str, code: Code, detail: &str) -> Result<(), ReadError> {
         let detail = &printable(detail);
         self.charge_text(id)?;
@@ -174,7 +188,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Whether a point can be drawn; says so if not.
+    /// Returns whether a point is finite and within the coordinate limit; reports it if not.
     pub(crate) fn check_point(&mut self, point: Point<f64>, at: PlaceFn<'_>) -> bool {
         let limit = self.source.options.limits.coordinate_m;
         if !point.is_finite() {
@@ -184,8 +198,8 @@ impl<'a> Builder<'a> {
         }
         if point.x.abs().max(point.y.abs()) > limit {
             let message = || {
-                let [x, y] = [point.x, point.y].map(short);
-                format!("the position ({x} m, {y} m) is beyond {limit} m")
+                let [x, y] = [point.x, point.y].map(compact);
+                format!("the position ({x} m, {y} m) is beyond the limit of {limit} m")
             };
             self.report(
                 Code::OutOfRange,
@@ -198,22 +212,22 @@ impl<'a> Builder<'a> {
         true
     }
 
-    /// Refuses a text that is longer than any name should be.
+    /// Fails for a text longer than the limit of one text.
     pub(crate) fn check_text(&self, text: &str) -> Result<(), ReadError> {
         let limit = self.source.options.limits.text_bytes as u64;
-        self.check("bytes in one text", limit, text.len() as u64)
+        self.check_limit("bytes in one text", limit, text.len() as u64)
     }
 
-    /// Refuses a curve of more points or knots than any curve should have.
+    /// Fails for a curve with more points or knots than the limit of one curve.
     pub(crate) fn check_curve_points(&self, count: usize) -> Result<(), ReadError> {
         let limit = self.source.options.limits.curve_points as u64;
-        self.check("control points or knots of one curve", limit, count as u64)
+        self.check_limit("control points or knots of one curve", limit, count as u64)
     }
 
     fn charge_text(&mut self, text: &str) -> Result<(), ReadError> {
         self.text_bytes += text.len() as u64;
         let what = "bytes of names and attributes";
-        self.check(what, self.most_text_bytes, self.text_bytes)
+        self.check_limit(what, self.max_text_bytes, self.text_bytes)
     }
 
     fn check_paths(&self) -> Result<(), ReadError> {
@@ -221,10 +235,10 @@ impl<'a> Builder<'a> {
         if paths.is_multiple_of(1024) {
             self.source.check_cancelled()?;
         }
-        self.check("paths", self.source.options.limits.paths, paths)
+        self.check_limit("paths", self.source.options.limits.paths, paths)
     }
 
-    fn check(&self, what: &'static str, limit: u64, actual: u64) -> Result<(), ReadError> {
+    fn check_limit(&self, what: &'static str, limit: u64, actual: u64) -> Result<(), ReadError> {
         if actual <= limit {
             return Ok(());
         }
@@ -236,8 +250,8 @@ impl<'a> Builder<'a> {
     }
 }
 
-/// A number, by its exponent where its digits would fill the line.
-fn short(number: f64) -> String {
+/// Formats a number, in scientific notation where its digits would fill the line.
+fn compact(number: f64) -> String {
     if number.abs() < 1e15 {
         number.to_string()
     } else {
@@ -245,9 +259,10 @@ fn short(number: f64) -> String {
     }
 }
 
-/// Most text that a file of this size may become. Names and reasons that a reader makes up are longer
-/// than what they are made from, but not without end; and no column can overflow.
-fn most_text(file_bytes: u64) -> u64 {
-    let most = file_bytes.saturating_mul(64).saturating_add(1 << 20);
-    most.min(TextColumn::MAX_BYTES as u64)
+/// Text budget of a file: 64 bytes per byte and 1 MiB, at most a full text column.
+///
+/// Names and reasons that a reader composes are longer than their source, but by a bounded factor.
+fn max_text_bytes(file_bytes: u64) -> u64 {
+    let budget = file_bytes.saturating_mul(64).saturating_add(1 << 20);
+    budget.min(TextColumn::MAX_BYTES as u64)
 }

@@ -1,47 +1,52 @@
-//! Paths as clamped B-splines, as other programs have curves: they begin and end at their outer points.
+//! Clamped B-splines: converts the uniform B-spline runs of a path to the clamped curves that other
+//! programs use, which begin and end at their outer control points.
 
 use guideway_layout::{PathRef, RunPoints};
 use guideway_spline::{Point, uniform};
 
-/// Positions this near are one, in meters. It is also the step to which written positions are rounded, so
-/// that a sum that went 1e-16 wrong does not take twenty digits.
+/// Step to which written positions are rounded, in meters; positions this near are equal.
+///
+/// Rounding keeps a sum with an error of 1e-16 from taking twenty digits.
 pub(crate) const POSITION_STEP_M: f64 = 1e-6;
 
-/// Runs of a path this near are joined, in meters: in single precision, those that meet do so no better. It is
-/// half of what a curve may be off.
-const JOINED_M: f64 = 5e-5;
+/// Largest gap between runs that count as connected, in meters.
+///
+/// Derived: coordinates in single precision meet no better at 1 km, and it is half the tolerance of
+/// written curves.
+const JOIN_TOLERANCE_M: f64 = 5e-5;
 
-/// A coordinate as it is written.
+/// Rounds a coordinate to [`POSITION_STEP_M`].
 pub(crate) fn rounded(meters: f64) -> f64 {
     let steps = 1.0 / POSITION_STEP_M;
-    // Adding zero turns -0 into 0.
+    // Adding zero maps -0 to 0.
     (meters * steps).round() / steps + 0.0
 }
 
-/// A curve of degree 1 (straight lines) or 3, without weights.
+/// A clamped, non-rational B-spline of degree 1 (straight lines) or 3.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct ClampedCurve {
     pub(crate) degree: usize,
-    /// Whole numbers from 0 up, one a segment; the outer ones are there degree + 1 times.
+    /// Knots 0, 1, 2, ...: one per segment end, the outer two with multiplicity degree + 1.
     pub(crate) knots: Vec<f64>,
     pub(crate) points: Vec<Point<f64>>,
 }
 
 impl ClampedCurve {
-    /// A whole path; none if it has no curve. Where it is broken, a knot is there degree + 1 times.
+    /// Converts a path to one curve, or `None` if it has no run. A gap in the path is a knot of
+    /// multiplicity degree + 1.
     pub(crate) fn from_path(path: PathRef<'_>) -> Option<Self> {
         let runs: Vec<_> = path.runs().collect();
-        (!runs.is_empty()).then(|| Self::of(&runs))
+        (!runs.is_empty()).then(|| Self::from_runs(&runs))
     }
 
-    /// The parts of a path that hang together.
+    /// Converts each connected part of a path to a curve.
     pub(crate) fn connected_parts(path: PathRef<'_>) -> Vec<Self> {
         let runs: Vec<_> = path.runs().collect();
-        let parts = runs.chunk_by(|a, b| meets(end(*a), start(*b)));
-        parts.map(Self::of).collect()
+        let parts = runs.chunk_by(|a, b| is_joined(end(*a), start(*b)));
+        parts.map(Self::from_runs).collect()
     }
 
-    /// Whether it is one straight line.
+    /// Returns the end points if the curve is one straight line.
     pub(crate) fn as_line(&self) -> Option<[Point<f64>; 2]> {
         match self.points[..] {
             [start, end] => Some([start, end]),
@@ -49,7 +54,7 @@ impl ClampedCurve {
         }
     }
 
-    fn of(runs: &[RunPoints<'_>]) -> Self {
+    fn from_runs(runs: &[RunPoints<'_>]) -> Self {
         let mut segments = runs.iter().flat_map(|run| run.segments());
         let is_straight = segments.all(|s| is_straight(&uniform::to_bezier(&s), POSITION_STEP_M));
         let degree = if is_straight { 1 } else { 3 };
@@ -64,17 +69,17 @@ impl ClampedCurve {
                 true => vertices(run),
                 false => clamped(run),
             };
-            let is_joined = curve
+            let continues = curve
                 .points
                 .last()
-                .is_some_and(|&last| meets(last, points[0]));
-            let times = if is_joined { degree } else { degree + 1 };
+                .is_some_and(|&last| is_joined(last, points[0]));
+            let multiplicity = if continues { degree } else { degree + 1 };
             curve
                 .knots
-                .extend(std::iter::repeat_n(f64::from(passed), times));
+                .extend(std::iter::repeat_n(f64::from(passed), multiplicity));
             curve
                 .points
-                .extend(points.iter().skip(usize::from(is_joined)));
+                .extend(points.iter().skip(usize::from(continues)));
             let segments = run.segments().len() as u32;
             curve
                 .knots
@@ -88,8 +93,8 @@ impl ClampedCurve {
     }
 }
 
-fn meets(a: Point<f64>, b: Point<f64>) -> bool {
-    a.distance(b) <= JOINED_M
+fn is_joined(a: Point<f64>, b: Point<f64>) -> bool {
+    a.distance(b) <= JOIN_TOLERANCE_M
 }
 
 fn start(run: RunPoints<'_>) -> Point<f64> {
@@ -101,14 +106,16 @@ fn end(run: RunPoints<'_>) -> Point<f64> {
     uniform::end(&[last - 3, last - 2, last - 1, last].map(|i| run.get(i)))
 }
 
-/// Where the segments of a run begin and end.
+/// Returns the end points of the segments of a run, first to last.
 fn vertices(run: RunPoints<'_>) -> Vec<Point<f64>> {
     let ends = run.segments().map(|segment| uniform::end(&segment));
     std::iter::once(start(run)).chain(ends).collect()
 }
 
-/// The control points over clamped knots: inserting each outer knot until it is fourfold moves the first two
-/// and the last two points, and leaves those between as they are (Boehm 1980).
+/// Returns the control points over clamped knots.
+///
+/// Knot insertion (Boehm 1980) raises each outer knot to multiplicity 4. That moves the first two and
+/// the last two points and leaves those between unchanged.
 fn clamped(run: RunPoints<'_>) -> Vec<Point<f64>> {
     let count = run.len();
     let third = |near: usize, far: usize| (run.get(near) * 2.0 + run.get(far)) * (1.0 / 3.0);
@@ -118,7 +125,8 @@ fn clamped(run: RunPoints<'_>) -> Vec<Point<f64>> {
     points
 }
 
-/// Whether a Bezier curve is the straight line between its ends, passed once, apart from `step`.
+/// Returns whether a Bezier curve is the straight line between its ends, without turning back, within
+/// `step` meters.
 pub(crate) fn is_straight(bezier: &[Point<f64>; 4], step: f64) -> bool {
     let [start, first, second, end] = *bezier;
     let chord = end - start;
@@ -140,7 +148,7 @@ mod tests {
 
     use super::*;
 
-    fn path_of(runs: &Runs) -> Layout {
+    fn layout_with(runs: &Runs) -> Layout {
         let mut layout = Layout::default();
         layout.paths.push(&NewPath {
             runs,
@@ -149,21 +157,21 @@ mod tests {
         layout
     }
 
-    fn wavy(count: usize) -> Vec<Point<f64>> {
+    fn wave_points(count: usize) -> Vec<Point<f64>> {
         let wave = |i: usize| (i as f64 * 1.7).sin() * 3.0;
         (0..count).map(|i| Point::new(i as f64, wave(i))).collect()
     }
 
     #[test]
-    fn the_clamped_curve_is_the_curve() {
+    fn clamped_curve_equals_the_uniform_runs() {
         for lengths in [vec![4], vec![5], vec![9], vec![4, 6], vec![7, 4, 5]] {
             let mut runs = Runs::default();
             for (i, &length) in lengths.iter().enumerate() {
                 let shift = Point::new(0.0, 100.0 * i as f64);
-                let run: Vec<_> = wavy(length).iter().map(|&p| p + shift).collect();
+                let run: Vec<_> = wave_points(length).iter().map(|&p| p + shift).collect();
                 runs.push(&run);
             }
-            let layout = path_of(&runs);
+            let layout = layout_with(&runs);
             let path = layout.paths.get(0);
             let whole = ClampedCurve::from_path(path).unwrap();
             let curve = Nurbs::new(3, whole.knots.clone(), whole.points.clone(), None).unwrap();
@@ -181,25 +189,25 @@ mod tests {
     }
 
     #[test]
-    fn straight_runs_become_their_vertices() {
+    fn straight_runs_convert_to_degree_one() {
         let points =
             [(0.0, 0.0), (4.0, 0.0), (4.0, 3.0), (9.0, 3.0)].map(|(x, y)| Point::new(x, y));
         let mut runs = Runs::default();
         guideway_spline::polyline_to_runs(&points, &mut runs);
-        let whole = ClampedCurve::from_path(path_of(&runs).paths.get(0)).unwrap();
+        let whole = ClampedCurve::from_path(layout_with(&runs).paths.get(0)).unwrap();
         assert_eq!((whole.degree, &whole.points[..]), (1, &points[..]));
         assert_eq!(whole.knots, [0.0, 0.0, 1.0, 2.0, 3.0, 3.0]);
         assert_eq!(whole.as_line(), None);
     }
 
     #[test]
-    fn a_line_is_straight_however_it_is_passed_but_not_if_it_turns_back() {
+    fn as_line_accepts_any_parametrization_but_not_a_reversal() {
         let is_line = |at: [f64; 4]| {
             let mut runs = Runs::default();
             runs.push_bezier(&at.map(|s| Point::new(3.0, 4.0) * s));
-            let curve = ClampedCurve::from_path(path_of(&runs).paths.get(0)).unwrap();
+            let curve = ClampedCurve::from_path(layout_with(&runs).paths.get(0)).unwrap();
             curve.as_line().is_some_and(|[start, end]| {
-                meets(start, Point::new(0.0, 0.0)) && meets(end, Point::new(3.0, 4.0))
+                is_joined(start, Point::new(0.0, 0.0)) && is_joined(end, Point::new(3.0, 4.0))
             })
         };
         assert!(is_line([0.0, 0.1, 0.2, 1.0]));

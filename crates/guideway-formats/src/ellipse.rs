@@ -1,23 +1,24 @@
-//! Arcs of ellipses: an affine map of the unit circle.
+//! Elliptic arcs: maps an arc of the unit circle by an affine map and appends it as B-spline runs.
 
 use guideway_spline::{Affine, Point, Runs, arc_to_runs};
 
-/// Appends the arc of the unit circle from the angle `start` on, mapped; so a circle of any center and
-/// radius, or an ellipse. Angles in radians. False if it would be farther than `most_m` in any direction.
+/// Appends the arc of the unit circle from angle `start` over `sweep` (radians), mapped by `map`: an
+/// arc of any circle or ellipse. Returns false, and appends nothing, if the ellipse could reach farther
+/// than `max_m` meters from its center.
 ///
-/// A uniform B-spline is mapped by mapping its control points. The map stretches no direction more than by
-/// (|x|^2 + |y|^2)^(1/2), and so does not the error either.
+/// Mapping the control points maps a uniform B-spline. The map stretches no direction by more than
+/// (|x|^2 + |y|^2)^(1/2), the Frobenius norm, so that factor bounds the error as well.
 pub(crate) fn append_arc(
     map: Affine,
     start: f64,
     sweep: f64,
     tolerance_m: f64,
-    most_m: f64,
+    max_m: f64,
     runs: &mut Runs,
 ) -> bool {
     let stretch = map.x.norm().hypot(map.y.norm());
-    // Seen before it is drawn: the farther away, the more pieces.
-    if !(stretch <= 2.0 * most_m && start.is_finite() && sweep.is_finite()) {
+    // Checked before conversion: the number of segments grows with the radius.
+    if !(stretch <= 2.0 * max_m && start.is_finite() && sweep.is_finite()) {
         return false;
     }
     let mut unit = Runs::default();

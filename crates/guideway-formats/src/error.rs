@@ -1,20 +1,22 @@
+//! Read errors: the file, the place, the problem and its remedy, with a stable code per kind.
+
 use std::fmt;
 use std::io;
 
 use guideway_layout::Place;
 
-/// Why a file could not be read: which file, where in it, what is wrong, and what to do about it.
+/// Reason why a file cannot be read: the file, the place, the problem and its remedy.
 #[derive(Debug, thiserror::Error)]
 #[error("{file}: {problem}. {}", .problem.remedy())]
 pub struct ReadError {
-    /// The file, or another name for the source, as given.
+    /// Name of the file or source, as given.
     pub file: String,
-    /// What is wrong.
+    /// The problem.
     pub problem: Problem,
 }
 
 impl ReadError {
-    /// An error of the named file.
+    /// Makes an error of the named file.
     pub fn new(file: impl Into<String>, problem: Problem) -> Self {
         Self {
             file: file.into(),
@@ -22,83 +24,83 @@ impl ReadError {
         }
     }
 
-    /// The stable name of the kind of problem, for programs.
+    /// Returns the stable code of the kind of problem, for programs.
     pub fn code(&self) -> &'static str {
         self.problem.code()
     }
 
-    /// What to do about it.
+    /// Returns the remedy, a sentence for the user.
     pub fn remedy(&self) -> String {
         self.problem.remedy()
     }
 }
 
-/// What is wrong with a file that cannot be read.
+/// Problem of a file that cannot be read.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Problem {
-    /// There is no such file.
-    #[error("there is no file of this name")]
+    /// The file does not exist.
+    #[error("the file does not exist")]
     NotFound,
-    /// It is something else than a file.
+    /// The name is that of a folder, pipe, socket or device.
     #[error("this is a {0}, not a file")]
     NotAFile(&'static str),
-    /// The operating system refused.
+    /// The operating system reported an error.
     #[error("cannot read the file: {0}")]
     Io(#[from] io::Error),
-    /// There is nothing in it.
+    /// The file has no bytes.
     #[error("the file is empty")]
     Empty,
-    /// The bytes are of no known format.
-    #[error("the format is not known; the file begins with {first_bytes}")]
+    /// The bytes match no known format.
+    #[error("unknown file format; the file begins with {first_bytes}")]
     UnknownFormat {
-        /// The first bytes, made readable.
+        /// The first bytes: quoted text, or hexadecimal.
         first_bytes: String,
     },
-    /// The bytes end before the content does.
-    #[error("the file ends too early, after {at} bytes: {detail}")]
+    /// The file ends before its content is complete.
+    #[error("the file is incomplete, it ends after {at} bytes: {detail}")]
     Truncated {
-        /// Number of bytes there are.
+        /// Size of the file in bytes.
         at: u64,
-        /// What is missing.
+        /// Description of the missing part.
         detail: String,
     },
-    /// The bytes break the rules of JSON, XML or Arrow.
+    /// The text violates the syntax of JSON, XML or YAML.
     #[error("line {line}, column {column}: {message}")]
     Syntax {
         /// Line, from 1.
         line: u64,
         /// Column, from 1.
         column: u64,
-        /// Which rule.
+        /// Violated rule.
         message: String,
     },
-    /// The bytes contradict themselves.
+    /// The file contradicts itself.
     #[error("{place}: the file is damaged: {detail}")]
     Damaged {
-        /// Where.
+        /// Place of the contradiction.
         place: Place,
-        /// What does not fit.
+        /// Description of the contradiction.
         detail: String,
     },
-    /// Nested too deeply.
-    #[error("line {line}, column {column}: nested more than {limit} levels deep")]
+    /// The nesting exceeds the limit.
+    #[error("line {line}, column {column}: nesting exceeds the limit of {limit} levels")]
     TooDeep {
-        /// Deepest nesting that is accepted.
+        /// Largest accepted depth.
         limit: u64,
         /// Line, from 1.
         line: u64,
         /// Column, from 1.
         column: u64,
     },
-    /// More of something than is accepted.
+    /// A size exceeds its limit.
     #[error("{what}: {actual} found, {limit} at most")]
     LimitReached {
-        /// What there is too much of, such as `bytes in the file`.
+        /// The measured size, such as `bytes in the file`.
         what: &'static str,
-        /// How much is accepted.
+        /// Largest accepted value.
         limit: u64,
-        /// How much there is, as far as it was counted.
+        /// Actual value, as far as it was counted.
         actual: u64,
     },
     /// The text is not UTF-8.
@@ -106,36 +108,36 @@ pub enum Problem {
     NotUtf8 {
         /// Position in the file, from 0.
         at: u64,
-        /// What it is instead, as far as that can be told.
+        /// Description of the bytes, such as another encoding.
         detail: &'static str,
     },
-    /// Sound text, but not what the format asks for.
+    /// The syntax is valid, the structure is not that of the format.
     #[error("{place}: expected {expected}, found {found}")]
     Structure {
-        /// Where.
+        /// Place of the element.
         place: Place,
-        /// What the format asks for.
+        /// Structure that the format requires.
         expected: String,
-        /// What is there.
+        /// Structure of the file.
         found: String,
     },
-    /// Legal in the format, and not supported here.
+    /// The format allows it, but this reader does not support it.
     #[error("{place}: {what} is not supported")]
     Unsupported {
-        /// Where.
+        /// Place of the element.
         place: Place,
-        /// What is not supported.
+        /// Unsupported feature.
         what: String,
-        /// What to do instead.
+        /// Remedy for the user.
         remedy: String,
     },
-    /// The caller asked to stop.
-    #[error("reading was stopped before it was done")]
+    /// The caller cancelled the read.
+    #[error("the read was cancelled")]
     Cancelled,
 }
 
 impl Problem {
-    /// The stable name of the kind of problem, for programs.
+    /// Returns the stable code of the kind of problem, for programs.
     pub fn code(&self) -> &'static str {
         match self {
             Self::NotFound => "not-found",
@@ -155,29 +157,29 @@ impl Problem {
         }
     }
 
-    /// What to do about it.
+    /// Returns the remedy, a sentence for the user.
     pub fn remedy(&self) -> String {
         match self {
             Self::NotFound => "Check the spelling and the folder".into(),
             Self::NotAFile(_) => {
-                "Give the name of a layout file; a stream has to be written to a file first".into()
+                "Give the name of a layout file; write a stream to a file first".into()
             }
-            Self::Io(_) => "Check that you may read the file and that its disk is there".into(),
-            Self::Empty => "Export the layout again; the last export wrote nothing".into(),
+            Self::Io(_) => "Check the permissions of the file, and that its disk is mounted".into(),
+            Self::Empty => "Export the layout again; this export is empty".into(),
             Self::UnknownFormat { .. } => format!("Guideway reads {FormatList}"),
             Self::Truncated { .. } | Self::Damaged { .. } => {
-                "Copy or export the file again; the last copy is not whole".into()
+                "Copy or export the file again; this copy is damaged or incomplete".into()
             }
             Self::Syntax { .. } => {
-                "Correct the file at that place, or export it again from the tool that wrote it"
+                "Correct the file at this place, or export it again from its source application"
                     .into()
             }
             Self::TooDeep { .. } => {
-                "No layout needs such nesting: check what wrote the file, or raise the limit `depth`"
-                    .into()
+                "Check the application that wrote the file, or raise the limit `depth`".into()
             }
             Self::LimitReached { .. } => {
-                "If the file is meant to be so large, raise the limit; else check what wrote it"
+                "Raise the limit if this size is intended; else check the application that wrote \
+                 the file"
                     .into()
             }
             Self::NotUtf8 { .. } => "Save the file as UTF-8".into(),
@@ -185,7 +187,7 @@ impl Problem {
                 format!("Check that this is a layout file; Guideway reads {FormatList}")
             }
             Self::Unsupported { remedy, .. } => remedy.clone(),
-            Self::Cancelled => "Read the file again to have all of it".into(),
+            Self::Cancelled => "Read the file again to load the complete layout".into(),
         }
     }
 }

@@ -1,23 +1,23 @@
-//! What a reader reads that looks at parts of it at a time.
+//! Random-access input: bytes in memory or a file on disk, read in parts by any thread.
 
 use std::ops::Range;
 
 use crate::Problem;
 
 #[cfg(unix)]
-mod on_disk;
+mod read_ahead;
 #[cfg(unix)]
-pub(crate) use on_disk::OnDisk;
+pub(crate) use read_ahead::ReadAheadFile;
 
 /// Bytes in memory, or those of a file.
 pub(crate) enum Input<'a> {
     Bytes(&'a [u8]),
     #[cfg(unix)]
-    File(&'a OnDisk),
+    File(&'a ReadAheadFile),
 }
 
 impl Input<'_> {
-    /// Number of bytes.
+    /// Returns the number of bytes.
     pub(crate) fn len(&self) -> usize {
         match self {
             Self::Bytes(bytes) => bytes.len(),
@@ -26,7 +26,7 @@ impl Input<'_> {
         }
     }
 
-    /// From now on all of it is read, from the beginning on.
+    /// Starts to read the whole input ahead, from its beginning.
     pub(crate) fn read_ahead(&self) {
         match self {
             Self::Bytes(_) => {}
@@ -35,33 +35,36 @@ impl Input<'_> {
         }
     }
 
-    /// Fills `to` with the bytes from `from` on. Any thread may, at any time.
+    /// Fills `to` with the bytes from offset `from` on. Any thread may call it at any time.
+    ///
+    /// # Errors
+    /// When the input is shorter, or the operating system reports an error.
     pub(crate) fn read(&self, from: usize, to: &mut [u8]) -> Result<(), Problem> {
         match self {
             Self::Bytes(bytes) => {
-                let there = bytes.get(from..).and_then(|bytes| bytes.get(..to.len()));
-                to.copy_from_slice(there.ok_or_else(|| self.shorter())?);
+                let range = bytes.get(from..).and_then(|bytes| bytes.get(..to.len()));
+                to.copy_from_slice(range.ok_or_else(|| self.truncated())?);
                 Ok(())
             }
             #[cfg(unix)]
             Self::File(file) => file.read(from, to).map_err(|e| match e.kind() {
-                std::io::ErrorKind::UnexpectedEof => self.shorter(),
+                std::io::ErrorKind::UnexpectedEof => self.truncated(),
                 _ => Problem::Io(e),
             }),
         }
     }
 
-    /// Some bytes, of which the caller knows that they are not more than there are.
+    /// Returns the bytes of a range. The caller checks its length: memory for it is allocated first.
     pub(crate) fn bytes(&self, range: Range<usize>) -> Result<Vec<u8>, Problem> {
         let mut bytes = vec![0; range.len()];
         self.read(range.start, &mut bytes)?;
         Ok(bytes)
     }
 
-    fn shorter(&self) -> Problem {
+    fn truncated(&self) -> Problem {
         Problem::Truncated {
             at: self.len() as u64,
-            detail: "it became shorter while it was read".into(),
+            detail: "it became shorter during the read".into(),
         }
     }
 }

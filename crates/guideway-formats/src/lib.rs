@@ -1,15 +1,25 @@
-//! Layout files to and from the Guideway model.
+//! File formats: reads layout files into the Guideway model and writes layouts back.
 //!
-//! Files come from customers and from the network, so their bytes are not trusted: every reader holds
-//! to [`Limits`](guideway_layout::Limits), never panics, and either gives a layout with everything odd
-//! in its diagnostics or an error that says which file, where, what, and what to do.
+//! Files come from customers and from the network, so their bytes are not trusted: every reader obeys
+//! [`Limits`](guideway_layout::Limits), never panics, and returns either a layout with diagnostics or
+//! an error with file, place, problem and remedy.
+//!
+//! | stage | input | output | modules |
+//! |---|---|---|---|
+//! | open | path or bytes | bytes, format | `read`, `input`, `format`, `sniff` |
+//! | parse | bytes | records, elements | `text`, `json`, `xml`, `yaml` |
+//! | map | records, elements | layout, diagnostics | one folder per format; `builder`, `node_rows` |
+//! | convert | curves of a format | uniform cubic runs | `spline`, `trajectory`, `ellipse`, `wgs84` |
+//! | write | layout | file, losses | `write*` per format; `clamped`, `losses`, `common_losses` |
 
 pub mod arrow;
 mod builder;
 mod clamped;
+mod common_losses;
 pub mod dxf;
 mod ellipse;
 mod error;
+mod format;
 pub mod geojson;
 mod input;
 mod json;
@@ -33,7 +43,8 @@ mod xml;
 mod yaml;
 
 pub use error::{Problem, ReadError};
+pub use format::Format;
 pub use losses::{Loss, Losses};
 pub use read::{read_bytes, read_file};
-pub use sniff::{Format, sniff};
+pub use sniff::sniff;
 pub use source::{Progress, ReadOptions};

@@ -1,26 +1,26 @@
-//! The rows of nodes by their names.
+//! Node lookup: finds the row of a node by its identifier.
 
 use std::hash::BuildHasher;
 
 use guideway_layout::Nodes;
 use hashbrown::{DefaultHashBuilder, HashTable};
 
-/// The first row of each id. The ids stay in the table of nodes: this holds four bytes a node and room to grow.
+/// The first row of each id. The ids stay in the table of nodes, so an entry takes four bytes.
 #[derive(Default)]
 pub(crate) struct NodeRows {
     rows: HashTable<u32>,
-    /// Random, so that no file can know which names collide.
+    /// Seeded at random, so that no file can contain names chosen to collide.
     hasher: DefaultHashBuilder,
 }
 
 impl NodeRows {
-    /// The first row that has this id, of those that were inserted.
+    /// Returns the first inserted row with this id.
     pub(crate) fn get(&self, nodes: &Nodes, id: &str) -> Option<u32> {
         let same = |&row: &u32| nodes.id(row) == id;
         self.rows.find(self.hasher.hash_one(id), same).copied()
     }
 
-    /// Makes a row known by its id, unless an earlier one has that id.
+    /// Inserts a row under its id, unless an earlier row has that id.
     pub(crate) fn insert(&mut self, nodes: &Nodes, row: u32) {
         let id = nodes.id(row);
         let same = |&row: &u32| nodes.id(row) == id;
@@ -36,7 +36,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_first_row_of_an_id_is_found() {
+    fn get_returns_the_first_row_of_an_id() {
         let (mut nodes, mut rows) = (Nodes::default(), NodeRows::default());
         let names: Vec<String> = (0..1000).map(|i| format!("n{}", i % 700)).collect();
         for name in &names {

@@ -1,3 +1,5 @@
+//! Entry points of reading: opens a file or takes bytes, detects the format and calls its reader.
+
 use std::fs::{File, Metadata};
 use std::io::{self, Read};
 use std::path::Path;
@@ -6,15 +8,15 @@ use guideway_layout::{Layout, Limits};
 
 use crate::input::Input;
 #[cfg(unix)]
-use crate::input::OnDisk;
+use crate::input::ReadAheadFile;
 use crate::source::{ReadOptions, Source};
 use crate::{Format, Problem, ReadError, sniff};
 
-/// Reads a layout file. The format is found from the content, whatever the file is called.
+/// Reads a layout file. The content decides the format, not the name of the file.
 ///
 /// # Errors
-/// When the file cannot be read, is of no known format, or is so damaged that nothing can be drawn.
-/// What is merely odd is in [`Layout::diagnostics`].
+/// When the file cannot be read, has an unknown format, exceeds a limit, or is damaged as a whole.
+/// Faults of single elements are diagnostics in [`Layout::diagnostics`].
 pub fn read_file(path: &Path, options: &ReadOptions<'_>) -> Result<Layout, ReadError> {
     let name = path.display().to_string();
     let fail = |problem| ReadError::new(&name, problem);
@@ -24,17 +26,17 @@ pub fn read_file(path: &Path, options: &ReadOptions<'_>) -> Result<Layout, ReadE
     #[cfg(unix)]
     if is_arrow(&mut file).map_err(fail)? {
         let name = &name;
-        let file = OnDisk::new(file, size, path);
+        let file = ReadAheadFile::new(file, size, path);
         return crate::arrow::read(Source { name, options }, &Input::File(&file));
     }
     let bytes = read_whole(&mut file, options).map_err(fail)?;
     read_bytes(&name, &bytes, options)
 }
 
-/// Reads a layout from bytes; `name` stands for the file in messages.
+/// Reads a layout from bytes; error texts call the source `name`.
 ///
 /// # Errors
-/// As [`read_file`].
+/// See [`read_file`].
 pub fn read_bytes(
     name: &str,
     bytes: &[u8],
@@ -58,11 +60,12 @@ pub fn read_bytes(
         Some(Format::Lanelet2) => crate::lanelet2::read(source, bytes),
         Some(Format::GeoJson) => crate::geojson::read(source, bytes),
         Some(Format::Vda5050) => crate::vda5050::read(source, bytes),
-        None => Err(source.fail(unknown(bytes))),
+        None => Err(source.fail(unknown_format(bytes))),
     }
 }
 
-/// Whether it is an Arrow file, of which all threads read what they need.
+/// Returns whether a file is Arrow. Its reader loads parts of the file on several threads, so the file
+/// is not read as a whole.
 #[cfg(unix)]
 fn is_arrow(file: &mut File) -> Result<bool, Problem> {
     let mut first_bytes = Vec::new();
@@ -74,9 +77,9 @@ fn is_arrow(file: &mut File) -> Result<bool, Problem> {
 }
 
 fn open(path: &Path) -> Result<File, Problem> {
-    // Looked at before it is opened: opening a pipe would wait for a writer.
+    // The metadata comes first: opening a pipe would wait for a writer.
     let metadata = std::fs::metadata(path).map_err(io_problem)?;
-    if let Some(kind) = not_a_file(&metadata) {
+    if let Some(kind) = non_file_kind(&metadata) {
         return Err(Problem::NotAFile(kind));
     }
     File::open(path).map_err(io_problem)
@@ -89,7 +92,8 @@ fn io_problem(error: io::Error) -> Problem {
     }
 }
 
-fn not_a_file(metadata: &Metadata) -> Option<&'static str> {
+/// Returns the kind of anything but a regular file.
+fn non_file_kind(metadata: &Metadata) -> Option<&'static str> {
     if metadata.is_file() {
         None
     } else if metadata.is_dir() {
@@ -107,7 +111,7 @@ fn read_whole(file: &mut File, options: &ReadOptions<'_>) -> Result<Vec<u8>, Pro
     bytes
         .try_reserve_exact(usize::try_from(total).unwrap_or(usize::MAX))
         .map_err(|_| Problem::Io(io::ErrorKind::OutOfMemory.into()))?;
-    // The file may grow while it is read, so the size is checked again as it comes.
+    // The file may grow during the read, so each chunk checks the size again.
     while file
         .take(CHUNK)
         .read_to_end(&mut bytes)
@@ -143,7 +147,7 @@ const UTF_16: Problem = Problem::NotUtf8 {
     detail: "it is UTF-16",
 };
 
-/// Whether it is UTF-16: by its mark, or because one byte of each plain character is zero.
+/// Returns whether bytes are UTF-16: by the byte order mark, or by the zero byte of an ASCII character.
 fn is_utf16(bytes: &[u8]) -> bool {
     matches!(
         bytes,
@@ -151,14 +155,14 @@ fn is_utf16(bytes: &[u8]) -> bool {
     )
 }
 
-fn unknown(bytes: &[u8]) -> Problem {
+fn unknown_format(bytes: &[u8]) -> Problem {
     Problem::UnknownFormat {
-        first_bytes: readable(&bytes[..bytes.len().min(24)]),
+        first_bytes: quote_or_hex(&bytes[..bytes.len().min(24)]),
     }
 }
 
-/// Bytes in quotes if they are plain text, as hexadecimal numbers if not.
-fn readable(bytes: &[u8]) -> String {
+/// Formats bytes as quoted text if they are printable ASCII, else as hexadecimal numbers.
+fn quote_or_hex(bytes: &[u8]) -> String {
     let plain = |b: &u8| b.is_ascii_graphic() || matches!(b, b' ' | b'\n' | b'\r' | b'\t');
     match std::str::from_utf8(bytes) {
         Ok(text) if bytes.iter().all(plain) => format!("{text:?}"),

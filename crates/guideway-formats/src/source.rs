@@ -1,47 +1,47 @@
-//! What every reader is handed: a name for messages, limits, and who follows the read.
+//! Read options: limits and progress observer of a read, and the source handle that readers receive.
 
 use guideway_layout::Limits;
 
 use crate::{Problem, ReadError};
 
-/// How to read.
+/// Limits and observer of a read.
 #[derive(Clone, Default)]
 pub struct ReadOptions<'a> {
-    /// What is too much.
+    /// Largest sizes that are accepted.
     pub limits: Limits,
-    /// Who is told how far it is, and may stop it.
+    /// Observer of the progress, which may cancel the read.
     pub progress: Option<&'a dyn Progress>,
 }
 
-/// Follows a long read, and may stop it.
+/// Observes a long read, and may cancel it.
 pub trait Progress: Sync {
-    /// `done` of `total` steps are done; the unit is the reader's own.
+    /// Receives that `done` of `total` steps are done; their unit depends on the reader.
     fn advance(&self, done: u64, total: u64) {
         let _ = (done, total);
     }
 
-    /// Whether to stop: the read then ends with [`Problem::Cancelled`].
+    /// Returns whether to stop: the read then ends with [`Problem::Cancelled`].
     fn cancelled(&self) -> bool {
         false
     }
 }
 
-/// What is being read, and how: handed to every reader.
+/// Name and options of a file that is being read.
 #[derive(Clone, Copy)]
 pub(crate) struct Source<'a> {
-    /// Name of the file in messages.
+    /// Name of the file in error texts.
     pub(crate) name: &'a str,
-    /// How to read.
+    /// Limits and observer.
     pub(crate) options: &'a ReadOptions<'a>,
 }
 
 impl Source<'_> {
-    /// An error of this source.
+    /// Makes an error that names this source.
     pub(crate) fn fail(&self, problem: Problem) -> ReadError {
         ReadError::new(self.name, problem)
     }
 
-    /// Ends the read if the caller asked for that.
+    /// Fails if the observer cancels the read.
     pub(crate) fn check_cancelled(&self) -> Result<(), ReadError> {
         match self.options.progress {
             Some(progress) if progress.cancelled() => Err(self.fail(Problem::Cancelled)),

@@ -1,36 +1,38 @@
-//! From control points, knots and weights to runs: a NURBS curve if they make one, else their polygon.
+//! Spline conversion: converts degree, knots, control points and weights of a file to uniform cubic
+//! runs, or to the control polygon if the numbers define no curve.
 
 use guideway_layout::Code;
 use guideway_spline::{Nurbs, Point, Runs, knots, nurbs_to_runs, polyline_to_runs};
 
 use crate::builder::{Builder, POINT_BUDGET_EXCEEDED, PlaceFn};
 
-/// Most control points of a curve that is approximated rather than converted exactly: each span can
-/// become a thousand cubics, so a small file could ask for more than any machine has.
-const MOST_APPROXIMATED: usize = 1_000;
+/// Largest number of control points of a curve that is approximated instead of converted exactly.
+///
+/// Derived: a span expands to at most a thousand cubics, so a curve to at most a million.
+const MAX_APPROXIMATED_POINTS: usize = 1_000;
 
-/// The numbers of a curve, as a file has them.
+/// Definition of a curve, as stated in a file.
 pub(crate) struct Spline {
     pub(crate) degree: usize,
-    /// Empty for evenly spaced clamped ones.
+    /// Empty for uniform clamped knots.
     pub(crate) knots: Vec<f64>,
     /// In meters, all finite.
     pub(crate) points: Vec<Point<f64>>,
-    /// Empty for 1 each; otherwise as many as points, all finite and above zero.
+    /// Empty if all are 1; otherwise one per point, all finite and above zero.
     pub(crate) weights: Vec<f64>,
 }
 
 impl Builder<'_> {
-    /// Puts a curve into empty `runs`, or its control polygon if the numbers make no curve. They stay empty
-    /// if there are fewer than two points.
+    /// Appends a curve to empty `runs`, or its control polygon if the numbers define no curve. They stay
+    /// empty for fewer than two points.
     pub(crate) fn append_spline(&mut self, spline: &Spline, at: PlaceFn<'_>, runs: &mut Runs) {
         if let Some(curve) = self.curve(spline, at) {
             if self.convert(&curve, at, runs) {
                 return;
             }
             if curve.is_rational() {
-                let message = || "the weights differ too much to compute with".to_owned();
-                let remedy = "1 is used for all; give weights that are more alike";
+                let message = || "the weights differ too much for double precision".to_owned();
+                let remedy = "Weight 1 is used for all points; use weights of similar size";
                 self.report(Code::BadWeight, at, message, remedy);
                 let (degree, knots) = (curve.degree(), curve.knots().to_vec());
                 let plain = Nurbs::new(degree, knots, spline.points.clone(), None);
@@ -39,17 +41,17 @@ impl Builder<'_> {
                 }
             }
             self.report_knots(at, || {
-                "the knots are too close together to compute with".into()
+                "the knots are too close together for double precision".into()
             });
         }
         polyline_to_runs(&spline.points, runs);
     }
 
-    /// Converts a curve; fails if numbers overflow on the way, and then leaves nothing.
+    /// Converts a curve. Returns false, and leaves `runs` empty, if numbers overflow.
     fn convert(&mut self, curve: &Nurbs, at: PlaceFn<'_>, runs: &mut Runs) -> bool {
         let tolerance = self.source.options.limits.conversion_tolerance_m;
         let done = nurbs_to_runs(curve, tolerance, runs);
-        // What is exact is as large as in the file; what is not can be a thousand times as large.
+        // An exact conversion is as large as the curve in the file, an approximation up to 1,000 times.
         if !done.exact && !self.within_point_budget(runs) {
             let remedy = "The control polygon is drawn; split the file, or lower the degree";
             self.report(
@@ -68,9 +70,10 @@ impl Builder<'_> {
             return false;
         }
         if error > tolerance {
-            let message =
-                || format!("the curve is drawn within {error} m, not within {tolerance} m");
-            let remedy = "Split the curve, or give weights that are more alike";
+            let message = || {
+                format!("the curve has an error of {error} m, above the tolerance of {tolerance} m")
+            };
+            let remedy = "Split the curve, or use weights of similar size";
             self.report(Code::ApproximateShape, at, message, remedy);
         }
         true
@@ -79,19 +82,20 @@ impl Builder<'_> {
     fn curve(&mut self, spline: &Spline, at: PlaceFn<'_>) -> Option<Nurbs> {
         let (degree, count) = (spline.degree, spline.points.len());
         if count <= degree {
-            let least = degree + 1;
+            let needed = degree + 1;
             let message =
-                || format!("{count} control points, a curve of degree {degree} needs {least}");
-            let remedy = "Straight lines are drawn between those there are; lower the degree";
+                || format!("{count} control points; a curve of degree {degree} needs {needed}");
+            let remedy = "The control polygon is drawn; add control points, or lower the degree";
             self.report(Code::TooFewPoints, at, message, remedy);
             return None;
         }
         let knots = self.knots_of(spline, at)?;
         let rational = spline.weights.iter().any(|&w| w != spline.weights[0]);
-        if count > MOST_APPROXIMATED && (rational || degree > 3) {
+        if count > MAX_APPROXIMATED_POINTS && (rational || degree > 3) {
             let message = || {
                 format!(
-                    "{count} control points with weights or a degree above 3; {MOST_APPROXIMATED} at most"
+                    "{count} control points with weights or a degree above 3; the limit is \
+                     {MAX_APPROXIMATED_POINTS}"
                 )
             };
             let remedy = "The control polygon is drawn; split the curve, or lower its degree";
@@ -111,12 +115,12 @@ impl Builder<'_> {
         }
     }
 
-    /// The knots to compute with; none if there are too many or too few.
+    /// Returns the knots of a curve, or `None` if their number is wrong.
     fn knots_of(&mut self, spline: &Spline, at: PlaceFn<'_>) -> Option<Vec<f64>> {
         let (degree, points, values) = (spline.degree, spline.points.len(), &spline.knots);
         if values.is_empty() {
-            let message = || "there are no knots".to_owned();
-            let remedy = "Evenly spaced clamped knots are used";
+            let message = || "the knots are missing".to_owned();
+            let remedy = "Uniform clamped knots are used";
             self.report(Code::MissingKnots, at, message, remedy);
             return Some(knots::uniform_clamped(degree, points));
         }
@@ -126,8 +130,8 @@ impl Builder<'_> {
         }
         self.report_knots(at, || {
             let hint = match expected - count.min(expected) {
-                1 => "; perhaps `degree` holds the order, which is one more",
-                2 => "; perhaps the writer leaves out the first and the last knot",
+                1 => "; perhaps `degree` is the order, which is degree + 1",
+                2 => "; perhaps the writer leaves out the first and last knot",
                 _ => "",
             };
             format!(
@@ -137,23 +141,24 @@ impl Builder<'_> {
         None
     }
 
-    /// Reports knots that are legal, and yet not what most curves have.
+    /// Reports knots that are legal but unusual: unclamped ends and breaks.
     fn check_shape(&mut self, curve: &Nurbs, at: PlaceFn<'_>) {
         let (degree, knots, points) = (curve.degree(), curve.knots(), curve.points().len());
         let clamped = knots[0] == knots[degree] && knots[points] == knots[points + degree];
         if !clamped {
             let message = || {
-                "the first or last knots differ, so the curve does not begin and end at its outer points"
+                "the knots are not clamped: the curve does not begin and end at its outer control \
+                 points"
                     .to_owned()
             };
-            let remedy = "It is drawn as written";
+            let remedy = "The curve is drawn as stated; clamp the knots if this is not intended";
             self.report(Code::UnclampedKnots, at, message, remedy);
         }
         let inner = knots.get(degree + 1..points).unwrap_or_default();
         let broken = inner.windows(degree + 1).find(|w| w[0] == w[degree]);
         if let Some(window) = broken {
-            let message = || format!("the knot {} is there more than {degree} times", window[0]);
-            let remedy = "The curve is broken there; remove the knots that are too many";
+            let message = || format!("the knot {} occurs more than {degree} times", window[0]);
+            let remedy = "The curve has a gap there; remove the surplus knots";
             self.report(Code::KnotMultiplicity, at, message, remedy);
         }
     }

@@ -1,42 +1,43 @@
-//! What JSON and XML share: UTF-8, and a look at the size and depth of a text before it is parsed.
+//! Text files: decodes UTF-8, finds lines and columns, and counts elements and nesting against the
+//! limits before a parser sees the text.
 
 use guideway_layout::Limits;
 
 use crate::{Problem, ReadError, source::Source};
 
-/// The text of a file, without a byte order mark.
+/// Decodes the bytes of a file as UTF-8, without a byte order mark.
 pub(crate) fn decode_utf8<'b>(source: &Source<'_>, bytes: &'b [u8]) -> Result<&'b str, ReadError> {
     let text = std::str::from_utf8(bytes).map_err(|error| {
         let at = error.valid_up_to() as u64;
         source.fail(match error.error_len() {
             None => Problem::Truncated {
                 at: bytes.len() as u64,
-                detail: "the last character is cut".into(),
+                detail: "its last character is incomplete".into(),
             },
             Some(_) => Problem::NotUtf8 {
                 at,
-                detail: "these bytes are no character",
+                detail: "invalid byte sequence",
             },
         })
     })?;
     Ok(text.strip_prefix('\u{FEFF}').unwrap_or(text))
 }
 
-/// Text of a file for a message: one line, no control characters, and not without end.
+/// Escapes control characters of a text for a message, and cuts it to 500 characters.
 pub(crate) fn printable(text: &str) -> String {
-    const MOST: usize = 500;
+    const MAX_CHARS: usize = 500;
     let escape = |c: char| match c.is_control() {
         true => c.escape_default().collect(),
         false => String::from(c),
     };
-    let mut short: String = text.chars().take(MOST).map(escape).collect();
-    if text.chars().nth(MOST).is_some() {
+    let mut short: String = text.chars().take(MAX_CHARS).map(escape).collect();
+    if text.chars().nth(MAX_CHARS).is_some() {
         short.push('…');
     }
     short
 }
 
-/// Line and column of a byte, from 1.
+/// Returns line and column of a byte, from 1.
 pub(crate) fn line_column(text: &str, at: usize) -> (u64, u64) {
     let before = &text.as_bytes()[..at.min(text.len())];
     let line = 1 + before.iter().filter(|&&b| b == b'\n').count() as u64;
@@ -44,10 +45,10 @@ pub(crate) fn line_column(text: &str, at: usize) -> (u64, u64) {
     (line, column)
 }
 
-/// Counts the depth and the elements of a text against the limits, one step at a time.
+/// Counts elements and nesting depth of a text against the limits.
 ///
-/// Parsers hold a record for every element and go one call deeper for every level, so both are bounded
-/// before they see the text.
+/// Parsers hold a record per element and recurse per level, so both are bounded before they see the
+/// text.
 pub(crate) struct ElementCounter<'a> {
     text: &'a str,
     limits: &'a Limits,
@@ -56,6 +57,7 @@ pub(crate) struct ElementCounter<'a> {
 }
 
 impl<'a> ElementCounter<'a> {
+    /// Starts a count for a text.
     pub(crate) fn new(text: &'a str, limits: &'a Limits) -> Self {
         Self {
             text,
@@ -65,7 +67,10 @@ impl<'a> ElementCounter<'a> {
         }
     }
 
-    /// An element of the file begins.
+    /// Counts the start of an element.
+    ///
+    /// # Errors
+    /// When there are more elements than the limit.
     pub(crate) fn count(&mut self) -> Result<(), Problem> {
         self.elements += 1;
         if self.elements <= self.limits.elements {
@@ -78,7 +83,10 @@ impl<'a> ElementCounter<'a> {
         })
     }
 
-    /// What follows byte `at` is one level deeper.
+    /// Enters a nested level at byte `at`.
+    ///
+    /// # Errors
+    /// When the depth exceeds the limit.
     pub(crate) fn enter(&mut self, at: usize) -> Result<(), Problem> {
         self.depth += 1;
         if self.depth <= self.limits.depth {
@@ -92,7 +100,7 @@ impl<'a> ElementCounter<'a> {
         })
     }
 
-    /// The level ends.
+    /// Leaves a nested level.
     pub(crate) fn leave(&mut self) {
         self.depth = self.depth.saturating_sub(1);
     }

@@ -1,5 +1,5 @@
-//! The trajectory of an edge, which LIF and VDA 5050 have in common: a NURBS curve if it is one, else
-//! its control polygon.
+//! Trajectories of edges in LIF and VDA 5050: converts the NURBS record of either format to runs, or to
+//! the control polygon if it defines no curve.
 
 use guideway_layout::Code;
 use guideway_spline::{MAX_DEGREE, Point, Runs, polyline_to_runs};
@@ -8,7 +8,7 @@ use serde::de::{IgnoredAny, MapAccess};
 
 use crate::ReadError;
 use crate::builder::{Builder, PlaceFn};
-use crate::json::{Field, FromJson, Key, items, record, within};
+use crate::json::{Field, FromJson, Key, field_place, items, record};
 use crate::spline::Spline;
 
 record! { Trajectory {
@@ -23,16 +23,16 @@ record! { ControlPoint {
     weight: f64 = "weight",
 } }
 
-/// What a trajectory has once its fields are read.
-struct Control {
+/// Checked control points and weights of a trajectory.
+struct ControlPolygon {
     points: Vec<Point<f64>>,
     weights: Vec<f64>,
-    /// Whether every point of the file is here.
-    whole: bool,
+    /// Whether all points of the file are valid.
+    is_complete: bool,
 }
 
 impl Builder<'_> {
-    /// Puts a trajectory into empty `runs`. They stay empty if it has fewer than two points.
+    /// Appends a trajectory to empty `runs`. They stay empty for fewer than two points.
     pub(crate) fn append_trajectory(
         &mut self,
         trajectory: &Trajectory,
@@ -40,11 +40,11 @@ impl Builder<'_> {
         runs: &mut Runs,
     ) -> Result<(), ReadError> {
         self.check_repeated(trajectory.repeated, at);
-        let control = self.control(trajectory, at)?;
+        let control = self.control_polygon(trajectory, at)?;
         let degree = self.degree(&trajectory.degree, at);
         let knots = self.knots(trajectory, at);
         match (degree, knots) {
-            (Some(degree), Some(knots)) if control.whole => {
+            (Some(degree), Some(knots)) if control.is_complete => {
                 let spline = Spline {
                     degree,
                     knots,
@@ -53,7 +53,7 @@ impl Builder<'_> {
                 };
                 self.append_spline(&spline, at, runs);
             }
-            // What is wrong has been said; without it there is no curve.
+            // A diagnostic reports the invalid part; without it there is no curve.
             _ => {
                 polyline_to_runs(&control.points, runs);
             }
@@ -61,21 +61,28 @@ impl Builder<'_> {
         Ok(())
     }
 
-    fn control(&mut self, trajectory: &Trajectory, at: PlaceFn<'_>) -> Result<Control, ReadError> {
-        self.check_list(&trajectory.points, at, "controlPoints");
+    fn control_polygon(
+        &mut self,
+        trajectory: &Trajectory,
+        at: PlaceFn<'_>,
+    ) -> Result<ControlPolygon, ReadError> {
+        self.check_array(&trajectory.points, at, "controlPoints");
         if trajectory.points.get().is_none() {
-            self.report_missing(&|| within(at, "controlPoints"), "a list of control points");
+            self.report_missing(
+                &|| field_place(at, "controlPoints"),
+                "an array of control points",
+            );
         }
         let knots = trajectory.knots.get().map_or(0, Vec::len);
         let points = trajectory.points.get().map_or(0, Vec::len);
         self.check_curve_points(points.max(knots))?;
-        let mut control = Control {
+        let mut control = ControlPolygon {
             points: Vec::with_capacity(points),
             weights: Vec::with_capacity(points),
-            whole: true,
+            is_complete: true,
         };
         for (i, field) in items(&trajectory.points) {
-            let at_point: PlaceFn<'_> = &|| within(at, &format!("controlPoints[{i}]"));
+            let at_point: PlaceFn<'_> = &|| field_place(at, &format!("controlPoints[{i}]"));
             let point = self.record(field, at_point).and_then(|p| {
                 self.check_repeated(p.repeated, at_point);
                 Some((self.point(&p.x, &p.y, at_point)?, &p.weight))
@@ -85,47 +92,47 @@ impl Builder<'_> {
                     control.points.push(point);
                     control.weights.push(self.weight(weight, at_point));
                 }
-                None => control.whole = false,
+                None => control.is_complete = false,
             }
         }
         Ok(control)
     }
 
     fn weight(&mut self, field: &Field<f64>, at: PlaceFn<'_>) -> f64 {
-        self.check_type(field, &|| within(at, "weight"), "a number");
+        self.check_type(field, &|| field_place(at, "weight"), "a number");
         let weight = field.get().copied().unwrap_or(1.0);
         if weight.is_finite() && weight > 0.0 {
             return weight;
         }
         let message = || format!("the weight is {weight}");
-        let remedy = "1 is used; give a number above 0";
+        let remedy = "Weight 1 is used; give a number above 0";
         self.report(Code::BadWeight, at, message, remedy);
         1.0
     }
 
     fn degree(&mut self, field: &Field<f64>, at: PlaceFn<'_>) -> Option<usize> {
-        self.check_type(field, &|| within(at, "degree"), "a number");
-        // Both versions give 1 as the default.
+        self.check_type(field, &|| field_place(at, "degree"), "a number");
+        // The default of both formats.
         let degree = match field {
             Field::Absent => 1.0,
             other => other.get().copied().unwrap_or(f64::NAN),
         };
-        let most = MAX_DEGREE.min(self.source.options.limits.degree);
-        if degree.fract() == 0.0 && (1.0..=most as f64).contains(&degree) {
+        let max_degree = MAX_DEGREE.min(self.source.options.limits.degree);
+        if degree.fract() == 0.0 && (1.0..=max_degree as f64).contains(&degree) {
             return Some(degree as usize);
         }
         let message =
-            || format!("the degree is {degree}, a whole number from 1 to {most} expected");
+            || format!("the degree is {degree}; expected an integer from 1 to {max_degree}");
         let remedy = "The control polygon is drawn; correct the degree";
         self.report(Code::BadDegree, at, message, remedy);
         None
     }
 
-    /// The knots there are; none if one of them is no number.
+    /// Returns the knots, or `None` if one of them is not a number.
     fn knots(&mut self, trajectory: &Trajectory, at: PlaceFn<'_>) -> Option<Vec<f64>> {
-        self.check_list(&trajectory.knots, at, "knotVector");
+        self.check_array(&trajectory.knots, at, "knotVector");
         items(&trajectory.knots)
-            .map(|(i, knot)| self.number(knot, &|| within(at, &format!("knotVector[{i}]"))))
+            .map(|(i, knot)| self.number(knot, &|| field_place(at, &format!("knotVector[{i}]"))))
             .collect()
     }
 }

@@ -7,6 +7,7 @@ use super::write::{ArrowWriter, Precision, WriteError};
 use super::write_columns::{Column, ColumnType};
 use super::{COLOR, CONTROL_POINTS, ID, LEVEL, PART, RANK, WIDTH};
 use crate::Losses;
+use crate::common_losses::common_losses;
 
 /// Coordinates are stored in `f32` if that moves none of them by more than this, in meters.
 const F32_ERROR_M: f64 = 1e-5;
@@ -199,7 +200,7 @@ impl<'a> Source<'a> {
 
 /// What a table of paths has no place for.
 fn losses(layout: &Layout, sources: &[Source<'_>]) -> Losses {
-    let mut losses = Losses::of(layout);
+    let mut losses = common_losses(layout);
     let detail = "nodes: only the names of those where paths begin and end are kept";
     losses.add("nodes", layout.nodes.len(), detail);
     losses.add_stations(layout);

@@ -10,6 +10,7 @@ use super::write_frame::{write_end, write_start};
 use super::write_pairs::Pairs;
 use crate::Losses;
 use crate::clamped::{ClampedCurve, rounded};
+use crate::common_losses::common_losses;
 
 /// The application under whose name an entity keeps the identifier of its path.
 pub(super) const APPLICATION: &str = "GUIDEWAY";
@@ -122,7 +123,7 @@ fn own_color(layout: &Layout, path: PathRef<'_>) -> Option<u32> {
 }
 
 fn losses(layout: &Layout) -> Losses {
-    let mut losses = Losses::of(layout);
+    let mut losses = common_losses(layout);
     losses.add_widths(layout);
     let colors = || layout.paths.color_rgba().unwrap_or_default().iter();
     let translucent = colors().filter(|&&c| c != 0 && c & 0xFF != 0xFF).count();

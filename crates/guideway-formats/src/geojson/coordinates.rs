@@ -1,4 +1,4 @@
-//! Lists of positions, however deeply nested, as points in a row.
+//! GeoJSON coordinates: deserializes nested arrays of positions of any depth into one flat list of points.
 
 use std::fmt;
 
@@ -7,22 +7,22 @@ use serde::de::{DeserializeSeed, Deserializer, IgnoredAny, MapAccess, SeqAccess,
 
 use crate::json::{Field, FromJson};
 
-/// The positions of a geometry, in the file's unit.
+/// Positions of a geometry, in the unit of the file.
 #[derive(Debug, Default)]
 pub(crate) struct Coordinates {
     pub(super) points: Vec<Point<f64>>,
-    /// Where each list of positions ends, in `points`.
+    /// End of each line in `points`.
     pub(super) ends: Vec<usize>,
-    /// How many lists are around the numbers: 1 for a point, 2 for a line, 3 for several lines.
+    /// Nesting depth of the positions: 1 for a point, 2 for a line, 3 for several lines.
     pub(super) depth: usize,
-    /// Positions that are none, or are nested otherwise than the first.
-    pub(super) wrong: u64,
-    /// Positions with a third number, which is a height.
+    /// Number of values that are not positions, or have another depth than the first position.
+    pub(super) invalid: u64,
+    /// Number of positions with a third number, the height.
     pub(super) heights: u64,
 }
 
 impl Coordinates {
-    /// The lists of positions.
+    /// Iterates over the lines.
     pub(super) fn lines(&self) -> impl Iterator<Item = &[Point<f64>]> {
         let starts = [0].into_iter().chain(self.ends.iter().copied());
         starts
@@ -30,36 +30,36 @@ impl Coordinates {
             .map(|(start, &end)| &self.points[start..end])
     }
 
-    /// Reads a list at a depth, and tells whether it is a position.
+    /// Reads an array at a depth; returns whether it is a position.
     fn read<'de, A: SeqAccess<'de>>(
         &mut self,
-        mut list: A,
+        mut array: A,
         depth: usize,
     ) -> Result<bool, A::Error> {
         let (mut numbers, mut count, mut has_positions) = ([0.0; 2], 0, false);
-        while let Some(found) = list.next_element_seed(Item {
+        while let Some(found) = array.next_element_seed(Item {
             coordinates: self,
             depth,
         })? {
             match found {
                 Found::Number(number) => {
-                    if let Some(place) = numbers.get_mut(count) {
-                        *place = number;
+                    if let Some(slot) = numbers.get_mut(count) {
+                        *slot = number;
                     }
                     count += 1;
                 }
-                Found::List { is_position } => has_positions |= is_position,
-                Found::Other => self.wrong += 1,
+                Found::Array { is_position } => has_positions |= is_position,
+                Found::Other => self.invalid += 1,
             }
         }
-        let first = self.points.is_empty() && self.ends.is_empty();
-        let is_position = count > 1 && !has_positions && (first || depth == self.depth);
+        let is_first = self.points.is_empty() && self.ends.is_empty();
+        let is_position = count > 1 && !has_positions && (is_first || depth == self.depth);
         if is_position {
             self.depth = depth;
             self.heights += u64::from(count > 2);
             self.points.push(Point::new(numbers[0], numbers[1]));
         } else if count > 0 {
-            self.wrong += 1;
+            self.invalid += 1;
         } else if has_positions {
             self.ends.push(self.points.len());
         }
@@ -68,16 +68,16 @@ impl Coordinates {
 }
 
 impl<'de> FromJson<'de> for Coordinates {
-    fn from_list<A: SeqAccess<'de>>(list: A) -> Result<Field<Self>, A::Error> {
+    fn from_array<A: SeqAccess<'de>>(array: A) -> Result<Field<Self>, A::Error> {
         let mut all = Self::default();
-        if all.read(list, 1)? {
+        if all.read(array, 1)? {
             all.ends.push(all.points.len());
         }
         Ok(Field::Value(all))
     }
 }
 
-/// Reads one item of a list at a depth.
+/// Reads one item of an array at a depth.
 struct Item<'c> {
     coordinates: &'c mut Coordinates,
     depth: usize,
@@ -85,7 +85,7 @@ struct Item<'c> {
 
 enum Found {
     Number(f64),
-    List { is_position: bool },
+    Array { is_position: bool },
     Other,
 }
 
@@ -101,7 +101,7 @@ impl<'de> Visitor<'de> for Item<'_> {
     type Value = Found;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("a number or a list")
+        f.write_str("a number or an array")
     }
 
     fn visit_f64<E>(self, number: f64) -> Result<Found, E> {
@@ -116,9 +116,9 @@ impl<'de> Visitor<'de> for Item<'_> {
         Ok(Found::Number(number as f64))
     }
 
-    fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<Found, A::Error> {
-        let is_position = self.coordinates.read(list, self.depth + 1)?;
-        Ok(Found::List { is_position })
+    fn visit_seq<A: SeqAccess<'de>>(self, array: A) -> Result<Found, A::Error> {
+        let is_position = self.coordinates.read(array, self.depth + 1)?;
+        Ok(Found::Array { is_position })
     }
 
     fn visit_bool<E>(self, _: bool) -> Result<Found, E> {

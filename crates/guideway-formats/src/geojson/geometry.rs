@@ -1,17 +1,17 @@
-//! From a geometry to nodes or a path.
+//! GeoJSON geometries: maps a geometry to nodes or to a path.
 
 use guideway_layout::{Code, NewPath};
 use guideway_spline::{Point, Runs, polyline_to_runs};
 
 use super::coordinates::Coordinates;
-use super::features::Mapper;
+use super::mapper::Mapper;
 use super::model::Geometry;
 use super::properties::{Properties, Property};
 use crate::ReadError;
 use crate::builder::{PlaceFn, Table};
-use crate::json::{items, within};
+use crate::json::{field_place, items};
 
-/// What each type of geometry is, and how deep its positions lie.
+/// Type name, kind, and nesting depth of the positions of each geometry.
 const KINDS: &[(&str, Kind, usize)] = &[
     ("Point", Kind::Points, 1),
     ("MultiPoint", Kind::Points, 2),
@@ -26,12 +26,13 @@ const KINDS: &[(&str, Kind, usize)] = &[
 enum Kind {
     Points,
     Lines,
-    /// The rings around areas, which are drawn as lines.
+    /// Rings of areas, drawn as lines.
     Outlines,
     Collection,
 }
 
 impl Mapper<'_> {
+    /// Maps a geometry, with nested ones, to nodes, paths or refused paths.
     pub(super) fn map_geometry(
         &mut self,
         id: &str,
@@ -43,26 +44,27 @@ impl Mapper<'_> {
             return self.map_without_geometry(id, properties, at);
         };
         self.builder.check_repeated(geometry.repeated, at);
-        let Some((name, kind, depth)) = self.kind(geometry, &|| within(at, "type"))? else {
-            let detail = "it does not have a known type of geometry";
+        let Some((name, kind, depth)) = self.kind(geometry, &|| field_place(at, "type"))? else {
+            let detail = "the type of the geometry is missing or unknown";
             return self.builder.refuse(id, Code::UnknownValue, detail);
         };
         self.count(name);
         if kind == Kind::Collection {
             self.builder
-                .check_list(&geometry.geometries, at, "geometries");
+                .check_array(&geometry.geometries, at, "geometries");
             for (i, inner) in items(&geometry.geometries) {
-                let at_inner: PlaceFn<'_> = &|| within(at, &format!("geometries[{i}]"));
+                let at_inner: PlaceFn<'_> = &|| field_place(at, &format!("geometries[{i}]"));
                 let inner = self.builder.record(inner, at_inner);
                 self.map_geometry(&format!("{id} [{}]", i + 1), inner, properties, at_inner)?;
             }
             return Ok(());
         }
-        let at_list: PlaceFn<'_> = &|| within(at, "coordinates");
+        let at_list: PlaceFn<'_> = &|| field_place(at, "coordinates");
         self.builder
-            .check_type(&geometry.coordinates, at_list, "a list");
+            .check_type(&geometry.coordinates, at_list, "an array");
         if geometry.coordinates.is_absent() {
-            self.builder.report_missing(at_list, "a list of positions");
+            self.builder
+                .report_missing(at_list, "an array of positions");
         }
         let coordinates = geometry.coordinates.get();
         if let Some(coordinates) = coordinates {
@@ -90,14 +92,14 @@ impl Mapper<'_> {
         };
         let known = KINDS.iter().find(|(n, ..)| *n == name).copied();
         if known.is_none() {
-            let message = || format!("the type of geometry `{name}` is not known");
+            let message = || format!("unknown type of geometry `{name}`");
             let remedy = "Use one of the seven types of RFC 7946";
             self.builder.report(Code::UnknownValue, at, message, remedy);
         }
         Ok(known)
     }
 
-    /// An edge of a graph is the straight line between its nodes; anything else is nowhere.
+    /// Maps an edge of a route graph to the straight line between its nodes, and refuses other features.
     fn map_without_geometry(
         &mut self,
         id: &str,
@@ -108,7 +110,7 @@ impl Mapper<'_> {
             return self.map_path(id, None, properties, at);
         }
         self.builder.report_missing(at, "a geometry");
-        let detail = "there is no geometry, so there is nothing to draw";
+        let detail = "the geometry is missing";
         self.builder.refuse(id, Code::MissingField, detail)
     }
 
@@ -127,17 +129,17 @@ impl Mapper<'_> {
     ) -> Result<(), ReadError> {
         self.builder.check_curve_points(found.points.len())?;
         self.heights += found.heights;
-        if found.wrong > 0 {
-            let message = || format!("{} values are not positions of two numbers", found.wrong);
-            let remedy = "They are left out; correct the writer of the file";
+        if found.invalid > 0 {
+            let message = || format!("{} values are not positions of two numbers", found.invalid);
+            let remedy = "They are ignored; correct the application that wrote the file";
             self.builder.report(Code::WrongType, at, message, remedy);
         }
         if !found.points.is_empty() && found.depth != depth {
             let message = || {
                 let nested = found.depth;
-                format!("positions are {nested} lists deep, {depth} deep expected for this type")
+                format!("positions are nested {nested} deep; this type requires a depth of {depth}")
             };
-            let remedy = "They are drawn all the same; correct the type";
+            let remedy = "They are drawn; correct the type or the nesting";
             self.builder.report(Code::WrongType, at, message, remedy);
         }
         Ok(())
@@ -169,7 +171,7 @@ impl Mapper<'_> {
         }
         if points.is_empty() {
             let message = || format!("`{id}` has no position");
-            let remedy = "It is left out; give it one";
+            let remedy = "The feature is ignored; add a position";
             self.builder.report(Code::MissingField, at, message, remedy);
         }
         Ok(())
@@ -190,15 +192,15 @@ impl Mapper<'_> {
             let mut drawn = meters;
             drawn.retain(|&point| self.builder.check_point(point, at));
             if drawn.len() < 2 {
-                let message = || format!("{} positions, a line needs 2", drawn.len());
-                let remedy = "There is no line to draw here; give it two positions or more";
+                let message = || format!("{} positions; a line needs 2", drawn.len());
+                let remedy = "The line is not drawn; add positions";
                 self.builder.report(Code::TooFewPoints, at, message, remedy);
             }
             polyline_to_runs(&drawn, &mut runs);
         }
         if runs.is_empty() {
             let (Some(from), Some(to)) = (start, end) else {
-                let detail = "there is no line of two positions, and no two nodes to join by one";
+                let detail = "there is no line of two positions, and no start and end node";
                 return self.builder.refuse(id, Code::TooFewPoints, detail);
             };
             let nodes = &self.builder.layout.nodes;
@@ -214,7 +216,7 @@ impl Mapper<'_> {
         self.set_properties(Table::Paths, row, properties, at)
     }
 
-    /// The node of a route graph that a property names.
+    /// Returns the node of a route graph that a property refers to.
     fn node(
         &mut self,
         key: &str,

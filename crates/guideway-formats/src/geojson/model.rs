@@ -1,4 +1,4 @@
-//! The records of a GeoJSON file.
+//! GeoJSON records: the members of a file that the model holds.
 
 use std::borrow::Cow;
 
@@ -46,13 +46,13 @@ record! { Geometry<'a> {
 } }
 
 impl<'a> Root<'a> {
-    /// The features of a collection, or the one feature or geometry that the file is.
+    /// Takes the features of a collection; a file of one feature or geometry has one.
     pub(super) fn take_features(&mut self) -> List<Feature<'a>> {
         if let Field::Value(features) = std::mem::take(&mut self.features) {
             return features;
         }
-        let bare = !self.coordinates.is_absent() || !self.geometries.is_absent();
-        let geometry = match bare {
+        let is_geometry = !self.coordinates.is_absent() || !self.geometries.is_absent();
+        let geometry = match is_geometry {
             true => Field::Value(Box::new(Geometry {
                 kind: std::mem::take(&mut self.kind),
                 coordinates: std::mem::take(&mut self.coordinates),

@@ -1,4 +1,4 @@
-//! The properties of a feature: names and values of any depth, as plain columns.
+//! GeoJSON properties: flattens the properties of a feature, of any depth, into named scalar values.
 
 use std::borrow::Cow;
 
@@ -7,30 +7,31 @@ use serde::de::{MapAccess, SeqAccess};
 
 use crate::json::{Field, FromJson, Key};
 
-/// Most properties of one feature, and most bytes of the name of one. Names are made from the names of all
-/// objects around a value, so a small file could else make long texts without end.
-const MOST_PROPERTIES: usize = 256;
-const MOST_NAME_BYTES: usize = 128;
+/// Largest number of properties per feature.
+const MAX_PROPERTIES: usize = 256;
+/// Largest name of a property in bytes. A name contains the names of all enclosing objects, so a small
+/// file could else expand to long texts without end.
+const MAX_NAME_BYTES: usize = 128;
 
 /// The value of a property.
 #[derive(Debug)]
 pub(crate) enum Property<'a> {
-    Truth(bool),
-    Whole(i64),
+    Bool(bool),
+    Integer(i64),
     Number(f64),
-    /// A text; or a list, its values joined.
+    /// A string, or the joined values of an array.
     Text(Cow<'a, str>),
-    /// How many objects a list has.
+    /// Number of objects of an array.
     Count(i64),
     Group(Properties<'a>),
 }
 
 impl Property<'_> {
-    /// The value for a column.
+    /// Returns the value for a column.
     pub(super) fn value(&self) -> Option<Value<'_>> {
         Some(match self {
-            Self::Truth(value) => Value::Bool(*value),
-            Self::Whole(value) | Self::Count(value) => Value::Int(*value),
+            Self::Bool(value) => Value::Bool(*value),
+            Self::Integer(value) | Self::Count(value) => Value::Int(*value),
             Self::Number(value) => Value::Float(*value),
             Self::Text(value) => Value::Text(value),
             Self::Group(_) => return None,
@@ -38,22 +39,22 @@ impl Property<'_> {
     }
 }
 
-/// The properties of a feature by name; what is within another is `outer.inner`. Of a name that comes twice,
-/// the last value counts.
+/// Properties of a feature by name; a nested one is `outer.inner`. The last value of a repeated name is
+/// used.
 #[derive(Debug, Default)]
 pub(crate) struct Properties<'a> {
     all: Vec<(String, Property<'a>)>,
-    /// How many there are beyond what is kept.
-    pub(super) left_out: u64,
+    /// Number of properties beyond the limits.
+    pub(super) ignored: u64,
 }
 
 impl<'a> Properties<'a> {
-    /// All in the order of the file. No value is a group.
+    /// Iterates over the properties in file order. No value is a group.
     pub(super) fn iter(&self) -> impl Iterator<Item = (&str, &Property<'a>)> {
         self.all.iter().map(|(name, value)| (name.as_str(), value))
     }
 
-    /// The value of a name.
+    /// Returns the value of a name.
     pub(super) fn get(&self, name: &str) -> Option<&Property<'a>> {
         self.iter()
             .find(|(n, _)| *n == name)
@@ -62,16 +63,16 @@ impl<'a> Properties<'a> {
 
     fn push(&mut self, name: String, value: Property<'a>) {
         if let Property::Group(inner) = value {
-            self.left_out += inner.left_out;
+            self.ignored += inner.ignored;
             for (field, value) in inner.all {
                 self.push(format!("{name}.{field}"), value);
             }
         } else if let Some((_, old)) = self.all.iter_mut().find(|(n, _)| *n == name) {
             *old = value;
-        } else if self.all.len() < MOST_PROPERTIES && name.len() <= MOST_NAME_BYTES {
+        } else if self.all.len() < MAX_PROPERTIES && name.len() <= MAX_NAME_BYTES {
             self.all.push((name, value));
         } else {
-            self.left_out += 1;
+            self.ignored += 1;
         }
     }
 }
@@ -79,11 +80,11 @@ impl<'a> Properties<'a> {
 impl<'a> FromJson<'a> for Properties<'a> {
     fn from_object<A: MapAccess<'a>>(mut object: A) -> Result<Field<Self>, A::Error> {
         let mut all = Self::default();
-        let short = |name: &str| (name.len() <= MOST_NAME_BYTES).then(|| name.to_owned());
+        let short = |name: &str| (name.len() <= MAX_NAME_BYTES).then(|| name.to_owned());
         while let Some(name) = object.next_key_seed(Key(short))? {
             match (name, object.next_value()?) {
                 (Some(name), Field::Value(value)) => all.push(name, value),
-                (None, Field::Value(_)) => all.left_out += 1,
+                (None, Field::Value(_)) => all.ignored += 1,
                 _ => {}
             }
         }
@@ -93,12 +94,12 @@ impl<'a> FromJson<'a> for Properties<'a> {
 
 impl<'a> FromJson<'a> for Property<'a> {
     fn from_bool(value: bool) -> Field<Self> {
-        Field::Value(Self::Truth(value))
+        Field::Value(Self::Bool(value))
     }
 
-    fn from_whole(number: i128) -> Field<Self> {
+    fn from_integer(number: i128) -> Field<Self> {
         Field::Value(match i64::try_from(number) {
-            Ok(whole) => Self::Whole(whole),
+            Ok(integer) => Self::Integer(integer),
             Err(_) => Self::Number(number as f64),
         })
     }
@@ -107,11 +108,11 @@ impl<'a> FromJson<'a> for Property<'a> {
         Field::Value(Self::Number(number))
     }
 
-    fn from_text(text: Cow<'a, str>) -> Field<Self> {
+    fn from_string(text: Cow<'a, str>) -> Field<Self> {
         Field::Value(Self::Text(text))
     }
 
-    fn from_list<A: SeqAccess<'a>>(mut list: A) -> Result<Field<Self>, A::Error> {
+    fn from_array<A: SeqAccess<'a>>(mut list: A) -> Result<Field<Self>, A::Error> {
         let (mut text, mut objects) = (String::new(), 0);
         while let Some(item) = list.next_element::<Field<Self>>()? {
             let item = item.get();

@@ -1,4 +1,5 @@
-//! In what unit the positions are: degrees, as the standard says, or meters, as people write.
+//! GeoJSON unit: decides whether positions are degrees, as the standard requires, or meters, as many
+//! applications write.
 
 use guideway_layout::{Code, Place};
 use guideway_spline::{Bounds, Point};
@@ -6,7 +7,7 @@ use guideway_spline::{Bounds, Point};
 use crate::builder::Builder;
 use crate::wgs84::LocalProjection;
 
-/// How the positions of a file become meters.
+/// Unit of the positions of a file.
 pub(super) enum Unit {
     Meters,
     /// Longitude and latitude.
@@ -14,8 +15,9 @@ pub(super) enum Unit {
 }
 
 impl Unit {
-    /// The unit of a file that names a coordinate reference system or does not, by the box of its positions.
-    pub(super) fn of(
+    /// Detects the unit from the coordinate reference system, if the file names one, and from the bounding
+    /// box of its positions. Reports an assumption.
+    pub(super) fn detect(
         builder: &mut Builder<'_>,
         crs: Option<&str>,
         bounds: Option<Bounds<f64>>,
@@ -31,8 +33,8 @@ impl Unit {
             (Some(true), true) => return Self::Degrees(LocalProjection::centered_on(bounds)),
             (Some(false), _) => return Self::Meters,
             (Some(true), false) => (
-                "the file says that positions are in degrees, but some are beyond 180 or 90: they \
-                 are read as meters",
+                "the `crs` states degrees, but some positions are beyond 180 or 90: they are read as \
+                 meters",
                 Self::Meters,
             ),
             (None, true) => (
@@ -47,11 +49,13 @@ impl Unit {
             ),
         };
         let at = || Place::element("the root");
-        let remedy = "If that is wrong, add a `crs`: any but CRS84 and EPSG:4326 stands for meters";
+        let remedy =
+            "If this is wrong, add a `crs`: CRS84 or EPSG:4326 for degrees, any other for meters";
         builder.report(Code::AssumedUnit, &at, || message.to_owned(), remedy);
         unit
     }
 
+    /// Converts a position to meters.
     pub(super) fn to_meters(&self, position: Point<f64>) -> Point<f64> {
         match self {
             Self::Meters => position,

@@ -1,27 +1,30 @@
-//! The fields of an object that become columns.
+//! Attributes: the fields of a JSON object that the layout stores as columns.
 
 use std::borrow::Cow;
 use std::marker::PhantomData;
 
 use serde::de::{IgnoredAny, MapAccess, SeqAccess};
 
-use super::field::{Field, FromJson, Key, Kind};
+use super::field::{Field, FromJson, JsonType, Key};
 
-/// A record with attributes.
+/// A record whose object has attributes.
 pub(crate) trait HasAttributes {
-    /// The names of all that become columns; others would let a file make columns without end.
-    /// `group.field` is a field of an object within, and no two groups share the name of a field.
+    /// Names of the attributes. A fixed list keeps a file from creating columns without end.
+    /// `group.field` is a field of a nested object; no two groups share the name of a field.
     const NAMES: &'static [&'static str];
 }
 
-/// Where a value of a record with attributes belongs.
+/// Target of a key of an object with attributes.
 #[derive(Clone, Copy)]
 pub(crate) enum AttributeKey {
+    /// The column of this name.
     Column(&'static str),
+    /// A nested object, whose fields are columns.
     Group,
 }
 
 impl AttributeKey {
+    /// Returns the target of a key, or `None` if it is no attribute.
     pub(crate) fn of<R: HasAttributes>(key: &str) -> Option<Self> {
         R::NAMES
             .iter()
@@ -32,12 +35,12 @@ impl AttributeKey {
     }
 }
 
-/// The attributes of a record, under the format's own names.
+/// The attributes of a record, by their names in the format.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Attributes<'a>(Vec<(&'static str, Field<Scalar<'a>>)>);
 
 impl<'a> Attributes<'a> {
-    /// Reads the value of a key. Gives the name of an attribute that was there before.
+    /// Reads the value of a key. Returns the name of an attribute that it overwrites.
     pub(crate) fn read<R: HasAttributes, A: MapAccess<'a>>(
         &mut self,
         key: AttributeKey,
@@ -68,13 +71,13 @@ impl<'a> Attributes<'a> {
         }
     }
 
-    /// All attributes, in the order of the file.
+    /// Iterates over the attributes in file order.
     pub(crate) fn iter(&self) -> impl Iterator<Item = (&'static str, &Field<Scalar<'a>>)> {
         self.0.iter().map(|(name, value)| (*name, value))
     }
 }
 
-/// The fields of an object that become columns.
+/// The attributes of a nested object.
 struct Group<'a, R>(Vec<(&'static str, Field<Scalar<'a>>)>, PhantomData<R>);
 
 impl<'a, R: HasAttributes> FromJson<'a> for Group<'a, R> {
@@ -98,38 +101,38 @@ impl<'a, R: HasAttributes> FromJson<'a> for Group<'a, R> {
     }
 }
 
-/// The value of an attribute.
+/// Value of an attribute.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Scalar<'a> {
-    Truth(bool),
+    Bool(bool),
     Number(f64),
     Text(Cow<'a, str>),
-    /// How many objects a list has.
+    /// Number of objects of an array.
     Count(i64),
 }
 
 impl<'a> FromJson<'a> for Scalar<'a> {
     fn from_bool(value: bool) -> Field<Self> {
-        Field::Value(Self::Truth(value))
+        Field::Value(Self::Bool(value))
     }
 
     fn from_number(value: f64) -> Field<Self> {
         Field::Value(Self::Number(value))
     }
 
-    fn from_text(value: Cow<'a, str>) -> Field<Self> {
+    fn from_string(value: Cow<'a, str>) -> Field<Self> {
         Field::Value(Self::Text(value))
     }
 
-    /// A list of names is one text; a list of objects, such as actions, is their number.
-    fn from_list<A: SeqAccess<'a>>(mut list: A) -> Result<Field<Self>, A::Error> {
+    /// Joins an array of scalars to one text; counts an array of objects, such as actions.
+    fn from_array<A: SeqAccess<'a>>(mut list: A) -> Result<Field<Self>, A::Error> {
         let (mut text, mut objects) = (String::new(), 0);
         while let Some(item) = list.next_element::<Field<Self>>()? {
             let part = match item {
-                Field::Value(Self::Truth(value)) => value.to_string().into(),
+                Field::Value(Self::Bool(value)) => value.to_string().into(),
                 Field::Value(Self::Number(value)) => value.to_string().into(),
                 Field::Value(Self::Text(value)) => value,
-                Field::Wrong(Kind::Object) => {
+                Field::Wrong(JsonType::Object) => {
                     objects += 1;
                     continue;
                 }

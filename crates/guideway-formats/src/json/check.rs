@@ -1,4 +1,5 @@
-//! Fields of records, with a finding for each that is not as the format says.
+//! Field checks: returns the values of record fields and reports a diagnostic per missing or mistyped
+//! field.
 
 use std::borrow::Cow;
 
@@ -6,12 +7,12 @@ use guideway_layout::{Code, Place, Value};
 use guideway_spline::Point;
 
 use super::attributes::{Attributes, Scalar};
-use super::field::{Field, Kind};
+use super::field::Field;
 use crate::ReadError;
 use crate::builder::{Builder, PlaceFn, Table};
 
 impl Builder<'_> {
-    /// A record in a list or field; says so if it is missing or of another type.
+    /// Returns a record; reports it if it is missing or of another type.
     pub(crate) fn record<'f, T>(&mut self, field: &'f Field<T>, at: PlaceFn<'_>) -> Option<&'f T> {
         if field.is_absent() {
             self.report_missing(at, "an object");
@@ -20,26 +21,26 @@ impl Builder<'_> {
         field.get()
     }
 
-    /// A text that may be missing.
+    /// Returns a string that may be missing.
     pub(crate) fn text<'f>(
         &mut self,
         field: &'f Field<Cow<'_, str>>,
         at: PlaceFn<'_>,
     ) -> Result<Option<&'f str>, ReadError> {
-        self.check_type(field, at, "a text");
+        self.check_type(field, at, "a string");
         let text = field.get().map(AsRef::as_ref);
         self.check_text(text.unwrap_or_default())?;
         Ok(text)
     }
 
-    /// An identifier. Where there is none, the place in the file stands for it.
+    /// Returns an identifier; the place in the file is the substitute for a missing one.
     pub(crate) fn id<'f>(
         &mut self,
         field: &'f Field<Cow<'_, str>>,
         at: PlaceFn<'_>,
         key: &str,
     ) -> Result<Cow<'f, str>, ReadError> {
-        let at_key: PlaceFn<'_> = &|| within(at, key);
+        let at_key: PlaceFn<'_> = &|| field_place(at, key);
         match self.text(field, at_key)? {
             Some(id) => Ok(Cow::Borrowed(id)),
             None => {
@@ -51,7 +52,7 @@ impl Builder<'_> {
         }
     }
 
-    /// A number that is needed.
+    /// Returns a required number; reports it if it is missing or of another type.
     pub(crate) fn number(&mut self, field: &Field<f64>, at: PlaceFn<'_>) -> Option<f64> {
         if field.is_absent() {
             self.report_missing(at, "a number");
@@ -60,55 +61,58 @@ impl Builder<'_> {
         field.get().copied()
     }
 
-    /// Says if a list is something else.
-    pub(crate) fn check_list<T>(&mut self, field: &Field<T>, at: PlaceFn<'_>, key: &str) {
-        self.check_type(field, &|| within(at, key), "a list");
+    /// Reports a field that is not an array.
+    pub(crate) fn check_array<T>(&mut self, field: &Field<T>, at: PlaceFn<'_>, key: &str) {
+        self.check_type(field, &|| field_place(at, key), "an array");
     }
 
-    /// Says if a value is of another type than the field's.
+    /// Reports a field whose value has another type than expected.
     pub(crate) fn check_type<T>(&mut self, field: &Field<T>, at: PlaceFn<'_>, expected: &str) {
-        let Some(kind) = field.wrong_kind() else {
+        let Some(kind) = field.wrong_type() else {
             return;
         };
         let remedy = match field {
-            Field::Converted(..) => "It is read as if it were one; correct the writer of the file",
-            _ => "It is left out; correct the writer of the file",
+            Field::Converted(..) => {
+                "The value is converted; correct the application that wrote the file"
+            }
+            _ => "The value is ignored; correct the application that wrote the file",
         };
-        let message = || found(kind, expected);
+        let message = || format!("expected {expected}, found {kind}");
         self.report(Code::WrongType, at, message, remedy);
     }
 
-    /// Says if a key came twice in an object.
+    /// Reports a key that occurs more than once in an object.
     pub(crate) fn check_repeated(&mut self, key: Option<&'static str>, at: PlaceFn<'_>) {
         if let Some(key) = key {
-            let message = || format!("the key `{key}` is there more than once");
-            let remedy = "The last one counts; remove the others";
+            let message = || format!("the key `{key}` occurs more than once");
+            let remedy = "The last one is used; remove the others";
             self.report(Code::DuplicateKey, at, message, remedy);
         }
     }
 
-    /// Says that something names a node that is not there.
+    /// Reports a reference to a node that is unknown or has no position.
     pub(crate) fn report_unknown_node(&mut self, node: &str, by: &str, at: PlaceFn<'_>) {
-        let message =
-            || format!("`{by}` names the node `{node}`, which is not there or has no position");
+        let message = || {
+            format!("`{by}` refers to the node `{node}`, which does not exist or has no position")
+        };
         let remedy = "Add the node, or correct the name";
         self.report(Code::UnknownNode, at, message, remedy);
     }
 
-    /// A point that can be drawn.
+    /// Returns a point if it is finite and within the coordinate limit; reports it if not.
     pub(crate) fn point(
         &mut self,
         x: &Field<f64>,
         y: &Field<f64>,
         at: PlaceFn<'_>,
     ) -> Option<Point<f64>> {
-        let x = self.number(x, &|| within(at, "x"));
-        let y = self.number(y, &|| within(at, "y"));
+        let x = self.number(x, &|| field_place(at, "x"));
+        let y = self.number(y, &|| field_place(at, "y"));
         let point = Point::new(x?, y?);
         self.check_point(point, at).then_some(point)
     }
 
-    /// Sets a text attribute of a row, if there is one.
+    /// Sets an attribute of a row to a string, if the field has one.
     pub(crate) fn set_text(
         &mut self,
         table: Table,
@@ -117,13 +121,13 @@ impl Builder<'_> {
         field: &Field<Cow<'_, str>>,
         at: PlaceFn<'_>,
     ) -> Result<(), ReadError> {
-        match self.text(field, &|| within(at, name))? {
+        match self.text(field, &|| field_place(at, name))? {
             Some(text) => self.set(table, row, name, Value::Text(text)),
             None => Ok(()),
         }
     }
 
-    /// Sets a number of a row, if there is one.
+    /// Sets an attribute of a row to a number, if the field has one.
     pub(crate) fn set_number(
         &mut self,
         table: Table,
@@ -132,14 +136,14 @@ impl Builder<'_> {
         field: &Field<f64>,
         at: PlaceFn<'_>,
     ) -> Result<(), ReadError> {
-        self.check_type(field, &|| within(at, name), "a number");
+        self.check_type(field, &|| field_place(at, name), "a number");
         match field.get() {
             Some(&number) => self.set(table, row, name, Value::Float(number)),
             None => Ok(()),
         }
     }
 
-    /// Sets the attributes of a row.
+    /// Sets all attributes of a row.
     pub(crate) fn set_attributes(
         &mut self,
         table: Table,
@@ -148,13 +152,13 @@ impl Builder<'_> {
         at: PlaceFn<'_>,
     ) -> Result<(), ReadError> {
         for (name, field) in attributes.iter() {
-            if let Some(kind) = field.wrong_kind() {
-                let message = || format!("the attribute is {kind}, which no column can hold");
-                let remedy = "It is left out; nothing else changes by that";
-                self.report(Code::Attribute, &|| within(at, name), message, remedy);
+            if let Some(kind) = field.wrong_type() {
+                let message = || format!("the attribute is {kind}, which a column cannot hold");
+                let remedy = "The attribute is ignored; write it as a string, number or boolean";
+                self.report(Code::Attribute, &|| field_place(at, name), message, remedy);
             }
             let value = match field.get() {
-                Some(Scalar::Truth(value)) => Value::Bool(*value),
+                Some(Scalar::Bool(value)) => Value::Bool(*value),
                 Some(Scalar::Number(value)) => Value::Float(*value),
                 Some(Scalar::Count(value)) => Value::Int(*value),
                 Some(Scalar::Text(value)) => {
@@ -168,26 +172,22 @@ impl Builder<'_> {
         Ok(())
     }
 
+    /// Reports a missing element.
     pub(crate) fn report_missing(&mut self, at: PlaceFn<'_>, expected: &str) {
         let message = || format!("{expected} is missing");
-        let remedy = "Add it in the tool that wrote the file";
+        let remedy = "Add it in the application that wrote the file";
         self.report(Code::MissingField, at, message, remedy);
     }
 }
 
-/// The items of a list; none if it is not a list.
+/// Iterates over the items of an array with their indices; over none if the field is not an array.
 pub(crate) fn items<T>(
     list: &Field<Vec<Field<T>>>,
 ) -> impl ExactSizeIterator<Item = (usize, &Field<T>)> {
     list.get().map_or(&[][..], Vec::as_slice).iter().enumerate()
 }
 
-/// The place of a field of an object.
-pub(crate) fn within(at: PlaceFn<'_>, field: &str) -> Place {
+/// Returns the place of a field of the object at a place.
+pub(crate) fn field_place(at: PlaceFn<'_>, field: &str) -> Place {
     Place::element(format!("{}.{field}", at().element))
-}
-
-/// Name of a kind that was found, for messages.
-fn found(kind: Kind, expected: &str) -> String {
-    format!("{expected} was expected, {kind} was found")
 }

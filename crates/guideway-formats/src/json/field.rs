@@ -1,4 +1,4 @@
-//! What stands in the place of a field, and the records of an object's fields.
+//! Fields: the value of an object's field, or the type of the value found instead, deserialized by serde.
 
 use std::borrow::Cow;
 use std::fmt;
@@ -7,49 +7,49 @@ use std::marker::PhantomData;
 use serde::Deserialize;
 use serde::de::{DeserializeSeed, Deserializer, IgnoredAny, MapAccess, SeqAccess, Visitor};
 
-/// A kind of JSON value.
+/// Type of a JSON value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Kind {
-    Truth,
+pub(crate) enum JsonType {
+    Bool,
     Number,
-    Text,
-    List,
+    String,
+    Array,
     Object,
 }
 
-impl fmt::Display for Kind {
+impl fmt::Display for JsonType {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            Self::Truth => "true or false",
+            Self::Bool => "a boolean",
             Self::Number => "a number",
-            Self::Text => "a text",
-            Self::List => "a list",
+            Self::String => "a string",
+            Self::Array => "an array",
             Self::Object => "an object",
         })
     }
 }
 
-/// What was found in the place of a field.
+/// Value of a field, as found.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) enum Field<T> {
-    /// No such key, or null, which the format lets stand for it.
+    /// The key is missing or its value is null.
     #[default]
     Absent,
-    /// A value of a type that cannot stand for the field's.
-    Wrong(Kind),
-    /// A value that stands for one of the field's type, such as `"3"` for 3.
-    Converted(T, Kind),
-    /// A value of the field's type.
+    /// A value of another type.
+    Wrong(JsonType),
+    /// A value converted from another type, such as 3 from `"3"`.
+    Converted(T, JsonType),
+    /// A value of the expected type.
     Value(T),
 }
 
 impl<T> Field<T> {
-    /// Whether there is nothing.
+    /// Returns whether the field is missing or null.
     pub(crate) fn is_absent(&self) -> bool {
         matches!(self, Self::Absent)
     }
 
-    /// The value, of whatever type it was written.
+    /// Returns the value, converted or not.
     pub(crate) fn get(&self) -> Option<&T> {
         match self {
             Self::Value(value) | Self::Converted(value, _) => Some(value),
@@ -57,8 +57,8 @@ impl<T> Field<T> {
         }
     }
 
-    /// The kind of value in the place of the field if it is not the field's.
-    pub(crate) fn wrong_kind(&self) -> Option<Kind> {
+    /// Returns the type that was found if it is not the expected one.
+    pub(crate) fn wrong_type(&self) -> Option<JsonType> {
         match self {
             Self::Wrong(kind) | Self::Converted(_, kind) => Some(*kind),
             Self::Absent | Self::Value(_) => None,
@@ -66,37 +66,38 @@ impl<T> Field<T> {
     }
 }
 
-/// A type that a field can have: what it makes of each kind of JSON value.
+/// A type that a field can have, with its conversions from each JSON type. By default each type is
+/// [`Field::Wrong`].
 pub(crate) trait FromJson<'de>: Sized {
-    /// Reads whatever stands in the place of a field.
+    /// Deserializes the value of a field, of any type.
     fn field<D: Deserializer<'de>>(deserializer: D) -> Result<Field<Self>, D::Error> {
         deserializer.deserialize_any(FieldVisitor(PhantomData))
     }
 
     fn from_bool(_: bool) -> Field<Self> {
-        Field::Wrong(Kind::Truth)
+        Field::Wrong(JsonType::Bool)
     }
 
-    fn from_whole(number: i128) -> Field<Self> {
+    fn from_integer(number: i128) -> Field<Self> {
         Self::from_number(number as f64)
     }
 
     fn from_number(_: f64) -> Field<Self> {
-        Field::Wrong(Kind::Number)
+        Field::Wrong(JsonType::Number)
     }
 
-    fn from_text(_: Cow<'de, str>) -> Field<Self> {
-        Field::Wrong(Kind::Text)
+    fn from_string(_: Cow<'de, str>) -> Field<Self> {
+        Field::Wrong(JsonType::String)
     }
 
-    fn from_list<A: SeqAccess<'de>>(mut list: A) -> Result<Field<Self>, A::Error> {
+    fn from_array<A: SeqAccess<'de>>(mut list: A) -> Result<Field<Self>, A::Error> {
         while list.next_element::<IgnoredAny>()?.is_some() {}
-        Ok(Field::Wrong(Kind::List))
+        Ok(Field::Wrong(JsonType::Array))
     }
 
     fn from_object<A: MapAccess<'de>>(mut object: A) -> Result<Field<Self>, A::Error> {
         while object.next_entry::<IgnoredAny, IgnoredAny>()?.is_some() {}
-        Ok(Field::Wrong(Kind::Object))
+        Ok(Field::Wrong(JsonType::Object))
     }
 }
 
@@ -124,11 +125,11 @@ impl<'de, T: FromJson<'de>> Visitor<'de> for FieldVisitor<T> {
     }
 
     fn visit_i64<E>(self, value: i64) -> Result<Self::Value, E> {
-        Ok(T::from_whole(value.into()))
+        Ok(T::from_integer(value.into()))
     }
 
     fn visit_u64<E>(self, value: u64) -> Result<Self::Value, E> {
-        Ok(T::from_whole(value.into()))
+        Ok(T::from_integer(value.into()))
     }
 
     fn visit_f64<E>(self, value: f64) -> Result<Self::Value, E> {
@@ -136,15 +137,15 @@ impl<'de, T: FromJson<'de>> Visitor<'de> for FieldVisitor<T> {
     }
 
     fn visit_borrowed_str<E>(self, value: &'de str) -> Result<Self::Value, E> {
-        Ok(T::from_text(Cow::Borrowed(value)))
+        Ok(T::from_string(Cow::Borrowed(value)))
     }
 
     fn visit_str<E>(self, value: &str) -> Result<Self::Value, E> {
-        Ok(T::from_text(Cow::Owned(value.to_owned())))
+        Ok(T::from_string(Cow::Owned(value.to_owned())))
     }
 
     fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<Self::Value, A::Error> {
-        T::from_list(list)
+        T::from_array(list)
     }
 
     fn visit_map<A: MapAccess<'de>>(self, object: A) -> Result<Self::Value, A::Error> {
@@ -157,30 +158,30 @@ impl<'de> FromJson<'de> for f64 {
         Field::Value(number)
     }
 
-    fn from_text(text: Cow<'de, str>) -> Field<Self> {
+    fn from_string(text: Cow<'de, str>) -> Field<Self> {
         match text.trim().parse() {
-            Ok(number) => Field::Converted(number, Kind::Text),
-            Err(_) => Field::Wrong(Kind::Text),
+            Ok(number) => Field::Converted(number, JsonType::String),
+            Err(_) => Field::Wrong(JsonType::String),
         }
     }
 }
 
 impl<'de> FromJson<'de> for Cow<'de, str> {
-    fn from_whole(number: i128) -> Field<Self> {
-        Field::Converted(number.to_string().into(), Kind::Number)
+    fn from_integer(number: i128) -> Field<Self> {
+        Field::Converted(number.to_string().into(), JsonType::Number)
     }
 
     fn from_number(number: f64) -> Field<Self> {
-        Field::Converted(number.to_string().into(), Kind::Number)
+        Field::Converted(number.to_string().into(), JsonType::Number)
     }
 
-    fn from_text(text: Self) -> Field<Self> {
+    fn from_string(text: Self) -> Field<Self> {
         Field::Value(text)
     }
 }
 
 impl<'de, T: FromJson<'de>> FromJson<'de> for Vec<Field<T>> {
-    fn from_list<A: SeqAccess<'de>>(mut list: A) -> Result<Field<Self>, A::Error> {
+    fn from_array<A: SeqAccess<'de>>(mut list: A) -> Result<Field<Self>, A::Error> {
         let mut all = Self::new();
         while let Some(item) = list.next_element()? {
             all.push(item);
@@ -200,7 +201,7 @@ impl<'de, T: FromJson<'de>> FromJson<'de> for Box<T> {
     }
 }
 
-/// Reads the key of an object, without a copy of its text.
+/// Maps the key of an object by a function, without a copy of the string.
 pub(crate) struct Key<F>(pub(crate) F);
 
 impl<'de, K, F: FnOnce(&str) -> K> DeserializeSeed<'de> for Key<F> {

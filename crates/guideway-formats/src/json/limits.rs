@@ -1,30 +1,33 @@
-//! How deep a text is nested and how many elements it has, before it is parsed.
+//! Limit check: counts elements and nesting depth of a JSON text before it is parsed.
 
 use guideway_layout::Limits;
 
 use crate::Problem;
 use crate::text::ElementCounter;
 
-/// Holds a text to the limits. It need not be sound JSON.
+/// Checks a text against the limits. It need not be valid JSON.
+///
+/// # Errors
+/// When there are more elements or levels than the limits.
 pub(super) fn check(text: &str, limits: &Limits) -> Result<(), Problem> {
-    let extent = extent(text.as_bytes());
-    let is_within = extent.deepest <= limits.depth as i64 && extent.elements <= limits.elements;
-    // Where more ends than began, what follows is deeper than it seems.
-    if is_within && extent.least_deep >= 0 {
+    let nesting = count_nesting(text.as_bytes());
+    let is_within = nesting.max_depth <= limits.depth as i64 && nesting.elements <= limits.elements;
+    // Surplus closing brackets make the depth that follows look smaller.
+    if is_within && nesting.min_depth >= 0 {
         return Ok(());
     }
-    find_excess(text, limits)
+    find_violation(text, limits)
 }
 
-/// What a text takes.
+/// Nesting and size of a text.
 #[derive(Debug, Default)]
-struct Extent {
-    deepest: i64,
-    least_deep: i64,
+struct Nesting {
+    max_depth: i64,
+    min_depth: i64,
     elements: u64,
 }
 
-/// By how much a byte outside of a text changes the depth, and how many elements it begins.
+/// Per byte outside of strings: the change of the depth, and the number of elements that begin.
 const STEPS: [(i8, u8); 256] = {
     let mut steps = [(0, 0); 256];
     steps[b'{' as usize] = (1, 1);
@@ -35,26 +38,26 @@ const STEPS: [(i8, u8); 256] = {
     steps
 };
 
-/// Every byte of a large file comes by here, so there is no branch but for quotes.
-fn extent(bytes: &[u8]) -> Extent {
-    let (mut depth, mut extent) = (0, Extent::default());
+/// Counts without branches except for quotes, because it visits every byte of a large file.
+fn count_nesting(bytes: &[u8]) -> Nesting {
+    let (mut depth, mut nesting) = (0, Nesting::default());
     let mut rest = bytes.iter();
     while let Some(&byte) = rest.next() {
         if byte == b'"' {
-            skip_text(&mut rest);
+            skip_string(&mut rest);
             continue;
         }
         let (deeper, elements) = STEPS[usize::from(byte)];
         depth += i64::from(deeper);
-        extent.deepest = extent.deepest.max(depth);
-        extent.least_deep = extent.least_deep.min(depth);
-        extent.elements += u64::from(elements);
+        nesting.max_depth = nesting.max_depth.max(depth);
+        nesting.min_depth = nesting.min_depth.min(depth);
+        nesting.elements += u64::from(elements);
     }
-    extent
+    nesting
 }
 
-/// Goes past the quote that ends a text.
-fn skip_text(rest: &mut std::slice::Iter<'_, u8>) {
+/// Skips to the byte after the quote that ends a string.
+fn skip_string(rest: &mut std::slice::Iter<'_, u8>) {
     while let Some(byte) = rest.next() {
         match byte {
             b'"' => return,
@@ -64,13 +67,13 @@ fn skip_text(rest: &mut std::slice::Iter<'_, u8>) {
     }
 }
 
-/// The place at which a text exceeds the limits.
-fn find_excess(text: &str, limits: &Limits) -> Result<(), Problem> {
+/// Finds the place at which a text exceeds the limits.
+fn find_violation(text: &str, limits: &Limits) -> Result<(), Problem> {
     let mut counter = ElementCounter::new(text, limits);
     let mut rest = text.as_bytes().iter();
     while let Some(&byte) = rest.next() {
         if byte == b'"' {
-            skip_text(&mut rest);
+            skip_string(&mut rest);
             continue;
         }
         let (deeper, elements) = STEPS[usize::from(byte)];
@@ -91,14 +94,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn texts_do_not_count() {
+    fn brackets_in_strings_do_not_count() {
         let text = r#"{"a[{,": ["\\", "\"[", {"b": [1, 2]}, "\\\"{"], "c": ","}"#;
-        let extent = extent(text.as_bytes());
-        assert_eq!((extent.deepest, extent.elements), (4, 9));
+        let nesting = count_nesting(text.as_bytes());
+        assert_eq!((nesting.max_depth, nesting.elements), (4, 9));
     }
 
     #[test]
-    fn both_ways_agree_at_the_limit() {
+    fn count_and_search_agree_at_the_limit() {
         let text = r#"[[1, 2], {"]": [3, [4]]}]"#;
         for (depth, elements) in [(4, 8), (3, 8), (4, 7)] {
             let limits = Limits {
@@ -108,12 +111,12 @@ mod tests {
             };
             let is_within = (depth, elements) == (4, 8);
             assert_eq!(check(text, &limits).is_ok(), is_within);
-            assert_eq!(find_excess(text, &limits).is_ok(), is_within);
+            assert_eq!(find_violation(text, &limits).is_ok(), is_within);
         }
     }
 
     #[test]
-    fn ends_that_nothing_began_hide_no_depth() {
+    fn surplus_closing_brackets_do_not_hide_depth() {
         let limits = Limits {
             depth: 2,
             ..Limits::default()

@@ -1,33 +1,34 @@
-//! The lines of findings, which are known by their place in the structure of the file.
+//! Line numbers: finds the line of each diagnostic by a second scan over the text, from the path of its
+//! element such as `layouts[0].nodes[3].x`.
 
 use std::collections::HashMap;
 
 use guideway_layout::Layout;
 
-/// Gives each finding of a layout the line of its element in the text that it was read from, or that of the
-/// innermost object around it if there is no such element. Costs nothing where nothing was found.
-pub(crate) fn add_lines(layout: &mut Layout, text: &str) {
+/// Sets the line of each diagnostic to that of its element in the text, or of the innermost enclosing
+/// object that exists. Without diagnostics it does not scan the text.
+pub(crate) fn add_line_numbers(layout: &mut Layout, text: &str) {
     let lines = lines(layout, text);
-    for (finding, line) in layout.diagnostics.iter_mut().zip(lines) {
-        finding.place.line = line;
+    for (diagnostic, line) in layout.diagnostics.iter_mut().zip(lines) {
+        diagnostic.place.line = line;
     }
 }
 
 fn lines(layout: &Layout, text: &str) -> Vec<Option<u32>> {
-    let mut wanted = Wanted::default();
-    let findings = layout.diagnostics.iter();
-    let nodes: Vec<usize> = findings.map(|f| wanted.add(&f.place.element)).collect();
+    let mut wanted = ElementTree::default();
+    let elements = layout.diagnostics.iter().map(|d| &d.place.element);
+    let nodes: Vec<usize> = elements.map(|element| wanted.add(element)).collect();
     if nodes.is_empty() {
         return Vec::new();
     }
-    let mut scan = Scan {
+    let mut scan = LineScan {
         bytes: text.as_bytes(),
         at: 0,
         line: 1,
         lines: vec![None; wanted.nodes.len()],
     };
     scan.value(ROOT, &wanted);
-    // A finding about the whole file has no line.
+    // A diagnostic of the whole file has no line.
     scan.lines[ROOT] = None;
     let of_innermost = |node: usize| {
         let mut outwards = std::iter::successors(Some(node), |&node| wanted.nodes[node].parent);
@@ -36,15 +37,15 @@ fn lines(layout: &Layout, text: &str) -> Vec<Option<u32>> {
     nodes.into_iter().map(of_innermost).collect()
 }
 
-/// A step from a value to one within it.
+/// A step from a value to a child value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 enum Step<'e> {
     Key(&'e str),
     Index(usize),
 }
 
-/// The places that are looked for, as a tree.
-struct Wanted<'e> {
+/// The elements to find, as a tree of steps from the root.
+struct ElementTree<'e> {
     nodes: Vec<Node>,
     children: HashMap<(usize, Step<'e>), usize>,
 }
@@ -57,7 +58,7 @@ struct Node {
     has_children: bool,
 }
 
-impl Default for Wanted<'_> {
+impl Default for ElementTree<'_> {
     fn default() -> Self {
         Self {
             nodes: vec![Node::default()],
@@ -66,8 +67,8 @@ impl Default for Wanted<'_> {
     }
 }
 
-impl<'e> Wanted<'e> {
-    /// Adds an element such as `layouts[0].nodes[3].x`.
+impl<'e> ElementTree<'e> {
+    /// Adds an element such as `layouts[0].nodes[3].x`; returns its node.
     fn add(&mut self, element: &'e str) -> usize {
         let mut node = ROOT;
         for part in element.split(['.', '[']) {
@@ -90,20 +91,20 @@ impl<'e> Wanted<'e> {
     }
 }
 
-/// Goes through a text that was parsed before, and so is sound.
-struct Scan<'t> {
+/// Scan over a text that was parsed before, so its syntax is valid.
+struct LineScan<'t> {
     bytes: &'t [u8],
     at: usize,
     line: u32,
-    /// The line of each wanted element, once it was met.
+    /// Line of each element of the tree that was found.
     lines: Vec<Option<u32>>,
 }
 
-impl<'t> Scan<'t> {
-    /// Goes past the value of a wanted place.
-    fn value(&mut self, node: usize, wanted: &Wanted<'_>) {
+impl<'t> LineScan<'t> {
+    /// Records the line of a wanted value, scans its children, and skips past it.
+    fn value(&mut self, node: usize, wanted: &ElementTree<'_>) {
         let first = self.peek();
-        // Where a key comes twice, the last one counts.
+        // The last one of repeated keys is used.
         self.lines[node] = Some(self.line);
         let is_container = matches!(first, Some(b'{' | b'['));
         if !is_container || !wanted.nodes[node].has_children {
@@ -123,7 +124,7 @@ impl<'t> Scan<'t> {
                 }
                 _ if first == Some(b'[') => Step::Index(index),
                 _ => {
-                    let key = self.text();
+                    let key = self.string();
                     self.peek();
                     self.at += 1;
                     self.peek();
@@ -138,7 +139,7 @@ impl<'t> Scan<'t> {
         }
     }
 
-    /// The next byte that is no white space.
+    /// Skips white space and returns the next byte.
     fn peek(&mut self) -> Option<u8> {
         while let Some(&byte) = self.bytes.get(self.at) {
             match byte {
@@ -151,8 +152,8 @@ impl<'t> Scan<'t> {
         None
     }
 
-    /// Goes past a text, and returns what stands between its quotes.
-    fn text(&mut self) -> &'t str {
+    /// Skips past a string and returns the text between its quotes.
+    fn string(&mut self) -> &'t str {
         let start = self.at + 1;
         self.at = start;
         while let Some(&byte) = self.bytes.get(self.at) {
@@ -168,12 +169,12 @@ impl<'t> Scan<'t> {
         std::str::from_utf8(inner).unwrap_or_default()
     }
 
-    /// Goes past any value.
+    /// Skips past any value.
     fn skip(&mut self) {
         let mut depth = 0_usize;
         while let Some(byte) = self.peek() {
             match byte {
-                b'"' => drop(self.text()),
+                b'"' => drop(self.string()),
                 b'{' | b'[' => {
                     depth += 1;
                     self.at += 1;
@@ -185,8 +186,8 @@ impl<'t> Scan<'t> {
                 _ => self.at += 1,
             }
             let next = self.bytes.get(self.at);
-            let goes_on = next.is_some_and(|b| !b", \t\r\n]}".contains(b));
-            if depth == 0 && !goes_on {
+            let continues = next.is_some_and(|b| !b", \t\r\n]}".contains(b));
+            if depth == 0 && !continues {
                 return;
             }
         }
@@ -205,12 +206,12 @@ mod tests {
         layout
             .diagnostics
             .push(Code::Attribute, place, String::new, "");
-        add_lines(&mut layout, text);
-        layout.diagnostics.iter().next().and_then(|f| f.place.line)
+        add_line_numbers(&mut layout, text);
+        layout.diagnostics.iter().next().and_then(|d| d.place.line)
     }
 
     #[test]
-    fn a_finding_has_the_line_of_its_element() {
+    fn diagnostic_gets_the_line_of_its_element() {
         let text = "{\n\"a\": [1, \"}]\\\",{\",\n{\"b\": 3,\n\"c\":\n[4, [5,\n6]]}],\n\"d\": {\"e\": 1e5}}";
         for (element, line) in [
             ("a", Some(2)),
@@ -220,7 +221,7 @@ mod tests {
             ("a[2].c", Some(5)),
             ("a[2].c[1][1]", Some(6)),
             ("d.e", Some(7)),
-            // What is missing is missing from something.
+            // A missing field has the line of its object.
             ("a[2].x.y", Some(3)),
             ("a[9]", Some(2)),
             ("the root", None),
@@ -231,7 +232,7 @@ mod tests {
     }
 
     #[test]
-    fn of_equal_keys_the_last_counts() {
+    fn repeated_key_gets_its_last_line() {
         assert_eq!(line_of("a.b", "{\"a\": {\"b\": 1,\n\"b\": 2}}"), Some(2));
     }
 }

@@ -1,8 +1,9 @@
-//! Records: the fields of an object that are needed, and nothing else of it.
+//! The `record!` macro: defines a struct of the needed fields of a JSON object and its deserialization,
+//! which skips all other fields.
 
-/// A record of the fields of an object. `repeated` is the last key that came twice.
+/// Defines a record. Its field `repeated` holds the last key that occurred twice.
 ///
-/// With a list of names at its end, it also has `attributes`: those of the object that become columns.
+/// `with &[names]` at the end adds a field `attributes` with the attributes of these names.
 macro_rules! record {
     ($(#[doc = $doc:literal])* $name:ident $(<$life:lifetime>)? {
         $($field:ident: $type:ty = $key:literal,)*

@@ -1,4 +1,5 @@
-//! From an edge to paths: one for each distinct curve, for vehicle types may have their own.
+//! LIF edges: maps an edge to paths, one per distinct curve, because vehicle types may have curves of
+//! their own.
 
 use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};
@@ -6,23 +7,24 @@ use std::collections::{HashMap, HashSet};
 use guideway_layout::{Code, NewPath};
 use guideway_spline::{Point, Runs};
 
-use super::map::Mapper;
+use super::mapper::Mapper;
 use super::model::{EDGE_PROPERTIES, Edge, EdgeProperties, PHYSICAL_LINE};
 use crate::ReadError;
 use crate::builder::{PlaceFn, Table};
-use crate::json::{Field, items, within};
+use crate::json::{Field, field_place, items};
 use crate::trajectory::Trajectory;
 
-/// A curve of an edge, with the vehicle types that follow it. None is the straight line.
+/// A curve of an edge, with the vehicle types that follow it.
 struct Curve<'r, 'a> {
+    /// `None` for the straight line between the nodes.
     trajectory: Option<&'r Trajectory>,
-    /// The list and the number of its first entry there; none if the edge has no entry.
+    /// Key and index of its first entry; `None` if the edge has no entry.
     entry: Option<(&'static str, usize)>,
     types: Vec<String>,
     properties: Vec<&'r EdgeProperties<'a>>,
 }
 
-/// A node that an edge names.
+/// A node that an edge refers to.
 struct End<'r> {
     name: Option<&'r str>,
     row: Option<u32>,
@@ -31,17 +33,18 @@ struct End<'r> {
 }
 
 impl Curve<'_, '_> {
-    /// A vehicle type may have several entries.
-    fn name_types_once(&mut self) {
+    /// Removes repeated types: a vehicle type may have several entries.
+    fn deduplicate_types(&mut self) {
         if self.types.len() < 2 {
             return;
         }
-        let mut known = HashSet::new();
-        self.types.retain(|name| known.insert(name.clone()));
+        let mut seen = HashSet::new();
+        self.types.retain(|name| seen.insert(name.clone()));
     }
 }
 
 impl Mapper<'_> {
+    /// Maps an edge to paths, or to refused paths.
     pub(super) fn map_edge(
         &mut self,
         edge: &Field<Edge<'_>>,
@@ -49,25 +52,25 @@ impl Mapper<'_> {
         at: PlaceFn<'_>,
     ) -> Result<(), ReadError> {
         let Some(edge) = self.builder.record(edge, at) else {
-            self.count_edge();
-            let detail = "this is not an object, so there is nothing to draw";
+            self.counts.edges += 1;
+            let detail = "the edge is not an object";
             return self.builder.refuse(&at().element, Code::WrongType, detail);
         };
         self.builder.check_repeated(edge.repeated, at);
         let id = self.builder.id(&edge.id, at, "edgeId")?;
-        self.count_edge();
-        let start = self.end(&edge.start, &id, level, &|| within(at, "startNodeId"))?;
-        let end = self.end(&edge.end, &id, level, &|| within(at, "endNodeId"))?;
+        self.counts.edges += 1;
+        let start = self.end(&edge.start, &id, level, &|| field_place(at, "startNodeId"))?;
+        let end = self.end(&edge.end, &id, level, &|| field_place(at, "endNodeId"))?;
         let curves = self.curves(edge, at)?;
-        let one = curves.len() == 1;
+        let is_single = curves.len() == 1;
         for (i, curve) in curves.iter().enumerate() {
-            let name = match (one, curve.types.as_slice()) {
+            let name = match (is_single, curve.types.as_slice()) {
                 (true, _) => Cow::Borrowed(id.as_ref()),
                 (false, []) => format!("{id} [{}]", i + 1).into(),
                 (false, types) => format!("{id} [{}]", types.join(", ")).into(),
             };
             let at_curve: PlaceFn<'_> = &|| match curve.entry {
-                Some((key, i)) => within(at, &format!("{key}[{i}]")),
+                Some((key, i)) => field_place(at, &format!("{key}[{i}]")),
                 None => at(),
             };
             self.map_curve(&name, curve, [&start, &end], level, at_curve)?;
@@ -84,7 +87,7 @@ impl Mapper<'_> {
     ) -> Result<End<'r>, ReadError> {
         let name = self.builder.text(field, at)?;
         if field.is_absent() {
-            self.builder.report_missing(at, "the name of a node");
+            self.builder.report_missing(at, "the identifier of a node");
         }
         let row = name.and_then(|name| self.node(name, level));
         if let (Some(name), None) = (name, row) {
@@ -99,14 +102,14 @@ impl Mapper<'_> {
         })
     }
 
-    /// The distinct curves of an edge. All vehicle types without a trajectory share the straight line.
+    /// Groups the entries of an edge by curve. Vehicle types without a trajectory share the straight line.
     fn curves<'r, 'a>(
         &mut self,
         edge: &'r Edge<'a>,
         at: PlaceFn<'_>,
     ) -> Result<Vec<Curve<'r, 'a>>, ReadError> {
         let mut curves: Vec<Curve<'r, 'a>> = Vec::new();
-        let mut known: HashMap<Vec<u64>, usize> = HashMap::new();
+        let mut index_by_curve: HashMap<Vec<u64>, usize> = HashMap::new();
         let lists = [
             (EDGE_PROPERTIES[0], &edge.types_1),
             (EDGE_PROPERTIES[1], &edge.types_2),
@@ -117,25 +120,27 @@ impl Mapper<'_> {
             .sum::<usize>()
             < 2;
         for (key, list) in lists {
-            self.builder.check_list(list, at, key);
+            self.builder.check_array(list, at, key);
             for (i, field) in items(list) {
-                let at_entry: PlaceFn<'_> = &|| within(at, &format!("{key}[{i}]"));
+                let at_entry: PlaceFn<'_> = &|| field_place(at, &format!("{key}[{i}]"));
                 let Some(entry) = self.builder.record(field, at_entry) else {
                     continue;
                 };
                 self.builder.check_repeated(entry.repeated, at_entry);
                 let types =
                     self.vehicle_types(&entry.vehicle_type, &entry.robot_types, at_entry)?;
-                let at_curve: PlaceFn<'_> = &|| within(at_entry, "trajectory");
+                let at_curve: PlaceFn<'_> = &|| field_place(at_entry, "trajectory");
                 self.builder
                     .check_type(&entry.trajectory, at_curve, "an object");
                 let trajectory = entry.trajectory.get().map(AsRef::as_ref);
                 if trajectory.is_some() {
-                    self.count_trajectory();
+                    self.counts.trajectories += 1;
                 }
                 let index = match is_alone {
                     true => 0,
-                    false => *known.entry(bits(trajectory)).or_insert(curves.len()),
+                    false => *index_by_curve
+                        .entry(curve_key(trajectory))
+                        .or_insert(curves.len()),
                 };
                 if index == curves.len() {
                     curves.push(Curve {
@@ -149,10 +154,12 @@ impl Mapper<'_> {
                 curves[index].properties.push(entry);
             }
         }
-        curves.iter_mut().for_each(Curve::name_types_once);
+        curves.iter_mut().for_each(Curve::deduplicate_types);
         if curves.is_empty() {
-            self.builder
-                .report_missing(&|| within(at, lists[0].0), "an entry for a vehicle type");
+            self.builder.report_missing(
+                &|| field_place(at, lists[0].0),
+                "an entry for a vehicle type",
+            );
             curves.push(Curve {
                 trajectory: None,
                 entry: None,
@@ -175,13 +182,13 @@ impl Mapper<'_> {
         if start.row.is_some() && end.row.is_some() && start.level != end.level {
             let detail = self.between_levels(start, end);
             let message = || format!("`{name}` {detail}");
-            let remedy = "Nothing to do if this is a lift; else move the node";
+            let remedy = "None needed for a lift; else move the node to the other layout";
             self.builder.report(Code::CrossLevel, at, message, remedy);
             return self.builder.refuse(name, Code::CrossLevel, &detail);
         }
         let mut runs = Runs::default();
         if let Some(trajectory) = curve.trajectory {
-            let at_curve: PlaceFn<'_> = &|| within(at, "trajectory");
+            let at_curve: PlaceFn<'_> = &|| field_place(at, "trajectory");
             self.builder
                 .append_trajectory(trajectory, at_curve, &mut runs)?;
         }
@@ -213,7 +220,7 @@ impl Mapper<'_> {
             level.map_or_else(String::new, |l| l.id.clone())
         };
         format!(
-            "leads from the layout `{}` to the layout `{}`; it is not drawn across one plane",
+            "connects the layouts `{}` and `{}`; paths between levels are not drawn",
             name(start),
             name(end)
         )
@@ -232,8 +239,8 @@ impl Mapper<'_> {
             .set_attributes(Table::Paths, row, &first.attributes, at)?;
         let differs = others.iter().any(|p| p.attributes != first.attributes);
         if differs {
-            let message = || "vehicle types share this curve and differ in other things".to_owned();
-            let remedy = "The attributes of the first are shown";
+            let message = || "vehicle types share this curve but differ in attributes".to_owned();
+            let remedy = "The attributes of the first vehicle type are used";
             self.builder.report(Code::Attribute, at, message, remedy);
         }
         let line_guided = first
@@ -242,7 +249,7 @@ impl Mapper<'_> {
             .any(|(n, _)| n.starts_with(PHYSICAL_LINE));
         if line_guided && curve.trajectory.is_none() {
             let message =
-                || "vehicles follow a line on the floor, whose shape is not in the file".into();
+                || "vehicles follow a physical line, whose shape the file does not contain".into();
             let remedy = "A straight line is drawn";
             self.builder
                 .report(Code::ApproximateShape, at, message, remedy);
@@ -251,20 +258,21 @@ impl Mapper<'_> {
     }
 }
 
-/// Why no straight line can be drawn.
+/// Describes the missing end nodes of a straight line.
 fn missing_ends(ends: [&End<'_>; 2]) -> String {
     let parts = ends.into_iter().zip(["start", "end"]);
     let parts = parts.filter(|(end, _)| end.row.is_none());
     let texts: Vec<String> = parts
         .map(|(end, which)| match end.name {
-            Some(name) => format!("the {which} node `{name}` is not there or has no position"),
-            None => format!("the {which} node is not named"),
+            Some(name) => format!("the {which} node `{name}` is unknown or has no position"),
+            None => format!("the {which} node is missing"),
         })
         .collect();
     texts.join(", and ")
 }
-/// All numbers of a trajectory, to tell equal curves; none for the straight line.
-fn bits(trajectory: Option<&Trajectory>) -> Vec<u64> {
+
+/// Returns the bits of all numbers of a trajectory, equal for equal curves; empty for the straight line.
+fn curve_key(trajectory: Option<&Trajectory>) -> Vec<u64> {
     let Some(trajectory) = trajectory else {
         return Vec::new();
     };

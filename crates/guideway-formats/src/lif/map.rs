@@ -1,98 +1,49 @@
-//! From the records of a LIF file to a layout: levels, nodes, stations.
-
-use std::borrow::Cow;
-use std::collections::{HashMap, HashSet};
+//! LIF mapping: adds the levels, nodes, edges and stations of a file to the layout.
 
 use guideway_layout::{Code, Layout, Level, Place};
 use guideway_spline::Point;
 
-use super::model::{self, Node, Position, RobotType, Root, Station};
+use super::mapper::Mapper;
+use super::model::{self, Node, Position, Root, Station};
 use crate::ReadError;
-use crate::builder::{Builder, PlaceFn, Table};
-use crate::json::{Field, items, within};
-use crate::node_rows::NodeRows;
-use crate::source::Source;
+use crate::builder::{PlaceFn, Table};
+use crate::json::{Field, field_place, items};
 
-/// Fills a layout from the records of a file.
-pub(super) struct Mapper<'a> {
-    pub(super) builder: Builder<'a>,
-    /// The first node of each id.
-    nodes: NodeRows,
-    /// Nodes of later layouts whose ids were used before.
-    repeated_nodes: HashMap<(u32, String), u32>,
-    levels: HashSet<String>,
-    /// Of the edges: nodes may name types that have no path.
-    vehicle_types: HashSet<String>,
-    counts: Counts,
-}
-
-#[derive(Default)]
-struct Counts {
-    nodes: usize,
-    edges: usize,
-    stations: usize,
-    trajectories: usize,
-}
-
-/// One layout of the file, with its place in it.
-struct Part<'r, 'a> {
+/// A layout record with its place in the file. Each becomes a level.
+struct LayoutEntry<'r, 'a> {
     place: String,
-    layout: &'r model::Layout<'a>,
+    record: &'r model::Layout<'a>,
 }
 
-impl<'a> Mapper<'a> {
-    pub(super) fn new(source: Source<'a>, file_bytes: usize) -> Self {
-        Self {
-            builder: Builder::new(source, file_bytes),
-            nodes: NodeRows::default(),
-            repeated_nodes: HashMap::new(),
-            levels: HashSet::new(),
-            vehicle_types: HashSet::new(),
-            counts: Counts::default(),
-        }
-    }
-
+impl Mapper<'_> {
+    /// Maps the root object to a layout; `file` is the whole text, which the lazy arrays refer to.
     pub(super) fn map<'t>(mut self, root: &Root<'t>, file: &'t str) -> Result<Layout, ReadError> {
         let at_root: PlaceFn<'_> = &|| Place::element("the root");
         self.builder.check_repeated(root.repeated, at_root);
         self.map_version(root)?;
-        let parts = self.parts(root)?;
-        // All nodes come first, for an edge may lead to a node of a later layout.
-        for (level, part) in parts.iter().enumerate() {
-            self.map_level(part)?;
-            let mut nodes = part.layout.nodes.items(file);
+        let layouts = self.layouts(root)?;
+        // All nodes come first: an edge may lead to a node of a later layout.
+        for (level, entry) in layouts.iter().enumerate() {
+            self.map_level(entry)?;
+            let mut nodes = entry.record.nodes.items(file);
             while let Some((i, node)) = nodes.next(&mut self.builder)? {
-                let at = || Place::element(format!("{}.nodes[{i}]", part.place));
+                let at = || Place::element(format!("{}.nodes[{i}]", entry.place));
                 self.map_node(&node, level as u32, &at)?;
             }
         }
-        for (level, part) in parts.iter().enumerate() {
-            let mut edges = part.layout.edges.items(file);
+        for (level, entry) in layouts.iter().enumerate() {
+            let mut edges = entry.record.edges.items(file);
             while let Some((i, edge)) = edges.next(&mut self.builder)? {
-                let at = || Place::element(format!("{}.edges[{i}]", part.place));
+                let at = || Place::element(format!("{}.edges[{i}]", entry.place));
                 self.map_edge(&edge, level as u32, &at)?;
             }
-            let mut stations = part.layout.stations.items(file);
+            let mut stations = entry.record.stations.items(file);
             while let Some((i, station)) = stations.next(&mut self.builder)? {
-                let at = || Place::element(format!("{}.stations[{i}]", part.place));
+                let at = || Place::element(format!("{}.stations[{i}]", entry.place));
                 self.map_station(&station, level as u32, &at)?;
             }
         }
-        Ok(self.finish(parts.len()))
-    }
-
-    fn finish(mut self, layouts: usize) -> Layout {
-        let counts = [
-            ("layouts", layouts),
-            ("nodes", self.counts.nodes),
-            ("edges", self.counts.edges),
-            ("stations", self.counts.stations),
-            ("trajectories", self.counts.trajectories),
-            ("vehicleTypes", self.vehicle_types.len()),
-        ];
-        self.builder.layout.provenance.counts =
-            counts.map(|(name, n)| (name.to_owned(), n as u64)).to_vec();
-        self.builder.layout
+        Ok(self.finish(layouts.len()))
     }
 
     fn map_version(&mut self, root: &Root<'_>) -> Result<(), ReadError> {
@@ -116,63 +67,66 @@ impl<'a> Mapper<'a> {
         let stated = self.builder.text(&meta.lif_version, at)?;
         if let Some(stated) = stated.filter(|s| s.split('.').next() != version.split('.').next()) {
             let message =
-                || format!("the file states version {stated}, its structure is {version}");
-            let remedy = "Nothing to do: the structure counts";
+                || format!("the file states version {stated}, but its structure is {version}");
+            let remedy = "None needed: the structure decides the version";
             self.builder.report(Code::Version, at, message, remedy);
         }
         Ok(())
     }
 
-    fn parts<'r, 't>(&mut self, root: &'r Root<'t>) -> Result<Vec<Part<'r, 't>>, ReadError> {
-        let mut parts = Vec::new();
-        self.collect(&root.layouts, "layouts", &mut parts);
+    fn layouts<'r, 't>(
+        &mut self,
+        root: &'r Root<'t>,
+    ) -> Result<Vec<LayoutEntry<'r, 't>>, ReadError> {
+        let mut layouts = Vec::new();
+        self.collect(&root.layouts, "layouts", &mut layouts);
         for (i, origin) in items(&root.origins) {
             let place = format!("origins[{i}]");
             let at: PlaceFn<'_> = &|| Place::element(place.as_str());
             if let Some(origin) = self.builder.record(origin, at) {
                 self.builder.check_repeated(origin.repeated, at);
-                self.builder.check_list(&origin.layouts, at, "layouts");
-                self.collect(&origin.layouts, &format!("{place}.layouts"), &mut parts);
+                self.builder.check_array(&origin.layouts, at, "layouts");
+                self.collect(&origin.layouts, &format!("{place}.layouts"), &mut layouts);
             }
         }
-        for part in &parts {
-            let at: PlaceFn<'_> = &|| Place::element(part.place.as_str());
-            self.builder.check_repeated(part.layout.repeated, at);
-            self.builder.check_list(&part.layout.nodes, at, "nodes");
-            self.builder.check_list(&part.layout.edges, at, "edges");
+        for entry in &layouts {
+            let at: PlaceFn<'_> = &|| Place::element(entry.place.as_str());
+            self.builder.check_repeated(entry.record.repeated, at);
+            self.builder.check_array(&entry.record.nodes, at, "nodes");
+            self.builder.check_array(&entry.record.edges, at, "edges");
             self.builder
-                .check_list(&part.layout.stations, at, "stations");
+                .check_array(&entry.record.stations, at, "stations");
         }
-        Ok(parts)
+        Ok(layouts)
     }
 
     fn collect<'r, 't>(
         &mut self,
         list: &'r Field<Vec<Field<model::Layout<'t>>>>,
         name: &str,
-        parts: &mut Vec<Part<'r, 't>>,
+        layouts: &mut Vec<LayoutEntry<'r, 't>>,
     ) {
         for (i, layout) in items(list) {
             let place = format!("{name}[{i}]");
-            if let Some(layout) = self
+            if let Some(record) = self
                 .builder
                 .record(layout, &|| Place::element(place.as_str()))
             {
-                parts.push(Part { place, layout });
+                layouts.push(LayoutEntry { place, record });
             }
         }
     }
 
-    fn map_level(&mut self, part: &Part<'_, '_>) -> Result<(), ReadError> {
-        let at: PlaceFn<'_> = &|| Place::element(part.place.as_str());
-        let id = self.builder.id(&part.layout.id, at, "layoutId")?;
+    fn map_level(&mut self, entry: &LayoutEntry<'_, '_>) -> Result<(), ReadError> {
+        let at: PlaceFn<'_> = &|| Place::element(entry.place.as_str());
+        let id = self.builder.id(&entry.record.id, at, "layoutId")?;
         let name = self
             .builder
-            .text(&part.layout.name, &|| within(at, "layoutName"))?;
+            .text(&entry.record.name, &|| field_place(at, "layoutName"))?;
         let new = self.levels.insert(id.clone().into_owned());
         if !new {
-            let message = || format!("the layoutId `{id}` is used more than once");
-            let remedy = "Both are kept, and `--level` shows the first; rename one";
+            let message = || format!("the layoutId `{id}` occurs more than once");
+            let remedy = "Both levels are kept and `--level` shows the first; rename one";
             self.builder.report(Code::DuplicateId, at, message, remedy);
         }
         self.builder.layout.levels.push(Level {
@@ -195,7 +149,8 @@ impl<'a> Mapper<'a> {
         };
         self.builder.check_repeated(node.repeated, at);
         let id = self.builder.id(&node.id, at, "nodeId")?;
-        let Some(position) = self.position(&node.position, &|| within(at, "nodePosition"), true)
+        let Some(position) =
+            self.position(&node.position, &|| field_place(at, "nodePosition"), true)
         else {
             return Ok(());
         };
@@ -217,17 +172,6 @@ impl<'a> Mapper<'a> {
             .set_text(Table::Nodes, row as usize, "mapId", map, at)
     }
 
-    /// The row of a node. Ids should be unique in a file; where they are not, the layout's own counts.
-    pub(super) fn node(&self, id: &str, level: u32) -> Option<u32> {
-        let own = if self.repeated_nodes.is_empty() {
-            None
-        } else {
-            self.repeated_nodes.get(&(level, id.to_owned()))
-        };
-        own.copied()
-            .or_else(|| self.nodes.get(&self.builder.layout.nodes, id))
-    }
-
     fn map_station(
         &mut self,
         station: &Field<Station<'_>>,
@@ -240,11 +184,11 @@ impl<'a> Mapper<'a> {
         };
         self.builder.check_repeated(station.repeated, at);
         self.builder
-            .check_list(&station.nodes, at, "interactionNodeIds");
+            .check_array(&station.nodes, at, "interactionNodeIds");
         let id = self.builder.id(&station.id, at, "stationId")?;
         let mut nodes = Vec::new();
         for (i, name) in items(&station.nodes) {
-            let at_name: PlaceFn<'_> = &|| within(at, &format!("interactionNodeIds[{i}]"));
+            let at_name: PlaceFn<'_> = &|| field_place(at, &format!("interactionNodeIds[{i}]"));
             let Some(name) = self.builder.text(name, at_name)? else {
                 continue;
             };
@@ -253,7 +197,7 @@ impl<'a> Mapper<'a> {
                 None => self.builder.report_unknown_node(name, &id, at_name),
             }
         }
-        let at_position: PlaceFn<'_> = &|| within(at, "stationPosition");
+        let at_position: PlaceFn<'_> = &|| field_place(at, "stationPosition");
         let position = self.position(&station.position, at_position, false);
         let row = self
             .builder
@@ -265,51 +209,6 @@ impl<'a> Mapper<'a> {
         let height = &station.height;
         self.builder
             .set_number(Table::Stations, row, "stationHeight", height, at)
-    }
-
-    pub(super) fn count_edge(&mut self) {
-        self.counts.edges += 1;
-    }
-
-    pub(super) fn count_trajectory(&mut self) {
-        self.counts.trajectories += 1;
-    }
-
-    /// The names of the vehicle types that one entry is for.
-    pub(super) fn vehicle_types(
-        &mut self,
-        vehicle_type: &Field<Cow<'_, str>>,
-        robot_types: &Field<Vec<Field<RobotType<'_>>>>,
-        at: PlaceFn<'_>,
-    ) -> Result<Vec<String>, ReadError> {
-        let mut names = Vec::new();
-        if let Some(name) = self
-            .builder
-            .text(vehicle_type, &|| within(at, "vehicleTypeId"))?
-        {
-            names.push(name.to_owned());
-        }
-        for (_, robot) in items(robot_types) {
-            let Some(robot) = self
-                .builder
-                .record(robot, &|| within(at, "mobileRobotTypes"))
-            else {
-                continue;
-            };
-            let manufacturer = self
-                .builder
-                .text(&robot.manufacturer, &|| within(at, "manufacturer"))?;
-            let series = self
-                .builder
-                .text(&robot.series, &|| within(at, "seriesName"))?;
-            names.extend(model::robot_name(manufacturer, series));
-        }
-        for name in &names {
-            if !self.vehicle_types.contains(name) {
-                self.vehicle_types.insert(name.clone());
-            }
-        }
-        Ok(names)
     }
 
     fn position(

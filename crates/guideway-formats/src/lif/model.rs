@@ -1,10 +1,10 @@
-//! The records of LIF 1.0 and 2.0. Where the two name a thing differently, both names are here.
+//! LIF records: the fields of 1.0 and 2.0 that the model holds, under the names of both versions.
 
 use std::borrow::Cow;
 
 use serde::de::{IgnoredAny, MapAccess};
 
-use crate::json::{Field, FromJson, Key, Later, record};
+use crate::json::{Field, FromJson, Key, LazyArray, record};
 use crate::trajectory::Trajectory;
 
 type Text<'a> = Cow<'a, str>;
@@ -14,18 +14,18 @@ type List<T> = Vec<Field<T>>;
 #[derive(Debug, Default)]
 pub(super) struct Root<'a> {
     pub(super) meta: Field<Meta<'a>>,
-    /// Of 1.0.
+    /// LIF 1.0.
     pub(super) layouts: Field<List<Layout<'a>>>,
-    /// Of 2.0.
+    /// LIF 2.0.
     pub(super) origins: Field<List<Origin<'a>>>,
-    /// The first keys that are none of these: they tell what the file is if it is not LIF.
+    /// The first unknown keys, for the error of a file that is not LIF.
     pub(super) other_keys: Vec<String>,
     pub(super) repeated: Option<&'static str>,
 }
 
 impl<'a> FromJson<'a> for Root<'a> {
     fn from_object<A: MapAccess<'a>>(mut object: A) -> Result<Field<Self>, A::Error> {
-        const MOST_OTHER_KEYS: usize = 5;
+        const MAX_OTHER_KEYS: usize = 5;
         let mut root = Self::default();
         let mut seen = Vec::new();
         while let Some(key) = object.next_key::<Cow<'a, str>>()? {
@@ -43,7 +43,7 @@ impl<'a> FromJson<'a> for Root<'a> {
                     "origins"
                 }
                 other => {
-                    if root.other_keys.len() < MOST_OTHER_KEYS {
+                    if root.other_keys.len() < MAX_OTHER_KEYS {
                         root.other_keys.push(other.chars().take(40).collect());
                     }
                     object.next_value::<IgnoredAny>()?;
@@ -70,9 +70,9 @@ record! { Origin<'a> {
 record! { Layout<'a> {
     id: Text<'a> = "layoutId",
     name: Text<'a> = "layoutName",
-    nodes: Later<'a, Node<'a>> = "nodes",
-    edges: Later<'a, Edge<'a>> = "edges",
-    stations: Later<'a, Station<'a>> = "stations",
+    nodes: LazyArray<'a, Node<'a>> = "nodes",
+    edges: LazyArray<'a, Edge<'a>> = "edges",
+    stations: LazyArray<'a, Station<'a>> = "stations",
 } }
 
 record! { Node<'a> {
@@ -109,24 +109,28 @@ record! { Station<'a> {
     position: Position = "stationPosition",
 } }
 
-/// What edges and nodes are for their vehicle types, in 1.0 and in 2.0.
+/// Keys of the properties of an edge per vehicle type, in 1.0 and 2.0.
 pub(super) const EDGE_PROPERTIES: [&str; 2] =
     ["vehicleTypeEdgeProperties", "mobileRobotTypeEdgeProperties"];
+/// Keys of the properties of a node per vehicle type, in 1.0 and 2.0.
 pub(super) const NODE_PROPERTIES: [&str; 2] =
     ["vehicleTypeNodeProperties", "mobileRobotTypeNodeProperties"];
 
-/// The name of a vehicle type of 2.0; none if it has neither part.
+/// Vehicle type that stands for all types: LIF requires at least one name.
+pub(super) const ANY_TYPE: &str = "any";
+
+/// Composes the name of a vehicle type of 2.0; `None` if both parts are missing or empty.
 pub(super) fn robot_name(manufacturer: Option<&str>, series: Option<&str>) -> Option<String> {
     let parts = [manufacturer, series].into_iter().flatten();
     let parts: Vec<&str> = parts.filter(|part| !part.is_empty()).collect();
     (!parts.is_empty()).then(|| parts.join(" "))
 }
 
-/// How the attributes begin that tell of a line on the floor, whose shape the file does not have.
+/// Prefix of the attributes of a physical guide line, whose shape a file does not contain.
 pub(super) const PHYSICAL_LINE: &str = "physicalLineGuidedProperty.";
 
 record! {
-    /// What an edge is for one vehicle type (1.0) or several (2.0).
+    /// Properties of an edge for one vehicle type (1.0) or several (2.0).
     EdgeProperties<'a> {
         vehicle_type: Text<'a> = "vehicleTypeId",
         robot_types: List<RobotType<'a>> = "mobileRobotTypes",

@@ -1,4 +1,4 @@
-//! A layout as LIF 1.0 or 2.0: a line for each node, edge and station, written as it comes.
+//! LIF writer: writes a layout as JSON, one line per node, edge and station, in batches on all cores.
 
 use std::io::{self, Write};
 use std::iter;
@@ -9,32 +9,36 @@ use rayon::prelude::*;
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
-use super::rest::Rest;
-use super::write_columns::{Version, column_json};
+use super::passthrough::{Unmodeled, merge};
+use super::version::Version;
+use super::write_columns::column_json;
 use super::write_edges::{EdgeRef, Edges};
 use super::write_network::Network;
 use super::write_objects::Position;
 use crate::Losses;
+use crate::common_losses::common_losses;
 
-/// One thread writes so many lines before it looks for others.
-const TASK: usize = 1 << 8;
+/// Lines per task of a thread.
+const TASK_LINES: usize = 1 << 8;
 
-/// So many tasks are in memory at once.
-const AT_ONCE: usize = 1 << 5;
+/// Tasks per batch, which bounds the text in memory.
+const BATCH_TASKS: usize = 1 << 5;
 
-/// How to write a layout.
+/// Options of [`write_layout`].
 #[derive(Clone, Copy, Debug)]
 pub struct WriteOptions {
-    /// Which version of the format.
+    /// Version of the format.
     pub version: Version,
-    /// When the file was exported, as it will state.
+    /// Time of the export, for `exportTimestamp`.
     pub exported: SystemTime,
 }
 
-/// Writes a layout: levels as layouts, nodes, stations, and paths as edges. What is no straight line from
-/// node to node gets a trajectory, the same curve over clamped knots. Positions are to a micrometer. What the layout
-/// has not of a file of the same version is kept as it was: actions, descriptions, values for each vehicle type.
-/// Returns what the format cannot hold.
+/// Writes a layout: levels as layouts, nodes, stations, and paths as edges. Returns the losses.
+///
+/// A path that is not the straight line between its nodes has a trajectory: the same curve with clamped
+/// knots. Positions have a resolution of one micrometer. If the layout was read from a file of the same
+/// version, the members that the model does not hold pass through unchanged: actions, descriptions,
+/// values per vehicle type.
 ///
 /// # Errors
 /// When `out` fails.
@@ -44,12 +48,12 @@ pub fn write_layout(
     options: &WriteOptions,
 ) -> io::Result<Losses> {
     let version = options.version;
-    let rest = Rest::of(layout, version);
-    let mut losses = match rest {
-        Some(ref rest) => Losses::of_model(layout, rest.lost(layout)),
-        None => Losses::of(layout),
+    let unmodeled = Unmodeled::of_layout(layout, version);
+    let mut losses = match unmodeled {
+        Some(ref unmodeled) => Losses::of_paths(layout, unmodeled.count_lost(layout)),
+        None => common_losses(layout),
     };
-    let rest = rest.unwrap_or_default();
+    let unmodeled = unmodeled.unwrap_or_default();
     losses.add_widths(layout);
     losses.add_colors(layout);
     losses.add_ranks(layout);
@@ -58,48 +62,48 @@ pub fn write_layout(
     losses.add_columns(&layout.stations.attributes, "stations", |name| {
         station_names(version).contains(&name)
     });
-    let network = Network::of(layout, &mut losses);
-    let edges = Edges::of(layout, &network, version, &mut losses);
+    let network = Network::complete(layout, &mut losses);
+    let edges = Edges::collect(layout, &network, version, &mut losses);
 
-    let mut meta = rest.meta.clone();
-    let project = version.of("projectIdentification", "lifId");
+    let mut meta = unmodeled.meta.clone();
+    let project = version.pick("projectIdentification", "lifId");
     meta.entry(project)
         .or_insert_with(|| source_name(layout).into());
     let exported = humantime::format_rfc3339_millis(options.exported).to_string();
     for (name, value) in [
         ("creator", concat!("Guideway ", env!("CARGO_PKG_VERSION"))),
         ("exportTimestamp", &exported),
-        ("lifVersion", version.of("1.0.0", "2.0.0")),
+        ("lifVersion", version.pick("1.0.0", "2.0.0")),
     ] {
         meta.insert(name.into(), value.into());
     }
     write!(out, "{{\"metaInformation\": {}", Value::Object(meta))?;
-    for (name, value) in &rest.root {
+    for (name, value) in &unmodeled.root {
         write!(out, ",\n{}: {value}", json!(name))?;
     }
     let file = File {
         layout,
         network: &network,
         edges: &edges,
-        rest: &rest,
+        unmodeled: &unmodeled,
         version,
     };
-    let of_level = |index: usize, out: &mut _| file.level(index, out);
+    let write_level = |index: usize, out: &mut _| file.write_level(index, out);
     match version {
         Version::V1 => {
             let levels = 0..network.levels().count();
-            list(out, "layouts", levels, of_level)?;
+            write_array(out, "layouts", levels, write_level)?;
         }
         Version::V2 => {
-            let origins = origins(&network, &rest);
-            list(
+            let origins = origins(&network, &unmodeled);
+            write_array(
                 out,
                 "origins",
                 origins.into_iter(),
                 |(mut origin, levels), out| {
                     origin.entry("originId").or_insert_with(|| "origin".into());
-                    begin(out, origin)?;
-                    list(out, "layouts", levels.into_iter(), of_level)?;
+                    open_object(out, origin)?;
+                    write_array(out, "layouts", levels.into_iter(), write_level)?;
                     write!(out, "}}")
                 },
             )?;
@@ -109,10 +113,17 @@ pub fn write_layout(
     Ok(losses)
 }
 
-/// The origins of a file, each with its levels by their indices. What is on none is on the first.
-fn origins(network: &Network<'_>, rest: &Rest<'_>) -> Vec<(Map<String, Value>, Vec<usize>)> {
-    let origin_of = |id: &String| rest.origins.iter().position(|(_, ids)| ids.contains(id));
-    let known = rest
+/// Returns the origins of a file, each with the indices of its levels. The first one has the levels without
+/// an origin.
+fn origins(
+    network: &Network<'_>,
+    unmodeled: &Unmodeled<'_>,
+) -> Vec<(Map<String, Value>, Vec<usize>)> {
+    let origin_of = |id: &String| {
+        let mut origins = unmodeled.origins.iter();
+        origins.position(|(_, ids)| ids.contains(id))
+    };
+    let known = unmodeled
         .origins
         .iter()
         .map(|(origin, _)| (origin.clone(), Vec::new()));
@@ -127,69 +138,72 @@ fn origins(network: &Network<'_>, rest: &Rest<'_>) -> Vec<(Map<String, Value>, V
     origins
 }
 
-/// Begins an object that goes on behind its members.
-fn begin(out: &mut impl Write, members: Map<String, Value>) -> io::Result<()> {
+/// Writes the members of an object without its closing brace.
+fn open_object(out: &mut impl Write, members: Map<String, Value>) -> io::Result<()> {
     let text = Value::Object(members).to_string();
     write!(out, "{}", text.strip_suffix('}').unwrap_or(&text))
 }
 
-/// What a file has.
+/// Parts of a file.
 struct File<'a> {
     layout: &'a Layout,
     network: &'a Network<'a>,
     edges: &'a Edges<'a>,
-    rest: &'a Rest<'a>,
+    unmodeled: &'a Unmodeled<'a>,
     version: Version,
 }
 
 impl File<'_> {
-    fn level<W: Write>(&self, index: usize, out: &mut W) -> io::Result<()> {
+    fn write_level<W: Write>(&self, index: usize, out: &mut W) -> io::Result<()> {
         let (layout, network, version) = (self.layout, self.network, self.version);
         let Some(level) = network.levels().nth(index) else {
             return Ok(());
         };
-        let mut members = self.rest.level(&level.id);
+        let mut members = self.unmodeled.level_members(&level.id);
         members.insert("layoutId".into(), level.id.as_str().into());
         if let Some(name) = &level.name {
             members.insert("layoutName".into(), name.as_str().into());
         }
         members.entry("layoutVersion").or_insert_with(|| "1".into());
-        begin(out, members)?;
-        table(out, "nodes", network.nodes_on(index), |&node, line| {
+        open_object(out, members)?;
+        write_lines(out, "nodes", network.nodes_on(index), |&node, line| {
             let id = network.node_id(node);
             let object = network.node(layout, node, version);
-            self.object(level, "nodeId", id, &object, line)
+            self.write_object(level, "nodeId", id, &object, line)
         })?;
         let edges = network
             .paths_on(index)
             .flat_map(|path| self.edges.of_path(path));
         let edges = edges.map(EdgeLine::OfPath);
-        let refused = self.rest.refused(&level.id).map(EdgeLine::Refused);
-        table(
+        let refused = self
+            .unmodeled
+            .refused_edges(&level.id)
+            .map(EdgeLine::Refused);
+        write_lines(
             out,
             "edges",
             edges.chain(refused),
             |edge, line| match edge {
                 EdgeLine::OfPath(edge) => {
-                    self.object(level, "edgeId", edge.id, &self.edges.object(edge), line)
+                    self.write_object(level, "edgeId", edge.id, &self.edges.object(edge), line)
                 }
                 EdgeLine::Refused(edge) => serde_json::to_writer(line, edge),
             },
         )?;
-        table(
+        write_lines(
             out,
             "stations",
             network.stations_on(index),
             |&station, line| {
                 let id = layout.stations.id(station);
-                self.object(level, "stationId", id, &self.station(station), line)
+                self.write_object(level, "stationId", id, &self.station(station), line)
             },
         )?;
         write!(out, "}}")
     }
 
-    /// Writes an object of a level, with what it had in the file.
-    fn object(
+    /// Writes an object of a level, merged with its unmodeled members.
+    fn write_object(
         &self,
         level: &Level,
         id_key: &str,
@@ -197,8 +211,8 @@ impl File<'_> {
         new: &impl Serialize,
         line: &mut Vec<u8>,
     ) -> serde_json::Result<()> {
-        match self.rest.kept(&level.id, id_key, id, new) {
-            Some(kept) => serde_json::to_writer(line, &kept),
+        match merge(self.unmodeled, &level.id, id_key, id, new) {
+            Some(merged) => serde_json::to_writer(line, &merged),
             None => serde_json::to_writer(line, new),
         }
     }
@@ -223,15 +237,15 @@ impl File<'_> {
     }
 }
 
-/// A line of the list of edges.
+/// A line of the array of edges.
 enum EdgeLine<'a> {
     OfPath(EdgeRef<'a>),
-    /// What is no path, as it was.
+    /// A refused edge of the file, unchanged.
     Refused(Value),
 }
 
-/// Writes a list of a name, behind other members.
-fn list<T, W: Write>(
+/// Writes a member `name` with an array, after other members.
+fn write_array<T, W: Write>(
     out: &mut W,
     name: &str,
     items: impl Iterator<Item = T>,
@@ -245,8 +259,8 @@ fn list<T, W: Write>(
     write!(out, "]")
 }
 
-/// Writes a list of a name with a line for each item, which several threads write at once.
-fn table<T: Send + Sync, W: Write>(
+/// Writes a member `name` with an array of one line per item, formatted on several threads.
+fn write_lines<T: Send + Sync, W: Write>(
     out: &mut W,
     name: &str,
     mut items: impl Iterator<Item = T>,
@@ -260,21 +274,22 @@ fn table<T: Send + Sync, W: Write>(
         }
         Ok(text)
     };
-    let parts = iter::from_fn(|| {
-        let part: Vec<T> = items.by_ref().take(AT_ONCE * TASK).collect();
-        (!part.is_empty()).then_some(part)
+    let batches = iter::from_fn(|| {
+        let batch: Vec<T> = items.by_ref().take(BATCH_TASKS * TASK_LINES).collect();
+        (!batch.is_empty()).then_some(batch)
     });
-    let texts = parts.flat_map(|part| part.par_chunks(TASK).map(lines).collect::<Vec<_>>());
-    list(out, name, texts, |text, out| out.write_all(&text?))
+    let texts =
+        batches.flat_map(|batch| batch.par_chunks(TASK_LINES).map(lines).collect::<Vec<_>>());
+    write_array(out, name, texts, |text, out| out.write_all(&text?))
 }
 
-/// A name for the project: that of the file that it was read from.
+/// Returns the name of the source file, for the project identifier.
 fn source_name(layout: &Layout) -> &str {
     let source = &layout.provenance.source;
     source.rsplit(['/', '\\']).next().unwrap_or(source)
 }
 
-/// What a station has beside its identifier, its nodes and its place.
+/// Returns the columns that a version has a station member for.
 fn station_names(version: Version) -> &'static [&'static str] {
     match version {
         Version::V1 => &["stationName", "stationHeight"],

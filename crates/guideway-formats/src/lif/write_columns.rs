@@ -1,58 +1,28 @@
-//! What an edge can have for a vehicle type, and how a column becomes it.
+//! LIF edge properties from columns: selects the columns that a version has a property for, and converts
+//! their values to JSON.
 
 use guideway_layout::{Attribute, Layout, Values};
 use serde_json::{Map, Value, json};
 
+use super::version::Version;
 use crate::Losses;
 
-/// A version of LIF.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Version {
-    /// LIF 1.0.0 of 2023.
-    V1,
-    /// LIF 2.0.0 of 2026.
-    V2,
-}
-
-impl Version {
-    /// That of the file that a layout was read from, if it is LIF.
-    pub fn of_layout(layout: &Layout) -> Option<Self> {
-        let provenance = &layout.provenance;
-        let is_lif = provenance.format == crate::Format::Lif.name();
-        let is_2 = provenance.format_version.starts_with('2');
-        is_lif.then_some(if is_2 { Self::V2 } else { Self::V1 })
-    }
-
-    /// What a thing of which there is one for each version is in this one.
-    pub(super) fn one_of<T>(self, [in_1, in_2]: [T; 2]) -> T {
-        self.of(in_1, in_2)
-    }
-
-    /// What a thing is in this version.
-    pub(super) fn of<T>(self, in_1: T, in_2: T) -> T {
-        match self {
-            Self::V1 => in_1,
-            Self::V2 => in_2,
-        }
-    }
-}
-
-/// What kind of value a property has.
+/// Type of the value of a property.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Kind {
     Number,
-    Truth,
-    /// True in one version is false in the other.
-    Opposite,
+    Bool,
+    /// A boolean that the other version negates.
+    Negated,
     Text,
-    /// A list of texts, held as one with commas.
-    Texts,
-    /// A number in 1.0, a list of numbers in 2.0.
+    /// An array of strings, stored as one text with commas.
+    TextArray,
+    /// A number in 1.0, an array of numbers in 2.0.
     Angles,
 }
 
-/// The properties in 1.0 and in 2.0, none where a version has not got it. Lists of actions are missing: a
-/// layout has only their number.
+/// Names of the properties in 1.0 and 2.0; `None` if a version lacks the property. Actions are missing: a
+/// layout stores their number only.
 const PROPERTIES: &[(Option<&str>, Option<&str>, Kind)] = &[
     same("orientationType", Kind::Text),
     both(
@@ -63,7 +33,7 @@ const PROPERTIES: &[(Option<&str>, Option<&str>, Kind)] = &[
     both(
         "rotationAllowed",
         "reachOrientationBeforeEntering",
-        Kind::Opposite,
+        Kind::Negated,
     ),
     same("rotationAtStartNodeAllowed", Kind::Text),
     same("rotationAtEndNodeAllowed", Kind::Text),
@@ -71,11 +41,11 @@ const PROPERTIES: &[(Option<&str>, Option<&str>, Kind)] = &[
     both("maxRotationSpeed", "maximumRotationSpeed", Kind::Number),
     both("minHeight", "minimumLoadHandlingDeviceHeight", Kind::Number),
     both("maxHeight", "maximumMobileRobotHeight", Kind::Number),
-    same("loadRestriction.unloaded", Kind::Truth),
-    same("loadRestriction.loaded", Kind::Truth),
-    same("loadRestriction.loadSetNames", Kind::Texts),
-    same("reentryAllowed", Kind::Truth),
-    (None, Some("forbiddenActionTypes"), Kind::Texts),
+    same("loadRestriction.unloaded", Kind::Bool),
+    same("loadRestriction.loaded", Kind::Bool),
+    same("loadRestriction.loadSetNames", Kind::TextArray),
+    same("reentryAllowed", Kind::Bool),
+    (None, Some("forbiddenActionTypes"), Kind::TextArray),
     (None, Some("corridor.maximumLeftWidth"), Kind::Number),
     (None, Some("corridor.maximumRightWidth"), Kind::Number),
     (None, Some("corridor.corridorReferencePoint"), Kind::Text),
@@ -96,30 +66,31 @@ const fn same(
     both(name, name, kind)
 }
 
-/// The columns of paths that a version has a property for.
-pub(super) struct Columns<'a> {
+/// Path columns that a version has a property for.
+pub(super) struct PropertyColumns<'a> {
     version: Version,
     columns: Vec<Column<'a>>,
 }
 
 struct Column<'a> {
     attribute: &'a Attribute,
-    /// The property, and the object that it is in.
+    /// Name of the property, and of the nested object that contains it.
     name: &'static str,
     group: Option<&'static str>,
     kind: Kind,
     is_renamed: bool,
 }
 
-impl<'a> Columns<'a> {
-    pub(super) fn of(layout: &'a Layout, version: Version, losses: &mut Losses) -> Self {
+impl<'a> PropertyColumns<'a> {
+    /// Selects the columns of a layout; adds all others, and values that do not convert, to the losses.
+    pub(super) fn select(layout: &'a Layout, version: Version, losses: &mut Losses) -> Self {
         let mut columns: Vec<Column<'a>> = Vec::new();
         for &(in_1, in_2, kind) in PROPERTIES {
-            let Some(target) = version.of(in_1, in_2) else {
+            let Some(target) = version.pick(in_1, in_2) else {
                 continue;
             };
-            // The name of this version comes first: a layout merged from both may have both.
-            let other = version.of(in_2, in_1).filter(|&other| other != target);
+            // The name of this version has precedence: a merged layout may have columns of both.
+            let other = version.pick(in_2, in_1).filter(|&other| other != target);
             let column = |name| layout.paths.attributes.get(name);
             let Some(attribute) = column(target).or_else(|| column(other?)) else {
                 continue;
@@ -144,26 +115,26 @@ impl<'a> Columns<'a> {
             let rows = (0..values.len()).filter(|&row| values.get(row).is_some());
             let unfit = rows.filter(|&row| column.json(row, version).is_none());
             let what = format!("column {}", column.attribute.name);
-            losses.add(what, unfit.count(), "values that the format does not take");
+            losses.add(what, unfit.count(), "values that the format cannot hold");
         }
         Self { version, columns }
     }
 
-    /// The properties of a path.
+    /// Returns the properties of a path as JSON.
     pub(super) fn json(&self, path: usize) -> Map<String, Value> {
         let mut json = Map::new();
         for column in &self.columns {
             let Some(value) = column.json(path, self.version) else {
                 continue;
             };
-            let within = match column.group {
+            let object = match column.group {
                 None => &mut json,
                 Some(group) => match json.entry(group).or_insert_with(|| json!({})) {
-                    Value::Object(within) => within,
+                    Value::Object(object) => object,
                     _ => continue,
                 },
             };
-            within.insert(column.name.to_owned(), value);
+            object.insert(column.name.to_owned(), value);
         }
         json
     }
@@ -172,35 +143,34 @@ impl<'a> Columns<'a> {
 impl Column<'_> {
     fn json(&self, path: usize, version: Version) -> Option<Value> {
         let value = column_json(&self.attribute.values, path)?;
-        let is_list = version == Version::V2;
+        let is_array = version == Version::V2;
         match self.kind {
             Kind::Number => number(&value),
-            Kind::Truth => Some(truth(&value)?.into()),
-            Kind::Opposite => Some((truth(&value)? != self.is_renamed).into()),
+            Kind::Bool => Some(boolean(&value)?.into()),
+            Kind::Negated => Some((boolean(&value)? != self.is_renamed).into()),
             Kind::Text => Some(text(&value).into()),
-            Kind::Texts => Some(text(&value).split(", ").collect()),
+            Kind::TextArray => Some(text(&value).split(", ").collect()),
             Kind::Angles => {
                 let text = text(&value);
                 let numbers = text.split(", ").map(|part| number(&part.into()));
                 let numbers: Vec<Value> = numbers.collect::<Option<_>>()?;
                 match &numbers[..] {
-                    [one] if !is_list => Some(one.clone()),
-                    _ => is_list.then_some(Value::Array(numbers)),
+                    [one] if !is_array => Some(one.clone()),
+                    _ => is_array.then_some(Value::Array(numbers)),
                 }
             }
         }
     }
 }
 
-/// A value of a column as it is.
+/// Converts a value of a column to JSON, which has no infinities and no NaN.
 pub(super) fn column_json(values: &Values, row: usize) -> Option<Value> {
-    use guideway_layout::Value as Of;
+    use guideway_layout::Value as Cell;
     match values.get(row)? {
-        Of::Bool(value) => Some(value.into()),
-        Of::Int(value) => Some(value.into()),
-        // JSON has no other numbers.
-        Of::Float(value) => value.is_finite().then(|| value.into()),
-        Of::Text(value) => Some(value.into()),
+        Cell::Bool(value) => Some(value.into()),
+        Cell::Int(value) => Some(value.into()),
+        Cell::Float(value) => value.is_finite().then(|| value.into()),
+        Cell::Text(value) => Some(value.into()),
     }
 }
 
@@ -215,9 +185,9 @@ fn number(value: &Value) -> Option<Value> {
     }
 }
 
-fn truth(value: &Value) -> Option<bool> {
+fn boolean(value: &Value) -> Option<bool> {
     match value {
-        Value::Bool(truth) => Some(*truth),
+        Value::Bool(value) => Some(*value),
         Value::String(text) => text.parse().ok(),
         _ => None,
     }

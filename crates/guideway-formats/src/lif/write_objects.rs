@@ -1,4 +1,4 @@
-//! What is written of a node and of an edge.
+//! LIF objects of nodes and edges, with the serialization of both versions.
 
 use guideway_spline::Point;
 use serde::ser::SerializeMap;
@@ -6,15 +6,16 @@ use serde::{Serialize, Serializer};
 use serde_json::{Map, Value};
 
 use super::model::{EDGE_PROPERTIES, NODE_PROPERTIES};
-use super::write_columns::Version;
+use super::version::Version;
 use crate::clamped::{ClampedCurve, rounded};
 
+/// A node as written.
 pub(super) struct NodeObject<'a> {
     pub(super) id: &'a str,
     pub(super) name: Option<Value>,
     pub(super) map: Value,
     pub(super) position: Position,
-    pub(super) properties: ForTypes<'a>,
+    pub(super) properties: TypeProperties<'a>,
 }
 
 impl Serialize for NodeObject<'_> {
@@ -23,20 +24,21 @@ impl Serialize for NodeObject<'_> {
         let mut members = serializer.serialize_map(None)?;
         members.serialize_entry("nodeId", self.id)?;
         if let Some(name) = &self.name {
-            members.serialize_entry(version.of("nodeName", "nodeDescriptor"), name)?;
+            members.serialize_entry(version.pick("nodeName", "nodeDescriptor"), name)?;
         }
         members.serialize_entry("mapId", &self.map)?;
         members.serialize_entry("nodePosition", &self.position)?;
-        members.serialize_entry(version.one_of(NODE_PROPERTIES), &self.properties)?;
+        members.serialize_entry(version.select(NODE_PROPERTIES), &self.properties)?;
         members.end()
     }
 }
 
+/// An edge as written.
 pub(super) struct EdgeObject<'a> {
     pub(super) id: &'a str,
-    /// The nodes where it begins and ends.
+    /// Start and end node.
     pub(super) ends: [&'a str; 2],
-    pub(super) properties: ForTypes<'a>,
+    pub(super) properties: TypeProperties<'a>,
 }
 
 impl Serialize for EdgeObject<'_> {
@@ -46,20 +48,20 @@ impl Serialize for EdgeObject<'_> {
         members.serialize_entry("edgeId", self.id)?;
         members.serialize_entry("startNodeId", self.ends[0])?;
         members.serialize_entry("endNodeId", self.ends[1])?;
-        members.serialize_entry(version.one_of(EDGE_PROPERTIES), &self.properties)?;
+        members.serialize_entry(version.select(EDGE_PROPERTIES), &self.properties)?;
         members.end()
     }
 }
 
-/// What holds for some vehicle types: an entry each in 1.0, one for all in 2.0.
-pub(super) struct ForTypes<'a> {
+/// Properties of some vehicle types: one entry per type in 1.0, one for all in 2.0.
+pub(super) struct TypeProperties<'a> {
     pub(super) version: Version,
     pub(super) types: Vec<&'a str>,
     pub(super) columns: Map<String, Value>,
     pub(super) trajectory: Option<Trajectory>,
 }
 
-impl Serialize for ForTypes<'_> {
+impl Serialize for TypeProperties<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let entry = |vehicle_type, robot_types| Entry {
             vehicle_type,
@@ -108,7 +110,7 @@ impl<'a> RobotType<'a> {
     }
 }
 
-/// A place in meters.
+/// A position in meters.
 #[derive(Serialize)]
 pub(super) struct Position {
     x: f64,
@@ -124,6 +126,7 @@ impl From<Point<f64>> for Position {
     }
 }
 
+/// A clamped B-spline as written.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Trajectory {
@@ -133,7 +136,7 @@ pub(super) struct Trajectory {
 }
 
 impl From<ClampedCurve> for Trajectory {
-    /// With knots from 0 to 1.
+    /// Scales the knots to the range from 0 to 1.
     fn from(curve: ClampedCurve) -> Self {
         let last = curve.knots.last().copied().unwrap_or(1.0);
         Self {

@@ -9,6 +9,7 @@ use guideway_spline::{Bounds, Point};
 use super::write_page::{Outline, Page, Stroke};
 use crate::Losses;
 use crate::clamped::POSITION_STEP_M;
+use crate::common_losses::common_losses;
 
 /// Name of the column that holds the groups of a drawing.
 const GROUP: &str = "group";
@@ -80,7 +81,7 @@ fn stroke(layout: &Layout, path: PathRef<'_>) -> Stroke {
 }
 
 fn losses(layout: &Layout) -> Losses {
-    let mut losses = Losses::of(layout);
+    let mut losses = common_losses(layout);
     let ranks = layout.paths.rank().map_or(0, <[i32]>::len);
     losses.add(
         "draw ranks",

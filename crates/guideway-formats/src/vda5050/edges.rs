@@ -1,32 +1,33 @@
-//! From an edge of an order to a path.
+//! VDA 5050 edges: maps an edge of an order to a path.
 
 use std::borrow::Cow;
 
 use guideway_layout::{Code, NewPath};
 use guideway_spline::Runs;
 
-use super::map::Mapper;
+use super::mapper::Mapper;
 use super::model::Edge;
 use crate::ReadError;
 use crate::builder::{PlaceFn, Table};
-use crate::json::{Field, within};
+use crate::json::{Field, field_place};
 
-/// One end of an edge.
+/// A node at an end of an edge.
 struct End {
-    /// The node, as the order tells it.
+    /// Description of the node for messages; empty if the order names none.
     name: String,
     row: Option<u32>,
     level: Option<u32>,
 }
 
 impl Mapper<'_> {
+    /// Maps an edge to a path, or to a refused path.
     pub(super) fn map_edge(
         &mut self,
         edge: &Field<Edge<'_>>,
         at: PlaceFn<'_>,
     ) -> Result<(), ReadError> {
         let Some(edge) = self.builder.record(edge, at) else {
-            let detail = "this is not an object, so there is nothing to draw";
+            let detail = "the edge is not an object";
             return self.builder.refuse(&at().element, Code::WrongType, detail);
         };
         self.builder.check_repeated(edge.repeated, at);
@@ -34,15 +35,15 @@ impl Mapper<'_> {
         let sequence = self.sequence(&edge.sequence, at);
         let before = sequence.and_then(|number| number.checked_sub(1));
         let after = sequence.map(|number| number + 1);
-        let start = self.end(&edge.start, before, &id, &|| within(at, "startNodeId"))?;
-        let end = self.end(&edge.end, after, &id, &|| within(at, "endNodeId"))?;
+        let start = self.end(&edge.start, before, &id, &|| field_place(at, "startNodeId"))?;
+        let end = self.end(&edge.end, after, &id, &|| field_place(at, "endNodeId"))?;
         if let (Some(from), Some(to)) = (start.level, end.level)
             && from != to
         {
             return self.refuse_between_levels(&id, from, to, at);
         }
         let mut runs = Runs::default();
-        let at_curve: PlaceFn<'_> = &|| within(at, "trajectory");
+        let at_curve: PlaceFn<'_> = &|| field_place(at, "trajectory");
         self.builder
             .check_type(&edge.trajectory, at_curve, "an object");
         if let Some(trajectory) = edge.trajectory.get() {
@@ -70,7 +71,7 @@ impl Mapper<'_> {
             .set_attributes(Table::Paths, row, &edge.attributes, at)
     }
 
-    /// The node at an end: by its name if there is one, else by its place in the order.
+    /// Returns the node at an end: by identifier if the edge has one, else by `sequenceId`.
     fn end(
         &mut self,
         field: &Field<Cow<'_, str>>,
@@ -90,10 +91,12 @@ impl Mapper<'_> {
         };
         match (row, name.is_empty()) {
             (Some(_), _) => {}
-            (None, true) => self.builder.report_missing(at, "the name of a node"),
+            (None, true) => self.builder.report_missing(at, "the identifier of a node"),
             (None, false) => {
                 let message = || {
-                    format!("`{edge}` needs the node {name}, which is not there or has no position")
+                    format!(
+                        "`{edge}` needs the node {name}, which does not exist or has no position"
+                    )
                 };
                 let remedy = "Add the node with its position, or correct the name";
                 self.builder.report(Code::UnknownNode, at, message, remedy);
@@ -112,24 +115,23 @@ impl Mapper<'_> {
     ) -> Result<(), ReadError> {
         let levels = &self.builder.layout.levels;
         let [from, to] = [from, to].map(|level| &levels[level as usize].id);
-        let detail = format!(
-            "leads from the map `{from}` to the map `{to}`; it is not drawn across one plane"
-        );
+        let detail =
+            format!("connects the maps `{from}` and `{to}`; paths between levels are not drawn");
         let message = || format!("`{id}` {detail}");
-        let remedy = "Nothing to do if this is a lift; else correct the mapId of the node";
+        let remedy = "None needed for a lift; else correct the mapId of the node";
         self.builder.report(Code::CrossLevel, at, message, remedy);
         self.builder.refuse(id, Code::CrossLevel, &detail)
     }
 }
 
-/// Why no straight line can be drawn.
+/// Describes the missing end nodes of a straight line.
 fn missing_ends(ends: [&End; 2]) -> String {
     let missing = ends.into_iter().zip(["start", "end"]);
     let missing = missing.filter(|(end, _)| end.row.is_none());
     let texts: Vec<String> = missing
         .map(|(end, which)| match end.name.as_str() {
-            "" => format!("the {which} node is not named"),
-            name => format!("the {which} node {name} is not there or has no position"),
+            "" => format!("the {which} node is missing"),
+            name => format!("the {which} node {name} is unknown or has no position"),
         })
         .collect();
     texts.join(", and ")

@@ -1,37 +1,15 @@
-//! From the records of an order to a layout: levels and nodes.
+//! VDA 5050 mapping: adds the levels, nodes and edges of an order to the layout.
 
-use std::collections::HashMap;
+use guideway_layout::{Code, Layout, Level, Place};
 
-use guideway_layout::{Code, Layout, Level, Place, Value};
-
+use super::mapper::Mapper;
 use super::model::{Node, Position, Root};
 use crate::ReadError;
-use crate::builder::{Builder, PlaceFn, Table};
-use crate::json::{Field, items, within};
-use crate::node_rows::NodeRows;
-use crate::source::Source;
+use crate::builder::{PlaceFn, Table};
+use crate::json::{Field, field_place, items};
 
-/// Fills a layout from the records of an order.
-pub(super) struct Mapper<'a> {
-    pub(super) builder: Builder<'a>,
-    /// The rows of nodes by name. An order may pass a node more than once.
-    pub(super) nodes: NodeRows,
-    /// The rows of nodes by their place in the order.
-    pub(super) sequence: HashMap<u64, u32>,
-    /// Each map is a level.
-    maps: HashMap<String, u32>,
-}
-
-impl<'a> Mapper<'a> {
-    pub(super) fn new(source: Source<'a>, file_bytes: usize) -> Self {
-        Self {
-            builder: Builder::new(source, file_bytes),
-            nodes: NodeRows::default(),
-            sequence: HashMap::new(),
-            maps: HashMap::new(),
-        }
-    }
-
+impl Mapper<'_> {
+    /// Maps the root object to a layout.
     pub(super) fn map(mut self, root: &Root<'_>) -> Result<Layout, ReadError> {
         let at_root: PlaceFn<'_> = &|| Place::element("the root");
         self.builder.check_repeated(root.repeated, at_root);
@@ -56,7 +34,7 @@ impl<'a> Mapper<'a> {
         Ok(self.builder.layout)
     }
 
-    /// The version stated is taken where the keys of the edges do not tell against it.
+    /// Sets the version: the stated one, unless the keys of the edges contradict it.
     fn map_version(&mut self, root: &Root<'_>) -> Result<(), ReadError> {
         let at: PlaceFn<'_> = &|| Place::element("version");
         let stated = self.builder.text(&root.version, at)?.unwrap_or_default();
@@ -71,8 +49,8 @@ impl<'a> Mapper<'a> {
         let fits = majors.contains(&stated.split('.').next().unwrap_or_default());
         if !fits && !stated.is_empty() {
             let message =
-                || format!("the order states version `{stated}`, its structure is {found}");
-            let remedy = "Nothing to do: the structure counts";
+                || format!("the order states version `{stated}`, but its structure is {found}");
+            let remedy = "None needed: the structure decides the version";
             self.builder.report(Code::Version, at, message, remedy);
         }
         let provenance = &mut self.builder.layout.provenance;
@@ -90,7 +68,7 @@ impl<'a> Mapper<'a> {
         };
         self.builder.check_repeated(node.repeated, at);
         let id = self.builder.id(&node.id, at, "nodeId")?;
-        let at_position: PlaceFn<'_> = &|| within(at, "nodePosition");
+        let at_position: PlaceFn<'_> = &|| field_place(at, "nodePosition");
         let Some(position) = self.builder.record(&node.position, at_position) else {
             return Ok(());
         };
@@ -103,7 +81,7 @@ impl<'a> Mapper<'a> {
         let nodes = &self.builder.layout.nodes;
         let known = self.nodes.get(nodes, &id);
         if let Some(row) = known.filter(|&row| nodes.position_m(row) == point) {
-            // The order comes by again.
+            // The order passes the node again.
             self.sequence.extend(sequence.map(|number| (number, row)));
             return Ok(());
         }
@@ -125,7 +103,7 @@ impl<'a> Mapper<'a> {
     ) -> Result<Option<u32>, ReadError> {
         let id = self
             .builder
-            .text(&position.map_id, &|| within(at, "mapId"))?;
+            .text(&position.map_id, &|| field_place(at, "mapId"))?;
         let Some(id) = id else { return Ok(None) };
         if let Some(&level) = self.maps.get(id) {
             return Ok(Some(level));
@@ -138,36 +116,5 @@ impl<'a> Mapper<'a> {
         });
         self.maps.insert(id.to_owned(), level);
         Ok(Some(level))
-    }
-
-    /// A place in the order.
-    pub(super) fn sequence(&mut self, field: &Field<f64>, at: PlaceFn<'_>) -> Option<u64> {
-        /// Whole numbers up to here are exact.
-        const MOST: f64 = (1_u64 << 53) as f64;
-        let at: PlaceFn<'_> = &|| within(at, "sequenceId");
-        self.builder.check_type(field, at, "a whole number");
-        let &number = field.get()?;
-        if number.fract() == 0.0 && (0.0..=MOST).contains(&number) {
-            return Some(number as u64);
-        }
-        let message = || format!("the sequenceId is {number:?}, a whole number from 0 expected");
-        let remedy = "It is left out; correct the writer of the order";
-        self.builder.report(Code::UnknownValue, at, message, remedy);
-        None
-    }
-
-    pub(super) fn set_sequence(
-        &mut self,
-        table: Table,
-        row: usize,
-        sequence: Option<u64>,
-    ) -> Result<(), ReadError> {
-        match sequence {
-            Some(number) => {
-                let value = Value::Int(number as i64);
-                self.builder.set(table, row, "sequenceId", value)
-            }
-            None => Ok(()),
-        }
     }
 }

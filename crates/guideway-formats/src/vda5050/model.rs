@@ -1,4 +1,4 @@
-//! The records of an order, 1.1 to 3.1. Where versions name a thing differently, all names are here.
+//! VDA 5050 records: the fields of an order, 1.1 to 3.1, under the names of all versions.
 
 use std::borrow::Cow;
 
@@ -59,7 +59,7 @@ record! {
         "maxRotationSpeed",
         "maximumRotationSpeed",
         "length",
-        // As the text of 1.1 has it.
+        // Spelling of the text of 1.1.
         "lenght",
         "actions",
         "corridor.leftWidth",

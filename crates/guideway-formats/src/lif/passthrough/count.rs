@@ -1,15 +1,17 @@
-//! What of a file is lost where it is not kept.
+//! Count of the objects with unmodeled members: the losses of a write to another format.
 
 use guideway_layout::Layout;
 use serde_json::value::RawValue;
 use serde_json::{Map, Value};
 
-use super::super::model::{EDGE_PROPERTIES, NODE_PROPERTIES};
-use super::super::write_columns::Version;
-use super::{Level, Object, Rest, raw};
+use super::raw::{Object, parse};
+use super::unmodeled::{Level, Unmodeled};
+use crate::lif::model::{EDGE_PROPERTIES, NODE_PROPERTIES};
+use crate::lif::version::Version;
 
-/// Of what a file of LIF lists, what has members that a layout has not; all of it where the text is not kept.
-pub(crate) fn count_beside(layout: &Layout) -> usize {
+/// Counts the levels, nodes, edges and stations of a LIF file with members that the model does not hold; all
+/// of them if the layout does not keep the text.
+pub(crate) fn count_unmodeled(layout: &Layout) -> usize {
     let provenance = &layout.provenance;
     if !provenance
         .format
@@ -21,30 +23,31 @@ pub(crate) fn count_beside(layout: &Layout) -> usize {
     let Some(text) = provenance.text.as_deref() else {
         return layout.nodes.len() + layout.paths.len() + layout.stations.len();
     };
-    let rest = [Version::V1, Version::V2].map(|version| Rest::parse(text, version));
-    let levels = rest.iter().flatten().flat_map(|rest| rest.levels.values());
-    levels.map(of_level).sum()
+    let files = [Version::V1, Version::V2].map(|version| Unmodeled::parse(text, version));
+    let levels = files.iter().flatten().flat_map(|file| file.levels.values());
+    levels.map(count_in_level).sum()
 }
 
-fn of_level(level: &Level<'_>) -> usize {
-    let has_more = |id_key: &str, object: Option<&RawValue>| {
+fn count_in_level(level: &Level<'_>) -> usize {
+    let has_unmodeled = |id_key: &str, object: Option<&RawValue>| {
         let Some(object) = object else {
             return true;
         };
-        let members = raw::<Object>(object).into_iter().flatten();
-        let mut members = members.map(|(name, value)| is_held(id_key, &name, &value));
-        members.any(|is_held| !is_held)
+        let mut members = parse::<Object>(object).into_iter().flatten();
+        members.any(|(name, value)| !is_modeled(id_key, &name, &value))
     };
-    let lists = level.objects.iter().map(|(id_key, objects)| {
-        let more = objects.values().filter(|object| has_more(id_key, **object));
-        more.count()
+    let counts = level.objects.iter().map(|(id_key, objects)| {
+        let objects = objects
+            .values()
+            .filter(|object| has_unmodeled(id_key, **object));
+        objects.count()
     });
     let has_members = level.members.keys().any(|name| name != "layoutName");
-    lists.sum::<usize>() + usize::from(has_members)
+    counts.sum::<usize>() + usize::from(has_members)
 }
 
-/// Whether a layout has a member of an object.
-fn is_held(id_key: &str, name: &str, value: &Value) -> bool {
+/// Returns whether the model holds a member of an object.
+fn is_modeled(id_key: &str, name: &str, value: &Value) -> bool {
     match (id_key, name) {
         _ if name == id_key => true,
         ("nodeId", "nodeName" | "mapId") => true,

@@ -1,23 +1,23 @@
-//! Lists that are read item by item: of a long file no more than one item is held beside its text.
+//! Lazy arrays: parses a long array item by item, so that memory holds one item beside the text.
 
 use std::marker::PhantomData;
 
 use serde::{Deserialize, Deserializer};
 use serde_json::value::RawValue;
 
-use super::field::{Field, FromJson, Kind};
-use super::problem;
+use super::field::{Field, FromJson, JsonType};
+use super::parse::problem;
 use crate::ReadError;
 use crate::builder::Builder;
 
-/// The text of a list, known to be sound JSON but for what its numbers and texts mean.
+/// The text of an array. Its syntax is valid; numbers and escapes are checked as items are parsed.
 #[derive(Debug)]
-pub(crate) struct Later<'t, T> {
+pub(crate) struct LazyArray<'t, T> {
     text: &'t str,
     item: PhantomData<T>,
 }
 
-impl<'t, T> FromJson<'t> for Later<'t, T> {
+impl<'t, T> FromJson<'t> for LazyArray<'t, T> {
     fn field<D: Deserializer<'t>>(deserializer: D) -> Result<Field<Self>, D::Error> {
         let text = <&'t RawValue>::deserialize(deserializer)?.get();
         Ok(match text.as_bytes().first() {
@@ -25,19 +25,20 @@ impl<'t, T> FromJson<'t> for Later<'t, T> {
                 text,
                 item: PhantomData,
             }),
-            Some(b'{') => Field::Wrong(Kind::Object),
-            Some(b'"') => Field::Wrong(Kind::Text),
-            Some(b't' | b'f') => Field::Wrong(Kind::Truth),
+            Some(b'{') => Field::Wrong(JsonType::Object),
+            Some(b'"') => Field::Wrong(JsonType::String),
+            Some(b't' | b'f') => Field::Wrong(JsonType::Bool),
             Some(b'n') | None => Field::Absent,
-            Some(_) => Field::Wrong(Kind::Number),
+            Some(_) => Field::Wrong(JsonType::Number),
         })
     }
 }
 
-impl<'t, T: FromJson<'t>> Field<Later<'t, T>> {
-    /// The items of a list in a file of this text; none if it is not a list.
-    pub(crate) fn items(&self, file: &'t str) -> Items<'t, T> {
-        Items {
+impl<'t, T: FromJson<'t>> Field<LazyArray<'t, T>> {
+    /// Returns a cursor over the items; `file` is the whole text. There are none if the field is not an
+    /// array.
+    pub(crate) fn items(&self, file: &'t str) -> LazyItems<'t, T> {
+        LazyItems {
             file,
             rest: self.get().map_or("", |list| &list.text[1..]),
             index: 0,
@@ -46,16 +47,16 @@ impl<'t, T: FromJson<'t>> Field<Later<'t, T>> {
     }
 }
 
-/// The items of a list that were not read yet.
-pub(crate) struct Items<'t, T> {
+/// Cursor over the items of an array.
+pub(crate) struct LazyItems<'t, T> {
     file: &'t str,
     rest: &'t str,
     index: usize,
     item: PhantomData<T>,
 }
 
-impl<'t, T: FromJson<'t>> Items<'t, T> {
-    /// Reads the next item; returns it with its number, from 0.
+impl<'t, T: FromJson<'t>> LazyItems<'t, T> {
+    /// Parses the next item; returns it with its index.
     pub(crate) fn next(
         &mut self,
         builder: &mut Builder<'_>,

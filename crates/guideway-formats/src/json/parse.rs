@@ -1,0 +1,90 @@
+//! JSON parsing: checks a text against the limits, parses it into a record, and converts parser errors
+//! to problems with line and column.
+
+use serde::Deserialize;
+
+use super::field::{Field, FromJson};
+use super::limits;
+use crate::source::Source;
+use crate::text::{line_column, printable};
+use crate::{Problem, ReadError};
+
+/// Parses a whole text as one value.
+///
+/// # Errors
+/// When the text exceeds a limit, is not JSON, or the caller cancels the read.
+pub(crate) fn parse<'t, T: FromJson<'t>>(
+    source: &Source<'_>,
+    text: &'t str,
+) -> Result<Field<T>, ReadError> {
+    limits::check(text, &source.options.limits).map_err(|p| source.fail(p))?;
+    source.check_cancelled()?;
+    let mut parser = serde_json::Deserializer::from_str(text);
+    let value = Field::deserialize(&mut parser);
+    value
+        .and_then(|value| parser.end().map(|()| value))
+        .map_err(|error| source.fail(problem(&error, text, 0)))
+}
+
+/// Converts a parser error to a problem. The parser has seen the part of `text` from byte `at` on.
+pub(super) fn problem(error: &serde_json::Error, text: &str, at: usize) -> Problem {
+    let (line, column) = match (
+        line_column(text, at),
+        error.line() as u64,
+        error.column() as u64,
+    ) {
+        ((line, column), 0 | 1, within) => (line, (column + within).saturating_sub(1)),
+        ((line, _), lines, within) => (line + lines - 1, within),
+    };
+    if error.is_eof() {
+        let (line, column) = line_column(text, text.len());
+        return Problem::Truncated {
+            at: text.len() as u64,
+            detail: format!("the JSON text is cut at line {line}, column {column}"),
+        };
+    }
+    let message = error.to_string();
+    if message.starts_with("recursion limit exceeded") {
+        return Problem::TooDeep {
+            limit: 128,
+            line,
+            column,
+        };
+    }
+    let message = message.split(" at line ").next().unwrap_or(&message);
+    Problem::Syntax {
+        line,
+        column,
+        message: printable(&reword(
+            message,
+            word_at(&text[at..], error.line(), error.column()),
+        )),
+    }
+}
+
+/// Returns the word at a place.
+fn word_at(text: &str, line: usize, column: usize) -> &str {
+    let line = text.lines().nth(line.saturating_sub(1)).unwrap_or("");
+    let from = line.get(column.saturating_sub(1)..).unwrap_or("");
+    let end = from.find(|c: char| !c.is_ascii_alphanumeric() && c != '-');
+    &from[..end.unwrap_or(from.len())]
+}
+
+/// Rewords a message of the parser for people; `word` is the text at the place.
+fn reword(message: &str, word: &str) -> String {
+    match (message, word) {
+        ("expected value", "NaN" | "Infinity" | "nan" | "inf") => {
+            format!("expected a number, found {word}; JSON has no such number")
+        }
+        ("invalid number", _) if word.contains("nfinity") => {
+            "expected a number, found -Infinity; JSON has no such number".into()
+        }
+        ("number out of range", _) => "the number exceeds the range of double precision".into(),
+        ("key must be a string", _) => "expected a key in quotes; check for a surplus comma".into(),
+        ("trailing comma", _) => "surplus comma after the last value".into(),
+        ("trailing characters", _) => "surplus text after the end of the layout".into(),
+        ("expected value", "") => "expected a value".into(),
+        ("expected value", word) => format!("expected a value, found `{word}`"),
+        (other, _) => other.into(),
+    }
+}
