@@ -114,8 +114,8 @@ fn vertices(run: RunPoints<'_>) -> Vec<Point<f64>> {
 
 /// Returns the control points over clamped knots.
 ///
-/// Knot insertion (Boehm 1980) raises each outer knot to multiplicity 4. That moves the first two and
-/// the last two points and leaves those between unchanged.
+/// Knot insertion (Boehm 1980) raises each outer knot to multiplicity 4. That moves the first two
+/// and the last two points and leaves those between unchanged.
 fn clamped(run: RunPoints<'_>) -> Vec<Point<f64>> {
     let count = run.len();
     let third = |near: usize, far: usize| (run.get(near) * 2.0 + run.get(far)) * (1.0 / 3.0);
@@ -125,8 +125,8 @@ fn clamped(run: RunPoints<'_>) -> Vec<Point<f64>> {
     points
 }
 
-/// Returns whether a Bezier curve is the straight line between its ends, without turning back, within
-/// `step` meters.
+/// Returns whether a Bezier curve is the straight line between its ends, without turning back,
+/// within `step` meters.
 pub(crate) fn is_straight(bezier: &[Point<f64>; 4], step: f64) -> bool {
     let [start, first, second, end] = *bezier;
     let chord = end - start;

@@ -2,9 +2,9 @@
 
 use guideway_spline::{Affine, Point, Runs, arc_to_runs};
 
-/// Appends the arc of the unit circle from angle `start` over `sweep` (radians), mapped by `map`: an
-/// arc of any circle or ellipse. Returns false, and appends nothing, if the ellipse could reach farther
-/// than `max_m` meters from its center.
+/// Appends the arc of the unit circle from angle `start` over `sweep` (radians), mapped by `map`:
+/// an arc of any circle or ellipse. Returns false, and appends nothing, if the ellipse could reach
+/// farther than `max_m` meters from its center.
 ///
 /// Mapping the control points maps a uniform B-spline. The map stretches no direction by more than
 /// (|x|^2 + |y|^2)^(1/2), the Frobenius norm, so that factor bounds the error as well.

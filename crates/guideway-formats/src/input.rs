@@ -54,7 +54,8 @@ impl Input<'_> {
         }
     }
 
-    /// Returns the bytes of a range. The caller checks its length: memory for it is allocated first.
+    /// Returns the bytes of a range. The caller checks its length: memory for it is allocated
+    /// first.
     pub(crate) fn bytes(&self, range: Range<usize>) -> Result<Vec<u8>, Problem> {
         let mut bytes = vec![0; range.len()];
         self.read(range.start, &mut bytes)?;

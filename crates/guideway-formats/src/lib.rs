@@ -1,8 +1,8 @@
 //! File formats: reads layout files into the Guideway model and writes layouts back.
 //!
-//! Files come from customers and from the network, so their bytes are not trusted: every reader obeys
-//! [`Limits`](guideway_layout::Limits), never panics, and returns either a layout with diagnostics or
-//! an error with file, place, problem and remedy.
+//! Files come from customers and from the network, so their bytes are not trusted: every reader
+//! obeys [`Limits`](guideway_layout::Limits), never panics, and returns either a layout with
+//! diagnostics or an error with file, place, problem and remedy.
 //!
 //! | stage | input | output | modules |
 //! |---|---|---|---|

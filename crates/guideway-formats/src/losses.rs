@@ -1,4 +1,5 @@
-//! Losses of a conversion: the parts of a layout that a written file does not hold, with their counts.
+//! Losses of a conversion: the parts of a layout that a written file does not hold, with their
+//! counts.
 
 use std::fmt;
 
@@ -94,7 +95,8 @@ impl Losses {
         self.add("stations", layout.stations.len(), "stations");
     }
 
-    /// Adds the columns of a table that a format does not hold. `of` names the rows, such as `paths`.
+    /// Adds the columns of a table that a format does not hold. `of` names the rows, such as
+    /// `paths`.
     pub(crate) fn add_columns(
         &mut self,
         attributes: &Attributes,

@@ -64,8 +64,8 @@ pub fn read_bytes(
     }
 }
 
-/// Returns whether a file is Arrow. Its reader loads parts of the file on several threads, so the file
-/// is not read as a whole.
+/// Returns whether a file is Arrow. Its reader loads parts of the file on several threads, so the
+/// file is not read as a whole.
 #[cfg(unix)]
 fn is_arrow(file: &mut File) -> Result<bool, Problem> {
     let mut first_bytes = Vec::new();
@@ -147,7 +147,8 @@ const UTF_16: Problem = Problem::NotUtf8 {
     detail: "it is UTF-16",
 };
 
-/// Returns whether bytes are UTF-16: by the byte order mark, or by the zero byte of an ASCII character.
+/// Returns whether bytes are UTF-16: by the byte order mark, or by the zero byte of an ASCII
+/// character.
 fn is_utf16(bytes: &[u8]) -> bool {
     matches!(
         bytes,

@@ -87,8 +87,8 @@ fn format_of_key(key: &[u8]) -> Option<Format> {
     }
 }
 
-/// Iterates over the keys of the root object of a JSON text, escapes unresolved; any bytes if the text
-/// is not JSON.
+/// Iterates over the keys of the root object of a JSON text, escapes unresolved; any bytes if the
+/// text is not JSON.
 fn root_keys(text: &[u8]) -> impl Iterator<Item = &[u8]> {
     let (mut at, mut depth) = (0, 0_u64);
     std::iter::from_fn(move || {

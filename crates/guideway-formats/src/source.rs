@@ -1,4 +1,5 @@
-//! Read options: limits and progress observer of a read, and the source handle that readers receive.
+//! Read options: limits and progress observer of a read, and the source handle that readers
+//! receive.
 
 use guideway_layout::Limits;
 

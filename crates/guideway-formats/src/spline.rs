@@ -23,8 +23,8 @@ pub(crate) struct Spline {
 }
 
 impl Builder<'_> {
-    /// Appends a curve to empty `runs`, or its control polygon if the numbers define no curve. They stay
-    /// empty for fewer than two points.
+    /// Appends a curve to empty `runs`, or its control polygon if the numbers define no curve. They
+    /// stay empty for fewer than two points.
     pub(crate) fn append_spline(&mut self, spline: &Spline, at: PlaceFn<'_>, runs: &mut Runs) {
         if let Some(curve) = self.curve(spline, at) {
             if self.convert(&curve, at, runs) {
@@ -51,7 +51,8 @@ impl Builder<'_> {
     fn convert(&mut self, curve: &Nurbs, at: PlaceFn<'_>, runs: &mut Runs) -> bool {
         let tolerance = self.source.options.limits.conversion_tolerance_m;
         let done = nurbs_to_runs(curve, tolerance, runs);
-        // An exact conversion is as large as the curve in the file, an approximation up to 1,000 times.
+        // An exact conversion is as large as the curve in the file, an approximation up to 1,000
+        // times.
         if !done.exact && !self.within_point_budget(runs) {
             let remedy = "The control polygon is drawn; split the file, or lower the degree";
             self.report(

@@ -2,8 +2,8 @@
 
 use guideway_spline::{Bounds, Point};
 
-/// Equirectangular projection about a center, which maps to the origin. It is true to scale near the
-/// center only, which suffices for a site.
+/// Equirectangular projection about a center, which maps to the origin. It is true to scale near
+/// the center only, which suffices for a site.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct LocalProjection {
     center: Point<f64>,
@@ -13,8 +13,8 @@ pub(crate) struct LocalProjection {
 impl LocalProjection {
     /// Makes the projection about the center of a box of degrees.
     ///
-    /// The scale is that of the WGS 84 ellipsoid at the center, from its radii of curvature: along the
-    /// meridian a (1 - e^2) / (1 - e^2 sin^2)^(3/2), across it a / (1 - e^2 sin^2)^(1/2).
+    /// The scale is that of the WGS 84 ellipsoid at the center, from its radii of curvature: along
+    /// the meridian a (1 - e^2) / (1 - e^2 sin^2)^(3/2), across it a / (1 - e^2 sin^2)^(1/2).
     pub(crate) fn centered_on(bounds: Bounds<f64>) -> Self {
         const SEMI_MAJOR_M: f64 = 6_378_137.0;
         const ECCENTRICITY_SQUARED: f64 = 6.694_379_990_141_32e-3;

@@ -1,33 +1,32 @@
+//! Record batch during assembly: its columns, and its rows that begin drawn and refused paths.
+
 use std::ops::Range;
 
 use arrow_array::{Array, ArrayRef, ArrowPrimitiveType, PrimitiveArray};
-use arrow_schema::DataType;
 use guideway_layout::Cells;
 
-use super::guard::{damaged, guarded};
-use super::polygons::Fault;
-use crate::Problem;
+use super::fault::Fault;
 
-/// The columns of a record batch, and what became of its rows.
+/// Columns of a record batch, and the fate of its rows.
 pub(super) struct Batch {
-    /// Which rows of the table these are.
+    /// Rows of the table.
     pub(super) rows: Range<usize>,
     pub(super) columns: Vec<ArrayRef>,
-    /// Rows, counted from its first, that begin a path that is drawn. Ascending and apart.
-    pub(super) kept: Vec<Range<usize>>,
-    /// Rows, counted likewise, that begin a path that is refused.
+    /// Rows of the batch that begin a drawn path: ascending, disjoint ranges.
+    pub(super) drawn: Vec<Range<usize>>,
+    /// Rows of the batch that begin a refused path, with the reason.
     pub(super) refused: Vec<(usize, Fault)>,
 }
 
 impl Batch {
-    /// Appends the values of the kept rows.
+    /// Appends the values of the drawn rows.
     pub(super) fn extend<T: ArrowPrimitiveType, V>(
         &self,
         out: &mut Vec<V>,
         column: &PrimitiveArray<T>,
         mut value: impl FnMut(Option<T::Native>) -> V,
     ) {
-        for rows in self.kept.iter().cloned() {
+        for rows in self.drawn.iter().cloned() {
             if column.null_count() == 0 {
                 let values = &column.values()[rows];
                 out.extend(values.iter().map(|&v| value(Some(v))));
@@ -37,14 +36,14 @@ impl Batch {
         }
     }
 
-    /// Appends the values of the kept rows that have one.
+    /// Appends the values of the drawn rows, some of which may be null.
     pub(super) fn add_cells<T: ArrowPrimitiveType, V: Copy + Default>(
         &self,
         out: &mut Cells<V>,
         column: &PrimitiveArray<T>,
         value: impl Fn(T::Native) -> V,
     ) {
-        for rows in self.kept.iter().cloned() {
+        for rows in self.drawn.iter().cloned() {
             if column.null_count() == 0 {
                 out.extend_present(column.values()[rows].iter().map(|&v| value(v)));
             } else {
@@ -56,17 +55,4 @@ impl Batch {
 
 fn get<T: ArrowPrimitiveType>(column: &PrimitiveArray<T>, row: usize) -> Option<T::Native> {
     column.is_valid(row).then(|| column.value(row))
-}
-
-/// The column in another type; values that do not fit it become null.
-pub(super) fn cast(column: &ArrayRef, target: &DataType) -> Result<ArrayRef, Problem> {
-    guarded("column", || {
-        arrow_cast::cast(column, target).map_err(|e| damaged("column", e.to_string()))
-    })
-}
-
-/// Number of values that became null as a column was cast.
-pub(super) fn count_lost(column: &ArrayRef, cast: &ArrayRef) -> usize {
-    let nulls = cast.logical_null_count();
-    nulls.saturating_sub(column.logical_null_count())
 }

@@ -1,11 +1,13 @@
+//! Expansion budget: limits the bytes that a file may expand to in memory.
+
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use crate::Problem;
 
-/// How many bytes a file may swell to beyond its own size.
+/// Bytes that a file may expand to beyond its size, shared by all threads.
 ///
-/// Compressed buffers, dictionaries and views let a small file stand for a large table. Real ones stay
-/// far below this; a file made to exhaust memory is stopped before the memory is asked for. Threads share it.
+/// Compressed buffers, dictionaries and views let a small file represent a large table. Real files
+/// stay far below the limit; a malicious one fails before the memory is allocated.
 #[derive(Debug)]
 pub(super) struct Budget {
     limit: u64,
@@ -16,13 +18,17 @@ impl Budget {
     const FLOOR_BYTES: u64 = 256 << 20;
     const PER_FILE_BYTE: u64 = 64;
 
+    /// Makes the budget of a file.
     pub(super) fn for_file(file_bytes: usize) -> Self {
         let limit = (file_bytes as u64).saturating_mul(Self::PER_FILE_BYTE) + Self::FLOOR_BYTES;
         let used = AtomicU64::new(0);
         Self { limit, used }
     }
 
-    /// Notes that `bytes` are about to be made.
+    /// Charges `bytes` before they are allocated.
+    ///
+    /// # Errors
+    /// When the budget is exceeded.
     pub(super) fn charge(&self, bytes: u64) -> Result<(), Problem> {
         let with = |used: u64| used.saturating_add(bytes);
         let used = with(self.used.update(Ordering::Relaxed, Ordering::Relaxed, with));
@@ -30,7 +36,7 @@ impl Budget {
             return Ok(());
         }
         Err(Problem::LimitReached {
-            what: "bytes that the file swells to",
+            what: "bytes that the file expands to",
             limit: self.limit,
             actual: used,
         })

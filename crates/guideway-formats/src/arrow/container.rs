@@ -1,31 +1,36 @@
+//! Arrow container: finds the schema and the messages of an IPC file or stream, and checks their
+//! ranges.
+
 use std::ops::Range;
 
 use arrow_ipc::{Block, Endianness, Footer, Schema as IpcSchema};
 use arrow_schema::Schema;
 use guideway_layout::Place;
 
-use super::guard::{damaged, guarded};
+use super::catch_decode_panic::catch_decode_panic;
+use super::problems::damaged;
 use crate::Problem;
 use crate::input::Input;
 
-/// What a message begins with since Arrow 0.15; before, with its length at once.
+/// Start of a message since Arrow 0.15; older messages start with their length.
 const CONTINUATION_MARKER: [u8; 4] = [0xFF; 4];
 const MAGIC: &[u8] = b"ARROW1";
-/// The length of a message's head.
+/// Bytes of the length of a message header.
 const LENGTH_BYTES: usize = 4;
 /// Footer length and the closing magic.
 const TRAILER_BYTES: usize = 4 + MAGIC.len();
 /// The magic at the start, padded.
 const LEADER_BYTES: usize = 8;
 
-/// Where the messages of a file or stream lie, in the order in which they have to be decoded.
+/// Schema and messages of a file or stream, in decoding order.
 #[derive(Debug)]
 pub(super) struct Container {
     pub(super) schema: Schema,
     pub(super) messages: Vec<Message>,
 }
 
-/// One message: a flatbuffer that describes it, with its length before it, and the buffers that it describes.
+/// Ranges of a message: the header (length and flatbuffer) and the body (the buffers that it
+/// describes).
 #[derive(Clone, Debug)]
 pub(super) struct Message {
     header: Range<usize>,
@@ -33,7 +38,7 @@ pub(super) struct Message {
 }
 
 impl Message {
-    /// The flatbuffer.
+    /// Reads the flatbuffer.
     pub(super) fn header(&self, input: &Input<'_>) -> Result<Vec<u8>, Problem> {
         let mut header = input.bytes(self.header.clone())?;
         let marker = header.strip_prefix(&CONTINUATION_MARKER);
@@ -42,13 +47,16 @@ impl Message {
         Ok(header)
     }
 
-    /// Where it begins, as errors name it.
+    /// Names the place for errors.
     pub(super) fn place(&self) -> String {
         format!("message at byte {}", self.header.start)
     }
 }
 
-/// Finds all messages. Every range returned lies within the input, and none shares a byte with another.
+/// Finds all messages. The ranges lie within the input and are disjoint.
+///
+/// # Errors
+/// When the input is truncated, or its structure is contradictory.
 pub(super) fn open(input: &Input<'_>) -> Result<Container, Problem> {
     let first = input.bytes(0..MAGIC.len().min(input.len()))?;
     if first == MAGIC {
@@ -77,19 +85,14 @@ fn open_file(input: &Input<'_>) -> Result<Container, Problem> {
         .ok()
         .and_then(|len| trailer_at.checked_sub(len))
         .filter(|&at| at >= LEADER_BYTES)
-        .ok_or_else(|| {
-            damaged(
-                "footer",
-                format!("a length of {declared} bytes is declared"),
-            )
-        })?;
+        .ok_or_else(|| damaged("footer", format!("invalid length of {declared} bytes")))?;
     let footer = input.bytes(footer_at..trailer_at)?;
-    let footer = guarded("footer", || {
+    let footer = catch_decode_panic("footer", || {
         arrow_ipc::root_as_footer(&footer).map_err(|e| damaged("footer", e.to_string()))
     })?;
     let schema = footer
         .schema()
-        .ok_or_else(|| damaged("footer", "there is no schema"))?;
+        .ok_or_else(|| damaged("footer", "the schema is missing"))?;
     let container = Container {
         schema: convert_schema(schema)?,
         messages: file_messages(&footer, footer_at)?,
@@ -106,15 +109,15 @@ fn file_messages(footer: &Footer<'_>, footer_at: usize) -> Result<Vec<Message>, 
         let place = || format!("block {index}");
         let (header, end) = block_range(block)
             .filter(|(header, end)| header.start >= LEADER_BYTES && *end <= footer_at)
-            .ok_or_else(|| damaged(place(), block_text(block)))?;
+            .ok_or_else(|| damaged(place(), describe_block(block)))?;
         let body = header.end..end;
         messages.push(Message { header, body });
     }
-    check_apart(&messages)?;
+    check_disjoint(&messages)?;
     Ok(messages)
 }
 
-/// The range of the header, with its length prefix, and the end of the body.
+/// Returns the range of the header with its length prefix, and the end of the body.
 fn block_range(block: &Block) -> Option<(Range<usize>, usize)> {
     let start = usize::try_from(block.offset()).ok()?;
     let header_len = usize::try_from(block.metaDataLength()).ok()?;
@@ -123,17 +126,17 @@ fn block_range(block: &Block) -> Option<(Range<usize>, usize)> {
     Some((start..header_end, end))
 }
 
-fn block_text(block: &Block) -> String {
+fn describe_block(block: &Block) -> String {
     format!(
-        "it is declared at byte {} with {} + {} bytes, which is not within the file",
+        "its range at byte {} with {} + {} bytes is not within the file",
         block.offset(),
         block.metaDataLength(),
         block.bodyLength()
     )
 }
 
-/// Blocks that share bytes would let a small file stand for any number of rows.
-fn check_apart(messages: &[Message]) -> Result<(), Problem> {
+/// Fails for blocks that share bytes: a small file could else represent any number of rows.
+fn check_disjoint(messages: &[Message]) -> Result<(), Problem> {
     let mut order: Vec<&Message> = messages.iter().collect();
     order.sort_unstable_by_key(|m| m.header.start);
     for pair in order.windows(2) {
@@ -147,37 +150,37 @@ fn check_apart(messages: &[Message]) -> Result<(), Problem> {
 
 fn open_stream(input: &Input<'_>) -> Result<Container, Problem> {
     input.read_ahead();
-    let mut walk = Walk { input, at: 0 };
-    let (_, first) = walk
+    let mut cursor = StreamCursor { input, at: 0 };
+    let (_, first) = cursor
         .next()?
-        .ok_or_else(|| damaged("stream", "it ends before its schema"))?;
-    let schema = guarded("stream", || {
+        .ok_or_else(|| damaged("stream", "the schema is missing"))?;
+    let schema = catch_decode_panic("stream", || {
         let message =
             arrow_ipc::root_as_message(&first).map_err(|e| damaged("stream", e.to_string()))?;
         message
             .header_as_schema()
-            .ok_or_else(|| damaged("stream", "it does not begin with a schema"))
+            .ok_or_else(|| damaged("stream", "the first message is not a schema"))
             .and_then(convert_schema)
     })?;
     let mut messages = Vec::new();
-    while let Some((message, _)) = walk.next()? {
+    while let Some((message, _)) = cursor.next()? {
         messages.push(message);
     }
     Ok(Container { schema, messages })
 }
 
-/// Goes through the messages of a stream, one after the other.
-struct Walk<'a> {
+/// Cursor over the messages of a stream.
+struct StreamCursor<'a> {
     input: &'a Input<'a>,
     at: usize,
 }
 
-impl Walk<'_> {
-    /// The next message, and its flatbuffer.
+impl StreamCursor<'_> {
+    /// Returns the next message and its flatbuffer.
     fn next(&mut self) -> Result<Option<(Message, Vec<u8>)>, Problem> {
         let (start, left) = (self.at, self.input.len() - self.at);
         if left == 0 {
-            // A stream may end without its end mark.
+            // The end-of-stream marker is optional.
             return Ok(None);
         }
         let marker = start..start + left.min(CONTINUATION_MARKER.len());
@@ -192,7 +195,7 @@ impl Walk<'_> {
         let header = start..self.take(header_len)?.end;
         let mut message = Message { header, body: 0..0 };
         let header = message.header(self.input)?;
-        let body_len = guarded(&message.place(), || {
+        let body_len = catch_decode_panic(&message.place(), || {
             arrow_ipc::root_as_message(&header)
                 .map(|m| m.bodyLength())
                 .map_err(|e| damaged(message.place(), e.to_string()))
@@ -201,12 +204,13 @@ impl Walk<'_> {
         Ok(Some((message, header)))
     }
 
+    /// Advances by `len` bytes; returns their range.
     fn take(&mut self, len: i64) -> Result<Range<usize>, Problem> {
         let start = self.at;
         let len = usize::try_from(len).map_err(|_| {
             damaged(
                 format!("message at byte {start}"),
-                format!("a length of {len} bytes is declared"),
+                format!("invalid length of {len} bytes"),
             )
         })?;
         let end = start
@@ -214,7 +218,7 @@ impl Walk<'_> {
             .filter(|&end| end <= self.input.len());
         self.at = end.ok_or_else(|| Problem::Truncated {
             at: self.input.len() as u64,
-            detail: format!("{len} bytes are declared at byte {start}"),
+            detail: format!("a range of {len} bytes begins at byte {start}"),
         })?;
         Ok(start..self.at)
     }
@@ -228,12 +232,12 @@ fn convert_schema(schema: IpcSchema<'_>) -> Result<Schema, Problem> {
             remedy: "Write the file again on a little-endian machine".into(),
         });
     }
-    guarded("schema", || {
+    catch_decode_panic("schema", || {
         arrow_ipc::convert::try_fb_to_schema(schema).map_err(|e| damaged("schema", e.to_string()))
     })
 }
 
-/// The number at `at`, which the caller knows to be within the input.
+/// Reads the number at `at`. The caller checks that it is within the input.
 fn read_i32(input: &Input<'_>, at: usize) -> Result<i32, Problem> {
     let mut number = [0; LENGTH_BYTES];
     input.read(at, &mut number)?;

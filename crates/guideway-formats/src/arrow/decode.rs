@@ -1,3 +1,6 @@
+//! Message decoder: converts messages to record batches and control polygons, after a check of the
+//! declared sizes.
+
 use std::collections::HashMap;
 use std::ops::Range;
 
@@ -6,52 +9,53 @@ use arrow_ipc::reader::{read_dictionary, read_record_batch};
 use arrow_ipc::{MessageHeader, RecordBatch as IpcBatch};
 use arrow_schema::{ArrowError, SchemaRef};
 
-use super::body::{ALIGNMENT, Bodies};
 use super::budget::Budget;
+use super::catch_decode_panic::catch_decode_panic;
 use super::container::Message;
-use super::guard::{damaged, guarded};
-use super::polygons::Polygons;
-use super::schema::points_buffer;
+use super::control_polygons::ControlPolygons;
+use super::message_body::{ALIGNMENT, BodyPool};
+use super::problems::damaged;
+use super::schema::coordinate_buffer;
 use crate::Problem;
 use crate::input::Input;
 
-/// Turns messages into record batches; buffers that are neither compressed nor misaligned are not
-/// copied.
+/// Decoder of messages. It copies only buffers that are compressed or misaligned.
 pub(super) struct Decoder<'a> {
     input: &'a Input<'a>,
     schema: SchemaRef,
     dictionaries: HashMap<i64, ArrayRef>,
-    bodies: Bodies,
-    /// The column of points.
+    bodies: BodyPool,
+    /// Index of the column of control points.
     points: usize,
-    /// Which buffer of a batch its coordinates are in, if that can be told.
+    /// Index of the buffer with their coordinates, if the schema fixes it.
     coordinates: Option<usize>,
 }
 
-/// A record batch, and its points, which may be left to be read.
+/// A record batch and its control polygons, whose coordinates may be deferred.
 pub(super) struct Decoded {
     pub(super) batch: RecordBatch,
-    pub(super) polygons: Polygons,
+    pub(super) polygons: ControlPolygons,
 }
 
 impl<'a> Decoder<'a> {
-    /// Of tables in which column `points` holds the points.
+    /// Makes a decoder of a table whose column `points` holds the control points.
     pub(super) fn new(input: &'a Input<'a>, schema: SchemaRef, points: usize) -> Self {
         Self {
             points,
-            coordinates: points_buffer(&schema, points),
+            coordinates: coordinate_buffer(&schema, points),
             input,
             schema,
             dictionaries: HashMap::new(),
-            bodies: Bodies::default(),
+            bodies: BodyPool::default(),
         }
     }
 
+    /// Returns the size of the file in bytes.
     pub(super) fn file_bytes(&self) -> usize {
         self.input.len()
     }
 
-    /// The batch that a message holds, if it holds one and not, say, a dictionary.
+    /// Decodes a message; returns its record batch, or `None` for a dictionary or an empty message.
     pub(super) fn decode(
         &mut self,
         message: &Message,
@@ -59,7 +63,7 @@ impl<'a> Decoder<'a> {
     ) -> Result<Option<Decoded>, Problem> {
         let place = message.place();
         let header = message.header(self.input)?;
-        guarded(&place, || {
+        catch_decode_panic(&place, || {
             self.decode_unguarded(message, &header, &place, budget)
         })
     }
@@ -87,7 +91,7 @@ impl<'a> Decoder<'a> {
                 let body = self.bodies.read(self.input, at, 0..0)?;
                 check_batch(&batch, body.bytes(), budget).map_err(|e| e.at(place))?;
                 if dictionary.isDelta() {
-                    // Joining copies the whole dictionary, for every addition again.
+                    // Each delta copies the whole dictionary.
                     let known = self.dictionaries.get(&dictionary.id());
                     budget.charge(known.map_or(0, |d| d.get_buffer_memory_size()) as u64)?;
                 }
@@ -106,23 +110,28 @@ impl<'a> Decoder<'a> {
                 let batch = header
                     .header_as_record_batch()
                     .ok_or_else(|| damaged(place, "the record batch is missing"))?;
-                let left_out = self.left_out(&batch, at.len());
-                let body = self.bodies.read(self.input, at, left_out)?;
+                let deferred = self.deferred(&batch, at.len());
+                let body = self.bodies.read(self.input, at, deferred)?;
                 check_batch(&batch, body.bytes(), budget).map_err(|e| e.at(place))?;
                 let (bytes, schema) = (body.bytes(), self.schema.clone());
                 let batch =
                     read_record_batch(bytes, batch, schema, &self.dictionaries, None, &version)
                         .map_err(failed)?;
-                let polygons = Polygons::of(batch.column(self.points), &body, budget)?;
+                let polygons =
+                    ControlPolygons::from_column(batch.column(self.points), &body, budget)?;
                 Ok(Some(Decoded { batch, polygons }))
             }
             MessageHeader::NONE => Ok(None),
-            other => Err(damaged(place, format!("a message of type {other:?}"))),
+            other => Err(damaged(
+                place,
+                format!("unexpected message of type {other:?}"),
+            )),
         }
     }
 
-    /// Where the coordinates of points lie in the body of a batch, if they can be left out.
-    fn left_out(&self, batch: &IpcBatch<'_>, body_bytes: usize) -> Range<usize> {
+    /// Returns the range of the coordinates in the body of a batch, empty if they cannot be
+    /// deferred.
+    fn deferred(&self, batch: &IpcBatch<'_>, body_bytes: usize) -> Range<usize> {
         let buffers = batch.buffers().filter(|_| batch.compression().is_none());
         let buffer = self
             .coordinates
@@ -132,39 +141,40 @@ impl<'a> Decoder<'a> {
         let range = buffer.and_then(|buffer| {
             let start = usize::try_from(buffer.offset()).ok()?;
             let end = start.checked_add(usize::try_from(buffer.length()).ok()?)?;
-            // What is not aligned would be copied.
+            // The library would copy a misaligned buffer.
             (end <= body_bytes && start.is_multiple_of(ALIGNMENT)).then_some(start..end)
         });
         range.unwrap_or_default()
     }
 }
 
-/// What is wrong with the head of a batch.
-enum Fault {
-    Lie(String),
+/// Fault of the header of a batch.
+enum HeaderFault {
+    Inconsistent(String),
     Limit(Problem),
 }
 
-impl Fault {
+impl HeaderFault {
     fn at(self, place: &str) -> Problem {
         match self {
-            Self::Lie(detail) => damaged(place, detail),
+            Self::Inconsistent(detail) => damaged(place, detail),
             Self::Limit(problem) => problem,
         }
     }
 }
 
-/// Compares what the head of a batch declares with the bytes of its body: the decoder takes it on trust.
-fn check_batch(batch: &IpcBatch<'_>, body: &[u8], budget: &Budget) -> Result<(), Fault> {
-    let lie = |detail: String| Err(Fault::Lie(detail));
+/// Compares the header of a batch with the bytes of its body, because the library trusts the
+/// header.
+fn check_batch(batch: &IpcBatch<'_>, body: &[u8], budget: &Budget) -> Result<(), HeaderFault> {
+    let inconsistent = |detail: String| Err(HeaderFault::Inconsistent(detail));
     if batch.length() < 0 {
-        return lie(format!("{} rows are declared", batch.length()));
+        return inconsistent(format!("invalid number of {} rows", batch.length()));
     }
     for node in batch.nodes().into_iter().flatten() {
         let (length, nulls) = (node.length(), node.null_count());
         if length < 0 || !(0..=length).contains(&nulls) {
-            return lie(format!(
-                "{length} values, {nulls} of them null, are declared"
+            return inconsistent(format!(
+                "invalid number of {length} values with {nulls} nulls"
             ));
         }
     }
@@ -176,27 +186,27 @@ fn check_batch(batch: &IpcBatch<'_>, body: &[u8], budget: &Budget) -> Result<(),
             .zip(usize::try_from(length).ok())
             .and_then(|(start, len)| Some(start..start.checked_add(len)?));
         let Some(bytes) = range.and_then(|r| body.get(r)) else {
-            return lie(format!(
-                "a buffer of {length} bytes at {offset} is declared in a body of {} bytes",
+            return inconsistent(format!(
+                "the buffer range, {length} bytes at {offset}, is not within its body of {} bytes",
                 body.len()
             ));
         };
         total += bytes.len();
         if let (Some(_), Some(declared)) = (batch.compression(), bytes.first_chunk::<8>()) {
             let declared = i64::from_le_bytes(*declared);
-            // -1 says that the buffer is stored as it is.
+            // -1 marks an uncompressed buffer.
             if declared < -1 {
-                return lie(format!("{declared} bytes are declared before compression"));
+                return inconsistent(format!("invalid uncompressed size of {declared} bytes"));
             }
             budget
                 .charge(declared.max(0) as u64)
-                .map_err(Fault::Limit)?;
+                .map_err(HeaderFault::Limit)?;
         }
     }
     if total > body.len() {
-        // Buffers that share bytes would let a small file stand for any number of columns.
-        return lie(format!(
-            "buffers of {total} bytes in all are declared in a body of {} bytes",
+        // Buffers that share bytes would let a small file represent any number of columns.
+        return inconsistent(format!(
+            "the buffers have {total} bytes in total, their body has {} bytes",
             body.len()
         ));
     }

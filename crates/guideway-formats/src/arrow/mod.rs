@@ -1,50 +1,47 @@
-//! Tables of paths in Apache Arrow IPC files (also called Feather V2) and streams.
+//! Apache Arrow IPC files (also called Feather V2) and streams with tables of paths.
 //!
-//! The columns are described in `docs/arrow-format.md`. What is read is not trusted: lengths and
-//! positions that a file declares are compared with the bytes there are before anything is decoded,
-//! and what a few bytes may swell to is budgeted.
+//! `docs/arrow-format.md` describes the columns. The bytes are not trusted: declared lengths and
+//! positions are compared with the size of the file before anything is decoded, and a budget limits
+//! the expansion of compressed data.
+//!
+//! | stage | input | output | file |
+//! |---|---|---|---|
+//! | open | file | schema, ranges of messages | `container`, `schema`, `column_names` |
+//! | decode | messages | record batches, control polygons | `decode`, `message_body`, `control_polygons`, `fault` |
+//! | assemble | control polygons | geometry, drawn and refused rows | `assemble`, `point_store`, `batch` |
+//! | columns | record batches, drawn rows | identifiers, attributes, style | `path_columns`, `path_ids`, `attribute_columns`, `style_columns`, `text_array`, `text_sink` |
+//! | read | all of these, batch by batch on several threads | layout | `read` |
+//! | guards | | problems | `budget`, `catch_decode_panic`, `cast`, `problems` |
+//! | write | layout, or rows | file, losses | `write_layout`, `write`, `write_column`, `write_error` |
 
-mod attributes;
+mod assemble;
+mod attribute_columns;
 mod batch;
-mod body;
 mod budget;
+mod cast;
+mod catch_decode_panic;
+mod column_names;
 mod container;
+mod control_polygons;
 mod decode;
-mod gather;
-mod guard;
-mod ids;
-mod look;
-mod points;
-mod polygons;
+mod fault;
+mod message_body;
+mod path_columns;
+mod path_ids;
+mod point_store;
+mod problems;
 mod read;
 mod schema;
-mod table;
-mod text;
+mod style_columns;
+mod text_array;
 mod text_sink;
 mod write;
-mod write_columns;
+mod write_column;
+mod write_error;
 mod write_layout;
 
-pub(crate) use read::read;
-pub use write::{ArrowWriter, Precision, WriteError, WriteProblem};
-pub use write_columns::{Column, ColumnType};
-pub use write_layout::{WriteOptions, write_layout};
-
-/// Name of the column of identifiers.
-const ID: &str = "id";
-/// Name of the column of control polygons.
-const CONTROL_POINTS: &str = "control_points";
-/// Name of the column that joins several rows to one path.
-const PART: &str = "guideway.part";
-/// Name of the column of levels.
-const LEVEL: &str = "level";
-/// Name of the column of stroke widths.
-const WIDTH: &str = "width_m";
-/// Name of the column of colors.
-const COLOR: &str = "color";
-/// Name of the column of draw ranks.
-const RANK: &str = "rank";
-/// Key of the schema's metadata that holds the version of the table.
-const VERSION_KEY: &str = "guideway.version";
-/// Newest version of the table that is known.
-const VERSION: u32 = 1;
+pub(crate) use self::read::read;
+pub use self::write::ArrowWriter;
+pub use self::write_column::{Column, ColumnType, Precision};
+pub use self::write_error::{WriteError, WriteProblem};
+pub use self::write_layout::{WriteOptions, write_layout};

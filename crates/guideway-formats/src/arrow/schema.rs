@@ -1,12 +1,18 @@
+//! Schema of a table: finds the columns by name and type, the version, and the buffer of
+//! coordinates.
+
 use arrow_schema::{DataType, Field, Schema};
 use guideway_layout::{Code, Diagnostics, Place};
 
-use super::{COLOR, CONTROL_POINTS, ID, LEVEL, PART, RANK, VERSION, VERSION_KEY, WIDTH};
+use super::column_names::{
+    COLOR, CONTROL_POINTS, ID, LEVEL, PART, RANK, VERSION, VERSION_KEY, WIDTH,
+};
+use super::problems::wrong_structure;
 use crate::Problem;
 
-/// Which column of a table is which.
+/// Index of each column with a meaning, and of the attributes.
 #[derive(Debug, Default)]
-pub(super) struct Columns {
+pub(super) struct ColumnRoles {
     pub(super) control_points: usize,
     pub(super) id: Option<usize>,
     pub(super) part: Option<usize>,
@@ -17,15 +23,18 @@ pub(super) struct Columns {
     pub(super) attributes: Vec<usize>,
 }
 
-impl Columns {
-    /// Finds the columns by name. One of a known name and an unfit type is kept as an attribute.
+impl ColumnRoles {
+    /// Finds the columns by name. A column of a known name but another type is an attribute.
+    ///
+    /// # Errors
+    /// When two columns share a name, or there are no control points.
     pub(super) fn find(schema: &Schema, diagnostics: &mut Diagnostics) -> Result<Self, Problem> {
         let mut columns = Self::default();
         let mut control_points = None;
         for (index, field) in schema.fields().iter().enumerate() {
             let (slot, fits, expected) = match field.name().as_str() {
                 CONTROL_POINTS => (&mut control_points, true, ""),
-                ID => (&mut columns.id, is_id(field), "text or whole numbers"),
+                ID => (&mut columns.id, is_id(field), "text or integers"),
                 PART => (&mut columns.part, is_integer(field), "uint32"),
                 LEVEL => (&mut columns.level, is_text(field.data_type()), "text"),
                 WIDTH => (&mut columns.width, is_number(field), "float32"),
@@ -37,11 +46,15 @@ impl Columns {
                 }
             };
             if *field.data_type() == DataType::Null && field.name() != CONTROL_POINTS {
-                // What writers make of a column without values.
+                // Writers give a column without values this type.
                 continue;
             }
             if slot.is_some() {
-                return Err(structure(field.name(), "one column of this name", "two"));
+                return Err(wrong_structure(
+                    field.name(),
+                    "one column of this name",
+                    "two",
+                ));
             }
             if fits {
                 *slot = Some(index);
@@ -52,25 +65,28 @@ impl Columns {
                 Code::WrongType,
                 || Place::element(format!("column {}", field.name())),
                 || format!("expected {expected}, found {}", field.data_type()),
-                "Write the column in the type expected; it is kept as an attribute",
+                "It is read as an attribute; write the column in the expected type",
             );
         }
         columns.control_points = control_points.ok_or_else(|| {
             let names: Vec<&str> = schema.fields().iter().map(|f| f.name().as_str()).collect();
             let found = format!("only the columns {}", names.join(", "));
-            structure("schema", "a column control_points", &found)
+            wrong_structure("schema", "a column control_points", &found)
         })?;
         Ok(columns)
     }
 }
 
-/// The version that the schema states.
+/// Returns the version of the table that the schema states.
+///
+/// # Errors
+/// When it is not an integer, or newer than this reader.
 pub(super) fn version(schema: &Schema, diagnostics: &mut Diagnostics) -> Result<u32, Problem> {
     let Some(stated) = schema.metadata().get(VERSION_KEY) else {
         diagnostics.push(
             Code::Version,
             || Place::element("schema"),
-            || format!("no {VERSION_KEY} is stated; it is read as version {VERSION}"),
+            || format!("{VERSION_KEY} is missing; the table is read as version {VERSION}"),
             format!("Add the metadata {VERSION_KEY} = {VERSION} to the schema"),
         );
         return Ok(VERSION);
@@ -82,17 +98,19 @@ pub(super) fn version(schema: &Schema, diagnostics: &mut Diagnostics) -> Result<
             what: format!("version {version}"),
             remedy: format!("Use a newer Guideway; this one reads up to version {VERSION}"),
         }),
-        _ => Err(structure(
+        _ => Err(wrong_structure(
             VERSION_KEY,
-            "a whole number from 1",
+            "an integer from 1",
             &format!("{stated:?}"),
         )),
     }
 }
 
-/// Which buffer of a record batch holds the coordinates of column `points`: buffers follow each other as columns do, those of a
-/// column's children behind its own. None where some column before has a number of them that its type does not tell.
-pub(super) fn points_buffer(schema: &Schema, points: usize) -> Option<usize> {
+/// Returns the index of the buffer with the coordinates of column `points`.
+///
+/// The buffers of a record batch are in the order of the columns, those of children after their
+/// parent. `None` if the type of a previous column does not fix its number of buffers.
+pub(super) fn coordinate_buffer(schema: &Schema, points: usize) -> Option<usize> {
     let fields = schema.fields();
     let before = fields[..points].iter();
     let before: usize = before.map(|f| buffers(f.data_type())).sum::<Option<_>>()?;
@@ -108,12 +126,12 @@ pub(super) fn points_buffer(schema: &Schema, points: usize) -> Option<usize> {
         coordinates.data_type(),
         DataType::Float32 | DataType::Float64
     );
-    // The last one of the column's.
-    let own = buffers(fields[points].data_type())?;
-    is_plain.then_some(before + own - 1)
+    // The last buffer of the column.
+    let count = buffers(fields[points].data_type())?;
+    is_plain.then_some(before + count - 1)
 }
 
-/// Number of buffers of a column, with those of its children.
+/// Returns the number of buffers of a column and its children, if its type fixes it.
 fn buffers(column: &DataType) -> Option<usize> {
     Some(match column {
         DataType::Null => 0,
@@ -132,16 +150,7 @@ fn buffers(column: &DataType) -> Option<usize> {
     })
 }
 
-/// The problem of a table whose structure is not that of a layout.
-pub(super) fn structure(place: &str, expected: &str, found: &str) -> Problem {
-    Problem::Structure {
-        place: Place::element(place),
-        expected: expected.into(),
-        found: found.into(),
-    }
-}
-
-/// Whether the values are text, however they are stored.
+/// Returns whether values are text, in any encoding.
 pub(super) fn is_text(data_type: &DataType) -> bool {
     match data_type {
         DataType::Utf8 | DataType::LargeUtf8 | DataType::Utf8View => true,

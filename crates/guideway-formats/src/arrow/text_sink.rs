@@ -1,14 +1,16 @@
+//! Text sink: collects a column of text within the limits and the budget.
+
 use std::fmt::{self, Display, Write};
 use std::ops::Range;
 
 use guideway_layout::{Limits, TextColumn};
 
 use super::budget::Budget;
-use super::guard::damaged;
-use super::text::Texts;
+use super::problems::damaged;
+use super::text_array::TextArray;
 use crate::Problem;
 
-/// Collects a column of text within the limits.
+/// A column of text under construction.
 pub(super) struct TextSink<'a> {
     column: TextColumn,
     limits: &'a Limits,
@@ -17,6 +19,7 @@ pub(super) struct TextSink<'a> {
 }
 
 impl<'a> TextSink<'a> {
+    /// Makes an empty column with capacity for an estimated number of rows.
     pub(super) fn new(limits: &'a Limits, budget: &'a Budget, rows: usize) -> Self {
         Self {
             column: TextColumn::with_capacity(rows, 0),
@@ -26,29 +29,30 @@ impl<'a> TextSink<'a> {
         }
     }
 
+    /// Appends a text.
     pub(super) fn push(&mut self, text: &str) -> Result<(), Problem> {
         self.check(text.len(), text.len())?;
         self.column.push(text);
         Ok(())
     }
 
-    /// Appends what a value is written as.
-    pub(super) fn push_written(&mut self, value: impl Display) -> Result<(), Problem> {
-        let mut text = Bounded::new(self.limits.text_bytes);
+    /// Appends a value, formatted as text.
+    pub(super) fn push_formatted(&mut self, value: impl Display) -> Result<(), Problem> {
+        let mut text = BoundedString::new(self.limits.text_bytes);
         if write!(text, "{value}").is_err() {
-            return Err(text.problem("the value cannot be written as text"));
+            return Err(text.problem("the value cannot be formatted as text"));
         }
         self.push(&text.text)
     }
 
-    /// Appends some rows, and what `missing` says in place of those that have no text.
+    /// Appends several rows, with the result of `missing` for rows without a text.
     pub(super) fn push_rows(
         &mut self,
-        texts: Option<&Texts>,
+        texts: Option<&TextArray>,
         rows: Range<usize>,
         mut missing: impl FnMut(usize) -> String,
     ) -> Result<(), Problem> {
-        if let Some(all) = texts.and_then(|texts| texts.side_by_side(rows.clone())) {
+        if let Some(all) = texts.and_then(|texts| texts.contiguous(rows.clone())) {
             let longest = all.lengths().max().unwrap_or_default();
             self.check(all.text.len(), longest)?;
             self.column.push_all(all.text, all.ends());
@@ -63,7 +67,7 @@ impl<'a> TextSink<'a> {
         Ok(())
     }
 
-    /// Whether so many bytes more may be held, of which so many are one text.
+    /// Charges `bytes`, of which the longest text has `longest`.
     fn check(&mut self, bytes: usize, longest: usize) -> Result<(), Problem> {
         if longest > self.limits.text_bytes {
             return Err(too_long(self.limits.text_bytes, longest));
@@ -80,39 +84,40 @@ impl<'a> TextSink<'a> {
         Ok(())
     }
 
+    /// Returns the column.
     pub(super) fn into_column(self) -> TextColumn {
         self.column
     }
 }
 
-/// Text that stops growing at a limit: nested values can be written out far larger than they are stored.
-struct Bounded {
+/// String that fails to grow beyond a limit: a nested value may format to many times its size.
+struct BoundedString {
     text: String,
     limit: usize,
-    full: bool,
+    is_full: bool,
 }
 
-impl Bounded {
+impl BoundedString {
     fn new(limit: usize) -> Self {
         Self {
             text: String::new(),
             limit,
-            full: false,
+            is_full: false,
         }
     }
 
     fn problem(&self, otherwise: &str) -> Problem {
-        if self.full {
+        if self.is_full {
             return too_long(self.limit, self.limit + 1);
         }
         damaged("attribute", otherwise)
     }
 }
 
-impl Write for Bounded {
+impl Write for BoundedString {
     fn write_str(&mut self, more: &str) -> fmt::Result {
         if self.text.len() + more.len() > self.limit {
-            self.full = true;
+            self.is_full = true;
             return Err(fmt::Error);
         }
         self.text.push_str(more);

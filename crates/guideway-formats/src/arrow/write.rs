@@ -1,3 +1,6 @@
+//! Arrow table writer: writes runs row by row into record batches of a temporary file, which
+//! replaces the target at the end.
+
 use std::collections::HashMap;
 use std::fs::{self, File};
 use std::io;
@@ -6,93 +9,26 @@ use std::sync::Arc;
 
 use arrow_array::{ArrayRef, RecordBatch};
 use arrow_ipc::writer::{FileWriter, IpcWriteOptions};
-use arrow_schema::{ArrowError, Schema, SchemaRef};
+use arrow_schema::{Schema, SchemaRef};
 use guideway_layout::Value;
 use guideway_spline::{Point, Real};
 use tempfile::NamedTempFile;
 
-use super::write_columns::{Cells, Column, IdCells, Polygon};
-use super::{CONTROL_POINTS, ID, VERSION, VERSION_KEY};
+use super::column_names::{CONTROL_POINTS, ID, VERSION, VERSION_KEY};
+use super::write_column::{Cells, Column, IdCells, PolygonCells, Precision};
+use super::write_error::{WriteError, WriteProblem, fail};
 
-/// Rows of a record batch.
+/// Rows per record batch.
 const BATCH_ROWS: usize = 16_384;
-/// A batch ends early at so many control points, so that few long curves take no more memory.
+/// Control points that end a batch early, so that long curves take no more memory.
 const BATCH_POINTS: usize = 4 << 20;
-/// Likewise for text.
+/// Bytes of text that end a batch early.
 const BATCH_TEXT_BYTES: usize = 64 << 20;
 
-/// How coordinates are stored.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Precision {
-    /// 4 bytes each: exact to some 0.1 mm at 1 km from the origin.
-    F32,
-    /// 8 bytes each.
-    F64,
-}
-
-/// Why a table could not be written.
-#[derive(Debug, thiserror::Error)]
-#[error("{}: {problem}", .path.display())]
-pub struct WriteError {
-    /// The file that was to be written.
-    pub path: PathBuf,
-    /// What is wrong.
-    pub problem: WriteProblem,
-}
-
-/// What is wrong with a table that cannot be written.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum WriteProblem {
-    /// The operating system refused.
-    #[error("cannot write the file: {0}")]
-    Io(#[from] io::Error),
-    /// A curve has too few control points.
-    #[error("path {id:?} has a run of {points} control points")]
-    TooFewPoints {
-        /// Identifier of the path.
-        id: String,
-        /// Number of control points.
-        points: usize,
-    },
-    /// The values of a row are not those of the columns.
-    #[error("column {column:?}: {detail}")]
-    Value {
-        /// Name of the column.
-        column: String,
-        /// What does not fit.
-        detail: String,
-    },
-    /// The Arrow library refused.
-    #[error("cannot make the table: {0}")]
-    Arrow(#[source] ArrowError),
-}
-
-impl WriteError {
-    /// What to do about it.
-    pub fn remedy(&self) -> &'static str {
-        match self.problem {
-            WriteProblem::Io(_) => "Check that the folder exists, may be written to and has room",
-            WriteProblem::TooFewPoints { .. } => "Give the path four or more",
-            WriteProblem::Value { .. } => "Give each row a value of the type of every column",
-            WriteProblem::Arrow(_) => "Please report this",
-        }
-    }
-}
-
-impl From<ArrowError> for WriteProblem {
-    fn from(error: ArrowError) -> Self {
-        match error {
-            ArrowError::IoError(_, error) => Self::Io(error),
-            other => Self::Arrow(other),
-        }
-    }
-}
-
-/// Writes a table of paths, row by row; the memory taken does not grow with the number of rows.
+/// Writes a table of paths row by row, in memory independent of the number of rows.
 ///
-/// What is written goes into a temporary file beside the target, which [`Self::finish`] puts in its
-/// place. A writer dropped before that leaves the target as it was.
+/// The rows go to a temporary file in the folder of the target; [`Self::finish`] renames it to the
+/// target. A writer dropped before leaves the target unchanged.
 ///
 /// ```no_run
 /// use guideway_formats::arrow::{ArrowWriter, Column, ColumnType, Precision};
@@ -111,16 +47,16 @@ pub struct ArrowWriter {
     writer: FileWriter<io::BufWriter<NamedTempFile>>,
     schema: SchemaRef,
     ids: IdCells,
-    polygons: Polygon,
+    polygons: PolygonCells,
     columns: Vec<Column>,
     cells: Vec<Cells>,
 }
 
 impl ArrowWriter {
-    /// A writer to `path` with further `columns` beside identifiers and control points.
+    /// Makes a writer to `path` with `columns` in addition to identifiers and control points.
     ///
     /// # Errors
-    /// When no file can be made in the folder of `path`, or two columns have one name.
+    /// When no file can be created in the folder of `path`, or two columns share a name.
     pub fn create(
         path: &Path,
         precision: Precision,
@@ -134,20 +70,20 @@ impl ArrowWriter {
         precision: Precision,
         columns: Vec<Column>,
     ) -> Result<Self, WriteProblem> {
-        let (ids, polygons) = (IdCells::default(), Polygon::new(precision));
+        let (ids, polygons) = (IdCells::default(), PolygonCells::new(precision));
         let mut fields = vec![IdCells::field(ID), polygons.field(CONTROL_POINTS)];
         for column in &columns {
             if fields.iter().any(|f| *f.name() == column.name) {
                 return Err(WriteProblem::Value {
                     column: column.name.clone(),
-                    detail: "there are two columns of this name".into(),
+                    detail: "two columns have this name".into(),
                 });
             }
             fields.push(column.field());
         }
         let metadata = HashMap::from([(VERSION_KEY.to_owned(), VERSION.to_string())]);
         let schema = Arc::new(Schema::new_with_metadata(fields, metadata));
-        // 64 bytes: readers that map the file then find every buffer aligned for their widest loads.
+        // 64 bytes: buffers of a mapped file are then aligned for AVX-512 loads.
         let options = IpcWriteOptions::try_new(64, false, arrow_ipc::MetadataVersion::V5)?;
         let file = io::BufWriter::with_capacity(1 << 20, temporary_beside(path)?);
         Ok(Self {
@@ -161,10 +97,11 @@ impl ArrowWriter {
         })
     }
 
-    /// Appends a row: a run of control points, in meters, and a value or none for every column.
+    /// Appends a row: a run of control points in meters, and an optional value per column.
     ///
     /// # Errors
-    /// When the run has fewer than four points, a value does not fit its column, or the disk is full.
+    /// When the run has fewer than four points, a value does not match its column, or the disk is
+    /// full.
     pub fn push_run<T: Real>(
         &mut self,
         id: &str,
@@ -200,7 +137,7 @@ impl ArrowWriter {
         if let Some((Some(value), column)) = unfit {
             return Err(WriteProblem::Value {
                 column: column.name.clone(),
-                detail: format!("the value {value} of path {id:?} does not fit"),
+                detail: format!("the value {value} of path {id:?} does not match its type"),
             });
         }
         self.ids.push(id);
@@ -228,10 +165,10 @@ impl ArrowWriter {
         Ok(self.writer.write(&batch)?)
     }
 
-    /// Writes what is left, and puts the file in its place.
+    /// Writes the last batch and replaces the target.
     ///
     /// # Errors
-    /// When the disk is full, or the target cannot be replaced; it is then as it was.
+    /// When the disk is full, or the target cannot be replaced; the target is then unchanged.
     pub fn finish(self) -> Result<(), WriteError> {
         let target = self.target.clone();
         self.finish_inner().map_err(|p| fail(&target, p))
@@ -248,11 +185,12 @@ impl ArrowWriter {
     }
 }
 
-/// A temporary file in the folder of `path`: only within one file system can it take its place at once.
+/// Creates a temporary file in the folder of `path`: a rename is atomic only within one file
+/// system.
 fn temporary_beside(path: &Path) -> io::Result<NamedTempFile<File>> {
-    // Renaming would put a file in the place of a device.
-    if fs::metadata(path).is_ok_and(|there| !there.is_file()) {
-        return Err(io::Error::other("there is something that is not a file"));
+    // A rename would replace a device by a file.
+    if fs::metadata(path).is_ok_and(|target| !target.is_file()) {
+        return Err(io::Error::other("the target exists and is not a file"));
     }
     let folder = match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
@@ -263,15 +201,8 @@ fn temporary_beside(path: &Path) -> io::Result<NamedTempFile<File>> {
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;
-        // As for any new file, less what the user's mask takes away.
+        // The mode of any new file, before the umask.
         builder.permissions(fs::Permissions::from_mode(0o666));
     }
     builder.tempfile_in(folder)
-}
-
-pub(super) fn fail(path: &Path, problem: WriteProblem) -> WriteError {
-    WriteError {
-        path: path.to_owned(),
-        problem,
-    }
 }

@@ -1,25 +1,28 @@
+//! Arrow layout writer: writes the paths of a layout as a table with the columns that they need.
+
 use std::path::Path;
 
 use guideway_layout::{Attribute, Direction, Layout, PathRef, Value};
 use guideway_spline::Point;
 
-use super::write::{ArrowWriter, Precision, WriteError};
-use super::write_columns::{Column, ColumnType};
-use super::{COLOR, CONTROL_POINTS, ID, LEVEL, PART, RANK, WIDTH};
+use super::column_names::{COLOR, CONTROL_POINTS, ID, LEVEL, PART, RANK, WIDTH};
+use super::write::ArrowWriter;
+use super::write_column::{Column, ColumnType, Precision};
+use super::write_error::WriteError;
 use crate::Losses;
 use crate::common_losses::common_losses;
 
-/// Coordinates are stored in `f32` if that moves none of them by more than this, in meters.
+/// Largest error of coordinates stored in `f32`, in meters; beyond it `f64` is used.
 const F32_ERROR_M: f64 = 1e-5;
 
-/// How to write a layout.
+/// Options of [`write_layout`].
 #[derive(Clone, Debug, Default)]
 pub struct WriteOptions {
-    /// How coordinates are stored; none for `f32` where that moves no point by more than 0.01 mm.
+    /// Storage type of coordinates; `None` for `f32` if its error is at most 0.01 mm, else `f64`.
     pub precision: Option<Precision>,
 }
 
-/// Writes a layout as a table of its paths. Returns what the table cannot hold.
+/// Writes a layout as a table of its paths. Returns the losses.
 ///
 /// # Errors
 /// When the file cannot be written.
@@ -29,7 +32,7 @@ pub fn write_layout(
     options: &WriteOptions,
 ) -> Result<Losses, WriteError> {
     let sources = sources(layout);
-    let losses = losses(layout, &sources);
+    let losses = list_losses(layout, &sources);
     let precision = options.precision.unwrap_or_else(|| precision_for(layout));
     let columns = sources.iter().map(Source::column).collect();
     let mut writer = ArrowWriter::create(path, precision, columns)?;
@@ -63,7 +66,7 @@ fn precision_for(layout: &Layout) -> Precision {
     }
 }
 
-/// Where the values of a column come from.
+/// Source of the values of a column.
 enum Source<'a> {
     Part,
     Level,
@@ -77,7 +80,7 @@ enum Source<'a> {
     Attribute(&'a Attribute),
 }
 
-/// A value of its own, or one that a text was made for.
+/// A value, or a text composed for one.
 enum Cell<'a> {
     Plain(Value<'a>),
     Text(String),
@@ -92,7 +95,7 @@ impl Cell<'_> {
     }
 }
 
-/// The columns that a layout needs; those that would be empty are left out.
+/// Returns the sources of the columns that are not empty.
 fn sources(layout: &Layout) -> Vec<Source<'_>> {
     let paths = &layout.paths;
     let any = |test: &dyn Fn(PathRef<'_>) -> bool| paths.iter().any(test);
@@ -153,13 +156,13 @@ impl<'a> Source<'a> {
             Self::Part | Self::Color(_) => ColumnType::UInt32,
             Self::Rank(_) => ColumnType::Int32,
             Self::Width(_) => ColumnType::Float32,
-            Self::Attribute(attribute) => return Column::of_attribute(attribute),
+            Self::Attribute(attribute) => return Column::from_attribute(attribute),
             _ => ColumnType::Text,
         };
         Column::new(self.name(), column_type)
     }
 
-    /// The value of a path; rows that continue a path have none but their part.
+    /// Returns the value of a path; rows that continue a path have only their part.
     fn value(&self, layout: &'a Layout, path: PathRef<'a>, part: usize) -> Option<Cell<'a>> {
         if let Self::Part = self {
             return Some(Cell::Plain(Value::Int(part as i64)));
@@ -198,23 +201,27 @@ impl<'a> Source<'a> {
     }
 }
 
-/// What a table of paths has no place for.
-fn losses(layout: &Layout, sources: &[Source<'_>]) -> Losses {
+/// Lists the parts of a layout that a table of paths does not hold.
+fn list_losses(layout: &Layout, sources: &[Source<'_>]) -> Losses {
     let mut losses = common_losses(layout);
-    let detail = "nodes: only the names of those where paths begin and end are kept";
+    let detail = "nodes: only identifiers of start and end nodes are written";
     losses.add("nodes", layout.nodes.len(), detail);
     losses.add_stations(layout);
     let described = layout.levels.iter();
     let described = described.filter(|l| l.name.is_some() || l.elevation_m.is_some());
-    let detail = "names or elevations of levels: only identifiers are kept";
+    let detail = "names or elevations of levels: only identifiers are written";
     losses.add("levels", described.count(), detail);
-    // One whose name is that of a column with a meaning of its own is not among the sources.
+    // An attribute with the name of a column with a meaning is not a source.
     let is_held = |name: &str| {
-        let is_it = |s: &Source<'_>| matches!(s, Source::Attribute(a) if a.name == name);
-        sources.iter().any(is_it)
+        let is_source = |s: &Source<'_>| matches!(s, Source::Attribute(a) if a.name == name);
+        sources.iter().any(is_source)
     };
     losses.add_columns(&layout.paths.attributes, "paths", is_held);
     let findings: u64 = layout.diagnostics.counts().map(|(_, n)| n).sum();
-    losses.add("diagnostics", findings as usize, "findings of the reader");
+    losses.add(
+        "diagnostics",
+        findings as usize,
+        "diagnostics of the reader",
+    );
     losses
 }

@@ -1,4 +1,5 @@
-//! GeoJSON coordinates: deserializes nested arrays of positions of any depth into one flat list of points.
+//! GeoJSON coordinates: deserializes nested arrays of positions of any depth into one flat list of
+//! points.
 
 use std::fmt;
 

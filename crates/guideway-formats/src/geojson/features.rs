@@ -86,7 +86,8 @@ impl Mapper<'_> {
         self.map_geometry(&id, geometry, properties, at_geometry)
     }
 
-    /// Returns the identifier of a feature: its member `id` or the property `id`. Nav2 uses the property.
+    /// Returns the identifier of a feature: its member `id` or the property `id`. Nav2 uses the
+    /// property.
     fn id(
         &self,
         feature: &Feature<'_>,

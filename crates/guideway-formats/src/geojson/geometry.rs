@@ -99,7 +99,8 @@ impl Mapper<'_> {
         Ok(known)
     }
 
-    /// Maps an edge of a route graph to the straight line between its nodes, and refuses other features.
+    /// Maps an edge of a route graph to the straight line between its nodes, and refuses other
+    /// features.
     fn map_without_geometry(
         &mut self,
         id: &str,

@@ -1,4 +1,5 @@
-//! GeoJSON properties: flattens the properties of a feature, of any depth, into named scalar values.
+//! GeoJSON properties: flattens the properties of a feature, of any depth, into named scalar
+//! values.
 
 use std::borrow::Cow;
 
@@ -9,8 +10,8 @@ use crate::json::{Field, FromJson, Key};
 
 /// Largest number of properties per feature.
 const MAX_PROPERTIES: usize = 256;
-/// Largest name of a property in bytes. A name contains the names of all enclosing objects, so a small
-/// file could else expand to long texts without end.
+/// Largest name of a property in bytes. A name contains the names of all enclosing objects, so a
+/// small file could else expand to long texts without end.
 const MAX_NAME_BYTES: usize = 128;
 
 /// The value of a property.
@@ -39,8 +40,8 @@ impl Property<'_> {
     }
 }
 
-/// Properties of a feature by name; a nested one is `outer.inner`. The last value of a repeated name is
-/// used.
+/// Properties of a feature by name; a nested one is `outer.inner`. The last value of a repeated
+/// name is used.
 #[derive(Debug, Default)]
 pub(crate) struct Properties<'a> {
     all: Vec<(String, Property<'a>)>,

@@ -1,5 +1,5 @@
-//! GeoJSON unit: decides whether positions are degrees, as the standard requires, or meters, as many
-//! applications write.
+//! GeoJSON unit: decides whether positions are degrees, as the standard requires, or meters, as
+//! many applications write.
 
 use guideway_layout::{Code, Place};
 use guideway_spline::{Bounds, Point};
@@ -15,8 +15,8 @@ pub(super) enum Unit {
 }
 
 impl Unit {
-    /// Detects the unit from the coordinate reference system, if the file names one, and from the bounding
-    /// box of its positions. Reports an assumption.
+    /// Detects the unit from the coordinate reference system, if the file names one, and from the
+    /// bounding box of its positions. Reports an assumption.
     pub(super) fn detect(
         builder: &mut Builder<'_>,
         crs: Option<&str>,
@@ -33,8 +33,8 @@ impl Unit {
             (Some(true), true) => return Self::Degrees(LocalProjection::centered_on(bounds)),
             (Some(false), _) => return Self::Meters,
             (Some(true), false) => (
-                "the `crs` states degrees, but some positions are beyond 180 or 90: they are read as \
-                 meters",
+                "the `crs` states degrees, but some positions are beyond 180 or 90: they are read \
+                 as meters",
                 Self::Meters,
             ),
             (None, true) => (
@@ -43,8 +43,8 @@ impl Unit {
                 Self::Degrees(LocalProjection::centered_on(bounds)),
             ),
             (None, false) => (
-                "the file names no `crs`, and some positions are beyond 180 or 90: they are read as \
-                 meters",
+                "the file names no `crs`, and some positions are beyond 180 or 90: they are read \
+                 as meters",
                 Self::Meters,
             ),
         };

@@ -24,10 +24,11 @@ impl Default for WriteOptions {
     }
 }
 
-/// Writes a layout as GeoJSON: nodes as points, paths as lines, columns as properties. Returns the losses.
+/// Writes a layout as GeoJSON: nodes as points, paths as lines, columns as properties. Returns the
+/// losses.
 ///
-/// Positions are in meters, with a resolution of one micrometer. Paths with nodes make the file a route
-/// graph of Nav2.
+/// Positions are in meters, with a resolution of one micrometer. Paths with nodes make the file a
+/// route graph of Nav2.
 ///
 /// # Errors
 /// When `out` fails.
@@ -40,7 +41,11 @@ pub fn write_layout(
     let mut curves = 0;
     // The projected system that Nav2 and its graph editors in QGIS write: a plane in meters.
     out.write_all(
-        br#"{"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::3857"}},"features":["#,
+        concat!(
+            r#"{"type":"FeatureCollection","crs":{"type":"name","#,
+            r#""properties":{"name":"urn:ogc:def:crs:EPSG::3857"}},"features":["#
+        )
+        .as_bytes(),
     )?;
     let mut feature = FeatureWriter::new(out);
     for node in 0..layout.nodes.len() as u32 {

@@ -66,7 +66,8 @@ impl<'w, W: Write> FeatureWriter<'w, W> {
         write!(self.out, ":")
     }
 
-    /// Writes level, direction and vehicle types of a path as properties; a reader takes them as columns.
+    /// Writes level, direction and vehicle types of a path as properties; a reader takes them as
+    /// columns.
     pub(super) fn path_properties(&mut self, layout: &Layout, path: PathRef<'_>) -> io::Result<()> {
         let column = |name| layout.paths.attributes.get(name);
         let level = path.level().and_then(|l| layout.levels.get(l as usize));

@@ -1,5 +1,5 @@
-//! File input with read-ahead: a thread reads the file sequentially into the page cache, and readers
-//! on other threads wait until their range is cached.
+//! File input with read-ahead: a thread reads the file sequentially into the page cache, and
+//! readers on other threads wait until their range is cached.
 //!
 //! ```text
 //!            cached                read ahead (at most 256 MiB)
@@ -15,8 +15,8 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, OnceLock, PoisonError};
 use std::thread;
 use std::time::Duration;
 
-/// Bytes per read: the page cache then holds few large folios, which are cheaper to look up than many
-/// small ones.
+/// Bytes per read: the page cache then holds few large folios, which are cheaper to look up than
+/// many small ones.
 const CHUNK_BYTES: usize = 1 << 20;
 /// Largest distance between the furthest request and the read-ahead, so that new pages do not evict
 /// pages that readers still need.
@@ -122,8 +122,9 @@ impl ReadAhead {
                 return;
             }
             let end = len.min(from + CHUNK_BYTES);
-            // After the first uncached chunk all are read: probing would break the sequential pattern.
-            // The probe is the middle of a chunk, because sniffing has cached the first bytes.
+            // After the first uncached chunk all are read: probing would break the sequential
+            // pattern. The probe is the middle of a chunk, because sniffing has cached the first
+            // bytes.
             is_cached = is_cached && is_in_page_cache(&file, usize::midpoint(from, end) as u64);
             if !is_cached && file.read_at(&mut chunk, from as u64).is_err() {
                 return;
@@ -180,7 +181,8 @@ impl ReadProgress {
     }
 }
 
-/// Returns whether a byte of a file is in the page cache, so that a read does not wait for the disk.
+/// Returns whether a byte of a file is in the page cache, so that a read does not wait for the
+/// disk.
 #[cfg(target_os = "linux")]
 fn is_in_page_cache(file: &File, at: u64) -> bool {
     use rustix::io::{ReadWriteFlags, preadv2};

@@ -1,5 +1,5 @@
-//! Field checks: returns the values of record fields and reports a diagnostic per missing or mistyped
-//! field.
+//! Field checks: returns the values of record fields and reports a diagnostic per missing or
+//! mistyped field.
 
 use std::borrow::Cow;
 

@@ -1,4 +1,5 @@
-//! Fields: the value of an object's field, or the type of the value found instead, deserialized by serde.
+//! Fields: the value of an object's field, or the type of the value found instead, deserialized by
+//! serde.
 
 use std::borrow::Cow;
 use std::fmt;

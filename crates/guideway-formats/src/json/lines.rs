@@ -1,12 +1,12 @@
-//! Line numbers: finds the line of each diagnostic by a second scan over the text, from the path of its
-//! element such as `layouts[0].nodes[3].x`.
+//! Line numbers: finds the line of each diagnostic by a second scan over the text, from the path of
+//! its element such as `layouts[0].nodes[3].x`.
 
 use std::collections::HashMap;
 
 use guideway_layout::Layout;
 
-/// Sets the line of each diagnostic to that of its element in the text, or of the innermost enclosing
-/// object that exists. Without diagnostics it does not scan the text.
+/// Sets the line of each diagnostic to that of its element in the text, or of the innermost
+/// enclosing object that exists. Without diagnostics it does not scan the text.
 pub(crate) fn add_line_numbers(layout: &mut Layout, text: &str) {
     let lines = lines(layout, text);
     for (diagnostic, line) in layout.diagnostics.iter_mut().zip(lines) {
@@ -212,7 +212,8 @@ mod tests {
 
     #[test]
     fn diagnostic_gets_the_line_of_its_element() {
-        let text = "{\n\"a\": [1, \"}]\\\",{\",\n{\"b\": 3,\n\"c\":\n[4, [5,\n6]]}],\n\"d\": {\"e\": 1e5}}";
+        let text = "{\n\"a\": [1, \"}]\\\",{\",\n{\"b\": 3,\n\"c\":\n[4, [5,\n6]]}],\
+                    \n\"d\": {\"e\": 1e5}}";
         for (element, line) in [
             ("a", Some(2)),
             ("a[1]", Some(2)),

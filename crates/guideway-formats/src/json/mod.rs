@@ -1,7 +1,8 @@
-//! Tolerant JSON reader: parses a text into records whose fields hold a value or the type found instead.
+//! Tolerant JSON reader: parses a text into records whose fields hold a value or the type found
+//! instead.
 //!
-//! A wrong type must not end the read, and a tree of values would take many times the size of the file.
-//! So the needed fields are deserialized straight into records, and the rest is skipped.
+//! A wrong type must not end the read, and a tree of values would take many times the size of the
+//! file. So the needed fields are deserialized straight into records, and the rest is skipped.
 //!
 //! | stage | input | output | file |
 //! |---|---|---|---|

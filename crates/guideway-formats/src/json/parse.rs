@@ -1,5 +1,5 @@
-//! JSON parsing: checks a text against the limits, parses it into a record, and converts parser errors
-//! to problems with line and column.
+//! JSON parsing: checks a text against the limits, parses it into a record, and converts parser
+//! errors to problems with line and column.
 
 use serde::Deserialize;
 

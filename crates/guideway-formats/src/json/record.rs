@@ -1,5 +1,5 @@
-//! The `record!` macro: defines a struct of the needed fields of a JSON object and its deserialization,
-//! which skips all other fields.
+//! The `record!` macro: defines a struct of the needed fields of a JSON object and its
+//! deserialization, which skips all other fields.
 
 /// Defines a record. Its field `repeated` holds the last key that occurred twice.
 ///

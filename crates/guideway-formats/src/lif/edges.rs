@@ -1,5 +1,5 @@
-//! LIF edges: maps an edge to paths, one per distinct curve, because vehicle types may have curves of
-//! their own.
+//! LIF edges: maps an edge to paths, one per distinct curve, because vehicle types may have curves
+//! of their own.
 
 use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};
@@ -102,7 +102,8 @@ impl Mapper<'_> {
         })
     }
 
-    /// Groups the entries of an edge by curve. Vehicle types without a trajectory share the straight line.
+    /// Groups the entries of an edge by curve. Vehicle types without a trajectory share the
+    /// straight line.
     fn curves<'r, 'a>(
         &mut self,
         edge: &'r Edge<'a>,
@@ -271,7 +272,8 @@ fn missing_ends(ends: [&End<'_>; 2]) -> String {
     texts.join(", and ")
 }
 
-/// Returns the bits of all numbers of a trajectory, equal for equal curves; empty for the straight line.
+/// Returns the bits of all numbers of a trajectory, equal for equal curves; empty for the straight
+/// line.
 fn curve_key(trajectory: Option<&Trajectory>) -> Vec<u64> {
     let Some(trajectory) = trajectory else {
         return Vec::new();

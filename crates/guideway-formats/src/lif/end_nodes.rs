@@ -8,10 +8,12 @@ use hashbrown::HashMap;
 /// Largest distance of path ends that share a new node, in meters.
 const JOIN_TOLERANCE_M: f64 = 1e-3;
 
-/// Side of a square of the grid, in meters. Derived: with 8 tolerances a search seldom leaves one square.
+/// Side of a square of the grid, in meters. Derived: with 8 tolerances a search seldom leaves one
+/// square.
 const SQUARE_M: f64 = 8.0 * JOIN_TOLERANCE_M;
 
-/// New nodes by square. No two nodes of a level are within [`JOIN_TOLERANCE_M`], so a square has few.
+/// New nodes by square. No two nodes of a level are within [`JOIN_TOLERANCE_M`], so a square has
+/// few.
 #[derive(Default)]
 pub(super) struct EndNodes(HashMap<Square, Vec<(Point<f64>, u32)>>);
 

@@ -8,8 +8,8 @@ use crate::json::{self, Field};
 use crate::source::Source;
 use crate::{Problem, ReadError, text};
 
-/// Largest text that a layout keeps, so that a write can pass through the members that the model does
-/// not hold.
+/// Largest text that a layout keeps, so that a write can pass through the members that the model
+/// does not hold.
 const MAX_KEPT_BYTES: usize = 256 << 20;
 
 /// Reads a LIF file.

@@ -21,7 +21,8 @@ impl<'a> UniqueNames<'a> {
         }
     }
 
-    /// Takes a reserved name for a thing: the name itself, or with a number if another thing has it.
+    /// Takes a reserved name for a thing: the name itself, or with a number if another thing has
+    /// it.
     pub(super) fn take(&mut self, name: &'a str) -> Cow<'a, str> {
         let count = self.taken.entry(Cow::Borrowed(name)).or_insert(0);
         *count += 1;

@@ -1,4 +1,5 @@
-//! LIF writer: writes a layout as JSON, one line per node, edge and station, in batches on all cores.
+//! LIF writer: writes a layout as JSON, one line per node, edge and station, in batches on all
+//! cores.
 
 use std::io::{self, Write};
 use std::iter;
@@ -35,10 +36,10 @@ pub struct WriteOptions {
 
 /// Writes a layout: levels as layouts, nodes, stations, and paths as edges. Returns the losses.
 ///
-/// A path that is not the straight line between its nodes has a trajectory: the same curve with clamped
-/// knots. Positions have a resolution of one micrometer. If the layout was read from a file of the same
-/// version, the members that the model does not hold pass through unchanged: actions, descriptions,
-/// values per vehicle type.
+/// A path that is not the straight line between its nodes has a trajectory: the same curve with
+/// clamped knots. Positions have a resolution of one micrometer. If the layout was read from a file
+/// of the same version, the members that the model does not hold pass through unchanged: actions,
+/// descriptions, values per vehicle type.
 ///
 /// # Errors
 /// When `out` fails.
@@ -113,8 +114,8 @@ pub fn write_layout(
     Ok(losses)
 }
 
-/// Returns the origins of a file, each with the indices of its levels. The first one has the levels without
-/// an origin.
+/// Returns the origins of a file, each with the indices of its levels. The first one has the levels
+/// without an origin.
 fn origins(
     network: &Network<'_>,
     unmodeled: &Unmodeled<'_>,

@@ -1,5 +1,5 @@
-//! LIF edge properties from columns: selects the columns that a version has a property for, and converts
-//! their values to JSON.
+//! LIF edge properties from columns: selects the columns that a version has a property for, and
+//! converts their values to JSON.
 
 use guideway_layout::{Attribute, Layout, Values};
 use serde_json::{Map, Value, json};
@@ -21,8 +21,8 @@ enum Kind {
     Angles,
 }
 
-/// Names of the properties in 1.0 and 2.0; `None` if a version lacks the property. Actions are missing: a
-/// layout stores their number only.
+/// Names of the properties in 1.0 and 2.0; `None` if a version lacks the property. Actions are
+/// missing: a layout stores their number only.
 const PROPERTIES: &[(Option<&str>, Option<&str>, Kind)] = &[
     same("orientationType", Kind::Text),
     both(
@@ -82,7 +82,8 @@ struct Column<'a> {
 }
 
 impl<'a> PropertyColumns<'a> {
-    /// Selects the columns of a layout; adds all others, and values that do not convert, to the losses.
+    /// Selects the columns of a layout; adds all others, and values that do not convert, to the
+    /// losses.
     pub(super) fn select(layout: &'a Layout, version: Version, losses: &mut Losses) -> Self {
         let mut columns: Vec<Column<'a>> = Vec::new();
         for &(in_1, in_2, kind) in PROPERTIES {

@@ -29,7 +29,8 @@ pub(super) struct Edges<'a> {
 }
 
 impl<'a> Edges<'a> {
-    /// Collects the edges of a layout; adds columns and directions that LIF does not hold to the losses.
+    /// Collects the edges of a layout; adds columns and directions that LIF does not hold to the
+    /// losses.
     pub(super) fn collect(
         layout: &'a Layout,
         network: &'a Network<'a>,
@@ -91,7 +92,8 @@ impl<'a> Edges<'a> {
         }
     }
 
-    /// Returns the curve of an edge, or `None` for the straight line between its nodes, which LIF implies.
+    /// Returns the curve of an edge, or `None` for the straight line between its nodes, which LIF
+    /// implies.
     fn trajectory(
         &self,
         path: PathRef<'_>,

@@ -1,5 +1,5 @@
-//! LIF network of a layout: completes it to the rules of LIF, which require that each path and node is on a
-//! level, each path connects two nodes, and node identifiers are unique.
+//! LIF network of a layout: completes it to the rules of LIF, which require that each path and node
+//! is on a level, each path connects two nodes, and node identifiers are unique.
 
 use std::borrow::Cow;
 

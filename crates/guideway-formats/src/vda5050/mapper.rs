@@ -1,4 +1,5 @@
-//! VDA 5050 mapper state: the layout under construction, and the lookups that nodes and edges share.
+//! VDA 5050 mapper state: the layout under construction, and the lookups that nodes and edges
+//! share.
 
 use std::collections::HashMap;
 

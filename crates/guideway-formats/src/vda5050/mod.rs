@@ -1,7 +1,7 @@
 //! Orders of VDA 5050, the interface between fleet control and vehicles: JSON, meters, y up.
 //!
-//! In 1.1 to 2.1 an edge names its nodes; from 3.0 on it connects the nodes whose `sequenceId` is one less
-//! and one more than its own. The keys of a file decide, not the stated version.
+//! In 1.1 to 2.1 an edge names its nodes; from 3.0 on it connects the nodes whose `sequenceId` is
+//! one less and one more than its own. The keys of a file decide, not the stated version.
 //!
 //! | stage | input | output | file |
 //! |---|---|---|---|

@@ -29,7 +29,13 @@ record! {
         x: f64 = "x",
         y: f64 = "y",
         map_id: Text<'a> = "mapId",
-    } with &["theta", "allowedDeviationXY", "allowedDeviationTheta", "mapDescription", "mapDescriptor"]
+    } with &[
+        "theta",
+        "allowedDeviationXY",
+        "allowedDeviationTheta",
+        "mapDescription",
+        "mapDescriptor",
+    ]
 }
 
 record! {

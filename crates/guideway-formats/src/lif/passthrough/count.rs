@@ -9,8 +9,8 @@ use super::unmodeled::{Level, Unmodeled};
 use crate::lif::model::{EDGE_PROPERTIES, NODE_PROPERTIES};
 use crate::lif::version::Version;
 
-/// Counts the levels, nodes, edges and stations of a LIF file with members that the model does not hold; all
-/// of them if the layout does not keep the text.
+/// Counts the levels, nodes, edges and stations of a LIF file with members that the model does not
+/// hold; all of them if the layout does not keep the text.
 pub(crate) fn count_unmodeled(layout: &Layout) -> usize {
     let provenance = &layout.provenance;
     if !provenance

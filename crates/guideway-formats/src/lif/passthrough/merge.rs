@@ -1,5 +1,5 @@
-//! Merge of an object of the file with its new state: keeps unmodeled members, replaces identifiers,
-//! positions and curves.
+//! Merge of an object of the file with its new state: keeps unmodeled members, replaces
+//! identifiers, positions and curves.
 
 use serde::Serialize;
 use serde_json::Value;

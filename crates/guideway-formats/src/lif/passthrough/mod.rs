@@ -1,5 +1,5 @@
-//! Passthrough of LIF members that the model does not hold, such as actions and descriptions: a write to
-//! the same version keeps them, with the positions and curves of the layout.
+//! Passthrough of LIF members that the model does not hold, such as actions and descriptions: a
+//! write to the same version keeps them, with the positions and curves of the layout.
 //!
 //! | stage | input | output | file |
 //! |---|---|---|---|

@@ -1,5 +1,5 @@
-//! Index of a LIF file for the passthrough: raw objects by level and identifier, and the members of root,
-//! meta information, origins and levels that the model does not hold.
+//! Index of a LIF file for the passthrough: raw objects by level and identifier, and the members of
+//! root, meta information, origins and levels that the model does not hold.
 
 use std::collections::{HashMap, HashSet};
 
@@ -18,7 +18,8 @@ const ARRAYS: [(&str, &str); 3] = [
     ("stations", "stationId"),
 ];
 
-/// Members of a file that the model does not hold. Objects of layouts stay raw until they are requested.
+/// Members of a file that the model does not hold. Objects of layouts stay raw until they are
+/// requested.
 #[derive(Default)]
 pub(in crate::lif) struct Unmodeled<'a> {
     /// Members of the root, except layouts, origins and meta information.

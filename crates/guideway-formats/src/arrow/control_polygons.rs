@@ -1,3 +1,6 @@
+//! Control polygons of a record batch: validates the list column of control points and finds the
+//! rows that cannot be drawn.
+
 use std::ops::{Range, Sub};
 use std::sync::Arc;
 
@@ -6,50 +9,52 @@ use arrow_array::types::{Float32Type, Float64Type};
 use arrow_array::{Array, ArrayRef, FixedSizeListArray};
 use arrow_buffer::{NullBuffer, ScalarBuffer};
 use arrow_schema::DataType;
-use guideway_layout::{Code, Limits};
+use guideway_layout::Limits;
 use guideway_spline::{Point, Real, greater};
 
-use super::CONTROL_POINTS;
-use super::batch::cast;
-use super::body::Body;
 use super::budget::Budget;
-use super::schema::structure;
+use super::cast::cast;
+use super::column_names::CONTROL_POINTS;
+use super::fault::Fault;
+use super::message_body::Body;
+use super::problems::wrong_structure;
 use crate::Problem;
 
-/// Points of a curve, at least.
-const LEAST_POINTS: usize = 4;
-/// Bytes of a point of the greater precision.
-const MOST_POINT_BYTES: u64 = 16;
+/// Smallest number of control points of a cubic B-spline.
+const MIN_POINTS: usize = 4;
+/// Bytes of a point in double precision.
+const MAX_POINT_BYTES: u64 = 16;
 
-/// The control polygons of one record batch: row after row of points.
-pub(super) struct Polygons {
-    rows: Rows,
+/// Control polygons of a record batch: the points of all rows in sequence.
+pub(super) struct ControlPolygons {
+    rows: RowLayout,
     row_nulls: Option<NullBuffer>,
-    /// Coordinates of all points, x and y in turn.
+    /// Interleaved x and y of all points.
     pub(super) coordinates: Coordinates,
-    /// Where in the input they are if they were not read yet.
-    pub(super) left_out: Option<usize>,
-    /// Points and coordinates that have no value, if there are any.
+    /// Offset in the input of coordinates that were not read yet.
+    pub(super) deferred: Option<usize>,
+    /// Null buffers of points and coordinates, with the number of values per point.
     nulls: Vec<(NullBuffer, usize)>,
     len: usize,
 }
 
-/// Which points each row has.
-enum Rows {
+/// Ranges of the points of each row.
+enum RowLayout {
     /// Row `i` has the points `offsets[i]..offsets[i + 1]`.
     Offsets(ScalarBuffer<i32>),
     LargeOffsets(ScalarBuffer<i64>),
-    /// So many each.
+    /// The same number for each row.
     Fixed(usize),
 }
 
-/// The coordinates, in the precision of the file.
+/// Coordinates in the precision of the file.
 pub(super) enum Coordinates {
     F32(ScalarBuffer<f32>),
     F64(ScalarBuffer<f64>),
 }
 
 impl Coordinates {
+    /// Returns the bytes per point.
     pub(super) fn point_bytes(&self) -> usize {
         match self {
             Self::F32(_) => 8,
@@ -58,84 +63,66 @@ impl Coordinates {
     }
 }
 
-/// Why the curve of a row cannot be drawn.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Fault {
-    NoPoints,
-    NoCoordinate(usize),
-    TooFew(usize),
-    NonFinite(usize),
-    OutOfRange(usize),
-}
-
-impl Fault {
-    pub(super) fn code(self) -> Code {
-        match self {
-            Self::NoPoints | Self::NoCoordinate(_) => Code::MissingField,
-            Self::TooFew(_) => Code::TooFewPoints,
-            Self::NonFinite(_) => Code::NonFinite,
-            Self::OutOfRange(_) => Code::OutOfRange,
-        }
-    }
-
-    pub(super) fn detail(self, limits: &Limits) -> String {
-        match self {
-            Self::NoPoints => "control_points is null".into(),
-            Self::NoCoordinate(at) => format!("control point {at} is null"),
-            Self::TooFew(count) => format!("{count} control points; a curve needs four"),
-            Self::NonFinite(at) => format!("control point {at} is not finite"),
-            Self::OutOfRange(at) => format!(
-                "control point {at} is more than {} m from the origin",
-                limits.coordinate_m
-            ),
-        }
-    }
-}
-
-impl Polygons {
-    /// The polygons of a column, whichever kind of list it is.
-    pub(super) fn of(column: &ArrayRef, body: &Body, budget: &Budget) -> Result<Self, Problem> {
-        let unfit = || {
+impl ControlPolygons {
+    /// Interprets a list column of any kind as control polygons.
+    pub(super) fn from_column(
+        column: &ArrayRef,
+        body: &Body,
+        budget: &Budget,
+    ) -> Result<Self, Problem> {
+        let wrong_type = || {
             let expected = "list<fixed_size_list<float32 or float64, 2>>";
-            structure(CONTROL_POINTS, expected, &column.data_type().to_string())
+            wrong_structure(CONTROL_POINTS, expected, &column.data_type().to_string())
         };
-        let column = &row_after_row(column, budget)?;
+        let column = &flatten_views(column, budget)?;
         let (rows, items) = match column.data_type() {
             DataType::List(_) => {
                 let list = column.as_list::<i32>();
-                (Rows::Offsets(list.offsets().inner().clone()), list.values())
+                (
+                    RowLayout::Offsets(list.offsets().inner().clone()),
+                    list.values(),
+                )
             }
             DataType::LargeList(_) => {
                 let list = column.as_list::<i64>();
                 let offsets = list.offsets().inner().clone();
-                (Rows::LargeOffsets(offsets), list.values())
+                (RowLayout::LargeOffsets(offsets), list.values())
             }
             DataType::FixedSizeList(_, _) => {
                 let list = column.as_fixed_size_list();
-                (Rows::Fixed(list.value_length() as usize), list.values())
+                (
+                    RowLayout::Fixed(list.value_length() as usize),
+                    list.values(),
+                )
             }
-            _ => return Err(unfit()),
+            _ => return Err(wrong_type()),
         };
-        let points = items.as_fixed_size_list_opt().ok_or_else(unfit)?;
+        let points = items.as_fixed_size_list_opt().ok_or_else(wrong_type)?;
         if points.value_length() != 2 {
-            return Err(unfit());
+            return Err(wrong_type());
         }
-        let (coordinates, left_out) = match points.values().data_type() {
+        let (coordinates, deferred) = match points.values().data_type() {
             DataType::Float32 => {
                 let values = points.values().as_primitive::<Float32Type>().values();
-                (Coordinates::F32(values.clone()), body.left_out(values)?)
+                (
+                    Coordinates::F32(values.clone()),
+                    body.deferred_offset(values)?,
+                )
             }
             DataType::Float64 => {
                 let values = points.values().as_primitive::<Float64Type>().values();
-                (Coordinates::F64(values.clone()), body.left_out(values)?)
+                (
+                    Coordinates::F64(values.clone()),
+                    body.deferred_offset(values)?,
+                )
             }
-            _ => return Err(unfit()),
+            _ => return Err(wrong_type()),
         };
         Ok(Self {
             rows,
-            row_nulls: some_nulls(column.nulls()),
+            row_nulls: non_empty_nulls(column.nulls()),
             coordinates,
-            left_out,
+            deferred,
             nulls: point_nulls(points),
             len: column.len(),
         })
@@ -145,16 +132,16 @@ impl Polygons {
         self.len
     }
 
-    /// Range of the points of a row. It lies within the points: the decoder has checked that.
+    /// Returns the range of the points of a row. The decoder has checked that it is valid.
     pub(super) fn range(&self, row: usize) -> Range<usize> {
         match &self.rows {
-            Rows::Offsets(o) => o[row] as usize..o[row + 1] as usize,
-            Rows::LargeOffsets(o) => o[row] as usize..o[row + 1] as usize,
-            Rows::Fixed(count) => row * count..(row + 1) * count,
+            RowLayout::Offsets(o) => o[row] as usize..o[row + 1] as usize,
+            RowLayout::LargeOffsets(o) => o[row] as usize..o[row + 1] as usize,
+            RowLayout::Fixed(count) => row * count..(row + 1) * count,
         }
     }
 
-    /// Range of the points of some rows.
+    /// Returns the range of the points of several rows.
     pub(super) fn range_of_rows(&self, rows: Range<usize>) -> Range<usize> {
         if rows.is_empty() {
             return 0..0;
@@ -162,43 +149,44 @@ impl Polygons {
         self.range(rows.start).start..self.range(rows.end - 1).end
     }
 
-    /// Appends where the points of some rows end, the first of which has number `first` in the list that these are of.
+    /// Appends the ends of several rows; their first point gets index `first`.
     pub(super) fn add_ends(&self, rows: Range<usize>, first: usize, ends: &mut Vec<u32>) {
         let start = self.range_of_rows(rows.clone()).start;
-        let end = |of_batch: usize| (of_batch - start + first) as u32;
-        let behind = rows.start + 1..rows.end + 1;
+        let end = |in_batch: usize| (in_batch - start + first) as u32;
+        let next = rows.start + 1..rows.end + 1;
         match &self.rows {
-            Rows::Offsets(o) => ends.extend(o[behind].iter().map(|&o| end(o as usize))),
-            Rows::LargeOffsets(o) => ends.extend(o[behind].iter().map(|&o| end(o as usize))),
-            Rows::Fixed(count) => ends.extend(behind.map(|row| end(row * count))),
+            RowLayout::Offsets(o) => ends.extend(o[next].iter().map(|&o| end(o as usize))),
+            RowLayout::LargeOffsets(o) => ends.extend(o[next].iter().map(|&o| end(o as usize))),
+            RowLayout::Fixed(count) => ends.extend(next.map(|row| end(row * count))),
         }
     }
 
-    /// Number of points of the row that has the fewest.
-    fn fewest(&self) -> usize {
-        fn least<T: Copy + Ord + Sub<Output = T>>(offsets: &[T]) -> Option<T> {
+    /// Returns the smallest number of points per row.
+    fn min_row_points(&self) -> usize {
+        fn min_length<T: Copy + Ord + Sub<Output = T>>(offsets: &[T]) -> Option<T> {
             offsets
                 .array_windows()
                 .map(|&[start, end]| end - start)
                 .min()
         }
-        let fewest = match &self.rows {
-            Rows::Offsets(o) => least(o).map(|few| few as usize),
-            Rows::LargeOffsets(o) => least(o).map(|few| few as usize),
-            Rows::Fixed(count) => Some(*count),
+        let min = match &self.rows {
+            RowLayout::Offsets(o) => min_length(o).map(|min| min as usize),
+            RowLayout::LargeOffsets(o) => min_length(o).map(|min| min as usize),
+            RowLayout::Fixed(count) => Some(*count),
         };
-        fewest.unwrap_or(usize::MAX)
+        min.unwrap_or(usize::MAX)
     }
 
-    /// The rows that cannot be drawn, in order, by the points of all rows.
+    /// Returns the rows that cannot be drawn, in ascending order. `points` are those of all rows,
+    /// and `are_within` states whether all are within the limits.
     pub(super) fn faults<T: Real>(
         &self,
         points: &[Point<T>],
         are_within: bool,
         limits: &Limits,
     ) -> Vec<(usize, Fault)> {
-        // Most files are sound, and the points were looked at as they came.
-        let short = self.fewest() < LEAST_POINTS;
+        // Fast path: a valid file needs no test per row.
+        let short = self.min_row_points() < MIN_POINTS;
         let nulls = self.row_nulls.is_some() || !self.nulls.is_empty();
         if are_within && !short && !nulls {
             return Vec::new();
@@ -213,7 +201,7 @@ impl Polygons {
             return Some(Fault::NoPoints);
         }
         let range = self.range(row);
-        if range.len() < LEAST_POINTS {
+        if range.len() < MIN_POINTS {
             return Some(Fault::TooFew(range.len()));
         }
         for (nulls, per_point) in &self.nulls {
@@ -235,9 +223,10 @@ impl Polygons {
     }
 }
 
-/// The column with the points of its rows one behind the other: views may name the same points again and again, and then these
-/// are copied again and again.
-fn row_after_row(column: &ArrayRef, budget: &Budget) -> Result<ArrayRef, Problem> {
+/// Converts a list view column to a list column, whose rows are in sequence.
+///
+/// Views may refer to the same points many times; the copies are charged to the budget.
+fn flatten_views(column: &ArrayRef, budget: &Budget) -> Result<ArrayRef, Problem> {
     let (items, values, points) = match column.data_type() {
         DataType::ListView(items) => {
             let views = column.as_list_view::<i32>();
@@ -251,20 +240,21 @@ fn row_after_row(column: &ArrayRef, budget: &Budget) -> Result<ArrayRef, Problem
         }
         _ => return Ok(Arc::clone(column)),
     };
-    let again = points.saturating_sub(values.len() as u64);
+    let copied = points.saturating_sub(values.len() as u64);
     let point_bytes = match items.data_type() {
         DataType::FixedSizeList(coordinate, 2) => coordinate.data_type().primitive_width(),
         _ => None,
     };
-    let point_bytes = point_bytes.map_or(MOST_POINT_BYTES, |bytes| 2 * bytes as u64);
-    budget.charge(again.saturating_mul(point_bytes))?;
+    let point_bytes = point_bytes.map_or(MAX_POINT_BYTES, |bytes| 2 * bytes as u64);
+    budget.charge(copied.saturating_mul(point_bytes))?;
     cast(column, &DataType::LargeList(Arc::clone(items)))
 }
 
-/// Whether all coordinates are finite and within the limit.
+/// Returns whether all coordinates are finite and within the limit.
 pub(super) fn all_within<T: Real>(points: &[Point<T>], limits: &Limits) -> bool {
     let limit = limit::<T>(limits);
-    // Comparison with NaN is false. A block at a time: a loop that may stop anywhere is not vectorised.
+    // Comparison with NaN is false. The blocks let the compiler vectorize: a loop that may stop at
+    // any point is not vectorized.
     for block in points.chunks(512) {
         let mut is_within = true;
         for p in block {
@@ -277,18 +267,18 @@ pub(super) fn all_within<T: Real>(points: &[Point<T>], limits: &Limits) -> bool 
     true
 }
 
-/// The largest coordinate, at most the largest finite number.
+/// Returns the coordinate limit, clamped to the largest finite number.
 fn limit<T: Real>(limits: &Limits) -> T {
     T::of(limits.coordinate_m).min(T::max_value())
 }
 
-fn some_nulls(nulls: Option<&NullBuffer>) -> Option<NullBuffer> {
+fn non_empty_nulls(nulls: Option<&NullBuffer>) -> Option<NullBuffer> {
     nulls.filter(|n| n.null_count() > 0).cloned()
 }
 
-/// Null points with one value a point, null coordinates with two.
+/// Returns the null buffers of points (one value per point) and of coordinates (two).
 fn point_nulls(points: &FixedSizeListArray) -> Vec<(NullBuffer, usize)> {
-    let of_points = some_nulls(points.nulls()).map(|n| (n, 1));
-    let of_coordinates = some_nulls(points.values().nulls()).map(|n| (n, 2));
+    let of_points = non_empty_nulls(points.nulls()).map(|n| (n, 1));
+    let of_coordinates = non_empty_nulls(points.values().nulls()).map(|n| (n, 2));
     of_points.into_iter().chain(of_coordinates).collect()
 }

@@ -1,3 +1,6 @@
+//! Columns to write: types, the values of the batch being filled, and their conversion to Arrow
+//! arrays.
+
 use std::sync::Arc;
 
 use arrow_array::builder::{BooleanBuilder, Float64Builder, Int64Builder, StringBuilder};
@@ -7,14 +10,23 @@ use arrow_schema::{ArrowError, DataType, Field, FieldRef};
 use guideway_layout::{Attribute, Value, Values};
 use guideway_spline::{Point, Real};
 
-use super::write::{Precision, WriteProblem};
+use super::write_error::WriteProblem;
 
-/// A column of a table to be written.
+/// Storage type of coordinates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Precision {
+    /// Single precision: error below 0.1 mm at 1 km from the origin.
+    F32,
+    /// Double precision.
+    F64,
+}
+
+/// Definition of a column to write.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Column {
-    /// Its name.
+    /// Name.
     pub name: String,
-    /// The type of its values.
+    /// Type of the values.
     pub column_type: ColumnType,
 }
 
@@ -54,7 +66,7 @@ impl ColumnType {
         }
     }
 
-    /// Least and greatest whole number that fits.
+    /// Returns the smallest and largest integer of the type, if it is an integer type.
     fn int_range(self) -> Option<(i64, i64)> {
         Some(match self {
             Self::Int8 => (i8::MIN.into(), i8::MAX.into()),
@@ -64,7 +76,7 @@ impl ColumnType {
             Self::UInt8 => (0, u8::MAX.into()),
             Self::UInt16 => (0, u16::MAX.into()),
             Self::UInt32 => (0, u32::MAX.into()),
-            // Whole numbers are held in 64 bits with a sign.
+            // Layouts store integers as i64.
             Self::UInt64 => (0, i64::MAX),
             _ => return None,
         })
@@ -83,7 +95,7 @@ impl ColumnType {
 }
 
 impl Column {
-    /// A column of this name.
+    /// Makes a column.
     pub fn new(name: impl Into<String>, column_type: ColumnType) -> Self {
         Self {
             name: name.into(),
@@ -91,8 +103,9 @@ impl Column {
         }
     }
 
-    /// The column that an attribute came from, if its values still fit that; else a wider one.
-    pub(super) fn of_attribute(attribute: &Attribute) -> Self {
+    /// Returns the column of an attribute: of its source type if all values fit, else of a wider
+    /// type.
+    pub(super) fn from_attribute(attribute: &Attribute) -> Self {
         let source = attribute.source_type.as_deref();
         let column_type = match &attribute.values {
             Values::Bool(_) => ColumnType::Bool,
@@ -119,6 +132,7 @@ impl Column {
         Self::new(&attribute.name, column_type)
     }
 
+    /// Returns whether a value fits the type of the column.
     pub(super) fn fits(&self, value: Value<'_>) -> bool {
         match (self.column_type, value) {
             (ColumnType::Bool, Value::Bool(_)) | (ColumnType::Text, Value::Text(_)) => true,
@@ -130,10 +144,12 @@ impl Column {
         }
     }
 
+    /// Returns the field of the schema.
     pub(super) fn field(&self) -> Field {
         Field::new(&self.name, self.column_type.data_type(), true)
     }
 
+    /// Makes the empty cells of the column.
     pub(super) fn cells(&self) -> Cells {
         match self.column_type {
             ColumnType::Bool => Cells::Bool(BooleanBuilder::new()),
@@ -144,7 +160,7 @@ impl Column {
     }
 }
 
-/// The values of a column in the batch being filled, in the widest type of their kind.
+/// Values of a column in the batch being filled, in the widest type of their kind.
 pub(super) enum Cells {
     Bool(BooleanBuilder),
     Int(Int64Builder),
@@ -168,6 +184,7 @@ impl Cells {
         }
     }
 
+    /// Returns the bytes of text.
     pub(super) fn text_bytes(&self) -> usize {
         match self {
             Self::Text(b) => b.values_slice().len(),
@@ -175,7 +192,7 @@ impl Cells {
         }
     }
 
-    /// The batch's column; the next one begins empty.
+    /// Returns the array of the batch and empties the cells.
     pub(super) fn take(&mut self, column: &Column) -> Result<ArrayRef, WriteProblem> {
         let wide: ArrayRef = match self {
             Self::Bool(b) => Arc::new(b.finish()),
@@ -191,7 +208,7 @@ impl Cells {
     }
 }
 
-/// The identifiers of the batch being filled.
+/// Identifiers of the batch being filled.
 #[derive(Default)]
 pub(super) struct IdCells(StringBuilder);
 
@@ -213,8 +230,8 @@ impl IdCells {
     }
 }
 
-/// The control polygons of the batch being filled.
-pub(super) struct Polygon {
+/// Control polygons of the batch being filled.
+pub(super) struct PolygonCells {
     coordinates: Coordinates,
     ends: Vec<i32>,
 }
@@ -224,7 +241,7 @@ enum Coordinates {
     F64(Vec<f64>),
 }
 
-impl Polygon {
+impl PolygonCells {
     pub(super) fn new(precision: Precision) -> Self {
         Self {
             coordinates: match precision {
@@ -272,7 +289,7 @@ impl Polygon {
         self.ends.push(end.unwrap_or(i32::MAX));
     }
 
-    /// The batch's column; the next one begins empty.
+    /// Returns the array of the batch and empties the cells.
     pub(super) fn take(&mut self) -> Result<ArrayRef, ArrowError> {
         let (number, point) = (self.coordinate_field(), self.point_field());
         let coordinates: ArrayRef = match &mut self.coordinates {

@@ -1,3 +1,5 @@
+//! Style columns: level, stroke width, color and draw rank of the paths.
+
 use std::collections::HashMap;
 
 use arrow_array::cast::AsArray;
@@ -5,18 +7,19 @@ use arrow_array::types::{Float32Type, Int32Type, UInt32Type};
 use arrow_schema::DataType;
 use guideway_layout::{Code, Diagnostics, Level, Paths, Place};
 
-use super::batch::{Batch, cast, count_lost};
+use super::batch::Batch;
 use super::budget::Budget;
-use super::schema::Columns;
-use super::text::Texts;
+use super::cast::{cast, count_lost};
+use super::schema::ColumnRoles;
+use super::text_array::TextArray;
 use crate::Problem;
 
-/// The levels of paths and what they bring of their own look.
-pub(super) struct Look<'a> {
+/// Levels and style of the paths under construction.
+pub(super) struct StyleColumns<'a> {
     budget: &'a Budget,
-    known: HashMap<String, u32>,
-    named: Vec<Level>,
-    levels: Option<Column<u32>>,
+    level_rows: HashMap<String, u32>,
+    levels: Vec<Level>,
+    path_levels: Option<Column<u32>>,
     widths: Option<Column<f32>>,
     colors: Option<Column<u32>>,
     ranks: Option<Column<i32>>,
@@ -25,8 +28,8 @@ pub(super) struct Look<'a> {
 struct Column<T> {
     index: usize,
     values: Vec<T>,
-    /// Number of values that are taken as not given.
-    unfit: usize,
+    /// Number of invalid values, which are read as missing.
+    invalid: usize,
 }
 
 impl<T> Column<T> {
@@ -34,46 +37,47 @@ impl<T> Column<T> {
         index.map(|index| Self {
             index,
             values: Vec::with_capacity(rows),
-            unfit: 0,
+            invalid: 0,
         })
     }
 
-    fn note_unfit(&self, name: &str, expected: &str, diagnostics: &mut Diagnostics) {
-        if self.unfit == 0 {
+    fn report_invalid(&self, name: &str, expected: &str, diagnostics: &mut Diagnostics) {
+        if self.invalid == 0 {
             return;
         }
         diagnostics.push(
             Code::UnknownValue,
             || Place::element(format!("column {name}")),
-            || format!("{} values are not {expected}", self.unfit),
-            "Correct the values; they are taken as not given",
+            || format!("{} values are not {expected}", self.invalid),
+            "They are read as missing; correct the values",
         );
     }
 }
 
-impl<'a> Look<'a> {
-    /// With room for about so many rows.
-    pub(super) fn new(columns: &Columns, rows: usize, budget: &'a Budget) -> Self {
+impl<'a> StyleColumns<'a> {
+    /// Makes the columns with capacity for an estimated number of rows.
+    pub(super) fn new(columns: &ColumnRoles, rows: usize, budget: &'a Budget) -> Self {
         Self {
             budget,
-            known: HashMap::new(),
-            named: Vec::new(),
-            levels: Column::new(columns.level, rows),
+            level_rows: HashMap::new(),
+            levels: Vec::new(),
+            path_levels: Column::new(columns.level, rows),
             widths: Column::new(columns.width, rows),
             colors: Column::new(columns.color, rows),
             ranks: Column::new(columns.rank, rows),
         }
     }
 
+    /// Appends the drawn rows of a batch.
     pub(super) fn add(&mut self, batch: &Batch) -> Result<(), Problem> {
         self.add_levels(batch)?;
         if let Some(widths) = &mut self.widths {
             let column = cast(&batch.columns[widths.index], &DataType::Float32)?;
-            let fits = |width: &f32| width.is_finite() && *width >= 0.0;
-            let unfit = &mut widths.unfit;
+            let is_valid = |width: &f32| width.is_finite() && *width >= 0.0;
+            let invalid = &mut widths.invalid;
             let width = |width: Option<f32>| {
-                *unfit += usize::from(width.is_some_and(|w| !fits(&w)));
-                width.filter(fits).unwrap_or(f32::NAN)
+                *invalid += usize::from(width.is_some_and(|w| !is_valid(&w)));
+                width.filter(is_valid).unwrap_or(f32::NAN)
             };
             let column = column.as_primitive::<Float32Type>();
             batch.extend(&mut widths.values, column, width);
@@ -81,15 +85,15 @@ impl<'a> Look<'a> {
         if let Some(colors) = &mut self.colors {
             let column = &batch.columns[colors.index];
             let cast = cast(column, &DataType::UInt32)?;
-            colors.unfit += count_lost(column, &cast);
+            colors.invalid += count_lost(column, &cast);
             let cast = cast.as_primitive::<UInt32Type>();
             batch.extend(&mut colors.values, cast, Option::unwrap_or_default);
         }
         if let Some(ranks) = &mut self.ranks {
             let column = &batch.columns[ranks.index];
             let cast = cast(column, &DataType::Int32)?;
-            ranks.unfit += count_lost(column, &cast);
-            // As for paths that are pushed without a rank: file order.
+            ranks.invalid += count_lost(column, &cast);
+            // A missing rank is the row, as for paths without a rank column.
             let mut path = ranks.values.len();
             let in_order = |rank: Option<i32>| {
                 path += 1;
@@ -105,23 +109,23 @@ impl<'a> Look<'a> {
     }
 
     fn add_levels(&mut self, batch: &Batch) -> Result<(), Problem> {
-        let Some(levels) = &mut self.levels else {
+        let Some(levels) = &mut self.path_levels else {
             return Ok(());
         };
-        let texts = Texts::of_text(&batch.columns[levels.index])?;
-        for row in batch.kept.iter().cloned().flatten() {
+        let texts = TextArray::new(&batch.columns[levels.index])?;
+        for row in batch.drawn.iter().cloned().flatten() {
             let Some(id) = texts.get(row) else {
                 levels.values.push(u32::MAX);
                 continue;
             };
-            if let Some(&level) = self.known.get(id) {
+            if let Some(&level) = self.level_rows.get(id) {
                 levels.values.push(level);
                 continue;
             }
             self.budget.charge(2 * id.len() as u64)?;
-            let level = self.named.len() as u32;
-            self.known.insert(id.to_owned(), level);
-            self.named.push(Level {
+            let level = self.levels.len() as u32;
+            self.level_rows.insert(id.to_owned(), level);
+            self.levels.push(Level {
                 id: id.to_owned(),
                 ..Level::default()
             });
@@ -130,23 +134,23 @@ impl<'a> Look<'a> {
         Ok(())
     }
 
-    /// Gives the columns to paths; the levels that there are.
+    /// Sets the columns of the paths; returns the levels.
     pub(super) fn finish(self, paths: &mut Paths, diagnostics: &mut Diagnostics) -> Vec<Level> {
-        if let Some(levels) = self.levels {
+        if let Some(levels) = self.path_levels {
             paths.set_levels(levels.values);
         }
         if let Some(widths) = self.widths {
-            widths.note_unfit("width_m", "a number of meters from 0", diagnostics);
+            widths.report_invalid("width_m", "a number of meters from 0", diagnostics);
             paths.set_width_m(widths.values);
         }
         if let Some(colors) = self.colors {
-            colors.note_unfit("color", "0xRRGGBBAA", diagnostics);
+            colors.report_invalid("color", "0xRRGGBBAA", diagnostics);
             paths.set_color_rgba(colors.values);
         }
         if let Some(ranks) = self.ranks {
-            ranks.note_unfit("rank", "a whole number of 32 bits", diagnostics);
+            ranks.report_invalid("rank", "a 32-bit integer", diagnostics);
             paths.set_rank(ranks.values);
         }
-        self.named
+        self.levels
     }
 }

@@ -1,33 +1,37 @@
+//! Path assembly: joins the rows of all batches to paths, and decides which rows are drawn or
+//! refused.
+
 use std::ops::Range;
 
 use guideway_layout::{Geometry, Hulls, Limits};
 
 use super::batch::Batch;
-use super::points::Points;
-use super::polygons::{Fault, Polygons};
+use super::control_polygons::ControlPolygons;
+use super::fault::Fault;
+use super::point_store::PointStore;
 use crate::Problem;
 use crate::input::Input;
 
-/// The curves of all rows that can be drawn, joined to paths, and which rows these are.
+/// Curves of all drawn rows, joined to paths.
 #[derive(Debug, Default)]
-pub(super) struct Gather {
-    points: Points,
+pub(super) struct PathAssembler {
+    points: PointStore,
     run_ends: Vec<u32>,
-    /// Set from the first row on that continues another; until then every run is a path.
+    /// Last run of each path, once a row continues another; until then every run is a path.
     path_ends: Option<Vec<u32>>,
-    /// Rows of the table that begin a drawn path, in order, of which no batch was told yet.
-    kept: Vec<Range<usize>>,
-    /// Likewise those that begin a refused path, with the reason.
+    /// Rows of the table that begin a drawn path and are not assigned to a batch yet, ascending.
+    drawn: Vec<Range<usize>>,
+    /// Rows that begin a refused path, with the reason, likewise.
     refused: Vec<(usize, Fault)>,
     rows: usize,
-    last: Last,
+    last: LastPath,
 }
 
-/// What became of the path that the last row belongs to.
+/// State of the path of the last row, which the next batch may continue.
 #[derive(Clone, Copy, Debug, Default)]
-enum Last {
+enum LastPath {
     #[default]
-    Nothing,
+    None,
     Drawn {
         row: usize,
         first_run: usize,
@@ -35,72 +39,72 @@ enum Last {
     Refused,
 }
 
-impl Gather {
-    /// Makes room for about so many points and rows in all.
-    pub(super) fn reserve(&mut self, polygons: &Polygons, points: usize, rows: usize) {
-        self.points = Points::with_room(&polygons.coordinates, points, rows);
+impl PathAssembler {
+    /// Reserves memory for an estimated number of points and rows.
+    pub(super) fn reserve(&mut self, polygons: &ControlPolygons, points: usize, rows: usize) {
+        self.points = PointStore::with_capacity(&polygons.coordinates, points, rows);
     }
 
-    /// Appends a batch whose rows are a path each.
+    /// Appends a batch with one path per row.
     pub(super) fn add(
         &mut self,
-        polygons: &Polygons,
+        polygons: &ControlPolygons,
         input: &Input<'_>,
         limits: &Limits,
     ) -> Result<(), Problem> {
-        self.check_room(polygons, limits)?;
+        self.check_limits(polygons, limits)?;
         let mut from = 0;
-        for (row, fault) in self.points.bring(polygons, input, limits)? {
+        for (row, fault) in self.points.load(polygons, input, limits)? {
             self.add_rows(polygons, from..row);
             self.refused.push((self.rows + row, fault));
-            self.last = Last::Refused;
+            self.last = LastPath::Refused;
             from = row + 1;
         }
         self.add_rows(polygons, from..polygons.len());
         self.rows += polygons.len();
-        // While the points that were added are still near.
+        // Here, while the points are in the processor cache.
         self.points.add_boxes(&self.run_ends);
         Ok(())
     }
 
     /// Appends a batch with rows that continue the path of the row before.
     ///
-    /// A path is refused whole if one of its rows is: half a path would mislead.
+    /// A fault of one row refuses the whole path: a partial path would mislead.
     pub(super) fn add_parts(
         &mut self,
-        polygons: &Polygons,
+        polygons: &ControlPolygons,
         continues: &[bool],
         input: &Input<'_>,
         limits: &Limits,
     ) -> Result<(), Problem> {
-        self.check_room(polygons, limits)?;
+        self.check_limits(polygons, limits)?;
         if self.path_ends.is_none() {
             self.path_ends = Some((1..=self.run_ends.len() as u32).collect());
         }
-        let faults = self.points.bring(polygons, input, limits)?;
+        let faults = self.points.load(polygons, input, limits)?;
         let mut faults = faults.into_iter().peekable();
         for (row, &continues) in continues.iter().enumerate() {
             let fault = faults.next_if(|f| f.0 == row).map(|f| f.1);
             match (continues, self.last, fault) {
-                (true, Last::Refused, _) => {}
+                (true, LastPath::Refused, _) => {}
                 (
                     true,
-                    Last::Drawn {
+                    LastPath::Drawn {
                         row: first,
                         first_run,
                     },
                     Some(fault),
                 ) => {
-                    self.take_back(first_run);
+                    self.remove_path(first_run);
                     self.refused.push((first, fault));
-                    self.last = Last::Refused;
+                    self.last = LastPath::Refused;
                 }
                 (_, _, Some(fault)) => {
                     self.refused.push((self.rows + row, fault));
-                    self.last = Last::Refused;
+                    self.last = LastPath::Refused;
                 }
-                (true, Last::Drawn { .. }, None) => {
-                    self.points.take(polygons.range(row));
+                (true, LastPath::Drawn { .. }, None) => {
+                    self.points.accept(polygons.range(row));
                     self.run_ends.push(self.points.len() as u32);
                     if let Some(end) = self.path_ends.as_mut().and_then(|ends| ends.last_mut()) {
                         *end += 1;
@@ -113,34 +117,35 @@ impl Gather {
         Ok(())
     }
 
-    /// Rows seen so far.
+    /// Returns the number of rows so far.
     pub(super) fn rows(&self) -> usize {
         self.rows
     }
 
-    /// So many rows stay what they are, whatever follows: all but those of a path that may go on and be refused.
-    pub(super) fn settled_rows(&self) -> usize {
+    /// Returns the number of rows whose fate is final: all except those of a path that may
+    /// continue.
+    pub(super) fn final_rows(&self) -> usize {
         match (&self.path_ends, self.last) {
-            (Some(_), Last::Drawn { row, .. }) => row,
+            (Some(_), LastPath::Drawn { row, .. }) => row,
             _ => self.rows,
         }
     }
 
-    /// No rows follow.
-    pub(super) fn settle(&mut self) {
-        self.last = Last::Nothing;
+    /// Ends the last path: no rows follow.
+    pub(super) fn end_rows(&mut self) {
+        self.last = LastPath::None;
     }
 
-    /// Tells the next batch what became of its rows.
-    pub(super) fn tell(&mut self, batch: &mut Batch) {
+    /// Assigns the drawn and refused rows to the next batch.
+    pub(super) fn assign_rows(&mut self, batch: &mut Batch) {
         let Range { start, end } = batch.rows;
-        let whole = self.kept.partition_point(|rows| rows.end <= end);
-        batch.kept.extend(self.kept.drain(..whole));
-        if let Some(rows) = self.kept.first_mut().filter(|rows| rows.start < end) {
-            batch.kept.push(rows.start..end);
+        let whole = self.drawn.partition_point(|rows| rows.end <= end);
+        batch.drawn.extend(self.drawn.drain(..whole));
+        if let Some(rows) = self.drawn.first_mut().filter(|rows| rows.start < end) {
+            batch.drawn.push(rows.start..end);
             rows.start = end;
         }
-        for rows in &mut batch.kept {
+        for rows in &mut batch.drawn {
             *rows = rows.start - start..rows.end - start;
         }
         let refused = self.refused.partition_point(|&(row, _)| row < end);
@@ -150,6 +155,7 @@ impl Gather {
             .extend(refused.map(|(row, fault)| (row - start, fault)));
     }
 
+    /// Returns the geometry of all paths.
     pub(super) fn into_geometry(self) -> Geometry {
         let (geometry, hulls): (Geometry, Hulls) = self.points.into_geometry(self.run_ends);
         match self.path_ends {
@@ -158,7 +164,7 @@ impl Gather {
         }
     }
 
-    fn check_room(&self, polygons: &Polygons, limits: &Limits) -> Result<(), Problem> {
+    fn check_limits(&self, polygons: &ControlPolygons, limits: &Limits) -> Result<(), Problem> {
         let rows = (self.rows + polygons.len()) as u64;
         let points = (self.points.len() + polygons.range_of_rows(0..polygons.len()).len()) as u64;
         let over = |what, limit, actual| Problem::LimitReached {
@@ -169,49 +175,49 @@ impl Gather {
         if rows > limits.paths.min(u64::from(u32::MAX - 1)) {
             return Err(over("rows in the table", limits.paths, rows));
         }
-        // Ends are kept in 32 bits.
-        let most = limits.control_points.min(u64::from(u32::MAX));
-        if points > most {
-            return Err(over("control points", most, points));
+        // Run ends have 32 bits.
+        let limit = limits.control_points.min(u64::from(u32::MAX));
+        if points > limit {
+            return Err(over("control points", limit, points));
         }
         Ok(())
     }
 
-    /// Appends rows that are sound and a path each.
-    fn add_rows(&mut self, polygons: &Polygons, rows: Range<usize>) {
+    /// Appends valid rows with one path each.
+    fn add_rows(&mut self, polygons: &ControlPolygons, rows: Range<usize>) {
         if rows.is_empty() {
             return;
         }
         let first_run = self.run_ends.len();
-        // `u32` holds it: the number of points was checked.
+        // No overflow of u32: the number of points was checked.
         polygons.add_ends(rows.clone(), self.points.len(), &mut self.run_ends);
-        self.points.take(polygons.range_of_rows(rows.clone()));
+        self.points.accept(polygons.range_of_rows(rows.clone()));
         if let Some(path_ends) = &mut self.path_ends {
             path_ends.extend(first_run as u32 + 1..=self.run_ends.len() as u32);
         }
         let table_rows = self.rows + rows.start..self.rows + rows.end;
-        self.last = Last::Drawn {
+        self.last = LastPath::Drawn {
             row: table_rows.end - 1,
             first_run: self.run_ends.len() - 1,
         };
-        match self.kept.last_mut() {
+        match self.drawn.last_mut() {
             Some(last) if last.end == table_rows.start => last.end = table_rows.end,
-            _ => self.kept.push(table_rows),
+            _ => self.drawn.push(table_rows),
         }
     }
 
-    /// Takes back the path drawn last, which begins with this run.
-    fn take_back(&mut self, first_run: usize) {
+    /// Removes the last drawn path, which begins with this run.
+    fn remove_path(&mut self, first_run: usize) {
         self.run_ends.truncate(first_run);
         let points = self.run_ends.last().map_or(0, |&end| end as usize);
         self.points.truncate(points);
         if let Some(path_ends) = &mut self.path_ends {
             path_ends.pop();
         }
-        if let Some(last) = self.kept.last_mut() {
+        if let Some(last) = self.drawn.last_mut() {
             last.end -= 1;
             if last.start == last.end {
-                self.kept.pop();
+                self.drawn.pop();
             }
         }
     }

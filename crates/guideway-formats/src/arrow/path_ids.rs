@@ -1,14 +1,16 @@
+//! Path identifiers of drawn and refused rows; the row number is the substitute for a missing one.
+
 use arrow_array::ArrayRef;
 use guideway_layout::{Code, Diagnostics, Limits, Place, Refused, TextColumn};
 
 use super::batch::Batch;
 use super::budget::Budget;
-use super::text::Texts;
+use super::text_array::TextArray;
 use super::text_sink::TextSink;
 use crate::Problem;
 
-/// What drawn and refused paths are called: by the number of their row where they have no identifier.
-pub(super) struct Ids<'a> {
+/// Identifiers under construction.
+pub(super) struct PathIds<'a> {
     index: Option<usize>,
     limits: &'a Limits,
     budget: &'a Budget,
@@ -17,8 +19,8 @@ pub(super) struct Ids<'a> {
     unnamed: u64,
 }
 
-impl<'a> Ids<'a> {
-    /// The identifiers in column `index`, with room for about so many rows.
+impl<'a> PathIds<'a> {
+    /// Makes the identifiers of column `index`, with capacity for an estimated number of rows.
     pub(super) fn new(
         index: Option<usize>,
         rows: usize,
@@ -35,10 +37,11 @@ impl<'a> Ids<'a> {
         }
     }
 
+    /// Appends the drawn and refused rows of a batch.
     pub(super) fn add(&mut self, batch: &Batch) -> Result<(), Problem> {
-        let texts = texts(self.index, &batch.columns)?;
+        let texts = id_texts(self.index, &batch.columns)?;
         let number = |row: usize| (batch.rows.start + row).to_string();
-        for rows in batch.kept.iter().cloned() {
+        for rows in batch.drawn.iter().cloned() {
             let unnamed = |row| {
                 self.unnamed += 1;
                 number(row)
@@ -55,6 +58,7 @@ impl<'a> Ids<'a> {
         Ok(())
     }
 
+    /// Returns the identifiers of drawn paths, and the refused paths.
     pub(super) fn finish(self, diagnostics: &mut Diagnostics) -> (TextColumn, Refused) {
         if self.unnamed > 0 {
             diagnostics.push(
@@ -62,21 +66,23 @@ impl<'a> Ids<'a> {
                 || Place::element("column id"),
                 || {
                     format!(
-                        "{} paths have no id; the number of their row is used",
+                        "{} paths have no id; their row numbers are used",
                         self.unnamed
                     )
                 },
-                "Give every path an id, so that it is found again after the file has changed",
+                "Give every path an id, so that it stays identifiable after changes of the file",
             );
         }
         (self.sink.into_column(), self.refused)
     }
 }
 
-/// The identifiers of a batch, if column `index` holds them.
-pub(super) fn texts(
+/// Returns the identifiers of a batch, if the table has a column `index` of them.
+pub(super) fn id_texts(
     index: Option<usize>,
     columns: &[ArrayRef],
-) -> Result<Option<Texts<'_>>, Problem> {
-    index.map(|id| Texts::of_id(&columns[id])).transpose()
+) -> Result<Option<TextArray<'_>>, Problem> {
+    index
+        .map(|id| TextArray::from_ids(&columns[id]))
+        .transpose()
 }

@@ -1,43 +1,49 @@
+//! Path columns: collects all columns except the curves, batch by batch, on several threads.
+
 use arrow_schema::Schema;
 use guideway_layout::{Diagnostics, Geometry, Level, Limits, Paths, Refused};
 use rayon::prelude::*;
 
-use super::attributes::Growing;
+use super::attribute_columns::AttributeColumn;
 use super::batch::Batch;
 use super::budget::Budget;
-use super::ids::Ids;
-use super::look::Look;
-use super::schema::Columns;
+use super::path_ids::PathIds;
+use super::schema::ColumnRoles;
+use super::style_columns::StyleColumns;
 use crate::Problem;
 
-/// All columns but the curves, made batch by batch.
-pub(super) struct Table<'a> {
-    ids: Ids<'a>,
-    attributes: Vec<Growing<'a>>,
-    look: Look<'a>,
+/// Identifiers, attributes and style of the paths under construction.
+pub(super) struct PathColumns<'a> {
+    ids: PathIds<'a>,
+    attributes: Vec<AttributeColumn<'a>>,
+    style: StyleColumns<'a>,
 }
 
-impl<'a> Table<'a> {
-    /// With room for about so many rows.
+impl<'a> PathColumns<'a> {
+    /// Makes the columns with capacity for an estimated number of rows.
     pub(super) fn new(
         schema: &'a Schema,
-        columns: &Columns,
+        columns: &ColumnRoles,
         rows: usize,
         limits: &'a Limits,
         budget: &'a Budget,
     ) -> Self {
         let attributes = columns.attributes.iter();
-        let attribute = |&index| Growing::new(index, schema.field(index), rows, limits, budget);
+        let attribute =
+            |&index| AttributeColumn::new(index, schema.field(index), rows, limits, budget);
         Self {
-            ids: Ids::new(columns.id, rows, limits, budget),
+            ids: PathIds::new(columns.id, rows, limits, budget),
             attributes: attributes.map(attribute).collect(),
-            look: Look::new(columns, rows, budget),
+            style: StyleColumns::new(columns, rows, budget),
         }
     }
 
-    /// Appends the rows of a batch. Of several problems the first column's is told, whichever thread finds one first.
+    /// Appends the drawn rows of a batch.
+    ///
+    /// # Errors
+    /// The problem of the first column that has one, independent of thread timing.
     pub(super) fn add(&mut self, batch: &Batch) -> Result<(), Problem> {
-        let (ids, (attributes, look)) = rayon::join(
+        let (ids, (attributes, style)) = rayon::join(
             || self.ids.add(batch),
             || {
                 rayon::join(
@@ -45,16 +51,16 @@ impl<'a> Table<'a> {
                         let columns = self.attributes.par_iter_mut();
                         columns.map(|column| column.add(batch)).collect()
                     },
-                    || self.look.add(batch),
+                    || self.style.add(batch),
                 )
             },
         );
         ids?;
         attributes.into_iter().collect::<Result<(), Problem>>()?;
-        look
+        style
     }
 
-    /// The paths with these curves, those that are refused, and the levels.
+    /// Returns the paths with these curves, the refused paths, and the levels.
     pub(super) fn finish(
         self,
         geometry: Geometry,
@@ -67,7 +73,7 @@ impl<'a> Table<'a> {
         for attribute in attributes {
             paths.attributes.insert(attribute);
         }
-        let levels = self.look.finish(&mut paths, diagnostics);
+        let levels = self.style.finish(&mut paths, diagnostics);
         (paths, refused, levels)
     }
 }

@@ -1,0 +1,77 @@
+//! Errors of the Arrow writer.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use arrow_schema::ArrowError;
+
+/// Reason why a table cannot be written.
+#[derive(Debug, thiserror::Error)]
+#[error("{}: {problem}", .path.display())]
+pub struct WriteError {
+    /// Target file.
+    pub path: PathBuf,
+    /// The problem.
+    pub problem: WriteProblem,
+}
+
+/// Problem of a table that cannot be written.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum WriteProblem {
+    /// The operating system reported an error.
+    #[error("cannot write the file: {0}")]
+    Io(#[from] io::Error),
+    /// A run has too few control points.
+    #[error("path {id:?} has a run of {points} control points; a run needs 4")]
+    TooFewPoints {
+        /// Identifier of the path.
+        id: String,
+        /// Number of control points.
+        points: usize,
+    },
+    /// A value does not match its column.
+    #[error("column {column:?}: {detail}")]
+    Value {
+        /// Name of the column.
+        column: String,
+        /// Description of the mismatch.
+        detail: String,
+    },
+    /// The Arrow library reported an error.
+    #[error("cannot encode the table: {0}")]
+    Arrow(#[source] ArrowError),
+}
+
+impl WriteError {
+    /// Returns the remedy, a sentence for the user.
+    pub fn remedy(&self) -> &'static str {
+        match self.problem {
+            WriteProblem::Io(_) => {
+                "Check that the folder exists and is writable, and that the disk has space"
+            }
+            WriteProblem::TooFewPoints { .. } => "Give the run four or more control points",
+            WriteProblem::Value { .. } => {
+                "Give each row one value per column, of the type of the column"
+            }
+            WriteProblem::Arrow(_) => "Please report this",
+        }
+    }
+}
+
+impl From<ArrowError> for WriteProblem {
+    fn from(error: ArrowError) -> Self {
+        match error {
+            ArrowError::IoError(_, error) => Self::Io(error),
+            other => Self::Arrow(other),
+        }
+    }
+}
+
+/// Adds the target to a problem.
+pub(super) fn fail(path: &Path, problem: WriteProblem) -> WriteError {
+    WriteError {
+        path: path.to_owned(),
+        problem,
+    }
+}
