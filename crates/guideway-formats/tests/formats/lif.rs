@@ -51,7 +51,7 @@ const REAL: &[(&str, &str)] = &[
         "layouts 2, nodes 4, edges 5, vehicleTypes 1",
     ),
     (
-        "lif100_example16_rack_station_modeled_by_three_nodes.json",
+        "lif100_example16_rack_station_modelled_by_three_nodes.json",
         "layouts 1, nodes 4, edges 6, stations 3, vehicleTypes 1",
     ),
     (
@@ -221,7 +221,7 @@ fn absent_knots_are_uniform_and_clamped() {
 fn wrong_knots_show_the_control_polygon_and_say_what_may_be_wrong() {
     let cases = [
         ("[0,0,0,0,1,1,1]", "the order"),
-        ("[0,0,0,1,1,1]", "leaves out the first and the last"),
+        ("[0,0,0,1,1,1]", "leaves out the first and last"),
         ("[0,0,0,0,1,1,1,0.5]", "knot 7 is 0.5"),
         ("[0,0,0,0,0,0,0,0]", "domain"),
         ("[0,0,0,0,1,1,1,1,1]", "9 knots"),
