@@ -94,7 +94,7 @@ pub enum Problem {
         column: u64,
     },
     /// A size exceeds its limit.
-    #[error("{what}: {actual} found, {limit} at most")]
+    #[error("{what}: {actual}, above the limit of {limit}")]
     LimitReached {
         /// The measured size, such as `bytes in the file`.
         what: &'static str,

@@ -59,15 +59,15 @@ impl Losses {
 
     /// Adds the path widths, for a format without widths.
     pub(crate) fn add_widths(&mut self, layout: &Layout) {
-        let own = layout.paths.width_m().unwrap_or_default();
-        let count = own.iter().filter(|w| w.is_finite()).count();
+        let widths = layout.paths.width_m().unwrap_or_default();
+        let count = widths.iter().filter(|w| w.is_finite()).count();
         self.add("widths", count, "widths of paths");
     }
 
     /// Adds the path colors, for a format without colors.
     pub(crate) fn add_colors(&mut self, layout: &Layout) {
-        let own = layout.paths.color_rgba().unwrap_or_default();
-        let count = own.iter().filter(|&&c| c != 0).count();
+        let colors = layout.paths.color_rgba().unwrap_or_default();
+        let count = colors.iter().filter(|&&c| c != 0).count();
         self.add("colors", count, "colors of paths");
     }
 

@@ -1,4 +1,4 @@
-//! Format detection: finds the format of a file from its first bytes, whatever its name.
+//! Format detection: finds the format of a file from its first bytes, regardless of its name.
 
 use crate::Format;
 

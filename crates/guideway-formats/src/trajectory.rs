@@ -27,7 +27,7 @@ record! { ControlPoint {
 struct ControlPolygon {
     points: Vec<Point<f64>>,
     weights: Vec<f64>,
-    /// Whether all points of the file are valid.
+    /// True if all points of the file are valid.
     is_complete: bool,
 }
 

@@ -1,4 +1,4 @@
-//! Damaged, odd and hostile Arrow files: an error or a layout, never a panic, never a great allocation.
+//! Damaged and malicious Arrow files give an error or a layout, without panic or large allocation.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -12,12 +12,12 @@ fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/bad/arrow")
 }
 
-/// What became of a file, in the words of `expect.tsv`.
+/// Describes the outcome of a file in the format of `expect.tsv`.
 fn outcome(path: &Path) -> String {
     match read_file(path, &ReadOptions::default()) {
         Err(error) => {
             let text = error.to_string();
-            assert!(text.len() < 2_000, "a message for people: {text}");
+            assert!(text.len() < 2_000, "overlong message: {text}");
             format!("error {}", error.code())
         }
         Ok(layout) => {
@@ -35,7 +35,7 @@ fn outcome(path: &Path) -> String {
 }
 
 #[test]
-fn every_bad_file_ends_as_the_table_says() {
+fn bad_files_have_the_expected_outcome() {
     let table = fs::read_to_string(folder().join("expect.tsv")).expect("the table is there");
     let mut rows: Vec<(&str, &str)> = Vec::new();
     for line in table.lines().filter(|l| !l.starts_with('#')) {
@@ -50,7 +50,7 @@ fn every_bad_file_ends_as_the_table_says() {
     }
     assert!(
         wrong.is_empty(),
-        "otherwise than expected:\n{}",
+        "unexpected outcomes:\n{}",
         wrong.join("\n")
     );
 
@@ -64,10 +64,10 @@ fn every_bad_file_ends_as_the_table_says() {
     }
 }
 
-/// A small table with every kind of column.
-fn sound() -> Vec<u8> {
+/// Returns a small table with every kind of column.
+fn valid_file() -> Vec<u8> {
     let folder = tempfile::tempdir().expect("a folder");
-    let path = folder.path().join("sound.arrow");
+    let path = folder.path().join("valid.arrow");
     let columns = vec![
         Column::new("guideway.part", ColumnType::UInt32),
         Column::new("level", ColumnType::Text),
@@ -96,8 +96,8 @@ fn sound() -> Vec<u8> {
     fs::read(&path).expect("the file")
 }
 
-/// Reads bytes that may be anything; a layout that comes of it must hold together.
-fn survive(bytes: &[u8]) -> Option<Layout> {
+/// Reads any bytes, and checks the invariants of a layout that they give.
+fn read_any(bytes: &[u8]) -> Option<Layout> {
     let layout = read_bytes("damaged", bytes, &ReadOptions::default()).ok()?;
     for path in layout.paths.iter() {
         assert!(path.runs().all(|run| run.len() >= 4));
@@ -111,29 +111,29 @@ fn survive(bytes: &[u8]) -> Option<Layout> {
 }
 
 #[test]
-fn a_file_cut_anywhere_is_refused() {
-    let bytes = sound();
-    assert_eq!(survive(&bytes).expect("sound").paths.len(), 3);
+fn rejects_truncated_files() {
+    let bytes = valid_file();
+    assert_eq!(read_any(&bytes).expect("valid").paths.len(), 3);
     for len in 0..bytes.len() {
-        assert!(survive(&bytes[..len]).is_none(), "cut at {len}");
+        assert!(read_any(&bytes[..len]).is_none(), "cut at {len}");
     }
 }
 
 #[test]
-fn a_stream_cut_anywhere_has_whole_batches_or_is_refused() {
-    // A file is its magic, a stream and a footer.
-    let file = sound();
+fn truncated_streams_have_whole_batches_or_fail() {
+    // A file consists of its magic, a stream and a footer.
+    let file = valid_file();
     let bytes = &file[8..];
     for len in 0..bytes.len() {
-        if let Some(layout) = survive(&bytes[..len]) {
+        if let Some(layout) = read_any(&bytes[..len]) {
             assert!(matches!(layout.paths.len(), 0 | 3), "cut at {len}");
         }
     }
 }
 
 #[test]
-fn changed_bytes_never_cause_a_panic() {
-    let mut files = vec![sound()];
+fn changed_bytes_do_not_panic() {
+    let mut files = vec![valid_file()];
     for name in [
         "refused-rows",
         "laughs",
@@ -144,7 +144,7 @@ fn changed_bytes_never_cause_a_panic() {
     }
     let mut state = 0x9e37_79b9_7f4a_7c15_u64;
     let mut next = |below: usize| {
-        // xorshift64: the same damage on every run.
+        // xorshift64: the same damage in every run.
         state ^= state << 13;
         state ^= state >> 7;
         state ^= state << 17;
@@ -162,8 +162,8 @@ fn changed_bytes_never_cause_a_panic() {
                     _ => next(256) as u8,
                 };
             }
-            survive(&bytes);
-            survive(&bytes[8..]);
+            read_any(&bytes);
+            read_any(&bytes[8..]);
         }
     }
 }

@@ -1,7 +1,8 @@
-//! The Python of `docs/arrow-format.md` runs as it stands, and both sides read what the other writes.
+//! The Python code of `docs/arrow-format.md` runs unchanged, and Python and Rust read each other's
+//! files.
 //!
-//! Needs Python with pyarrow, and polars for its block; `GUIDEWAY_PYTHON` names the interpreter. What is
-//! not installed is skipped with a message.
+//! Requires Python with pyarrow, and polars for its block; `GUIDEWAY_PYTHON` names the interpreter.
+//! Tests of missing packages are skipped with a message.
 
 use std::path::Path;
 use std::process::Command;
@@ -13,7 +14,7 @@ use guideway_spline::Point;
 
 const DOCUMENT: &str = include_str!("../../../docs/arrow-format.md");
 
-/// The fenced blocks of Python, in order.
+/// Returns the fenced blocks of Python in order.
 fn blocks() -> Vec<&'static str> {
     let fenced = DOCUMENT.split("```python\n").skip(1);
     fenced
@@ -37,7 +38,7 @@ fn python(folder: &Path, code: &str) -> (bool, String) {
     }
 }
 
-/// Whether Python has a package; says so if not.
+/// Returns whether Python has a package; prints a message if not.
 fn has(package: &str) -> bool {
     let (found, text) = python(Path::new("."), &format!("import {package}"));
     if !found {
@@ -60,7 +61,7 @@ fn read(folder: &Path, name: &str) -> Layout {
 }
 
 #[test]
-fn the_documented_python_runs() {
+fn documented_python_runs() {
     if !has("pyarrow") {
         return;
     }
@@ -72,8 +73,8 @@ fn the_documented_python_runs() {
         }
         let text = run(folder, block);
         if block.contains("read_table") {
-            let said = "aisle-1 1 segments from control point [-2.0, 0.0]";
-            assert_eq!(text.trim(), said);
+            let expected = "aisle-1 1 segments from control point [-2.0, 0.0]";
+            assert_eq!(text.trim(), expected);
         }
     }
     let written = read(folder, "paths.arrow");
@@ -96,7 +97,7 @@ fn the_documented_python_runs() {
 }
 
 #[test]
-fn pyarrow_reads_what_is_written_here() {
+fn pyarrow_reads_written_files() {
     if !has("pyarrow") {
         return;
     }

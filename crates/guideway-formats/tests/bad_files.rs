@@ -1,104 +1,26 @@
-//! Bad files: each has an outcome in the table beside it, and none may end in a panic.
+//! Bad files have the outcome stated in their table, and no file causes a panic.
 //!
-//! A line of `bad/*/expect.tsv` is a file, a tab, and either `error` with the code of the error, or `ok`
-//! with the codes of all findings, if any. Files whose name begins with `generated:` are made here.
+//! A line of `bad/*/expect.tsv` has a file name, a tab, and either `error` with the code of the
+//! error, or `ok` with the codes of all diagnostics. Names with the prefix `generated:` refer to
+//! `hostile`.
 
 #![allow(clippy::unwrap_used, reason = "a test may fail by a panic")]
 
 mod hostile;
+mod outcome;
 
-use std::collections::BTreeSet;
 use std::fs;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
 
-use guideway_formats::{ReadError, ReadOptions, read_bytes};
-use guideway_layout::{CheckOptions, Code, Layout, Severity};
 use serde_json::Value;
 
-/// Reads bytes; a panic is the error.
-fn read(name: &str, bytes: &[u8]) -> Result<Result<Layout, ReadError>, String> {
-    let read = || read_bytes(name, bytes, &ReadOptions::default());
-    catch_unwind(AssertUnwindSafe(read)).map_err(|_| format!("{name}: the reader panicked"))
-}
-
-/// Reads bytes and compares the outcome with the one expected.
-fn check(name: &str, bytes: &[u8], expected: &str) -> Result<(), String> {
-    let result = read(name, bytes)?;
-    let outcome = match &result {
-        Ok(layout) => {
-            check_layout(name, layout)?;
-            format!("ok {}", codes(layout).join(","))
-        }
-        Err(error) => {
-            check_error(name, error)?;
-            format!("error {}", error.code())
-        }
-    };
-    if outcome.trim() == expected {
-        return Ok(());
-    }
-    let said = match result {
-        Ok(layout) => layout
-            .diagnostics
-            .iter()
-            .map(|d| format!("\n  {}: {}", d.place, d.message))
-            .collect(),
-        Err(error) => format!("\n  {error}"),
-    };
-    Err(format!(
-        "{name}: `{expected}` expected, `{}` found{said}",
-        outcome.trim()
-    ))
-}
-
-/// What reading finds, and what checking the layout warns of.
-fn codes(layout: &Layout) -> Vec<&'static str> {
-    let checked = guideway_layout::check(layout, &CheckOptions::default());
-    let warned = checked
-        .counts()
-        .map(|(code, _)| code)
-        .filter(|c| c.severity() > Severity::Info);
-    let found = layout.diagnostics.counts().map(|(code, _)| code);
-    let all: BTreeSet<Code> = found.chain(warned).collect();
-    all.into_iter().map(Code::name).collect()
-}
-
-/// An error names the file, says something, and says what to do.
-fn check_error(name: &str, error: &ReadError) -> Result<(), String> {
-    let (text, remedy) = (error.to_string(), error.remedy());
-    let sound = text.contains(name)
-        && text.len() > name.len() + remedy.len() + 10
-        && !remedy.is_empty()
-        && text.contains(&remedy)
-        && !text.contains('\0');
-    sound
-        .then_some(())
-        .ok_or_else(|| format!("{name}: a poor error text: {text}"))
-}
-
-/// What was read can be drawn, and every finding says where, what, and what to do.
-fn check_layout(name: &str, layout: &Layout) -> Result<(), String> {
-    for path in layout.paths.iter() {
-        let mut points = path.runs().flat_map(|run| run.iter());
-        if !points.all(|p| p.is_finite()) {
-            return Err(format!("{name}: the path {} is not finite", path.id()));
-        }
-    }
-    for finding in layout.diagnostics.iter() {
-        let texts = [&finding.place.element, &finding.message, &finding.remedy];
-        if texts.iter().any(|text| text.is_empty()) {
-            return Err(format!("{name}: a poor finding: {finding:?}"));
-        }
-    }
-    Ok(())
-}
+use outcome::{check, check_any, check_error, read};
 
 fn bad_files() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/bad")
 }
 
-/// Checks every line of the table in a folder, and that every file there has a line.
+/// Checks each line of the table of a folder, and that each file has a line.
 fn check_folder(folder: &str) {
     let path = bad_files().join(folder);
     let table = fs::read_to_string(path.join("expect.tsv")).unwrap();
@@ -109,7 +31,7 @@ fn check_folder(folder: &str) {
             Some(recipe) => hostile::generate(folder, recipe).expect(name),
             None => fs::read(path.join(name)).expect(name),
         };
-        failures.extend(check(name, &bytes, expected).err());
+        failures.extend(check(name, &bytes, expected).err().map(|f| f.to_string()));
     }
     let listed = |name: &str| name == "expect.tsv" || lines.iter().any(|(n, _)| *n == name);
     for entry in path.read_dir().unwrap() {
@@ -181,7 +103,7 @@ fn bad_arrow_files() {
 }
 
 #[test]
-fn a_wrong_expectation_fails() {
+fn check_detects_wrong_expectations() {
     let file = b"{\"layouts\": []}";
     assert_eq!(check("right", file, "ok"), Ok(()));
     for wrong in ["ok version", "error syntax", "error", "okay", ""] {
@@ -191,7 +113,7 @@ fn a_wrong_expectation_fails() {
     assert!(check("wrong", b"{", "ok").is_err());
 }
 
-/// Sound files.
+/// Valid files.
 const VALID: [&str; 12] = [
     "dxf/valid.dxf",
     "dxf/valid-binary.dxf",
@@ -207,9 +129,9 @@ const VALID: [&str; 12] = [
     "vda5050/valid-3.json",
 ];
 
-/// A text that is cut anywhere is an error, and never a panic.
+/// A text cut at any byte is an error.
 #[test]
-fn every_truncation_is_an_error() {
+fn rejects_every_truncation() {
     for file in VALID {
         let whole = fs::read(bad_files().join(file)).unwrap();
         let content = whole.trim_ascii_end().len();
@@ -226,11 +148,11 @@ fn every_truncation_is_an_error() {
     }
 }
 
-/// A YAML text that is cut may be a sound one that is shorter.
+/// A truncated YAML text may be valid.
 const VALID_YAML: [&str; 2] = ["rmf/valid.yaml", "rmf/valid-graph.yaml"];
 
 #[test]
-fn no_truncation_of_yaml_breaks_the_reader() {
+fn truncated_yaml_does_not_panic() {
     for file in VALID_YAML {
         let whole = fs::read(bad_files().join(file)).unwrap();
         for length in 0..whole.len() {
@@ -239,9 +161,9 @@ fn no_truncation_of_yaml_breaks_the_reader() {
     }
 }
 
-/// One byte of a file replaced by another: whatever comes of it, it is no panic.
+/// Replaces each byte of a file by several others.
 #[test]
-fn no_single_byte_breaks_the_reader() {
+fn single_byte_changes_do_not_panic() {
     for file in VALID.into_iter().chain(VALID_YAML) {
         let whole = fs::read(bad_files().join(file)).unwrap();
         for at in 0..whole.len() {
@@ -256,14 +178,7 @@ fn no_single_byte_breaks_the_reader() {
     }
 }
 
-fn check_any(name: &str, bytes: &[u8]) {
-    match read(name, bytes).unwrap() {
-        Ok(layout) => check_layout(name, &layout).unwrap(),
-        Err(error) => check_error(name, &error).unwrap(),
-    }
-}
-
-/// A layout with every field that is read.
+/// A LIF file with every field that the reader uses.
 const EVERY_FIELD: &str = r#"{
   "metaInformation": {"lifVersion": "1.0.0"},
   "layouts": [{"layoutId": "L", "layoutName": "Hall", "nodes": [
@@ -283,7 +198,7 @@ const EVERY_FIELD: &str = r#"{
 }"#;
 
 #[test]
-fn no_field_of_another_type_breaks_the_reader() {
+fn fields_of_other_types_do_not_panic() {
     change_every_field(EVERY_FIELD, 60);
     for (file, fields) in [
         ("vda5050/valid.json", 50),
@@ -294,12 +209,13 @@ fn no_field_of_another_type_breaks_the_reader() {
     }
 }
 
-/// Puts values of other types in the place of every value of a JSON text of so many or more.
-fn change_every_field(text: &str, least: usize) {
+/// Replaces each value of a JSON text by values of other types; the text has more than `min`
+/// values.
+fn change_every_field(text: &str, min: usize) {
     let whole: Value = serde_json::from_str(text).unwrap();
     let mut pointers = Vec::new();
     collect_pointers(&whole, String::new(), &mut pointers);
-    assert!(pointers.len() > least);
+    assert!(pointers.len() > min);
     let others = [
         "null",
         "true",
@@ -321,7 +237,7 @@ fn change_every_field(text: &str, least: usize) {
     }
 }
 
-/// The JSON pointer of every value within a value.
+/// Collects the JSON pointers of all nested values.
 fn collect_pointers(value: &Value, at: String, all: &mut Vec<String>) {
     let children: Vec<(String, &Value)> = match value {
         Value::Object(fields) => fields.iter().map(|(k, v)| (k.clone(), v)).collect(),
@@ -341,7 +257,7 @@ fn collect_pointers(value: &Value, at: String, all: &mut Vec<String>) {
 }
 
 #[test]
-fn no_attribute_of_another_value_breaks_the_reader() {
+fn attributes_of_other_values_do_not_panic() {
     for file in [
         "opentcs/valid.xml",
         "svg/valid.svg",

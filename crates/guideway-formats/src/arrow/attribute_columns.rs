@@ -88,7 +88,7 @@ impl<'a> AttributeColumn<'a> {
             AttributeCells::Int(out) => {
                 let numbers = cast(column, &DataType::Int64)?;
                 if count_lost(column, &numbers) > 0 {
-                    // An unsigned number beyond the range of i64: all values become text.
+                    // An unsigned number beyond the range of i64: all values are converted to text.
                     let texts = TextCells::from_numbers(out, self.limits, self.budget)?;
                     self.cells = AttributeCells::Formatted(texts);
                     return self.add(batch);

@@ -7,7 +7,7 @@ use super::catch_decode_panic::catch_decode_panic;
 use super::problems::damaged;
 use crate::Problem;
 
-/// Casts a column to another type; values that do not fit it become null.
+/// Casts a column to another type; values that do not fit it are set to null.
 pub(super) fn cast(column: &ArrayRef, target: &DataType) -> Result<ArrayRef, Problem> {
     catch_decode_panic("column", || {
         arrow_cast::cast(column, target).map_err(|e| damaged("column", e.to_string()))

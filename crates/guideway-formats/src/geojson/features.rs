@@ -94,11 +94,11 @@ impl Mapper<'_> {
         properties: &Properties<'_>,
         at: PlaceFn<'_>,
     ) -> Result<String, ReadError> {
-        let own = feature.id.get();
+        let member = feature.id.get();
         let property = properties.get("id");
         let id = match self.is_graph {
-            true => property.or(own),
-            false => own.or(property),
+            true => property.or(member),
+            false => member.or(property),
         };
         match id.and_then(Property::value) {
             Some(value) => {

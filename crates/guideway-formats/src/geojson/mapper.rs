@@ -18,7 +18,7 @@ const MAX_COLUMNS: usize = 64;
 pub(super) struct Mapper<'a> {
     pub(super) builder: Builder<'a>,
     pub(super) unit: Unit,
-    /// Whether the file is a route graph of Nav2.
+    /// True for a route graph of Nav2.
     pub(super) is_graph: bool,
     /// Rows of the nodes of a route graph by identifier.
     pub(super) nodes: NodeRows,

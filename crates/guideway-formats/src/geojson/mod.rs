@@ -1,7 +1,7 @@
 //! GeoJSON, plain and as route graphs of Nav2: positions in meters or degrees, y up.
 //!
 //! In a route graph, points are nodes, and lines with the properties `startid` and `endid` are
-//! edges. Its positions are meters, whatever coordinate reference system the file states.
+//! edges. Its positions are meters, regardless of the stated coordinate reference system.
 //!
 //! | stage | input | output | file |
 //! |---|---|---|---|

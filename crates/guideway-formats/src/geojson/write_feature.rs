@@ -7,7 +7,7 @@ use guideway_spline::Point;
 
 use crate::clamped::rounded;
 
-/// Properties with a meaning of their own in a route graph.
+/// Properties that a route graph reserves.
 pub(super) const RESERVED: [&str; 3] = ["id", "startid", "endid"];
 
 /// Writer of the features of a collection: `begin`, properties, then `point` or `lines`.

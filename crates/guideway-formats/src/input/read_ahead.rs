@@ -46,7 +46,7 @@ struct State {
     cached_to: usize,
     /// Largest end that a reader requested.
     requested_to: usize,
-    /// Whether the file is closed.
+    /// True once the file is closed.
     is_closed: bool,
 }
 
@@ -108,7 +108,7 @@ struct ReadAhead {
 
 impl ReadAhead {
     fn read(self, len: usize, max_ahead: usize) {
-        // A file description of its own: the kernel detects sequential reads per description.
+        // A separate file description: the kernel detects sequential reads per description.
         let Ok(file) = File::open(&self.path) else {
             return;
         };

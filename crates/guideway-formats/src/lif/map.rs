@@ -9,7 +9,7 @@ use crate::ReadError;
 use crate::builder::{PlaceFn, Table};
 use crate::json::{Field, field_place, items};
 
-/// A layout record with its place in the file. Each becomes a level.
+/// A layout record with its place in the file. Each maps to a level.
 struct LayoutEntry<'r, 'a> {
     place: String,
     record: &'r model::Layout<'a>,
@@ -126,7 +126,7 @@ impl Mapper<'_> {
         let new = self.levels.insert(id.clone().into_owned());
         if !new {
             let message = || format!("the layoutId `{id}` occurs more than once");
-            let remedy = "Both levels are kept and `--level` shows the first; rename one";
+            let remedy = "Both levels are read and `--level` shows the first; rename one";
             self.builder.report(Code::DuplicateId, at, message, remedy);
         }
         self.builder.layout.levels.push(Level {

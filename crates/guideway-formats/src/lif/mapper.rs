@@ -65,12 +65,13 @@ impl<'a> Mapper<'a> {
 
     /// Returns the row of a node. An id that several layouts use refers to the node of this level.
     pub(super) fn node(&self, id: &str, level: u32) -> Option<u32> {
-        let own = if self.repeated_nodes.is_empty() {
+        let in_level = if self.repeated_nodes.is_empty() {
             None
         } else {
             self.repeated_nodes.get(&(level, id.to_owned()))
         };
-        own.copied()
+        in_level
+            .copied()
             .or_else(|| self.nodes.get(&self.builder.layout.nodes, id))
     }
 

@@ -116,7 +116,7 @@ pub(super) const EDGE_PROPERTIES: [&str; 2] =
 pub(super) const NODE_PROPERTIES: [&str; 2] =
     ["vehicleTypeNodeProperties", "mobileRobotTypeNodeProperties"];
 
-/// Vehicle type that stands for all types: LIF requires at least one name.
+/// Placeholder for all vehicle types: LIF requires at least one name.
 pub(super) const ANY_TYPE: &str = "any";
 
 /// Composes the name of a vehicle type of 2.0; `None` if both parts are missing or empty.

@@ -14,7 +14,7 @@ use crate::clamped::{ClampedCurve, POSITION_STEP_M};
 pub(super) struct EdgeRef<'a> {
     pub(super) id: &'a str,
     path: PathRef<'a>,
-    /// Whether it leads against the path.
+    /// True for an edge against the direction of the path.
     is_reverse: bool,
 }
 

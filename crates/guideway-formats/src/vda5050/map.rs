@@ -90,8 +90,9 @@ impl Mapper<'_> {
         self.sequence.extend(sequence.map(|number| (number, row)));
         let row = row as usize;
         self.set_sequence(Table::Nodes, row, sequence)?;
-        let (own, of_position) = (&node.attributes, &position.attributes);
-        self.builder.set_attributes(Table::Nodes, row, own, at)?;
+        let (of_node, of_position) = (&node.attributes, &position.attributes);
+        self.builder
+            .set_attributes(Table::Nodes, row, of_node, at)?;
         self.builder
             .set_attributes(Table::Nodes, row, of_position, at_position)
     }

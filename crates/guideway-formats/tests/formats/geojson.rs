@@ -1,15 +1,15 @@
-//! GeoJSON and the route graphs of Nav2: the real files, and every quirk that was seen in one.
+//! GeoJSON and route graphs of Nav2: real files, geometry types, units and invalid positions.
 
 use crate::common::{assert_counts, codes, count, ends, read, real, real_layouts};
 use guideway_layout::{CheckOptions, Code, Layout, Severity, Value, check};
 use guideway_spline::Point;
 
-/// Counts as the list of sources of the real layouts has them, made by another program.
+/// Reference counts of another program, from the list of sources of the real layouts.
 const GRAPHS: &[(&str, &str)] = &[
     (
         "aws_graph.geojson",
-        // Its one LineString is nested like a MultiLineString. The other program found one vertex there, and
-        // so 168; there are two.
+        // Its LineString is nested like a MultiLineString. The other program counts one vertex for
+        // it, 168 in total; it has two.
         "features 124, Point 40, MultiLineString 83, LineString 1, lineVertices 169",
     ),
     (
@@ -41,7 +41,7 @@ const ROADS: &[(&str, &str)] = &[
     ),
 ];
 
-/// How many paths have a value in a column of the roads.
+/// Number of paths with a value, per column of the roads.
 const ROAD_COLUMNS: &[(&str, &[(&str, usize)])] = &[
     (
         "andorra_roads_local_m.geojson",
@@ -80,7 +80,8 @@ const COUNTED: &[&str] = &[
 /// A collection of features, in meters.
 fn collection(features: &str) -> Layout {
     read(&format!(
-        r#"{{"type": "FeatureCollection", "crs": {{"type": "name", "properties": {{"name": "EPSG:3857"}}}},
+        r#"{{"type": "FeatureCollection",
+            "crs": {{"type": "name", "properties": {{"name": "EPSG:3857"}}}},
             "features": [{features}]}}"#
     ))
 }
@@ -93,7 +94,7 @@ fn feature(properties: &str, kind: &str, coordinates: &str) -> String {
 }
 
 #[test]
-fn real_graphs_have_the_counts_that_others_find() {
+fn real_graphs_have_the_reference_counts() {
     let Some(folder) = real_layouts("nav2_geojson") else {
         return;
     };
@@ -125,7 +126,7 @@ fn real_graphs_have_the_counts_that_others_find() {
 }
 
 #[test]
-fn real_roads_have_the_counts_that_others_find() {
+fn real_roads_have_the_reference_counts() {
     let Some(folder) = real_layouts("geojson_roads") else {
         return;
     };
@@ -139,14 +140,14 @@ fn real_roads_have_the_counts_that_others_find() {
             let there = (0..layout.paths.len()).filter(|&row| values.get(row).is_some());
             assert_eq!(there.count(), *expected, "{name} of {file}");
         }
-        // Kilometers, for these were converted to meters about their middle.
+        // The files were converted to meters about their center.
         let bounds = layout.paths.hull_bounds().unwrap();
         assert!(bounds.max.x - bounds.min.x > 5_000.0, "{bounds:?}");
     }
 }
 
 #[test]
-fn what_belongs_to_an_edge_of_a_graph_becomes_columns() {
+fn reads_edge_properties_as_columns() {
     let Some(layout) = real("nav2_geojson", "sample_graph.geojson") else {
         return;
     };
@@ -167,7 +168,7 @@ fn what_belongs_to_an_edge_of_a_graph_becomes_columns() {
 }
 
 #[test]
-fn the_same_edge_twice_is_found() {
+fn detects_duplicate_edges() {
     if let Some(layout) = real("nav2_geojson", "turtlebot3_graph.geojson") {
         let found = check(&layout, &CheckOptions::default());
         let twins: Vec<String> = found
@@ -181,10 +182,11 @@ fn the_same_edge_twice_is_found() {
 }
 
 #[test]
-fn an_edge_of_a_graph_needs_no_geometry() {
+fn draws_graph_edges_without_geometry() {
     let layout = collection(&format!(
         r#"{}, {},
-           {{"type": "Feature", "properties": {{"id": 3, "startid": 1, "endid": 2}}, "geometry": null}}"#,
+           {{"type": "Feature", "geometry": null,
+             "properties": {{"id": 3, "startid": 1, "endid": 2}}}}"#,
         feature(r#""id": 1"#, "Point", "[0, 0]"),
         feature(r#""id": 2"#, "Point", "[4, 3]")
     ));
@@ -193,7 +195,7 @@ fn an_edge_of_a_graph_needs_no_geometry() {
 }
 
 #[test]
-fn edges_of_a_graph_may_come_before_their_nodes_and_name_unknown_ones() {
+fn resolves_graph_edges_in_any_order() {
     let edge = |id: u32, end: u32| {
         let properties = format!(r#""id": {id}, "startid": 1, "endid": {end}"#);
         feature(&properties, "LineString", "[[0, 0], [5, 5]]")
@@ -211,11 +213,11 @@ fn edges_of_a_graph_may_come_before_their_nodes_and_name_unknown_ones() {
 }
 
 #[test]
-fn every_type_of_geometry_is_drawn() {
+fn draws_every_geometry_type() {
     let layout = collection(&format!(
         r#"{}, {}, {}, {}, {}, {},
-           {{"id": "C", "type": "Feature", "properties": null, "geometry": {{"type": "GeometryCollection",
-             "geometries": [{{"type": "Point", "coordinates": [7, 7]}},
+           {{"id": "C", "type": "Feature", "properties": null, "geometry":
+             {{"type": "GeometryCollection", "geometries": [{{"type": "Point", "coordinates": [7, 7]}},
                             {{"type": "LineString", "coordinates": [[0, 0], [7, 7]]}}]}}}}"#,
         feature(r#""id": "P""#, "Point", "[1, 2, 30]"),
         feature(r#""id": "PP""#, "MultiPoint", "[[1, 2], [3, 4]]"),
@@ -252,7 +254,7 @@ fn every_type_of_geometry_is_drawn() {
 }
 
 #[test]
-fn a_file_may_be_one_feature_or_one_geometry() {
+fn reads_a_single_feature_or_geometry() {
     let line = r#"{"type": "LineString", "coordinates": [[1000, 0], [2000, 0]]}"#;
     for text in [
         line.to_owned(),
@@ -266,8 +268,9 @@ fn a_file_may_be_one_feature_or_one_geometry() {
 }
 
 #[test]
-fn degrees_become_meters_about_the_middle() {
-    // A degree of latitude at 45 degrees north is 111,131.8 m, and of longitude 78,846.8 m (WGS 84).
+fn projects_degrees_to_meters() {
+    // A degree of latitude at 45 degrees north is 111,131.8 m, and of longitude 78,846.8 m (WGS
+    // 84).
     let line = feature("", "LineString", "[[10, 44.5], [10, 45.5]]");
     let across = feature("", "LineString", "[[9.5, 45], [10.5, 45]]");
     let crs = r#""crs": {"properties": {"name": "urn:ogc:def:crs:OGC:1.3:CRS84"}},"#;
@@ -286,7 +289,7 @@ fn degrees_become_meters_about_the_middle() {
 }
 
 #[test]
-fn positions_beyond_the_globe_are_meters() {
+fn reads_positions_beyond_180_degrees_as_meters() {
     let line = feature("", "LineString", "[[0, 0], [181, 0]]");
     for crs in ["", r#""crs": {"properties": {"name": "EPSG:4326"}},"#] {
         let layout = read(&format!(r#"{{{crs} "features": [{line}]}}"#));
@@ -297,7 +300,7 @@ fn positions_beyond_the_globe_are_meters() {
 }
 
 #[test]
-fn what_is_no_position_is_left_out_and_said() {
+fn ignores_and_reports_invalid_positions() {
     for (coordinates, paths) in [
         (r#"[[0, 0], "x", [5, 5]]"#, 1),
         ("[[0, 0], [null, 1], [5, 5]]", 1),

@@ -1,4 +1,4 @@
-//! What is written as GeoJSON comes back as it was, but for what the format cannot hold.
+//! GeoJSON writer: layouts round-trip, except for the listed losses.
 
 use crate::common::{codes, read, real_layouts};
 use guideway_formats::geojson::{WriteOptions, write_layout};
@@ -7,7 +7,7 @@ use guideway_layout::{Code, Layout, NewPath, Value};
 use guideway_spline::{Point, Runs, arc_to_runs, polyline_to_runs};
 use proptest::prelude::*;
 
-/// What is written of a layout, and what kinds of things are lost.
+/// Writes a layout; returns the text and the names of the losses.
 fn written(layout: &Layout) -> (String, Vec<String>) {
     let mut bytes = Vec::new();
     let losses = write_layout(layout, &mut bytes, &WriteOptions::default()).unwrap();
@@ -63,7 +63,7 @@ fn assert_same(a: &Layout, b: &Layout) {
 }
 
 #[test]
-fn real_graphs_and_roads_come_back_whole() {
+fn round_trips_real_graphs_and_roads() {
     for folder in ["nav2_geojson", "geojson_roads"] {
         let Some(folder) = real_layouts(folder) else {
             return;
@@ -82,7 +82,7 @@ fn real_graphs_and_roads_come_back_whole() {
 }
 
 #[test]
-fn what_cannot_be_held_is_listed() {
+fn lists_losses() {
     let mut layout = Layout::default();
     let mut runs = Runs::default();
     arc_to_runs(Point::new(0.0, 0.0), 5.0, 0.0, 3.0, 1e-4, &mut runs);
@@ -108,7 +108,7 @@ fn what_cannot_be_held_is_listed() {
 }
 
 #[test]
-fn a_broken_path_stays_broken() {
+fn keeps_gaps() {
     let mut runs = Runs::default();
     runs.push_line(Point::new(0.0, 0.0), Point::new(1.0, 0.0));
     runs.push_line(Point::new(5.0, 0.0), Point::new(6.0, 0.0));
@@ -157,7 +157,7 @@ fn arbitrary_layout() -> impl Strategy<Value = Layout> {
 
 proptest! {
     #[test]
-    fn any_layout_of_lines_comes_back(layout in arbitrary_layout()) {
+    fn round_trips_any_layout_of_lines(layout in arbitrary_layout()) {
         let (text, losses) = written(&layout);
         prop_assert!(losses.is_empty(), "{:?}", losses);
         assert_same(&layout, &read(&text));
@@ -166,7 +166,7 @@ proptest! {
 
 #[test]
 #[should_panic(expected = "left == right")]
-fn a_layout_that_differs_is_told_apart() {
+fn comparison_detects_a_different_layout() {
     let line = |x: f64| {
         let mut layout = Layout::default();
         let mut runs = Runs::default();

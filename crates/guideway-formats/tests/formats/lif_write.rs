@@ -1,4 +1,4 @@
-//! What is written as LIF 1.0 and 2.0 comes back as it was, but for what the format cannot hold.
+//! LIF writer: layouts round-trip through 1.0 and 2.0, except for the listed losses.
 
 use std::time::{Duration, SystemTime};
 
@@ -32,7 +32,7 @@ fn column<'a>(layout: &'a Layout, name: &str, path: usize) -> Option<Value<'a>> 
 
 proptest! {
     #[test]
-    fn any_layout_comes_back(layout in arbitrary_layout()) {
+    fn round_trips_any_layout(layout in arbitrary_layout()) {
         for (version, speed) in [(Version::V1, "maxSpeed"), (Version::V2, "maximumSpeed")] {
             let (text, losses) = written(&layout, version);
             prop_assert!(losses.is_empty(), "{losses:?}");
@@ -44,13 +44,13 @@ proptest! {
                 prop_assert_eq!(types(&again, path), types(&layout, path));
                 prop_assert_eq!(column(&again, speed, path), column(&layout, "maxSpeed", path));
             }
-            // Nothing odd is written, but that curves are not where their nodes are.
+            // No diagnostics, although curves and nodes are apart.
             prop_assert!(codes(&again).is_empty(), "{:?} in {text}", codes(&again));
         }
     }
 }
 
-/// Four paths without nodes: three in a row, the last of them two-way, and one apart.
+/// Four paths without nodes: three connected, the last of them two-way, and one separate.
 fn bare() -> Layout {
     let mut layout = Layout::default();
     for (id, from, to, direction) in [
@@ -72,7 +72,7 @@ fn bare() -> Layout {
 }
 
 #[test]
-fn paths_without_nodes_get_them_and_share_those_that_meet() {
+fn adds_shared_end_nodes_to_paths_without_nodes() {
     for version in VERSIONS {
         let (text, losses) = written(&bare(), version);
         let expected = [
@@ -100,7 +100,7 @@ fn paths_without_nodes_get_them_and_share_those_that_meet() {
 }
 
 #[test]
-fn many_lines_that_several_threads_write_come_back_in_their_order() {
+fn parallel_lines_keep_their_order() {
     let mut layout = Layout::default();
     let ids: Vec<String> = (0..9_000).map(|i| format!("path {i}")).collect();
     for (id, y) in ids.iter().zip(0..) {
@@ -120,7 +120,7 @@ fn many_lines_that_several_threads_write_come_back_in_their_order() {
 }
 
 #[test]
-fn a_curve_back_is_the_curve_reversed() {
+fn reverse_edge_has_the_reversed_curve() {
     let mut layout = Layout::default();
     let mut runs = Runs::default();
     runs.push(
@@ -142,7 +142,7 @@ fn a_curve_back_is_the_curve_reversed() {
 }
 
 #[test]
-fn names_are_made_unique_and_what_has_no_place_is_listed() {
+fn makes_names_unique_and_lists_losses() {
     let mut layout = bare();
     for _ in 0..2 {
         layout.nodes.push("N", Point::new(1.0, 1.0), None);
@@ -181,7 +181,7 @@ fn names_are_made_unique_and_what_has_no_place_is_listed() {
 }
 
 #[test]
-fn the_versions_translate_into_each_other() {
+fn converts_properties_between_versions() {
     let mut layout = bare();
     let attributes = &mut layout.paths.attributes;
     attributes.set(0, "rotationAllowed", Value::Bool(true));
@@ -208,7 +208,7 @@ fn the_versions_translate_into_each_other() {
 }
 
 #[test]
-fn a_broken_path_stays_broken() {
+fn keeps_gaps() {
     let layout = broken(Point::new(6.0, 0.0), Direction::Forward);
     let again = read(&written(&layout, Version::V1).0);
     assert_same_curves(&layout, &again, "broken");
@@ -217,7 +217,7 @@ fn a_broken_path_stays_broken() {
 
 #[test]
 #[should_panic(expected = "m off")]
-fn a_curve_that_differs_is_told_apart() {
+fn comparison_detects_a_moved_curve() {
     let mut other = bare();
     other.paths = read(&written(&bare(), Version::V1).0).paths;
     let mut moved = Layout::default();

@@ -1,8 +1,10 @@
-//! What is read and written of each format, in one program, which is sooner linked than one for each.
+//! Tests of all formats in one program: one link step instead of one per format.
 
 #![allow(clippy::unwrap_used, reason = "a test may fail by a panic")]
 
 mod arrow;
+mod arrow_rows;
+mod arrow_tables;
 mod arrow_write;
 mod common;
 mod dxf;
@@ -11,7 +13,10 @@ mod geojson;
 mod geojson_write;
 mod lanelet2;
 mod lif;
-mod lif_rest;
+mod lif_passthrough;
+mod lif_real;
+mod lif_texts;
+mod lif_trajectory;
 mod lif_write;
 mod opendrive;
 mod opentcs;

@@ -1,4 +1,4 @@
-//! Every real layout through every pair of formats that hold curves, and back: the same curves.
+//! Round trip of every real layout through each pair of formats that hold curves.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -53,8 +53,8 @@ impl Target {
     }
 }
 
-/// Paths in an order and a shape that every format keeps: one way, by level, whole, with names that are not
-/// empty. What is left out of the comparison by that is listed as a loss by each writer, which other tests see.
+/// Reduces a layout to the common subset of the formats: one-way paths without gaps, in order of
+/// their levels. Other tests check that the writers list the rest as losses.
 fn plain(layout: &Layout) -> Layout {
     let mut plain = Layout {
         levels: layout.levels.clone(),
@@ -125,14 +125,14 @@ fn real_files() -> Vec<PathBuf> {
 }
 
 #[test]
-fn real_layouts_come_back_through_every_pair() {
+fn real_layouts_survive_every_pair_of_formats() {
     let folder = tempfile::tempdir().unwrap();
     let mut compared = 0;
     for file in real_files() {
         let read = read_file(&file, &ReadOptions::default()).unwrap();
         let layout = plain(&read);
         let name = file.display();
-        // A large drawing proves no more by way of every pair.
+        // A large drawing takes one pair only, for time.
         let pairs = if layout.paths.geometry().segment_count() > 5_000 {
             1
         } else {
@@ -176,7 +176,7 @@ fn real_lif_files_keep_their_network() {
 
 #[test]
 #[should_panic(expected = "m off")]
-fn a_point_that_is_moved_is_found() {
+fn comparison_detects_a_moved_point() {
     let line = |y: f64| {
         let mut layout = Layout::default();
         let mut runs = Runs::default();

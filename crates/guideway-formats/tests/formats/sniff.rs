@@ -1,4 +1,5 @@
-//! The format is found from the content, and what is no file is refused before it is opened.
+//! Format detection from content, and rejection of anything but regular files before they are
+//! opened.
 
 use std::fs;
 
@@ -8,13 +9,13 @@ use guideway_layout::Limits;
 const LIF: &str = r#"{"layouts": [{"layoutId": "L", "nodes": [], "edges": []}]}"#;
 
 #[test]
-fn the_beginning_tells_the_format() {
+fn detects_the_format_from_first_bytes() {
     assert_eq!(sniff(b"{\"layouts\": []}"), Some(Format::Lif));
     assert_eq!(sniff(b"\xEF\xBB\xBF \n {"), Some(Format::Lif));
     assert_eq!(
         sniff(b"{}"),
         Some(Format::Lif),
-        "which then says what is missing"
+        "its reader reports the missing keys"
     );
     assert_eq!(sniff(b"<?xml version=\"1.0\"?>"), Some(Format::OpenTcs));
     assert_eq!(sniff(b"ARROW1\0\0"), Some(Format::Arrow));
@@ -41,7 +42,7 @@ fn the_beginning_tells_the_format() {
 }
 
 #[test]
-fn the_outermost_element_tells_one_xml_from_another() {
+fn distinguishes_xml_formats_by_root_element() {
     for (text, format) in [
         ("<svg>", Format::Svg),
         (
@@ -62,7 +63,7 @@ fn the_outermost_element_tells_one_xml_from_another() {
 }
 
 #[test]
-fn keys_of_the_outermost_object_tell_one_json_from_another() {
+fn distinguishes_json_formats_by_root_keys() {
     for (text, format) in [
         (r#"{"headerId": 1, "nodes": []}"#, Format::Vda5050),
         (r#"{"edges" : []}"#, Format::Vda5050),
@@ -87,7 +88,7 @@ fn keys_of_the_outermost_object_tell_one_json_from_another() {
 }
 
 #[test]
-fn the_name_of_the_file_has_no_say() {
+fn ignores_the_file_name() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("plant.xml");
     fs::write(&path, LIF).unwrap();
@@ -97,7 +98,7 @@ fn the_name_of_the_file_has_no_say() {
 }
 
 #[test]
-fn what_is_not_a_file_is_refused() {
+fn rejects_folders_and_missing_files() {
     let folder = tempfile::tempdir().unwrap();
     let error = read_file(folder.path(), &ReadOptions::default()).unwrap_err();
     assert_eq!(error.code(), "not-a-file");
@@ -108,7 +109,7 @@ fn what_is_not_a_file_is_refused() {
 
 #[cfg(unix)]
 #[test]
-fn a_pipe_or_a_device_is_refused_and_not_waited_for() {
+fn rejects_pipes_and_devices_without_blocking() {
     let folder = tempfile::tempdir().unwrap();
     let pipe = folder.path().join("pipe");
     let made = std::process::Command::new("mkfifo").arg(&pipe).status();
@@ -122,7 +123,7 @@ fn a_pipe_or_a_device_is_refused_and_not_waited_for() {
 }
 
 #[test]
-fn a_file_above_the_limit_is_refused_with_both_numbers() {
+fn rejects_files_above_the_size_limit() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("big");
     fs::write(&path, LIF).unwrap();
@@ -141,7 +142,7 @@ fn a_file_above_the_limit_is_refused_with_both_numbers() {
         let text = error.to_string();
         let size = LIF.len().to_string();
         assert!(
-            text.contains("10 at most") && text.contains(&size),
+            text.contains("limit of 10") && text.contains(&size),
             "{text}"
         );
     }
@@ -156,7 +157,7 @@ impl Progress for Stop {
 }
 
 #[test]
-fn a_read_can_be_stopped() {
+fn cancels_a_read() {
     let options = ReadOptions {
         progress: Some(&Stop),
         ..ReadOptions::default()

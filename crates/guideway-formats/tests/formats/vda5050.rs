@@ -1,10 +1,10 @@
-//! Orders of VDA 5050: the real files, and what the versions do differently.
+//! VDA 5050 orders: real files, and the differences between versions.
 
 use crate::common::{assert_counts, codes, count, ends, read, real, real_layouts};
 use guideway_layout::{Code, Layout};
 use guideway_spline::Point;
 
-/// Counts as the list of sources of the real layouts has them, made by another program.
+/// Reference counts of another program, from the list of sources of the real layouts.
 const REAL: &[(&str, &str)] = &[
     (
         "order_v1_1_nullOptionalFields.json",
@@ -16,19 +16,22 @@ const REAL: &[(&str, &str)] = &[
     ),
 ];
 
-/// Three nodes at 0, 10 and 20 m, with sequence ids 0, 2 and 4, and the edges given.
+/// Reads three nodes at 0, 10 and 20 m, with sequence ids 0, 2 and 4, and the given edges.
 fn order(edges: &str) -> Layout {
     read(&format!(
         r#"{{"orderId": "O", "version": "3.0.0", "nodes": [
-            {{"nodeId": "A", "sequenceId": 0, "nodePosition": {{"x": 0, "y": 0, "mapId": "hall"}}}},
-            {{"nodeId": "B", "sequenceId": 2, "nodePosition": {{"x": 10, "y": 0, "mapId": "hall"}}}},
-            {{"nodeId": "C", "sequenceId": 4, "nodePosition": {{"x": 20, "y": 0, "mapId": "roof"}}}}],
+            {{"nodeId": "A", "sequenceId": 0,
+             "nodePosition": {{"x": 0, "y": 0, "mapId": "hall"}}}},
+            {{"nodeId": "B", "sequenceId": 2,
+             "nodePosition": {{"x": 10, "y": 0, "mapId": "hall"}}}},
+            {{"nodeId": "C", "sequenceId": 4,
+             "nodePosition": {{"x": 20, "y": 0, "mapId": "roof"}}}}],
           "edges": [{edges}]}}"#
     ))
 }
 
 #[test]
-fn real_files_have_the_counts_that_others_find() {
+fn real_files_have_the_reference_counts() {
     let Some(folder) = real_layouts("vda5050") else {
         return;
     };
@@ -45,7 +48,7 @@ fn real_files_have_the_counts_that_others_find() {
 }
 
 #[test]
-fn a_trajectory_of_one_point_is_the_straight_line() {
+fn one_point_trajectory_draws_the_straight_line() {
     if let Some(layout) = real("vda5050", "order_v2_0_jsonSampleFull.json") {
         assert_eq!(layout.diagnostics.count(Code::TooFewPoints), 1);
         let (start, end) = ends(&layout, "some-edge-id");
@@ -57,7 +60,7 @@ fn a_trajectory_of_one_point_is_the_straight_line() {
 }
 
 #[test]
-fn nodes_without_a_position_leave_their_edges_undrawn() {
+fn refuses_edges_of_nodes_without_a_position() {
     if let Some(layout) = real("vda5050", "order_v1_1_nullOptionalFields.json") {
         assert_eq!((layout.nodes.len(), layout.paths.len()), (1, 0));
         assert!(layout.refused.iter().all(|r| r.code == Code::UnknownNode));
@@ -66,7 +69,7 @@ fn nodes_without_a_position_leave_their_edges_undrawn() {
 }
 
 #[test]
-fn from_3_0_on_the_place_in_the_order_joins_nodes_and_edges() {
+fn version_3_0_connects_edges_by_sequence_id() {
     let layout = order(r#"{"edgeId": "E", "sequenceId": 1, "maximumSpeed": 2}"#);
     assert_eq!(codes(&layout), []);
     assert_eq!(layout.provenance.format_version, "3.0.0");
@@ -77,7 +80,7 @@ fn from_3_0_on_the_place_in_the_order_joins_nodes_and_edges() {
 }
 
 #[test]
-fn up_to_2_1_names_join_nodes_and_edges_whatever_their_place() {
+fn version_2_1_connects_edges_by_node_id() {
     let edge = r#"{"edgeId": "E", "sequenceId": 1, "startNodeId": "B", "endNodeId": "A"}"#;
     let layout = order(edge);
     assert_eq!(codes(&layout), [Code::Version]);
@@ -86,7 +89,7 @@ fn up_to_2_1_names_join_nodes_and_edges_whatever_their_place() {
 }
 
 #[test]
-fn a_lift_is_not_drawn_across_one_plane() {
+fn refuses_edges_between_maps() {
     let layout = order(r#"{"edgeId": "lift", "sequenceId": 3}"#);
     let refused = layout.refused.iter().next().unwrap();
     assert_eq!((refused.id, refused.code), ("lift", Code::CrossLevel));
@@ -94,7 +97,7 @@ fn a_lift_is_not_drawn_across_one_plane() {
 }
 
 #[test]
-fn a_trajectory_needs_no_nodes_and_from_3_0_on_no_knots() {
+fn draws_a_trajectory_without_nodes_and_knots() {
     let layout = order(
         r#"{"edgeId": "E", "sequenceId": 7, "trajectory": {"degree": 2, "controlPoints":
             [{"x": 0, "y": 1}, {"x": 5, "y": 9}, {"x": 10, "y": 1}]}}"#,
@@ -105,7 +108,7 @@ fn a_trajectory_needs_no_nodes_and_from_3_0_on_no_knots() {
 }
 
 #[test]
-fn attributes_of_all_versions_become_columns() {
+fn reads_attributes_of_all_versions_as_columns() {
     let layout = order(
         r#"{"edgeId": "E", "sequenceId": 1, "released": true, "maximumSpeed": 1.5,
             "orientationType": "GLOBAL", "actions": [{}, {}], "direction": null,
@@ -130,12 +133,14 @@ fn attributes_of_all_versions_become_columns() {
 }
 
 #[test]
-fn a_node_that_is_passed_twice_is_one_node() {
+fn merges_a_node_that_is_passed_twice() {
     let layout = read(
         r#"{"nodes": [
             {"nodeId": "A", "sequenceId": 0, "nodePosition": {"x": 0, "y": 0}},
-            {"nodeId": "B", "sequenceId": 2, "nodePosition": {"x": 10, "y": 0}},
-            {"nodeId": "A", "sequenceId": 4, "nodePosition": {"x": 0, "y": 0}}],
+            {"nodeId": "B", "sequenceId": 2,
+             "nodePosition": {"x": 10, "y": 0}},
+            {"nodeId": "A", "sequenceId": 4,
+             "nodePosition": {"x": 0, "y": 0}}],
           "edges": [{"edgeId": "there", "sequenceId": 1}, {"edgeId": "back", "sequenceId": 3}]}"#,
     );
     assert_eq!((layout.nodes.len(), layout.paths.len()), (2, 2));

@@ -1,16 +1,16 @@
-//! Files that are too large to store, or that are made from another: each under the name that the table
-//! of expectations has for it.
+//! Generated bad files that are too large to store, by the names in the tables of expected
+//! outcomes.
 
 mod roads;
 
-/// A small file that all others are variations of.
+/// Start of a small LIF file, which the generated ones vary.
 const LIF_HEAD: &str = r#"{"layouts": [{"layoutId": "L", "nodes": [
     {"nodeId": "A", "nodePosition": {"x": 0, "y": 0}},
     {"nodeId": "B", "nodePosition": {"x": 10, "y": 0}}], "edges": ["#;
 
 const MILLION: usize = 1_000_000;
 
-/// The file of this name in a folder of bad files.
+/// Generates the file of a name in a folder of bad files.
 pub(crate) fn generate(folder: &str, name: &str) -> Option<Vec<u8>> {
     match folder {
         "lif" => lif(name).map(String::into_bytes),
@@ -120,7 +120,7 @@ fn vda_5050(name: &str) -> Option<String> {
             };
             format!(r#"{{"nodes": [{}]}}"#, join(MILLION / 10, node))
         }
-        // The telling key comes last, behind much that looks like keys.
+        // The key that identifies the format comes last, after many nested keys.
         "late-key" => format!(r#"{{{}"nodes": []}}"#, r#""a": {"b": []},"#.repeat(MILLION)),
         _ => return None,
     })
@@ -142,7 +142,7 @@ fn dxf(name: &str) -> Option<String> {
     let repeat =
         |count: usize, item: &dyn Fn(usize) -> String| -> String { (0..count).map(item).collect() };
     Some(match name {
-        // Ten of each in the next: ten thousand million lines from a kilobyte.
+        // Ten inserts per level: 10^10 lines from a kilobyte.
         "billion-lines" => {
             let level =
                 |i: usize| block(&format!("{i}"), &insert(&format!("{}", i + 1)).repeat(10));
@@ -175,7 +175,7 @@ fn dxf(name: &str) -> Option<String> {
                 &format!("0\nLINE\n8\n{name}\n10\n0\n20\n0\n11\n1\n21\n1\n"),
             )
         }
-        // Arcs of the greatest radius, which become most control points.
+        // Arcs of the largest radius, which convert to the most control points.
         "circles-of-one-block" => {
             let circle = "0\nCIRCLE\n10\n0\n20\n0\n40\n9e8\n";
             let array = format!("{}70\n100\n71\n900\n", insert("A"));
@@ -217,7 +217,7 @@ fn geojson(name: &str) -> Option<String> {
         "million-positions" => line(&format!("[{}]", join(MILLION, |i| format!("[{i},0]")))),
         "long-line" => line(&format!("[{}]", vec!["[0,0]"; MILLION + 1].join(","))),
         "million-properties" => with(&join(MILLION, |i| format!(r#""p{i}":1"#))),
-        // A long name around many values would be in the name of each.
+        // The name of each value contains the long name of its object.
         "long-names" => {
             let inner = join(MILLION / 4, |i| format!(r#""{i}":1"#));
             with(&format!(r#""{}":{{{inner}}}"#, "n".repeat(MILLION)))

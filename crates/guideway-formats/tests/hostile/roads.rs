@@ -1,4 +1,4 @@
-//! Files of Open-RMF, SVG, OpenDRIVE and Lanelet2 that are too large to store.
+//! Generated bad files of Open-RMF, SVG, OpenDRIVE and Lanelet2.
 
 use super::{MILLION, join};
 
@@ -32,7 +32,7 @@ pub(super) fn rmf(name: &str) -> Option<String> {
             let level = |name| format!("  {name}: {{fiducials: [{fiducials}]}}\n");
             format!("levels:\n{}{}", level("L1"), level("L2"))
         }
-        // Each level is all lanes again.
+        // Each level repeats all lanes.
         "lanes-by-alias" => {
             let lanes = vec!["[0, 1]"; 10_000].join(", ");
             let level = |i| format!("  M{i}: *l\n");
@@ -64,7 +64,7 @@ pub(super) fn svg(name: &str) -> Option<String> {
     let svg = |content: &str| {
         format!("<svg xmlns='http://www.w3.org/2000/svg' width='9mm' stroke='red'>{content}</svg>")
     };
-    // Ten of each in the next.
+    // Ten uses per level.
     let tower = |top: &str| {
         let level = |i: usize| {
             let uses = format!("<use href='#l{}'/>", i - 1).repeat(10);

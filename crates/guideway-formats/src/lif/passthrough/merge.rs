@@ -68,8 +68,8 @@ fn merge_entries(before: &[Value], new: Vec<Value>) -> Vec<Value> {
             before.len() == 1
                 || !old_types.is_empty() && old_types.iter().all(|name| types.contains(name))
         };
-        let mut kept: Vec<Value> = before.iter().filter(is_covered).cloned().collect();
-        for old in kept.iter_mut().filter_map(Value::as_object_mut) {
+        let mut retained: Vec<Value> = before.iter().filter(is_covered).cloned().collect();
+        for old in retained.iter_mut().filter_map(Value::as_object_mut) {
             match entry.get("trajectory") {
                 Some(curve) => old.insert("trajectory".into(), curve.clone()),
                 None => old.remove("trajectory"),
@@ -77,9 +77,9 @@ fn merge_entries(before: &[Value], new: Vec<Value>) -> Vec<Value> {
         }
         let other = match before.len() {
             1 => None,
-            _ => restrict_to_uncovered(entry, &kept),
+            _ => restrict_to_uncovered(entry, &retained),
         };
-        all.extend(kept);
+        all.extend(retained);
         all.extend(other);
     }
     all

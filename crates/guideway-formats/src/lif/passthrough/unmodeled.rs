@@ -158,8 +158,8 @@ impl<'a> Unmodeled<'a> {
         let level = self.levels.get(level)?;
         // The reader splits an edge with several curves into paths `edge [types]`.
         let edge_id = id.rsplit_once(" [").map(|(edge, _)| edge);
-        let own = level.object(id_key, id);
-        parse(own.or_else(|| level.object(id_key, edge_id?))?)
+        let object = level.object(id_key, id);
+        parse(object.or_else(|| level.object(id_key, edge_id?))?)
     }
 }
 

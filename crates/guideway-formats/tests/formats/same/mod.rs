@@ -1,14 +1,14 @@
-//! Whether two layouts are the same, and layouts to try it on: what the tests of writers share.
+//! Comparison of layouts, and arbitrary layouts, for tests of writers.
 
 use guideway_formats::Losses;
 use guideway_layout::{Direction, Layout, Level, NewPath, PathRef, Value};
 use guideway_spline::{Point, Runs, nearest_on_run, polyline_to_runs, uniform};
 use proptest::prelude::*;
 
-/// How far a curve may be from what it was before it was written, in meters.
+/// Largest distance between a curve and its copy after a round trip, in meters.
 pub(crate) const TOLERANCE_M: f64 = 1e-4;
 
-/// A path of two lines, `E`, the second of which begins 4 m behind the first and goes to `end`.
+/// Returns a layout with a path `E` of two lines with a gap of 4 m; the second line leads to `end`.
 pub(crate) fn broken(end: Point<f64>, direction: Direction) -> Layout {
     let mut layout = Layout::default();
     let mut runs = Runs::default();
@@ -23,7 +23,7 @@ pub(crate) fn broken(end: Point<f64>, direction: Direction) -> Layout {
     layout
 }
 
-/// How far two curves are apart: from above if they have the same segments, else at many points.
+/// Returns the distance of two curves: an upper bound for equal segments, else sampled.
 pub(crate) fn apart_m(a: PathRef<'_>, b: PathRef<'_>) -> f64 {
     let beziers = |p: PathRef<'_>| -> Vec<[Point<f64>; 4]> {
         let segments = p.runs().flat_map(|run| run.segments());
@@ -31,17 +31,17 @@ pub(crate) fn apart_m(a: PathRef<'_>, b: PathRef<'_>) -> f64 {
     };
     let (of_a, of_b) = (beziers(a), beziers(b));
     if of_a.len() == of_b.len() {
-        // A Bezier curve stays as near to another as its points do.
+        // The distance of Bezier curves is at most that of their control points.
         let pairs = of_a.iter().flatten().zip(of_b.iter().flatten());
-        let most = pairs.map(|(p, q)| p.distance(*q)).fold(0.0, f64::max);
-        if most <= TOLERANCE_M {
-            return most;
+        let max = pairs.map(|(p, q)| p.distance(*q)).fold(0.0, f64::max);
+        if max <= TOLERANCE_M {
+            return max;
         }
     }
     farthest_m(a, b).max(farthest_m(b, a))
 }
 
-/// The greatest distance of many points of one curve from another.
+/// Returns the largest distance of sample points of one curve from another.
 fn farthest_m(from: PathRef<'_>, to: PathRef<'_>) -> f64 {
     const STEPS: u32 = 16;
     let to: Vec<Vec<Point<f64>>> = to.runs().map(|run| run.iter().collect()).collect();
@@ -54,7 +54,7 @@ fn farthest_m(from: PathRef<'_>, to: PathRef<'_>) -> f64 {
     segments.flat_map(steps).map(near).fold(0.0, f64::max)
 }
 
-/// What a written file does not have, and how many of it.
+/// Returns names and counts of losses.
 pub(crate) fn lost(losses: &Losses) -> Vec<(&str, u64)> {
     let lost = losses.iter();
     lost.map(|loss| (loss.what.as_str(), loss.count)).collect()
@@ -90,7 +90,7 @@ pub(crate) fn assert_same_ids(a: &Layout, b: &Layout, what: &str) {
     }
 }
 
-/// Nodes, levels, and how paths refer to them.
+/// Asserts equal nodes, levels, and references of paths to them.
 pub(crate) fn assert_same_network(a: &Layout, b: &Layout, what: &str) {
     assert_eq!(a.levels, b.levels, "{what}");
     let nodes = |layout: &Layout| -> Vec<(String, Option<u32>)> {
@@ -110,14 +110,14 @@ pub(crate) fn assert_same_network(a: &Layout, b: &Layout, what: &str) {
     }
 }
 
-/// A path to be: its identifier, its shape, where its ends are among the nodes, its level.
+/// Draft of a path: identifier, shape, indices of its end nodes, level.
 type Draft = (String, Vec<Vec<Point<f64>>>, (usize, usize), usize);
 
 fn point() -> impl Strategy<Value = Point<f64>> {
     (-2e3..2e3, -2e3..2e3).prop_map(|(x, y)| Point::new(x, y))
 }
 
-/// Curves, lines, corners, gaps, dots.
+/// Strategy for curves, polylines, corners, gaps and points.
 fn shape() -> impl Strategy<Value = Vec<Vec<Point<f64>>>> {
     let curve = prop::collection::vec(point(), 4..9).prop_map(|run| vec![run]);
     let runs_of = |runs: &Runs| runs.iter().map(<[_]>::to_vec).collect::<Vec<_>>();
@@ -145,10 +145,11 @@ fn draft() -> impl Strategy<Value = Draft> {
     )
 }
 
-/// A layout of two levels with nodes, types and columns; every path hangs together.
+/// Strategy for a layout of two levels with nodes, vehicle types and columns, without gaps in
+/// paths.
 pub(crate) fn arbitrary_layout() -> impl Strategy<Value = Layout> {
     prop::collection::vec(draft(), 1..7).prop_map(|mut drafts| {
-        // Formats that keep levels apart keep the order of paths on each.
+        // LIF and SVG group paths by level, in order on each.
         drafts.sort_by_key(|draft| draft.3);
         let mut layout = Layout::default();
         for (id, name) in [("ground", Some("Halle <1>")), ("upper", None)] {

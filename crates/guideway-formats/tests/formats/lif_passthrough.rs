@@ -1,4 +1,4 @@
-//! A LIF file that is written again keeps what a layout has not of it.
+//! LIF passthrough: a write to the same version keeps the members that the model does not hold.
 
 use std::fs;
 use std::time::SystemTime;
@@ -50,9 +50,13 @@ fn site() -> Value {
             "layoutId": "hall", "layoutVersion": "12", "layoutDescription": "the hall",
             "nodes": [node("n1", 0.0), node("n2", 4.0)],
             "edges": [{
-                "edgeId": "e", "edgeDescription": "to the gate", "startNodeId": "n1", "endNodeId": "n2",
+                "edgeId": "e", "edgeDescription": "to the gate",
+                "startNodeId": "n1", "endNodeId": "n2",
                 "vehicleTypeEdgeProperties": [
-                    { "vehicleTypeId": "a", "maxSpeed": 1.0, "actions": [action], "trajectory": line },
+                    {
+                        "vehicleTypeId": "a", "maxSpeed": 1.0, "actions": [action],
+                        "trajectory": line,
+                    },
                     { "vehicleTypeId": "b", "maxSpeed": 2.0, "trajectory": line },
                 ],
             }],
@@ -64,7 +68,7 @@ fn site() -> Value {
     })
 }
 
-/// Where a written file lacks something of what it was made from, or has it otherwise.
+/// Collects the places where a written file lacks a value of its source, or has another one.
 fn differences(before: &Value, after: &Value, place: &str, found: &mut Vec<String>) {
     match (before, after) {
         (Value::Object(before), Value::Object(after)) => {
@@ -87,15 +91,15 @@ fn differences(before: &Value, after: &Value, place: &str, found: &mut Vec<Strin
     }
 }
 
-/// What is the writer's own, whatever was read.
-fn is_own(place: &str) -> bool {
+/// Returns whether the writer replaces the value at a place.
+fn is_replaced(place: &str) -> bool {
     place.starts_with(".metaInformation.")
         && !place.ends_with("Identification")
         && !place.ends_with("lifId")
 }
 
 #[test]
-fn a_file_keeps_what_it_has_beside_the_layout() {
+fn passes_unmodeled_members_through() {
     let before = site();
     let mut found = Vec::new();
     differences(
@@ -104,8 +108,8 @@ fn a_file_keeps_what_it_has_beside_the_layout() {
         "",
         &mut found,
     );
-    found.retain(|place| !is_own(place));
-    // A type that an edge is for is added to its nodes, and a curve is written in knots of its own.
+    found.retain(|place| !is_replaced(place));
+    // The writer adds vehicle types of edges to their nodes, and writes curves with new knots.
     found.retain(|place| {
         !place.ends_with("vehicleTypeNodeProperties") && !place.contains(".trajectory")
     });
@@ -115,7 +119,7 @@ fn a_file_keeps_what_it_has_beside_the_layout() {
 }
 
 #[test]
-fn what_has_changed_is_as_it_is_now() {
+fn writes_changed_positions_and_curves() {
     let mut layout = read(&site());
     let up = Affine::translation(guideway_spline::Point::new(0.0, 5.0));
     layout.transform(up);
@@ -146,7 +150,7 @@ fn what_has_changed_is_as_it_is_now() {
             Some(5.0)
         );
     }
-    // The same file, of which the text was not kept, and another version of the format.
+    // No passthrough without the text, and none to another version.
     assert!(read(&after).provenance.text.is_some());
     layout.provenance.text = None;
     assert_eq!(written(&layout, Version::V1)["ours"], Value::Null);
@@ -154,7 +158,7 @@ fn what_has_changed_is_as_it_is_now() {
 }
 
 #[test]
-fn a_curve_for_some_vehicle_types_keeps_what_is_theirs() {
+fn keeps_entries_of_vehicle_types_with_their_curves() {
     let mut file = site();
     let edge = &mut file["layouts"][0]["edges"][0]["vehicleTypeEdgeProperties"];
     edge[1].as_object_mut().unwrap().remove("trajectory");
@@ -174,7 +178,7 @@ fn a_curve_for_some_vehicle_types_keeps_what_is_theirs() {
 }
 
 #[test]
-fn two_entries_for_one_vehicle_type_stay_two() {
+fn keeps_repeated_entries_of_a_vehicle_type() {
     let mut file = site();
     let entries = &mut file["layouts"][0]["edges"][0]["vehicleTypeEdgeProperties"];
     entries[1]["vehicleTypeId"] = "a".into();
@@ -191,7 +195,7 @@ fn two_entries_for_one_vehicle_type_stay_two() {
 }
 
 #[test]
-fn real_files_keep_what_they_have() {
+fn real_files_pass_through_completely() {
     let Some(folder) = real_layouts("lif") else {
         return;
     };
@@ -206,7 +210,7 @@ fn real_files_keep_what_they_have() {
         };
         let mut found = Vec::new();
         differences(&before, &written(&layout, version), "", &mut found);
-        found.retain(|place| !is_own(place) && !place.contains(".trajectory"));
+        found.retain(|place| !is_replaced(place) && !place.contains(".trajectory"));
         found.retain(|place| !place.ends_with("TypeNodeProperties"));
         assert_eq!(found, <[&str; 0]>::default(), "{}", path.display());
         files += 1;

@@ -1,0 +1,147 @@
+//! LIF trajectories: degree, knots, weights and control points, valid and invalid.
+
+use guideway_layout::{Code, Layout};
+use guideway_spline::Point;
+
+use crate::common::{codes, ends};
+use crate::lif_texts::{ARCH, trajectory};
+
+#[test]
+fn accepts_a_degree_with_a_decimal_point() {
+    let knots = r#""knotVector": [0,0,0,0,1,1,1,1]"#;
+    let whole = trajectory(&format!(r#""degree": 3, {knots}, {ARCH}"#));
+    let point = trajectory(&format!(r#""degree": 3.0, {knots}, {ARCH}"#));
+    assert!(whole.diagnostics.is_empty() && point.diagnostics.is_empty());
+    let points = |l: &Layout| {
+        l.paths
+            .get(0)
+            .runs()
+            .flat_map(|r| r.iter())
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(points(&whole), points(&point));
+    assert_eq!(points(&whole).len(), 4);
+}
+
+#[test]
+fn absent_knots_default_to_uniform_clamped() {
+    for knots in ["", r#""knotVector": null,"#, r#""knotVector": [],"#] {
+        let layout = trajectory(&format!(r#""degree": 3, {knots} {ARCH}"#));
+        assert_eq!(codes(&layout), [Code::MissingKnots]);
+        assert_eq!(layout.paths.geometry().segment_count(), 1);
+    }
+}
+
+#[test]
+fn invalid_knots_draw_the_control_polygon_with_a_hint() {
+    let cases = [
+        ("[0,0,0,0,1,1,1]", "the order"),
+        ("[0,0,0,1,1,1]", "leaves out the first and last"),
+        ("[0,0,0,0,1,1,1,0.5]", "knot 7 is 0.5"),
+        ("[0,0,0,0,0,0,0,0]", "domain"),
+        ("[0,0,0,0,1,1,1,1,1]", "9 knots"),
+    ];
+    for (knots, part) in cases {
+        let layout = trajectory(&format!(r#""degree": 3, "knotVector": {knots}, {ARCH}"#));
+        assert_eq!(layout.diagnostics.count(Code::BadKnots), 1, "{knots}");
+        let finding = layout.diagnostics.iter().find(|d| d.code == Code::BadKnots);
+        let message = &finding.unwrap().message;
+        assert!(message.contains(part), "{knots}: {message}");
+        assert_eq!(layout.paths.geometry().segment_count(), 3, "three lines");
+    }
+}
+
+#[test]
+fn draws_unclamped_knots_as_stated() {
+    let layout = trajectory(&format!(
+        r#""degree": 3, "knotVector": [0,1,2,3,4,5,6,7], {ARCH}"#
+    ));
+    assert_eq!(codes(&layout), [Code::UnclampedKnots]);
+    let (start, _) = ends(&layout, "E");
+    assert!(
+        start.distance(Point::new(10.0 / 6.0, 25.0 / 6.0)) < 1e-12,
+        "{start:?}"
+    );
+}
+
+#[test]
+fn invalid_weight_counts_as_one() {
+    for weight in ["0", "-1", "\"x\""] {
+        let points = ARCH.replacen(r#""y":5"#, &format!(r#""y":5,"weight":{weight}"#), 1);
+        let layout = trajectory(&format!(
+            r#""degree": 3, "knotVector": [0,0,0,0,1,1,1,1], {points}"#
+        ));
+        let expected = if weight == "\"x\"" {
+            Code::WrongType
+        } else {
+            Code::BadWeight
+        };
+        assert_eq!(codes(&layout), [expected], "{weight}");
+        assert_eq!(layout.paths.geometry().segment_count(), 1);
+    }
+}
+
+#[test]
+fn applies_weights() {
+    // A quarter circle: the standard quadratic with the middle weight at cos 45 degrees.
+    let layout = trajectory(
+        r#""degree": 2, "knotVector": [0,0,0,1,1,1], "controlPoints":
+           [{"x":0,"y":0},{"x":10,"y":0,"weight":0.7071067811865476},{"x":10,"y":10}]"#,
+    );
+    let center = Point::new(0.0, 10.0);
+    for run in layout.paths.get(0).runs() {
+        for segment in run.segments() {
+            let middle = guideway_spline::uniform::point(&segment, 0.5);
+            assert!((middle.distance(center) - 10.0).abs() < 1e-4);
+        }
+    }
+}
+
+#[test]
+fn trajectory_without_points_draws_the_straight_line() {
+    for points in [
+        "",
+        r#""controlPoints": []"#,
+        r#""controlPoints": [{"x":1,"y":1}]"#,
+    ] {
+        let layout = trajectory(points);
+        assert_eq!(layout.diagnostics.count(Code::TooFewPoints), 1, "{points}");
+        assert_eq!(
+            ends(&layout, "E"),
+            (Point::new(0.0, 0.0), Point::new(10.0, 0.0))
+        );
+    }
+}
+
+#[test]
+fn weighted_curve_obeys_the_point_budget() {
+    // Coordinates for which the tolerance is unreachable: each span would convert to 1,000 cubics.
+    let curve = |weights: i64| {
+        let points: Vec<String> = (0..1_000)
+            .map(|i| {
+                let (x, weight) = (i % 2 * 900_000_000, i % weights + 1);
+                format!(r#"{{"x":{x},"y":9e8,"weight":{weight}}}"#)
+            })
+            .collect();
+        let knots: Vec<String> = (0..1_004_i64)
+            .map(|i| i.clamp(3, 1_000).to_string())
+            .collect();
+        format!(
+            r#""degree": 3, "knotVector": [{}], "controlPoints": [{}]"#,
+            knots.join(","),
+            points.join(",")
+        )
+    };
+    let layout = trajectory(&curve(7));
+    assert!(codes(&layout).contains(&Code::ApproximateShape));
+    assert_eq!(
+        layout.paths.geometry().segment_count(),
+        999,
+        "the control polygon"
+    );
+    let layout = trajectory(&curve(1));
+    assert!(
+        codes(&layout).is_empty(),
+        "one without weights is exact and small"
+    );
+}
