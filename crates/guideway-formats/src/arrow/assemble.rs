@@ -63,7 +63,7 @@ impl PathAssembler {
         self.add_rows(polygons, from..polygons.len());
         self.rows += polygons.len();
         // Here, while the points are in the processor cache.
-        self.points.add_boxes(&self.run_ends);
+        self.points.append_hulls(&self.run_ends);
         Ok(())
     }
 

@@ -100,11 +100,15 @@ impl PointStore {
     }
 
     /// Computes the bounding boxes of the runs that have none yet.
-    pub(super) fn add_boxes(&mut self, ends: &[u32]) {
+    pub(super) fn append_hulls(&mut self, ends: &[u32]) {
         match self {
             Self::None => {}
-            Self::F32(typed) => append_hulls(&mut typed.boxes, &typed.points[..typed.accepted], ends),
-            Self::F64(typed) => append_hulls(&mut typed.boxes, &typed.points[..typed.accepted], ends),
+            Self::F32(typed) => {
+                append_hulls(&mut typed.boxes, &typed.points[..typed.accepted], ends)
+            }
+            Self::F64(typed) => {
+                append_hulls(&mut typed.boxes, &typed.points[..typed.accepted], ends)
+            }
         }
     }
 
