@@ -4,7 +4,7 @@ use earcut::{Earcut, deviation};
 use guideway_layout::{Layout, PathRef, Value};
 use guideway_spline::Point;
 
-use crate::{Convex, Sweep, Without};
+use crate::{ConvexPolygon, NoEnvelope, Sweep};
 
 /// The column of such areas: the coordinates of a GeoJSON MultiPolygon (RFC 7946, 3.1.7), in meters.
 const AREA: &str = "vehicleEnvelope.area";
@@ -15,30 +15,32 @@ const NOTHING: f64 = 1e-9;
 type Ring = Vec<[f64; 2]>;
 
 /// The area that the file gives for a path.
-pub(crate) fn area(layout: &Layout, path: usize) -> Result<Sweep, Without> {
+pub(crate) fn area(layout: &Layout, path: usize) -> Result<Sweep, NoEnvelope> {
     let column = layout.paths.attributes.get(AREA);
     let Some(Value::Text(text)) = column.and_then(|column| column.values.get(path)) else {
-        return Err(Without::NotInFile);
+        return Err(NoEnvelope::NotInFile);
     };
-    let polygons: Vec<Vec<Ring>> = serde_json::from_str(text).map_err(|_| Without::Unreadable)?;
+    let polygons: Vec<Vec<Ring>> =
+        serde_json::from_str(text).map_err(|_| NoEnvelope::Unreadable)?;
     let mut parts = Vec::new();
     polygons.iter().for_each(|rings| add(rings, &mut parts));
     let reach_m = reach_m(layout.paths.get(path), &parts);
-    Sweep::of_areas(parts, reach_m).ok_or(Without::Unreadable)
+    Sweep::of_areas(parts, reach_m).ok_or(NoEnvelope::Unreadable)
 }
 
 /// How far parts reach from the hull of a path: about the size of the vehicle that they were made for.
-fn reach_m(path: PathRef<'_>, parts: &[Convex]) -> f64 {
-    let Some(way) = Convex::hull(path.runs().flat_map(|run| run.iter())) else {
+fn reach_m(path: PathRef<'_>, parts: &[ConvexPolygon]) -> f64 {
+    let Some(way) = ConvexPolygon::hull(path.runs().flat_map(|run| run.iter())) else {
         return 0.0;
     };
-    let corners = parts.iter().flat_map(Convex::points);
-    let from_way_m = corners.filter_map(|&corner| Some(Convex::hull([corner])?.distance(&way)));
+    let corners = parts.iter().flat_map(ConvexPolygon::points);
+    let from_way_m =
+        corners.filter_map(|&corner| Some(ConvexPolygon::hull([corner])?.distance(&way)));
     from_way_m.fold(0.0, f64::max)
 }
 
 /// Adds the convex parts of a polygon, whose first ring is its border and whose others are holes.
-fn add(rings: &[Ring], parts: &mut Vec<Convex>) {
+fn add(rings: &[Ring], parts: &mut Vec<ConvexPolygon>) {
     let open = |ring: &Ring| match ring.as_slice() {
         [first, rest @ .., last] if first == last => [&[*first], rest].concat(),
         all => all.to_vec(),
@@ -53,15 +55,16 @@ fn add(rings: &[Ring], parts: &mut Vec<Convex>) {
     let points = || corners.iter().map(|&[x, y]| Point::new(x, y));
     let Some(hull) = points()
         .all(Point::is_finite)
-        .then(|| Convex::hull(points()))
+        .then(|| ConvexPolygon::hull(points()))
         .flatten()
     else {
         return;
     };
     let mut triangles: Vec<usize> = Vec::new();
     Earcut::new().earcut(corners.iter().copied(), &holes, &mut triangles);
-    let triangle =
-        |of: &[usize]| Convex::hull(of.iter().map(|&i| Point::new(corners[i][0], corners[i][1])));
+    let triangle = |of: &[usize]| {
+        ConvexPolygon::hull(of.iter().map(|&i| Point::new(corners[i][0], corners[i][1])))
+    };
     let cut = || triangles.chunks_exact(3).filter_map(triangle);
     let cut_m2: f64 = cut().map(|part| part.area_m2()).sum();
     let is_convex = cut_m2 >= hull.area_m2() * (1.0 - NOTHING);

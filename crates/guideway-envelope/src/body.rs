@@ -2,7 +2,7 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_8};
 
 use guideway_spline::Point;
 
-use crate::Convex;
+use crate::ConvexPolygon;
 
 /// A rectangle that moves: how far it reaches from its reference point, in meters, zero or more.
 ///
@@ -57,9 +57,9 @@ impl Body {
     }
 
     /// Where it is at a heading, counter-clockwise from the x axis, with its reference point at the origin.
-    pub fn at_heading(&self, heading_rad: f64) -> Convex {
+    pub fn at_heading(&self, heading_rad: f64) -> ConvexPolygon {
         let corners = self.corners().map(|corner| turn(corner, heading_rad));
-        Convex::hull(corners).expect("four corners")
+        ConvexPolygon::hull(corners).expect("four corners")
     }
 
     /// A polygon that holds it at all headings of a range. Apart from rounding, none of its points is farther
@@ -67,7 +67,7 @@ impl Body {
     ///
     /// Up to a quarter turn, each corner moves on an arc, which lies in the triangle of its ends and of where the
     /// tangents there meet: in the middle direction, at the radius over the cosine of half the angle.
-    pub(crate) fn turned(&self, [low, high]: [f64; 2]) -> Convex {
+    pub(crate) fn turned(&self, [low, high]: [f64; 2]) -> ConvexPolygon {
         let angle_rad = high - low;
         if angle_rad == 0.0 {
             return self.at_heading(low);
@@ -88,7 +88,7 @@ impl Body {
                 .map(|direction| turn(corner, direction))
                 .collect()
         };
-        Convex::hull(points).expect("there are corners")
+        ConvexPolygon::hull(points).expect("there are corners")
     }
 
     /// See [`Self::turned`]: both the ends of the arcs and where their tangents meet are within the chord.

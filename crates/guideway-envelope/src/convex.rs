@@ -7,15 +7,15 @@ type P = Point<f64>;
 /// A convex polygon in meters: its corners counter-clockwise, from the leftmost (of these the lowest). A
 /// line has two corners, a point one.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Convex {
+pub struct ConvexPolygon {
     points: Vec<P>,
 }
 
-impl Convex {
+impl ConvexPolygon {
     /// The smallest that holds all points; none if there are none. Corners that only rounding tells apart are one:
     /// the edge between them would have no direction, and the order of edges is that of their directions.
     ///
-    /// Source: Andrew's monotone chain (1979).
+    /// EnvelopeSource: Andrew's monotone chain (1979).
     pub fn hull(points: impl IntoIterator<Item = P>) -> Option<Self> {
         // Adding zero leaves one of the two zeros.
         let points = points.into_iter().map(|p| p + P::default());
@@ -103,7 +103,7 @@ impl Convex {
 
     /// Whether a point is inside or on the border.
     pub fn contains(&self, point: P) -> bool {
-        let mut nearest = Nearest::default();
+        let mut nearest = OriginDistance::default();
         self.points.iter().for_each(|&p| nearest.add(p - point));
         nearest.distance() == 0.0
     }
@@ -121,7 +121,7 @@ impl Convex {
 
     /// How far it is from another, zero if they meet: the distance of the origin from their difference.
     pub fn distance(&self, other: &Self) -> f64 {
-        let mut nearest = Nearest::default();
+        let mut nearest = OriginDistance::default();
         let second = Ring::mirrored(&other.points);
         Ring::new(&self.points).add(second, |p| nearest.add(p));
         nearest.distance()
@@ -199,14 +199,14 @@ fn by_direction(a: P, b: P) -> Ordering {
 
 /// The distance of the origin from a polygon whose corners come one by one.
 #[derive(Default)]
-struct Nearest {
+struct OriginDistance {
     first: Option<P>,
     last: P,
     square: Option<f64>,
     is_outside: bool,
 }
 
-impl Nearest {
+impl OriginDistance {
     fn add(&mut self, p: P) {
         match self.first {
             None => {

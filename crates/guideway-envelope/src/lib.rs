@@ -35,9 +35,9 @@ mod step;
 mod sweep;
 
 pub use body::Body;
-pub use clearance::{Clearance, ClearanceOptions, ClearanceWork, Walls, check_clearance};
-pub use convex::Convex;
+pub use clearance::{ClearanceOptions, ClearanceReport, ClearanceWork, Walls, check_clearance};
+pub use convex::ConvexPolygon;
 pub use heading::{Heading, headings};
-pub use nearest::{Meeting, Nearest, Question, Tree};
-pub use source::{Source, Without};
-pub use sweep::{LEAST_TOLERANCE_M, Sweep};
+pub use nearest::{ClosestApproach, ExemptZone, ProximityQuery, SweepTree};
+pub use source::{EnvelopeSource, NoEnvelope};
+pub use sweep::{MIN_TOLERANCE_M, Sweep};

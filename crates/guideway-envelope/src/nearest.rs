@@ -8,16 +8,16 @@ use crate::sweep::Stretch;
 
 /// How near two sweeps come to each other.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Nearest {
+pub struct ClosestApproach {
     /// Their distance, or up to the tolerance less; zero if they overlap.
     pub distance_m: f64,
     /// Where the reference points of the two are there, within the reach of the bodies.
-    pub places: [Point<f64>; 2],
+    pub positions: [Point<f64>; 2],
 }
 
 /// Where two sweeps may be near each other: while the reference point of each is within the radius of its center.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Meeting {
+pub struct ExemptZone {
     /// The center for each of the two, in meters.
     pub centers_m: [Point<f64>; 2],
     /// The radius, in meters.
@@ -26,25 +26,25 @@ pub struct Meeting {
 
 /// A question about two sweeps.
 #[derive(Clone, Copy, Debug)]
-pub struct Question<'q> {
+pub struct ProximityQuery<'q> {
     /// They matter if they come nearer than this, or overlap.
-    pub below_m: f64,
+    pub threshold_m: f64,
     /// How closely it is answered.
     pub tolerance_m: f64,
     /// Where they may be near each other.
-    pub meetings: &'q [Meeting],
+    pub exempt_zones: &'q [ExemptZone],
 }
 
 /// A sweep that is halved where it is looked at closely. What was halved stays so for the next look.
 #[derive(Debug)]
-pub struct Tree {
+pub struct SweepTree {
     sweep: Sweep,
     nodes: Vec<Stretch>,
     /// Of each node, the first of its two halves; 0 if it was not halved yet.
     halves: Vec<u32>,
 }
 
-impl Tree {
+impl SweepTree {
     /// Nothing is halved yet.
     pub fn new(sweep: Sweep) -> Self {
         Self {
@@ -69,18 +69,18 @@ impl Tree {
         [self.halves[index], self.halves[index] + 1]
     }
 
-    /// How near two sweeps come to each other, if that matters: less than `below_m` apart in polygons that hold
-    /// them, and are within `tolerance_m` of them, where they may not be. So nothing nearer than `below_m` is
-    /// missed, and whatever is told is nearer than `below_m + tolerance_m`. `tests` counts distances of polygons.
+    /// How near two sweeps come to each other, if that matters: less than `threshold_m` apart in polygons that hold
+    /// them, and are within `tolerance_m` of them, where they may not be. So nothing nearer than `threshold_m` is
+    /// missed, and whatever is told is nearer than `threshold_m + tolerance_m`. `tests` counts distances of polygons.
     ///
     /// Best first: of all pairs of stretches, the one whose polygons are nearest is halved, until it is known
     /// within the tolerance; no other pair can then be nearer.
     pub fn nearest(
         &mut self,
         other: &mut Self,
-        question: &Question<'_>,
+        question: &ProximityQuery<'_>,
         tests: &mut u64,
-    ) -> Option<Nearest> {
+    ) -> Option<ClosestApproach> {
         let mut search = Search {
             trees: [self, other],
             question,
@@ -125,8 +125,8 @@ impl Ord for Pair {
 }
 
 struct Search<'t, 'q> {
-    trees: [&'t mut Tree; 2],
-    question: &'q Question<'q>,
+    trees: [&'t mut SweepTree; 2],
+    question: &'q ProximityQuery<'q>,
     open: BinaryHeap<Pair>,
     tests: &'t mut u64,
 }
@@ -144,19 +144,19 @@ impl Search<'_, '_> {
 
     /// The pair, if it can matter.
     fn pair(&mut self, nodes: [u32; 2]) -> Option<Pair> {
-        let below_m = self.question.below_m;
+        let threshold_m = self.question.threshold_m;
         let [a, b] = self.stretches(nodes).map(|stretch| &stretch.hull);
         let may_be = |stretches: &[&Stretch; 2]| {
-            let meetings = self.question.meetings.iter();
-            meetings.copied().any(|m| m.has(stretches) == Has::All)
+            let exempt_zones = self.question.exempt_zones.iter();
+            exempt_zones.copied().any(|m| m.has(stretches) == Has::All)
         };
-        if apart_m(a.bounds, b.bounds) > below_m || may_be(&self.stretches(nodes)) {
+        if apart_m(a.bounds, b.bounds) > threshold_m || may_be(&self.stretches(nodes)) {
             return None;
         }
         let distance_m = a.outer.distance(&b.outer);
         let error_m = a.error_m + b.error_m;
         *self.tests += 1;
-        let matters = distance_m < below_m || distance_m == 0.0;
+        let matters = distance_m < threshold_m || distance_m == 0.0;
         matters.then_some(Pair {
             nodes,
             distance_m,
@@ -172,8 +172,10 @@ impl Search<'_, '_> {
             return Some(usize::from(b > a));
         }
         // What may be near in part only is cut until it hardly matters which part it is.
-        let meetings = self.question.meetings.iter();
-        let is_partly = meetings.copied().any(|m| m.has(&stretches) == Has::Some);
+        let exempt_zones = self.question.exempt_zones.iter();
+        let is_partly = exempt_zones
+            .copied()
+            .any(|m| m.has(&stretches) == Has::Some);
         let finest_m = |side: usize| self.trees[side].sweep.finest_m(self.question.tolerance_m);
         let [a, b] = [0, 1].map(|side| stretches[side].extent_m() / finest_m(side));
         (is_partly && a.max(b) > 1.0).then(|| usize::from(b > a))
@@ -188,7 +190,7 @@ impl Search<'_, '_> {
     }
 
     /// What is known of the nearest pair, and where it is.
-    fn answer(&mut self, pair: Pair) -> Nearest {
+    fn answer(&mut self, pair: Pair) -> ClosestApproach {
         let reach_m = self
             .trees
             .each_ref()
@@ -211,9 +213,9 @@ impl Search<'_, '_> {
                 None => break,
             }
         }
-        Nearest {
+        ClosestApproach {
             distance_m: pair.distance_m,
-            places: self.stretches(nodes).map(Stretch::place),
+            positions: self.stretches(nodes).map(Stretch::place),
         }
     }
 }
@@ -226,7 +228,7 @@ enum Has {
     All,
 }
 
-impl Meeting {
+impl ExemptZone {
     /// Which of the pairs of places of two stretches are within it.
     fn has(self, stretches: &[&Stretch; 2]) -> Has {
         let [a, b] = [0, 1].map(|side| {

@@ -7,7 +7,7 @@ use crate::{Body, Heading, Sweep, headings};
 
 /// What the envelopes of paths are made of.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Source {
+pub enum EnvelopeSource {
     /// One vehicle on all paths, at the headings that the file gives ([`headings`]).
     Vehicle(Body),
     /// Of each path what the file gives: the corridor of LIF 2.0 and VDA 5050, if it is one of the contour, or the
@@ -17,7 +17,7 @@ pub enum Source {
 
 /// Why a path has no envelope.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Without {
+pub enum NoEnvelope {
     /// It is too short to have a direction.
     Direction,
     /// The file gives none for it.
@@ -28,7 +28,7 @@ pub enum Without {
     Unreadable,
 }
 
-impl Without {
+impl NoEnvelope {
     /// Every reason there is.
     pub const ALL: [Self; 4] = [
         Self::Direction,
@@ -38,7 +38,7 @@ impl Without {
     ];
 }
 
-impl fmt::Display for Without {
+impl fmt::Display for NoEnvelope {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Direction => "the path is too short to have a direction",
@@ -61,7 +61,7 @@ const CORRIDOR_OF: [&str; 2] = [
     "corridor.corridorReferencePoint",
 ];
 
-impl Source {
+impl EnvelopeSource {
     /// The area swept along a path.
     ///
     /// # Errors
@@ -69,21 +69,21 @@ impl Source {
     ///
     /// # Panics
     /// When there is no such path.
-    pub fn sweep(self, layout: &Layout, path: usize) -> Result<Sweep, Without> {
+    pub fn sweep(self, layout: &Layout, path: usize) -> Result<Sweep, NoEnvelope> {
         let (body, headings) = match self {
             Self::Vehicle(body) => (body, headings(layout, path, &body)),
             Self::File => match corridor(layout, path) {
                 // A corridor is what a line across the way sweeps.
                 Ok(line) => (line, vec![Heading::Tangential(0.0)]),
-                Err(Without::NotInFile) => return area(layout, path),
+                Err(NoEnvelope::NotInFile) => return area(layout, path),
                 Err(why) => return Err(why),
             },
         };
-        Sweep::new(layout.paths.get(path), body, &headings).ok_or(Without::Direction)
+        Sweep::new(layout.paths.get(path), body, &headings).ok_or(NoEnvelope::Direction)
     }
 }
 
-fn corridor(layout: &Layout, path: usize) -> Result<Body, Without> {
+fn corridor(layout: &Layout, path: usize) -> Result<Body, NoEnvelope> {
     let value = |name: &str| layout.paths.attributes.get(name)?.values.get(path);
     let width_m = |name: &str| match value(name)? {
         Value::Float(width_m) => Some(width_m),
@@ -95,14 +95,14 @@ fn corridor(layout: &Layout, path: usize) -> Result<Body, Without> {
         let (left, right) = (width_m(left)?, width_m(right)?);
         (is_width(&left) && is_width(&right)).then_some((left, right))
     });
-    let (left_m, right_m) = widths.ok_or(Without::NotInFile)?;
+    let (left_m, right_m) = widths.ok_or(NoEnvelope::NotInFile)?;
     // Both formats take a corridor for one of the middle unless it says otherwise.
     let is_of_contour = CORRIDOR_OF
         .into_iter()
         .find_map(value)
         .is_some_and(|of| matches!(of, Value::Text(text) if text.eq_ignore_ascii_case("CONTOUR")));
     if !is_of_contour {
-        return Err(Without::CenterOnly);
+        return Err(NoEnvelope::CenterOnly);
     }
     Ok(Body {
         front_m: 0.0,

@@ -2,7 +2,7 @@ use std::f64::consts::TAU;
 
 use guideway_spline::{Bounds, Point};
 
-use crate::{Body, Convex};
+use crate::{Body, ConvexPolygon};
 
 type P = Point<f64>;
 
@@ -38,7 +38,7 @@ pub(crate) enum Step {
     /// What the body covers on a piece of the curve.
     Drive(Drive),
     /// An area that is given.
-    Still(Convex),
+    Still(ConvexPolygon),
 }
 
 impl Drive {
@@ -128,7 +128,7 @@ pub(crate) fn halves(p: &[P; 4]) -> [[P; 4]; 2] {
 /// A stretch of successive steps as one polygon that holds what they cover.
 #[derive(Clone, Debug)]
 pub(crate) struct Hull {
-    pub(crate) outer: Convex,
+    pub(crate) outer: ConvexPolygon,
     pub(crate) bounds: Bounds<f64>,
     /// Where the reference point is.
     pub(crate) places: Bounds<f64>,
@@ -153,8 +153,8 @@ impl Hull {
         };
         for part in parts {
             (outer, _) = Self::of_part(body, part)?;
-            let both = [&hull.outer, &outer].map(Convex::points);
-            hull.outer = Convex::hull(both.into_iter().flatten().copied())?;
+            let both = [&hull.outer, &outer].map(ConvexPolygon::points);
+            hull.outer = ConvexPolygon::hull(both.into_iter().flatten().copied())?;
             hull.bounds = hull.bounds.union(outer.bounds());
             hull.error_m = f64::INFINITY;
         }
@@ -162,11 +162,11 @@ impl Hull {
     }
 
     /// Of drives that go on from each other, with the error.
-    fn of_part(body: &Body, drives: &[Drive]) -> Option<(Convex, f64)> {
+    fn of_part(body: &Body, drives: &[Drive]) -> Option<(ConvexPolygon, f64)> {
         let headings = drives.iter().map(|drive| drive.headings);
         let headings = headings.reduce(|[a, b], [low, high]| [a.min(low), b.max(high)])?;
         let points = || drives.iter().flat_map(|drive| drive.points);
-        let outer = Convex::hull(points())?.sum(&body.turned(headings));
+        let outer = ConvexPolygon::hull(points())?.sum(&body.turned(headings));
         let ends = [drives.first()?.points[0], drives.last()?.points[3]];
         let flatness_m = points().map(|p| distance_from(ends, p)).fold(0.0, f64::max);
         let error_m = 2.0 * flatness_m + body.turning_error_m(headings[1] - headings[0]);
@@ -174,18 +174,18 @@ impl Hull {
     }
 
     /// The hull of several areas; of one, the area itself.
-    pub(crate) fn of_areas(areas: &[&Convex]) -> Option<Self> {
+    pub(crate) fn of_areas(areas: &[&ConvexPolygon]) -> Option<Self> {
         if let [one] = areas {
             return Some(Self::of_area((*one).clone()));
         }
         let corners = areas.iter().flat_map(|area| area.points());
-        let mut hull = Self::of_area(Convex::hull(corners.copied())?);
+        let mut hull = Self::of_area(ConvexPolygon::hull(corners.copied())?);
         hull.error_m = f64::INFINITY;
         Some(hull)
     }
 
     /// An area that is given, wherever the reference point is in it.
-    pub(crate) fn of_area(area: Convex) -> Self {
+    pub(crate) fn of_area(area: ConvexPolygon) -> Self {
         let bounds = area.bounds();
         Self {
             outer: area,

@@ -3,7 +3,7 @@ use guideway_spline::{Bounds, Point, uniform};
 
 use crate::follow::Follow;
 use crate::step::{Drive, Hull, Step};
-use crate::{Body, Convex, Heading};
+use crate::{Body, ConvexPolygon, Heading};
 
 /// The area that a body sweeps along a path.
 ///
@@ -21,7 +21,7 @@ pub struct Sweep {
 const FINEST_CUT: f64 = 1.0 / 16.0;
 
 /// Least tolerance of polygons.
-pub const LEAST_TOLERANCE_M: f64 = 1e-4;
+pub const MIN_TOLERANCE_M: f64 = 1e-4;
 
 impl Sweep {
     /// The area swept along a path at any one of some headings; none if the path has no direction that a heading
@@ -53,7 +53,7 @@ impl Sweep {
     }
 
     /// An area that is known, as convex parts, and how far it reaches from the path; none if there are no parts.
-    pub fn of_areas(areas: impl IntoIterator<Item = Convex>, reach_m: f64) -> Option<Self> {
+    pub fn of_areas(areas: impl IntoIterator<Item = ConvexPolygon>, reach_m: f64) -> Option<Self> {
         let steps: Vec<Step> = areas.into_iter().map(Step::Still).collect();
         (!steps.is_empty()).then_some(Self {
             body: Body::vehicle(0.0, 0.0, 0.0),
@@ -80,8 +80,8 @@ impl Sweep {
         Stretch::whole(self).hull.bounds
     }
 
-    /// Convex polygons that hold what of the area lies within a box (all, without one): no point of them is farther
-    /// than `tolerance_m` from the area, apart from rounding. A tolerance below [`LEAST_TOLERANCE_M`] is raised to
+    /// ConvexPolygon polygons that hold what of the area lies within a box (all, without one): no point of them is farther
+    /// than `tolerance_m` from the area, apart from rounding. A tolerance below [`MIN_TOLERANCE_M`] is raised to
     /// it.
     ///
     /// The error of a polygon grows with the angle that the vehicle turns by in it: its number for a path is about
@@ -90,9 +90,9 @@ impl Sweep {
         &self,
         tolerance_m: f64,
         within: Option<Bounds<f64>>,
-        visit: &mut impl FnMut(&Convex),
+        visit: &mut impl FnMut(&ConvexPolygon),
     ) {
-        let tolerance_m = tolerance_m.max(LEAST_TOLERANCE_M);
+        let tolerance_m = tolerance_m.max(MIN_TOLERANCE_M);
         let mut open = vec![Stretch::whole(self)];
         while let Some(stretch) = open.pop() {
             let hull = &stretch.hull;
@@ -132,7 +132,7 @@ impl Stretch {
     }
 
     fn of_steps(sweep: &Sweep, from: usize, to: usize) -> Self {
-        let (mut drives, mut areas): (Vec<Drive>, Vec<&Convex>) = (Vec::new(), Vec::new());
+        let (mut drives, mut areas): (Vec<Drive>, Vec<&ConvexPolygon>) = (Vec::new(), Vec::new());
         for step in &sweep.steps[from..to] {
             match step {
                 Step::Drive(drive) => drives.push(*drive),

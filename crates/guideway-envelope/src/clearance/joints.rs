@@ -3,7 +3,7 @@ use std::collections::HashMap;
 use guideway_layout::{Layout, PathRef};
 use guideway_spline::Point;
 
-use crate::Meeting;
+use crate::ExemptZone;
 
 type P = Point<f64>;
 
@@ -90,19 +90,19 @@ impl Joints {
     }
 
     /// Where a path meets another, from what can be got to from its ends.
-    pub(super) fn meetings(
+    pub(super) fn exempt_zones(
         &self,
         reached: &[Reached],
         other: usize,
         near_joint_m: f64,
         most_way_m: f64,
-    ) -> Vec<Meeting> {
+    ) -> Vec<ExemptZone> {
         let ends = self.ends[other].iter().flatten();
         let pairs = ends.flat_map(|end| {
             let here = reached.iter().filter(|r| r.joint == end.joint);
             here.map(move |r| (r, end.at))
         });
-        let meeting = |(reached, at): (&Reached, P)| Meeting {
+        let meeting = |(reached, at): (&Reached, P)| ExemptZone {
             centers_m: [reached.from, at],
             radius_m: match reached.way_m {
                 0.0 => near_joint_m,

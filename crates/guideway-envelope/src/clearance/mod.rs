@@ -8,13 +8,13 @@ use guideway_layout::{CheckOptions, Diagnostics, Layout, Limits};
 
 pub use walls::Walls;
 
-use crate::{Source, Without};
+use crate::{EnvelopeSource, NoEnvelope};
 
 /// What counts as too near.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ClearanceOptions {
     /// Least distance of vehicles on different paths, and of a vehicle from a wall. With zero only what overlaps is
-    /// found.
+    /// findings.
     pub clearance_m: f64,
     /// How closely distances are known: nothing nearer than the clearance is missed, and nothing is told that is
     /// not nearer than the clearance and this.
@@ -44,11 +44,11 @@ impl Default for ClearanceOptions {
     }
 }
 
-/// What was found, and what it took.
+/// What was findings, and what it took.
 #[derive(Clone, Debug)]
-pub struct Clearance {
+pub struct ClearanceReport {
     /// A finding for each two paths, and for each path that is too near to a wall.
-    pub found: Diagnostics,
+    pub findings: Diagnostics,
     /// What it took.
     pub work: ClearanceWork,
 }
@@ -58,8 +58,8 @@ pub struct Clearance {
 pub struct ClearanceWork {
     /// Paths with an envelope.
     pub paths: u64,
-    /// Paths without one, for each of [`Without::ALL`].
-    pub without: [u64; Without::ALL.len()],
+    /// Paths without one, for each of [`NoEnvelope::ALL`].
+    pub no_envelope: [u64; NoEnvelope::ALL.len()],
     /// Pairs of paths, or of a path and a line of a wall, whose boxes are near enough.
     pub candidates: u64,
     /// Distances of two convex polygons.
@@ -70,7 +70,7 @@ impl ClearanceWork {
     fn plus(self, other: Self) -> Self {
         Self {
             paths: self.paths + other.paths,
-            without: std::array::from_fn(|i| self.without[i] + other.without[i]),
+            no_envelope: std::array::from_fn(|i| self.no_envelope[i] + other.no_envelope[i]),
             candidates: self.candidates + other.candidates,
             tests: self.tests + other.tests,
         }
@@ -82,17 +82,17 @@ impl ClearanceWork {
 /// Paths of different levels are never compared, nor are paths along the same curve: they are one road. Two paths
 /// that meet at an end are compared, but not where both are near it; the same holds for paths whose ends are joined
 /// by a way so short that vehicles at both ends of it would be too near. What is near in spite of that, a crossing
-/// without a node, say, or lanes too close, is found.
+/// without a node, say, or lanes too close, is findings.
 pub fn check_clearance(
     layout: &Layout,
-    source: Source,
+    source: EnvelopeSource,
     walls: Option<&Walls>,
     options: &ClearanceOptions,
-) -> Clearance {
-    let mut found = Diagnostics::with_limit(options.diagnostics_per_code);
-    let mut work = pairs::check(layout, source, options, &mut found);
+) -> ClearanceReport {
+    let mut findings = Diagnostics::with_limit(options.diagnostics_per_code);
+    let mut work = pairs::check(layout, source, options, &mut findings);
     if let Some(walls) = walls {
-        work = work.plus(walls.check(layout, source, options, &mut found));
+        work = work.plus(walls.check(layout, source, options, &mut findings));
     }
-    Clearance { found, work }
+    ClearanceReport { findings, work }
 }

@@ -8,20 +8,20 @@ use rstar::{AABB, RTree};
 
 use super::joints::Joints;
 use super::{ClearanceOptions, ClearanceWork};
-use crate::{Nearest, Question, Source, Tree};
+use crate::{ClosestApproach, EnvelopeSource, ProximityQuery, SweepTree};
 
 type Entry = GeomWithData<Rectangle<[f64; 2]>, u32>;
 
 /// Two paths that are too near to each other.
 struct TooNear {
     paths: [usize; 2],
-    nearest: Nearest,
+    nearest: ClosestApproach,
 }
 
 /// Paths that are too near to each other.
 pub(super) fn check(
     layout: &Layout,
-    source: Source,
+    source: EnvelopeSource,
     options: &ClearanceOptions,
     found: &mut Diagnostics,
 ) -> ClearanceWork {
@@ -39,7 +39,7 @@ pub(super) fn check(
 /// All paths, made ready to find those that are near.
 struct Paths<'a> {
     layout: &'a Layout,
-    source: Source,
+    source: EnvelopeSource,
     options: &'a ClearanceOptions,
     boxes: Vec<Option<(Bounds<f64>, f64)>>,
     index: RTree<Entry>,
@@ -48,7 +48,7 @@ struct Paths<'a> {
 }
 
 impl<'a> Paths<'a> {
-    fn new(layout: &'a Layout, source: Source, options: &'a ClearanceOptions) -> Self {
+    fn new(layout: &'a Layout, source: EnvelopeSource, options: &'a ClearanceOptions) -> Self {
         let rows = (0..layout.paths.len()).into_par_iter();
         let with_box = |row| {
             let sweep = source.sweep(layout, row).ok()?;
@@ -78,7 +78,7 @@ impl<'a> Paths<'a> {
         let sweep = match self.source.sweep(self.layout, row) {
             Ok(sweep) => sweep,
             Err(why) => {
-                work.without[why as usize] = 1;
+                work.no_envelope[why as usize] = 1;
                 return (Vec::new(), work);
             }
         };
@@ -89,7 +89,7 @@ impl<'a> Paths<'a> {
         let reaches_m = others.iter().filter_map(|&other| self.boxes[other]);
         let most_m = reaches_m.map(|(_, other_m)| other_m).fold(0.0, f64::max);
         let reached = self.joints.reached(row, self.way_m(reach_m, most_m));
-        let mut tree = Tree::new(sweep);
+        let mut tree = SweepTree::new(sweep);
         let mut too_near = Vec::new();
         for other in others {
             let (Some((_, other_m)), Ok(other_sweep)) =
@@ -98,18 +98,18 @@ impl<'a> Paths<'a> {
                 continue;
             };
             let near_joint_m = self.options.near_joint_m;
-            let meetings = self.joints.meetings(
+            let exempt_zones = self.joints.exempt_zones(
                 &reached,
                 other,
                 near_joint_m.unwrap_or(REACHES_NEAR_JOINT * reach_m.max(other_m)),
                 self.way_m(reach_m, other_m),
             );
-            let question = Question {
-                below_m: self.options.clearance_m,
+            let question = ProximityQuery {
+                threshold_m: self.options.clearance_m,
                 tolerance_m: self.options.tolerance_m,
-                meetings: &meetings,
+                exempt_zones: &exempt_zones,
             };
-            let mut other_tree = Tree::new(other_sweep);
+            let mut other_tree = SweepTree::new(other_sweep);
             let nearest = tree.nearest(&mut other_tree, &question, &mut work.tests);
             too_near.extend(nearest.map(|nearest| TooNear {
                 paths: [row, other],
@@ -156,7 +156,7 @@ impl TooNear {
             || {
                 let other = element_name("path", other, id(other));
                 let how = how_near(nearest.distance_m);
-                let [here, there] = nearest.places.map(DisplayPosition);
+                let [here, there] = nearest.positions.map(DisplayPosition);
                 format!("vehicles {how} those on {other}, while they are at {here} here and at {there} there")
             },
             "Move the paths apart, or never let vehicles be on both at a time",

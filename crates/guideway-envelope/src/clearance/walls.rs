@@ -8,7 +8,7 @@ use rstar::{AABB, RTree};
 
 use super::pairs::how_near;
 use super::{ClearanceOptions, ClearanceWork};
-use crate::{Convex, Nearest, Question, Source, Sweep, Tree};
+use crate::{ClosestApproach, ConvexPolygon, EnvelopeSource, ProximityQuery, Sweep, SweepTree};
 
 type P = Point<f64>;
 type Entry = GeomWithData<Rectangle<[f64; 2]>, u32>;
@@ -30,7 +30,7 @@ pub struct Walls {
 struct TooNear {
     row: usize,
     line: u32,
-    nearest: Nearest,
+    nearest: ClosestApproach,
     /// Paths of the floor plan that are too near.
     walls: usize,
 }
@@ -85,7 +85,7 @@ impl Walls {
     pub(super) fn check(
         &self,
         layout: &Layout,
-        source: Source,
+        source: EnvelopeSource,
         options: &ClearanceOptions,
         found: &mut Diagnostics,
     ) -> ClearanceWork {
@@ -117,20 +117,21 @@ impl Walls {
     ) -> Option<TooNear> {
         let lines = self.lines_near(&sweep, options.clearance_m + FLATNESS_M);
         work.candidates += lines.len() as u64;
-        let question = Question {
-            below_m: options.clearance_m,
+        let question = ProximityQuery {
+            threshold_m: options.clearance_m,
             tolerance_m: options.tolerance_m,
-            meetings: &[],
+            exempt_zones: &[],
         };
-        let mut tree = Tree::new(sweep);
+        let mut tree = SweepTree::new(sweep);
         let mut best: Option<TooNear> = None;
         let mut walls = Vec::new();
         for line in lines {
             let ends = self.lines[line as usize];
-            let Some(wall) = Sweep::of_areas(Convex::hull(ends), ends[0].distance(ends[1])) else {
+            let Some(wall) = Sweep::of_areas(ConvexPolygon::hull(ends), ends[0].distance(ends[1]))
+            else {
                 continue;
             };
-            let mut wall = Tree::new(wall);
+            let mut wall = SweepTree::new(wall);
             let Some(nearest) = tree.nearest(&mut wall, &question, &mut work.tests) else {
                 continue;
             };
@@ -185,7 +186,7 @@ impl Walls {
                 let wall = self.paths[line as usize] as usize;
                 let wall = element_name("path", wall, self.ids.get(wall));
                 let how = how_near(nearest.distance_m);
-                let here = DisplayPosition(nearest.places[0]);
+                let here = DisplayPosition(nearest.positions[0]);
                 let others = match walls {
                     1 => String::new(),
                     2 => ", and another line is too near".to_owned(),

@@ -2,7 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use guideway_envelope::{ClearanceOptions, Convex, Source, Without, check_clearance};
+use guideway_envelope::{
+    ClearanceOptions, ConvexPolygon, EnvelopeSource, NoEnvelope, check_clearance,
+};
 use guideway_layout::{Layout, NewPath, Value};
 use guideway_spline::Runs;
 use proptest::prelude::*;
@@ -30,14 +32,14 @@ fn layout(areas: &[&str]) -> Layout {
     layout
 }
 
-fn parts(area: &str) -> Result<Vec<Convex>, Without> {
-    let sweep = Source::File.sweep(&layout(&[area]), 0)?;
+fn parts(area: &str) -> Result<Vec<ConvexPolygon>, NoEnvelope> {
+    let sweep = EnvelopeSource::File.sweep(&layout(&[area]), 0)?;
     let mut parts = Vec::new();
     sweep.polygons(0.01, None, &mut |part| parts.push(part.clone()));
     Ok(parts)
 }
 
-fn holds(parts: &[Convex], point: P) -> bool {
+fn holds(parts: &[ConvexPolygon], point: P) -> bool {
     parts.iter().any(|part| part.contains(point))
 }
 
@@ -70,7 +72,7 @@ fn what_crosses_itself_may_mean_all_of_its_hull() {
 
 #[test]
 fn what_is_no_area_is_told_apart_from_none() {
-    let of = |text: &str| Source::File.sweep(&layout(&[text]), 0).map(|_| ());
+    let of = |text: &str| EnvelopeSource::File.sweep(&layout(&[text]), 0).map(|_| ());
     for text in [
         "POLYGON",
         "",
@@ -80,13 +82,13 @@ fn what_is_no_area_is_told_apart_from_none() {
         "[[[[1]]]]",
         "[[[[1e999,0],[0,1],[1,1]]]]",
     ] {
-        assert_eq!(of(text), Err(Without::Unreadable), "{text}");
+        assert_eq!(of(text), Err(NoEnvelope::Unreadable), "{text}");
     }
     let mut layout = layout(&["x"]);
     layout.paths.attributes = Default::default();
     assert_eq!(
-        Source::File.sweep(&layout, 0).map(|_| ()),
-        Err(Without::NotInFile)
+        EnvelopeSource::File.sweep(&layout, 0).map(|_| ()),
+        Err(NoEnvelope::NotInFile)
     );
 }
 
@@ -96,8 +98,8 @@ fn is_too_near(areas: &[&str], clearance_m: f64) -> bool {
         near_joint_m: Some(3.0),
         ..ClearanceOptions::default()
     };
-    let work = check_clearance(&layout(areas), Source::File, None, &options);
-    work.found.iter().next().is_some()
+    let work = check_clearance(&layout(areas), EnvelopeSource::File, None, &options);
+    work.findings.iter().next().is_some()
 }
 
 #[test]

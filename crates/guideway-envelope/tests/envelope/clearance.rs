@@ -1,6 +1,6 @@
 use std::collections::BTreeSet;
 
-use guideway_envelope::{Body, ClearanceOptions, Source, Walls, check_clearance};
+use guideway_envelope::{Body, ClearanceOptions, EnvelopeSource, Walls, check_clearance};
 use guideway_layout::{Code, Diagnostics, Layout, NewPath};
 use guideway_spline::{Point, Runs};
 use proptest::prelude::*;
@@ -8,7 +8,7 @@ use proptest::prelude::*;
 use crate::brute::{apart, poses};
 use crate::random::{Case, Curve, P, case, p};
 
-const VEHICLE: Source = Source::Vehicle(Body {
+const VEHICLE: EnvelopeSource = EnvelopeSource::Vehicle(Body {
     front_m: 1.0,
     rear_m: 1.0,
     left_m: 0.5,
@@ -55,7 +55,7 @@ fn pairs(found: &Diagnostics) -> BTreeSet<String> {
 }
 
 fn found(curves: &[Curve], options: &ClearanceOptions) -> BTreeSet<String> {
-    pairs(&check_clearance(&layout(curves), VEHICLE, None, options).found)
+    pairs(&check_clearance(&layout(curves), VEHICLE, None, options).findings)
 }
 
 fn none() -> BTreeSet<String> {
@@ -79,8 +79,8 @@ fn lanes_too_close_and_crossings_without_a_node_are_found() {
         way(&[p(15.0, -10.0), p(15.0, 10.0)]),
     ];
     let all = check_clearance(&layout(&crossing), VEHICLE, None, &options(0.0));
-    assert_eq!(pairs(&all.found), one("ab"));
-    let finding = all.found.iter().next().unwrap();
+    assert_eq!(pairs(&all.findings), one("ab"));
+    let finding = all.findings.iter().next().unwrap();
     assert!(
         finding.message.starts_with("vehicles overlap with"),
         "{}",
@@ -145,7 +145,7 @@ fn levels_are_apart() {
     let mut layout = layout(&lanes);
     layout.paths.set_levels(vec![0, 1]);
     let found =
-        |layout: &Layout| pairs(&check_clearance(layout, VEHICLE, None, &options(0.3)).found);
+        |layout: &Layout| pairs(&check_clearance(layout, VEHICLE, None, &options(0.3)).findings);
     assert_eq!(found(&layout), none());
     layout.paths.set_levels(vec![1, 1]);
     assert_eq!(found(&layout), one("ab"));
@@ -164,8 +164,8 @@ fn walls_too_near_are_found_and_named() {
     ]);
     let walls = Walls::new(&plan, |_| true);
     let all = check_clearance(&paths, VEHICLE, Some(&walls), &options(0.25));
-    assert_eq!(all.found.count(Code::WallClearance), 1);
-    let finding = all.found.iter().next().unwrap();
+    assert_eq!(all.findings.count(Code::WallClearance), 1);
+    let finding = all.findings.iter().next().unwrap();
     assert_eq!(finding.place.element, "path \"a\"");
     let said = &finding.message;
     assert!(
@@ -173,22 +173,22 @@ fn walls_too_near_are_found_and_named() {
         "{said}"
     );
     let near = |clearance_m| {
-        let found = check_clearance(&paths, VEHICLE, Some(&walls), &options(clearance_m)).found;
+        let found = check_clearance(&paths, VEHICLE, Some(&walls), &options(clearance_m)).findings;
         found.count(Code::WallClearance)
     };
     assert_eq!((near(0.05), near(8.0), near(11.5)), (0, 2, 2));
     let some = Walls::new(&plan, |row| row == 2);
-    let found = check_clearance(&paths, VEHICLE, Some(&some), &options(0.25)).found;
+    let found = check_clearance(&paths, VEHICLE, Some(&some), &options(0.25)).findings;
     assert_eq!((some.len(), found.count(Code::WallClearance)), (1, 0));
 }
 
 /// Pairs that are nearer than this at poses, a step apart each, less what may be between two steps.
-fn brute(cases: &[Case], below_m: f64, step_m: f64) -> BTreeSet<String> {
+fn brute(cases: &[Case], threshold_m: f64, step_m: f64) -> BTreeSet<String> {
     let all: Vec<_> = cases.iter().map(|case| poses(case, step_m)).collect();
     let near = |i: usize, j: usize| {
         all[i].iter().any(|&a| {
             let mut others = all[j].iter();
-            others.any(|&b| apart((&cases[i].body, a), (&cases[j].body, b)) < below_m)
+            others.any(|&b| apart((&cases[i].body, a), (&cases[j].body, b)) < threshold_m)
         })
     };
     let name = |i: usize| char::from(b'a' + i as u8).to_string();
@@ -205,7 +205,7 @@ proptest! {
         cases in prop::collection::vec((case(), 0.0..25.0, 0.0..25.0), 6),
         clearance in 0.1..2.0,
     ) {
-        let Source::Vehicle(body) = VEHICLE else { unreachable!() };
+        let EnvelopeSource::Vehicle(body) = VEHICLE else { unreachable!() };
         let heading = guideway_envelope::Heading::Tangential(0.0);
         let moved = |(case, x, y): (Case, f64, f64)| {
             let curve = case.curve.0.iter().map(|b| b.map(|q| q + p(x, y))).collect();
@@ -246,8 +246,9 @@ fn headings_and_corridors_come_from_the_file() {
     use guideway_layout::Value;
     let mut layout = layout(&[way(&[p(0.0, 0.0), p(10.0, 0.0)])]);
     let set = |layout: &mut Layout, name: &str, value| layout.paths.attributes.set(0, name, value);
-    let top = |layout: &Layout, source: Source| source.sweep(layout, 0).map(|s| s.bounds().max.y);
-    let long = Source::Vehicle(Body::vehicle(4.0, 1.0, 1.0));
+    let top =
+        |layout: &Layout, source: EnvelopeSource| source.sweep(layout, 0).map(|s| s.bounds().max.y);
+    let long = EnvelopeSource::Vehicle(Body::vehicle(4.0, 1.0, 1.0));
     let is_near = |a: f64, b: f64| (a - b).abs() < 1e-9;
     assert!(is_near(top(&layout, long).unwrap(), 0.5));
     set(&mut layout, "orientationType", Value::Text("GLOBAL"));
@@ -266,21 +267,21 @@ fn headings_and_corridors_come_from_the_file() {
     assert!(is_near(top(&layout, long).unwrap(), 1.0));
 
     assert_eq!(
-        top(&layout, Source::File),
-        Err(guideway_envelope::Without::NotInFile)
+        top(&layout, EnvelopeSource::File),
+        Err(guideway_envelope::NoEnvelope::NotInFile)
     );
     set(&mut layout, "corridor.leftWidth", Value::Float(0.75));
     set(&mut layout, "corridor.rightWidth", Value::Int(2));
     assert_eq!(
-        top(&layout, Source::File),
-        Err(guideway_envelope::Without::CenterOnly)
+        top(&layout, EnvelopeSource::File),
+        Err(guideway_envelope::NoEnvelope::CenterOnly)
     );
     set(
         &mut layout,
         "corridor.corridorRefPoint",
         Value::Text("CONTOUR"),
     );
-    let bounds = Source::File.sweep(&layout, 0).unwrap().bounds();
+    let bounds = EnvelopeSource::File.sweep(&layout, 0).unwrap().bounds();
     assert!(
         bounds.min.distance(Point::new(0.0, -2.0)) < 1e-9,
         "{bounds:?}"

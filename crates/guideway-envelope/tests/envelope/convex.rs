@@ -1,6 +1,6 @@
-//! Convex polygons against brute force.
+//! ConvexPolygon polygons against brute force.
 
-use guideway_envelope::Convex;
+use guideway_envelope::ConvexPolygon;
 use proptest::prelude::*;
 
 use crate::random::{P, p};
@@ -70,7 +70,7 @@ fn apart(a: &[P], b: &[P]) -> f64 {
 proptest! {
     #[test]
     fn a_hull_holds_all_points_and_has_no_more_corners_than_it_needs(points in points(), q in points()) {
-        let hull = Convex::hull(points.iter().copied()).unwrap();
+        let hull = ConvexPolygon::hull(points.iter().copied()).unwrap();
         prop_assert!(points.iter().all(|&p| hull.contains(p)));
         for &q in &q {
             prop_assert_eq!(hull.contains(q), is_within(&points, q), "{:?}", q);
@@ -85,7 +85,7 @@ proptest! {
 
     #[test]
     fn the_sum_is_the_hull_of_all_sums(a in points(), b in points()) {
-        let hull = |points: &[P]| Convex::hull(points.iter().copied()).unwrap();
+        let hull = |points: &[P]| ConvexPolygon::hull(points.iter().copied()).unwrap();
         let sums: Vec<P> = a.iter().flat_map(|&p| b.iter().map(move |&q| p + q)).collect();
         let (sum, all) = (hull(&a).sum(&hull(&b)), hull(&sums));
         prop_assert_eq!(sum, all);
@@ -94,7 +94,7 @@ proptest! {
     #[test]
     fn distances_are_those_of_brute_force(a in points(), b in points(), x in -6..7) {
         let moved: Vec<P> = b.iter().map(|&q| q + p(f64::from(x), 0.25)).collect();
-        let hull = |points: &[P]| Convex::hull(points.iter().copied()).unwrap();
+        let hull = |points: &[P]| ConvexPolygon::hull(points.iter().copied()).unwrap();
         let (own, other) = (hull(&a), hull(&moved));
         let expected = apart(&a, &moved);
         prop_assert!((own.distance(&other) - expected).abs() < 1e-9, "{}", expected);

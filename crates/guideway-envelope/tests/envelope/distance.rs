@@ -1,4 +1,4 @@
-use guideway_envelope::{Heading, Meeting, Nearest, Question, Tree};
+use guideway_envelope::{ClosestApproach, ExemptZone, Heading, ProximityQuery, SweepTree};
 use proptest::prelude::*;
 
 use crate::brute::{Pose, apart, poses};
@@ -7,14 +7,19 @@ use crate::random::{Case, Curve, P, case, p};
 const TOLERANCE_M: f64 = 0.02;
 const STEP_M: f64 = 0.1;
 
-fn nearest(a: &Case, b: &Case, below_m: f64, meetings: &[Meeting]) -> Option<Nearest> {
+fn nearest(
+    a: &Case,
+    b: &Case,
+    threshold_m: f64,
+    exempt_zones: &[ExemptZone],
+) -> Option<ClosestApproach> {
     let (a, b) = (a.sweep(), b.sweep());
-    let question = Question {
-        below_m,
+    let question = ProximityQuery {
+        threshold_m,
         tolerance_m: TOLERANCE_M,
-        meetings,
+        exempt_zones,
     };
-    Tree::new(a).nearest(&mut Tree::new(b), &question, &mut 0)
+    SweepTree::new(a).nearest(&mut SweepTree::new(b), &question, &mut 0)
 }
 
 fn moved(case: &Case, by: P) -> Case {
@@ -35,13 +40,13 @@ fn brute(a: &Case, b: &Case, counts: impl Fn(Pose, Pose) -> bool) -> f64 {
 }
 
 /// Whether an answer can be that of vehicles whose poses, a step apart each, come this near.
-fn agrees(answer: Option<Nearest>, brute_m: f64, below_m: f64) -> bool {
+fn agrees(answer: Option<ClosestApproach>, brute_m: f64, threshold_m: f64) -> bool {
     match answer {
         // Polygons hold the vehicles, so they are never farther.
-        Some(Nearest { distance_m, .. }) => {
+        Some(ClosestApproach { distance_m, .. }) => {
             distance_m <= brute_m + 1e-6 && brute_m <= distance_m + TOLERANCE_M + 2.0 * STEP_M
         }
-        None => brute_m >= below_m - 1e-6,
+        None => brute_m >= threshold_m - 1e-6,
     }
 }
 
@@ -61,7 +66,7 @@ proptest! {
         let start = |case: &Case| case.curve.0[0][0];
         let b = moved(&b, start(&a) - start(&b));
         let center = start(&a);
-        let meeting = Meeting { centers_m: [center; 2], radius_m: radius };
+        let meeting = ExemptZone { centers_m: [center; 2], radius_m: radius };
         let answer = nearest(&a, &b, below, &[meeting]);
         let beyond = |radius: f64| {
             move |p: Pose, q: Pose| p.at.distance(center) > radius || q.at.distance(center) > radius
@@ -108,7 +113,7 @@ fn it_tells_where_paths_cross() {
     );
     let found = nearest(&a, &b, 0.0, &[]).expect("they cross");
     assert_eq!(found.distance_m, 0.0);
-    for place in found.places {
+    for place in found.positions {
         assert!(place.distance(p(31.0, 0.0)) < 4.0, "{place:?}");
     }
 }
@@ -135,9 +140,9 @@ fn a_kink_within_a_degree_of_half_a_turn_is_a_cusp() {
 #[test]
 fn the_comparison_finds_wrong_answers() {
     let said = |distance_m| {
-        Some(Nearest {
+        Some(ClosestApproach {
             distance_m,
-            places: [p(0.0, 0.0); 2],
+            positions: [p(0.0, 0.0); 2],
         })
     };
     assert!(agrees(said(0.3), 0.3, 0.5) && agrees(None, 0.6, 0.5));

@@ -1,12 +1,12 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use guideway_envelope::{Body, Convex, Heading};
+use guideway_envelope::{Body, ConvexPolygon, Heading};
 use proptest::prelude::*;
 
 use crate::brute::{body_point, distance_from, poses};
 use crate::random::{Case, Curve, P, case, p};
 
-fn polygons(case: &Case, tolerance_m: f64) -> Vec<Convex> {
+fn polygons(case: &Case, tolerance_m: f64) -> Vec<ConvexPolygon> {
     let mut polygons = Vec::new();
     let sweep = case.sweep();
     sweep.polygons(tolerance_m, None, &mut |polygon| {
@@ -19,8 +19,8 @@ fn polygons(case: &Case, tolerance_m: f64) -> Vec<Convex> {
 const ROUNDING_M: f64 = 1e-5;
 
 /// A point of the vehicle at one of its poses that no polygon holds.
-fn outside(case: &Case, polygons: &[Convex]) -> Option<P> {
-    let grown = |polygon: &Convex, q: P| {
+fn outside(case: &Case, polygons: &[ConvexPolygon]) -> Option<P> {
+    let grown = |polygon: &ConvexPolygon, q: P| {
         let around = |i: i32| p(f64::from(i % 3 - 1), f64::from(i / 3 - 1)) * ROUNDING_M;
         (0..9).any(|i| polygon.contains(q + around(i)))
     };
@@ -37,13 +37,13 @@ fn outside(case: &Case, polygons: &[Convex]) -> Option<P> {
 
 /// How far the farthest point of the polygons is from the vehicle, whichever of its poses is nearest. Poses are
 /// `step` apart, so that it may be this much less.
-fn farthest_m(case: &Case, polygons: &[Convex], step: f64) -> f64 {
+fn farthest_m(case: &Case, polygons: &[ConvexPolygon], step: f64) -> f64 {
     let poses = poses(case, step);
     let from_all = |q: P| {
         let each = poses.iter().map(|&pose| distance_from(&case.body, pose, q));
         each.fold(f64::INFINITY, f64::min)
     };
-    let of_polygon = |polygon: &Convex| {
+    let of_polygon = |polygon: &ConvexPolygon| {
         let corners = polygon.points();
         let share = 1.0 / corners.len() as f64;
         let center = corners.iter().fold(p(0.0, 0.0), |sum, &c| sum + c * share);
@@ -94,7 +94,7 @@ fn case_of(curve: Vec<[P; 4]>, heading: Heading) -> Case {
     }
 }
 
-fn covers(polygons: &[Convex], x: f64, y: f64) -> bool {
+fn covers(polygons: &[ConvexPolygon], x: f64, y: f64) -> bool {
     polygons.iter().any(|polygon| polygon.contains(p(x, y)))
 }
 
@@ -189,10 +189,10 @@ fn the_comparison_finds_wrong_polygons() {
     let mut gone = good.clone();
     gone.remove(good.len() / 2);
     let hidden = gone.len() == good.len();
-    let thin: Vec<Convex> = good.iter().map(|polygon| shrunk(polygon, 0.9)).collect();
+    let thin: Vec<ConvexPolygon> = good.iter().map(|polygon| shrunk(polygon, 0.9)).collect();
     assert!(!hidden && outside(&case, &thin).is_some());
     assert!(outside(&case, &good[..good.len() - 1]).is_some());
-    let thick: Vec<Convex> = good.iter().map(|polygon| shrunk(polygon, 1.2)).collect();
+    let thick: Vec<ConvexPolygon> = good.iter().map(|polygon| shrunk(polygon, 1.2)).collect();
     assert!(farthest_m(&case, &thick, 0.02) > 0.07);
 
     let mirrored = Case {
@@ -203,10 +203,10 @@ fn the_comparison_finds_wrong_polygons() {
     assert!(farthest_m(&mirrored, &good, 0.02) > 0.07);
 }
 
-fn shrunk(polygon: &Convex, by: f64) -> Convex {
+fn shrunk(polygon: &ConvexPolygon, by: f64) -> ConvexPolygon {
     let center = polygon.bounds().center();
     let points = polygon.points().iter();
-    Convex::hull(points.map(|&p| center + (p - center) * by)).expect("corners")
+    ConvexPolygon::hull(points.map(|&p| center + (p - center) * by)).expect("corners")
 }
 
 /// The judge turns this vehicle two thousandths of a millimeter before the kink.

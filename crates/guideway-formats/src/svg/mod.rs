@@ -16,7 +16,7 @@ mod write;
 mod write_page;
 
 pub use self::write::write_layout;
-pub use self::write_page::{Outline, Page, Stroke};
+pub use self::write_page::{PathData, Stroke, SvgWriter};
 
 use guideway_layout::{Layout, Place};
 

@@ -6,7 +6,7 @@ use std::io::{self, Write};
 use guideway_layout::{Layout, PathRef, Value};
 use guideway_spline::{Bounds, Point};
 
-use super::write_page::{Outline, Page, Stroke};
+use super::write_page::{PathData, Stroke, SvgWriter};
 use crate::Losses;
 use crate::clamped::POSITION_STEP_M;
 use crate::common_losses::common_losses;
@@ -37,8 +37,8 @@ pub fn write_layout(layout: &Layout, out: &mut impl Write) -> io::Result<Losses>
         r#"width="{}mm" height="{}mm" style="max-width:100%;max-height:100vh""#,
         size_mm.x, size_mm.y
     );
-    let black = Stroke::of(0x0000_00FF, WIDTH_M);
-    let mut page = Page::begin(out, view, &page, &black)?;
+    let black = Stroke::new(0x0000_00FF, WIDTH_M);
+    let mut page = SvgWriter::begin(out, view, &page, &black)?;
     let column = layout.paths.attributes.get(GROUP);
     let mut current: Option<String> = None;
     let mut order: Vec<usize> = (0..layout.paths.len()).collect();
@@ -58,17 +58,17 @@ pub fn write_layout(layout: &Layout, out: &mut impl Write) -> io::Result<Losses>
             }
             current = group;
         }
-        let mut outline = Outline::new(POSITION_STEP_M);
+        let mut outline = PathData::new(POSITION_STEP_M);
         for segment in path.runs().flat_map(|run| run.segments()) {
             // Up is down on a page.
-            outline.push(&segment.map(|p| Point::new(p.x, -p.y)));
+            outline.push_segment(&segment.map(|p| Point::new(p.x, -p.y)));
         }
         page.path(path.id(), &outline, &stroke(layout, path))?;
     }
     if current.is_some() {
         page.end_group()?;
     }
-    page.end()?;
+    page.finish()?;
     Ok(losses(layout))
 }
 
@@ -77,7 +77,7 @@ fn stroke(layout: &Layout, path: PathRef<'_>) -> Stroke {
     // A stroke of no width is not drawn by anyone else.
     let width_m = own.width_m.map(f64::from).filter(|&w| w > 0.0);
     let width_m = width_m.unwrap_or(WIDTH_M);
-    Stroke::of(own.color_rgba.unwrap_or(0x0000_00FF), width_m)
+    Stroke::new(own.color_rgba.unwrap_or(0x0000_00FF), width_m)
 }
 
 fn losses(layout: &Layout) -> Losses {

@@ -11,13 +11,13 @@ use crate::clamped::is_straight;
 
 /// The curve of one path, as the `d` of an element.
 #[derive(Clone, Debug)]
-pub struct Outline {
+pub struct PathData {
     data: String,
     end: Option<Point<f64>>,
     step: f64,
 }
 
-impl Outline {
+impl PathData {
     /// An empty one. Coordinates are rounded to multiples of `step`; ends this near meet.
     pub fn new(step: f64) -> Self {
         Self {
@@ -29,7 +29,7 @@ impl Outline {
 
     /// Appends a segment of a uniform cubic B-spline, in units of the page, y down: a line if it is straight,
     /// else a cubic curve, exactly.
-    pub fn push(&mut self, segment: &[Point<f64>; 4]) {
+    pub fn push_segment(&mut self, segment: &[Point<f64>; 4]) {
         let bezier = uniform::to_bezier(segment);
         if !self
             .end
@@ -81,7 +81,7 @@ pub struct Stroke {
 
 impl Stroke {
     /// A color 0xRRGGBBAA and a width in units of the page.
-    pub fn of(rgba: u32, width: f64) -> Self {
+    pub fn new(rgba: u32, width: f64) -> Self {
         Self { rgba, width }
     }
 
@@ -115,12 +115,12 @@ fn paint(what: &str, rgba: u32) -> String {
 
 /// A drawing that is being written.
 #[derive(Debug)]
-pub struct Page<'w, W> {
+pub struct SvgWriter<'w, W> {
     out: &'w mut W,
     common: Stroke,
 }
 
-impl<'w, W: Write> Page<'w, W> {
+impl<'w, W: Write> SvgWriter<'w, W> {
     /// Begins a page that shows `[x, y, width, height]`, with further attributes of the page and the stroke
     /// that most paths have.
     ///
@@ -151,7 +151,7 @@ impl<'w, W: Write> Page<'w, W> {
     ///
     /// # Errors
     /// When the target fails.
-    pub fn path(&mut self, id: &str, outline: &Outline, stroke: &Stroke) -> io::Result<()> {
+    pub fn path(&mut self, id: &str, outline: &PathData, stroke: &Stroke) -> io::Result<()> {
         if outline.is_empty() {
             return Ok(());
         }
@@ -187,7 +187,7 @@ impl<'w, W: Write> Page<'w, W> {
     ///
     /// # Errors
     /// When the target fails.
-    pub fn area(&mut self, [x, y, width, height]: [f64; 4], rgba: u32) -> io::Result<()> {
+    pub fn rect(&mut self, [x, y, width, height]: [f64; 4], rgba: u32) -> io::Result<()> {
         let fill = paint("fill", rgba);
         let place = format!(r#"x="{x}" y="{y}" width="{width}" height="{height}""#);
         writeln!(self.out, r#"<rect {place} stroke="none"{fill}/>"#)
@@ -198,7 +198,7 @@ impl<'w, W: Write> Page<'w, W> {
     ///
     /// # Errors
     /// When the target fails.
-    pub fn areas<A: AsRef<[Point<f64>]>>(
+    pub fn polygon_layer<A: AsRef<[Point<f64>]>>(
         &mut self,
         label: &str,
         rgba: u32,
@@ -212,7 +212,7 @@ impl<'w, W: Write> Page<'w, W> {
             r#"<g inkscape:groupmode="layer" inkscape:label="{label}" opacity="{opacity:.4}" stroke="none"{fill}>"#
         )?;
         for area in areas {
-            let mut outline = Outline::new(step);
+            let mut outline = PathData::new(step);
             area.into_iter()
                 .for_each(|polygon| outline.polygon(polygon.as_ref()));
             if !outline.is_empty() {
@@ -226,7 +226,7 @@ impl<'w, W: Write> Page<'w, W> {
     ///
     /// # Errors
     /// When the target fails.
-    pub fn line_of_text(
+    pub fn text(
         &mut self,
         [x, y]: [f64; 2],
         height: f64,
@@ -257,7 +257,7 @@ impl<'w, W: Write> Page<'w, W> {
     ///
     /// # Errors
     /// When the target fails.
-    pub fn end(self) -> io::Result<()> {
+    pub fn finish(self) -> io::Result<()> {
         writeln!(self.out, "</g>\n</svg>")
     }
 }

@@ -5,7 +5,7 @@ use crate::same::{
     arbitrary_layout, assert_same_curves, assert_same_ids, broken, lost, push_lines,
 };
 use guideway_formats::Losses;
-use guideway_formats::svg::{Outline, Page, Stroke, write_layout};
+use guideway_formats::svg::{PathData, Stroke, SvgWriter, write_layout};
 use guideway_layout::{Code, Direction, Layout, Value};
 use guideway_spline::{Point, Runs};
 use proptest::prelude::*;
@@ -127,17 +127,17 @@ fn a_path_of_no_width_is_still_there() {
 #[test]
 fn only_what_differs_from_the_page_is_said_of_a_path() {
     let mut out = Vec::new();
-    let common = Stroke::of(0x0000_0080, 1.0);
-    let mut page = Page::begin(&mut out, [0.0, 0.0, 9.0, 9.0], "", &common).unwrap();
-    let mut outline = Outline::new(1e-3);
+    let common = Stroke::new(0x0000_0080, 1.0);
+    let mut page = SvgWriter::begin(&mut out, [0.0, 0.0, 9.0, 9.0], "", &common).unwrap();
+    let mut outline = PathData::new(1e-3);
     let mut runs = Runs::default();
     runs.push_line(Point::new(0.0, 0.0), Point::new(1.0, 0.12345));
-    outline.push(runs.points().first_chunk().unwrap());
+    outline.push_segment(runs.points().first_chunk().unwrap());
     page.path("a", &outline, &common).unwrap();
-    page.path("b", &outline, &Stroke::of(0xFF00_00FF, f64::from(0.3_f32)))
+    page.path("b", &outline, &Stroke::new(0xFF00_00FF, f64::from(0.3_f32)))
         .unwrap();
-    page.path("c", &Outline::new(1.0), &common).unwrap();
-    page.end().unwrap();
+    page.path("c", &PathData::new(1.0), &common).unwrap();
+    page.finish().unwrap();
     let text = String::from_utf8(out).unwrap();
     assert!(
         text.contains("<path id=\"a\" d=\"M0 0L1 0.123\"/>"),

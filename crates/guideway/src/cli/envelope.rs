@@ -1,6 +1,6 @@
 //! What `--envelope` says.
 
-use guideway::envelope::{Body, Source, Without};
+use guideway::envelope::{Body, EnvelopeSource, NoEnvelope};
 
 use super::{Failure, text};
 
@@ -8,9 +8,9 @@ use super::{Failure, text};
 const MOST_M: f64 = 100.0;
 
 /// `LENGTHxWIDTH`, `LENGTHxWIDTH,REAR` or `file`.
-pub(crate) fn source(text: &str) -> Result<Source, String> {
+pub(crate) fn source(text: &str) -> Result<EnvelopeSource, String> {
     if text == "file" {
-        return Ok(Source::File);
+        return Ok(EnvelopeSource::File);
     }
     let refuse = || {
         format!(
@@ -30,14 +30,16 @@ pub(crate) fn source(text: &str) -> Result<Source, String> {
     if !(is_side(length_m) && is_side(width_m) && (0.0..=length_m).contains(&rear_m)) {
         return Err(refuse());
     }
-    Ok(Source::Vehicle(Body::vehicle(length_m, width_m, rear_m)))
+    Ok(EnvelopeSource::Vehicle(Body::vehicle(
+        length_m, width_m, rear_m,
+    )))
 }
 
 /// How the source is called in a report.
-pub(crate) fn name(source: Source) -> String {
+pub(crate) fn name(source: EnvelopeSource) -> String {
     match source {
-        Source::File => "file".to_owned(),
-        Source::Vehicle(body) => {
+        EnvelopeSource::File => "file".to_owned(),
+        EnvelopeSource::Vehicle(body) => {
             let [length, width, rear] =
                 [body.length_m(), body.width_m(), body.rear_m].map(text::number);
             format!("{length}x{width},{rear}")
@@ -46,8 +48,8 @@ pub(crate) fn name(source: Source) -> String {
 }
 
 /// Refuses to go on where no path at all has an envelope, for a picture or a check would say nothing of that.
-pub(crate) fn need_some(with: u64, without: &[u64; Without::ALL.len()]) -> Result<(), Failure> {
-    let most = Without::ALL
+pub(crate) fn need_some(with: u64, without: &[u64; NoEnvelope::ALL.len()]) -> Result<(), Failure> {
+    let most = NoEnvelope::ALL
         .into_iter()
         .max_by_key(|&why| without[why as usize]);
     match most {
@@ -60,8 +62,8 @@ pub(crate) fn need_some(with: u64, without: &[u64; Without::ALL.len()]) -> Resul
 }
 
 /// `3 paths without an envelope: why`, a line for each reason.
-pub(crate) fn lacking(without: &[u64; Without::ALL.len()]) -> Vec<String> {
-    let some = Without::ALL
+pub(crate) fn lacking(without: &[u64; NoEnvelope::ALL.len()]) -> Vec<String> {
+    let some = NoEnvelope::ALL
         .into_iter()
         .filter(|&why| without[why as usize] > 0);
     some.map(|why| {
@@ -77,11 +79,12 @@ mod tests {
 
     #[test]
     fn a_vehicle_is_read() {
-        let vehicle = |length, width, rear| Ok(Source::Vehicle(Body::vehicle(length, width, rear)));
+        let vehicle =
+            |length, width, rear| Ok(EnvelopeSource::Vehicle(Body::vehicle(length, width, rear)));
         assert_eq!(source("2x1.2"), vehicle(2.0, 1.2, 1.0));
         assert_eq!(source("2X1.2, 0.5"), vehicle(2.0, 1.2, 0.5));
         assert_eq!(source("2x1,0"), vehicle(2.0, 1.0, 0.0));
-        assert_eq!(source("file"), Ok(Source::File));
+        assert_eq!(source("file"), Ok(EnvelopeSource::File));
         assert_eq!(name(source("2x1.2,.5").unwrap()), "2x1.2,0.5");
     }
 

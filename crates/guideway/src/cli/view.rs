@@ -9,7 +9,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use etcetera::BaseStrategy;
-use guideway::envelope::Source;
+use guideway::envelope::EnvelopeSource;
 use guideway::formats::{Progress, ReadOptions, read_file};
 use guideway::layout::Layout;
 use guideway::render::{Budget, Frame, Method, View, elapsed_ms};
@@ -187,7 +187,7 @@ impl Host for Desk {
 }
 
 /// A vehicle, as a person wrote it.
-fn source(vehicle: &str) -> Result<Source, Failure> {
+fn source(vehicle: &str) -> Result<EnvelopeSource, Failure> {
     envelope::source(vehicle).map_err(|problem| {
         Failure::arguments(
             format!("`{vehicle}` is no vehicle: {problem}"),

@@ -1,7 +1,7 @@
 //! How near vehicles come to each other and to the walls of a floor plan.
 
 use guideway::envelope::{
-    Clearance, ClearanceOptions, ClearanceWork, Source, Walls, check_clearance,
+    ClearanceOptions, ClearanceReport, ClearanceWork, EnvelopeSource, Walls, check_clearance,
 };
 use guideway::layout::{Diagnostics, Layout};
 use serde_json::{Value, json};
@@ -20,7 +20,7 @@ pub(super) struct ClearanceArgs {
     /// The vehicle: its length and width in meters, and how far its reference point is from its rear end (the middle
     /// unless given); or `file` for the corridors that the file gives, the default
     #[arg(long, value_name = "LENGTHxWIDTH[,REAR]", value_parser = envelope::source, requires = "clearance")]
-    envelope: Option<Source>,
+    envelope: Option<EnvelopeSource>,
     /// How near to an end that two paths have in common no distance between them counts [default: six times the
     /// distance of the vehicle's farthest corner from its reference point]
     #[arg(long, value_name = "METERS", value_parser = values::not_negative, requires = "clearance")]
@@ -35,7 +35,7 @@ pub(super) struct ClearanceArgs {
 
 /// What is asked of each file.
 pub(super) struct Question {
-    source: Source,
+    source: EnvelopeSource,
     walls: Option<Walls>,
     options: ClearanceOptions,
 }
@@ -61,8 +61,8 @@ impl ClearanceArgs {
         }))
     }
 
-    fn source(&self) -> Source {
-        self.envelope.unwrap_or(Source::File)
+    fn source(&self) -> EnvelopeSource {
+        self.envelope.unwrap_or(EnvelopeSource::File)
     }
 
     fn walls(&self, plan: &Input, out: &Output) -> Result<Walls, Failure> {
@@ -97,9 +97,11 @@ impl Question {
         found: &mut Diagnostics,
     ) -> Result<ClearanceWork, Failure> {
         let walls = self.walls.as_ref();
-        let Clearance { found: near, work } =
-            check_clearance(layout, self.source, walls, &self.options);
-        envelope::need_some(work.paths, &work.without)?;
+        let ClearanceReport {
+            findings: near,
+            work,
+        } = check_clearance(layout, self.source, walls, &self.options);
+        envelope::need_some(work.paths, &work.no_envelope)?;
         found.append(near);
         Ok(work)
     }
@@ -119,7 +121,7 @@ pub(super) fn text(files: &[Checked]) -> String {
             text::counted(work.candidates, "pair"),
             text::counted(work.tests, "distance"),
         );
-        for line in envelope::lacking(&work.without) {
+        for line in envelope::lacking(&work.no_envelope) {
             text += &format!("note: {line}\n");
         }
     }
@@ -134,7 +136,7 @@ pub(super) fn json(args: &ClearanceArgs, files: &[Checked]) -> Value {
             "clearance_m": clearance_m,
             "source": envelope::name(args.source()),
             "envelopes": sum(|work| work.paths),
-            "without": sum(|work| work.without.iter().sum()),
+            "without": sum(|work| work.no_envelope.iter().sum()),
             "candidate_pairs": sum(|work| work.candidates),
             "distances": sum(|work| work.tests),
         })

@@ -2,7 +2,7 @@ use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 use guideway::AUTO;
-use guideway::envelope::Source;
+use guideway::envelope::EnvelopeSource;
 use guideway::render::density::ToneMap;
 use guideway::render::{Budget, FrameSize, Shading, Sheet, Style};
 use guideway::scene::{ColorBy, LineRule, Rgba, SceneOptions};
@@ -64,7 +64,7 @@ struct ViewArgs {
     /// The areas that a vehicle sweeps, under the paths: its length and width in meters, and how far its reference
     /// point is from its rear end (the middle unless given); or `file` for the corridors that the file gives
     #[arg(long, value_name = "LENGTHxWIDTH[,REAR]", value_parser = envelope::source)]
-    envelope: Option<Source>,
+    envelope: Option<EnvelopeSource>,
 }
 
 #[derive(Debug, clap::Args)]
@@ -151,7 +151,7 @@ impl Args {
         self.view.floor_plan.as_ref()
     }
 
-    pub(super) fn envelope(&self) -> Option<Source> {
+    pub(super) fn envelope(&self) -> Option<EnvelopeSource> {
         self.view.envelope
     }
 

@@ -2,8 +2,8 @@ use std::io::{self, Write};
 use std::sync::Arc;
 
 use guideway::cpu::Areas;
-use guideway::envelope::Source;
-use guideway::formats::svg::Page;
+use guideway::envelope::EnvelopeSource;
+use guideway::formats::svg::SvgWriter;
 use guideway::render::{Cancel, Frame, FrameSize, Method, Prepared, Sheet, Strip, Style, View};
 use guideway::scene::{Rgba, Scene};
 use guideway::spline::Bounds;
@@ -19,7 +19,7 @@ use crate::cli::Failure;
 pub(crate) struct Below {
     pub(crate) floor_plan: Option<FloorPlan>,
     pub(crate) lines: Sheet,
-    pub(crate) envelope: Option<Source>,
+    pub(crate) envelope: Option<EnvelopeSource>,
     /// The paths that have areas; all that are drawn if unset.
     pub(crate) swept: Option<Vec<u32>>,
     pub(crate) others: Vec<Arc<Scene>>,
@@ -97,7 +97,7 @@ impl Seen<'_> {
         &self,
         view: &View,
         style: &Style,
-        page: &mut Page<'_, impl Write>,
+        page: &mut SvgWriter<'_, impl Write>,
     ) -> io::Result<()> {
         if let Some(plan) = &self.below.floor_plan {
             plan.write(view, page)?;

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 use std::ops::Range;
 
 use guideway::cpu::{Areas, lay_areas};
-use guideway::formats::svg::Page;
+use guideway::formats::svg::SvgWriter;
 use guideway::render::{Frame, Sheet, Strip, Text, View};
 use guideway::scene::Rgba;
 use guideway::spline::Point;
@@ -57,13 +57,17 @@ impl<'s> Laid<'s> {
 }
 
 /// Writes it as a group of this name.
-pub(super) fn write(sheet: &Sheet, label: &str, page: &mut Page<'_, impl Write>) -> io::Result<()> {
+pub(super) fn write(
+    sheet: &Sheet,
+    label: &str,
+    page: &mut SvgWriter<'_, impl Write>,
+) -> io::Result<()> {
     if *sheet == Sheet::default() {
         return Ok(());
     }
     page.begin_group(label)?;
     for (color, polygons) in &sheet.areas {
-        page.areas(label, color.to_u32(), STEP_PX, [polygons])?;
+        page.polygon_layer(label, color.to_u32(), STEP_PX, [polygons])?;
     }
     for text in &sheet.texts {
         let height = text.char_px / Text::CHAR_SHARE;
@@ -71,11 +75,11 @@ pub(super) fn write(sheet: &Sheet, label: &str, page: &mut Page<'_, impl Write>)
         if text.paper.a > 0 {
             let corner = text.at_px - Point::new(0.0, 0.6 * height);
             let place = [corner.x, corner.y, width, 1.2 * height];
-            page.area(place, text.paper.to_u32())?;
+            page.rect(place, text.paper.to_u32())?;
         }
         // From the middle of a line to what letters stand on.
         let at = text.at_px + Point::new(0.0, 0.35 * height);
-        page.line_of_text([at.x, at.y], height, width, text.ink.to_u32(), &text.text)?;
+        page.text([at.x, at.y], height, width, text.ink.to_u32(), &text.text)?;
     }
     page.end_group()
 }
@@ -238,11 +242,11 @@ mod tests {
     #[test]
     fn a_sheet_is_written_with_its_texts() {
         let mut out = Vec::new();
-        let common = guideway::formats::svg::Stroke::of(0xFF, 1.0);
-        let mut page = Page::begin(&mut out, [0.0, 0.0, 100.0, 128.0], "", &common).unwrap();
+        let common = guideway::formats::svg::Stroke::new(0xFF, 1.0);
+        let mut page = SvgWriter::begin(&mut out, [0.0, 0.0, 100.0, 128.0], "", &common).unwrap();
         write(&sheet(), "marks", &mut page).unwrap();
         write(&Sheet::default(), "nothing", &mut page).unwrap();
-        page.end().unwrap();
+        page.finish().unwrap();
         let text = String::from_utf8(out).unwrap();
         for part in ["lé漢", "#ff0000", "#00ff00", "marks", "M10 60"] {
             assert!(text.contains(part), "{part}: {text}");

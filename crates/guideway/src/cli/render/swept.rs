@@ -3,8 +3,8 @@
 use std::io::{self, Write};
 
 use guideway::cpu::{Areas, lay_areas};
-use guideway::envelope::{Convex, LEAST_TOLERANCE_M, Source, Without};
-use guideway::formats::svg::Page;
+use guideway::envelope::{ConvexPolygon, EnvelopeSource, MIN_TOLERANCE_M, NoEnvelope};
+use guideway::formats::svg::SvgWriter;
 use guideway::layout::Layout;
 use guideway::render::{Frame, Strip, View};
 use guideway::scene::{Rgba, Scene};
@@ -28,22 +28,22 @@ const TOLERANCE_PX: f64 = 0.25;
 /// What became of the envelope of every path that is drawn.
 #[derive(Debug)]
 pub(crate) struct SweptReport {
-    source: Source,
+    source: EnvelopeSource,
     drawn: u64,
     outside: u64,
-    without: [u64; Without::ALL.len()],
+    without: [u64; NoEnvelope::ALL.len()],
     polygons: u64,
     tolerance_m: f64,
 }
 
 /// Swept areas in a view: of each path the convex polygons that are seen.
 pub(super) struct Swept {
-    areas: Vec<Vec<Convex>>,
+    areas: Vec<Vec<ConvexPolygon>>,
     pub(super) report: SweptReport,
 }
 
 /// The box of all swept areas.
-pub(super) fn bounds(scene: &Scene, source: Source) -> Option<Bounds<f64>> {
+pub(super) fn bounds(scene: &Scene, source: EnvelopeSource) -> Option<Bounds<f64>> {
     let paths = scene.draw_order().par_iter();
     let boxes =
         paths.filter_map(|&path| Some(source.sweep(scene.layout(), path as usize).ok()?.bounds()));
@@ -60,7 +60,7 @@ pub(super) fn lay(areas: &Areas, strip: &Strip, frame: &mut Frame) {
 pub(crate) fn draw(
     layout: &Layout,
     rows: &[u32],
-    source: Source,
+    source: EnvelopeSource,
     view: &View,
 ) -> Result<Frame, Failure> {
     let mut frame = Frame::new(view.size());
@@ -75,10 +75,10 @@ impl Swept {
     pub(super) fn new(
         layout: &Layout,
         rows: &[u32],
-        source: Source,
+        source: EnvelopeSource,
         view: &View,
     ) -> Result<Self, Failure> {
-        let tolerance_m = (TOLERANCE_PX / view.px_per_m()).max(LEAST_TOLERANCE_M);
+        let tolerance_m = (TOLERANCE_PX / view.px_per_m()).max(MIN_TOLERANCE_M);
         let seen = view.world_bounds();
         let of_paths: Vec<_> = rows
             .par_iter()
@@ -97,7 +97,7 @@ impl Swept {
                 source,
                 drawn: 0,
                 outside: 0,
-                without: [0; Without::ALL.len()],
+                without: [0; NoEnvelope::ALL.len()],
                 polygons: 0,
                 tolerance_m,
             },
@@ -110,7 +110,7 @@ impl Swept {
         Ok(swept)
     }
 
-    fn add(&mut self, of_path: Result<Vec<Convex>, Without>) {
+    fn add(&mut self, of_path: Result<Vec<ConvexPolygon>, NoEnvelope>) {
         let report = &mut self.report;
         match of_path {
             Ok(polygons) if polygons.is_empty() => report.outside += 1,
@@ -135,9 +135,9 @@ impl Swept {
         &self,
         view: &View,
         step_px: f64,
-        page: &mut Page<'_, impl Write>,
+        page: &mut SvgWriter<'_, impl Write>,
     ) -> io::Result<()> {
-        let on_page = |polygon: &Convex| -> Vec<Point<f64>> {
+        let on_page = |polygon: &ConvexPolygon| -> Vec<Point<f64>> {
             let corners = polygon.points().iter();
             corners.map(|&p| view.pixel_from_world(p)).collect()
         };
@@ -145,7 +145,7 @@ impl Swept {
             .areas
             .iter()
             .map(|polygons| polygons.iter().map(on_page));
-        page.areas("swept areas", COLOR.to_u32(), step_px, areas)
+        page.polygon_layer("swept areas", COLOR.to_u32(), step_px, areas)
     }
 }
 
@@ -168,7 +168,7 @@ impl SweptReport {
     }
 
     pub(super) fn json(&self) -> Value {
-        let without = Without::ALL
+        let without = NoEnvelope::ALL
             .into_iter()
             .filter(|&why| self.without[why as usize] > 0);
         let without: Vec<Value> = without

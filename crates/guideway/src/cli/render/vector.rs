@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
-use guideway::formats::svg::{Outline, Page, Stroke};
+use guideway::formats::svg::{PathData, Stroke, SvgWriter};
 use guideway::layout::PathRef;
 use guideway::render::{MethodInfo, Report, Shading, Sheet, Style, View};
 use guideway::scene::Scene;
@@ -83,23 +83,23 @@ fn write(
     let size = view.size();
     let (width, height) = (f64::from(size.width()), f64::from(size.height()));
     let first = scene.draw_order().first();
-    let common = first.map_or(Stroke::of(0xFF, 1.0), |&path| {
-        Stroke::of(
+    let common = first.map_or(Stroke::new(0xFF, 1.0), |&path| {
+        Stroke::new(
             scene.color(path).to_u32(),
             width_px(scene, path, view, &wishes.style),
         )
     });
     let attributes = format!(r#"width="{width}" height="{height}""#);
-    let mut page = Page::begin(out, [0.0, 0.0, width, height], &attributes, &common)?;
+    let mut page = SvgWriter::begin(out, [0.0, 0.0, width, height], &attributes, &common)?;
     let background = wishes.style.background;
     if background.a > 0 {
-        page.area([0.0, 0.0, width, height], background.to_u32())?;
+        page.rect([0.0, 0.0, width, height], background.to_u32())?;
     }
     below.write(view, &wishes.style, &mut page)?;
     let drawn = write_paths(scene, view, &wishes.style, &mut page)?;
     sheet::write(&wishes.marks, "marks", &mut page)?;
     sheet::write(legend, "legend", &mut page)?;
-    page.end()?;
+    page.finish()?;
     Ok(drawn)
 }
 
@@ -114,34 +114,34 @@ pub(super) fn write_paths(
     scene: &Scene,
     view: &View,
     style: &Style,
-    page: &mut Page<'_, impl Write>,
+    page: &mut SvgWriter<'_, impl Write>,
 ) -> io::Result<u64> {
     let mut drawn = 0;
     for &path in scene.draw_order() {
         let width_px = width_px(scene, path, view, style);
         let outline = outline(scene, path, view, width_px);
         drawn += u64::from(!outline.is_empty());
-        let stroke = Stroke::of(scene.color(path).to_u32(), width_px);
+        let stroke = Stroke::new(scene.color(path).to_u32(), width_px);
         page.path(scene.layout().paths.id(path as usize), &outline, &stroke)?;
     }
     Ok(drawn)
 }
 
 /// What of a path may leave a mark in a view, in its pixels.
-pub(super) fn outline(scene: &Scene, path: u32, view: &View, width_px: f64) -> Outline {
+pub(super) fn outline(scene: &Scene, path: u32, view: &View, width_px: f64) -> PathData {
     let size = view.size();
     let seen = Bounds {
         min: Point::default(),
         max: Point::new(f64::from(size.width()), f64::from(size.height())),
     };
     let seen = seen.inflated(width_px / 2.0);
-    let mut outline = Outline::new(STEP_PX);
+    let mut outline = PathData::new(STEP_PX);
     let path: PathRef<'_> = scene.layout().paths.get(path as usize);
     for segment in path.runs().flat_map(|run| run.segments()) {
         let segment = segment.map(|p| view.pixel_from_world(p));
         let hull = Bounds::of_points(segment);
         if hull.is_some_and(|hull| hull.intersects(seen)) {
-            outline.push(&segment);
+            outline.push_segment(&segment);
         }
     }
     outline

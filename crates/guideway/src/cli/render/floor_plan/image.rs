@@ -4,7 +4,7 @@ use std::path::Path;
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
-use guideway::formats::svg::Page;
+use guideway::formats::svg::SvgWriter;
 use guideway::render::{Frame, Strip, View};
 use guideway::scene::Rgba;
 use guideway::spline::{Affine, Bounds, Point};
@@ -121,7 +121,11 @@ impl Image {
         }
     }
 
-    pub(super) fn write(&self, view: &View, page: &mut Page<'_, impl Write>) -> io::Result<()> {
+    pub(super) fn write(
+        &self,
+        view: &View,
+        page: &mut SvgWriter<'_, impl Write>,
+    ) -> io::Result<()> {
         let size = self.size();
         let on_page = |x: f64, y: f64| {
             view.pixel_from_world(

@@ -7,7 +7,7 @@ use std::io::{self, Read, Write};
 use std::path::Path;
 use std::sync::Arc;
 
-use guideway::formats::svg::{Outline, Page, Stroke};
+use guideway::formats::svg::{PathData, Stroke, SvgWriter};
 use guideway::render::{Budget, Cancel, Frame, Prepared, Strip, Style, View};
 use guideway::scene::{LineRule, Rgba, Scene, SceneOptions};
 use guideway::spline::Bounds;
@@ -72,15 +72,19 @@ impl FloorPlan {
     }
 
     /// Writes it below what follows on a page.
-    pub(super) fn write(&self, view: &View, page: &mut Page<'_, impl Write>) -> io::Result<()> {
+    pub(super) fn write(
+        &self,
+        view: &View,
+        page: &mut SvgWriter<'_, impl Write>,
+    ) -> io::Result<()> {
         match self {
             Self::Image(image) => image.write(view, page),
             Self::Paths(scene) => {
                 page.begin_group("floor plan")?;
                 for &path in scene.draw_order() {
                     let width_px = 2.0 * LINES.radius_px(None, view.px_per_m());
-                    let outline: Outline = vector::outline(scene, path, view, width_px);
-                    page.path("", &outline, &Stroke::of(PALE.to_u32(), width_px))?;
+                    let outline: PathData = vector::outline(scene, path, view, width_px);
+                    page.path("", &outline, &Stroke::new(PALE.to_u32(), width_px))?;
                 }
                 page.end_group()
             }
