@@ -40,6 +40,7 @@ mod trajectory;
 mod vda5050;
 mod wgs84;
 mod xml;
+mod xml_builder;
 mod yaml;
 
 pub use error::{Problem, ReadError};

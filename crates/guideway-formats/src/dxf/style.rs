@@ -1,56 +1,60 @@
-//! Layers and colors.
+//! Reads layers and colors: the layer table, true colors and the AutoCAD Color Index (ACI).
 
 use std::collections::HashMap;
 
 use super::records::Record;
+use super::text::decode_text;
 
 const WHITE: u32 = 0xFFFF_FFFF;
 
-/// The color to draw with, 0 where the view decides: over what is white. It stands for black on white paper
-/// and white on a black screen, on which most drawings are made.
-pub(super) fn on_paper(color: u32) -> u32 {
+/// The color of a path, 0xRRGGBBAA. White becomes 0, the color of the view: CAD programs draw white
+/// (color 7) as black on white paper and as white on a black screen.
+pub(super) fn path_color(color: u32) -> u32 {
     if color == WHITE { 0 } else { color }
 }
 
 /// The color of an entity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Color {
-    OfLayer,
-    /// That of the reference that puts a block into the drawing.
-    OfBlock,
+    /// The color of its layer.
+    ByLayer,
+    /// The color of the INSERT that places its block.
+    ByBlock,
     /// 0xRRGGBBAA, 0 for none.
     Rgba(u32),
 }
 
 impl Color {
-    /// The color of a record: 420 is red, green and blue in one number, 62 an index.
+    /// The color of a record: group code 420 is a true color, 62 a color index.
     pub(super) fn of(record: &Record<'_>) -> Self {
-        if let Some(rgb) = record.whole(420) {
+        if let Some(rgb) = record.int(420) {
             return Self::Rgba(((rgb as u32) << 8) | 0xFF);
         }
-        match record.whole(62) {
-            None | Some(256) => Self::OfLayer,
-            Some(0) => Self::OfBlock,
-            Some(index) => Self::Rgba(indexed(index)),
+        match record.int(62) {
+            None | Some(256) => Self::ByLayer,
+            Some(0) => Self::ByBlock,
+            Some(index) => Self::Rgba(aci_color(index)),
         }
     }
 }
 
-/// The color of an index of AutoCAD's palette, 0xRRGGBBAA; 0 for what is no index. 7 is black on white and
-/// white on black; minus marks a layer that is off.
-pub(super) fn indexed(index: i64) -> u32 {
+/// The color of an AutoCAD Color Index, 0xRRGGBBAA; 0 for an invalid index. Ignores the sign, which
+/// marks a layer as off.
+///
+/// Source: measured: the palette of AutoCAD, reproduced by a formula (see the test below).
+pub(super) fn aci_color(index: i64) -> u32 {
     const FIRST: [u32; 10] = [
         0, 0xFF0000FF, 0xFFFF00FF, 0x00FF00FF, 0x00FFFFFF, 0x0000FFFF, 0xFF00FFFF, WHITE,
         0x808080FF, 0xC0C0C0FF,
     ];
     const GRAYS: [u32; 6] = [0x33, 0x50, 0x69, 0x82, 0xBE, 0xFF];
-    /// The brightest channel of the shades of a hue.
+    /// The brightest channel per pair of shades.
     const VALUES: [f64; 5] = [255.0, 165.0, 127.0, 76.0, 38.0];
     let index = index.unsigned_abs();
     match index {
         0..=9 => FIRST[index as usize],
         10..=249 => {
-            // 24 hues, 15 degrees apart, of ten shades each; the odd ones are half way to white.
+            // 24 hues, 15 degrees apart, with ten shades each; odd shades are mixed with white 1:1.
             let hue = (index / 10 - 1) as f64 / 4.0;
             let value = VALUES[(index % 10 / 2) as usize];
             let channel = |offset: f64| {
@@ -75,12 +79,13 @@ pub(super) fn indexed(index: i64) -> u32 {
 #[derive(Debug)]
 pub(super) struct Layer {
     pub(super) name: String,
+    /// 0xRRGGBBAA, 0 for none.
     pub(super) color: u32,
     pub(super) is_off: bool,
     pub(super) is_frozen: bool,
 }
 
-/// All layers: those of the table, and those that an entity names without.
+/// All layers: those of the layer table, and those that only entities name.
 #[derive(Debug, Default)]
 pub(super) struct Layers {
     all: Vec<Layer>,
@@ -88,19 +93,20 @@ pub(super) struct Layers {
 }
 
 impl Layers {
+    /// Reads a LAYER record.
     pub(super) fn define(&mut self, record: &Record<'_>) {
-        let row = self.row(&decoded(record.text(2).unwrap_or_default()));
-        let index = record.whole(62).unwrap_or(7);
+        let row = self.row(&decode_text(record.text(2).unwrap_or_default()));
+        let index = record.int(62).unwrap_or(7);
         let layer = &mut self.all[row as usize];
         layer.is_off = index < 0;
-        layer.is_frozen = record.whole(70).unwrap_or(0) & 1 != 0;
+        layer.is_frozen = record.int(70).unwrap_or(0) & 1 != 0;
         layer.color = match Color::of(record) {
             Color::Rgba(color) => color,
             _ => 0,
         };
     }
 
-    /// The row of a layer; upper and lower case are one.
+    /// The row of a layer by its case-insensitive name. Adds a layer if the name is new.
     pub(super) fn row(&mut self, name: &str) -> u32 {
         let key = name.to_uppercase();
         if let Some(&row) = self.rows.get(&key) {
@@ -122,36 +128,12 @@ impl Layers {
     }
 }
 
-/// Text of the file: UTF-8 since release 2007, before that mostly Windows-1252, and `\U+00E4` in both.
-pub(super) fn decoded(bytes: &[u8]) -> String {
-    let text = match std::str::from_utf8(bytes) {
-        Ok(text) => text.to_owned(),
-        Err(_) => bytes.iter().map(|&b| char::from(b)).collect(),
-    };
-    let mut parts = text.split(r"\U+");
-    let mut whole = parts.next().unwrap_or_default().to_owned();
-    for part in parts {
-        let digits = part.get(..4).and_then(|d| u32::from_str_radix(d, 16).ok());
-        match digits.and_then(char::from_u32) {
-            Some(character) => {
-                whole.push(character);
-                whole.push_str(&part[4..]);
-            }
-            None => {
-                whole.push_str(r"\U+");
-                whole.push_str(part);
-            }
-        }
-    }
-    whole
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn the_palette_is_that_of_autocad() {
+    fn aci_color_matches_the_palette_of_autocad() {
         for (index, rgb) in [
             (1, 0xFF0000),
             (5, 0x0000FF),
@@ -170,19 +152,11 @@ mod tests {
             (250, 0x333333),
             (255, 0xFFFFFF),
         ] {
-            let found = indexed(index) >> 8;
+            let found = aci_color(index) >> 8;
             assert_eq!(found, rgb, "{index}: {found:06X}");
         }
-        assert_eq!(on_paper(indexed(7)), 0);
-        assert_eq!(indexed(-1), indexed(1), "a layer that is off");
-        assert_eq!(indexed(i64::MIN), 0);
-    }
-
-    #[test]
-    fn names_are_decoded() {
-        assert_eq!(decoded(b"W\xE4nde"), "Wände");
-        assert_eq!(decoded("Wände".as_bytes()), "Wände");
-        assert_eq!(decoded(br"W\U+00E4nde\U+"), r"Wände\U+");
-        assert_eq!(decoded(br"\U+ZZZZ\U+D800"), r"\U+ZZZZ\U+D800");
+        assert_eq!(path_color(aci_color(7)), 0);
+        assert_eq!(aci_color(-1), aci_color(1), "a layer that is off");
+        assert_eq!(aci_color(i64::MIN), 0);
     }
 }

@@ -1,4 +1,4 @@
-//! A layout as a drawing: ASCII DXF of release 2007, in meters, which every CAD program since reads.
+//! Writes a layout as ASCII DXF of release 2007, in meters, and reports what DXF cannot hold.
 
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -6,34 +6,30 @@ use std::io::{self, Write};
 
 use guideway_layout::{Layout, PathRef, Value};
 
-use super::write_frame::{write_end, write_start};
-use super::write_pairs::Pairs;
+use super::pair_writer::PairWriter;
+use super::write_sections::{write_after_entities, write_before_entities};
+use super::xdata::write_path_id;
 use crate::Losses;
 use crate::clamped::{ClampedCurve, rounded};
 use crate::common_losses::common_losses;
 
-/// The application under whose name an entity keeps the identifier of its path.
-pub(super) const APPLICATION: &str = "GUIDEWAY";
+/// Name of the attribute column that holds layer names.
+const LAYER_COLUMN: &str = "layer";
 
-/// Name of the column that holds the layers of a drawing.
-pub(super) const LAYER: &str = "layer";
-
-/// Most bytes of one text of extended data, with some to spare.
-const MOST_TEXT_BYTES: usize = 240;
-
-/// Writes a layout: a LINE for each straight path, an LWPOLYLINE where several straight lines follow each
-/// other, and a SPLINE of degree 3, which is the same curve over clamped knots, for any other. The layer is
-/// that of the column `layer`, or else the level. Positions are to a micrometer. Returns what the format
-/// cannot hold.
+/// Writes a layout, and returns what DXF cannot hold of it.
+///
+/// A straight path becomes a LINE, a path of several straight lines an LWPOLYLINE, and any other
+/// path a SPLINE of degree 3 with clamped knots, which is the same curve. The layer is the value of
+/// the column `layer`, or else the level. Coordinates are rounded to a micrometer.
 ///
 /// # Errors
-/// When `out` fails.
+/// When writing to `out` fails.
 pub fn write_layout(layout: &Layout, out: &mut impl Write) -> io::Result<Losses> {
     let mut losses = losses(layout);
-    let layers = Layers::of(layout, &mut losses);
-    let most_entities = layout.paths.geometry().run_count() as u64;
-    let mut pairs = Pairs::new(out);
-    write_start(&mut pairs, &layers.names, most_entities)?;
+    let layers = LayerTable::of(layout, &mut losses);
+    let max_entities = layout.paths.geometry().run_count() as u64;
+    let mut pairs = PairWriter::new(out);
+    write_before_entities(&mut pairs, &layers.names, max_entities)?;
     let mut broken = 0;
     for path in layout.paths.iter() {
         let parts = ClampedCurve::connected_parts(path);
@@ -44,21 +40,21 @@ pub fn write_layout(layout: &Layout, out: &mut impl Write) -> io::Result<Losses>
                 _ => Cow::Owned(format!("{}~{}", path.id(), i + 1)),
             };
             let layer = &layers.names[layers.rows[path.row()] as usize];
-            write_entity(&mut pairs, part, layer, own_color(layout, path))?;
-            write_id(&mut pairs, &id)?;
+            write_entity(&mut pairs, part, layer, true_color(layout, path))?;
+            write_path_id(&mut pairs, &id)?;
         }
     }
-    write_end(&mut pairs)?;
+    write_after_entities(&mut pairs)?;
     losses.add(
         "broken paths",
         broken,
-        "paths with gaps: each part is an entity of its own",
+        "paths with gaps: each part is a separate entity",
     );
     Ok(losses)
 }
 
 fn write_entity<W: Write>(
-    pairs: &mut Pairs<'_, W>,
+    pairs: &mut PairWriter<'_, W>,
     curve: &ClampedCurve,
     layer: &str,
     rgb: Option<u32>,
@@ -71,7 +67,7 @@ fn write_entity<W: Write>(
     };
     pairs.entity(kind, layer)?;
     if let Some(rgb) = rgb {
-        pairs.whole(420, rgb.into())?;
+        pairs.int(420, rgb.into())?;
     }
     pairs.text(100, class)?;
     let points = curve.points.iter().map(|p| [p.x, p.y].map(rounded));
@@ -79,18 +75,18 @@ fn write_entity<W: Write>(
         pairs.point(10, [start.x, start.y].map(rounded), true)?;
         pairs.point(11, [end.x, end.y].map(rounded), true)
     } else if curve.degree == 1 {
-        pairs.whole(90, curve.points.len() as u64)?;
-        pairs.whole(70, 0)?;
+        pairs.int(90, curve.points.len() as u64)?;
+        pairs.int(70, 0)?;
         points
             .into_iter()
             .try_for_each(|p| pairs.point(10, p, false))
     } else {
-        // Planar.
-        pairs.whole(70, 8)?;
-        pairs.whole(71, curve.degree as u64)?;
-        pairs.whole(72, curve.knots.len() as u64)?;
-        pairs.whole(73, curve.points.len() as u64)?;
-        pairs.whole(74, 0)?;
+        // Flags: 8 is planar.
+        pairs.int(70, 8)?;
+        pairs.int(71, curve.degree as u64)?;
+        pairs.int(72, curve.knots.len() as u64)?;
+        pairs.int(73, curve.points.len() as u64)?;
+        pairs.int(74, 0)?;
         curve
             .knots
             .iter()
@@ -101,23 +97,8 @@ fn write_entity<W: Write>(
     }
 }
 
-/// Extended data of an entity: the identifier, in as many texts as it takes.
-fn write_id<W: Write>(pairs: &mut Pairs<'_, W>, id: &str) -> io::Result<()> {
-    pairs.text(1001, APPLICATION)?;
-    let mut rest = id;
-    loop {
-        // Escapes take up to seven times the room of a character.
-        let (part, after) = rest.split_at(rest.floor_char_boundary(MOST_TEXT_BYTES / 7));
-        pairs.text(1000, part)?;
-        if after.is_empty() {
-            return Ok(());
-        }
-        rest = after;
-    }
-}
-
-/// Red, green and blue of a path in one number, if it has a color of its own.
-fn own_color(layout: &Layout, path: PathRef<'_>) -> Option<u32> {
+/// The color of a path as 0xRRGGBB; `None` if the path has no color.
+fn true_color(layout: &Layout, path: PathRef<'_>) -> Option<u32> {
     let color = layout.paths.color_rgba()?[path.row()];
     (color != 0).then_some(color >> 8)
 }
@@ -130,28 +111,31 @@ fn losses(layout: &Layout) -> Losses {
     losses.add(
         "colors",
         translucent,
-        "translucent colors: they become opaque",
+        "translucent colors: written as opaque",
     );
     let white = colors().filter(|&&c| c >> 8 == 0xFF_FFFF).count();
-    let detail = "paths in white: programs take it for black on paper";
+    let detail = "white paths: CAD programs draw them in black on paper";
     losses.add("colors", white, detail);
     losses.add_ranks(layout);
     losses.add_network(layout);
-    losses.add_columns(&layout.paths.attributes, "paths", |name| name == LAYER);
+    losses.add_columns(&layout.paths.attributes, "paths", |name| {
+        name == LAYER_COLUMN
+    });
     losses
 }
 
-/// The layers of the drawing.
-struct Layers {
-    /// Their names; the first is `0`, which every drawing has.
+/// The layers of the written drawing.
+struct LayerTable {
+    /// Layer names; the first is `0`, which every drawing has.
     names: Vec<String>,
-    /// The layer of each path.
+    /// Index into `names` per path.
     rows: Vec<u32>,
 }
 
-impl Layers {
+impl LayerTable {
+    /// Collects the layers of a layout, and reports the names that DXF does not allow.
     fn of(layout: &Layout, losses: &mut Losses) -> Self {
-        let column = layout.paths.attributes.get(LAYER);
+        let column = layout.paths.attributes.get(LAYER_COLUMN);
         let mut layers = Self {
             names: vec!["0".to_owned()],
             rows: Vec::with_capacity(layout.paths.len()),
@@ -166,33 +150,33 @@ impl Layers {
                 Some(other) => Cow::Owned(other.to_string()),
                 None => Cow::Borrowed(level().unwrap_or("0")),
             };
-            let allowed = allowed(&name);
-            // Upper and lower case are one.
-            let row = *known.entry(allowed.to_uppercase()).or_insert_with(|| {
-                layers.names.push(allowed.clone());
+            let valid = valid_layer_name(&name);
+            // DXF compares layer names without case.
+            let row = *known.entry(valid.to_uppercase()).or_insert_with(|| {
+                layers.names.push(valid.clone());
                 layers.names.len() as u32 - 1
             });
             changed += usize::from(layers.names[row as usize] != name);
             layers.rows.push(row);
         }
-        let detail = "paths on layers whose names a drawing cannot have: they are changed";
+        let detail = "paths on layers whose names are invalid in DXF: the names are changed";
         losses.add("layers", changed, detail);
-        let what = match column {
+        let detail = match column {
             Some(_) => "levels",
-            None => "levels: they become layers",
+            None => "levels: written as layers",
         };
-        losses.add("levels", layout.levels.len(), what);
+        losses.add("levels", layout.levels.len(), detail);
         layers
     }
 }
 
-/// A name that a layer can have.
-fn allowed(name: &str) -> String {
+/// Replaces the characters that DXF forbids in a layer name, and cuts the name to its limit of 255.
+fn valid_layer_name(name: &str) -> String {
     const FORBIDDEN: &str = "<>/\\\":;?*|=`,";
-    let keep = |c: char| !c.is_control() && !FORBIDDEN.contains(c);
+    let is_valid = |c: char| !c.is_control() && !FORBIDDEN.contains(c);
     let name: String = name
         .chars()
-        .map(|c| if keep(c) { c } else { '_' })
+        .map(|c| if is_valid(c) { c } else { '_' })
         .take(255)
         .collect();
     if name.is_empty() {

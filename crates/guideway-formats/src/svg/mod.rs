@@ -1,43 +1,31 @@
-//! SVG drawings: user units that become meters by the size of the page, y down.
+//! Reads and writes SVG drawings: user units scaled to meters by the page size, y down.
 //!
-//! Built on `svgtypes`, which is beneath `usvg`, and not on `usvg`: that computes in single precision, makes
-//! arcs into curves that may be a tenth of a unit wrong, leaves out what is not painted without a word, and
-//! copies what `use` and markers repeat with no bound but a million elements.
+//! | Stage | Input | Output | File |
+//! |---|---|---|---|
+//! | parse | text | XML tree, style sheets | `read`, `style_sheet` |
+//! | walk | tree | shapes with transform, viewport and style | `tree_walker`, `viewport`, `style` |
+//! | convert | shape | runs in meters | `shapes`, `path_builder` |
+//! | map | runs and style | paths, colors, widths | `shape_mapper`, `element_counts` |
+//! | write | layout | SVG elements | `write`, `svg_writer`, `xml_text` |
+//!
+//! The reader uses `svgtypes`, the parser below `usvg`, and not `usvg` itself: `usvg` computes in
+//! single precision, flattens arcs with an error of up to 0.1 units, drops unpainted shapes without
+//! a report, and expands `use` and markers to a million elements.
 
-mod account;
-mod css;
-mod data;
-mod page;
-mod paths;
+mod context;
+mod element_counts;
+mod path_builder;
+mod read;
+mod shape_mapper;
 mod shapes;
 mod style;
-mod walk;
+mod style_sheet;
+mod svg_writer;
+mod tree_walker;
+mod viewport;
 mod write;
-mod write_page;
+mod xml_text;
 
+pub(crate) use self::read::read;
+pub use self::svg_writer::{PathData, Stroke, SvgWriter};
 pub use self::write::write_layout;
-pub use self::write_page::{PathData, Stroke, SvgWriter};
-
-use guideway_layout::{Layout, Place};
-
-use self::css::Sheet;
-use self::walk::Walker;
-use crate::source::Source;
-use crate::xml::{Doctype, Xml};
-use crate::{Problem, ReadError, text};
-
-/// Reads a drawing.
-pub(crate) fn read(source: Source<'_>, bytes: &[u8]) -> Result<Layout, ReadError> {
-    let text = text::decode_utf8(&source, bytes)?;
-    let xml = Xml::parse(&source, text, Doctype::Bounded)?;
-    let root = xml.root();
-    if root.tag_name().name() != "svg" {
-        return Err(source.fail(Problem::Structure {
-            place: Place::element("the outermost element"),
-            expected: "<svg>".into(),
-            found: format!("<{}>", text::printable(root.tag_name().name())),
-        }));
-    }
-    let sheet = Sheet::read(root);
-    Walker::new(source, &xml, &sheet, bytes.len()).map(root)
-}

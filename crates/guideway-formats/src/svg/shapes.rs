@@ -1,4 +1,4 @@
-//! From elements to runs: paths and the basic shapes.
+//! Converts `path` elements and the basic shapes to runs.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -6,37 +6,57 @@ use guideway_spline::{Affine, Point};
 use roxmltree::Node;
 use svgtypes::PointsParser;
 
-use super::data::Pen;
-use super::page::Viewport;
+use super::path_builder::PathBuilder;
+use super::viewport::Viewport;
 
-/// The elements that draw something.
+/// Elements that draw lines or curves.
 pub(super) const SHAPES: [&str; 7] = [
     "path", "rect", "circle", "ellipse", "line", "polyline", "polygon",
 ];
 
-/// Draws an element. Fails where its numbers are wrong, with what is; what comes before that is drawn.
-pub(super) fn draw(node: Node<'_, '_>, viewport: Viewport, pen: &mut Pen) -> Result<(), String> {
-    let number = |name, whole: fn(Viewport) -> f64| viewport.attribute(node, name, whole);
-    let (across, down) = (
-        Viewport::width as fn(Viewport) -> f64,
-        Viewport::height as fn(Viewport) -> f64,
-    );
-    let x = |name| number(name, across).unwrap_or(0.0);
-    let y = |name| number(name, down).unwrap_or(0.0);
+/// A shape whose attributes are invalid.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum ShapeError {
+    /// A malformed command of path data.
+    #[error("{0}")]
+    PathData(#[from] svgtypes::Error),
+    /// A rectangle without an area.
+    #[error("its width is {width} and its height {height}; both must be above 0")]
+    RectSize { width: f64, height: f64 },
+    /// A circle or an ellipse without an area.
+    #[error("its radius is {0}; it must be above 0")]
+    Radius(f64),
+}
+
+/// Appends the curve of an element.
+///
+/// # Errors
+/// When an attribute is invalid. The curve up to the error stays in `path`.
+pub(super) fn append_shape(
+    node: Node<'_, '_>,
+    viewport: Viewport,
+    path: &mut PathBuilder,
+) -> Result<(), ShapeError> {
+    let number = |name, reference: fn(Viewport) -> f64| viewport.attribute(node, name, reference);
+    let x = |name| number(name, Viewport::width).unwrap_or(0.0);
+    let y = |name| number(name, Viewport::height).unwrap_or(0.0);
     match node.tag_name().name() {
-        "path" => pen.follow(node.attribute("d").unwrap_or_default())?,
+        "path" => path.push_path_data(node.attribute("d").unwrap_or_default())?,
         "rect" => {
             let (width, height) = (x("width"), y("height"));
-            let radii = (number("rx", across), number("ry", down));
+            let radii = (
+                number("rx", Viewport::width),
+                number("ry", Viewport::height),
+            );
             let (rx, ry) = match radii {
                 (Some(rx), ry) => (rx, ry.unwrap_or(rx)),
                 (None, ry) => (ry.unwrap_or(0.0), ry.unwrap_or(0.0)),
             };
             if !(width > 0.0 && height > 0.0) {
-                return Err(format!("its width is {width} and its height {height}"));
+                return Err(ShapeError::RectSize { width, height });
             }
             let corner = [rx.clamp(0.0, width / 2.0), ry.clamp(0.0, height / 2.0)];
-            rectangle(Point::new(x("x"), y("y")), [width, height], corner, pen);
+            rectangle(Point::new(x("x"), y("y")), [width, height], corner, path);
         }
         tag @ ("circle" | "ellipse") => {
             let r = |name| number(name, Viewport::diagonal).unwrap_or(0.0);
@@ -45,30 +65,31 @@ pub(super) fn draw(node: Node<'_, '_>, viewport: Viewport, pen: &mut Pen) -> Res
                 _ => (x("rx"), y("ry")),
             };
             if !(rx > 0.0 && ry > 0.0) {
-                return Err(format!("its radius is {}", rx.min(ry)));
+                return Err(ShapeError::Radius(rx.min(ry)));
             }
-            pen.arc(ellipse(Point::new(x("cx"), y("cy")), rx, ry), 0.0, TAU);
+            path.arc(ellipse(Point::new(x("cx"), y("cy")), rx, ry), 0.0, TAU);
         }
         "line" => {
-            pen.move_to(Point::new(x("x1"), y("y1")));
-            pen.line_to(Point::new(x("x2"), y("y2")));
+            path.move_to(Point::new(x("x1"), y("y1")));
+            path.line_to(Point::new(x("x2"), y("y2")));
         }
         tag => {
             let mut points = PointsParser::from(node.attribute("points").unwrap_or_default());
             if let Some((x, y)) = points.next() {
-                pen.move_to(Point::new(x, y));
+                path.move_to(Point::new(x, y));
             }
             for (x, y) in points {
-                pen.line_to(Point::new(x, y));
+                path.line_to(Point::new(x, y));
             }
-            if tag == "polygon" && !pen.runs.is_empty() {
-                pen.close();
+            if tag == "polygon" && !path.runs.is_empty() {
+                path.close();
             }
         }
     }
     Ok(())
 }
 
+/// The map from the unit circle to an axis-aligned ellipse.
 fn ellipse(origin: Point<f64>, rx: f64, ry: f64) -> Affine {
     Affine {
         x: Point::new(rx, 0.0),
@@ -77,7 +98,13 @@ fn ellipse(origin: Point<f64>, rx: f64, ry: f64) -> Affine {
     }
 }
 
-fn rectangle(corner: Point<f64>, [width, height]: [f64; 2], [rx, ry]: [f64; 2], pen: &mut Pen) {
+/// Appends a rectangle, clockwise on screen from its top left corner, with elliptical corners.
+fn rectangle(
+    corner: Point<f64>,
+    [width, height]: [f64; 2],
+    [rx, ry]: [f64; 2],
+    path: &mut PathBuilder,
+) {
     let opposite = corner + Point::new(width, height);
     let is_round = rx > 0.0 && ry > 0.0;
     let (rx, ry) = if is_round { (rx, ry) } else { (0.0, 0.0) };
@@ -93,12 +120,12 @@ fn rectangle(corner: Point<f64>, [width, height]: [f64; 2], [rx, ry]: [f64; 2], 
     for (index, ([from, to], center)) in sides.into_iter().zip(corners).enumerate() {
         let [from, to, center] = [from, to, center].map(|(x, y)| Point::new(x, y));
         if from != to {
-            pen.move_to(from);
-            pen.line_to(to);
+            path.move_to(from);
+            path.line_to(to);
         }
         if is_round {
             let start = (index as f64 - 1.0) * FRAC_PI_2;
-            pen.arc(ellipse(center, rx, ry), start, FRAC_PI_2);
+            path.arc(ellipse(center, rx, ry), start, FRAC_PI_2);
         }
     }
 }

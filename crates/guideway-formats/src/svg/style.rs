@@ -1,23 +1,24 @@
-//! How an element is painted: what it inherits, its own attributes, the rules and its `style`.
+//! Computes the style of an element: inherited style, attributes, style sheet rules and its `style`
+//! attribute in; stroke, fill, width and visibility out.
 
 use std::str::FromStr;
 
 use roxmltree::Node;
 use svgtypes::{Color, PaintFallback};
 
-use super::css::{Sheet, declarations};
-use super::page::Viewport;
+use super::style_sheet::{StyleSheet, declarations};
+use super::viewport::Viewport;
 
-/// The paint of a line or an area.
+/// The paint of a stroke or a fill.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Paint {
     None,
     Color(Color),
-    /// A gradient or a pattern: the view decides.
+    /// A gradient or a pattern: drawn in the color of the view.
     Other,
 }
 
-/// What holds for an element.
+/// The computed style of an element.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Style {
     stroke: Paint,
@@ -26,15 +27,16 @@ pub(super) struct Style {
     pub(super) stroke_width: f64,
     stroke_opacity: f64,
     fill_opacity: f64,
-    /// Of the element and all groups around it.
+    /// Product of the opacities of the element and all groups around it.
     opacity: f64,
     pub(super) is_displayed: bool,
     pub(super) is_visible: bool,
-    /// Whether a part of it or of a group around it is cut off, which is not read.
+    /// Whether it or a group around it has a clip path or a mask; Guideway ignores both.
     pub(super) is_clipped: bool,
 }
 
 impl Style {
+    /// The style of the root element: black fill, no stroke.
     pub(super) const INITIAL: Self = Self {
         stroke: Paint::None,
         fill: Paint::Color(Color {
@@ -58,30 +60,35 @@ impl Style {
         is_clipped: false,
     };
 
-    /// The style of an element within one of this style.
-    pub(super) fn of(mut self, node: Node<'_, '_>, sheet: &Sheet<'_>, viewport: Viewport) -> Self {
-        let around = self;
+    /// The style of a child element of an element with this style.
+    pub(super) fn of_child(
+        mut self,
+        node: Node<'_, '_>,
+        sheet: &StyleSheet<'_>,
+        viewport: Viewport,
+    ) -> Self {
+        let parent = self;
         let attributes = node.attributes();
         let own = attributes.filter(|a| a.namespace().is_none());
         for attribute in own.filter(|a| a.name() != "style") {
-            self.set(attribute.name(), attribute.value(), around, viewport);
+            self.set(attribute.name(), attribute.value(), parent, viewport);
         }
         let written = node.attribute("style").unwrap_or_default();
-        for (name, value) in sheet.of(node).chain([written]).flat_map(declarations) {
-            self.set(name, value, around, viewport);
+        for (name, value) in sheet.matching(node).chain([written]).flat_map(declarations) {
+            self.set(name, value, parent, viewport);
         }
         self
     }
 
-    /// Sets a property. One that makes no sense is left as it was, as the standard says.
-    fn set(&mut self, name: &str, value: &str, around: Self, viewport: Viewport) {
+    /// Sets a property. Ignores a malformed value, as SVG requires.
+    fn set(&mut self, name: &str, value: &str, parent: Self, viewport: Viewport) {
         let value = value.trim();
         let is_inherited = value == "inherit";
         let opacity = || opacity(value);
         match name {
-            "stroke" if is_inherited => self.stroke = around.stroke,
+            "stroke" if is_inherited => self.stroke = parent.stroke,
             "stroke" => self.stroke = self.paint(value).unwrap_or(self.stroke),
-            "fill" if is_inherited => self.fill = around.fill,
+            "fill" if is_inherited => self.fill = parent.fill,
             "fill" => self.fill = self.paint(value).unwrap_or(self.fill),
             "color" => self.color = Color::from_str(value).unwrap_or(self.color),
             "stroke-width" => {
@@ -90,10 +97,10 @@ impl Style {
             }
             "stroke-opacity" => self.stroke_opacity = opacity().unwrap_or(self.stroke_opacity),
             "fill-opacity" => self.fill_opacity = opacity().unwrap_or(self.fill_opacity),
-            "opacity" => self.opacity = opacity().map_or(self.opacity, |o| around.opacity * o),
-            "display" => self.is_displayed = around.is_displayed && value != "none",
+            "opacity" => self.opacity = opacity().map_or(self.opacity, |o| parent.opacity * o),
+            "display" => self.is_displayed = parent.is_displayed && value != "none",
             "visibility" if !is_inherited => self.is_visible = value == "visible",
-            "clip-path" | "mask" => self.is_clipped = around.is_clipped || value != "none",
+            "clip-path" | "mask" => self.is_clipped = parent.is_clipped || value != "none",
             _ => {}
         }
     }
@@ -113,12 +120,13 @@ impl Style {
         })
     }
 
+    /// Whether the stroke has a paint and a width.
     pub(super) fn has_stroke(&self) -> bool {
         self.stroke != Paint::None && self.stroke_width > 0.0
     }
 
-    /// The color to draw with, 0xRRGGBBAA: of the line, or of the area if there is no line. 0 where the view
-    /// decides; none if there is neither, or nothing of it is left to see.
+    /// The color of the path, 0xRRGGBBAA: of the stroke, or of the fill without a stroke. 0 for the
+    /// color of the view; `None` if it has no paint or is fully transparent.
     pub(super) fn color_rgba(&self) -> Option<u32> {
         let (paint, opacity) = match self.has_stroke() {
             true => (self.stroke, self.stroke_opacity),
@@ -135,7 +143,7 @@ impl Style {
     }
 }
 
-/// An opacity from 0 to 1, as a number or in percent.
+/// Parses an opacity, a number or a percentage, and clamps it to 0..=1.
 fn opacity(value: &str) -> Option<f64> {
     let number = match value.strip_suffix('%') {
         Some(percent) => percent.trim().parse::<f64>().ok()? / 100.0,
@@ -149,9 +157,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn opacities_multiply_and_white_is_white() {
+    fn multiplies_opacities_and_ignores_malformed_values() {
         let mut style = Style::INITIAL;
-        assert_eq!(style.color_rgba(), Some(0x0000_00FF), "areas are black");
+        assert_eq!(style.color_rgba(), Some(0x0000_00FF), "the default fill");
         let viewport = Viewport::new(100.0, 100.0);
         for (name, value) in [
             ("stroke", "#fff"),
@@ -165,7 +173,7 @@ mod tests {
         assert_eq!(
             style.color_rgba(),
             Some(0xFFFF_FF40),
-            "what makes no sense is left out"
+            "a malformed value is ignored"
         );
         style.set("stroke", "url(#gradient)", Style::INITIAL, viewport);
         assert_eq!(style.color_rgba(), Some(0));

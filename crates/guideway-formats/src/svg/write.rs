@@ -1,45 +1,53 @@
-//! Drawings as SVG: true curves, in meters over a page of their real size.
+//! Writes a layout as SVG: exact curves, in meters, on a page of the real size of the site.
 
-use std::fmt::Write as _;
 use std::io::{self, Write};
 
 use guideway_layout::{Layout, PathRef, Value};
 use guideway_spline::{Bounds, Point};
 
-use super::write_page::{PathData, Stroke, SvgWriter};
+use super::svg_writer::{PathData, Stroke, SvgWriter};
+use super::xml_text::is_xml_char;
 use crate::Losses;
 use crate::clamped::POSITION_STEP_M;
 use crate::common_losses::common_losses;
 
-/// Name of the column that holds the groups of a drawing.
-const GROUP: &str = "group";
+/// Name of the attribute column that holds group names.
+const GROUP_COLUMN: &str = "group";
 
-/// Width of paths that have none of their own, in meters.
-const WIDTH_M: f64 = 0.1;
+/// Width of paths without a width, in meters: a visible line on a plan of 100 m.
+const DEFAULT_WIDTH_M: f64 = 0.1;
 
-/// What is left free around all paths, as a share of their extent, and at least, in meters.
+/// Color of paths without a color: opaque black.
+const DEFAULT_COLOR: u32 = 0x0000_00FF;
+
+/// Page margin context all paths, as a fraction of the larger side of their bounds.
 const MARGIN: f64 = 0.02;
-const LEAST_MARGIN_M: f64 = 0.5;
 
-/// Writes a layout: a user unit is a meter, and the page is as large as the site, so that whoever measures in
-/// the drawing measures meters. A path is a `path` with its identifier, its color and its width; levels, or the
-/// column `group`, are groups. Positions are to a micrometer. Returns what the format cannot hold.
+/// Smallest page margin, in meters; gives an empty layout a page of 1 m.
+const MIN_MARGIN_M: f64 = 0.5;
+
+/// Writes a layout, and returns what SVG cannot hold of it.
+///
+/// One user unit is one meter and the page has the size of the site, so that lengths measured in a
+/// drawing program are real ones. Each path becomes a `path` element with identifier, color and
+/// width; levels, or values of the column `group`, become groups. Coordinates are rounded to a
+/// micrometer.
 ///
 /// # Errors
-/// When `out` fails.
+/// When writing to `out` fails.
 pub fn write_layout(layout: &Layout, out: &mut impl Write) -> io::Result<Losses> {
-    let (min, max) = corners(layout);
+    let Bounds { min, max } = page_bounds(layout);
     let size_mm = (max - min) * 1e3;
     let size_mm = Point::new(size_mm.x.round(), size_mm.y.round());
     let view = [min.x, -max.y, size_mm.x / 1e3, size_mm.y / 1e3];
-    // Browsers take the size of the page for that on the screen: within that, it is as large as can be.
-    let page = format!(
+    // A browser shows the page in its real size, so the style limits it to the window.
+    let attributes = format!(
         r#"width="{}mm" height="{}mm" style="max-width:100%;max-height:100vh""#,
         size_mm.x, size_mm.y
     );
-    let black = Stroke::new(0x0000_00FF, WIDTH_M);
-    let mut page = SvgWriter::begin(out, view, &page, &black)?;
-    let column = layout.paths.attributes.get(GROUP);
+    let common = Stroke::new(DEFAULT_COLOR, DEFAULT_WIDTH_M);
+    let mut svg = SvgWriter::begin(out, view, &attributes, &common)?;
+    let column = layout.paths.attributes.get(GROUP_COLUMN);
     let mut current: Option<String> = None;
     let mut order: Vec<usize> = (0..layout.paths.len()).collect();
     if let Some(rank) = layout.paths.rank() {
@@ -51,33 +59,33 @@ pub fn write_layout(layout: &Layout, out: &mut impl Write) -> io::Result<Losses>
         let group = own.map(|value: Value<'_>| value.to_string()).or_else(level);
         if group != current {
             if current.is_some() {
-                page.end_group()?;
+                svg.end_group()?;
             }
             if let Some(group) = &group {
-                page.begin_group(group)?;
+                svg.begin_group(group)?;
             }
             current = group;
         }
-        let mut outline = PathData::new(POSITION_STEP_M);
+        let mut data = PathData::new(POSITION_STEP_M);
         for segment in path.runs().flat_map(|run| run.segments()) {
-            // Up is down on a page.
-            outline.push_segment(&segment.map(|p| Point::new(p.x, -p.y)));
+            // The y axis of SVG points down.
+            data.push_segment(&segment.map(|p| Point::new(p.x, -p.y)));
         }
-        page.path(path.id(), &outline, &stroke(layout, path))?;
+        svg.path(path.id(), &data, &stroke(layout, path))?;
     }
     if current.is_some() {
-        page.end_group()?;
+        svg.end_group()?;
     }
-    page.finish()?;
+    svg.finish()?;
     Ok(losses(layout))
 }
 
 fn stroke(layout: &Layout, path: PathRef<'_>) -> Stroke {
     let own = layout.paths.own_style(path.row());
-    // A stroke of no width is not drawn by anyone else.
+    // SVG programs do not draw a stroke of width 0; Guideway does.
     let width_m = own.width_m.map(f64::from).filter(|&w| w > 0.0);
-    let width_m = width_m.unwrap_or(WIDTH_M);
-    Stroke::new(own.color_rgba.unwrap_or(0x0000_00FF), width_m)
+    let width_m = width_m.unwrap_or(DEFAULT_WIDTH_M);
+    Stroke::new(own.color_rgba.unwrap_or(DEFAULT_COLOR), width_m)
 }
 
 fn losses(layout: &Layout) -> Losses {
@@ -86,33 +94,26 @@ fn losses(layout: &Layout) -> Losses {
     losses.add(
         "draw ranks",
         ranks,
-        "draw ranks: paths are written in their order",
+        "draw ranks: written as the order of paths",
     );
     losses.add_network(layout);
-    losses.add_columns(&layout.paths.attributes, "paths", |name| name == GROUP);
-    let detail = match layout.paths.attributes.get(GROUP) {
+    losses.add_columns(&layout.paths.attributes, "paths", |name| {
+        name == GROUP_COLUMN
+    });
+    let detail = match layout.paths.attributes.get(GROUP_COLUMN) {
         Some(_) => "levels",
-        None => "levels: they become groups",
+        None => "levels: written as groups",
     };
     losses.add("levels", layout.levels.len(), detail);
-    let unnamed = layout.paths.iter().filter(|p| !is_kept(p.id()));
-    let detail = "identifiers that are empty or have characters that XML has not";
-    losses.add("identifiers", unnamed.count(), detail);
+    let is_valid = |id: &str| !id.is_empty() && id.chars().all(is_xml_char);
+    let invalid = layout.paths.iter().filter(|p| !is_valid(p.id()));
+    let detail = "identifiers that are empty or contain characters that XML forbids";
+    losses.add("identifiers", invalid.count(), detail);
     losses
 }
 
-fn is_kept(id: &str) -> bool {
-    !id.is_empty() && !id.contains(|c: char| !is_xml(c))
-}
-
-/// Whether a character can be in XML 1.0.
-pub(super) fn is_xml(c: char) -> bool {
-    !c.is_control() && !matches!(c, '\u{FFFE}' | '\u{FFFF}')
-        || matches!(c, '\t' | '\n' | '\r' | '\u{7F}'..='\u{9F}')
-}
-
-/// What the page shows: all paths with a margin, and never nothing.
-fn corners(layout: &Layout) -> (Point<f64>, Point<f64>) {
+/// The bounds of the page: all paths and a margin, rounded outwards to a millimeter.
+fn page_bounds(layout: &Layout) -> Bounds<f64> {
     let segments = layout.paths.iter().flat_map(PathRef::runs);
     let segments = segments.flat_map(|run| run.segments());
     let bounds = segments
@@ -124,34 +125,12 @@ fn corners(layout: &Layout) -> (Point<f64>, Point<f64>) {
         max: origin,
     });
     let size = bounds.size();
-    let margin_m = (MARGIN * size.x.max(size.y)).max(LEAST_MARGIN_M);
+    let margin_m = (MARGIN * size.x.max(size.y)).max(MIN_MARGIN_M);
     let Bounds { min, max } = bounds.inflated(margin_m);
-    // To the millimeter.
     let down = |v: f64| (v * 1e3).floor() / 1e3;
     let up = |v: f64| (v * 1e3).ceil() / 1e3;
-    (
-        Point::new(down(min.x), down(min.y)),
-        Point::new(up(max.x), up(max.y)),
-    )
-}
-
-/// Text for an attribute. What XML has no room for becomes an underscore.
-pub(super) fn escaped(text: &str) -> String {
-    let mut safe = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' => safe.push_str("&amp;"),
-            '<' => safe.push_str("&lt;"),
-            '>' => safe.push_str("&gt;"),
-            '"' => safe.push_str("&quot;"),
-            // Unescaped, a reader makes spaces of them.
-            '\t' | '\n' | '\r' => {
-                // Writing to a text cannot fail.
-                let _ = write!(safe, "&#{};", u32::from(c));
-            }
-            c if is_xml(c) => safe.push(c),
-            _ => safe.push('_'),
-        }
+    Bounds {
+        min: Point::new(down(min.x), down(min.y)),
+        max: Point::new(up(max.x), up(max.y)),
     }
-    safe
 }

@@ -1,13 +1,13 @@
-//! A DXF file as pairs of a group code and a value, from text or from binary.
+//! Tokenizes a DXF file: ASCII or binary bytes in, pairs of a group code and a value out.
 //!
-//! Source: Autodesk's DXF reference, chapters "Group Code Value Types" and "Binary DXF Files". Nothing is
-//! copied: values stay where they are in the file until somebody asks for a number.
+//! Source: Autodesk's DXF reference, chapters "Group Code Value Types" and "Binary DXF Files".
+//! Zero-copy: text values borrow from the file, and numbers are parsed on access.
 
 use guideway_layout::Place;
 
 use crate::Problem;
 
-/// What a binary file begins with.
+/// The first bytes of a binary file.
 pub(super) const SENTINEL: &[u8] = b"AutoCAD Binary DXF\r\n\x1a\0";
 
 /// A group code with its value.
@@ -15,19 +15,20 @@ pub(super) const SENTINEL: &[u8] = b"AutoCAD Binary DXF\r\n\x1a\0";
 pub(super) struct Pair<'b> {
     pub(super) code: i32,
     pub(super) value: Value<'b>,
-    /// Line of the code, from 1; none in a binary file.
+    /// Line of the code, from 1; `None` in a binary file.
     pub(super) line: Option<u32>,
 }
 
-/// A value as the file has it: text files have nothing but text.
+/// A value as stored in the file; in an ASCII file every value is text.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Value<'b> {
     Text(&'b [u8]),
     Real(f64),
-    Whole(i64),
+    Int(i64),
 }
 
 impl<'b> Pair<'b> {
+    /// The text; empty for a binary number.
     pub(super) fn text(&self) -> &'b [u8] {
         match self.value {
             Value::Text(text) => text,
@@ -35,82 +36,83 @@ impl<'b> Pair<'b> {
         }
     }
 
+    /// The value as a finite number.
     pub(super) fn real(&self) -> Option<f64> {
         let real = match self.value {
             Value::Real(real) => real,
-            Value::Whole(whole) => whole as f64,
+            Value::Int(int) => int as f64,
             Value::Text(text) => std::str::from_utf8(text.trim_ascii()).ok()?.parse().ok()?,
         };
         real.is_finite().then_some(real)
     }
 
-    pub(super) fn whole(&self) -> Option<i64> {
+    /// The value as an integer.
+    pub(super) fn int(&self) -> Option<i64> {
         match self.value {
-            Value::Whole(whole) => Some(whole),
-            // Some writers put a point into whole numbers.
+            Value::Int(int) => Some(int),
+            // Some writers append a decimal point to integers.
             _ => self.real().filter(|r| r.fract() == 0.0).map(|r| r as i64),
         }
     }
 }
 
-/// Reads pairs one after the other. A copy goes on from the same place.
+/// Reads pairs in sequence. A copy continues from the same offset.
 #[derive(Clone, Copy)]
-pub(super) struct Pairs<'b> {
+pub(super) struct PairReader<'b> {
     bytes: &'b [u8],
-    at: usize,
+    offset: usize,
     line: u32,
-    form: Form,
+    encoding: Encoding,
 }
 
 #[derive(Clone, Copy, PartialEq)]
-enum Form {
-    Text,
-    /// Codes of one byte, up to release 12.
-    Narrow,
-    /// Codes of two bytes.
-    Wide,
+enum Encoding {
+    Ascii,
+    /// Binary with group codes of one byte, up to release 12.
+    BinaryR12,
+    /// Binary with group codes of two bytes.
+    Binary,
 }
 
-impl<'b> Pairs<'b> {
+impl<'b> PairReader<'b> {
     pub(super) fn new(bytes: &'b [u8]) -> Self {
-        let (at, form) = match bytes.strip_prefix(SENTINEL) {
-            // The first pair is 0, SECTION or 999, a comment: 00 and 53 or FF if codes have one byte.
-            Some([255, ..] | [0, b'S', ..]) => (SENTINEL.len(), Form::Narrow),
-            Some(_) => (SENTINEL.len(), Form::Wide),
-            None => (
-                if bytes.starts_with(b"\xEF\xBB\xBF") {
-                    3
-                } else {
-                    0
-                },
-                Form::Text,
-            ),
+        let (offset, encoding) = match bytes.strip_prefix(SENTINEL) {
+            // The first pair is (0, SECTION) or (999, comment). With one-byte codes it begins with
+            // the bytes 00 53 or FF.
+            Some([255, ..] | [0, b'S', ..]) => (SENTINEL.len(), Encoding::BinaryR12),
+            Some(_) => (SENTINEL.len(), Encoding::Binary),
+            None if bytes.starts_with(b"\xEF\xBB\xBF") => (3, Encoding::Ascii),
+            None => (0, Encoding::Ascii),
         };
         Self {
             bytes,
-            at,
+            offset,
             line: 1,
-            form,
+            encoding,
         }
     }
 
     pub(super) fn is_binary(&self) -> bool {
-        self.form != Form::Text
+        self.encoding != Encoding::Ascii
     }
 
+    /// Number of bytes read.
     pub(super) fn position(&self) -> usize {
-        self.at
+        self.offset
     }
 
-    /// The next pair; none where the bytes end before a pair does.
+    /// The next pair; `None` if the file ends before the pair does.
+    ///
+    /// # Errors
+    /// When a group code is malformed or unknown.
     pub(super) fn next(&mut self) -> Result<Option<Pair<'b>>, Problem> {
-        let pair = match self.form {
-            Form::Text => self.next_text(),
+        let pair = match self.encoding {
+            Encoding::Ascii => self.next_text(),
             _ => self.next_binary(),
         }?;
         if pair.is_none() {
-            // What is left is part of a pair, and must not be taken for the next one.
-            self.at = self.bytes.len();
+            // The rest is a partial pair: another call must not read it as a whole one.
+            self.offset = self.bytes.len();
         }
         Ok(pair)
     }
@@ -121,13 +123,13 @@ impl<'b> Pairs<'b> {
             return Ok(None);
         };
         let Some(code) = group_code(code.trim_ascii()) else {
-            if self.at >= self.bytes.len() {
+            if self.offset >= self.bytes.len() {
                 return Ok(None);
             }
             return Err(Problem::Syntax {
                 line: line.into(),
                 column: 1,
-                message: "a group code was expected, which is a whole number".into(),
+                message: "expected a group code, which is an integer".into(),
             });
         };
         Ok(self.text_line().map(|text| Pair {
@@ -137,47 +139,51 @@ impl<'b> Pairs<'b> {
         }))
     }
 
-    /// A line without its end, if there is one.
+    /// The next line without its terminator.
     fn text_line(&mut self) -> Option<&'b [u8]> {
-        let rest = self.bytes.get(self.at..).filter(|rest| !rest.is_empty())?;
+        let rest = self
+            .bytes
+            .get(self.offset..)
+            .filter(|rest| !rest.is_empty())?;
         let length = rest.iter().position(|&b| b == b'\n' || b == b'\r');
         let length = length.unwrap_or(rest.len());
         let end = match rest[length..] {
             [b'\r', b'\n', ..] => 2,
             _ => 1,
         };
-        self.at += length + end;
+        self.offset += length + end;
         self.line = self.line.saturating_add(1);
         Some(&rest[..length])
     }
 
     fn next_binary(&mut self) -> Result<Option<Pair<'b>>, Problem> {
-        let start = self.at;
+        let start = self.offset;
         let Some(code) = self.binary_code() else {
             return Ok(None);
         };
-        let Some(kind) = Kind::of(code) else {
+        let Some(kind) = ValueType::of(code) else {
             return Err(Problem::Damaged {
                 place: Place::element(format!("byte {start}")),
-                detail: format!("there is no group code {code}"),
+                detail: format!("unknown group code {code}"),
             });
         };
         let value = match kind {
-            Kind::Text => self.until_nul().map(Value::Text),
-            Kind::Real => self.take().map(f64::from_le_bytes).map(Value::Real),
-            Kind::Byte => self.take().map(|[byte]: [u8; 1]| Value::Whole(byte.into())),
-            Kind::Int16 => self
+            ValueType::Text => self.until_nul().map(Value::Text),
+            ValueType::Real => self.take().map(f64::from_le_bytes).map(Value::Real),
+            ValueType::Byte => self.take().map(|[byte]: [u8; 1]| Value::Int(byte.into())),
+            ValueType::Int16 => self
                 .take()
                 .map(i16::from_le_bytes)
-                .map(|v| Value::Whole(v.into())),
-            Kind::Int32 => self
+                .map(|v| Value::Int(v.into())),
+            ValueType::Int32 => self
                 .take()
                 .map(i32::from_le_bytes)
-                .map(|v| Value::Whole(v.into())),
-            Kind::Int64 => self.take().map(i64::from_le_bytes).map(Value::Whole),
-            Kind::Bytes => self.take().and_then(|[length]: [u8; 1]| {
-                let chunk = self.bytes.get(self.at..self.at + usize::from(length))?;
-                self.at += chunk.len();
+                .map(|v| Value::Int(v.into())),
+            ValueType::Int64 => self.take().map(i64::from_le_bytes).map(Value::Int),
+            ValueType::Bytes => self.take().and_then(|[length]: [u8; 1]| {
+                let end = self.offset + usize::from(length);
+                let chunk = self.bytes.get(self.offset..end)?;
+                self.offset = end;
                 Some(Value::Text(chunk))
             }),
         };
@@ -189,7 +195,7 @@ impl<'b> Pairs<'b> {
     }
 
     fn binary_code(&mut self) -> Option<i32> {
-        if self.form == Form::Wide {
+        if self.encoding == Encoding::Binary {
             return self.take().map(i16::from_le_bytes).map(i32::from);
         }
         match self.take::<1>()? {
@@ -199,20 +205,20 @@ impl<'b> Pairs<'b> {
     }
 
     fn take<const N: usize>(&mut self) -> Option<[u8; N]> {
-        let bytes = self.bytes.get(self.at..)?.first_chunk()?;
-        self.at += N;
+        let bytes = self.bytes.get(self.offset..)?.first_chunk()?;
+        self.offset += N;
         Some(*bytes)
     }
 
     fn until_nul(&mut self) -> Option<&'b [u8]> {
-        let rest = self.bytes.get(self.at..)?;
+        let rest = self.bytes.get(self.offset..)?;
         let length = rest.iter().position(|&b| b == 0)?;
-        self.at += length + 1;
+        self.offset += length + 1;
         Some(&rest[..length])
     }
 }
 
-/// The number that a line is: at most four digits in sound files, and a sign.
+/// Parses a group code: in valid files an optional sign and at most four digits.
 fn group_code(line: &[u8]) -> Option<i32> {
     let (sign, digits) = match line {
         [b'-', digits @ ..] => (-1, digits),
@@ -229,19 +235,20 @@ fn group_code(line: &[u8]) -> Option<i32> {
     digits.iter().try_fold(0, add).map(|number| sign * number)
 }
 
-/// How the value of a group code is stored in a binary file.
-enum Kind {
+/// The storage type of a value in a binary file.
+enum ValueType {
     Text,
     Real,
     Byte,
     Int16,
     Int32,
     Int64,
-    /// A length in one byte, and so many bytes.
+    /// A chunk: a length of one byte, followed by that number of bytes.
     Bytes,
 }
 
-impl Kind {
+impl ValueType {
+    /// The type for a group code; `None` for a code that the DXF reference does not list.
     fn of(code: i32) -> Option<Self> {
         Some(match code {
             0..=9 | 100..=109 | 300..=309 | 320..=369 | 390..=399 => Self::Text,

@@ -1,23 +1,26 @@
-//! Style sheets, as drawing programs write them: rules for an element, a class or an identifier.
+//! Reads style sheets as drawing programs write them: rules for an element, a class or an
+//! identifier, in; declarations per element, out.
 //!
-//! Read here and not by `simplecss`, which takes a time that grows with the square of the length.
+//! Not based on `simplecss`, whose time grows with the square of the length. Cost: O(length) to
+//! read, one hash lookup per tag, class and identifier of an element.
 
 use std::collections::HashMap;
 
 use roxmltree::Node;
 
-/// The rules of a file.
+/// The rules of all style sheets of a file.
 #[derive(Default)]
-pub(super) struct Sheet<'d> {
-    /// Declarations of every rule, in the order of the file.
+pub(super) struct StyleSheet<'d> {
+    /// The declarations of every rule, in file order.
     rules: Vec<&'d str>,
-    /// The rules of a selector, such as `path`, `.road`, `path.road` or `#road7`.
+    /// Indices into `rules` per selector, such as `path`, `.road`, `path.road` or `#road7`.
     selectors: HashMap<&'d str, Vec<usize>>,
-    /// How many selectors are not read: those of several parts, of states, of attributes.
-    pub(super) left_out: usize,
+    /// Number of unsupported selectors: combinators, pseudo-classes, attributes, at-rules.
+    pub(super) ignored_selectors: usize,
 }
 
-impl<'d> Sheet<'d> {
+impl<'d> StyleSheet<'d> {
+    /// Reads all `style` elements.
     pub(super) fn read(root: Node<'d, '_>) -> Self {
         let mut sheet = Self::default();
         for style in root.descendants().filter(|node| node.has_tag_name("style")) {
@@ -36,7 +39,7 @@ impl<'d> Sheet<'d> {
             if head.starts_with('@') || text[end..].starts_with(['}', ';']) {
                 let is_block = text[end..].starts_with('{');
                 text = if is_block { after_block(rest) } else { rest };
-                self.left_out += usize::from(is_block);
+                self.ignored_selectors += usize::from(is_block);
                 continue;
             }
             let length = rest.find('}').unwrap_or(rest.len());
@@ -49,32 +52,32 @@ impl<'d> Sheet<'d> {
                         .entry(selector)
                         .or_default()
                         .push(self.rules.len() - 1),
-                    false => self.left_out += 1,
+                    false => self.ignored_selectors += 1,
                 }
             }
         }
     }
 
-    /// The declarations that the rules give an element, the weakest rule first.
-    pub(super) fn of(&self, node: Node<'_, '_>) -> impl Iterator<Item = &'d str> {
-        /// Most classes of one element that are looked for.
-        const MOST_CLASSES: usize = 64;
+    /// The declarations of all rules that match an element, by rising specificity.
+    pub(super) fn matching(&self, node: Node<'_, '_>) -> impl Iterator<Item = &'d str> {
+        /// Classes per element that are looked up; bounds the time of a hostile file.
+        const MAX_CLASSES: usize = 64;
         let mut found: Vec<(u8, usize)> = Vec::new();
-        let mut look = |strength, selector: &str| {
+        let mut look_up = |specificity, selector: &str| {
             let rules = self.selectors.get(selector).into_iter().flatten();
-            found.extend(rules.map(|&rule| (strength, rule)));
+            found.extend(rules.map(|&rule| (specificity, rule)));
         };
         if !self.rules.is_empty() {
             let tag = node.tag_name().name();
-            look(0, "*");
-            look(1, tag);
+            look_up(0, "*");
+            look_up(1, tag);
             let classes = node.attribute("class").unwrap_or_default();
-            for class in classes.split_ascii_whitespace().take(MOST_CLASSES) {
-                look(2, &format!(".{class}"));
-                look(3, &format!("{tag}.{class}"));
+            for class in classes.split_ascii_whitespace().take(MAX_CLASSES) {
+                look_up(2, &format!(".{class}"));
+                look_up(3, &format!("{tag}.{class}"));
             }
             if let Some(id) = node.attribute("id") {
-                look(4, &format!("#{id}"));
+                look_up(4, &format!("#{id}"));
             }
             found.sort_unstable();
         }
@@ -82,18 +85,18 @@ impl<'d> Sheet<'d> {
     }
 }
 
-/// The names and values of a list of declarations. Which ones are `!important` does not count.
+/// Splits declarations into names and values. Ignores `!important`.
 pub(super) fn declarations(text: &str) -> impl Iterator<Item = (&str, &str)> {
     let pairs = text.split(';').filter_map(|part| part.split_once(':'));
     pairs.map(|(name, value)| {
         let value = value.split('!').next().unwrap_or(value);
-        // A comment may be before a name.
+        // A comment may precede the name.
         let name = name.rsplit("*/").next().unwrap_or(name);
         (name.trim(), value.trim())
     })
 }
 
-/// Whether a selector is an element, a class, both, or an identifier.
+/// Whether a selector is an element, a class, an element with a class, or an identifier.
 fn is_simple(selector: &str) -> bool {
     let is_name = |c: char| c.is_alphanumeric() || "-_.#*".contains(c);
     !selector.is_empty()
@@ -101,7 +104,7 @@ fn is_simple(selector: &str) -> bool {
         && selector.matches(['.', '#']).count() < 2
 }
 
-/// A text without spaces, comments and marks of old browsers at its beginning.
+/// Strips leading white space, comments and the HTML comment marks for old browsers.
 fn skip_blank(mut text: &str) -> &str {
     loop {
         text = text.trim_start();
@@ -118,7 +121,7 @@ fn skip_blank(mut text: &str) -> &str {
     }
 }
 
-/// What follows a block with blocks inside.
+/// The text after the end of a block, which may contain blocks.
 fn after_block(text: &str) -> &str {
     let mut depth = 1_usize;
     for (at, brace) in text.match_indices(['{', '}']) {
@@ -134,23 +137,23 @@ fn after_block(text: &str) -> &str {
 mod tests {
     use super::*;
 
-    fn of(sheet: &str, element: &str) -> (Vec<String>, usize) {
+    fn matching(sheet: &str, element: &str) -> (Vec<String>, usize) {
         let document = roxmltree::Document::parse(element).unwrap();
-        let mut rules = Sheet::default();
+        let mut rules = StyleSheet::default();
         rules.add(sheet);
         let node = document.root_element();
-        let all = rules.of(node).flat_map(declarations);
+        let all = rules.matching(node).flat_map(declarations);
         (
             all.map(|(n, v)| format!("{n}={v}")).collect(),
-            rules.left_out,
+            rules.ignored_selectors,
         )
     }
 
     #[test]
-    fn stronger_rules_come_later() {
+    fn orders_rules_by_specificity() {
         let sheet = "/* a note */ #p{stroke:red} .a, .b { fill : none ;; stroke:blue!important }
             path { stroke:black; /* b */ fill: url(#x) } path.b{ opacity:.5 } <!-- --> *{fill:red}";
-        let (found, left_out) = of(sheet, "<path id='p' class='b c'/>");
+        let (found, ignored) = matching(sheet, "<path id='p' class='b c'/>");
         let expected = [
             "fill=red",
             "stroke=black",
@@ -161,16 +164,17 @@ mod tests {
             "stroke=red",
         ];
         assert_eq!(
-            (found.as_slice(), left_out),
+            (found.as_slice(), ignored),
             (expected.map(String::from).as_slice(), 0)
         );
     }
 
     #[test]
-    fn what_is_not_read_is_counted_and_passed_over() {
-        let sheet = "@import 'x'; @media print { .a { fill: red } } g .a, a:hover, [x] { fill: red } .a{fill:blue}";
+    fn counts_and_skips_unsupported_selectors() {
+        let sheet = "@import 'x'; @media print { .a { fill: red } } \
+            g .a, a:hover, [x] { fill: red } .a{fill:blue}";
         assert_eq!(
-            of(sheet, "<g class='a'/>"),
+            matching(sheet, "<g class='a'/>"),
             (vec!["fill=blue".to_owned()], 4)
         );
         for broken in [
@@ -184,7 +188,7 @@ mod tests {
             "<!-",
             ".",
         ] {
-            of(broken, "<g class='a'/>");
+            matching(broken, "<g class='a'/>");
         }
     }
 }

@@ -1,16 +1,17 @@
-//! Group codes with their values, as they are written.
+//! Writes pairs of a group code and a value as ASCII DXF.
 
 use std::io::{self, Write};
 
-/// Handle of the block that entities of the model are in.
+/// Handle of the block record that owns the entities of the model.
 pub(super) const MODEL_SPACE: u64 = 0x1F;
 
-pub(super) struct Pairs<'w, W> {
+/// Writes pairs to a stream, and numbers entities with handles.
+pub(super) struct PairWriter<'w, W> {
     out: &'w mut W,
     next_handle: u64,
 }
 
-impl<'w, W: Write> Pairs<'w, W> {
+impl<'w, W: Write> PairWriter<'w, W> {
     pub(super) fn new(out: &'w mut W) -> Self {
         Self {
             out,
@@ -18,19 +19,19 @@ impl<'w, W: Write> Pairs<'w, W> {
         }
     }
 
-    /// Entities get handles from here up.
+    /// Sets the handle of the next entity; later ones count up from it.
     pub(super) fn set_next_handle(&mut self, handle: u64) {
         self.next_handle = handle;
     }
 
-    /// A text, whatever is in it.
+    /// Writes a text, with control characters escaped as `\U+0000`.
     pub(super) fn text(&mut self, code: u32, text: &str) -> io::Result<()> {
         writeln!(self.out, "{code}")?;
         let mut rest = text;
         while let Some(at) = rest.find(|c: char| c.is_control() || c == '\\') {
             let (plain, special) = rest.split_at(at);
             let c = special.chars().next().unwrap_or_default();
-            // A backslash only means something before U+, so that names of files stay as they are.
+            // A backslash is only special before `U+`, so `C:\temp` stays readable.
             match c == '\\' && !special.starts_with(r"\U+") {
                 true => write!(self.out, "{plain}{c}")?,
                 false => write!(self.out, r"{plain}\U+{:04X}", u32::from(c))?,
@@ -40,19 +41,22 @@ impl<'w, W: Write> Pairs<'w, W> {
         writeln!(self.out, "{rest}")
     }
 
-    pub(super) fn whole(&mut self, code: u32, value: u64) -> io::Result<()> {
+    /// Writes an integer.
+    pub(super) fn int(&mut self, code: u32, value: u64) -> io::Result<()> {
         writeln!(self.out, "{code}\n{value}")
     }
 
+    /// Writes a floating-point number.
     pub(super) fn real(&mut self, code: u32, value: f64) -> io::Result<()> {
         writeln!(self.out, "{code}\n{value}")
     }
 
+    /// Writes a handle, in hexadecimal.
     pub(super) fn handle(&mut self, code: u32, handle: u64) -> io::Result<()> {
         writeln!(self.out, "{code}\n{handle:X}")
     }
 
-    /// A point whose x has a code; those of y and z are 10 and 20 above it.
+    /// Writes a point: x with this code, y and z with the codes 10 and 20 above it.
     pub(super) fn point(&mut self, code: u32, [x, y]: [f64; 2], has_z: bool) -> io::Result<()> {
         self.real(code, x)?;
         self.real(code + 10, y)?;
@@ -63,7 +67,7 @@ impl<'w, W: Write> Pairs<'w, W> {
         }
     }
 
-    /// Begins an entity of the model.
+    /// Begins an entity in model space.
     pub(super) fn entity(&mut self, kind: &str, layer: &str) -> io::Result<()> {
         self.text(0, kind)?;
         self.handle(5, self.next_handle)?;

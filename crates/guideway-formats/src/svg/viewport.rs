@@ -1,4 +1,4 @@
-//! Lengths, viewports and the size of a user unit.
+//! Resolves lengths, viewports, view boxes and transforms of elements to user units.
 
 use std::str::FromStr;
 
@@ -6,13 +6,13 @@ use guideway_spline::{Affine, Point};
 use roxmltree::Node;
 use svgtypes::{Align, AspectRatio, Length, LengthUnit, Transform, ViewBox};
 
-/// Meters a pixel of CSS, which is 1/96 of an inch.
-pub(super) const PIXEL_M: f64 = 0.0254 / 96.0;
+/// Meters per CSS pixel, which is 1/96 of an inch.
+pub(super) const METERS_PER_PX: f64 = 0.0254 / 96.0;
 
-/// Pixels of an `em`, where no text has another size.
+/// Pixels per `em`: the default font size of browsers. Font sizes of the drawing are not read.
 const FONT_PX: f64 = 16.0;
 
-/// What percentages are of, in user units.
+/// The size that percentages refer to, in user units.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Viewport {
     pub(super) width: f64,
@@ -24,21 +24,23 @@ impl Viewport {
         Self { width, height }
     }
 
+    /// Reference of lengths along x.
     pub(super) fn width(self) -> f64 {
         self.width
     }
 
+    /// Reference of lengths along y.
     pub(super) fn height(self) -> f64 {
         self.height
     }
 
-    /// What lengths that are neither along x nor along y refer to.
+    /// Reference of lengths along neither axis, such as radii. Source: SVG 2, section 8.9.
     pub(super) fn diagonal(self) -> f64 {
         (0.5 * (self.width * self.width + self.height * self.height)).sqrt()
     }
 
-    /// A length in user units.
-    pub(super) fn length(self, text: &str, whole: fn(Self) -> f64) -> Option<f64> {
+    /// Parses a length to user units; percentages are of `reference`.
+    pub(super) fn length(self, text: &str, reference: fn(Self) -> f64) -> Option<f64> {
         let length = Length::from_str(text.trim()).ok()?;
         let factor = match length.unit {
             LengthUnit::None | LengthUnit::Px => 1.0,
@@ -49,24 +51,24 @@ impl Viewport {
             LengthUnit::Pc => 16.0,
             LengthUnit::Em => FONT_PX,
             LengthUnit::Ex => FONT_PX / 2.0,
-            LengthUnit::Percent => whole(self) / 100.0,
+            LengthUnit::Percent => reference(self) / 100.0,
         };
         let length = length.number * factor;
         length.is_finite().then_some(length)
     }
 
-    /// The length of an attribute.
+    /// The length in an attribute.
     pub(super) fn attribute(
         self,
         node: Node<'_, '_>,
         name: &'static str,
-        whole: fn(Self) -> f64,
+        reference: fn(Self) -> f64,
     ) -> Option<f64> {
-        self.length(node.attribute(name)?, whole)
+        self.length(node.attribute(name)?, reference)
     }
 }
 
-/// The `transform` of an element; none if it is wrong.
+/// The `transform` of an element; `None` if it is malformed.
 pub(super) fn transform(node: Node<'_, '_>) -> Option<Affine> {
     let Some(text) = node.attribute("transform") else {
         return Some(Affine::IDENTITY);
@@ -80,7 +82,7 @@ pub(super) fn transform(node: Node<'_, '_>) -> Option<Affine> {
     affine.is_finite().then_some(affine)
 }
 
-/// A view box of a size.
+/// Parses a view box with a positive size.
 pub(super) fn view_box(text: &str) -> Option<ViewBox> {
     let view = ViewBox::from_str(text).ok()?;
     let is_finite = [view.x, view.y, view.w, view.h]
@@ -89,8 +91,13 @@ pub(super) fn view_box(text: &str) -> Option<ViewBox> {
     (is_finite && view.w > 0.0 && view.h > 0.0).then_some(view)
 }
 
-/// How the units of a view box become those of a page of a size.
-pub(super) fn fit(node: Node<'_, '_>, view: ViewBox, width: f64, height: f64) -> Affine {
+/// The transform from a view box to a page of a size, by `preserveAspectRatio`.
+pub(super) fn view_box_transform(
+    node: Node<'_, '_>,
+    view: ViewBox,
+    width: f64,
+    height: f64,
+) -> Affine {
     let ratio = node.attribute("preserveAspectRatio");
     let ratio = ratio.and_then(|text| AspectRatio::from_str(text).ok());
     let (align, is_slice) = ratio.map_or((Align::XMidYMid, false), |r| (r.align, r.slice));
@@ -99,8 +106,8 @@ pub(super) fn fit(node: Node<'_, '_>, view: ViewBox, width: f64, height: f64) ->
         let both = if is_slice { x.max(y) } else { x.min(y) };
         (x, y) = (both, both);
     }
-    let share = |at: u8| f64::from(at) / 2.0;
-    let (across, down) = match align {
+    // Half steps from the start (0) to the end (2) of each axis.
+    let (x_align, y_align) = match align {
         Align::None | Align::XMinYMin => (0, 0),
         Align::XMidYMin => (1, 0),
         Align::XMaxYMin => (2, 0),
@@ -111,16 +118,16 @@ pub(super) fn fit(node: Node<'_, '_>, view: ViewBox, width: f64, height: f64) ->
         Align::XMidYMax => (1, 2),
         Align::XMaxYMax => (2, 2),
     };
-    let left = Point::new(
-        share(across) * (width - view.w * x),
-        share(down) * (height - view.h * y),
+    let offset = Point::new(
+        f64::from(x_align) / 2.0 * (width - view.w * x),
+        f64::from(y_align) / 2.0 * (height - view.h * y),
     );
     Affine::translation(Point::new(-view.x, -view.y))
         .then(Affine::scale(x, y, Point::new(0.0, 0.0)))
-        .then(Affine::translation(left))
+        .then(Affine::translation(offset))
 }
 
-/// Whether a length has a unit that can be measured on paper.
+/// Whether a length has a physical unit, such as mm or in.
 pub(super) fn is_physical(text: &str) -> bool {
     let unit = Length::from_str(text.trim()).map(|length| length.unit);
     use LengthUnit::{Cm, In, Mm, Pc, Pt};

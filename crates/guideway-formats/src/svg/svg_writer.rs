@@ -1,4 +1,4 @@
-//! The elements of a drawing: curves with their strokes, groups, areas, texts, images.
+//! Streams SVG elements: paths with strokes, groups, rectangles, polygon layers, texts and images.
 
 use std::fmt::Write as _;
 use std::io::{self, Write};
@@ -6,10 +6,10 @@ use std::io::{self, Write};
 use guideway_layout::Value;
 use guideway_spline::{Point, uniform};
 
-use super::write::escaped;
+use super::xml_text::escape;
 use crate::clamped::is_straight;
 
-/// The curve of one path, as the `d` of an element.
+/// Path data: the value of the `d` attribute of a `path` element.
 #[derive(Clone, Debug)]
 pub struct PathData {
     data: String,
@@ -18,7 +18,8 @@ pub struct PathData {
 }
 
 impl PathData {
-    /// An empty one. Coordinates are rounded to multiples of `step`; ends this near meet.
+    /// Empty path data. Rounds coordinates to multiples of `step`, in user units; segments whose
+    /// ends are at most `step` apart are joined.
     pub fn new(step: f64) -> Self {
         Self {
             data: String::new(),
@@ -27,52 +28,52 @@ impl PathData {
         }
     }
 
-    /// Appends a segment of a uniform cubic B-spline, in units of the page, y down: a line if it is straight,
-    /// else a cubic curve, exactly.
+    /// Appends a segment of a uniform cubic B-spline, in user units, y down: as a line if it is
+    /// straight, else as the exact cubic Bezier curve.
     pub fn push_segment(&mut self, segment: &[Point<f64>; 4]) {
         let bezier = uniform::to_bezier(segment);
         if !self
             .end
             .is_some_and(|end| end.distance(bezier[0]) <= self.step)
         {
-            self.put("M", &bezier[..1]);
+            self.command("M", &bezier[..1]);
         }
         match is_straight(&bezier, self.step) {
-            true => self.put("L", &bezier[3..]),
-            false => self.put("C", &bezier[1..]),
+            true => self.command("L", &bezier[3..]),
+            false => self.command("C", &bezier[1..]),
         }
         self.end = Some(bezier[3]);
     }
 
     fn polygon(&mut self, corners: &[Point<f64>]) {
         if let Some((first, others)) = corners.split_first() {
-            self.put("M", std::slice::from_ref(first));
+            self.command("M", std::slice::from_ref(first));
             others
                 .iter()
-                .for_each(|p| self.put("L", std::slice::from_ref(p)));
+                .for_each(|p| self.command("L", std::slice::from_ref(p)));
             self.data.push('Z');
         }
     }
 
-    /// Whether there is nothing.
+    /// Whether it has no commands.
     pub fn is_empty(&self) -> bool {
         self.data.is_empty()
     }
 
-    fn put(&mut self, command: &str, points: &[Point<f64>]) {
+    fn command(&mut self, command: &str, points: &[Point<f64>]) {
         self.data.push_str(command);
         for (i, p) in points.iter().enumerate() {
             let steps = 1.0 / self.step;
-            // Adding zero turns -0 into 0.
+            // Adding 0 turns -0 into 0.
             let [x, y] = [p.x, p.y].map(|v| (v * steps).round() / steps + 0.0);
             let space = if i == 0 { "" } else { " " };
-            // Writing to a text cannot fail.
+            // Writing to a string cannot fail.
             let _ = write!(self.data, "{space}{x} {y}");
         }
     }
 }
 
-/// How a path is drawn.
+/// Color and width of a path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stroke {
     rgba: u32,
@@ -80,12 +81,12 @@ pub struct Stroke {
 }
 
 impl Stroke {
-    /// A color 0xRRGGBBAA and a width in units of the page.
+    /// A stroke of a color 0xRRGGBBAA and a width in user units.
     pub fn new(rgba: u32, width: f64) -> Self {
         Self { rgba, width }
     }
 
-    /// The attributes in which it differs from another.
+    /// The attributes that differ from those of `from`, or all.
     fn attributes(&self, from: Option<&Self>) -> String {
         let mut text = String::new();
         if from.is_none_or(|f| f.rgba != self.rgba) {
@@ -95,25 +96,25 @@ impl Stroke {
             }
         }
         if from.is_none_or(|f| f.width != self.width) {
-            // Single precision is common: 0.3 must not be 0.30000001192092896.
+            // Widths are often f32 values: prints 0.3, not 0.30000001192092896.
             text += &format!(r#" stroke-width="{}""#, Value::Float(self.width));
         }
         text
     }
 }
 
-/// A paint and its opacity, of a `stroke` or a `fill`.
-fn paint(what: &str, rgba: u32) -> String {
-    let mut text = format!(r##" {what}="#{:06x}""##, rgba >> 8);
+/// The attributes `property` (`stroke` or `fill`) and its opacity for a color 0xRRGGBBAA.
+fn paint(property: &str, rgba: u32) -> String {
+    let mut text = format!(r##" {property}="#{:06x}""##, rgba >> 8);
     let alpha = rgba & 0xFF;
     if alpha != 0xFF {
-        // Four digits tell all 256 apart.
-        text += &format!(r#" {what}-opacity="{:.4}""#, f64::from(alpha) / 255.0);
+        // Four digits distinguish all 256 alpha values.
+        text += &format!(r#" {property}-opacity="{:.4}""#, f64::from(alpha) / 255.0);
     }
     text
 }
 
-/// A drawing that is being written.
+/// Writes an SVG document element by element.
 #[derive(Debug)]
 pub struct SvgWriter<'w, W> {
     out: &'w mut W,
@@ -121,11 +122,11 @@ pub struct SvgWriter<'w, W> {
 }
 
 impl<'w, W: Write> SvgWriter<'w, W> {
-    /// Begins a page that shows `[x, y, width, height]`, with further attributes of the page and the stroke
-    /// that most paths have.
+    /// Begins a document with the view box `[x, y, width, height]`, further attributes of the root,
+    /// and the most common stroke. Paths with another stroke override it.
     ///
     /// # Errors
-    /// When `out` fails; so for all that follow.
+    /// When writing to `out` fails; the same holds for all other methods.
     pub fn begin(
         out: &'w mut W,
         view: [f64; 4],
@@ -147,57 +148,58 @@ impl<'w, W: Write> SvgWriter<'w, W> {
         })
     }
 
-    /// A path; without a curve it is nothing.
+    /// Writes a path; nothing if `data` is empty.
     ///
     /// # Errors
-    /// When the target fails.
-    pub fn path(&mut self, id: &str, outline: &PathData, stroke: &Stroke) -> io::Result<()> {
-        if outline.is_empty() {
+    /// When writing fails.
+    pub fn path(&mut self, id: &str, data: &PathData, stroke: &Stroke) -> io::Result<()> {
+        if data.is_empty() {
             return Ok(());
         }
         let own = stroke.attributes(Some(&self.common));
         let id = match id {
             "" => String::new(),
-            id => format!(r#" id="{}""#, escaped(id)),
+            id => format!(r#" id="{}""#, escape(id)),
         };
-        writeln!(self.out, r#"<path{id} d="{}"{own}/>"#, outline.data)
+        writeln!(self.out, r#"<path{id} d="{}"{own}/>"#, data.data)
     }
 
-    /// What follows is in a group, which drawing programs show as a layer.
+    /// Begins a group, which Inkscape shows as a layer.
     ///
     /// # Errors
-    /// When the target fails.
+    /// When writing fails.
     pub fn begin_group(&mut self, label: &str) -> io::Result<()> {
-        let label = escaped(label);
+        let label = escape(label);
         writeln!(
             self.out,
             r#"<g inkscape:groupmode="layer" inkscape:label="{label}">"#
         )
     }
 
-    /// Ends the group.
+    /// Ends the innermost group.
     ///
     /// # Errors
-    /// When the target fails.
+    /// When writing fails.
     pub fn end_group(&mut self) -> io::Result<()> {
         writeln!(self.out, "</g>")
     }
 
-    /// A rectangle `[x, y, width, height]` of a color 0xRRGGBBAA.
+    /// Writes a rectangle `[x, y, width, height]` filled with a color 0xRRGGBBAA.
     ///
     /// # Errors
-    /// When the target fails.
+    /// When writing fails.
     pub fn rect(&mut self, [x, y, width, height]: [f64; 4], rgba: u32) -> io::Result<()> {
         let fill = paint("fill", rgba);
-        let place = format!(r#"x="{x}" y="{y}" width="{width}" height="{height}""#);
-        writeln!(self.out, r#"<rect {place} stroke="none"{fill}/>"#)
+        let bounds = format!(r#"x="{x}" y="{y}" width="{width}" height="{height}""#);
+        writeln!(self.out, r#"<rect {bounds} stroke="none"{fill}/>"#)
     }
 
-    /// A layer of one color 0xRRGGBBAA, which counts once wherever some of its areas lie on each other. Each area
-    /// is a path of convex polygons that go the same way round, rounded to multiples of `step`.
+    /// Writes a group of areas in one color 0xRRGGBBAA. The opacity applies to the group, so that
+    /// overlapping areas do not add up. Each area is a path of convex polygons with one winding
+    /// direction, rounded to multiples of `step`.
     ///
     /// # Errors
-    /// When the target fails.
+    /// When writing fails.
     pub fn polygon_layer<A: AsRef<[Point<f64>]>>(
         &mut self,
         label: &str,
@@ -205,27 +207,28 @@ impl<'w, W: Write> SvgWriter<'w, W> {
         step: f64,
         areas: impl IntoIterator<Item = impl IntoIterator<Item = A>>,
     ) -> io::Result<()> {
-        let (label, fill) = (escaped(label), paint("fill", rgba | 0xFF));
+        let (label, fill) = (escape(label), paint("fill", rgba | 0xFF));
         let opacity = f64::from(rgba & 0xFF) / 255.0;
         writeln!(
             self.out,
-            r#"<g inkscape:groupmode="layer" inkscape:label="{label}" opacity="{opacity:.4}" stroke="none"{fill}>"#
+            "<g inkscape:groupmode=\"layer\" inkscape:label=\"{label}\" opacity=\"{opacity:.4}\" \
+             stroke=\"none\"{fill}>"
         )?;
         for area in areas {
-            let mut outline = PathData::new(step);
+            let mut data = PathData::new(step);
             area.into_iter()
-                .for_each(|polygon| outline.polygon(polygon.as_ref()));
-            if !outline.is_empty() {
-                writeln!(self.out, r#"<path d="{}"/>"#, outline.data)?;
+                .for_each(|polygon| data.polygon(polygon.as_ref()));
+            if !data.is_empty() {
+                writeln!(self.out, r#"<path d="{}"/>"#, data.data)?;
             }
         }
         self.end_group()
     }
 
-    /// A text of a color 0xRRGGBBAA in letters of one width, which together are as wide as said.
+    /// Writes a monospace text in a color 0xRRGGBBAA, stretched to `width`.
     ///
     /// # Errors
-    /// When the target fails.
+    /// When writing fails.
     pub fn text(
         &mut self,
         [x, y]: [f64; 2],
@@ -234,29 +237,30 @@ impl<'w, W: Write> SvgWriter<'w, W> {
         rgba: u32,
         text: &str,
     ) -> io::Result<()> {
-        let place = format!(r#"x="{x}" y="{y}" font-size="{height}" textLength="{width}""#);
-        let look = r#"font-family="monospace" stroke="none""#;
-        let (fill, text) = (paint("fill", rgba), escaped(text));
-        writeln!(self.out, "<text {place} {look}{fill}>{text}</text>")
+        let layout = format!(r#"x="{x}" y="{y}" font-size="{height}" textLength="{width}""#);
+        let style = r#"font-family="monospace" stroke="none""#;
+        let (fill, text) = (paint("fill", rgba), escape(text));
+        writeln!(self.out, "<text {layout} {style}{fill}>{text}</text>")
     }
 
-    /// An image whose unit square is put into place by `matrix` (a, b, c, d, e, f of SVG), as a data URI.
+    /// Writes an image from a data URI. `matrix` (a, b, c, d, e, f of SVG) maps the unit square to
+    /// user units.
     ///
     /// # Errors
-    /// When the target fails.
+    /// When writing fails.
     pub fn image(&mut self, matrix: [f64; 6], data_uri: &str) -> io::Result<()> {
         let matrix = matrix.map(|v| v.to_string()).join(" ");
-        let place = r#"width="1" height="1" preserveAspectRatio="none""#;
+        let size = r#"width="1" height="1" preserveAspectRatio="none""#;
         writeln!(
             self.out,
-            r#"<image {place} transform="matrix({matrix})" href="{data_uri}"/>"#
+            r#"<image {size} transform="matrix({matrix})" href="{data_uri}"/>"#
         )
     }
 
-    /// Ends the page.
+    /// Ends the document.
     ///
     /// # Errors
-    /// When the target fails.
+    /// When writing fails.
     pub fn finish(self) -> io::Result<()> {
         writeln!(self.out, "</g>\n</svg>")
     }

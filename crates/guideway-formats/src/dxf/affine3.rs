@@ -1,25 +1,27 @@
-//! Vectors and affine maps of space. A drawing is flat only in the end: blocks and arcs may lie on any plane.
+//! Vectors and affine maps in 3D: blocks, arcs and polylines may lie in any plane before the
+//! projection to x and y.
 
 use std::ops::{Add, Mul, Sub};
 
 use guideway_spline::Point;
 
+/// A vector or a point in 3D.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Vector {
+pub(super) struct Vector3 {
     pub(super) x: f64,
     pub(super) y: f64,
     pub(super) z: f64,
 }
 
-impl Vector {
+impl Vector3 {
     pub(super) const ZERO: Self = Self::new(0.0, 0.0, 0.0);
 
     pub(super) const fn new(x: f64, y: f64, z: f64) -> Self {
         Self { x, y, z }
     }
 
-    /// As seen from above.
-    pub(super) fn flat(self) -> Point<f64> {
+    /// The projection along z.
+    pub(super) fn xy(self) -> Point<f64> {
         Point::new(self.x, self.y)
     }
 
@@ -36,7 +38,7 @@ impl Vector {
     }
 }
 
-impl Add for Vector {
+impl Add for Vector3 {
     type Output = Self;
 
     fn add(self, other: Self) -> Self {
@@ -44,7 +46,7 @@ impl Add for Vector {
     }
 }
 
-impl Sub for Vector {
+impl Sub for Vector3 {
     type Output = Self;
 
     fn sub(self, other: Self) -> Self {
@@ -52,7 +54,7 @@ impl Sub for Vector {
     }
 }
 
-impl Mul<f64> for Vector {
+impl Mul<f64> for Vector3 {
     type Output = Self;
 
     fn mul(self, factor: f64) -> Self {
@@ -60,45 +62,47 @@ impl Mul<f64> for Vector {
     }
 }
 
-/// An affine map: where the axes and the origin go.
+/// An affine map, given by the images of the axes and of the origin.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Affine {
-    pub(super) x: Vector,
-    pub(super) y: Vector,
-    pub(super) z: Vector,
-    pub(super) origin: Vector,
+pub(super) struct Affine3 {
+    pub(super) x: Vector3,
+    pub(super) y: Vector3,
+    pub(super) z: Vector3,
+    pub(super) origin: Vector3,
 }
 
-impl Affine {
+impl Affine3 {
     pub(super) const fn scale(x: f64, y: f64, z: f64) -> Self {
         Self {
-            x: Vector::new(x, 0.0, 0.0),
-            y: Vector::new(0.0, y, 0.0),
-            z: Vector::new(0.0, 0.0, z),
-            origin: Vector::ZERO,
+            x: Vector3::new(x, 0.0, 0.0),
+            y: Vector3::new(0.0, y, 0.0),
+            z: Vector3::new(0.0, 0.0, z),
+            origin: Vector3::ZERO,
         }
     }
 
-    pub(super) fn translation(origin: Vector) -> Self {
+    pub(super) fn translation(origin: Vector3) -> Self {
         Self {
             origin,
             ..Self::scale(1.0, 1.0, 1.0)
         }
     }
 
-    /// Counter-clockwise about the z axis, in degrees.
+    /// A counter-clockwise rotation about the z axis, in degrees.
     pub(super) fn rotation(degrees: f64) -> Self {
         let (sin, cos) = degrees.to_radians().sin_cos();
         Self {
-            x: Vector::new(cos, sin, 0.0),
-            y: Vector::new(-sin, cos, 0.0),
+            x: Vector3::new(cos, sin, 0.0),
+            y: Vector3::new(-sin, cos, 0.0),
             ..Self::scale(1.0, 1.0, 1.0)
         }
     }
 
-    /// The object coordinate system of an extrusion direction, by the arbitrary axis algorithm of the DXF
-    /// reference. A direction of no length is that of the z axis.
-    pub(super) fn of_extrusion(direction: Vector) -> Self {
+    /// The object coordinate system (OCS) of an extrusion direction. A zero direction means the z
+    /// axis.
+    ///
+    /// Source: DXF reference, "Arbitrary Axis Algorithm", which also gives the threshold 1/64.
+    pub(super) fn of_extrusion(direction: Vector3) -> Self {
         const NEAR: f64 = 1.0 / 64.0;
         let norm = direction.norm();
         if !(norm.is_finite() && norm > 0.0) {
@@ -107,8 +111,8 @@ impl Affine {
         let z = direction * (1.0 / norm);
         let near_z = z.x.abs() < NEAR && z.y.abs() < NEAR;
         let helper = match near_z {
-            true => Vector::new(0.0, 1.0, 0.0),
-            false => Vector::new(0.0, 0.0, 1.0),
+            true => Vector3::new(0.0, 1.0, 0.0),
+            false => Vector3::new(0.0, 0.0, 1.0),
         };
         let x = helper.cross(z);
         let x = x * (1.0 / x.norm());
@@ -116,19 +120,21 @@ impl Affine {
             x,
             y: z.cross(x),
             z,
-            origin: Vector::ZERO,
+            origin: Vector3::ZERO,
         }
     }
 
-    pub(super) fn direction(&self, v: Vector) -> Vector {
+    /// Maps a direction: no translation.
+    pub(super) fn direction(&self, v: Vector3) -> Vector3 {
         self.x * v.x + self.y * v.y + self.z * v.z
     }
 
-    pub(super) fn point(&self, p: Vector) -> Vector {
+    /// Maps a point.
+    pub(super) fn point(&self, p: Vector3) -> Vector3 {
         self.direction(p) + self.origin
     }
 
-    /// The map that does `first` and then this one.
+    /// The map that applies `first` and then `self`.
     pub(super) fn after(&self, first: &Self) -> Self {
         Self {
             x: self.direction(first.x),
@@ -144,23 +150,23 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_extrusion_downwards_mirrors_x() {
-        let mirror = Affine::of_extrusion(Vector::new(0.0, 0.0, -2.0));
-        let p = mirror.point(Vector::new(3.0, 4.0, 5.0));
-        assert_eq!(p, Vector::new(-3.0, 4.0, -5.0));
+    fn downward_extrusion_mirrors_x() {
+        let mirror = Affine3::of_extrusion(Vector3::new(0.0, 0.0, -2.0));
+        let p = mirror.point(Vector3::new(3.0, 4.0, 5.0));
+        assert_eq!(p, Vector3::new(-3.0, 4.0, -5.0));
     }
 
     #[test]
-    fn an_extrusion_is_an_orthonormal_right_handed_frame() {
+    fn extrusion_frame_is_orthonormal_and_right_handed() {
         for direction in [
-            Vector::new(0.0, 0.0, 1.0),
-            Vector::new(0.01, 0.01, 1.0),
-            Vector::new(1.0, 0.0, 0.0),
-            Vector::new(-3.0, 2.0, 0.5),
+            Vector3::new(0.0, 0.0, 1.0),
+            Vector3::new(0.01, 0.01, 1.0),
+            Vector3::new(1.0, 0.0, 0.0),
+            Vector3::new(-3.0, 2.0, 0.5),
         ] {
-            let frame = Affine::of_extrusion(direction);
-            let apart = frame.x.cross(frame.y) - frame.z;
-            assert!(apart.norm() < 1e-12, "{direction:?}");
+            let frame = Affine3::of_extrusion(direction);
+            let error = frame.x.cross(frame.y) - frame.z;
+            assert!(error.norm() < 1e-12, "{direction:?}");
             assert!((frame.x.norm() - 1.0).abs() < 1e-12);
             let along = frame.z * direction.norm() - direction;
             assert!(along.norm() < 1e-12);
@@ -168,13 +174,13 @@ mod tests {
     }
 
     #[test]
-    fn maps_chain_from_the_inside_out() {
-        let turn = Affine::rotation(90.0);
-        let shift = Affine::translation(Vector::new(10.0, 0.0, 0.0));
-        let p = Vector::new(1.0, 0.0, 0.0);
+    fn after_applies_its_argument_first() {
+        let turn = Affine3::rotation(90.0);
+        let shift = Affine3::translation(Vector3::new(10.0, 0.0, 0.0));
+        let p = Vector3::new(1.0, 0.0, 0.0);
         let chained = shift.after(&turn).point(p);
-        assert!((chained - Vector::new(10.0, 1.0, 0.0)).norm() < 1e-12);
+        assert!((chained - Vector3::new(10.0, 1.0, 0.0)).norm() < 1e-12);
         let chained = turn.after(&shift).point(p);
-        assert!((chained - Vector::new(0.0, 11.0, 0.0)).norm() < 1e-12);
+        assert!((chained - Vector3::new(0.0, 11.0, 0.0)).norm() < 1e-12);
     }
 }

@@ -1,0 +1,265 @@
+//! Maps entities to paths: expands INSERTs recursively and resolves inherited layers and colors.
+
+use guideway_layout::{Code, NewPath, Place, Value};
+use guideway_spline::Runs;
+
+use super::affine3::{Affine3, Vector3};
+use super::drawing::Drawing;
+use super::entity::{Entity, Insert, Shape};
+use super::shapes::{ExceededLimit, ShapeLimits, append_arc, append_polyline, append_spline};
+use super::style::{Color, path_color};
+use super::text::decode_text;
+use crate::ReadError;
+use crate::builder::{Builder, POINT_BUDGET_EXCEEDED, POINTS_PER_BYTE, PlaceFn, Table};
+
+/// Entities that INSERTs may expand to in any file. Without this bound, nested INSERTs in a file of
+/// a kilobyte expand to more entities than a machine can hold.
+const BASE_ENTITIES: u64 = 1 << 20;
+
+/// File size that allows one more expanded entity, in bytes.
+const BYTES_PER_ENTITY: u64 = 16;
+
+/// Control points that any drawing may expand to. Larger than for other formats, because INSERTs
+/// legitimately repeat large blocks.
+const BASE_POINTS: u64 = 4 << 20;
+
+/// The state that entities inherit from the INSERTs around them.
+#[derive(Clone, Copy)]
+pub(super) struct InsertContext<'a> {
+    /// From entity coordinates to meters.
+    pub(super) transform: Affine3,
+    /// Layer of the innermost INSERT.
+    pub(super) layer: Option<u32>,
+    /// Color of the innermost INSERT, 0xRRGGBBAA.
+    pub(super) color: u32,
+    /// The handles of all INSERTs from the outermost on, each followed by a slash.
+    pub(super) handle_prefix: &'a str,
+    pub(super) depth: usize,
+}
+
+/// Maps entities to the paths of a layout.
+pub(super) struct EntityMapper<'a> {
+    pub(super) builder: Builder<'a>,
+    /// The color of every path.
+    pub(super) colors: Vec<u32>,
+    /// Remaining budget of entities from INSERTs.
+    entities_left: u64,
+}
+
+impl<'a> EntityMapper<'a> {
+    pub(super) fn new(mut builder: Builder<'a>, file_bytes: usize) -> Self {
+        builder.points_left = BASE_POINTS + file_bytes as u64 * POINTS_PER_BYTE;
+        Self {
+            builder,
+            colors: Vec::new(),
+            entities_left: BASE_ENTITIES + file_bytes as u64 / BYTES_PER_ENTITY,
+        }
+    }
+
+    /// Appends the paths of an entity, or records the entity as refused, with a finding.
+    ///
+    /// # Errors
+    /// When the layout exceeds a limit, or when the caller cancels.
+    pub(super) fn map_entity(
+        &mut self,
+        drawing: &Drawing<'_>,
+        entity: &Entity<'_>,
+        context: &InsertContext<'_>,
+    ) -> Result<(), ReadError> {
+        let at: PlaceFn<'_> = &|| Place {
+            element: format!("{} {}", entity.kind, path_id(entity, context)),
+            line: entity.line,
+        };
+        // Inside a block, layer 0 means the layer of the INSERT.
+        let layer_row = match context.layer {
+            Some(outer) if drawing.layers.get(entity.layer).name == "0" => outer,
+            _ => entity.layer,
+        };
+        let layer = drawing.layers.get(layer_row);
+        let color = match entity.color {
+            Color::Rgba(color) => color,
+            Color::ByBlock => context.color,
+            Color::ByLayer => layer.color,
+        };
+        let is_insert = matches!(entity.shape, Shape::Insert(_));
+        let detail = match entity.hidden {
+            Some(reason) => Some(reason.to_owned()),
+            None if layer.is_frozen => Some(format!("its layer `{}` is frozen", layer.name)),
+            // Entities of a block may be on other layers, so only frozen layers hide an INSERT.
+            None if layer.is_off && !is_insert => {
+                Some(format!("its layer `{}` is off", layer.name))
+            }
+            None => None,
+        };
+        if let Some(detail) = detail {
+            return self.refuse(entity, context, Code::NotDrawn, &detail, at);
+        }
+        if let Shape::Insert(insert) = &entity.shape {
+            let inner = InsertContext {
+                layer: Some(layer_row),
+                color,
+                ..*context
+            };
+            return self.map_insert(drawing, (entity, insert), context, &inner, at);
+        }
+        if let Shape::Broken(code, detail) = &entity.shape {
+            return self.refuse(entity, context, *code, detail, at);
+        }
+        let mut runs = Runs::default();
+        if let Err(limit) = self.append_shape(&entity.shape, &context.transform, at, &mut runs)? {
+            let (code, detail) = match limit {
+                ExceededLimit::Coordinate => (
+                    Code::OutOfRange,
+                    "it exceeds the largest allowed coordinate",
+                ),
+                ExceededLimit::Points => (Code::Implausible, POINT_BUDGET_EXCEEDED),
+            };
+            return self.refuse(entity, context, code, detail, at);
+        }
+        if runs.is_empty() {
+            let detail = "it has fewer than two points";
+            return self.refuse(entity, context, Code::TooFewPoints, detail, at);
+        }
+        let id = path_id(entity, context);
+        self.builder.check_text(&id)?;
+        self.builder.check_text(&layer.name)?;
+        let row = self.builder.push_path(&NewPath {
+            id: &id,
+            runs: &runs,
+            ..NewPath::default()
+        })?;
+        self.colors.push(path_color(color));
+        let layer = Value::Text(&layer.name);
+        self.builder.set(Table::Paths, row, "layer", layer)?;
+        let kind = Value::Text(entity.kind);
+        self.builder.set(Table::Paths, row, "entity", kind)
+    }
+
+    /// Appends a shape to empty `runs`. The inner error means that only this shape is left out.
+    fn append_shape(
+        &mut self,
+        shape: &Shape,
+        transform: &Affine3,
+        at: PlaceFn<'_>,
+        runs: &mut Runs,
+    ) -> Result<Result<(), ExceededLimit>, ReadError> {
+        let limits = &self.builder.source.options.limits;
+        let limits = ShapeLimits {
+            tolerance_m: limits.conversion_tolerance_m,
+            coordinate_m: limits.coordinate_m,
+            points: self.builder.points_left,
+        };
+        if limits.points == 0 {
+            return Ok(Err(ExceededLimit::Points));
+        }
+        let appended = match shape {
+            Shape::Line(ends) => {
+                let [start, end] = ends.map(|end| transform.point(end).xy());
+                runs.push_line(start, end);
+                Ok(())
+            }
+            Shape::Arc(arc) => append_arc(arc, transform, &limits, runs),
+            Shape::Polyline(polyline) => {
+                self.builder.check_curve_points(polyline.vertices.len())?;
+                append_polyline(polyline, transform, &limits, runs)
+            }
+            Shape::Spline(spline) => {
+                append_spline(&mut self.builder, spline, transform, at, runs)?;
+                Ok(())
+            }
+            Shape::Insert(_) | Shape::Broken(..) => Ok(()),
+        };
+        let checked = appended.and_then(|()| limits.check(runs));
+        if checked == Err(ExceededLimit::Points) {
+            // Converting every later shape only to drop it could take unbounded time.
+            self.builder.points_left = 0;
+        }
+        Ok(checked)
+    }
+
+    /// Maps all entities of a block, once per cell of the INSERT.
+    fn map_insert(
+        &mut self,
+        drawing: &Drawing<'_>,
+        (entity, insert): (&Entity<'_>, &Insert),
+        context: &InsertContext<'_>,
+        inner: &InsertContext<'_>,
+        at: PlaceFn<'_>,
+    ) -> Result<(), ReadError> {
+        let block = &drawing.blocks[insert.block as usize];
+        let Some(base) = block.base else {
+            let detail = "its block is not defined in the file";
+            return self.refuse(entity, context, Code::UnknownValue, detail, at);
+        };
+        // An outermost INSERT pays for all that it expands to, nested blocks included.
+        if context.depth == 0 {
+            let depth = self.builder.source.options.limits.depth;
+            let count = entity.expanded_count(|block| drawing.expanded_count(block, depth));
+            let Some(left) = self.entities_left.checked_sub(count) else {
+                let detail = format!(
+                    "it expands to more than {} entities: its block contains itself, repeats too \
+                     often, or nests more than {depth} levels deep",
+                    self.entities_left
+                );
+                return self.refuse(entity, context, Code::Implausible, &detail, at);
+            };
+            self.entities_left = left;
+        }
+        let handle = path_id(entity, context);
+        let is_array = insert.columns > 1 || insert.rows > 1;
+        for row in 0..insert.rows {
+            for column in 0..insert.columns {
+                let handle_prefix = match is_array {
+                    true => format!("{handle}[{column},{row}]/"),
+                    false => format!("{handle}/"),
+                };
+                let [column_step, row_step] = insert.steps;
+                let offset = column_step * f64::from(column) + row_step * f64::from(row);
+                let transform = context
+                    .transform
+                    .after(&Affine3::translation(offset))
+                    .after(&insert.transform)
+                    .after(&Affine3::translation(Vector3::ZERO - base));
+                let inner = InsertContext {
+                    transform,
+                    handle_prefix: &handle_prefix,
+                    depth: context.depth + 1,
+                    ..*inner
+                };
+                for entity in &block.entities {
+                    self.map_entity(drawing, entity, &inner)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Records an entity as refused, with a finding.
+    fn refuse(
+        &mut self,
+        entity: &Entity<'_>,
+        context: &InsertContext<'_>,
+        code: Code,
+        detail: &str,
+        at: PlaceFn<'_>,
+    ) -> Result<(), ReadError> {
+        let remedy = match code {
+            Code::NotDrawn => "Nothing to do if it is meant to be hidden",
+            _ => "It is left out; correct it in the tool that wrote the file",
+        };
+        self.builder.report(code, at, || detail.to_owned(), remedy);
+        self.builder.refuse(&path_id(entity, context), code, detail)
+    }
+}
+
+/// The path identifier of an entity: the handles of the INSERTs around it, then its own identifier
+/// or handle, or in old files without handles its line.
+fn path_id(entity: &Entity<'_>, context: &InsertContext<'_>) -> String {
+    let own = match (&entity.path_id, entity.handle, entity.line) {
+        (Some(id), ..) => id.clone(),
+        (None, b"", Some(line)) => format!("line {line}"),
+        (None, b"", None) => entity.kind.to_owned(),
+        (None, handle, _) => decode_text(handle),
+    };
+    format!("{}{own}", context.handle_prefix)
+}

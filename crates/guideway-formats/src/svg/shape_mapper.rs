@@ -1,0 +1,163 @@
+//! Maps shapes to the paths of a layout, with color, width and group.
+
+use guideway_layout::{Code, Direction, NewPath, Value};
+use guideway_spline::Affine;
+use roxmltree::Node;
+
+use super::context::ElementContext;
+use super::path_builder::PathBuilder;
+use super::shapes::append_shape;
+use crate::ReadError;
+use crate::builder::{POINT_BUDGET_EXCEEDED, Table};
+use crate::source::Source;
+use crate::xml::Xml;
+use crate::xml_builder::XmlBuilder;
+
+/// Collects paths and their styles.
+pub(super) struct ShapeMapper<'a, 'd, 't> {
+    pub(super) base: XmlBuilder<'a, 'd, 't>,
+    /// Color per path, 0xRRGGBBAA.
+    pub(super) colors: Vec<u32>,
+    /// Width per path; NaN for the width of the view.
+    pub(super) widths_m: Vec<f32>,
+    /// Number of paths with a clip path or a mask.
+    pub(super) clipped: u64,
+}
+
+impl<'a, 'd, 't> ShapeMapper<'a, 'd, 't> {
+    pub(super) fn new(source: Source<'a>, xml: &'d Xml<'t>, file_bytes: usize) -> Self {
+        Self {
+            base: XmlBuilder::new(source, xml, file_bytes),
+            colors: Vec::new(),
+            widths_m: Vec::new(),
+            clipped: 0,
+        }
+    }
+
+    /// Appends the path of a shape, or records the shape as refused, with a finding.
+    ///
+    /// # Errors
+    /// When the layout exceeds a limit, or when the caller cancels.
+    pub(super) fn map_shape(
+        &mut self,
+        node: Node<'d, 't>,
+        context: &ElementContext<'_>,
+    ) -> Result<(), ReadError> {
+        let style = context.style;
+        let painted = match (style.is_displayed, style.is_visible, style.color_rgba()) {
+            (false, ..) => Err("it is not displayed"),
+            (_, false, _) => Err("it is not visible"),
+            (.., None) => Err("it has neither a visible stroke nor a visible fill"),
+            (.., Some(color)) => Ok(color),
+        };
+        let color = match painted {
+            Ok(color) => color,
+            Err(detail) => {
+                let remedy = "Nothing to do if it is meant to be hidden";
+                self.base
+                    .report(Code::NotDrawn, node, || detail.to_owned(), remedy);
+                return self.refuse(node, context, Code::NotDrawn, detail);
+            }
+        };
+        let builder = &mut self.base.builder;
+        let limits = &builder.source.options.limits;
+        let mut path = PathBuilder::new(
+            context.meters_from_user,
+            limits.conversion_tolerance_m,
+            limits.coordinate_m,
+            builder.points_left,
+        );
+        let error = append_shape(node, context.viewport, &mut path).err();
+        let runs = &path.runs;
+        let refused = if path.is_out_of_range() || !builder.within_coordinate_limit(runs) {
+            Some((
+                Code::OutOfRange,
+                "it exceeds the largest allowed coordinate",
+            ))
+        } else if runs.is_empty() {
+            Some((Code::TooFewPoints, "it contains no line and no curve"))
+        } else if !builder.within_point_budget(runs) {
+            Some((Code::Implausible, POINT_BUDGET_EXCEEDED))
+        } else {
+            None
+        };
+        if let Some((code, detail)) = refused {
+            let remedy = "It is left out; correct it in the tool that wrote the file";
+            let detail = error.map_or(detail.to_owned(), |error| error.to_string());
+            self.base.report(code, node, || detail.clone(), remedy);
+            return self.refuse(node, context, code, &detail);
+        }
+        if let Some(error) = error {
+            let remedy = "It is drawn up to the error; correct it";
+            self.base
+                .report(Code::WrongType, node, || error.to_string(), remedy);
+        }
+        self.clipped += u64::from(style.is_clipped);
+        let id = self.path_id(node, context);
+        self.base.builder.check_text(&id)?;
+        let row = self.base.builder.push_path(&NewPath {
+            id: &id,
+            runs,
+            direction: Direction::Both,
+            ..NewPath::default()
+        })?;
+        self.colors.push(color);
+        let width_m = self.stroke_width_m(node, context);
+        self.widths_m.push(width_m.unwrap_or(f32::NAN));
+        let builder = &mut self.base.builder;
+        let element = Value::Text(node.tag_name().name());
+        builder.set(Table::Paths, row, "element", element)?;
+        match context.group {
+            Some(group) => {
+                builder.check_text(group)?;
+                builder.set(Table::Paths, row, "group", Value::Text(group))
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// The stroke width in meters: scaled by the geometric mean of both axes. `None` without a
+    /// stroke, and with a finding if the width exceeds the largest coordinate.
+    fn stroke_width_m(&mut self, node: Node<'d, 't>, context: &ElementContext<'_>) -> Option<f32> {
+        if !context.style.has_stroke() {
+            return None;
+        }
+        let Affine { x, y, .. } = context.meters_from_user;
+        let width_m = context.style.stroke_width * x.cross(y).abs().sqrt();
+        if width_m <= self.base.builder.source.options.limits.coordinate_m {
+            return Some(width_m as f32);
+        }
+        let message = || format!("the stroke width is {width_m} m");
+        let remedy = "The width of the view is used; correct the width";
+        self.base.report(Code::OutOfRange, node, message, remedy);
+        None
+    }
+
+    /// Records a shape as refused.
+    ///
+    /// # Errors
+    /// When the layout exceeds a limit, or when the caller cancels.
+    pub(super) fn refuse(
+        &mut self,
+        node: Node<'d, 't>,
+        context: &ElementContext<'_>,
+        code: Code,
+        detail: &str,
+    ) -> Result<(), ReadError> {
+        let id = self.path_id(node, context);
+        self.base.builder.check_text(&id)?;
+        self.base.builder.refuse(&id, code, detail)
+    }
+
+    fn path_id(&self, node: Node<'d, 't>, context: &ElementContext<'_>) -> String {
+        format!("{}{}", context.id_prefix, self.element_id(node))
+    }
+
+    /// The identifier of an element, or `line N` if it has none.
+    pub(super) fn element_id(&self, node: Node<'d, 't>) -> String {
+        match node.attribute("id") {
+            Some(id) if !id.is_empty() => id.to_owned(),
+            _ => format!("line {}", self.base.xml.line(node)),
+        }
+    }
+}
