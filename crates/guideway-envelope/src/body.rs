@@ -1,12 +1,24 @@
+//! A vehicle body: a rectangle around a reference point in; convex polygons that hold it at one or
+//! at a range of headings out.
+
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_8};
 
 use guideway_spline::Point;
 
 use crate::ConvexPolygon;
 
-/// A rectangle that moves: how far it reaches from its reference point, in meters, zero or more.
+/// A rectangular vehicle, by its extents from the reference point, in meters, 0 or more.
 ///
-/// The reference point is what follows the path: the middle between the driven wheels, say.
+/// The reference point follows the path; often it is the center of the driven axle.
+///
+/// ```text
+///          +---------------------+
+///   left_m |                     |
+///          |      x (reference)  |> heading
+///  right_m |                     |
+///          +---------------------+
+///           rear_m     front_m
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Body {
     /// Forwards.
@@ -20,7 +32,7 @@ pub struct Body {
 }
 
 impl Body {
-    /// A vehicle whose reference point is on its middle line, `rear_m` from its rear end.
+    /// A vehicle with its reference point on the center line, `rear_m` from its rear end.
     pub fn vehicle(length_m: f64, width_m: f64, rear_m: f64) -> Self {
         Self {
             front_m: length_m - rear_m,
@@ -30,23 +42,23 @@ impl Body {
         }
     }
 
-    /// From end to end.
+    /// Length from rear to front, in meters.
     pub fn length_m(&self) -> f64 {
         self.front_m + self.rear_m
     }
 
-    /// From side to side.
+    /// Width from side to side, in meters.
     pub fn width_m(&self) -> f64 {
         self.left_m + self.right_m
     }
 
-    /// Distance of the farthest corner from the reference point.
+    /// Distance of the farthest corner from the reference point, in meters.
     pub fn reach_m(&self) -> f64 {
         let (x, y) = (self.front_m.max(self.rear_m), self.left_m.max(self.right_m));
         x.hypot(y)
     }
 
-    /// Whether it is the same when it has turned by half a turn.
+    /// Whether a rotation by 180 degrees maps it to itself.
     pub fn is_symmetric(&self) -> bool {
         self.front_m == self.rear_m && self.left_m == self.right_m
     }
@@ -56,32 +68,36 @@ impl Body {
         [(rear, right), (front, right), (front, left), (rear, left)].map(|(x, y)| Point::new(x, y))
     }
 
-    /// Where it is at a heading, counter-clockwise from the x axis, with its reference point at the origin.
+    /// The body at a heading, counter-clockwise from the x axis, with its reference point at the
+    /// origin.
     pub fn at_heading(&self, heading_rad: f64) -> ConvexPolygon {
         let corners = self.corners().map(|corner| turn(corner, heading_rad));
         ConvexPolygon::hull(corners).expect("four corners")
     }
 
-    /// A polygon that holds it at all headings of a range. Apart from rounding, none of its points is farther
-    /// than [`Self::turning_error_m`] from the body at any one of them.
+    /// A polygon that contains the body at all headings of a range. Except for rounding, each of
+    /// its points is within [`Self::turning_error_m`] of the body at every heading of the range.
     ///
-    /// Up to a quarter turn, each corner moves on an arc, which lies in the triangle of its ends and of where the
-    /// tangents there meet: in the middle direction, at the radius over the cosine of half the angle.
+    /// ```text
+    ///        apex           each corner moves on an arc of the angle a; up to a quarter turn,
+    ///        /  \           the arc lies in the triangle of its ends and the intersection of
+    ///   low .-""-. high     its end tangents (apex), at the distance r / cos(a / 2)
+    /// ```
     pub(crate) fn turned(&self, [low, high]: [f64; 2]) -> ConvexPolygon {
         let angle_rad = high - low;
         if angle_rad == 0.0 {
             return self.at_heading(low);
         }
-        let points = if angle_rad <= MOST_TURN_RAD {
-            let outwards = (angle_rad / 2.0).cos().recip();
+        let points = if angle_rad <= MAX_ARC_RAD {
+            let apex_scale = (angle_rad / 2.0).cos().recip();
             let middle = (low + high) / 2.0;
             let of_corner = |corner| {
-                let outer = turn(corner, middle) * outwards;
-                [turn(corner, low), outer, turn(corner, high)]
+                let apex = turn(corner, middle) * apex_scale;
+                [turn(corner, low), apex, turn(corner, high)]
             };
             self.corners().map(of_corner).as_flattened().to_vec()
         } else {
-            // Around the circle of the farthest corner.
+            // An octagon around the circle of the farthest corner.
             let corner = Point::new(self.reach_m() / FRAC_PI_8.cos(), 0.0);
             let directions = (0..8).map(|i| f64::from(2 * i + 1) * FRAC_PI_8);
             directions
@@ -91,9 +107,10 @@ impl Body {
         ConvexPolygon::hull(points).expect("there are corners")
     }
 
-    /// See [`Self::turned`]: both the ends of the arcs and where their tangents meet are within the chord.
+    /// Error bound of [`Self::turned`] for a range of headings: the chord of the arc of the
+    /// farthest corner.
     pub(crate) fn turning_error_m(&self, angle_rad: f64) -> f64 {
-        if angle_rad <= MOST_TURN_RAD {
+        if angle_rad <= MAX_ARC_RAD {
             2.0 * self.reach_m() * (angle_rad / 2.0).sin()
         } else {
             self.reach_m() * (1.0 + FRAC_PI_8.cos().recip())
@@ -101,7 +118,9 @@ impl Body {
     }
 }
 
-const MOST_TURN_RAD: f64 = FRAC_PI_2;
+/// Largest range of headings that [`Body::turned`] bounds by arcs. Derived: beyond a quarter turn,
+/// the apexes lie farther out than the octagon.
+const MAX_ARC_RAD: f64 = FRAC_PI_2;
 
 fn turn(p: Point<f64>, angle_rad: f64) -> Point<f64> {
     let (sin, cos) = angle_rad.sin_cos();

@@ -1,23 +1,30 @@
+//! Convex polygons: hull, Minkowski sum and distance.
+//!
+//! ```text
+//!    A + B: merge the edges of both by direction       distance(A, B) = distance of the
+//!    O(n + m), rotating calipers on two rings          origin from A + (-B); 0 inside
+//! ```
+
 use std::cmp::Ordering;
 
 use guideway_spline::{Bounds, Point};
 
 type P = Point<f64>;
 
-/// A convex polygon in meters: its corners counter-clockwise, from the leftmost (of these the lowest). A
-/// line has two corners, a point one.
+/// A convex polygon in meters: its corners counter-clockwise from the leftmost, and of several
+/// leftmost ones the lowest. A line segment has two corners, a point has one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ConvexPolygon {
     points: Vec<P>,
 }
 
 impl ConvexPolygon {
-    /// The smallest that holds all points; none if there are none. Corners that only rounding tells apart are one:
-    /// the edge between them would have no direction, and the order of edges is that of their directions.
+    /// The convex hull of points; `None` without points. Merges corners that differ by rounding
+    /// errors only, because the edge between them has no reliable direction.
     ///
-    /// EnvelopeSource: Andrew's monotone chain (1979).
+    /// Source: Andrew's monotone chain (1979). Cost: O(n log n).
     pub fn hull(points: impl IntoIterator<Item = P>) -> Option<Self> {
-        // Adding zero leaves one of the two zeros.
+        // Adding 0 turns -0 into 0, so that equal points are adjacent after sorting.
         let points = points.into_iter().map(|p| p + P::default());
         let mut sorted: Vec<P> = points.collect();
         sorted.sort_unstable_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
@@ -38,7 +45,7 @@ impl ConvexPolygon {
             }
             hull.push(p);
         }
-        // The first comes again at the end, if there is another.
+        // The upper chain ends at the first point.
         if hull.len() > 1 {
             hull.pop();
         }
@@ -59,7 +66,7 @@ impl ConvexPolygon {
         &self.points
     }
 
-    /// The box around it.
+    /// The bounding box.
     pub fn bounds(&self) -> Bounds<f64> {
         let first = Bounds {
             min: self.points[0],
@@ -69,7 +76,7 @@ impl ConvexPolygon {
         others.fold(first, |all, &p| all.union(Bounds { min: p, max: p }))
     }
 
-    /// Its area.
+    /// The area, in square meters.
     pub fn area_m2(&self) -> f64 {
         let from = self.points[0];
         let corners = self.points[1..].windows(2);
@@ -77,7 +84,7 @@ impl ConvexPolygon {
         twice.sum::<f64>() / 2.0
     }
 
-    /// Its two halves, left and right or below and above the middle of its box, whichever cuts the longer side.
+    /// Its two halves: cut across the longer side of the bounding box, through its center.
     pub(crate) fn halves(&self) -> [Self; 2] {
         let size = self.bounds().size();
         let middle = self.bounds().center();
@@ -97,29 +104,31 @@ impl ConvexPolygon {
                 halves.iter_mut().for_each(|half| half.push(cut));
             }
         }
-        // A point has no halves but itself.
+        // Both halves of a point are the point.
         halves.map(|half| Self::hull(half).unwrap_or_else(|| self.clone()))
     }
 
-    /// Whether a point is inside or on the border.
+    /// Whether a point is inside or on the boundary.
     pub fn contains(&self, point: P) -> bool {
         let mut nearest = OriginDistance::default();
         self.points.iter().for_each(|&p| nearest.add(p - point));
         nearest.distance() == 0.0
     }
 
-    /// All sums of a point of one and a point of the other (Minkowski): the edges of both in the order of
-    /// their directions (de Berg et al., Computational Geometry, 13.3).
+    /// The Minkowski sum: all sums of a point of each polygon.
+    ///
+    /// Source: de Berg et al., Computational Geometry, 13.3. Cost: O(n + m).
     #[must_use]
     pub fn sum(&self, other: &Self) -> Self {
         let mut points = Vec::with_capacity(self.points.len() + other.points.len());
         let second = Ring::new(&other.points);
         Ring::new(&self.points).add(second, |p| points.push(p));
-        // Rounding may have made another corner the leftmost.
+        // Rounding may change the leftmost corner.
         Self::hull(points).expect("there are corners")
     }
 
-    /// How far it is from another, zero if they meet: the distance of the origin from their difference.
+    /// The distance from another polygon; 0 if they touch or overlap. Computed as the distance of
+    /// the origin from their Minkowski difference. Cost: O(n + m).
     pub fn distance(&self, other: &Self) -> f64 {
         let mut nearest = OriginDistance::default();
         let second = Ring::mirrored(&other.points);
@@ -128,7 +137,7 @@ impl ConvexPolygon {
     }
 }
 
-/// The corners of a polygon from its leftmost (lowest) on, as they are or mirrored in the origin.
+/// The corners of a polygon, or of its reflection in the origin, from the leftmost (lowest) one.
 #[derive(Clone, Copy)]
 struct Ring<'a> {
     points: &'a [P],
@@ -146,7 +155,7 @@ impl<'a> Ring<'a> {
     }
 
     fn mirrored(points: &'a [P]) -> Self {
-        // The rightmost (highest) becomes the leftmost (lowest).
+        // The reflection maps the rightmost (highest) corner to the leftmost (lowest) one.
         let rank = |p: P, q: P| p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y));
         let last = (0..points.len()).max_by(|&i, &j| rank(points[i], points[j]));
         Self {
@@ -169,7 +178,7 @@ impl<'a> Ring<'a> {
         (i < edges).then(|| self.point(i + 1) - self.point(i))
     }
 
-    /// Visits the corners of the sum with another, counter-clockwise.
+    /// Visits the corners of the Minkowski sum with another ring, counter-clockwise.
     fn add(self, other: Self, mut visit: impl FnMut(P)) {
         let (mut i, mut j) = (0, 0);
         loop {
@@ -189,15 +198,15 @@ impl<'a> Ring<'a> {
     }
 }
 
-/// Which of two edges comes first around a polygon that begins at its leftmost corner.
+/// The order of two edges around a polygon that starts at its leftmost corner.
 fn by_direction(a: P, b: P) -> Ordering {
     let is_back = |e: P| e.x < 0.0 || (e.x == 0.0 && e.y < 0.0);
     let half = is_back(a).cmp(&is_back(b));
-    // Adding zero makes one of the two zeros.
+    // Adding 0 turns -0 into 0.
     half.then_with(|| 0.0_f64.total_cmp(&(a.cross(b) + 0.0)))
 }
 
-/// The distance of the origin from a polygon whose corners come one by one.
+/// Computes the distance of the origin from a polygon, one corner at a time.
 #[derive(Default)]
 struct OriginDistance {
     first: Option<P>,
@@ -220,7 +229,7 @@ impl OriginDistance {
 
     fn edge(&mut self, from: P, to: P) {
         let way = to - from;
-        // The origin is inside if it is to the left of all edges.
+        // The origin is inside if it is to the left of every edge.
         self.is_outside |= from.cross(to) <= 0.0;
         let t = (-from.dot(way) / way.dot(way)).clamp(0.0, 1.0);
         let foot = if t.is_nan() { from } else { from + way * t };
@@ -232,7 +241,7 @@ impl OriginDistance {
         let Some(first) = self.first else {
             return f64::INFINITY;
         };
-        // Also of a line or a point, which has no inside.
+        // Closes the polygon; also marks a line segment or a point, which has no inside.
         self.edge(self.last, first);
         if self.is_outside {
             self.square.unwrap_or(0.0).sqrt()

@@ -1,16 +1,19 @@
+//! Reads the headings of a vehicle on a path from the columns of LIF and VDA 5050.
+
 use std::f64::consts::PI;
 
 use guideway_layout::{Direction, Layout, Value};
 
 use crate::Body;
 
-/// Where a vehicle heads on a path.
+/// The heading of a vehicle on a path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Heading {
-    /// At this angle to the way that the path goes, counter-clockwise: 0 is forwards, half a turn backwards,
-    /// anything else the crab's way. It drives on in reverse after a cusp.
+    /// A constant angle to the tangent of the path, counter-clockwise, in radians: 0 is forwards,
+    /// pi is backwards, anything else is crab steering. After a cusp, the vehicle continues in
+    /// reverse.
     Tangential(f64),
-    /// At this angle to the x axis, all the way.
+    /// A constant angle to the x axis, in radians.
     Fixed(f64),
 }
 
@@ -20,7 +23,7 @@ impl Heading {
     }
 }
 
-/// Where the headings of paths are in a file: VDA 5050 up to 3.1, LIF 1.0, LIF 2.0 (a list).
+/// Columns with headings, in radians: VDA 5050 up to 3.1, LIF 1.0, LIF 2.0 (a list).
 const ORIENTATION: [&str; 3] = [
     "orientation",
     "vehicleOrientation",
@@ -28,8 +31,9 @@ const ORIENTATION: [&str; 3] = [
 ];
 const ORIENTATION_TYPE: &str = "orientationType";
 
-/// The headings that a file gives for a path: `orientationType` and the orientation of LIF and VDA 5050; forwards
-/// along the path without. On a path that goes both ways, vehicles may drive either way round.
+/// The headings of a path in a file, from `orientationType` and the orientation of LIF and VDA
+/// 5050; forwards by default. A two-way path has each heading in both directions, unless `body` is
+/// symmetric.
 pub fn headings(layout: &Layout, path: usize, body: &Body) -> Vec<Heading> {
     let value = |name: &str| layout.paths.attributes.get(name)?.values.get(path);
     let angles = ORIENTATION.into_iter().find_map(value).map(angles);
@@ -38,7 +42,7 @@ pub fn headings(layout: &Layout, path: usize, body: &Body) -> Vec<Heading> {
         .unwrap_or_else(|| vec![0.0]);
     let is_fixed = match value(ORIENTATION_TYPE) {
         Some(Value::Text(text)) => text.eq_ignore_ascii_case("GLOBAL"),
-        // Version 1.1 of VDA 5050 knows no other orientation.
+        // VDA 5050 1.1 has global orientations only.
         _ => {
             let provenance = &layout.provenance;
             provenance.format == "VDA 5050"
@@ -54,20 +58,20 @@ pub fn headings(layout: &Layout, path: usize, body: &Body) -> Vec<Heading> {
     }
     let mut headings: Vec<Heading> = Vec::new();
     for angle in angles {
-        let is_like = |known: &Heading| {
+        let is_same = |known: &Heading| {
             let &(Heading::Tangential(other) | Heading::Fixed(other)) = known;
             let period = if body.is_symmetric() { PI } else { 2.0 * PI };
             let turns = (angle - other) / period;
             (turns - turns.round()).abs() < 1e-9
         };
-        if !headings.iter().any(is_like) {
+        if !headings.iter().any(is_same) {
             headings.push(Heading::Tangential(angle));
         }
     }
     headings
 }
 
-/// One number, or a list of them as text.
+/// Parses a number, or a comma-separated list of numbers.
 fn angles(value: Value<'_>) -> Vec<f64> {
     let text = value.to_string();
     let numbers = text.split(',').filter_map(|part| part.trim().parse().ok());

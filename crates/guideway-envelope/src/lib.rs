@@ -1,9 +1,17 @@
-//! The area that a vehicle sweeps along its paths, and how near vehicles come to each other and to walls.
+//! Computes the area that a vehicle sweeps along its paths, and the distances of swept areas to
+//! each other and to walls.
 //!
-//! A [`Body`] follows a path with its reference point, at a [`Heading`]: a [`Sweep`]. It is cut into stretches of
-//! the path, each held by a convex polygon that is as near to it as is asked for; questions about distances are
-//! answered by halving the stretches for which it matters, so that an answer within a centimeter does not take
-//! polygons within a centimeter everywhere.
+//! | Stage | Input | Output | File |
+//! |---|---|---|---|
+//! | source | layout, vehicle or columns | headings, areas | `source`, `heading`, `file_area` |
+//! | follow | path and heading | curve pieces with headings | `path_follower`, `curve_piece` |
+//! | bound | curve pieces and body | convex polygons | `sweep`, `hull`, `body`, `convex` |
+//! | compare | two sweeps | their closest approach | `proximity` |
+//! | check | layout, walls | findings | `clearance` |
+//!
+//! The reference point of a [`Body`] follows a path at a [`Heading`]: a [`Sweep`]. A distance query
+//! halves the parts of two sweeps only where that matters, so that an answer within a centimeter
+//! does not need polygons within a centimeter everywhere.
 //!
 //! ```
 //! use guideway_envelope::{Body, Heading, Sweep};
@@ -23,21 +31,24 @@
 //! assert_eq!((bounds.min.y, bounds.max.y), (-0.6, 0.6));
 //! ```
 
-mod area;
 mod body;
 mod clearance;
 mod convex;
-mod follow;
+mod curve_piece;
+mod file_area;
 mod heading;
-mod nearest;
+mod hull;
+mod no_envelope;
+mod path_follower;
+mod proximity;
 mod source;
-mod step;
 mod sweep;
 
 pub use body::Body;
 pub use clearance::{ClearanceOptions, ClearanceReport, ClearanceWork, Walls, check_clearance};
 pub use convex::ConvexPolygon;
 pub use heading::{Heading, headings};
-pub use nearest::{ClosestApproach, ExemptZone, ProximityQuery, SweepTree};
-pub use source::{EnvelopeSource, NoEnvelope};
+pub use no_envelope::NoEnvelope;
+pub use proximity::{ClosestApproach, ExemptZone, ProximityQuery, SweepTree};
+pub use source::EnvelopeSource;
 pub use sweep::{MIN_TOLERANCE_M, Sweep};

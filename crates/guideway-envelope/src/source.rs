@@ -1,62 +1,26 @@
-use std::fmt;
+//! Makes the envelope of a path: from a vehicle body, or from the corridors and areas of a file.
 
 use guideway_layout::{Layout, Value};
 
-use crate::area::area;
-use crate::{Body, Heading, Sweep, headings};
+use crate::file_area::file_area;
+use crate::{Body, Heading, NoEnvelope, Sweep, headings};
 
-/// What the envelopes of paths are made of.
+/// The source of the envelopes of paths.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum EnvelopeSource {
-    /// One vehicle on all paths, at the headings that the file gives ([`headings`]).
+    /// One vehicle on all paths, at the headings in the file ([`headings`]).
     Vehicle(Body),
-    /// Of each path what the file gives: the corridor of LIF 2.0 and VDA 5050, if it is one of the contour, or the
-    /// polygons of openTCS.
+    /// The file: the corridors of LIF 2.0 and VDA 5050 for the contour, or the polygons of openTCS.
     File,
 }
 
-/// Why a path has no envelope.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum NoEnvelope {
-    /// It is too short to have a direction.
-    Direction,
-    /// The file gives none for it.
-    NotInFile,
-    /// The file gives a corridor for the middle of the vehicle, whose size it does not give.
-    CenterOnly,
-    /// The file gives something else than the polygons of an area.
-    Unreadable,
-}
-
-impl NoEnvelope {
-    /// Every reason there is.
-    pub const ALL: [Self; 4] = [
-        Self::Direction,
-        Self::NotInFile,
-        Self::CenterOnly,
-        Self::Unreadable,
-    ];
-}
-
-impl fmt::Display for NoEnvelope {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Direction => "the path is too short to have a direction",
-            Self::NotInFile => "the file gives none",
-            Self::CenterOnly => {
-                "the file gives a corridor for the middle of the vehicle, but not its size"
-            }
-            Self::Unreadable => "the file gives an area that is no list of polygons",
-        })
-    }
-}
-
-/// Left and right of the way, VDA 5050 and LIF 2.0.
+/// Columns with the left and the right width of corridors: VDA 5050, then LIF 2.0.
 const CORRIDOR: [[&str; 2]; 2] = [
     ["corridor.leftWidth", "corridor.rightWidth"],
     ["corridor.maximumLeftWidth", "corridor.maximumRightWidth"],
 ];
-const CORRIDOR_OF: [&str; 2] = [
+/// Columns with the reference of corridors, the contour or the center: VDA 5050, then LIF 2.0.
+const CORRIDOR_REFERENCE: [&str; 2] = [
     "corridor.corridorRefPoint",
     "corridor.corridorReferencePoint",
 ];
@@ -65,24 +29,25 @@ impl EnvelopeSource {
     /// The area swept along a path.
     ///
     /// # Errors
-    /// When it has none.
+    /// When the path has no envelope.
     ///
     /// # Panics
-    /// When there is no such path.
+    /// When the layout has no such path.
     pub fn sweep(self, layout: &Layout, path: usize) -> Result<Sweep, NoEnvelope> {
         let (body, headings) = match self {
             Self::Vehicle(body) => (body, headings(layout, path, &body)),
             Self::File => match corridor(layout, path) {
-                // A corridor is what a line across the way sweeps.
+                // A corridor is the area swept by a line across the path.
                 Ok(line) => (line, vec![Heading::Tangential(0.0)]),
-                Err(NoEnvelope::NotInFile) => return area(layout, path),
-                Err(why) => return Err(why),
+                Err(NoEnvelope::NotInFile) => return file_area(layout, path),
+                Err(reason) => return Err(reason),
             },
         };
         Sweep::new(layout.paths.get(path), body, &headings).ok_or(NoEnvelope::Direction)
     }
 }
 
+/// The corridor of a path, as a body of length 0.
 fn corridor(layout: &Layout, path: usize) -> Result<Body, NoEnvelope> {
     let value = |name: &str| layout.paths.attributes.get(name)?.values.get(path);
     let width_m = |name: &str| match value(name)? {
@@ -96,8 +61,8 @@ fn corridor(layout: &Layout, path: usize) -> Result<Body, NoEnvelope> {
         (is_width(&left) && is_width(&right)).then_some((left, right))
     });
     let (left_m, right_m) = widths.ok_or(NoEnvelope::NotInFile)?;
-    // Both formats take a corridor for one of the middle unless it says otherwise.
-    let is_of_contour = CORRIDOR_OF
+    // In both formats, a corridor without a reference is for the center of the vehicle.
+    let is_of_contour = CORRIDOR_REFERENCE
         .into_iter()
         .find_map(value)
         .is_some_and(|of| matches!(of, Value::Text(text) if text.eq_ignore_ascii_case("CONTOUR")));

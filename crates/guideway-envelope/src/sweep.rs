@@ -1,91 +1,94 @@
+//! The area that a body sweeps along a path, as a hierarchy of convex polygons.
+
 use guideway_layout::{PathRef, RunPoints};
 use guideway_spline::{Bounds, Point, uniform};
 
-use crate::follow::Follow;
-use crate::step::{Drive, Hull, Step};
+use crate::curve_piece::{CurvePiece, SweepElement};
+use crate::hull::Hull;
+use crate::path_follower::PathFollower;
 use crate::{Body, ConvexPolygon, Heading};
 
 /// The area that a body sweeps along a path.
 ///
-/// It is held as pieces of the curve, not as an area: convex polygons come out of it as finely as they are
-/// asked for, where they are asked for.
+/// It stores curve pieces, not polygons. Polygons are computed on demand, to the requested
+/// tolerance and within the requested box.
 #[derive(Clone, Debug)]
 pub struct Sweep {
     pub(crate) body: Body,
-    pub(crate) steps: Vec<Step>,
+    pub(crate) elements: Vec<SweepElement>,
     reach_m: f64,
 }
 
-/// An area that is given is not cut finer than this share of its reach: of areas that overlap, parts beyond counting
-/// would.
+/// Finest cut of a given area, as a fraction of its reach. Without this bound, overlapping areas
+/// would be cut into far too many parts.
 const FINEST_CUT: f64 = 1.0 / 16.0;
 
-/// Least tolerance of polygons.
+/// Smallest tolerance of polygons, in meters.
 pub const MIN_TOLERANCE_M: f64 = 1e-4;
 
 impl Sweep {
-    /// The area swept along a path at any one of some headings; none if the path has no direction that a heading
-    /// could follow, for it is shorter than a hundredth of a millimeter.
+    /// The area swept along a path at one or more headings. `None` if the path is shorter than 0.01
+    /// mm and all headings are tangential, because it has no direction.
     ///
-    /// At a cusp the vehicle goes on the other way, without turning. At a kink it turns on the spot, by the smaller
-    /// angle. Nothing is swept between parts that do not meet.
+    /// At a cusp the vehicle reverses without turning. At a kink it pivots by the smaller angle.
+    /// Gaps between parts of the path are not swept.
     pub fn new(path: PathRef<'_>, body: Body, headings: &[Heading]) -> Option<Self> {
-        let mut steps = Vec::new();
+        let mut pieces = Vec::new();
         for &heading in headings {
-            let mut follow = Follow::new(heading, &mut steps);
+            let mut follower = PathFollower::new(heading, &mut pieces);
             for run in path.runs() {
                 let rounding = match run {
                     RunPoints::F64(_) => 0.0,
                     RunPoints::F32(_) => 16.0 * f64::from(f32::EPSILON),
                 };
                 for segment in run.segments() {
-                    follow.segment(&uniform::to_bezier(&segment), rounding);
+                    follower.segment(&uniform::to_bezier(&segment), rounding);
                 }
             }
-            follow.end();
+            follower.end();
         }
-        let steps: Vec<Step> = steps.into_iter().map(Step::Drive).collect();
-        (!steps.is_empty()).then_some(Self {
+        let elements: Vec<SweepElement> = pieces.into_iter().map(SweepElement::Moving).collect();
+        (!elements.is_empty()).then_some(Self {
             body,
-            steps,
+            elements,
             reach_m: body.reach_m(),
         })
     }
 
-    /// An area that is known, as convex parts, and how far it reaches from the path; none if there are no parts.
+    /// A given area of convex parts that reaches `reach_m` from the path; `None` without parts.
     pub fn of_areas(areas: impl IntoIterator<Item = ConvexPolygon>, reach_m: f64) -> Option<Self> {
-        let steps: Vec<Step> = areas.into_iter().map(Step::Still).collect();
-        (!steps.is_empty()).then_some(Self {
+        let elements: Vec<SweepElement> = areas.into_iter().map(SweepElement::Area).collect();
+        (!elements.is_empty()).then_some(Self {
             body: Body::vehicle(0.0, 0.0, 0.0),
-            steps,
+            elements,
             reach_m,
         })
     }
 
-    /// How far it reaches from the path, or from the reference point of a body.
+    /// Largest distance of the area from the reference point or the path, in meters.
     pub fn reach_m(&self) -> f64 {
         self.reach_m
     }
 
-    /// The extent below which stretches are not told apart by where they are, if a question may be answered so closely.
+    /// Extent below which parts are not cut further to locate them, in meters.
     pub(crate) fn finest_m(&self, tolerance_m: f64) -> f64 {
-        match self.steps[0] {
-            Step::Drive(_) => tolerance_m,
-            Step::Still(_) => tolerance_m.max(FINEST_CUT * self.reach_m),
+        match self.elements[0] {
+            SweepElement::Moving(_) => tolerance_m,
+            SweepElement::Area(_) => tolerance_m.max(FINEST_CUT * self.reach_m),
         }
     }
 
-    /// A box that holds all of it.
+    /// A box that contains the area; not always the smallest.
     pub fn bounds(&self) -> Bounds<f64> {
-        Stretch::whole(self).hull.bounds
+        SweepPart::whole(self).hull.bounds
     }
 
-    /// ConvexPolygon polygons that hold what of the area lies within a box (all, without one): no point of them is farther
-    /// than `tolerance_m` from the area, apart from rounding. A tolerance below [`MIN_TOLERANCE_M`] is raised to
-    /// it.
+    /// Visits convex polygons that cover the area inside a box, or all of it. Except for rounding,
+    /// each point of the polygons is within `tolerance_m` of the area; the tolerance is at least
+    /// [`MIN_TOLERANCE_M`].
     ///
-    /// The error of a polygon grows with the angle that the vehicle turns by in it: its number for a path is about
-    /// that angle times the reach of the body over the tolerance. Straight stretches are one each.
+    /// Cost: about (turning angle) * (reach of the body) / tolerance polygons per path; one polygon
+    /// per straight segment.
     pub fn polygons(
         &self,
         tolerance_m: f64,
@@ -93,7 +96,7 @@ impl Sweep {
         visit: &mut impl FnMut(&ConvexPolygon),
     ) {
         let tolerance_m = tolerance_m.max(MIN_TOLERANCE_M);
-        let mut open = vec![Stretch::whole(self)];
+        let mut open = vec![SweepPart::whole(self)];
         while let Some(stretch) = open.pop() {
             let hull = &stretch.hull;
             if within.is_some_and(|within| !within.intersects(hull.bounds)) {
@@ -109,63 +112,65 @@ impl Sweep {
     }
 }
 
-/// A stretch of a sweep.
+/// A part of a sweep with its hull: a node of the hierarchy.
 #[derive(Clone, Debug)]
-pub(crate) struct Stretch {
+pub(crate) struct SweepPart {
     extent: Extent,
     pub(crate) hull: Hull,
 }
 
 #[derive(Clone, Debug)]
 enum Extent {
-    /// Several whole steps.
-    Steps(usize, usize),
-    /// One, or a piece of it.
-    Piece(Drive),
-    /// An area that is given, or a part of it.
+    /// A range of elements.
+    Elements(usize, usize),
+    /// One curve piece, or a part of it.
+    Piece(CurvePiece),
+    /// A given area, or a part of it.
     Area,
 }
 
-impl Stretch {
+impl SweepPart {
+    /// The root of the hierarchy.
     pub(crate) fn whole(sweep: &Sweep) -> Self {
-        Self::of_steps(sweep, 0, sweep.steps.len())
+        Self::of_elements(sweep, 0, sweep.elements.len())
     }
 
-    fn of_steps(sweep: &Sweep, from: usize, to: usize) -> Self {
-        let (mut drives, mut areas): (Vec<Drive>, Vec<&ConvexPolygon>) = (Vec::new(), Vec::new());
-        for step in &sweep.steps[from..to] {
-            match step {
-                Step::Drive(drive) => drives.push(*drive),
-                Step::Still(area) => areas.push(area),
+    fn of_elements(sweep: &Sweep, from: usize, to: usize) -> Self {
+        let (mut pieces, mut areas): (Vec<CurvePiece>, Vec<&ConvexPolygon>) =
+            (Vec::new(), Vec::new());
+        for element in &sweep.elements[from..to] {
+            match element {
+                SweepElement::Moving(piece) => pieces.push(*piece),
+                SweepElement::Area(area) => areas.push(area),
             }
         }
-        let hull = Hull::of_drives(&sweep.body, &drives).or_else(|| Hull::of_areas(&areas));
-        let extent = match (drives.as_slice(), areas.as_slice()) {
-            ([drive], []) => Extent::Piece(*drive),
+        let hull = Hull::of_pieces(&sweep.body, &pieces).or_else(|| Hull::of_areas(&areas));
+        let extent = match (pieces.as_slice(), areas.as_slice()) {
+            ([piece], []) => Extent::Piece(*piece),
             ([], [_]) => Extent::Area,
-            _ => Extent::Steps(from, to),
+            _ => Extent::Elements(from, to),
         };
         Self {
             extent,
-            hull: hull.expect("a sweep has steps, of one kind"),
+            hull: hull.expect("a sweep has elements, all of one kind"),
         }
     }
 
-    fn of_piece(sweep: &Sweep, piece: Drive) -> Self {
-        let hull = Hull::of_drives(&sweep.body, &[piece]);
+    fn of_piece(sweep: &Sweep, piece: CurvePiece) -> Self {
+        let hull = Hull::of_pieces(&sweep.body, &[piece]);
         Self {
             extent: Extent::Piece(piece),
-            hull: hull.expect("there is a drive"),
+            hull: hull.expect("there is a piece"),
         }
     }
 
-    /// Its two halves.
+    /// Its two children in the hierarchy.
     pub(crate) fn halves(&self, sweep: &Sweep) -> [Self; 2] {
         let piece = match self.extent {
-            Extent::Steps(from, to) => {
+            Extent::Elements(from, to) => {
                 let middle = from.midpoint(to);
                 return [(from, middle), (middle, to)]
-                    .map(|(from, to)| Self::of_steps(sweep, from, to));
+                    .map(|(from, to)| Self::of_elements(sweep, from, to));
             }
             Extent::Piece(piece) => piece,
             Extent::Area => {
@@ -180,13 +185,13 @@ impl Stretch {
         halves.map(|half| Self::of_piece(sweep, half))
     }
 
-    /// The diagonal of the box of its places.
+    /// Diagonal of the bounds of the reference point, in meters.
     pub(crate) fn extent_m(&self) -> f64 {
-        self.hull.places.size().norm()
+        self.hull.reference_bounds.size().norm()
     }
 
-    /// The middle of its places.
-    pub(crate) fn place(&self) -> Point<f64> {
-        self.hull.places.center()
+    /// Center of the bounds of the reference point.
+    pub(crate) fn position(&self) -> Point<f64> {
+        self.hull.reference_bounds.center()
     }
 }

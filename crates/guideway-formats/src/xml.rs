@@ -1,4 +1,5 @@
-//! XML that need not be honest: looked over before it is parsed, and with the line of every element.
+//! Parses untrusted XML: bounds size, depth and entities before parsing; gives a tree with the line
+//! of every element.
 
 use std::cell::OnceCell;
 
@@ -9,22 +10,24 @@ use crate::source::Source;
 use crate::text::{ElementCounter, line_column, printable};
 use crate::{Problem, ReadError};
 
-/// Most attributes of one element. The parser compares each with every other; no format has half of it.
-const MOST_ATTRIBUTES: u64 = 256;
+/// Attributes per element. The parser compares each one with every other; no format needs half as
+/// many.
+const MAX_ATTRIBUTES: u64 = 256;
 
-/// Most declarations of namespaces. The parser copies them for every level; drawing programs write some
-/// on one element or on a few.
-const MOST_NAMESPACES: u64 = 4096;
+/// Namespace declarations per file. The parser copies them for every level; drawing programs write
+/// some on a few elements.
+const MAX_NAMESPACES: u64 = 4096;
 
-/// Most bytes that all entities of a file may become together.
-const MOST_ENTITY_BYTES: u64 = 16 << 20;
+/// Bytes that all entity references of a file may expand to.
+const MAX_ENTITY_BYTES: u64 = 16 << 20;
 
-/// What becomes of a document type definition, whose entities can make a small file very large.
+/// The treatment of a document type definition, whose entities can expand a small file without
+/// bound.
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) enum Doctype {
-    /// It is an error: no file of the format has one.
+    /// Any definition is an error: files of the format have none.
     Refused,
-    /// It may be there, and its entities too if they hold plain text and little of it.
+    /// Entities of plain text are allowed up to [`MAX_ENTITY_BYTES`].
     Bounded,
 }
 
@@ -32,11 +35,16 @@ pub(crate) enum Doctype {
 pub(crate) struct Xml<'t> {
     text: &'t str,
     document: Document<'t>,
-    /// Where the lines end. Only made when a finding asks for a line.
+    /// Byte offset of every line end; computed for the first finding that needs a line.
     line_ends: OnceCell<Vec<usize>>,
 }
 
 impl<'t> Xml<'t> {
+    /// Parses a text.
+    ///
+    /// # Errors
+    /// When the text is not well-formed, exceeds a limit or has a forbidden document type
+    /// definition, or when the caller cancels.
     pub(crate) fn parse(
         source: &Source<'_>,
         text: &'t str,
@@ -47,7 +55,7 @@ impl<'t> Xml<'t> {
         let limit = source.options.limits.elements;
         let options = ParsingOptions {
             allow_dtd: doctype == Doctype::Bounded,
-            // An element can have a text before and after it.
+            // Every element may have a text node before and after it.
             nodes_limit: u32::try_from(limit.saturating_mul(3)).unwrap_or(u32::MAX),
             ..ParsingOptions::default()
         };
@@ -60,11 +68,34 @@ impl<'t> Xml<'t> {
         })
     }
 
+    /// The root element.
     pub(crate) fn root(&self) -> Node<'_, 't> {
         self.document.root_element()
     }
 
-    /// An element by its tag and its name or identifier, with its line.
+    /// The root element of a format.
+    ///
+    /// # Errors
+    /// When the root has another tag. `expected` describes the root in the message.
+    pub(crate) fn root_with_tag(
+        &self,
+        source: &Source<'_>,
+        tag: &str,
+        expected: &str,
+    ) -> Result<Node<'_, 't>, ReadError> {
+        let root = self.root();
+        let found = root.tag_name().name();
+        if found == tag {
+            return Ok(root);
+        }
+        Err(source.fail(Problem::Structure {
+            place: Place::element("the outermost element"),
+            expected: expected.into(),
+            found: format!("<{}>", printable(found)),
+        }))
+    }
+
+    /// The place of an element: its tag, its name or identifier, and its line.
     pub(crate) fn place(&self, node: Node<'_, '_>) -> Place {
         let tag = node.tag_name().name();
         let mut names = ["name", "visualizedObjectName", "id"].into_iter();
@@ -79,7 +110,7 @@ impl<'t> Xml<'t> {
         }
     }
 
-    /// The line that an element begins on, from 1.
+    /// The first line of an element, from 1.
     pub(crate) fn line(&self, node: Node<'_, '_>) -> usize {
         let ends = self.line_ends.get_or_init(|| {
             let all = self.text.bytes().enumerate();
@@ -89,7 +120,7 @@ impl<'t> Xml<'t> {
     }
 }
 
-/// The child elements of a tag.
+/// The child elements with a tag.
 pub(crate) fn children<'d, 't>(
     node: Node<'d, 't>,
     tag: &'static str,
@@ -97,11 +128,12 @@ pub(crate) fn children<'d, 't>(
     node.children().filter(move |n| n.has_tag_name(tag))
 }
 
-/// The first child element of a tag.
+/// The first child element with a tag.
 pub(crate) fn child<'d, 't>(node: Node<'d, 't>, tag: &'static str) -> Option<Node<'d, 't>> {
     children(node, tag).next()
 }
 
+/// Scans a text for limits before parsing.
 fn check(source: &Source<'_>, text: &str, mut doctype: Doctype) -> Result<(), Problem> {
     let mut counter = ElementCounter::new(text, &source.options.limits);
     let mut namespaces = 0;
@@ -119,7 +151,7 @@ fn check(source: &Source<'_>, text: &str, mut doctype: Doctype) -> Result<(), Pr
             if doctype == Doctype::Refused {
                 return Err(no_doctype(text, at));
             }
-            // There is one at most.
+            // A document has at most one definition.
             doctype = Doctype::Refused;
             let definition = definition_length(rest).map(|length| &rest[..length]);
             check_entities(text, at, definition.unwrap_or_default())?;
@@ -134,14 +166,14 @@ fn check(source: &Source<'_>, text: &str, mut doctype: Doctype) -> Result<(), Pr
             counter.count()?;
             let tag = Tag::scan(rest);
             namespaces += tag.namespaces;
-            check_count("attributes of one element", MOST_ATTRIBUTES, tag.attributes)?;
-            check_count("namespaces in the file", MOST_NAMESPACES, namespaces)?;
-            if !tag.closed {
+            check_count("attributes of one element", MAX_ATTRIBUTES, tag.attributes)?;
+            check_count("namespaces in the file", MAX_NAMESPACES, namespaces)?;
+            if !tag.is_self_closing {
                 counter.enter(at)?;
             }
             tag.length
         };
-        at += length.ok_or_else(|| cut(text, at))?;
+        at += length.ok_or_else(|| unterminated(text, at))?;
     }
     Ok(())
 }
@@ -157,36 +189,37 @@ fn check_count(what: &'static str, limit: u64, actual: u64) -> Result<(), Proble
     })
 }
 
-/// Length of a text up to and with its first `end`.
+/// Length of a text up to and including its first `end`.
 fn through(text: &str, end: &str) -> Option<usize> {
     text.find(end).map(|i| i + end.len())
 }
 
-fn cut(text: &str, at: usize) -> Problem {
+fn unterminated(text: &str, at: usize) -> Problem {
     let (line, column) = line_column(text, at);
     Problem::Truncated {
         at: text.len() as u64,
-        detail: format!("what begins at line {line}, column {column} has no end"),
+        detail: format!("the markup at line {line}, column {column} is not terminated"),
     }
 }
 
-/// What an opening tag has.
+/// A scanned opening tag.
 struct Tag {
-    /// None if it does not end.
+    /// `None` if it is not terminated.
     length: Option<usize>,
     attributes: u64,
     namespaces: u64,
-    /// Whether it has no content, as in `<a/>`.
-    closed: bool,
+    /// Whether it is self-closing, as in `<a/>`.
+    is_self_closing: bool,
 }
 
 impl Tag {
+    /// Scans the tag at the start of a text.
     fn scan(text: &str) -> Self {
         let mut tag = Self {
             length: None,
             attributes: 0,
             namespaces: 0,
-            closed: false,
+            is_self_closing: false,
         };
         let mut at = 0;
         while let Some(found) = text[at..].find(['"', '\'', '>']) {
@@ -195,7 +228,7 @@ impl Tag {
             at += found + 1;
             let stop = &text[at - 1..at];
             if stop == ">" {
-                tag.closed = part.ends_with('/');
+                tag.is_self_closing = part.ends_with('/');
                 tag.length = Some(at);
                 break;
             }
@@ -209,7 +242,7 @@ impl Tag {
     }
 }
 
-/// Length of a document type definition, its declarations in brackets included.
+/// Length of a document type definition, including its declarations in brackets.
 fn definition_length(text: &str) -> Option<usize> {
     let end = text.find('>')?;
     match text[..end].contains('[') {
@@ -221,19 +254,19 @@ fn definition_length(text: &str) -> Option<usize> {
     }
 }
 
-/// Bounds what entities can become: each reference at most all that the definition holds.
+/// Bounds the expansion of entities: every reference expands to at most the whole definition.
 fn check_entities(text: &str, at: usize, definition: &str) -> Result<(), Problem> {
     if !definition.contains("<!ENTITY") {
         return Ok(());
     }
     let references = text.matches('&').count() as u64;
-    // Only declarations may begin in it: an entity that holds elements could nest them without bound.
-    let holds_elements = definition.replace("<!", "").contains('<');
-    if definition.contains(['&', '%']) || holds_elements {
+    // An entity with elements could nest them beyond the depth limit.
+    let has_elements = definition.replace("<!", "").contains('<');
+    if definition.contains(['&', '%']) || has_elements {
         return Err(no_doctype(text, at));
     }
     let bytes = references.saturating_mul(definition.len() as u64);
-    check_count("bytes that entities stand for", MOST_ENTITY_BYTES, bytes)
+    check_count("bytes of expanded entities", MAX_ENTITY_BYTES, bytes)
 }
 
 fn no_doctype(text: &str, at: usize) -> Problem {
@@ -242,12 +275,14 @@ fn no_doctype(text: &str, at: usize) -> Problem {
             element: "the head of the file".into(),
             line: u32::try_from(line_column(text, at).0).ok(),
         },
-        what: "a document type definition (<!DOCTYPE ...>), or one whose entities hold more than text,"
+        what: "a document type definition (<!DOCTYPE ...>), or one with entities other than text,"
             .into(),
-        remedy: "Remove it; it is not needed, and it can make a small file very large".into(),
+        remedy: "Remove it; layouts do not need it, and it can expand a small file without bound"
+            .into(),
     }
 }
 
+/// Converts a parser error. `elements` is the limit of elements.
 fn problem(error: &Error, text: &str, elements: u64) -> Problem {
     match error {
         Error::UnexpectedEndOfStream | Error::UnclosedRootNode => Problem::Truncated {
@@ -256,7 +291,7 @@ fn problem(error: &Error, text: &str, elements: u64) -> Problem {
         },
         Error::NoRootNode => Problem::Truncated {
             at: text.len() as u64,
-            detail: "there is no element".into(),
+            detail: "the document has no element".into(),
         },
         Error::NodesLimitReached => Problem::LimitReached {
             what: "elements in the file",
@@ -270,7 +305,7 @@ fn problem(error: &Error, text: &str, elements: u64) -> Problem {
             if (u64::from(place.row), u64::from(place.col)) == (line, column) {
                 return Problem::Truncated {
                     at: text.len() as u64,
-                    detail: format!("the XML goes on after line {line}, column {column}"),
+                    detail: format!("the XML is incomplete at line {line}, column {column}"),
                 };
             }
             let message = other.to_string();

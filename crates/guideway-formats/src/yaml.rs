@@ -1,7 +1,7 @@
-//! YAML that need not be honest, as a tree with the line of every value.
+//! Parses untrusted YAML to a tree with the line of every value.
 //!
-//! An alias stands for the value that it names and is not copied. What all aliases stand for is bounded, or
-//! a few lines could be as much as a million.
+//! The tree shares aliased values instead of copying them. The number of values that all aliases
+//! refer to is bounded, because nested aliases let a few lines represent billions of values.
 
 use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};
@@ -13,21 +13,22 @@ use crate::source::Source;
 use crate::text::{ElementCounter, line_column, printable};
 use crate::{Problem, ReadError};
 
-/// So many values may all aliases of a file stand for, beside as many as it has bytes.
-const LEAST_ALIASED: u64 = 1 << 16;
+/// Values that the aliases of any file may refer to, in addition to one per byte.
+const BASE_ALIASED: u64 = 1 << 16;
 
-/// A parsed file: every value, each after those within it.
+/// A parsed file: all values, children before parents.
 pub(crate) struct Yaml<'t> {
-    values: Vec<Node<'t>>,
-    /// Keys that an object has twice, with their lines; the last one counts.
+    values: Vec<NodeData<'t>>,
+    /// Duplicate keys of objects with their lines; the last value of a key is used.
     pub(crate) repeated: Vec<(String, u32)>,
-    /// The line that a second document begins on. It is not read.
+    /// First line of a second document, which is not read.
     pub(crate) next_document: Option<u32>,
 }
 
-struct Node<'t> {
+/// A stored value.
+struct NodeData<'t> {
     line: u32,
-    /// How many values it is, with those within it and those that its aliases stand for.
+    /// Number of values in it, including itself and the values of its aliases.
     size: u64,
     content: Content<'t>,
 }
@@ -39,8 +40,12 @@ enum Content<'t> {
 }
 
 impl<'t> Yaml<'t> {
+    /// Parses the first document of a text.
+    ///
+    /// # Errors
+    /// When the text is malformed or exceeds a limit, or when the caller cancels.
     pub(crate) fn parse(source: &Source<'_>, text: &'t str) -> Result<Self, ReadError> {
-        let mut reader = Reader {
+        let mut tree = TreeBuilder {
             yaml: Self {
                 values: Vec::new(),
                 repeated: Vec::new(),
@@ -50,7 +55,7 @@ impl<'t> Yaml<'t> {
             text,
             open: Vec::new(),
             anchors: HashMap::new(),
-            aliased_left: LEAST_ALIASED + text.len() as u64,
+            aliased_left: BASE_ALIASED + text.len() as u64,
         };
         for (count, event) in Parser::new_from_str(text).enumerate() {
             if count.is_multiple_of(1 << 16) {
@@ -58,46 +63,48 @@ impl<'t> Yaml<'t> {
             }
             let (event, span) = event.map_err(|error| source.fail(problem(&error, text)))?;
             let line = u32::try_from(span.start.line()).unwrap_or(u32::MAX);
-            if matches!(event, Event::DocumentStart(_)) && !reader.yaml.values.is_empty() {
-                reader.yaml.next_document = Some(line);
+            if matches!(event, Event::DocumentStart(_)) && !tree.yaml.values.is_empty() {
+                tree.yaml.next_document = Some(line);
                 break;
             }
-            reader.take(event, line).map_err(|p| source.fail(p))?;
+            tree.push_event(event, line).map_err(|p| source.fail(p))?;
         }
-        Ok(reader.yaml)
+        Ok(tree.yaml)
     }
 
-    /// The outermost value; none in a file of nothing but comments.
-    pub(crate) fn root(&self) -> Option<Item<'_>> {
+    /// The outermost value; `None` if the file has only comments.
+    pub(crate) fn root(&self) -> Option<YamlNode<'_>> {
         let last = self.values.len().checked_sub(1)?;
-        Some(Item {
+        Some(YamlNode {
             values: &self.values,
             node: last,
         })
     }
 }
 
-/// A list or an object that has not ended.
-struct Open<'t> {
-    node: Node<'t>,
+/// A list or an object under construction.
+struct OpenCollection<'t> {
+    node: NodeData<'t>,
     anchor: usize,
-    /// The key whose value comes next; a list has none.
+    /// The key of the next value of an object.
     key: Option<Cow<'t, str>>,
 }
 
-struct Reader<'t, 's> {
+/// Builds the tree from parser events.
+struct TreeBuilder<'t, 's> {
     yaml: Yaml<'t>,
     counter: ElementCounter<'s>,
     text: &'t str,
-    open: Vec<Open<'t>>,
-    /// Which value an anchor names, by the number that the parser gives it.
+    open: Vec<OpenCollection<'t>>,
+    /// Value per anchor; the parser numbers anchors.
     anchors: HashMap<usize, u32>,
+    /// Remaining budget of aliased values.
     aliased_left: u64,
 }
 
-impl<'t> Reader<'t, '_> {
-    fn take(&mut self, event: Event<'t>, line: u32) -> Result<(), Problem> {
-        let begins = |content| Node {
+impl<'t> TreeBuilder<'t, '_> {
+    fn push_event(&mut self, event: Event<'t>, line: u32) -> Result<(), Problem> {
+        let new_node = |content| NodeData {
             line,
             size: 1,
             content,
@@ -105,9 +112,11 @@ impl<'t> Reader<'t, '_> {
         match event {
             Event::Scalar(text, style, anchor, _) => self.scalar(text, style, anchor, line),
             Event::SequenceStart(anchor, _) => {
-                self.enter(begins(Content::List(Vec::new())), anchor)
+                self.enter(new_node(Content::List(Vec::new())), anchor)
             }
-            Event::MappingStart(anchor, _) => self.enter(begins(Content::Map(Vec::new())), anchor),
+            Event::MappingStart(anchor, _) => {
+                self.enter(new_node(Content::Map(Vec::new())), anchor)
+            }
             Event::SequenceEnd | Event::MappingEnd => {
                 self.counter.leave();
                 match self.open.pop() {
@@ -117,27 +126,25 @@ impl<'t> Reader<'t, '_> {
             }
             Event::Alias(anchor) => {
                 let Some(&value) = self.anchors.get(&anchor) else {
-                    return Err(syntax(
-                        line,
-                        "an alias stands for a value that it is within",
-                    ));
+                    return Err(syntax(line, "an alias refers to a value that contains it"));
                 };
                 let size = self.yaml.values[value as usize].size;
-                self.aliased_left = match self.aliased_left.checked_sub(size) {
-                    Some(left) => left,
-                    None => {
-                        return Err(Problem::LimitReached {
-                            what: "values that aliases stand for",
-                            limit: LEAST_ALIASED + self.text.len() as u64,
-                            actual: LEAST_ALIASED + self.text.len() as u64 - self.aliased_left
-                                + size,
-                        });
-                    }
-                };
-                self.put(value, line)
+                self.charge_alias(size)?;
+                self.attach(value, line)
             }
             _ => Ok(()),
         }
+    }
+
+    fn charge_alias(&mut self, size: u64) -> Result<(), Problem> {
+        let limit = BASE_ALIASED + self.text.len() as u64;
+        let left = self.aliased_left.checked_sub(size);
+        self.aliased_left = left.ok_or(Problem::LimitReached {
+            what: "values of all aliases",
+            limit,
+            actual: limit - self.aliased_left + size,
+        })?;
+        Ok(())
     }
 
     fn scalar(
@@ -160,7 +167,7 @@ impl<'t> Reader<'t, '_> {
         let size = 1;
         self.counter.count()?;
         self.close(
-            Node {
+            NodeData {
                 line,
                 size,
                 content,
@@ -169,9 +176,9 @@ impl<'t> Reader<'t, '_> {
         )
     }
 
-    fn enter(&mut self, node: Node<'t>, anchor: usize) -> Result<(), Problem> {
+    fn enter(&mut self, node: NodeData<'t>, anchor: usize) -> Result<(), Problem> {
         self.counter.count()?;
-        // The parser knows the line, and counts characters where the counter counts bytes.
+        // Replaces the position: the parser counts characters, the counter would need bytes.
         self.counter.enter(0).map_err(|problem| match problem {
             Problem::TooDeep { limit, .. } => Problem::TooDeep {
                 limit,
@@ -181,12 +188,12 @@ impl<'t> Reader<'t, '_> {
             other => other,
         })?;
         let key = None;
-        self.open.push(Open { node, anchor, key });
+        self.open.push(OpenCollection { node, anchor, key });
         Ok(())
     }
 
-    /// A value is whole.
-    fn close(&mut self, node: Node<'t>, anchor: usize) -> Result<(), Problem> {
+    /// Stores a complete value.
+    fn close(&mut self, node: NodeData<'t>, anchor: usize) -> Result<(), Problem> {
         if let Content::Map(entries) = &node.content {
             let mut seen = HashSet::with_capacity(entries.len());
             for (key, value) in entries {
@@ -202,11 +209,11 @@ impl<'t> Reader<'t, '_> {
         if anchor > 0 {
             self.anchors.insert(anchor, value);
         }
-        self.put(value, line)
+        self.attach(value, line)
     }
 
-    /// Puts a value into the list or object around it.
-    fn put(&mut self, value: u32, line: u32) -> Result<(), Problem> {
+    /// Appends a value to the enclosing list or object.
+    fn attach(&mut self, value: u32, line: u32) -> Result<(), Problem> {
         let size = self.yaml.values[value as usize].size;
         let Some(open) = self.open.last_mut() else {
             return Ok(());
@@ -215,20 +222,25 @@ impl<'t> Reader<'t, '_> {
         match (&mut open.node.content, open.key.take()) {
             (Content::Map(entries), Some(key)) => entries.push((key, value)),
             (Content::List(items), _) => items.push(value),
-            _ => return Err(syntax(line, "a key is a text, not a list or an object")),
+            _ => {
+                return Err(syntax(
+                    line,
+                    "a key must be a text, not a list or an object",
+                ));
+            }
         }
         Ok(())
     }
 }
 
-/// One value of a file.
+/// A reference to a value of a file.
 #[derive(Clone, Copy)]
-pub(crate) struct Item<'y> {
-    values: &'y [Node<'y>],
+pub(crate) struct YamlNode<'y> {
+    values: &'y [NodeData<'y>],
     node: usize,
 }
 
-impl<'y> Item<'y> {
+impl<'y> YamlNode<'y> {
     fn content(self) -> &'y Content<'y> {
         &self.values[self.node].content
     }
@@ -240,12 +252,12 @@ impl<'y> Item<'y> {
         }
     }
 
-    /// The line that it begins on, from 1.
+    /// The first line of the value, from 1.
     pub(crate) fn line(self) -> u32 {
         self.values[self.node].line
     }
 
-    /// What it is, for messages.
+    /// The kind of the value, for messages.
     pub(crate) fn kind(self) -> &'static str {
         match self.content() {
             Content::Scalar { .. } if self.value().is_none() => "nothing",
@@ -255,8 +267,8 @@ impl<'y> Item<'y> {
         }
     }
 
-    /// The items of a list; of anything else, none.
-    pub(crate) fn items(self) -> impl ExactSizeIterator<Item = Item<'y>> + Clone {
+    /// The items of a list; empty for any other value.
+    pub(crate) fn items(self) -> impl ExactSizeIterator<Item = YamlNode<'y>> + Clone {
         let items: &[u32] = match self.content() {
             Content::List(items) => items,
             _ => &[],
@@ -272,8 +284,8 @@ impl<'y> Item<'y> {
         matches!(self.content(), Content::Map(_))
     }
 
-    /// The keys and values of an object; of anything else, none.
-    pub(crate) fn entries(self) -> impl DoubleEndedIterator<Item = (&'y str, Item<'y>)> {
+    /// The keys and values of an object; empty for any other value.
+    pub(crate) fn entries(self) -> impl DoubleEndedIterator<Item = (&'y str, YamlNode<'y>)> {
         let entries: &[(Cow<'y, str>, u32)] = match self.content() {
             Content::Map(entries) => entries,
             _ => &[],
@@ -282,18 +294,18 @@ impl<'y> Item<'y> {
         entries.iter().map(item)
     }
 
-    /// The value of a key.
-    pub(crate) fn get(self, key: &str) -> Option<Item<'y>> {
+    /// The value of a key of an object.
+    pub(crate) fn get(self, key: &str) -> Option<YamlNode<'y>> {
         let mut entries = self.entries().rev();
         entries.find(|(k, _)| *k == key).map(|(_, value)| value)
     }
 
-    /// An item of a list.
-    pub(crate) fn item(self, index: usize) -> Option<Item<'y>> {
+    /// An item of a list by its index.
+    pub(crate) fn item(self, index: usize) -> Option<YamlNode<'y>> {
         self.items().nth(index)
     }
 
-    /// The text of a single value, whatever its type.
+    /// The text of a scalar of any type.
     pub(crate) fn text(self) -> Option<&'y str> {
         match self.content() {
             Content::Scalar { text, .. } => Some(text),
@@ -301,7 +313,7 @@ impl<'y> Item<'y> {
         }
     }
 
-    /// A single value with its type, by the core schema of YAML 1.2; none for null, lists and objects.
+    /// A scalar, typed by the core schema of YAML 1.2; `None` for null, lists and objects.
     pub(crate) fn value(self) -> Option<Value<'y>> {
         let Content::Scalar { text, is_plain } = self.content() else {
             return None;
@@ -320,7 +332,7 @@ impl<'y> Item<'y> {
             ".nan" | ".NaN" | ".NAN" => Some(Value::Float(f64::NAN)),
             _ => match text.trim_start_matches(['+', '-']) {
                 ".inf" | ".Inf" | ".INF" => Some(Value::Float(f64::INFINITY)),
-                // Not what Rust takes for a number besides, such as `nan`.
+                // Excludes spellings that only Rust accepts, such as `nan`.
                 digits if digits.starts_with(|c: char| c.is_ascii_digit() || c == '.') => {
                     let number = text.parse().map(Value::Float);
                     Some(number.unwrap_or(Value::Text(text)))
@@ -330,7 +342,7 @@ impl<'y> Item<'y> {
         }
     }
 
-    /// A number.
+    /// A scalar as a number.
     pub(crate) fn number(self) -> Option<f64> {
         match self.value()? {
             Value::Int(whole) => Some(whole as f64),
@@ -348,6 +360,7 @@ fn syntax(line: u32, message: &str) -> Problem {
     }
 }
 
+/// Converts a parser error.
 fn problem(error: &ScanError, text: &str) -> Problem {
     let place = error.marker();
     let (last_line, last_column) = line_column(text.trim_end(), usize::MAX);

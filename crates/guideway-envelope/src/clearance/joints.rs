@@ -1,3 +1,5 @@
+//! Finds where paths meet: joins coinciding path ends, and follows short paths between joints.
+
 use std::collections::HashMap;
 
 use guideway_layout::{Layout, PathRef};
@@ -7,10 +9,11 @@ use crate::ExemptZone;
 
 type P = Point<f64>;
 
-/// Where paths begin and end: ends at one place are one joint, whether the file has a node there or not.
+/// The joints of a layout: path ends at the same position share one, with or without a node.
 pub(super) struct Joints {
+    /// Both ends per path; `None` for a path without a curve.
     ends: Vec<Option<[End; 2]>>,
-    /// Of each joint, the others that one path leads to, and how long that is.
+    /// Per joint, the joints at the other ends of its paths, and the path lengths in meters.
     ways: Vec<Vec<(u32, f64)>>,
 }
 
@@ -20,7 +23,7 @@ struct End {
     at: P,
 }
 
-/// A joint that can be got to from an end of a path.
+/// A joint that is reachable from an end of a path.
 #[derive(Clone, Copy)]
 pub(super) struct Reached {
     from: P,
@@ -29,6 +32,7 @@ pub(super) struct Reached {
 }
 
 impl Joints {
+    /// Joins all path ends within a tolerance, in meters.
     pub(super) fn new(layout: &Layout, tolerance_m: f64) -> Self {
         let mut places = Places::new(tolerance_m);
         let mut joints = Self {
@@ -58,7 +62,7 @@ impl Joints {
         joints
     }
 
-    /// What can be got to from the ends of a path by ways not longer than this, the ends themselves first.
+    /// The joints within a path length of the ends of a path, the ends themselves first.
     pub(super) fn reached(&self, path: usize, most_m: f64) -> Vec<Reached> {
         let mut all = Vec::new();
         for end in self.ends[path].iter().flatten() {
@@ -68,7 +72,7 @@ impl Joints {
                 joint: end.joint,
                 way_m: 0.0,
             });
-            // Few are so near: a list does.
+            // Few joints are in reach, so a linear search is fastest.
             let mut next = first;
             while let Some(&Reached { joint, way_m, .. }) = all.get(next) {
                 next += 1;
@@ -89,7 +93,7 @@ impl Joints {
         all
     }
 
-    /// Where a path meets another, from what can be got to from its ends.
+    /// The exempt zones of two paths, from the joints in reach of the first one.
     pub(super) fn exempt_zones(
         &self,
         reached: &[Reached],
@@ -113,10 +117,11 @@ impl Joints {
     }
 }
 
-/// Beyond so many joints within the length of a vehicle, the others do not count as joined.
+/// Joints in reach of one path end; bounds the search in a dense network. Farther ones do not count
+/// as connected.
 const MOST_REACHED: usize = 256;
 
-/// Length of the control polygons, a little more than that of the curve.
+/// Length of the control polygons of a path, an upper bound of its length.
 fn polygon_m(path: PathRef<'_>) -> f64 {
     let legs = path.runs().flat_map(|run| run.segments());
     legs.map(|p| {
@@ -126,10 +131,10 @@ fn polygon_m(path: PathRef<'_>) -> f64 {
     .sum()
 }
 
-/// Column, row and level.
+/// Column, row and level of a grid cell.
 type Cell = (i64, i64, Option<u32>);
 
-/// Joints by the cells of a grid.
+/// Joints in the cells of a grid.
 struct Places {
     tolerance_m: f64,
     cells: HashMap<Cell, Vec<(P, u32)>>,
@@ -145,7 +150,7 @@ impl Places {
         }
     }
 
-    /// The joint at a place, a new one if there is none near enough.
+    /// The joint within the tolerance of a position, or a new one.
     fn joint(&mut self, at: P, level: Option<u32>) -> u32 {
         let cell_m = self.tolerance_m.max(1e-6);
         let cell = |v: f64| (v / cell_m).floor() as i64;

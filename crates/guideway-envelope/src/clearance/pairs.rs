@@ -7,18 +7,19 @@ use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 
 use super::joints::Joints;
-use super::{ClearanceOptions, ClearanceWork};
+use super::message::approach;
+use super::report::{ClearanceOptions, ClearanceWork};
 use crate::{ClosestApproach, EnvelopeSource, ProximityQuery, SweepTree};
 
 type Entry = GeomWithData<Rectangle<[f64; 2]>, u32>;
 
-/// Two paths that are too near to each other.
-struct TooNear {
+/// A pair of paths that violates the clearance.
+struct Violation {
     paths: [usize; 2],
     nearest: ClosestApproach,
 }
 
-/// Paths that are too near to each other.
+/// Checks all pairs of paths. Adds a finding per violation, and returns the work.
 pub(super) fn check(
     layout: &Layout,
     source: EnvelopeSource,
@@ -27,16 +28,18 @@ pub(super) fn check(
 ) -> ClearanceWork {
     let paths = Paths::new(layout, source, options);
     let rows = (0..layout.paths.len()).into_par_iter();
-    let of_rows: Vec<_> = rows.map(|row| paths.too_near(row)).collect();
+    let of_rows: Vec<_> = rows.map(|row| paths.violations(row)).collect();
     let mut work = ClearanceWork::default();
-    for (too_near, of_row) in of_rows {
+    for (violations, of_row) in of_rows {
         work = work.plus(of_row);
-        too_near.iter().for_each(|pair| pair.report(layout, found));
+        violations
+            .iter()
+            .for_each(|pair| pair.report(layout, found));
     }
     work
 }
 
-/// All paths, made ready to find those that are near.
+/// All paths, indexed by the bounds of their envelopes.
 struct Paths<'a> {
     layout: &'a Layout,
     source: EnvelopeSource,
@@ -72,13 +75,13 @@ impl<'a> Paths<'a> {
         }
     }
 
-    /// The paths behind a row that are too near to it.
-    fn too_near(&self, row: usize) -> (Vec<TooNear>, ClearanceWork) {
+    /// The violations between a path and all later ones.
+    fn violations(&self, row: usize) -> (Vec<Violation>, ClearanceWork) {
         let mut work = ClearanceWork::default();
         let sweep = match self.source.sweep(self.layout, row) {
             Ok(sweep) => sweep,
-            Err(why) => {
-                work.no_envelope[why as usize] = 1;
+            Err(reason) => {
+                work.no_envelope[reason as usize] = 1;
                 return (Vec::new(), work);
             }
         };
@@ -88,9 +91,9 @@ impl<'a> Paths<'a> {
         work.candidates = others.len() as u64;
         let reaches_m = others.iter().filter_map(|&other| self.boxes[other]);
         let most_m = reaches_m.map(|(_, other_m)| other_m).fold(0.0, f64::max);
-        let reached = self.joints.reached(row, self.way_m(reach_m, most_m));
+        let reached = self.joints.reached(row, self.max_path_m(reach_m, most_m));
         let mut tree = SweepTree::new(sweep);
-        let mut too_near = Vec::new();
+        let mut violations = Vec::new();
         for other in others {
             let (Some((_, other_m)), Ok(other_sweep)) =
                 (self.boxes[other], self.source.sweep(self.layout, other))
@@ -102,7 +105,7 @@ impl<'a> Paths<'a> {
                 &reached,
                 other,
                 near_joint_m.unwrap_or(REACHES_NEAR_JOINT * reach_m.max(other_m)),
-                self.way_m(reach_m, other_m),
+                self.max_path_m(reach_m, other_m),
             );
             let question = ProximityQuery {
                 threshold_m: self.options.clearance_m,
@@ -111,20 +114,20 @@ impl<'a> Paths<'a> {
             };
             let mut other_tree = SweepTree::new(other_sweep);
             let nearest = tree.nearest(&mut other_tree, &question, &mut work.tests);
-            too_near.extend(nearest.map(|nearest| TooNear {
+            violations.extend(nearest.map(|nearest| Violation {
                 paths: [row, other],
                 nearest,
             }));
         }
-        (too_near, work)
+        (violations, work)
     }
 
-    /// The longest way between two vehicles that are too near to each other.
-    fn way_m(&self, reach_m: f64, other_m: f64) -> f64 {
+    /// Largest path length between the reference points of two vehicles that violate the clearance.
+    fn max_path_m(&self, reach_m: f64, other_m: f64) -> f64 {
         reach_m + other_m + self.options.clearance_m
     }
 
-    /// Paths behind a row that may be too near to it, by rising row.
+    /// The later paths whose bounds are within the clearance, by ascending row.
     fn others(&self, row: usize, bounds: Bounds<f64>) -> Vec<usize> {
         let Bounds { min, max } = bounds.inflated(self.options.clearance_m);
         let near = AABB::from_corners([min.x, min.y], [max.x, max.y]);
@@ -142,11 +145,11 @@ impl<'a> Paths<'a> {
     }
 }
 
-/// Unless said otherwise, how many times the reach of a vehicle is near a joint: about three lengths of a vehicle,
-/// within which lanes of usual bends have come apart.
+/// Default radius of the exempt zone at a joint, in reaches of the vehicle. Derived: about three
+/// vehicle lengths, after which lanes with usual bends have separated.
 const REACHES_NEAR_JOINT: f64 = 6.0;
 
-impl TooNear {
+impl Violation {
     fn report(&self, layout: &Layout, found: &mut Diagnostics) {
         let ([row, other], nearest) = (self.paths, self.nearest);
         let id = |row| layout.paths.id(row);
@@ -155,20 +158,14 @@ impl TooNear {
             || element_place("path", row, id(row)),
             || {
                 let other = element_name("path", other, id(other));
-                let how = how_near(nearest.distance_m);
+                let approach = approach(nearest.distance_m);
                 let [here, there] = nearest.positions.map(DisplayPosition);
-                format!("vehicles {how} those on {other}, while they are at {here} here and at {there} there")
+                format!(
+                    "vehicles {approach} those on {other}, at {here} on this path and at \
+                     {there} on the other"
+                )
             },
-            "Move the paths apart, or never let vehicles be on both at a time",
+            "Move the paths apart, or do not allow vehicles on both at the same time",
         );
-    }
-}
-
-/// `overlap with`, or how near they come.
-pub(super) fn how_near(distance_m: f64) -> String {
-    if distance_m == 0.0 {
-        "overlap with".to_owned()
-    } else {
-        format!("come within {distance_m:.2} m of")
     }
 }

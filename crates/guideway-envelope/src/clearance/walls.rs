@@ -1,3 +1,5 @@
+//! Checks the clearance of paths to the walls of a floor plan.
+
 use guideway_layout::{
     Code, Diagnostics, DisplayPosition, Layout, RunPoints, TextColumn, element_name, element_place,
 };
@@ -6,37 +8,37 @@ use rayon::prelude::*;
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 
-use super::pairs::how_near;
-use super::{ClearanceOptions, ClearanceWork};
+use super::message::approach;
+use super::report::{ClearanceOptions, ClearanceWork};
 use crate::{ClosestApproach, ConvexPolygon, EnvelopeSource, ProximityQuery, Sweep, SweepTree};
 
 type P = Point<f64>;
 type Entry = GeomWithData<Rectangle<[f64; 2]>, u32>;
 
-/// How far lines are from the curves that they stand for.
+/// Largest distance of wall lines from the curves of the floor plan, in meters.
 const FLATNESS_M: f64 = 1e-3;
 
-/// The lines of a floor plan, that no vehicle should touch.
+/// The wall lines of a floor plan, with a spatial index.
 #[derive(Clone, Debug)]
 pub struct Walls {
     lines: Vec<[P; 2]>,
-    /// Of each line, the path of the floor plan.
+    /// Path of the floor plan per line.
     paths: Vec<u32>,
     ids: TextColumn,
     index: RTree<Entry>,
 }
 
-/// The wall that is nearest to a path.
-struct TooNear {
+/// The violation of a path by its closest wall.
+struct Violation {
     row: usize,
     line: u32,
     nearest: ClosestApproach,
-    /// Paths of the floor plan that are too near.
+    /// Number of paths of the floor plan that violate the clearance.
     walls: usize,
 }
 
 impl Walls {
-    /// The curves of some paths of a floor plan, as lines within a millimeter.
+    /// Flattens the paths of a floor plan for which `is_wall(row)` holds.
     pub fn new(plan: &Layout, is_wall: impl Fn(usize) -> bool) -> Self {
         let (mut lines, mut paths, mut ids) = (Vec::new(), Vec::new(), TextColumn::default());
         for path in plan.paths.iter() {
@@ -77,7 +79,7 @@ impl Walls {
         self.lines.len()
     }
 
-    /// Whether there are none.
+    /// Whether there are no lines.
     pub fn is_empty(&self) -> bool {
         self.lines.is_empty()
     }
@@ -94,27 +96,27 @@ impl Walls {
             .map(|row| {
                 let mut work = ClearanceWork::default();
                 let sweep = source.sweep(layout, row).ok();
-                let too_near = sweep.and_then(|s| self.too_near(row, s, options, &mut work));
-                (too_near, work)
+                let violation = sweep.and_then(|s| self.violation(row, s, options, &mut work));
+                (violation, work)
             })
             .collect();
         let mut work = ClearanceWork::default();
-        for (too_near, of_row) in of_rows {
+        for (violation, of_row) in of_rows {
             work = work.plus(of_row);
-            if let Some(too_near) = too_near {
-                self.report(&too_near, layout, found);
+            if let Some(violation) = violation {
+                self.report(&violation, layout, found);
             }
         }
         work
     }
 
-    fn too_near(
+    fn violation(
         &self,
         row: usize,
         sweep: Sweep,
         options: &ClearanceOptions,
         work: &mut ClearanceWork,
-    ) -> Option<TooNear> {
+    ) -> Option<Violation> {
         let lines = self.lines_near(&sweep, options.clearance_m + FLATNESS_M);
         work.candidates += lines.len() as u64;
         let question = ProximityQuery {
@@ -123,7 +125,7 @@ impl Walls {
             exempt_zones: &[],
         };
         let mut tree = SweepTree::new(sweep);
-        let mut best: Option<TooNear> = None;
+        let mut best: Option<Violation> = None;
         let mut walls = Vec::new();
         for line in lines {
             let ends = self.lines[line as usize];
@@ -140,7 +142,7 @@ impl Walls {
                 .as_ref()
                 .is_none_or(|b| nearest.distance_m < b.nearest.distance_m)
             {
-                best = Some(TooNear {
+                best = Some(Violation {
                     row,
                     line,
                     nearest,
@@ -150,13 +152,13 @@ impl Walls {
         }
         walls.sort_unstable();
         walls.dedup();
-        best.map(|best| TooNear {
+        best.map(|best| Violation {
             walls: walls.len(),
             ..best
         })
     }
 
-    /// Lines whose boxes are near some part of a sweep, each once.
+    /// The lines whose boxes are within a distance of some part of a sweep, without duplicates.
     fn lines_near(&self, sweep: &Sweep, within_m: f64) -> Vec<u32> {
         let mut lines = Vec::new();
         let coarsely_m = sweep.reach_m();
@@ -171,13 +173,13 @@ impl Walls {
         lines
     }
 
-    fn report(&self, too_near: &TooNear, layout: &Layout, found: &mut Diagnostics) {
-        let TooNear {
+    fn report(&self, violation: &Violation, layout: &Layout, found: &mut Diagnostics) {
+        let Violation {
             row,
             line,
             nearest,
             walls,
-        } = *too_near;
+        } = *violation;
         let id = layout.paths.id(row);
         found.push(
             Code::WallClearance,
@@ -185,16 +187,17 @@ impl Walls {
             || {
                 let wall = self.paths[line as usize] as usize;
                 let wall = element_name("path", wall, self.ids.get(wall));
-                let how = how_near(nearest.distance_m);
+                let approach = approach(nearest.distance_m);
                 let here = DisplayPosition(nearest.positions[0]);
                 let others = match walls {
                     1 => String::new(),
-                    2 => ", and another line is too near".to_owned(),
-                    n => format!(", and {} other lines are too near", n - 1),
+                    2 => ", and another line is too close".to_owned(),
+                    n => format!(", and {} other lines are too close", n - 1),
                 };
-                format!("vehicles {how} {wall} of the floor plan, while they are at {here}{others}")
+                format!("vehicles {approach} {wall} of the floor plan, at {here}{others}")
             },
-            "Move the path away from it; if it is no wall, check with those layers of the floor plan only that are",
+            "Move the path away from it; if it is not a wall, check against the wall layers of the \
+             floor plan only",
         );
     }
 }

@@ -1,4 +1,4 @@
-//! Areas that a file gives as polygons.
+//! Checks the areas that a file gives as polygons.
 
 use std::f64::consts::TAU;
 
@@ -11,7 +11,7 @@ use proptest::prelude::*;
 
 use crate::random::{P, p};
 
-/// Paths of 20 m on top of each other's ends, each with the text of its area.
+/// A chain of paths of 20 m, each with the text of its area.
 fn layout(areas: &[&str]) -> Layout {
     let mut layout = Layout::default();
     for (i, area) in (0..).zip(areas) {
@@ -39,12 +39,12 @@ fn parts(area: &str) -> Result<Vec<ConvexPolygon>, NoEnvelope> {
     Ok(parts)
 }
 
-fn holds(parts: &[ConvexPolygon], point: P) -> bool {
+fn contains(parts: &[ConvexPolygon], point: P) -> bool {
     parts.iter().any(|part| part.contains(point))
 }
 
 #[test]
-fn a_convex_area_is_one_part_and_holes_and_notches_stay() {
+fn keeps_convex_areas_whole_and_cuts_holes_and_notches() {
     let square = "[[[0,0],[4,0],[4,4],[0,4],[0,0]]]";
     assert_eq!(parts(&format!("[{square}]")).unwrap().len(), 1);
     let notched = "[[[10,0],[14,0],[14,4],[12,1],[10,4],[10,0]]]";
@@ -57,21 +57,21 @@ fn a_convex_area_is_one_part_and_holes_and_notches_stay() {
         p(20.5, 2.0),
         p(23.5, 3.9),
     ] {
-        assert!(holds(&parts, inside), "{inside:?}");
+        assert!(contains(&parts, inside), "{inside:?}");
     }
     for outside in [p(5.0, 2.0), p(12.0, 2.0), p(22.0, 2.0), p(12.0, -0.1)] {
-        assert!(!holds(&parts, outside), "{outside:?}");
+        assert!(!contains(&parts, outside), "{outside:?}");
     }
 }
 
 #[test]
-fn what_crosses_itself_may_mean_all_of_its_hull() {
+fn self_intersecting_polygon_covers_its_hull() {
     let bow = parts("[[[[0,0],[4,4],[4,0],[0,4],[0,0]]]]").unwrap();
-    assert!(holds(&bow, p(2.0, 3.9)) && holds(&bow, p(3.9, 2.0)));
+    assert!(contains(&bow, p(2.0, 3.9)) && contains(&bow, p(3.9, 2.0)));
 }
 
 #[test]
-fn what_is_no_area_is_told_apart_from_none() {
+fn distinguishes_malformed_areas_from_missing_ones() {
     let of = |text: &str| EnvelopeSource::File.sweep(&layout(&[text]), 0).map(|_| ());
     for text in [
         "POLYGON",
@@ -103,18 +103,18 @@ fn is_too_near(areas: &[&str], clearance_m: f64) -> bool {
 }
 
 #[test]
-fn areas_that_only_meet_at_the_joint_are_not_too_near() {
+fn ignores_areas_that_touch_only_at_a_joint() {
     let first = "[[[[0,-1],[21,-1],[21,1],[0,1],[0,-1]]]]";
     let second = "[[[[19,-1],[40,-1],[40,1],[19,1],[19,-1]]]]";
     assert!(!is_too_near(&[first, second], 0.5));
-    // One of four in a row comes back to the first, half a meter from it, far from any joint.
+    // The last of four areas in a row comes back within 0.5 m of the first one, far from any joint.
     let armed = "[[[[59,-1],[80,-1],[80,2],[5,2],[5,1.5],[78,1.5],[78,1],[59,1],[59,-1]]]]";
     let all = [first, "[]", "[]", armed];
     assert!(!is_too_near(&all, 0.4));
     assert!(is_too_near(&all, 0.6));
 }
 
-/// Corners around the origin, each farther around than the one before.
+/// A star-shaped polygon around the origin.
 fn star() -> impl Strategy<Value = Vec<P>> {
     prop::collection::vec(0.5..4.0_f64, 3..12).prop_map(|radii| {
         let turn = |i: usize| TAU * i as f64 / radii.len() as f64;
@@ -125,19 +125,25 @@ fn star() -> impl Strategy<Value = Vec<P>> {
 
 proptest! {
     #[test]
-    fn parts_hold_what_is_inside_and_nothing_else(star in star(), x in -4.0..4.0_f64, y in -4.0..4.0_f64) {
+    fn parts_contain_exactly_the_points_inside(
+        star in star(),
+        x in -4.0..4.0_f64,
+        y in -4.0..4.0_f64,
+    ) {
         let point = p(x, y);
         let corners: Vec<String> = star.iter().map(|p| format!("[{:?},{:?}]", p.x, p.y)).collect();
         let parts = parts(&format!("[[[{}]]]", corners.join(","))).unwrap();
         let edges = || star.iter().zip(star.iter().cycle().skip(1));
         // Crossings of a ray to the right.
-        let crosses = |(a, b): (&P, &P)| (a.y > y) != (b.y > y) && x < a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x);
+        let crosses = |(a, b): (&P, &P)| {
+            (a.y > y) != (b.y > y) && x < a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x)
+        };
         let is_inside = edges().filter(|&edge| crosses(edge)).count() % 2 == 1;
         let from_edge = edges().map(|(a, b)| {
             let t = ((point - *a).dot(*b - *a) / (*b - *a).dot(*b - *a)).clamp(0.0, 1.0);
             point.distance(a.lerp(*b, t))
         });
         prop_assume!(from_edge.fold(f64::INFINITY, f64::min) > 1e-6);
-        prop_assert_eq!(holds(&parts, point), is_inside);
+        prop_assert_eq!(contains(&parts, point), is_inside);
     }
 }

@@ -1,4 +1,4 @@
-//! The judge: a vehicle at many poses, one by one. It shares no code with what it judges.
+//! Brute force: evaluates a vehicle at many poses. Shares no code with the crate under test.
 
 use std::f64::consts::PI;
 
@@ -6,22 +6,22 @@ use guideway_envelope::{Body, Heading};
 
 use crate::random::{Case, P, p};
 
-/// Where a vehicle is, and where it heads.
+/// Position and heading of a vehicle.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pose {
     pub(crate) at: P,
     pub(crate) heading: f64,
 }
 
-/// A turn by more than this where the path has no length is one of half a turn: a cusp (docs/envelopes.md).
+/// Larger turns without path length are cusps (docs/envelopes.md).
 const CUSP: f64 = 179.0 / 180.0 * PI;
 
-/// Poses along the way. From each to the next, no point of the body moves farther than `step`.
+/// Poses along the path. Between two poses, every point of the body moves at most by `step`.
 pub(crate) fn poses(case: &Case, step: f64) -> Vec<Pose> {
     let reach = case.body.reach_m();
     let mut raw: Vec<(P, f64)> = Vec::new();
     for bezier in &case.curve.0 {
-        // Ends may have no direction of their own, nor may the middle.
+        // Avoids the ends, where the direction may be undefined.
         let first = (1e-7, 1.0 - 3e-7);
         bisect(bezier, first, step, reach, &mut raw);
     }
@@ -41,10 +41,10 @@ pub(crate) fn poses(case: &Case, step: f64) -> Vec<Pose> {
             reverse += PI;
             turn = wrap(turn + PI);
         }
-        // What turns on the spot is turned bit by bit.
-        let bits = (turn.abs() * reach / step).ceil().max(1.0);
-        for i in 1..=bits as usize {
-            let t = i as f64 / bits;
+        // Divides a pivot into steps.
+        let steps = (turn.abs() * reach / step).ceil().max(1.0);
+        for i in 1..=steps as usize {
+            let t = i as f64 / steps;
             poses.push(Pose {
                 at: last.at.lerp(at, t),
                 heading: last.heading + turn * t,
@@ -57,7 +57,7 @@ pub(crate) fn poses(case: &Case, step: f64) -> Vec<Pose> {
 fn bisect(b: &[P; 4], (from, to): (f64, f64), step: f64, reach: f64, out: &mut Vec<(P, f64)>) {
     let (start, end) = (at(b, from), at(b, to));
     let moved = start.0.distance(end.0) + reach * wrap(end.1 - start.1).abs();
-    // At first not to be fooled by ends that meet.
+    // Bisects unconditionally at first, because the ends of a loop coincide.
     let is_coarse = to - from > 0.05;
     if (is_coarse || moved > step) && to - from > 1e-9 {
         let middle = 0.5 * (from + to);
@@ -68,29 +68,30 @@ fn bisect(b: &[P; 4], (from, to): (f64, f64), step: f64, reach: f64, out: &mut V
     }
 }
 
-/// Place and direction.
+/// Position and direction at a parameter.
 fn at(b: &[P; 4], t: f64) -> (P, f64) {
     let s = 1.0 - t;
-    let place = b[0] * (s * s * s)
+    let position = b[0] * (s * s * s)
         + b[1] * (3.0 * s * s * t)
         + b[2] * (3.0 * s * t * t)
         + b[3] * (t * t * t);
-    let way = (b[1] - b[0]) * (s * s) + (b[2] - b[1]) * (2.0 * s * t) + (b[3] - b[2]) * (t * t);
-    (place, way.y.atan2(way.x))
+    let tangent = (b[1] - b[0]) * (s * s) + (b[2] - b[1]) * (2.0 * s * t) + (b[3] - b[2]) * (t * t);
+    (position, tangent.y.atan2(tangent.x))
 }
 
 fn wrap(angle: f64) -> f64 {
     angle.sin().atan2(angle.cos())
 }
 
-/// A point as the vehicle sees it.
-fn seen(pose: Pose, q: P) -> P {
+/// A point in vehicle coordinates.
+fn to_vehicle(pose: Pose, q: P) -> P {
     let (sin, cos) = pose.heading.sin_cos();
     let d = q - pose.at;
     p(d.x * cos + d.y * sin, d.y * cos - d.x * sin)
 }
 
-/// A point of the vehicle in the world: -1 to 1 from rear to front, and from right to left.
+/// A point of the vehicle in path coordinates, given by -1..=1 from rear to front and from right to
+/// left.
 pub(crate) fn body_point(body: &Body, pose: Pose, along: f64, across: f64) -> P {
     let x = body.front_m * (1.0 + along) / 2.0 - body.rear_m * (1.0 - along) / 2.0;
     let y = body.left_m * (1.0 + across) / 2.0 - body.right_m * (1.0 - across) / 2.0;
@@ -98,15 +99,15 @@ pub(crate) fn body_point(body: &Body, pose: Pose, along: f64, across: f64) -> P 
     pose.at + p(x * cos - y * sin, x * sin + y * cos)
 }
 
-/// How far a point is from a vehicle.
+/// Distance of a point from a vehicle.
 pub(crate) fn distance_from(body: &Body, pose: Pose, q: P) -> f64 {
-    let q = seen(pose, q);
+    let q = to_vehicle(pose, q);
     let x = (q.x - body.front_m).max(-body.rear_m - q.x).max(0.0);
     let y = (q.y - body.left_m).max(-body.right_m - q.y).max(0.0);
     x.hypot(y)
 }
 
-/// How far two vehicles are from each other.
+/// Distance of two vehicles.
 pub(crate) fn apart(a: (&Body, Pose), b: (&Body, Pose)) -> f64 {
     let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
     let of = |(body, pose): (&Body, Pose)| corners.map(|(x, y)| body_point(body, pose, x, y));

@@ -1,3 +1,5 @@
+//! Checks clearance findings on small layouts and against brute force.
+
 use std::collections::BTreeSet;
 
 use guideway_envelope::{Body, ClearanceOptions, EnvelopeSource, Walls, check_clearance};
@@ -15,7 +17,7 @@ const VEHICLE: EnvelopeSource = EnvelopeSource::Vehicle(Body {
     right_m: 0.5,
 });
 
-/// Paths named a, b and so on.
+/// A layout with paths named a, b, c, ...
 fn layout(curves: &[Curve]) -> Layout {
     let mut layout = Layout::default();
     for (i, curve) in curves.iter().enumerate() {
@@ -31,7 +33,7 @@ fn layout(curves: &[Curve]) -> Layout {
     layout
 }
 
-fn way(points: &[P]) -> Curve {
+fn polyline(points: &[P]) -> Curve {
     let line = |ends: &[P]| {
         let at = |t| ends[0].lerp(ends[1], t);
         [ends[0], at(1.0 / 3.0), at(2.0 / 3.0), ends[1]]
@@ -46,7 +48,7 @@ fn options(clearance_m: f64) -> ClearanceOptions {
     }
 }
 
-/// The pairs of paths that findings are about, such as `ab`.
+/// The pairs of paths in findings, such as `ab`.
 fn pairs(found: &Diagnostics) -> BTreeSet<String> {
     let letter = |text: &str| text.split('"').nth(1).expect("a name in quotes").to_owned();
     let of_pairs = found.iter().filter(|f| f.code == Code::Clearance);
@@ -67,16 +69,16 @@ fn one(pair: &str) -> BTreeSet<String> {
 }
 
 #[test]
-fn lanes_too_close_and_crossings_without_a_node_are_found() {
+fn finds_close_lanes_and_crossings_without_a_node() {
     let lanes = [
-        way(&[p(0.0, 0.0), p(30.0, 0.0)]),
-        way(&[p(0.0, 1.2), p(30.0, 1.2)]),
+        polyline(&[p(0.0, 0.0), p(30.0, 0.0)]),
+        polyline(&[p(0.0, 1.2), p(30.0, 1.2)]),
     ];
     assert_eq!(found(&lanes, &options(0.3)), one("ab"));
     assert_eq!(found(&lanes, &options(0.1)), none());
     let crossing = [
-        way(&[p(0.0, 0.0), p(30.0, 0.0)]),
-        way(&[p(15.0, -10.0), p(15.0, 10.0)]),
+        polyline(&[p(0.0, 0.0), p(30.0, 0.0)]),
+        polyline(&[p(15.0, -10.0), p(15.0, 10.0)]),
     ];
     let all = check_clearance(&layout(&crossing), VEHICLE, None, &options(0.0));
     assert_eq!(pairs(&all.findings), one("ab"));
@@ -91,35 +93,39 @@ fn lanes_too_close_and_crossings_without_a_node_are_found() {
 }
 
 #[test]
-fn what_meets_at_a_node_is_not_too_near_there() {
+fn ignores_paths_near_their_common_node() {
     let center = p(20.0, 0.0);
     let star = [p(0.0, 0.0), p(20.0, 20.0), p(40.0, 0.0), p(20.0, -20.0)];
-    let star = star.map(|end| way(&[end, center]));
+    let star = star.map(|end| polyline(&[end, center]));
     assert_eq!(found(&star, &options(0.5)), none());
-    // The same road both ways, and twice.
+    // The same road in both directions, and twice.
     let road = [
-        way(&[p(0.0, 0.0), p(30.0, 0.0)]),
-        way(&[p(30.0, 0.0), p(0.0, 0.0)]),
-        way(&[p(0.0, 0.0), p(30.0, 0.0)]),
+        polyline(&[p(0.0, 0.0), p(30.0, 0.0)]),
+        polyline(&[p(30.0, 0.0), p(0.0, 0.0)]),
+        polyline(&[p(0.0, 0.0), p(30.0, 0.0)]),
     ];
     assert_eq!(found(&road, &options(0.5)), none());
-    // A short way between two others.
+    // A short path between two others.
     let chain = [
-        way(&[p(0.0, 0.0), p(20.0, 0.0)]),
-        way(&[p(20.0, 0.0), p(20.5, 0.0)]),
-        way(&[p(20.5, 0.0), p(40.0, 0.0)]),
+        polyline(&[p(0.0, 0.0), p(20.0, 0.0)]),
+        polyline(&[p(20.0, 0.0), p(20.5, 0.0)]),
+        polyline(&[p(20.5, 0.0), p(40.0, 0.0)]),
     ];
     assert_eq!(found(&chain, &options(0.5)), none());
     let gap = [chain[0].clone(), chain[2].clone()];
-    assert_eq!(found(&gap, &options(0.5)), one("ab"), "no way joins them");
+    assert_eq!(
+        found(&gap, &options(0.5)),
+        one("ab"),
+        "no path connects them"
+    );
 }
 
 #[test]
-fn what_stays_near_beyond_the_node_is_found() {
-    // They part at one node and go on side by side.
+fn finds_paths_that_stay_close_beyond_their_node() {
+    // Two lanes leave one node and continue side by side.
     let lanes = [
-        way(&[p(0.0, 0.0), p(30.0, 0.0)]),
-        way(&[p(0.0, 0.0), p(3.0, 1.2), p(30.0, 1.2)]),
+        polyline(&[p(0.0, 0.0), p(30.0, 0.0)]),
+        polyline(&[p(0.0, 0.0), p(3.0, 1.2), p(30.0, 1.2)]),
     ];
     assert_eq!(found(&lanes, &options(0.3)), one("ab"));
     let far = ClearanceOptions {
@@ -127,20 +133,20 @@ fn what_stays_near_beyond_the_node_is_found() {
         ..options(0.3)
     };
     assert_eq!(found(&lanes, &far), none());
-    // Lanes that a short way joins are too near beyond it.
+    // Lanes connected by a short path are too close beyond it.
     let ladder = [
-        way(&[p(0.0, 0.0), p(30.0, 0.0)]),
-        way(&[p(0.0, 1.0), p(30.0, 1.0)]),
-        way(&[p(0.0, 0.0), p(0.0, 1.0)]),
+        polyline(&[p(0.0, 0.0), p(30.0, 0.0)]),
+        polyline(&[p(0.0, 1.0), p(30.0, 1.0)]),
+        polyline(&[p(0.0, 0.0), p(0.0, 1.0)]),
     ];
     assert_eq!(found(&ladder, &options(0.3)), one("ab"));
 }
 
 #[test]
-fn levels_are_apart() {
+fn ignores_paths_of_different_levels() {
     let lanes = [
-        way(&[p(0.0, 0.0), p(30.0, 0.0)]),
-        way(&[p(0.0, 0.5), p(30.0, 0.5)]),
+        polyline(&[p(0.0, 0.0), p(30.0, 0.0)]),
+        polyline(&[p(0.0, 0.5), p(30.0, 0.5)]),
     ];
     let mut layout = layout(&lanes);
     layout.paths.set_levels(vec![0, 1]);
@@ -152,25 +158,25 @@ fn levels_are_apart() {
 }
 
 #[test]
-fn walls_too_near_are_found_and_named() {
+fn finds_and_names_close_walls() {
     let paths = layout(&[
-        way(&[p(0.0, 0.0), p(30.0, 0.0)]),
-        way(&[p(0.0, 9.0), p(30.0, 9.0)]),
+        polyline(&[p(0.0, 0.0), p(30.0, 0.0)]),
+        polyline(&[p(0.0, 9.0), p(30.0, 9.0)]),
     ]);
     let plan = layout(&[
-        way(&[p(5.0, 0.7), p(25.0, 0.9)]),
-        way(&[p(10.0, -0.6), p(10.0, -5.0)]),
-        way(&[p(0.0, 20.0), p(30.0, 20.0)]),
+        polyline(&[p(5.0, 0.7), p(25.0, 0.9)]),
+        polyline(&[p(10.0, -0.6), p(10.0, -5.0)]),
+        polyline(&[p(0.0, 20.0), p(30.0, 20.0)]),
     ]);
     let walls = Walls::new(&plan, |_| true);
     let all = check_clearance(&paths, VEHICLE, Some(&walls), &options(0.25));
     assert_eq!(all.findings.count(Code::WallClearance), 1);
     let finding = all.findings.iter().next().unwrap();
     assert_eq!(finding.place.element, "path \"a\"");
-    let said = &finding.message;
+    let message = &finding.message;
     assert!(
-        said.contains("within 0.10 m of path \"b\"") && said.contains("another line"),
-        "{said}"
+        message.contains("within 0.10 m of path \"b\"") && message.contains("another line"),
+        "{message}"
     );
     let near = |clearance_m| {
         let found = check_clearance(&paths, VEHICLE, Some(&walls), &options(clearance_m)).findings;
@@ -182,7 +188,7 @@ fn walls_too_near_are_found_and_named() {
     assert_eq!((some.len(), found.count(Code::WallClearance)), (1, 0));
 }
 
-/// Pairs that are nearer than this at poses, a step apart each, less what may be between two steps.
+/// Pairs of paths with poses closer than `below_m`; poses are `step_m` apart.
 fn brute(cases: &[Case], threshold_m: f64, step_m: f64) -> BTreeSet<String> {
     let all: Vec<_> = cases.iter().map(|case| poses(case, step_m)).collect();
     let near = |i: usize, j: usize| {
@@ -201,7 +207,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(6))]
 
     #[test]
-    fn the_pairs_are_those_of_brute_force(
+    fn findings_match_brute_force(
         cases in prop::collection::vec((case(), 0.0..25.0, 0.0..25.0), 6),
         clearance in 0.1..2.0,
     ) {
@@ -215,26 +221,26 @@ proptest! {
         let curves: Vec<Curve> = cases.iter().map(|case| case.curve.clone()).collect();
         let found = found(&curves, &options(clearance));
         let step = 0.3;
-        // None is missed, and none is told that is not nearer than the clearance and what is not known.
-        let (sure, may_be) = (
+        // Brute force with a smaller and with a larger distance brackets the findings.
+        let (certain, possible) = (
             brute(&cases, clearance - 1e-6, step),
             brute(&cases, clearance + ClearanceOptions::default().tolerance_m + 2.0 * step, step),
         );
-        prop_assert!(sure.is_subset(&found), "{:?} of {:?}", found, sure);
-        prop_assert!(found.is_subset(&may_be), "{:?} within {:?}", found, may_be);
+        prop_assert!(certain.is_subset(&found), "{:?} of {:?}", found, certain);
+        prop_assert!(found.is_subset(&possible), "{:?} within {:?}", found, possible);
     }
 }
 
 #[test]
-fn the_comparison_finds_a_pair_that_is_missing() {
+fn brute_force_finds_a_close_pair() {
     let case = |curve| Case {
         curve,
         body: Body::vehicle(2.0, 1.0, 1.0),
         heading: guideway_envelope::Heading::Tangential(0.0),
     };
     let cases = [
-        case(way(&[p(0.0, 0.0), p(10.0, 0.0)])),
-        case(way(&[p(0.0, 1.4), p(10.0, 1.4)])),
+        case(polyline(&[p(0.0, 0.0), p(10.0, 0.0)])),
+        case(polyline(&[p(0.0, 1.4), p(10.0, 1.4)])),
     ];
     assert_eq!(brute(&cases, 0.5, 0.15), one("ab"));
     assert_eq!(brute(&cases, 0.3, 0.15), none());
@@ -242,9 +248,9 @@ fn the_comparison_finds_a_pair_that_is_missing() {
 }
 
 #[test]
-fn headings_and_corridors_come_from_the_file() {
+fn reads_headings_and_corridors_from_the_file() {
     use guideway_layout::Value;
-    let mut layout = layout(&[way(&[p(0.0, 0.0), p(10.0, 0.0)])]);
+    let mut layout = layout(&[polyline(&[p(0.0, 0.0), p(10.0, 0.0)])]);
     let set = |layout: &mut Layout, name: &str, value| layout.paths.attributes.set(0, name, value);
     let top =
         |layout: &Layout, source: EnvelopeSource| source.sweep(layout, 0).map(|s| s.bounds().max.y);
@@ -258,7 +264,7 @@ fn headings_and_corridors_come_from_the_file() {
         Value::Float(std::f64::consts::FRAC_PI_2),
     );
     assert!(is_near(top(&layout, long).unwrap(), 3.0));
-    // Either of two.
+    // Two alternative headings.
     set(
         &mut layout,
         "vehicleOrientation",

@@ -1,11 +1,11 @@
-//! ConvexPolygon polygons against brute force.
+//! Compares hulls, sums and distances of convex polygons with brute force.
 
 use guideway_envelope::ConvexPolygon;
 use proptest::prelude::*;
 
 use crate::random::{P, p};
 
-/// Points on a coarse grid, so that many are in line or the same.
+/// Points on a coarse grid, so that many are collinear or equal.
 fn points() -> impl Strategy<Value = Vec<P>> {
     let point = (-4..5, -4..5).prop_map(|(x, y)| p(f64::from(x), f64::from(y)) * 0.5);
     prop::collection::vec(point, 1..9)
@@ -22,7 +22,7 @@ fn from_line(a: P, b: P, q: P) -> f64 {
     q.distance(a + way * t)
 }
 
-/// Whether three of the points have it between them.
+/// Whether a point is inside a triangle of three of the points.
 fn is_within(points: &[P], q: P) -> bool {
     let side = |a: P, b: P| (b - a).cross(q - a);
     points.iter().any(|&a| {
@@ -36,7 +36,7 @@ fn is_within(points: &[P], q: P) -> bool {
     })
 }
 
-/// Of all lines between points, those that do not cross decide.
+/// Distance of two hulls: the smallest one of all segments between points.
 fn apart(a: &[P], b: &[P]) -> f64 {
     if a.iter().any(|&q| is_within(b, q)) || b.iter().any(|&q| is_within(a, q)) {
         return 0.0;
@@ -69,7 +69,7 @@ fn apart(a: &[P], b: &[P]) -> f64 {
 
 proptest! {
     #[test]
-    fn a_hull_holds_all_points_and_has_no_more_corners_than_it_needs(points in points(), q in points()) {
+    fn hull_contains_all_points_and_is_strictly_convex(points in points(), q in points()) {
         let hull = ConvexPolygon::hull(points.iter().copied()).unwrap();
         prop_assert!(points.iter().all(|&p| hull.contains(p)));
         for &q in &q {
@@ -84,7 +84,7 @@ proptest! {
     }
 
     #[test]
-    fn the_sum_is_the_hull_of_all_sums(a in points(), b in points()) {
+    fn sum_is_the_hull_of_all_sums(a in points(), b in points()) {
         let hull = |points: &[P]| ConvexPolygon::hull(points.iter().copied()).unwrap();
         let sums: Vec<P> = a.iter().flat_map(|&p| b.iter().map(move |&q| p + q)).collect();
         let (sum, all) = (hull(&a).sum(&hull(&b)), hull(&sums));
@@ -92,7 +92,7 @@ proptest! {
     }
 
     #[test]
-    fn distances_are_those_of_brute_force(a in points(), b in points(), x in -6..7) {
+    fn distance_matches_brute_force(a in points(), b in points(), x in -6..7) {
         let moved: Vec<P> = b.iter().map(|&q| q + p(f64::from(x), 0.25)).collect();
         let hull = |points: &[P]| ConvexPolygon::hull(points.iter().copied()).unwrap();
         let (own, other) = (hull(&a), hull(&moved));
@@ -103,7 +103,7 @@ proptest! {
 }
 
 #[test]
-fn the_comparison_tells_near_from_far() {
+fn brute_force_distance_is_correct() {
     let square = [p(0.0, 0.0), p(1.0, 0.0), p(1.0, 1.0), p(0.0, 1.0)];
     assert!(is_within(&square, p(0.5, 0.5)) && !is_within(&square, p(1.1, 0.5)));
     let far = square.map(|q| q + p(3.0, 0.0));

@@ -1,3 +1,5 @@
+//! Compares the closest approach of sweeps with brute force.
+
 use guideway_envelope::{ClosestApproach, ExemptZone, Heading, ProximityQuery, SweepTree};
 use proptest::prelude::*;
 
@@ -30,7 +32,7 @@ fn moved(case: &Case, by: P) -> Case {
     }
 }
 
-/// The least distance of poses of two vehicles, which `counts` says which of.
+/// Smallest distance of two vehicles over the pairs of poses that `counts` accepts.
 fn brute(a: &Case, b: &Case, counts: impl Fn(Pose, Pose) -> bool) -> f64 {
     let (pa, pb) = (poses(a, STEP_M), poses(b, STEP_M));
     let pairs = pa.iter().flat_map(|&p| pb.iter().map(move |&q| (p, q)));
@@ -39,10 +41,10 @@ fn brute(a: &Case, b: &Case, counts: impl Fn(Pose, Pose) -> bool) -> f64 {
     each.fold(f64::INFINITY, f64::min)
 }
 
-/// Whether an answer can be that of vehicles whose poses, a step apart each, come this near.
+/// Whether an answer agrees with the distance by brute force, whose poses are `STEP_M` apart.
 fn agrees(answer: Option<ClosestApproach>, brute_m: f64, threshold_m: f64) -> bool {
     match answer {
-        // Polygons hold the vehicles, so they are never farther.
+        // Polygons contain the vehicles, so their distance is never larger.
         Some(ClosestApproach { distance_m, .. }) => {
             distance_m <= brute_m + 1e-6 && brute_m <= distance_m + TOLERANCE_M + 2.0 * STEP_M
         }
@@ -54,7 +56,12 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(32))]
 
     #[test]
-    fn sweeps_are_as_near_as_their_vehicles(a in case(), b in case(), x in 0.0..14.0, below in 0.0..4.0) {
+    fn closest_approach_matches_brute_force(
+        a in case(),
+        b in case(),
+        x in 0.0..14.0,
+        below in 0.0..4.0,
+    ) {
         let b = moved(&b, p(x, 0.0));
         let brute_m = brute(&a, &b, |_, _| true);
         let answer = nearest(&a, &b, below, &[]);
@@ -62,25 +69,31 @@ proptest! {
     }
 
     #[test]
-    fn near_a_meeting_nothing_counts(a in case(), b in case(), below in 0.0..2.0, radius in 0.5..4.0) {
+    fn ignores_poses_in_an_exempt_zone(
+        a in case(),
+        b in case(),
+        below in 0.0..2.0,
+        radius in 0.5..4.0,
+    ) {
         let start = |case: &Case| case.curve.0[0][0];
         let b = moved(&b, start(&a) - start(&b));
         let center = start(&a);
-        let meeting = ExemptZone { centers_m: [center; 2], radius_m: radius };
-        let answer = nearest(&a, &b, below, &[meeting]);
+        let zone = ExemptZone { centers_m: [center; 2], radius_m: radius };
+        let answer = nearest(&a, &b, below, &[zone]);
         let beyond = |radius: f64| {
             move |p: Pose, q: Pose| p.at.distance(center) > radius || q.at.distance(center) > radius
         };
-        // A pose is in place within a step, and stretches are cut within the tolerance.
-        let (all, sure) = (
+        // Poses are exact to a step, and parts are cut to the tolerance.
+        let (all, certain) = (
             brute(&a, &b, beyond(radius - TOLERANCE_M - STEP_M)),
             brute(&a, &b, beyond(radius + TOLERANCE_M)),
         );
         if let Some(found) = answer {
-            prop_assert!(all <= found.distance_m + TOLERANCE_M + 2.0 * STEP_M, "{:?} {}", found, all);
-            prop_assert!(found.distance_m <= sure + 1e-6);
+            let bound = found.distance_m + TOLERANCE_M + 2.0 * STEP_M;
+            prop_assert!(all <= bound, "{:?} {}", found, all);
+            prop_assert!(found.distance_m <= certain + 1e-6);
         } else {
-            prop_assert!(sure >= below - 1e-6, "{}", sure);
+            prop_assert!(certain >= below - 1e-6, "{}", certain);
         }
     }
 }
@@ -95,7 +108,7 @@ fn straight(from: P, to: P) -> Case {
 }
 
 #[test]
-fn parallel_paths_are_as_far_apart_as_their_sides() {
+fn distance_of_parallel_paths_is_that_of_their_sides() {
     let (a, b) = (
         straight(p(0.0, 0.0), p(20.0, 0.0)),
         straight(p(30.0, 1.3), p(5.0, 1.3)),
@@ -106,7 +119,7 @@ fn parallel_paths_are_as_far_apart_as_their_sides() {
 }
 
 #[test]
-fn it_tells_where_paths_cross() {
+fn reports_the_position_of_a_crossing() {
     let (a, b) = (
         straight(p(0.0, 0.0), p(40.0, 0.0)),
         straight(p(31.0, -30.0), p(31.0, 30.0)),
@@ -119,8 +132,9 @@ fn it_tells_where_paths_cross() {
 }
 
 #[test]
-fn a_kink_within_a_degree_of_half_a_turn_is_a_cusp() {
-    // Whether its vehicle comes back in reverse decides which way its front points at the end, 1 m ahead of its place.
+fn kink_within_a_degree_of_180_is_a_cusp() {
+    // After a cusp the vehicle comes back in reverse, so its front, 1 m ahead of the reference
+    // point, is farther from the wall.
     let wall = straight(p(-4.0, -9.0), p(-4.0, 9.0));
     for (off_m, is_cusp) in [(0.08, true), (0.12, false)] {
         let there = straight(p(0.0, 0.0), p(6.0, 0.0));
@@ -138,15 +152,15 @@ fn a_kink_within_a_degree_of_half_a_turn_is_a_cusp() {
 }
 
 #[test]
-fn the_comparison_finds_wrong_answers() {
-    let said = |distance_m| {
+fn agrees_rejects_wrong_answers() {
+    let answer = |distance_m| {
         Some(ClosestApproach {
             distance_m,
             positions: [p(0.0, 0.0); 2],
         })
     };
-    assert!(agrees(said(0.3), 0.3, 0.5) && agrees(None, 0.6, 0.5));
-    assert!(!agrees(said(0.4), 0.3, 0.5), "too far");
-    assert!(!agrees(said(0.0), 0.3, 0.5), "too near");
+    assert!(agrees(answer(0.3), 0.3, 0.5) && agrees(None, 0.6, 0.5));
+    assert!(!agrees(answer(0.4), 0.3, 0.5), "too far");
+    assert!(!agrees(answer(0.0), 0.3, 0.5), "too near");
     assert!(!agrees(None, 0.4, 0.5), "missed");
 }

@@ -1,4 +1,4 @@
-//! Swept areas and distances against brute force.
+//! Compares swept areas, distances and clearance checks with brute force.
 
 mod areas;
 mod brute;

@@ -1,4 +1,4 @@
-//! Paths, bodies and headings of every kind.
+//! Generates random paths, bodies and headings.
 
 use guideway_envelope::{Body, Heading, Sweep};
 use guideway_layout::{Layout, NewPath};
@@ -7,11 +7,11 @@ use proptest::prelude::*;
 
 pub(crate) type P = Point<f64>;
 
-/// A path as its Bezier curves, each of which begins where the one before ends.
+/// A path as connected Bezier curves.
 #[derive(Clone, Debug)]
 pub(crate) struct Curve(pub(crate) Vec<[P; 4]>);
 
-/// What moves, and where.
+/// A vehicle on a path.
 #[derive(Clone, Debug)]
 pub(crate) struct Case {
     pub(crate) curve: Curve,
@@ -68,7 +68,7 @@ fn polyline() -> impl Strategy<Value = Curve> {
     })
 }
 
-/// Curves that stop and go back: where the controls cross, and along a line.
+/// Curves with a cusp: by crossed control points, and along a line.
 fn cusp() -> impl Strategy<Value = Curve> {
     let crossed = [p(0.0, 0.0), p(1.0, 1.0), p(0.0, 1.0), p(1.0, 0.0)];
     let back = [p(0.0, 0.0), p(1.0, 0.0), p(1.2, 0.0), p(-0.5, 0.0)];

@@ -1,3 +1,5 @@
+//! Checks that swept polygons contain the vehicle and stay within their tolerance.
+
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use guideway_envelope::{Body, ConvexPolygon, Heading};
@@ -15,10 +17,11 @@ fn polygons(case: &Case, tolerance_m: f64) -> Vec<ConvexPolygon> {
     polygons
 }
 
-/// Rounding of everything here, and what the judge leaves out at the ends of curves: a few ten millionths of their length.
+/// Rounding errors, and the parts that the brute force omits at the ends of curves: a few 1e-7 of
+/// their length.
 const ROUNDING_M: f64 = 1e-5;
 
-/// A point of the vehicle at one of its poses that no polygon holds.
+/// A point of the vehicle at some pose that no polygon contains.
 fn outside(case: &Case, polygons: &[ConvexPolygon]) -> Option<P> {
     let grown = |polygon: &ConvexPolygon, q: P| {
         let around = |i: i32| p(f64::from(i % 3 - 1), f64::from(i / 3 - 1)) * ROUNDING_M;
@@ -35,8 +38,8 @@ fn outside(case: &Case, polygons: &[ConvexPolygon]) -> Option<P> {
         .find(|&q| !polygons.iter().any(|polygon| grown(polygon, q)))
 }
 
-/// How far the farthest point of the polygons is from the vehicle, whichever of its poses is nearest. Poses are
-/// `step` apart, so that it may be this much less.
+/// Largest distance of a point of the polygons from the vehicle at its closest pose. Poses are
+/// `step` apart, so the real distance may be smaller by `step`.
 fn farthest_m(case: &Case, polygons: &[ConvexPolygon], step: f64) -> f64 {
     let poses = poses(case, step);
     let from_all = |q: P| {
@@ -59,20 +62,30 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(32))]
 
     #[test]
-    fn polygons_hold_the_vehicle_everywhere(case in case(), tolerance in prop_oneof![Just(0.5), Just(0.05)]) {
+    fn polygons_contain_the_vehicle(
+        case in case(),
+        tolerance in prop_oneof![Just(0.5), Just(0.05)],
+    ) {
         let polygons = polygons(&case, tolerance);
         prop_assert_eq!(outside(&case, &polygons), None);
     }
 
     #[test]
-    fn polygons_are_near_the_vehicle_everywhere(case in case(), tolerance in prop_oneof![Just(0.5), Just(0.08)]) {
+    fn polygons_stay_within_the_tolerance_of_the_vehicle(
+        case in case(),
+        tolerance in prop_oneof![Just(0.5), Just(0.08)],
+    ) {
         let (polygons, step) = (polygons(&case, tolerance), 0.02);
         let farthest = farthest_m(&case, &polygons, step);
         prop_assert!(farthest <= tolerance + step + ROUNDING_M, "{}", farthest);
     }
 
     #[test]
-    fn what_is_outside_of_the_box_is_left_out_and_nothing_else(case in case(), x in -3.0..3.0, y in -3.0..3.0) {
+    fn visits_exactly_the_polygons_that_intersect_the_box(
+        case in case(),
+        x in -3.0..3.0,
+        y in -3.0..3.0,
+    ) {
         let within = guideway_spline::Bounds { min: p(x, y), max: p(x + 1.0, y + 1.0) };
         let mut some = Vec::new();
         case.sweep().polygons(0.05, Some(within), &mut |polygon| some.push(polygon.clone()));
@@ -99,15 +112,15 @@ fn covers(polygons: &[ConvexPolygon], x: f64, y: f64) -> bool {
 }
 
 #[test]
-fn a_straight_path_is_one_polygon_with_the_vehicle_at_both_ends() {
-    let way = vec![line(p(0.0, 0.0), p(10.0, 0.0))];
+fn straight_path_is_one_polygon_with_the_vehicle_at_both_ends() {
+    let path = vec![line(p(0.0, 0.0), p(10.0, 0.0))];
     for (heading, low, high) in [
         (Heading::Tangential(0.0), p(-0.5, -0.5), p(11.5, 0.5)),
         (Heading::Tangential(PI), p(-1.5, -0.5), p(10.5, 0.5)),
         (Heading::Tangential(FRAC_PI_2), p(-0.5, -0.5), p(10.5, 1.5)),
         (Heading::Fixed(FRAC_PI_2), p(-0.5, -0.5), p(10.5, 1.5)),
     ] {
-        let polygons = polygons(&case_of(way.clone(), heading), 0.01);
+        let polygons = polygons(&case_of(path.clone(), heading), 0.01);
         assert_eq!(polygons.len(), 1, "{heading:?}");
         let bounds = polygons[0].bounds();
         assert!(bounds.min.distance(low) < 1e-9, "{heading:?} {bounds:?}");
@@ -116,7 +129,7 @@ fn a_straight_path_is_one_polygon_with_the_vehicle_at_both_ends() {
 }
 
 #[test]
-fn at_a_kink_the_vehicle_turns_on_the_spot_and_at_a_cusp_it_does_not() {
+fn vehicle_pivots_at_a_kink_and_reverses_at_a_cusp() {
     let corner = vec![
         line(p(0.0, 0.0), p(5.0, 0.0)),
         line(p(5.0, 0.0), p(5.0, 5.0)),
@@ -137,13 +150,13 @@ fn at_a_kink_the_vehicle_turns_on_the_spot_and_at_a_cusp_it_does_not() {
         line(p(5.0, 0.0), p(-3.0, 0.0)),
     ];
     let reversed = polygons(&case_of(back, Heading::Tangential(0.0)), 0.01);
-    // As it goes back it still shows its rear to the left.
+    // In reverse, the rear still points to the left.
     assert!(covers(&reversed, -3.45, 0.0) && !covers(&reversed, -3.55, 0.0));
-    assert!(!covers(&reversed, 5.0, 0.55), "it does not turn");
+    assert!(!covers(&reversed, 5.0, 0.55), "no pivot");
 }
 
 #[test]
-fn a_path_without_a_direction_has_an_area_only_if_the_heading_is_fixed() {
+fn path_without_a_direction_needs_a_fixed_heading() {
     let mut runs = guideway_spline::Runs::default();
     runs.push_bezier(&[p(1.0, 1.0); 4]);
     let mut layout = guideway_layout::Layout::default();
@@ -159,7 +172,7 @@ fn a_path_without_a_direction_has_an_area_only_if_the_heading_is_fixed() {
 }
 
 #[test]
-fn what_is_not_finite_is_nowhere() {
+fn skips_curves_that_are_not_finite() {
     for bad in [f64::NAN, f64::INFINITY] {
         let mut runs = guideway_spline::Runs::default();
         runs.push_line(p(0.0, 0.0), p(bad, 0.0));
@@ -172,14 +185,14 @@ fn what_is_not_finite_is_nowhere() {
         let body = Body::vehicle(2.0, 1.0, 1.0);
         for heading in [Heading::Tangential(0.0), Heading::Fixed(0.0)] {
             let sweep = guideway_envelope::Sweep::new(layout.paths.get(0), body, &[heading]);
-            let bounds = sweep.expect("half of it is somewhere").bounds();
+            let bounds = sweep.expect("the second curve is finite").bounds();
             assert!(bounds.min.distance(p(4.0, -0.5)) < 1e-9, "{bounds:?}");
         }
     }
 }
 
 #[test]
-fn the_comparison_finds_wrong_polygons() {
+fn brute_force_rejects_wrong_polygons() {
     let bend = vec![[p(0.0, 0.0), p(3.0, 0.0), p(4.0, 1.0), p(4.0, 4.0)]];
     let case = case_of(bend, Heading::Tangential(0.0));
     let good = polygons(&case, 0.05);
@@ -209,9 +222,9 @@ fn shrunk(polygon: &ConvexPolygon, by: f64) -> ConvexPolygon {
     ConvexPolygon::hull(points.map(|&p| center + (p - center) * by)).expect("corners")
 }
 
-/// The judge turns this vehicle two thousandths of a millimeter before the kink.
+/// Regression test: brute force starts to turn this vehicle 2 micrometers before the kink.
 #[test]
-fn a_kink_is_where_the_judge_has_it() {
+fn kink_matches_brute_force() {
     let (kink, body) = (p(2.683_207, 1.539_235), Body::vehicle(0.2, 1.276_964, 0.0));
     let curve = vec![
         line(p(-3.852_558, -0.768_282), kink),

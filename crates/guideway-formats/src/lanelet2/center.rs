@@ -1,11 +1,19 @@
-//! The middle between the two bounds of a lanelet.
+//! Computes the center line between the two bounds of a lanelet.
+//!
+//! ```text
+//!   left   o-----o-----------o     vertices at the shares 0, 1/3, 1
+//!   center x-----x-----x-----x     the midpoint at every share of either bound
+//!   right  o-----------o-----o     vertices at the shares 0, 2/3, 1
+//! ```
+//!
+//! Cost: O(n log n) for n vertices.
 
 use guideway_spline::Point;
 
-/// Lines within this of each other have the same length, in meters.
-const SHORT_M: f64 = 1e-9;
+/// Points closer than this are equal, in meters.
+const MIN_DISTANCE_M: f64 = 1e-9;
 
-/// Puts two bounds into one direction, in which the left one is to the left.
+/// Reverses bounds until both have the same direction and the left one is on the left.
 pub(super) fn align(left: &mut [Point<f64>], right: &mut [Point<f64>]) {
     let (Some(&l0), Some(&l1), Some(&r0), Some(&r1)) =
         (left.first(), left.last(), right.first(), right.last())
@@ -15,7 +23,7 @@ pub(super) fn align(left: &mut [Point<f64>], right: &mut [Point<f64>]) {
     if l0.distance(r1) + l1.distance(r0) < l0.distance(r0) + l1.distance(r1) {
         right.reverse();
     }
-    // Up the left one and down the right one is clockwise.
+    // The ring along the left bound and back along the right one has to be clockwise.
     let ring: Vec<Point<f64>> = left.iter().chain(right.iter().rev()).copied().collect();
     let next = ring.iter().skip(1).chain(&ring[..1]);
     let doubled_area: f64 = ring
@@ -29,19 +37,19 @@ pub(super) fn align(left: &mut [Point<f64>], right: &mut [Point<f64>]) {
     }
 }
 
-/// The middle between points that are at the same share of the length of each line, wherever one of the two
-/// has a vertex.
-pub(super) fn middle(left: &[Point<f64>], right: &[Point<f64>]) -> Vec<Point<f64>> {
-    let (left, right) = (Walk::new(left), Walk::new(right));
+/// The center line: at every share of length where either bound has a vertex, the midpoint of the
+/// points at this share of both bounds.
+pub(super) fn center_line(left: &[Point<f64>], right: &[Point<f64>]) -> Vec<Point<f64>> {
+    let (left, right) = (MeasuredLine::new(left), MeasuredLine::new(right));
     let mut shares: Vec<f64> = left.shares.iter().chain(&right.shares).copied().collect();
     shares.sort_unstable_by(f64::total_cmp);
     let mut points: Vec<Point<f64>> = Vec::with_capacity(shares.len());
     for share in shares {
         let point = left.at(share).lerp(right.at(share), 0.5);
-        // Vertices opposite each other make one.
+        // Opposite vertices give the same point twice.
         if points
             .last()
-            .is_none_or(|last| last.distance(point) > SHORT_M)
+            .is_none_or(|last| last.distance(point) > MIN_DISTANCE_M)
         {
             points.push(point);
         }
@@ -49,13 +57,13 @@ pub(super) fn middle(left: &[Point<f64>], right: &[Point<f64>]) -> Vec<Point<f64
     points
 }
 
-/// A line with the share of its length at every vertex.
-struct Walk<'l> {
+/// A polyline with the share of its length, 0 to 1, at every vertex.
+struct MeasuredLine<'l> {
     line: &'l [Point<f64>],
     shares: Vec<f64>,
 }
 
-impl<'l> Walk<'l> {
+impl<'l> MeasuredLine<'l> {
     fn new(line: &'l [Point<f64>]) -> Self {
         let mut length = 0.0;
         let mut shares = vec![0.0; line.len().min(1)];
@@ -69,6 +77,7 @@ impl<'l> Walk<'l> {
         Self { line, shares }
     }
 
+    /// The point at a share of the length.
     fn at(&self, share: f64) -> Point<f64> {
         let after = self.shares.partition_point(|&s| s < share);
         match (after.checked_sub(1), self.line.get(after)) {
@@ -91,18 +100,17 @@ mod tests {
     }
 
     #[test]
-    fn the_middle_has_the_vertices_of_both() {
+    fn center_line_has_the_vertices_of_both_bounds() {
         let left = line(&[(0.0, 2.0), (4.0, 2.0), (8.0, 2.0)]);
         let right = line(&[(0.0, 0.0), (6.0, 0.0), (8.0, 0.0)]);
-        let middle = middle(&left, &right);
         assert_eq!(
-            middle,
+            center_line(&left, &right),
             line(&[(0.0, 1.0), (4.0, 1.0), (6.0, 1.0), (8.0, 1.0)])
         );
     }
 
     #[test]
-    fn bounds_come_into_one_direction_with_the_left_one_left() {
+    fn align_gives_bounds_one_direction_with_the_left_one_left() {
         let (up, down) = (
             line(&[(0.0, 0.0), (0.0, 9.0)]),
             line(&[(3.0, 9.0), (3.0, 0.0)]),
@@ -117,8 +125,8 @@ mod tests {
     }
 
     #[test]
-    fn a_bound_that_is_a_point_is_met_by_the_whole_of_the_other() {
-        let middle = middle(&line(&[(0.0, 2.0)]), &line(&[(0.0, 0.0), (4.0, 0.0)]));
-        assert_eq!(middle, line(&[(0.0, 1.0), (2.0, 1.0)]));
+    fn center_line_accepts_a_bound_of_one_point() {
+        let center = center_line(&line(&[(0.0, 2.0)]), &line(&[(0.0, 0.0), (4.0, 0.0)]));
+        assert_eq!(center, line(&[(0.0, 1.0), (2.0, 1.0)]));
     }
 }

@@ -1,30 +1,32 @@
-//! Maps of Lanelet2: OSM XML, longitude and latitude or local meters, y up.
+//! Reads maps of Lanelet2: OSM XML, longitude and latitude or local meters, y up.
 //!
-//! A lanelet is a relation of a left and a right bound, and vehicles go between them. Bounds, walls and
-//! markings are ways, which are lists of nodes.
+//! A way is a list of nodes: a bound, a wall or a marking. A lanelet is a relation of a left and a
+//! right way; vehicles drive between them.
+//!
+//! | Stage | Input | Output | File |
+//! |---|---|---|---|
+//! | parse | bytes | XML tree, node positions in meters | `osm` |
+//! | center | left and right bound | center line | `center` |
+//! | map | ways and lanelets | paths with tags as columns | `map_mapper` |
 
 mod center;
-mod map;
+mod map_mapper;
 mod osm;
 
-use guideway_layout::{Layout, Place};
+use guideway_layout::Layout;
 
-use self::map::Mapper;
+use self::map_mapper::MapMapper;
 use crate::source::Source;
 use crate::xml::{Doctype, Xml};
-use crate::{Problem, ReadError, text};
+use crate::{ReadError, text};
 
-/// Reads a map.
+/// Reads a map into a layout.
+///
+/// # Errors
+/// When the text is not XML with an `<osm>` root or exceeds a limit, or when the caller cancels.
 pub(crate) fn read(source: Source<'_>, bytes: &[u8]) -> Result<Layout, ReadError> {
     let text = text::decode_utf8(&source, bytes)?;
     let xml = Xml::parse(&source, text, Doctype::Refused)?;
-    let root = xml.root();
-    if root.tag_name().name() != "osm" {
-        return Err(source.fail(Problem::Structure {
-            place: Place::element("the outermost element"),
-            expected: "<osm> of a Lanelet2 map".into(),
-            found: format!("<{}>", text::printable(root.tag_name().name())),
-        }));
-    }
-    Mapper::new(source, &xml, bytes.len()).map(root)
+    let root = xml.root_with_tag(&source, "osm", "<osm> of a Lanelet2 map")?;
+    MapMapper::new(source, &xml, bytes.len()).read(root)
 }

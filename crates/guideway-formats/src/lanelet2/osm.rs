@@ -1,4 +1,5 @@
-//! The elements of an OSM file by their identifiers, positions in meters.
+//! Reads tags and node positions of an OSM file. Positions are in meters, projected about the
+//! center of the map or taken from local coordinates.
 
 use std::collections::HashMap;
 
@@ -17,12 +18,13 @@ pub(super) fn tag<'d>(element: Node<'d, '_>, key: &str) -> Option<&'d str> {
         .attribute("v")
 }
 
-/// Whether the editor has marked an element as deleted; it is still in the file.
+/// Whether the editor marked an element as deleted. Deleted elements stay in the file.
 pub(super) fn is_deleted(element: Node<'_, '_>) -> bool {
     element.attribute("action") == Some("delete") || element.attribute("visible") == Some("false")
 }
 
-/// Where every node is, in meters; nodes without a sound position are not there.
+/// Position per node identifier, in meters. Uses `local_x` and `local_y` if all nodes have both,
+/// else longitude and latitude. Omits and reports nodes without a valid position.
 pub(super) fn positions<'d>(
     builder: &mut Builder<'_>,
     xml: &Xml<'_>,
@@ -43,25 +45,25 @@ pub(super) fn positions<'d>(
         is_local &= local.is_some();
         found.push((node, local, degrees));
     }
-    let sound = |p: &Point<f64>| p.is_finite() && is_lon_lat(*p);
+    let is_valid = |p: &Point<f64>| p.is_finite() && is_lon_lat(*p);
     let all_degrees = found
         .iter()
-        .filter_map(|(_, _, degrees)| degrees.filter(sound));
-    let frame = Bounds::of_points(all_degrees).map(LocalProjection::centered_on);
+        .filter_map(|(_, _, degrees)| degrees.filter(is_valid));
+    let projection = Bounds::of_points(all_degrees).map(LocalProjection::centered_on);
     let mut positions = HashMap::with_capacity(found.len());
     for (node, local, degrees) in found {
         let at: PlaceFn<'_> = &|| xml.place(node);
-        let projected = || Some(frame?.to_meters(degrees.filter(sound)?));
+        let projected = || Some(projection?.to_meters(degrees.filter(is_valid)?));
         let position = if is_local { local } else { projected() };
         let Some(position) = position else {
             let (code, message) = match degrees {
                 Some(p) => (
                     Code::OutOfRange,
-                    format!("longitude {} and latitude {} are not on Earth", p.x, p.y),
+                    format!("longitude {} or latitude {} is out of range", p.x, p.y),
                 ),
-                None => (Code::MissingField, "there is no `lat` and `lon`".to_owned()),
+                None => (Code::MissingField, "`lat` or `lon` is missing".to_owned()),
             };
-            let remedy = "What is drawn through it leaves it out; correct its position";
+            let remedy = "Ways are drawn without this node; correct its position";
             builder.report(code, at, || message, remedy);
             continue;
         };
@@ -69,22 +71,19 @@ pub(super) fn positions<'d>(
             && let Some(id) = node.attribute("id")
             && positions.insert(id, position).is_some()
         {
-            let message = || format!("the node {id} is there more than once");
-            builder.report(
-                Code::DuplicateId,
-                at,
-                message,
-                "The last one counts; remove the others",
-            );
+            let message = || format!("the node {id} occurs more than once");
+            let remedy = "The last one is used; remove the others";
+            builder.report(Code::DuplicateId, at, message, remedy);
         }
     }
-    if !is_local && frame.is_some() {
+    if !is_local && projection.is_some() {
         let at: PlaceFn<'_> = &|| Place::element("the positions");
         let message = || {
-            "longitude and latitude become meters about the middle of the map, true to scale there"
+            "longitude and latitude are projected to meters about the center of the map, which is \
+             true to scale there"
                 .to_owned()
         };
-        let remedy = "Nothing to do; with `local_x` and `local_y` at every node, those are drawn";
+        let remedy = "Nothing to do; give every node `local_x` and `local_y` to avoid this";
         builder.report(Code::AssumedUnit, at, message, remedy);
     }
     positions

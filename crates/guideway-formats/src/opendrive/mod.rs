@@ -1,33 +1,39 @@
-//! Roads of ASAM OpenDRIVE: XML, meters, y up.
+//! Reads roads of ASAM OpenDRIVE: XML, meters, y up.
 //!
-//! A road has a reference line of lines, arcs, spirals and polynomials, and lanes beside it whose widths are
-//! polynomials along it. The center line of every lane is a path.
+//! A road has a reference line of lines, arcs, spirals and polynomials, and lanes beside it whose
+//! widths are polynomials along it. The center line of every lane becomes a path.
+//!
+//! | Stage | Input | Output | File |
+//! |---|---|---|---|
+//! | parse | bytes | XML tree, numbers | `reader` |
+//! | plan view | `geometry` elements | reference line | `plan_view`, `geometry` |
+//! | lanes | `laneSection` elements | center offsets | `lanes`, `polynomial` |
+//! | fit | reference line and offset | cubics within the tolerance | `offset_fit` |
+//! | map | cubics | paths with attributes | `road` |
 
-mod fit;
+mod geometry;
 mod lanes;
-mod plan;
+mod offset_fit;
+mod plan_view;
 mod polynomial;
-mod reference;
+mod reader;
 mod road;
 
-use guideway_layout::{Layout, Place};
+use guideway_layout::Layout;
 
-use self::road::Mapper;
+use self::road::RoadMapper;
 use crate::source::Source;
 use crate::xml::{Doctype, Xml};
-use crate::{Problem, ReadError, text};
+use crate::{ReadError, text};
 
-/// Reads roads.
+/// Reads roads into a layout.
+///
+/// # Errors
+/// When the text is not XML with an `<OpenDRIVE>` root or exceeds a limit, or when the caller
+/// cancels.
 pub(crate) fn read(source: Source<'_>, bytes: &[u8]) -> Result<Layout, ReadError> {
     let text = text::decode_utf8(&source, bytes)?;
     let xml = Xml::parse(&source, text, Doctype::Refused)?;
-    let root = xml.root();
-    if root.tag_name().name() != "OpenDRIVE" {
-        return Err(source.fail(Problem::Structure {
-            place: Place::element("the outermost element"),
-            expected: "<OpenDRIVE>".into(),
-            found: format!("<{}>", text::printable(root.tag_name().name())),
-        }));
-    }
-    Mapper::new(source, &xml, bytes.len()).map(root)
+    let root = xml.root_with_tag(&source, "OpenDRIVE", "<OpenDRIVE>")?;
+    RoadMapper::new(source, &xml, bytes.len()).read(root)
 }

@@ -1,4 +1,4 @@
-//! Cubic polynomials, and lists of them along a road.
+//! Cubic polynomials, and piecewise cubic functions along a road.
 
 /// a + b x + c x^2 + d x^3.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -24,7 +24,7 @@ impl Cubic {
         2.0 * self.c + 6.0 * self.d * x
     }
 
-    /// The polynomial in x - x0 that is the same curve.
+    /// The same function as a polynomial in x - x0.
     pub(super) fn about(self, x0: f64) -> Self {
         let [a, b] = self.at(x0);
         Self {
@@ -35,7 +35,7 @@ impl Cubic {
         }
     }
 
-    /// The polynomial in x / factor that is the same curve.
+    /// The same function as a polynomial in x / factor.
     pub(super) fn stretched(self, factor: f64) -> Self {
         Self {
             a: self.a,
@@ -45,7 +45,7 @@ impl Cubic {
         }
     }
 
-    /// This and another times a factor.
+    /// `self + other * factor`.
     pub(super) fn plus(self, other: Self, factor: f64) -> Self {
         Self {
             a: self.a + other.a * factor,
@@ -55,7 +55,8 @@ impl Cubic {
         }
     }
 
-    /// Bounds of the absolute value and of the first four derivatives from 0 to `length`.
+    /// Bounds of the absolute values of the function and its first four derivatives on
+    /// `0..=length`.
     pub(super) fn bounds(self, length: f64) -> [f64; 5] {
         let [a, b, c, d] = [self.a, self.b, self.c, self.d].map(f64::abs);
         [
@@ -67,15 +68,17 @@ impl Cubic {
         ]
     }
 
+    /// Whether all coefficients are finite.
     pub(super) fn is_finite(self) -> bool {
         (self.a + self.b + self.c + self.d).is_finite()
     }
 }
 
-/// Polynomials one after the other, each about where it begins; 0 before the first.
+/// A piecewise cubic function: each polynomial is about its start and holds until the next one; 0
+/// before the first.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Piecewise {
-    /// Sorted by where they begin.
+    /// Start and polynomial, sorted by start.
     pieces: Vec<(f64, Cubic)>,
 }
 
@@ -85,7 +88,7 @@ impl Piecewise {
         Self { pieces }
     }
 
-    /// Where its polynomials begin.
+    /// The start of every polynomial.
     pub(super) fn starts(&self) -> impl Iterator<Item = f64> {
         self.pieces.iter().map(|(start, _)| *start)
     }
@@ -94,7 +97,7 @@ impl Piecewise {
         self.pieces.is_empty()
     }
 
-    /// The polynomial that holds from s on, about s.
+    /// The polynomial valid from s on, about s.
     pub(super) fn from(&self, s: f64) -> Cubic {
         let after = self.pieces.partition_point(|(start, _)| *start <= s);
         match after.checked_sub(1).map(|i| self.pieces[i]) {

@@ -1,36 +1,36 @@
-//! Plant models of openTCS: XML, millimeters, y up; control points in layout units, y down.
+//! Reads plant models of openTCS: XML, millimeters, y up; control points in layout units, y down.
 //!
-//! Up to 0.0.3, what is drawn is in the properties of `modelLayoutElement`; later it is in elements of
-//! its own. Up to 6.0.0, a point has a position in the plant and another in the drawing; they may be
-//! meters apart, and the control points go with the drawing.
+//! Up to version 0.0.3, drawing data is in the properties of `modelLayoutElement`; later versions
+//! have elements for it. Up to 6.0.0, a point has a position in the plant and another one in the
+//! drawing. They may be meters apart, and the control points belong to the drawing.
+//!
+//! | Stage | Input | Output | File |
+//! |---|---|---|---|
+//! | parse | bytes | XML tree, attributes | `reader` |
+//! | drawing | `visualLayout` | scale, layers, legacy shapes | `visual_layout` |
+//! | map | points, locations, blocks | nodes, stations, columns | `plant_mapper`, `envelope` |
+//! | map | paths | paths with curves | `path_mapper` |
 
-mod drawing;
 mod envelope;
-mod paths;
-mod plant;
+mod path_mapper;
+mod plant_mapper;
+mod reader;
+mod visual_layout;
 
-use guideway_layout::{Layout, Place};
+use guideway_layout::Layout;
 
-use self::drawing::Drawing;
-use self::plant::Plant;
+use self::plant_mapper::PlantMapper;
 use crate::source::Source;
 use crate::xml::{Doctype, Xml};
-use crate::{Problem, ReadError, text};
+use crate::{ReadError, text};
 
-/// Reads a plant model.
+/// Reads a plant model into a layout.
+///
+/// # Errors
+/// When the text is not XML with a `<model>` root or exceeds a limit, or when the caller cancels.
 pub(crate) fn read(source: Source<'_>, bytes: &[u8]) -> Result<Layout, ReadError> {
     let text = text::decode_utf8(&source, bytes)?;
     let xml = Xml::parse(&source, text, Doctype::Refused)?;
-    let model = xml.root();
-    if model.tag_name().name() != "model" {
-        let tag: String = model.tag_name().name().chars().take(40).collect();
-        return Err(source.fail(Problem::Structure {
-            place: Place::element("the outermost element"),
-            expected: "<model> of an openTCS plant model".into(),
-            found: format!("<{tag}>"),
-        }));
-    }
-    let mut plant = Plant::new(source, &xml, bytes.len());
-    let drawing = Drawing::read(&mut plant, model);
-    plant.map(model, &drawing)
+    let model = xml.root_with_tag(&source, "model", "<model> of an openTCS plant model")?;
+    PlantMapper::new(source, &xml, bytes.len()).read(model)
 }

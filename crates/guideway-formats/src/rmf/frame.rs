@@ -1,4 +1,5 @@
-//! From the positions of a level to meters with y up, the levels of a building above each other.
+//! Computes a frame per level: the map from file positions to meters with y up. Fiducials align the
+//! levels of a building.
 //!
 //! Source: `building.py`, `level.py` and `transform.py` of
 //! [`rmf_building_map_tools`](https://github.com/open-rmf/rmf_traffic_editor).
@@ -10,13 +11,13 @@ use super::level::Level;
 use crate::builder::{Builder, PlaceFn};
 use crate::wgs84::{LocalProjection, is_lon_lat};
 
-/// Meters a pixel where nothing was measured: what the editor begins with.
-const ASSUMED_SCALE: f64 = 0.05;
+/// Meters per pixel without a measurement: the initial scale of the editor.
+const DEFAULT_SCALE: f64 = 0.05;
 
 /// Radius of the sphere of web Mercator, in meters.
 const MERCATOR_RADIUS_M: f64 = 6_378_137.0;
 
-/// What the positions of a file are.
+/// The coordinate system of a file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Coordinates {
     /// Pixels of a floor plan, y down.
@@ -25,11 +26,11 @@ pub(super) enum Coordinates {
     Meters,
     /// Longitude and latitude.
     Degrees,
-    /// Meters of web Mercator, which are too long away from the equator.
+    /// Meters of web Mercator, whose scale grows with the latitude.
     Mercator,
 }
 
-/// How the positions of one level become meters.
+/// The map from the positions of one level to meters.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Frame {
     Plane(Affine),
@@ -37,6 +38,7 @@ pub(super) enum Frame {
 }
 
 impl Frame {
+    /// Maps a position to meters, y up.
     pub(super) fn to_meters(self, position: Point<f64>) -> Point<f64> {
         match self {
             Self::Plane(affine) => affine.apply(position),
@@ -45,7 +47,7 @@ impl Frame {
     }
 }
 
-/// The frame of every level. `reference` is the level that the others are laid over.
+/// The frame of every level. The others are aligned to the level `reference`.
 pub(super) fn frames(
     builder: &mut Builder<'_>,
     coordinates: Coordinates,
@@ -66,7 +68,7 @@ pub(super) fn frames(
         Coordinates::Mercator => {
             let bounds = Bounds::of_points(positions.copied().filter(|p| p.is_finite()));
             let middle = bounds.map_or(Point::new(0.0, 0.0), |b| b.min.lerp(b.max, 0.5));
-            // A meter at a latitude is 1 / cos of it long, which is cosh(y / R).
+            // A meter at the latitude p has the length 1 / cos p = cosh(y / R) in the projection.
             let scale = 1.0 / (middle.y / MERCATOR_RADIUS_M).cosh();
             let to_origin = Affine::translation(-middle);
             Frame::Plane(to_origin.then(Affine::scale(scale, scale, Point::new(0.0, 0.0))))
@@ -81,17 +83,18 @@ fn image_frames(builder: &mut Builder<'_>, levels: &[Level<'_>], reference: usiz
     };
     let reference_scale = measured_scale(builder, reference_level).unwrap_or_else(|| {
         if reference_level.positions.is_empty() {
-            return ASSUMED_SCALE;
+            return DEFAULT_SCALE;
         }
         let message = || {
             format!(
-                "no distance was measured: a pixel of the floor plan is read as {ASSUMED_SCALE} m"
+                "the level has no measurement; a pixel of the floor plan is read as \
+                 {DEFAULT_SCALE} m"
             )
         };
         let remedy = "Measure a distance in the editor; all lengths depend on it";
         let at: PlaceFn<'_> = &|| reference_level.place("measurements");
         builder.report(Code::AssumedUnit, at, message, remedy);
-        ASSUMED_SCALE
+        DEFAULT_SCALE
     });
     let frame = |(index, level): (usize, &Level<'_>)| {
         if index == reference {
@@ -106,13 +109,13 @@ fn image_frames(builder: &mut Builder<'_>, levels: &[Level<'_>], reference: usiz
             None => {
                 let message = || {
                     format!(
-                        "fiducials in common with level `{}`: {}, two are needed to lay one over the other",
-                        reference_level.name,
-                        pairs.len()
+                        "{} fiducials in common with level `{}`, expected two or more to align it",
+                        pairs.len(),
+                        reference_level.name
                     )
                 };
-                let remedy =
-                    "It is drawn where its own floor plan has it; add fiducials in the editor";
+                let remedy = "It is drawn at the origin of its floor plan; add fiducials in the \
+                              editor";
                 let at: PlaceFn<'_> = &|| level.place("fiducials");
                 builder.report(Code::AssumedUnit, at, message, remedy);
                 let scale = measured_scale(builder, level).unwrap_or(reference_scale);
@@ -123,7 +126,7 @@ fn image_frames(builder: &mut Builder<'_>, levels: &[Level<'_>], reference: usiz
     levels.iter().enumerate().map(frame).collect()
 }
 
-/// Pixels with y down, turned, scaled and then moved.
+/// A frame that flips pixels to y up, scales, rotates and then translates them.
 fn similarity(scale: f64, angle_rad: f64, offset_m: Point<f64>) -> Frame {
     let origin = Point::new(0.0, 0.0);
     let affine = Affine::scale(scale, -scale, origin)
@@ -132,7 +135,8 @@ fn similarity(scale: f64, angle_rad: f64, offset_m: Point<f64>) -> Frame {
     Frame::Plane(affine)
 }
 
-/// The mean of meters a pixel over all distances measured on a level.
+/// The mean of meters per pixel over all measurements of a level; `None` without a valid one.
+/// Reports invalid measurements.
 fn measured_scale(builder: &mut Builder<'_>, level: &Level<'_>) -> Option<f64> {
     let mut scales = Vec::new();
     for (index, measured) in level.measurements.iter().enumerate() {
@@ -146,16 +150,14 @@ fn measured_scale(builder: &mut Builder<'_>, level: &Level<'_>) -> Option<f64> {
             continue;
         }
         let message = || {
-            format!(
-                "{} m between two vertices that are {}",
-                measured.distance_m,
-                {
-                    match ends {
-                        [Some(a), Some(b)] => format!("{} pixels apart", a.distance(b)),
-                        _ => "not there".to_owned(),
-                    }
+            let distance_m = measured.distance_m;
+            match ends {
+                [Some(a), Some(b)] => {
+                    let pixels = a.distance(b);
+                    format!("{distance_m} m between two vertices that are {pixels} pixels apart")
                 }
-            )
+                _ => format!("{distance_m} m between vertices that do not exist"),
+            }
         };
         let remedy = "It is left out; measure the distance again in the editor";
         let at: PlaceFn<'_> = &|| Place {
@@ -168,21 +170,23 @@ fn measured_scale(builder: &mut Builder<'_>, level: &Level<'_>) -> Option<f64> {
     (count > 0.0).then(|| scales.iter().sum::<f64>() / count)
 }
 
-/// The pixels of the fiducials that two levels have, those of the reference first.
+/// The positions of the fiducials that two levels share, in pixels with y up; the reference first.
 fn common_fiducials(reference: &Level<'_>, level: &Level<'_>) -> Vec<[Point<f64>; 2]> {
-    /// The pairs are compared with each other.
-    const MOST: usize = 100;
+    /// Bounds the quadratic cost of [`alignment`].
+    const MAX_PAIRS: usize = 100;
     let others = &level.fiducials;
     let pairs = reference.fiducials.iter().filter_map(|&(name, here)| {
         let found = others.iter().find(|(other, _)| *other == name)?;
-        // Bearings are those of y up.
         Some([here, found.1].map(|p| Point::new(p.x, -p.y)))
     });
-    pairs.take(MOST).collect()
+    pairs.take(MAX_PAIRS).collect()
 }
 
-/// Lays a level over the reference: means of the angles and of the ratios of all distances between two
-/// fiducials, and then of what is left between them. None if no two fiducials are apart.
+/// Aligns a level to the reference by their common fiducials: the rotation and the scale are means
+/// over all pairs of fiducials, and the offset is the mean of the remaining differences. `None` if
+/// no two fiducials have different positions.
+///
+/// Cost: O(fiducials^2).
 fn alignment(pairs: &[[Point<f64>; 2]], reference_scale: f64) -> Option<Frame> {
     let (mut sum, mut ratios) = (Point::new(0.0, 0.0), Vec::new());
     for (i, a) in pairs.iter().enumerate() {
@@ -203,10 +207,10 @@ fn alignment(pairs: &[[Point<f64>; 2]], reference_scale: f64) -> Option<Frame> {
     let scale = reference_scale / ratio;
     let angle_rad = sum.y.atan2(sum.x);
     let turn = Affine::rotation(angle_rad, Point::new(0.0, 0.0));
-    let left = pairs
+    let offsets = pairs
         .iter()
         .map(|[here, there]| *here * reference_scale - turn.apply(*there * scale));
-    let sum = left.fold(Point::new(0.0, 0.0), |a, b| a + b);
+    let sum = offsets.fold(Point::new(0.0, 0.0), |a, b| a + b);
     Some(similarity(
         scale,
         angle_rad,
@@ -219,8 +223,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn fiducials_lay_a_turned_and_scaled_level_over_another() {
-        // The other plan has twice the pixels, is turned by a quarter, and is moved.
+    fn alignment_recovers_rotation_scale_and_offset() {
+        // The other plan has twice the resolution, is rotated by 90 degrees and shifted.
         let other = |p: Point<f64>| Point::new(-p.y * 2.0 + 30.0, p.x * 2.0 - 7.0);
         let here = [(0.0, 0.0), (10.0, 2.0), (3.0, 8.0)].map(|(x, y)| Point::new(x, y));
         let pairs = here.map(|p| [p, other(p)]);
@@ -231,10 +235,10 @@ mod tests {
             let pixel = Point::new(there.x, -there.y);
             assert!(affine.apply(pixel).distance(here * 0.5) < 1e-12);
         }
-        assert!(alignment(&pairs[..1], 0.5).is_none(), "one is not enough");
+        assert!(alignment(&pairs[..1], 0.5).is_none(), "one fiducial");
         assert!(
             alignment(&[pairs[0], pairs[0]], 0.5).is_none(),
-            "nor one twice"
+            "one fiducial twice"
         );
     }
 }

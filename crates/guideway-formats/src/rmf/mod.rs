@@ -1,23 +1,31 @@
-//! Buildings and navigation graphs of Open-RMF: YAML; pixels of a floor plan with y down, or meters, or
-//! degrees.
+//! Reads buildings and navigation graphs of Open-RMF: YAML; pixels of a floor plan with y down,
+//! meters, or degrees.
 //!
-//! Both have levels with vertices and lanes between them. A building is what people draw over floor plans;
-//! a navigation graph is what is generated from it, in meters.
+//! Both have levels with vertices, and lanes between them. People draw a building over floor plans;
+//! Open-RMF generates a navigation graph from it, in meters.
+//!
+//! | Stage | Input | Output | File |
+//! |---|---|---|---|
+//! | parse | text | YAML tree, levels | `level` |
+//! | scale | measurements, fiducials | a frame per level: file units to meters | `frame` |
+//! | map | vertices, lanes, walls, doors | nodes and paths | `site`, `parameters` |
+//! | map | lifts | stations | `lifts` |
 
 mod frame;
 mod level;
 mod lifts;
 mod parameters;
+mod reader;
 mod site;
 
 use guideway_layout::{Layout, Place};
 
-use self::site::Site;
+use self::site::SiteMapper;
 use crate::source::Source;
 use crate::yaml::Yaml;
 use crate::{Problem, ReadError, text};
 
-/// Whether a text is YAML with a key on its outermost level that buildings and graphs have.
+/// Whether a text has the top-level YAML key `levels` of buildings and graphs.
 pub(crate) fn is_rmf(text: &[u8]) -> bool {
     let mut lines = text.split(|&byte| byte == b'\n');
     lines.any(|line| {
@@ -26,7 +34,11 @@ pub(crate) fn is_rmf(text: &[u8]) -> bool {
     })
 }
 
-/// Reads a building or a navigation graph.
+/// Reads a building or a navigation graph into a layout.
+///
+/// # Errors
+/// When the text is not YAML with an object `levels` or exceeds a limit, or when the caller
+/// cancels.
 pub(crate) fn read(source: Source<'_>, bytes: &[u8]) -> Result<Layout, ReadError> {
     let text = text::decode_utf8(&source, bytes)?;
     let yaml = Yaml::parse(&source, text)?;
@@ -39,5 +51,5 @@ pub(crate) fn read(source: Source<'_>, bytes: &[u8]) -> Result<Layout, ReadError
             found: found.into(),
         }));
     };
-    Site::new(source, bytes.len()).map(&yaml, root, levels)
+    SiteMapper::new(source, bytes.len()).read(&yaml, root, levels)
 }

@@ -1,61 +1,63 @@
-//! The parameters of vertices and lanes, which become columns.
+//! Maps the parameters of vertices and lanes to attribute columns.
 
 use guideway_layout::{Code, Value};
 
-use super::site::Site;
+use super::reader::SiteReader;
 use crate::ReadError;
 use crate::builder::{PlaceFn, Table};
-use crate::yaml::Item;
+use crate::yaml::YamlNode;
 
-/// Most parameters that become columns of a table; a file could else make columns without end.
-const MOST_COLUMNS: usize = 64;
+/// Parameters that become columns of all tables; bounds the number of columns of a hostile file.
+const MAX_COLUMNS: usize = 64;
 
-impl<'y> Site<'_, 'y> {
-    /// Sets a column for each parameter that has a value.
-    pub(super) fn set_parameters(
-        &mut self,
-        table: Table,
-        row: usize,
-        parameters: Item<'y>,
-        at: PlaceFn<'_>,
-    ) -> Result<(), ReadError> {
-        for (key, item) in parameters.entries() {
-            let value = match parameter(item) {
-                // What was never filled in.
-                Some(Value::Text("")) => continue,
-                None if item.kind() == "nothing" => continue,
-                None => {
-                    self.report_type(at, &format!("a type and a value of `{key}`"), item);
-                    continue;
-                }
-                Some(value) => value,
-            };
-            let column = (matches!(table, Table::Paths), key);
-            if !self.columns.contains(&column) {
-                if self.columns.len() == MOST_COLUMNS {
-                    let message = || format!("more than {MOST_COLUMNS} different parameters");
-                    self.builder
-                        .report(Code::Attribute, at, message, "The others are left out");
-                    continue;
-                }
-                self.builder.check_text(key)?;
-                self.columns.insert(column);
+/// Stores every parameter with a value as an attribute of a row.
+///
+/// # Errors
+/// When a text exceeds its limit.
+pub(super) fn set_parameters<'y>(
+    reader: &mut SiteReader<'_, 'y>,
+    table: Table,
+    row: usize,
+    parameters: YamlNode<'y>,
+    at: PlaceFn<'_>,
+) -> Result<(), ReadError> {
+    for (key, node) in parameters.entries() {
+        let value = match parameter(node) {
+            // The editor writes an empty text for a parameter without a value.
+            Some(Value::Text("")) => continue,
+            None if node.kind() == "nothing" => continue,
+            None => {
+                reader.report_type(at, &format!("a type and a value of `{key}`"), node);
+                continue;
             }
-            if let Value::Text(text) = value {
-                self.builder.check_text(text)?;
+            Some(value) => value,
+        };
+        let column = (matches!(table, Table::Paths), key);
+        if !reader.columns.contains(&column) {
+            if reader.columns.len() == MAX_COLUMNS {
+                let message = || format!("more than {MAX_COLUMNS} different parameters");
+                let remedy = "The others are left out";
+                reader.builder.report(Code::Attribute, at, message, remedy);
+                continue;
             }
-            self.builder.set(table, row, key, value)?;
+            reader.builder.check_text(key)?;
+            reader.columns.insert(column);
         }
-        Ok(())
+        if let Value::Text(text) = value {
+            reader.builder.check_text(text)?;
+        }
+        reader.builder.set(table, row, key, value)?;
     }
+    Ok(())
 }
 
-/// The value of a parameter: [type, value] in a building, with 1 for text; the value alone in a graph.
-pub(super) fn parameter(item: Item<'_>) -> Option<Value<'_>> {
-    let Some(kind) = item.item(0) else {
-        return item.value();
+/// The value of a parameter: `[type, value]` in a building, where type 1 is text, or the bare value
+/// in a navigation graph.
+pub(super) fn parameter(node: YamlNode<'_>) -> Option<Value<'_>> {
+    let Some(kind) = node.item(0) else {
+        return node.value();
     };
-    let value = item.item(1)?;
+    let value = node.item(1)?;
     match kind.text() {
         Some("1") => value.text().map(Value::Text),
         _ => value.value(),

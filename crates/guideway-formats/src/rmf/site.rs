@@ -1,19 +1,22 @@
-//! From a file to a layout: vertices become nodes, lanes and walls become paths, lifts become stations.
+//! Maps a site to a layout: vertices to nodes; lanes, walls and doors to paths; lifts to stations.
 
-use std::collections::{BTreeMap, HashSet};
+use std::collections::BTreeMap;
 
 use guideway_layout::{Code, Direction, Layout, NewPath, Place, Value};
 use guideway_spline::Runs;
 
 use super::frame::{Coordinates, Frame, frames};
 use super::level::{Level, ends};
-use super::parameters::parameter;
+use super::lifts::map_lifts;
+use super::parameters::{parameter, set_parameters};
+use super::reader::{SiteReader, place};
 use crate::ReadError;
-use crate::builder::{Builder, PlaceFn, Table};
+use crate::builder::{PlaceFn, Table};
 use crate::source::Source;
-use crate::yaml::{Item, Yaml};
+use crate::yaml::{Yaml, YamlNode};
 
-/// What becomes paths: the key of its list, and what one of it is called. Lanes come last and so lie on top.
+/// Lists that become paths: key of the list, and name of one element. Lanes come last, so they are
+/// drawn on top.
 const EDGES: [(&str, &str); 4] = [
     ("walls", "wall"),
     ("doors", "door"),
@@ -21,49 +24,44 @@ const EDGES: [(&str, &str); 4] = [
     ("lanes", "lane"),
 ];
 
-/// What a level holds besides, and a picture of paths does not.
+/// Lists of a level that are counted but not drawn.
 const NOT_DRAWN: [&str; 5] = ["floors", "models", "features", "constraints", "holes"];
 
-/// Most graphs that are counted by number; the editor has nine.
-const MOST_GRAPHS: usize = 64;
+/// Graphs counted by number; the editor has nine.
+const MAX_GRAPHS: usize = 64;
 
 /// Fills a layout from a file.
-pub(super) struct Site<'a, 'y> {
-    pub(super) builder: Builder<'a>,
-    /// The parameters that are columns, of paths and of nodes.
-    pub(super) columns: HashSet<(bool, &'y str)>,
+pub(super) struct SiteMapper<'a, 'y> {
+    reader: SiteReader<'a, 'y>,
+    /// Number of bidirectional lanes.
     bidirectional: u64,
+    /// Number of lanes per graph.
     graphs: BTreeMap<i64, u64>,
 }
 
-impl<'a, 'y> Site<'a, 'y> {
+impl<'a, 'y> SiteMapper<'a, 'y> {
     pub(super) fn new(source: Source<'a>, file_bytes: usize) -> Self {
         Self {
-            builder: Builder::new(source, file_bytes),
-            columns: HashSet::new(),
+            reader: SiteReader::new(source, file_bytes),
             bidirectional: 0,
             graphs: BTreeMap::new(),
         }
     }
 
-    pub(super) fn map(
+    /// Maps the whole file and returns the layout.
+    ///
+    /// # Errors
+    /// When the layout exceeds a limit, or when the caller cancels.
+    pub(super) fn read(
         mut self,
         yaml: &'y Yaml<'y>,
-        root: Item<'y>,
-        levels: Item<'y>,
+        root: YamlNode<'y>,
+        levels: YamlNode<'y>,
     ) -> Result<Layout, ReadError> {
-        for (key, line) in &yaml.repeated {
-            let at: PlaceFn<'_> = &|| Place {
-                element: "an object".into(),
-                line: Some(*line),
-            };
-            let message = || format!("the key `{key}` is there more than once");
-            self.builder
-                .report(Code::DuplicateKey, at, message, "Remove the others");
-        }
+        self.report_document(yaml);
         let all: Result<Vec<_>, _> = levels
             .entries()
-            .map(|(name, content)| Level::read(&mut self.builder, name, content))
+            .map(|(name, content)| Level::read(&mut self.reader.builder, name, content))
             .collect();
         let levels = all?;
         let is_graph = is_graph(&levels);
@@ -71,42 +69,54 @@ impl<'a, 'y> Site<'a, 'y> {
             true => Coordinates::Meters,
             false => self.coordinates(root),
         };
-        let name = root.get("reference_level_name").and_then(Item::text);
+        let name = root.get("reference_level_name").and_then(YamlNode::text);
         let reference = levels.iter().position(|level| Some(level.name) == name);
         if let (Some(named), None) = (root.get("reference_level_name"), reference) {
             let message = || format!("there is no level `{}`", name.unwrap_or(named.kind()));
             let at: PlaceFn<'_> = &|| place("reference_level_name", named);
-            let remedy = "The first level is taken; correct the name";
-            self.builder.report(Code::UnknownValue, at, message, remedy);
+            let remedy = "The first level is used; correct the name";
+            self.reader
+                .builder
+                .report(Code::UnknownValue, at, message, remedy);
+        }
+        let reference = reference.unwrap_or(0);
+        let frames = frames(&mut self.reader.builder, coordinates, &levels, reference);
+        for (index, (level, frame)) in levels.iter().zip(&frames).enumerate() {
+            self.map_level(index as u32, level, *frame)?;
+        }
+        map_lifts(&mut self.reader, root, &levels, &frames, reference)?;
+        self.count_elements(&levels, root, is_graph);
+        Ok(self.reader.builder.layout)
+    }
+
+    /// Reports duplicate keys and further documents of the file.
+    fn report_document(&mut self, yaml: &Yaml<'_>) {
+        for (key, line) in &yaml.repeated {
+            let at: PlaceFn<'_> = &|| Place {
+                element: "an object".into(),
+                line: Some(*line),
+            };
+            let message = || format!("the key `{key}` occurs more than once");
+            let remedy = "The last value is used; remove the others";
+            self.reader
+                .builder
+                .report(Code::DuplicateKey, at, message, remedy);
         }
         if let Some(line) = yaml.next_document {
             let at: PlaceFn<'_> = &|| Place {
                 element: "the next document".into(),
                 line: Some(line),
             };
-            let message = || "the file holds more than one document".to_owned();
-            self.builder.report(
-                Code::NotDrawn,
-                at,
-                message,
-                "Only the first one is read; split the file",
-            );
+            let message = || "the file contains more than one document".to_owned();
+            let remedy = "Only the first one is read; split the file";
+            self.reader
+                .builder
+                .report(Code::NotDrawn, at, message, remedy);
         }
-        let frames = frames(
-            &mut self.builder,
-            coordinates,
-            &levels,
-            reference.unwrap_or(0),
-        );
-        for (index, (level, frame)) in levels.iter().zip(&frames).enumerate() {
-            self.map_level(index as u32, level, *frame)?;
-        }
-        self.map_lifts(root, &levels, &frames, reference.unwrap_or(0))?;
-        self.count(&levels, root, is_graph);
-        Ok(self.builder.layout)
     }
 
-    fn coordinates(&mut self, root: Item<'_>) -> Coordinates {
+    /// The coordinate system of the file. Reports an unknown one.
+    fn coordinates(&mut self, root: YamlNode<'_>) -> Coordinates {
         let Some(found) = root.get("coordinate_system") else {
             return Coordinates::Image;
         };
@@ -118,9 +128,11 @@ impl<'a, 'y> Site<'a, 'y> {
             other => {
                 let name = other.unwrap_or(found.kind());
                 let at: PlaceFn<'_> = &|| place("coordinate_system", found);
-                let message = || format!("the coordinate system `{name}` is not known");
-                let remedy = "Pixels of a floor plan are assumed, as where there is none";
-                self.builder.report(Code::UnknownValue, at, message, remedy);
+                let message = || format!("unknown coordinate system `{name}`");
+                let remedy = "Pixels of a floor plan are assumed; correct the name";
+                self.reader
+                    .builder
+                    .report(Code::UnknownValue, at, message, remedy);
                 Coordinates::Image
             }
         }
@@ -129,26 +141,31 @@ impl<'a, 'y> Site<'a, 'y> {
     fn map_level(&mut self, index: u32, level: &Level<'y>, frame: Frame) -> Result<(), ReadError> {
         let elevation = level.content.get("elevation");
         if let Some(odd) = elevation.filter(|e| e.number().is_none()) {
-            self.report_type(&|| level.place("elevation"), "a number", odd);
+            self.reader
+                .report_type(&|| level.place("elevation"), "a number", odd);
         }
-        let elevation = elevation.and_then(Item::number);
-        self.builder.layout.levels.push(guideway_layout::Level {
-            id: level.name.to_owned(),
-            name: None,
-            elevation_m: elevation.filter(|e| e.is_finite()),
-        });
+        let elevation = elevation.and_then(YamlNode::number);
+        self.reader
+            .builder
+            .layout
+            .levels
+            .push(guideway_layout::Level {
+                id: level.name.to_owned(),
+                name: None,
+                elevation_m: elevation.filter(|e| e.is_finite()),
+            });
         let mut nodes = Vec::with_capacity(level.positions.len());
         for (i, vertex) in level
             .content
             .get("vertices")
             .into_iter()
-            .flat_map(Item::items)
+            .flat_map(YamlNode::items)
             .enumerate()
         {
             nodes.push(self.map_vertex(index, level, frame, i, vertex)?);
         }
         for (key, element) in EDGES {
-            for (i, edge) in level.list(&mut self.builder, key).enumerate() {
+            for (i, edge) in level.list(&mut self.reader.builder, key).enumerate() {
                 self.map_edge(index, level, &nodes, (key, element, i), edge)?;
             }
         }
@@ -156,10 +173,14 @@ impl<'a, 'y> Site<'a, 'y> {
             let count = level.count(key);
             if count > 0 {
                 let at: PlaceFn<'_> = &|| level.place(key);
-                let remedy =
-                    "They are left out: what is read are vertices, lanes, walls, doors and lifts";
-                self.builder
-                    .report(Code::NotDrawn, at, || format!("{key}: {count}"), remedy);
+                let remedy = "They are left out; Guideway draws vertices, lanes, walls, doors and \
+                              lifts only";
+                self.reader.builder.report(
+                    Code::NotDrawn,
+                    at,
+                    || format!("{key}: {count}"),
+                    remedy,
+                );
             }
         }
         Ok(())
@@ -171,14 +192,14 @@ impl<'a, 'y> Site<'a, 'y> {
         level: &Level<'y>,
         frame: Frame,
         index: usize,
-        vertex: Item<'y>,
+        vertex: YamlNode<'y>,
     ) -> Result<Option<u32>, ReadError> {
         let Some(position) = level.position(index) else {
             return Ok(None);
         };
         let at: PlaceFn<'_> = &|| level.item_place("vertices", index, vertex);
         let position = frame.to_meters(position);
-        if !self.builder.check_point(position, at) {
+        if !self.reader.builder.check_point(position, at) {
             return Ok(None);
         }
         // [x, y, z, name, parameters] in a building, [x, y, parameters] in a graph.
@@ -187,16 +208,19 @@ impl<'a, 'y> Site<'a, 'y> {
         let name = vertex
             .item(3)
             .or(named)
-            .and_then(Item::text)
+            .and_then(YamlNode::text)
             .unwrap_or_default();
-        self.builder.check_text(name)?;
+        self.reader.builder.check_text(name)?;
         let id = match name {
             "" => format!("{}.vertices[{index}]", level.name),
             name => name.to_owned(),
         };
-        let row = self.builder.push_node(&id, position, Some(level_index))?;
+        let row = self
+            .reader
+            .builder
+            .push_node(&id, position, Some(level_index))?;
         if let Some(parameters) = parameters {
-            self.set_parameters(Table::Nodes, row as usize, parameters, at)?;
+            set_parameters(&mut self.reader, Table::Nodes, row as usize, parameters, at)?;
         }
         Ok(Some(row))
     }
@@ -207,23 +231,24 @@ impl<'a, 'y> Site<'a, 'y> {
         level: &Level<'y>,
         nodes: &[Option<u32>],
         (key, element, index): (&str, &str, usize),
-        edge: Item<'y>,
+        edge: YamlNode<'y>,
     ) -> Result<(), ReadError> {
         let at: PlaceFn<'_> = &|| level.item_place(key, index, edge);
         let id = format!("{}.{key}[{index}]", level.name);
         let known = ends(edge).map(|ends| ends.map(|end| nodes.get(end).copied().flatten()));
         let Some([Some(start), Some(end)]) = known else {
             let detail = match known {
-                Some(_) => "a vertex that it names is not there or has no position",
-                None => "it does not begin with the numbers of two vertices",
+                Some(_) => "one of its vertices does not exist or has no position",
+                None => "it does not begin with the indices of two vertices",
             };
             let remedy = "It is left out; correct the vertices in the editor";
-            self.builder
+            self.reader
+                .builder
                 .report(Code::UnknownNode, at, || detail.to_owned(), remedy);
-            return self.builder.refuse(&id, Code::UnknownNode, detail);
+            return self.reader.builder.refuse(&id, Code::UnknownNode, detail);
         };
         if let Some(odd) = edge.item(2).filter(|p| !p.is_map()) {
-            self.report_type(at, "an object of parameters", odd);
+            self.reader.report_type(at, "an object of parameters", odd);
         }
         let parameters = edge.item(2).filter(|p| p.is_map());
         let parameter = |key| parameters.and_then(|p| parameter(p.get(key)?));
@@ -240,10 +265,10 @@ impl<'a, 'y> Site<'a, 'y> {
                 fleet = Some(format!("graph {graph}"));
             }
         }
-        let positions = &self.builder.layout.nodes;
+        let positions = &self.reader.builder.layout.nodes;
         let mut runs = Runs::default();
         runs.push_line(positions.position_m(start), positions.position_m(end));
-        let row = self.builder.push_path(&NewPath {
+        let row = self.reader.builder.push_path(&NewPath {
             id: &id,
             runs: &runs,
             start_node: Some(start),
@@ -257,27 +282,23 @@ impl<'a, 'y> Site<'a, 'y> {
             vehicle_types: fleet.as_deref().as_slice(),
         })?;
         let element = Value::Text(element);
-        self.builder.set(Table::Paths, row, "element", element)?;
+        self.reader
+            .builder
+            .set(Table::Paths, row, "element", element)?;
         match parameters {
-            Some(parameters) => self.set_parameters(Table::Paths, row, parameters, at),
+            Some(parameters) => set_parameters(&mut self.reader, Table::Paths, row, parameters, at),
             None => Ok(()),
         }
     }
 
-    /// Says that something is not what it should be, and is left out.
-    pub(super) fn report_type(&mut self, at: PlaceFn<'_>, expected: &str, found: Item<'_>) {
-        let message = || format!("{expected} was expected, {} was found", found.kind());
-        let remedy = "It is left out; correct it";
-        self.builder.report(Code::WrongType, at, message, remedy);
-    }
-
     fn count_graph(&mut self, graph: i64) {
-        if self.graphs.len() < MOST_GRAPHS || self.graphs.contains_key(&graph) {
+        if self.graphs.len() < MAX_GRAPHS || self.graphs.contains_key(&graph) {
             *self.graphs.entry(graph).or_insert(0) += 1;
         }
     }
 
-    fn count(&mut self, levels: &[Level<'_>], root: Item<'_>, is_graph: bool) {
+    /// Sets the provenance: format, version and element counts.
+    fn count_elements(&mut self, levels: &[Level<'_>], root: YamlNode<'_>, is_graph: bool) {
         const KEYS: [&str; 8] = [
             "vertices",
             "lanes",
@@ -298,7 +319,7 @@ impl<'a, 'y> Site<'a, 'y> {
         counts.extend(graphs.map(|(graph, count)| (format!("lanes of graph {graph}"), *count)));
         let lifts = root.get("lifts").map_or(0, |lifts| lifts.entries().count());
         counts.push(("lifts".to_owned(), lifts as u64));
-        let provenance = &mut self.builder.layout.provenance;
+        let provenance = &mut self.reader.builder.layout.provenance;
         crate::Format::Rmf.name().clone_into(&mut provenance.format);
         let version = if is_graph {
             "navigation graph"
@@ -310,21 +331,16 @@ impl<'a, 'y> Site<'a, 'y> {
     }
 }
 
-/// The place of something that has a name.
-pub(super) fn place(element: &str, item: Item<'_>) -> Place {
-    Place {
-        element: element.to_owned(),
-        line: Some(item.line()),
-    }
-}
-
-/// Whether vertices are those of a graph: parameters where a building has a height, or nothing.
+/// Whether the file is a navigation graph: the third value of its first vertex is parameters or
+/// missing. In a building it is a height.
 fn is_graph(levels: &[Level<'_>]) -> bool {
     let vertices = levels
         .iter()
         .filter_map(|level| level.content.get("vertices"));
-    let mut third = vertices.flat_map(Item::items).map(|vertex| vertex.item(2));
+    let mut third = vertices
+        .flat_map(YamlNode::items)
+        .map(|vertex| vertex.item(2));
     third
         .next()
-        .is_some_and(|item| item.is_none_or(Item::is_map))
+        .is_some_and(|item| item.is_none_or(YamlNode::is_map))
 }

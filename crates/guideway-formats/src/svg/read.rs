@@ -1,12 +1,12 @@
 //! Reads an SVG file: text in, layout out.
 
-use guideway_layout::{Layout, Place};
+use guideway_layout::Layout;
 
 use super::style_sheet::StyleSheet;
 use super::tree_walker::TreeWalker;
 use crate::source::Source;
 use crate::xml::{Doctype, Xml};
-use crate::{Problem, ReadError, text};
+use crate::{ReadError, text};
 
 /// Reads a drawing into a layout.
 ///
@@ -15,14 +15,7 @@ use crate::{Problem, ReadError, text};
 pub(crate) fn read(source: Source<'_>, bytes: &[u8]) -> Result<Layout, ReadError> {
     let text = text::decode_utf8(&source, bytes)?;
     let xml = Xml::parse(&source, text, Doctype::Bounded)?;
-    let root = xml.root();
-    if root.tag_name().name() != "svg" {
-        return Err(source.fail(Problem::Structure {
-            place: Place::element("the outermost element"),
-            expected: "<svg>".into(),
-            found: format!("<{}>", text::printable(root.tag_name().name())),
-        }));
-    }
+    let root = xml.root_with_tag(&source, "svg", "<svg>")?;
     let sheet = StyleSheet::read(root);
     TreeWalker::new(source, &xml, &sheet, bytes.len()).read(root)
 }

@@ -1,14 +1,16 @@
-//! The reference line of a road.
+//! Evaluates the geometry line of a road: position, derivative and derivative bounds by distance.
 
 use guideway_spline::Point;
 
 use super::polynomial::Cubic;
 
-/// Greatest turn of one panel of integration, in radians. Eight nodes are then exact to rounding.
+/// Largest turning angle per quadrature panel, in radians. Derived: eight Gauss nodes are then
+/// exact to rounding.
 const PANEL_RAD: f64 = 0.5;
 
-/// Nodes and weights of Gauss-Legendre quadrature on [-1, 1], of the positive half (Abramowitz and Stegun,
-/// table 25.4).
+/// Positive nodes and their weights of eight-point Gauss-Legendre quadrature on [-1, 1].
+///
+/// Source: Abramowitz and Stegun, table 25.4.
 const GAUSS: [(f64, f64); 4] = [
     (0.183_434_642_495_649_8, 0.362_683_783_378_362),
     (0.525_532_409_916_329, 0.313_706_645_877_887_3),
@@ -16,10 +18,10 @@ const GAUSS: [(f64, f64); 4] = [
     (0.960_289_856_497_536_3, 0.101_228_536_290_376_3),
 ];
 
-/// One record of a plan view: how the reference line goes on from a place.
+/// One segment of a geometry line: a `geometry` element of the plan view.
 #[derive(Clone, Debug)]
-pub(super) struct Line {
-    /// Where it begins along the road, and how long it is, in meters.
+pub(super) struct Geometry {
+    /// Start along the road, in meters.
     pub(super) start_m: f64,
     pub(super) length_m: f64,
     pub(super) origin: Point<f64>,
@@ -28,60 +30,60 @@ pub(super) struct Line {
     pub(super) shape: Shape,
 }
 
-/// What a line is, by the distance s from its start.
+/// The shape of a segment, by the distance s from its start.
 #[derive(Clone, Debug)]
 pub(super) enum Shape {
     /// A line, an arc or a spiral: its curvature is `curvature + rate s`, in 1/m and 1/m^2.
-    Turn {
+    Clothoid {
         curvature: f64,
         rate: f64,
-        /// Where its panels begin, from the origin.
+        /// Start of every quadrature panel, relative to the origin.
         panels: Vec<Point<f64>>,
     },
-    /// (u, v) seen along the heading.
+    /// A parametric cubic: u along the start heading, v to its left.
     Cubic { u: Cubic, v: Cubic },
 }
 
-/// Where a line is at a distance, and how it goes on.
+/// A segment evaluated at one distance.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Motion {
+pub(super) struct CurvePoint {
     pub(super) position: Point<f64>,
-    /// The derivative of the position, 1 long where s is the length of the way.
-    pub(super) velocity: Point<f64>,
-    /// The derivative of the heading, in 1/m.
-    pub(super) turn: f64,
+    /// Derivative of the position; of length 1 where s is the arc length.
+    pub(super) derivative: Point<f64>,
+    /// Derivative of the heading, in 1/m.
+    pub(super) heading_rate: f64,
 }
 
-/// How wild a line is over a stretch.
+/// Bounds of derivatives over a part of a segment.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Wildness {
-    /// A bound of the fourth derivative of the position.
+pub(super) struct DerivativeBounds {
+    /// Bound of the fourth derivative of the position.
     pub(super) position: f64,
     /// Bounds of the first four derivatives of the heading.
     pub(super) heading: [f64; 4],
 }
 
 impl Shape {
-    /// A line whose curvature changes evenly. None if it turns so often that it takes more panels than given.
-    pub(super) fn turn(
+    /// A clothoid: linearly changing curvature. `None` if it needs more than `max_panels` panels.
+    pub(super) fn clothoid(
         [curvature, rate]: [f64; 2],
         heading: f64,
         length_m: f64,
-        most_panels: u64,
+        max_panels: u64,
     ) -> Option<Self> {
-        let most = curvature.abs().max((curvature + rate * length_m).abs());
-        let count = (most * length_m / PANEL_RAD).ceil().max(1.0);
-        if count.is_nan() || count > most_panels as f64 {
+        let max_curvature = curvature.abs().max((curvature + rate * length_m).abs());
+        let count = (max_curvature * length_m / PANEL_RAD).ceil().max(1.0);
+        if count.is_nan() || count > max_panels as f64 {
             return None;
         }
         let step = length_m / count;
         let mut panels = vec![Point::new(0.0, 0.0)];
         for i in 1..count as u64 {
             let from = step * (i - 1) as f64;
-            let way = integrate(from, step, |s| heading + s * (curvature + 0.5 * rate * s));
-            panels.push(panels[panels.len() - 1] + way);
+            let chord = integrate(from, step, |s| heading + s * (curvature + 0.5 * rate * s));
+            panels.push(panels[panels.len() - 1] + chord);
         }
-        Some(Self::Turn {
+        Some(Self::Clothoid {
             curvature,
             rate,
             panels,
@@ -89,15 +91,16 @@ impl Shape {
     }
 }
 
-impl Line {
+impl Geometry {
+    /// End along the road, in meters.
     pub(super) fn end_m(&self) -> f64 {
         self.start_m + self.length_m
     }
 
-    /// Where it is at a distance from its start, which may be a little beyond its length.
-    pub(super) fn at(&self, s: f64) -> Motion {
+    /// Evaluates the segment at a distance from its start, which may slightly exceed its length.
+    pub(super) fn at(&self, s: f64) -> CurvePoint {
         match &self.shape {
-            Shape::Turn {
+            Shape::Clothoid {
                 curvature,
                 rate,
                 panels,
@@ -106,56 +109,56 @@ impl Line {
                 let step = self.length_m / panels.len() as f64;
                 let panel = ((s / step) as usize).min(panels.len() - 1);
                 let from = step * panel as f64;
-                let way = panels[panel] + integrate(from, s - from, heading);
-                Motion {
-                    position: self.origin + way,
-                    velocity: unit(heading(s)),
-                    turn: curvature + rate * s,
+                let offset = panels[panel] + integrate(from, s - from, heading);
+                CurvePoint {
+                    position: self.origin + offset,
+                    derivative: unit(heading(s)),
+                    heading_rate: curvature + rate * s,
                 }
             }
             Shape::Cubic { u, v } => {
                 let ([x, dx], [y, dy]) = (u.at(s), v.at(s));
-                let ahead = unit(self.heading);
-                let place = |x: f64, y: f64| ahead * x + left_of(ahead) * y;
-                let velocity = Point::new(dx, dy);
-                let acceleration = Point::new(u.second(s), v.second(s));
-                Motion {
-                    position: self.origin + place(x, y),
-                    velocity: place(dx, dy),
-                    turn: velocity.cross(acceleration) / velocity.dot(velocity),
+                let u_axis = unit(self.heading);
+                let rotate = |x: f64, y: f64| u_axis * x + left_normal(u_axis) * y;
+                let first = Point::new(dx, dy);
+                let second = Point::new(u.second(s), v.second(s));
+                CurvePoint {
+                    position: self.origin + rotate(x, y),
+                    derivative: rotate(dx, dy),
+                    heading_rate: first.cross(second) / first.dot(first),
                 }
             }
         }
     }
 
-    /// Bounds over the stretch from s to s + length. Infinite where the line may stop, for there it has no
-    /// heading.
+    /// Bounds of the derivatives on `s..=s + length`. Infinite if the derivative of the position
+    /// may vanish, where the curve has no heading.
     ///
-    /// Of polynomials with the velocity w, a complex number, the heading is Im log w. Its derivatives follow
-    /// from those of w, the third of which is zero: with a = |w'| / |w| and b = |w''| / |w|, they are at most
-    /// a, b + a^2, 3 a b + 2 a^3 and 3 b^2 + 12 a^2 b + 6 a^4.
-    pub(super) fn wildness(&self, s: f64, length: f64) -> Wildness {
+    /// For a cubic with the derivative w, read as a complex number, the heading is Im log w. Its
+    /// derivatives follow from those of w, whose third is 0. With a = |w'| / |w| and b = |w''| /
+    /// |w|, they are at most a, b + a^2, 3 a b + 2 a^3 and 3 b^2 + 12 a^2 b + 6 a^4.
+    pub(super) fn derivative_bounds(&self, s: f64, length: f64) -> DerivativeBounds {
         match &self.shape {
-            Shape::Turn {
+            Shape::Clothoid {
                 curvature, rate, ..
             } => {
                 let [start, end] = [s, s + length].map(|s| (curvature + rate * s).abs());
                 let heading = [start.max(end), rate.abs(), 0.0, 0.0];
-                Wildness {
+                DerivativeBounds {
                     // The position is the integral of the direction.
                     position: direction_bounds(heading)[3],
                     heading,
                 }
             }
             Shape::Cubic { u, v } => {
-                let velocity = |s: f64| Point::new(u.at(s)[1], v.at(s)[1]);
-                let acceleration = |s: f64| Point::new(u.second(s), v.second(s)).norm();
-                let most = acceleration(s).max(acceleration(s + length));
-                let least = velocity(s + 0.5 * length).norm() - 0.5 * length * most;
-                let jerk = 6.0 * Point::new(u.d, v.d).norm();
-                let heading = match least > 0.0 {
+                let first = |s: f64| Point::new(u.at(s)[1], v.at(s)[1]);
+                let second = |s: f64| Point::new(u.second(s), v.second(s)).norm();
+                let max_second = second(s).max(second(s + length));
+                let min_first = first(s + 0.5 * length).norm() - 0.5 * length * max_second;
+                let third = 6.0 * Point::new(u.d, v.d).norm();
+                let heading = match min_first > 0.0 {
                     true => {
-                        let (a, b) = (most / least, jerk / least);
+                        let (a, b) = (max_second / min_first, third / min_first);
                         [
                             a,
                             b + a * a,
@@ -165,7 +168,7 @@ impl Line {
                     }
                     false => [f64::INFINITY; 4],
                 };
-                Wildness {
+                DerivativeBounds {
                     position: 0.0,
                     heading,
                 }
@@ -174,8 +177,8 @@ impl Line {
     }
 }
 
-/// Bounds of the derivatives of the direction e^(i heading), from the value on, by those of the heading: the
-/// complete Bell polynomials.
+/// Bounds of the direction e^(i heading) and its first four derivatives, from bounds of the first
+/// four derivatives of the heading: the complete Bell polynomials.
 pub(super) fn direction_bounds([h1, h2, h3, h4]: [f64; 4]) -> [f64; 5] {
     [
         1.0,
@@ -186,15 +189,15 @@ pub(super) fn direction_bounds([h1, h2, h3, h4]: [f64; 4]) -> [f64; 5] {
     ]
 }
 
-/// How far u goes until the curve (u, v(u)) is `length_m` long.
-pub(super) fn reach(v: Cubic, length_m: f64) -> f64 {
+/// The u at which the curve (u, v(u)) has the arc length `length_m`, by bisection.
+pub(super) fn parameter_at_length(v: Cubic, length_m: f64) -> f64 {
     const PANELS: u32 = 8;
-    let length = |reach: f64| {
-        let step = reach / f64::from(PANELS);
+    let length = |end: f64| {
+        let step = end / f64::from(PANELS);
         let panel = |i| gauss(step * f64::from(i), step, |u| 1_f64.hypot(v.at(u)[1]));
         (0..PANELS).map(panel).sum::<f64>()
     };
-    // The curve is at least as long as u.
+    // The arc length is at least u. 52 halvings reach the precision of f64.
     let (mut low, mut high) = (0.0, length_m);
     for _ in 0..52 {
         let middle = 0.5 * (low + high);
@@ -206,7 +209,8 @@ pub(super) fn reach(v: Cubic, length_m: f64) -> f64 {
     high
 }
 
-pub(super) fn left_of(direction: Point<f64>) -> Point<f64> {
+/// The left normal of a direction.
+pub(super) fn left_normal(direction: Point<f64>) -> Point<f64> {
     Point::new(-direction.y, direction.x)
 }
 
@@ -215,7 +219,7 @@ fn unit(heading: f64) -> Point<f64> {
     Point::new(cos, sin)
 }
 
-/// The way along a heading.
+/// The integral of the direction over `from..=from + length`.
 fn integrate(from: f64, length: f64, heading: impl Fn(f64) -> f64) -> Point<f64> {
     Point::new(
         gauss(from, length, |s| heading(s).cos()),
@@ -223,6 +227,7 @@ fn integrate(from: f64, length: f64, heading: impl Fn(f64) -> f64) -> Point<f64>
     )
 }
 
+/// Gauss-Legendre quadrature of f over `from..=from + length`.
 fn gauss(from: f64, length: f64, f: impl Fn(f64) -> f64) -> f64 {
     let half = 0.5 * length;
     let middle = from + half;
@@ -235,8 +240,8 @@ fn gauss(from: f64, length: f64, f: impl Fn(f64) -> f64) -> f64 {
 mod tests {
     use super::*;
 
-    fn line(shape: Shape, length_m: f64) -> Line {
-        Line {
+    fn line(shape: Shape, length_m: f64) -> Geometry {
+        Geometry {
             start_m: 0.0,
             length_m,
             origin: Point::new(0.0, 0.0),
@@ -246,20 +251,23 @@ mod tests {
     }
 
     #[test]
-    fn an_arc_closes_to_a_circle() {
+    fn arc_of_a_full_turn_is_a_circle() {
         let length = 10.0 * std::f64::consts::TAU;
-        let circle = line(Shape::turn([0.1, 0.0], 0.0, length, 1_000).unwrap(), length);
+        let circle = line(
+            Shape::clothoid([0.1, 0.0], 0.0, length, 1_000).unwrap(),
+            length,
+        );
         let half = circle.at(length / 2.0);
         assert!(half.position.distance(Point::new(0.0, 20.0)) < 1e-12);
-        assert!(half.velocity.distance(Point::new(-1.0, 0.0)) < 1e-12);
+        assert!(half.derivative.distance(Point::new(-1.0, 0.0)) < 1e-12);
         assert!(circle.at(length).position.norm() < 1e-12);
     }
 
     #[test]
-    fn a_spiral_is_that_of_fresnel() {
-        // Heading pi/2 s^2: the ends are C(s) and S(s), here for s = 1 and 2 (Abramowitz and Stegun, table 7.7).
+    fn spiral_matches_the_fresnel_integrals() {
+        // With the heading pi/2 s^2, the ends are C(s) and S(s) (Abramowitz and Stegun, table 7.7).
         let spiral = line(
-            Shape::turn([0.0, std::f64::consts::PI], 0.0, 2.0, 1_000).unwrap(),
+            Shape::clothoid([0.0, std::f64::consts::PI], 0.0, 2.0, 1_000).unwrap(),
             2.0,
         );
         let one = Point::new(0.779_893_400_376_822_8, 0.438_259_147_390_354_8);
@@ -269,10 +277,10 @@ mod tests {
     }
 
     #[test]
-    fn the_bounds_hold_for_differences() {
+    fn derivative_bounds_hold_for_finite_differences() {
         let cubic = |a, b, c, d| Cubic { a, b, c, d };
         let shapes = [
-            Shape::turn([0.3, -0.02], 0.0, 30.0, 1_000).unwrap(),
+            Shape::clothoid([0.3, -0.02], 0.0, 30.0, 1_000).unwrap(),
             Shape::Cubic {
                 u: cubic(0.0, 1.0, 0.001, -0.0002),
                 v: cubic(0.0, 0.1, 0.02, -0.0007),
@@ -280,15 +288,15 @@ mod tests {
         ];
         for shape in shapes {
             let line = line(shape, 30.0);
-            let wildness = line.wildness(0.0, 30.0);
-            let turn = |s| line.at(s).turn;
+            let bounds = line.derivative_bounds(0.0, 30.0);
+            let turn = |s| line.at(s).heading_rate;
             let h = 1e-2;
             for i in 1..2900 {
                 let s = f64::from(i) * h + 0.2;
                 let first = (turn(s + h) - turn(s - h)) / (2.0 * h);
                 let second = (turn(s + h) - 2.0 * turn(s) + turn(s - h)) / (h * h);
                 let found = [turn(s), first, second];
-                for (found, bound) in found.into_iter().zip(wildness.heading) {
+                for (found, bound) in found.into_iter().zip(bounds.heading) {
                     assert!(found.abs() <= bound + 1e-6, "{found} above {bound}");
                 }
             }
@@ -296,11 +304,11 @@ mod tests {
     }
 
     #[test]
-    fn the_reach_of_a_slope_is_shorter_than_its_length() {
+    fn parameter_at_length_of_a_slope_is_shorter_than_the_length() {
         let slope = Cubic {
             b: 0.75,
             ..Cubic::default()
         };
-        assert!((reach(slope, 5.0) - 4.0).abs() < 1e-12);
+        assert!((parameter_at_length(slope, 5.0) - 4.0).abs() < 1e-12);
     }
 }

@@ -1,4 +1,4 @@
-//! Areas that a file gives as polygons, as convex parts.
+//! Reads the area of a path from a file: polygons with holes in, convex parts out.
 
 use earcut::{Earcut, deviation};
 use guideway_layout::{Layout, PathRef, Value};
@@ -6,17 +6,17 @@ use guideway_spline::Point;
 
 use crate::{ConvexPolygon, NoEnvelope, Sweep};
 
-/// The column of such areas: the coordinates of a GeoJSON MultiPolygon (RFC 7946, 3.1.7), in meters.
-const AREA: &str = "vehicleEnvelope.area";
+/// The column with areas: the coordinates of a GeoJSON MultiPolygon (RFC 7946, 3.1.7), in meters.
+const AREA_COLUMN: &str = "vehicleEnvelope.area";
 
-/// What rounding may make of the area of a polygon, as a share of it.
-const NOTHING: f64 = 1e-9;
+/// Relative rounding error of the area of a polygon.
+const AREA_ERROR: f64 = 1e-9;
 
 type Ring = Vec<[f64; 2]>;
 
-/// The area that the file gives for a path.
-pub(crate) fn area(layout: &Layout, path: usize) -> Result<Sweep, NoEnvelope> {
-    let column = layout.paths.attributes.get(AREA);
+/// The swept area in the file for a path.
+pub(crate) fn file_area(layout: &Layout, path: usize) -> Result<Sweep, NoEnvelope> {
+    let column = layout.paths.attributes.get(AREA_COLUMN);
     let Some(Value::Text(text)) = column.and_then(|column| column.values.get(path)) else {
         return Err(NoEnvelope::NotInFile);
     };
@@ -28,18 +28,18 @@ pub(crate) fn area(layout: &Layout, path: usize) -> Result<Sweep, NoEnvelope> {
     Sweep::of_areas(parts, reach_m).ok_or(NoEnvelope::Unreadable)
 }
 
-/// How far parts reach from the hull of a path: about the size of the vehicle that they were made for.
+/// Largest distance of the parts from the hull of a path: about the size of the vehicle.
 fn reach_m(path: PathRef<'_>, parts: &[ConvexPolygon]) -> f64 {
-    let Some(way) = ConvexPolygon::hull(path.runs().flat_map(|run| run.iter())) else {
+    let Some(path_hull) = ConvexPolygon::hull(path.runs().flat_map(|run| run.iter())) else {
         return 0.0;
     };
     let corners = parts.iter().flat_map(ConvexPolygon::points);
-    let from_way_m =
-        corners.filter_map(|&corner| Some(ConvexPolygon::hull([corner])?.distance(&way)));
-    from_way_m.fold(0.0, f64::max)
+    let from_path_m =
+        corners.filter_map(|&corner| Some(ConvexPolygon::hull([corner])?.distance(&path_hull)));
+    from_path_m.fold(0.0, f64::max)
 }
 
-/// Adds the convex parts of a polygon, whose first ring is its border and whose others are holes.
+/// Adds the convex parts of a polygon: the first ring is its boundary, the others are holes.
 fn add(rings: &[Ring], parts: &mut Vec<ConvexPolygon>) {
     let open = |ring: &Ring| match ring.as_slice() {
         [first, rest @ .., last] if first == last => [&[*first], rest].concat(),
@@ -67,10 +67,10 @@ fn add(rings: &[Ring], parts: &mut Vec<ConvexPolygon>) {
     };
     let cut = || triangles.chunks_exact(3).filter_map(triangle);
     let cut_m2: f64 = cut().map(|part| part.area_m2()).sum();
-    let is_convex = cut_m2 >= hull.area_m2() * (1.0 - NOTHING);
-    // The border of a polygon that crosses itself has no inside to go by: all within its hull may be meant.
-    let is_whole = deviation(corners.iter().copied(), &holes, &triangles) <= NOTHING;
-    if is_convex || !is_whole {
+    let is_convex = cut_m2 >= hull.area_m2() * (1.0 - AREA_ERROR);
+    // A boundary that crosses itself has no defined interior: the hull is the safe choice.
+    let is_simple = deviation(corners.iter().copied(), &holes, &triangles) <= AREA_ERROR;
+    if is_convex || !is_simple {
         parts.push(hull);
     } else {
         parts.extend(cut());

@@ -1,4 +1,4 @@
-//! From a map to a layout: ways become paths, and lanelets the paths in their middle.
+//! Maps an OSM file to a layout: a path per way, and a path along the center line of each lanelet.
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 
@@ -6,42 +6,47 @@ use guideway_layout::{Code, Direction, Layout, NewPath, Place, Value};
 use guideway_spline::{Point, Runs, polyline_to_runs};
 use roxmltree::Node;
 
-use super::center::{align, middle};
+use super::center::{align, center_line};
 use super::osm::{is_deleted, positions, tag};
 use crate::ReadError;
-use crate::builder::{Builder, POINT_BUDGET_EXCEEDED, PlaceFn, Table};
+use crate::builder::{POINT_BUDGET_EXCEEDED, PlaceFn, Table};
 use crate::source::Source;
 use crate::xml::{Xml, children};
+use crate::xml_builder::XmlBuilder;
 
-/// Most tags that become columns; a file could else make columns without end.
-const MOST_COLUMNS: usize = 64;
+/// Tags that become columns, and types of relations that are counted; bounds both for a hostile
+/// file.
+const MAX_COLUMNS: usize = 64;
 
-/// Why what is still in the file is not drawn.
-const DELETED: &str = "it was deleted in the editor";
+/// The reason for a deleted element.
+const DELETED: &str = "it is marked as deleted";
 
 /// Fills a layout from a map.
-pub(super) struct Mapper<'a, 'd, 't> {
-    builder: Builder<'a>,
-    xml: &'d Xml<'t>,
+pub(super) struct MapMapper<'a, 'd, 't> {
+    base: XmlBuilder<'a, 'd, 't>,
+    /// Position per node identifier, in meters.
     positions: HashMap<&'d str, Point<f64>>,
     ways: HashMap<&'d str, Node<'d, 't>>,
+    /// Tags that have a column.
     columns: HashSet<&'d str>,
 }
 
-impl<'a, 'd, 't> Mapper<'a, 'd, 't> {
+impl<'a, 'd, 't> MapMapper<'a, 'd, 't> {
     pub(super) fn new(source: Source<'a>, xml: &'d Xml<'t>, file_bytes: usize) -> Self {
         Self {
-            builder: Builder::new(source, file_bytes),
-            xml,
+            base: XmlBuilder::new(source, xml, file_bytes),
             positions: HashMap::new(),
             ways: HashMap::new(),
             columns: HashSet::new(),
         }
     }
 
-    pub(super) fn map(mut self, root: Node<'d, 't>) -> Result<Layout, ReadError> {
-        self.positions = positions(&mut self.builder, self.xml, root);
-        let xml = self.xml;
+    /// Maps all ways and lanelets and returns the layout.
+    ///
+    /// # Errors
+    /// When the layout exceeds a limit, or when the caller cancels.
+    pub(super) fn read(mut self, root: Node<'d, 't>) -> Result<Layout, ReadError> {
+        self.positions = positions(&mut self.base.builder, self.base.xml, root);
         let mut counts = [("nodes", 0), ("ways", 0), ("lanelets", 0)];
         let mut relations: BTreeMap<&str, u64> = BTreeMap::new();
         for element in root.children().filter(Node::is_element) {
@@ -51,7 +56,7 @@ impl<'a, 'd, 't> Mapper<'a, 'd, 't> {
                 "relation" if is_lanelet(element) => 2,
                 "relation" => {
                     let kind = tag(element, "type").unwrap_or("no type");
-                    if relations.len() < MOST_COLUMNS || relations.contains_key(kind) {
+                    if relations.len() < MAX_COLUMNS || relations.contains_key(kind) {
                         *relations.entry(kind).or_insert(0) += 1;
                     }
                     continue;
@@ -71,18 +76,17 @@ impl<'a, 'd, 't> Mapper<'a, 'd, 't> {
         }
         for (kind, count) in &relations {
             let at: PlaceFn<'_> = &|| Place::element("relations");
-            let message = || format!("relations of the type {kind}: {count}");
-            let remedy =
-                "They are left out, their ways are drawn: what is read are ways and lanelets";
-            self.builder.report(Code::NotDrawn, at, message, remedy);
+            let message = || format!("relations of the unsupported type {kind}: {count}");
+            let remedy = "They are left out but their ways are drawn; Guideway reads lanelets only";
+            let builder = &mut self.base.builder;
+            builder.report(Code::NotDrawn, at, message, remedy);
         }
         if counts[2].1 == 0 {
-            let message = || "there is no lanelet: the ways of the map are drawn".to_owned();
-            let remedy = "Give relations the tag type=lanelet if there should be some";
-            let at: PlaceFn<'_> = &|| xml.place(root);
-            self.builder.report(Code::Implausible, at, message, remedy);
+            let message = || "the map has no lanelet; only its ways are drawn".to_owned();
+            let remedy = "If there should be lanelets, give their relations the tag type=lanelet";
+            self.base.report(Code::Implausible, root, message, remedy);
         }
-        let provenance = &mut self.builder.layout.provenance;
+        let provenance = &mut self.base.builder.layout.provenance;
         crate::Format::Lanelet2
             .name()
             .clone_into(&mut provenance.format);
@@ -92,7 +96,7 @@ impl<'a, 'd, 't> Mapper<'a, 'd, 't> {
         provenance.counts = counts
             .map(|(name, count)| (crate::text::printable(name), count))
             .collect();
-        Ok(self.builder.layout)
+        Ok(self.base.builder.layout)
     }
 
     fn map_way(&mut self, way: Node<'d, 't>) -> Result<(), ReadError> {
@@ -102,13 +106,11 @@ impl<'a, 'd, 't> Mapper<'a, 'd, 't> {
         let points = self.points(way)?;
         let missing = children(way, "nd").count() - points.len();
         if missing > 0 {
-            let xml = self.xml;
-            let at: PlaceFn<'_> = &|| xml.place(way);
-            let message = || format!("{missing} of its nodes are not there or have no position");
+            let message = || format!("{missing} of its nodes do not exist or have no position");
             let remedy = "It is drawn without them; save the whole map";
-            self.builder.report(Code::UnknownNode, at, message, remedy);
+            self.base.report(Code::UnknownNode, way, message, remedy);
         }
-        self.push(way, &points, "way", Direction::Both)
+        self.push_path(way, &points, "way", Direction::Both)
     }
 
     fn map_lanelet(&mut self, lanelet: Node<'d, 't>) -> Result<(), ReadError> {
@@ -121,24 +123,25 @@ impl<'a, 'd, 't> Mapper<'a, 'd, 't> {
         } else {
             Direction::Both
         };
-        // One that somebody drew counts.
+        // A center line in the file takes precedence.
         if let Some(drawn) = self.member(lanelet, "centerline") {
             let points = self.points(drawn)?;
-            return self.push(lanelet, &points, "lanelet", direction);
+            return self.push_path(lanelet, &points, "lanelet", direction);
         }
         let bounds = ["left", "right"].map(|role| self.member(lanelet, role));
         let [Some(left), Some(right)] = bounds else {
-            let detail = "it has no left and right bound, or a bound is no way of the file";
+            let detail = "its left or right bound is not a way of the file";
             return self.refuse(lanelet, Code::UnknownNode, detail);
         };
-        // Bounds are shared, so many lanelets could walk a few long ones without end: each walk is paid for.
-        if self.builder.points_left == 0 {
+        // Lanelets share bounds, so many of them could read a few long bounds without end: every
+        // read is charged to the budget of control points.
+        if self.base.builder.points_left == 0 {
             return self.refuse(lanelet, Code::Implausible, POINT_BUDGET_EXCEEDED);
         }
-        let walked = [left, right].map(|bound| children(bound, "nd").count() as u64);
-        let left_over = self.builder.points_left.checked_sub(walked[0] + walked[1]);
-        self.builder.points_left = left_over.unwrap_or(0);
-        if left_over.is_none() {
+        let read = [left, right].map(|bound| children(bound, "nd").count() as u64);
+        let points_left = self.base.builder.points_left.checked_sub(read[0] + read[1]);
+        self.base.builder.points_left = points_left.unwrap_or(0);
+        if points_left.is_none() {
             return self.refuse(lanelet, Code::Implausible, POINT_BUDGET_EXCEEDED);
         }
         let (mut left, mut right) = (self.points(left)?, self.points(right)?);
@@ -146,10 +149,11 @@ impl<'a, 'd, 't> Mapper<'a, 'd, 't> {
             return self.refuse(lanelet, Code::TooFewPoints, "a bound has no points");
         }
         align(&mut left, &mut right);
-        self.push(lanelet, &middle(&left, &right), "lanelet", direction)
+        let center = center_line(&left, &right);
+        self.push_path(lanelet, &center, "lanelet", direction)
     }
 
-    /// The way that has a role in a relation.
+    /// The way with a role in a relation.
     fn member(&self, relation: Node<'d, 't>, role: &str) -> Option<Node<'d, 't>> {
         let mut members = children(relation, "member");
         let member = members
@@ -157,17 +161,17 @@ impl<'a, 'd, 't> Mapper<'a, 'd, 't> {
         self.ways.get(member.attribute("ref")?).copied()
     }
 
-    /// The positions of the nodes of a way. Nodes that are not there are left out.
+    /// The positions of the nodes of a way, without those of missing nodes.
     fn points(&mut self, way: Node<'d, 't>) -> Result<Vec<Point<f64>>, ReadError> {
         let references = || children(way, "nd").map(|nd| nd.attribute("ref").unwrap_or_default());
         let points: Vec<_> = references()
             .filter_map(|id| self.positions.get(id).copied())
             .collect();
-        self.builder.check_curve_points(points.len())?;
+        self.base.builder.check_curve_points(points.len())?;
         Ok(points)
     }
 
-    fn push(
+    fn push_path(
         &mut self,
         element: Node<'d, 't>,
         points: &[Point<f64>],
@@ -179,56 +183,54 @@ impl<'a, 'd, 't> Mapper<'a, 'd, 't> {
         if runs.is_empty() {
             return self.refuse(element, Code::TooFewPoints, "it has fewer than two points");
         }
-        if !self.builder.within_point_budget(&runs) {
+        let builder = &mut self.base.builder;
+        if !builder.within_point_budget(&runs) {
             return self.refuse(element, Code::Implausible, POINT_BUDGET_EXCEEDED);
         }
         let id = id(element);
-        self.builder.check_text(id)?;
-        let row = self.builder.push_path(&NewPath {
+        builder.check_text(id)?;
+        let row = builder.push_path(&NewPath {
             id,
             runs: &runs,
             direction,
             ..NewPath::default()
         })?;
-        self.builder
-            .set(Table::Paths, row, "element", Value::Text(kind))?;
+        builder.set(Table::Paths, row, "element", Value::Text(kind))?;
         self.set_tags(element, row)
     }
 
     fn set_tags(&mut self, element: Node<'d, 't>, row: usize) -> Result<(), ReadError> {
-        let xml = self.xml;
         let mut seen = HashSet::new();
         for tag in children(element, "tag") {
             let (Some(key), Some(value)) = (tag.attribute("k"), tag.attribute("v")) else {
                 continue;
             };
             if !self.columns.contains(key) {
-                if self.columns.len() == MOST_COLUMNS {
-                    let message = || format!("more than {MOST_COLUMNS} different tags");
-                    let at: PlaceFn<'_> = &|| xml.place(element);
-                    self.builder
-                        .report(Code::Attribute, at, message, "The others are left out");
+                if self.columns.len() == MAX_COLUMNS {
+                    let message = || format!("more than {MAX_COLUMNS} different tags");
+                    let remedy = "The others are left out";
+                    self.base.report(Code::Attribute, element, message, remedy);
                     continue;
                 }
-                self.builder.check_text(key)?;
+                self.base.builder.check_text(key)?;
                 self.columns.insert(key);
             }
-            self.builder.check_text(value)?;
+            let builder = &mut self.base.builder;
+            builder.check_text(value)?;
             if seen.insert(key) && key != "element" {
-                self.builder
-                    .set(Table::Paths, row, key, Value::Text(value))?;
+                builder.set(Table::Paths, row, key, Value::Text(value))?;
             }
         }
         Ok(())
     }
 
     fn refuse(&mut self, element: Node<'d, 't>, code: Code, detail: &str) -> Result<(), ReadError> {
-        let xml = self.xml;
         let remedy = "It is left out; correct it in the tool that wrote the file";
-        let at: PlaceFn<'_> = &|| xml.place(element);
-        self.builder.report(code, at, || detail.to_owned(), remedy);
-        self.builder.check_text(id(element))?;
-        self.builder.refuse(id(element), code, detail)
+        self.base
+            .report(code, element, || detail.to_owned(), remedy);
+        let builder = &mut self.base.builder;
+        builder.check_text(id(element))?;
+        builder.refuse(id(element), code, detail)
     }
 }
 

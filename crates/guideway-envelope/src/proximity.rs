@@ -1,60 +1,67 @@
+//! Finds the closest approach of two sweeps by a best-first search over their hierarchies.
+//!
+//! The queue holds pairs of parts, ordered by the distance of their polygons. The search halves the
+//! pair with the smallest distance until its distance is known within the tolerance; no other pair
+//! can then be closer. Exempt zones drop pairs near a common end of two paths.
+
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
 use guideway_spline::{Bounds, Point};
 
 use crate::Sweep;
-use crate::sweep::Stretch;
+use crate::sweep::SweepPart;
 
-/// How near two sweeps come to each other.
+/// The closest approach of two sweeps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ClosestApproach {
-    /// Their distance, or up to the tolerance less; zero if they overlap.
+    /// A lower bound of their distance, within the tolerance; 0 if they overlap.
     pub distance_m: f64,
-    /// Where the reference points of the two are there, within the reach of the bodies.
+    /// The reference points of both at the closest approach, within the reach of the bodies.
     pub positions: [Point<f64>; 2],
 }
 
-/// Where two sweeps may be near each other: while the reference point of each is within the radius of its center.
+/// A zone in which two sweeps may be near each other: while both reference points are within the
+/// radius of their centers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExemptZone {
-    /// The center for each of the two, in meters.
+    /// The center for each of the two sweeps, in meters.
     pub centers_m: [Point<f64>; 2],
-    /// The radius, in meters.
+    /// The radius around both centers, in meters.
     pub radius_m: f64,
 }
 
-/// A question about two sweeps.
+/// A distance query about two sweeps.
 #[derive(Clone, Copy, Debug)]
 pub struct ProximityQuery<'q> {
-    /// They matter if they come nearer than this, or overlap.
+    /// Largest distance of interest, in meters. Overlaps are always of interest.
     pub threshold_m: f64,
-    /// How closely it is answered.
+    /// Precision of the distance, in meters.
     pub tolerance_m: f64,
-    /// Where they may be near each other.
+    /// Zones in which the sweeps may be near each other.
     pub exempt_zones: &'q [ExemptZone],
 }
 
-/// A sweep that is halved where it is looked at closely. What was halved stays so for the next look.
+/// The hierarchy of a sweep, refined lazily. Later queries reuse the refinement of earlier ones.
 #[derive(Debug)]
 pub struct SweepTree {
     sweep: Sweep,
-    nodes: Vec<Stretch>,
-    /// Of each node, the first of its two halves; 0 if it was not halved yet.
+    nodes: Vec<SweepPart>,
+    /// Index of the first of two adjacent children per node; 0 for a leaf.
     halves: Vec<u32>,
 }
 
 impl SweepTree {
-    /// Nothing is halved yet.
+    /// A hierarchy of one node.
     pub fn new(sweep: Sweep) -> Self {
         Self {
-            nodes: vec![Stretch::whole(&sweep)],
+            nodes: vec![SweepPart::whole(&sweep)],
             sweep,
             halves: vec![0],
         }
     }
 
-    fn node(&self, node: u32) -> &Stretch {
+    fn node(&self, node: u32) -> &SweepPart {
         &self.nodes[node as usize]
     }
 
@@ -69,12 +76,9 @@ impl SweepTree {
         [self.halves[index], self.halves[index] + 1]
     }
 
-    /// How near two sweeps come to each other, if that matters: less than `threshold_m` apart in polygons that hold
-    /// them, and are within `tolerance_m` of them, where they may not be. So nothing nearer than `threshold_m` is
-    /// missed, and whatever is told is nearer than `threshold_m + tolerance_m`. `tests` counts distances of polygons.
-    ///
-    /// Best first: of all pairs of stretches, the one whose polygons are nearest is halved, until it is known
-    /// within the tolerance; no other pair can then be nearer.
+    /// The closest approach of two sweeps outside of exempt zones; `None` if it exceeds
+    /// `threshold_m`. Finds every approach below `threshold_m`, and none above `threshold_m +
+    /// tolerance_m`. Adds the number of polygon distances to `tests`.
     pub fn nearest(
         &mut self,
         other: &mut Self,
@@ -98,7 +102,7 @@ impl SweepTree {
     }
 }
 
-/// Two stretches of which the first is of one sweep and the second of the other.
+/// A pair of nodes, one per sweep.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Pair {
     nodes: [u32; 2],
@@ -115,7 +119,7 @@ impl PartialOrd for Pair {
 }
 
 impl Ord for Pair {
-    /// The nearest is the greatest; of several as near, the one that is known best.
+    /// The closest pair is the greatest; of equally close ones, the most precise.
     fn cmp(&self, other: &Self) -> Ordering {
         let by_distance = other.distance_m.total_cmp(&self.distance_m);
         by_distance
@@ -132,7 +136,7 @@ struct Search<'t, 'q> {
 }
 
 impl Search<'_, '_> {
-    fn stretches(&self, nodes: [u32; 2]) -> [&Stretch; 2] {
+    fn parts(&self, nodes: [u32; 2]) -> [&SweepPart; 2] {
         [0, 1].map(|side| self.trees[side].node(nodes[side]))
     }
 
@@ -142,15 +146,15 @@ impl Search<'_, '_> {
         }
     }
 
-    /// The pair, if it can matter.
+    /// The pair of two nodes, unless it is beyond the threshold or exempt.
     fn pair(&mut self, nodes: [u32; 2]) -> Option<Pair> {
         let threshold_m = self.question.threshold_m;
-        let [a, b] = self.stretches(nodes).map(|stretch| &stretch.hull);
-        let may_be = |stretches: &[&Stretch; 2]| {
+        let [a, b] = self.parts(nodes).map(|part| &part.hull);
+        let is_exempt = |parts: &[&SweepPart; 2]| {
             let exempt_zones = self.question.exempt_zones.iter();
-            exempt_zones.copied().any(|m| m.has(stretches) == Has::All)
+            exempt_zones.copied().any(|m| m.has(parts) == Coverage::All)
         };
-        if apart_m(a.bounds, b.bounds) > threshold_m || may_be(&self.stretches(nodes)) {
+        if apart_m(a.bounds, b.bounds) > threshold_m || is_exempt(&self.parts(nodes)) {
             return None;
         }
         let distance_m = a.outer.distance(&b.outer);
@@ -164,20 +168,20 @@ impl Search<'_, '_> {
         })
     }
 
-    /// Which of the two has to be looked at more closely.
+    /// The side to halve for a precise answer; `None` if the pair is precise enough.
     fn side_to_halve(&self, pair: &Pair) -> Option<usize> {
-        let stretches = self.stretches(pair.nodes);
-        let [a, b] = stretches.map(|stretch| stretch.hull.error_m);
+        let parts = self.parts(pair.nodes);
+        let [a, b] = parts.map(|part| part.hull.error_m);
         if a + b > self.question.tolerance_m {
             return Some(usize::from(b > a));
         }
-        // What may be near in part only is cut until it hardly matters which part it is.
+        // A pair that is partly exempt is cut until its extent is negligible.
         let exempt_zones = self.question.exempt_zones.iter();
         let is_partly = exempt_zones
             .copied()
-            .any(|m| m.has(&stretches) == Has::Some);
+            .any(|m| m.has(&parts) == Coverage::Some);
         let finest_m = |side: usize| self.trees[side].sweep.finest_m(self.question.tolerance_m);
-        let [a, b] = [0, 1].map(|side| stretches[side].extent_m() / finest_m(side));
+        let [a, b] = [0, 1].map(|side| parts[side].extent_m() / finest_m(side));
         (is_partly && a.max(b) > 1.0).then(|| usize::from(b > a))
     }
 
@@ -189,7 +193,8 @@ impl Search<'_, '_> {
         }
     }
 
-    /// What is known of the nearest pair, and where it is.
+    /// The closest approach of a pair. Refines the pair until its positions are within the reach of
+    /// the bodies.
     fn answer(&mut self, pair: Pair) -> ClosestApproach {
         let reach_m = self
             .trees
@@ -197,7 +202,7 @@ impl Search<'_, '_> {
             .map(|tree| tree.sweep.reach_m().max(self.question.tolerance_m));
         let mut nodes = pair.nodes;
         while let Some(side) = {
-            let extents = self.stretches(nodes).map(Stretch::extent_m);
+            let extents = self.parts(nodes).map(SweepPart::extent_m);
             let excess = [0, 1].map(|side| extents[side] / reach_m[side]);
             let side = usize::from(excess[1] > excess[0]);
             (excess[side] > 1.0).then_some(side)
@@ -215,39 +220,39 @@ impl Search<'_, '_> {
         }
         ClosestApproach {
             distance_m: pair.distance_m,
-            positions: self.stretches(nodes).map(Stretch::place),
+            positions: self.parts(nodes).map(SweepPart::position),
         }
     }
 }
 
-/// How much of something is so.
+/// The share of reference points that a zone contains.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Has {
+enum Coverage {
     None,
     Some,
     All,
 }
 
 impl ExemptZone {
-    /// Which of the pairs of places of two stretches are within it.
-    fn has(self, stretches: &[&Stretch; 2]) -> Has {
+    /// The share of the reference points of two parts that the zone contains.
+    fn has(self, parts: &[&SweepPart; 2]) -> Coverage {
         let [a, b] = [0, 1].map(|side| {
-            let (center, places) = (self.centers_m[side], stretches[side].hull.places);
+            let (center, bounds) = (self.centers_m[side], parts[side].hull.reference_bounds);
             match self.radius_m {
-                r if farthest_m(center, places) <= r => Has::All,
-                r if nearest_m(center, places) <= r => Has::Some,
-                _ => Has::None,
+                r if farthest_m(center, bounds) <= r => Coverage::All,
+                r if nearest_m(center, bounds) <= r => Coverage::Some,
+                _ => Coverage::None,
             }
         });
         match (a, b) {
-            (Has::All, Has::All) => Has::All,
-            (Has::None, _) | (_, Has::None) => Has::None,
-            _ => Has::Some,
+            (Coverage::All, Coverage::All) => Coverage::All,
+            (Coverage::None, _) | (_, Coverage::None) => Coverage::None,
+            _ => Coverage::Some,
         }
     }
 }
 
-/// The distance of two boxes.
+/// Distance of two boxes; 0 if they overlap.
 fn apart_m(a: Bounds<f64>, b: Bounds<f64>) -> f64 {
     let gap = |low: f64, high: f64| (low - high).max(0.0);
     let x = gap(a.min.x, b.max.x).max(gap(b.min.x, a.max.x));
