@@ -1,4 +1,4 @@
-//! What is written as DXF comes back as it was, but for what a drawing cannot hold.
+//! Checks that written DXF reads back as the same layout, except for reported losses.
 
 use crate::common::{codes, count, read};
 use crate::same::{
@@ -23,9 +23,12 @@ fn layer(layout: &Layout, path: usize) -> Value<'_> {
 
 proptest! {
     #[test]
-    fn any_layout_comes_back(layout in arbitrary_layout(), colors in prop::collection::vec(any::<u32>(), 7)) {
+    fn any_layout_reads_back(
+        layout in arbitrary_layout(),
+        colors in prop::collection::vec(any::<u32>(), 7),
+    ) {
         let mut layout = layout;
-        // Opaque, and not white.
+        // Opaque and not white, as DXF requires.
         let color = |i: usize| (colors[i] & 0x7FFF_FF00) | 0xFF;
         layout.paths.set_color_rgba((0..layout.paths.len()).map(color).collect());
         let (text, losses) = written(&layout);
@@ -44,7 +47,7 @@ proptest! {
 }
 
 #[test]
-fn straight_paths_are_lines_and_corners_polylines() {
+fn writes_lines_polylines_and_splines() {
     let mut layout = Layout::default();
     push_lines(&mut layout, "line", &[(0.0, 0.0), (4.0, 3.0)]);
     push_lines(&mut layout, "corner", &[(0.0, 0.0), (4.0, 0.0), (4.0, 3.0)]);
@@ -63,7 +66,7 @@ fn straight_paths_are_lines_and_corners_polylines() {
 }
 
 #[test]
-fn names_are_kept_whatever_is_in_them() {
+fn preserves_any_identifier() {
     let long = "ä".repeat(600);
     let names = [
         "A --- B",
@@ -83,7 +86,7 @@ fn names_are_kept_whatever_is_in_them() {
 }
 
 #[test]
-fn layers_that_no_drawing_can_have_are_changed_and_said() {
+fn changes_and_reports_invalid_layer_names() {
     let mut layout = Layout::default();
     for name in ["Wände", "WÄNDE", "a/b", "0", ""] {
         push_lines(&mut layout, "p", &[(0.0, 0.0), (4.0, 3.0)]);
@@ -98,7 +101,7 @@ fn layers_that_no_drawing_can_have_are_changed_and_said() {
 }
 
 #[test]
-fn what_has_no_place_is_listed() {
+fn reports_losses() {
     let mut layout = broken(Point::new(6.0, 0.0), Direction::Both);
     layout.paths.set_color_rgba(vec![0xFFFF_FF80]);
     layout.paths.set_rank(vec![3]);

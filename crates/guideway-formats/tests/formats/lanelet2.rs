@@ -1,11 +1,11 @@
-//! Lanelet2: the real map, and the middle between bounds.
+//! Tests of the Lanelet2 reader: a real map, and center lines between bounds.
 
 use crate::common::{assert_counts, codes, ends, read, real};
 use guideway_layout::{Code, Direction, Layout, Value};
 use guideway_spline::Point;
 
 #[test]
-fn the_real_map_has_the_counts_of_its_source() {
+fn real_map_has_the_expected_counts() {
     let Some(layout) = real("lanelet2", "mapping_example.osm") else {
         return;
     };
@@ -17,12 +17,12 @@ fn the_real_map_has_the_counts_of_its_source() {
         "mapping_example.osm",
     );
     assert_eq!(layout.path_count(), 1141 + 371);
-    // One way is marked as deleted in the editor.
+    // The editor marked one way as deleted.
     assert_eq!(layout.refused.len(), 1);
     assert_eq!(layout.refused.iter().next().unwrap().code, Code::NotDrawn);
 }
 
-/// A map in local meters of nodes at positions, ways of nodes, and one lanelet.
+/// Reads a map in local meters: nodes, ways of node indices, and one lanelet.
 fn map(nodes: &[(f64, f64)], ways: &[&[usize]], members: &str, tags: &str) -> Layout {
     let node = |(i, (x, y)): (usize, &(f64, f64))| {
         format!("<node id='{i}'><tag k='local_x' v='{x}'/><tag k='local_y' v='{y}'/></node>")
@@ -34,7 +34,8 @@ fn map(nodes: &[(f64, f64)], ways: &[&[usize]], members: &str, tags: &str) -> La
     };
     let ways: String = ways.iter().enumerate().map(way).collect();
     read(&format!(
-        "<osm version='0.6'>{nodes}{ways}<relation id='L'>{members}<tag k='type' v='lanelet'/>{tags}</relation></osm>"
+        "<osm version='0.6'>{nodes}{ways}<relation id='L'>{members}\
+         <tag k='type' v='lanelet'/>{tags}</relation></osm>"
     ))
 }
 
@@ -42,9 +43,9 @@ const BOUNDS: &str =
     "<member type='way' ref='w0' role='left'/><member type='way' ref='w1' role='right'/>";
 
 #[test]
-fn a_lanelet_goes_with_its_left_bound_on_the_left() {
+fn lanelet_has_its_left_bound_on_the_left() {
     let nodes = [(0.0, 4.0), (9.0, 4.0), (0.0, 0.0), (9.0, 0.0)];
-    // However the ways are drawn.
+    // For every combination of way directions.
     for ways in [
         [[0, 1], [2, 3]],
         [[1, 0], [2, 3]],
@@ -70,7 +71,7 @@ fn a_lanelet_goes_with_its_left_bound_on_the_left() {
 }
 
 #[test]
-fn a_center_line_that_somebody_drew_counts() {
+fn center_line_in_the_file_takes_precedence() {
     let nodes = [
         (0.0, 4.0),
         (9.0, 4.0),
@@ -88,7 +89,7 @@ fn a_center_line_that_somebody_drew_counts() {
 }
 
 #[test]
-fn tags_become_columns_and_directions() {
+fn reads_tags_as_columns_and_directions() {
     let nodes = [(0.0, 4.0), (9.0, 4.0), (0.0, 0.0), (9.0, 0.0)];
     let tags = "<tag k='one_way' v='no'/><tag k='subtype' v='road'/>";
     let layout = map(&nodes, &[&[0, 1], &[2, 3]], BOUNDS, tags);
@@ -109,12 +110,12 @@ fn tags_become_columns_and_directions() {
     assert_eq!(
         layout.paths.get(2).direction(),
         Direction::Forward,
-        "one way unless it says so"
+        "one-way by default"
     );
 }
 
 #[test]
-fn degrees_become_meters_about_the_middle_and_it_is_said() {
+fn projects_degrees_about_the_center_and_reports_it() {
     let layout = read(
         "<osm version='0.6'><node id='1' lat='49' lon='8.4'/><node id='2' lat='49' lon='8.41'/>\
          <way id='w'><nd ref='1'/><nd ref='2'/></way></osm>",
@@ -129,12 +130,12 @@ fn degrees_become_meters_about_the_middle_and_it_is_said() {
     assert_eq!(
         codes(&layout),
         [Code::AssumedUnit, Code::Implausible],
-        "and there is no lanelet"
+        "the projection, and no lanelet"
     );
 }
 
 #[test]
-fn a_lanelet_without_a_bound_is_refused() {
+fn refuses_a_lanelet_without_a_bound() {
     let nodes = [(0.0, 4.0), (9.0, 4.0)];
     let layout = map(&nodes, &[&[0, 1]], BOUNDS, "");
     assert_eq!(layout.paths.len(), 1);

@@ -1,11 +1,12 @@
-//! OpenDRIVE: the real files, and lanes beside lines, arcs, spirals and polynomials.
+//! Tests of the OpenDRIVE reader: real files, and lanes beside lines, arcs, spirals and
+//! polynomials.
 
 use crate::common::{assert_counts, codes, count, ends, read, real_layouts};
 use guideway_formats::{ReadOptions, read_file};
 use guideway_layout::{Code, Layout, Value};
 use guideway_spline::{Point, nearest_on_run};
 
-/// Counts as the list of sources of the real layouts has them, made by another program.
+/// Element counts per file from the list of sources, made by another program.
 const REAL: &[(&str, &str)] = &[
     (
         "fabriksgatan.xodr",
@@ -34,18 +35,18 @@ const COUNTED: &[&str] = &[
 ];
 
 #[test]
-fn real_files_have_the_counts_of_their_sources() {
+fn real_files_have_the_expected_counts() {
     for (file, expected) in REAL {
         let Some(folder) = real_layouts("opendrive") else {
             return;
         };
         let layout = read_file(&folder.join(file), &ReadOptions::default()).unwrap();
         assert_counts(&layout, COUNTED, expected, file);
-        // The lane in the middle of each section has no width and is not drawn.
+        // The center lane of each section has no width and is not drawn.
         let text = std::fs::read_to_string(folder.join(file)).unwrap();
-        let middles = text.matches("<center>").count();
+        let center_lanes = text.matches("<center>").count();
         assert_eq!(
-            layout.paths.len() + middles,
+            layout.paths.len() + center_lanes,
             count(&layout, "lanes") as usize,
             "{file}"
         );
@@ -56,10 +57,13 @@ fn real_files_have_the_counts_of_their_sources() {
 
 fn road(geometry: &str, offset: &str, width: &str) -> String {
     format!(
-        r#"<OpenDRIVE><header revMajor="1" revMinor="6"/><road id="R" name="Street"><planView>{geometry}</planView>
+        r#"<OpenDRIVE><header revMajor="1" revMinor="6"/>
+        <road id="R" name="Street"><planView>{geometry}</planView>
         <lanes>{offset}<laneSection s="0">
-        <left><lane id="1" type="driving">{width}</lane></left><center><lane id="0"/></center>
-        <right><lane id="-1" type="walking">{width}</lane></right></laneSection></lanes></road></OpenDRIVE>"#
+        <left><lane id="1" type="driving">{width}</lane></left>
+        <center><lane id="0"/></center>
+        <right><lane id="-1" type="walking">{width}</lane></right></laneSection></lanes>
+        </road></OpenDRIVE>"#
     )
 }
 
@@ -67,6 +71,15 @@ fn geometry(length: f64, shape: &str) -> String {
     format!(r#"<geometry s="0" x="0" y="0" hdg="0" length="{length}">{shape}</geometry>"#)
 }
 
+/// The parabola u = b p, v = c p^2.
+fn param_poly3(range: &str, b: f64, c: f64) -> String {
+    format!(
+        "<paramPoly3 pRange='{range}' aU='0' bU='{b}' cU='0' dU='0' \
+         aV='0' bV='0' cV='{c}' dV='0'/>"
+    )
+}
+
+/// A constant lane width of 4 m.
 const WIDTH: &str = r#"<width sOffset="0" a="4" b="0" c="0" d="0"/>"#;
 
 fn assert_ends(layout: &Layout, id: &str, expected: [(f64, f64); 2]) {
@@ -79,14 +92,14 @@ fn assert_ends(layout: &Layout, id: &str, expected: [(f64, f64); 2]) {
 }
 
 #[test]
-fn lanes_lie_beside_a_line_and_come_toward_on_the_left() {
+fn offsets_lanes_from_a_line_and_reverses_left_ones() {
     let layout = read(&road(&geometry(50.0, "<line/>"), "", WIDTH));
     assert_ends(&layout, "R.0.1", [(50.0, 2.0), (0.0, 2.0)]);
     assert_ends(&layout, "R.0.-1", [(0.0, -2.0), (50.0, -2.0)]);
     assert_eq!(
         layout.paths.geometry().segment_count(),
         2,
-        "a line is one piece"
+        "one segment per lane"
     );
     let kind = layout.paths.attributes.get("type").unwrap();
     assert_eq!(kind.values.get(0), Some(Value::Text("driving")));
@@ -97,7 +110,7 @@ fn lanes_lie_beside_a_line_and_come_toward_on_the_left() {
 }
 
 #[test]
-fn a_lane_beside_a_quarter_circle_is_one() {
+fn lane_beside_an_arc_is_an_arc() {
     let quarter = 50.0 * std::f64::consts::FRAC_PI_2;
     let layout = read(&road(
         &geometry(quarter, r#"<arc curvature="0.02"/>"#),
@@ -116,7 +129,7 @@ fn a_lane_beside_a_quarter_circle_is_one() {
 }
 
 #[test]
-fn the_middle_is_drawn_where_there_is_no_other_lane() {
+fn draws_the_center_lane_of_a_road_without_other_lanes() {
     let text = road(
         &geometry(50.0, "<line/>"),
         r#"<laneOffset s="0" a="3" b="0" c="0" d="0"/>"#,
@@ -134,7 +147,7 @@ fn the_middle_is_drawn_where_there_is_no_other_lane() {
 }
 
 #[test]
-fn borders_are_measured_from_the_middle() {
+fn measures_borders_from_the_center_lane() {
     let text = road(
         &geometry(50.0, "<line/>"),
         "",
@@ -144,19 +157,23 @@ fn borders_are_measured_from_the_middle() {
 }
 
 #[test]
-fn a_normalized_polynomial_and_one_by_length_are_the_same() {
-    let by_length = r#"<paramPoly3 pRange="arcLength" aU="0" bU="1" cU="0" dU="0" aV="0" bV="0" cV="0.01" dV="0"/>"#;
-    let normalized = r#"<paramPoly3 pRange="normalized" aU="0" bU="20" cU="0" dU="0" aV="0" bV="0" cV="4" dV="0"/>"#;
+fn normalized_and_arc_length_polynomials_agree() {
+    let by_length = param_poly3("arcLength", 1.0, 0.01);
+    let normalized = param_poly3("normalized", 20.0, 4.0);
     let [a, b] =
-        [by_length, normalized].map(|shape| read(&road(&geometry(20.0, shape), "", WIDTH)));
+        [by_length, normalized].map(|shape| read(&road(&geometry(20.0, &shape), "", WIDTH)));
     for id in ["R.0.1", "R.0.-1"] {
         let ((s, e), (t, f)) = (ends(&a, id), ends(&b, id));
         assert!(s.distance(t) < 1e-9 && e.distance(f) < 1e-9);
     }
 }
 
-/// Where the lane with the offset t(s) to the left is, by small steps along the heading.
-fn walked(length: f64, heading: impl Fn(f64) -> f64, t: impl Fn(f64) -> f64) -> Vec<Point<f64>> {
+/// Points of the curve with the left offset t(s), by integrating the heading in small steps.
+fn integrated(
+    length: f64,
+    heading: impl Fn(f64) -> f64,
+    t: impl Fn(f64) -> f64,
+) -> Vec<Point<f64>> {
     const STEPS: u32 = 20_000;
     let step = length / f64::from(STEPS);
     let direction = |s: f64| {
@@ -177,7 +194,7 @@ fn walked(length: f64, heading: impl Fn(f64) -> f64, t: impl Fn(f64) -> f64) -> 
     points
 }
 
-/// That no point is farther from a path than the tolerance.
+/// Asserts that all points are within the tolerance of a path.
 fn assert_on_path(layout: &Layout, id: &str, points: &[Point<f64>]) {
     let path = layout.paths.iter().find(|p| p.id() == id).unwrap();
     let runs: Vec<Vec<Point<f64>>> = path.runs().map(|run| run.iter().collect()).collect();
@@ -191,8 +208,9 @@ fn assert_on_path(layout: &Layout, id: &str, points: &[Point<f64>]) {
 }
 
 #[test]
-fn lanes_beside_spirals_and_polynomials_are_within_the_tolerance() {
-    let offset = r#"<laneOffset s="0" a="0.5" b="0.02" c="0" d="0"/><laneOffset s="40" a="1.3" b="0" c="0" d="0"/>"#;
+fn lanes_beside_spirals_and_polynomials_stay_within_the_tolerance() {
+    let offset = r#"<laneOffset s="0" a="0.5" b="0.02" c="0" d="0"/>
+        <laneOffset s="40" a="1.3" b="0" c="0" d="0"/>"#;
     let width = r#"<width sOffset="0" a="3" b="0" c="0.001" d="-0.000005"/>"#;
     let shift = |s: f64| if s < 40.0 { 0.5 + 0.02 * s } else { 1.3 };
     let half = |s: f64| 0.5 * (3.0 + 0.001 * s * s - 0.000_005 * s.powi(3));
@@ -202,17 +220,17 @@ fn lanes_beside_spirals_and_polynomials_are_within_the_tolerance() {
     assert_on_path(
         &layout,
         "R.0.1",
-        &walked(100.0, heading, |s| shift(s) + half(s)),
+        &integrated(100.0, heading, |s| shift(s) + half(s)),
     );
     assert_on_path(
         &layout,
         "R.0.-1",
-        &walked(100.0, heading, |s| shift(s) - half(s)),
+        &integrated(100.0, heading, |s| shift(s) - half(s)),
     );
 
-    // A parabola by its parameter, which is not its length: the offset goes by the parameter as well.
-    let parabola = r#"<paramPoly3 pRange="arcLength" aU="0" bU="1" cU="0" dU="0" aV="0" bV="0" cV="0.004" dV="0"/>"#;
-    let layout = read(&road(&geometry(100.0, parabola), offset, width));
+    // The parameter of this parabola is not its arc length; offsets follow the parameter as well.
+    let parabola = param_poly3("arcLength", 1.0, 0.004);
+    let layout = read(&road(&geometry(100.0, &parabola), offset, width));
     for (id, side) in [("R.0.1", 1.0), ("R.0.-1", -1.0)] {
         let points: Vec<Point<f64>> = (0..=200)
             .map(|i| {
@@ -227,7 +245,7 @@ fn lanes_beside_spirals_and_polynomials_are_within_the_tolerance() {
 }
 
 #[test]
-fn poly3_is_as_long_as_it_says() {
+fn poly3_has_the_given_arc_length() {
     // A slope of 3 in 4.
     let slope = r#"<poly3 a="0" b="0.75" c="0" d="0"/>"#;
     let layout = read(&road(&geometry(50.0, slope), "", WIDTH));

@@ -1,37 +1,41 @@
-//! openTCS: the real files, and what is easy to get wrong: units, the y axis, legacy positions.
+//! Tests of the openTCS reader: real files, units, the y axis and legacy positions.
 
 use crate::common::{assert_counts, codes, ends, read, real, real_layouts};
 use guideway_layout::{Code, Direction, Layout, Severity, Value};
 use guideway_spline::{Point, uniform};
 
-/// Counts as the list of sources of the real layouts has them, made by another program. It counts no
-/// control points for the first file, where they are in a property; here those are counted too: two
-/// for each of its 34 curves.
+/// Version and element counts per file from the list of sources, made by another program. For the
+/// first file, the list omits the control points, which are in a property: two per curve.
 const REAL: &[(&str, &str, &str)] = &[
     (
         "Demo-01_openTCS4.12_v0.0.2.xml",
         "0.0.2",
-        "points 55, paths 68, locations 14, vehicles 4, blocks 4, controlPoints 68, BEZIER 34, DIRECT 34",
+        "points 55, paths 68, locations 14, vehicles 4, blocks 4, controlPoints 68, BEZIER 34, \
+         DIRECT 34",
     ),
     (
         "Demo-01_openTCS6.x_envelopes.xml",
         "6.0.0",
-        "points 59, paths 75, locations 16, vehicles 4, blocks 2, controlPoints 70, envelopes 4, layers 1, BEZIER 35, DIRECT 40",
+        "points 59, paths 75, locations 16, vehicles 4, blocks 2, controlPoints 70, envelopes 4, \
+         layers 1, BEZIER 35, DIRECT 40",
     ),
     (
         "Demo-01_v7.0.0.xml",
         "7.0.0",
-        "points 59, paths 75, locations 16, vehicles 4, blocks 2, controlPoints 70, envelopes 4, layers 1, BEZIER 35, DIRECT 40",
+        "points 59, paths 75, locations 16, vehicles 4, blocks 2, controlPoints 70, envelopes 4, \
+         layers 1, BEZIER 35, DIRECT 40",
     ),
     (
         "PlantModelV004.sample.xml",
         "0.0.4",
-        "points 15, paths 7, locations 2, vehicles 1, blocks 2, controlPoints 9, envelopes 1, layers 3, DIRECT 2, ELBOW 1, SLANTED 1, POLYPATH 1, BEZIER 1, BEZIER_3 1",
+        "points 15, paths 7, locations 2, vehicles 1, blocks 2, controlPoints 9, envelopes 1, \
+         layers 3, DIRECT 2, ELBOW 1, SLANTED 1, POLYPATH 1, BEZIER 1, BEZIER_3 1",
     ),
     (
         "PlantModelV7.sample.xml",
         "7.0.0",
-        "points 15, paths 7, locations 2, vehicles 1, blocks 2, controlPoints 9, envelopes 1, layers 3, DIRECT 2, ELBOW 1, SLANTED 1, POLYPATH 1, BEZIER 1, BEZIER_3 1",
+        "points 15, paths 7, locations 2, vehicles 1, blocks 2, controlPoints 9, envelopes 1, \
+         layers 3, DIRECT 2, ELBOW 1, SLANTED 1, POLYPATH 1, BEZIER 1, BEZIER_3 1",
     ),
 ];
 
@@ -52,7 +56,7 @@ const COUNTED: &[&str] = &[
     "BEZIER_3",
 ];
 
-/// Two points, 10 m apart, and the paths given.
+/// A model of two points, 10 m apart, and paths.
 fn model(paths: &str) -> String {
     format!(
         r#"<model version="7.0.0"><point name="A" positionX="0" positionY="0"/>
@@ -68,7 +72,7 @@ fn path(layout: &str) -> Layout {
 }
 
 #[test]
-fn real_files_have_the_counts_that_others_find() {
+fn real_files_have_the_expected_counts() {
     let Some(folder) = real_layouts("opentcs") else {
         return;
     };
@@ -87,7 +91,7 @@ fn real_files_have_the_counts_that_others_find() {
 }
 
 #[test]
-fn curves_of_real_files_meet_their_points() {
+fn curves_of_real_files_end_at_their_points() {
     for (file, ..) in REAL {
         let Some(layout) = real("opentcs", file) else {
             return;
@@ -109,9 +113,9 @@ fn curves_of_real_files_meet_their_points() {
     }
 }
 
-/// A mirrored or unscaled control point would lie far off the straight line between the points.
+/// A mirrored or unscaled control point would be far from the line between the points.
 #[test]
-fn control_points_of_real_files_lie_near_their_ends() {
+fn control_points_of_real_files_are_near_their_ends() {
     for (file, ..) in REAL.iter().filter(|r| r.0.starts_with("Demo")) {
         let Some(layout) = real("opentcs", file) else {
             return;
@@ -121,10 +125,10 @@ fn control_points_of_real_files_lie_near_their_ends() {
             let middle = start.lerp(end, 0.5);
             for segment in path.runs().flat_map(|r| r.segments()) {
                 for control in uniform::to_bezier(&segment) {
-                    let away = control.distance(middle);
+                    let distance_m = control.distance(middle);
                     assert!(
-                        away <= start.distance(end),
-                        "{file} {}: {away} m",
+                        distance_m <= start.distance(end),
+                        "{file} {}: {distance_m} m",
                         path.id()
                     );
                 }
@@ -134,7 +138,7 @@ fn control_points_of_real_files_lie_near_their_ends() {
 }
 
 #[test]
-fn versions_of_the_demo_plant_have_one_size() {
+fn all_versions_of_the_demo_plant_have_the_same_size() {
     let (Some(old), Some(new)) = (real("opentcs", REAL[0].0), real("opentcs", REAL[2].0)) else {
         return;
     };
@@ -154,7 +158,7 @@ fn versions_of_the_demo_plant_have_one_size() {
 }
 
 #[test]
-fn legacy_files_are_shown_as_drawn() {
+fn legacy_files_use_drawn_positions() {
     let Some(layout) = real("opentcs", REAL[0].0) else {
         return;
     };
@@ -168,7 +172,7 @@ fn legacy_files_are_shown_as_drawn() {
 }
 
 #[test]
-fn the_sample_has_every_connection_type() {
+fn reads_every_connection_type() {
     for file in ["PlantModelV004.sample.xml", "PlantModelV7.sample.xml"] {
         let Some(layout) = real("opentcs", file) else {
             return;
@@ -198,7 +202,7 @@ fn the_sample_has_every_connection_type() {
 }
 
 #[test]
-fn three_part_curves_pass_through_their_middle() {
+fn bezier_3_passes_through_its_middle_control_point() {
     let Some(layout) = real("opentcs", "PlantModelV7.sample.xml") else {
         return;
     };
@@ -231,7 +235,7 @@ fn control_points_are_in_layout_units_with_y_down() {
 }
 
 #[test]
-fn a_type_that_does_not_fit_its_points_shows_lines() {
+fn draws_a_polyline_for_a_wrong_number_of_control_points() {
     let three = r#"<controlPoint x="1" y="1"/>"#.repeat(3);
     for (kind, points, code) in [
         ("BEZIER", three.as_str(), Code::TooFewPoints),
@@ -248,7 +252,7 @@ fn a_type_that_does_not_fit_its_points_shows_lines() {
 }
 
 #[test]
-fn unknown_points_and_loops_are_named() {
+fn reports_unknown_points_and_accepts_loops() {
     let layout = read(&model(
         r#"<path name="P" sourcePoint="A" destinationPoint="X"/>
            <path name="P" sourcePoint="A" destinationPoint="A"/>"#,
@@ -264,12 +268,13 @@ fn unknown_points_and_loops_are_named() {
 }
 
 #[test]
-fn envelopes_are_columns_of_keys_and_of_areas_in_meters() {
+fn stores_envelope_keys_and_areas_in_columns() {
     let corner = |x: &str, y: &str| format!(r#"<vertex x="{x}" y="{y}"/>"#);
     let square = corner("0", "0") + &corner("1000", "0") + &corner("1000", "-2500");
     let line = corner("0", "0") + &corner("1", "0");
     let open = format!(
-        r#"<vehicleEnvelope key="a">{square}</vehicleEnvelope><vehicleEnvelope key="b">{line}</vehicleEnvelope>"#
+        r#"<vehicleEnvelope key="a">{square}</vehicleEnvelope>
+        <vehicleEnvelope key="b">{line}</vehicleEnvelope>"#
     );
     let layout = path(&open);
     let text = |name: &str| layout.paths.attributes.get(name).unwrap().values.get(0);
@@ -301,14 +306,14 @@ fn envelopes_are_columns_of_keys_and_of_areas_in_meters() {
 }
 
 #[test]
-fn a_real_file_has_the_areas_of_its_paths_and_points() {
+fn reads_the_areas_of_a_real_file() {
     let Some(layout) = real("opentcs", "Demo-01_v7.0.0.xml") else {
         return;
     };
     let tables = [(&layout.paths.attributes, 4), (&layout.nodes.attributes, 8)];
     for (attributes, expected) in tables {
         let areas = &attributes.get("vehicleEnvelope.area").unwrap().values;
-        let there = (0..areas.len()).filter(|&row| areas.get(row).is_some());
-        assert_eq!(there.count(), expected);
+        let present = (0..areas.len()).filter(|&row| areas.get(row).is_some());
+        assert_eq!(present.count(), expected);
     }
 }

@@ -1,16 +1,16 @@
-//! Open-RMF: the real files, and what is easy to get wrong: pixels, scale, levels, types of parameters.
+//! Tests of the Open-RMF reader: real files, pixels, scale, levels and types of parameters.
 
 use crate::common::{assert_counts, codes, ends, read, real};
 use guideway_layout::{Code, Direction, Layout, Value};
 use guideway_spline::Point;
 
-/// Counts as the list of sources of the real layouts has them, made by another program.
+/// Element counts per file from the list of sources, made by another program.
 const REAL: &[(&str, &str)] = &[
     (
         "airport_terminal.building.yaml",
-        "levels 1, vertices 1297, lanes 223, walls 464, doors 5, measurements 1, floors 75, models 282, \
-         bidirectional 223, lanes of graph 0 17, lanes of graph 1 51, lanes of graph 2 139, \
-         lanes of graph 4 16",
+        "levels 1, vertices 1297, lanes 223, walls 464, doors 5, measurements 1, floors 75, \
+         models 282, bidirectional 223, lanes of graph 0 17, lanes of graph 1 51, \
+         lanes of graph 2 139, lanes of graph 4 16",
     ),
     (
         "campus.building.yaml",
@@ -18,9 +18,9 @@ const REAL: &[(&str, &str)] = &[
     ),
     (
         "hotel.building.yaml",
-        "levels 3, vertices 353, lanes 122, walls 254, doors 19, measurements 3, floors 13, models 175, \
-         fiducials 9, bidirectional 122, lanes of graph 0 52, lanes of graph 1 19, lanes of graph 2 51, \
-         lifts 2",
+        "levels 3, vertices 353, lanes 122, walls 254, doors 19, measurements 3, floors 13, \
+         models 175, fiducials 9, bidirectional 122, lanes of graph 0 52, lanes of graph 1 19, \
+         lanes of graph 2 51, lifts 2",
     ),
     (
         "office.building.yaml",
@@ -61,7 +61,7 @@ fn assert_near(found: Point<f64>, x: f64, y: f64) {
 }
 
 #[test]
-fn real_files_have_the_counts_of_their_sources() {
+fn real_files_have_the_expected_counts() {
     for (file, expected) in REAL {
         let Some(layout) = real("rmf_building", file) else {
             return;
@@ -80,11 +80,11 @@ fn real_files_have_the_counts_of_their_sources() {
 }
 
 #[test]
-fn the_airport_is_as_long_as_it_was_measured() {
+fn airport_has_its_measured_size() {
     let Some(layout) = real("rmf_building", "airport_terminal.building.yaml") else {
         return;
     };
-    // 0.0821 m a pixel; the vertices of lanes and walls span 282 m by 83 m.
+    // 0.0821 m per pixel; the vertices of lanes and walls span 282 m by 83 m.
     let ends = layout.paths.iter().flat_map(|path| {
         let (start, end) = path.ends().unwrap();
         [start, end]
@@ -98,12 +98,12 @@ fn the_airport_is_as_long_as_it_was_measured() {
 }
 
 #[test]
-fn the_levels_of_the_hotel_lie_over_each_other() {
+fn aligns_the_levels_of_the_hotel() {
     let Some(layout) = real("rmf_building", "hotel.building.yaml") else {
         return;
     };
     assert_eq!(layout.levels[2].elevation_m, Some(16.0));
-    // A lift goes straight up: on every level there is a vertex in it.
+    // A lift is vertical: every level has a vertex in it.
     for station in 0..layout.stations.len() as u32 {
         let lift = layout.stations.position_m(station).unwrap();
         for level in 0..3 {
@@ -119,7 +119,7 @@ fn the_levels_of_the_hotel_lie_over_each_other() {
     }
 }
 
-/// A building of one level, 10 pixels a meter.
+/// A building of one level, with 10 pixels per meter.
 fn building(head: &str, vertices: &str, lanes: &str) -> Layout {
     read(&format!(
         "{head}\nlevels:\n  L1:\n    vertices: [[0, 0, 0, a], [100, 0, 0, b], {vertices}]\n    \
@@ -128,7 +128,7 @@ fn building(head: &str, vertices: &str, lanes: &str) -> Layout {
 }
 
 #[test]
-fn pixels_become_meters_and_y_turns_up() {
+fn scales_pixels_to_meters_and_flips_y() {
     let layout = building("", "[50, 20, 0, c]", "[0, 2, {}]");
     let (start, end) = ends(&layout, "L1.lanes[0]");
     assert_near(start, 0.0, 0.0);
@@ -137,7 +137,7 @@ fn pixels_become_meters_and_y_turns_up() {
 }
 
 #[test]
-fn meters_stay_as_they_are() {
+fn keeps_cartesian_meters() {
     let layout = building(
         "coordinate_system: cartesian_meters",
         "[50, 20, 0, c]",
@@ -147,7 +147,7 @@ fn meters_stay_as_they_are() {
 }
 
 #[test]
-fn degrees_become_meters_about_their_middle() {
+fn projects_degrees_about_their_center() {
     let layout = read(
         "coordinate_system: wgs84\nlevels:\n  L1:\n    \
          vertices: [[103.78, 1.3, 0, a], [103.79, 1.3, 0, b]]\n    lanes: [[0, 1, {}]]\n",
@@ -159,12 +159,12 @@ fn degrees_become_meters_about_their_middle() {
         "{}",
         start.distance(end)
     );
-    assert!((start + end).norm() < 1e-6, "about the middle");
+    assert!((start + end).norm() < 1e-6, "not centered");
 }
 
 #[test]
-fn mercator_meters_shrink_with_the_latitude() {
-    // y = R ln tan(45 + 60 / 2 degrees) is 60 degrees north, where meters are twice as long.
+fn scales_mercator_meters_by_the_latitude() {
+    // y = R ln tan(45 + 60 / 2 degrees) is 60 degrees north, where the projection doubles lengths.
     let y = 6_378_137.0 * (75_f64.to_radians()).tan().ln();
     let layout = read(&format!(
         "coordinate_system: web_mercator\nlevels:\n  L1:\n    \
@@ -175,11 +175,11 @@ fn mercator_meters_shrink_with_the_latitude() {
 }
 
 #[test]
-fn without_a_measurement_the_scale_is_assumed_and_said() {
+fn assumes_and_reports_the_scale_without_a_measurement() {
     let layout = read("levels:\n  L1:\n    vertices: [[0, 0], [100, 0, 0, b]]\n");
     assert!(
         !codes(&layout).contains(&Code::AssumedUnit),
-        "a graph has meters"
+        "a graph is in meters"
     );
     let layout = read("levels:\n  L1:\n    vertices: [[0, 0, 0, a], [100, 0, 0, b]]\n");
     assert_eq!(codes(&layout), [Code::AssumedUnit]);
@@ -187,7 +187,7 @@ fn without_a_measurement_the_scale_is_assumed_and_said() {
 }
 
 #[test]
-fn another_level_is_laid_over_the_reference() {
+fn aligns_a_level_to_the_reference_by_fiducials() {
     let text = |second: &str| {
         format!(
             "levels:\n  L1:\n    vertices: [[0, 0, 0, a], [100, 0, 0, b]]\n    \
@@ -196,7 +196,7 @@ fn another_level_is_laid_over_the_reference() {
              vertices: [[7, 7, 0, c], [7, 207, 0, d]]\n    lanes: [[0, 1, {{}}]]\n{second}"
         )
     };
-    // The plan above has half the meters a pixel, is turned by a quarter, and is moved.
+    // The upper plan has half the meters per pixel, is rotated by 90 degrees and shifted.
     let layout = read(&text("    fiducials: [[7, 7, one], [7, 207, two]]\n"));
     let (start, end) = ends(&layout, "L2.lanes[0]");
     assert_near(start, 0.0, 0.0);
@@ -207,16 +207,17 @@ fn another_level_is_laid_over_the_reference() {
     assert_eq!(
         codes(&layout),
         [Code::AssumedUnit],
-        "and without fiducials it is said"
+        "a finding without fiducials"
     );
 }
 
 #[test]
-fn parameters_become_columns_by_their_types() {
+fn stores_parameters_in_typed_columns() {
     let layout = building(
         "",
         "[9, 9, 0, \"\", {is_charger: [4, true], dock_name: [1, 007]}]",
-        "[0, 1, {bidirectional: [4, true], graph_idx: [2, 3], speed_limit: [3, 0.5], orientation: [1, \"\"]}], \
+        "[0, 1, {bidirectional: [4, true], graph_idx: [2, 3], speed_limit: [3, 0.5], \
+         orientation: [1, \"\"]}], \
          [1, 0, {bidirectional: [4, false]}]",
     );
     let directions: Vec<_> = layout.paths.iter().map(|path| path.direction()).collect();
@@ -231,22 +232,20 @@ fn parameters_become_columns_by_their_types() {
     assert_eq!(value("graph_idx"), Some(Value::Int(3)));
     assert_eq!(value("speed_limit"), Some(Value::Float(0.5)));
     assert_eq!(value("element"), Some(Value::Text("lane")));
-    assert_eq!(value("orientation"), None, "what was never filled in");
+    assert_eq!(value("orientation"), None, "an empty parameter");
     assert!(layout.paths.vehicle_types().of(0).eq(["graph 3"]));
-    assert_eq!(
-        layout.nodes.id(2),
-        "L1.vertices[2]",
-        "a vertex without a name has its place"
-    );
+    assert_eq!(layout.nodes.id(2), "L1.vertices[2]", "an unnamed vertex");
     let docks = layout.nodes.attributes.get("dock_name").unwrap();
     assert_eq!(docks.values.get(2), Some(Value::Text("007")));
 }
 
 #[test]
-fn navigation_graphs_have_bare_parameters_and_meters() {
+fn reads_bare_parameters_and_meters_of_navigation_graphs() {
     let layout = read(
-        "building_name: site\nlevels:\n  L1:\n    lanes:\n    - - 0\n      - 1\n      - {graph_idx: 0, speed_limit: 1.5}\n    \
-         vertices:\n    - [1, 2, {name: dock, is_charger: true}]\n    - [4, 6, {name: ''}]\nlifts:\n  lift: {position: [1, 2, 0]}\n",
+        "building_name: site\nlevels:\n  L1:\n    lanes:\n    - - 0\n      - 1\n      \
+         - {graph_idx: 0, speed_limit: 1.5}\n    \
+         vertices:\n    - [1, 2, {name: dock, is_charger: true}]\n    - [4, 6, {name: ''}]\n\
+         lifts:\n  lift: {position: [1, 2, 0]}\n",
     );
     assert_eq!(layout.provenance.format_version, "navigation graph");
     let (start, end) = ends(&layout, "L1.lanes[0]");
@@ -260,7 +259,7 @@ fn navigation_graphs_have_bare_parameters_and_meters() {
 }
 
 #[test]
-fn a_lane_without_its_vertex_is_refused_with_its_line() {
+fn refuses_lanes_without_a_vertex_and_reports_the_line() {
     let layout = building("", "[50, 20, 0, c]", "[0, 2, {}], [0, 9, {}]");
     assert_eq!(layout.paths.len(), 1);
     let refused = layout.refused.iter().next().unwrap();

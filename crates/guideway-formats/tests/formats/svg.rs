@@ -1,10 +1,10 @@
-//! SVG: the real files, and what is easy to get wrong: units, transforms, references, styles, arcs.
+//! Tests of the SVG reader: real files, units, transforms, references, styles and arcs.
 
 use crate::common::{assert_counts, codes, count, ends, read, real};
 use guideway_layout::{Code, Layout, Value};
 use guideway_spline::{Point, uniform};
 
-/// Counts as the list of sources of the real layouts has them, made by another program.
+/// Element counts per file from the list of sources, made by another program.
 const REAL: &[(&str, &str)] = &[
     ("material_design_icons.svg", "path 964, circle 25, svg 936"),
     ("resvg_path_A.svg", "path 1, rect 1, svg 1"),
@@ -25,7 +25,7 @@ const COUNTED: &[&str] = &[
 ];
 
 #[test]
-fn real_files_have_the_counts_of_their_sources() {
+fn real_files_have_the_expected_counts() {
     for (file, expected) in REAL {
         let Some(layout) = real("svg", file) else {
             return;
@@ -33,17 +33,18 @@ fn real_files_have_the_counts_of_their_sources() {
         assert_counts(&layout, COUNTED, expected, file);
         let shapes: u64 = COUNTED[..7].iter().map(|tag| count(&layout, tag)).sum();
         assert_eq!(layout.path_count() as u64, shapes, "{file}");
-        // This one is a test of resvg for path data that must not be drawn.
+        // A test file of resvg for path data that must not be drawn.
         let refused = usize::from(*file == "resvg_path_A.svg");
         assert_eq!(layout.refused.len(), refused, "{file}");
     }
 }
 
-/// A page on which a user unit is a meter.
+/// Reads a page on which a user unit is a meter.
 fn page(content: &str) -> Layout {
     read(&format!(
         r#"<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"
-            width="100000mm" height="100000mm" viewBox="0 0 100 100" stroke="black" fill="none">{content}</svg>"#
+            width="100000mm" height="100000mm" viewBox="0 0 100 100"
+            stroke="black" fill="none">{content}</svg>"#
     ))
 }
 
@@ -57,32 +58,26 @@ fn assert_ends(layout: &Layout, id: &str, expected: [(f64, f64); 2]) {
 }
 
 #[test]
-fn the_size_of_the_page_is_the_scale_and_y_turns_up() {
+fn scales_by_the_page_size_and_flips_y() {
     let layout = page(r#"<path id="p" d="M10 20 L30 40"/>"#);
     assert_ends(&layout, "p", [(10.0, -20.0), (30.0, -40.0)]);
     assert!(codes(&layout).is_empty());
     let paper = |head: &str| {
+        let line = r#"<line id="p" x2="96" stroke="red"/>"#;
         read(&format!(
-            r#"<svg xmlns="http://www.w3.org/2000/svg" {head}><line id="p" x2="96" stroke="red"/></svg>"#
+            r#"<svg xmlns="http://www.w3.org/2000/svg" {head}>{line}</svg>"#
         ))
     };
-    for (head, length_m, is_said) in [
+    let tall = |ratio: &str| format!(r#"width="10mm" height="99mm" viewBox="0 0 10 10" {ratio}"#);
+    for (head, length_m, is_reported) in [
         ("", 0.0254, true),
         (r#"width="96""#, 0.0254, true),
         (r#"width="10cm" viewBox="0 0 100 100""#, 0.096, false),
         (r#"height="2in" viewBox="5 5 96 96""#, 0.0508, false),
+        (&tall(""), 0.096, false),
+        (&tall(r#"preserveAspectRatio="none""#), 0.096, false),
         (
-            r#"width="10mm" height="99mm" viewBox="0 0 10 10""#,
-            0.096,
-            false,
-        ),
-        (
-            r#"width="10mm" height="99mm" viewBox="0 0 10 10" preserveAspectRatio="none""#,
-            0.096,
-            false,
-        ),
-        (
-            r#"width="10mm" height="99mm" viewBox="0 0 10 10" preserveAspectRatio="xMidYMid slice""#,
+            &tall(r#"preserveAspectRatio="xMidYMid slice""#),
             0.9504,
             false,
         ),
@@ -97,14 +92,14 @@ fn the_size_of_the_page_is_the_scale_and_y_turns_up() {
         );
         assert_eq!(
             codes(&layout).contains(&Code::AssumedUnit),
-            is_said,
+            is_reported,
             "{head}"
         );
     }
 }
 
 #[test]
-fn transforms_nest_from_the_inside_out() {
+fn applies_inner_transforms_first() {
     let layout = page(
         r#"<g transform="translate(10 0)"><g transform="rotate(90)">
         <path id="p" d="M1 0 H2" transform="scale(3)"/></g></g>"#,
@@ -113,7 +108,7 @@ fn transforms_nest_from_the_inside_out() {
 }
 
 #[test]
-fn a_page_within_a_page_is_fitted_in() {
+fn fits_nested_svg_elements_into_their_viewport() {
     let layout = page(
         r#"<svg x="20" y="40" width="20" height="10" viewBox="0 0 2 2">
         <line id="middle" x2="2"/></svg>
@@ -126,7 +121,7 @@ fn a_page_within_a_page_is_fitted_in() {
 }
 
 #[test]
-fn references_repeat_shapes_under_their_own_names() {
+fn use_elements_prefix_identifiers_of_shapes() {
     let layout = page(
         r##"<defs><g id="g"><path id="p" d="M0 0 H1"/></g>
         <symbol id="s" viewBox="0 0 1 1"><path id="q" d="M0 0 H1"/></symbol></defs>
@@ -141,12 +136,12 @@ fn references_repeat_shapes_under_their_own_names() {
     assert_eq!(
         codes(&layout),
         [Code::NotDrawn],
-        "how many shapes are in definitions"
+        "the count of shapes in definitions"
     );
 }
 
 #[test]
-fn colors_and_widths_come_from_attributes_rules_and_styles() {
+fn resolves_colors_and_widths_from_attributes_rules_and_styles() {
     let layout = page(
         r##"<style>.a { stroke: #0f0 } #d { stroke-width: 3 }</style>
         <g stroke="blue" stroke-width="2" opacity="0.5">
@@ -164,15 +159,16 @@ fn colors_and_widths_come_from_attributes_rules_and_styles() {
     assert_eq!((widths[0], widths[4]), (2.0, 2.0));
     assert!(
         (widths[1] - 2.0 * 3_f32.sqrt()).abs() < 1e-6,
-        "the mean of both directions"
+        "the geometric mean of both scales"
     );
-    assert!(widths[3].is_nan(), "an area has no line");
+    assert!(widths[3].is_nan(), "a filled shape has no stroke");
 }
 
 #[test]
-fn what_is_not_seen_is_refused_with_its_reason() {
+fn refuses_invisible_shapes_with_a_reason() {
     let layout = page(
-        r#"<path id="a" d="M0 0 H1" display="none"/><g visibility="hidden"><path id="b" d="M0 0 H1"/>
+        r#"<path id="a" d="M0 0 H1" display="none"/>
+        <g visibility="hidden"><path id="b" d="M0 0 H1"/>
         <path id="c" d="M0 0 H1" visibility="visible"/></g><path id="d" d="M0 0 H1" stroke="none"/>
         <path id="e" d="M3 3"/>"#,
     );
@@ -192,7 +188,7 @@ fn what_is_not_seen_is_refused_with_its_reason() {
 }
 
 #[test]
-fn circles_are_round_under_any_transform_within_the_tolerance() {
+fn transformed_circles_stay_within_the_tolerance() {
     let layout =
         page(r#"<circle id="c" cx="40" cy="30" r="25" transform="skewX(30) scale(1 .5)"/>"#);
     let path = layout.paths.get(0);
@@ -210,10 +206,11 @@ fn circles_are_round_under_any_transform_within_the_tolerance() {
 }
 
 #[test]
-fn layers_and_groups_become_a_column() {
+fn stores_layers_and_groups_in_a_column() {
     let layout = page(
         r#"<g id="g1" xmlns:i="http://www.inkscape.org/namespaces/inkscape" i:label="Roads">
-        <path id="a" d="M0 0 H1"/><g><path id="b" d="M0 0 H1"/></g></g><path id="c" d="M0 0 H1"/>"#,
+        <path id="a" d="M0 0 H1"/><g><path id="b" d="M0 0 H1"/></g></g>
+        <path id="c" d="M0 0 H1"/>"#,
     );
     let group = |row| {
         layout
@@ -231,7 +228,7 @@ fn layers_and_groups_become_a_column() {
 }
 
 #[test]
-fn wrong_path_data_is_drawn_up_to_there() {
+fn draws_malformed_path_data_up_to_the_error() {
     let layout = page(r#"<path id="a" d="M0 0 H1 V oops"/>"#);
     assert_ends(&layout, "a", [(0.0, 0.0), (1.0, 0.0)]);
     assert_eq!(codes(&layout), [Code::WrongType]);

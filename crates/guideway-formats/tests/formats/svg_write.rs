@@ -1,4 +1,4 @@
-//! What is written as SVG comes back as it was, but for what a drawing cannot hold.
+//! Checks that written SVG reads back as the same layout, except for reported losses.
 
 use crate::common::{codes, read};
 use crate::same::{
@@ -24,7 +24,7 @@ fn line(id: &str) -> Layout {
 
 proptest! {
     #[test]
-    fn any_layout_comes_back(
+    fn any_layout_reads_back(
         layout in arbitrary_layout(),
         colors in prop::collection::vec(any::<u32>(), 7),
         widths in prop::collection::vec(0.01_f32..2.0, 7),
@@ -52,7 +52,7 @@ proptest! {
 }
 
 #[test]
-fn a_broken_path_stays_broken_and_lines_are_lines() {
+fn preserves_gaps_and_writes_straight_segments_as_lines() {
     let layout = broken(Point::new(6.0, 2.0), Direction::Forward);
     let (text, _) = written(&layout);
     assert!(text.contains(r#"d="M0 0L1 0M5 0L6 -2""#), "{text}");
@@ -60,7 +60,7 @@ fn a_broken_path_stays_broken_and_lines_are_lines() {
 }
 
 #[test]
-fn names_are_kept_if_xml_has_room_for_them() {
+fn preserves_identifiers_that_xml_allows() {
     let mut layout = Layout::default();
     for id in [
         "A --- B",
@@ -89,9 +89,9 @@ fn names_are_kept_if_xml_has_room_for_them() {
 }
 
 #[test]
-fn the_page_is_as_large_as_the_site() {
+fn page_has_the_size_of_the_site() {
     let (text, _) = written(&line("a"));
-    // 40 m and 30 m, with 2 % of the larger on each side.
+    // 40 m by 30 m, with a margin of 2 % of the larger side.
     assert!(text.contains(r#"viewBox="-0.8 -30.8 41.6 31.6""#), "{text}");
     assert!(
         text.contains(r#"width="41600mm" height="31600mm""#),
@@ -102,7 +102,7 @@ fn the_page_is_as_large_as_the_site() {
 }
 
 #[test]
-fn what_has_no_place_is_listed_and_ranks_become_the_order() {
+fn reports_losses_and_orders_paths_by_rank() {
     let mut layout = line("low");
     push_lines(&mut layout, "high", &[(0.0, 5.0), (9.0, 5.0)]);
     layout.paths.set_rank(vec![3, -1]);
@@ -118,26 +118,26 @@ fn what_has_no_place_is_listed_and_ranks_become_the_order() {
 }
 
 #[test]
-fn a_path_of_no_width_is_still_there() {
+fn writes_paths_of_width_zero_with_a_default_width() {
     let mut layout = line("a");
     layout.paths.set_width_m(vec![0.0]);
     assert_same_curves(&layout, &read(&written(&layout).0), "no width");
 }
 
 #[test]
-fn only_what_differs_from_the_page_is_said_of_a_path() {
+fn paths_override_only_what_differs_from_the_common_stroke() {
     let mut out = Vec::new();
     let common = Stroke::new(0x0000_0080, 1.0);
-    let mut page = SvgWriter::begin(&mut out, [0.0, 0.0, 9.0, 9.0], "", &common).unwrap();
-    let mut outline = PathData::new(1e-3);
+    let mut svg = SvgWriter::begin(&mut out, [0.0, 0.0, 9.0, 9.0], "", &common).unwrap();
+    let mut data = PathData::new(1e-3);
     let mut runs = Runs::default();
     runs.push_line(Point::new(0.0, 0.0), Point::new(1.0, 0.12345));
-    outline.push_segment(runs.points().first_chunk().unwrap());
-    page.path("a", &outline, &common).unwrap();
-    page.path("b", &outline, &Stroke::new(0xFF00_00FF, f64::from(0.3_f32)))
+    data.push_segment(runs.points().first_chunk().unwrap());
+    svg.path("a", &data, &common).unwrap();
+    svg.path("b", &data, &Stroke::new(0xFF00_00FF, f64::from(0.3_f32)))
         .unwrap();
-    page.path("c", &PathData::new(1.0), &common).unwrap();
-    page.finish().unwrap();
+    svg.path("c", &PathData::new(1.0), &common).unwrap();
+    svg.finish().unwrap();
     let text = String::from_utf8(out).unwrap();
     assert!(
         text.contains("<path id=\"a\" d=\"M0 0L1 0.123\"/>"),

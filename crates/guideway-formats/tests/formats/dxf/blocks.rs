@@ -1,0 +1,158 @@
+//! Checks blocks, and what entities inherit from INSERTs and layers: colors and visibility.
+
+use super::{LINE, assert_near, drawing};
+use crate::common::{codes, ends};
+use guideway_layout::{Code, Value};
+use guideway_spline::uniform;
+
+#[test]
+fn expands_nested_rotated_mirrored_and_repeated_blocks() {
+    let blocks = format!(
+        "0 BLOCK\n2 inner\n10 1\n20 0\n{LINE}0 ENDBLK\n\
+         0 BLOCK\n2 OUTER\n10 0\n20 0\n0 INSERT\n5 B\n2 INNER\n10 10\n20 0\n41 -1\n0 ENDBLK\n"
+    );
+    // The line leads from the base point by (2, 1), mirrored by (-2, 1).
+    let layout = drawing("", &blocks, "0 INSERT\n5 C\n2 Outer\n10 100\n20 0\n50 90\n");
+    assert_eq!(layout.paths.len(), 1);
+    let (start, end) = ends(&layout, "C/B/A");
+    assert_near(start, 100.0, 10.0);
+    assert_near(end, 99.0, 8.0);
+
+    let array = "0 INSERT\n5 C\n2 inner\n10 0\n20 0\n70 3\n71 2\n44 10\n45 20\n41 2\n42 2\n43 2\n";
+    let layout = drawing("", &blocks, array);
+    assert_eq!(layout.paths.len(), 6);
+    let (start, end) = ends(&layout, "C[2,1]/A");
+    assert_near(start, 20.0, 20.0);
+    assert_near(end, 24.0, 22.0);
+    // The INSERT rotates the steps of the array but does not scale them.
+    let layout = drawing("", &blocks, &format!("{array}50 90\n"));
+    assert_near(ends(&layout, "C[1,0]/A").0, 0.0, 10.0);
+}
+
+#[test]
+fn circle_in_a_stretched_block_is_an_ellipse() {
+    let block = "0 BLOCK\n2 B\n10 0\n20 0\n0 CIRCLE\n5 A\n10 0\n20 0\n40 1\n0 ENDBLK\n";
+    let layout = drawing(
+        "",
+        block,
+        "0 INSERT\n5 C\n2 B\n10 0\n20 0\n41 1000\n42 500\n",
+    );
+    for run in layout.paths.get(0).runs() {
+        for segment in run.segments() {
+            let middle = uniform::point(&segment, 0.3);
+            let value = (middle.x / 1000.0).hypot(middle.y / 500.0);
+            assert!(
+                (value - 1.0).abs() < 1e-4 / 500.0,
+                "{value} is not within the tolerance"
+            );
+        }
+    }
+}
+
+#[test]
+fn refuses_recursive_blocks_and_draws_the_rest() {
+    let ring =
+        format!("0 BLOCK\n2 B\n10 0\n20 0\n{LINE}0 INSERT\n5 D\n2 B\n10 1\n20 1\n0 ENDBLK\n");
+    let layout = drawing(
+        "",
+        &ring,
+        &format!("{LINE}0 INSERT\n5 C\n2 B\n10 0\n20 0\n"),
+    );
+    assert_eq!(layout.paths.len(), 1);
+    let refused = layout.refused.iter().next().unwrap();
+    assert_eq!((refused.id, refused.code), ("C", Code::Implausible));
+}
+
+#[test]
+fn expands_blocks_up_to_the_depth_limit() {
+    let depth = 127;
+    let level = |i: usize| {
+        let inner = i + 1;
+        format!("0 BLOCK\n2 {i}\n10 0\n20 0\n0 INSERT\n5 I{i}\n2 {inner}\n10 1\n20 0\n0 ENDBLK\n")
+    };
+    let chain: String = (0..depth - 1).map(level).collect();
+    let last = depth - 1;
+    let blocks = format!("{chain}0 BLOCK\n2 {last}\n10 0\n20 0\n{LINE}0 ENDBLK\n");
+    let layout = drawing("", &blocks, "0 INSERT\n5 C\n2 0\n10 0\n20 0\n");
+    let (start, _) = layout.paths.get(0).ends().unwrap();
+    assert_near(start, 1.0 + (depth - 1) as f64, 0.0);
+}
+
+#[test]
+fn resolves_colors_by_entity_layer_and_block() {
+    let tables = "0 LAYER\n2 red\n70 0\n62 1\n0 LAYER\n2 green\n70 0\n62 3\n";
+    let line = |handle: &str, layer: &str, color: &str| {
+        format!("0 LINE\n5 {handle}\n8 {layer}\n{color}10 0\n20 0\n11 1\n21 0\n")
+    };
+    let blocks = format!(
+        "0 BLOCK\n2 B\n10 0\n20 0\n{}{}{}0 ENDBLK\n",
+        line("1", "0", ""),
+        line("2", "green", ""),
+        line("3", "green", "62 0\n")
+    );
+    let entities = format!(
+        "{}{}{}0 INSERT\n5 I\n8 red\n62 5\n2 B\n10 0\n20 5\n",
+        line("a", "RED", ""),
+        line("b", "red", "420 1193046\n"),
+        line("c", "elsewhere", "62 7\n")
+    );
+    let layout = drawing(tables, &blocks, &entities);
+    let colors = layout.paths.color_rgba().unwrap();
+    let layers = &layout.paths.attributes.get("layer").unwrap().values;
+    let found: Vec<(&str, u32, String)> = layout
+        .paths
+        .iter()
+        .map(|p| {
+            (
+                p.id(),
+                colors[p.row()],
+                layers.get(p.row()).unwrap().to_string(),
+            )
+        })
+        .collect();
+    let expected = [
+        ("a", 0xFF00_00FF, "red"),
+        ("b", 0x1234_56FF, "red"),
+        ("c", 0, "elsewhere"),
+        ("I/1", 0xFF00_00FF, "red"),
+        ("I/2", 0x00FF_00FF, "green"),
+        ("I/3", 0x0000_FFFF, "green"),
+    ];
+    assert_eq!(
+        found,
+        expected.map(|(id, color, layer)| (id, color, layer.to_owned()))
+    );
+    let kinds = &layout.paths.attributes.get("entity").unwrap().values;
+    assert_eq!(kinds.get(0), Some(Value::Text("LINE")));
+}
+
+#[test]
+fn reports_and_skips_hidden_entities() {
+    let tables = "0 LAYER\n2 off\n70 0\n62 -1\n0 LAYER\n2 ice\n70 1\n62 1\n";
+    let on = |layer: &str| format!("0 LINE\n5 {layer}\n8 {layer}\n10 0\n20 0\n11 1\n21 0\n");
+    let blocks = format!("0 BLOCK\n2 B\n10 0\n20 0\n{}{LINE}0 ENDBLK\n", on("seen"));
+    let layout = drawing(
+        tables,
+        &blocks,
+        &format!(
+            "{}{}0 LINE\n5 paper\n67 1\n10 0\n20 0\n11 1\n21 0\n0 TEXT\n5 T\n1 hello\n\
+             0 INSERT\n5 I\n8 off\n2 B\n10 0\n20 0\n0 INSERT\n5 J\n8 ice\n2 B\n10 0\n20 0\n",
+            on("off"),
+            on("ice")
+        ),
+    );
+    let drawn: Vec<&str> = layout.paths.iter().map(|p| p.id()).collect();
+    assert_eq!(
+        drawn,
+        ["I/seen"],
+        "entities of a block on a visible layer are drawn"
+    );
+    let refused: Vec<&str> = layout.refused.iter().map(|r| r.id).collect();
+    assert_eq!(refused, ["off", "ice", "paper", "I/A", "J"]);
+    assert_eq!(codes(&layout), [Code::NotDrawn]);
+    assert_eq!(
+        layout.diagnostics.count(Code::NotDrawn),
+        6,
+        "five entities and the TEXT"
+    );
+}
