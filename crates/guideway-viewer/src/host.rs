@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use guideway_layout::Layout;
 use guideway_scene::Scene;
-use guideway_scene::{Frame, Method, Sheet, Style, View};
+use guideway_scene::{DrawList, Frame, Method, Style, View};
 use guideway_spline::Bounds;
 
 /// What the viewer needs of the program around it: files and ways of drawing. Called from several threads.
@@ -125,9 +125,9 @@ pub struct Export {
     /// are of.
     pub swept: Option<(String, Vec<u32>)>,
     /// Lines below all paths.
-    pub grid: Sheet,
+    pub grid: DrawList,
     /// What lies over the paths.
-    pub marks: Sheet,
+    pub marks: DrawList,
 }
 
 /// What lies on the floor, ready to be drawn.
