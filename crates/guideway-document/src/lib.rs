@@ -1,14 +1,25 @@
-//! A layout that is being looked at and edited, free of any window.
+//! A layout under inspection and editing, independent of any window.
 //!
-//! A [`Document`] holds what is shown, what is selected and what was done, so that it can be undone.
-//! [`Index`] finds what is near a place, [`pick`] the path that a person points at, [`Query`] and [`search`]
-//! paths by what is known of them; [`measure`] takes lengths and bends, and [`decorations`] places what is drawn
-//! over a picture by what a screen can show.
+//! | module | input | output |
+//! |---|---|---|
+//! | [`Document`] | layout or scene | scene, selection, undo history, journal entries |
+//! | `edit` | selection, pointer positions | [`Change`]s, applied as undoable steps |
+//! | [`Index`] | layout | paths and nodes near a place, paths at a node |
+//! | [`pick`], [`nearest`] | a point | the path under it |
+//! | [`Query`], [`search`], [`locate`] | text | paths, nodes, stations |
+//! | [`measure`] | a path | lengths and radii |
+//! | [`decorations`] | document, view, settings | marks, outlines and draw lists |
+//! | `journal` | bytes | [`JournalEntry`]s, and the document that they recover |
+//! | [`Snapshot`] | document | the layout to save, findings |
+//! | [`text_format`] | counts, lengths, names | text for people |
 
+mod change;
 pub mod decorations;
 mod document;
 mod edit;
 mod edit_observer;
+mod element;
+mod history;
 mod index;
 mod journal;
 mod locate;
@@ -17,14 +28,18 @@ mod moved_nodes;
 mod pick;
 mod query;
 mod reverse_pairs;
-mod save;
 mod search;
+mod selection;
 mod snap;
-mod steps;
+mod snapshot;
+pub mod text_format;
 mod view_history;
 
-pub use document::{Document, SelectMode};
-pub use edit::{Change, NodeMoves, PointRef, SavedState, drawn_path};
+pub use change::{Change, NodeMoves};
+pub use document::Document;
+pub use edit::{PointRef, drawn_path};
+pub use element::Element;
+pub use history::SavedState;
 pub use index::Index;
 pub use journal::{JournalEntry, ReplayProgress, replay};
 pub use locate::locate;
@@ -32,8 +47,8 @@ pub use pick::{Hit, nearest, pick};
 pub use query::{Query, QueryError};
 pub use reverse_pairs::ReversePairs;
 pub use roaring::RoaringBitmap as PathSet;
-pub use save::Snapshot;
-pub use search::{Element, search};
+pub use search::search;
+pub use selection::SelectMode;
 pub use snap::SnapOptions;
-pub use steps::{grid_lines_px, round_step};
+pub use snapshot::Snapshot;
 pub use view_history::ViewHistory;

@@ -1,13 +1,16 @@
+//! Locates the elements that findings name, and the position of elements.
+
 use guideway_layout::{Layout, Place};
 use guideway_spline::Bounds;
 
-use crate::{Document, Element};
+use crate::document::Document;
+use crate::element::Element;
 
-/// What a finding of [`guideway_layout::check`] is about: the path, node or station of the name that its place
-/// gives, or of the number where it has no name. None for a place in a file.
+/// The path, node or station that a finding of [`guideway_layout::check`] names by identifier or by
+/// number. `None` for a place in a file.
 pub fn locate(layout: &Layout, place: &Place) -> Option<Element> {
     let (kind, rest) = place.element.split_once(' ')?;
-    let (count, of): (usize, fn(u32) -> Element) = match kind {
+    let (count, element): (usize, fn(u32) -> Element) = match kind {
         "path" => (layout.paths.len(), Element::Path),
         "node" => (layout.nodes.len(), Element::Node),
         "station" => (layout.stations.len(), Element::Station),
@@ -17,22 +20,20 @@ pub fn locate(layout: &Layout, place: &Place) -> Option<Element> {
         number.parse::<usize>().ok()?.checked_sub(1)?
     } else {
         let id = rest.strip_prefix('"')?.strip_suffix('"')?;
-        (0..count).find(|&row| of(row as u32).id(layout) == id)?
+        (0..count).find(|&row| element(row as u32).id(layout) == id)?
     };
-    (row < count).then(|| of(row as u32))
+    (row < count).then(|| element(row as u32))
 }
 
 impl Document {
-    /// Where something is; none if it is nowhere.
-    pub fn bounds_of(&self, what: Element) -> Option<Bounds<f64>> {
-        let spot = match what {
+    /// Bounding box of an element, in meters; `None` for a path without a curve and for a station
+    /// without a position.
+    pub fn bounds_of(&self, element: Element) -> Option<Bounds<f64>> {
+        let at = match element {
             Element::Path(path) => return self.index.path_bounds(path),
             Element::Node(node) => self.node_position_m(node),
             Element::Station(station) => self.station_position_m(station)?,
         };
-        Some(Bounds {
-            min: spot,
-            max: spot,
-        })
+        Some(Bounds { min: at, max: at })
     }
 }

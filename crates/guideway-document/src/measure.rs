@@ -1,9 +1,9 @@
-//! Lengths and bends of paths.
+//! Lengths and curvatures of paths.
 
 use guideway_layout::{PathRef, RunPoints};
 use guideway_spline::{run_length, segment_length, uniform};
 
-/// Lengths are right to a tenth of a millimeter a run.
+/// Largest error of the length of a run, in meters: a tenth of a millimeter.
 const LENGTH_TOLERANCE_M: f64 = 1e-4;
 
 /// Length of a path along its curve, in meters.
@@ -15,20 +15,20 @@ pub fn length_m(path: PathRef<'_>) -> f64 {
     runs.sum()
 }
 
-/// How much a path is bent somewhere.
+/// Curvature of a path at a place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bend {
-    /// How far along the path, in meters.
+    /// Distance along the path, in meters.
     pub along_m: f64,
-    /// Signed curvature in one over meters: positive where the path turns left. The radius is its inverse.
+    /// Signed curvature in 1/m, positive for a left turn. Its inverse is the radius.
     pub curvature: f64,
 }
 
 /// Most samples of [`bends`].
 pub const MAX_BENDS: usize = 4096;
 
-/// The bend of a path at places from its start to its end: some a segment, the more the fewer there are,
-/// and at most [`MAX_BENDS`]. Places where the curve stands still are left out.
+/// Curvatures of a path from start to end: up to 32 samples per segment, and at most [`MAX_BENDS`]
+/// in all. Skips points where the curvature is undefined.
 pub fn bends(path: PathRef<'_>) -> Vec<Bend> {
     let segments = || path.runs().flat_map(|run| run.segments());
     let count = segments().count().max(1);
@@ -51,7 +51,7 @@ pub fn bends(path: PathRef<'_>) -> Vec<Bend> {
     bends
 }
 
-/// The tightest radius of a path in meters, by its [`bends`]; infinite where it is straight.
+/// Smallest radius among the [`bends`] of a path, in meters; infinite for a straight path.
 pub fn tightest_radius_m(bends: &[Bend]) -> f64 {
     let most = bends
         .iter()

@@ -1,47 +1,49 @@
+//! Node positions that edits changed, and the station positions that follow from them.
+
 use std::collections::BTreeMap;
 
 use guideway_layout::{Layout, Nodes, Stations};
 use guideway_spline::Point;
 
-/// Nodes that are not where their layout has them, and the stations that they take along.
+/// New positions of moved nodes, by row. All other nodes are where the layout has them.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct MovedNodes(BTreeMap<u32, Point<f64>>);
 
 impl MovedNodes {
-    /// Whether all are where their layout has them, for all that is known.
+    /// True if no node was ever moved.
     pub(crate) fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
-    /// Takes note of where some nodes are now.
+    /// Records new positions, in meters.
     pub(crate) fn extend(&mut self, to: &[(u32, Point<f64>)]) {
         self.0.extend(to.iter().copied());
     }
 
-    /// Where a node is now.
+    /// Present position of a node, in meters.
     pub(crate) fn node_position_m(&self, layout: &Layout, node: u32) -> Point<f64> {
         let moved = self.0.get(&node).copied();
         moved.unwrap_or_else(|| layout.nodes.position_m(node))
     }
 
-    /// Where a station is now, if the layout says where it was: it goes along if all nodes that serve it do, as far as they
-    /// go on the mean.
+    /// Present position of a station that the layout places. If all of its nodes moved, it moves by
+    /// the mean of their moves.
     fn placed_station_m(&self, layout: &Layout, station: u32) -> Option<Point<f64>> {
         let placed = layout.stations.position_m(station)?;
         let nodes = layout.stations.nodes(station);
         let by_m = |node| self.node_position_m(layout, node) - layout.nodes.position_m(node);
         let moves = nodes.iter().map(|&node| by_m(node));
-        // What was moved there and back has not moved.
-        let takes_it = !nodes.is_empty() && moves.clone().all(|by| by != Point::new(0.0, 0.0));
+        // A node moved there and back has not moved.
+        let moves_along = !nodes.is_empty() && moves.clone().all(|by| by != Point::new(0.0, 0.0));
         let sum = moves.fold(Point::new(0.0, 0.0), |sum, by| sum + by);
-        Some(if takes_it {
+        Some(if moves_along {
             placed + sum * (1.0 / nodes.len() as f64)
         } else {
             placed
         })
     }
 
-    /// Where a station is now: where it was placed, or at the first node that serves it.
+    /// Present position of a station: its own, or that of its first node.
     pub(crate) fn station_position_m(&self, layout: &Layout, station: u32) -> Option<Point<f64>> {
         let placed = self.placed_station_m(layout, station);
         let at_node = || {
@@ -51,7 +53,7 @@ impl MovedNodes {
         placed.or_else(at_node)
     }
 
-    /// All nodes where they are now.
+    /// All nodes at their present positions.
     pub(crate) fn nodes(&self, layout: &Layout) -> Nodes {
         let old = &layout.nodes;
         if self.0.is_empty() {
@@ -66,7 +68,7 @@ impl MovedNodes {
         nodes
     }
 
-    /// All stations where they are now.
+    /// All stations at their present positions.
     pub(crate) fn stations(&self, layout: &Layout) -> Stations {
         let old = &layout.stations;
         if self.0.is_empty() {

@@ -1,36 +1,39 @@
+//! Hit test: finds the path under the pointer and the nearest point on a path.
+
 use guideway_layout::{Layout, RunPoints};
 use guideway_scene::{LineRule, PathState, Scene};
 use guideway_spline::{Bounds, Nearest, Point, nearest_on_run};
 
-use crate::Index;
+use crate::index::Index;
 
-/// A place on a path.
+/// A point on a path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
     /// Row of the path.
     pub path: u32,
-    /// Which of its runs.
+    /// Index of the run in the path.
     pub run: usize,
-    /// Which segment of the run.
+    /// Index of the segment in the run.
     pub segment: usize,
     /// Parameter in the segment, 0 to 1.
     pub t: f64,
-    /// The place itself, in meters.
+    /// The point on the curve, in meters.
     pub point_m: Point<f64>,
-    /// How far it is from where it was looked for, in meters.
+    /// Distance from the query point, in meters.
     pub distance_m: f64,
 }
 
-/// The path that a person means who points at `point_m` in a picture of `px_per_m`: the one drawn last of
-/// those whose line covers the point; where none does, the nearest within `reach_px`. None if more than `most` paths may
-/// be near: looking at them all takes too long to do with every movement of a hand.
+/// The path under a pointer at `point_m`, in a picture of `px_per_m` pixels per meter: the topmost
+/// of the paths whose stroke covers the point, else the nearest within `reach_px` pixels. `None`
+/// without either, or if more than `max_candidates` paths may be near, which would take too long to
+/// test on every pointer movement.
 pub fn pick(
     (scene, index): (&Scene, &Index),
     line_rule: LineRule,
     px_per_m: f64,
     point_m: Point<f64>,
     reach_px: f64,
-    most: usize,
+    max_candidates: usize,
 ) -> Option<Hit> {
     let reach_m = reach_px / px_per_m;
     let radius_m = |path| line_rule.radius_px(scene.width_m(path), px_per_m) / px_per_m;
@@ -44,7 +47,7 @@ pub fn pick(
     };
     let mut best: Option<(Hit, bool)> = None;
     let spot = spot.inflated(reach_m);
-    if most < usize::MAX && index.paths_in(spot).nth(most).is_some() {
+    if max_candidates < usize::MAX && index.paths_in(spot).nth(max_candidates).is_some() {
         return None;
     }
     for path in index.paths_in(spot) {
@@ -68,7 +71,8 @@ pub fn pick(
     best.map(|(hit, _)| hit)
 }
 
-/// The place of a path nearest to a point, within `tolerance_m` of the best.
+/// The point on a path nearest to `point_m`. Its distance exceeds the minimum by at most
+/// `tolerance_m` meters. `None` for a path without a curve.
 pub fn nearest(layout: &Layout, path: u32, point_m: Point<f64>, tolerance_m: f64) -> Option<Hit> {
     let on_run = |run: RunPoints<'_>| -> Option<Nearest> {
         match run {

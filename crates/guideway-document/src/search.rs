@@ -1,55 +1,35 @@
+//! Search: finds paths, nodes and stations by a part of their identifier.
+
 use guideway_layout::Layout;
 
-/// What has a name that was looked for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Element {
-    /// A path, by its row.
-    Path(u32),
-    /// A node, by its row.
-    Node(u32),
-    /// A station, by its row.
-    Station(u32),
-}
+use crate::element::Element;
 
-/// Number of rows, and what a row is.
+/// Number of rows of a table, and the constructor of its elements.
 type Table = (usize, fn(u32) -> Element);
 
-/// Paths, nodes and stations whose identifier contains `text`, whatever the case: those that are called
-/// exactly so first; at most `most` of each table, and as many again that are called exactly so.
-pub fn search(layout: &Layout, text: &str, most: usize) -> Vec<Element> {
+/// Nodes, stations and paths whose identifier contains `text`, ignoring case. Exact matches come
+/// first. Returns at most `limit` exact and `limit` other matches per table.
+pub fn search(layout: &Layout, text: &str, limit: usize) -> Vec<Element> {
     if text.is_empty() {
         return Vec::new();
     }
-    let wanted = text.to_lowercase();
+    let lowercase = text.to_lowercase();
     let tables: [Table; 3] = [
         (layout.nodes.len(), Element::Node),
         (layout.stations.len(), Element::Station),
         (layout.paths.len(), Element::Path),
     ];
-    let rows = tables.map(|(count, of)| (0..count as u32).map(of));
-    let is_exact = |what: &Element| what.id(layout) == text;
-    let is_like = |what: &Element| what.id(layout).to_lowercase().contains(&wanted);
-    let exact = rows
+    let tables = tables.map(|(count, element)| (0..count as u32).map(element));
+    let is_exact = |element: &Element| element.id(layout) == text;
+    let contains = |element: &Element| element.id(layout).to_lowercase().contains(&lowercase);
+    let exact = tables
         .clone()
         .into_iter()
-        .flat_map(|all| all.filter(is_exact).take(most));
+        .flat_map(|table| table.filter(is_exact).take(limit));
     let mut found: Vec<Element> = exact.collect();
-    for all in rows {
-        found.extend(
-            all.filter(|what| is_like(what) && !is_exact(what))
-                .take(most),
-        );
+    for table in tables {
+        let others = table.filter(|element| contains(element) && !is_exact(element));
+        found.extend(others.take(limit));
     }
     found
-}
-
-impl Element {
-    /// Its identifier.
-    pub fn id(self, layout: &Layout) -> &str {
-        match self {
-            Self::Path(row) => layout.paths.id(row as usize),
-            Self::Node(row) => layout.nodes.id(row),
-            Self::Station(row) => layout.stations.id(row),
-        }
-    }
 }

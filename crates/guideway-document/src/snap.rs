@@ -1,24 +1,26 @@
+//! Snapping: moves a pointer position onto a node, a direction or a grid.
+
 use std::f64::consts::TAU;
 
 use guideway_spline::{Bounds, Point};
 
-use crate::Document;
+use crate::document::Document;
 
-/// What a place is drawn to.
+/// Snap targets; nodes come first, then directions, then the grid.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SnapOptions {
-    /// Nodes this near, in meters; they come first.
+    /// Snaps to nodes within this distance, in meters.
     pub node_reach_m: Option<f64>,
-    /// A node that does not count, for it is what moves.
+    /// The node that is being moved, which is no target.
     pub moving_node: Option<u32>,
-    /// Crossings of a grid of this step, in meters.
+    /// Snaps to the crossings of a grid with this spacing, in meters.
     pub grid_m: Option<f64>,
-    /// Directions from the point before: so many a turn, at the distance pointed at.
+    /// Snaps to this number of directions per turn, seen from the previous point.
     pub directions: Option<u32>,
 }
 
 impl Document {
-    /// Where a person means who points at `at_m`, coming from `from_m`.
+    /// Snaps the position `at_m`; `from_m` is the previous point, if there is one. In meters.
     pub fn snap(
         &self,
         snap: &SnapOptions,
@@ -27,7 +29,7 @@ impl Document {
     ) -> Point<f64> {
         let node = snap
             .node_reach_m
-            .and_then(|reach_m| self.node_near_but(at_m, reach_m, snap.moving_node));
+            .and_then(|reach_m| self.nearest_node_except(at_m, reach_m, snap.moving_node));
         if let Some(node) = node {
             return self.node_position_m(node);
         }
@@ -41,29 +43,35 @@ impl Document {
         }
     }
 
-    /// The node nearest to a place, if one is within reach.
+    /// The nearest node within `reach_m` meters of a position.
     pub fn node_near(&self, at_m: Point<f64>, reach_m: f64) -> Option<u32> {
-        self.node_near_but(at_m, reach_m, None)
+        self.nearest_node_except(at_m, reach_m, None)
     }
 
-    fn node_near_but(&self, at_m: Point<f64>, reach_m: f64, but: Option<u32>) -> Option<u32> {
+    fn nearest_node_except(
+        &self,
+        at_m: Point<f64>,
+        reach_m: f64,
+        except: Option<u32>,
+    ) -> Option<u32> {
         let spot = Bounds {
             min: at_m,
             max: at_m,
         };
         let distance = |node: u32| self.node_position_m(node).distance(at_m);
         let near = self.index.nodes_in(spot.inflated(reach_m));
-        let near = near.filter(|&node| Some(node) != but);
+        let near = near.filter(|&node| Some(node) != except);
         let near = near.map(|node| (distance(node), node));
         let nearest = near.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))?;
         (nearest.0 <= reach_m).then_some(nearest.1)
     }
 }
 
+/// Projects `to` onto the nearest of `count` evenly spaced directions from `from`.
 fn in_direction(from: Point<f64>, to: Point<f64>, count: u32) -> Point<f64> {
-    let way = to - from;
+    let offset = to - from;
     let step = TAU / f64::from(count.max(1));
-    let angle = (way.y.atan2(way.x) / step).round() * step;
+    let angle = (offset.y.atan2(offset.x) / step).round() * step;
     let unit = Point::new(angle.cos(), angle.sin());
-    from + unit * way.dot(unit)
+    from + unit * offset.dot(unit)
 }

@@ -21,7 +21,7 @@ pub struct Legend {
     pub column: String,
     /// Classes, or samples of a scale, in reading order.
     pub entries: Vec<LegendEntry>,
-    /// Whether colors between those of the entries occur too.
+    /// True if colors between those of the entries occur too.
     pub is_continuous: bool,
 }
 

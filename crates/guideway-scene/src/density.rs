@@ -197,7 +197,8 @@ impl Histogram {
         }
     }
 
-    /// Position of a count in bins above one: a piecewise linear logarithm, read off the float bits.
+    /// Position of a count in bins above one: a piecewise linear logarithm, read off the float
+    /// bits.
     fn position(count: f32) -> f64 {
         f64::from(Self::beyond_one(count)) / f64::from(Self::BIN)
     }

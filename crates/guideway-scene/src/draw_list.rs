@@ -3,8 +3,9 @@
 //! The window, the PNG writer and the SVG writer all consume it.
 
 use guideway_spline::Point;
+use unicode_width::UnicodeWidthStr;
 
-use crate::Rgba;
+use crate::color::Rgba;
 
 /// Filled polygons and lines of text in the pixels of a picture.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -15,7 +16,8 @@ pub struct DrawList {
     pub texts: Vec<TextLine>,
 }
 
-/// Convex polygons that share one color. The color is composited once where several of them overlap.
+/// Convex polygons that share one color. The color is composited once where several of them
+/// overlap.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fill {
     /// Color of all polygons.
@@ -42,10 +44,20 @@ pub struct TextLine {
 impl TextLine {
     /// Width of a character of common monospaced fonts, per unit of its height.
     pub const CHAR_ASPECT: f64 = 0.6;
+
+    /// Width of the line, in pixels.
+    pub fn width_px(&self) -> f64 {
+        Self::columns(&self.text) as f64 * self.char_width_px
+    }
+
+    /// Columns of a text, as in a terminal: two for an ideograph, none for a combining accent.
+    pub fn columns(text: &str) -> usize {
+        text.width()
+    }
 }
 
 impl DrawList {
-    /// Whether it draws nothing.
+    /// True if it draws nothing.
     pub fn is_empty(&self) -> bool {
         self.fills.is_empty() && self.texts.is_empty()
     }

@@ -1,4 +1,5 @@
-//! Size limits of pictures. Public through [`FrameSize`](crate::FrameSize) and [`Frame`](crate::Frame).
+//! Size limits of pictures. Public through [`FrameSize`](crate::FrameSize) and
+//! [`Frame`](crate::Frame).
 
 /// Longest side of a picture, in pixels: a row and a column fit 16 bits each.
 pub(crate) const MAX_SIDE_PX: u32 = 65_535;

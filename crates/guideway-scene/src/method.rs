@@ -1,14 +1,19 @@
+//! The contract of render methods: prepare a scene once, then render, edit and measure it.
+//!
+//! [`Method::prepare`] turns a [`Scene`] into a [`Prepared`], which renders any [`View`] into a
+//! [`Frame`] and returns a [`Report`].
+
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::{Edit, Frame, Preparation, RenderError, Report, Scene, Strip, Style, View, Work};
 
-/// One way of turning a scene into pixels. Immutable once made: share it between threads.
+/// A renderer. Immutable, so threads can share it.
 pub trait Method: Send + Sync {
-    /// What it is called and where it runs.
+    /// Name, summary and device.
     fn info(&self) -> MethodInfo;
 
-    /// Makes a scene ready to be drawn from any view.
+    /// Prepares a scene for rendering any view of it.
     ///
     /// # Errors
     /// When the scene does not fit the budget.
@@ -16,13 +21,13 @@ pub trait Method: Send + Sync {
     -> Result<Box<dyn Prepared>, RenderError>;
 }
 
-/// A scene made ready by a [`Method`].
+/// A scene prepared by a [`Method`].
 pub trait Prepared: Send {
-    /// Draws a view into `frame`, which takes the view's size.
+    /// Renders a view into `frame`, which is resized to the view.
     ///
     /// # Errors
-    /// When the view is not usable, the budget does not do, or `cancel` was set. The frame's pixels are
-    /// then undefined.
+    /// When the method does not support the style or the view, exceeds its budget, or `cancel` is
+    /// set. The pixels of the frame are then undefined.
     fn render(
         &mut self,
         view: &View,
@@ -31,17 +36,18 @@ pub trait Prepared: Send {
         frame: &mut Frame,
     ) -> Result<Report, RenderError>;
 
-    /// Most pixels of a strip that [`Self::render_strip`] draws. A method that takes all of a frame draws pictures
-    /// only whole.
+    /// Most pixels of a strip that [`Self::render_strip`] renders. The default is for methods that
+    /// render only whole pictures.
     fn strip_pixels(&self) -> usize {
         Frame::MAX_PIXELS
     }
 
-    /// Draws some rows of a view, the same pixels as [`Self::render`] draws there, into `frame`, which takes the
-    /// strip's size. Each path is counted with one strip: [`Report::join`] gives that of the whole picture.
+    /// Renders some rows of a view into `frame`, which is resized to the strip. The pixels are
+    /// those of [`Self::render`]. Each path counts in one strip; [`Report::join`] adds the reports
+    /// up.
     ///
     /// # Errors
-    /// As [`Self::render`]; [`RenderError::Strips`] if the method draws pictures only whole.
+    /// As [`Self::render`]; [`RenderError::Strips`] if the method renders only whole pictures.
     fn render_strip(
         &mut self,
         strip: &Strip,
@@ -58,20 +64,23 @@ pub trait Prepared: Send {
         self.render(strip.view(), style, cancel, frame)
     }
 
-    /// Changes the scene; the next frame shows it, at a cost that goes with what the edit touches.
+    /// Applies an edit to the prepared scene, at a cost proportional to what the edit touches. The
+    /// next frame shows it.
     ///
     /// # Errors
-    /// [`RenderError::Edit`] when the edit cannot be done; the scene is then as it was. [`RenderError::Budget`]
-    /// or [`RenderError::Device`] when there is no room for it: what was made ready is then of no more use.
+    /// [`RenderError::Edit`] when the scene rejects the edit and is unchanged.
+    /// [`RenderError::Budget`] or [`RenderError::Device`] when memory does not suffice; prepare the
+    /// scene again then.
     fn edit(&mut self, _edit: &Edit) -> Result<EditOutcome, RenderError> {
         Ok(EditOutcome::NotInPlace)
     }
 
-    /// What making the scene ready took.
+    /// Cost of the preparation.
     fn preparation(&self) -> &Preparation;
 
-    /// Counts the work of one frame of this view, apart from [`Prepared::render`] so that counting slows no
-    /// frame. What a method does not count is none.
+    /// Counts the work of a frame of this view. Separate from [`Prepared::render`], so that
+    /// counting does not slow down frames. `None` for a kind of work that the method does not
+    /// count.
     ///
     /// # Errors
     /// As [`Prepared::render`].
@@ -85,35 +94,35 @@ pub trait Prepared: Send {
     }
 }
 
-/// What became of an edit.
+/// Outcome of an edit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EditOutcome {
-    /// The next frame shows it.
+    /// The method applied the edit; the next frame shows it.
     InPlace {
-        /// Bytes brought to the device for it; none if the method works on the scene itself.
+        /// Bytes uploaded to the device; 0 if the method works in main memory.
         moved_bytes: u64,
     },
-    /// Nothing: this method takes a changed scene only by [`Method::prepare`].
+    /// The method cannot edit in place; prepare the changed scene with [`Method::prepare`].
     NotInPlace,
 }
 
-/// What a method is called and where it runs.
+/// Name, summary and device of a method.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MethodInfo {
     /// Stable name, as in `--method`.
     pub name: &'static str,
-    /// One line on what it does.
+    /// One line that describes the method.
     pub summary: &'static str,
-    /// The device that it runs on.
+    /// Device that the method runs on.
     pub device: String,
 }
 
-/// What a method may use.
+/// Memory and threads that a method may use.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Budget {
-    /// Most bytes of memory for what a method makes from the scene, frames included.
+    /// Memory limit for prepared data and frames, in bytes.
     pub memory_bytes: u64,
-    /// Threads to use; 0 means one a core.
+    /// Number of threads; 0 means one per core.
     pub threads: usize,
 }
 
@@ -126,17 +135,17 @@ impl Default for Budget {
     }
 }
 
-/// A flag that stops long work at its next step. Clones share it.
+/// A cancellation flag that stops long work at its next check. Clones share it.
 #[derive(Clone, Debug, Default)]
 pub struct Cancel(Arc<AtomicBool>);
 
 impl Cancel {
-    /// Asks the work to stop.
+    /// Requests cancellation.
     pub fn set(&self) {
         self.0.store(true, Ordering::Relaxed);
     }
 
-    /// Fails once the work was asked to stop.
+    /// Fails once cancellation is requested.
     ///
     /// # Errors
     /// [`RenderError::Cancelled`].

@@ -40,7 +40,7 @@ impl Strip {
         self.size
     }
 
-    /// Whether it covers the whole view.
+    /// True if it covers the whole view.
     pub fn is_whole(&self) -> bool {
         self.size == self.view.size()
     }

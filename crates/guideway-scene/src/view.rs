@@ -37,8 +37,8 @@ impl View {
         })
     }
 
-    /// The view that shows all of `bounds` with a margin of 1/20 on each side. An empty box is shown
-    /// at 100 pixels per meter; `None` shows the origin.
+    /// The view that shows all of `bounds` with a margin of 1/20 on each side. An empty box is
+    /// shown at 100 pixels per meter; `None` shows the origin.
     ///
     /// # Errors
     /// As [`View::new`].

@@ -12,8 +12,8 @@ pub enum LineRule {
         /// Largest width in pixels.
         max_px: f64,
     },
-    /// The thesis' rule: a radius of 1.5 pixels, clamped to 2 to 150 mm, for every path. Zoomed out,
-    /// a line thins below a pixel and fades instead of turning the picture black.
+    /// The thesis' rule: a radius of 1.5 pixels, clamped to 2 to 150 mm, for every path. Zoomed
+    /// out, a line thins below a pixel and fades instead of turning the picture black.
     Thesis,
 }
 

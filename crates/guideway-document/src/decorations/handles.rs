@@ -1,35 +1,41 @@
+//! Handles: the control points of selected paths, to drag in the window.
+
 use guideway_scene::View;
 use guideway_spline::Point;
 
-use super::MAX_MARKED;
-use super::outline::near;
-use crate::{Document, PointRef};
+use super::marks::MAX_MARKED;
+use super::outline::paths_near;
+use crate::document::Document;
+use crate::edit::PointRef;
 
-/// A control point that can be taken hold of.
+/// A control point that can be dragged.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Handle {
-    /// Which one.
+    /// The control point.
     pub point: PointRef,
-    /// Where it is, in pixels.
+    /// Its position, in pixels.
     pub at_px: Point<f64>,
-    /// Whether the one before is of the same run, so that a line leads here from it.
+    /// True if the previous handle is of the same run, so that a line connects the two.
     pub follows: bool,
 }
 
-/// The control points of the selected paths near a view, run by run; none if there are more than
+/// The control points of the selected paths in a view, run by run; empty if there are more than
 /// [`MAX_MARKED`].
 pub fn handles(document: &Document, view: &View) -> Vec<Handle> {
-    let seen = view.world_bounds();
+    let visible = view.world_bounds();
     let mut handles = Vec::new();
-    // A path has a control point at least, so very many need not be tried.
-    let mut near = near(document, document.selection(), seen, MAX_MARKED + 1);
+    // Every path has at least one control point: more paths than handles need no further test.
+    let mut near = paths_near(document, document.selection(), visible, MAX_MARKED + 1);
     if near.len() > MAX_MARKED {
         return Vec::new();
     }
     near.sort_unstable();
     for row in near {
         let path = document.layout().paths.get(row as usize);
-        if !path.hull_bounds().is_some_and(|hull| hull.intersects(seen)) {
+        if !path
+            .hull_bounds()
+            .is_some_and(|hull| hull.intersects(visible))
+        {
             continue;
         }
         for (run, points) in path.runs().enumerate() {

@@ -1,12 +1,16 @@
-use guideway_scene::FrameSize;
+//! Labels: names beside their positions, placed without overlaps.
+
+use guideway_scene::{FrameSize, TextLine};
 use guideway_spline::{Bounds, Point};
 
-/// Most names in one view.
-const MOST: usize = 300;
-/// Longest name that is written whole, in characters.
-const LONGEST: usize = 32;
+use crate::text_format::single_line;
 
-/// How much room a name takes.
+/// Most labels in a view.
+const MAX_LABELS: usize = 300;
+/// Longest label, in characters.
+const MAX_CHARS: usize = 32;
+
+/// Size of label text.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LabelSize {
     /// Width of a character, in pixels.
@@ -15,17 +19,17 @@ pub struct LabelSize {
     pub line_px: f64,
 }
 
-/// A name in the view.
+/// A placed label.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Label {
-    /// What it says.
+    /// The text.
     pub text: String,
-    /// The middle of its left edge, in pixels.
+    /// Middle of the left edge, in pixels.
     pub at_px: Point<f64>,
 }
 
-/// Puts names beside their places, earlier ones first; one that would lie over another, over a symbol, or out of
-/// the picture, is left out.
+/// Places names beside their positions, first come, first served. Omits a name that would overlap
+/// another label or a symbol, or leave the picture.
 pub(super) fn place<'a>(
     names: impl Iterator<Item = (&'a str, Point<f64>)>,
     symbols: impl Iterator<Item = Point<f64>>,
@@ -39,27 +43,27 @@ pub(super) fn place<'a>(
     let mut labels = Vec::new();
     let symbol = |at: Point<f64>| Bounds { min: at, max: at }.inflated(size.line_px / 2.1);
     let mut taken: Vec<Bounds<f64>> = symbols.map(symbol).collect();
-    for (name, place_px) in names {
-        if labels.len() == MOST {
+    for (name, position_px) in names {
+        if labels.len() == MAX_LABELS {
             break;
         }
         if name.is_empty() {
             continue;
         }
-        let text = shortened(name);
-        let width_px = text.chars().count() as f64 * size.char_px;
-        let at_px = place_px + Point::new(size.line_px / 2.0, 0.0);
-        let room = Bounds {
+        let text = single_line(name, MAX_CHARS);
+        let width_px = TextLine::columns(&text) as f64 * size.char_px;
+        let at_px = position_px + Point::new(size.line_px / 2.0, 0.0);
+        let bounds = Bounds {
             min: at_px - Point::new(0.0, size.line_px / 2.0),
             max: at_px + Point::new(width_px, size.line_px / 2.0),
         };
-        let is_inside = picture.contains(room.min) && picture.contains(room.max);
-        if is_inside && !taken.iter().any(|other| other.intersects(room)) {
-            // Two names without a space between them would be read as one.
+        let is_inside = picture.contains(bounds.min) && picture.contains(bounds.max);
+        if is_inside && !taken.iter().any(|other| other.intersects(bounds)) {
+            // Keeps a space between neighbors, which would read as one name.
             let space = Point::new(size.char_px, 0.0);
             taken.push(Bounds {
-                min: room.min - space,
-                max: room.max + space,
+                min: bounds.min - space,
+                max: bounds.max + space,
             });
             labels.push(Label { text, at_px });
         }
@@ -67,19 +71,12 @@ pub(super) fn place<'a>(
     labels
 }
 
-fn shortened(name: &str) -> String {
-    match name.char_indices().nth(LONGEST) {
-        Some((end, _)) => format!("{}…", &name[..end]),
-        None => name.to_owned(),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn names_on_a_line_have_room_for_a_space_between_them() {
+    fn keeps_a_space_between_labels_on_one_line() {
         let size = LabelSize {
             char_px: 7.0,
             line_px: 14.0,

@@ -1,37 +1,31 @@
+//! Edits of the selected paths, of nodes, and of new paths.
+
 use std::sync::Arc;
 
 use guideway_layout::{Direction, Layout, NewPath, PathRef};
 use guideway_scene::{Edit, EditError, Insertion, PathState};
 use guideway_spline::{Affine, Point, Runs};
 
-use super::Change;
-use super::shape::{geometry_of, refined, runs_of, through_ends, with_ends_moved, with_run};
+use super::curves::{curve_along, refined, runs_of, with_moved_ends};
+use super::perform::set_states;
+use super::points::reshape;
+use crate::PathSet;
+use crate::change::Change;
+use crate::document::Document;
 use crate::index::nodes_of;
-use crate::{Document, PathSet};
-
-/// A control point of a path.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct PointRef {
-    /// Row of the path.
-    pub path: u32,
-    /// Which of its runs.
-    pub run: usize,
-    /// Which point of the run.
-    pub point: usize,
-}
 
 impl Document {
-    /// Moves, turns, mirrors or scales the selected paths. A node goes with them if all of its paths do;
-    /// otherwise it stays, and the paths leave it.
+    /// Translates, rotates, mirrors or scales the selected paths. A node moves along if all of its
+    /// paths are selected.
     ///
     /// # Errors
-    /// When a path would leave what a layout may reach; so for all of these. Nothing is changed then.
+    /// When a path would exceed the coordinate limit; the document is unchanged.
     pub fn transform_selection(&mut self, name: &'static str, by: Affine) -> Result<(), EditError> {
         if self.selection.is_empty() {
             return Ok(());
         }
         let paths: Arc<[u32]> = self.selection.iter().collect();
-        let nodes = self.nodes_of_selection_alone();
+        let nodes = self.nodes_of_only_selected_paths();
         let to = |node| (node, by.apply(self.node_position_m(node)));
         let nodes: Arc<[_]> = nodes.iter().map(to).collect();
         let mut changes = vec![Change::Scene(Edit::Transform { paths, by })];
@@ -41,10 +35,10 @@ impl Document {
         self.perform(name, changes)
     }
 
-    /// Moves a node; the ends of its paths follow.
+    /// Moves a node and the ends of its paths.
     ///
     /// # Errors
-    /// As [`Self::transform_selection`], or when there is no such node.
+    /// As [`Self::transform_selection`], or when the node is unknown.
     pub fn move_node(&mut self, node: u32, to_m: Point<f64>) -> Result<(), EditError> {
         let rows = self.layout().nodes.len();
         if node as usize >= rows {
@@ -62,7 +56,7 @@ impl Document {
             let path = self.layout().paths.get(row as usize);
             let (start_by, end_by) = (shift(path.start_node()), shift(path.end_node()));
             paths.push(row);
-            curves.push(with_ends_moved(&runs_of(path), start_by, end_by));
+            curves.push(with_moved_ends(&runs_of(path), start_by, end_by));
         }
         let mut changes = vec![Change::MoveNodes([(node, to_m)].into())];
         if !paths.is_empty() {
@@ -71,52 +65,7 @@ impl Document {
         self.perform("move node", changes)
     }
 
-    /// Moves a control point.
-    ///
-    /// # Errors
-    /// As [`Self::transform_selection`].
-    pub fn move_point(&mut self, point: PointRef, to_m: Point<f64>) -> Result<(), EditError> {
-        self.reshape_run("move point", point, |points| {
-            points.get_mut(point.point).is_some_and(|p| {
-                *p = to_m;
-                true
-            })
-        })
-    }
-
-    /// Puts another control point behind one, halfway to the next. The curve changes a little near by.
-    ///
-    /// # Errors
-    /// As [`Self::transform_selection`].
-    pub fn insert_point(&mut self, point: PointRef) -> Result<(), EditError> {
-        self.reshape_run("insert point", point, |points| {
-            let Some([a, b]) = points
-                .get(point.point..)
-                .and_then(|rest| rest.first_chunk())
-            else {
-                return false;
-            };
-            let middle = a.lerp(*b, 0.5);
-            points.insert(point.point + 1, middle);
-            true
-        })
-    }
-
-    /// Takes a control point away, if more than four are there.
-    ///
-    /// # Errors
-    /// As [`Self::transform_selection`].
-    pub fn remove_point(&mut self, point: PointRef) -> Result<(), EditError> {
-        self.reshape_run("remove point", point, |points| {
-            let is_there = point.point < points.len();
-            if is_there {
-                points.remove(point.point);
-            }
-            is_there
-        })
-    }
-
-    /// Gives the selected paths nearly twice as many control points; their curves stay the same.
+    /// Nearly doubles the control points of the selected paths without changing their curves.
     ///
     /// # Errors
     /// As [`Self::transform_selection`].
@@ -140,12 +89,12 @@ impl Document {
         if self.selection.is_empty() {
             return Ok(());
         }
-        let change = Self::states_of(self.selection.iter(), PathState::Removed);
+        let change = set_states(self.selection.iter(), PathState::Removed);
         self.perform("delete", vec![change])
     }
 
-    /// Copies the selected paths `count` times, each `step_m` from the last one, and selects the copies. They
-    /// keep attributes and looks, and belong to no node.
+    /// Copies the selected paths `count` times, each copy `step_m` from the previous one, and
+    /// selects the copies. They keep attributes and style, but connect to no node.
     ///
     /// # Errors
     /// As [`Self::transform_selection`].
@@ -166,18 +115,18 @@ impl Document {
         Ok(())
     }
 
-    /// Adds a path that begins and ends at the first and the last point and bends toward those between, and
-    /// selects it. Ends within `node_reach_m` of a node belong to it.
+    /// Adds and selects a path from the first to the last point that bends toward those between. An
+    /// end within `node_reach_m` meters of a node connects to it.
     ///
     /// # Errors
-    /// As [`Self::transform_selection`]; and when the points are fewer than two different ones.
+    /// As [`Self::transform_selection`], or with fewer than two distinct points.
     pub fn draw_path(
         &mut self,
         id: String,
         points_m: &[Point<f64>],
         node_reach_m: f64,
     ) -> Result<(), EditError> {
-        let runs = through_ends(points_m).ok_or(EditError::OutOfBounds { path: None })?;
+        let runs = curve_along(points_m).ok_or(EditError::OutOfBounds { path: None })?;
         let node_at = |point: Option<&Point<f64>>| self.node_near(*point?, node_reach_m);
         let row = self.scene.row_count() as u32;
         let path = Insertion {
@@ -216,40 +165,20 @@ impl Document {
         }
     }
 
-    fn reshape_run(
-        &mut self,
-        name: &'static str,
-        point: PointRef,
-        change: impl FnOnce(&mut Vec<Point<f64>>) -> bool,
-    ) -> Result<(), EditError> {
-        let rows = self.scene.row_count();
-        if point.path as usize >= rows {
-            return Err(EditError::UnknownPath {
-                path: point.path,
-                rows,
-            });
-        }
-        let old = runs_of(self.layout().paths.get(point.path as usize));
-        match with_run(&old, point.run, change) {
-            Some(runs) => self.perform(name, vec![reshape(vec![point.path], &[runs])]),
-            None => Ok(()),
-        }
-    }
-
-    /// Nodes of which all paths are selected.
-    fn nodes_of_selection_alone(&self) -> PathSet {
+    /// Nodes whose paths are all selected.
+    fn nodes_of_only_selected_paths(&self) -> PathSet {
         let nodes: PathSet = self.selected_paths().flat_map(nodes_of).collect();
-        let is_alone = |&node: &u32| {
+        let are_all_selected = |&node: &u32| {
             let mut paths = self.existing_paths_at(node);
             paths.all(|path| self.selection.contains(path))
         };
-        nodes.iter().filter(is_alone).collect()
+        nodes.iter().filter(are_all_selected).collect()
     }
 
-    /// Paths that begin or end at a node, but the removed ones.
+    /// Paths that start or end at a node, without removed ones.
     fn existing_paths_at(&self, node: u32) -> impl Iterator<Item = u32> {
-        let is_there = |&path: &u32| self.scene.state(path) != PathState::Removed;
-        self.index.paths_at(node).filter(is_there)
+        let exists = |&path: &u32| self.scene.state(path) != PathState::Removed;
+        self.index.paths_at(node).filter(exists)
     }
 
     fn selected_paths(&self) -> impl Iterator<Item = PathRef<'_>> {
@@ -258,18 +187,12 @@ impl Document {
     }
 }
 
-fn reshape(paths: Vec<u32>, curves: &[Runs]) -> Change {
-    Change::Scene(Edit::Reshape {
-        paths: paths.into(),
-        curves: Arc::new(geometry_of(curves)),
-    })
-}
-
-/// A layout of nothing but the path that [`Document::draw_path`] makes of these points; none where it makes none.
+/// A layout with only the path that [`Document::draw_path`] would add for these points; `None` if
+/// it would reject them.
 pub fn drawn_path(points_m: &[Point<f64>]) -> Option<Layout> {
     let mut layout = Layout::default();
     layout.paths.push(&NewPath {
-        runs: &through_ends(points_m)?,
+        runs: &curve_along(points_m)?,
         ..NewPath::default()
     });
     Some(layout)

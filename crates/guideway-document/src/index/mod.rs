@@ -1,33 +1,36 @@
-//! Where things are, to find those near a place without looking at all.
+//! Spatial index: finds the paths and nodes near a place, and the paths at a node.
+//!
+//! | file | content |
+//! |---|---|
+//! | `boxes` | bounding boxes in Hilbert-sorted clusters |
+//! | `node_paths` | paths at each node |
 
 mod boxes;
-mod joints;
+mod node_paths;
 
 use guideway_layout::{Layout, PathRef};
 use guideway_spline::{Bounds, Point};
 use rayon::prelude::*;
 
 use boxes::Boxes;
-use joints::Joints;
+use node_paths::NodePaths;
+pub(crate) use node_paths::nodes_of;
 
-pub(crate) use joints::nodes_of;
+/// Boxes per parallel task. Fewer stay on this thread: the pool may be busy with a picture for as
+/// long as a frame takes.
+const CHUNK: usize = 4096;
 
-/// Boxes found by one thread. Few are not shared with others, which may be at work on a picture for as long as that takes.
-const AT_ONCE: usize = 4096;
-
-/// Where the paths and nodes of a layout are, and which paths are at which node.
-///
-/// PathSet are those of the layout it was made of. Paths are held by the box of their curve.
+/// Index of the paths and nodes of a layout, by their rows. A path's box is that of its curve.
 #[derive(Clone, Debug, Default)]
 pub struct Index {
     paths: Boxes,
     nodes: Boxes,
-    joints: Joints,
+    node_paths: NodePaths,
     path_count: u32,
 }
 
 impl Index {
-    /// The index of a whole layout.
+    /// Indexes a whole layout, on all threads.
     pub fn new(layout: &Layout) -> Self {
         let nodes = &layout.nodes;
         let node_rows = 0..nodes.len() as u32;
@@ -37,65 +40,68 @@ impl Index {
             paths: Boxes::new(paths.collect()),
             nodes: Boxes::new(
                 node_rows
-                    .map(|node| Some(spot(nodes.position_m(node))))
+                    .map(|node| Some(point_box(nodes.position_m(node))))
                     .collect(),
             ),
-            joints: Joints::new(layout),
+            node_paths: NodePaths::new(layout),
             path_count: layout.paths.len() as u32,
         }
     }
 
-    /// After the curves of paths have changed, or rows were added.
+    /// Updates the boxes of `changed` paths and adds the new rows of the layout.
     pub(crate) fn update(&mut self, changed: &[u32], layout: &Layout) {
         let path = |row: u32| layout.paths.get(row as usize);
         let new_rows = self.path_count..layout.paths.len() as u32;
         self.path_count = new_rows.end;
-        new_rows.clone().for_each(|row| self.joints.add(path(row)));
+        new_rows
+            .clone()
+            .for_each(|row| self.node_paths.add(path(row)));
         let rows: Vec<u32> = changed.iter().copied().chain(new_rows).collect();
         let boxes = |rows: &[u32]| -> Vec<_> {
             let boxes = rows.iter().map(|&row| (row, curve_bounds(path(row))));
             boxes.collect()
         };
-        if rows.len() <= AT_ONCE {
+        if rows.len() <= CHUNK {
             self.paths.set(boxes(&rows).into_iter());
         } else {
-            let chunks: Vec<_> = rows.par_chunks(AT_ONCE).map(boxes).collect();
+            let chunks: Vec<_> = rows.par_chunks(CHUNK).map(boxes).collect();
             self.paths.set(chunks.into_iter().flatten());
         }
     }
 
+    /// Updates the positions of nodes, in meters.
     pub(crate) fn move_nodes(&mut self, to: &[(u32, Point<f64>)]) {
         self.nodes
-            .set(to.iter().map(|&(node, at_m)| (node, Some(spot(at_m)))));
+            .set(to.iter().map(|&(node, at_m)| (node, Some(point_box(at_m)))));
     }
 
-    /// The box of a path's curve; none if it has no curve.
+    /// Bounding box of a path's curve, in meters; `None` without a curve.
     pub fn path_bounds(&self, path: u32) -> Option<Bounds<f64>> {
         self.paths.get(path)
     }
 
-    /// Paths whose box meets `bounds`, in no order.
+    /// Paths whose box intersects `bounds`, in no particular order.
     pub fn paths_in(&self, bounds: Bounds<f64>) -> impl Iterator<Item = u32> {
         self.boxes_in(bounds).map(|(path, _)| path)
     }
 
-    /// The same, with their boxes.
+    /// Paths whose box intersects `bounds`, with the box, in no particular order.
     pub fn boxes_in(&self, bounds: Bounds<f64>) -> impl Iterator<Item = (u32, Bounds<f64>)> {
-        self.paths.meeting(bounds)
+        self.paths.intersecting(bounds)
     }
 
-    /// Nodes inside `bounds`, in no order.
+    /// Nodes inside `bounds`, in no particular order.
     pub fn nodes_in(&self, bounds: Bounds<f64>) -> impl Iterator<Item = u32> {
-        self.nodes.meeting(bounds).map(|(node, _)| node)
+        self.nodes.intersecting(bounds).map(|(node, _)| node)
     }
 
-    /// Paths that begin or end at a node, removed ones among them.
+    /// Paths that start or end at a node, including removed paths.
     pub fn paths_at(&self, node: u32) -> impl Iterator<Item = u32> {
-        self.joints.paths_at(node)
+        self.node_paths.paths_at(node)
     }
 }
 
-/// The box of a path's curve; none if it has no curve.
+/// Bounding box of a path's curve, in meters; `None` without a curve.
 fn curve_bounds(path: PathRef<'_>) -> Option<Bounds<f64>> {
     path.runs()
         .flat_map(|run| run.segments())
@@ -103,7 +109,7 @@ fn curve_bounds(path: PathRef<'_>) -> Option<Bounds<f64>> {
         .reduce(Bounds::union)
 }
 
-fn spot(at_m: Point<f64>) -> Bounds<f64> {
+fn point_box(at_m: Point<f64>) -> Bounds<f64> {
     Bounds {
         min: at_m,
         max: at_m,

@@ -1,27 +1,31 @@
+//! Decodes journal entries from payload bytes, which may be damaged.
+
 use std::sync::Arc;
 
 use guideway_layout::{Direction, Geometry, OwnStyle};
 use guideway_scene::{Edit, Insertion, PathState};
 use guideway_spline::{Affine, Point, Runs};
 
-use super::{JournalEntry, tag};
-use crate::Change;
+use super::entry::JournalEntry;
+use super::tag;
+use crate::change::Change;
 
-/// The act of a record; none if it is not one.
-pub(super) fn act(bytes: &[u8]) -> Option<JournalEntry> {
-    let mut input = In(bytes);
-    let act = match input.byte()? {
-        tag::DO => JournalEntry::Do(input.list(In::change)?),
+/// The entry of a payload; `None` if the payload is invalid.
+pub(super) fn decode(bytes: &[u8]) -> Option<JournalEntry> {
+    let mut input = Decoder(bytes);
+    let entry = match input.byte()? {
+        tag::DO => JournalEntry::Do(input.list(Decoder::change)?),
         tag::UNDO => JournalEntry::Undo,
         tag::REDO => JournalEntry::Redo,
         _ => return None,
     };
-    input.0.is_empty().then_some(act)
+    input.0.is_empty().then_some(entry)
 }
 
-struct In<'a>(&'a [u8]);
+/// The bytes that are left to decode.
+struct Decoder<'a>(&'a [u8]);
 
-impl In<'_> {
+impl Decoder<'_> {
     fn take<const N: usize>(&mut self) -> Option<[u8; N]> {
         let (bytes, rest) = self.0.split_first_chunk()?;
         self.0 = rest;
@@ -50,13 +54,13 @@ impl In<'_> {
     }
 
     fn optional(&mut self) -> Option<Option<u32>> {
-        let is_there = self.byte()? != 0;
+        let is_present = self.byte()? != 0;
         let value = self.number()?;
-        Some(is_there.then_some(value))
+        Some(is_present.then_some(value))
     }
 
-    /// No list takes more memory than a few times the bytes that are there: it grows item by item, and each takes
-    /// some.
+    /// Decodes a list. It grows item by item, and each item consumes bytes: a damaged count cannot
+    /// exhaust memory.
     fn list<T>(&mut self, mut item: impl FnMut(&mut Self) -> Option<T>) -> Option<Vec<T>> {
         let count = self.number()?;
         let mut items = Vec::new();

@@ -1,13 +1,17 @@
+//! Encodes journal entries as payload bytes. `decode` is the inverse.
+
 use guideway_layout::{Direction, Geometry, OwnStyle, RunPoints};
 use guideway_scene::{Edit, Insertion, PathState};
 use guideway_spline::Point;
 
-use super::{JournalEntry, tag};
-use crate::Change;
+use super::entry::JournalEntry;
+use super::tag;
+use crate::change::Change;
 
-pub(super) fn act(act: &JournalEntry) -> Vec<u8> {
-    let mut out = Out::default();
-    match act {
+/// The payload of an entry.
+pub(super) fn encode(entry: &JournalEntry) -> Vec<u8> {
+    let mut out = Encoder::default();
+    match entry {
         JournalEntry::Do(changes) => {
             out.byte(tag::DO);
             out.list(changes, |out, change| out.change(change));
@@ -19,9 +23,10 @@ pub(super) fn act(act: &JournalEntry) -> Vec<u8> {
 }
 
 #[derive(Default)]
-struct Out(Vec<u8>);
+/// Little-endian output.
+struct Encoder(Vec<u8>);
 
-impl Out {
+impl Encoder {
     fn byte(&mut self, value: u8) {
         self.0.push(value);
     }

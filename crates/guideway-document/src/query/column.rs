@@ -1,8 +1,10 @@
+//! Columns of a query: built-in properties and attributes of paths.
+
 use guideway_layout::{Direction, Layout, Value};
 
 use crate::measure::length_m;
 
-/// What a comparison looks at.
+/// The left side of a comparison.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Column {
     Id,
@@ -10,11 +12,11 @@ pub(super) enum Column {
     Direction,
     VehicleType,
     Length,
-    /// One of the file, by name.
+    /// An attribute of the file, by name.
     Attribute(String),
 }
 
-/// Columns that every layout has. One of the file comes before one of these of the same name.
+/// Columns that every layout has. An attribute of the same name takes precedence.
 const BUILT_IN: [(&str, Column); 5] = [
     ("id", Column::Id),
     ("level", Column::Level),
@@ -24,6 +26,7 @@ const BUILT_IN: [(&str, Column); 5] = [
 ];
 
 impl Column {
+    /// The column of this name, if the layout has it.
     pub(super) fn named(name: &str, layout: &Layout) -> Option<Self> {
         if layout.paths.attributes.get(name).is_some() {
             return Some(Self::Attribute(name.to_owned()));
@@ -32,44 +35,44 @@ impl Column {
         built_in.map(|(_, column)| column)
     }
 
-    /// Names of all columns of a layout.
+    /// Names of all columns of a layout, for error texts.
     pub(super) fn names(layout: &Layout) -> Vec<String> {
         let built_in = BUILT_IN.iter().map(|(name, _)| (*name).to_owned());
         let own = layout.paths.attributes.iter().map(|a| a.name.clone());
         built_in.chain(own).collect()
     }
 
-    /// Shows the value of a path to `look`, if it has one.
+    /// Passes the value of a path to `read`; `None` if it has none.
     pub(super) fn with_value<R>(
         &self,
         layout: &Layout,
         path: u32,
-        look: impl FnOnce(Value<'_>) -> R,
+        read: impl FnOnce(Value<'_>) -> R,
     ) -> Option<R> {
         let row = path as usize;
-        let it = layout.paths.get(row);
+        let path = layout.paths.get(row);
         match self {
-            Self::Id => Some(look(Value::Text(it.id()))),
+            Self::Id => Some(read(Value::Text(path.id()))),
             Self::Level => {
-                let level = &layout.levels[it.level()? as usize];
-                Some(look(Value::Text(level.name.as_ref().unwrap_or(&level.id))))
+                let level = &layout.levels[path.level()? as usize];
+                Some(read(Value::Text(level.name.as_ref().unwrap_or(&level.id))))
             }
-            Self::Direction => Some(look(Value::Text(direction_name(it.direction())))),
+            Self::Direction => Some(read(Value::Text(direction_name(path.direction())))),
             Self::VehicleType => {
                 let types: Vec<_> = layout.paths.vehicle_types().of(row).collect();
-                (!types.is_empty()).then(|| look(Value::Text(&types.join(", "))))
+                (!types.is_empty()).then(|| read(Value::Text(&types.join(", "))))
             }
-            Self::Length => Some(look(Value::Float(length_m(it)))),
+            Self::Length => Some(read(Value::Float(length_m(path)))),
             Self::Attribute(name) => {
                 let value = layout.paths.attributes.get(name)?.values.get(row)?;
-                Some(look(value))
+                Some(read(value))
             }
         }
     }
 }
 
-/// A direction as a person reads it, here and in a legend.
-pub(crate) fn direction_name(direction: Direction) -> &'static str {
+/// A direction as text, the same as in legends.
+fn direction_name(direction: Direction) -> &'static str {
     match direction {
         Direction::Forward => "one way",
         Direction::Both => "both ways",

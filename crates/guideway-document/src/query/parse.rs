@@ -1,10 +1,13 @@
+//! Parses a query text: tokens, then a recursive descent into a condition tree.
+
 use guideway_layout::Layout;
 
 use super::column::Column;
-use super::{Comparison, Condition, Operator, QueryError};
+use super::condition::{Comparison, Condition, Operator};
+use super::error::QueryError;
 
-/// Parentheses and `not` nest no deeper than this: each level takes a call.
-const MOST_DEPTH: usize = 100;
+/// Deepest nesting of parentheses and `not`: each level recurses once, and the stack is finite.
+const MAX_DEPTH: usize = 100;
 
 #[derive(Clone, Debug, PartialEq)]
 enum Token {
@@ -17,6 +20,7 @@ enum Token {
     Close,
 }
 
+/// The condition tree of a query.
 pub(super) fn parse(text: &str, layout: &Layout) -> Result<Condition, QueryError> {
     let tokens = tokens(text)?;
     let mut parser = Parser {
@@ -27,10 +31,11 @@ pub(super) fn parse(text: &str, layout: &Layout) -> Result<Condition, QueryError
     let condition = parser.condition(0)?;
     match parser.tokens.first() {
         None => Ok(condition),
-        Some(_) => Err(parser.fail("join conditions by `and` or `or`")),
+        Some(_) => Err(parser.fail("join conditions with `and` or `or`")),
     }
 }
 
+/// Splits a text into tokens, each with its position in characters from 1.
 fn tokens(text: &str) -> Result<Vec<(usize, Token)>, QueryError> {
     let mut tokens = Vec::new();
     let mut rest = text.chars().enumerate().peekable();
@@ -81,8 +86,10 @@ fn tokens(text: &str) -> Result<Vec<(usize, Token)>, QueryError> {
     Ok(tokens)
 }
 
+/// The tokens that are left to parse.
 struct Parser<'a> {
     tokens: &'a [(usize, Token)],
+    /// Position after the last character.
     end: usize,
     layout: &'a Layout,
 }
@@ -105,8 +112,8 @@ impl Parser<'_> {
     }
 
     fn factor(&mut self, depth: usize) -> Result<Condition, QueryError> {
-        if depth > MOST_DEPTH {
-            return Err(self.fail(format!("conditions nest deeper than {MOST_DEPTH}")));
+        if depth > MAX_DEPTH {
+            return Err(self.fail(format!("conditions nest deeper than {MAX_DEPTH} levels")));
         }
         if self.take_keyword("not") {
             return Ok(Condition::Not(Box::new(self.factor(depth + 1)?)));
@@ -118,25 +125,25 @@ impl Parser<'_> {
             }
             return Ok(inner);
         }
-        self.comparison().map(Condition::Is)
+        self.comparison().map(Condition::Compare)
     }
 
     fn comparison(&mut self) -> Result<Comparison, QueryError> {
-        let expected_column = "a column is expected here, such as `id`";
+        let expected_column = "expected a column, such as `id`";
         let Some((_, Token::Word(name) | Token::Quoted(name))) = self.tokens.first() else {
             return Err(self.fail(expected_column));
         };
         let Some(column) = Column::named(name, self.layout) else {
             let known = Column::names(self.layout).join(", ");
-            return Err(self.fail(format!("there is no column `{name}`; there is: {known}")));
+            return Err(self.fail(format!("unknown column `{name}`; the layout has: {known}")));
         };
         self.advance();
         let Some((_, Token::Operator(operator))) = self.tokens.first() else {
-            return Err(self.fail("an operator is expected here: =, !=, <, <=, >, >= or ~"));
+            return Err(self.fail("expected an operator: =, !=, <, <=, >, >= or ~"));
         };
         self.advance();
         let Some((_, Token::Word(text) | Token::Quoted(text))) = self.tokens.first() else {
-            return Err(self.fail("a value is expected here, such as 1.5 or \"A 3\""));
+            return Err(self.fail("expected a value, such as 1.5 or \"A 3\""));
         };
         self.advance();
         Ok(Comparison {
@@ -148,23 +155,24 @@ impl Parser<'_> {
     }
 
     fn take(&mut self, wanted: &Token) -> bool {
-        let is_there = self
+        let is_next = self
             .tokens
             .first()
             .is_some_and(|(_, token)| token == wanted);
-        if is_there {
+        if is_next {
             self.advance();
         }
-        is_there
+        is_next
     }
 
     fn take_keyword(&mut self, keyword: &str) -> bool {
-        let is_it = |word: &str| word.eq_ignore_ascii_case(keyword);
-        let is_there = matches!(self.tokens.first(), Some((_, Token::Word(word))) if is_it(word));
-        if is_there {
+        let is_keyword = |word: &str| word.eq_ignore_ascii_case(keyword);
+        let is_next =
+            matches!(self.tokens.first(), Some((_, Token::Word(word))) if is_keyword(word));
+        if is_next {
             self.advance();
         }
-        is_there
+        is_next
     }
 
     fn advance(&mut self) {

@@ -1,3 +1,5 @@
+//! Index, hit test, search, findings and measurements.
+
 use guideway_document::measure::{bends, length_m, tightest_radius_m};
 use guideway_document::{Element, Index, locate, nearest, pick, search};
 use guideway_layout::{Layout, NewPath, Place};
@@ -14,7 +16,7 @@ const RULE: LineRule = LineRule::World {
 };
 
 #[test]
-fn the_index_finds_what_looking_at_all_finds() {
+fn index_finds_the_same_as_a_linear_scan() {
     let layout = lanes(200);
     let index = Index::new(&layout);
     proptest!(|(x in -5.0..15.0, y in -5.0..205.0, width in 0.0..20.0, height in 0.0..50.0)| {
@@ -32,7 +34,7 @@ fn the_index_finds_what_looking_at_all_finds() {
 }
 
 #[test]
-fn the_nearest_path_within_reach_is_picked() {
+fn picks_the_nearest_path_within_reach() {
     let scene = scene_of(lanes(5));
     let index = Index::new(scene.layout());
     let at = |x, y| pick((&scene, &index), RULE, 10.0, p(x, y), 4.0, usize::MAX);
@@ -48,7 +50,7 @@ fn the_nearest_path_within_reach_is_picked() {
 }
 
 #[test]
-fn of_paths_over_each_other_the_one_drawn_last_is_picked() {
+fn picks_the_topmost_of_overlapping_paths() {
     let mut layout = lanes(1);
     let mut runs = Runs::default();
     runs.push_line(p(0.0, 0.05), p(10.0, 0.05));
@@ -62,14 +64,14 @@ fn of_paths_over_each_other_the_one_drawn_last_is_picked() {
         layout.paths.set_rank(rank);
         let scene = scene_of(layout);
         let index = Index::new(scene.layout());
-        // Nearer to the lower one in one of the two cases.
+        // In one of the two cases the lower path is nearer.
         let hit = pick((&scene, &index), RULE, 100.0, p(5.0, 0.02), 6.0, usize::MAX).unwrap();
         assert_eq!(hit.path, top);
     }
 }
 
 #[test]
-fn findings_are_located_by_name_or_number() {
+fn locates_findings_by_identifier_or_number() {
     let layout = lanes(12);
     for (element, expected) in [
         ("path \"path-7\"", Some(Element::Path(7))),
@@ -89,21 +91,25 @@ fn findings_are_located_by_name_or_number() {
 }
 
 #[test]
-fn exact_names_come_first_and_few_of_each_kind() {
+fn search_lists_exact_matches_first_up_to_the_limit() {
     let layout = lanes(30);
     let found = search(&layout, "path-1", 5);
     assert_eq!(found[0], Element::Path(1));
-    assert_eq!(found.len(), 6, "five more beside the one that is called so");
-    assert!(found.iter().all(|what| what.id(&layout).contains("path-1")));
+    assert_eq!(found.len(), 6, "five matches and the exact one");
+    assert!(
+        found
+            .iter()
+            .all(|element| element.id(&layout).contains("path-1"))
+    );
     assert_eq!(search(&layout, "NODE-7", 5), [Element::Node(7)]);
     assert_eq!(search(&layout, "", 5), []);
 }
 
 #[test]
-fn an_arc_has_its_length_and_its_radius() {
+fn measures_length_and_radius_of_an_arc() {
     let mut layout = Layout::default();
     let mut runs = Runs::default();
-    // A quarter of a circle of 5 m, to 0.03 %.
+    // A quarter circle with a radius of 5 m, accurate to 0.03 %.
     let k = 5.0 * 0.552_284_75;
     runs.push_bezier(&[p(5.0, 0.0), p(5.0, k), p(k, 5.0), p(0.0, 5.0)]);
     layout.paths.push(&NewPath {

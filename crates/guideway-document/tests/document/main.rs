@@ -1,8 +1,10 @@
-//! A layout looked at and edited, without any window.
+//! Tests of the document without a window.
 
 mod find;
 mod findings;
+mod history;
 mod marks;
+mod nodes;
 mod operations;
 mod query;
 mod random;

@@ -1,3 +1,5 @@
+//! Marks and outlines.
+
 use guideway_document::decorations::{LabelSize, MAX_MARKED, MarkOptions, Outline, marks, outline};
 use guideway_document::{PathSet, ReversePairs, SelectMode};
 use guideway_layout::{Layout, NewPath};
@@ -41,7 +43,8 @@ fn arrows_lie_on_their_paths_and_point_along_them() {
     assert!(!marks.left_out);
 }
 
-/// Three lanes with a way back each: on the same line, by other control points, and beside it.
+/// Three lanes with a return path each: the reversed curve, other control points on the same line,
+/// and another line between the same ends.
 fn pairs() -> Layout {
     let mut layout = Layout::default();
     let mut push = |points: &[[Point<f64>; 4]]| {
@@ -59,12 +62,12 @@ fn pairs() -> Layout {
         back.reverse();
         push(&[there]);
         match row as i32 {
-            // The same line in two pieces, at another speed.
+            // The same line in two pieces, with another parameterization.
             4 => push(&[
                 [p(10.0, row), p(9.0, row), p(8.0, row), p(6.0, row)],
                 [p(6.0, row), p(4.0, row), p(1.0, row), p(0.0, row)],
             ]),
-            // Its ends are those of the other, and it is not.
+            // Another line between the same ends.
             8 => push(&[[p(10.0, row), p(7.0, row - 1.0), p(3.0, row), p(0.0, row)]]),
             _ => push(&[back]),
         }
@@ -73,7 +76,7 @@ fn pairs() -> Layout {
 }
 
 #[test]
-fn two_paths_on_one_line_have_the_arrows_of_one_both_ways() {
+fn reverse_pairs_share_two_way_arrows() {
     let layout = pairs();
     let view = view(p(5.0, 4.0), 40.0);
     let alone: usize = [0, 2, 4, 5]
@@ -92,15 +95,15 @@ fn two_paths_on_one_line_have_the_arrows_of_one_both_ways() {
         let is_pair = view.world_from_pixel(arrow.at_px).y < 6.0;
         assert_eq!(arrow.is_two_way, is_pair, "{arrow:?}");
     }
-    let twins = ReversePairs::among(&document, &[0, 1, 2, 3, 4, 5]);
-    let of_each = [0, 1, 2, 3, 4, 5].map(|row| twins.of(row));
+    let pairs = ReversePairs::among(&document, &[0, 1, 2, 3, 4, 5]);
+    let of_each = [0, 1, 2, 3, 4, 5].map(|row| pairs.of(row));
     assert_eq!(of_each, [Some(1), Some(0), Some(3), Some(2), None, None]);
     let hit = guideway_document::nearest(document.layout(), 3, p(5.0, 4.0), 1e-6).unwrap();
     assert_eq!(document.reverse_path_at(&hit, 100), Some(2));
 }
 
 #[test]
-fn names_do_not_lie_over_each_other() {
+fn labels_do_not_overlap() {
     let marks = marks_of(lanes(100), &view(p(5.0, 50.0), 5.0));
     assert!(marks.labels.len() > 10);
     for (i, a) in marks.labels.iter().enumerate() {
@@ -113,7 +116,7 @@ fn names_do_not_lie_over_each_other() {
 }
 
 #[test]
-fn a_view_of_too_much_has_no_marks_and_says_so() {
+fn a_crowded_view_has_no_marks_and_sets_left_out() {
     let layout = lanes(MAX_MARKED + 1);
     let far = marks_of(layout.clone(), &view(p(5.0, 1000.0), 0.2));
     assert!(far.left_out && far.arrows.is_empty() && far.labels.is_empty());
@@ -122,7 +125,7 @@ fn a_view_of_too_much_has_no_marks_and_says_so() {
 }
 
 #[test]
-fn a_long_path_seen_close_has_few_arrows_and_a_short_outline() {
+fn a_long_path_zoomed_in_has_few_arrows_and_a_short_outline() {
     let mut layout = Layout::default();
     let mut runs = Runs::default();
     runs.push_bezier(&[p(0.0, 0.0), p(3e5, 1e5), p(6e5, -1e5), p(1e6, 0.0)]);
@@ -140,7 +143,7 @@ fn a_long_path_seen_close_has_few_arrows_and_a_short_outline() {
     );
     let Outline::Lines(lines) = outline(&document_of(layout), &PathSet::from_iter([0]), &view)
     else {
-        panic!("one path is drawn as lines");
+        panic!("one path has lines");
     };
     let points: usize = lines.iter().map(Vec::len).sum();
     assert!((2..100).contains(&points), "{points}");
@@ -158,7 +161,7 @@ fn distance(line: &[Point<f64>], to: Point<f64>) -> f64 {
 }
 
 #[test]
-fn an_outline_of_very_many_paths_is_their_cells() {
+fn an_outline_of_too_many_paths_is_grid_cells() {
     let mut document = document_of(lanes(100_000));
     document.select_all();
     let view = view(p(5.0, 50_000.0), 0.005);

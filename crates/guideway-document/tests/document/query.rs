@@ -1,3 +1,5 @@
+//! Query language.
+
 use guideway_document::{PathSet, Query, QueryError};
 use guideway_layout::Layout;
 
@@ -9,7 +11,7 @@ fn rows(layout: &Layout, text: &str) -> Vec<u32> {
 }
 
 #[test]
-fn conditions_mean_what_they_say() {
+fn conditions_select_the_expected_paths() {
     let layout = lanes(6);
     for (text, expected) in [
         ("speed > 1", vec![3, 4, 5]),
@@ -35,17 +37,17 @@ fn conditions_mean_what_they_say() {
 }
 
 #[test]
-fn a_query_that_makes_no_sense_says_where_and_what_would() {
+fn invalid_queries_name_position_and_remedy() {
     let layout = lanes(2);
     for (text, at, part) in [
-        ("", 1, "a column is expected"),
+        ("", 1, "expected a column"),
         ("spede > 1", 1, "speed"),
-        ("speed", 6, "an operator"),
-        ("speed >", 8, "a value"),
+        ("speed", 6, "expected an operator"),
+        ("speed >", 8, "expected a value"),
         ("speed > 1 id", 11, "`and` or `or`"),
         ("(speed > 1", 11, "parenthesis"),
         ("zone = 'Hall", 8, "not closed"),
-        ("speed ! 1", 7, "an operator"),
+        ("speed ! 1", 7, "expected an operator"),
     ] {
         let error: QueryError = Query::parse(text, &layout).unwrap_err();
         assert_eq!(error.at, at, "{text}: {error}");
@@ -54,7 +56,7 @@ fn a_query_that_makes_no_sense_says_where_and_what_would() {
 }
 
 #[test]
-fn no_text_is_too_deep_to_refuse() {
+fn rejects_deep_nesting_without_stack_overflow() {
     let layout = lanes(1);
     let deep = "(".repeat(100_000);
     assert!(

@@ -1,4 +1,4 @@
-//! A long day of editing: whatever is done, undone and done again, nothing is lost.
+//! Random editing sessions: undo, redo, replicas and journals stay consistent.
 
 use std::sync::mpsc;
 
@@ -10,7 +10,7 @@ use proptest::prelude::*;
 use crate::site::{document, p, scene_of};
 
 #[derive(Clone, Debug)]
-enum Deed {
+enum Action {
     SelectBox(Point<f64>, Point<f64>),
     SelectRow(u32),
     Move(Point<f64>),
@@ -34,82 +34,84 @@ fn place() -> impl Strategy<Value = Point<f64>> {
     (-20.0..20.0, -20.0..20.0).prop_map(|(x, y)| p(x, y))
 }
 
-fn deed() -> impl Strategy<Value = Deed> {
+fn action() -> impl Strategy<Value = Action> {
     prop_oneof![
-        (place(), place()).prop_map(|(a, b)| Deed::SelectBox(a, b)),
-        (0..12u32).prop_map(Deed::SelectRow),
-        place().prop_map(Deed::Move),
-        (-3.0..3.0).prop_map(Deed::Turn),
-        Just(Deed::Mirror),
-        (1..3u32).prop_map(Deed::Copy),
-        Just(Deed::Delete),
-        Just(Deed::Refine),
-        (0..12u32, place()).prop_map(|(node, to)| Deed::MoveNode(node, to)),
+        (place(), place()).prop_map(|(a, b)| Action::SelectBox(a, b)),
+        (0..12u32).prop_map(Action::SelectRow),
+        place().prop_map(Action::Move),
+        (-3.0..3.0).prop_map(Action::Turn),
+        Just(Action::Mirror),
+        (1..3u32).prop_map(Action::Copy),
+        Just(Action::Delete),
+        Just(Action::Refine),
+        (0..12u32, place()).prop_map(|(node, to)| Action::MoveNode(node, to)),
         (0..12u32, 0..6usize, place())
-            .prop_map(|(path, point, to)| Deed::MovePoint(path, point, to)),
-        (0..12u32, 0..6usize).prop_map(|(path, point)| Deed::InsertPoint(path, point)),
-        (0..12u32, 0..6usize).prop_map(|(path, point)| Deed::RemovePoint(path, point)),
-        prop::collection::vec(place(), 0..5).prop_map(Deed::Draw),
-        Just(Deed::Hide),
-        Just(Deed::ShowAll),
-        Just(Deed::Undo),
-        Just(Deed::Redo),
+            .prop_map(|(path, point, to)| Action::MovePoint(path, point, to)),
+        (0..12u32, 0..6usize).prop_map(|(path, point)| Action::InsertPoint(path, point)),
+        (0..12u32, 0..6usize).prop_map(|(path, point)| Action::RemovePoint(path, point)),
+        prop::collection::vec(place(), 0..5).prop_map(Action::Draw),
+        Just(Action::Hide),
+        Just(Action::ShowAll),
+        Just(Action::Undo),
+        Just(Action::Redo),
     ]
 }
 
-fn perform(document: &mut Document, deed: &Deed) {
+fn perform(document: &mut Document, action: &Action) {
     let center = p(1.0, 2.0);
     let at = |path, point| PointRef {
         path,
         run: 0,
         point,
     };
-    // What cannot be done is refused, and must change nothing: the end of the test would tell.
-    let _ = match deed {
-        Deed::SelectBox(a, b) => {
+    // Rejected edits must change nothing; the comparisons at the end of the test detect it.
+    let _ = match action {
+        Action::SelectBox(a, b) => {
             if let Some(bounds) = Bounds::of_points([*a, *b]) {
                 document.select_in(bounds, true, SelectMode::Replace);
             }
             Ok(())
         }
-        Deed::SelectRow(row) => {
+        Action::SelectRow(row) => {
             document.select([*row].into_iter().collect(), SelectMode::Add);
             Ok(())
         }
-        Deed::Move(by) => document.transform_selection("move", Affine::translation(*by)),
-        Deed::Turn(angle) => document.transform_selection("turn", Affine::rotation(*angle, center)),
-        Deed::Mirror => document.transform_selection("mirror", Affine::mirror(center, center)),
-        // Doubling for ever would fill any memory.
-        Deed::Copy(_) if document.scene().row_count() > 500 => Ok(()),
-        Deed::Copy(count) => document.copy_selection(*count, center),
-        Deed::Delete => document.delete_selection(),
-        Deed::Refine if document.layout().paths.geometry().point_count() > 20_000 => Ok(()),
-        Deed::Refine => document.refine_selection(),
-        Deed::MoveNode(node, to) => document.move_node(*node, *to),
-        Deed::MovePoint(path, point, to) => document.move_point(at(*path, *point), *to),
-        Deed::InsertPoint(path, point) => document.insert_point(at(*path, *point)),
-        Deed::RemovePoint(path, point) => document.remove_point(at(*path, *point)),
-        Deed::Draw(points) => document.draw_path("drawn".into(), points, 0.5),
-        Deed::Hide => {
+        Action::Move(by) => document.transform_selection("move", Affine::translation(*by)),
+        Action::Turn(angle) => {
+            document.transform_selection("turn", Affine::rotation(*angle, center))
+        }
+        Action::Mirror => document.transform_selection("mirror", Affine::mirror(center, center)),
+        // Repeated doubling would exhaust memory.
+        Action::Copy(_) if document.scene().row_count() > 500 => Ok(()),
+        Action::Copy(count) => document.copy_selection(*count, center),
+        Action::Delete => document.delete_selection(),
+        Action::Refine if document.layout().paths.geometry().point_count() > 20_000 => Ok(()),
+        Action::Refine => document.refine_selection(),
+        Action::MoveNode(node, to) => document.move_node(*node, *to),
+        Action::MovePoint(path, point, to) => document.move_point(at(*path, *point), *to),
+        Action::InsertPoint(path, point) => document.insert_point(at(*path, *point)),
+        Action::RemovePoint(path, point) => document.remove_point(at(*path, *point)),
+        Action::Draw(points) => document.draw_path("drawn".into(), points, 0.5),
+        Action::Hide => {
             document.hide_selection();
             Ok(())
         }
-        Deed::ShowAll => {
+        Action::ShowAll => {
             document.show_all();
             Ok(())
         }
-        Deed::Undo => {
+        Action::Undo => {
             document.undo();
             Ok(())
         }
-        Deed::Redo => {
+        Action::Redo => {
             document.redo();
             Ok(())
         }
     };
 }
 
-/// All that is saved of the paths and nodes.
+/// The saved paths and nodes as text.
 fn content(document: &Document) -> String {
     let layout = document.to_layout();
     let mut text = String::new();
@@ -130,24 +132,26 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(400))]
 
     #[test]
-    fn everything_can_be_undone_and_done_again(deeds in prop::collection::vec(deed(), 1..150)) {
+    fn undo_redo_replica_and_journal_stay_consistent(
+        actions in prop::collection::vec(action(), 1..150),
+    ) {
         let mut document = document(8);
         let untouched = content(&document);
-        // A renderer that has a scene of its own and hears of edits alone.
+        // A renderer with its own scene that receives only the edits.
         let mut replica = scene_of(document.to_layout());
-        let (tell, told) = mpsc::channel();
-        document.on_edit(move |edit| tell.send(edit.clone()).unwrap());
-        for deed in &deeds {
-            perform(&mut document, deed);
-            for edit in told.try_iter() {
+        let (sender, receiver) = mpsc::channel();
+        document.on_edit(move |edit| sender.send(edit.clone()).unwrap());
+        for action in &actions {
+            perform(&mut document, action);
+            for edit in receiver.try_iter() {
                 replica.edit(&edit).unwrap();
             }
             let all_shown = |&row: &u32| document.scene().state(row) == PathState::Shown;
             prop_assert!(document.selection().iter().all(|row| all_shown(&row)));
         }
-        // What a journal gives back is what was done: whole, and as far as it goes where it was cut off.
-        let acts = document.take_journal_entries();
-        let journal: Vec<u8> = acts.iter().flat_map(JournalEntry::to_record).collect();
+        // A whole journal recovers the document; a truncated one is replayed as far as it goes.
+        let entries = document.take_journal_entries();
+        let journal: Vec<u8> = entries.iter().flat_map(JournalEntry::to_record).collect();
         let mut recovered = crate::site::document(8);
         prop_assert_eq!(replay(&journal, &mut recovered, |_| true).bytes, journal.len());
         prop_assert_eq!(content(&recovered), content(&document));
@@ -156,7 +160,7 @@ proptest! {
         prop_assert!(replay(half, &mut cut, |_| true).bytes <= half.len());
         let mut stopped = crate::site::document(8);
         let done = replay(&journal, &mut stopped, |done| done.entries < 2);
-        prop_assert_eq!(done.entries, acts.len().min(2));
+        prop_assert_eq!(done.entries, entries.len().min(2));
         prop_assert_eq!(replica.draw_order(), document.scene().draw_order());
         for &row in replica.draw_order() {
             let points = |layout: &guideway_layout::Layout| -> Vec<_> {
@@ -177,14 +181,15 @@ proptest! {
 
 proptest! {
     #[test]
-    fn no_bytes_are_a_journal_that_breaks_it(
-        deeds in prop::collection::vec(deed(), 1..10),
+    fn damaged_journals_are_replayed_without_panic(
+        actions in prop::collection::vec(action(), 1..10),
         damage in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..5),
         noise in prop::collection::vec(any::<u8>(), 0..100),
     ) {
         let mut document = document(8);
-        deeds.iter().for_each(|deed| perform(&mut document, deed));
-        let mut journal: Vec<u8> = document.take_journal_entries().iter().flat_map(JournalEntry::to_record).collect();
+        actions.iter().for_each(|action| perform(&mut document, action));
+        let entries = document.take_journal_entries();
+        let mut journal: Vec<u8> = entries.iter().flat_map(JournalEntry::to_record).collect();
         for (at, byte) in damage {
             if !journal.is_empty() {
                 *at.get_mut(&mut journal) = byte;

@@ -1,3 +1,5 @@
+//! Selection, visibility and colors.
+
 use guideway_document::{Document, Query, SelectMode};
 use guideway_scene::{ColorBy, PathState, Scene, SceneOptions};
 use guideway_spline::{Affine, Bounds};
@@ -9,14 +11,14 @@ fn rows(document: &Document) -> Vec<u32> {
 }
 
 #[test]
-fn a_box_selects_what_is_inside_or_what_it_meets() {
+fn a_box_selects_paths_inside_or_crossing() {
     let mut document = document(5);
     let bounds = Bounds {
         min: p(-1.0, 0.5),
         max: p(9.0, 3.5),
     };
     document.select_in(bounds, false, SelectMode::Replace);
-    assert_eq!(rows(&document), [], "all reach out of it");
+    assert_eq!(rows(&document), [], "all cross its border");
     document.select_in(bounds, true, SelectMode::Replace);
     assert_eq!(rows(&document), [1, 2, 3]);
     document.select_in(bounds.inflated(1.1), false, SelectMode::Remove);
@@ -24,7 +26,7 @@ fn a_box_selects_what_is_inside_or_what_it_meets() {
 }
 
 #[test]
-fn selections_combine_and_leave_out_what_is_hidden() {
+fn selections_combine_and_exclude_hidden_paths() {
     let mut document = document(6);
     let query = Query::parse("speed > 1", document.layout()).unwrap();
     document.select(query.rows(document.layout()), SelectMode::Replace);
@@ -45,7 +47,7 @@ fn selections_combine_and_leave_out_what_is_hidden() {
 }
 
 #[test]
-fn other_colors_bring_nothing_hidden_back() {
+fn adopting_colors_keeps_hidden_and_removed_paths() {
     let mut document = document(6);
     document.select([2].into_iter().collect(), SelectMode::Replace);
     document.hide_selection();
@@ -73,7 +75,7 @@ fn other_colors_bring_nothing_hidden_back() {
 }
 
 #[test]
-fn a_copy_is_asked_about_and_colored_as_what_it_was_copied_from() {
+fn a_copy_has_the_attributes_and_color_of_its_original() {
     let mut document = document(12);
     let by_speed = SceneOptions {
         color_by: Some(ColorBy {
@@ -92,7 +94,7 @@ fn a_copy_is_asked_about_and_colored_as_what_it_was_copied_from() {
 }
 
 #[test]
-fn a_curve_that_goes_round_a_box_does_not_meet_it() {
+fn a_curve_around_a_box_does_not_cross_it() {
     let mut layout = lanes(0);
     let mut runs = guideway_spline::Runs::default();
     runs.push_bezier(&[p(0.0, 0.0), p(0.0, 10.0), p(10.0, 10.0), p(10.0, 0.0)]);

@@ -1,8 +1,8 @@
-//! Small layouts to look at.
+//! Test layouts and helpers.
 
 use std::sync::Arc;
 
-use guideway_document::Document;
+use guideway_document::{Document, SelectMode};
 use guideway_layout::{Direction, Layout, NewPath, Value};
 use guideway_scene::{FrameSize, View};
 use guideway_scene::{Scene, SceneOptions};
@@ -12,7 +12,8 @@ pub(crate) fn p(x: f64, y: f64) -> Point<f64> {
     Point::new(x, y)
 }
 
-/// `count` straight paths of 10 m, one meter apart, named `path-0` and so on; every third goes both ways.
+/// `count` straight paths of 10 m, one meter apart, named `path-0` and so on; every third one is
+/// two-way.
 pub(crate) fn lanes(count: usize) -> Layout {
     let mut layout = Layout::default();
     for row in 0..count {
@@ -42,12 +43,12 @@ pub(crate) fn lanes(count: usize) -> Layout {
 }
 
 pub(crate) fn scene_of(layout: Layout) -> Scene {
-    Scene::new(Arc::new(layout), &SceneOptions::default()).expect("no level or column is asked for")
+    Scene::new(Arc::new(layout), &SceneOptions::default()).expect("default options fit any layout")
 }
 
 pub(crate) fn document_of(layout: Layout) -> Document {
     let layout = Arc::new(layout);
-    Document::new(layout, &SceneOptions::default()).expect("no level or column is asked for")
+    Document::new(layout, &SceneOptions::default()).expect("default options fit any layout")
 }
 
 /// A document of some [`lanes`].
@@ -56,6 +57,47 @@ pub(crate) fn document(count: usize) -> Document {
 }
 
 pub(crate) fn view(center: Point<f64>, px_per_m: f64) -> View {
-    let size = FrameSize::new(800, 600).expect("a size that can be held");
+    let size = FrameSize::new(800, 600).expect("a valid size");
     View::new(size, center, px_per_m).expect("a view near the origin")
+}
+
+/// Start and end of a path.
+pub(crate) fn ends(document: &Document, path: usize) -> (Point<f64>, Point<f64>) {
+    document
+        .layout()
+        .paths
+        .get(path)
+        .ends()
+        .expect("a path with a curve")
+}
+
+/// Whether two points coincide up to rounding.
+pub(crate) fn is_near(a: Point<f64>, b: Point<f64>) -> bool {
+    a.distance(b) < 1e-9
+}
+
+/// Replaces the selection.
+pub(crate) fn select(document: &mut Document, rows: impl IntoIterator<Item = u32>) {
+    document.select(rows.into_iter().collect(), SelectMode::Replace);
+}
+
+/// Two paths from a to b and b to c, the second one bent.
+pub(crate) fn two_joined() -> Document {
+    let mut layout = Layout::default();
+    let [a, b, c] = [("a", 0.0), ("b", 10.0), ("c", 20.0)]
+        .map(|(id, x)| layout.nodes.push(id, p(x, 0.0), None));
+    let mut straight = Runs::default();
+    straight.push_line(p(0.0, 0.0), p(10.0, 0.0));
+    let mut bent = Runs::default();
+    bent.push_bezier(&[p(10.0, 0.0), p(12.0, 5.0), p(18.0, 5.0), p(20.0, 0.0)]);
+    for (id, runs, start, end) in [("ab", straight, a, b), ("bc", bent, b, c)] {
+        layout.paths.push(&NewPath {
+            id,
+            runs: &runs,
+            start_node: Some(start),
+            end_node: Some(end),
+            ..NewPath::default()
+        });
+    }
+    document_of(layout)
 }

@@ -8,7 +8,8 @@ pub type MemberHull = Option<Bounds<f64>>;
 /// Bounding box of a cluster, in meters, and the origin of its local coordinates.
 ///
 /// The box may exceed the tight one: when a member leaves a side of the box, the tight box is known
-/// only after a look at all members. The box tolerates a slack instead, up to a quarter of its size.
+/// only after a look at all members. The box tolerates a slack instead, up to a quarter of its
+/// size.
 #[derive(Clone, Copy, Debug)]
 pub struct ClusterBounds {
     /// Holds all control points of the cluster.

@@ -1,8 +1,8 @@
 //! A box per row, found by where it is: hit tests, rubber bands and view queries of an editor.
 //!
-//! A query tests the box of every cluster, then those of the rows in the clusters that it meets. Its
-//! cost never exceeds a look at every box, whatever changes; an update costs as much as the clusters
-//! of the changed rows.
+//! A query tests the box of every cluster, then those of the rows in the clusters that it meets.
+//! Its cost never exceeds a look at every box, whatever changes; an update costs as much as the
+//! clusters of the changed rows.
 //!
 //! Measured against a tree of boxes (rstar 0.14) with a million rows: the tree finds a few rows in
 //! 1 us (this: 13 us), but takes 0.4 s to build (0.1 s), twice the memory, 21 ms for a query that

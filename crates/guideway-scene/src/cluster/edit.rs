@@ -1,7 +1,7 @@
 //! Updates the bounds of a [`ClusterIndex`] when rows change or are appended.
 //!
-//! An edit takes two calls, one on either side of the change, because the hull of a row is lost once
-//! the row has changed:
+//! An edit takes two calls, one on either side of the change, because the hull of a row is lost
+//! once the row has changed:
 //!
 //! ```text
 //!   begin_edit(rows)  ->  [PendingEdit]      hulls before
@@ -24,7 +24,8 @@ pub trait RowHulls: Sync {
     /// Box of the control points of some rows, in meters.
     fn hull(&self, rows: &[u32]) -> MemberHull;
 
-    /// Box that holds every point of `bounds` after it was mapped `by` and rounded as rows store it.
+    /// Box that holds every point of `bounds` after it was mapped `by` and rounded as rows store
+    /// it.
     fn map_bounds(&self, bounds: Bounds<f64>, by: Affine) -> Bounds<f64>;
 }
 
@@ -73,8 +74,8 @@ impl ClusterIndex {
         pending.collect()
     }
 
-    /// Updates the bounds of clusters whose rows have changed since [`Self::begin_edit`]: by the map
-    /// `by`, or in any way. Returns the clusters in the order of `pending`.
+    /// Updates the bounds of clusters whose rows have changed since [`Self::begin_edit`]: by the
+    /// map `by`, or in any way. Returns the clusters in the order of `pending`.
     pub fn apply_edit(
         &mut self,
         pending: &[PendingEdit],

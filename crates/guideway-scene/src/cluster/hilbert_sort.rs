@@ -9,8 +9,8 @@
 use guideway_spline::{Bounds, Point, hilbert};
 use rayon::prelude::*;
 
-/// Rows that one task scatters: large enough that buckets hold some rows each, small enough that all
-/// threads have work.
+/// Rows that one task scatters: large enough that buckets hold some rows each, small enough that
+/// all threads have work.
 const TASK_ROWS: usize = 1 << 16;
 /// Bits of a key that one pass sorts by. Two passes leave 2^20 buckets over the plane.
 const BUCKET_BITS: u32 = 10;
@@ -47,7 +47,8 @@ pub fn hilbert_order(
     merge_buckets(count, &tasks.collect::<Vec<_>>())
 }
 
-/// Joins the buckets of all tasks, sorts each by its second digit and returns the rows of their keys.
+/// Joins the buckets of all tasks, sorts each by its second digit and returns the rows of their
+/// keys.
 fn merge_buckets(count: usize, tasks: &[RadixBuckets]) -> Vec<u32> {
     let mut rows = vec![0; count];
     let mut left = &mut rows[..];

@@ -5,8 +5,8 @@ use rayon::prelude::*;
 use super::bounds::{ClusterBounds, MemberHull};
 use super::order::{CLUSTER_LEN, ClusterOrder};
 
-/// Rows in clusters, and where each cluster lies. [`ClusterIndex::begin_edit`] and the methods beside
-/// it keep the bounds up to date.
+/// Rows in clusters, and where each cluster lies. [`ClusterIndex::begin_edit`] and the methods
+/// beside it keep the bounds up to date.
 #[derive(Clone, Debug, Default)]
 pub struct ClusterIndex {
     pub(super) order: ClusterOrder,

@@ -20,8 +20,8 @@
 //!                                                        box, origin   box, ...
 //! ```
 //!
-//! Sorting once and cutting into equal clusters replaces a tree: a query tests every cluster box and
-//! then the boxes of few rows, and an edit updates only the clusters of the edited rows.
+//! Sorting once and cutting into equal clusters replaces a tree: a query tests every cluster box
+//! and then the boxes of few rows, and an edit updates only the clusters of the edited rows.
 
 mod bounds;
 mod boxes;

@@ -26,7 +26,8 @@ impl Edit {
                 if let Some(path) = find_duplicate(paths) {
                     return Err(EditError::DuplicatePath { path });
                 }
-                // A map that keeps the corners of a box in bounds keeps all points inside it in bounds.
+                // A map that keeps the corners of a box in bounds keeps all points inside it in
+                // bounds.
                 let hull = geometry.hull_bounds(paths.iter().map(|&path| path as usize));
                 let corners = hull.into_iter().flat_map(Bounds::corners);
                 if is_in_bounds(corners.map(|p| by.apply(p))) {
@@ -80,7 +81,8 @@ impl Insertion {
     }
 }
 
-/// A row that occurs more than once. Rows in ascending order, as selections have them, need no sort.
+/// A row that occurs more than once. Rows in ascending order, as selections have them, need no
+/// sort.
 fn find_duplicate(rows: &[u32]) -> Option<u32> {
     // Without an early exit the compiler vectorizes the comparison.
     let pairs = rows.array_windows();

@@ -57,7 +57,7 @@ struct Group<'p> {
     paths: &'p [u32],
 }
 
-/// Whether a hull is not inside the box found so far.
+/// True if a hull is not inside the box found so far.
 fn reaches_out(hull: Option<Bounds<f64>>, all: Option<Bounds<f64>>) -> bool {
     match (hull, all) {
         (Some(hull), Some(all)) => !(all.contains(hull.min) && all.contains(hull.max)),

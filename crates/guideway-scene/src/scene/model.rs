@@ -114,7 +114,7 @@ impl Scene {
         Arc::clone(&self.layout)
     }
 
-    /// Whether other owners share the layout, so that the next edit copies it.
+    /// True if other owners share the layout, so that the next edit copies it.
     pub fn is_layout_shared(&self) -> bool {
         Arc::strong_count(&self.layout) > 1
     }
@@ -168,7 +168,7 @@ impl Scene {
         is_common.then_some(first)
     }
 
-    /// Whether all paths are opaque.
+    /// True if all paths are opaque.
     pub fn is_opaque(&self) -> bool {
         match &self.colors {
             Colors::One(color) => color.is_opaque(),

@@ -95,8 +95,8 @@ impl App {
             },
             floor_plan: floor_plan.then(|| self.floor.plan.clone()),
             swept: rows.map(|rows| (self.swept.vehicle.clone(), rows)),
-            grid: self.grid_sheet(&view),
-            marks: self.marks_sheet(&view),
+            grid: self.grid_list(&view),
+            marks: self.marks_list(&view),
         })
     }
 }

@@ -4,6 +4,7 @@ mod bar;
 mod canvas;
 mod dialogs;
 mod draft;
+mod draw_list;
 mod find;
 mod findings;
 mod paint;
@@ -11,7 +12,6 @@ mod side;
 
 use eframe::egui::{CentralPanel, Frame, Panel, ScrollArea, TextWrapMode, Ui};
 
-pub(crate) use self::paint::length_text;
 use crate::app::App;
 
 impl App {

@@ -1,28 +1,29 @@
-//! Other curves out of given ones.
+//! Curve constructions for edits: control points in, control points out.
 
 use guideway_layout::{Geometry, PathRef};
 use guideway_spline::{Point, Runs};
 
-/// The curve of a path as runs of its own.
+/// Copies the runs of a path.
 pub(super) fn runs_of(path: PathRef<'_>) -> Runs {
     let mut runs = Runs::default();
     path.copy_runs(&mut runs);
     runs
 }
 
+/// Packs curves as geometry.
 pub(super) fn geometry_of<'a>(curves: impl IntoIterator<Item = &'a Runs>) -> Geometry {
     let mut geometry = Geometry::default();
     curves.into_iter().for_each(|runs| geometry.push(runs));
     geometry
 }
 
-/// Moves the ends of a curve and takes the rest along, by so much less the farther it is from them: a straight
-/// path stays straight.
+/// Moves the two ends of a curve; the shift of the points between is interpolated linearly, so that
+/// a straight path stays straight.
 ///
-/// A B-spline whose control points lie on a line evenly spaced, one apart, goes along that line at one unit a
-/// segment, one point ahead (linear precision). So adding a share of the shift that falls evenly from control
-/// point to control point adds the same to the curve.
-pub(super) fn with_ends_moved(runs: &Runs, start_by: Point<f64>, end_by: Point<f64>) -> Runs {
+/// Control points evenly spaced on a line yield a B-spline that runs along it at one unit per
+/// segment, one point ahead (linear precision). Hence a shift that is linear in the index of the
+/// control point shifts the curve linearly as well.
+pub(super) fn with_moved_ends(runs: &Runs, start_by: Point<f64>, end_by: Point<f64>) -> Runs {
     let segments: usize = runs.iter().map(|run| run.len() - 3).sum();
     let mut moved = Runs::default();
     let mut before = 0;
@@ -36,8 +37,8 @@ pub(super) fn with_ends_moved(runs: &Runs, start_by: Point<f64>, end_by: Point<f
     moved
 }
 
-/// The same curve with nearly twice as many control points in each run (Lane and Riesenfeld 1980): the curve
-/// does not change, but what a point moves of it halves.
+/// The same curve with nearly twice as many control points per run (Lane and Riesenfeld 1980), each
+/// of which influences half as much of it.
 pub(super) fn refined(runs: &Runs) -> Runs {
     let mut fine = Runs::default();
     for run in runs.iter() {
@@ -55,9 +56,9 @@ pub(super) fn refined(runs: &Runs) -> Runs {
     fine
 }
 
-/// A curve that begins and ends at the first and the last of `points`, bends toward those between and is
-/// straight if there are only two; none of fewer, or if all are the same.
-pub(super) fn through_ends(points: &[Point<f64>]) -> Option<Runs> {
+/// A curve from the first to the last of `points` that bends toward those between; straight for two
+/// points. `None` with fewer than two distinct points.
+pub(super) fn curve_along(points: &[Point<f64>]) -> Option<Runs> {
     let [first, second, ..] = points else {
         return None;
     };
@@ -65,7 +66,7 @@ pub(super) fn through_ends(points: &[Point<f64>]) -> Option<Runs> {
         return None;
     };
     points.iter().any(|point| point != first).then(|| {
-        // A point mirrored in the first one puts the start of the curve there.
+        // Mirroring the second point in the first puts the start of the curve on the first.
         let mut run = vec![*first * 2.0 - *second];
         run.extend_from_slice(points);
         run.push(*last * 2.0 - *last_but_one);
@@ -75,19 +76,20 @@ pub(super) fn through_ends(points: &[Point<f64>]) -> Option<Runs> {
     })
 }
 
-/// The curve with one run's points changed by `change`; none if fewer than four are left or there is no such run.
-pub(super) fn with_run(
+/// The curve with the points of one run changed by `change`. `None` if the run does not exist,
+/// `change` returns false, or fewer than four points are left.
+pub(super) fn with_changed_run(
     runs: &Runs,
-    which: usize,
+    index: usize,
     change: impl FnOnce(&mut Vec<Point<f64>>) -> bool,
 ) -> Option<Runs> {
-    let mut points = runs.iter().nth(which)?.to_vec();
+    let mut points = runs.iter().nth(index)?.to_vec();
     if !change(&mut points) || points.len() < 4 {
         return None;
     }
     let mut changed = Runs::default();
     for (i, run) in runs.iter().enumerate() {
-        changed.push(if i == which { &points } else { run });
+        changed.push(if i == index { &points } else { run });
     }
     Some(changed)
 }

@@ -1,18 +1,21 @@
+//! Node adjacency: the paths that start or end at each node.
+
 use std::collections::HashMap;
 
 use guideway_layout::{Layout, PathRef};
 
-/// Which paths begin or end at a node, removed ones among them.
+/// Rows of the paths at each node, including removed paths. Compressed sparse rows for the initial
+/// layout, plus a map for paths added later.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Joints {
-    /// Where the rows of each node end, in `rows`.
+pub(super) struct NodePaths {
+    /// End of each node's range in `rows`.
     ends: Vec<u32>,
     rows: Vec<u32>,
-    /// PathSet that came later.
+    /// Paths added later, by node.
     added: HashMap<u32, Vec<u32>>,
 }
 
-impl Joints {
+impl NodePaths {
     pub(super) fn new(layout: &Layout) -> Self {
         let mut ends = vec![0; layout.nodes.len()];
         for node in layout.paths.iter().flat_map(nodes_of) {
@@ -23,7 +26,7 @@ impl Joints {
             end += *count;
             *count = end;
         }
-        // From the back, so that each list ends where it is to end and is in order.
+        // Filling from the last path backward leaves each range sorted.
         let mut firsts = ends.clone();
         let mut rows = vec![0; end as usize];
         for row in (0..layout.paths.len()).rev() {
@@ -57,7 +60,7 @@ impl Joints {
     }
 }
 
-/// The nodes of a path, each once.
+/// The distinct end nodes of a path.
 pub(crate) fn nodes_of(path: PathRef<'_>) -> impl Iterator<Item = u32> {
     let end = path
         .end_node()

@@ -1,3 +1,5 @@
+//! Snapshot: the state of a document at one moment, for saving and checking in the background.
+
 use std::sync::Arc;
 
 use guideway_layout::{
@@ -7,10 +9,11 @@ use guideway_layout::{
 use guideway_scene::PathState;
 use guideway_spline::Runs;
 
+use crate::PathSet;
+use crate::document::Document;
 use crate::moved_nodes::MovedNodes;
-use crate::{Document, PathSet};
 
-/// A document as it was at one moment, to be written while it is edited on.
+/// The state of a document at one moment, to save while editing goes on.
 #[derive(Clone, Debug)]
 pub struct Snapshot {
     layout: Arc<Layout>,
@@ -20,8 +23,8 @@ pub struct Snapshot {
 }
 
 impl Document {
-    /// What there is now. It takes next to no time; the first edit after it takes a copy of the layout, unless
-    /// the snapshot is gone by then.
+    /// The present state. Costs a scan of the path states, and no copy of the layout: the next edit
+    /// copies it if the snapshot still exists.
     pub fn snapshot(&self) -> Snapshot {
         let has_removed = self.scene.path_count() < self.layout().path_count();
         let rows = 0..if has_removed {
@@ -38,7 +41,7 @@ impl Document {
         }
     }
 
-    /// The layout as it is now: see [`Snapshot::to_layout`].
+    /// The present layout. See [`Snapshot::to_layout`].
     pub fn to_layout(&self) -> Layout {
         self.snapshot().to_layout()
     }
@@ -50,22 +53,22 @@ impl Snapshot {
         self.state
     }
 
-    /// What its reader found, and what is odd in it as it is. PathSet are those of the document, where a removed path
-    /// still has one.
+    /// Diagnostics of the reader, and findings of [`check`] in the present state. Rows are those of
+    /// the document, where removed paths still have one.
     pub fn findings(&self, options: &CheckOptions) -> Diagnostics {
         let old = &*self.layout;
         let mut found = old.diagnostics.clone();
-        let is_as_read = self.removed.is_empty() && self.moved_nodes.is_empty();
-        found.append(if is_as_read {
+        let is_unchanged = self.removed.is_empty() && self.moved_nodes.is_empty();
+        found.append(if is_unchanged {
             check(old, options)
         } else {
-            check(&self.with_rows_kept(), options)
+            check(&self.layout_with_stable_rows(), options)
         });
         found
     }
 
-    /// What there is to be found odd, with nothing where a path was removed.
-    fn with_rows_kept(&self) -> Layout {
+    /// The layout to check, with an empty path in the row of each removed one.
+    fn layout_with_stable_rows(&self) -> Layout {
         let old = &*self.layout;
         let mut paths = Paths::default();
         let mut runs = Runs::default();
@@ -85,7 +88,8 @@ impl Snapshot {
         }
     }
 
-    /// The layout: removed paths left out, moved nodes and stations at their places, rows numbered anew.
+    /// The layout without removed paths, with nodes and stations at their present positions. Paths
+    /// after a removed one get new rows.
     pub fn to_layout(&self) -> Layout {
         let old = &*self.layout;
         Layout {
@@ -104,8 +108,8 @@ impl Snapshot {
         if self.removed.is_empty() {
             return old.clone();
         }
-        let is_there = |&row: &usize| !self.removed.contains(row as u32);
-        let rows: Vec<usize> = (0..old.len()).filter(is_there).collect();
+        let exists = |&row: &usize| !self.removed.contains(row as u32);
+        let rows: Vec<usize> = (0..old.len()).filter(exists).collect();
         let mut paths = Paths::default();
         let mut runs = Runs::default();
         for &row in &rows {
@@ -120,12 +124,12 @@ impl Snapshot {
         if let Some(rank) = old.rank() {
             paths.set_rank(rows.iter().map(|&row| rank[row]).collect());
         }
-        paths.attributes = of_rows(&old.attributes, &rows);
+        paths.attributes = select_rows(&old.attributes, &rows);
         paths
     }
 }
 
-/// Adds a path of other ones, by runs that are used again.
+/// Copies a path from `of` to the end of `paths`. `runs` is a reusable buffer.
 fn push(paths: &mut Paths, of: &Paths, row: usize, runs: &mut Runs) {
     let path = of.get(row);
     path.copy_runs(runs);
@@ -141,20 +145,20 @@ fn push(paths: &mut Paths, of: &Paths, row: usize, runs: &mut Runs) {
     });
 }
 
-/// The attributes of some rows, in this order.
-fn of_rows(all: &Attributes, rows: &[usize]) -> Attributes {
+/// The attributes of the given rows, in this order.
+fn select_rows(all: &Attributes, rows: &[usize]) -> Attributes {
     let mut attributes = Attributes::default();
     for column in all.iter() {
         attributes.insert(Attribute {
-            values: chosen(&column.values, rows),
+            values: select_values(&column.values, rows),
             ..column.clone()
         });
     }
     attributes
 }
 
-/// The values of some rows, in this order.
-fn chosen(values: &Values, rows: &[usize]) -> Values {
+/// The values of the given rows, in this order.
+fn select_values(values: &Values, rows: &[usize]) -> Values {
     fn pick<T: Copy + Default>(column: &Cells<T>, rows: &[usize]) -> Cells<T> {
         rows.iter().map(|&row| column.get(row)).collect()
     }

@@ -1,0 +1,151 @@
+//! Draws marks: arrows, node and station symbols as polygons, labels as text.
+
+use guideway_scene::{DrawList, TextLine};
+use guideway_spline::Point;
+
+use super::marks::{Arrow, Marks};
+use super::style::{DecorationStyle, MarkKind, with_alpha};
+
+/// Length of an arrow head, per unit of half its width.
+const HEAD_LENGTH: f64 = 2.25;
+/// Least half width of an arrow head, in points.
+const MIN_HEAD_RADIUS_POINTS: f64 = 4.0;
+/// Width of an arrow head, per unit of the width of its line.
+const HEAD_WIDTH: f64 = 2.0;
+/// Distance from an arrow's position to the base of its head, in points. It separates the two heads
+/// of a two-way arrow.
+const HEAD_OFFSET_POINTS: f64 = 2.0;
+/// From the center of a node's diamond to its corners, in points.
+const NODE_RADIUS_POINTS: f64 = 4.0;
+/// From the center of a station's square to its sides, in points.
+const STATION_RADIUS_POINTS: f64 = 6.0;
+/// Opacity of the paper behind labels.
+const LABEL_PAPER_OPACITY: f64 = 0.75;
+
+const DIAMOND: [(f64, f64); 4] = [(0.0, -1.0), (1.0, 0.0), (0.0, 1.0), (-1.0, 0.0)];
+const SQUARE: [(f64, f64); 4] = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+
+impl Marks {
+    /// Draws all marks. `map` maps the pixels of the view that the marks were placed for to the
+    /// pixels to draw them at: the identity, or the way to a view that has moved since. Symbols
+    /// keep their size; arrows stay wider than their lines.
+    pub fn draw(
+        &self,
+        style: &DecorationStyle,
+        map: impl Fn(Point<f64>) -> Point<f64>,
+    ) -> DrawList {
+        let mut list = DrawList::default();
+        let point_px = style.px_per_point;
+        for arrow in &self.arrows {
+            draw_arrow(&mut list, arrow, style, &map);
+        }
+        let symbols = [
+            (MarkKind::Node, &self.nodes, DIAMOND, NODE_RADIUS_POINTS),
+            (
+                MarkKind::Station,
+                &self.stations,
+                SQUARE,
+                STATION_RADIUS_POINTS,
+            ),
+        ];
+        for (kind, positions, corners, radius) in symbols {
+            let color = style.mark_color(kind);
+            for &at_px in positions {
+                let center = map(at_px);
+                let corner = |(x, y)| center + Point::new(x, y) * (radius * point_px);
+                list.fill_polygon(color, &corners.map(corner));
+            }
+        }
+        for label in &self.labels {
+            list.texts.push(TextLine {
+                text: label.text.clone(),
+                left_middle_px: map(label.at_px),
+                char_width_px: style.label_size().char_px,
+                color: style.ink,
+                background: with_alpha(style.paper, LABEL_PAPER_OPACITY),
+            });
+        }
+        list
+    }
+}
+
+fn draw_arrow(
+    list: &mut DrawList,
+    arrow: &Arrow,
+    style: &DecorationStyle,
+    map: impl Fn(Point<f64>) -> Point<f64>,
+) {
+    let point_px = style.px_per_point;
+    let at = map(arrow.at_px);
+    let scale = map(arrow.at_px + arrow.direction).distance(at);
+    let line_radius = arrow.line_radius_px * scale;
+    let radius = (HEAD_WIDTH * line_radius).max(MIN_HEAD_RADIUS_POINTS * point_px);
+    let signs = if arrow.is_two_way {
+        &[1.0, -1.0][..]
+    } else {
+        &[1.0]
+    };
+    for sign in signs {
+        let forward = arrow.direction * *sign;
+        let side = Point::new(-forward.y, forward.x) * radius;
+        let base = at + forward * (HEAD_OFFSET_POINTS * point_px);
+        let tip = base + forward * (HEAD_LENGTH * radius);
+        let color = style.mark_color(MarkKind::Arrow);
+        list.fill_polygon(color, &[tip, base + side, base - side]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use guideway_scene::Rgba;
+
+    use super::*;
+
+    fn arrow(direction: Point<f64>, line_radius_px: f64) -> Arrow {
+        Arrow {
+            at_px: Point::new(10.0, 20.0),
+            direction,
+            is_two_way: false,
+            line_radius_px,
+        }
+    }
+
+    #[test]
+    fn arrows_point_along_their_direction() {
+        let one_way = arrow(Point::new(0.0, -1.0), 1.0);
+        let two_way = Arrow {
+            is_two_way: true,
+            ..one_way
+        };
+        let marks = Marks {
+            arrows: vec![one_way, two_way],
+            nodes: vec![Point::new(1.0, 1.0)],
+            ..Marks::default()
+        };
+        let style = DecorationStyle::new(Rgba::WHITE, 2.0);
+        let list = marks.draw(&style, |at| at * 2.0);
+        let colors: Vec<_> = list.fills.iter().map(|fill| fill.color).collect();
+        assert_eq!(colors, [style.ink, style.node]);
+        let tips = list.fills[0].polygons.iter().map(|corners| corners[0].y);
+        assert_eq!(tips.collect::<Vec<_>>(), [18.0, 18.0, 62.0]);
+        assert_eq!(list.fills[1].polygons[0][0], Point::new(2.0, -6.0));
+    }
+
+    #[test]
+    fn arrow_heads_are_wider_than_their_lines() {
+        for (line_radius_px, px_per_point, radius) in
+            [(0.75, 1.0, 4.0), (6.0, 1.0, 12.0), (3.0, 2.0, 8.0)]
+        {
+            let marks = Marks {
+                arrows: vec![arrow(Point::new(1.0, 0.0), line_radius_px)],
+                ..Marks::default()
+            };
+            let list = marks.draw(&DecorationStyle::new(Rgba::WHITE, px_per_point), |at| at);
+            let [tip, left, right] = list.fills[0].polygons[0][..] else {
+                panic!("a head is a triangle");
+            };
+            assert_eq!((left.y - 20.0, right.y - 20.0), (radius, -radius));
+            assert_eq!(tip.x - left.x, 2.25 * radius);
+        }
+    }
+}

@@ -1,0 +1,82 @@
+//! Grid: lines at round world coordinates, drawn below the paths.
+
+use guideway_scene::{DrawList, View};
+use guideway_spline::Point;
+
+use super::round_step::round_step;
+use super::style::{DecorationStyle, with_alpha};
+
+/// Least distance between grid lines, in points.
+const MIN_SPACING_POINTS: f64 = 96.0;
+/// Most lines along each axis: a bound for pictures of any size.
+const MAX_LINES: usize = 1000;
+/// Opacity of grid lines: visible, and fainter than any path.
+const OPACITY: f64 = 0.12;
+
+/// The grid of a view: lines one point wide, 1, 2 or 5 times a power of ten meters apart.
+pub fn grid(view: &View, style: &DecorationStyle) -> DrawList {
+    let mut list = DrawList::default();
+    let color = with_alpha(style.ink, OPACITY);
+    let half_px = style.px_per_point / 2.0;
+    let size = view.size();
+    let (width, height) = (f64::from(size.width()), f64::from(size.height()));
+    let [x_px, y_px] = line_positions(view, MIN_SPACING_POINTS * style.px_per_point);
+    for x in x_px {
+        let (left, right) = (x - half_px, x + half_px);
+        list.fill_rectangle(color, Point::new(left, 0.0), Point::new(right, height));
+    }
+    for y in y_px {
+        let (top, bottom) = (y - half_px, y + half_px);
+        list.fill_rectangle(color, Point::new(0.0, top), Point::new(width, bottom));
+    }
+    list
+}
+
+/// Pixel positions of the vertical lines along x and of the horizontal lines along y, at least
+/// `min_px` apart.
+fn line_positions(view: &View, min_px: f64) -> [Vec<f64>; 2] {
+    let step_m = round_step(min_px / view.px_per_m());
+    let visible = view.world_bounds();
+    let lines = |from_m: f64, to_m: f64| {
+        let (first, last) = ((from_m / step_m).ceil(), (to_m / step_m).floor());
+        // Negative where rounding, 2^53 steps from the origin and beyond, makes lines coincide.
+        let count = (last - first + 1.0).max(0.0) as usize;
+        (0..count.min(MAX_LINES)).map(move |i| (first + i as f64) * step_m)
+    };
+    let pixel = |x, y| view.pixel_from_world(Point::new(x, y));
+    [
+        lines(visible.min.x, visible.max.x)
+            .map(|x| pixel(x, visible.min.y).x)
+            .collect(),
+        lines(visible.min.y, visible.max.y)
+            .map(|y| pixel(visible.min.x, y).y)
+            .collect(),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use guideway_scene::{FrameSize, Rgba};
+
+    use super::*;
+
+    #[test]
+    fn lines_are_at_round_coordinates() {
+        let size = FrameSize::new(400, 300).unwrap();
+        let view = View::new(size, Point::new(3.0, -2.0), 20.0).unwrap();
+        let [x_px, y_px] = line_positions(&view, 96.0);
+        let meters = |x, y| view.world_from_pixel(Point::new(x, y));
+        let xs: Vec<_> = x_px.iter().map(|&x| meters(x, 0.0).x.round()).collect();
+        let ys: Vec<_> = y_px.iter().map(|&y| meters(0.0, y).y.round()).collect();
+        assert_eq!((xs, ys), (vec![-5.0, 0.0, 5.0, 10.0], vec![-5.0, 0.0, 5.0]));
+    }
+
+    #[test]
+    fn number_of_lines_is_bounded_far_from_the_origin() {
+        let size = FrameSize::new(400, 300).unwrap();
+        let view = View::new(size, Point::new(1e9, 1e9), 1e6).unwrap();
+        let list = grid(&view, &DecorationStyle::new(Rgba::WHITE, 1.0));
+        let lines: usize = list.fills.iter().map(|fill| fill.polygons.len()).sum();
+        assert!(lines <= 2 * MAX_LINES);
+    }
+}

@@ -1,0 +1,130 @@
+//! Places the marks of a view: collects what is visible, thins it out, and positions it.
+
+use guideway_scene::{LineRule, PathState, View};
+use guideway_spline::Point;
+
+use super::arrows;
+use super::declutter::{Declutter, is_crowded};
+use super::labels::{self, LabelSize};
+use super::marks::{Arrow, MAX_MARKED, MarkOptions, Marks};
+use crate::document::Document;
+use crate::reverse_pairs::ReversePairs;
+
+/// Diameter of a symbol, in points; marks nearer to each other overlap.
+const SYMBOL_POINTS: f64 = 8.0;
+
+/// Places the marks of all shown paths, nodes and stations in a view.
+pub fn marks(document: &Document, view: &View, options: &MarkOptions) -> Marks {
+    let min_distance_px = SYMBOL_POINTS * options.px_per_point;
+    let visible = Visible::new(document, view, min_distance_px);
+    let mut marks = Marks {
+        left_out: visible.left_out,
+        ..Marks::default()
+    };
+    if let Some(rule) = options.arrows {
+        marks.arrows = visible.arrows(rule, options.px_per_point, min_distance_px);
+    }
+    if options.symbols {
+        marks.nodes = visible.nodes.iter().map(|(_, at_px)| *at_px).collect();
+        marks.stations = visible.stations.iter().map(|(_, at_px)| *at_px).collect();
+    }
+    if let Some(size) = options.labels {
+        marks.labels = visible.labels(&marks.stations, size, options.px_per_point);
+    }
+    marks
+}
+
+/// The paths, nodes and stations of a view that get marks.
+struct Visible<'d> {
+    document: &'d Document,
+    view: &'d View,
+    /// Rows of shown paths; empty if too many.
+    paths: Vec<u32>,
+    /// Rows and pixel positions; empty if too many or crowded.
+    nodes: Vec<(u32, Point<f64>)>,
+    /// Rows and pixel positions; empty if too many.
+    stations: Vec<(u32, Point<f64>)>,
+    /// True if a list is empty because it has too many elements.
+    left_out: bool,
+}
+
+impl<'d> Visible<'d> {
+    fn new(document: &'d Document, view: &'d View, min_distance_px: f64) -> Self {
+        let (scene, index) = (document.scene(), document.index());
+        let bounds = view.world_bounds();
+        let mut left_out = false;
+        let mut few = |rows: &mut dyn Iterator<Item = u32>| {
+            let mut rows: Vec<u32> = rows.take(MAX_MARKED + 1).collect();
+            if rows.len() > MAX_MARKED {
+                left_out = true;
+                rows.clear();
+            }
+            rows.sort_unstable();
+            rows
+        };
+        let is_shown = |path: &u32| scene.state(*path) == PathState::Shown;
+        let paths = few(&mut index.paths_in(bounds).filter(is_shown));
+        let nodes = few(&mut index.nodes_in(bounds));
+        let station_m = |station: u32| document.station_position_m(station);
+        let is_inside = |station: &u32| station_m(*station).is_some_and(|at| bounds.contains(at));
+        let stations = 0..document.layout().stations.len() as u32;
+        let stations = few(&mut stations.filter(is_inside));
+
+        let pixel = |at| view.pixel_from_world(at);
+        let node_px = |node| (node, pixel(document.node_position_m(node)));
+        let mut nodes: Vec<_> = nodes.into_iter().map(node_px).collect();
+        let positions_px: Vec<_> = nodes.iter().map(|(_, at_px)| *at_px).collect();
+        if is_crowded(&positions_px, min_distance_px) {
+            left_out = true;
+            nodes.clear();
+        }
+        let station_px = |station| Some((station, pixel(station_m(station)?)));
+        Self {
+            document,
+            view,
+            paths,
+            nodes,
+            stations: stations.into_iter().filter_map(station_px).collect(),
+            left_out,
+        }
+    }
+
+    /// Arrows along the paths, thinned out. The first path of a reverse pair has the arrows of
+    /// both.
+    fn arrows(&self, rule: LineRule, px_per_point: f64, min_distance_px: f64) -> Vec<Arrow> {
+        let (scene, layout) = (self.document.scene(), self.document.layout());
+        let pairs = ReversePairs::among(self.document, &self.paths);
+        let is_first = |path: &&u32| pairs.of(**path).is_none_or(|other| **path < other);
+        let along = |&path: &u32| {
+            let is_pair = pairs.of(path).is_some();
+            let radius_px = rule.radius_px(scene.width_m(path), self.view.px_per_m());
+            let path = layout.paths.get(path as usize);
+            arrows::along(path, is_pair, radius_px, self.view, px_per_point)
+        };
+        let mut declutter = Declutter::new(min_distance_px);
+        let arrows = self.paths.iter().filter(is_first).flat_map(along);
+        let arrows = arrows.filter(|arrow| declutter.place(arrow.at_px));
+        arrows.take(2 * MAX_MARKED).collect()
+    }
+
+    /// Labels of stations, nodes and paths, in order of priority.
+    fn labels(
+        &self,
+        symbols: &[Point<f64>],
+        size: LabelSize,
+        px_per_point: f64,
+    ) -> Vec<labels::Label> {
+        let layout = self.document.layout();
+        let stations = self.stations.iter();
+        let stations = stations.map(|&(row, at_px)| (layout.stations.id(row), at_px));
+        let nodes = self.nodes.iter();
+        let nodes = nodes.map(|&(row, at_px)| (layout.nodes.id(row), at_px));
+        let paths = self.paths.iter().filter_map(|&path| {
+            let path = layout.paths.get(path as usize);
+            let middle = arrows::middle(path, self.view, px_per_point)?;
+            Some((path.id(), middle))
+        });
+        let names = stations.chain(nodes).chain(paths);
+        labels::place(names, symbols.iter().copied(), size, self.view.size())
+    }
+}

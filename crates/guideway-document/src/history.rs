@@ -1,0 +1,91 @@
+//! Undo history: steps stored as the changes that undo or redo them.
+
+use std::collections::HashSet;
+use std::sync::Arc;
+
+use crate::PathSet;
+use crate::change::Change;
+
+/// Steps that can be undone and redone.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct History {
+    /// Steps to undo, as their inverses, oldest first.
+    pub(crate) done: Vec<Step>,
+    /// Steps to redo, the next one last.
+    pub(crate) undone: Vec<Step>,
+    /// Number of the newest step.
+    newest: u64,
+    /// Number of the last step that the saved file contains.
+    saved: u64,
+}
+
+/// A state that was marked as saved. See [`Document::mark_saved`](crate::Document::mark_saved).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SavedState(u64);
+
+/// The changes from one state to a neighboring one, and the selection there.
+#[derive(Clone, Debug)]
+pub(crate) struct Step {
+    pub(crate) name: &'static str,
+    pub(crate) number: u64,
+    pub(crate) changes: Vec<Change>,
+    pub(crate) selection: Arc<PathSet>,
+}
+
+impl History {
+    /// Records a new step by its inverse changes and the selection before it. Drops the redo steps.
+    pub(crate) fn push(
+        &mut self,
+        name: &'static str,
+        inverse: Vec<Change>,
+        selection: Arc<PathSet>,
+    ) {
+        self.newest += 1;
+        self.undone.clear();
+        self.done.push(Step {
+            name,
+            number: self.newest,
+            changes: inverse,
+            selection,
+        });
+    }
+
+    /// Number of the present state: that of the last step done, 0 before the first.
+    pub(crate) fn state(&self) -> u64 {
+        self.done.last().map_or(0, |step| step.number)
+    }
+
+    /// True if the present state differs from the saved one.
+    pub(crate) fn is_changed(&self) -> bool {
+        self.state() != self.saved
+    }
+
+    /// Marks the present state as saved; returns the mark before.
+    pub(crate) fn mark_saved(&mut self) -> SavedState {
+        let now = self.state();
+        SavedState(std::mem::replace(&mut self.saved, now))
+    }
+
+    pub(crate) fn restore_saved(&mut self, before: SavedState) {
+        self.saved = before.0;
+    }
+
+    /// Memory of all steps, in bytes.
+    pub(crate) fn bytes(&self) -> u64 {
+        let mut counted = HashSet::new();
+        let steps = self.done.iter().chain(&self.undone);
+        steps
+            .map(|step| {
+                let changes: usize = step.changes.iter().map(Change::heap_bytes).sum();
+                // Consecutive steps usually share one selection.
+                let is_new = counted.insert(Arc::as_ptr(&step.selection));
+                let selection = if is_new {
+                    step.selection.serialized_size()
+                } else {
+                    0
+                };
+                (size_of::<Step>() + changes + selection) as u64
+            })
+            .sum()
+    }
+}

@@ -1,0 +1,14 @@
+//! Journal entries as data.
+
+use crate::change::Change;
+
+/// An action of the user that changes the document.
+#[derive(Clone, Debug)]
+pub enum JournalEntry {
+    /// Performed changes, as one step.
+    Do(Vec<Change>),
+    /// Undid the last step.
+    Undo,
+    /// Redid the last undone step.
+    Redo,
+}

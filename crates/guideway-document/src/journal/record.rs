@@ -1,0 +1,31 @@
+//! Records: payloads framed by their size and checksum.
+
+use super::encode;
+use super::entry::JournalEntry;
+
+impl JournalEntry {
+    /// The entry as a record to append to a journal file.
+    pub fn to_record(&self) -> Vec<u8> {
+        let payload = encode::encode(self);
+        let mut record = Vec::with_capacity(payload.len() + 8);
+        record.extend((payload.len() as u32).to_le_bytes());
+        record.extend(checksum(&payload).to_le_bytes());
+        record.extend(payload);
+        record
+    }
+}
+
+/// Splits the first record off `bytes`: its payload and the remaining bytes. `None` if the record
+/// is incomplete or its checksum does not match.
+pub(super) fn next_payload(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
+    let (size, rest) = bytes.split_first_chunk()?;
+    let (sum, rest) = rest.split_first_chunk()?;
+    let (payload, rest) = rest.split_at_checked(u32::from_le_bytes(*size) as usize)?;
+    (checksum(payload) == u32::from_le_bytes(*sum)).then_some((payload, rest))
+}
+
+/// FNV-1a with 32 bits (Fowler, Noll, Vo).
+fn checksum(bytes: &[u8]) -> u32 {
+    let step = |hash: u32, &byte: &u8| (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193);
+    bytes.iter().fold(0x811c_9dc5, step)
+}

@@ -1,0 +1,157 @@
+//! Selection and visibility: select by rows or box; hide, isolate and show paths.
+
+use std::sync::Arc;
+
+use guideway_layout::PathRef;
+use guideway_scene::{Edit, PathState};
+use guideway_spline::{Bounds, uniform};
+
+use crate::PathSet;
+use crate::document::Document;
+
+/// Combination of a new selection with the present one.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum SelectMode {
+    /// Replaces the present selection.
+    #[default]
+    Replace,
+    /// Adds to the present selection.
+    Add,
+    /// Removes from the present selection.
+    Remove,
+}
+
+impl Document {
+    /// Rows of the selected paths.
+    pub fn selection(&self) -> &PathSet {
+        &self.selection
+    }
+
+    /// Selects paths; paths that are not shown are ignored.
+    pub fn select(&mut self, paths: PathSet, mode: SelectMode) {
+        self.revision += 1;
+        let shown: PathSet = paths
+            .into_iter()
+            .filter(|&path| self.is_shown(path))
+            .collect();
+        self.selection = Arc::new(match mode {
+            SelectMode::Replace => shown,
+            SelectMode::Add => &*self.selection | shown,
+            SelectMode::Remove => &*self.selection - shown,
+        });
+    }
+
+    /// Selects the paths whose curve is inside a box in meters, or also paths that cross its border
+    /// if `crossing` is set.
+    pub fn select_in(&mut self, bounds: Bounds<f64>, crossing: bool, mode: SelectMode) {
+        let is_chosen = |&(path, of_path): &(u32, Bounds<f64>)| {
+            let is_inside = bounds.contains(of_path.min) && bounds.contains(of_path.max);
+            let path = self.layout().paths.get(path as usize);
+            is_inside || (crossing && intersects(path, bounds))
+        };
+        let found = self.index.boxes_in(bounds).filter(is_chosen);
+        let found = found.map(|(path, _)| path).collect();
+        self.select(found, mode);
+    }
+
+    /// Selects all shown paths.
+    pub fn select_all(&mut self) {
+        self.revision += 1;
+        self.selection = Arc::new(self.scene.draw_order().iter().copied().collect());
+    }
+
+    /// Bounding box of the selected curves, in meters; `None` without a selection.
+    pub fn selection_bounds(&self) -> Option<Bounds<f64>> {
+        let boxes = self
+            .selection
+            .iter()
+            .filter_map(|path| self.index.path_bounds(path));
+        boxes.reduce(Bounds::union)
+    }
+
+    /// Hides the selected paths. Visibility is not part of the undo history.
+    pub fn hide_selection(&mut self) {
+        let paths = std::mem::take(&mut self.selection);
+        self.set_visibility(paths.iter(), PathState::Hidden);
+    }
+
+    /// Hides all but the selected paths.
+    pub fn isolate_selection(&mut self) {
+        let all = self.scene.draw_order().iter().copied();
+        let others: Vec<u32> = all.filter(|&path| !self.selection.contains(path)).collect();
+        self.set_visibility(others.into_iter(), PathState::Hidden);
+    }
+
+    /// Shows only the paths of a level; `None` shows all levels.
+    pub fn show_level(&mut self, level: Option<u32>) {
+        self.show_all();
+        if level.is_some() {
+            let all = self.scene.draw_order().iter().copied();
+            let is_elsewhere =
+                |&path: &u32| self.layout().paths.get(path as usize).level() != level;
+            let others: Vec<u32> = all.filter(is_elsewhere).collect();
+            self.set_visibility(others.into_iter(), PathState::Hidden);
+        }
+        self.deselect_hidden();
+    }
+
+    /// Shows all hidden paths.
+    pub fn show_all(&mut self) {
+        let rows = 0..self.scene.row_count() as u32;
+        let hidden = rows.filter(|&path| self.scene.state(path) == PathState::Hidden);
+        let hidden: Vec<u32> = hidden.collect();
+        self.set_visibility(hidden.into_iter(), PathState::Shown);
+    }
+
+    fn set_visibility(&mut self, paths: impl Iterator<Item = u32>, state: PathState) {
+        self.revision += 1;
+        let states: Arc<[_]> = paths.map(|path| (path, state)).collect();
+        if !states.is_empty() {
+            // Cannot fail: all rows exist.
+            let _ = self
+                .scene
+                .edit_with_undo(&Edit::SetStates(states), |edit| self.observer.notify(edit));
+        }
+    }
+
+    /// Removes paths that are not shown from the selection.
+    pub(crate) fn deselect_hidden(&mut self) {
+        if !self.selection.iter().all(|path| self.is_shown(path)) {
+            let selection = std::mem::take(&mut self.selection);
+            let shown = selection.iter().filter(|&path| self.is_shown(path));
+            self.selection = Arc::new(shown.collect());
+        }
+    }
+
+    fn is_shown(&self, path: u32) -> bool {
+        (path as usize) < self.scene.row_count() && self.scene.state(path) == PathState::Shown
+    }
+}
+
+/// True if a curve intersects a box. Halves segments until the box of a part lies inside the
+/// selection box, or is small against it.
+fn intersects(path: PathRef<'_>, bounds: Bounds<f64>) -> bool {
+    /// Bisection depth at which a part counts as a point: below the resolution of `f64`.
+    const MAX_HALVINGS: u32 = 40;
+    let mut parts: Vec<_> = path
+        .runs()
+        .flat_map(|run| run.segments())
+        .map(|segment| (segment, 0))
+        .collect();
+    let size_m = bounds.size().norm();
+    while let Some((part, halvings)) = parts.pop() {
+        let part_bounds = Bounds::of_segment(&part);
+        if !part_bounds.intersects(bounds) {
+            continue;
+        }
+        let is_small = part_bounds.size().norm() <= size_m / 256.0;
+        if is_small
+            || halvings == MAX_HALVINGS
+            || bounds.contains(part_bounds.min) && bounds.contains(part_bounds.max)
+        {
+            return true;
+        }
+        parts.extend(uniform::halves(&part).map(|half| (half, halvings + 1)));
+    }
+    false
+}

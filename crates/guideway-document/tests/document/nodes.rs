@@ -1,0 +1,98 @@
+//! Nodes and stations: how they move, and how paths follow them.
+
+use guideway_document::Document;
+use guideway_document::measure::length_m;
+use guideway_scene::EditError;
+use guideway_spline::Affine;
+
+use crate::site::{document_of, ends, is_near, lanes, p, select, two_joined};
+
+#[test]
+fn path_ends_follow_a_moved_node_and_straight_stays_straight() {
+    let mut document = two_joined();
+    document.move_node(1, p(11.0, 2.0)).unwrap();
+    assert!(is_near(document.node_position_m(1), p(11.0, 2.0)));
+    let (start, end) = ends(&document, 0);
+    assert!(is_near(start, p(0.0, 0.0)) && is_near(end, p(11.0, 2.0)));
+    assert!((length_m(document.layout().paths.get(0)) - 125f64.sqrt()).abs() < 1e-4);
+    let (start, end) = ends(&document, 1);
+    assert!(is_near(start, p(11.0, 2.0)) && is_near(end, p(20.0, 0.0)));
+    assert_eq!(document.undo(), Some("move node"));
+    assert_eq!(document.node_position_m(1), p(10.0, 0.0));
+    assert_eq!(ends(&document, 0), ends(&two_joined(), 0));
+    assert_eq!(
+        document.move_node(9, p(0.0, 0.0)),
+        Err(EditError::UnknownReference {
+            what: "node",
+            row: 9
+        })
+    );
+}
+
+#[test]
+fn a_node_moves_along_if_all_its_paths_move() {
+    let mut document = two_joined();
+    select(&mut document, [0]);
+    let by = Affine::translation(p(0.0, 3.0));
+    document.transform_selection("move", by).unwrap();
+    assert_eq!(document.node_position_m(0), p(0.0, 3.0));
+    assert_eq!(
+        document.node_position_m(1),
+        p(10.0, 0.0),
+        "bc is still there"
+    );
+    select(&mut document, [0, 1]);
+    document.transform_selection("move", by).unwrap();
+    assert_eq!(document.node_position_m(1), p(10.0, 3.0));
+    assert_eq!(document.node_near(p(10.0, 3.1), 0.5), Some(1));
+    assert_eq!(document.node_near(p(10.0, 0.0), 0.5), None);
+}
+
+#[test]
+fn a_station_moves_along_if_all_its_nodes_move() {
+    let mut layout = lanes(3);
+    let stations = &mut layout.stations;
+    stations.push("rack", Some(p(-1.0, 0.5)), vec![0, 1], None);
+    stations.push("charger", Some(p(-2.0, 2.0)), vec![2], None);
+    stations.push("dock", None, vec![2, 0], None);
+    stations.push("sign", Some(p(5.0, 5.0)), vec![], None);
+    let mut document = document_of(layout);
+    let stations = |document: &Document| {
+        let saved = document.to_layout().stations;
+        assert_eq!(saved.position_m(2), None, "it has no place of its own");
+        for station in [0, 1, 3] {
+            let at = document.station_position_m(station);
+            assert_eq!(saved.position_m(station), at);
+        }
+        [0, 1, 2, 3].map(|station| document.station_position_m(station).unwrap())
+    };
+    let before = stations(&document);
+    assert_eq!(before[2], p(0.0, 2.0));
+    document.move_node(0, p(0.0, -3.0)).unwrap();
+    assert_eq!(stations(&document), before, "a rack has two nodes");
+    document.move_node(1, p(0.0, 0.0)).unwrap();
+    document.move_node(2, p(4.0, 2.0)).unwrap();
+    let after = [p(-1.0, -1.5), p(2.0, 2.0), p(4.0, 2.0), p(5.0, 5.0)];
+    assert_eq!(stations(&document), after);
+    for _ in 0..3 {
+        document.undo().unwrap();
+    }
+    assert_eq!(stations(&document), before);
+    document.move_node(1, p(0.0, 0.0)).unwrap();
+    assert_eq!(stations(&document), before, "the other is back");
+}
+
+#[test]
+fn added_paths_follow_their_nodes_and_removed_ones_do_not() {
+    let mut document = two_joined();
+    let points = [p(0.0, 0.0), p(5.0, 8.0), p(20.0, 0.0)];
+    document.draw_path("new".into(), &points, 0.5).unwrap();
+    select(&mut document, [0]);
+    document.delete_selection().unwrap();
+    document.move_node(0, p(-3.0, 1.0)).unwrap();
+    assert!(is_near(ends(&document, 2).0, p(-3.0, 1.0)));
+    assert!(is_near(ends(&document, 0).0, p(0.0, 0.0)), "it is removed");
+    let mut at: Vec<u32> = document.index().paths_at(2).collect();
+    at.sort_unstable();
+    assert_eq!(at, [1, 2]);
+}
