@@ -17,6 +17,7 @@
 //! |---|---|
 //! | `scene/`, `color`, `color_by`, `style`, `width`, `density` | appearance of the paths |
 //! | `edit/` | changes of a scene and their inverses |
+//! | `cluster/` | the spatial index of paths, nodes and strokes |
 //! | `view`, `frame`, `strip`, `limits` | the picture |
 //! | `method`, `report`, `error` | the contract of render methods |
 //! | `draw_list` | decorations over or below the paths |

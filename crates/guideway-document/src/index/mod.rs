@@ -1,18 +1,14 @@
 //! Spatial index: finds the paths and nodes near a place, and the paths at a node.
 //!
-//! | file | content |
-//! |---|---|
-//! | `boxes` | bounding boxes in Hilbert-sorted clusters |
-//! | `node_paths` | paths at each node |
+//! Boxes of paths and nodes are in a [`BoxIndex`]; `node_paths` lists the paths at each node.
 
-mod boxes;
 mod node_paths;
 
 use guideway_layout::{Layout, PathRef};
+use guideway_scene::cluster::BoxIndex;
 use guideway_spline::{Bounds, Point};
 use rayon::prelude::*;
 
-use boxes::Boxes;
 use node_paths::NodePaths;
 pub(crate) use node_paths::nodes_of;
 
@@ -23,8 +19,8 @@ const CHUNK: usize = 4096;
 /// Index of the paths and nodes of a layout, by their rows. A path's box is that of its curve.
 #[derive(Clone, Debug, Default)]
 pub struct Index {
-    paths: Boxes,
-    nodes: Boxes,
+    paths: BoxIndex,
+    nodes: BoxIndex,
     node_paths: NodePaths,
     path_count: u32,
 }
@@ -32,17 +28,13 @@ pub struct Index {
 impl Index {
     /// Indexes a whole layout, on all threads.
     pub fn new(layout: &Layout) -> Self {
-        let nodes = &layout.nodes;
-        let node_rows = 0..nodes.len() as u32;
         let paths = (0..layout.paths.len()).into_par_iter();
         let paths = paths.map(|row| curve_bounds(layout.paths.get(row)));
+        let nodes = 0..layout.nodes.len() as u32;
+        let nodes = nodes.map(|node| Some(point_box(layout.nodes.position_m(node))));
         Self {
-            paths: Boxes::new(paths.collect()),
-            nodes: Boxes::new(
-                node_rows
-                    .map(|node| Some(point_box(nodes.position_m(node))))
-                    .collect(),
-            ),
+            paths: BoxIndex::new(&paths.collect::<Vec<_>>()),
+            nodes: BoxIndex::new(&nodes.collect::<Vec<_>>()),
             node_paths: NodePaths::new(layout),
             path_count: layout.paths.len() as u32,
         }
@@ -87,12 +79,12 @@ impl Index {
 
     /// Paths whose box intersects `bounds`, with the box, in no particular order.
     pub fn boxes_in(&self, bounds: Bounds<f64>) -> impl Iterator<Item = (u32, Bounds<f64>)> {
-        self.paths.intersecting(bounds)
+        self.paths.meeting(bounds)
     }
 
     /// Nodes inside `bounds`, in no particular order.
     pub fn nodes_in(&self, bounds: Bounds<f64>) -> impl Iterator<Item = u32> {
-        self.nodes.intersecting(bounds).map(|(node, _)| node)
+        self.nodes.meeting(bounds).map(|(node, _)| node)
     }
 
     /// Paths that start or end at a node, including removed paths.
