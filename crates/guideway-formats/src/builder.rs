@@ -41,7 +41,7 @@ pub(crate) enum Table {
 impl<'a> Builder<'a> {
     pub(crate) fn new(source: Source<'a>, file_bytes: usize) -> Self {
         let mut layout = Layout {
-            diagnostics: Diagnostics::keeping(source.options.limits.diagnostics_per_code),
+            diagnostics: Diagnostics::with_limit(source.options.limits.diagnostics_per_code),
             ..Layout::default()
         };
         source.name.clone_into(&mut layout.provenance.source);

@@ -1,13 +1,15 @@
+//! [`Attributes`]: the further columns of a table, each with a name and one type.
+
 use crate::{Cells, TextColumn};
 
-/// Any further columns of a table, by name, in the order of the file.
+/// Further columns of a table, in the order of the file.
 #[derive(Clone, Debug, Default)]
 pub struct Attributes {
     columns: Vec<Attribute>,
 }
 
 impl Attributes {
-    /// Adds a whole column, in place of one of the same name.
+    /// Adds a column, or replaces the one of the same name.
     pub fn insert(&mut self, column: Attribute) {
         match self.columns.iter_mut().find(|c| c.name == column.name) {
             Some(old) => *old = column,
@@ -15,8 +17,8 @@ impl Attributes {
         }
     }
 
-    /// Sets the value of one row, with empty rows before it as needed. A column whose values differ in
-    /// type widens: whole numbers to numbers, anything else to text.
+    /// Sets the value of a row; appends empty rows before it as needed. A value of another type
+    /// widens the column: whole numbers to numbers, any other mix to text.
     pub fn set(&mut self, row: usize, name: &str, value: Value<'_>) {
         let index = self
             .columns
@@ -32,7 +34,7 @@ impl Attributes {
         values.set(row, value);
     }
 
-    /// Gives a row the values of another one.
+    /// Copies the values of row `from` to row `to`.
     pub fn copy_row(&mut self, from: usize, to: usize) {
         for Attribute { values, .. } in &mut self.columns {
             match values.get(from) {
@@ -48,7 +50,7 @@ impl Attributes {
         }
     }
 
-    /// Appends the values of another table: its first row becomes row `first_row`.
+    /// Appends the values of another table, whose row 0 becomes row `first_row`.
     pub(crate) fn extend(&mut self, first_row: usize, other: &Self) {
         for column in other.iter() {
             for row in 0..column.values.len() {
@@ -59,7 +61,7 @@ impl Attributes {
         }
     }
 
-    /// The column of this name.
+    /// The column with this name.
     pub fn get(&self, name: &str) -> Option<&Attribute> {
         self.columns.iter().find(|c| c.name == name)
     }
@@ -69,25 +71,25 @@ impl Attributes {
         self.columns.iter()
     }
 
-    /// Heap bytes held.
+    /// Heap bytes in use.
     pub fn heap_bytes(&self) -> usize {
         self.columns.iter().map(|c| c.values.heap_bytes()).sum()
     }
 }
 
-/// One typed column. A row may have no value, and rows past the end have none.
+/// One typed column. A row may lack a value; rows past the end lack one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Attribute {
-    /// Name, as the file has it.
+    /// Name in the file.
     pub name: String,
-    /// The values, a row each.
+    /// One value per row.
     pub values: Values,
-    /// Type in the file when it is narrower than the one held here, such as `Int16`.
+    /// Type in the file if it is narrower than the one in memory, such as `Int16`.
     pub source_type: Option<String>,
 }
 
 impl Attribute {
-    /// A column whose type in the file is the one held here.
+    /// A column with the same type in the file and in memory.
     pub fn new(name: impl Into<String>, values: Values) -> Self {
         Self {
             name: name.into(),
@@ -97,7 +99,7 @@ impl Attribute {
     }
 }
 
-/// The values of a column, held in one type.
+/// The values of a column, in one type.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Values {
     /// Yes or no.
@@ -106,7 +108,7 @@ pub enum Values {
     Int(Cells<i64>),
     /// Numbers.
     Float(Cells<f64>),
-    /// Text; `present[row]` tells an empty text from none.
+    /// Text; `present[row]` distinguishes an empty text from a missing one.
     Text {
         /// The text of each row.
         text: TextColumn,
@@ -128,7 +130,7 @@ impl Values {
         }
     }
 
-    /// Number of rows held.
+    /// Number of rows.
     pub fn len(&self) -> usize {
         match self {
             Self::Bool(v) => v.len(),
@@ -138,7 +140,7 @@ impl Values {
         }
     }
 
-    /// Whether no row is held.
+    /// Whether there are no rows.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -150,8 +152,8 @@ impl Values {
             Self::Int(v) => v.get(row).map(Value::Int),
             Self::Float(v) => v.get(row).map(Value::Float),
             Self::Text { text, present } => {
-                let here = present.get(row).copied().unwrap_or(false);
-                here.then(|| Value::Text(text.get(row)))
+                let is_present = present.get(row).copied().unwrap_or(false);
+                is_present.then(|| Value::Text(text.get(row)))
             }
         }
     }
@@ -188,13 +190,13 @@ impl Values {
             (Self::Int(v), Value::Int(x)) => v.set(row, x),
             (Self::Float(v), Value::Float(x)) => v.set(row, x),
             (Self::Float(v), Value::Int(x)) => v.set(row, x as f64),
-            _ => unreachable!("the column was widened for this value"),
+            _ => unreachable!("`widen_for` has widened the column for this value"),
         }
     }
 
     fn set_text(text: &mut TextColumn, present: &mut Vec<bool>, row: usize, value: &str) {
         if row < present.len() {
-            // Rare: a row set twice. The buffer is flat, so it is made anew.
+            // The buffer is flat, so replacing a text rebuilds it; setting a row twice is rare.
             let rows: Vec<String> = text.iter().map(str::to_owned).collect();
             let replaced = rows
                 .iter()
@@ -254,7 +256,7 @@ impl std::fmt::Display for Value<'_> {
         match self {
             Self::Bool(v) => v.fmt(f),
             Self::Int(v) => v.fmt(f),
-            // Single precision is common in files: 0.3 must not read 0.30000001192092896.
+            // Files often store `f32`: 0.3 must not print as 0.30000001192092896.
             Self::Float(v) if f64::from(*v as f32) == *v => (*v as f32).fmt(f),
             Self::Float(v) => v.fmt(f),
             Self::Text(v) => f.write_str(v),
@@ -267,7 +269,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_row_takes_the_values_of_another() {
+    fn copies_the_values_of_a_row() {
         let mut attributes = Attributes::default();
         let values = [
             ("is_wide", Value::Bool(true)),
@@ -288,7 +290,7 @@ mod tests {
     }
 
     #[test]
-    fn a_column_widens_to_hold_what_comes() {
+    fn column_widens_to_the_type_of_its_values() {
         let mut attributes = Attributes::default();
         attributes.set(1, "speed", Value::Int(2));
         attributes.set(2, "speed", Value::Float(0.5));

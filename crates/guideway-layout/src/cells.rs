@@ -1,15 +1,17 @@
-/// The values of a column, of which some rows may have none: as much memory as the values, and a byte a row more once one is
-/// missing.
+//! [`Cells`]: a column of optional values.
+
+/// A column of optional values. It takes the memory of the values, plus one byte per row from the
+/// first missing value on.
 #[derive(Clone, Debug, Default)]
 pub struct Cells<T> {
-    /// Anything where there is none.
+    /// Arbitrary in rows without a value.
     values: Vec<T>,
-    /// Whether there is one; none while all rows have one.
+    /// Whether each row has a value; `None` while all rows have one.
     present: Option<Vec<bool>>,
 }
 
 impl<T: Copy + Default> Cells<T> {
-    /// None yet, with room for so many rows.
+    /// An empty column with capacity for `rows` rows.
     pub fn with_capacity(rows: usize) -> Self {
         Self {
             values: Vec::with_capacity(rows),
@@ -27,24 +29,24 @@ impl<T: Copy + Default> Cells<T> {
         self.values.is_empty()
     }
 
-    /// The value of a row, if it has one; rows past the end have none.
+    /// The value of a row; `None` if it has none or lies past the end.
     pub fn get(&self, row: usize) -> Option<T> {
         let value = *self.values.get(row)?;
-        let is_there = self.present.as_ref().is_none_or(|present| present[row]);
-        is_there.then_some(value)
+        let is_present = self.present.as_ref().is_none_or(|present| present[row]);
+        is_present.then_some(value)
     }
 
-    /// The values of all rows.
+    /// The cells of all rows.
     pub fn iter(&self) -> impl Iterator<Item = Option<T>> {
         (0..self.len()).map(|row| self.get(row))
     }
 
-    /// The values that there are.
+    /// The values of the rows that have one.
     pub fn values(&self) -> impl Iterator<Item = T> {
         self.iter().flatten()
     }
 
-    /// Appends rows that have a value each.
+    /// Appends rows that all have a value.
     pub fn extend_present(&mut self, values: impl ExactSizeIterator<Item = T>) {
         if let Some(present) = &mut self.present {
             present.resize(self.values.len() + values.len(), true);
@@ -63,7 +65,7 @@ impl<T: Copy + Default> Cells<T> {
         self.values.push(value.unwrap_or_default());
     }
 
-    /// Gives a row a value, with rows of none before it as needed.
+    /// Sets the value of a row; appends empty rows before it as needed.
     pub(crate) fn set(&mut self, row: usize, value: T) {
         self.pad_to(row);
         if row == self.len() {
@@ -76,14 +78,14 @@ impl<T: Copy + Default> Cells<T> {
         }
     }
 
-    /// Appends rows of none until there are so many.
+    /// Appends empty rows until the column has `rows` rows.
     pub(crate) fn pad_to(&mut self, rows: usize) {
         while self.len() < rows {
             self.push(None);
         }
     }
 
-    /// Heap bytes held.
+    /// Heap bytes in use.
     pub(crate) fn heap_bytes(&self) -> usize {
         let present = self.present.as_ref().map_or(0, Vec::capacity);
         self.values.capacity() * size_of::<T>() + present
@@ -109,7 +111,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn rows_have_what_they_were_given() {
+    fn returns_the_values_that_were_set() {
         let mut cells = Cells::with_capacity(3);
         cells.extend_present([1, 2].into_iter());
         assert_eq!(cells.heap_bytes(), 3 * size_of::<i32>());
@@ -124,7 +126,7 @@ mod tests {
     }
 
     #[test]
-    fn columns_are_equal_by_what_their_rows_have() {
+    fn equality_compares_cells_and_ignores_the_storage() {
         let whole: Cells<i32> = [Some(1), Some(2)].into_iter().collect();
         let mut filled: Cells<i32> = [Some(1), None].into_iter().collect();
         assert_ne!(whole, filled);

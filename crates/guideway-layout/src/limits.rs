@@ -1,27 +1,29 @@
-/// Every limit that a reader holds to. Exceeding one is an error that names it.
+//! [`Limits`]: bounds on what a reader accepts from untrusted files.
+
+/// Limits of a reader. Exceeding one is an error that names the limit, the value and the remedy.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Limits {
-    /// Largest file that is read into memory whole, in bytes.
+    /// Largest file that a reader loads into memory as a whole, in bytes.
     pub file_bytes: u64,
-    /// Most paths of one layout.
+    /// Most paths per layout.
     pub paths: u64,
-    /// Most control points of one layout after conversion.
+    /// Most control points per layout, after conversion to runs.
     pub control_points: u64,
-    /// Most control points or knots of one curve in a file.
+    /// Most control points or knots per curve in a file.
     pub curve_points: usize,
-    /// Highest degree of one curve in a file.
+    /// Highest degree of a curve in a file.
     pub degree: usize,
     /// Deepest nesting of a structured file.
     pub depth: usize,
-    /// Most elements of a structured file.
+    /// Most elements per structured file.
     pub elements: u64,
     /// Longest identifier or attribute text, in bytes.
     pub text_bytes: usize,
     /// Largest absolute coordinate, in meters.
     pub coordinate_m: f64,
-    /// Diagnostics kept whole for each code; beyond that they are counted.
+    /// Diagnostics stored per code; further ones only count.
     pub diagnostics_per_code: usize,
-    /// Largest deviation when a curve cannot be converted exactly, in meters.
+    /// Largest distance between a curve and its conversion to runs, in meters.
     pub conversion_tolerance_m: f64,
 }
 
@@ -30,9 +32,10 @@ impl Default for Limits {
         Self {
             file_bytes: 8 << 30,
             paths: 100_000_000,
+            // Derived: `Geometry` stores end indices as `u32`.
             control_points: u64::from(u32::MAX),
             curve_points: 1_000_000,
-            degree: 25,
+            degree: guideway_spline::MAX_DEGREE,
             depth: 128,
             elements: 100_000_000,
             text_bytes: 1 << 20,

@@ -1,34 +1,20 @@
-//! Several layouts as one, each put where it belongs.
+//! Merge: joins several layouts into one.
 
-use guideway_spline::{Affine, Runs};
+use guideway_spline::Runs;
 
 use crate::{Attributes, Diagnostics, Layout, Level, NewPath, Provenance, Value};
 
-/// Names of the column that tells which file a row is from: the first that no file has itself.
+/// Names for the column with the source of each row; the first one that no input uses applies.
 const SOURCE: [&str; 2] = ["source", "source_file"];
 
-impl Layout {
-    /// Maps all of it: curves, nodes, stations; widths by the square root of what areas grow by. Columns stay
-    /// as they are, whatever they measure.
-    pub fn transform(&mut self, by: Affine) {
-        self.paths.transform(0..self.paths.len(), by);
-        self.nodes.transform(by);
-        self.stations.transform(by);
-        if let Some(widths_m) = self.paths.width_m() {
-            let scale = by.x.cross(by.y).abs().sqrt() as f32;
-            self.paths
-                .set_width_m(widths_m.iter().map(|w| w * scale).collect());
-        }
-    }
-}
-
-/// Puts layouts into one, in their order: what comes later is drawn over what comes before, where ranks are
-/// equal.
+/// Merges layouts in their order: at equal rank, paths of later layouts cover those of earlier
+/// ones.
 ///
-/// Identifiers stay, even if several layouts have the same; paths refer to the nodes of their own layout. A
-/// level is one with that of another layout which has its identifier or its name. The column `source` of
-/// paths, nodes and stations holds [`Provenance::source`]. Columns of one name are one, as wide as it takes.
-/// One layout alone stays as it is.
+/// Identifiers do not change, even if several layouts use the same; paths refer to the nodes of
+/// their own layout. Levels of different layouts with the same identifier or name become one. The
+/// column `source` of paths, nodes and stations states [`Provenance::source`]. Columns of the same
+/// name become one, in the narrowest type that can represent all values. A single layout is
+/// returned unchanged.
 pub fn merge(layouts: Vec<Layout>) -> Layout {
     let layouts = match <[Layout; 1]>::try_from(layouts) {
         Ok([one]) => return one,
@@ -51,14 +37,14 @@ pub fn merge(layouts: Vec<Layout>) -> Layout {
     merged.finish()
 }
 
-/// The layouts so far.
+/// The merge of the layouts so far.
 struct Merged {
     layout: Layout,
     source: &'static str,
     styles: Styles,
 }
 
-/// The columns of paths that a layout may not have.
+/// The optional columns of paths.
 #[derive(Default)]
 struct Styles {
     width_m: Vec<f32>,
@@ -144,8 +130,8 @@ impl Merged {
             .append(std::mem::take(&mut other.diagnostics));
     }
 
-    /// The rows here of the levels of another layout, which are added if they are new. Those of one layout
-    /// stay apart, even if they are named alike.
+    /// Adds the new levels of another layout and returns the merged row of each. Levels of one
+    /// layout stay separate, even if they have the same name.
     fn add_levels(&mut self, others: &[Level]) -> Vec<u32> {
         let known = self.layout.levels.len();
         let levels = &mut self.layout.levels;
@@ -204,12 +190,12 @@ impl Layout {
     }
 }
 
-/// Whether the identifier or the name of one level is that of the other.
+/// Whether two levels have the same identifier or the same name.
 fn is_same(a: &Level, b: &Level) -> bool {
     a.id == b.id || a.name.is_some() && a.name == b.name
 }
 
-/// What is known of several sources: each name once, and the sums of the counts.
+/// Provenance of several sources: each distinct name once, and the sums of the counts.
 fn provenance(layouts: &[Layout]) -> Provenance {
     let of = |part: fn(&Provenance) -> &str, separator: &str| {
         let mut parts: Vec<&str> = Vec::new();
@@ -233,7 +219,7 @@ fn provenance(layouts: &[Layout]) -> Provenance {
         format: of(|p| &p.format, " + "),
         format_version: of(|p| &p.format_version, " + "),
         counts,
-        // It would be of one of them only.
+        // A writer could copy the fields of one source only.
         text: None,
     }
 }

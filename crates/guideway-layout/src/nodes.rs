@@ -1,25 +1,27 @@
+//! Tables of nodes and stations, with one column per property, and the levels they lie on.
+
 use guideway_spline::{Affine, Point};
 
 use crate::{Attributes, TextColumn};
 
-/// A floor of a building, or one of several layouts in a file.
+/// A floor of a building, or one layout of a file that has several.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Level {
-    /// Identifier, as the file has it.
+    /// Identifier in the file.
     pub id: String,
-    /// A name for people.
+    /// Human-readable name.
     pub name: Option<String>,
-    /// Height above the ground, if the file says.
+    /// Height above the ground in meters, if the file states it.
     pub elevation_m: Option<f64>,
 }
 
-/// Points where paths meet, a column an attribute.
+/// Named points where paths begin, end and meet.
 #[derive(Clone, Debug, Default)]
 pub struct Nodes {
     ids: TextColumn,
     positions_m: Vec<Point<f64>>,
     levels: Vec<Option<u32>>,
-    /// Any further columns of the file.
+    /// Further columns of the file.
     pub attributes: Attributes,
 }
 
@@ -52,17 +54,17 @@ impl Nodes {
         self.positions_m[node as usize]
     }
 
-    /// Maps the positions of all.
+    /// Maps all positions.
     pub(crate) fn transform(&mut self, by: Affine) {
         self.positions_m.iter_mut().for_each(|p| *p = by.apply(*p));
     }
 
-    /// Index of a node's level.
+    /// Index of the level of a node.
     pub fn level(&self, node: u32) -> Option<u32> {
         self.levels[node as usize]
     }
 
-    /// Heap bytes held.
+    /// Heap bytes in use.
     pub fn heap_bytes(&self) -> usize {
         self.ids.heap_bytes()
             + self.positions_m.capacity() * size_of::<Point<f64>>()
@@ -71,14 +73,14 @@ impl Nodes {
     }
 }
 
-/// Places where vehicles do something.
+/// Named places where vehicles load, unload, park or charge.
 #[derive(Clone, Debug, Default)]
 pub struct Stations {
     ids: TextColumn,
     positions_m: Vec<Option<Point<f64>>>,
     nodes: Vec<Vec<u32>>,
     levels: Vec<Option<u32>>,
-    /// Any further columns of the file.
+    /// Further columns of the file.
     pub attributes: Attributes,
 }
 
@@ -113,15 +115,15 @@ impl Stations {
         self.ids.get(station as usize)
     }
 
-    /// Position of a station, in meters, if the file gives one.
+    /// Position of a station, in meters, if the file states one.
     pub fn position_m(&self, station: u32) -> Option<Point<f64>> {
         self.positions_m[station as usize]
     }
 
-    /// Maps the positions of all.
+    /// Maps all positions.
     pub(crate) fn transform(&mut self, by: Affine) {
-        let there = self.positions_m.iter_mut().flatten();
-        there.for_each(|p| *p = by.apply(*p));
+        let positions_m = self.positions_m.iter_mut().flatten();
+        positions_m.for_each(|p| *p = by.apply(*p));
     }
 
     /// Rows of the nodes that serve a station.
@@ -129,12 +131,12 @@ impl Stations {
         &self.nodes[station as usize]
     }
 
-    /// Index of a station's level.
+    /// Index of the level of a station.
     pub fn level(&self, station: u32) -> Option<u32> {
         self.levels[station as usize]
     }
 
-    /// Heap bytes held.
+    /// Heap bytes in use.
     pub fn heap_bytes(&self) -> usize {
         self.ids.heap_bytes()
             + self.positions_m.capacity() * size_of::<Option<Point<f64>>>()

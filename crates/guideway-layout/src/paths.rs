@@ -1,55 +1,15 @@
-use guideway_spline::{Affine, Bounds, Point, Runs};
+//! [`Paths`]: the table of all paths, with one column per property, and [`PathRef`], a row of it.
 
-use crate::vehicle_types::VehicleTypes;
-use crate::{Attributes, Geometry, RunPoints, TextColumn};
+use guideway_spline::{Affine, Bounds, Point, Runs, uniform};
 
+use crate::{
+    Attributes, Direction, Geometry, NewPath, OwnStyle, RunPoints, TextColumn, VehicleTypes,
+};
+
+/// Index that means "none" in the columns of nodes and levels.
 const NONE: u32 = u32::MAX;
 
-/// Which way vehicles go along a path.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Direction {
-    /// From start to end only.
-    #[default]
-    Forward,
-    /// Both ways.
-    Both,
-}
-
-/// One path to be appended to [`Paths`].
-#[derive(Clone, Copy, Debug)]
-pub struct NewPath<'a> {
-    /// Identifier, as the file has it. Need not be unique: duplicates are reported, not dropped.
-    pub id: &'a str,
-    /// The curve, in meters.
-    pub runs: &'a Runs,
-    /// Row in [`crate::Nodes`] where it begins.
-    pub start_node: Option<u32>,
-    /// Row in [`crate::Nodes`] where it ends.
-    pub end_node: Option<u32>,
-    /// Which way vehicles go.
-    pub direction: Direction,
-    /// Index in [`crate::Layout::levels`].
-    pub level: Option<u32>,
-    /// Vehicle types that may use it; none means all.
-    pub vehicle_types: &'a [&'a str],
-}
-
-impl Default for NewPath<'_> {
-    fn default() -> Self {
-        static EMPTY: Runs = Runs::EMPTY;
-        Self {
-            id: "",
-            runs: &EMPTY,
-            start_node: None,
-            end_node: None,
-            direction: Direction::Forward,
-            level: None,
-            vehicle_types: &[],
-        }
-    }
-}
-
-/// All paths of a layout, a column an attribute.
+/// All paths of a layout, one column per property. A property that no path sets has no column.
 #[derive(Clone, Debug, Default)]
 pub struct Paths {
     ids: TextColumn,
@@ -62,12 +22,12 @@ pub struct Paths {
     width_m: Option<Vec<f32>>,
     color_rgba: Option<Vec<u32>>,
     rank: Option<Vec<i32>>,
-    /// Any further columns of the file.
+    /// Further columns of the file.
     pub attributes: Attributes,
 }
 
 impl Paths {
-    /// Paths from whole columns; nodes, levels and directions are unset.
+    /// Paths from whole columns, without nodes, levels and vehicle types, in the default direction.
     ///
     /// # Panics
     /// When the columns differ in length.
@@ -75,13 +35,13 @@ impl Paths {
         assert_eq!(
             ids.len(),
             geometry.path_count(),
-            "columns of one table have one length"
+            "columns of one table must have the same length"
         );
         let rows = ids.len();
         Self {
             ids,
             geometry,
-            vehicle_types: VehicleTypes::all(rows),
+            vehicle_types: VehicleTypes::unrestricted(rows),
             ..Self::default()
         }
     }
@@ -114,28 +74,29 @@ impl Paths {
         row
     }
 
-    /// Sets the stroke width of every path, in meters; NaN where the view's rule decides.
+    /// Sets the stroke width of every path, in meters; NaN where the rule of the view decides.
     ///
     /// # Panics
-    /// When the length is not [`Self::len`]; so for the other column setters.
+    /// When the length is not [`Self::len`], as in the other setters of columns.
     pub fn set_width_m(&mut self, column: Vec<f32>) {
         assert_eq!(column.len(), self.len());
         self.width_m = Some(column);
     }
 
-    /// Sets the color of every path, 0xRRGGBBAA; 0 where the view's rule decides.
+    /// Sets the color of every path, 0xRRGGBBAA; 0 where the rule of the view decides.
     pub fn set_color_rgba(&mut self, column: Vec<u32>) {
         assert_eq!(column.len(), self.len());
         self.color_rgba = Some(column);
     }
 
-    /// Sets the draw rank of every path: higher is drawn over lower, equal ranks in file order.
+    /// Sets the draw rank of every path: higher ranks cover lower ones, equal ranks paint in file
+    /// order.
     pub fn set_rank(&mut self, column: Vec<i32>) {
         assert_eq!(column.len(), self.len());
         self.rank = Some(column);
     }
 
-    /// Sets the level of every path; `u32::MAX` means none.
+    /// Sets the level of every path; `u32::MAX` means no level.
     pub fn set_levels(&mut self, column: Vec<u32>) {
         assert_eq!(column.len(), self.len());
         self.levels = Some(column);
@@ -156,7 +117,7 @@ impl Paths {
         self.ids.get(path)
     }
 
-    /// The curves.
+    /// The curves of all paths.
     pub fn geometry(&self) -> &Geometry {
         &self.geometry
     }
@@ -166,12 +127,12 @@ impl Paths {
         self.geometry.transform(paths, by);
     }
 
-    /// Gives paths other curves: see [`Geometry::replace_all`].
+    /// Replaces the curves of some paths: see [`Geometry::replace_all`].
     pub fn replace_curves(&mut self, paths: &[u32], with: &Geometry) {
         self.geometry.replace_all(paths, with);
     }
 
-    /// Sets what a path brings of its own look; whatever is none, the view's rule decides.
+    /// Sets the style of one path; properties that are `None` follow the rule of the view.
     ///
     /// # Panics
     /// When `path` is not below [`Self::len`].
@@ -188,7 +149,7 @@ impl Paths {
         }
     }
 
-    /// What a path brings of its own look.
+    /// Style that a path sets itself.
     ///
     /// # Panics
     /// When `path` is not below [`Self::len`].
@@ -201,27 +162,27 @@ impl Paths {
         }
     }
 
-    /// Stroke widths in meters, if the file gives any; NaN where it does not.
+    /// Stroke widths in meters, if any path has one; NaN for the others.
     pub fn width_m(&self) -> Option<&[f32]> {
         self.width_m.as_deref()
     }
 
-    /// Colors 0xRRGGBBAA, if the file gives any; 0 where it does not.
+    /// Colors 0xRRGGBBAA, if any path has one; 0 for the others.
     pub fn color_rgba(&self) -> Option<&[u32]> {
         self.color_rgba.as_deref()
     }
 
-    /// Draw ranks, if the file gives any.
+    /// Draw ranks, if any path has one.
     pub fn rank(&self) -> Option<&[i32]> {
         self.rank.as_deref()
     }
 
-    /// Which vehicle types may use which path.
+    /// The vehicle types that may use each path.
     pub fn vehicle_types(&self) -> &VehicleTypes {
         &self.vehicle_types
     }
 
-    /// Everything known of one path but its attributes.
+    /// One path with all its properties except attributes.
     ///
     /// # Panics
     /// When `path` is not below [`Self::len`].
@@ -237,12 +198,12 @@ impl Paths {
         (0..self.len()).map(|row| self.get(row))
     }
 
-    /// Box of all control points: it holds every curve, for a B-spline lies in its control hull.
+    /// Box of all control points, which contains all curves; `None` if there are no points.
     pub fn hull_bounds(&self) -> Option<Bounds<f64>> {
         self.geometry.hull_bounds(0..self.len())
     }
 
-    /// Heap bytes held.
+    /// Heap bytes in use.
     pub fn heap_bytes(&self) -> usize {
         self.ids.heap_bytes()
             + self.geometry.heap_bytes()
@@ -258,7 +219,7 @@ impl Paths {
     }
 }
 
-/// A column that may not be there: made if it has to hold something.
+/// An optional column, created if `is_needed`.
 fn column_for<T: Clone>(
     column: &mut Option<Vec<T>>,
     rows: usize,
@@ -271,7 +232,7 @@ fn column_for<T: Clone>(
     column.as_mut()
 }
 
-/// Appends to a column of so many rows that may not be there.
+/// Appends to an optional column of `rows` rows; creates it for the first value other than `none`.
 fn push<T: Clone + PartialEq>(column: &mut Option<Vec<T>>, rows: usize, none: T, value: T) {
     let is_needed = value != none;
     if let Some(column) = column_for(column, rows, none, is_needed) {
@@ -281,15 +242,6 @@ fn push<T: Clone + PartialEq>(column: &mut Option<Vec<T>>, rows: usize, none: T,
 
 fn bytes_of<T>(column: &Option<Vec<T>>) -> usize {
     column.as_ref().map_or(0, |c| c.capacity() * size_of::<T>())
-}
-
-/// What a path brings of its own look.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct OwnStyle {
-    /// Stroke width in meters: zero or more.
-    pub width_m: Option<f32>,
-    /// Color 0xRRGGBBAA; not 0, which stands for none in [`Paths::color_rgba`].
-    pub color_rgba: Option<u32>,
 }
 
 /// One path of a [`Paths`] table.
@@ -305,7 +257,7 @@ impl<'a> PathRef<'a> {
         self.row
     }
 
-    /// Identifier, as the file has it.
+    /// Identifier in the file.
     pub fn id(self) -> &'a str {
         self.paths.ids.get(self.row)
     }
@@ -315,7 +267,7 @@ impl<'a> PathRef<'a> {
         self.paths.geometry.runs(self.row)
     }
 
-    /// Puts a copy of its control runs in place of those that are there.
+    /// Replaces the contents of `runs` by a copy of its control runs.
     pub fn copy_runs(self, runs: &mut Runs) {
         runs.clear();
         for run in self.runs() {
@@ -323,17 +275,17 @@ impl<'a> PathRef<'a> {
         }
     }
 
-    /// Row of the node where it begins.
+    /// Row of its first node.
     pub fn start_node(self) -> Option<u32> {
         some(self.paths.start_nodes.as_ref(), self.row)
     }
 
-    /// Row of the node where it ends.
+    /// Row of its last node.
     pub fn end_node(self) -> Option<u32> {
         some(self.paths.end_nodes.as_ref(), self.row)
     }
 
-    /// Which way vehicles go.
+    /// Directions in which vehicles drive.
     pub fn direction(self) -> Direction {
         let column = self.paths.directions.as_ref();
         column.map_or(Direction::Forward, |column| column[self.row])
@@ -344,19 +296,19 @@ impl<'a> PathRef<'a> {
         some(self.paths.levels.as_ref(), self.row)
     }
 
-    /// Box of its control points, which holds the curve.
+    /// Box of its control points, which contains the curve; `None` if it has no points.
     pub fn hull_bounds(self) -> Option<Bounds<f64>> {
         self.runs()
             .filter_map(RunPoints::bounds)
             .reduce(Bounds::union)
     }
 
-    /// Where the curve begins and ends.
+    /// Start and end of the curve; `None` if it has no segments.
     pub fn ends(self) -> Option<(Point<f64>, Point<f64>)> {
         let first = self.runs().next()?;
         let last = self.runs().last()?;
-        let start = guideway_spline::uniform::start(&first.segments().next()?);
-        let end = guideway_spline::uniform::end(&last.segments().last()?);
+        let start = uniform::start(&first.segments().next()?);
+        let end = uniform::end(&last.segments().last()?);
         Some((start, end))
     }
 }
@@ -372,7 +324,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_only_later_paths_have_is_not_given_to_those_before() {
+    fn properties_of_later_paths_leave_earlier_ones_unset() {
         let mut paths = Paths::default();
         paths.push(&NewPath::default());
         paths.push(&NewPath {
@@ -382,9 +334,9 @@ mod tests {
             ..NewPath::default()
         });
         paths.push(&NewPath::default());
-        let told = |path: PathRef| (path.start_node(), path.end_node(), path.level());
+        let indices = |path: PathRef| (path.start_node(), path.end_node(), path.level());
         let (none, some) = ((None, None, None), (None, Some(3), Some(1)));
-        assert!(paths.iter().map(told).eq([none, some, none]));
+        assert!(paths.iter().map(indices).eq([none, some, none]));
         let directions = [Direction::Forward, Direction::Both, Direction::Forward];
         assert!(paths.iter().map(PathRef::direction).eq(directions));
     }

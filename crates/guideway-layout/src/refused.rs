@@ -1,3 +1,5 @@
+//! [`Refused`]: the paths of the input that cannot be drawn, with their reasons.
+
 use crate::{Code, TextColumn};
 
 /// Paths of the input that cannot be drawn.
@@ -11,11 +13,11 @@ pub struct Refused {
 /// One refused path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RefusedPath<'a> {
-    /// Identifier, as the file has it.
+    /// Identifier in the file.
     pub id: &'a str,
-    /// Why, for programs.
+    /// Reason, for programs.
     pub code: Code,
-    /// Why, for people.
+    /// Reason, for people.
     pub detail: &'a str,
 }
 
@@ -46,7 +48,7 @@ impl Refused {
         })
     }
 
-    /// Heap bytes held.
+    /// Heap bytes in use.
     pub fn heap_bytes(&self) -> usize {
         self.ids.heap_bytes() + self.details.heap_bytes() + self.codes.capacity()
     }

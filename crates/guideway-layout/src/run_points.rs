@@ -1,16 +1,18 @@
+//! [`RunPoints`]: the control points of one run, in the precision of their buffer.
+
 use guideway_spline::mem::prefetched_chunks;
 use guideway_spline::{Bounds, Point, Real};
 use rayon::prelude::*;
 
-/// So many points are gone through by one thread.
-pub(crate) const POINTS_AT_ONCE: usize = 1 << 14;
+/// Control points per task of a parallel loop; shorter slices stay on the calling thread.
+pub(crate) const POINTS_PER_TASK: usize = 1 << 14;
 
-/// The control points of one run, in the precision in which they are held.
+/// The control points of one run, in the precision of their buffer.
 #[derive(Clone, Copy, Debug)]
 pub enum RunPoints<'a> {
-    /// Held as `f64`.
+    /// Stored as `f64`.
     F64(&'a [Point<f64>]),
-    /// Held as `f32`.
+    /// Stored as `f32`.
     F32(&'a [Point<f32>]),
 }
 
@@ -24,7 +26,7 @@ impl<'a> RunPoints<'a> {
         }
     }
 
-    /// Whether there are no control points; never so in a layout.
+    /// Whether there are no control points, which no run of a layout has.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -46,7 +48,7 @@ impl<'a> RunPoints<'a> {
         (0..self.len()).map(move |i| self.get(i))
     }
 
-    /// Box of the control points, in meters; none if there are none. Found in the precision in which they are held.
+    /// Box of the control points, in meters, computed in their precision; `None` if there are none.
     pub fn bounds(self) -> Option<Bounds<f64>> {
         match self {
             Self::F64(points) => bounds(points),
@@ -73,13 +75,13 @@ impl<'a> RunPoints<'a> {
 
 #[inline]
 fn bounds<T: Real>(points: &[Point<T>]) -> Option<Bounds<T>> {
-    if points.len() <= POINTS_AT_ONCE {
+    if points.len() <= POINTS_PER_TASK {
         return Bounds::of_slice(points);
     }
     let of_part = |part: &[Point<T>]| {
         let boxes = prefetched_chunks(part).filter_map(Bounds::of_slice);
         boxes.reduce(Bounds::union)
     };
-    let parts = points.par_chunks(POINTS_AT_ONCE).filter_map(of_part);
+    let parts = points.par_chunks(POINTS_PER_TASK).filter_map(of_part);
     parts.reduce_with(Bounds::union)
 }

@@ -1,4 +1,6 @@
-/// A column of strings in one buffer: 4 bytes a row beside the text itself.
+//! [`TextColumn`]: a column of strings in one buffer.
+
+/// A column of strings in one buffer: 4 bytes per row in addition to the text.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct TextColumn {
     bytes: String,
@@ -6,10 +8,10 @@ pub struct TextColumn {
 }
 
 impl TextColumn {
-    /// Most bytes that one column may hold.
+    /// Most bytes of text per column. Derived: end offsets are `u32`.
     pub const MAX_BYTES: usize = u32::MAX as usize;
 
-    /// A column with room for `rows` strings and `bytes` bytes of text.
+    /// An empty column with capacity for `rows` strings and `bytes` bytes of text.
     pub fn with_capacity(rows: usize, bytes: usize) -> Self {
         Self {
             bytes: String::with_capacity(bytes),
@@ -20,15 +22,15 @@ impl TextColumn {
     /// Appends a row.
     ///
     /// # Panics
-    /// When the column would pass [`Self::MAX_BYTES`]; readers refuse such files before they get here.
+    /// When the column would exceed [`Self::MAX_BYTES`]; readers refuse such files earlier.
     pub fn push(&mut self, text: &str) {
         self.push_all(text, [text.len()]);
     }
 
-    /// Appends rows that lie side by side in one text, each up to one of `ends`.
+    /// Appends adjacent rows of one text: row `i` reaches up to byte `ends[i]`.
     ///
     /// # Panics
-    /// As [`Self::push`]; when ends fall, do not end with the text, or one is within a character.
+    /// As [`Self::push`]; when `ends` decreases, does not end with the text, or splits a character.
     pub fn push_all(&mut self, text: &str, ends: impl IntoIterator<Item = usize>) {
         let before = self.bytes.len();
         self.bytes.push_str(text);
@@ -40,12 +42,12 @@ impl TextColumn {
         self.ends.extend(ends.into_iter().map(|end| {
             assert!(
                 last <= end && text.is_char_boundary(end),
-                "rows lie side by side"
+                "ends of rows must not decrease or split a character"
             );
             last = end;
             (before + end) as u32
         }));
-        assert!(last == text.len(), "the last row ends with the text");
+        assert!(last == text.len(), "the last row must end with the text");
     }
 
     /// Number of rows.
@@ -76,7 +78,7 @@ impl TextColumn {
         (0..self.len()).map(|row| self.get(row))
     }
 
-    /// Heap bytes held.
+    /// Heap bytes in use.
     pub fn heap_bytes(&self) -> usize {
         self.bytes.capacity() + self.ends.capacity() * size_of::<u32>()
     }
@@ -95,7 +97,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn rows_that_lie_side_by_side_are_those_pushed_one_by_one() {
+    fn push_all_equals_single_pushes() {
         let mut column: TextColumn = ["é", ""].into_iter().collect();
         column.push_all("añb", [1, 1, 3, 4]);
         let rows = ["é", "", "a", "", "ñ", "b"];
@@ -105,7 +107,7 @@ mod tests {
     }
 
     #[test]
-    fn rows_that_do_not_lie_side_by_side_are_a_panic() {
+    fn push_all_panics_on_invalid_ends() {
         for ends in [&[2, 1, 4][..], &[1], &[2, 4], &[5]] {
             let push = || TextColumn::default().push_all("añb", ends.iter().copied());
             assert!(std::panic::catch_unwind(push).is_err(), "{ends:?}");

@@ -1,17 +1,20 @@
+//! [`VehicleTypes`]: the set of vehicle types that may use each path.
+
 use std::collections::HashMap;
 
-/// Sets of vehicle types, one a path, with each name held once.
+/// One set of vehicle types per path. Each name is stored once.
 #[derive(Clone, Debug, Default)]
 pub struct VehicleTypes {
     names: Vec<String>,
-    /// Where each name is, for a file may have as many names as paths.
+    /// Row of each name, because a file may have as many names as paths.
     rows: HashMap<String, u32>,
     ends: Vec<u32>,
     members: Vec<u32>,
 }
 
 impl VehicleTypes {
-    pub(crate) fn all(rows: usize) -> Self {
+    /// No restriction for `rows` paths.
+    pub(crate) fn unrestricted(rows: usize) -> Self {
         Self {
             ends: vec![0; rows],
             ..Self::default()
@@ -34,12 +37,12 @@ impl VehicleTypes {
         self.ends.push(self.members.len() as u32);
     }
 
-    /// The names of all vehicle types, in order of first use.
+    /// Names of all vehicle types, in order of first use.
     pub fn names(&self) -> &[String] {
         &self.names
     }
 
-    /// The types of one path; none means that any may use it.
+    /// The types that may use a path; empty means all.
     pub fn of(&self, path: usize) -> impl ExactSizeIterator<Item = &str> {
         let start = if path == 0 {
             0
@@ -51,7 +54,7 @@ impl VehicleTypes {
             .map(|&m| self.names[m as usize].as_str())
     }
 
-    /// Heap bytes held.
+    /// Heap bytes in use.
     pub fn heap_bytes(&self) -> usize {
         (self.ends.capacity() + self.members.capacity()) * size_of::<u32>()
             + 2 * self.names.iter().map(String::capacity).sum::<usize>()

@@ -1,4 +1,4 @@
-//! Several layouts as one.
+//! Merge of layouts, transforms of layouts, identifiers across layouts.
 
 #![allow(clippy::unwrap_used, reason = "a test may fail by a panic")]
 
@@ -44,7 +44,7 @@ fn text(layout: &Layout, column: &str, path: usize) -> Option<String> {
 }
 
 #[test]
-fn everything_is_there_and_refers_to_its_own() {
+fn merges_all_elements_and_keeps_references_within_their_layout() {
     let mut first = layout("a.json", "e", ("hall", Some("Hall")));
     first.paths.attributes.set(0, "speed", Value::Int(2));
     let mut second = layout("b.dxf", "e", ("H", Some("Hall")));
@@ -92,14 +92,14 @@ fn everything_is_there_and_refers_to_its_own() {
 }
 
 #[test]
-fn one_alone_stays_as_it_is_and_none_is_empty() {
+fn returns_a_single_layout_unchanged_and_an_empty_one_for_none() {
     let one = merge(vec![layout("a.json", "e", ("hall", None))]);
     assert!(one.paths.attributes.get("source").is_none());
     assert_eq!(merge(Vec::new()).path_count(), 0);
 }
 
 #[test]
-fn levels_of_one_file_stay_apart_and_a_column_of_its_own_is_not_overwritten() {
+fn keeps_levels_of_one_file_separate_and_its_source_column() {
     let mut first = layout("a.json", "e", ("hall", None));
     first.levels.push(first.levels[0].clone());
     first.paths.attributes.set(0, "source", Value::Text("me"));
@@ -110,7 +110,7 @@ fn levels_of_one_file_stay_apart_and_a_column_of_its_own_is_not_overwritten() {
 }
 
 #[test]
-fn all_of_a_layout_is_moved() {
+fn transform_maps_paths_nodes_stations_and_widths() {
     let mut moved = layout("a.json", "e", ("hall", None));
     moved.paths.set_width_m(vec![0.5]);
     let quarter = Affine::rotation(std::f64::consts::FRAC_PI_2, Point::default());
@@ -124,7 +124,7 @@ fn all_of_a_layout_is_moved() {
 }
 
 #[test]
-fn identifiers_that_several_files_have_are_found_in_the_later_ones() {
+fn reports_shared_identifiers_in_the_later_files() {
     let mut a = layout("a.json", "e", ("hall", None));
     a.paths.push(&NewPath {
         id: "e",
@@ -133,7 +133,7 @@ fn identifiers_that_several_files_have_are_found_in_the_later_ones() {
     let b = layout("b.json", "f", ("hall", None));
     let c = layout("c.json", "e", ("hall", None));
     let found = check_across(&[&a, &b, &c]);
-    let said: Vec<Vec<String>> = found
+    let messages: Vec<Vec<String>> = found
         .iter()
         .map(|of_file| {
             of_file
@@ -147,9 +147,12 @@ fn identifiers_that_several_files_have_are_found_in_the_later_ones() {
         "node \"N2\": `a.json` has this identifier too",
         "station \"S\": `a.json` has this identifier too",
     ];
-    assert_eq!(said[0], [""; 0]);
-    assert_eq!(said[1], nodes);
-    assert_eq!(said[2][0], "path \"e\": `a.json` has this identifier too");
-    assert_eq!(said[2][1..], nodes);
+    assert_eq!(messages[0], [""; 0]);
+    assert_eq!(messages[1], nodes);
+    assert_eq!(
+        messages[2][0],
+        "path \"e\": `a.json` has this identifier too"
+    );
+    assert_eq!(messages[2][1..], nodes);
     assert_eq!(found[2].count(Code::DuplicateId), 4);
 }

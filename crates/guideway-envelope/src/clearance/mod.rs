@@ -89,7 +89,7 @@ pub fn check_clearance(
     walls: Option<&Walls>,
     options: &ClearanceOptions,
 ) -> Clearance {
-    let mut found = Diagnostics::keeping(options.diagnostics_per_code);
+    let mut found = Diagnostics::with_limit(options.diagnostics_per_code);
     let mut work = pairs::check(layout, source, options, &mut found);
     if let Some(walls) = walls {
         work = work.plus(walls.check(layout, source, options, &mut found));

@@ -1,4 +1,6 @@
-use guideway_layout::{At, Code, Diagnostics, Layout, element_name, element_place, same_curves};
+use guideway_layout::{
+    Code, Diagnostics, DisplayPosition, Layout, element_name, element_place, same_curves,
+};
 use guideway_spline::Bounds;
 use rayon::prelude::*;
 use rstar::primitives::{GeomWithData, Rectangle};
@@ -154,7 +156,7 @@ impl TooNear {
             || {
                 let other = element_name("path", other, id(other));
                 let how = how_near(nearest.distance_m);
-                let [here, there] = nearest.places.map(At);
+                let [here, there] = nearest.places.map(DisplayPosition);
                 format!("vehicles {how} those on {other}, while they are at {here} here and at {there} there")
             },
             "Move the paths apart, or never let vehicles be on both at a time",

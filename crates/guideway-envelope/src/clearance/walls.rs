@@ -1,5 +1,5 @@
 use guideway_layout::{
-    At, Code, Diagnostics, Layout, RunPoints, TextColumn, element_name, element_place,
+    Code, Diagnostics, DisplayPosition, Layout, RunPoints, TextColumn, element_name, element_place,
 };
 use guideway_spline::{Bounds, Point, flatten_run};
 use rayon::prelude::*;
@@ -185,7 +185,7 @@ impl Walls {
                 let wall = self.paths[line as usize] as usize;
                 let wall = element_name("path", wall, self.ids.get(wall));
                 let how = how_near(nearest.distance_m);
-                let here = At(nearest.places[0]);
+                let here = DisplayPosition(nearest.places[0]);
                 let others = match walls {
                     1 => String::new(),
                     2 => ", and another line is too near".to_owned(),

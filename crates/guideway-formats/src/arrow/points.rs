@@ -1,7 +1,7 @@
 use std::ops::Range;
 
 use bytemuck::{Pod, cast_slice, cast_slice_mut, zeroed_vec};
-use guideway_layout::{Geometry, Hulls, Limits, add_boxes};
+use guideway_layout::{Geometry, Hulls, Limits, append_hulls};
 use guideway_spline::{Bounds, Point, Real};
 use rayon::prelude::*;
 
@@ -92,8 +92,8 @@ impl Points {
     pub(super) fn add_boxes(&mut self, ends: &[u32]) {
         match self {
             Self::None => {}
-            Self::F32(held) => add_boxes(&mut held.boxes, &held.points[..held.taken], ends),
-            Self::F64(held) => add_boxes(&mut held.boxes, &held.points[..held.taken], ends),
+            Self::F32(held) => append_hulls(&mut held.boxes, &held.points[..held.taken], ends),
+            Self::F64(held) => append_hulls(&mut held.boxes, &held.points[..held.taken], ends),
         }
     }
 

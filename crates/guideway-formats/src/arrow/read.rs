@@ -28,7 +28,7 @@ pub(crate) fn read(source: Source<'_>, input: &Input<'_>) -> Result<Layout, Read
 
 fn read_table(source: Source<'_>, input: &Input<'_>) -> Result<Layout, Problem> {
     let limits = &source.options.limits;
-    let mut diagnostics = Diagnostics::keeping(limits.diagnostics_per_code);
+    let mut diagnostics = Diagnostics::with_limit(limits.diagnostics_per_code);
     let container = container::open(input)?;
     let schema = &container.schema;
     let version = schema::version(schema, &mut diagnostics)?;

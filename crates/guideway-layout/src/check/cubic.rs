@@ -1,8 +1,8 @@
-//! Directions and bends of one cubic segment.
+//! Directions, stops and curvature of one cubic segment.
 
 use guideway_spline::{Point, uniform};
 
-/// One segment as a Bezier curve, with the length below which its vectors are rounding.
+/// One segment as a Bezier curve, with the length below which vectors are rounding errors.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cubic {
     /// The Bezier points, in meters.
@@ -11,7 +11,7 @@ pub(super) struct Cubic {
 }
 
 impl Cubic {
-    /// `rounding` is the relative error of the coordinates as they are held.
+    /// `rounding` is the relative error of the stored coordinates.
     pub(super) fn new(segment: &[Point<f64>; 4], rounding: f64) -> Self {
         Self::of_bezier(uniform::to_bezier(segment), rounding)
     }
@@ -26,13 +26,13 @@ impl Cubic {
         }
     }
 
-    /// Where the curve heads as it begins, also where its speed is zero there.
+    /// Direction at the start, defined even if the speed is zero there.
     pub(super) fn start_direction(&self) -> Option<Point<f64>> {
         let [p0, p1, p2, p3] = self.points;
         self.first_long([p1 - p0, p2 - p0, p3 - p0])
     }
 
-    /// Where the curve heads as it ends.
+    /// Direction at the end, defined even if the speed is zero there.
     pub(super) fn end_direction(&self) -> Option<Point<f64>> {
         let [p0, p1, p2, p3] = self.points;
         self.first_long([p3 - p2, p3 - p1, p3 - p0])
@@ -43,8 +43,8 @@ impl Cubic {
         vectors.into_iter().find(|v| v.dot(*v) > square)
     }
 
-    /// The two parts at every place inside where the curve may stop and turn: the speed of one
-    /// coordinate is zero there, and that of the other may be.
+    /// Splits the curve at each inner parameter where it may stop and turn: the speed of one
+    /// coordinate vanishes there, and that of the other may.
     pub(super) fn parts_at_stops(&self, rounding: f64) -> impl Iterator<Item = [Self; 2]> {
         let p = self.points;
         let speeds = [p[1] - p[0], p[2] - p[1], p[3] - p[2]];
@@ -65,11 +65,11 @@ impl Cubic {
     }
 }
 
-/// Where a quadratic of these Bezier coefficients is zero; NaN where it is not.
+/// Roots of the quadratic with these Bezier coefficients; NaN where there is none.
 fn quadratic_roots([q0, q1, q2]: [f64; 3]) -> [f64; 2] {
     // (1 - t)^2 q0 + 2 t (1 - t) q1 + t^2 q2 = a t^2 - 2 b t + q0
     let (a, b) = (q0 - 2.0 * q1 + q2, q0 - q1);
-    // A double root may come out just below zero.
+    // Rounding may turn the discriminant of a double root slightly negative.
     let discriminant = b * b - a * q0;
     let slack = 1e-14 * b * b;
     let root = if discriminant.abs() <= slack {
@@ -81,7 +81,7 @@ fn quadratic_roots([q0, q1, q2]: [f64; 3]) -> [f64; 2] {
     [sum / a, q0 / sum]
 }
 
-/// The parts of a Bezier curve before and after `t`.
+/// The parts of a Bezier curve before and after `t`. Source: de Casteljau; The NURBS Book, A1.5.
 pub(super) fn split(p: &[Point<f64>; 4], t: f64) -> [[Point<f64>; 4]; 2] {
     let (a, b, c) = (p[0].lerp(p[1], t), p[1].lerp(p[2], t), p[2].lerp(p[3], t));
     let (d, e) = (a.lerp(b, t), b.lerp(c, t));
@@ -89,8 +89,11 @@ pub(super) fn split(p: &[Point<f64>; 4], t: f64) -> [[Point<f64>; 4]; 2] {
     [[p[0], a, d, middle], [middle, e, c, p[3]]]
 }
 
-/// The greatest curvature of a segment, in 1/m, and where it is.
+/// The greatest curvature of a segment, in 1/m, and its position.
+///
+/// Samples the segment, then refines the best sample by ternary search.
 pub(super) fn greatest_curvature(segment: &[Point<f64>; 4], rounding: f64) -> (f64, Point<f64>) {
+    // Enough for the curvature of a cubic, which has few maxima.
     const STEPS: u32 = 16;
     let noise_m = rounding
         * segment
@@ -104,6 +107,7 @@ pub(super) fn greatest_curvature(segment: &[Point<f64>; 4], rounding: f64) -> (f
         .unwrap_or(0.0);
     let step = 1.0 / f64::from(STEPS);
     let (mut low, mut high) = ((coarse - step).max(0.0), (coarse + step).min(1.0));
+    // 24 steps shrink the interval by (2/3)^24, or 6e-5.
     for _ in 0..24 {
         let third = (high - low) / 3.0;
         if at(low + third) < at(high - third) {
@@ -123,7 +127,8 @@ fn curvature(segment: &[Point<f64>; 4], t: f64, noise_m: f64) -> f64 {
         uniform::second_derivative(segment, t),
     );
     let (speed, cross) = (first.norm(), first.cross(second).abs());
-    // On a straight line that starts from rest, rounding over a speed near zero looks like a bend.
+    // On a straight line with zero end speed, rounding divided by the small speed looks like a
+    // bend.
     if cross <= noise_m * (speed + second.norm()) {
         0.0
     } else {

@@ -1,17 +1,22 @@
+//! [`Curve`]: the curve of one path in forms that are independent of its division into runs.
+//!
+//! The checks compare two curves by increasing cost: end points, area beside the chord, control
+//! points, and last, points at equal steps of arc length.
+
 use guideway_spline::{Point, segment_length, uniform};
 
 use super::cubic;
 use crate::PathRef;
 
-/// Number of points, evenly spaced along a curve, by which two curves are compared.
+/// Points per curve in the comparison of two curves.
 pub(super) const SAMPLES: usize = 9;
 
-/// Points of a curve at equal steps of length, both ends included.
+/// Points of a curve at equal steps of arc length, including both ends.
 pub(super) type Samples = [Point<f64>; SAMPLES];
 
 type Segment = [Point<f64>; 4];
 
-/// The curve of one path; its buffers are used again for the next.
+/// The curve of one path. Its buffers serve one path after the other.
 #[derive(Debug, Default)]
 pub(super) struct Curve {
     segments: Vec<Segment>,
@@ -19,14 +24,14 @@ pub(super) struct Curve {
 }
 
 impl Curve {
-    /// Takes the curve of a path in place of the one before.
+    /// Replaces the curve by that of a path.
     pub(super) fn load(&mut self, path: PathRef<'_>) {
         self.segments.clear();
         self.segments
             .extend(path.runs().flat_map(|run| run.segments()));
     }
 
-    /// Where it begins and ends; none if there is no curve or it is not finite.
+    /// Start and end; `None` if there is no curve or an end is not finite.
     pub(super) fn ends(&self) -> Option<[Point<f64>; 2]> {
         let ends = [
             uniform::start(self.segments.first()?),
@@ -35,45 +40,45 @@ impl Curve {
         ends.iter().all(|p| p.is_finite()).then_some(ends)
     }
 
-    /// How far it swings to one side of its chord. Cheap, and the same however it is put together.
-    pub(super) fn swing(&self) -> Swing {
+    /// Area between curve and chord. Cheap, and independent of the division into segments.
+    pub(super) fn chord_area(&self) -> ChordArea {
         let origin = self
             .segments
             .first()
             .map_or_else(Point::default, uniform::start);
-        let (mut swing, mut end) = (Swing::default(), Point::default());
+        let (mut area, mut end) = (ChordArea::default(), Point::default());
         for segment in &self.segments {
             let b = uniform::to_bezier(segment).map(|p| p - origin);
             // A gap between runs counts as the straight line across it.
-            swing.add(&[end, end, b[0], b[0]]);
-            swing.add(&b);
+            area.add(&[end, end, b[0], b[0]]);
+            area.add(&b);
             end = b[3];
         }
-        swing
+        area
     }
 
-    /// Whether the control points are those of a path, one by one: then so is the curve.
+    /// Whether each control point is within `within_m` of that of a path: then so is the curve.
     pub(super) fn has_points_of(&self, path: PathRef<'_>, reversed: bool, within_m: f64) -> bool {
         if path.runs().map(|run| run.segments().len()).sum::<usize>() != self.segments.len() {
             return false;
         }
-        let close = |a: Point<f64>, b: Point<f64>| a.distance(b) <= within_m;
+        let is_near = |a: Point<f64>, b: Point<f64>| a.distance(b) <= within_m;
         let mut theirs = path.runs().flat_map(|run| run.segments());
         if reversed {
             let mut pairs = self.segments.iter().rev().zip(theirs);
-            pairs.all(|(a, b)| (0..4).all(|i| close(a[i], b[3 - i])))
+            pairs.all(|(a, b)| (0..4).all(|i| is_near(a[i], b[3 - i])))
         } else {
             let mut own = self.segments.iter();
             own.all(|a| {
                 theirs
                     .next()
-                    .is_some_and(|b| (0..4).all(|i| close(a[i], b[i])))
+                    .is_some_and(|b| (0..4).all(|i| is_near(a[i], b[i])))
             })
         }
     }
 
-    /// Points at equal steps of length, found this closely along the curve. They do not depend on how
-    /// the curve is put together.
+    /// Points at equal steps of arc length, located within `precision_m` along the curve. They do
+    /// not depend on the division into segments.
     ///
     /// # Panics
     /// When there is no segment.
@@ -103,37 +108,40 @@ impl Curve {
     }
 }
 
-/// The area between a curve and its chord, to the left of the curve.
+/// The signed area between a curve and its chord, positive to the left of the curve.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Swing {
+pub(super) struct ChordArea {
     area_m2: f64,
-    /// The curve is not longer than this.
-    reach_m: f64,
+    /// Upper bound of the length of the curve.
+    length_bound_m: f64,
 }
 
-impl Swing {
+impl ChordArea {
     /// Adds the sector from the origin to a Bezier curve.
     fn add(&mut self, b: &Segment) {
         let near = b[0].cross(b[1]) + b[2].cross(b[3]);
         let far = b[0].cross(b[2]) + b[1].cross(b[2]) + b[1].cross(b[3]);
-        // Half the integral of C x C'.
+        // Green's theorem: half the integral of C x C', in Bezier coefficients.
         self.area_m2 += 0.05 * (6.0 * near + 3.0 * far + b[0].cross(b[3]));
-        self.reach_m += b.windows(2).map(|leg| leg[0].distance(leg[1])).sum::<f64>();
+        self.length_bound_m += b.windows(2).map(|leg| leg[0].distance(leg[1])).sum::<f64>();
     }
 
-    /// Whether the two can belong to curves that are nowhere farther than this from each other.
+    /// Whether the areas allow curves whose distance is at most `within_m` everywhere.
     pub(super) fn may_match(self, other: Self, reversed: bool, within_m: f64) -> bool {
         let own_m2 = if reversed {
             -self.area_m2
         } else {
             self.area_m2
         };
-        // The strip between them is no longer than the two, and no wider than `within_m`.
-        (own_m2 - other.area_m2).abs() <= within_m * (self.reach_m + other.reach_m + within_m)
+        // The strip between the curves is no longer than both together, and no wider than
+        // `within_m`.
+        let length_m = self.length_bound_m + other.length_bound_m + within_m;
+        (own_m2 - other.area_m2).abs() <= within_m * length_m
     }
 }
 
-/// The parameter at which a segment of `whole_m` has run `target_m`.
+/// The parameter at arc length `target_m` of a segment of length `whole_m`, by Newton's method with
+/// bisection as a safeguard.
 fn parameter_at(segment: &Segment, target_m: f64, whole_m: f64, precision_m: f64) -> f64 {
     if target_m >= whole_m {
         return 1.0;

@@ -1,12 +1,14 @@
+//! Extent: sizes and coordinates that suggest a wrong unit.
+
 use guideway_spline::{Bounds, uniform};
 
-use super::CheckOptions;
-use super::place::name;
+use super::element::element_name;
+use super::options::CheckOptions;
 use crate::{Code, Diagnostics, Layout, PathRef, Place};
 
 const REMEDY: &str = "Check the unit of the file; if it is right, look for stray paths";
 
-/// Sizes that hint at a mistaken unit.
+/// Reports a layout that is too large or too small, and coordinates too far from the origin.
 pub(super) fn check(layout: &Layout, options: &CheckOptions, found: &mut Diagnostics) {
     let mut axes = [Axis::new("wide", "x"), Axis::new("high", "y")];
     for path in layout.paths.iter() {
@@ -26,7 +28,7 @@ pub(super) fn check(layout: &Layout, options: &CheckOptions, found: &mut Diagnos
     }
 }
 
-/// Box of the Bezier points, which hold the curve more closely than its own control points do.
+/// Box of the Bezier points, which is tighter than that of the B-spline control points.
 fn bounds(path: PathRef<'_>) -> Option<Bounds<f64>> {
     let segments = path.runs().flat_map(|run| run.segments());
     Bounds::of_points(segments.flat_map(|segment| uniform::to_bezier(&segment)))
@@ -37,7 +39,7 @@ fn push(found: &mut Diagnostics, message: impl FnOnce() -> String) {
     found.push(Code::Implausible, place, message, REMEDY);
 }
 
-/// The least and the greatest coordinate, and the paths that have them.
+/// The least and the greatest coordinate on one axis, and the rows of their paths.
 struct Axis {
     adjective: &'static str,
     name: &'static str,
@@ -64,13 +66,13 @@ impl Axis {
         }
     }
 
-    /// Below zero if there is nothing.
+    /// Negative if there are no coordinates.
     fn extent_m(&self) -> f64 {
         self.greatest.0 - self.least.0
     }
 
     fn check(&self, layout: &Layout, options: &CheckOptions, found: &mut Diagnostics) {
-        let path = |row| name("path", row, layout.paths.id(row));
+        let path = |row| element_name("path", row, layout.paths.id(row));
         let extent_m = self.extent_m();
         if extent_m > options.largest_extent_m {
             push(found, || {

@@ -1,9 +1,11 @@
+//! Identifiers that occur more than once, in one layout or across several.
+
 use std::collections::{HashMap, HashSet};
 
-use super::place::place;
+use super::element::element_place;
 use crate::{Code, Diagnostics, Layout};
 
-/// Identifiers that are used more than once.
+/// Reports identifiers that several paths, nodes or stations of one layout share.
 pub(super) fn check(layout: &Layout, found: &mut Diagnostics) {
     let paths = &layout.paths;
     for (id, rows) in repeated(paths.len(), |row| paths.id(row)) {
@@ -19,7 +21,7 @@ pub(super) fn check(layout: &Layout, found: &mut Diagnostics) {
     }
 }
 
-/// The rows of every identifier that more than one row has, in order of the first.
+/// The rows of every identifier that several rows share, in order of their first row.
 fn repeated<'a>(rows: usize, id: impl Fn(usize) -> &'a str) -> Vec<(&'a str, Vec<usize>)> {
     let mut first_rows = HashMap::with_capacity(rows);
     let mut groups: HashMap<&str, Vec<usize>> = HashMap::new();
@@ -38,17 +40,20 @@ fn repeated<'a>(rows: usize, id: impl Fn(usize) -> &'a str) -> Vec<(&'a str, Vec
 fn report(kind: &str, id: &str, rows: &[usize], found: &mut Diagnostics) {
     found.push(
         Code::DuplicateId,
-        || place(kind, rows[0], id),
+        || element_place(kind, rows[0], id),
         || {
             let (count, first, second) = (rows.len(), rows[0] + 1, rows[1] + 1);
-            format!("{count} {kind}s have this identifier, first numbers {first} and {second}")
+            format!("{count} {kind}s share this identifier; the first are {first} and {second}")
         },
-        "Give each an identifier of its own",
+        "Give each a unique identifier",
     );
 }
 
-/// What an earlier layout has too, for each; what one has several times is told once.
-pub(super) fn check_across(layouts: &[&Layout]) -> Vec<Diagnostics> {
+/// Checks identifiers across layouts: tools that read the layouts together treat equal identifiers
+/// as one element.
+///
+/// Returns the findings of each layout: its identifiers that an earlier layout has too, each once.
+pub fn check_across(layouts: &[&Layout]) -> Vec<Diagnostics> {
     if layouts.len() < 2 {
         return vec![Diagnostics::default(); layouts.len()];
     }
@@ -56,16 +61,16 @@ pub(super) fn check_across(layouts: &[&Layout]) -> Vec<Diagnostics> {
     let mut found = Vec::with_capacity(layouts.len());
     for (own, layout) in layouts.iter().enumerate() {
         let mut of_layout = Diagnostics::default();
-        let mut told = HashSet::new();
+        let mut reported = HashSet::new();
         for (kind, row, id) in ids(layout).filter(|(_, _, id)| !id.is_empty()) {
             let first = *first_layouts.entry((kind, id)).or_insert(own);
-            if first != own && told.insert((kind, id)) {
+            if first != own && reported.insert((kind, id)) {
                 let source = &layouts[first].provenance.source;
                 of_layout.push(
                     Code::DuplicateId,
-                    || place(kind, row, id),
+                    || element_place(kind, row, id),
                     || format!("`{source}` has this identifier too"),
-                    "Give each an identifier of its own",
+                    "Give each a unique identifier",
                 );
             }
         }

@@ -1,62 +1,41 @@
-//! Findings about a layout as it is held, whatever file it came from.
+//! Check: finds defects of the geometry and topology of a layout, whatever format it came from.
+//!
+//! | module | finds |
+//! |---|---|
+//! | `ids` | identifiers that occur more than once |
+//! | `endpoints` | paths that miss their nodes, nodes without paths, paths between levels |
+//! | `shape` | gaps, kinks, tight bends, paths without length; by `cubic`, the worst per path |
+//! | `pairs` | paths on the same curve; by `same_curve` and `curve` |
+//! | `extent` | sizes that suggest a wrong unit |
+//!
+//! `options` holds the thresholds, `element` formats places and positions for the messages.
 
 mod cubic;
 mod curve;
-mod ends;
+mod element;
+mod endpoints;
 mod extent;
-mod groups;
 mod ids;
+mod options;
 mod pairs;
-mod place;
+mod same_curve;
 mod shape;
 mod worst;
 
-pub use place::{At, name, place};
+pub use element::{DisplayPosition, element_name, element_place};
+pub use ids::check_across;
+pub use options::CheckOptions;
+pub use same_curve::same_curves;
 
-use crate::{Diagnostics, Layout, Limits, Paths};
+use crate::{Diagnostics, Layout};
 
-/// What counts as a finding.
-#[derive(Clone, Debug, PartialEq)]
-pub struct CheckOptions {
-    /// Farthest that a path may begin or end from its node, and one run of a path from the next.
-    pub gap_tolerance_m: f64,
-    /// Greatest jump of direction that still counts as smooth.
-    pub kink_angle_rad: f64,
-    /// Two paths are the same curve if no point of one is farther than this from the other.
-    pub coincidence_tolerance_m: f64,
-    /// Tightest bend that is allowed; bends are not measured without it.
-    pub min_radius_m: Option<f64>,
-    /// A layout wider or higher than this is taken for one in another unit.
-    pub largest_extent_m: f64,
-    /// A layout neither as wide nor as high as this is taken for one in another unit.
-    pub smallest_extent_m: f64,
-    /// A coordinate beyond this is taken for one in another unit.
-    pub largest_coordinate_m: f64,
-    /// Findings kept whole for each code; beyond that they are counted.
-    pub diagnostics_per_code: usize,
-}
-
-impl Default for CheckOptions {
-    fn default() -> Self {
-        Self {
-            gap_tolerance_m: 0.01,
-            kink_angle_rad: 5f64.to_radians(),
-            coincidence_tolerance_m: 0.001,
-            min_radius_m: None,
-            largest_extent_m: 100_000.0,
-            smallest_extent_m: 0.01,
-            largest_coordinate_m: 1e7,
-            diagnostics_per_code: Limits::default().diagnostics_per_code,
-        }
-    }
-}
-
-/// Looks for what is odd in the geometry and the topology of a layout.
+/// Checks the geometry and the topology of a layout.
 ///
-/// What reading alone can see, such as a bad knot vector, is in [`Layout::diagnostics`] and is not
-/// repeated here. Findings of one kind come in the order of the paths. The time grows with the size of
-/// the layout, whatever is in it: of curves between the same two ends, a path is only compared with the
-/// first few dozen that differ.
+/// Findings about the file, such as a bad knot vector, are in [`Layout::diagnostics`]; this
+/// function does not repeat them. Findings of one kind come in the order of the paths.
+///
+/// Cost: linear in the size of the layout. Of the curves between the same two ends, it compares a
+/// path with the first few dozen distinct ones only.
 ///
 /// ```
 /// use guideway_layout::{CheckOptions, Code, Layout, NewPath, check};
@@ -76,27 +55,11 @@ impl Default for CheckOptions {
 /// assert_eq!(found.count(Code::NodeGap), 1);
 /// ```
 pub fn check(layout: &Layout, options: &CheckOptions) -> Diagnostics {
-    let mut found = Diagnostics::keeping(options.diagnostics_per_code);
+    let mut found = Diagnostics::with_limit(options.diagnostics_per_code);
     ids::check(layout, &mut found);
-    ends::check(layout, options, &mut found);
+    endpoints::check(layout, options, &mut found);
     shape::check(layout, options, &mut found);
     pairs::check(layout, options, &mut found);
     extent::check(layout, options, &mut found);
     found
-}
-
-/// Looks for identifiers that several layouts have, which tools that read them together take for one thing.
-/// Returns the findings of each: what an earlier one has too.
-pub fn check_across(layouts: &[&Layout]) -> Vec<Diagnostics> {
-    ids::check_across(layouts)
-}
-
-/// For each path the row of the first one with the same curve and level, whichever way it goes; its own if there is
-/// none. Curves are the same if no point of one is farther than `tolerance_m` from the other.
-pub fn same_curves(paths: &Paths, tolerance_m: f64) -> Vec<u32> {
-    let mut first: Vec<u32> = (0..paths.len() as u32).collect();
-    for member in groups::members(paths, tolerance_m) {
-        first[member.row] = member.first as u32;
-    }
-    first
 }

@@ -1,17 +1,19 @@
+//! Pairs of paths on the same curve: duplicates in one direction, two-way roads in opposite ones.
+
 use std::collections::HashMap;
 
-use super::CheckOptions;
-use super::groups::{Member, members};
-use super::place::{name, place};
+use super::element::{element_name, element_place};
+use super::options::CheckOptions;
+use super::same_curve::{Member, members};
 use crate::{Code, Diagnostics, Direction, Layout, Paths};
 
-/// Paths that lie on each other.
+/// Reports paths on the same curve, each with the first path that it duplicates or reverses.
 pub(super) fn check(layout: &Layout, options: &CheckOptions, found: &mut Diagnostics) {
     let paths = &layout.paths;
     let mut pairs = Vec::new();
-    for group in members(paths, options.coincidence_tolerance_m).chunk_by(|a, b| a.first == b.first)
-    {
-        let mut drawn = Drawn::default();
+    let members = members(paths, options.coincidence_tolerance_m);
+    for group in members.chunk_by(|a, b| a.first == b.first) {
+        let mut curve = CurveUse::default();
         let first = group[0].first;
         let leader = Member {
             first,
@@ -19,7 +21,7 @@ pub(super) fn check(layout: &Layout, options: &CheckOptions, found: &mut Diagnos
             reversed: false,
         };
         for member in std::iter::once(&leader).chain(group) {
-            pairs.extend(drawn.add(paths, *member));
+            pairs.extend(curve.add(paths, *member));
         }
     }
     pairs.sort_unstable_by_key(|pair| pair.row);
@@ -28,7 +30,7 @@ pub(super) fn check(layout: &Layout, options: &CheckOptions, found: &mut Diagnos
     }
 }
 
-/// A path and the earlier one that it lies on.
+/// A path and an earlier one on the same curve.
 struct Pair {
     code: Code,
     row: usize,
@@ -38,14 +40,14 @@ struct Pair {
 impl Pair {
     fn report(&self, paths: &Paths, found: &mut Diagnostics) {
         let (direction, remedy) = match self.code {
-            Code::ReversePair => ("opposite", "Nothing, if a two-way road is meant"),
-            _ => ("same", "Take one of the two out"),
+            Code::ReversePair => ("opposite", "No action needed if this is a two-way road"),
+            _ => ("same", "Remove one of the two"),
         };
         found.push(
             self.code,
-            || place("path", self.row, paths.id(self.row)),
+            || element_place("path", self.row, paths.id(self.row)),
             || {
-                let earlier = name("path", self.earlier, paths.id(self.earlier));
+                let earlier = element_name("path", self.earlier, paths.id(self.earlier));
                 format!("has the curve of {earlier} in the {direction} direction")
             },
             remedy,
@@ -53,40 +55,43 @@ impl Pair {
     }
 }
 
-/// What is already drawn along one curve, for each of the two ways to follow it.
+/// The paths along one curve so far, per direction of travel.
 #[derive(Default)]
-struct Drawn<'a> {
-    ways: [Way<'a>; 2],
+struct CurveUse<'a> {
+    directions: [DirectionUse<'a>; 2],
 }
 
-impl<'a> Drawn<'a> {
+impl<'a> CurveUse<'a> {
     fn add(&mut self, paths: &'a Paths, member: Member) -> Option<Pair> {
         let row = member.row;
         let own = usize::from(member.reversed);
         let both = paths.get(row).direction() == Direction::Both;
         let used = if both { &[0, 1][..] } else { &[own][..] };
-        let earlier = |way: usize| self.ways[way].earlier(paths, row);
-        let same = used.iter().filter_map(|&way| earlier(way)).min();
+        let earlier = |direction: usize| self.directions[direction].earlier(paths, row);
+        let same = used
+            .iter()
+            .filter_map(|&direction| earlier(direction))
+            .min();
         let pair = match same {
             Some(earlier) => Some((Code::DuplicatePath, earlier)),
             None => earlier(1 - own).map(|earlier| (Code::ReversePair, earlier)),
         };
-        for &way in used {
-            self.ways[way].add(paths, row);
+        for &direction in used {
+            self.directions[direction].add(paths, row);
         }
         pair.map(|(code, earlier)| Pair { code, row, earlier })
     }
 }
 
-/// The first paths one way along a curve. Paths for different vehicle types do not meet.
+/// The first paths in one direction along a curve. Paths without a common vehicle type are no pair.
 #[derive(Default)]
-struct Way<'a> {
+struct DirectionUse<'a> {
     first: Option<usize>,
     first_for_all: Option<usize>,
     first_for_type: HashMap<&'a str, usize>,
 }
 
-impl<'a> Way<'a> {
+impl<'a> DirectionUse<'a> {
     fn earlier(&self, paths: &Paths, row: usize) -> Option<usize> {
         let types = paths.vehicle_types().of(row);
         if types.len() == 0 {

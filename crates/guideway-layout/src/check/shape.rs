@@ -1,18 +1,20 @@
+//! Shape of single paths: gaps between runs, kinks, tight bends, and paths without length.
+
 use guideway_spline::{Point, uniform};
 
-use super::CheckOptions;
 use super::cubic::{Cubic, greatest_curvature};
-use super::place::{At, place};
+use super::element::{DisplayPosition, element_place};
+use super::options::CheckOptions;
 use super::worst::Worst;
 use crate::{Code, Diagnostics, Layout, PathRef, RunPoints};
 
-/// A path whose control points all lie in a box of this size is a dot.
+/// A path whose control points lie in a box of this size has no length.
 const DOT_M: f64 = 1e-9;
 
-/// Runs that end at a radius of exactly the limit may come out below it by rounding.
+/// Relative tolerance of the radius: rounding may push an arc of exactly the limit below it.
 const RADIUS_SLACK: f64 = 1e-6;
 
-/// What the curve of each path looks like.
+/// Reports the worst gap, kink and bend of each path, and paths without length.
 pub(super) fn check(layout: &Layout, options: &CheckOptions, found: &mut Diagnostics) {
     for path in layout.paths.iter() {
         match path.hull_bounds() {
@@ -23,7 +25,7 @@ pub(super) fn check(layout: &Layout, options: &CheckOptions, found: &mut Diagnos
     }
 }
 
-/// The worst of each kind on one path.
+/// The worst defect of each kind on one path.
 #[derive(Default)]
 struct Shape {
     gap_m: Option<Worst>,
@@ -34,44 +36,45 @@ struct Shape {
 impl Shape {
     fn of(path: PathRef<'_>, options: &CheckOptions) -> Self {
         let mut shape = Self::default();
-        let mut before = Before::default();
+        let mut previous = Previous::default();
         for run in path.runs() {
             let rounding = rounding(run);
             for segment in run.segments() {
                 let cubic = Cubic::new(&segment, rounding);
-                shape.join(&mut before, &cubic, options);
+                shape.add_join(&mut previous, &cubic, options);
                 for parts in cubic.parts_at_stops(rounding) {
-                    shape.turn(
+                    shape.add_turn(
                         (parts[0].end_direction(), parts[1].start_direction()),
                         parts[1].points[0],
                         options,
                     );
                 }
                 if let Some(radius_m) = options.min_radius_m {
-                    shape.bend(&segment, rounding, radius_m);
+                    shape.add_bend(&segment, rounding, radius_m);
                 }
             }
         }
         shape
     }
 
-    /// Compares the beginning of a segment with what came before it.
-    fn join(&mut self, before: &mut Before, cubic: &Cubic, options: &CheckOptions) {
+    /// Compares the start of a segment with the end of the previous one.
+    fn add_join(&mut self, previous: &mut Previous, cubic: &Cubic, options: &CheckOptions) {
         let start = cubic.points[0];
-        if let Some(end) = before.end {
+        if let Some(end) = previous.end {
             let gap_m = end.distance(start);
             if gap_m > options.gap_tolerance_m {
                 Worst::add(&mut self.gap_m, gap_m, end);
-                before.direction = None;
+                previous.direction = None;
             }
         }
-        self.turn((before.direction, cubic.start_direction()), start, options);
-        before.end = Some(cubic.points[3]);
-        // A segment of no length has no direction: that of the one before holds.
-        before.direction = cubic.end_direction().or(before.direction);
+        let directions = (previous.direction, cubic.start_direction());
+        self.add_turn(directions, start, options);
+        previous.end = Some(cubic.points[3]);
+        // A segment without length has no direction, so the previous direction stays in force.
+        previous.direction = cubic.end_direction().or(previous.direction);
     }
 
-    fn turn(
+    fn add_turn(
         &mut self,
         directions: (Option<Point<f64>>, Option<Point<f64>>),
         at: Point<f64>,
@@ -86,7 +89,7 @@ impl Shape {
         }
     }
 
-    fn bend(&mut self, segment: &[Point<f64>; 4], rounding: f64, least_radius_m: f64) {
+    fn add_bend(&mut self, segment: &[Point<f64>; 4], rounding: f64, least_radius_m: f64) {
         let (curvature, at) = greatest_curvature(segment, rounding);
         if curvature * least_radius_m > 1.0 + RADIUS_SLACK {
             Worst::add(&mut self.curvature, curvature, at);
@@ -94,20 +97,16 @@ impl Shape {
     }
 
     fn report(&self, path: PathRef<'_>, found: &mut Diagnostics) {
-        let place = || place("path", path.row(), path.id());
+        let place = || element_place("path", path.row(), path.id());
         if let Some(worst) = self.gap_m {
             found.push(
                 Code::BrokenPath,
                 place,
                 || {
-                    format!(
-                        "gap of {:.3} m at {}{}",
-                        worst.value,
-                        At(worst.at),
-                        worst.others()
-                    )
+                    let (gap_m, at) = (worst.value, DisplayPosition(worst.at));
+                    format!("gap of {gap_m:.3} m at {at}{}", worst.others())
                 },
-                "Let each part begin where the last one ends, or make them paths of their own",
+                "Close the gap, or split the path in two",
             );
         }
         if let Some(worst) = self.kink_rad {
@@ -115,11 +114,11 @@ impl Shape {
                 Code::Kink,
                 place,
                 || {
-                    let (degrees, at) = (worst.value.to_degrees(), At(worst.at));
+                    let (degrees, at) = (worst.value.to_degrees(), DisplayPosition(worst.at));
                     let others = worst.others();
                     format!("the direction jumps by {degrees:.1} degrees at {at}{others}")
                 },
-                "Round the corner; nothing, if the vehicle stops and turns there",
+                "Round the corner; no action needed if the vehicle stops and turns there",
             );
         }
         if let Some(worst) = self.curvature {
@@ -127,18 +126,18 @@ impl Shape {
                 Code::Curvature,
                 place,
                 || {
-                    let (radius_m, at) = (1.0 / worst.value, At(worst.at));
+                    let (radius_m, at) = (1.0 / worst.value, DisplayPosition(worst.at));
                     format!("the radius is {radius_m:.3} m at {at}{}", worst.others())
                 },
-                "Widen the bend, or check another least radius",
+                "Widen the bend, or check with a smaller radius",
             );
         }
     }
 }
 
-/// Where the curve has got to.
+/// End of the previous segment.
 #[derive(Default)]
-struct Before {
+struct Previous {
     end: Option<Point<f64>>,
     direction: Option<Point<f64>>,
 }
@@ -146,17 +145,17 @@ struct Before {
 fn zero_length(path: PathRef<'_>, found: &mut Diagnostics) {
     found.push(
         Code::ZeroLength,
-        || place("path", path.row(), path.id()),
+        || element_place("path", path.row(), path.id()),
         || {
             let at = path.runs().flat_map(|run| run.segments()).next();
             let at = at.map_or_else(Point::default, |segment| uniform::start(&segment));
-            format!("all of it is at {}", At(at))
+            format!("the whole path is at {}", DisplayPosition(at))
         },
-        "Take it out, or give its ends different places",
+        "Remove the path, or give its ends different positions",
     );
 }
 
-/// Relative error of coordinates after a few operations in the precision in which they are held.
+/// Relative error of coordinates after a few operations in their stored precision.
 fn rounding(run: RunPoints<'_>) -> f64 {
     match run {
         RunPoints::F64(_) => 32.0 * f64::EPSILON,

@@ -1,29 +1,31 @@
+//! [`Worst`]: the worst of several defects of one kind on one path, and their number.
+
 use guideway_spline::Point;
 
-/// The worst of many findings of one kind on one path: a report names it and counts the rest.
+/// The worst defect of one kind on one path: a finding describes it and counts the others.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Worst {
-    /// How bad the worst one is.
+    /// Size of the worst defect.
     pub(super) value: f64,
-    /// Where it is.
+    /// Position of the worst defect, in meters.
     pub(super) at: Point<f64>,
-    /// How many there are.
-    pub(super) places: usize,
+    /// Number of defects.
+    pub(super) count: usize,
 }
 
 impl Worst {
-    /// Adds one more to those found so far.
+    /// Adds a defect to the ones found so far.
     pub(super) fn add(found: &mut Option<Self>, value: f64, at: Point<f64>) {
-        let places = 1 + found.map_or(0, |w| w.places);
+        let count = 1 + found.map_or(0, |w| w.count);
         *found = match *found {
-            Some(worst) if worst.value >= value => Some(Self { places, ..worst }),
-            _ => Some(Self { value, at, places }),
+            Some(worst) if worst.value >= value => Some(Self { count, ..worst }),
+            _ => Some(Self { value, at, count }),
         };
     }
 
-    /// `, and at 3 other places`, or nothing.
+    /// Suffix of the message, such as `, and at 3 other places`; empty for a single defect.
     pub(super) fn others(self) -> String {
-        match self.places {
+        match self.count {
             1 => String::new(),
             2 => ", and at another place".to_owned(),
             n => format!(", and at {} other places", n - 1),

@@ -1,12 +1,16 @@
+//! Hulls: bounding boxes of the control points of each path, which contain its curve.
+
 use std::ops::Range;
 
 use guideway_spline::mem::{CHUNK_LEN, prefetch_address, prefetch_ahead};
 use guideway_spline::{Bounds, Point, Real, greater, lesser};
 use rayon::prelude::*;
 
-use super::{Geometry, Points, between};
+use super::buffers::{Points, elements_of};
 
-/// Boxes of the control points of all paths, which hold their curves, in the precision of the points.
+/// Bounding box of the control points of each path, in the precision of the points.
+///
+/// The box contains the curve, because a B-spline lies in the convex hull of its control points.
 #[derive(Clone, Debug)]
 pub struct Hulls(Boxes);
 
@@ -16,37 +20,19 @@ enum Boxes {
     F32(Vec<Bounds<f32>>),
 }
 
-impl Geometry {
-    /// Where each path lies, in meters. Found when it is first asked for after a change: all points are read once, by all
-    /// threads.
-    pub fn hulls(&self) -> &Hulls {
-        self.hulls.get_or_init(|| {
-            Hulls(match &self.points {
-                Points::F64(points) => Boxes::F64(self.boxes(points)),
-                Points::F32(points) => Boxes::F32(self.boxes(points)),
-            })
-        })
-    }
-
-    fn boxes<T: Real>(&self, points: &[Point<T>]) -> Vec<Bounds<T>> {
-        let mut boxes = Vec::new();
-        let points_of = |path| self.points_of(&self.runs_of(&(path..path + 1)));
-        add(&mut boxes, 0..self.path_count(), points, points_of);
-        boxes
-    }
-}
-
-/// Adds the boxes of runs that have none yet, where run `i` has the points up to `ends[i]`: for [`Geometry::with_hulls`].
-/// Takes all threads, and least time where the points were just written.
+/// Appends the boxes of the runs that have none yet, where run `i` has the points up to `ends[i]`.
+///
+/// The result is for [`Geometry::with_hulls`](super::Geometry::with_hulls). The function uses all
+/// threads; it is fastest right after the points were written, while they are in the cache.
 ///
 /// # Panics
-/// When the ends fall, or lie behind the last point.
-pub fn add_boxes<T: Real>(boxes: &mut Vec<Bounds<T>>, points: &[Point<T>], ends: &[u32]) {
-    let points_of = |run| between(ends, &(run..run + 1));
-    add(boxes, boxes.len()..ends.len(), points, points_of);
+/// When the ends decrease or exceed the number of points.
+pub fn append_hulls<T: Real>(boxes: &mut Vec<Bounds<T>>, points: &[Point<T>], ends: &[u32]) {
+    let points_of = |run| elements_of(ends, &(run..run + 1));
+    append(boxes, boxes.len()..ends.len(), points, points_of);
 }
 
-fn add<T: Real>(
+fn append<T: Real>(
     boxes: &mut Vec<Bounds<T>>,
     rows: Range<usize>,
     points: &[Point<T>],
@@ -55,7 +41,7 @@ fn add<T: Real>(
     let of_row = |row| {
         let points = &points[points_of(row)];
         prefetch_ahead(points);
-        Bounds::of_slice(points).unwrap_or(none())
+        Bounds::of_slice(points).unwrap_or(empty())
     };
     boxes.par_extend(rows.into_par_iter().map(of_row));
 }
@@ -73,7 +59,28 @@ impl From<Vec<Bounds<f64>>> for Hulls {
 }
 
 impl Hulls {
-    /// Heap bytes held.
+    /// Hulls of `paths` paths, where `points_of` yields the range of the points of each.
+    pub(super) fn new(
+        points: &Points,
+        paths: usize,
+        points_of: impl Fn(usize) -> Range<usize> + Sync,
+    ) -> Self {
+        fn boxes<T: Real>(
+            points: &[Point<T>],
+            paths: usize,
+            points_of: impl Fn(usize) -> Range<usize> + Sync,
+        ) -> Vec<Bounds<T>> {
+            let mut boxes = Vec::new();
+            append(&mut boxes, 0..paths, points, points_of);
+            boxes
+        }
+        match points {
+            Points::F64(points) => boxes(points, paths, points_of).into(),
+            Points::F32(points) => boxes(points, paths, points_of).into(),
+        }
+    }
+
+    /// Heap bytes in use.
     pub(super) fn heap_bytes(&self) -> usize {
         match &self.0 {
             Boxes::F64(boxes) => boxes.capacity() * size_of::<Bounds<f64>>(),
@@ -94,18 +101,18 @@ impl Hulls {
         self.len() == 0
     }
 
-    /// Where all paths lie, in meters; none if they have no points.
+    /// Box of all paths, in meters; `None` if they have no points.
     pub fn all(&self) -> Option<Bounds<f64>> {
         match &self.0 {
-            Boxes::F64(boxes) => shown(all(boxes)),
-            Boxes::F32(boxes) => shown(all(boxes)),
+            Boxes::F64(boxes) => non_empty(union_of_all(boxes)),
+            Boxes::F32(boxes) => non_empty(union_of_all(boxes)),
         }
     }
 
-    /// Where some paths lie, in meters; none if they have no points.
+    /// Box of some paths, in meters; `None` if they have no points.
     ///
     /// # Panics
-    /// When one is not below [`Self::len`].
+    /// When a path is not below [`Self::len`].
     #[inline]
     pub fn of(
         &self,
@@ -113,38 +120,38 @@ impl Hulls {
     ) -> Option<Bounds<f64>> {
         let paths = paths.into_iter();
         match &self.0 {
-            Boxes::F64(boxes) => shown(some(boxes, paths)),
-            Boxes::F32(boxes) => shown(some(boxes, paths)),
+            Boxes::F64(boxes) => non_empty(union_of(boxes, paths)),
+            Boxes::F32(boxes) => non_empty(union_of(boxes, paths)),
         }
     }
 }
 
-fn all<T: Real>(boxes: &[Bounds<T>]) -> Bounds<T> {
+fn union_of_all<T: Real>(boxes: &[Bounds<T>]) -> Bounds<T> {
     let chunks = boxes.par_chunks(CHUNK_LEN).map(|chunk| {
         prefetch_ahead(chunk);
-        chunk.iter().copied().fold(none(), both)
+        chunk.iter().copied().fold(empty(), union)
     });
-    chunks.reduce(none, both)
+    chunks.reduce(empty, union)
 }
 
 #[inline]
-fn some<T: Real>(boxes: &[Bounds<T>], paths: impl Iterator<Item = usize> + Clone) -> Bounds<T> {
-    // They may lie anywhere.
+fn union_of<T: Real>(boxes: &[Bounds<T>], paths: impl Iterator<Item = usize> + Clone) -> Bounds<T> {
+    // The paths may be scattered, which defeats the hardware prefetcher.
     (paths.clone()).for_each(|path| prefetch_address(&boxes[path]));
-    paths.fold(none(), |all, path| both(all, boxes[path]))
+    paths.fold(empty(), |all, path| union(all, boxes[path]))
 }
 
-/// The box of no points.
-fn none<T: Real>() -> Bounds<T> {
+/// The box of no points, the neutral element of [`union`].
+fn empty<T: Real>() -> Bounds<T> {
     Bounds {
         min: Point::new(T::infinity(), T::infinity()),
         max: Point::new(T::neg_infinity(), T::neg_infinity()),
     }
 }
 
-/// The smallest box that holds both, none of whose numbers is NaN.
+/// As [`Bounds::union`], faster, for boxes without NaN.
 #[inline]
-fn both<T: Real>(a: Bounds<T>, b: Bounds<T>) -> Bounds<T> {
+fn union<T: Real>(a: Bounds<T>, b: Bounds<T>) -> Bounds<T> {
     Bounds {
         min: Point::new(lesser(a.min.x, b.min.x), lesser(a.min.y, b.min.y)),
         max: Point::new(greater(a.max.x, b.max.x), greater(a.max.y, b.max.y)),
@@ -152,7 +159,7 @@ fn both<T: Real>(a: Bounds<T>, b: Bounds<T>) -> Bounds<T> {
 }
 
 #[inline]
-fn shown<T: Real>(Bounds { min, max }: Bounds<T>) -> Option<Bounds<f64>> {
+fn non_empty<T: Real>(Bounds { min, max }: Bounds<T>) -> Option<Bounds<f64>> {
     (min.x <= max.x).then(|| Bounds {
         min: min.to_f64(),
         max: max.to_f64(),

@@ -1,6 +1,7 @@
-use guideway_spline::{Affine, Runs};
+use guideway_spline::{Affine, Bounds, Point, Runs};
 
-use super::*;
+use super::{Geometry, append_hulls};
+use crate::RunPoints;
 
 fn points(from: usize, count: usize) -> Vec<Point<f64>> {
     (from..from + count)
@@ -8,7 +9,7 @@ fn points(from: usize, count: usize) -> Vec<Point<f64>> {
         .collect()
 }
 
-/// Paths of one run of 4, of runs of 5 and 4, and of one of 6.
+/// Three paths: one run of 4 points, runs of 5 and 4, one run of 6.
 fn three() -> Geometry {
     Geometry::from_f64(points(0, 19), vec![4, 9, 13, 19]).with_path_ends(vec![1, 3, 4])
 }
@@ -21,22 +22,21 @@ fn shape(geometry: &Geometry) -> Vec<Vec<Vec<f64>>> {
 }
 
 #[test]
-fn a_path_takes_another_curve_and_the_others_stay() {
+fn replacing_a_curve_leaves_the_other_paths_unchanged() {
     let other = Geometry::from_f64(points(100, 13), vec![5, 9, 13]).with_path_ends(vec![2, 3]);
     for (path, from) in [(0, 0), (1, 0), (1, 1), (2, 0), (2, 1)] {
         let mut geometry = three();
         geometry.replace_all(&[path as u32], &other.select([from]));
         let mut expected = shape(&three());
         expected[path] = shape(&other)[from].clone();
-        assert_eq!(shape(&geometry), expected, "{path} takes {from}");
-        // And back.
+        assert_eq!(shape(&geometry), expected, "path {path}, curve {from}");
         geometry.replace_all(&[path as u32], &three().select([path]));
         assert_eq!(shape(&geometry), shape(&three()));
     }
 }
 
 #[test]
-fn many_paths_take_other_curves_as_one_after_the_other() {
+fn replacing_many_curves_equals_single_replacements() {
     let other = Geometry::from_f64(points(100, 13), vec![5, 9, 13]).with_path_ends(vec![2, 3]);
     let narrow = points(0, 19).iter().map(|p| p.to_f32()).collect();
     let narrow = Geometry::from_f32(narrow, vec![4, 9, 13, 19]).with_path_ends(vec![1, 3, 4]);
@@ -53,7 +53,7 @@ fn many_paths_take_other_curves_as_one_after_the_other() {
 }
 
 #[test]
-fn chosen_paths_are_copied_as_they_are() {
+fn select_copies_paths_in_the_given_order() {
     let all = shape(&three());
     for rows in [&[2, 1][..], &[0, 1, 2], &[1, 2, 0], &[2, 2], &[]] {
         let some = shape(&three().select(rows.iter().copied()));
@@ -63,7 +63,7 @@ fn chosen_paths_are_copied_as_they_are() {
 }
 
 #[test]
-fn a_map_moves_one_path_in_either_precision() {
+fn transform_maps_one_path_in_either_precision() {
     let by = Affine::translation(Point::new(10.0, 0.0));
     let narrow = points(0, 8).iter().map(|p| p.to_f32()).collect();
     for mut geometry in [
@@ -77,8 +77,8 @@ fn a_map_moves_one_path_in_either_precision() {
 }
 
 #[test]
-fn a_long_stretch_is_mapped_and_measured_as_its_paths_are() {
-    let count = 3 * crate::run_points::POINTS_AT_ONCE as u32;
+fn parallel_loops_equal_serial_ones() {
+    let count = 3 * crate::run_points::POINTS_PER_TASK as u32;
     let wave = (0..count).map(|i| Point::new(f64::from(i) * 1e-3, f64::from(i).sin()));
     let wave: Vec<_> = wave.collect();
     let ends: Vec<u32> = (1..=count / 4).map(|path| path * 4).collect();
@@ -91,14 +91,13 @@ fn a_long_stretch_is_mapped_and_measured_as_its_paths_are() {
         let mut one_by_one = at_once.clone();
         let before = at_once.hull_bounds(0..ends.len()).unwrap();
         at_once.transform(0..ends.len(), by);
-        // From the last to the first, so that no two follow each other.
+        // In reverse order, so that no two rows are consecutive.
         one_by_one.transform((0..ends.len()).rev(), by);
         assert_eq!(shape(&at_once), shape(&one_by_one));
         let hull = at_once.hull_bounds(0..ends.len()).unwrap();
         assert_eq!(one_by_one.hull_bounds((0..ends.len()).rev()), Some(hull));
         let mapped = at_once.mapped_bounds(before, by);
         assert!(mapped.contains(hull.min) && mapped.contains(hull.max));
-        // Back, from other numbers.
         let rows: Vec<u32> = (0..ends.len() as u32).collect();
         at_once.replace_all(&rows, &Geometry::from_f64(wave.clone(), ends.clone()));
         for (row, points) in wave.chunks(4).enumerate() {
@@ -110,7 +109,7 @@ fn a_long_stretch_is_mapped_and_measured_as_its_paths_are() {
 }
 
 #[test]
-fn the_first_curve_that_is_not_there_or_too_far_out_is_found() {
+fn finds_the_first_path_without_curve_or_out_of_range() {
     let far = |number: f64| {
         let mut points = points(0, 40);
         points[13].y = number;
@@ -118,19 +117,19 @@ fn the_first_curve_that_is_not_there_or_too_far_out_is_found() {
         let ends: Vec<u32> = (1..=10).map(|path| path * 4).collect();
         let wide = Geometry::from_f64(points.clone(), ends.clone());
         let narrow = points.iter().map(|p| p.to_f32()).collect();
-        [wide, Geometry::from_f32(narrow, ends)].map(|all| all.first_beyond(100.0))
+        [wide, Geometry::from_f32(narrow, ends)].map(|all| all.first_out_of_range(100.0))
     };
     assert_eq!(far(100.0), [None; 2]);
     for number in [100.1, -100.1, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         assert_eq!(far(number), [Some(3); 2], "{number}");
     }
     let empty = three().with_path_ends(vec![1, 1, 4]);
-    assert_eq!(empty.first_beyond(100.0), Some(1));
+    assert_eq!(empty.first_out_of_range(100.0), Some(1));
 }
 
 proptest::proptest! {
     #[test]
-    fn a_mapped_box_holds_mapped_points_to_the_last_bit(
+    fn mapped_box_contains_mapped_points_exactly(
         xy in proptest::collection::vec(-1e4..1e4_f64, 16),
         map in proptest::array::uniform6(-2.0..2.0_f64),
         is_narrow: bool,
@@ -161,7 +160,7 @@ proptest::proptest! {
 }
 
 #[test]
-fn a_box_holds_the_points_of_some_paths() {
+fn hull_bounds_contain_the_points_of_some_paths() {
     let along_x = |rows: &[usize]| {
         let hull = three().hull_bounds(rows.iter().copied())?;
         Some((hull.min.x, hull.max.x))
@@ -173,7 +172,7 @@ fn a_box_holds_the_points_of_some_paths() {
 }
 
 #[test]
-fn hulls_hold_the_points_of_all_runs() {
+fn hulls_contain_the_points_of_all_runs() {
     let wide = three();
     let narrow = points(0, 19).iter().map(|p| p.to_f32()).collect();
     let narrow = Geometry::from_f32(narrow, vec![4, 9, 13, 19]);
@@ -189,7 +188,7 @@ fn hulls_hold_the_points_of_all_runs() {
 }
 
 #[test]
-fn a_path_without_points_lies_nowhere() {
+fn path_without_points_has_no_hull() {
     let geometry = Geometry::from_f64(points(0, 4), vec![4]).with_path_ends(vec![0, 1, 1]);
     let hulls = geometry.hulls();
     assert_eq!((hulls.of([0]), hulls.of([0, 2])), (None, None));
@@ -200,8 +199,8 @@ fn a_path_without_points_lies_nowhere() {
 }
 
 #[test]
-fn boxes_of_runs_are_those_of_paths_and_follow_every_change() {
-    let is_known = |geometry: &Geometry| {
+fn appended_hulls_are_valid_and_follow_every_change() {
+    let has_valid_hulls = |geometry: &Geometry| {
         let hulls = geometry.hulls();
         let same = |row: usize| hulls.of([row]) == geometry.hull_bounds([row]);
         hulls.len() == geometry.path_count() && (0..hulls.len()).all(same)
@@ -209,34 +208,34 @@ fn boxes_of_runs_are_those_of_paths_and_follow_every_change() {
     let (points, ends) = (points(0, 19), [4, 9, 13, 19]);
     let mut boxes = Vec::new();
     for count in [1, 1, 4] {
-        add_boxes(&mut boxes, &points, &ends[..count]);
+        append_hulls(&mut boxes, &points, &ends[..count]);
         assert_eq!(boxes.len(), count);
     }
     let geometry = Geometry::from_f64(points, ends.to_vec()).with_hulls(boxes.into());
-    assert!(is_known(&geometry));
+    assert!(has_valid_hulls(&geometry));
     let with_other_paths = geometry.clone().with_path_ends(vec![1, 3, 4]);
     let mut line = Runs::default();
     line.push_line(Point::new(0.0, 90.0), Point::new(50.0, 0.0));
     for mut geometry in [geometry, with_other_paths] {
-        assert!(is_known(&geometry));
+        assert!(has_valid_hulls(&geometry));
         geometry.transform([1], Affine::translation(Point::new(0.0, 70.0)));
-        assert!(is_known(&geometry));
+        assert!(has_valid_hulls(&geometry));
         geometry.replace_all(&[0], &three().select([2]));
-        assert!(is_known(&geometry));
+        assert!(has_valid_hulls(&geometry));
         geometry.push(&line);
-        assert!(is_known(&geometry));
+        assert!(has_valid_hulls(&geometry));
     }
 }
 
 #[test]
 #[should_panic(expected = "left == right")]
-fn boxes_of_other_paths_are_not_taken() {
+fn rejects_hulls_of_another_path_count() {
     let boxes: Vec<Bounds<f64>> = Vec::new();
     let _ = three().with_hulls(boxes.into());
 }
 
 #[test]
-fn runs_are_paths_until_one_has_several_or_none() {
+fn paths_of_one_run_need_no_path_ends() {
     let single = || Geometry::from_f64(points(0, 8), vec![4, 8]);
     let double = || Geometry::from_f64(points(100, 9), vec![4, 9]).with_path_ends(vec![2]);
     let [first, second] = [0, 1].map(|row| shape(&single())[row].clone());

@@ -1,4 +1,4 @@
-//! Each finding is made where it is planted, and nowhere in a clean layout.
+//! Check reports each planted defect, and nothing in a clean layout.
 
 use crate::sketch::{Sketch, line_runs, p, runs_of};
 use guideway_layout::{CheckOptions, Code, Diagnostics, Level, NewPath, check};
@@ -8,7 +8,7 @@ pub(crate) fn found(sketch: &Sketch) -> Diagnostics {
     check(&sketch.layout, &CheckOptions::default())
 }
 
-/// The codes found, each as often as it was.
+/// The codes of the findings with their counts.
 pub(crate) fn codes(found: &Diagnostics) -> Vec<(Code, u64)> {
     found.counts().collect()
 }
@@ -20,13 +20,13 @@ pub(crate) fn only(found: &Diagnostics, code: Code) -> (String, String) {
 }
 
 #[test]
-fn a_clean_layout_has_no_findings() {
+fn clean_layout_has_no_findings() {
     assert!(found(&Sketch::clean()).is_empty());
     assert!(found(&Sketch::default()).is_empty());
 }
 
 #[test]
-fn ends_off_their_nodes_are_told_with_the_distance() {
+fn reports_the_distance_between_end_and_node() {
     let mut sketch = Sketch::clean();
     sketch.path("off", &line_runs(p(0.0, 0.02), p(10.25, 0.0)), "a", "b");
     let found = found(&sketch);
@@ -37,7 +37,7 @@ fn ends_off_their_nodes_are_told_with_the_distance() {
 }
 
 #[test]
-fn a_gap_within_the_tolerance_is_none() {
+fn accepts_a_gap_within_the_tolerance() {
     let mut sketch = Sketch::clean();
     sketch.path("off", &line_runs(p(0.0, 0.009), p(10.0, 0.0)), "a", "b");
     assert!(found(&sketch).is_empty());
@@ -49,14 +49,14 @@ fn a_gap_within_the_tolerance_is_none() {
 }
 
 #[test]
-fn a_node_without_paths_is_told() {
+fn reports_a_node_without_paths() {
     let mut sketch = Sketch::clean();
     sketch.node("alone", p(5.0, 5.0));
     assert_eq!(only(&found(&sketch), Code::UnusedNode).0, "node \"alone\"");
 }
 
 #[test]
-fn a_path_to_another_level_is_told() {
+fn reports_a_path_to_another_level() {
     let mut sketch = Sketch::default();
     for id in ["ground", "roof"] {
         sketch.layout.levels.push(Level {
@@ -79,7 +79,7 @@ fn a_path_to_another_level_is_told() {
 }
 
 #[test]
-fn a_corner_between_runs_is_a_kink() {
+fn corner_between_runs_is_a_kink() {
     let mut sketch = Sketch::clean();
     let mut runs = line_runs(p(0.0, 50.0), p(4.0, 50.0));
     runs.push_line(p(4.0, 50.0), p(4.0, 57.0));
@@ -94,7 +94,7 @@ fn a_corner_between_runs_is_a_kink() {
 }
 
 #[test]
-fn a_slight_bend_between_runs_is_no_kink() {
+fn slight_bend_between_runs_is_no_kink() {
     let mut sketch = Sketch::clean();
     let mut runs = line_runs(p(0.0, 50.0), p(4.0, 50.0));
     runs.push_line(p(4.0, 50.0), p(8.0, 50.3));
@@ -108,7 +108,7 @@ fn a_slight_bend_between_runs_is_no_kink() {
 }
 
 #[test]
-fn a_corner_of_repeated_control_points_is_a_kink() {
+fn triple_control_point_is_a_kink() {
     let (a, corner, b) = (p(0.0, 50.0), p(5.0, 50.0), p(5.0, 55.0));
     let mut sketch = Sketch::clean();
     sketch.free_path(
@@ -120,14 +120,14 @@ fn a_corner_of_repeated_control_points_is_a_kink() {
         message.contains("90.0 degrees at (5.000, 50.000) m"),
         "{message}"
     );
-    // Twice is not enough: the curve cuts the corner.
+    // A double control point makes no kink: the curve cuts the corner.
     let mut smooth = Sketch::clean();
     smooth.free_path("double", &runs_of(&[a, a, a, corner, corner, b, b, b]));
     assert!(found(&smooth).is_empty());
 }
 
 #[test]
-fn points_repeated_more_often_than_needed_change_nothing() {
+fn further_repetitions_of_a_control_point_change_nothing() {
     let (a, b, c) = (p(0.0, 50.0), p(5.0, 50.0), p(9.0, 50.0));
     let mut sketch = Sketch::clean();
     sketch.free_path("stop", &runs_of(&[a, a, a, a, b, b, b, b, b, c, c, c, c]));
@@ -135,7 +135,7 @@ fn points_repeated_more_often_than_needed_change_nothing() {
 }
 
 #[test]
-fn a_turn_back_inside_a_segment_is_a_kink() {
+fn cusp_inside_a_segment_is_a_kink() {
     let mut line = Runs::default();
     line.push_bezier(&[p(0.0, 50.0), p(9.0, 50.0), p(-2.0, 50.0), p(5.0, 50.0)]);
     let mut cusp = Runs::default();
@@ -158,8 +158,8 @@ fn a_turn_back_inside_a_segment_is_a_kink() {
 }
 
 #[test]
-fn a_line_from_rest_to_rest_is_smooth() {
-    // Far from the origin, rounding of the handles is all that is left of the speed at the ends.
+fn line_with_zero_end_speed_is_smooth() {
+    // Far from the origin, the speed at the ends is nothing but rounding error of the handles.
     let (a, b) = (p(512_345.678, 5_401_234.567), p(512_357.891, 5_401_239.123));
     let mut runs = Runs::default();
     runs.push_bezier(&[a, a, b, b]);
@@ -175,19 +175,19 @@ fn a_line_from_rest_to_rest_is_smooth() {
 }
 
 #[test]
-fn a_bend_tighter_than_asked_for_is_told_with_its_radius() {
+fn reports_the_radius_of_a_tight_bend() {
     let mut sketch = Sketch::default();
-    // The curve of a parabola is tightest at its apex, where the radius is 1 / (2 a).
+    // The radius of the parabola y = a x^2 is smallest at its apex, 1 / (2 a).
     let mut runs = Runs::default();
     runs.push_quadratic(&[p(-2.0, 54.0), p(0.0, 46.0), p(2.0, 54.0)]);
     sketch.free_path("parabola", &runs);
     assert!(found(&sketch).is_empty());
-    let asking = |radius_m| CheckOptions {
+    let with_radius = |radius_m| CheckOptions {
         min_radius_m: Some(radius_m),
         ..CheckOptions::default()
     };
-    assert!(check(&sketch.layout, &asking(0.5)).is_empty());
-    let (place, message) = only(&check(&sketch.layout, &asking(0.51)), Code::Curvature);
+    assert!(check(&sketch.layout, &with_radius(0.5)).is_empty());
+    let (place, message) = only(&check(&sketch.layout, &with_radius(0.51)), Code::Curvature);
     assert_eq!(place, "path \"parabola\"");
     assert!(
         message.contains("0.500 m at (0.000, 50.000) m"),
@@ -196,7 +196,7 @@ fn a_bend_tighter_than_asked_for_is_told_with_its_radius() {
 }
 
 #[test]
-fn a_path_that_breaks_is_told_with_the_gap_and_not_as_a_kink() {
+fn gap_inside_a_path_is_no_kink() {
     let mut sketch = Sketch::clean();
     let mut runs = line_runs(p(0.0, 50.0), p(4.0, 50.0));
     runs.push_line(p(4.0, 51.5), p(4.0, 57.0));
@@ -207,18 +207,18 @@ fn a_path_that_breaks_is_told_with_the_gap_and_not_as_a_kink() {
 }
 
 #[test]
-fn a_path_without_length_is_told() {
+fn reports_a_path_without_length() {
     let mut sketch = Sketch::clean();
     sketch.free_path("dot", &line_runs(p(3.0, 4.0), p(3.0, 4.0)));
     let (place, message) = only(&found(&sketch), Code::ZeroLength);
     assert_eq!(
         (place.as_str(), message.as_str()),
-        ("path \"dot\"", "all of it is at (3.000, 4.000) m")
+        ("path \"dot\"", "the whole path is at (3.000, 4.000) m")
     );
 }
 
 #[test]
-fn identifiers_used_again_are_told_once_each() {
+fn reports_each_duplicate_identifier_once() {
     let mut sketch = Sketch::clean();
     for x in [1.0, 2.0, 3.0] {
         sketch.free_path("twin", &line_runs(p(x, 20.0), p(x, 30.0)));
@@ -237,7 +237,7 @@ fn identifiers_used_again_are_told_once_each() {
 }
 
 #[test]
-fn sizes_that_hint_at_another_unit_are_told() {
+fn reports_sizes_that_suggest_another_unit() {
     let of = |x0: f64, x1: f64| {
         let mut sketch = Sketch::default();
         sketch.free_path("first", &line_runs(p(x0, 0.0), p(x0 + 0.001, 0.0)));
@@ -258,7 +258,7 @@ fn sizes_that_hint_at_another_unit_are_told() {
 }
 
 #[test]
-fn more_findings_than_are_kept_are_counted() {
+fn counts_findings_beyond_the_stored_ones() {
     let mut sketch = Sketch::clean();
     for i in 0..50 {
         let y = 20.0 + f64::from(i);

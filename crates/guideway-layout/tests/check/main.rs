@@ -1,4 +1,4 @@
-//! Tests of [`guideway_layout::check`] and of the page that explains its findings.
+//! Tests of [`guideway_layout::check`] and of docs/diagnostics.md, which explains its findings.
 
 mod findings;
 mod page;

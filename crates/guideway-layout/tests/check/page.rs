@@ -1,10 +1,10 @@
-//! The page on diagnostics keeps up with the code.
+//! docs/diagnostics.md documents every code.
 
 use guideway_layout::Code;
 
 const PAGE: &str = include_str!("../../../../docs/diagnostics.md");
 
-/// Heading and text of each finding.
+/// Heading and text of each entry.
 fn entries() -> Vec<(&'static str, &'static str)> {
     let sections = PAGE.split("\n### ").skip(1);
     sections
@@ -13,7 +13,7 @@ fn entries() -> Vec<(&'static str, &'static str)> {
 }
 
 #[test]
-fn every_code_has_its_entry_in_order_and_there_is_no_other() {
+fn entries_match_the_codes_in_order() {
     let headings: Vec<_> = entries().iter().map(|(heading, _)| *heading).collect();
     let expected: Vec<_> = Code::ALL
         .iter()
@@ -23,7 +23,7 @@ fn every_code_has_its_entry_in_order_and_there_is_no_other() {
 }
 
 #[test]
-fn every_entry_has_the_meaning_an_example_and_a_way_to_mend_it() {
+fn every_entry_has_meaning_example_and_remedy() {
     for (code, (_, text)) in Code::ALL.iter().zip(entries()) {
         assert!(text.contains(code.meaning()), "{code}: {}", code.meaning());
         assert!(text.contains("\n> "), "{code} has no example");

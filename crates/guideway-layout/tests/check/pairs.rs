@@ -1,4 +1,4 @@
-//! Paths on the same curve are found, however the curve is put together.
+//! Paths on the same curve are found, however the curve is divided into runs and segments.
 
 use std::collections::BTreeSet;
 
@@ -27,7 +27,7 @@ fn reversed(runs: &Runs) -> Runs {
     reversed
 }
 
-/// The same curve with every segment cut in two.
+/// The same curve with every segment split in two.
 fn halved(runs: &Runs) -> Runs {
     let mut halved = Runs::default();
     for segment in runs.iter().flat_map(|run| run.windows(4)) {
@@ -40,7 +40,7 @@ fn halved(runs: &Runs) -> Runs {
 }
 
 #[test]
-fn a_line_of_two_runs_is_the_line_of_one() {
+fn line_of_two_runs_duplicates_a_line_of_one() {
     let whole = line_runs(p(0.0, 0.0), p(10.0, 4.0));
     let mut parts = line_runs(p(0.0, 0.0), p(2.5, 1.0));
     parts.push_line(p(2.5, 1.0), p(10.0, 4.0));
@@ -58,7 +58,7 @@ fn a_line_of_two_runs_is_the_line_of_one() {
 }
 
 #[test]
-fn a_line_with_uneven_speed_is_the_same_line() {
+fn line_with_uneven_speed_is_a_duplicate() {
     let mut eased = Runs::default();
     let (a, b) = (p(0.0, 0.0), p(10.0, 4.0));
     eased.push_bezier(&[a, a, b, b]);
@@ -66,7 +66,7 @@ fn a_line_with_uneven_speed_is_the_same_line() {
 }
 
 #[test]
-fn other_curves_between_the_same_ends_are_none() {
+fn different_curves_between_the_same_ends_are_no_pair() {
     let mut bow = Runs::default();
     bow.push_bezier(&[p(0.0, 0.0), p(3.0, 0.01), p(7.0, 0.01), p(10.0, 0.0)]);
     assert!(found(&pair(&line_runs(p(0.0, 0.0), p(10.0, 0.0)), &bow)).is_empty());
@@ -88,7 +88,7 @@ fn curves_on_two_levels_are_no_pair() {
 }
 
 #[test]
-fn paths_for_different_vehicle_types_do_not_meet() {
+fn paths_without_common_vehicle_type_are_no_pair() {
     let runs = line_runs(p(0.0, 0.0), p(10.0, 0.0));
     let of = |types: &[&[&str]]| {
         let mut sketch = Sketch::default();
@@ -108,7 +108,7 @@ fn paths_for_different_vehicle_types_do_not_meet() {
 }
 
 #[test]
-fn a_group_is_told_once_for_each_later_path() {
+fn reports_each_later_path_of_a_group_once() {
     let there = line_runs(p(0.0, 0.0), p(10.0, 0.0));
     let back = reversed(&there);
     let mut sketch = Sketch::default();
@@ -116,7 +116,7 @@ fn a_group_is_told_once_for_each_later_path() {
         sketch.free_path("", if i % 3 == 2 { &back } else { &there });
     }
     let found = found(&sketch);
-    // One reverse pair for the whole group: further ones repeat one of its two.
+    // One reverse pair for the group: further paths duplicate one of its two.
     assert_eq!(
         codes(&found),
         [(Code::DuplicatePath, 2_998), (Code::ReversePair, 1)]
@@ -126,7 +126,7 @@ fn a_group_is_told_once_for_each_later_path() {
 }
 
 #[test]
-fn many_different_curves_between_the_same_ends_end_soon() {
+fn cost_stays_linear_for_many_curves_between_the_same_ends() {
     let mut sketch = Sketch::default();
     for i in 0..20_000 {
         let mut runs = Runs::default();
@@ -138,7 +138,7 @@ fn many_different_curves_between_the_same_ends_end_soon() {
 }
 
 #[test]
-fn both_directions_of_a_path_count() {
+fn two_way_path_duplicates_both_directions() {
     let (there, back) = (
         line_runs(p(0.0, 20.0), p(9.0, 20.0)),
         line_runs(p(9.0, 20.0), p(0.0, 20.0)),
@@ -170,12 +170,12 @@ fn points() -> impl Strategy<Value = Vec<Point<f64>>> {
     prop::collection::vec(point, 4..12)
 }
 
-/// Curves that differ, and lie on a second one where `twins` says so.
+/// Distinct curves, each with a reversed copy if its flag is set.
 fn layout(curves: &[(Vec<Point<f64>>, bool)]) -> Vec<(String, Runs)> {
     let mut paths = Vec::new();
-    for (i, (points, twin)) in curves.iter().enumerate() {
+    for (i, (points, has_reverse)) in curves.iter().enumerate() {
         let runs = runs_of(points);
-        if *twin {
+        if *has_reverse {
             paths.push((format!("{i} back"), reversed(&halved(&runs))));
         }
         paths.push((i.to_string(), runs));
@@ -183,7 +183,7 @@ fn layout(curves: &[(Vec<Point<f64>>, bool)]) -> Vec<(String, Runs)> {
     paths
 }
 
-/// Which paths belong together, whatever their order.
+/// Identifiers of the paths of each reverse pair, independent of their order.
 fn groups(paths: &[(String, Runs)]) -> BTreeSet<BTreeSet<String>> {
     let mut layout = Layout::default();
     for (id, runs) in paths {
@@ -208,7 +208,7 @@ fn groups(paths: &[(String, Runs)]) -> BTreeSet<BTreeSet<String>> {
 
 proptest! {
     #[test]
-    fn a_curve_cut_otherwise_and_moved_a_little_is_found(
+    fn finds_a_curve_divided_differently_and_slightly_moved(
         points in points(),
         back: bool,
         offset_m in -5e-4..5e-4,
@@ -225,14 +225,14 @@ proptest! {
     }
 
     #[test]
-    fn the_order_of_paths_does_not_matter(
+    fn groups_are_independent_of_the_order_of_paths(
         (paths, shuffled) in prop::collection::vec((points(), any::<bool>()), 1..12)
             .prop_map(|curves| layout(&curves))
             .prop_flat_map(|paths| (Just(paths.clone()), Just(paths).prop_shuffle())),
     ) {
         let groups_found = groups(&paths);
-        let twins = paths.iter().filter(|(id, _)| id.ends_with("back")).count();
-        prop_assert_eq!(groups_found.len(), twins);
+        let reversed = paths.iter().filter(|(id, _)| id.ends_with("back")).count();
+        prop_assert_eq!(groups_found.len(), reversed);
         prop_assert_eq!(groups_found, groups(&shuffled));
     }
 }

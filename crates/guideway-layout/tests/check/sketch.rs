@@ -1,16 +1,16 @@
-//! Small layouts to plant findings in.
+//! Builder of small layouts with defects.
 
 use guideway_layout::{Layout, NewPath};
 use guideway_spline::{Point, Runs};
 
-/// A layout in the making.
+/// Builder of a layout.
 #[derive(Default)]
 pub(crate) struct Sketch {
     pub(crate) layout: Layout,
 }
 
 impl Sketch {
-    /// A straight and a bent path between two nodes, with nothing to find.
+    /// A straight and a bent path between two nodes, without findings.
     pub(crate) fn clean() -> Self {
         let mut sketch = Self::default();
         sketch.node("a", p(0.0, 0.0));
@@ -26,7 +26,7 @@ impl Sketch {
         self.layout.nodes.push(id, at, None);
     }
 
-    /// A path between two nodes.
+    /// Adds a path between two nodes.
     pub(crate) fn path(&mut self, id: &str, runs: &Runs, start: &str, end: &str) {
         let nodes = &self.layout.nodes;
         let row = |id| (0..nodes.len() as u32).find(|&node| nodes.id(node) == id);
@@ -40,7 +40,7 @@ impl Sketch {
         });
     }
 
-    /// A path without nodes.
+    /// Adds a path without nodes.
     pub(crate) fn free_path(&mut self, id: &str, runs: &Runs) {
         self.layout.paths.push(&NewPath {
             id,

@@ -42,7 +42,7 @@ impl Edit {
                 if paths.len() != curves.path_count() {
                     return Err(EditError::Count);
                 }
-                let misplaced = curves.first_beyond(REACH_M);
+                let misplaced = curves.first_out_of_range(REACH_M);
                 misplaced.map_or(Ok(()), |from| {
                     let path = Some(paths[from]);
                     Err(EditError::Misplaced { path })

@@ -1,46 +1,34 @@
+//! [`Geometry`]: the control runs of all paths; builds them, reads them, appends paths.
+
 use std::ops::Range;
 use std::sync::OnceLock;
 
 use guideway_spline::mem::prefetch;
 use guideway_spline::{Bounds, Point, Runs};
 
+use super::buffers::{Points, consecutive, elements_of, end_index};
+use super::hulls::Hulls;
 use crate::RunPoints;
-
-mod edit;
-mod hulls;
-#[cfg(test)]
-mod tests;
-
-pub use hulls::{Hulls, add_boxes};
 
 /// The control runs of all paths, in two flat buffers.
 ///
-/// A path is a list of runs; a run of n control points (n >= 4) is a uniform cubic B-spline of n - 3
-/// segments. Coordinates are meters. They are kept in the precision of the source: a file of `f32`
-/// costs 8 bytes a point, and nothing is lost either way.
+/// A path is a list of runs; a run of n control points (n >= 4) is a uniform cubic B-spline of n -
+/// 3 segments. Coordinates are in meters, in the precision of the source: points of an `f32` file
+/// take 8 bytes each and stay exact.
+///
+/// ```text
+/// points     p0 p1 p2 p3 | p4 p5 p6 p7 p8 | p9 p10 p11 p12
+/// run_ends             4                9               13
+/// path_ends            1                                 3     path 0: run 0; path 1: runs 1, 2
+/// ```
 #[derive(Clone, Debug)]
 pub struct Geometry {
-    points: Points,
-    run_ends: Vec<u32>,
-    /// None while each run is a path.
-    path_ends: Option<Vec<u32>>,
-    /// Found when it is first asked for after a change.
-    hulls: OnceLock<Hulls>,
-}
-
-#[derive(Clone, Debug)]
-enum Points {
-    F64(Vec<Point<f64>>),
-    F32(Vec<Point<f32>>),
-}
-
-impl Points {
-    fn len(&self) -> usize {
-        match self {
-            Self::F64(p) => p.len(),
-            Self::F32(p) => p.len(),
-        }
-    }
+    pub(super) points: Points,
+    pub(super) run_ends: Vec<u32>,
+    /// `None` while every path has exactly one run.
+    pub(super) path_ends: Option<Vec<u32>>,
+    /// Computed on the first request after a change.
+    pub(super) hulls: OnceLock<Hulls>,
 }
 
 impl Default for Geometry {
@@ -58,7 +46,7 @@ impl Geometry {
     /// Paths of one run each, from flat buffers: path `i` has the points up to `ends[i]`.
     ///
     /// # Panics
-    /// When `ends` falls, or does not end at the number of points.
+    /// When `ends` decreases, or does not end at the number of points.
     pub fn from_f32(points: Vec<Point<f32>>, ends: Vec<u32>) -> Self {
         Self::from_points(Points::F32(points), ends)
     }
@@ -80,10 +68,10 @@ impl Geometry {
         }
     }
 
-    /// The same runs as other paths: path `i` has the runs up to `path_ends[i]`.
+    /// The same runs grouped to other paths: path `i` has the runs up to `path_ends[i]`.
     ///
     /// # Panics
-    /// When `path_ends` falls, or does not end at the number of runs.
+    /// When `path_ends` decreases, or does not end at the number of runs.
     #[must_use]
     pub fn with_path_ends(self, path_ends: Vec<u32>) -> Self {
         let runs = path_ends.last().map_or(0, |&e| e as usize);
@@ -95,10 +83,11 @@ impl Geometry {
         }
     }
 
-    /// The same with boxes of its paths that whoever made it has found: see [`add_boxes`].
+    /// The same geometry with hulls that the caller has computed: see
+    /// [`append_hulls`](super::append_hulls).
     ///
     /// # Panics
-    /// When there are not as many as paths.
+    /// When the numbers of hulls and paths differ.
     #[must_use]
     pub fn with_hulls(self, hulls: Hulls) -> Self {
         assert_eq!(hulls.len(), self.path_count());
@@ -113,26 +102,26 @@ impl Geometry {
         self.path_ends.as_ref().map_or(self.run_count(), Vec::len)
     }
 
-    /// Number of runs of all paths together.
+    /// Number of runs of all paths.
     pub fn run_count(&self) -> usize {
         self.run_ends.len()
     }
 
-    /// Number of control points of all paths together.
+    /// Number of control points of all paths.
     pub fn point_count(&self) -> usize {
         self.points.len()
     }
 
-    /// Number of cubic segments of all paths together.
+    /// Number of cubic segments of all paths.
     pub fn segment_count(&self) -> usize {
         self.point_count() - 3 * self.run_count()
     }
 
-    /// Appends a path. Buffers of `f32` become `f64` first, so that nothing is lost.
+    /// Appends a path. Converts an `f32` buffer to `f64` first, so that no digits get lost.
     pub fn push(&mut self, runs: &Runs) {
         self.hulls.take();
         if runs.len() != 1 {
-            self.tell_path_ends();
+            self.ensure_path_ends();
         }
         if let Points::F32(narrow) = &self.points {
             self.points = Points::F64(narrow.iter().map(|p| p.to_f64()).collect());
@@ -140,7 +129,7 @@ impl Geometry {
         if let Points::F64(points) = &mut self.points {
             for run in runs.iter() {
                 points.extend_from_slice(run);
-                self.run_ends.push(index(points.len()));
+                self.run_ends.push(end_index(points.len()));
             }
         }
         if let Some(path_ends) = &mut self.path_ends {
@@ -148,8 +137,8 @@ impl Geometry {
         }
     }
 
-    /// From now on a path may have any number of runs.
-    fn tell_path_ends(&mut self) {
+    /// Allows paths with any number of runs.
+    pub(super) fn ensure_path_ends(&mut self) {
         let runs = self.run_count() as u32;
         self.path_ends.get_or_insert_with(|| (1..=runs).collect());
     }
@@ -176,29 +165,39 @@ impl Geometry {
         }
     }
 
+    /// Range of the runs of consecutive paths.
     #[inline]
-    fn runs_of(&self, paths: &Range<usize>) -> Range<usize> {
+    pub(super) fn runs_of(&self, paths: &Range<usize>) -> Range<usize> {
         match &self.path_ends {
             None => paths.clone(),
-            Some(ends) => between(ends, paths),
+            Some(ends) => elements_of(ends, paths),
         }
     }
 
+    /// Range of the points of consecutive runs.
     #[inline]
-    fn points_of(&self, runs: &Range<usize>) -> Range<usize> {
-        between(&self.run_ends, runs)
+    pub(super) fn points_of(&self, runs: &Range<usize>) -> Range<usize> {
+        elements_of(&self.run_ends, runs)
     }
 
-    /// Box of all control points of some paths, which holds their curves; none if there are none. It costs least for
-    /// rows in order.
+    /// Box of all control points of some paths, which contains their curves; `None` if they have no
+    /// points. Fastest for rows in order.
     ///
     /// # Panics
-    /// When one is not below [`Self::path_count`].
+    /// When a path is not below [`Self::path_count`].
     pub fn hull_bounds(&self, paths: impl IntoIterator<Item = usize>) -> Option<Bounds<f64>> {
         let points = |rows| self.points_in(self.points_of(&self.runs_of(&rows)));
-        stretches(paths)
+        consecutive(paths)
             .filter_map(|rows| points(rows).bounds())
             .reduce(Bounds::union)
+    }
+
+    /// Hulls of all paths. The first call after a change reads all points once, on all threads;
+    /// later calls return the same hulls.
+    pub fn hulls(&self) -> &Hulls {
+        let points_of = |path| self.points_of(&self.runs_of(&(path..path + 1)));
+        self.hulls
+            .get_or_init(|| Hulls::new(&self.points, self.path_count(), points_of))
     }
 
     /// Prefetches the control points of a path that will be read soon.
@@ -213,38 +212,11 @@ impl Geometry {
         }
     }
 
-    /// Heap bytes held.
+    /// Heap bytes in use.
     pub fn heap_bytes(&self) -> usize {
-        let points = match &self.points {
-            Points::F64(p) => p.capacity() * size_of::<Point<f64>>(),
-            Points::F32(p) => p.capacity() * size_of::<Point<f32>>(),
-        };
         let hulls = self.hulls.get().map_or(0, Hulls::heap_bytes);
         let path_ends = self.path_ends.as_ref().map_or(0, Vec::capacity);
-        points + hulls + (self.run_ends.capacity() + path_ends) * size_of::<u32>()
+        let ends = self.run_ends.capacity() + path_ends;
+        self.points.heap_bytes() + hulls + ends * size_of::<u32>()
     }
-}
-
-/// What lies between the ends of some neighbors in a list that begins at 0.
-#[inline]
-fn between(ends: &[u32], neighbors: &Range<usize>) -> Range<usize> {
-    let end = |count: usize| count.checked_sub(1).map_or(0, |last| ends[last] as usize);
-    end(neighbors.start)..end(neighbors.end)
-}
-
-/// Rows that follow each other, a stretch at a time.
-fn stretches(rows: impl IntoIterator<Item = usize>) -> impl Iterator<Item = Range<usize>> {
-    let mut rows = rows.into_iter().peekable();
-    std::iter::from_fn(move || {
-        let first = rows.next()?;
-        let mut end = first + 1;
-        while rows.next_if_eq(&end).is_some() {
-            end += 1;
-        }
-        Some(first..end)
-    })
-}
-
-fn index(at: usize) -> u32 {
-    u32::try_from(at).expect("at most 2^32 control points")
 }

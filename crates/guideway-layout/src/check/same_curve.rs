@@ -1,48 +1,65 @@
+//! Groups of paths with the same curve, found by leader clustering over a grid of end points.
+//!
+//! The first path of a group is its leader. A hash table maps the grid cell of both end points
+//! (four coordinates) to the leaders there; each path is compared with the leaders of the cells
+//! around its ends, in both directions, and joins the first match or leads a new group.
+
 use std::collections::HashMap;
 use std::hash::{BuildHasher, RandomState};
 
 use guideway_spline::Point;
 
-use super::curve::{Curve, Samples, Swing};
+use super::curve::{ChordArea, Curve, Samples};
 use crate::{PathRef, Paths};
 
-/// Most leaders with ends in one cell: more different curves between two places are no layout, and
-/// to compare all with all would take for ever.
+/// Most leaders per cell. No real layout has more distinct curves between two places, and the limit
+/// keeps the cost of hostile input linear.
 const MAX_LEADERS: u32 = 64;
 
-/// How closely curves are measured, as a part of the tolerance that decides.
+/// Precision of sampled points, as a fraction of the tolerance.
 const PRECISION: f64 = 0.05;
 
+/// Index that means "none" in the lists of leaders.
 const NONE: u32 = u32::MAX;
 
-/// A path that follows the curve of another, the first of its group.
+/// A path with the curve of its leader, the first path of the group.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Member {
     /// Row of the first path of the group.
     pub(super) first: usize,
     /// Row of this path.
     pub(super) row: usize,
-    /// Whether it follows the curve from end to start.
+    /// Whether it runs from the end of that curve to its start.
     pub(super) reversed: bool,
 }
 
-/// The paths of the same curve and level as an earlier one, in order of group and row.
+/// Row of the first path with the same curve and level, in either direction, for each path; its own
+/// row if there is none.
+///
+/// Two curves are the same if no point of one is farther than `tolerance_m` from the other.
+pub fn same_curves(paths: &Paths, tolerance_m: f64) -> Vec<u32> {
+    let mut first: Vec<u32> = (0..paths.len() as u32).collect();
+    for member in members(paths, tolerance_m) {
+        first[member.row] = member.first as u32;
+    }
+    first
+}
+
+/// The paths with the curve and level of an earlier path, in order of group and row.
 pub(super) fn members(paths: &Paths, tolerance_m: f64) -> Vec<Member> {
     let mut groups = Groups::new(paths, tolerance_m);
-    let mut members: Vec<_> = (0..paths.len())
-        .filter_map(|row| groups.place(row))
-        .collect();
+    let mut members: Vec<_> = (0..paths.len()).filter_map(|row| groups.add(row)).collect();
     members.sort_unstable();
     members
 }
 
-/// The first path of every group, found by the grid cells of its two ends.
+/// The leaders so far, by the grid cells of their ends.
 struct Groups<'a> {
     paths: &'a Paths,
     tolerance_m: f64,
     cell_m: f64,
     hasher: RandomState,
-    /// Latest leader of each cell; the others hang on it.
+    /// Latest leader of each cell; `Leader::next` links the others.
     heads: HashMap<u64, u32>,
     leaders: Vec<Leader>,
     samples: Vec<Samples>,
@@ -53,13 +70,13 @@ struct Groups<'a> {
 #[derive(Clone, Copy)]
 struct Leader {
     row: u32,
-    /// Index of the one before in the cell.
+    /// Index of the previous leader in the cell.
     next: u32,
     /// Number of leaders in the cell up to this one.
     depth: u32,
     ends: [Point<f64>; 2],
-    swing: Swing,
-    /// Index in `samples`, once they were needed.
+    area: ChordArea,
+    /// Index in `Groups::samples`, from the first comparison that needs them.
     samples: u32,
 }
 
@@ -68,7 +85,7 @@ impl<'a> Groups<'a> {
         Self {
             paths,
             tolerance_m,
-            // Wide enough that few ends are near a border, where two cells must be looked into.
+            // Wide enough that few ends are near a border, where the search visits two cells.
             cell_m: (16.0 * tolerance_m).max(1e-6),
             hasher: RandomState::new(),
             heads: HashMap::with_capacity(paths.len()),
@@ -79,12 +96,12 @@ impl<'a> Groups<'a> {
         }
     }
 
-    /// Finds the group of a path, or lets it lead a new one.
-    fn place(&mut self, row: usize) -> Option<Member> {
+    /// Adds a path to the group with its curve, or makes it the leader of a new one.
+    fn add(&mut self, row: usize) -> Option<Member> {
         let path = self.paths.get(row);
         self.own.load(path);
         let ends = self.own.ends()?;
-        let swing = self.own.swing();
+        let area = self.own.chord_area();
         let mut samples = None;
         for reversed in [false, true] {
             let ends = oriented(ends, reversed);
@@ -93,7 +110,7 @@ impl<'a> Groups<'a> {
                 let mut next = self.heads.get(&key).copied().unwrap_or(NONE);
                 while next != NONE {
                     let leader = self.leaders[next as usize];
-                    if swing.may_match(leader.swing, reversed, self.tolerance_m)
+                    if area.may_match(leader.area, reversed, self.tolerance_m)
                         && self.matches(next as usize, ends, reversed, &mut samples)
                     {
                         let first = leader.row as usize;
@@ -107,7 +124,7 @@ impl<'a> Groups<'a> {
                 }
             }
         }
-        self.lead(path, ends, swing);
+        self.add_leader(path, ends, area);
         None
     }
 
@@ -115,7 +132,7 @@ impl<'a> Groups<'a> {
         self.hasher.hash_one((path.level(), cell))
     }
 
-    fn lead(&mut self, path: PathRef<'_>, ends: [Point<f64>; 2], swing: Swing) {
+    fn add_leader(&mut self, path: PathRef<'_>, ends: [Point<f64>; 2], area: ChordArea) {
         let key = self.key(path, cell_of(ends, self.cell_m));
         let head = self.heads.entry(key).or_insert(NONE);
         let depth = self.leaders.get(*head as usize).map_or(1, |l| l.depth + 1);
@@ -125,14 +142,15 @@ impl<'a> Groups<'a> {
                 next: *head,
                 depth,
                 ends,
-                swing,
+                area,
                 samples: NONE,
             });
             *head = (self.leaders.len() - 1) as u32;
         }
     }
 
-    /// Whether the loaded curve is that of a leader. `samples` are its own, kept once taken.
+    /// Whether the loaded curve is that of a leader. `samples` caches the points of the loaded
+    /// curve.
     fn matches(
         &mut self,
         leader: usize,
@@ -170,7 +188,7 @@ fn oriented([start, end]: [Point<f64>; 2], reversed: bool) -> [Point<f64>; 2] {
     if reversed { [end, start] } else { [start, end] }
 }
 
-/// A cell of the grid over both ends together.
+/// A cell of the four-dimensional grid over the coordinates of both ends.
 type Cell = [i64; 4];
 
 fn cell_of(ends: [Point<f64>; 2], cell_m: f64) -> Cell {
@@ -181,7 +199,7 @@ fn coordinates([start, end]: [Point<f64>; 2]) -> [f64; 4] {
     [start.x, start.y, end.x, end.y]
 }
 
-/// Every cell that ends within `margin_m` of these may be in, none of them twice.
+/// All cells that may contain ends within `margin_m` of these, each once.
 fn cells_around(
     ends: [Point<f64>; 2],
     cell_m: f64,

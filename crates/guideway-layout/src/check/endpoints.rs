@@ -1,10 +1,12 @@
+//! End points: paths that miss their nodes, nodes without paths, and paths between levels.
+
 use guideway_spline::Point;
 
-use super::CheckOptions;
-use super::place::{At, name, place};
+use super::element::{DisplayPosition, element_name, element_place};
+use super::options::CheckOptions;
 use crate::{Code, Diagnostics, Layout, PathRef};
 
-/// How paths and nodes fit together.
+/// Reports gaps between paths and their nodes, unused nodes, and paths between levels.
 pub(super) fn check(layout: &Layout, options: &CheckOptions, found: &mut Diagnostics) {
     let mut used = vec![false; layout.nodes.len()];
     for path in layout.paths.iter() {
@@ -24,9 +26,9 @@ pub(super) fn check(layout: &Layout, options: &CheckOptions, found: &mut Diagnos
     for node in (0..used.len()).filter(|&node| !used[node]) {
         found.push(
             Code::UnusedNode,
-            || place("node", node, layout.nodes.id(node as u32)),
+            || element_place("node", node, layout.nodes.id(node as u32)),
             || "no drawn path begins or ends here".to_owned(),
-            "Connect the node, or take it out",
+            "Connect the node, or remove it",
         );
     }
 }
@@ -44,10 +46,10 @@ fn node_gap(
     if gap_m > tolerance_m {
         found.push(
             Code::NodeGap,
-            || place("path", path.row(), path.id()),
+            || element_place("path", path.row(), path.id()),
             || {
-                let node = name("node", node as usize, layout.nodes.id(node));
-                let (at, node_at) = (At(at), At(node_at));
+                let node = element_name("node", node as usize, layout.nodes.id(node));
+                let (at, node_at) = (DisplayPosition(at), DisplayPosition(node_at));
                 format!("{verb} at {at}, {gap_m:.3} m from {node} at {node_at}")
             },
             "Move the node to the end of the curve, or the end of the curve to the node",
@@ -63,14 +65,14 @@ fn cross_level(layout: &Layout, path: PathRef<'_>, found: &mut Diagnostics) {
     {
         found.push(
             Code::CrossLevel,
-            || place("path", path.row(), path.id()),
+            || element_place("path", path.row(), path.id()),
             || {
                 let id = |level: u32| layout.levels.get(level as usize).map_or("", |l| &l.id);
-                let from = name("level", start as usize, id(start));
-                let to = name("level", end as usize, id(end));
+                let from = element_name("level", start as usize, id(start));
+                let to = element_name("level", end as usize, id(end));
                 format!("leads from {from} to {to}, and is drawn in one plane")
             },
-            "Nothing, if a lift or a ramp is meant",
+            "No action needed for a lift or a ramp; otherwise correct the level of the node",
         );
     }
 }

@@ -1,0 +1,201 @@
+//! Copies of some paths, and replacement of their curves by those of another geometry.
+
+use std::ops::Range;
+
+use guideway_spline::Point;
+use guideway_spline::mem::{CHUNK_LEN, prefetch_ahead};
+use rayon::prelude::*;
+
+use super::buffers::{Points, consecutive, elements_of, end_index};
+use super::store::Geometry;
+use crate::RunPoints;
+use crate::run_points::POINTS_PER_TASK;
+
+impl Geometry {
+    /// A copy of some paths, in the given order. Fastest for rows in order.
+    ///
+    /// # Panics
+    /// When a path is not below [`Self::path_count`].
+    #[must_use]
+    pub fn select(&self, paths: impl IntoIterator<Item = usize>) -> Self {
+        let mut selected = self.empty_like();
+        consecutive(paths).for_each(|rows| selected.append(self, rows));
+        selected
+    }
+
+    /// No paths, in the same precision.
+    fn empty_like(&self) -> Self {
+        Self {
+            points: self.points.empty_like(),
+            ..Self::default()
+        }
+    }
+
+    /// Appends consecutive paths of another geometry, in the precision of this one.
+    fn append(&mut self, other: &Self, paths: Range<usize>) {
+        let runs = other.runs_of(&paths);
+        let range = other.points_of(&runs);
+        let (base, first_run) = (self.points.len(), self.run_ends.len());
+        if other.path_ends.is_some() {
+            self.ensure_path_ends();
+        }
+        match (&mut self.points, &other.points) {
+            (Points::F64(to), Points::F64(from)) => to.extend_from_slice(&from[range.clone()]),
+            (Points::F32(to), Points::F32(from)) => to.extend_from_slice(&from[range.clone()]),
+            (Points::F64(to), Points::F32(from)) => {
+                to.extend(from[range.clone()].iter().map(|p| p.to_f64()));
+            }
+            (Points::F32(to), Points::F64(from)) => {
+                to.extend(from[range.clone()].iter().map(|p| p.to_f32()));
+            }
+        }
+        let ends = other.run_ends[runs.clone()]
+            .iter()
+            .map(|&end| end as usize - range.start + base);
+        self.run_ends.extend(ends.map(end_index));
+        if let Some(path_ends) = &mut self.path_ends {
+            let ends = paths.map(|path| other.runs_of(&(path..path + 1)).end);
+            path_ends.extend(ends.map(|end| end_index(end - runs.start + first_run)));
+        }
+    }
+
+    /// Replaces the curve of `paths[i]` by curve `i` of `with`, in the precision of this geometry.
+    /// If a path occurs twice, its last curve counts.
+    ///
+    /// Cost: O(points of `paths`) if no run changes its length, fastest for rows in order;
+    /// otherwise O(points of all paths).
+    ///
+    /// # Panics
+    /// When `with` has fewer curves than `paths` has elements, a path is not below
+    /// [`Self::path_count`], or the result exceeds 2^32 control points.
+    pub fn replace_all(&mut self, paths: &[u32], with: &Self) {
+        self.hulls.take();
+        let mut done = 0;
+        let pairs = consecutive(paths.iter().map(|&path| path as usize)).map(|rows| {
+            let from = done..done + rows.len();
+            done = from.end;
+            (rows, from)
+        });
+        let pairs: Vec<_> = pairs.collect();
+        if pairs
+            .iter()
+            .all(|(rows, from)| self.has_run_lengths_of(rows, with, from))
+        {
+            for (rows, from) in pairs {
+                self.copy_points_from(&rows, with, &from);
+            }
+            return;
+        }
+        if let [path] = *paths {
+            return self.splice(path as usize, with);
+        }
+        // A curve of another length shifts all points behind it, so rebuild the buffers once.
+        let mut sources: Vec<Option<usize>> = vec![None; self.path_count()];
+        for (&path, from) in paths.iter().zip(0..) {
+            sources[path as usize] = Some(from);
+        }
+        let mut all = self.empty_like();
+        for (path, source) in sources.into_iter().enumerate() {
+            match source {
+                Some(from) => all.append(with, from..from + 1),
+                None => all.append(self, path..path + 1),
+            }
+        }
+        *self = all;
+    }
+
+    /// Whether `paths` have the same numbers of runs and points as `others` of another geometry.
+    fn has_run_lengths_of(&self, paths: &Range<usize>, with: &Self, others: &Range<usize>) -> bool {
+        let (own, other) = (self.runs_of(paths), with.runs_of(others));
+        let has_run_counts = match (&self.path_ends, &with.path_ends) {
+            (None, None) => paths.len() == others.len(),
+            _ => {
+                let runs = |geometry: &Self, path| geometry.runs_of(&(path..path + 1)).len();
+                let mut pairs = paths.clone().zip(others.clone());
+                paths.len() == others.len() && pairs.all(|(a, b)| runs(self, a) == runs(with, b))
+            }
+        };
+        has_run_counts && has_lengths_of((&self.run_ends, &own), (&with.run_ends, &other))
+    }
+
+    /// Overwrites the points of `paths` by those of `others`, which are as many.
+    fn copy_points_from(&mut self, paths: &Range<usize>, with: &Self, others: &Range<usize>) {
+        let to = self.points_of(&self.runs_of(paths));
+        let from = with.points_of(&with.runs_of(others));
+        match (&mut self.points, &with.points) {
+            (Points::F64(to_all), Points::F64(all)) => copy(&mut to_all[to], &all[from], |p| p),
+            (Points::F32(to_all), Points::F32(all)) => copy(&mut to_all[to], &all[from], |p| p),
+            (Points::F64(to_all), Points::F32(all)) => {
+                copy(&mut to_all[to], &all[from], Point::to_f64);
+            }
+            (Points::F32(to_all), Points::F64(all)) => {
+                copy(&mut to_all[to], &all[from], Point::to_f32);
+            }
+        }
+    }
+
+    /// Replaces the curve of a path by the first one of `with`, and shifts the paths behind it.
+    fn splice(&mut self, path: usize, with: &Self) {
+        let runs = self.runs_of(&(path..path + 1));
+        let range = self.points_of(&runs);
+        let new_points = || with.runs(0).flat_map(RunPoints::iter);
+        let new_lens = with.runs(0).map(|run| run.len());
+        let old_len = self.points.len();
+        match &mut self.points {
+            Points::F64(points) => drop(points.splice(range.clone(), new_points())),
+            Points::F32(points) => {
+                drop(points.splice(range.clone(), new_points().map(Point::to_f32)));
+            }
+        }
+        if new_lens.len() != runs.len() {
+            self.ensure_path_ends();
+        }
+        let new_len = self.points.len();
+        let mut end = range.start;
+        let new_ends: Vec<u32> = new_lens
+            .map(|len| {
+                end += len;
+                end_index(end)
+            })
+            .collect();
+        for end in &mut self.run_ends[runs.end..] {
+            *end = end_index(*end as usize + new_len - old_len);
+        }
+        let new_runs = new_ends.len();
+        let shifted = self.path_ends.iter_mut().flat_map(|ends| &mut ends[path..]);
+        for end in shifted {
+            *end = end_index(*end as usize + new_runs - runs.len());
+        }
+        self.run_ends.splice(runs, new_ends);
+    }
+}
+
+/// Copies converted points to a slice of the same length, on all threads if there are many.
+fn copy<A: Copy + Sync, B: Send>(to: &mut [B], from: &[A], convert: impl Fn(A) -> B + Sync) {
+    let copy_chunks = |(to, from): (&mut [B], &[A])| {
+        for (to, from) in to.chunks_mut(CHUNK_LEN).zip(from.chunks(CHUNK_LEN)) {
+            prefetch_ahead(to);
+            prefetch_ahead(from);
+            let pairs = to.iter_mut().zip(from);
+            pairs.for_each(|(to, from)| *to = convert(*from));
+        }
+    };
+    if from.len() <= POINTS_PER_TASK {
+        copy_chunks((to, from));
+    } else {
+        let chunks = to.par_chunks_mut(POINTS_PER_TASK);
+        let pairs = chunks.zip(from.par_chunks(POINTS_PER_TASK));
+        pairs.for_each(copy_chunks);
+    }
+}
+
+/// Whether consecutive groups of one list of ends have the same lengths as groups of another.
+fn has_lengths_of(
+    (ends, own): (&[u32], &Range<usize>),
+    (other_ends, others): (&[u32], &Range<usize>),
+) -> bool {
+    let [first, other_first] =
+        [(ends, own), (other_ends, others)].map(|(ends, of)| elements_of(ends, of).start as u32);
+    let mut pairs = ends[own.clone()].iter().zip(&other_ends[others.clone()]);
+    own.len() == others.len() && pairs.all(|(end, other)| end - first == other - other_first)
+}
