@@ -29,6 +29,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
         &[
             "guideway-spline",
             "guideway-layout",
+            "guideway-envelope",
             "guideway-scene",
             "guideway-document",
         ],

@@ -31,6 +31,7 @@ mod follow;
 mod heading;
 mod nearest;
 mod source;
+mod source_text;
 mod step;
 mod sweep;
 
@@ -40,4 +41,5 @@ pub use convex::Convex;
 pub use heading::{Heading, headings};
 pub use nearest::{Meeting, Nearest, Question, Tree};
 pub use source::{Source, Without};
+pub use source_text::SourceError;
 pub use sweep::{LEAST_TOLERANCE_M, Sweep};

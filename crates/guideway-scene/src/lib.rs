@@ -25,6 +25,7 @@ mod scene;
 mod sheet;
 mod strip;
 mod style;
+mod user_error;
 mod view;
 mod width;
 

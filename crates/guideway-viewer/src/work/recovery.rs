@@ -5,7 +5,8 @@ use std::time::UNIX_EPOCH;
 
 use guideway_document::{Act, Document, Replayed, replay};
 
-use crate::host::{Job, Trouble};
+use crate::services::{Job, WINDOW_ERROR};
+use guideway_layout::UserError;
 
 /// Begins every journal file; the digit is the version of what follows.
 const MAGIC: &[u8; 8] = b"GWJRNAL2";
@@ -197,8 +198,13 @@ impl Found {
     ///
     /// # Errors
     /// When the journal cannot be read, or the job was cancelled.
-    pub(crate) fn do_again(&self, document: &mut Document, job: &Job) -> Result<Replayed, Trouble> {
-        let (saved, acts) = self.acts().map_err(|problem| Trouble {
+    pub(crate) fn do_again(
+        &self,
+        document: &mut Document,
+        job: &Job,
+    ) -> Result<Replayed, UserError> {
+        let (saved, acts) = self.acts().map_err(|problem| UserError {
+            code: WINDOW_ERROR,
             message: format!("{} cannot be read: {problem}", self.journal.display()),
             remedy: "Make it readable and try again, or forget the work in it".into(),
         })?;
@@ -220,7 +226,8 @@ impl Found {
         // They are in the journal.
         document.take_acts();
         if job.is_cancelled() {
-            return Err(Trouble {
+            return Err(UserError {
+                code: WINDOW_ERROR,
                 message: "the work of last time was not done again: that was cancelled".into(),
                 remedy: "It is kept; choose once more what is to become of it".into(),
             });

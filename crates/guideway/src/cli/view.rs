@@ -3,6 +3,7 @@
 mod floor;
 mod smoothness;
 
+use std::any::Any;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -11,16 +12,16 @@ use std::time::Instant;
 use etcetera::BaseStrategy;
 use guideway::envelope::Source;
 use guideway::formats::{Progress, ReadOptions, read_file};
-use guideway::layout::Layout;
+use guideway::layout::{Layout, UserError};
 use guideway::render::{Budget, Frame, Method, View, elapsed_ms};
 use guideway::scene::SceneOptions;
 use guideway::{AUTO, save_png_by};
-use guideway_viewer::{Export, Host, Job, MethodChoice, Opening, Stage, Trouble};
+use guideway_viewer::{AppServices, Job, LaunchOptions, LoadStage, MethodChoice, PictureRequest};
 
 use self::floor::OnFloor;
 use super::convert::Target;
 use super::render::{Below, Wishes, draw, draw_swept, draw_vector};
-use super::{Exit, Failure, Output, envelope, values};
+use super::{Exit, Failure, Output, values};
 
 #[derive(Debug, clap::Args)]
 #[command(
@@ -61,7 +62,7 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, Failure> {
         timed_since: args.timings.then(Instant::now),
         is_measuring: false,
     };
-    let opening = Opening {
+    let opening = LaunchOptions {
         files: args.files.clone(),
         floor_plan: args.floor_plan.clone().unwrap_or_default(),
         method,
@@ -79,8 +80,8 @@ struct Desk {
     is_measuring: bool,
 }
 
-impl Host for Desk {
-    fn open(&self, path: &Path, job: &Job) -> Result<Layout, Trouble> {
+impl AppServices for Desk {
+    fn read_layout(&self, path: &Path, job: &Job) -> Result<Layout, UserError> {
         let options = ReadOptions {
             progress: Some(&Followed(job)),
             ..ReadOptions::default()
@@ -88,18 +89,18 @@ impl Host for Desk {
         Ok(read_file(path, &options).map_err(Failure::from)?)
     }
 
-    fn save(&self, layout: &Layout, path: &Path) -> Result<Vec<String>, Trouble> {
+    fn save_layout(&self, layout: &Layout, path: &Path) -> Result<Vec<String>, UserError> {
         let (losses, _) = Target::to_save(layout, path)?.write(layout, path)?;
         Ok(losses.iter().map(|loss| loss.to_string()).collect())
     }
 
-    fn check_in_place(&self, layout: &Layout, file: &Path) -> Result<(), Trouble> {
+    fn check_save_in_place(&self, layout: &Layout, file: &Path) -> Result<(), UserError> {
         Ok(Target::check_in_place(layout, file)?)
     }
 
-    fn picture(&self, export: &Export, method: &str) -> Result<Frame, Trouble> {
-        let (below, wishes) = (below(export)?, wishes(export));
-        let (method, progress) = (self.method(method)?, Followed(&Job::default()));
+    fn render(&self, export: &PictureRequest, method: &str) -> Result<Frame, UserError> {
+        let (below, wishes) = (below(export), wishes(export));
+        let (method, progress) = (self.start_method(method)?, Followed(&Job::default()));
         let mut frame = Frame::new(wishes.size);
         let mut rows = frame.pixels_mut().iter_mut();
         let take = &mut |strip: &Frame| {
@@ -111,49 +112,52 @@ impl Host for Desk {
         Ok(frame)
     }
 
-    fn save_picture(
+    fn export_png(
         &self,
-        export: &Export,
+        export: &PictureRequest,
         method: &str,
         job: &Job,
         path: &Path,
-    ) -> Result<(), Trouble> {
-        let (below, wishes) = (below(export)?, wishes(export));
-        let (method, progress) = (self.method(method)?, Followed(job));
+    ) -> Result<(), UserError> {
+        let (below, wishes) = (below(export), wishes(export));
+        let (method, progress) = (self.start_method(method)?, Followed(job));
         save_png_by(path, wishes.size, |take| {
             draw(&*method, &export.scene, &below, &wishes, &progress, take)
         })?;
         Ok(())
     }
 
-    fn save_drawing(&self, export: &Export, path: &Path) -> Result<(), Trouble> {
-        draw_vector(path, &export.scene, &below(export)?, &wishes(export))?;
+    fn export_svg(&self, export: &PictureRequest, path: &Path) -> Result<(), UserError> {
+        draw_vector(path, &export.scene, &below(export), &wishes(export))?;
         Ok(())
     }
 
-    fn floor_plan(&self, plan: &str) -> Result<Arc<dyn guideway_viewer::FloorPlan>, Trouble> {
+    fn read_floor_plan(
+        &self,
+        plan: &str,
+    ) -> Result<Arc<dyn guideway_viewer::FloorPlan>, UserError> {
         Ok(Arc::new(OnFloor::read(plan)?))
     }
 
-    fn swept(
+    fn render_swept_areas(
         &self,
         layout: &Layout,
         rows: &[u32],
-        vehicle: &str,
+        vehicle: Source,
         view: &View,
-    ) -> Result<Frame, Trouble> {
-        Ok(draw_swept(layout, rows, source(vehicle)?, view)?)
+    ) -> Result<Frame, UserError> {
+        Ok(draw_swept(layout, rows, vehicle, view)?)
     }
 
-    fn reached(&self, stage: Stage, file: &Path) {
+    fn on_stage(&self, stage: LoadStage, file: &Path) {
         let Some(since) = self.timed_since else {
             return;
         };
         let what = match stage {
-            Stage::Read => "read",
-            Stage::Shown => "shown",
-            Stage::Editable => "ready to be edited",
-            Stage::Checked => "checked",
+            LoadStage::Read => "read",
+            LoadStage::Shown => "shown",
+            LoadStage::Editable => "ready to be edited",
+            LoadStage::Checked => "checked",
         };
         // There may be nobody who reads it.
         let (ms, file) = (elapsed_ms(since), file.display());
@@ -173,7 +177,7 @@ impl Host for Desk {
         let listed = guideway::methods().into_iter().map(|method| MethodChoice {
             name: method.info.name.to_owned(),
             summary: method.info.summary.to_owned(),
-            why_not: method.why_not,
+            unavailable: method.why_not,
         });
         let mut choices: Vec<MethodChoice> = listed.collect();
         let best = guideway::live_method();
@@ -181,37 +185,31 @@ impl Host for Desk {
         choices
     }
 
-    fn method(&self, name: &str) -> Result<Box<dyn Method>, Trouble> {
+    fn start_method(&self, name: &str) -> Result<Box<dyn Method>, UserError> {
         Ok(guideway::method(name).map_err(Failure::from)?)
     }
 }
 
-/// A vehicle, as a person wrote it.
-fn source(vehicle: &str) -> Result<Source, Failure> {
-    envelope::source(vehicle).map_err(|problem| {
-        Failure::arguments(
-            format!("`{vehicle}` is no vehicle: {problem}"),
-            "Write it so",
-        )
-    })
-}
-
-/// What lies below the layout on top.
-fn below(export: &Export) -> Result<Below, Failure> {
-    let plan = export.floor_plan.as_deref().map(floor::read);
-    let vehicle = export.swept.as_ref().map(|(vehicle, _)| source(vehicle));
-    Ok(Below {
-        floor_plan: plan.transpose()?,
-        lines: export.grid.clone(),
-        envelope: vehicle.transpose()?,
-        swept: export.swept.as_ref().map(|(_, rows)| rows.clone()),
-        others: export.others.clone(),
-    })
+/// The content below the topmost layout.
+fn below(picture: &PictureRequest) -> Below {
+    // The window holds no plan but those of `read_floor_plan`.
+    let plan = picture.floor_plan.as_deref().and_then(|plan| {
+        let plan: &dyn Any = plan;
+        plan.downcast_ref::<OnFloor>()
+    });
+    let swept = picture.swept.as_ref();
+    Below {
+        floor_plan: plan.map(|plan| plan.plan.clone()),
+        lines: picture.grid.clone(),
+        envelope: swept.map(|swept| swept.vehicle),
+        swept: swept.map(|swept| swept.rows.clone()),
+        others: picture.others.clone(),
+    }
 }
 
 /// A picture of what is seen, with what the colors mean.
-fn wishes(export: &Export) -> Wishes {
-    let Export {
+fn wishes(export: &PictureRequest) -> Wishes {
+    let PictureRequest {
         scene, view, style, ..
     } = export;
     Wishes {
@@ -239,21 +237,22 @@ impl Progress for Followed<'_> {
     }
 }
 
-impl From<Failure> for Trouble {
+impl From<Failure> for UserError {
     fn from(failure: Failure) -> Self {
         Self {
+            code: failure.code,
             message: failure.message,
             remedy: failure.remedy,
         }
     }
 }
 
-impl From<Trouble> for Failure {
-    fn from(trouble: Trouble) -> Self {
+impl From<UserError> for Failure {
+    fn from(error: UserError) -> Self {
         Self {
-            code: "window",
-            message: trouble.message,
-            remedy: trouble.remedy,
+            code: error.code,
+            message: error.message,
+            remedy: error.remedy,
         }
     }
 }

@@ -3,10 +3,11 @@
 use std::ffi::OsString;
 use std::sync::{Mutex, PoisonError};
 
+use guideway::layout::UserError;
 use guideway::render::{Budget, Frame, Strip, View};
 use guideway::scene::Rgba;
 use guideway::spline::Bounds;
-use guideway_viewer::{FloorPlan, Trouble};
+use guideway_viewer::FloorPlan;
 
 use crate::cli::input::Input;
 use crate::cli::render::{Floor, FloorPlan as Plan};
@@ -14,7 +15,8 @@ use crate::cli::{Failure, Output};
 
 /// A floor plan, ready to be drawn.
 pub(super) struct OnFloor {
-    bounds: Option<Bounds<f64>>,
+    /// For exports.
+    pub(super) plan: Plan,
     floor: Mutex<Floor>,
 }
 
@@ -23,18 +25,18 @@ impl OnFloor {
     pub(super) fn read(plan: &str) -> Result<Self, Failure> {
         let plan = read(plan)?;
         Ok(Self {
-            bounds: plan.bounds(),
             floor: Mutex::new(plan.prepare(&Budget::default())?),
+            plan,
         })
     }
 }
 
 impl FloorPlan for OnFloor {
     fn bounds(&self) -> Option<Bounds<f64>> {
-        self.bounds
+        self.plan.bounds()
     }
 
-    fn draw(&self, view: &View) -> Result<Frame, Trouble> {
+    fn draw(&self, view: &View) -> Result<Frame, UserError> {
         let mut frame = Frame::new(view.size());
         let mut floor = self.floor.lock().unwrap_or_else(PoisonError::into_inner);
         floor.draw(&Strip::whole(view), Rgba::from_u32(0), &mut frame)?;
@@ -43,7 +45,7 @@ impl FloorPlan for OnFloor {
 }
 
 /// Reads a floor plan, such as `hall.png@px-per-m=20`.
-pub(super) fn read(plan: &str) -> Result<Plan, Failure> {
+fn read(plan: &str) -> Result<Plan, Failure> {
     let input = Input::parse(OsString::from(plan)).map_err(|problem| {
         Failure::arguments(
             format!("`{plan}` is no floor plan: {problem}"),

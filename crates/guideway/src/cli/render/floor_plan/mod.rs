@@ -29,6 +29,7 @@ const LINES: LineRule = LineRule::World {
 
 const PNG: &[u8] = b"\x89PNG";
 
+#[derive(Clone)]
 pub(crate) enum FloorPlan {
     Paths(Arc<Scene>),
     Image(Arc<Image>),
