@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use guideway_cpu::Oracle;
 use guideway_scene::density::ToneMap;
-use guideway_scene::{Budget, Edited, Frame, Method, Prepared, Report, Style, View};
+use guideway_scene::{Budget, EditOutcome, Frame, Method, Prepared, Report, Style, View};
 use guideway_scene::{Edit, Scene};
 use guideway_spline::{Affine, Point};
 use guideway_tests::compare::{Tolerance, check};
@@ -102,7 +102,7 @@ fn edits_in_place(method: &dyn Method) -> bool {
         by: Affine::IDENTITY,
     };
     let edited = prepared.edit(&nothing).expect("the path is there");
-    edited != Edited::NotInPlace
+    edited != EditOutcome::NotInPlace
 }
 
 /// A scene and what becomes of it: rounds of edits of every kind, and then all of them undone.
@@ -140,7 +140,7 @@ impl Story {
         let mut undo = Vec::new();
         for (what, kind) in (0..rounds).flat_map(|_| KINDS) {
             let edit = kind(&scene, &area, &mut lcg);
-            let back = scene.clone().edit_and_tell(&edit, |_| {});
+            let back = scene.clone().edit_with_undo(&edit, |_| {});
             let back = back.expect("an edit that can be done");
             undo.push((format!("no longer {what}"), back));
             story.take(what.to_owned(), edit, &mut scene, &mut lcg);
@@ -193,7 +193,7 @@ impl Contender {
 
     fn take(&self, step: &Step, style: &Style, prepared: &mut dyn Prepared) -> Result<(), String> {
         let edited = prepared.edit(&step.edit).map_err(|e| e.to_string())?;
-        if edited == Edited::NotInPlace {
+        if edited == EditOutcome::NotInPlace {
             return Err("not in place, as edits before were".to_owned());
         }
         let (actual, report) = draw(prepared, &step.view, style);

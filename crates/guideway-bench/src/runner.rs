@@ -5,8 +5,8 @@ use std::time::Instant;
 
 use guideway_scene::Scene;
 use guideway_scene::{
-    Budget, Cancel, Edited, Frame, FrameSize, Method, Prepared, RenderError, Report, Style, View,
-    Work, elapsed_ms,
+    Budget, Cancel, EditOutcome, Frame, FrameSize, Method, Prepared, RenderError, Report, Style,
+    View, Work, elapsed_ms,
 };
 
 use crate::Motion;
@@ -134,7 +134,7 @@ impl<'m> Runner<'m> {
     /// Changes the scene in place, or makes the changed one ready if the method cannot do that.
     fn update(&mut self, edits: &Edits, number: usize) -> Result<Update, RenderError> {
         let started = Instant::now();
-        if let Edited::InPlace { moved_bytes } = self.prepared.edit(edits.edit(number))? {
+        if let EditOutcome::InPlace { moved_bytes } = self.prepared.edit(edits.edit(number))? {
             return Ok(Update {
                 ms: elapsed_ms(started),
                 bytes: Some(moved_bytes),

@@ -4,33 +4,33 @@ use guideway_layout::Layout;
 use guideway_scene::{Edit, LayoutCopy, LineRule, PathState, Scene, SceneError, SceneOptions};
 use guideway_spline::{Bounds, Point};
 
-use crate::audience::Audience;
 use crate::edit::History;
+use crate::edit_observer::EditObserver;
 use crate::moved_nodes::MovedNodes;
-use crate::{Act, Hit, Index, Rows, pick};
+use crate::{Hit, Index, JournalEntry, PathSet, pick};
 
 /// A layout that is being looked at and edited: what is shown of it, what is selected, and what was done.
 ///
-/// Rows are those of the scene; see [`Edit`] for what becomes of them.
+/// PathSet are those of the scene; see [`Edit`] for what becomes of them.
 #[derive(Debug)]
 pub struct Document {
     pub(crate) scene: Scene,
     pub(crate) index: Index,
     /// Shared with the steps that can be undone, for it stays the same through most of them.
-    pub(crate) selection: Arc<Rows>,
+    pub(crate) selection: Arc<PathSet>,
     /// Nodes that are not where the layout of the scene has them.
     pub(crate) moved_nodes: MovedNodes,
     pub(crate) history: History,
-    pub(crate) audience: Audience,
+    pub(crate) observer: EditObserver,
     /// What was done since it was last taken, for a journal.
-    pub(crate) acts: Vec<Act>,
+    pub(crate) acts: Vec<JournalEntry>,
     /// Changes with everything that can be seen.
     pub(crate) revision: u64,
 }
 
 /// What a selection does with the one before.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Combine {
+pub enum SelectMode {
     /// It takes its place.
     #[default]
     Replace,
@@ -57,7 +57,7 @@ impl Document {
             selection: Arc::default(),
             moved_nodes: MovedNodes::default(),
             history: History::default(),
-            audience: Audience::default(),
+            observer: EditObserver::default(),
             acts: Vec::new(),
             revision: 0,
         }
@@ -96,12 +96,12 @@ impl Document {
 
     /// Tells of each edit of the scene from now on, in order, as soon as it is certain and before it is done here. A
     /// renderer that does them shows this scene.
-    pub fn tell(&mut self, audience: impl Fn(&Edit) + Send + Sync + 'static) {
-        self.audience = Audience::new(audience);
+    pub fn on_edit(&mut self, observer: impl Fn(&Edit) + Send + Sync + 'static) {
+        self.observer = EditObserver::new(observer);
     }
 
     /// What was done since this was last asked, for a journal: see [`replay`](crate::replay).
-    pub fn take_acts(&mut self) -> Vec<Act> {
+    pub fn take_journal_entries(&mut self) -> Vec<JournalEntry> {
         std::mem::take(&mut self.acts)
     }
 
@@ -110,14 +110,14 @@ impl Document {
         self.revision
     }
 
-    /// Takes a copy of the layout that is its own: see [`Scene::take_copy`].
-    pub fn take_copy(&mut self, copy: LayoutCopy) {
-        self.scene.take_copy(copy);
+    /// Takes a copy of the layout that is its own: see [`Scene::adopt_copy`].
+    pub fn adopt_copy(&mut self, copy: LayoutCopy) {
+        self.scene.adopt_copy(copy);
     }
 
     /// Takes the colors of another scene of the same layout; false, and nothing is changed, if that is of another
     /// one: the layout was edited since.
-    pub fn take_colors(&mut self, mut scene: Scene) -> bool {
+    pub fn adopt_colors(&mut self, mut scene: Scene) -> bool {
         let old = &self.scene;
         if !Arc::ptr_eq(&old.shared_layout(), &scene.shared_layout()) {
             return false;
@@ -147,27 +147,27 @@ impl Document {
         pick(place, rule, px_per_m, at_m, reach_px, most)
     }
 
-    /// Rows of the selected paths.
-    pub fn selection(&self) -> &Rows {
+    /// PathSet of the selected paths.
+    pub fn selection(&self) -> &PathSet {
         &self.selection
     }
 
     /// Selects paths; those that are not shown are left out.
-    pub fn select(&mut self, paths: Rows, how: Combine) {
+    pub fn select(&mut self, paths: PathSet, how: SelectMode) {
         self.revision += 1;
-        let shown: Rows = paths
+        let shown: PathSet = paths
             .into_iter()
             .filter(|&path| self.is_shown(path))
             .collect();
         self.selection = Arc::new(match how {
-            Combine::Replace => shown,
-            Combine::Add => &*self.selection | shown,
-            Combine::Remove => &*self.selection - shown,
+            SelectMode::Replace => shown,
+            SelectMode::Add => &*self.selection | shown,
+            SelectMode::Remove => &*self.selection - shown,
         });
     }
 
     /// Selects the paths whose curve is inside a box or, if they may reach out of it, meets it.
-    pub fn select_in(&mut self, bounds: Bounds<f64>, may_reach_out: bool, how: Combine) {
+    pub fn select_in(&mut self, bounds: Bounds<f64>, may_reach_out: bool, how: SelectMode) {
         let is_chosen = |&(path, of_path): &(u32, Bounds<f64>)| {
             let is_inside = bounds.contains(of_path.min) && bounds.contains(of_path.max);
             let path = self.layout().paths.get(path as usize);
@@ -242,7 +242,7 @@ impl Document {
             // It names rows of the scene itself.
             let _ = self
                 .scene
-                .edit_and_tell(&edit, |edit| self.audience.hear(edit));
+                .edit_with_undo(&edit, |edit| self.observer.notify(edit));
         }
     }
 

@@ -25,15 +25,15 @@ pub struct Bend {
 }
 
 /// Most samples of [`bends`].
-pub const MOST_BENDS: usize = 4096;
+pub const MAX_BENDS: usize = 4096;
 
 /// The bend of a path at places from its start to its end: some a segment, the more the fewer there are,
-/// and at most [`MOST_BENDS`]. Places where the curve stands still are left out.
+/// and at most [`MAX_BENDS`]. Places where the curve stands still are left out.
 pub fn bends(path: PathRef<'_>) -> Vec<Bend> {
     let segments = || path.runs().flat_map(|run| run.segments());
     let count = segments().count().max(1);
-    let each = (MOST_BENDS / count).clamp(1, 32);
-    let step = count.div_ceil(MOST_BENDS);
+    let each = (MAX_BENDS / count).clamp(1, 32);
+    let step = count.div_ceil(MAX_BENDS);
     let mut along_m = 0.0;
     let mut bends = Vec::new();
     for (index, segment) in segments().enumerate() {

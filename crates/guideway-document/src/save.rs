@@ -8,13 +8,13 @@ use guideway_scene::PathState;
 use guideway_spline::Runs;
 
 use crate::moved_nodes::MovedNodes;
-use crate::{Document, Rows};
+use crate::{Document, PathSet};
 
 /// A document as it was at one moment, to be written while it is edited on.
 #[derive(Clone, Debug)]
 pub struct Snapshot {
     layout: Arc<Layout>,
-    removed: Rows,
+    removed: PathSet,
     moved_nodes: MovedNodes,
     state: u64,
 }
@@ -50,7 +50,7 @@ impl Snapshot {
         self.state
     }
 
-    /// What its reader found, and what is odd in it as it is. Rows are those of the document, where a removed path
+    /// What its reader found, and what is odd in it as it is. PathSet are those of the document, where a removed path
     /// still has one.
     pub fn findings(&self, options: &CheckOptions) -> Diagnostics {
         let old = &*self.layout;

@@ -2,7 +2,7 @@ use guideway_layout::Layout;
 
 /// What has a name that was looked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Found {
+pub enum Element {
     /// A path, by its row.
     Path(u32),
     /// A node, by its row.
@@ -12,28 +12,28 @@ pub enum Found {
 }
 
 /// Number of rows, and what a row is.
-type Table = (usize, fn(u32) -> Found);
+type Table = (usize, fn(u32) -> Element);
 
 /// Paths, nodes and stations whose identifier contains `text`, whatever the case: those that are called
 /// exactly so first; at most `most` of each table, and as many again that are called exactly so.
-pub fn search(layout: &Layout, text: &str, most: usize) -> Vec<Found> {
+pub fn search(layout: &Layout, text: &str, most: usize) -> Vec<Element> {
     if text.is_empty() {
         return Vec::new();
     }
     let wanted = text.to_lowercase();
     let tables: [Table; 3] = [
-        (layout.nodes.len(), Found::Node),
-        (layout.stations.len(), Found::Station),
-        (layout.paths.len(), Found::Path),
+        (layout.nodes.len(), Element::Node),
+        (layout.stations.len(), Element::Station),
+        (layout.paths.len(), Element::Path),
     ];
     let rows = tables.map(|(count, of)| (0..count as u32).map(of));
-    let is_exact = |what: &Found| what.id(layout) == text;
-    let is_like = |what: &Found| what.id(layout).to_lowercase().contains(&wanted);
+    let is_exact = |what: &Element| what.id(layout) == text;
+    let is_like = |what: &Element| what.id(layout).to_lowercase().contains(&wanted);
     let exact = rows
         .clone()
         .into_iter()
         .flat_map(|all| all.filter(is_exact).take(most));
-    let mut found: Vec<Found> = exact.collect();
+    let mut found: Vec<Element> = exact.collect();
     for all in rows {
         found.extend(
             all.filter(|what| is_like(what) && !is_exact(what))
@@ -43,7 +43,7 @@ pub fn search(layout: &Layout, text: &str, most: usize) -> Vec<Found> {
     found
 }
 
-impl Found {
+impl Element {
     /// Its identifier.
     pub fn id(self, layout: &Layout) -> &str {
         match self {

@@ -6,7 +6,7 @@ use crate::Document;
 
 /// What a place is drawn to.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Snap {
+pub struct SnapOptions {
     /// Nodes this near, in meters; they come first.
     pub node_reach_m: Option<f64>,
     /// A node that does not count, for it is what moves.
@@ -19,7 +19,12 @@ pub struct Snap {
 
 impl Document {
     /// Where a person means who points at `at_m`, coming from `from_m`.
-    pub fn snap(&self, snap: &Snap, at_m: Point<f64>, from_m: Option<Point<f64>>) -> Point<f64> {
+    pub fn snap(
+        &self,
+        snap: &SnapOptions,
+        at_m: Point<f64>,
+        from_m: Option<Point<f64>>,
+    ) -> Point<f64> {
         let node = snap
             .node_reach_m
             .and_then(|reach_m| self.node_near_but(at_m, reach_m, snap.moving_node));

@@ -1,7 +1,9 @@
+//! sRGB colors with 8 bits per channel, and their hexadecimal notation.
+
 use std::fmt;
 use std::str::FromStr;
 
-/// A color of 8 bits a channel, not premultiplied, in sRGB.
+/// An sRGB color with 8 bits per channel and straight alpha.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Rgba {
     /// Red.
@@ -10,7 +12,7 @@ pub struct Rgba {
     pub g: u8,
     /// Blue.
     pub b: u8,
-    /// Opacity.
+    /// Alpha: 0 is transparent, 255 opaque.
     pub a: u8,
 }
 
@@ -36,12 +38,12 @@ impl Rgba {
         u32::from_be_bytes([self.r, self.g, self.b, self.a])
     }
 
-    /// Whether nothing shows through.
+    /// Whether alpha is 255.
     pub const fn is_opaque(self) -> bool {
         self.a == 255
     }
 
-    /// The color at fraction `t` of the way to `other`.
+    /// Interpolates linearly per channel: `self` at `t` = 0, `other` at `t` = 1.
     pub fn lerp(self, other: Self, t: f64) -> Self {
         let mix = |a: u8, b: u8| (f64::from(a) + (f64::from(b) - f64::from(a)) * t).round() as u8;
         Self {
@@ -64,21 +66,31 @@ impl fmt::Display for Rgba {
     }
 }
 
+/// A text that is not a color.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("`{text}` is not a color: write RRGGBB or RRGGBBAA, such as ffcc00")]
+pub struct ParseColorError {
+    /// The text.
+    pub text: String,
+}
+
+/// Reads `RRGGBB` or `RRGGBBAA`, optionally after a `#`.
 impl FromStr for Rgba {
-    type Err = String;
+    type Err = ParseColorError;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
         let digits = text.strip_prefix('#').unwrap_or(text);
-        let refuse =
-            || format!("`{text}` is not a color: write RRGGBB or RRGGBBAA, such as ffcc00");
+        let error = || ParseColorError {
+            text: text.to_owned(),
+        };
         if !digits.bytes().all(|b| b.is_ascii_hexdigit()) {
-            return Err(refuse());
+            return Err(error());
         }
-        let value = u32::from_str_radix(digits, 16).map_err(|_| refuse())?;
+        let value = u32::from_str_radix(digits, 16).map_err(|_| error())?;
         match digits.len() {
             6 => Ok(Self::from_u32(value << 8 | 0xff)),
             8 => Ok(Self::from_u32(value)),
-            _ => Err(refuse()),
+            _ => Err(error()),
         }
     }
 }
@@ -88,7 +100,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn colors_are_read_as_written() {
+    fn parses_what_display_writes_and_rejects_the_rest() {
         assert_eq!("#ff8000".parse(), Ok(Rgba::opaque(255, 128, 0)));
         assert_eq!(
             "01020304".parse(),

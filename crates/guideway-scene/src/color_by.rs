@@ -1,41 +1,43 @@
+//! Colors paths by a column: classes for few distinct values, a continuous scale for many numbers.
+
 use std::cmp::Ordering;
 use std::collections::HashMap;
 
 use guideway_layout::{Direction, Layout, Values};
 
-use crate::{Rgba, SceneError};
+use crate::color::Rgba;
 
-/// Which column decides the color.
+/// The column that decides the color of each path.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ColorBy {
     /// Name of an attribute, or `level`, `direction` or `vehicle_type`.
     pub column: String,
 }
 
-/// What the colors of a scene mean.
+/// Meaning of the colors of a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Legend {
-    /// The column that decided.
+    /// The column that decides the colors.
     pub column: String,
-    /// Classes, or the ends and steps of a scale, in reading order.
+    /// Classes, or samples of a scale, in reading order.
     pub entries: Vec<LegendEntry>,
-    /// Whether colors between the entries occur too.
+    /// Whether colors between those of the entries occur too.
     pub is_continuous: bool,
 }
 
-/// One line of a legend.
+/// A row of a legend.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LegendEntry {
-    /// The value, as a person reads it.
+    /// The value as text.
     pub label: String,
     /// Its color.
     pub color: Rgba,
-    /// Drawn paths of that class; none on a scale.
+    /// Number of shown paths of the class; `None` on a scale.
     pub paths: Option<u64>,
 }
 
-/// Okabe and Ito's palette (2008), told apart with any color vision, without its black and with its
-/// yellow darkened to show on white.
+/// Palette of Okabe and Ito (2008), distinguishable with any color vision. Without its black, and
+/// with its yellow darkened for white paper.
 const CLASSES: [Rgba; 7] = [
     Rgba::opaque(0, 114, 178),
     Rgba::opaque(230, 159, 0),
@@ -45,7 +47,8 @@ const CLASSES: [Rgba; 7] = [
     Rgba::opaque(86, 180, 233),
     Rgba::opaque(190, 170, 30),
 ];
-/// Steps of the cividis scale (Nuñez, Anderton, Renslow 2018): even in lightness with any color vision.
+/// Samples of the cividis scale (Nuñez, Anderton, Renslow 2018): perceived lightness rises evenly
+/// with any color vision.
 const SCALE: [Rgba; 5] = [
     Rgba::opaque(0, 32, 77),
     Rgba::opaque(66, 77, 108),
@@ -53,14 +56,24 @@ const SCALE: [Rgba; 5] = [
     Rgba::opaque(187, 173, 108),
     Rgba::opaque(255, 234, 70),
 ];
+/// Color of values beyond the palette.
 const OTHER: Rgba = Rgba::opaque(90, 90, 90);
+/// Color of paths without a value.
 const MISSING: Rgba = Rgba::opaque(160, 160, 160);
 
+/// A column that the layout does not have.
+pub(crate) struct UnknownColumn {
+    /// Columns that it has.
+    pub(crate) known: Vec<String>,
+}
+
+/// Color per row, and the legend. `drawn` lists the shown rows, which decide the classes or the
+/// scale. A column with more distinct numbers than palette colors gets a scale.
 pub(crate) fn resolve(
     layout: &Layout,
     by: &ColorBy,
     drawn: &[u32],
-) -> Result<(Vec<Rgba>, Legend), SceneError> {
+) -> Result<(Vec<Rgba>, Legend), UnknownColumn> {
     if let Some(numbers) = numbers(layout, &by.column) {
         let mut distinct: Vec<f64> = Vec::new();
         for value in drawn.iter().filter_map(|&path| numbers(path)) {
@@ -79,6 +92,7 @@ pub(crate) fn resolve(
 type Numbers<'a> = Box<dyn Fn(u32) -> Option<f64> + 'a>;
 type Labels<'a> = Box<dyn Fn(u32) -> Option<String> + 'a>;
 
+/// Access to the numbers of a column by row; `None` if it is not numeric.
 fn numbers<'a>(layout: &'a Layout, column: &str) -> Option<Numbers<'a>> {
     let finite = |v: f64| v.is_finite().then_some(v);
     match &layout.paths.attributes.get(column)?.values {
@@ -88,7 +102,8 @@ fn numbers<'a>(layout: &'a Layout, column: &str) -> Option<Numbers<'a>> {
     }
 }
 
-fn labels<'a>(layout: &'a Layout, column: &str) -> Result<Labels<'a>, SceneError> {
+/// Access to the values of a column as text, by row.
+fn labels<'a>(layout: &'a Layout, column: &str) -> Result<Labels<'a>, UnknownColumn> {
     let paths = &layout.paths;
     if let Some(attribute) = paths.attributes.get(column) {
         return Ok(Box::new(|path| {
@@ -111,8 +126,7 @@ fn labels<'a>(layout: &'a Layout, column: &str) -> Result<Labels<'a>, SceneError
         _ => {
             let own = paths.attributes.iter().map(|a| a.name.clone());
             let built_in = ["level", "direction", "vehicle_type"].map(str::to_owned);
-            Err(SceneError::UnknownColumn {
-                asked: column.to_owned(),
+            Err(UnknownColumn {
                 known: own.chain(built_in).collect(),
             })
         }
@@ -151,7 +165,7 @@ fn scale(layout: &Layout, by: &ColorBy, drawn: &[u32], number: Numbers<'_>) -> (
     )
 }
 
-/// The commonest values get a color each; the rest share one.
+/// Gives each of the most frequent values a color; the others share one.
 fn classes(layout: &Layout, by: &ColorBy, drawn: &[u32], label: Labels<'_>) -> (Vec<Rgba>, Legend) {
     let mut counts: HashMap<String, u64> = HashMap::new();
     let mut missing = 0;
@@ -164,7 +178,7 @@ fn classes(layout: &Layout, by: &ColorBy, drawn: &[u32], label: Labels<'_>) -> (
     let mut by_count: Vec<(String, u64)> = counts.into_iter().collect();
     by_count.sort_by(|a, b| b.1.cmp(&a.1).then_with(|| a.0.cmp(&b.0)));
     let rest = by_count.split_off(by_count.len().min(CLASSES.len()));
-    // Numbers read from the least to the greatest.
+    // Numbers are listed in ascending order, not by frequency.
     let number = |value: &String| value.parse::<f64>().ok();
     if by_count.iter().all(|(value, _)| number(value).is_some()) {
         let by_value = |a: &String, b: &String| number(a).partial_cmp(&number(b));

@@ -1,31 +1,31 @@
-//! Density shading: from how many paths cover a pixel, on average over its square, to a color.
+//! Density shading: maps the mean number of paths that cover a pixel to a color.
 //!
-//! With a million paths on two million pixels a linear scale shows either the crowd or the single path;
-//! the logarithm shows both, and equalizing the histogram spends the colors where the pixels are.
+//! With a million paths on two million pixels, a linear scale shows either crowded or single paths.
+//! A logarithm shows both; histogram equalization spreads the colors over the pixels.
 
-use crate::Rgba;
 use rayon::prelude::*;
 
-use crate::Frame;
+use crate::color::Rgba;
+use crate::frame::Frame;
 
-/// So many pixels are gone through by one thread.
-const AT_ONCE: usize = 1 << 16;
+/// Pixels per parallel task: large enough that scheduling costs nothing against the work.
+const CHUNK: usize = 1 << 16;
 
-/// How counts become lightness.
+/// Map from counts to positions on the color ramp.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ToneMap {
-    /// In proportion.
+    /// Proportional to the count.
     Linear,
-    /// By the logarithm of one plus the count.
+    /// Logarithm of one plus the count.
     #[default]
     Log,
-    /// By how many of the pixels under more than one path have no larger count, so that each color shows
-    /// on as many. As datashader's `eq_hist` (<https://datashader.org>), but that one path and less share
-    /// the first color: their opacity tells them apart already.
+    /// Rank of the count among all pixels under more than one path, so that each color shows on
+    /// equally many pixels. Like `eq_hist` of datashader (<https://datashader.org>), except that
+    /// counts up to one share the first color: their opacity distinguishes them.
     Equalized,
 }
 
-/// Steps from few to many, dark to light on any background: lightness rises evenly.
+/// Color ramp from few paths to many. Lightness rises evenly.
 const STEPS: [Rgba; 6] = [
     Rgba::opaque(20, 30, 80),
     Rgba::opaque(60, 50, 140),
@@ -35,70 +35,73 @@ const STEPS: [Rgba; 6] = [
     Rgba::opaque(250, 240, 150),
 ];
 
-/// Colors a frame from `counts`, the mean number of covering paths of each pixel, all of which it has.
+/// Colors a whole frame from `counts`, the mean number of covering paths per pixel.
 ///
 /// # Panics
-/// When there is not one count a pixel.
+/// When `counts` and `frame` differ in length.
 pub fn shade(counts: &[f32], tone: ToneMap, background: Rgba, frame: &mut Frame) {
-    let mut tones = Tones::new(tone);
-    tones.look(counts);
+    let mut tones = ToneScale::new(tone);
+    tones.observe(counts);
     tones.shade(counts, background, frame);
 }
 
-/// How counts become colors in one picture, all of which was looked at. The largest count gets the last color, unless
-/// nothing is above one path and the histogram is equalized; below one path the background shows through.
+/// The color scale of one picture, derived from all its counts in a first pass.
+///
+/// The largest count maps to the last color, except with an equalized histogram and no count above
+/// one. Counts below one let the background show through.
 #[derive(Clone, Debug)]
-pub struct Tones {
+pub struct ToneScale {
     tone: ToneMap,
-    most: f32,
+    max_count: f32,
     histogram: Histogram,
 }
 
-impl Tones {
-    /// Of a picture that is still to be looked at.
+impl ToneScale {
+    /// A scale that has seen no counts yet.
     pub fn new(tone: ToneMap) -> Self {
         Self {
             tone,
-            most: 1.0,
+            max_count: 1.0,
             histogram: Histogram::default(),
         }
     }
 
-    /// Looks at a part of the picture: the mean number of covering paths of each pixel, none of which is negative.
-    pub fn look(&mut self, counts: &[f32]) {
+    /// Adds the counts of a part of the picture: mean numbers of covering paths, none negative.
+    pub fn observe(&mut self, counts: &[f32]) {
         let is_equalized = self.tone == ToneMap::Equalized;
-        let parts = counts.par_chunks(AT_ONCE).map(|counts| {
-            // The bits of numbers go up as they do, and their greatest is found by vectors.
-            let most = counts.iter().map(|count| count.to_bits()).max();
+        let parts = counts.par_chunks(CHUNK).map(|counts| {
+            // Bits of non-negative floats order as the floats do, and integer maxima vectorize.
+            let max_bits = counts.iter().map(|count| count.to_bits()).max();
             let mut histogram = Histogram::default();
             if is_equalized {
                 histogram.add(counts);
             }
-            (most.unwrap_or(0), histogram)
+            (max_bits.unwrap_or(0), histogram)
         });
-        let (most, histogram) = parts.reduce(Default::default, |a, b| (a.0.max(b.0), a.1.and(b.1)));
-        self.most = self.most.max(f32::from_bits(most));
-        self.histogram = std::mem::take(&mut self.histogram).and(histogram);
+        let (max_bits, histogram) =
+            parts.reduce(Default::default, |a, b| (a.0.max(b.0), a.1.merge(b.1)));
+        self.max_count = self.max_count.max(f32::from_bits(max_bits));
+        self.histogram = std::mem::take(&mut self.histogram).merge(histogram);
     }
 
-    /// Colors a frame, which is a part of the picture.
+    /// Colors a frame, which may be a part of the picture.
     ///
     /// # Panics
-    /// When there is not one count a pixel.
+    /// When `counts` and `frame` differ in length.
     pub fn shade(&self, counts: &[f32], background: Rgba, frame: &mut Frame) {
-        assert_eq!(counts.len(), frame.pixels().len(), "one count a pixel");
-        let most = f64::from(self.most);
-        let most_log = most.ln_1p();
+        assert_eq!(counts.len(), frame.pixels().len(), "one count per pixel");
+        let max_count = f64::from(self.max_count);
+        let max_log = max_count.ln_1p();
         let ranks = self.histogram.ranks();
-        // At least one pixel, for there may be none.
-        let most_rank = ranks.up_to(self.most).max(1.0);
-        let ramp = Ramp::new(self.most, background, |count| match self.tone {
-            ToneMap::Linear => f64::from(count) / most,
-            ToneMap::Log => f64::from(count).ln_1p() / most_log,
-            ToneMap::Equalized => ranks.up_to(count) / most_rank,
+        // At least 1, to divide by it.
+        let max_rank = ranks.up_to(self.max_count).max(1.0);
+        let ramp = Ramp::new(self.max_count, background, |count| match self.tone {
+            ToneMap::Linear => f64::from(count) / max_count,
+            ToneMap::Log => f64::from(count).ln_1p() / max_log,
+            ToneMap::Equalized => ranks.up_to(count) / max_rank,
         });
-        let pixels = frame.pixels_mut().par_chunks_mut(AT_ONCE);
-        let parts = pixels.zip(counts.par_chunks(AT_ONCE));
+        let pixels = frame.pixels_mut().par_chunks_mut(CHUNK);
+        let parts = pixels.zip(counts.par_chunks(CHUNK));
         parts.for_each(|(pixels, counts)| {
             for (pixel, &count) in pixels.iter_mut().zip(counts) {
                 *pixel = ramp.at(count);
@@ -107,20 +110,21 @@ impl Tones {
     }
 }
 
-/// The pixels of counts, of each that is a thousandth more, and a thousandth of itself, than the one before. Those of up to
-/// 2048 that are a whole number of paths or, below one, of samples are among them.
+/// Lookup table from counts to pixels. Neighboring entries differ by about 1/1000 of 1 + count, so
+/// that whole counts up to 2048 and, below one, whole numbers of samples have entries of their own.
 struct Ramp(Vec<[u8; 4]>);
 
 impl Ramp {
-    /// Bits that tell one from the next: so many parts has what lies between two powers of two.
+    /// Entries per power of two, as bits.
     const BITS: u32 = 10;
+    /// Mantissa bits that the table drops.
     const BITS_BELOW: u32 = f32::MANTISSA_DIGITS - 1 - Self::BITS;
 
-    /// Up to the largest count; `along` says how far along the steps a count is, from 0 to 1.
-    fn new(most: f32, background: Rgba, along: impl Fn(f32) -> f64) -> Self {
-        let pixels = (0..=Self::place(most)).map(|place| {
-            let bits = ((place as u32) << Self::BITS_BELOW) + 1_f32.to_bits();
-            let count = (f32::from_bits(bits) - 1.0).min(most);
+    /// A table up to `max_count`; `along` maps a count to a position on the ramp, 0 to 1.
+    fn new(max_count: f32, background: Rgba, along: impl Fn(f32) -> f64) -> Self {
+        let pixels = (0..=Self::entry(max_count)).map(|entry| {
+            let bits = ((entry as u32) << Self::BITS_BELOW) + 1_f32.to_bits();
+            let count = (f32::from_bits(bits) - 1.0).min(max_count);
             let along = along(count) * (STEPS.len() - 1) as f64;
             let below = (along as usize).min(STEPS.len() - 2);
             let color = STEPS[below].lerp(STEPS[below + 1], along - below as f64);
@@ -132,35 +136,35 @@ impl Ramp {
 
     #[inline]
     fn at(&self, count: f32) -> [u8; 4] {
-        self.0[Self::place(count).min(self.0.len() - 1)]
+        self.0[Self::entry(count).min(self.0.len() - 1)]
     }
 
-    /// The nearest of them. The bits of a number go up evenly from one power of two to the next.
+    /// Index of the nearest entry. Float bits rise linearly between powers of two.
     #[inline]
-    fn place(count: f32) -> usize {
+    fn entry(count: f32) -> usize {
         let beyond_one = (1.0 + count).to_bits() - 1_f32.to_bits();
         ((beyond_one + (1 << (Self::BITS_BELOW - 1))) >> Self::BITS_BELOW) as usize
     }
 }
 
-/// How many pixels have how large a count, among those under more than one path.
+/// Histogram of the counts above one.
 #[derive(Clone, Debug, Default)]
 struct Histogram {
     bins: Vec<u32>,
 }
 
-/// How many of those pixels have at most how large a count.
+/// Cumulative histogram: number of pixels with at most a given count.
 struct Ranks {
-    /// Pixels of each bin and all below.
+    /// Pixels of each bin and all lower ones.
     up_to: Vec<u32>,
 }
 
 impl Histogram {
-    /// Bins from one power of two to the next. Whole counts up to twice as many lie in the middle of one,
-    /// and bins are wide enough that a count has the same color however a method samples it.
-    const A_DOUBLING: u32 = 8;
-    /// What the bits of a number go up by from one to the next.
-    const BIN: u32 = (2_f32.to_bits() - 1_f32.to_bits()) / Self::A_DOUBLING;
+    /// Bins per power of two. Whole counts up to twice this number lie in the middle of a bin, and
+    /// bins are wide enough that a count maps to one color whatever the samples of a method.
+    const BINS_PER_OCTAVE: u32 = 8;
+    /// Width of a bin, in float bits.
+    const BIN: u32 = (2_f32.to_bits() - 1_f32.to_bits()) / Self::BINS_PER_OCTAVE;
 
     fn add(&mut self, counts: &[f32]) {
         for &count in counts {
@@ -172,10 +176,10 @@ impl Histogram {
         }
     }
 
-    /// All pixels of both.
-    fn and(mut self, other: Self) -> Self {
+    /// The sum of two histograms.
+    fn merge(mut self, other: Self) -> Self {
         if self.bins.len() < other.bins.len() {
-            return other.and(self);
+            return other.merge(self);
         }
         for (pixels, more) in self.bins.iter_mut().zip(other.bins) {
             *pixels += more;
@@ -193,13 +197,12 @@ impl Histogram {
         }
     }
 
-    /// Where a count lies, in bins beyond one path. The bits of a number go up evenly from one power of two
-    /// to the next, as a logarithm by straight lines.
-    fn place(count: f32) -> f64 {
+    /// Position of a count in bins above one: a piecewise linear logarithm, read off the float bits.
+    fn position(count: f32) -> f64 {
         f64::from(Self::beyond_one(count)) / f64::from(Self::BIN)
     }
 
-    /// The bin in whose middle a count lies, or nearly.
+    /// The bin whose middle is nearest to a count.
     fn bin(count: f32) -> usize {
         ((Self::beyond_one(count) + Self::BIN / 2) / Self::BIN) as usize
     }
@@ -210,15 +213,15 @@ impl Histogram {
 }
 
 impl Ranks {
-    /// Pixels with at most this count, by a straight line from the middle of one bin to that of the next.
+    /// Number of pixels with at most this count, interpolated linearly between the middles of bins.
     fn up_to(&self, count: f32) -> f64 {
-        let place = Histogram::place(count);
+        let position = Histogram::position(count);
         let pixels = |bin: usize| {
             let known = self.up_to.get(bin).or(self.up_to.last());
             f64::from(known.copied().unwrap_or(0))
         };
-        let bin = place as usize;
-        pixels(bin) + (pixels(bin + 1) - pixels(bin)) * place.fract()
+        let bin = position as usize;
+        pixels(bin) + (pixels(bin + 1) - pixels(bin)) * position.fract()
     }
 }
 
@@ -228,7 +231,7 @@ mod tests {
     use crate::FrameSize;
 
     #[test]
-    fn nothing_shows_the_background_and_most_the_last_step() {
+    fn maps_zero_to_background_and_maximum_to_last_color() {
         let mut frame = Frame::new(FrameSize::new(3, 1).unwrap());
         for tone in [ToneMap::Linear, ToneMap::Log, ToneMap::Equalized] {
             shade(&[0.0, 10.0, 1000.0], tone, Rgba::WHITE, &mut frame);
@@ -250,7 +253,7 @@ mod tests {
     }
 
     #[test]
-    fn equalizing_gives_every_fifth_of_the_crowded_pixels_a_step() {
+    fn equalizing_gives_each_fifth_of_the_crowded_pixels_a_color() {
         let counts = [3.0, 1.0, 1024.0, 8.0, 0.5, 2.0, 3.5];
         let shown = colors(&counts, ToneMap::Equalized);
         let half = Rgba::WHITE.lerp(STEPS[0], 0.5);
@@ -260,24 +263,24 @@ mod tests {
     }
 
     #[test]
-    fn many_equal_pixels_take_many_steps() {
+    fn many_equal_counts_take_many_colors() {
         let shown = colors(&[2.0, 2.0, 4.0, 2.0, 2.0], ToneMap::Equalized);
         assert_eq!(shown, [4, 4, 5, 4, 4].map(step));
     }
 
     #[test]
-    fn nothing_beyond_one_path_has_the_first_color() {
+    fn counts_up_to_one_have_the_first_color() {
         let shown = colors(&[1.0, 1.0, 0.0], ToneMap::Equalized);
         assert_eq!(shown[..2], [0; 2].map(step));
         assert_eq!(shown[2], [255; 4]);
     }
 
     #[test]
-    fn colors_of_many_pixels_are_those_of_their_counts_within_a_level() {
+    fn table_matches_exact_colors_within_one_level() {
         let mut frame = Frame::new(FrameSize::new(1000, 150).unwrap());
         let count = |i: usize| 0.7 + (i % 1009) as f32 * 0.37;
         let counts: Vec<f32> = (0..frame.pixels().len()).map(count).collect();
-        assert!(counts.len() > 2 * AT_ONCE, "several threads look at them");
+        assert!(counts.len() > 2 * CHUNK, "spans several chunks");
         let most = f64::from(count(1008));
         let exact = |count: f32, along: f64| {
             let below = (along * 5.0).min(4.0) as usize;
@@ -300,23 +303,23 @@ mod tests {
     }
 
     #[test]
-    fn parts_of_a_picture_that_are_looked_at_apart_are_one_picture() {
-        let mut at_once = Frame::new(FrameSize::new(100, 30).unwrap());
-        let mut by_parts = at_once.clone();
+    fn scale_from_parts_equals_scale_from_the_whole() {
+        let mut whole = Frame::new(FrameSize::new(100, 30).unwrap());
+        let mut by_parts = whole.clone();
         let counts: Vec<f32> = (0..3000).map(|i| (i * i % 97) as f32 * 0.25).collect();
-        shade(&counts, ToneMap::Equalized, Rgba::WHITE, &mut at_once);
-        let mut tones = Tones::new(ToneMap::Equalized);
-        counts.chunks(700).for_each(|part| tones.look(part));
+        shade(&counts, ToneMap::Equalized, Rgba::WHITE, &mut whole);
+        let mut tones = ToneScale::new(ToneMap::Equalized);
+        counts.chunks(700).for_each(|part| tones.observe(part));
         tones.shade(&counts, Rgba::WHITE, &mut by_parts);
-        assert!(by_parts == at_once);
-        let mut of_a_part = Tones::new(ToneMap::Equalized);
-        of_a_part.look(&counts[..700]);
-        of_a_part.shade(&counts, Rgba::WHITE, &mut by_parts);
-        assert!(by_parts != at_once);
+        assert!(by_parts == whole);
+        let mut partial = ToneScale::new(ToneMap::Equalized);
+        partial.observe(&counts[..700]);
+        partial.shade(&counts, Rgba::WHITE, &mut by_parts);
+        assert!(by_parts != whole);
     }
 
     #[test]
-    fn a_count_that_is_sampled_a_little_otherwise_looks_much_the_same() {
+    fn rank_is_stable_under_small_sampling_differences() {
         let crowd: Vec<f32> = (0..1000).map(|i| 2.0 + (i % 4) as f32).collect();
         let mut histogram = Histogram::default();
         histogram.add(&crowd);

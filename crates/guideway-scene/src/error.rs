@@ -1,26 +1,27 @@
-use crate::EditError;
+//! Errors of preparing, editing and rendering a scene.
 
-use crate::{Frame, FrameSize};
+use crate::edit::EditError;
+use crate::limits::{MAX_FRAME_PIXELS, MAX_SIDE_PX};
 
-/// Why a picture could not be made.
+/// The reason why a method produced no picture.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum RenderError {
     /// A side of the picture is zero or too long.
     #[error(
-        "a picture of {width} x {height} pixels cannot be made: each side takes 1 to {} pixels",
-        FrameSize::MAX_SIDE
+        "cannot draw a picture of {width} x {height} pixels: each side takes 1 to {MAX_SIDE_PX} \
+         pixels"
     )]
     FrameSize {
-        /// Width asked for, in pixels.
+        /// Requested width, in pixels.
         width: u64,
-        /// Height asked for, in pixels.
+        /// Requested height, in pixels.
         height: u64,
     },
-    /// The method draws pictures only whole, and this one is too large for that.
+    /// The method draws only whole frames, and the picture exceeds the largest frame.
     #[error(
-        "this method cannot draw a picture of {width} x {height} pixels: it draws pictures only whole, with at most \
-         {} million pixels",
-        Frame::MAX_PIXELS / 1_000_000
+        "this method cannot draw a picture of {width} x {height} pixels: it draws no strips, and \
+         a whole frame holds at most {} million pixels",
+        MAX_FRAME_PIXELS / 1_000_000
     )]
     Strips {
         /// Width of the picture, in pixels.
@@ -28,55 +29,55 @@ pub enum RenderError {
         /// Height of the picture, in pixels.
         height: u32,
     },
-    /// The view's center or scale is not usable.
+    /// The view's center or scale is out of range.
     #[error(
-        "the view around ({x_m}, {y_m}) at {px_per_m} pixels a meter cannot be drawn: the center must be \
-         within 1e12 m and the scale between 1e-9 and 1e9 pixels a meter"
+        "cannot draw the view around ({x_m}, {y_m}) at {px_per_m} pixels per meter: the center \
+         must be within 1e12 m of the origin and the scale between 1e-9 and 1e9 pixels per meter"
     )]
     View {
-        /// Center asked for, in meters.
+        /// Requested center, in meters.
         x_m: f64,
-        /// Center asked for, in meters.
+        /// Requested center, in meters.
         y_m: f64,
-        /// Scale asked for.
+        /// Requested scale, in pixels per meter.
         px_per_m: f64,
     },
-    /// The memory allowed does not do.
+    /// The method needs more memory than the budget allows.
     #[error(
         "method `{method}` needs {needed_bytes} bytes for {what}, but the budget is {budget_bytes}"
     )]
     Budget {
         /// Name of the method.
         method: &'static str,
-        /// What the memory is for.
+        /// Purpose of the memory.
         what: &'static str,
         /// Bytes needed.
         needed_bytes: u64,
         /// Bytes allowed.
         budget_bytes: u64,
     },
-    /// The method has no way of drawing this.
+    /// The method does not support this scene or style.
     #[error("method `{method}` cannot draw {what}")]
     Unsupported {
         /// Name of the method.
         method: &'static str,
-        /// What it cannot draw.
+        /// The unsupported feature.
         what: String,
-        /// What to ask for instead, a sentence.
+        /// An alternative that works, as a sentence.
         remedy: String,
     },
-    /// The device gave up: it was lost, or had no memory left.
-    #[error("method `{method}` was let down by its device: {what}")]
+    /// The device was lost or ran out of memory.
+    #[error("the device of method `{method}` failed: {what}")]
     Device {
         /// Name of the method.
         method: &'static str,
-        /// What happened, at what, and what to try.
+        /// The failure, the operation that failed, and a remedy.
         what: String,
     },
-    /// The scene cannot be changed like this.
+    /// The scene rejects the edit.
     #[error(transparent)]
     Edit(EditError),
-    /// The caller asked to stop.
+    /// The caller cancelled the work.
     #[error("cancelled")]
     Cancelled,
 }

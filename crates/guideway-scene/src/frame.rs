@@ -1,4 +1,7 @@
+//! Frame size and the RGBA pixel buffer that methods render into.
+
 use crate::RenderError;
+use crate::limits::{MAX_FRAME_PIXELS, MAX_SIDE_PX};
 
 /// Width and height of a picture, in pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -9,9 +12,9 @@ pub struct FrameSize {
 
 impl FrameSize {
     /// Longest side, in pixels.
-    pub const MAX_SIDE: u32 = 65_535;
+    pub const MAX_SIDE: u32 = MAX_SIDE_PX;
 
-    /// A size.
+    /// A size of `width` x `height` pixels.
     ///
     /// # Errors
     /// [`RenderError::FrameSize`] when a side is 0 or longer than [`Self::MAX_SIDE`].
@@ -25,7 +28,7 @@ impl FrameSize {
         Ok(Self { width, height })
     }
 
-    /// The same width, and another height that is one of a picture.
+    /// The same width with another, valid height.
     pub(crate) fn with_height(self, height: u32) -> Self {
         Self { height, ..self }
     }
@@ -46,7 +49,7 @@ impl FrameSize {
     }
 }
 
-/// A picture: rows from the top, 8-bit sRGB with straight alpha. Keep it for the next frame.
+/// A picture in memory: rows from the top, 8-bit sRGB with straight alpha. Reuse it between frames.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Frame {
     size: FrameSize,
@@ -54,8 +57,8 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// Most pixels of a frame; a larger picture is drawn in [strips](crate::Strip).
-    pub const MAX_PIXELS: usize = 1 << 30;
+    /// Most pixels of a frame; draw a larger picture in [strips](crate::Strip).
+    pub const MAX_PIXELS: usize = MAX_FRAME_PIXELS;
 
     /// A transparent black picture.
     pub fn new(size: FrameSize) -> Self {
@@ -65,11 +68,11 @@ impl Frame {
         }
     }
 
-    /// Takes another size if need be; the pixels are then undefined.
+    /// Changes the size; the pixels are undefined afterwards.
     pub fn resize(&mut self, size: FrameSize) {
         self.size = size;
         if size.pixels() > self.rgba.capacity() {
-            // The system clears new memory when it is first written: by the threads that draw.
+            // A fresh zeroed allocation is cleared lazily, by the threads that first write to it.
             self.rgba = vec![[0; 4]; size.pixels()];
         } else {
             self.rgba.resize(size.pixels(), [0; 4]);
@@ -86,7 +89,7 @@ impl Frame {
         &self.rgba
     }
 
-    /// All pixels, row by row from the top, to be written.
+    /// All pixels for writing, row by row from the top.
     pub fn pixels_mut(&mut self) -> &mut [[u8; 4]] {
         &mut self.rgba
     }

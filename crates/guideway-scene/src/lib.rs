@@ -4,40 +4,49 @@
 //! keeps the layout's own control points; a method subtracts the center of the view in `f64` before
 //! it rounds to `f32`, which preserves millimeters 10,000 km from the origin without a second copy.
 //!
-//! A [`Method`] prepares a scene once ([`Prepared`]) and renders any [`View`] of it into a [`Frame`];
-//! its [`Report`] accounts for every path. All methods agree on the picture:
+//! A [`Method`] prepares a scene once ([`Prepared`]) and renders any [`View`] of it into a
+//! [`Frame`]; its [`Report`] accounts for every path. All methods agree on the picture:
 //!
 //! - A path covers a point when its distance to the path's center line is at most half the stroke
 //!   width.
 //! - The color of a point is that of the topmost covering path, composited over the paths below it
 //!   while it is translucent. A pixel is the mean over its square, of sRGB values as stored.
 //! - Density shading shows the mean number of paths that cover a pixel ([`density`]).
+//!
+//! | files | content |
+//! |---|---|
+//! | `scene/`, `color`, `color_by`, `style`, `width`, `density` | appearance of the paths |
+//! | `edit/` | changes of a scene and their inverses |
+//! | `view`, `frame`, `strip`, `limits` | the picture |
+//! | `method`, `report`, `error` | the contract of render methods |
+//! | `draw_list` | decorations over or below the paths |
 
 mod color;
 mod color_by;
 pub mod density;
+mod draw_list;
 mod edit;
 mod error;
 mod frame;
+mod limits;
 mod method;
 mod report;
 mod scene;
-mod sheet;
 mod strip;
 mod style;
 mod user_error;
 mod view;
 mod width;
 
-pub use color::Rgba;
+pub use color::{ParseColorError, Rgba};
 pub use color_by::{ColorBy, Legend, LegendEntry};
+pub use draw_list::{DrawList, Fill, TextLine};
 pub use edit::{Edit, EditError, Insertion};
 pub use error::RenderError;
 pub use frame::{Frame, FrameSize};
-pub use method::{Budget, Cancel, Edited, Method, MethodInfo, NO_PATH, Prepared};
+pub use method::{Budget, Cancel, EditOutcome, Method, MethodInfo, NO_PATH, Prepared};
 pub use report::{Clock, Preparation, Report, Stage, Work, elapsed_ms};
 pub use scene::{LayoutCopy, PathState, Scene, SceneError, SceneOptions};
-pub use sheet::{Sheet, Text};
 pub use strip::Strip;
 pub use style::{Shading, Style};
 pub use view::View;

@@ -70,8 +70,8 @@ pub trait Prepared: Send {
     /// # Errors
     /// [`RenderError::Edit`] when the edit cannot be done; the scene is then as it was. [`RenderError::Budget`]
     /// or [`RenderError::Device`] when there is no room for it: what was made ready is then of no more use.
-    fn edit(&mut self, _edit: &Edit) -> Result<Edited, RenderError> {
-        Ok(Edited::NotInPlace)
+    fn edit(&mut self, _edit: &Edit) -> Result<EditOutcome, RenderError> {
+        Ok(EditOutcome::NotInPlace)
     }
 
     /// For each pixel of a view, row by row, the path of the highest draw rank that covers any part of it, or
@@ -123,7 +123,7 @@ pub trait Prepared: Send {
 
 /// What became of an edit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Edited {
+pub enum EditOutcome {
     /// The next frame shows it.
     InPlace {
         /// Bytes brought to the device for it; none if the method works on the scene itself.

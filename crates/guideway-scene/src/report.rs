@@ -1,52 +1,54 @@
+//! Reports: what a method did with every path, the time of each stage, and its work counters.
+
 use std::fmt;
 use std::time::Instant;
 
-use crate::Scene;
+use crate::scene::Scene;
 
-/// What became of every path, and where the time went.
+/// Report of one frame: the fate of every path and the time of every stage.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Report {
     /// Name of the method.
     pub method: &'static str,
     /// Paths of the input.
     pub total: u64,
-    /// Paths that may have left a mark: not proven to be outside the view.
+    /// Paths not proven to be outside the view.
     pub drawn: u64,
     /// Paths proven to be outside the view.
     pub culled: u64,
     /// Paths that the scene hides, such as those of other levels.
     pub hidden: u64,
-    /// Paths that cannot be drawn; the layout names each with its reason.
+    /// Paths that no method can draw; the layout lists each with its reason.
     pub refused: u64,
     /// Stages in order, with their time.
     pub stages: Vec<Stage>,
-    /// Lines that curves were turned into.
+    /// Line segments that the curves were flattened to.
     pub lines: u64,
-    /// Most bytes that the method held beside the scene and the frame.
+    /// Peak memory of the method beside the scene and the frame, in bytes.
     pub peak_bytes: u64,
-    /// Bands that the picture was drawn in; more than one where the budget did not hold all at once.
+    /// Bands that the picture was drawn in; more than one if the budget cannot hold all at once.
     pub bands: u32,
-    /// What is drawn otherwise than asked, a sentence each: a method of fixed line width says so here.
+    /// Deviations from the requested style, a sentence each: for example, a fixed line width.
     pub notes: Vec<String>,
 }
 
-/// One stage of a frame or of a preparation.
+/// A stage of a frame or of a preparation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stage {
-    /// What it does.
+    /// Name of the stage.
     pub name: &'static str,
-    /// How long it took.
+    /// Elapsed time, in milliseconds.
     pub elapsed_ms: f64,
-    /// By whose clock.
+    /// The clock that measured it.
     pub clock: Clock,
 }
 
 impl Stage {
-    /// Name of the stage that fetches a finished picture from a device. A window has no need of it, so it
-    /// is no part of [`Report::frame_ms`].
+    /// Name of the stage that copies a finished picture from a device to memory. A window does not
+    /// need it, so [`Report::frame_ms`] excludes it.
     pub const READ_BACK: &'static str = "read back";
 
-    /// A stage by the processor's clock.
+    /// A stage measured by the CPU clock.
     pub fn host(name: &'static str, elapsed_ms: f64) -> Self {
         Self {
             name,
@@ -55,7 +57,7 @@ impl Stage {
         }
     }
 
-    /// A stage by the device's clock.
+    /// A stage measured by device timestamps.
     pub fn device(name: &'static str, elapsed_ms: f64) -> Self {
         Self {
             name,
@@ -64,7 +66,7 @@ impl Stage {
         }
     }
 
-    /// Adds stages to those of the same name.
+    /// Adds `more` to `stages`; stages of one name add up.
     pub fn merge(stages: &mut Vec<Self>, more: impl IntoIterator<Item = Self>) {
         for stage in more {
             match stages.iter_mut().find(|s| s.name == stage.name) {
@@ -75,58 +77,58 @@ impl Stage {
     }
 }
 
-/// Milliseconds since then, by the processor's clock.
+/// Milliseconds since an instant.
 pub fn elapsed_ms(since: Instant) -> f64 {
     since.elapsed().as_secs_f64() * 1e3
 }
 
-/// Who measured a time.
+/// The clock that measured a stage.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Clock {
-    /// The processor that runs the program.
+    /// The CPU clock.
     #[default]
     Host,
-    /// The graphics device, by timestamps around its work.
+    /// Timestamps of the graphics device.
     Device,
 }
 
-/// What making a scene ready took, and what is kept of it.
+/// Cost of preparing a scene.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Preparation {
     /// Stages in order, with their time.
     pub stages: Vec<Stage>,
-    /// Bytes that stay allocated from frame to frame, beside the scene.
+    /// Bytes allocated between frames, beside the scene.
     pub held_bytes: u64,
-    /// Most bytes held at once on the way there.
+    /// Peak memory during the preparation, in bytes.
     pub peak_bytes: u64,
-    /// What it took, in numbers that any device would give.
+    /// Device-independent work counters.
     pub work: Work,
 }
 
 impl Preparation {
-    /// Time of all stages.
+    /// Total time of all stages, in milliseconds.
     pub fn elapsed_ms(&self) -> f64 {
         self.stages.iter().map(|s| s.elapsed_ms).sum()
     }
 }
 
-/// Work of a frame or of a preparation, in numbers that any device would give. None where a method does not
-/// count it.
+/// Device-independent work counters of a frame or a preparation; `None` if a method does not count
+/// a kind of work.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Work {
-    /// Tests of a point against a line.
+    /// Point-to-line distance tests.
     pub tests: Option<u64>,
-    /// Atomic operations on memory that all threads see.
+    /// Atomic operations on global memory.
     pub atomics: Option<u64>,
-    /// Bytes that threads ask for, before any cache.
+    /// Bytes that threads request, before any cache.
     pub bytes_read: Option<u64>,
     /// Bytes that threads write, before any cache.
     pub bytes_written: Option<u64>,
 }
 
 impl Report {
-    /// A report that accounts for every path of a scene, of which so many were drawn; the rest of the fields
-    /// is empty.
+    /// A report with the path counts of `scene`, `drawn` of which were drawn. All other fields are
+    /// empty.
     pub fn of(method: &'static str, scene: &Scene, drawn: u64) -> Self {
         let layout = scene.layout();
         Self {
@@ -140,7 +142,7 @@ impl Report {
         }
     }
 
-    /// Adds what another strip of the same picture says.
+    /// Adds the report of another strip of the same picture.
     pub fn join(&mut self, other: Self) {
         self.drawn += other.drawn;
         self.culled = self.culled.saturating_sub(other.drawn);
@@ -150,17 +152,17 @@ impl Report {
         self.bands += other.bands;
     }
 
-    /// Whether drawn + culled + hidden + refused = total: nothing was lost.
+    /// Whether drawn + culled + hidden + refused = total.
     pub fn accounts_for_all(&self) -> bool {
         self.drawn + self.culled + self.hidden + self.refused == self.total
     }
 
-    /// Time of all stages.
+    /// Total time of all stages, in milliseconds.
     pub fn elapsed_ms(&self) -> f64 {
         self.stages.iter().map(|s| s.elapsed_ms).sum()
     }
 
-    /// Time until the picture is complete where it was made: all stages but [`Stage::READ_BACK`].
+    /// Time until the picture is complete on its device: all stages but [`Stage::READ_BACK`].
     pub fn frame_ms(&self) -> f64 {
         let drawing = self.stages.iter().filter(|s| s.name != Stage::READ_BACK);
         drawing.map(|s| s.elapsed_ms).sum()
@@ -192,7 +194,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn fetching_the_picture_is_no_part_of_a_frame() {
+    fn frame_time_excludes_read_back() {
         let report = Report {
             stages: vec![
                 Stage::device("draw", 2.0),

@@ -1,8 +1,10 @@
+//! Strips: whole rows of a view, rendered one after the other for pictures larger than memory.
+
 use std::ops::Range;
 
 use crate::{FrameSize, View};
 
-/// Whole rows of a view, drawn at once: a picture that is larger than memory is drawn strip by strip.
+/// Consecutive whole rows of a view.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Strip {
     view: View,
@@ -11,10 +13,10 @@ pub struct Strip {
 }
 
 impl Strip {
-    /// Strips begin at multiples of so many rows, for methods that draw in tiles.
+    /// Strips start at multiples of this many rows: a multiple of the tile size of every method.
     pub const STEP: u32 = 64;
 
-    /// The strip that is all of a view.
+    /// The strip that covers a whole view.
     pub fn whole(view: &View) -> Self {
         Self {
             view: *view,
@@ -23,12 +25,12 @@ impl Strip {
         }
     }
 
-    /// What it is a part of.
+    /// The whole view.
     pub fn view(&self) -> &View {
         &self.view
     }
 
-    /// Its rows, counted from the top of the view.
+    /// The rows it covers, counted from the top of the view.
     pub fn rows(&self) -> Range<u32> {
         self.first_row..self.first_row + self.size.height()
     }
@@ -38,18 +40,19 @@ impl Strip {
         self.size
     }
 
-    /// Whether it is all of the view.
+    /// Whether it covers the whole view.
     pub fn is_whole(&self) -> bool {
         self.size == self.view.size()
     }
 }
 
 impl View {
-    /// Its strips, from the top: each of at most so many pixels, or of [`Strip::STEP`] rows if those are more.
-    pub fn strips(&self, most_pixels: usize) -> impl ExactSizeIterator<Item = Strip> + use<> {
+    /// Splits the view into strips from the top. Each has at most `max_pixels` pixels, or
+    /// [`Strip::STEP`] rows if those have more.
+    pub fn strips(&self, max_pixels: usize) -> impl ExactSizeIterator<Item = Strip> + use<> {
         let view = *self;
         let (width, height) = (view.size().width(), view.size().height());
-        let rows = (most_pixels / width as usize).min(height as usize) as u32;
+        let rows = (max_pixels / width as usize).min(height as usize) as u32;
         let rows = match rows < height {
             true => (rows / Strip::STEP).max(1) * Strip::STEP,
             false => height,
@@ -69,16 +72,16 @@ mod tests {
     use super::*;
 
     #[test]
-    fn strips_are_all_of_the_view_and_within_bounds() {
+    fn strips_cover_the_view_within_the_pixel_limit() {
         for (width, height) in [(1, 1), (100, 64), (100, 200), (7, 65_535), (65_535, 129)] {
             let size = FrameSize::new(width, height).unwrap();
             let view = View::new(size, Point::new(0.0, 0.0), 1.0).unwrap();
-            for most_pixels in [0, 1, 6_400, 12_900, 1 << 24, usize::MAX] {
+            for max_pixels in [0, 1, 6_400, 12_900, 1 << 24, usize::MAX] {
                 let mut next = 0;
-                for strip in view.strips(most_pixels) {
+                for strip in view.strips(max_pixels) {
                     let rows = strip.rows();
                     assert_eq!((rows.start, rows.start % Strip::STEP), (next, 0));
-                    assert!(strip.size().pixels() <= most_pixels || rows.len() <= 64);
+                    assert!(strip.size().pixels() <= max_pixels || rows.len() <= 64);
                     assert_eq!(strip.size().width(), width);
                     assert_eq!(strip.is_whole(), rows == (0..height));
                     next = rows.end;

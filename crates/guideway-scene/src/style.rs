@@ -3,14 +3,14 @@
 use crate::density::ToneMap;
 use crate::{LineRule, Rgba};
 
-/// How the frame looks, for all paths alike.
+/// Style of a frame, common to all paths.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Style {
-    /// How wide lines are.
+    /// Rule for stroke widths.
     pub line_rule: LineRule,
-    /// What a pixel shows.
+    /// Quantity that a pixel shows.
     pub shading: Shading,
-    /// What lies below all paths.
+    /// Color below all paths.
     pub background: Rgba,
 }
 
@@ -24,12 +24,12 @@ impl Default for Style {
     }
 }
 
-/// What a pixel shows.
+/// Quantity that a pixel shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Shading {
-    /// The colors of the paths.
+    /// Colors of the paths.
     #[default]
     Color,
-    /// How many paths cover it.
+    /// Number of paths that cover the pixel.
     Density(ToneMap),
 }

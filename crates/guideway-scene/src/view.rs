@@ -1,9 +1,13 @@
+//! View: the mapping between world meters and the pixels of a picture.
+
 use guideway_spline::{Bounds, Point};
 
 use crate::{FrameSize, RenderError};
 
-/// Which part of the world is seen, and how large. World: meters, y up. Pixels: y down, (0, 0) the upper
-/// left corner of the upper left pixel.
+/// A picture size, the world point at its center and a scale.
+///
+/// World coordinates are meters with y up. Pixel coordinates have y down; (0, 0) is the upper left
+/// corner of the upper left pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct View {
     size: FrameSize,
@@ -12,14 +16,14 @@ pub struct View {
 }
 
 impl View {
-    /// A view of `size` with `center_m` in its middle.
+    /// A view of `size` pixels centered on `center_m`.
     ///
     /// # Errors
-    /// [`RenderError::View`] when the center is not within 1e12 m of the origin or the scale not within
-    /// 1e-9 to 1e9 pixels a meter.
+    /// [`RenderError::View`] when the center is farther than 1e12 m from the origin or the scale is
+    /// outside 1e-9 to 1e9 pixels per meter.
     pub fn new(size: FrameSize, center_m: Point<f64>, px_per_m: f64) -> Result<Self, RenderError> {
-        let far = !(center_m.x.abs() <= 1e12 && center_m.y.abs() <= 1e12);
-        if far || !(1e-9..=1e9).contains(&px_per_m) {
+        let is_far = !(center_m.x.abs() <= 1e12 && center_m.y.abs() <= 1e12);
+        if is_far || !(1e-9..=1e9).contains(&px_per_m) {
             return Err(RenderError::View {
                 x_m: center_m.x,
                 y_m: center_m.y,
@@ -33,8 +37,8 @@ impl View {
         })
     }
 
-    /// The view that shows all of `bounds` with a margin of a twentieth on each side. A box of no size is
-    /// shown at 100 pixels a meter; none at all, the origin.
+    /// The view that shows all of `bounds` with a margin of 1/20 on each side. An empty box is shown
+    /// at 100 pixels per meter; `None` shows the origin.
     ///
     /// # Errors
     /// As [`View::new`].
@@ -43,9 +47,9 @@ impl View {
             return Self::new(size, Point::new(0.0, 0.0), 100.0);
         };
         let extent_m = bounds.size();
-        let across = 0.9 * f64::from(size.width()) / extent_m.x;
-        let down = 0.9 * f64::from(size.height()) / extent_m.y;
-        let px_per_m = across.min(down);
+        let fit_x = 0.9 * f64::from(size.width()) / extent_m.x;
+        let fit_y = 0.9 * f64::from(size.height()) / extent_m.y;
+        let px_per_m = fit_x.min(fit_y);
         let px_per_m = if px_per_m.is_finite() {
             px_per_m.min(1e9)
         } else {
@@ -59,18 +63,18 @@ impl View {
         self.size
     }
 
-    /// The world point in the middle, in meters.
+    /// The world point at the center, in meters.
     pub fn center_m(&self) -> Point<f64> {
         self.center_m
     }
 
-    /// Scale in pixels a meter.
+    /// Scale in pixels per meter.
     pub fn px_per_m(&self) -> f64 {
         self.px_per_m
     }
 
-    /// Where a world point appears. Exact to a ten-thousandth of a pixel near the view, however far the
-    /// view is from the origin, for the difference is taken in `f64` before scaling.
+    /// Pixel position of a world point. Accurate to 1e-4 px near the view at any distance from the
+    /// origin, because the center is subtracted in `f64` before scaling.
     pub fn pixel_from_world(&self, world_m: Point<f64>) -> Point<f64> {
         let half = self.half_size_px();
         Point::new(
@@ -79,7 +83,7 @@ impl View {
         )
     }
 
-    /// Which world point appears at a pixel position.
+    /// World point at a pixel position, in meters.
     pub fn world_from_pixel(&self, pixel: Point<f64>) -> Point<f64> {
         let half = self.half_size_px();
         Point::new(
@@ -88,7 +92,7 @@ impl View {
         )
     }
 
-    /// The part of the world that is seen, in meters.
+    /// The visible part of the world, in meters.
     pub fn world_bounds(&self) -> Bounds<f64> {
         let half_m = self.half_size_px() * (1.0 / self.px_per_m);
         Bounds {
@@ -110,7 +114,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn up_in_the_world_is_up_in_the_picture() {
+    fn maps_world_up_to_picture_up() {
         let size = FrameSize::new(200, 100).unwrap();
         let view = View::new(size, Point::new(1e7, -5.0), 10.0).unwrap();
         assert_eq!(
@@ -129,14 +133,14 @@ mod tests {
     }
 
     #[test]
-    fn a_fitted_view_shows_everything() {
+    fn fit_shows_all_of_the_bounds() {
         let size = FrameSize::new(300, 200).unwrap();
         let bounds = Bounds {
             min: Point::new(-3.0, 2.0),
             max: Point::new(30.0, 9.0),
         };
-        let seen = View::fit(size, Some(bounds)).unwrap().world_bounds();
-        assert!(seen.contains(bounds.min) && seen.contains(bounds.max));
+        let visible = View::fit(size, Some(bounds)).unwrap().world_bounds();
+        assert!(visible.contains(bounds.min) && visible.contains(bounds.max));
         let dot = Bounds {
             min: Point::new(4.0, 4.0),
             max: Point::new(4.0, 4.0),
@@ -145,7 +149,7 @@ mod tests {
     }
 
     #[test]
-    fn unusable_views_are_refused() {
+    fn rejects_centers_and_scales_out_of_range() {
         let size = FrameSize::new(1, 1).unwrap();
         for (x, scale) in [
             (f64::NAN, 1.0),

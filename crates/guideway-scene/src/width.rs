@@ -1,17 +1,19 @@
-/// How wide lines are drawn.
+//! Stroke width rules: from a width in meters and a scale to a radius in pixels.
+
+/// Rule for the stroke width of a path at a scale. Every method uses it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LineRule {
-    /// A width in the world, held between a least and a greatest width in pixels.
+    /// A width in meters, clamped to a range in pixels.
     World {
-        /// Width in meters of paths that have none of their own.
+        /// Width in meters of paths without a width of their own.
         width_m: f64,
-        /// Least width in pixels.
+        /// Smallest width in pixels.
         min_px: f64,
-        /// Greatest width in pixels.
+        /// Largest width in pixels.
         max_px: f64,
     },
-    /// The thesis' rule: a radius of 1.5 pixels held within 2 to 150 mm, for every path. Far out a line
-    /// thins below a pixel and fades, instead of turning the sheet black.
+    /// The thesis' rule: a radius of 1.5 pixels, clamped to 2 to 150 mm, for every path. Zoomed out,
+    /// a line thins below a pixel and fades instead of turning the picture black.
     Thesis,
 }
 
@@ -26,7 +28,8 @@ impl Default for LineRule {
 }
 
 impl LineRule {
-    /// Half the stroke width in pixels, for a path with a width of its own or none.
+    /// Half the stroke width in pixels, at `px_per_m` pixels per meter. `width_m` is the path's own
+    /// width in meters, if it has one.
     pub fn radius_px(&self, width_m: Option<f32>, px_per_m: f64) -> f64 {
         match *self {
             Self::World {
@@ -47,7 +50,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn widths_are_held_between_their_limits() {
+    fn clamps_world_widths_in_pixels() {
         let rule = LineRule::World {
             width_m: 0.5,
             min_px: 1.0,
@@ -60,7 +63,7 @@ mod tests {
     }
 
     #[test]
-    fn the_thesis_rule_thins_far_out_and_grows_close_in() {
+    fn thesis_rule_thins_zoomed_out_and_grows_zoomed_in() {
         assert_eq!(LineRule::Thesis.radius_px(None, 1.0), 0.15);
         assert!((LineRule::Thesis.radius_px(None, 100.0) - 1.5).abs() < 1e-12);
         assert!((LineRule::Thesis.radius_px(None, 10_000.0) - 20.0).abs() < 1e-12);

@@ -1,4 +1,4 @@
-//! What edits do to a scene, and that each can be undone.
+//! Edits of a scene: their effect, their inverses and their errors.
 
 use std::sync::Arc;
 
@@ -25,10 +25,10 @@ fn scene() -> Scene {
     Scene::new(Arc::new(layout), &SceneOptions::default()).expect("options that fit any layout")
 }
 
-/// All that a renderer sees of a path: its row, control points, color and width.
-type Look = (u32, Vec<Point<f64>>, Rgba, Option<f32>);
+/// The properties of a path that a renderer reads: row, control points, color and width.
+type PathProperties = (u32, Vec<Point<f64>>, Rgba, Option<f32>);
 
-fn look(scene: &Scene) -> Vec<Look> {
+fn properties(scene: &Scene) -> Vec<PathProperties> {
     let path = |&path: &u32| {
         let runs = scene.layout().paths.get(path as usize).runs();
         let points = runs.flat_map(|run| run.iter()).collect();
@@ -71,28 +71,28 @@ fn edits() -> Vec<Edit> {
 }
 
 #[test]
-fn every_edit_shows_and_is_undone() {
+fn inverse_restores_the_scene_after_every_edit() {
     for edit in edits() {
         let mut scene = scene();
-        let (before, bounds) = (look(&scene), scene.bounds());
-        let undo = scene.edit_and_tell(&edit, |_| {}).unwrap();
-        let after = look(&scene);
+        let (before, bounds) = (properties(&scene), scene.bounds());
+        let undo = scene.edit_with_undo(&edit, |_| {}).unwrap();
+        let after = properties(&scene);
         assert_ne!(before, after, "{edit:?}");
-        let redo = scene.edit_and_tell(&undo, |_| {}).unwrap();
-        assert_eq!(look(&scene), before, "{edit:?}");
+        let redo = scene.edit_with_undo(&undo, |_| {}).unwrap();
+        assert_eq!(properties(&scene), before, "{edit:?}");
         assert_eq!(scene.bounds(), bounds);
         scene.edit(&redo).unwrap();
-        assert_eq!(look(&scene), after, "{edit:?}");
+        assert_eq!(properties(&scene), after, "{edit:?}");
     }
 }
 
 #[test]
-fn many_edits_are_undone_backwards() {
+fn inverses_in_reverse_order_restore_the_scene() {
     let mut scene = scene();
-    let before = look(&scene);
+    let before = properties(&scene);
     let mut undo = Vec::new();
     for edit in edits() {
-        undo.push(scene.edit_and_tell(&edit, |_| {}).unwrap());
+        undo.push(scene.edit_with_undo(&edit, |_| {}).unwrap());
     }
     assert_eq!((scene.path_count(), scene.hidden_count()), (5, 1));
     assert_eq!(scene.draw_order(), [1, 3, 4, 5]);
@@ -101,11 +101,11 @@ fn many_edits_are_undone_backwards() {
     for edit in undo.iter().rev() {
         scene.edit(edit).unwrap();
     }
-    assert_eq!(look(&scene), before);
+    assert_eq!(properties(&scene), before);
 }
 
 #[test]
-fn what_cannot_be_is_refused_and_changes_nothing() {
+fn rejected_edits_change_nothing() {
     let far = Affine::translation(Point::new(1e300, 0.0));
     let wrong = [
         Edit::Transform {
@@ -141,48 +141,48 @@ fn what_cannot_be_is_refused_and_changes_nothing() {
     ];
     let expected = [
         EditError::UnknownPath { path: 4, rows: 4 },
-        EditError::Misplaced { path: Some(0) },
-        EditError::Twice { path: 1 },
-        EditError::Misplaced { path: Some(0) },
-        EditError::Count,
+        EditError::OutOfBounds { path: Some(0) },
+        EditError::DuplicatePath { path: 1 },
+        EditError::OutOfBounds { path: Some(0) },
+        EditError::CurveCountMismatch,
         EditError::UnknownPath { path: 9, rows: 4 },
-        EditError::Misplaced { path: None },
-        EditError::UnknownPart {
+        EditError::OutOfBounds { path: None },
+        EditError::UnknownReference {
             what: "level",
             row: 0,
         },
     ];
     let mut scene = scene();
-    let before = look(&scene);
+    let before = properties(&scene);
     for (edit, error) in wrong.iter().zip(expected) {
         assert_eq!(scene.edit(edit), Err(error.clone()));
-        let told = scene.edit_and_tell(edit, |edit| panic!("told of {edit:?}"));
-        assert_eq!(told.unwrap_err(), error);
-        assert_eq!(look(&scene), before);
+        let result = scene.edit_with_undo(edit, |edit| panic!("accepted {edit:?}"));
+        assert_eq!(result.unwrap_err(), error);
+        assert_eq!(properties(&scene), before);
     }
 }
 
 #[test]
-fn a_layout_that_others_hold_stays_as_it_is() {
+fn edit_leaves_a_shared_layout_unchanged() {
     let mut scene = scene();
     let other = scene.clone();
     scene.edit(&edits()[0]).unwrap();
-    assert_ne!(look(&scene), look(&other));
+    assert_ne!(properties(&scene), properties(&other));
 }
 
 #[test]
-fn who_is_told_of_an_edit_need_not_copy_the_layout_too() {
+fn edit_copies_a_shared_layout_before_it_notifies() {
     for edit in edits() {
         let mut scene = scene();
         let other = scene.clone();
-        let mut told = 0;
-        let tell = |_: &Edit| {
-            told += 1;
+        let mut calls = 0;
+        let on_accepted = |_: &Edit| {
+            calls += 1;
             let layout = other.shared_layout();
             let is_shared = matches!(edit, Edit::SetStates(_));
             assert_eq!(Arc::strong_count(&layout), if is_shared { 3 } else { 2 });
         };
-        scene.edit_and_tell(&edit, tell).unwrap();
-        assert_eq!(told, 1, "{edit:?}");
+        scene.edit_with_undo(&edit, on_accepted).unwrap();
+        assert_eq!(calls, 1, "{edit:?}");
     }
 }

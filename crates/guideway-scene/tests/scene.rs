@@ -1,4 +1,4 @@
-//! What a scene makes of a layout: order, colors, levels, legends.
+//! Scenes built from layouts: draw order, colors, levels and legends.
 
 use std::sync::Arc;
 
@@ -56,7 +56,7 @@ fn draw_order_is_rank_then_file_order() {
 }
 
 #[test]
-fn one_level_is_drawn_and_the_rest_is_hidden() {
+fn selecting_a_level_hides_the_others() {
     let options = SceneOptions {
         level: Some("upper".to_owned()),
         ..SceneOptions::default()
@@ -76,7 +76,7 @@ fn one_level_is_drawn_and_the_rest_is_hidden() {
 }
 
 #[test]
-fn own_colors_win_over_the_common_one() {
+fn own_colors_override_the_default_color() {
     let mut colored = layout(2);
     colored.paths.set_color_rgba(vec![0xff00_00ff, 0]);
     let options = SceneOptions {
@@ -90,7 +90,7 @@ fn own_colors_win_over_the_common_one() {
 }
 
 #[test]
-fn widths_that_are_none_are_left_to_the_rule() {
+fn ignores_widths_that_are_negative_or_not_finite() {
     let mut wide = layout(3);
     wide.paths.set_width_m(vec![0.5, f32::NAN, -1.0]);
     let wide = scene(wide, &SceneOptions::default());
@@ -98,7 +98,7 @@ fn widths_that_are_none_are_left_to_the_rule() {
 }
 
 #[test]
-fn classes_get_a_color_each_the_commonest_first() {
+fn lists_the_most_frequent_classes_first() {
     let mut kinds = layout(30);
     for row in 0..29 {
         let kind = if row < 12 {
@@ -122,7 +122,7 @@ fn classes_get_a_color_each_the_commonest_first() {
 }
 
 #[test]
-fn few_numbers_are_classes_from_the_least_to_the_greatest() {
+fn few_distinct_numbers_form_classes_in_ascending_order() {
     let mut speeds = layout(6);
     for (row, speed) in [2.0, 10.0, 2.0, 0.5, 10.0, 10.0].into_iter().enumerate() {
         let attributes = &mut speeds.paths.attributes;
@@ -139,7 +139,7 @@ fn few_numbers_are_classes_from_the_least_to_the_greatest() {
 }
 
 #[test]
-fn many_numbers_make_a_scale() {
+fn many_distinct_numbers_form_a_scale() {
     let mut speeds = layout(20);
     for row in 0..20 {
         speeds
@@ -157,7 +157,7 @@ fn many_numbers_make_a_scale() {
 }
 
 #[test]
-fn built_in_columns_and_unknown_ones() {
+fn colors_by_built_in_columns_and_rejects_unknown_ones() {
     let levels = scene(layout(4), &by("level"));
     assert_eq!(levels.legend().unwrap().entries.len(), 2);
     assert_ne!(levels.color(0), levels.color(1));

@@ -1,4 +1,4 @@
-use guideway_document::Trail;
+use guideway_document::ViewHistory;
 use guideway_scene::{FrameSize, View};
 use guideway_spline::{Bounds, Point};
 
@@ -8,7 +8,7 @@ pub(crate) struct Camera {
     /// None while the picture has no size.
     size: Option<FrameSize>,
     place: Place,
-    trail: Trail<Place>,
+    trail: ViewHistory<Place>,
     is_moving: bool,
     /// What to show once there is a size.
     awaited: Option<Bounds<f64>>,
@@ -29,7 +29,7 @@ impl Camera {
         Self {
             size: None,
             place,
-            trail: Trail::new(place),
+            trail: ViewHistory::new(place),
             is_moving: false,
             awaited: None,
         }

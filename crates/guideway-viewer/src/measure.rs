@@ -10,7 +10,7 @@ use eframe::egui::{
     Context, Event, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, Pos2, RawInput,
     Rect, TouchPhase, Vec2,
 };
-use guideway_document::{Combine, Document, Rows};
+use guideway_document::{Document, PathSet, SelectMode};
 use guideway_scene::elapsed_ms;
 use guideway_spline::{Bounds, Point};
 
@@ -235,7 +235,7 @@ impl Hand {
         let hit = document.pick(rule, px_per_m, held_m, REACH_PX, usize::MAX);
         rows.extend(hit.map(|hit| hit.path));
         self.app
-            .change(move |document| document.select(rows, Combine::Replace));
+            .change(move |document| document.select(rows, SelectMode::Replace));
         self.wait(App::is_settled)?;
         let pixel = view.pixel_from_world(held_m);
         self.at = self.app.canvas_min + Vec2::new(pixel.x as f32, pixel.y as f32);
@@ -246,19 +246,19 @@ impl Hand {
 }
 
 /// One path in so many, those nearest to the middle, and a point on one of them.
-fn around_middle(document: &Document, one_in: u64) -> Option<(Rows, Point<f64>)> {
+fn around_middle(document: &Document, one_in: u64) -> Option<(PathSet, Point<f64>)> {
     let bounds = document.bounds()?;
     let order = document.scene().draw_order();
     let wanted = (order.len() as u64 / one_in).max(1);
     let mut half_m = bounds.size() * 0.5;
-    let mut rows: Rows = order.iter().copied().collect();
+    let mut rows: PathSet = order.iter().copied().collect();
     while rows.len() > wanted {
         half_m = half_m * 0.9;
         let around = Bounds {
             min: bounds.center() - half_m,
             max: bounds.center() + half_m,
         };
-        let fewer: Rows = document.index().paths_in(around).collect();
+        let fewer: PathSet = document.index().paths_in(around).collect();
         if fewer.is_empty() {
             break;
         }

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 use std::sync::Arc;
 
-use guideway_document::{Act, Combine, Document, PointRef};
+use guideway_document::{Combine, Document, JournalEntry, PointRef};
 use guideway_formats::arrow::{self, Precision, WriteOptions};
 use guideway_laws::document;
 use guideway_spline::{Affine, Point};
@@ -62,9 +62,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         let mut document = document();
         deed(&mut document)?;
         let records = document
-            .take_acts()
+            .take_journal_entries()
             .iter()
-            .flat_map(Act::to_record)
+            .flat_map(JournalEntry::to_record)
             .collect::<Vec<u8>>();
         fs::write(journals.join(name), records)?;
         last = document;

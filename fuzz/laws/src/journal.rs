@@ -14,7 +14,7 @@ pub fn journal(bytes: &[u8]) {
     let untouched = document.to_layout().paths.len();
     let mut replica = document.scene().clone();
     let (tell, told) = mpsc::channel();
-    document.tell(move |edit| tell.send(edit.clone()).expect("it is heard below"));
+    document.on_edit(move |edit| tell.send(edit.clone()).expect("it is heard below"));
     let journal = with_checksums(bytes);
     let done = replay(&journal, &mut document, |_| true);
     assert!(done.bytes <= journal.len());

@@ -5,7 +5,7 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
-use guideway_scene::density::{ToneMap, Tones};
+use guideway_scene::density::{ToneMap, ToneScale};
 use guideway_scene::{Frame, RenderError, Shading, Stage, Style, View, elapsed_ms};
 use rayon::prelude::*;
 
@@ -100,10 +100,10 @@ impl Buffers {
         easel: &mut Easel<'_, '_>,
         index: &mut Index,
         tone: ToneMap,
-        known: &mut Option<(View, Style, Tones)>,
+        known: &mut Option<(View, Style, ToneScale)>,
     ) -> Result<Result<u32, TooMuch>, RenderError> {
         let shot = easel.shot;
-        let mut tones = Tones::new(tone);
+        let mut tones = ToneScale::new(tone);
         if !shot.strip.is_whole() {
             let of_picture = known.take();
             let of_picture =
@@ -124,7 +124,7 @@ impl Buffers {
                     if let Err(too_much) = self.draw(&mut easel, index)? {
                         return Ok(Err(too_much));
                     }
-                    tones.look(&self.counts);
+                    tones.observe(&self.counts);
                 }
                 self.parts.fill(shot.strip);
                 (self.drawn, self.made) = (0, 0);
@@ -133,7 +133,7 @@ impl Buffers {
         let drawn = self.draw(easel, index)?;
         self.time("shade", |b| {
             if shot.strip.is_whole() {
-                tones.look(&b.counts);
+                tones.observe(&b.counts);
             }
             tones.shade(&b.counts, shot.style.background, easel.frame);
         });

@@ -2,9 +2,9 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use bytemuck::cast_slice;
-use guideway_scene::density::Tones;
+use guideway_scene::density::ToneScale;
 use guideway_scene::{
-    Budget, Cancel, Edited, Frame, Preparation, Prepared, RenderError, Report, Shading, Stage,
+    Budget, Cancel, EditOutcome, Frame, Preparation, Prepared, RenderError, Report, Shading, Stage,
     Strip, Style, View, elapsed_ms,
 };
 use guideway_scene::{Edit, Scene};
@@ -38,7 +38,7 @@ pub(super) struct CpuPrepared {
     kept: Option<Kept>,
     fills: Fills,
     /// Of the last picture that was drawn in strips by density.
-    tones: Option<(View, Style, Tones)>,
+    tones: Option<(View, Style, ToneScale)>,
     pub(super) lane_width: LaneWidth,
 }
 
@@ -305,7 +305,7 @@ impl Prepared for CpuPrepared {
         })
     }
 
-    fn edit(&mut self, edit: &Edit) -> Result<Edited, RenderError> {
+    fn edit(&mut self, edit: &Edit) -> Result<EditOutcome, RenderError> {
         let Self {
             scene,
             budget,
@@ -361,7 +361,7 @@ impl Prepared for CpuPrepared {
                 kept.forget();
             }
         }
-        Ok(Edited::InPlace { moved_bytes: 0 })
+        Ok(EditOutcome::InPlace { moved_bytes: 0 })
     }
 
     fn top_paths(

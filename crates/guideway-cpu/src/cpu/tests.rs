@@ -5,7 +5,7 @@ use std::sync::Arc;
 use guideway_layout::{Layout, NewPath, OwnStyle};
 use guideway_scene::density::ToneMap;
 use guideway_scene::{
-    Budget, Cancel, Edited, Frame, FrameSize, Method, Prepared, RenderError, Report, Shading,
+    Budget, Cancel, EditOutcome, Frame, FrameSize, Method, Prepared, RenderError, Report, Shading,
     Style, View,
 };
 use guideway_scene::{Edit, Insertion, LineRule, PathState, Rgba, Scene, SceneOptions};
@@ -406,7 +406,10 @@ fn an_edited_scene_looks_as_one_made_so() {
     draw_with(&mut *prepared, &view, &style);
     for edit in edits {
         scene.edit(&edit).unwrap();
-        assert_eq!(prepared.edit(&edit), Ok(Edited::InPlace { moved_bytes: 0 }));
+        assert_eq!(
+            prepared.edit(&edit),
+            Ok(EditOutcome::InPlace { moved_bytes: 0 })
+        );
         let (frame, _) = draw_with(&mut *prepared, &view, &style);
         check_frame(&frame, &Arc::new(scene.clone()), &view, &style);
     }

@@ -13,8 +13,8 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use guideway_scene::{
-    Budget, Cancel, Edited, Frame, Method, MethodInfo, Preparation, Prepared, RenderError, Report,
-    Shading, Stage, Style, View, density, elapsed_ms,
+    Budget, Cancel, EditOutcome, Frame, Method, MethodInfo, Preparation, Prepared, RenderError,
+    Report, Shading, Stage, Style, View, density, elapsed_ms,
 };
 use guideway_scene::{Edit, Rgba, Scene};
 use guideway_spline::{Bounds, Point};
@@ -129,10 +129,10 @@ impl Prepared for PreparedOracle {
         })
     }
 
-    fn edit(&mut self, edit: &Edit) -> Result<Edited, RenderError> {
+    fn edit(&mut self, edit: &Edit) -> Result<EditOutcome, RenderError> {
         let scene = Arc::make_mut(&mut self.scene);
         scene.edit(edit).map_err(RenderError::Edit)?;
-        Ok(Edited::InPlace { moved_bytes: 0 })
+        Ok(EditOutcome::InPlace { moved_bytes: 0 })
     }
 
     fn preparation(&self) -> &Preparation {

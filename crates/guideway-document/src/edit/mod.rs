@@ -9,7 +9,7 @@ use std::sync::Arc;
 use guideway_scene::{Edit, EditError, PathState};
 use guideway_spline::Point;
 
-use crate::{Act, Document, Rows};
+use crate::{Document, JournalEntry, PathSet};
 
 pub use operations::{PointRef, drawn_path};
 
@@ -22,7 +22,7 @@ pub enum Change {
     MoveNodes(NodeMoves),
 }
 
-/// Rows of nodes, and where they go.
+/// PathSet of nodes, and where they go.
 pub type NodeMoves = Arc<[(u32, Point<f64>)]>;
 
 /// What was done, as what undoes it; and what was undone, as what does it again.
@@ -38,7 +38,7 @@ pub(crate) struct History {
 
 /// A state that was saved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Saved(u64);
+pub struct SavedState(u64);
 
 /// The changes that lead from one state to the next, and the selection there.
 #[derive(Clone, Debug)]
@@ -46,7 +46,7 @@ struct Step {
     name: &'static str,
     number: u64,
     changes: Vec<Change>,
-    selection: Arc<Rows>,
+    selection: Arc<PathSet>,
 }
 
 impl Document {
@@ -60,7 +60,7 @@ impl Document {
         }
         let selection = Arc::clone(&self.selection);
         let inverse = self.apply(&changes)?;
-        self.acts.push(Act::Do(changes));
+        self.acts.push(JournalEntry::Do(changes));
         self.history.newest += 1;
         self.history.undone.clear();
         self.history.done.push(Step {
@@ -75,7 +75,7 @@ impl Document {
     /// Undoes the last step; returns its name, or none if there is none.
     pub fn undo(&mut self) -> Option<&'static str> {
         let step = self.history.done.pop()?;
-        self.acts.push(Act::Undo);
+        self.acts.push(JournalEntry::Undo);
         let (name, undone) = self.turn(step);
         self.history.undone.extend(undone);
         Some(name)
@@ -84,14 +84,14 @@ impl Document {
     /// Does again what was undone last; returns its name, or none if there is none.
     pub fn redo(&mut self) -> Option<&'static str> {
         let step = self.history.undone.pop()?;
-        self.acts.push(Act::Redo);
+        self.acts.push(JournalEntry::Redo);
         let (name, done) = self.turn(step);
         self.history.done.extend(done);
         Some(name)
     }
 
     /// What [`Self::undo`] and [`Self::redo`] would undo and do again.
-    pub fn steps(&self) -> (Option<&'static str>, Option<&'static str>) {
+    pub fn undo_redo_names(&self) -> (Option<&'static str>, Option<&'static str>) {
         let name = |steps: &[Step]| steps.last().map(|step| step.name);
         (name(&self.history.done), name(&self.history.undone))
     }
@@ -112,13 +112,13 @@ impl Document {
     }
 
     /// Takes the present state as saved. Returns what was taken so before.
-    pub fn set_saved(&mut self) -> Saved {
+    pub fn mark_saved(&mut self) -> SavedState {
         let now = self.history.now();
-        Saved(std::mem::replace(&mut self.history.saved, now))
+        SavedState(std::mem::replace(&mut self.history.saved, now))
     }
 
     /// Takes a state as saved that was before: saving another one failed.
-    pub fn set_saved_as_before(&mut self, before: Saved) {
+    pub fn restore_saved(&mut self, before: SavedState) {
         self.history.saved = before.0;
     }
 
@@ -167,7 +167,7 @@ impl Document {
     fn edit_scene(&mut self, edit: &Edit) -> Result<Edit, EditError> {
         let undo = self
             .scene
-            .edit_and_tell(edit, |edit| self.audience.hear(edit))?;
+            .edit_with_undo(edit, |edit| self.observer.notify(edit))?;
         let changed: &[u32] = match edit {
             Edit::Transform { paths, .. } | Edit::Reshape { paths, .. } => paths,
             Edit::Restyle(_) | Edit::SetStates(_) | Edit::Insert(_) => &[],
@@ -179,10 +179,10 @@ impl Document {
     fn move_nodes(&mut self, to: &NodeMoves) -> Result<NodeMoves, EditError> {
         let rows = self.layout().nodes.len();
         if let Some(&(row, _)) = to.iter().find(|(node, _)| *node as usize >= rows) {
-            return Err(EditError::UnknownPart { what: "node", row });
+            return Err(EditError::UnknownReference { what: "node", row });
         }
         if to.iter().any(|(_, at)| !at.is_finite()) {
-            return Err(EditError::Misplaced { path: None });
+            return Err(EditError::OutOfBounds { path: None });
         }
         let from = to
             .iter()

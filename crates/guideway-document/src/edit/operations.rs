@@ -7,7 +7,7 @@ use guideway_spline::{Affine, Point, Runs};
 use super::Change;
 use super::shape::{geometry_of, refined, runs_of, through_ends, with_ends_moved, with_run};
 use crate::index::nodes_of;
-use crate::{Document, Rows};
+use crate::{Document, PathSet};
 
 /// A control point of a path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,7 +48,7 @@ impl Document {
     pub fn move_node(&mut self, node: u32, to_m: Point<f64>) -> Result<(), EditError> {
         let rows = self.layout().nodes.len();
         if node as usize >= rows {
-            return Err(EditError::UnknownPart {
+            return Err(EditError::UnknownReference {
                 what: "node",
                 row: node,
             });
@@ -177,7 +177,7 @@ impl Document {
         points_m: &[Point<f64>],
         node_reach_m: f64,
     ) -> Result<(), EditError> {
-        let runs = through_ends(points_m).ok_or(EditError::Misplaced { path: None })?;
+        let runs = through_ends(points_m).ok_or(EditError::OutOfBounds { path: None })?;
         let node_at = |point: Option<&Point<f64>>| self.node_near(*point?, node_reach_m);
         let row = self.scene.row_count() as u32;
         let path = Insertion {
@@ -192,7 +192,7 @@ impl Document {
             "draw path",
             vec![Change::Scene(Edit::Insert([path].into()))],
         )?;
-        self.selection = Arc::new(Rows::from_iter([row]));
+        self.selection = Arc::new(PathSet::from_iter([row]));
         Ok(())
     }
 
@@ -237,8 +237,8 @@ impl Document {
     }
 
     /// Nodes of which all paths are selected.
-    fn nodes_of_selection_alone(&self) -> Rows {
-        let nodes: Rows = self.selected_paths().flat_map(nodes_of).collect();
+    fn nodes_of_selection_alone(&self) -> PathSet {
+        let nodes: PathSet = self.selected_paths().flat_map(nodes_of).collect();
         let is_alone = |&node: &u32| {
             let mut paths = self.existing_paths_at(node);
             paths.all(|path| self.selection.contains(path))

@@ -3,7 +3,7 @@ use std::ops::Range;
 use guideway_spline::{Bounds, Point, hilbert};
 use rayon::prelude::*;
 
-/// Rows of one cluster.
+/// PathSet of one cluster.
 const CLUSTER: usize = 64;
 
 /// A box a row, found by where it is. Neighbors lie in clusters, so that a question looks at few rows; a change
@@ -85,7 +85,7 @@ impl Boxes {
         Some(self.boxes[place as usize]).filter(|bounds| bounds.min.x <= bounds.max.x)
     }
 
-    /// Rows whose box meets `bounds`, with it, in no order.
+    /// PathSet whose box meets `bounds`, with it, in no order.
     pub(super) fn meeting(&self, bounds: Bounds<f64>) -> impl Iterator<Item = (u32, Bounds<f64>)> {
         let clusters = self.clusters.iter().enumerate();
         let met = clusters.filter(move |(_, cluster)| cluster.intersects(bounds));

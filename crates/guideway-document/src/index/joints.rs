@@ -8,7 +8,7 @@ pub(super) struct Joints {
     /// Where the rows of each node end, in `rows`.
     ends: Vec<u32>,
     rows: Vec<u32>,
-    /// Rows that came later.
+    /// PathSet that came later.
     added: HashMap<u32, Vec<u32>>,
 }
 

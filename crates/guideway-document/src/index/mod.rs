@@ -17,7 +17,7 @@ const AT_ONCE: usize = 4096;
 
 /// Where the paths and nodes of a layout are, and which paths are at which node.
 ///
-/// Rows are those of the layout it was made of. Paths are held by the box of their curve.
+/// PathSet are those of the layout it was made of. Paths are held by the box of their curve.
 #[derive(Clone, Debug, Default)]
 pub struct Index {
     paths: Boxes,

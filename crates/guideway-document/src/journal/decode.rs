@@ -4,16 +4,16 @@ use guideway_layout::{Direction, Geometry, OwnStyle};
 use guideway_scene::{Edit, Insertion, PathState};
 use guideway_spline::{Affine, Point, Runs};
 
-use super::{Act, tag};
+use super::{JournalEntry, tag};
 use crate::Change;
 
 /// The act of a record; none if it is not one.
-pub(super) fn act(bytes: &[u8]) -> Option<Act> {
+pub(super) fn act(bytes: &[u8]) -> Option<JournalEntry> {
     let mut input = In(bytes);
     let act = match input.byte()? {
-        tag::DO => Act::Do(input.list(In::change)?),
-        tag::UNDO => Act::Undo,
-        tag::REDO => Act::Redo,
+        tag::DO => JournalEntry::Do(input.list(In::change)?),
+        tag::UNDO => JournalEntry::Undo,
+        tag::REDO => JournalEntry::Redo,
         _ => return None,
     };
     input.0.is_empty().then_some(act)

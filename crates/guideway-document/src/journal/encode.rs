@@ -2,18 +2,18 @@ use guideway_layout::{Direction, Geometry, OwnStyle, RunPoints};
 use guideway_scene::{Edit, Insertion, PathState};
 use guideway_spline::Point;
 
-use super::{Act, tag};
+use super::{JournalEntry, tag};
 use crate::Change;
 
-pub(super) fn act(act: &Act) -> Vec<u8> {
+pub(super) fn act(act: &JournalEntry) -> Vec<u8> {
     let mut out = Out::default();
     match act {
-        Act::Do(changes) => {
+        JournalEntry::Do(changes) => {
             out.byte(tag::DO);
             out.list(changes, |out, change| out.change(change));
         }
-        Act::Undo => out.byte(tag::UNDO),
-        Act::Redo => out.byte(tag::REDO),
+        JournalEntry::Undo => out.byte(tag::UNDO),
+        JournalEntry::Redo => out.byte(tag::REDO),
     }
     out.0
 }

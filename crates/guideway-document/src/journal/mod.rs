@@ -13,7 +13,7 @@ use crate::{Change, Document};
 
 /// One thing that was done.
 #[derive(Clone, Debug)]
-pub enum Act {
+pub enum JournalEntry {
     /// Changes, as one step.
     Do(Vec<Change>),
     /// The last step was undone.
@@ -24,14 +24,14 @@ pub enum Act {
 
 /// How much of a journal could be done again.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Replayed {
+pub struct ReplayProgress {
     /// Acts done.
-    pub acts: usize,
+    pub entries: usize,
     /// Bytes of the journal that they take. What follows is of no use.
     pub bytes: usize,
 }
 
-impl Act {
+impl JournalEntry {
     /// The record of this act.
     pub fn to_record(&self) -> Vec<u8> {
         let payload = encode::act(self);
@@ -48,9 +48,12 @@ impl Act {
 pub fn replay(
     journal: &[u8],
     document: &mut Document,
-    mut goes_on: impl FnMut(Replayed) -> bool,
-) -> Replayed {
-    let mut done = Replayed { acts: 0, bytes: 0 };
+    mut goes_on: impl FnMut(ReplayProgress) -> bool,
+) -> ReplayProgress {
+    let mut done = ReplayProgress {
+        entries: 0,
+        bytes: 0,
+    };
     let mut rest = journal;
     while let Some((payload, behind)) = next_record(rest).filter(|_| goes_on(done)) {
         let is_done = decode::act(payload).is_some_and(|act| act.perform(document).is_ok());
@@ -58,13 +61,13 @@ pub fn replay(
             break;
         }
         rest = behind;
-        done.acts += 1;
+        done.entries += 1;
         done.bytes = journal.len() - rest.len();
     }
     done
 }
 
-impl Act {
+impl JournalEntry {
     fn perform(self, document: &mut Document) -> Result<(), EditError> {
         match self {
             Self::Do(changes) => document.perform("recovered edit", changes)?,
@@ -110,7 +113,7 @@ mod tests {
     use super::*;
 
     /// One of every kind of change.
-    fn everything() -> Act {
+    fn everything() -> JournalEntry {
         let mut runs = Runs::default();
         runs.push_line(Point::new(0.0, 1.0), Point::new(2.0, 3.0));
         let mut curves = Geometry::default();
@@ -144,12 +147,12 @@ mod tests {
         ];
         let mut changes: Vec<Change> = edits.into_iter().map(Change::Scene).collect();
         changes.push(Change::MoveNodes([(1, Point::new(5.0, 6.0))].into()));
-        Act::Do(changes)
+        JournalEntry::Do(changes)
     }
 
     #[test]
     fn an_act_comes_back_as_it_was_written() {
-        for act in [everything(), Act::Undo, Act::Redo] {
+        for act in [everything(), JournalEntry::Undo, JournalEntry::Redo] {
             let bytes = encode::act(&act);
             let again = decode::act(&bytes).unwrap();
             assert_eq!(format!("{again:?}"), format!("{act:?}"));

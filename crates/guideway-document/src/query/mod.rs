@@ -8,7 +8,7 @@ use std::cmp::Ordering;
 use guideway_layout::{Layout, Value};
 
 use self::column::Column;
-use crate::Rows;
+use crate::PathSet;
 
 /// A condition on the paths of one layout.
 ///
@@ -71,7 +71,7 @@ impl Query {
     }
 
     /// The paths that meet it.
-    pub fn rows(&self, layout: &Layout) -> Rows {
+    pub fn rows(&self, layout: &Layout) -> PathSet {
         let all = 0..layout.paths.len() as u32;
         all.filter(|&path| self.0.holds(layout, path)).collect()
     }

@@ -1,5 +1,5 @@
 use guideway_document::measure::{bends, length_m, tightest_radius_m};
-use guideway_document::{Found, Index, locate, nearest, pick, search};
+use guideway_document::{Element, Index, locate, nearest, pick, search};
 use guideway_layout::{Layout, NewPath, Place};
 use guideway_scene::LineRule;
 use guideway_spline::{Bounds, Runs};
@@ -72,9 +72,9 @@ fn of_paths_over_each_other_the_one_drawn_last_is_picked() {
 fn findings_are_located_by_name_or_number() {
     let layout = lanes(12);
     for (element, expected) in [
-        ("path \"path-7\"", Some(Found::Path(7))),
-        ("node \"node-3\"", Some(Found::Node(3))),
-        ("path number 12", Some(Found::Path(11))),
+        ("path \"path-7\"", Some(Element::Path(7))),
+        ("node \"node-3\"", Some(Element::Node(3))),
+        ("path number 12", Some(Element::Path(11))),
         ("path number 13", None),
         ("path number 0", None),
         ("station \"s\"", None),
@@ -92,10 +92,10 @@ fn findings_are_located_by_name_or_number() {
 fn exact_names_come_first_and_few_of_each_kind() {
     let layout = lanes(30);
     let found = search(&layout, "path-1", 5);
-    assert_eq!(found[0], Found::Path(1));
+    assert_eq!(found[0], Element::Path(1));
     assert_eq!(found.len(), 6, "five more beside the one that is called so");
     assert!(found.iter().all(|what| what.id(&layout).contains("path-1")));
-    assert_eq!(search(&layout, "NODE-7", 5), [Found::Node(7)]);
+    assert_eq!(search(&layout, "NODE-7", 5), [Element::Node(7)]);
     assert_eq!(search(&layout, "", 5), []);
 }
 

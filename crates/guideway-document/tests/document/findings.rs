@@ -1,4 +1,4 @@
-use guideway_document::{Combine, Document};
+use guideway_document::{Document, SelectMode};
 use guideway_layout::{CheckOptions, Code, NewPath};
 use guideway_spline::Runs;
 
@@ -23,11 +23,11 @@ fn what_is_odd_is_found_in_the_document_as_it_is_by_its_own_rows() {
     };
     assert_eq!(told(&document), ["path number 4"]);
     let first = document.state();
-    document.select([0].into_iter().collect(), Combine::Replace);
+    document.select([0].into_iter().collect(), SelectMode::Replace);
     document.delete_selection().unwrap();
     assert_ne!(document.state(), first);
     assert_eq!(told(&document), ["path number 4"]);
-    document.select([3].into_iter().collect(), Combine::Replace);
+    document.select([3].into_iter().collect(), SelectMode::Replace);
     document.delete_selection().unwrap();
     assert!(told(&document).is_empty());
     document.undo();

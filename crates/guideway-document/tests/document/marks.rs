@@ -1,5 +1,5 @@
-use guideway_document::marks::{LabelSize, MOST_MARKED, MarkOptions, Outline, marks, outline};
-use guideway_document::{Combine, Rows, Twins};
+use guideway_document::decorations::{LabelSize, MAX_MARKED, MarkOptions, Outline, marks, outline};
+use guideway_document::{PathSet, ReversePairs, SelectMode};
 use guideway_layout::{Layout, NewPath};
 use guideway_scene::LineRule;
 use guideway_scene::View;
@@ -21,7 +21,7 @@ const ALL: MarkOptions = MarkOptions {
     }),
 };
 
-fn marks_of(layout: Layout, view: &View) -> guideway_document::marks::Marks {
+fn marks_of(layout: Layout, view: &View) -> guideway_document::decorations::Marks {
     marks(&document_of(layout), view, &ALL)
 }
 
@@ -79,7 +79,7 @@ fn two_paths_on_one_line_have_the_arrows_of_one_both_ways() {
     let alone: usize = [0, 2, 4, 5]
         .map(|row| {
             let mut document = document_of(layout.clone());
-            document.select(Rows::from_iter([row]), Combine::Replace);
+            document.select(PathSet::from_iter([row]), SelectMode::Replace);
             document.isolate_selection();
             marks(&document, &view, &ALL).arrows.len()
         })
@@ -92,11 +92,11 @@ fn two_paths_on_one_line_have_the_arrows_of_one_both_ways() {
         let is_pair = view.world_from_pixel(arrow.at_px).y < 6.0;
         assert_eq!(arrow.is_two_way, is_pair, "{arrow:?}");
     }
-    let twins = Twins::among(&document, &[0, 1, 2, 3, 4, 5]);
+    let twins = ReversePairs::among(&document, &[0, 1, 2, 3, 4, 5]);
     let of_each = [0, 1, 2, 3, 4, 5].map(|row| twins.of(row));
     assert_eq!(of_each, [Some(1), Some(0), Some(3), Some(2), None, None]);
     let hit = guideway_document::nearest(document.layout(), 3, p(5.0, 4.0), 1e-6).unwrap();
-    assert_eq!(document.twin_of(&hit, 100), Some(2));
+    assert_eq!(document.reverse_path_at(&hit, 100), Some(2));
 }
 
 #[test]
@@ -114,7 +114,7 @@ fn names_do_not_lie_over_each_other() {
 
 #[test]
 fn a_view_of_too_much_has_no_marks_and_says_so() {
-    let layout = lanes(MOST_MARKED + 1);
+    let layout = lanes(MAX_MARKED + 1);
     let far = marks_of(layout.clone(), &view(p(5.0, 1000.0), 0.2));
     assert!(far.left_out && far.arrows.is_empty() && far.labels.is_empty());
     let near = marks_of(layout, &view(p(5.0, 1000.0), 20.0));
@@ -138,7 +138,8 @@ fn a_long_path_seen_close_has_few_arrows_and_a_short_outline() {
         "{}",
         marks.arrows.len()
     );
-    let Outline::Lines(lines) = outline(&document_of(layout), &Rows::from_iter([0]), &view) else {
+    let Outline::Lines(lines) = outline(&document_of(layout), &PathSet::from_iter([0]), &view)
+    else {
         panic!("one path is drawn as lines");
     };
     let points: usize = lines.iter().map(Vec::len).sum();

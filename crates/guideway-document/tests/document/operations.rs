@@ -1,7 +1,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use guideway_document::measure::length_m;
-use guideway_document::{Change, Combine, Document, Index, PointRef, Snap, drawn_path};
+use guideway_document::{Change, Document, Index, PointRef, SelectMode, SnapOptions, drawn_path};
 use guideway_layout::{Layout, NewPath, PathRef, Value};
 use guideway_scene::{Edit, EditError, LayoutCopy};
 use guideway_spline::{Affine, Bounds, Point, Runs};
@@ -22,7 +22,7 @@ fn is_near(a: Point<f64>, b: Point<f64>) -> bool {
 }
 
 fn select(document: &mut Document, rows: impl IntoIterator<Item = u32>) {
-    document.select(rows.into_iter().collect(), Combine::Replace);
+    document.select(rows.into_iter().collect(), SelectMode::Replace);
 }
 
 /// Two paths from a to b and b to c, the second one bent.
@@ -61,7 +61,7 @@ fn ends_follow_their_node_and_straight_stays_straight() {
     assert_eq!(ends(&document, 0), ends(&two_joined(), 0));
     assert_eq!(
         document.move_node(9, p(0.0, 0.0)),
-        Err(EditError::UnknownPart {
+        Err(EditError::UnknownReference {
             what: "node",
             row: 9
         })
@@ -170,7 +170,7 @@ fn what_is_deleted_is_not_saved_and_comes_back_by_undo() {
     );
     assert_eq!(attributes.get("zone").unwrap().values.get(1), None);
     assert!(document.is_changed());
-    document.set_saved();
+    document.mark_saved();
     assert!(!document.is_changed());
     assert_eq!(document.undo(), Some("delete"));
     assert!(document.is_changed());
@@ -255,14 +255,14 @@ fn a_drawn_path_begins_and_ends_where_it_was_drawn() {
 #[test]
 fn places_snap_to_nodes_first_then_directions_then_the_grid() {
     let document = two_joined();
-    let snap = Snap {
+    let snap = SnapOptions {
         node_reach_m: Some(1.0),
         grid_m: Some(0.5),
         directions: Some(8),
-        ..Snap::default()
+        ..SnapOptions::default()
     };
     assert_eq!(document.snap(&snap, p(10.4, 0.4), None), p(10.0, 0.0));
-    let moving = Snap {
+    let moving = SnapOptions {
         moving_node: Some(1),
         ..snap
     };
@@ -271,7 +271,7 @@ fn places_snap_to_nodes_first_then_directions_then_the_grid() {
     assert!(is_near(to, p(5.5, 5.5)), "{to:?}");
     assert_eq!(document.snap(&snap, p(5.1, 6.3), None), p(5.0, 6.5));
     assert_eq!(
-        document.snap(&Snap::default(), p(5.1, 6.3), None),
+        document.snap(&SnapOptions::default(), p(5.1, 6.3), None),
         p(5.1, 6.3)
     );
 }
@@ -292,7 +292,7 @@ fn an_edit_that_cannot_be_done_changes_nothing() {
     assert!(document.perform("both", changes).is_err());
     assert!(is_near(ends(&document, 0).0, p(0.0, 0.0)));
     assert!(!document.is_changed());
-    assert_eq!(document.steps(), (None, None));
+    assert_eq!(document.undo_redo_names(), (None, None));
 }
 
 #[test]
@@ -402,16 +402,16 @@ fn an_edit_takes_the_copy_that_was_made_for_it_and_no_other() {
     let mut document = document(3);
     let renderer = document.scene().clone();
     assert!(document.scene().is_layout_shared());
-    document.take_copy(LayoutCopy::new(document.scene().shared_layout()));
+    document.adopt_copy(LayoutCopy::new(document.scene().shared_layout()));
     assert!(!document.scene().is_layout_shared());
     let held: *const Layout = document.layout();
     let stale = LayoutCopy::new(document.scene().shared_layout());
-    document.take_copy(LayoutCopy::new(renderer.shared_layout()));
+    document.adopt_copy(LayoutCopy::new(renderer.shared_layout()));
     assert!(std::ptr::eq(held, document.layout()), "that of another");
     document.select_all();
     let by = Affine::translation(p(0.0, 5.0));
     document.transform_selection("move", by).unwrap();
-    document.take_copy(stale);
+    document.adopt_copy(stale);
     let start = |layout: &Layout| layout.paths.get(0).ends().map(|(start, _)| start);
     assert_eq!(start(document.layout()), Some(p(0.0, 5.0)));
     assert_eq!(start(renderer.layout()), Some(p(0.0, 0.0)));

@@ -1,4 +1,4 @@
-use guideway_document::{Query, QueryError, Rows};
+use guideway_document::{PathSet, Query, QueryError};
 use guideway_layout::Layout;
 
 use crate::site::lanes;
@@ -67,5 +67,5 @@ fn no_text_is_too_deep_to_refuse() {
     assert!(Query::parse(&nots, &layout).is_err());
     let wide = vec!["id = path-0"; 10_000].join(" or ");
     let query = Query::parse(&wide, &layout).unwrap();
-    assert_eq!(query.rows(&layout), Rows::from_iter([0]));
+    assert_eq!(query.rows(&layout), PathSet::from_iter([0]));
 }

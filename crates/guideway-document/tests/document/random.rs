@@ -2,7 +2,7 @@
 
 use std::sync::mpsc;
 
-use guideway_document::{Act, Combine, Document, PointRef, replay};
+use guideway_document::{Document, JournalEntry, PointRef, SelectMode, replay};
 use guideway_scene::PathState;
 use guideway_spline::{Affine, Bounds, Point};
 use proptest::prelude::*;
@@ -68,12 +68,12 @@ fn perform(document: &mut Document, deed: &Deed) {
     let _ = match deed {
         Deed::SelectBox(a, b) => {
             if let Some(bounds) = Bounds::of_points([*a, *b]) {
-                document.select_in(bounds, true, Combine::Replace);
+                document.select_in(bounds, true, SelectMode::Replace);
             }
             Ok(())
         }
         Deed::SelectRow(row) => {
-            document.select([*row].into_iter().collect(), Combine::Add);
+            document.select([*row].into_iter().collect(), SelectMode::Add);
             Ok(())
         }
         Deed::Move(by) => document.transform_selection("move", Affine::translation(*by)),
@@ -136,7 +136,7 @@ proptest! {
         // A renderer that has a scene of its own and hears of edits alone.
         let mut replica = scene_of(document.to_layout());
         let (tell, told) = mpsc::channel();
-        document.tell(move |edit| tell.send(edit.clone()).unwrap());
+        document.on_edit(move |edit| tell.send(edit.clone()).unwrap());
         for deed in &deeds {
             perform(&mut document, deed);
             for edit in told.try_iter() {
@@ -146,8 +146,8 @@ proptest! {
             prop_assert!(document.selection().iter().all(|row| all_shown(&row)));
         }
         // What a journal gives back is what was done: whole, and as far as it goes where it was cut off.
-        let acts = document.take_acts();
-        let journal: Vec<u8> = acts.iter().flat_map(Act::to_record).collect();
+        let acts = document.take_journal_entries();
+        let journal: Vec<u8> = acts.iter().flat_map(JournalEntry::to_record).collect();
         let mut recovered = crate::site::document(8);
         prop_assert_eq!(replay(&journal, &mut recovered, |_| true).bytes, journal.len());
         prop_assert_eq!(content(&recovered), content(&document));
@@ -155,8 +155,8 @@ proptest! {
         let half = &journal[..journal.len() / 2];
         prop_assert!(replay(half, &mut cut, |_| true).bytes <= half.len());
         let mut stopped = crate::site::document(8);
-        let done = replay(&journal, &mut stopped, |done| done.acts < 2);
-        prop_assert_eq!(done.acts, acts.len().min(2));
+        let done = replay(&journal, &mut stopped, |done| done.entries < 2);
+        prop_assert_eq!(done.entries, acts.len().min(2));
         prop_assert_eq!(replica.draw_order(), document.scene().draw_order());
         for &row in replica.draw_order() {
             let points = |layout: &guideway_layout::Layout| -> Vec<_> {
@@ -184,7 +184,7 @@ proptest! {
     ) {
         let mut document = document(8);
         deeds.iter().for_each(|deed| perform(&mut document, deed));
-        let mut journal: Vec<u8> = document.take_acts().iter().flat_map(Act::to_record).collect();
+        let mut journal: Vec<u8> = document.take_journal_entries().iter().flat_map(JournalEntry::to_record).collect();
         for (at, byte) in damage {
             if !journal.is_empty() {
                 *at.get_mut(&mut journal) = byte;

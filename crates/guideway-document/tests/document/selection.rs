@@ -1,4 +1,4 @@
-use guideway_document::{Combine, Document, Query};
+use guideway_document::{Document, Query, SelectMode};
 use guideway_scene::{ColorBy, PathState, Scene, SceneOptions};
 use guideway_spline::{Affine, Bounds};
 
@@ -15,11 +15,11 @@ fn a_box_selects_what_is_inside_or_what_it_meets() {
         min: p(-1.0, 0.5),
         max: p(9.0, 3.5),
     };
-    document.select_in(bounds, false, Combine::Replace);
+    document.select_in(bounds, false, SelectMode::Replace);
     assert_eq!(rows(&document), [], "all reach out of it");
-    document.select_in(bounds, true, Combine::Replace);
+    document.select_in(bounds, true, SelectMode::Replace);
     assert_eq!(rows(&document), [1, 2, 3]);
-    document.select_in(bounds.inflated(1.1), false, Combine::Remove);
+    document.select_in(bounds.inflated(1.1), false, SelectMode::Remove);
     assert_eq!(rows(&document), []);
 }
 
@@ -27,15 +27,15 @@ fn a_box_selects_what_is_inside_or_what_it_meets() {
 fn selections_combine_and_leave_out_what_is_hidden() {
     let mut document = document(6);
     let query = Query::parse("speed > 1", document.layout()).unwrap();
-    document.select(query.rows(document.layout()), Combine::Replace);
-    document.select([0].into_iter().collect(), Combine::Add);
-    document.select([3, 4].into_iter().collect(), Combine::Remove);
+    document.select(query.rows(document.layout()), SelectMode::Replace);
+    document.select([0].into_iter().collect(), SelectMode::Add);
+    document.select([3, 4].into_iter().collect(), SelectMode::Remove);
     assert_eq!(rows(&document), [0, 5]);
     document.hide_selection();
     assert_eq!(rows(&document), []);
     document.select_all();
     assert_eq!(rows(&document), [1, 2, 3, 4]);
-    document.select([0, 1, 99].into_iter().collect(), Combine::Replace);
+    document.select([0, 1, 99].into_iter().collect(), SelectMode::Replace);
     assert_eq!(rows(&document), [1]);
     document.isolate_selection();
     assert_eq!(document.scene().draw_order(), [1]);
@@ -47,9 +47,9 @@ fn selections_combine_and_leave_out_what_is_hidden() {
 #[test]
 fn other_colors_bring_nothing_hidden_back() {
     let mut document = document(6);
-    document.select([2].into_iter().collect(), Combine::Replace);
+    document.select([2].into_iter().collect(), SelectMode::Replace);
     document.hide_selection();
-    document.select([3].into_iter().collect(), Combine::Replace);
+    document.select([3].into_iter().collect(), SelectMode::Replace);
     document.delete_selection().unwrap();
     let by_speed = SceneOptions {
         color_by: Some(ColorBy {
@@ -58,7 +58,7 @@ fn other_colors_bring_nothing_hidden_back() {
         ..SceneOptions::default()
     };
     let by_speed = Scene::new(document.scene().shared_layout(), &by_speed).unwrap();
-    assert!(document.take_colors(by_speed.clone()));
+    assert!(document.adopt_colors(by_speed.clone()));
     assert!(document.scene().legend().is_some());
     assert_eq!(document.scene().draw_order(), [0, 1, 4, 5]);
     assert_eq!(document.scene().state(3), PathState::Removed);
@@ -66,7 +66,10 @@ fn other_colors_bring_nothing_hidden_back() {
     document.select_all();
     let up = Affine::translation(p(0.0, 1.0));
     document.transform_selection("move", up).unwrap();
-    assert!(!document.take_colors(by_speed), "of the layout before that");
+    assert!(
+        !document.adopt_colors(by_speed),
+        "of the layout before that"
+    );
 }
 
 #[test]
@@ -79,8 +82,8 @@ fn a_copy_is_asked_about_and_colored_as_what_it_was_copied_from() {
         ..SceneOptions::default()
     };
     let by_speed = Scene::new(document.scene().shared_layout(), &by_speed).unwrap();
-    document.take_colors(by_speed);
-    document.select([9].into_iter().collect(), Combine::Replace);
+    document.adopt_colors(by_speed);
+    document.select([9].into_iter().collect(), SelectMode::Replace);
     document.copy_selection(1, p(100.0, 0.0)).unwrap();
     assert_eq!(document.scene().color(12), document.scene().color(9));
     let query = Query::parse("speed = 4.5", document.layout()).unwrap();
@@ -102,8 +105,8 @@ fn a_curve_that_goes_round_a_box_does_not_meet_it() {
         min: p(3.0, 0.0),
         max: p(7.0, 5.0),
     };
-    document.select_in(inner, true, Combine::Replace);
+    document.select_in(inner, true, SelectMode::Replace);
     assert_eq!(rows(&document), []);
-    document.select_in(inner.inflated(3.0), true, Combine::Replace);
+    document.select_in(inner.inflated(3.0), true, SelectMode::Replace);
     assert_eq!(rows(&document), [0]);
 }

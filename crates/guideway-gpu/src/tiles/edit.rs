@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use guideway_layout::Layout;
 use guideway_scene::{Edit, PathState};
-use guideway_scene::{Edited, RenderError};
+use guideway_scene::{EditOutcome, RenderError};
 
 use super::pack::{Local, Packed, Packing, Part, style};
 use super::params::{Cluster, PathStyle, Points, Stroke};
@@ -36,7 +36,7 @@ struct Changes {
 
 impl PreparedTiles {
     /// See [`guideway_scene::Prepared::edit`].
-    pub(super) fn change(&mut self, edit: &Edit) -> Result<Edited, RenderError> {
+    pub(super) fn change(&mut self, edit: &Edit) -> Result<EditOutcome, RenderError> {
         let first_new = self.scene.row_count() as u32;
         let scene = Arc::make_mut(&mut self.scene);
         scene.edit(edit).map_err(RenderError::Edit)?;
@@ -66,16 +66,16 @@ impl PreparedTiles {
             moved_bytes += bytes;
         }
         self.is_torn = false;
-        Ok(Edited::InPlace { moved_bytes })
+        Ok(EditOutcome::InPlace { moved_bytes })
     }
 
-    fn pack_anew(&mut self) -> Result<Edited, RenderError> {
+    fn pack_anew(&mut self) -> Result<EditOutcome, RenderError> {
         self.bring(Packing::of(&self.scene))?;
         let held = |store: &Store| {
             let points: u64 = store.chunks.iter().map(|c| c.points.bytes()).sum();
             points + store.strokes.bytes() + store.clusters.bytes() + store.styles.bytes()
         };
-        Ok(Edited::InPlace {
+        Ok(EditOutcome::InPlace {
             moved_bytes: self.store.as_ref().map_or(0, held),
         })
     }

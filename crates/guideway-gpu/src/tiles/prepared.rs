@@ -3,7 +3,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use guideway_scene::{
-    Budget, Cancel, Edited, Frame, Preparation, Prepared, RenderError, Report, Shading, Stage,
+    Budget, Cancel, EditOutcome, Frame, Preparation, Prepared, RenderError, Report, Shading, Stage,
     Style, View, Work, density, elapsed_ms,
 };
 use guideway_scene::{Edit, Scene};
@@ -280,7 +280,7 @@ impl Prepared for PreparedTiles {
         })
     }
 
-    fn edit(&mut self, edit: &Edit) -> Result<Edited, RenderError> {
+    fn edit(&mut self, edit: &Edit) -> Result<EditOutcome, RenderError> {
         self.change(edit)
     }
 

@@ -1,16 +1,18 @@
-//! Whether an edit can be done.
+//! Checks an edit against a scene before it is applied, so that a rejected edit changes nothing.
 
 use guideway_layout::Layout;
 use guideway_spline::{Bounds, Point};
 
-use super::{Edit, EditError, Insertion};
-use crate::Scene;
+use super::error::EditError;
+use super::operation::{Edit, Insertion};
+use crate::scene::Scene;
 
-/// Farthest that an edit may put a control point from the origin, in meters.
-const REACH_M: f64 = 1e9;
+/// Largest coordinate of a control point after an edit, in meters: far beyond any site, and still
+/// with a resolution of 1e-7 m in `f64`.
+const MAX_COORDINATE_M: f64 = 1e9;
 
 impl Edit {
-    /// Whether it can be done.
+    /// Accepts the edit or returns the reason for rejecting it.
     pub(super) fn check(&self, scene: &Scene) -> Result<(), EditError> {
         let rows = scene.row_count();
         let is_unknown = |&path: &u32| path as usize >= rows;
@@ -21,31 +23,31 @@ impl Edit {
         let geometry = scene.layout().paths.geometry();
         match self {
             Self::Transform { paths, by } => {
-                if let Some(path) = named_twice(paths) {
-                    return Err(EditError::Twice { path });
+                if let Some(path) = find_duplicate(paths) {
+                    return Err(EditError::DuplicatePath { path });
                 }
-                // Where the corners of a box may go, all in it may.
+                // A map that keeps the corners of a box in bounds keeps all points inside it in bounds.
                 let hull = geometry.hull_bounds(paths.iter().map(|&path| path as usize));
                 let corners = hull.into_iter().flat_map(Bounds::corners);
-                if is_placed(corners.map(|p| by.apply(p))) {
+                if is_in_bounds(corners.map(|p| by.apply(p))) {
                     return Ok(());
                 }
-                let misplaced = paths.iter().find(|&&path| {
+                let outside = paths.iter().find(|&&path| {
                     let points = geometry.runs(path as usize).flat_map(|run| run.iter());
-                    !is_placed(points.map(|p| by.apply(p)))
+                    !is_in_bounds(points.map(|p| by.apply(p)))
                 });
-                misplaced.map_or(Ok(()), |&path| {
-                    Err(EditError::Misplaced { path: Some(path) })
+                outside.map_or(Ok(()), |&path| {
+                    Err(EditError::OutOfBounds { path: Some(path) })
                 })
             }
             Self::Reshape { paths, curves } => {
                 if paths.len() != curves.path_count() {
-                    return Err(EditError::Count);
+                    return Err(EditError::CurveCountMismatch);
                 }
-                let misplaced = curves.first_out_of_range(REACH_M);
-                misplaced.map_or(Ok(()), |from| {
+                let outside = curves.first_beyond(MAX_COORDINATE_M);
+                outside.map_or(Ok(()), |from| {
                     let path = Some(paths[from]);
-                    Err(EditError::Misplaced { path })
+                    Err(EditError::OutOfBounds { path })
                 })
             }
             Self::Insert(paths) => paths.iter().try_for_each(|path| path.check(scene.layout())),
@@ -57,8 +59,8 @@ impl Edit {
 impl Insertion {
     fn check(&self, layout: &Layout) -> Result<(), EditError> {
         let mut runs = self.runs.iter().peekable();
-        if runs.peek().is_none() || !is_placed(runs.flatten().copied()) {
-            return Err(EditError::Misplaced { path: None });
+        if runs.peek().is_none() || !is_in_bounds(runs.flatten().copied()) {
+            return Err(EditError::OutOfBounds { path: None });
         }
         let parts = [
             ("level", self.level, layout.levels.len()),
@@ -67,7 +69,7 @@ impl Insertion {
         ];
         for (what, row, rows) in parts {
             if let Some(row) = row.filter(|row| *row as usize >= rows) {
-                return Err(EditError::UnknownPart { what, row });
+                return Err(EditError::UnknownReference { what, row });
             }
         }
         let rows = layout.paths.len();
@@ -78,9 +80,9 @@ impl Insertion {
     }
 }
 
-/// A row that is named more than once; rows in order, as selections have them, are only looked through.
-fn named_twice(rows: &[u32]) -> Option<u32> {
-    // Without a way out of the loop, many are compared at once.
+/// A row that occurs more than once. Rows in ascending order, as selections have them, need no sort.
+fn find_duplicate(rows: &[u32]) -> Option<u32> {
+    // Without an early exit the compiler vectorizes the comparison.
     let pairs = rows.array_windows();
     if pairs.fold(true, |is_sorted, [a, b]| is_sorted & (a < b)) {
         return None;
@@ -93,6 +95,6 @@ fn named_twice(rows: &[u32]) -> Option<u32> {
         .map(|[a, _]| *a)
 }
 
-fn is_placed(mut points: impl Iterator<Item = Point<f64>>) -> bool {
-    points.all(|p| p.x.abs() <= REACH_M && p.y.abs() <= REACH_M)
+fn is_in_bounds(mut points: impl Iterator<Item = Point<f64>>) -> bool {
+    points.all(|p| p.x.abs() <= MAX_COORDINATE_M && p.y.abs() <= MAX_COORDINATE_M)
 }

@@ -133,9 +133,9 @@ mod tests {
     fn export(width: u32, height: u32) -> PictureRequest {
         let scene = Scene::new(Arc::new(lanes(1)), &SceneOptions::default()).unwrap();
         let size = FrameSize::new(width, height).unwrap();
-        let mut grid = guideway_scene::Sheet::default();
-        grid.add_rectangle(Rgba::BLACK, Point::new(1.0, 2.0), Point::new(3.0, 4.0));
-        PictureRequest {
+        let mut grid = guideway_scene::DrawList::default();
+        grid.fill_rectangle(Rgba::BLACK, Point::new(1.0, 2.0), Point::new(3.0, 4.0));
+        Export {
             scene: Arc::new(scene),
             others: Vec::new(),
             view: View::new(size, Point::new(5.0, 6.0), 20.0).unwrap(),
@@ -156,7 +156,7 @@ mod tests {
             (40_000, 30_000)
         );
         assert_eq!(large.view.world_bounds(), small.view.world_bounds());
-        let corner = large.grid.areas[0].1[0][2];
+        let corner = large.grid.fills[0].polygons[0][2];
         assert_eq!(corner, Point::new(300.0, 400.0));
         let too_tall = enlarged(export(100, 300), 65_535)
             .err()

@@ -1,6 +1,6 @@
 use eframe::egui::Modifiers;
-use guideway_document::marks::{Handle, handles};
-use guideway_document::{Combine, Document, Hit, PointRef, Rows, Snap, round_step};
+use guideway_document::decorations::{Handle, handles};
+use guideway_document::{Document, Hit, PathSet, PointRef, SelectMode, SnapOptions, round_step};
 use guideway_scene::View;
 use guideway_spline::{Affine, Bounds, Point};
 
@@ -211,7 +211,7 @@ impl App {
             Tool::Select | Tool::Points => {
                 let hit = self.pick(at_px, usize::MAX);
                 let hit = hit.map(|hit| self.other_of_pair(hit));
-                let rows: Rows = hit.iter().map(|hit| hit.path).collect();
+                let rows: PathSet = hit.iter().map(|hit| hit.path).collect();
                 let how = combine(modifiers);
                 self.change(move |document| document.select(rows, how));
             }
@@ -231,7 +231,7 @@ impl App {
             let document = self.document()?;
             let selected = document.selection();
             let is_only = selected.len() == 1 && selected.contains(hit.path);
-            is_only.then(|| document.twin_of(&hit, MOST_HOVERED))?
+            is_only.then(|| document.reverse_path_at(&hit, MOST_HOVERED))?
         };
         Hit {
             path: twin().unwrap_or(hit.path),
@@ -302,7 +302,7 @@ impl App {
             Gesture::Node { node, from_m, .. } => (Some(*from_m), Some(*node)),
             _ => (None, None),
         };
-        let snap = Snap {
+        let snap = SnapOptions {
             node_reach_m: Some(REACH_PX / view.px_per_m()),
             moving_node,
             grid_m: self.snaps_to_grid.then(|| grid_step_m(view)),
@@ -323,10 +323,10 @@ impl App {
             return by_m;
         }
         let zero = Point::new(0.0, 0.0);
-        let snap = Snap {
+        let snap = SnapOptions {
             grid_m: self.snaps_to_grid.then(|| grid_step_m(view)),
             directions: modifiers.shift.then_some(DIRECTIONS),
-            ..Snap::default()
+            ..SnapOptions::default()
         };
         self.document()
             .map_or(by_m, |document| document.snap(&snap, by_m, Some(zero)))
@@ -362,13 +362,13 @@ pub(crate) fn grid_step_m(view: &View) -> f64 {
     round_step(LEAST_PX / view.px_per_m())
 }
 
-fn combine(modifiers: Modifiers) -> Combine {
+fn combine(modifiers: Modifiers) -> SelectMode {
     if modifiers.shift {
-        Combine::Add
+        SelectMode::Add
     } else if modifiers.alt || modifiers.command {
-        Combine::Remove
+        SelectMode::Remove
     } else {
-        Combine::Replace
+        SelectMode::Replace
     }
 }
 

@@ -4,7 +4,7 @@ use std::sync::mpsc::TryRecvError;
 use std::time::Duration;
 
 use eframe::egui::{Context, TextureHandle, TextureOptions};
-use guideway_document::{Combine, Document, Replayed, Rows};
+use guideway_document::{Document, PathSet, ReplayProgress, SelectMode};
 use guideway_scene::{Report, View};
 use guideway_scene::{Scene, SceneError, SceneOptions};
 use guideway_spline::Bounds;
@@ -47,7 +47,7 @@ pub(crate) struct Layer {
     /// Other colors on their way.
     coloring: Option<Task<Result<Scene, SceneError>>>,
     /// What a query asks for, and what the selection does with it.
-    selecting: Option<(Task<Rows>, Combine)>,
+    selecting: Option<(Task<PathSet>, SelectMode)>,
     renderer: Renderer,
     /// Whether the renderer waits for a scene that was not there when it asked.
     owes_scene: bool,
@@ -311,7 +311,7 @@ impl Layer {
     fn take_document(
         &mut self,
         mut document: Document,
-        done: Option<Replayed>,
+        done: Option<ReplayProgress>,
         news: &mut Vec<LayerNews>,
     ) {
         self.is_read_again = false;
@@ -334,7 +334,7 @@ impl Layer {
         }
         // What was done again before is in the scene that the renderer gets.
         let orders = self.renderer.orders();
-        document.tell(move |edit| orders.edit(edit.clone()));
+        document.on_edit(move |edit| orders.edit(edit.clone()));
         (self.overlay, self.away) = Default::default();
         let is_again = self.document.replace(Arc::new(document)).is_some();
         (self.findings, self.checking) = (None, None);

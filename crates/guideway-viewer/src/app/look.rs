@@ -1,4 +1,4 @@
-use guideway_document::marks::Kind;
+use guideway_document::decorations::MarkKind;
 use guideway_scene::density::ToneMap;
 use guideway_scene::{ColorBy, LineRule, Rgba, SceneOptions};
 use guideway_scene::{Shading, Style};
@@ -63,11 +63,11 @@ impl Look {
     }
 
     /// Color of a mark.
-    pub(crate) fn mark_color(&self, kind: Kind) -> Rgba {
+    pub(crate) fn mark_color(&self, kind: MarkKind) -> Rgba {
         match kind {
-            Kind::Arrow => self.mark_ink(),
-            Kind::Node => Rgba::opaque(0, 140, 90),
-            Kind::Station => Rgba::opaque(200, 40, 120),
+            MarkKind::Arrow => self.mark_ink(),
+            MarkKind::Node => Rgba::opaque(0, 140, 90),
+            MarkKind::Station => Rgba::opaque(200, 40, 120),
         }
     }
 

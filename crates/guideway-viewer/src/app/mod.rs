@@ -20,7 +20,7 @@ use std::thread;
 use std::time::Duration;
 
 use eframe::egui::{ColorImage, Context, Pos2, ViewportCommand};
-use guideway_document::{Document, Found, Hit};
+use guideway_document::{Document, Element, Hit};
 
 pub(crate) use self::drawing::Drawing;
 pub(crate) use self::files::{Prompt, PromptKind};
@@ -96,9 +96,9 @@ pub(crate) const FIRST_PATIENCE: Duration = Duration::from_millis(700);
 #[derive(Default)]
 pub(crate) struct Find {
     pub(crate) text: String,
-    pub(crate) found: Vec<Found>,
+    pub(crate) found: Vec<Element>,
     /// The search under way, which brings what is found next.
-    pub(crate) search: Option<Task<Vec<Found>>>,
+    pub(crate) search: Option<Task<Vec<Element>>>,
     /// Whether to go to the first that is found.
     pub(crate) goes_there: bool,
     pub(crate) query: String,
@@ -302,14 +302,14 @@ impl App {
     }
 
     /// Looks at something of the document.
-    pub(crate) fn fly_to(&mut self, what: Found) {
+    pub(crate) fn fly_to(&mut self, what: Element) {
         let Some(document) = self.document() else {
             return;
         };
         if let Some(bounds) = document.bounds_of(what) {
             self.camera.fly_to(bounds);
         }
-        if let Found::Path(path) = what {
+        if let Element::Path(path) = what {
             self.change(move |document| {
                 document.select([path].into_iter().collect(), Default::default());
             });

@@ -4,7 +4,7 @@ use std::sync::mpsc::Receiver;
 use std::time::{Duration, Instant};
 
 use guideway_document::Document;
-use guideway_document::marks::{MarkOptions, Marks, Outline, marks, outline};
+use guideway_document::decorations::{MarkOptions, Marks, Outline, marks, outline};
 use guideway_scene::View;
 
 use crate::work::Wake;

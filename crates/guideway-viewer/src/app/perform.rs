@@ -1,7 +1,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use eframe::egui::Context;
-use guideway_document::{Combine, Document, Rows};
+use guideway_document::{Document, PathSet, SelectMode};
 use guideway_spline::{Affine, Point};
 
 use super::command::Command;
@@ -19,7 +19,7 @@ pub(crate) fn leave_field(ctx: &Context) {
 }
 
 fn select_none(document: &mut Document) {
-    document.select(Rows::new(), Combine::Replace);
+    document.select(PathSet::new(), SelectMode::Replace);
 }
 
 impl App {

@@ -1,9 +1,9 @@
 //! What lies below and over the paths of a picture, for its export: the same as on the screen.
 
-use guideway_document::marks::{LabelSize, MarkOptions, Marks, marks};
+use guideway_document::decorations::{LabelSize, MarkOptions, Marks, marks};
 use guideway_document::{grid_lines_px, round_step};
 use guideway_scene::Rgba;
-use guideway_scene::{Sheet, Text, View};
+use guideway_scene::{DrawList, TextLine, View};
 use guideway_spline::Point;
 
 use super::App;
@@ -25,7 +25,7 @@ impl App {
     fn label_size(&self) -> LabelSize {
         let points = f64::from(LABEL_POINTS) * self.px_per_point;
         LabelSize {
-            char_px: points * Text::CHAR_SHARE,
+            char_px: points * TextLine::CHAR_ASPECT,
             line_px: points * 1.2,
         }
     }
@@ -42,8 +42,8 @@ impl App {
     }
 
     /// The grid of a view, if it is shown.
-    pub(super) fn grid_sheet(&self, view: &View) -> Sheet {
-        let mut sheet = Sheet::default();
+    pub(super) fn grid_sheet(&self, view: &View) -> DrawList {
+        let mut sheet = DrawList::default();
         if !self.look.has_grid {
             return sheet;
         }
@@ -53,18 +53,18 @@ impl App {
         let [x_px, y_px] = grid_lines_px(view, GRID_LEAST_PX);
         for x in x_px {
             let (left, right) = (x - width_px / 2.0, x + width_px / 2.0);
-            sheet.add_rectangle(ink, Point::new(left, 0.0), Point::new(right, end.y));
+            sheet.fill_rectangle(ink, Point::new(left, 0.0), Point::new(right, end.y));
         }
         for y in y_px {
             let (top, bottom) = (y - width_px / 2.0, y + width_px / 2.0);
-            sheet.add_rectangle(ink, Point::new(0.0, top), Point::new(end.x, bottom));
+            sheet.fill_rectangle(ink, Point::new(0.0, top), Point::new(end.x, bottom));
         }
         sheet
     }
 
     /// Arrows, symbols, names and the scale bar of a view.
-    pub(super) fn marks_sheet(&self, view: &View) -> Sheet {
-        let mut sheet = Sheet::default();
+    pub(super) fn marks_sheet(&self, view: &View) -> DrawList {
+        let mut sheet = DrawList::default();
         let options = self.mark_options();
         let layer = self.layers.get(self.active).filter(|l| l.is_visible);
         if let Some(document) = layer.and_then(|layer| layer.document.as_ref()) {
@@ -74,37 +74,38 @@ impl App {
         sheet
     }
 
-    fn add_marks(&self, sheet: &mut Sheet, marks: &Marks) {
-        let add = |kind, corners: &[Point<f64>]| sheet.add(self.look.mark_color(kind), corners);
+    fn add_marks(&self, sheet: &mut DrawList, marks: &Marks) {
+        let add =
+            |kind, corners: &[Point<f64>]| sheet.fill_polygon(self.look.mark_color(kind), corners);
         marks.draw_shapes(self.px_per_point, |at| at, add);
         for label in &marks.labels {
-            sheet.texts.push(Text {
+            sheet.texts.push(TextLine {
                 text: label.text.clone(),
-                at_px: label.at_px,
-                char_px: self.label_size().char_px,
-                ink: self.look.mark_ink(),
-                paper: faded(self.look.paper(), LABEL_PAPER_OPACITY),
+                left_middle_px: label.at_px,
+                char_width_px: self.label_size().char_px,
+                color: self.look.mark_ink(),
+                background: faded(self.look.paper(), LABEL_PAPER_OPACITY),
             });
         }
     }
 
-    fn add_scale(&self, sheet: &mut Sheet, view: &View) {
+    fn add_scale(&self, sheet: &mut DrawList, view: &View) {
         let (point_px, ink) = (self.px_per_point, self.look.mark_ink());
         let bar = scale_bar(view);
         let left = Point::new(0.0, f64::from(view.size().height())) + SCALE_LEFT * point_px;
         let right = left + Point::new(bar.length_px, 0.0);
         let thick = Point::new(point_px, point_px);
-        sheet.add_rectangle(ink, left - thick, right + thick);
+        sheet.fill_rectangle(ink, left - thick, right + thick);
         for end in [left, right] {
             let top = Point::new(0.0, SCALE_END * point_px);
-            sheet.add_rectangle(ink, end - thick - top, end + thick);
+            sheet.fill_rectangle(ink, end - thick - top, end + thick);
         }
-        sheet.texts.push(Text {
+        sheet.texts.push(TextLine {
             text: length_text(bar.length_m),
-            at_px: left + SCALE_TEXT * point_px,
-            char_px: self.label_size().char_px,
-            ink,
-            paper: faded(self.look.paper(), 0.0),
+            left_middle_px: left + SCALE_TEXT * point_px,
+            char_width_px: self.label_size().char_px,
+            color: ink,
+            background: faded(self.look.paper(), 0.0),
         });
     }
 }

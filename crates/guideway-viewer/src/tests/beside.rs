@@ -6,7 +6,7 @@ use std::time::Duration;
 use eframe::egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable;
 use guideway_document::Document;
-use guideway_document::marks::outline;
+use guideway_document::decorations::outline;
 use guideway_spline::Point;
 
 use super::desk::Desk;
@@ -103,7 +103,7 @@ fn edits_that_take_longer_than_a_frame_are_done_beside_the_window_in_order() {
         assert!(notices.iter().any(is_told), "{notices:?}");
         let document = desk.document();
         assert_eq!(document.scene().draw_order().len(), 200);
-        assert_eq!(document.steps(), (None, Some("delete")));
+        assert_eq!(document.undo_redo_names(), (None, Some("delete")));
         assert!(!document.is_changed());
     }
     desk.wait(|app| {
@@ -134,7 +134,7 @@ fn what_lies_over_the_picture_is_made_beside_the_window_too() {
         desk.wait(|app| app.layers[0].is_settled());
         let view = desk.app().camera.view().unwrap();
         let document = desk.document();
-        assert!(!document.is_changed() && document.steps().1 == Some("delete"));
+        assert!(!document.is_changed() && document.undo_redo_names().1 == Some("delete"));
         let selected = outline(document, document.selection(), &view);
         let made = desk.app().layers[0].overlay.last().unwrap();
         assert!(made.view == view && made.selection == selected);
@@ -225,12 +225,10 @@ fn an_exported_picture_has_all_that_is_seen() {
         (e.scene.path_count(), others.collect::<Vec<_>>())
     };
     assert_eq!(counts(&all), (3, vec![2]));
-    assert_eq!(all.floor_plan.as_ref().unwrap().bounds().unwrap().min, hall);
-    let vehicle = "2x1.2".parse().unwrap();
-    let rows = vec![0, 1, 2];
-    assert_eq!(all.swept, Some(SweptAreas { vehicle, rows }));
-    assert!(!all.grid.areas.is_empty());
-    let names = |e: &PictureRequest| e.marks.texts.iter().any(|text| text.text == "lane 2");
+    assert_eq!(all.floor_plan.as_deref(), Some("hall.png@px-per-m=20"));
+    assert_eq!(all.swept, Some(("2x1.2".to_owned(), vec![0, 1, 2])));
+    assert!(!all.grid.fills.is_empty());
+    let names = |e: &Export| e.marks.texts.iter().any(|text| text.text == "lane 2");
     assert!(names(&all));
 
     desk.key(NONE, Key::PageDown);
@@ -243,8 +241,8 @@ fn an_exported_picture_has_all_that_is_seen() {
     }
     let bare = export(&mut desk);
     assert_eq!(counts(&bare), (2, vec![]));
-    assert!(bare.floor_plan.is_none() && bare.swept.is_none());
-    assert!(bare.grid.areas.is_empty() && !names(&bare));
+    assert_eq!((bare.floor_plan.clone(), bare.swept.clone()), (None, None));
+    assert!(bare.grid.fills.is_empty() && !names(&bare));
 }
 
 #[test]

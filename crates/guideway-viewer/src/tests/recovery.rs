@@ -48,7 +48,7 @@ impl Crashed {
         let mut document = Document::new(lanes(4).into(), &Default::default()).unwrap();
         let found = Recovery::of(&site).found(&site).unwrap();
         let done = found.do_again(&mut document, &Job::default());
-        done.unwrap().acts
+        done.unwrap().entries
     }
 
     fn set_slow(&self, is_slow: bool) {

@@ -8,8 +8,8 @@ use guideway_cpu::Cpu;
 use guideway_envelope::Source;
 use guideway_layout::{Layout, NewPath, Value};
 use guideway_scene::{
-    Budget, Cancel, Edited, Frame, Method, MethodInfo, Preparation, Prepared, RenderError, Report,
-    Style, View,
+    Budget, Cancel, EditOutcome, Frame, Method, MethodInfo, Preparation, Prepared, RenderError,
+    Report, Style, View,
 };
 use guideway_scene::{Edit, Scene};
 use guideway_spline::{Bounds, Point, Runs};
@@ -302,7 +302,7 @@ impl Prepared for OnDevice {
         })
     }
 
-    fn edit(&mut self, edit: &Edit) -> Result<Edited, RenderError> {
+    fn edit(&mut self, edit: &Edit) -> Result<EditOutcome, RenderError> {
         self.check()?;
         self.prepared.edit(edit)
     }

@@ -62,7 +62,7 @@ impl App {
     fn menu(&mut self, menu: &str, ui: &mut Ui) {
         let steps = self
             .document()
-            .map_or((None, None), |document| document.steps());
+            .map_or((None, None), |document| document.undo_redo_names());
         let mut seen = Vec::new();
         for entry in ENTRIES.iter().filter(|entry| entry.menu == menu) {
             // A command with two keys is listed once.

@@ -1,6 +1,6 @@
 use eframe::egui::{FontId, Painter, Pos2, Stroke, Vec2};
+use guideway_document::decorations::path_outline;
 use guideway_document::drawn_path;
-use guideway_document::marks::path_outline;
 use guideway_document::measure::{Bend, bends, length_m, tightest_radius_m};
 use guideway_layout::PathRef;
 use guideway_scene::View;

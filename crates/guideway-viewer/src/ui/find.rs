@@ -1,5 +1,5 @@
 use eframe::egui::{Key, TextEdit, Ui};
-use guideway_document::{Combine, Found, search};
+use guideway_document::{Element, SelectMode, search};
 
 use crate::app::{App, Layer};
 use crate::work::task::Task;
@@ -26,9 +26,9 @@ impl App {
             let layout = document.layout();
             for &what in &self.find.found {
                 let kind = match what {
-                    Found::Path(_) => "path",
-                    Found::Node(_) => "node",
-                    Found::Station(_) => "station",
+                    Element::Path(_) => "path",
+                    Element::Node(_) => "node",
+                    Element::Station(_) => "station",
                 };
                 // A row that came with a file that was read again may be no more.
                 if is_there(what, layout)
@@ -46,13 +46,13 @@ impl App {
             TextEdit::singleline(&mut self.find.query).hint_text("maxSpeed > 1 and id ~ dock");
         let field = ui.add(field).labelled_by(name.id);
         if field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter)) {
-            self.select_where(Combine::Replace);
+            self.select_where(SelectMode::Replace);
         }
         ui.horizontal(|ui| {
             for (label, how) in [
-                ("Select these", Combine::Replace),
-                ("Add these", Combine::Add),
-                ("Take these away", Combine::Remove),
+                ("Select these", SelectMode::Replace),
+                ("Add these", SelectMode::Add),
+                ("Take these away", SelectMode::Remove),
             ] {
                 if ui.button(label).clicked() {
                     self.select_where(how);
@@ -89,7 +89,7 @@ impl App {
         }
         if self.find.search.is_none() && std::mem::take(&mut self.find.goes_there) {
             let first = self.find.found.first().copied();
-            let is_there = |what: &Found| {
+            let is_there = |what: &Element| {
                 self.document()
                     .is_some_and(|document| is_there(*what, document.layout()))
             };
@@ -99,17 +99,17 @@ impl App {
         }
     }
 
-    fn select_where(&mut self, how: Combine) {
+    fn select_where(&mut self, how: SelectMode) {
         let layer = self.layers.get_mut(self.active);
         let outcome = layer.map(|layer| layer.select_where(&self.find.query, how, &self.wake));
         self.find.query_trouble = outcome.and_then(Result::err).map(|error| error.to_string());
     }
 }
 
-fn is_there(what: Found, layout: &guideway_layout::Layout) -> bool {
+fn is_there(what: Element, layout: &guideway_layout::Layout) -> bool {
     match what {
-        Found::Path(row) => (row as usize) < layout.paths.len(),
-        Found::Node(row) => (row as usize) < layout.nodes.len(),
-        Found::Station(row) => (row as usize) < layout.stations.len(),
+        Element::Path(row) => (row as usize) < layout.paths.len(),
+        Element::Node(row) => (row as usize) < layout.nodes.len(),
+        Element::Station(row) => (row as usize) < layout.stations.len(),
     }
 }

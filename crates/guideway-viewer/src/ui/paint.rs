@@ -2,8 +2,8 @@ use eframe::egui::{
     Align2, Color32, FontId, Mesh, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, TextureHandle,
     Ui, Vec2, pos2,
 };
-use guideway_document::marks::{Marks, Outline, handles, outline};
-use guideway_document::{Rows, grid_lines_px};
+use guideway_document::decorations::{Marks, Outline, handles, outline};
+use guideway_document::{PathSet, grid_lines_px};
 use guideway_scene::Rgba;
 use guideway_scene::View;
 use guideway_spline::Point;
@@ -98,7 +98,7 @@ impl App {
             });
         }
         if let (Some(hit), Some(document)) = (hovered, document) {
-            let lines = outline(document, &Rows::from_iter([hit.path]), view);
+            let lines = outline(document, &PathSet::from_iter([hit.path]), view);
             paint_outline(painter, &lines, outlined(HOVERED), |pixel| {
                 screen.point(pixel)
             });
@@ -274,7 +274,11 @@ pub(super) fn write_on_paper(
     painter.galley(corner, galley, ink);
 }
 
-fn paint_handles(painter: &Painter, screen: Screen, handles: &[guideway_document::marks::Handle]) {
+fn paint_handles(
+    painter: &Painter,
+    screen: Screen,
+    handles: &[guideway_document::decorations::Handle],
+) {
     for [before, after] in handles.array_windows() {
         if after.follows {
             let ends = [before, after].map(|handle| screen.point(handle.at_px));

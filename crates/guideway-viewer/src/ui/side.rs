@@ -118,7 +118,7 @@ impl App {
 
     /// The path that leads back on the one under the pointer.
     fn way_back(&self, document: &Document) -> Option<u32> {
-        document.twin_of(self.hovered()?, MOST_HOVERED)
+        document.reverse_path_at(self.hovered()?, MOST_HOVERED)
     }
 
     fn selection(&mut self, ui: &mut Ui) {

@@ -5,7 +5,7 @@ use std::sync::mpsc::{self, Receiver, Sender, TryIter};
 use std::thread;
 use std::time::Duration;
 
-use guideway_document::{Document, Replayed};
+use guideway_document::{Document, ReplayProgress};
 use guideway_layout::CheckOptions;
 use guideway_scene::{Scene, SceneOptions};
 
@@ -32,7 +32,7 @@ pub(crate) enum Loaded {
     /// It can be drawn.
     Scene(Arc<Scene>),
     /// It can be edited; how much of the work that was found is done again.
-    Document(Box<Document>, Option<Replayed>),
+    Document(Box<Document>, Option<ReplayProgress>),
     /// What is odd in it.
     Findings(Findings),
     /// There is nothing, and this is why.

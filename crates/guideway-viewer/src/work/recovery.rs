@@ -3,7 +3,7 @@ use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::time::UNIX_EPOCH;
 
-use guideway_document::{Act, Document, Replayed, replay};
+use guideway_document::{Document, JournalEntry, ReplayProgress, replay};
 
 use crate::services::{Job, WINDOW_ERROR};
 use guideway_layout::UserError;
@@ -101,7 +101,7 @@ impl Recovery {
     ///
     /// # Errors
     /// When the journal cannot be written.
-    pub(crate) fn go_on(&mut self, done: Replayed, layout_file: &Path) -> io::Result<bool> {
+    pub(crate) fn go_on(&mut self, done: ReplayProgress, layout_file: &Path) -> io::Result<bool> {
         let end = (HEADER_BYTES + done.bytes) as u64;
         let mut file = OpenOptions::new()
             .read(true)
@@ -128,7 +128,7 @@ impl Recovery {
         if self.has_found {
             return Ok(());
         }
-        let acts = document.take_acts();
+        let acts = document.take_journal_entries();
         if acts.is_empty() {
             return Ok(());
         }
@@ -136,7 +136,7 @@ impl Recovery {
             Some(file) => file,
             none => none.insert(begin(&self.journal, layout_file)?),
         };
-        let records: Vec<u8> = acts.iter().flat_map(Act::to_record).collect();
+        let records: Vec<u8> = acts.iter().flat_map(JournalEntry::to_record).collect();
         file.write_all(&records)
     }
 
@@ -202,29 +202,35 @@ impl Found {
         &self,
         document: &mut Document,
         job: &Job,
-    ) -> Result<Replayed, UserError> {
-        let (saved, acts) = self.acts().map_err(|problem| UserError {
-            code: WINDOW_ERROR,
+    ) -> Result<ReplayProgress, Trouble> {
+        let (saved, acts) = self.acts().map_err(|problem| Trouble {
             message: format!("{} cannot be read: {problem}", self.journal.display()),
             remedy: "Make it readable and try again, or forget the work in it".into(),
         })?;
-        let follow = |document: &mut Document, from: Replayed, end: usize| {
+        let follow = |document: &mut Document, from: ReplayProgress, end: usize| {
             let done = replay(&acts[from.bytes..end], document, |done| {
                 job.advance((from.bytes + done.bytes) as u64, acts.len() as u64);
                 !job.is_cancelled()
             });
-            Replayed {
-                acts: from.acts + done.acts,
+            ReplayProgress {
+                entries: from.entries + done.entries,
                 bytes: from.bytes + done.bytes,
             }
         };
-        let mut done = follow(document, Replayed { acts: 0, bytes: 0 }, saved);
+        let mut done = follow(
+            document,
+            ReplayProgress {
+                entries: 0,
+                bytes: 0,
+            },
+            saved,
+        );
         if done.bytes == saved {
-            document.set_saved();
+            document.mark_saved();
             done = follow(document, done, acts.len());
         }
         // They are in the journal.
-        document.take_acts();
+        document.take_journal_entries();
         if job.is_cancelled() {
             return Err(UserError {
                 code: WINDOW_ERROR,

@@ -5,7 +5,8 @@ use std::time::Instant;
 
 use eframe::egui::{Color32, ColorImage};
 use guideway_scene::{
-    Budget, Cancel, Edited, Frame, Method, Prepared, RenderError, Report, Style, View, elapsed_ms,
+    Budget, Cancel, EditOutcome, Frame, Method, Prepared, RenderError, Report, Style, View,
+    elapsed_ms,
 };
 use guideway_scene::{Edit, Scene};
 
@@ -284,7 +285,7 @@ impl Worker {
             Order::Edit(edit) => {
                 let is_done = match (&mut self.prepared, &mut self.scene) {
                     (Some(prepared), _) => {
-                        matches!(prepared.edit(&edit), Ok(Edited::InPlace { .. }))
+                        matches!(prepared.edit(&edit), Ok(EditOutcome::InPlace { .. }))
                     }
                     (None, Some(scene)) => Arc::make_mut(scene).edit(&edit).is_ok(),
                     (None, None) => false,

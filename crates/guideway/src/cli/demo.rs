@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use guideway::formats::{ReadOptions, read_bytes};
-use guideway::render::{Budget, FrameSize, Sheet, Style};
+use guideway::render::{Budget, DrawList, FrameSize, Style};
 use guideway::save_png_by;
 use guideway::scene::{ColorBy, Legend, LineRule, Scene, SceneOptions};
 use serde_json::json;
@@ -50,7 +50,7 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, Failure> {
         },
         has_legend: false,
         budget: Budget::default(),
-        marks: Sheet::default(),
+        marks: DrawList::default(),
     };
     let scene = Arc::new(Scene::new(Arc::new(layout), &wishes.scene)?);
     let method = guideway::method("cpu")?;

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use guideway_document::{Combine, Query, QueryError};
+use guideway_document::{Query, QueryError, SelectMode};
 use guideway_layout::CheckOptions;
 use guideway_scene::{Scene, SceneOptions};
 
@@ -35,7 +35,7 @@ impl Layer {
     pub(crate) fn select_where(
         &mut self,
         query: &str,
-        how: Combine,
+        how: SelectMode,
         wake: &Wake,
     ) -> Result<(), QueryError> {
         if let Some(document) = &self.document {
@@ -93,7 +93,7 @@ impl Layer {
         self.coloring = None;
         match colored {
             Ok(Ok(scene)) => {
-                if document.take_colors(scene) {
+                if document.adopt_colors(scene) {
                     self.send_scene();
                 } else {
                     // The layout has changed since.

@@ -116,7 +116,7 @@ impl Layer {
                 return (both, vec![trouble]);
             };
             if let Some(copy) = copy {
-                document.take_copy(copy);
+                document.adopt_copy(copy);
             }
             let outcomes = all.into_iter().map(|Work(work)| work(document, journal));
             let mut troubles: Vec<String> = outcomes.filter_map(Result::err).collect();

@@ -4,7 +4,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use guideway_document::{Document, Replayed, Saved, Snapshot};
+use guideway_document::{Document, ReplayProgress, SavedState, Snapshot};
 use guideway_scene::SceneOptions;
 
 use super::{Layer, LayerNews, PATIENCE, Work};
@@ -20,7 +20,7 @@ pub(crate) struct Journal {
     /// None until there is a document, or where it cannot be written.
     recovery: Option<Recovery>,
     /// What was saved before that which is being saved. Meanwhile nothing is written: it would be of neither state.
-    saving: Option<Saved>,
+    saving: Option<SavedState>,
 }
 
 impl Journal {
@@ -107,9 +107,9 @@ impl Layer {
     }
 
     /// Writes down from here on what follows the work that was done again. Says how much that was.
-    pub(super) fn go_on(&mut self, done: Replayed) -> Option<LayerNews> {
+    pub(super) fn go_on(&mut self, done: ReplayProgress) -> Option<LayerNews> {
         let recovery = self.journal.recovery.as_mut()?;
-        let steps = match done.acts {
+        let steps = match done.entries {
             1 => "1 step is done again".to_owned(),
             acts => format!("{acts} steps are done again"),
         };
@@ -157,7 +157,7 @@ impl Layer {
         }
         let document = self.document_mut()?;
         let snapshot = document.snapshot();
-        let before = document.set_saved();
+        let before = document.mark_saved();
         self.is_saving = true;
         let unwritten = self.record();
         // From here on it may differ from what is written.
@@ -188,7 +188,7 @@ impl Layer {
             }
             None => Work::with_journal(|document, journal| {
                 if let Some(before) = journal.saving.take() {
-                    document.set_saved_as_before(before);
+                    document.restore_saved(before);
                 }
                 Ok(())
             }),

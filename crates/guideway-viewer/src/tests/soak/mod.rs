@@ -346,7 +346,7 @@ fn an_undo_that_is_not_written_down_is_caught() {
     soak.desk.harness.step();
     soak.save().unwrap();
     soak.desk.document().undo();
-    soak.desk.document().take_acts();
+    soak.desk.document().take_journal_entries();
     let caught = soak.save().unwrap_err();
     assert!(caught.contains("not what was done"), "{caught}");
 }
@@ -362,7 +362,7 @@ fn an_undo_that_does_something_else_is_caught() {
     // What the journal does not know of, as if undoing had put a node aside.
     let aside = guideway_spline::Point::new(0.0, 0.5);
     soak.desk.document().move_node(0, aside).unwrap();
-    soak.desk.document().take_acts();
+    soak.desk.document().take_journal_entries();
     let caught = soak.save().unwrap_err();
     assert!(caught.contains("not what was done"), "{caught}");
 }

@@ -3,7 +3,7 @@ use std::thread;
 use std::time::Duration;
 
 use eframe::egui::{Key, Modifiers};
-use guideway_document::{Combine, Document};
+use guideway_document::{Document, SelectMode};
 
 use super::Soak;
 
@@ -12,7 +12,7 @@ fn a_save_that_ends_while_an_edit_is_done_loses_nothing() {
     let mut soak = Soak::new(3);
     soak.desk.app().patience = Duration::ZERO;
     let delete_one = |document: &mut Document, row: u32| {
-        document.select([row].into_iter().collect(), Combine::Replace);
+        document.select([row].into_iter().collect(), SelectMode::Replace);
         document.delete_selection()
     };
     soak.desk

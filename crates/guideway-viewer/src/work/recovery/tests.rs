@@ -29,7 +29,7 @@ fn files(folder: &tempfile::TempDir) -> usize {
 }
 
 /// Does again what is found, as a viewer does that is started anew.
-fn done_again(site: &Path) -> (Recovery, Found, Replayed, Document) {
+fn done_again(site: &Path) -> (Recovery, Found, ReplayProgress, Document) {
     let recovery = Recovery::of(site);
     let found = recovery.found(site).unwrap();
     let mut recovered = document();
@@ -42,7 +42,7 @@ fn work_is_found_after_a_crash_and_only_with_the_same_file() {
     let (_folder, site, edited, recovery) = edited();
     drop(recovery);
     let (mut recovery, found, done, mut recovered) = done_again(&site);
-    assert_eq!((done.acts, found.file), (3, site.clone()));
+    assert_eq!((done.entries, found.file), (3, site.clone()));
     assert_eq!(recovered.scene().draw_order().len(), 4);
     assert_eq!(recovered.node_position_m(0), edited.node_position_m(0));
     assert!(recovery.go_on(done, &site).unwrap());
@@ -51,7 +51,7 @@ fn work_is_found_after_a_crash_and_only_with_the_same_file() {
     // It crashes once more.
     drop(recovery);
     let (_, _, done, recovered) = done_again(&site);
-    assert_eq!(done.acts, 4);
+    assert_eq!(done.entries, 4);
     assert_eq!(recovered.node_position_m(0), edited.node_position_m(0));
     assert_eq!(recovered.node_position_m(2), Point::new(3.0, 3.0));
     fs::write(&site, "another layout").unwrap();
@@ -78,7 +78,7 @@ fn work_after_saving_is_found_with_the_file_as_it_was_read() {
         drop(recovery);
         let (_, found, done, recovered) = done_again(&target);
         assert_eq!(fs::read_to_string(found.file).unwrap(), "as it was read");
-        assert_eq!(done.acts, 4);
+        assert_eq!(done.entries, 4);
         assert_eq!(recovered.node_position_m(1), Point::new(2.0, 2.0));
     }
 }
@@ -100,7 +100,7 @@ fn what_is_done_after_saving_it_unchanged_is_found_with_the_file_as_it_was_read(
         drop(recovery);
         let (mut recovery, found, done, _) = done_again(&target);
         assert_eq!(fs::read_to_string(found.file).unwrap(), "as it was read");
-        assert_eq!(done.acts, 1);
+        assert_eq!(done.entries, 1);
         recovery.clear();
         assert_eq!(files(&folder), if site == target { 1 } else { 2 });
     }
@@ -133,7 +133,7 @@ fn what_a_crash_cut_off_is_told_of_and_is_in_nobodys_way() {
     let bytes = fs::read(&journal).unwrap();
     fs::write(&journal, &bytes[..bytes.len() - 1]).unwrap();
     let (mut recovery, _, done, mut recovered) = done_again(&site);
-    assert_eq!(done.acts, 3);
+    assert_eq!(done.entries, 3);
     assert!(!recovery.go_on(done, &site).unwrap());
     recovered.move_node(1, Point::new(4.0, 4.0)).unwrap();
     recovery.record(&mut recovered, &site).unwrap();
@@ -156,13 +156,13 @@ fn work_stays_until_it_is_decided_about() {
     let mut other = document();
     other.move_node(3, Point::new(5.0, 5.0)).unwrap();
     recovery.record(&mut other, &site).unwrap();
-    assert_eq!(done_again(&site).2.acts, 3);
+    assert_eq!(done_again(&site).2.entries, 3);
     // What was done before it is forgotten takes its place then.
     recovery.clear();
     recovery.record(&mut other, &site).unwrap();
     drop(recovery);
     let (_, _, done, recovered) = done_again(&site);
-    assert_eq!(done.acts, 1);
+    assert_eq!(done.entries, 1);
     assert_eq!(recovered.node_position_m(3), Point::new(5.0, 5.0));
 }
 

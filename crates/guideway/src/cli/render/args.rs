@@ -4,7 +4,7 @@ use clap::ValueEnum;
 use guideway::AUTO;
 use guideway::envelope::Source;
 use guideway::render::density::ToneMap;
-use guideway::render::{Budget, FrameSize, Shading, Sheet, Style};
+use guideway::render::{Budget, DrawList, FrameSize, Shading, Style};
 use guideway::scene::{ColorBy, LineRule, Rgba, SceneOptions};
 use guideway::spline::Point;
 
@@ -199,7 +199,7 @@ impl Args {
                 },
                 threads: self.resources.threads,
             },
-            marks: Sheet::default(),
+            marks: DrawList::default(),
         })
     }
 }

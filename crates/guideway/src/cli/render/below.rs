@@ -4,7 +4,7 @@ use std::sync::Arc;
 use guideway::cpu::Areas;
 use guideway::envelope::Source;
 use guideway::formats::svg::Page;
-use guideway::render::{Cancel, Frame, FrameSize, Method, Prepared, Sheet, Strip, Style, View};
+use guideway::render::{Cancel, DrawList, Frame, FrameSize, Method, Prepared, Strip, Style, View};
 use guideway::scene::{Rgba, Scene};
 use guideway::spline::Bounds;
 
@@ -18,7 +18,7 @@ use crate::cli::Failure;
 #[derive(Default)]
 pub(crate) struct Below {
     pub(crate) floor_plan: Option<FloorPlan>,
-    pub(crate) lines: Sheet,
+    pub(crate) lines: DrawList,
     pub(crate) envelope: Option<Source>,
     /// The paths that have areas; all that are drawn if unset.
     pub(crate) swept: Option<Vec<u32>>,
@@ -71,7 +71,7 @@ impl Seen<'_> {
         let ground = Ground {
             floor: floor.transpose()?,
             lines: Some(&self.below.lines)
-                .filter(|lines| **lines != Sheet::default())
+                .filter(|lines| **lines != DrawList::default())
                 .map(|lines| Laid::new(lines, view)),
             areas: self.swept.as_ref().map(Swept::areas),
             others: others.collect::<Result<_, _>>()?,

@@ -1,6 +1,6 @@
 //! What the colors of a picture mean, in its upper left corner.
 
-use guideway::render::{FrameSize, Sheet, Text};
+use guideway::render::{DrawList, FrameSize, TextLine};
 use guideway::scene::{Legend, LegendEntry, Rgba, Scene};
 use guideway::spline::Point;
 
@@ -21,27 +21,27 @@ const NOTHING: Rgba = Rgba {
 
 /// The legend of a scene as it lies on a picture, if one is wished for and there is room; and what is to be said if there is
 /// none.
-pub(super) fn wished(scene: &Scene, wishes: &Wishes) -> (Sheet, Option<String>) {
+pub(super) fn wished(scene: &Scene, wishes: &Wishes) -> (DrawList, Option<String>) {
     let legend = scene.legend().filter(|_| wishes.has_legend);
     match legend.map(|legend| sheet(legend, wishes.size)) {
-        None => (Sheet::default(), None),
+        None => (DrawList::default(), None),
         Some(Some(sheet)) => (sheet, None),
         Some(None) => {
             let note = "the legend is larger than the picture, so it is only in this report";
-            (Sheet::default(), Some(note.to_owned()))
+            (DrawList::default(), Some(note.to_owned()))
         }
     }
 }
 
 /// None if it takes more room than there is.
-fn sheet(legend: &Legend, size: FrameSize) -> Option<Sheet> {
+fn sheet(legend: &Legend, size: FrameSize) -> Option<DrawList> {
     let (width, height) = (f64::from(size.width()), f64::from(size.height()));
     let line_px = match size.height() {
         0..1200 => 16.0,
         1200..2400 => 24.0,
         _ => 32.0,
     };
-    let char_px = line_px * Text::CHAR_SHARE;
+    let char_px = line_px * TextLine::CHAR_ASPECT;
     let (gap_px, swatch_px) = (line_px / 2.0, 2.0 * line_px);
     let title = text::plain(&legend.column, LABEL_CHARS);
     let labels: Vec<String> = legend.entries.iter().map(label).collect();
@@ -57,16 +57,16 @@ fn sheet(legend: &Legend, size: FrameSize) -> Option<Sheet> {
     if end.x + gap_px > width || end.y + gap_px > height {
         return None;
     }
-    let mut sheet = Sheet::default();
-    sheet.add_rectangle(PAPER, corner, end);
+    let mut sheet = DrawList::default();
+    sheet.fill_rectangle(PAPER, corner, end);
     let mut at_px = corner * 2.0 + Point::new(0.0, line_px / 2.0);
     let mut write = |text, at_px| {
-        sheet.texts.push(Text {
+        sheet.texts.push(TextLine {
             text,
-            at_px,
-            char_px,
-            ink: INK,
-            paper: NOTHING,
+            left_middle_px: at_px,
+            char_width_px: char_px,
+            color: INK,
+            background: NOTHING,
         });
     };
     write(title, at_px);
@@ -77,7 +77,7 @@ fn sheet(legend: &Legend, size: FrameSize) -> Option<Sheet> {
     }
     for (i, entry) in legend.entries.iter().enumerate() {
         let top = corner * 2.0 + Point::new(0.0, (i as f64 + 1.25) * line_px);
-        sheet.add_rectangle(entry.color, top, top + Point::new(swatch_px, line_px / 2.0));
+        sheet.fill_rectangle(entry.color, top, top + Point::new(swatch_px, line_px / 2.0));
     }
     Some(sheet)
 }

@@ -3,7 +3,7 @@ use std::time::Instant;
 
 use guideway::formats::Progress;
 use guideway::render::{
-    Budget, Cancel, Frame, FrameSize, Method, MethodInfo, RenderError, Report, Shading, Sheet,
+    Budget, Cancel, DrawList, Frame, FrameSize, Method, MethodInfo, RenderError, Report, Shading,
     Style, View, elapsed_ms,
 };
 use guideway::scene::{Rgba, Scene, SceneOptions};
@@ -28,7 +28,7 @@ pub(crate) struct Wishes {
     pub(crate) has_legend: bool,
     pub(crate) budget: Budget,
     /// What lies over the paths.
-    pub(crate) marks: Sheet,
+    pub(crate) marks: DrawList,
 }
 
 /// What became of every path of a picture.

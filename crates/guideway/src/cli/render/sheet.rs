@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use guideway::cpu::{Areas, lay_areas};
 use guideway::formats::svg::Page;
-use guideway::render::{Frame, Sheet, Strip, Text, View};
+use guideway::render::{DrawList, Frame, Strip, TextLine, View};
 use guideway::scene::Rgba;
 use guideway::spline::Point;
 use noto_sans_mono_bitmap::{
@@ -21,18 +21,18 @@ const LETTERS: RasterHeight = RasterHeight::Size32;
 /// A sheet that is ready to be laid over the strips of a view.
 pub(super) struct Laid<'s> {
     areas: Vec<(Rgba, Areas)>,
-    texts: &'s [Text],
+    texts: &'s [TextLine],
 }
 
 impl<'s> Laid<'s> {
-    pub(super) fn new(sheet: &'s Sheet, view: &View) -> Self {
-        let areas = sheet.areas.iter().map(|(color, polygons)| {
+    pub(super) fn new(sheet: &'s DrawList, view: &View) -> Self {
+        let areas = sheet.fills.iter().map(|fill| {
             let mut areas = Areas::default();
-            for polygon in polygons {
+            for polygon in &fill.polygons {
                 let corner = |&p| view.world_from_pixel(p);
                 areas.push(&polygon.iter().map(corner).collect::<Vec<_>>());
             }
-            (*color, areas)
+            (fill.color, areas)
         });
         Self {
             areas: areas.collect(),
@@ -57,25 +57,29 @@ impl<'s> Laid<'s> {
 }
 
 /// Writes it as a group of this name.
-pub(super) fn write(sheet: &Sheet, label: &str, page: &mut Page<'_, impl Write>) -> io::Result<()> {
-    if *sheet == Sheet::default() {
+pub(super) fn write(
+    sheet: &DrawList,
+    label: &str,
+    page: &mut Page<'_, impl Write>,
+) -> io::Result<()> {
+    if *sheet == DrawList::default() {
         return Ok(());
     }
     page.begin_group(label)?;
-    for (color, polygons) in &sheet.areas {
-        page.areas(label, color.to_u32(), STEP_PX, [polygons])?;
+    for fill in &sheet.fills {
+        page.areas(label, fill.color.to_u32(), STEP_PX, [&fill.polygons])?;
     }
     for text in &sheet.texts {
-        let height = text.char_px / Text::CHAR_SHARE;
-        let width = text.char_px * text.text.chars().count() as f64;
-        if text.paper.a > 0 {
-            let corner = text.at_px - Point::new(0.0, 0.6 * height);
+        let height = text.char_width_px / TextLine::CHAR_ASPECT;
+        let width = text.char_width_px * text.text.chars().count() as f64;
+        if text.background.a > 0 {
+            let corner = text.left_middle_px - Point::new(0.0, 0.6 * height);
             let place = [corner.x, corner.y, width, 1.2 * height];
-            page.area(place, text.paper.to_u32())?;
+            page.area(place, text.background.to_u32())?;
         }
         // From the middle of a line to what letters stand on.
-        let at = text.at_px + Point::new(0.0, 0.35 * height);
-        page.line_of_text([at.x, at.y], height, width, text.ink.to_u32(), &text.text)?;
+        let at = text.left_middle_px + Point::new(0.0, 0.35 * height);
+        page.line_of_text([at.x, at.y], height, width, text.color.to_u32(), &text.text)?;
     }
     page.end_group()
 }
@@ -88,13 +92,13 @@ struct Lines<'a> {
 }
 
 impl Lines<'_> {
-    fn write(&mut self, text: &Text) {
-        let scale = text.char_px / get_raster_width(FontWeight::Regular, LETTERS) as f64;
+    fn write(&mut self, text: &TextLine) {
+        let scale = text.char_width_px / get_raster_width(FontWeight::Regular, LETTERS) as f64;
         let height_px = scale * LETTERS.val() as f64;
-        let corner = text.at_px - Point::new(0.0, height_px / 2.0);
-        let width_px = text.char_px * text.text.chars().count() as f64;
+        let corner = text.left_middle_px - Point::new(0.0, height_px / 2.0);
+        let width_px = text.char_width_px * text.text.chars().count() as f64;
         self.blend(corner, Point::new(width_px, height_px), |pixel, _, _| {
-            over(text.paper.to_u32().to_be_bytes(), pixel)
+            over(text.background.to_u32().to_be_bytes(), pixel)
         });
         for (i, char) in text.text.chars().enumerate() {
             let glyph = |c| get_raster(c, FontWeight::Regular, LETTERS);
@@ -102,9 +106,9 @@ impl Lines<'_> {
             let Some(glyph) = glyph(char).or_else(|| glyph('?')) else {
                 continue;
             };
-            let corner = corner + Point::new(i as f64 * text.char_px, 0.0);
-            let ink = text.ink.to_u32().to_be_bytes();
-            let size = Point::new(text.char_px, height_px);
+            let corner = corner + Point::new(i as f64 * text.char_width_px, 0.0);
+            let ink = text.color.to_u32().to_be_bytes();
+            let size = Point::new(text.char_width_px, height_px);
             self.blend(corner, size, |pixel, x, y| {
                 let opacity = coverage(&glyph, [x, y], 1.0 / scale) / 255.0;
                 let [r, g, b, a] = ink;
@@ -166,16 +170,16 @@ mod tests {
         View::new(size, Point::new(3.0, 4.0), 20.0).unwrap()
     }
 
-    fn sheet() -> Sheet {
-        let mut sheet = Sheet::default();
+    fn sheet() -> DrawList {
+        let mut sheet = DrawList::default();
         let red = Rgba::opaque(255, 0, 0);
-        sheet.add_rectangle(red, Point::new(10.0, 60.0), Point::new(20.0, 80.0));
-        sheet.texts.push(Text {
+        sheet.fill_rectangle(red, Point::new(10.0, 60.0), Point::new(20.0, 80.0));
+        sheet.texts.push(TextLine {
             text: "lé漢".into(),
-            at_px: Point::new(40.0, 64.0),
-            char_px: 12.0,
-            ink: Rgba::BLACK,
-            paper: Rgba::opaque(0, 255, 0),
+            left_middle_px: Point::new(40.0, 64.0),
+            char_width_px: 12.0,
+            color: Rgba::BLACK,
+            background: Rgba::opaque(0, 255, 0),
         });
         sheet
     }
@@ -241,7 +245,7 @@ mod tests {
         let common = guideway::formats::svg::Stroke::of(0xFF, 1.0);
         let mut page = Page::begin(&mut out, [0.0, 0.0, 100.0, 128.0], "", &common).unwrap();
         write(&sheet(), "marks", &mut page).unwrap();
-        write(&Sheet::default(), "nothing", &mut page).unwrap();
+        write(&DrawList::default(), "nothing", &mut page).unwrap();
         page.end().unwrap();
         let text = String::from_utf8(out).unwrap();
         for part in ["lé漢", "#ff0000", "#00ff00", "marks", "M10 60"] {

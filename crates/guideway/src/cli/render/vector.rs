@@ -6,7 +6,7 @@ use std::path::Path;
 
 use guideway::formats::svg::{Outline, Page, Stroke};
 use guideway::layout::PathRef;
-use guideway::render::{MethodInfo, Report, Shading, Sheet, Style, View};
+use guideway::render::{DrawList, MethodInfo, Report, Shading, Style, View};
 use guideway::scene::Scene;
 use guideway::spline::{Bounds, Point};
 use guideway::{SaveError, replace_file};
@@ -77,7 +77,7 @@ fn write(
     scene: &Scene,
     view: &View,
     below: &Seen<'_>,
-    legend: &Sheet,
+    legend: &DrawList,
     wishes: &Wishes,
 ) -> io::Result<u64> {
     let size = view.size();

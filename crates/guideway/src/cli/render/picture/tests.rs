@@ -1,7 +1,7 @@
 //! A picture drawn in strips is the one drawn at once, with all that may lie on it.
 
 use guideway::render::density::ToneMap;
-use guideway::render::{Preparation, Prepared, Sheet, Strip, Text};
+use guideway::render::{DrawList, Preparation, Prepared, Strip, TextLine};
 use guideway::scene::ColorBy;
 
 use super::*;
@@ -83,16 +83,16 @@ fn drawn(strip_pixels: usize, wishes: &Wishes, below: &Below) -> (Vec<[u8; 4]>, 
 }
 
 /// A bar and a name across the border of two strips.
-fn sheet() -> Sheet {
-    let mut sheet = Sheet::default();
+fn sheet() -> DrawList {
+    let mut sheet = DrawList::default();
     let red = Rgba::opaque(255, 0, 0);
-    sheet.add_rectangle(red, Point::new(100.0, 30.5), Point::new(110.0, 300.0));
-    sheet.texts.push(Text {
+    sheet.fill_rectangle(red, Point::new(100.0, 30.5), Point::new(110.0, 300.0));
+    sheet.texts.push(TextLine {
         text: "a name".into(),
-        at_px: Point::new(200.0, 64.0),
-        char_px: 9.0,
-        ink: red,
-        paper: Rgba::WHITE,
+        left_middle_px: Point::new(200.0, 64.0),
+        char_width_px: 9.0,
+        color: red,
+        background: Rgba::WHITE,
     });
     sheet
 }

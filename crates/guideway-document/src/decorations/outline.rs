@@ -2,7 +2,7 @@ use guideway_layout::PathRef;
 use guideway_scene::View;
 use guideway_spline::{Bounds, Point, uniform};
 
-use crate::{Document, Rows};
+use crate::{Document, PathSet};
 
 /// Most points of all lines together.
 const MOST_POINTS: usize = 60_000;
@@ -24,7 +24,7 @@ pub enum Outline {
 }
 
 /// Outlines paths of a document.
-pub fn outline(document: &Document, paths: &Rows, view: &View) -> Outline {
+pub fn outline(document: &Document, paths: &PathSet, view: &View) -> Outline {
     let mut pen = Pen::new(view);
     // A path takes a point at least, so very many need not be tried.
     let near = near(document, paths, pen.seen, MOST_POINTS + 1);
@@ -50,7 +50,7 @@ pub fn path_outline(path: PathRef<'_>, view: &View) -> Outline {
 /// Those of `paths` that may be near a box, `most` of them, without a look at each where they are many.
 pub(super) fn near(
     document: &Document,
-    paths: &Rows,
+    paths: &PathSet,
     bounds: Bounds<f64>,
     most: usize,
 ) -> Vec<u32> {
@@ -64,7 +64,7 @@ pub(super) fn near(
         .collect()
 }
 
-fn cells(document: &Document, paths: &Rows, view: &View) -> Vec<Point<f64>> {
+fn cells(document: &Document, paths: &PathSet, view: &View) -> Vec<Point<f64>> {
     let seen = view.world_bounds();
     let near = document
         .index()

@@ -13,9 +13,9 @@ const PLACES: usize = 5;
 
 /// Pairs of paths that lie on each other and lead opposite ways: one lane, for people.
 #[derive(Clone, Debug, Default)]
-pub struct Twins(HashMap<u32, u32>);
+pub struct ReversePairs(HashMap<u32, u32>);
 
-impl Twins {
+impl ReversePairs {
     /// The pairs among some paths of a document. A path has one twin at most, the first there is.
     pub fn among(document: &Document, paths: &[u32]) -> Self {
         let layout = document.layout();
@@ -52,7 +52,7 @@ impl Twins {
 impl Document {
     /// The path that leads back where one leads that was pointed at; none if none lies on it. None if more than `most`
     /// paths may be near.
-    pub fn twin_of(&self, hit: &Hit, most: usize) -> Option<u32> {
+    pub fn reverse_path_at(&self, hit: &Hit, most: usize) -> Option<u32> {
         let spot = guideway_spline::Bounds {
             min: hit.point_m,
             max: hit.point_m,
@@ -61,7 +61,7 @@ impl Document {
         let shown = near.filter(|&path| self.scene().state(path) == PathState::Shown);
         let mut near: Vec<u32> = shown.take(most).collect();
         near.sort_unstable();
-        Twins::among(self, &near).of(hit.path)
+        ReversePairs::among(self, &near).of(hit.path)
     }
 }
 

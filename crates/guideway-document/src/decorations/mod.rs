@@ -14,19 +14,19 @@ use guideway_scene::View;
 use guideway_scene::{LineRule, PathState};
 use guideway_spline::Point;
 
-use crate::{Document, Twins};
+use crate::{Document, ReversePairs};
 
 use apart::{Apart, is_crowded};
 pub use handles::{Handle, handles};
 pub use labels::{Label, LabelSize};
 pub use outline::{Outline, outline, path_outline};
-pub use shapes::Kind;
+pub use shapes::MarkKind;
 
 /// Symbols and arrows nearer to each other than so many points lie over each other.
 const SYMBOL: f64 = 8.0;
 
 /// Most paths, nodes or stations of a view that still has marks for them.
-pub const MOST_MARKED: usize = 2_000;
+pub const MAX_MARKED: usize = 2_000;
 
 /// What is wanted.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -75,22 +75,22 @@ pub fn marks(document: &Document, view: &View, options: &MarkOptions) -> Marks {
     let is_shown = |path: &u32| scene.state(*path) == PathState::Shown;
     let seen = view.world_bounds();
     let shown = index.paths_in(seen).filter(is_shown);
-    let mut paths: Vec<u32> = shown.take(MOST_MARKED + 1).collect();
-    let mut nodes: Vec<u32> = index.nodes_in(seen).take(MOST_MARKED + 1).collect();
+    let mut paths: Vec<u32> = shown.take(MAX_MARKED + 1).collect();
+    let mut nodes: Vec<u32> = index.nodes_in(seen).take(MAX_MARKED + 1).collect();
     let all_stations = 0..layout.stations.len() as u32;
     let position = |station| document.station_position_m(station);
     let mut stations: Vec<(u32, Point<f64>)> = all_stations
         .filter_map(|station| Some((station, position(station)?)))
         .filter(|&(_, at)| seen.contains(at))
-        .take(MOST_MARKED + 1)
+        .take(MAX_MARKED + 1)
         .collect();
     let mut left_out = [paths.len(), nodes.len(), stations.len()]
         .iter()
-        .any(|&count| count > MOST_MARKED);
+        .any(|&count| count > MAX_MARKED);
     let pixel = |at| view.pixel_from_world(at);
     let least_px = SYMBOL * options.px_per_point;
     for list in [&mut paths, &mut nodes] {
-        if list.len() > MOST_MARKED {
+        if list.len() > MAX_MARKED {
             list.clear();
         }
         list.sort_unstable();
@@ -102,7 +102,7 @@ pub fn marks(document: &Document, view: &View, options: &MarkOptions) -> Marks {
         nodes.clear();
         nodes_px.clear();
     }
-    if stations.len() > MOST_MARKED {
+    if stations.len() > MAX_MARKED {
         stations.clear();
     }
     let mut marks = Marks {
@@ -111,7 +111,7 @@ pub fn marks(document: &Document, view: &View, options: &MarkOptions) -> Marks {
     };
     if let Some(line_rule) = options.arrows {
         // The first of a pair has the arrows of both.
-        let twins = Twins::among(document, &paths);
+        let twins = ReversePairs::among(document, &paths);
         let is_first = |path: &&u32| twins.of(**path).is_none_or(|twin| **path < twin);
         let of = |&path: &u32| {
             let is_pair = twins.of(path).is_some();
@@ -122,7 +122,7 @@ pub fn marks(document: &Document, view: &View, options: &MarkOptions) -> Marks {
         let mut others = Apart::new(least_px);
         let arrows = paths.iter().filter(is_first).flat_map(of);
         let arrows = arrows.filter(|arrow| others.take(arrow.at_px));
-        marks.arrows = arrows.take(2 * MOST_MARKED).collect();
+        marks.arrows = arrows.take(2 * MAX_MARKED).collect();
     }
     if options.symbols {
         marks.nodes.clone_from(&nodes_px);

@@ -1,7 +1,7 @@
 use guideway_scene::View;
 use guideway_spline::Point;
 
-use super::MOST_MARKED;
+use super::MAX_MARKED;
 use super::outline::near;
 use crate::{Document, PointRef};
 
@@ -17,13 +17,13 @@ pub struct Handle {
 }
 
 /// The control points of the selected paths near a view, run by run; none if there are more than
-/// [`MOST_MARKED`].
+/// [`MAX_MARKED`].
 pub fn handles(document: &Document, view: &View) -> Vec<Handle> {
     let seen = view.world_bounds();
     let mut handles = Vec::new();
     // A path has a control point at least, so very many need not be tried.
-    let mut near = near(document, document.selection(), seen, MOST_MARKED + 1);
-    if near.len() > MOST_MARKED {
+    let mut near = near(document, document.selection(), seen, MAX_MARKED + 1);
+    if near.len() > MAX_MARKED {
         return Vec::new();
     }
     near.sort_unstable();
@@ -42,7 +42,7 @@ pub fn handles(document: &Document, view: &View) -> Vec<Handle> {
                 at_px: view.pixel_from_world(at),
                 follows: point > 0,
             };
-            if handles.len() + points.len() > MOST_MARKED {
+            if handles.len() + points.len() > MAX_MARKED {
                 return Vec::new();
             }
             handles.extend(points.iter().enumerate().map(handle));

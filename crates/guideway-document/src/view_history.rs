@@ -1,11 +1,11 @@
-/// Where one has been, to go back and forth between: at most [`Trail::MOST`] places.
+/// Where one has been, to go back and forth between: at most [`ViewHistory::MOST`] places.
 #[derive(Clone, Debug)]
-pub struct Trail<T> {
+pub struct ViewHistory<T> {
     places: Vec<T>,
     at: usize,
 }
 
-impl<T: Clone + PartialEq> Trail<T> {
+impl<T: Clone + PartialEq> ViewHistory<T> {
     /// Places kept; older ones are forgotten.
     pub const MOST: usize = 200;
 
@@ -50,7 +50,7 @@ mod tests {
 
     #[test]
     fn back_and_forward_follow_the_way() {
-        let mut trail = Trail::new(0);
+        let mut trail = ViewHistory::new(0);
         trail.go(1);
         trail.go(1);
         trail.go(2);
@@ -65,9 +65,9 @@ mod tests {
 
     #[test]
     fn an_endless_way_takes_no_endless_memory() {
-        let mut trail = Trail::new(0);
+        let mut trail = ViewHistory::new(0);
         (1..10_000).for_each(|place| trail.go(place));
         let steps = std::iter::from_fn(|| trail.back()).count();
-        assert_eq!(steps, Trail::<i32>::MOST - 1);
+        assert_eq!(steps, ViewHistory::<i32>::MOST - 1);
     }
 }

@@ -4,7 +4,7 @@ use super::Marks;
 
 /// What a shape stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum MarkKind {
     /// Which way vehicles go.
     Arrow,
     /// A node.
@@ -34,7 +34,7 @@ impl Marks {
         &self,
         scale: f64,
         place: impl Fn(Point<f64>) -> Point<f64>,
-        mut draw: impl FnMut(Kind, &[Point<f64>]),
+        mut draw: impl FnMut(MarkKind, &[Point<f64>]),
     ) {
         for arrow in &self.arrows {
             let at = place(arrow.at_px);
@@ -51,7 +51,7 @@ impl Marks {
                 let side = Point::new(-ahead.y, ahead.x) * radius;
                 let base = at + ahead * (AHEAD * scale);
                 let tip = base + ahead * (HEAD_LENGTH * radius);
-                draw(Kind::Arrow, &[tip, base + side, base - side]);
+                draw(MarkKind::Arrow, &[tip, base + side, base - side]);
             }
         }
         let mut symbols = |kind, places: &[Point<f64>], corners: [(f64, f64); 4], size: f64| {
@@ -62,15 +62,15 @@ impl Marks {
         };
         let diamond = [(0.0, -1.0), (1.0, 0.0), (0.0, 1.0), (-1.0, 0.0)];
         let square = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
-        symbols(Kind::Node, &self.nodes, diamond, NODE);
-        symbols(Kind::Station, &self.stations, square, STATION);
+        symbols(MarkKind::Node, &self.nodes, diamond, NODE);
+        symbols(MarkKind::Station, &self.stations, square, STATION);
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::marks::Arrow;
+    use crate::decorations::Arrow;
 
     #[test]
     fn arrows_point_where_vehicles_go() {
@@ -90,8 +90,16 @@ mod tests {
         marks.draw_shapes(2.0, place, |kind, corners| {
             shapes.push((kind, corners.to_vec()));
         });
-        let kinds: Vec<Kind> = shapes.iter().map(|(kind, _)| *kind).collect();
-        assert_eq!(kinds, [Kind::Arrow, Kind::Arrow, Kind::Arrow, Kind::Node]);
+        let kinds: Vec<MarkKind> = shapes.iter().map(|(kind, _)| *kind).collect();
+        assert_eq!(
+            kinds,
+            [
+                MarkKind::Arrow,
+                MarkKind::Arrow,
+                MarkKind::Arrow,
+                MarkKind::Node
+            ]
+        );
         let tips = shapes[..3].iter().map(|(_, corners)| corners[0].y);
         assert_eq!(tips.collect::<Vec<_>>(), [18.0, 18.0, 62.0]);
         assert_eq!(shapes[3].1[0], Point::new(2.0, -6.0));

@@ -1,0 +1,130 @@
+//! Draw list: filled polygons and lines of text in pixels, for decorations over or below paths.
+//!
+//! The window, the PNG writer and the SVG writer all consume it.
+
+use guideway_spline::Point;
+
+use crate::Rgba;
+
+/// Filled polygons and lines of text in the pixels of a picture.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct DrawList {
+    /// Fills, bottom first.
+    pub fills: Vec<Fill>,
+    /// Lines of text, drawn over all fills.
+    pub texts: Vec<TextLine>,
+}
+
+/// Convex polygons that share one color. The color is composited once where several of them overlap.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fill {
+    /// Color of all polygons.
+    pub color: Rgba,
+    /// Corners of each polygon in pixels, in order, either way round.
+    pub polygons: Vec<Vec<Point<f64>>>,
+}
+
+/// A line of monospaced text.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TextLine {
+    /// The characters.
+    pub text: String,
+    /// Middle of the left edge, in pixels.
+    pub left_middle_px: Point<f64>,
+    /// Width of a character, in pixels.
+    pub char_width_px: f64,
+    /// Color of the characters.
+    pub color: Rgba,
+    /// Color of the box behind the characters; a transparent one draws no box.
+    pub background: Rgba,
+}
+
+impl TextLine {
+    /// Width of a character of common monospaced fonts, per unit of its height.
+    pub const CHAR_ASPECT: f64 = 0.6;
+}
+
+impl DrawList {
+    /// Whether it draws nothing.
+    pub fn is_empty(&self) -> bool {
+        self.fills.is_empty() && self.texts.is_empty()
+    }
+
+    /// Adds a convex polygon above all earlier ones. Polygons of one color in a row form one fill.
+    pub fn fill_polygon(&mut self, color: Rgba, corners: &[Point<f64>]) {
+        match self.fills.last_mut() {
+            Some(top) if top.color == color => top.polygons.push(corners.to_vec()),
+            _ => self.fills.push(Fill {
+                color,
+                polygons: vec![corners.to_vec()],
+            }),
+        }
+    }
+
+    /// Adds an axis-aligned rectangle, given two opposite corners.
+    pub fn fill_rectangle(&mut self, color: Rgba, a: Point<f64>, b: Point<f64>) {
+        self.fill_polygon(color, &[a, Point::new(b.x, a.y), b, Point::new(a.x, b.y)]);
+    }
+
+    /// Adds all fills and texts of `other` above these.
+    pub fn append(&mut self, other: Self) {
+        self.fills.extend(other.fills);
+        self.texts.extend(other.texts);
+    }
+
+    /// The same drawing for a picture that is larger by `factor`.
+    pub fn scaled(mut self, factor: f64) -> Self {
+        let polygons = self.fills.iter_mut().flat_map(|fill| &mut fill.polygons);
+        polygons
+            .flatten()
+            .for_each(|corner| *corner = *corner * factor);
+        for text in &mut self.texts {
+            text.left_middle_px = text.left_middle_px * factor;
+            text.char_width_px *= factor;
+        }
+        self
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn p(x: f64, y: f64) -> Point<f64> {
+        Point::new(x, y)
+    }
+
+    #[test]
+    fn merges_adjacent_fills_of_one_color_and_keeps_their_order() {
+        let triangle = [p(0.0, 0.0), p(1.0, 0.0), p(0.0, 1.0)];
+        let mut list = DrawList::default();
+        list.fill_rectangle(Rgba::BLACK, p(1.0, 2.0), p(3.0, 5.0));
+        for color in [Rgba::BLACK, Rgba::WHITE, Rgba::BLACK] {
+            list.fill_polygon(color, &triangle);
+        }
+        let fills = list.fills.iter();
+        let counts: Vec<_> = fills.map(|f| (f.color, f.polygons.len())).collect();
+        let (black, white) = (Rgba::BLACK, Rgba::WHITE);
+        assert_eq!(counts, [(black, 2), (white, 1), (black, 1)]);
+    }
+
+    #[test]
+    fn scales_polygons_and_texts() {
+        let mut list = DrawList::default();
+        list.fill_rectangle(Rgba::BLACK, p(1.0, 2.0), p(3.0, 5.0));
+        list.texts.push(TextLine {
+            text: "a".into(),
+            left_middle_px: p(1.0, 2.0),
+            char_width_px: 7.0,
+            color: Rgba::BLACK,
+            background: Rgba::WHITE,
+        });
+        let large = list.scaled(3.0);
+        assert_eq!(large.fills[0].polygons[0][2], p(9.0, 15.0));
+        let text = &large.texts[0];
+        assert_eq!(
+            (text.left_middle_px, text.char_width_px),
+            (p(3.0, 6.0), 21.0)
+        );
+    }
+}

@@ -1,0 +1,167 @@
+//! Applies edits to a scene and computes their inverses.
+
+use std::sync::Arc;
+
+use guideway_layout::{NewPath, OwnStyle};
+
+use super::error::EditError;
+use super::operation::{Edit, Insertion};
+use crate::color::Rgba;
+use crate::scene::{Colors, PathState, Scene};
+
+impl Scene {
+    /// Applies an edit. Copies the layout first if other owners share it.
+    ///
+    /// # Errors
+    /// When the edit names an unknown row or exceeds the coordinate limit; the scene is unchanged.
+    pub fn edit(&mut self, edit: &Edit) -> Result<(), EditError> {
+        edit.check(self)?;
+        self.apply(edit);
+        Ok(())
+    }
+
+    /// Applies an edit and returns its inverse, which holds as many bytes as the edit changes.
+    ///
+    /// Calls `on_accepted` once the edit is certain to succeed, before most of the work: another
+    /// thread can apply it at the same time.
+    ///
+    /// # Errors
+    /// As [`Self::edit`].
+    pub fn edit_with_undo(
+        &mut self,
+        edit: &Edit,
+        on_accepted: impl FnOnce(&Edit),
+    ) -> Result<Edit, EditError> {
+        edit.check(self)?;
+        if !matches!(edit, Edit::SetStates(_)) {
+            // Copies a shared layout now, so that the observer, then its only other owner, need not
+            // copy it too.
+            Arc::make_mut(&mut self.layout);
+        }
+        on_accepted(edit);
+        let undo = self.inverse_of(edit);
+        self.apply(edit);
+        Ok(undo)
+    }
+
+    /// The inverse of an edit that is not applied yet.
+    fn inverse_of(&self, edit: &Edit) -> Edit {
+        match edit {
+            Edit::Transform { paths, .. } | Edit::Reshape { paths, .. } => {
+                let rows = paths.iter().map(|&path| path as usize);
+                Edit::Reshape {
+                    paths: Arc::clone(paths),
+                    curves: Arc::new(self.layout.paths.geometry().select(rows)),
+                }
+            }
+            Edit::Restyle(styles) => {
+                let own_style = |path: u32| self.layout.paths.own_style(path as usize);
+                Edit::Restyle(
+                    styles
+                        .iter()
+                        .map(|&(path, _)| (path, own_style(path)))
+                        .collect(),
+                )
+            }
+            Edit::SetStates(states) => {
+                let before = states.iter().map(|&(path, _)| (path, self.state(path)));
+                Edit::SetStates(before.collect())
+            }
+            Edit::Insert(paths) => {
+                let first = self.row_count() as u32;
+                let rows = first..first + paths.len() as u32;
+                Edit::SetStates(rows.map(|path| (path, PathState::Removed)).collect())
+            }
+        }
+    }
+
+    /// Applies a checked edit.
+    fn apply(&mut self, edit: &Edit) {
+        match edit {
+            Edit::Transform { paths, by } => {
+                let layout = Arc::make_mut(&mut self.layout);
+                let rows = paths.iter().map(|&path| path as usize);
+                layout.paths.transform(rows, *by);
+                self.invalidate_bounds();
+            }
+            Edit::Reshape { paths, curves } => {
+                let layout = Arc::make_mut(&mut self.layout);
+                layout.paths.replace_curves(paths, curves);
+                self.invalidate_bounds();
+            }
+            Edit::Restyle(styles) => self.restyle(styles),
+            Edit::SetStates(states) => self.set_states(states),
+            Edit::Insert(paths) => self.insert(paths),
+        }
+    }
+
+    fn restyle(&mut self, styles: &[(u32, OwnStyle)]) {
+        let layout = Arc::make_mut(&mut self.layout);
+        for &(path, style) in styles {
+            layout.paths.set_own_style(path as usize, style);
+        }
+        if self.legend().is_none() {
+            for &(path, _) in styles {
+                self.set_color(path, self.own_color(path));
+            }
+        }
+    }
+
+    fn set_color(&mut self, path: u32, color: Rgba) {
+        let rows = self.row_count();
+        match &mut self.colors {
+            Colors::One(one) if *one == color => {}
+            Colors::One(one) => {
+                let mut colors = vec![*one; rows];
+                colors[path as usize] = color;
+                self.colors = Colors::Each(colors);
+            }
+            Colors::Each(colors) => colors[path as usize] = color,
+        }
+    }
+
+    fn set_states(&mut self, states: &[(u32, PathState)]) {
+        self.states.resize(self.row_count(), PathState::Shown);
+        for &(path, state) in states {
+            self.states[path as usize] = state;
+        }
+        self.rebuild_order();
+    }
+
+    fn insert(&mut self, paths: &[Insertion]) {
+        let first = self.row_count() as u32;
+        let layout = Arc::make_mut(&mut self.layout);
+        for path in paths {
+            let vehicle_types: Vec<&str> = path.vehicle_types.iter().map(String::as_str).collect();
+            let row = layout.paths.push(&NewPath {
+                id: &path.id,
+                runs: &path.runs,
+                start_node: path.start_node,
+                end_node: path.end_node,
+                direction: path.direction,
+                level: path.level,
+                vehicle_types: &vehicle_types,
+            });
+            layout.paths.set_own_style(row, path.style);
+            if let Some(from) = path.attributes_of {
+                layout.paths.attributes.copy_row(from as usize, row);
+            }
+        }
+        let rows = self.row_count();
+        if let Colors::Each(colors) = &mut self.colors {
+            colors.resize(rows, Rgba::BLACK);
+        }
+        for (row, path) in (first..).zip(paths) {
+            // In a scene colored by a column, a copied path takes the color of its original.
+            let color = match path.attributes_of.filter(|_| self.legend().is_some()) {
+                Some(from) => self.color(from),
+                None => self.own_color(row),
+            };
+            self.set_color(row, color);
+        }
+        if !self.states.is_empty() {
+            self.states.resize(rows, PathState::Shown);
+        }
+        self.rebuild_order();
+    }
+}

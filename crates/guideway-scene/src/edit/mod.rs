@@ -1,0 +1,16 @@
+//! Edits of a scene. An edit costs time proportional to what it touches, plus one pass over the
+//! rows where the draw order changes.
+//!
+//! | file | input | output |
+//! |---|---|---|
+//! | `operation` | | [`Edit`], [`Insertion`]: edits as data |
+//! | `check` | edit, scene | accepts the edit or returns an [`EditError`] |
+//! | `apply` | checked edit, scene | the changed scene and the inverse edit |
+
+mod apply;
+mod check;
+mod error;
+mod operation;
+
+pub use error::EditError;
+pub use operation::{Edit, Insertion};

@@ -1,0 +1,94 @@
+//! Edits as data: transforms, new curves, styles, states and insertions.
+
+use std::sync::Arc;
+
+use guideway_layout::{Direction, Geometry, OwnStyle};
+use guideway_spline::{Affine, Runs};
+
+use crate::scene::PathState;
+
+/// A change of a scene. Rows are stable: a removed path keeps its row, an inserted one gets the
+/// next row.
+#[derive(Clone, Debug)]
+pub enum Edit {
+    /// Maps the curves of paths: translates, rotates, mirrors or scales them.
+    Transform {
+        /// Rows of paths, each once.
+        paths: Arc<[u32]>,
+        /// The map of each control point.
+        by: Affine,
+    },
+    /// Replaces the curves of paths. Fastest if the numbers of control points stay the same.
+    Reshape {
+        /// Rows of paths.
+        paths: Arc<[u32]>,
+        /// Their new curves, in the same order.
+        curves: Arc<Geometry>,
+    },
+    /// Replaces the own width and color of paths. A scene colored by a column keeps its colors.
+    Restyle(Arc<[(u32, OwnStyle)]>),
+    /// Shows, hides, removes or restores paths.
+    SetStates(Arc<[(u32, PathState)]>),
+    /// Appends paths after the last row, drawn above all others of their rank.
+    Insert(Arc<[Insertion]>),
+}
+
+/// A path to insert.
+#[derive(Clone, Debug, Default)]
+pub struct Insertion {
+    /// Identifier.
+    pub id: String,
+    /// The curve, in meters.
+    pub runs: Runs,
+    /// Row of the node at its start.
+    pub start_node: Option<u32>,
+    /// Row of the node at its end.
+    pub end_node: Option<u32>,
+    /// Travel direction.
+    pub direction: Direction,
+    /// Index in [`guideway_layout::Layout::levels`].
+    pub level: Option<u32>,
+    /// Vehicle types that may use it; empty means all.
+    pub vehicle_types: Vec<String>,
+    /// Width and color of its own.
+    pub style: OwnStyle,
+    /// Row of the path whose attributes it copies, if any.
+    pub attributes_of: Option<u32>,
+}
+
+impl Edit {
+    /// Rows of the existing paths that the edit changes.
+    pub fn paths(&self) -> impl Iterator<Item = u32> {
+        let (paths, styles, states): (&[u32], &[_], &[_]) = match self {
+            Self::Transform { paths, .. } | Self::Reshape { paths, .. } => (paths, &[], &[]),
+            Self::Restyle(styles) => (&[], styles, &[]),
+            Self::SetStates(states) => (&[], &[], states),
+            Self::Insert(_) => (&[], &[], &[]),
+        };
+        let styled = styles.iter().map(|(path, _)| *path);
+        let set = states.iter().map(|(path, _)| *path);
+        paths.iter().copied().chain(styled).chain(set)
+    }
+
+    /// Heap bytes held, shared with clones.
+    pub fn heap_bytes(&self) -> usize {
+        match self {
+            Self::Transform { paths, .. } => size_of_val(&**paths),
+            Self::Reshape { paths, curves } => size_of_val(&**paths) + curves.heap_bytes(),
+            Self::Restyle(styles) => size_of_val(&**styles),
+            Self::SetStates(states) => size_of_val(&**states),
+            Self::Insert(paths) => {
+                let all = paths.iter().map(Insertion::heap_bytes).sum::<usize>();
+                size_of_val(&**paths) + all
+            }
+        }
+    }
+}
+
+impl Insertion {
+    fn heap_bytes(&self) -> usize {
+        let points: usize = self.runs.iter().map(size_of_val).sum();
+        let types: usize = self.vehicle_types.iter().map(String::capacity).sum();
+        self.id.capacity() + points + types
+    }
+}

@@ -1,0 +1,39 @@
+//! Errors of building a scene from a layout.
+
+use std::fmt;
+
+/// The reason why scene options do not fit a layout.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum SceneError {
+    /// The layout has no such level.
+    UnknownLevel {
+        /// The requested level.
+        asked: String,
+        /// Levels of the layout.
+        known: Vec<String>,
+    },
+    /// The layout has no such column to color by.
+    UnknownColumn {
+        /// The requested column.
+        asked: String,
+        /// Columns of the layout.
+        known: Vec<String>,
+    },
+}
+
+impl fmt::Display for SceneError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (what, asked, known) = match self {
+            Self::UnknownLevel { asked, known } => ("level", asked, known),
+            Self::UnknownColumn { asked, known } => ("column", asked, known),
+        };
+        if known.is_empty() {
+            write!(f, "unknown {what} `{asked}`: this layout has no {what}s")
+        } else {
+            let known = known.join(", ");
+            write!(f, "unknown {what} `{asked}`; the layout has: {known}")
+        }
+    }
+}
+
+impl std::error::Error for SceneError {}

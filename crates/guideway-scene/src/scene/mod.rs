@@ -1,0 +1,15 @@
+//! Scene: a layout with every path's color, width, state and draw order resolved.
+//!
+//! | file | content |
+//! |---|---|
+//! | `model` | [`Scene`], its options and queries |
+//! | `bounds` | bounding box of the drawn curves |
+//! | `error` | [`SceneError`] |
+
+mod bounds;
+mod error;
+mod model;
+
+pub use error::SceneError;
+pub(crate) use model::Colors;
+pub use model::{LayoutCopy, PathState, Scene, SceneOptions};
