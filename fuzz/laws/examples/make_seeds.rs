@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 use std::sync::Arc;
 
-use guideway_document::{Combine, Document, JournalEntry, PointRef};
+use guideway_document::{Document, JournalEntry, PointRef, SelectMode};
 use guideway_formats::arrow::{self, Precision, WriteOptions};
 use guideway_laws::document;
 use guideway_spline::{Affine, Point};
@@ -15,7 +15,7 @@ type Deed = fn(&mut Document) -> Result<(), Box<dyn Error>>;
 
 const JOURNALS: [(&str, Deed); 5] = [
     ("move", |document| {
-        document.select([1, 2].into_iter().collect(), Combine::Replace);
+        document.select([1, 2].into_iter().collect(), SelectMode::Replace);
         let by = Affine::translation(Point::new(1.0, 2.0));
         document.transform_selection("move", by)?;
         document.undo();
@@ -23,7 +23,7 @@ const JOURNALS: [(&str, Deed); 5] = [
         Ok(())
     }),
     ("copy-and-delete", |document| {
-        document.select([3].into_iter().collect(), Combine::Replace);
+        document.select([3].into_iter().collect(), SelectMode::Replace);
         document.copy_selection(2, Point::new(0.0, 9.0))?;
         document.delete_selection()?;
         Ok(())
@@ -46,7 +46,7 @@ const JOURNALS: [(&str, Deed); 5] = [
         Ok(())
     }),
     ("refine", |document| {
-        document.select([5, 6].into_iter().collect(), Combine::Replace);
+        document.select([5, 6].into_iter().collect(), SelectMode::Replace);
         document.refine_selection()?;
         Ok(())
     }),
