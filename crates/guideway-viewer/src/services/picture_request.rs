@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use guideway_envelope::Source;
 use guideway_layout::UserError;
-use guideway_scene::{Frame, Scene, Sheet, Style, View};
+use guideway_scene::{Frame, Scene, DrawList, Style, View};
 use guideway_spline::Bounds;
 
 /// The content of a picture, from the bottom: floor plan, grid, swept areas, other scenes, the
@@ -27,9 +27,9 @@ pub struct PictureRequest {
     /// Swept areas of paths of [`Self::scene`].
     pub swept: Option<SweptAreas>,
     /// The grid, below all paths.
-    pub grid: Sheet,
+    pub grid: DrawList,
     /// Arrows, symbols, names and scale bar, above all paths.
-    pub marks: Sheet,
+    pub marks: DrawList,
 }
 
 /// The areas that one vehicle sweeps along some paths.
