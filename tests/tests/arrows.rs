@@ -35,6 +35,18 @@ const ALLOWED: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "guideway-compose",
+        &[
+            "guideway-spline",
+            "guideway-layout",
+            "guideway-formats",
+            "guideway-envelope",
+            "guideway-scene",
+            "guideway-cpu",
+            "guideway-document",
+        ],
+    ),
+    (
         "guideway-laws",
         &[
             "guideway-spline",
@@ -83,7 +95,7 @@ const KEPT_TO: &[(&str, &str)] = &[
     ("indicatif", "guideway"),
     (
         "png",
-        "guideway guideway-bench guideway-reproduce guideway-tests",
+        "guideway-compose guideway-bench guideway-reproduce guideway-tests",
     ),
     ("wgpu", "guideway-gpu guideway-grid"),
     ("glow", "guideway-tessellation"),
@@ -91,6 +103,9 @@ const KEPT_TO: &[(&str, &str)] = &[
     ("winit", "guideway-viewer"),
     ("eframe", "guideway-viewer"),
     ("etcetera", "guideway"),
+    ("fontdb", "guideway-compose"),
+    ("harfrust", "guideway-compose"),
+    ("skrifa", "guideway-compose"),
     ("rstar", "guideway-envelope"),
     ("earcut", "guideway-envelope"),
     ("roaring", "guideway-document"),

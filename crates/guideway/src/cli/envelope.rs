@@ -1,15 +1,17 @@
-//! What `--envelope` says.
+//! Swept areas in arguments and reports: parses `--envelope`, names vehicles and reasons.
 
+use guideway::compose::ComposeError;
 use guideway::envelope::{Source, SourceError, Without};
+use guideway::layout::UserError;
 
-use super::{Failure, text};
+use super::text;
 
 /// Parses `LENGTHxWIDTH`, `LENGTHxWIDTH,REAR` or `file`.
 pub(crate) fn source(text: &str) -> Result<Source, SourceError> {
     text.parse()
 }
 
-/// How the source is called in a report.
+/// The vehicle in the form of `--envelope`, for a report.
 pub(crate) fn name(source: Source) -> String {
     match source {
         Source::File => "file".to_owned(),
@@ -21,30 +23,33 @@ pub(crate) fn name(source: Source) -> String {
     }
 }
 
-/// Refuses to go on where no path at all has an envelope, for a picture or a check would say nothing of that.
-pub(crate) fn need_some(with: u64, without: &[u64; Without::ALL.len()]) -> Result<(), Failure> {
-    let most = Without::ALL
+/// Fails when no path has an envelope: a check would report nothing without saying why.
+pub(crate) fn require_any(
+    with: u64,
+    without: &[u64; Without::ALL.len()],
+) -> Result<(), UserError> {
+    let most_frequent = Without::ALL
         .into_iter()
-        .max_by_key(|&why| without[why as usize]);
-    match most {
-        Some(why) if with == 0 && without[why as usize] > 0 => Err(Failure::arguments(
-            format!("no path has an envelope: {why}"),
-            "Say how large the vehicle is, such as `--envelope 2x1.2`",
-        )),
+        .max_by_key(|&reason| without[reason as usize]);
+    match most_frequent {
+        Some(reason) if with == 0 && without[reason as usize] > 0 => {
+            Err(ComposeError::NoEnvelope { reason }.into())
+        }
         _ => Ok(()),
     }
 }
 
-/// `3 paths without an envelope: why`, a line for each reason.
-pub(crate) fn lacking(without: &[u64; Without::ALL.len()]) -> Vec<String> {
-    let some = Without::ALL
+/// One line per reason: `3 paths without an envelope: the file gives none`.
+pub(crate) fn missing(without: &[u64; Without::ALL.len()]) -> Vec<String> {
+    let reasons = Without::ALL
         .into_iter()
-        .filter(|&why| without[why as usize] > 0);
-    some.map(|why| {
-        let paths = text::counted(without[why as usize], "path");
-        format!("{paths} without an envelope: {why}")
-    })
-    .collect()
+        .filter(|&reason| without[reason as usize] > 0);
+    reasons
+        .map(|reason| {
+            let paths = text::counted(without[reason as usize], "path");
+            format!("{paths} without an envelope: {reason}")
+        })
+        .collect()
 }
 
 #[cfg(test)]
@@ -54,13 +59,14 @@ mod tests {
     #[test]
     fn names_a_vehicle_as_it_is_written() {
         assert_eq!(name(source("2x1.2,.5").unwrap()), "2x1.2,0.5");
+        assert_eq!(name(Source::File), "file");
     }
 
     #[test]
-    fn none_at_all_is_refused_with_the_reason() {
-        assert!(need_some(1, &[0, 5, 0, 0]).is_ok() && need_some(0, &[0; 4]).is_ok());
-        let refusal = need_some(0, &[0, 5, 1, 0]).unwrap_err();
-        assert!(refusal.message.contains("the file gives none"));
-        assert_eq!(lacking(&[1, 0, 2, 0]).len(), 2);
+    fn rejects_paths_without_any_envelope_with_the_reason() {
+        assert!(require_any(1, &[0, 5, 0, 0]).is_ok() && require_any(0, &[0; 4]).is_ok());
+        let error = require_any(0, &[0, 5, 1, 0]).unwrap_err();
+        assert!(error.message.contains("the file gives none"));
+        assert_eq!(missing(&[1, 0, 2, 0]).len(), 2);
     }
 }

@@ -1,4 +1,4 @@
-//! What vehicles sweep: drawn, and checked for what is too near.
+//! Tests of swept areas: `render --envelope` and `check --clearance`.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -16,7 +16,7 @@ fn text(path: &Path) -> &str {
     path.to_str().expect("a plain path")
 }
 
-/// Lines of a route graph, each from one node of its own to another.
+/// A route graph of separate lines.
 fn graph(folder: &Path, name: &str, lines: &[[f64; 4]]) -> PathBuf {
     let mut features = Vec::new();
     for (i, [x0, y0, x1, y1]) in lines.iter().enumerate() {
@@ -36,7 +36,7 @@ fn graph(folder: &Path, name: &str, lines: &[[f64; 4]]) -> PathBuf {
 }
 
 #[test]
-fn swept_areas_are_drawn_below_and_accounted_for() {
+fn swept_areas_are_below_the_paths_and_reported() {
     let folder = tempfile::tempdir().unwrap();
     let (plain, with) = (folder.path().join("a.png"), folder.path().join("b.png"));
     let render = |picture: &Path, more: &[&str]| {
@@ -92,7 +92,7 @@ fn swept_areas_are_drawn_below_and_accounted_for() {
 }
 
 #[test]
-fn a_vehicle_that_makes_no_sense_and_a_file_without_envelopes_are_refused() {
+fn rejects_invalid_vehicles_and_files_without_envelopes() {
     let folder = tempfile::tempdir().unwrap();
     let (site, picture) = (site(), folder.path().join("a.png"));
     for (bad, said) in [("2x0", "2x1.2,0.5"), ("file", "no path has an envelope")] {
@@ -123,7 +123,7 @@ fn a_vehicle_that_makes_no_sense_and_a_file_without_envelopes_are_refused() {
 }
 
 #[test]
-fn paths_and_walls_too_near_are_told() {
+fn reports_paths_and_walls_below_the_clearance() {
     let folder = tempfile::tempdir().unwrap();
     let crossing = [
         [0.0, 0.0, 40.0, 0.0],
@@ -166,7 +166,7 @@ fn paths_and_walls_too_near_are_told() {
 }
 
 #[test]
-fn polygons_of_a_file_are_drawn_and_counted() {
+fn draws_and_counts_polygons_of_the_file() {
     let folder = tempfile::tempdir().unwrap();
     let (plant, picture) = (
         folder.path().join("plant.xml"),
