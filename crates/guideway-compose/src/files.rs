@@ -76,8 +76,8 @@ pub fn replace_file<T, E: From<SaveError>>(
 pub fn remove_unfinished() {
     let folders = unfinished();
     for folder in folders.iter() {
-        // Another thread may create a file in the folder meanwhile, so one attempt may fail. A folder
-        // that survives three attempts stays: the process ends.
+        // Another thread may create a file in the folder meanwhile, so one attempt may fail. A
+        // folder that survives three attempts stays: the process ends.
         let mut tries = (0..3).map(|_| fs::remove_dir_all(folder));
         let _ = tries.any(|result| result.is_ok());
     }

@@ -58,13 +58,8 @@ impl Picture {
         let view = self.view()?;
         let visible = self.backdrop.visible(&self.scene, &view)?;
         let decorations = self.place_decorations(&view);
-        let mut backdrop = visible.prepare(
-            &decorations.grid,
-            method,
-            &self.budget,
-            &self.style,
-            &view,
-        )?;
+        let mut backdrop =
+            visible.prepare(&decorations.grid, method, &self.budget, &self.style, &view)?;
         let mut style = self.style;
         if backdrop.is_some() {
             style.background.a = 0;

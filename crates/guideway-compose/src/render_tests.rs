@@ -176,7 +176,13 @@ fn svg_has_all_layers_and_the_letters_of_names() {
     let rendered = picture.save_svg(&path).unwrap();
     assert!(rendered.report.drawn > 0);
     let svg = std::fs::read_to_string(path).unwrap();
-    for part in ["Zürich Süd – Αθήνα", "\"grid\"", "\"marks\"", "\"legend\"", "\"scale bar\""] {
+    for part in [
+        "Zürich Süd – Αθήνα",
+        "\"grid\"",
+        "\"marks\"",
+        "\"legend\"",
+        "\"scale bar\"",
+    ] {
         assert!(svg.contains(part), "{part}");
     }
 }

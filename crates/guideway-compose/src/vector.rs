@@ -80,13 +80,7 @@ pub(crate) fn write_draw_list(
         }
         // From the middle of a line to its baseline: half the height of a capital.
         let at = text.left_middle_px + Point::new(0.0, 0.35 * height);
-        page.line_of_text(
-            [at.x, at.y],
-            height,
-            width,
-            text.color.to_u32(),
-            &text.text,
-        )?;
+        page.line_of_text([at.x, at.y], height, width, text.color.to_u32(), &text.text)?;
     }
     page.end_group()
 }

@@ -9,9 +9,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use guideway::compose::{NoProgress, Picture};
-use guideway::scene::{
-    Frame, FrameSize, LineRule, Rgba, Scene, SceneOptions, Style, TextLine,
-};
+use guideway::scene::{Frame, FrameSize, LineRule, Rgba, Scene, SceneOptions, Style, TextLine};
 use guideway::spline::Point;
 
 const COLUMNS: usize = 8;

@@ -90,13 +90,18 @@
 //!
 //! use guideway::document::Document;
 //! use guideway::scene::SceneOptions;
+//! use guideway::spline::{Affine, Point};
 //!
 //! let layout = guideway::open("examples/site.lif.json")?;
-//! let paths = layout.paths.len();
 //! let mut document = Document::new(Arc::new(layout), &SceneOptions::default())?;
+//! let left = |document: &Document| document.bounds().map(|bounds| bounds.min.x);
+//! let before = left(&document);
 //!
 //! document.select_all();
-//! assert!(document.selection().len() as usize <= paths);
+//! document.transform_selection("move", Affine::translation(Point::new(5.0, 0.0)))?;
+//! assert!(left(&document) > before);
+//! assert_eq!(document.undo(), Some("move"));
+//! assert_eq!(left(&document), before);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!

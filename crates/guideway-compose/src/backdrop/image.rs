@@ -109,8 +109,10 @@ impl Image {
                 let at = Point::new(column as f64 + 0.5, f64::from(row) + 0.5);
                 let from_corner =
                     unrotate.apply(view.world_from_pixel(at) - origin) * self.px_per_m;
-                let sample =
-                    level.sample(from_corner.x * level_scale.x, -from_corner.y * level_scale.y);
+                let sample = level.sample(
+                    from_corner.x * level_scale.x,
+                    -from_corner.y * level_scale.y,
+                );
                 *pixel = over(unpremultiply(sample), below);
             }
         }

@@ -5,10 +5,10 @@ use std::sync::Arc;
 
 use guideway_cpu::Areas;
 use guideway_formats::svg::Page;
+use guideway_scene::Budget;
 use guideway_scene::{
     Cancel, DrawList, Frame, FrameSize, Method, Prepared, Rgba, Scene, Strip, Style, View,
 };
-use guideway_scene::Budget;
 use guideway_spline::Bounds;
 
 use super::floor_plan::{FloorPlan, PreparedFloorPlan};

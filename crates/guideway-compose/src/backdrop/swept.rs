@@ -168,9 +168,7 @@ impl SweptReport {
         let reasons = Without::ALL.into_iter();
         let most_frequent = reasons.max_by_key(|&reason| self.without[reason as usize]);
         match most_frequent {
-            Some(reason)
-                if self.drawn + self.outside == 0 && self.without[reason as usize] > 0 =>
-            {
+            Some(reason) if self.drawn + self.outside == 0 && self.without[reason as usize] > 0 => {
                 Err(ComposeError::NoEnvelope { reason })
             }
             _ => Ok(()),

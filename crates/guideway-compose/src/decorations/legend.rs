@@ -51,7 +51,11 @@ pub(super) fn legend(
         return None;
     }
     let mut list = DrawList::default();
-    list.fill_rectangle(DecorationStyle::faded(style.paper, PAPER_OPACITY), corner, end);
+    list.fill_rectangle(
+        DecorationStyle::faded(style.paper, PAPER_OPACITY),
+        corner,
+        end,
+    );
     let top = corner + gap;
     let mut at_px = top + Point::new(0.0, line_px / 2.0);
     list.texts.push(TextLine {

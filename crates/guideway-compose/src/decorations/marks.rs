@@ -1,6 +1,6 @@
 //! Marks: arrows, nodes, stations and labels as shapes and texts.
 
-use guideway_document::marks::Marks;
+use guideway_document::decorations::Marks;
 use guideway_scene::{DrawList, TextLine};
 use guideway_spline::Point;
 
@@ -30,7 +30,7 @@ pub fn marks_list(marks: &Marks, style: &DecorationStyle) -> DrawList {
 
 #[cfg(test)]
 mod tests {
-    use guideway_document::marks::Label;
+    use guideway_document::decorations::Label;
     use guideway_scene::Rgba;
 
     use super::*;

@@ -1,6 +1,6 @@
 //! Selection, colors and sizes of decorations.
 
-use guideway_document::marks::{LabelSize, MarkKind};
+use guideway_document::decorations::{LabelSize, MarkKind};
 use guideway_scene::{FrameSize, Rgba, TextLine};
 
 /// The decorations of a picture. The default is none.
@@ -143,7 +143,10 @@ mod tests {
     fn ink_contrasts_with_background() {
         let style = |background| DecorationStyle::new(background, 1.0);
         assert_eq!(style(Rgba::WHITE).ink, Rgba::opaque(40, 40, 40));
-        assert_eq!(style(Rgba::opaque(24, 26, 30)).ink, Rgba::opaque(220, 220, 220));
+        assert_eq!(
+            style(Rgba::opaque(24, 26, 30)).ink,
+            Rgba::opaque(220, 220, 220)
+        );
         assert_eq!(style(Rgba::from_u32(0)).paper, Rgba::WHITE);
     }
 }

@@ -1,7 +1,7 @@
 //! Places all decorations of a picture so that labels keep clear of legend, title and scale bar.
 
 use guideway_document::Document;
-use guideway_document::marks::{Label, LabelSize, MarkOptions, Marks, marks};
+use guideway_document::decorations::{Label, LabelSize, MarkOptions, Marks, marks};
 use guideway_scene::{DrawList, Scene, Style, View};
 use guideway_spline::{Bounds, Point};
 

@@ -118,7 +118,9 @@ fn font_parts(text: &str, fonts: &Fonts) -> Vec<(Range<usize>, Option<Arc<Font>>
         let previous = parts.last().and_then(|(_, font)| font.as_ref());
         let font = fonts.find(c, previous);
         match parts.last_mut() {
-            Some((range, last)) if last.as_ref().map(Arc::as_ptr) == font.as_ref().map(Arc::as_ptr) => {
+            Some((range, last))
+                if last.as_ref().map(Arc::as_ptr) == font.as_ref().map(Arc::as_ptr) =>
+            {
                 range.end = end;
             }
             _ => parts.push((start..end, font)),

@@ -94,7 +94,14 @@ impl Level {
 
     /// Adds a bay to the right of a lane at `at`: a swing in, straight to the end, and back out.
     /// Returns the points where it leaves and joins the lane.
-    pub(crate) fn bay(&mut self, name: &str, at: Xy, travel: Xy, depth: f64, height: f64) -> [Xy; 2] {
+    pub(crate) fn bay(
+        &mut self,
+        name: &str,
+        at: Xy,
+        travel: Xy,
+        depth: f64,
+        height: f64,
+    ) -> [Xy; 2] {
         let right = (travel.1, -travel.0);
         let swing = 6.0;
         let before = add(at, travel, -swing);

@@ -4,8 +4,8 @@
 //!
 //! With two numbers it writes that many copies of the site side by side, in that many rows.
 //!
-//! The site is a distribution hall of our own design: two ring lanes in opposite directions, high-bay
-//! aisles, docks, chargers, parking, a production loop, and a mezzanine as a second layout.
+//! The site is a distribution hall of our own design: two ring lanes in opposite directions,
+//! high-bay aisles, docks, chargers, parking, a production loop, and a mezzanine as a second layout.
 
 mod file;
 mod hall;
@@ -24,9 +24,7 @@ fn main() -> ExitCode {
         Some([]) => site(),
         Some(&[columns, rows]) if columns > 0 && rows > 0 => campus(columns, rows),
         _ => {
-            eprintln!(
-                "expected no arguments, or the number of columns and rows of copies, such as `20 16`"
-            );
+            eprintln!("expected no arguments, or the columns and rows of copies, such as `20 16`");
             return ExitCode::from(2);
         }
     };

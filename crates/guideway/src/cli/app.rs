@@ -9,11 +9,11 @@ use guideway::layout::UserError;
 use super::error::parser_error;
 use super::exit::{ERROR, Exit};
 use super::output::Output;
+#[cfg(feature = "viewer")]
+use super::view;
 use super::{
     bench, check, convert, demo, generate, info, interrupt, methods, render, reproduce, shell,
 };
-#[cfg(feature = "viewer")]
-use super::view;
 
 /// Draws and checks the path layouts of automated guided vehicles.
 #[derive(Debug, Parser)]

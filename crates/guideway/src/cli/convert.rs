@@ -198,14 +198,14 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
             text::bytes(bytes)
         );
         if !losses.is_empty() {
-            text += &format!(
-                "{} cannot hold, or holds in another form:\n",
-                target.name()
-            );
+            text += &format!("{} cannot hold, or holds in another form:\n", target.name());
         }
         for loss in losses.iter() {
             let (what, count) = (text::single_line(&loss.what, 80), text::count(loss.count));
-            text += &format!("  {what}: {count} {}\n", text::single_line(&loss.detail, 200));
+            text += &format!(
+                "  {what}: {count} {}\n",
+                text::single_line(&loss.detail, 200)
+            );
         }
         text + &format!(
             "took {}: reading {}, writing {}\n",

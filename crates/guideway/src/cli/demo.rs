@@ -81,10 +81,7 @@ fn speeds(legend: &Legend) -> String {
             entry.color, entry.label
         ))
     });
-    format!(
-        "colored by maximum speed:\n{}",
-        entries.collect::<String>()
-    )
+    format!("colored by maximum speed:\n{}", entries.collect::<String>())
 }
 
 /// Commands to try on other files.

@@ -24,10 +24,7 @@ pub(crate) fn name(source: Source) -> String {
 }
 
 /// Fails when no path has an envelope: a check would report nothing without saying why.
-pub(crate) fn require_any(
-    with: u64,
-    without: &[u64; Without::ALL.len()],
-) -> Result<(), UserError> {
+pub(crate) fn require_any(with: u64, without: &[u64; Without::ALL.len()]) -> Result<(), UserError> {
     let most_frequent = Without::ALL
         .into_iter()
         .max_by_key(|&reason| without[reason as usize]);

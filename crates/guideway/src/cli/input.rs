@@ -118,7 +118,10 @@ pub(crate) fn read_each(inputs: &[Input], out: &Output) -> Result<(Vec<Layout>, 
     for input in inputs {
         if input.px_per_m.is_some() {
             return Err(usage_error(
-                format!("{}: `px-per-m` applies only to images", input.path.display()),
+                format!(
+                    "{}: `px-per-m` applies only to images",
+                    input.path.display()
+                ),
                 "Use `scale` for a layout, such as `plan.dxf@scale=0.001`",
             ));
         }

@@ -3,9 +3,9 @@
 //! | module | purpose |
 //! |---|---|
 //! | `app` | parses arguments, dispatches to a subcommand, exits |
-//! | `bench`, `check`, `convert`, `demo`, `generate`, `info`, `methods`, `render`, `reproduce`, `shell`, `view` | one subcommand each |
 //! | `input`, `floor_plan`, `envelope`, `arrow`, `values` | read arguments and files |
 //! | `output`, `text`, `progress_bar`, `error`, `exit`, `interrupt` | reports, errors, signals |
+//! | all others | one subcommand each |
 
 mod app;
 mod arrow;

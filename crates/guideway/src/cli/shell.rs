@@ -30,11 +30,7 @@ pub(crate) fn completions(
     Ok(Exit::Clean)
 }
 
-pub(crate) fn man(
-    args: &ManArgs,
-    command: clap::Command,
-    out: &Output,
-) -> Result<Exit, UserError> {
+pub(crate) fn man(args: &ManArgs, command: clap::Command, out: &Output) -> Result<Exit, UserError> {
     match &args.dir {
         None => {
             let mut page = Vec::new();

@@ -34,7 +34,9 @@ pub(super) const TILES: Entry = Entry {
                 }
             }
         }
-        let device = DEVICE.as_ref().map_err(|why| StartError::Unavailable(why.clone()))?;
+        let device = DEVICE
+            .as_ref()
+            .map_err(|why| StartError::Unavailable(why.clone()))?;
         let tiles = Tiles::new(Arc::clone(device), selected);
         Ok(Box::new(tiles.map_err(StartError::Unavailable)?))
     },
@@ -50,7 +52,7 @@ pub(super) const GRID: Entry = Entry {
         },
         MethodOption {
             name: "radius",
-            summary: "lists lines in every cell that their stroke covers, so that none is cut at a border",
+            summary: "lists lines in every cell under their stroke, so that no border cuts them",
         },
         MethodOption {
             name: "exit",
@@ -87,7 +89,9 @@ static DEVICE: LazyLock<Result<Arc<Gpu>, String>> = LazyLock::new(Gpu::new);
 
 fn start(options: &str) -> Result<Box<dyn Method>, StartError> {
     let options = GridOptions::parse(options).map_err(StartError::Options)?;
-    let device = DEVICE.as_ref().map_err(|why| StartError::Unavailable(why.clone()))?;
+    let device = DEVICE
+        .as_ref()
+        .map_err(|why| StartError::Unavailable(why.clone()))?;
     let grid = Grid::new(Arc::clone(device), options).map_err(StartError::Unavailable)?;
     Ok(Box::new(grid))
 }

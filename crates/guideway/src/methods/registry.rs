@@ -108,8 +108,8 @@ pub fn method_names() -> impl Iterator<Item = &'static str> {
 }
 
 /// Name of the best method for a picture that changes all the time, as in a window: `gpu` with
-/// graphics hardware, `cpu` without. For a single picture `cpu` is done before a device has started,
-/// and gives the same pixels on every computer.
+/// graphics hardware, `cpu` without. For a single picture `cpu` is done before a device has
+/// started, and gives the same pixels on every computer.
 pub fn live_method() -> &'static str {
     #[cfg(feature = "gpu")]
     if gpu::is_in_hardware() {
@@ -118,8 +118,8 @@ pub fn live_method() -> &'static str {
     CPU.name
 }
 
-/// Starts a method by its name and options, such as `grid+scan+aa=subpixel`. [`AUTO`] starts the best
-/// general method that runs on this computer.
+/// Starts a method by its name and options, such as `grid+scan+aa=subpixel`. [`AUTO`] starts the
+/// best general method that runs on this computer.
 ///
 /// # Errors
 /// When the method or an option is unknown, or the method does not run on this computer.

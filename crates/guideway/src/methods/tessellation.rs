@@ -36,6 +36,8 @@ fn start(options: &str, commands: Commands) -> Result<Box<dyn Method>, StartErro
         commands,
         ..TessellationOptions::parse(options).map_err(StartError::Options)?
     };
-    let device = DEVICE.as_ref().map_err(|why| StartError::Unavailable(why.clone()))?;
+    let device = DEVICE
+        .as_ref()
+        .map_err(|why| StartError::Unavailable(why.clone()))?;
     Ok(Box::new(Tessellation::new(Arc::clone(device), options)))
 }

@@ -193,4 +193,3 @@ fn reports_why_methods_fail_and_exits_with_error() {
         assert!(why.contains("--memory"), "{why}");
     }
 }
-

@@ -21,7 +21,16 @@ fn graph(folder: &Path, name: &str, lines: &[[f64; 4]]) -> PathBuf {
     let mut features = Vec::new();
     for (i, [x0, y0, x1, y1]) in lines.iter().enumerate() {
         features.push(format!(
-            r#"{{"type":"Feature","properties":{{"id":"e{i}"}},"geometry":{{"type":"LineString","coordinates":[[{x0},{y0}],[{x1},{y1}]]}}}}"#
+            concat!(
+                r#"{{"type":"Feature","properties":{{"id":"e{i}"}},"#,
+                r#""geometry":{{"type":"LineString","#,
+                r#""coordinates":[[{x0},{y0}],[{x1},{y1}]]}}}}"#
+            ),
+            i = i,
+            x0 = x0,
+            y0 = y0,
+            x1 = x1,
+            y1 = y1
         ));
     }
     let crs = r#""crs":{"type":"name","properties":{"name":"EPSG:3857"}}"#;
@@ -174,8 +183,9 @@ fn draws_and_counts_polygons_of_the_file() {
     );
     let model = r#"<model version="7.0.0"><point name="A" positionX="0" positionY="0"/>
         <point name="B" positionX="10000" positionY="0"/>
-        <path name="P" sourcePoint="A" destinationPoint="B"><vehicleEnvelope key="k"><vertex x="0" y="-900"/>
-        <vertex x="10000" y="-900"/><vertex x="10000" y="900"/><vertex x="5000" y="100"/><vertex x="0" y="900"/></vehicleEnvelope></path>
+        <path name="P" sourcePoint="A" destinationPoint="B"><vehicleEnvelope key="k">
+        <vertex x="0" y="-900"/><vertex x="10000" y="-900"/><vertex x="10000" y="900"/>
+        <vertex x="5000" y="100"/><vertex x="0" y="900"/></vehicleEnvelope></path>
         <path name="Q" sourcePoint="B" destinationPoint="A"/></model>"#;
     fs::write(&plant, model).unwrap();
     let args = ["--envelope", "file", "--json"];

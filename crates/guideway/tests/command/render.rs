@@ -3,9 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::support::{
-    command, has_keys, ink, json, names_in, read_png, render, stderr, stdout,
-};
+use crate::support::{command, has_keys, ink, json, names_in, read_png, render, stderr, stdout};
 
 #[test]
 fn renders_a_picture_of_the_requested_size() {
@@ -253,7 +251,12 @@ fn each_decoration_changes_png_and_svg() {
         ["a.png", "a.svg"].map(|name| {
             let picture = folder.path().join(name);
             let output = render(&picture, &[&view, more].concat());
-            assert_eq!(output.status.code(), Some(0), "{more:?}: {}", stderr(&output));
+            assert_eq!(
+                output.status.code(),
+                Some(0),
+                "{more:?}: {}",
+                stderr(&output)
+            );
             fs::read(&picture).unwrap()
         })
     };
@@ -275,7 +278,12 @@ fn each_decoration_changes_png_and_svg() {
     }
     let [_, svg] = files(&["--site", "--title", "Größe Αθήνα Склад"]);
     let svg = String::from_utf8(svg).unwrap();
-    for part in ["Größe Αθήνα Склад</text>", "dock-1</text>", "5 m</text>", "\"grid\""] {
+    for part in [
+        "Größe Αθήνα Склад</text>",
+        "dock-1</text>",
+        "5 m</text>",
+        "\"grid\"",
+    ] {
         assert!(svg.contains(part), "{part}");
     }
 }

@@ -177,7 +177,11 @@ fn check_applies_thresholds_of_the_arguments() {
         layout["edges"][0]["vehicleTypeEdgeProperties"][0]["trajectory"] = json!({
             "degree": 2,
             "knotVector": [0.0, 0.0, 0.0, 1.0, 1.0, 1.0],
-            "controlPoints": [{ "x": 0.0, "y": 0.0 }, { "x": 5.0, "y": 5.0 }, { "x": 10.0, "y": 0.0 }],
+            "controlPoints": [
+                { "x": 0.0, "y": 0.0 },
+                { "x": 5.0, "y": 5.0 },
+                { "x": 10.0, "y": 0.0 },
+            ],
         });
     });
     let kinds = |args: &[&str]| stdout(&on_file(args, &file));

@@ -12,9 +12,9 @@ use std::process::Command;
 use std::thread;
 use std::time::Duration;
 
-use session::{WindowSession, MAX_TRIES, is_installed, polls};
 use guideway::layout::{Layout, PathRef};
 use guideway::spline::Point;
+use session::{MAX_TRIES, WindowSession, is_installed, polls};
 
 /// Scale of the window when it fits the site.
 const PX_PER_M: f64 = 6.8;
@@ -29,8 +29,8 @@ fn read_png(path: &Path) -> (u32, u32, Vec<u8>) {
     (info.width, info.height, pixels)
 }
 
-/// Asserts that an exported picture of the window equals the output of `guideway render`, except for
-/// the scale bar.
+/// Asserts that an exported picture of the window equals the output of `guideway render`, except
+/// for the scale bar.
 fn assert_equals_render(picture: &Path, file: &Path, rendered: &Path) {
     /// Size of the area of the scale bar, from the lower left corner.
     const BAR_PX: (usize, usize) = (700, 240);
@@ -103,7 +103,9 @@ fn keys_and_mouse_edit_and_save_a_site() {
 
     session.xdotool(&["mousemove", "400", "400", "click", "--repeat", "5", "4"]);
     session.keys(&["Left", "f", "b", "ctrl+q"]);
-    let status = session.wait_for_exit().expect("the window closes on Ctrl+Q");
+    let status = session
+        .wait_for_exit()
+        .expect("the window closes on Ctrl+Q");
     assert!(status.success(), "{status}");
 }
 

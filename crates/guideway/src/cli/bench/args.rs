@@ -23,8 +23,8 @@ pub(crate) struct Args {
     /// Number of paths of the dataset [default: 10000]
     #[arg(long, value_name = "N", value_parser = values::paths)]
     pub(super) paths: Option<usize>,
-    /// Methods to compare, with their options; ratios are relative to the first [default: all that run
-    /// on this computer except `oracle`]
+    /// Methods to compare, with their options; ratios are relative to the first [default: all that
+    /// run on this computer except `oracle`]
     #[arg(
         long,
         value_name = "A,B+OPTION",

@@ -24,8 +24,8 @@ pub(super) struct ClearanceArgs {
         allow_hyphen_values = true
     )]
     clearance: Option<f64>,
-    /// The vehicle: length, width and the distance from its rear end to its reference point (default:
-    /// half the length), in meters; `file` (the default) uses the envelopes of the file
+    /// The vehicle: length, width and the distance from its rear end to its reference point
+    /// (default: half the length), in meters; `file` (the default) uses the envelopes of the file
     #[arg(
         long,
         value_name = "LENGTHxWIDTH[,REAR]",

@@ -74,7 +74,9 @@ impl Lines {
             return;
         }
         self.0 += &format!("columns of {table}:\n");
-        let names = columns.iter().map(|column| single_line(&column.name, MAX_CHARS));
+        let names = columns
+            .iter()
+            .map(|column| single_line(&column.name, MAX_CHARS));
         let width = names.clone().map(|n| n.chars().count()).max().unwrap_or(0);
         for (column, name) in columns.iter().zip(names) {
             self.0 += &format!("  {name:<width$}  {}\n", column_text(column));
@@ -147,10 +149,13 @@ fn column_text(column: &Column) -> String {
 }
 
 fn tops(top: &[Top]) -> String {
-    join(
-        top.iter()
-            .map(|top| format!("{} ({})", single_line(&top.value, MAX_CHARS), count(top.count))),
-    )
+    join(top.iter().map(|top| {
+        format!(
+            "{} ({})",
+            single_line(&top.value, MAX_CHARS),
+            count(top.count)
+        )
+    }))
 }
 
 fn join(parts: impl Iterator<Item = String>) -> String {

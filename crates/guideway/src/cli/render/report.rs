@@ -39,10 +39,7 @@ pub(super) fn text(path: &Path, scene: &Scene, rendered: &Rendered, times: &Time
         );
     }
     text += &paths_text(rendered);
-    text += &rendered
-        .swept
-        .as_ref()
-        .map_or_else(String::new, swept_text);
+    text += &rendered.swept.as_ref().map_or_else(String::new, swept_text);
     text += &format!(
         "took {}: reading {}, drawing {}, writing {}\n",
         text::time(times.total()),
@@ -210,9 +207,7 @@ fn swept_json(swept: &SweptReport) -> Value {
         .into_iter()
         .filter(|&reason| swept.without[reason as usize] > 0);
     let without: Vec<Value> = without
-        .map(|reason| {
-            json!({ "paths": swept.without[reason as usize], "why": reason.to_string() })
-        })
+        .map(|reason| json!({ "paths": swept.without[reason as usize], "why": reason.to_string() }))
         .collect();
     json!({
         "source": envelope::name(swept.vehicle),

@@ -33,13 +33,13 @@ pub(super) struct ViewArgs {
     /// Draw only the level with this name or id
     #[arg(long, value_name = "NAME")]
     pub(super) level: Option<String>,
-    /// File to draw below the paths: a layout or drawing in a pale color, or a PNG image whose lower
-    /// left corner is at `offset`, such as `hall.png@px-per-m=20,offset=-3,-2`
+    /// File to draw below the paths: a layout or drawing in a pale color, or a PNG image whose
+    /// lower left corner is at `offset`, such as `hall.png@px-per-m=20,offset=-3,-2`
     #[arg(long, value_name = "FILE", value_parser = Input::parser())]
     pub(super) floor_plan: Option<Input>,
-    /// Draw the areas that a vehicle sweeps below the paths. The vehicle is given by its length, width
-    /// and the distance from its rear end to its reference point (default: half the length), in
-    /// meters; `file` uses the envelopes of the file
+    /// Draw the areas that a vehicle sweeps below the paths. The vehicle is given by its length,
+    /// width and the distance from its rear end to its reference point (default: half the length),
+    /// in meters; `file` uses the envelopes of the file
     #[arg(long, value_name = "LENGTHxWIDTH[,REAR]", value_parser = envelope::source)]
     pub(super) envelope: Option<Source>,
 }

@@ -28,7 +28,8 @@ pub(crate) struct Args {
     /// Folder for the page, the tables and the run file
     #[arg(long, value_name = "DIR", default_value = "reproduction")]
     out: PathBuf,
-    /// Methods with their options [default: those of the thesis with their variants, `gpu` and `cpu`]
+    /// Methods with their options [default: those of the thesis with their variants, `gpu` and
+    /// `cpu`]
     #[arg(
         long,
         value_name = "A,B+OPTION",
@@ -36,8 +37,8 @@ pub(crate) struct Args {
         value_parser = values::MethodSpec
     )]
     methods: Vec<String>,
-    /// Time limit in minutes; parts beyond it are marked as missing [default: 60, or 9 with --quick; with
-    /// --continue, that of the run]
+    /// Time limit in minutes; parts beyond it are marked as missing [default: 60, or 9 with
+    /// --quick; with --continue, that of the run]
     #[arg(long, value_name = "N", value_parser = values::minutes)]
     minutes: Option<f64>,
     /// Memory per method, in megabytes [default: 16000, or 2000 with --quick]
@@ -47,7 +48,11 @@ pub(crate) struct Args {
     #[arg(long = "continue", conflicts_with_all = ["quick", "methods", "memory", "from"])]
     is_continued: bool,
     /// Write the page and the tables of this run file, and measure nothing
-    #[arg(long, value_name = "JSON", conflicts_with_all = ["quick", "methods", "minutes", "memory"])]
+    #[arg(
+        long,
+        value_name = "JSON",
+        conflicts_with_all = ["quick", "methods", "minutes", "memory"]
+    )]
     from: Option<PathBuf>,
 }
 

@@ -59,7 +59,10 @@ pub(super) fn read(path: &Path) -> Result<Run, UserError> {
         .and_then(|file| BufReader::new(file.take(MAX_BYTES + 1)).read_to_string(&mut text))
         .map_err(|problem| error("io", problem.to_string()))?;
     if text.len() as u64 > MAX_BYTES {
-        return Err(error("limit", format!("larger than the limit of {MAX_BYTES} bytes")));
+        return Err(error(
+            "limit",
+            format!("larger than the limit of {MAX_BYTES} bytes"),
+        ));
     }
     let syntax = |problem: serde_json::Error| error("structure", problem.to_string());
     let Envelope { guideway } = serde_json::from_str(&text).map_err(syntax)?;
@@ -78,8 +81,9 @@ pub(super) fn resume_error(folder: &Path, error: ResumeError) -> UserError {
     match error {
         ResumeError::Damaged(problem) => run_file_error(path, "structure", problem),
         ResumeError::Device { .. } => UserError {
-            remedy: "Continue it on the computer that began it, or start a new run with another --out"
-                .to_owned(),
+            remedy:
+                "Continue it on the computer that began it, or start a new run with another --out"
+                    .to_owned(),
             ..run_file_error(path, "other-device", error.to_string())
         },
         ResumeError::Render(error) => error.into(),

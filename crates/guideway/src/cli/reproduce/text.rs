@@ -47,7 +47,10 @@ fn finding(finding: &Finding) -> String {
 fn part(part: &PartFacts) -> String {
     match (&part.failure, part.is_cut) {
         (Some(failure), _) => format!("note: {}: {failure}\n", part.name),
-        (None, true) => format!("note: {}: the time limit left parts unmeasured\n", part.name),
+        (None, true) => format!(
+            "note: {}: the time limit left parts unmeasured\n",
+            part.name
+        ),
         (None, false) => String::new(),
     }
 }
