@@ -133,7 +133,7 @@ impl Picture {
     ) -> Result<(Frame, Rendered), ComposeError> {
         let mut frame = Frame::new(self.viewport.size);
         let mut rows = frame.pixels_mut().iter_mut();
-        let rendered = self.render(method, progress, &mut |strip| {
+        let rendered = self.render(method, progress, &mut |strip: &Frame| {
             let pixels = rows.by_ref().zip(strip.pixels());
             pixels.for_each(|(pixel, rendered)| *pixel = *rendered);
             Ok(())

@@ -11,6 +11,7 @@ use super::marks::marks_list;
 use super::options::{DecorationStyle, Decorations};
 use super::scale_bar::{scale_bar, scale_bar_box};
 use super::title::title;
+use crate::text::columns;
 
 /// Opacity of the paper behind the scale bar.
 const PAPER_OPACITY: f64 = 0.9;
@@ -121,7 +122,7 @@ fn visible_marks(
 }
 
 fn label_box(label: &Label, size: LabelSize) -> Bounds<f64> {
-    let width_px = label.text.chars().count() as f64 * size.char_px;
+    let width_px = columns(&label.text) as f64 * size.char_px;
     let half = Point::new(0.0, size.line_px / 2.0);
     Bounds {
         min: label.at_px - half,

@@ -29,9 +29,14 @@ pub(crate) struct ShapedLine {
     pub(super) width: f64,
 }
 
-/// Width of a text in pixels: columns as in a terminal, two for an ideograph, none for an accent.
+/// Width that a text may take, in pixels.
 pub(crate) fn line_width_px(text: &TextLine) -> f64 {
-    text.text.width() as f64 * text.char_width_px
+    columns(&text.text) as f64 * text.char_width_px
+}
+
+/// Columns of a text as in a terminal: two for an ideograph, none for an accent.
+pub(crate) fn columns(text: &str) -> usize {
+    text.width()
 }
 
 impl ShapedLine {

@@ -38,7 +38,7 @@ pub(crate) fn replace<T>(
 ) -> Result<(T, u64), UserError> {
     replace_file(output, |file| {
         let result = write(file).map_err(|error| {
-            let remedy = error.remedy();
+            let remedy: String = error.remedy().into();
             match error.problem {
                 WriteProblem::Io(problem) => save_error(output, problem),
                 other => UserError::new("save", format!("{}: {other}", output.display()), remedy),
