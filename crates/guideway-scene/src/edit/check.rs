@@ -44,7 +44,7 @@ impl Edit {
                 if paths.len() != curves.path_count() {
                     return Err(EditError::CurveCountMismatch);
                 }
-                let outside = curves.first_beyond(MAX_COORDINATE_M);
+                let outside = curves.first_out_of_range(MAX_COORDINATE_M);
                 outside.map_or(Ok(()), |from| {
                     let path = Some(paths[from]);
                     Err(EditError::OutOfBounds { path })
