@@ -42,6 +42,7 @@ mod no_envelope;
 mod path_follower;
 mod proximity;
 mod source;
+mod source_text;
 mod sweep;
 
 pub use body::Body;
@@ -51,4 +52,5 @@ pub use heading::{Heading, headings};
 pub use no_envelope::NoEnvelope;
 pub use proximity::{ClosestApproach, ExemptZone, ProximityQuery, SweepTree};
 pub use source::EnvelopeSource;
+pub use source_text::SourceError;
 pub use sweep::{MIN_TOLERANCE_M, Sweep};

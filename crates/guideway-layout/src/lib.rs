@@ -41,6 +41,7 @@ mod paths;
 mod refused;
 mod run_points;
 mod text;
+mod user_error;
 mod vehicle_types;
 
 pub use attribute::{Attribute, Attributes, Value, Values};
@@ -60,4 +61,5 @@ pub use paths::{PathRef, Paths};
 pub use refused::{Refused, RefusedPath};
 pub use run_points::RunPoints;
 pub use text::TextColumn;
+pub use user_error::UserError;
 pub use vehicle_types::VehicleTypes;

@@ -2,13 +2,13 @@
 //!
 //! It shows and asks, and holds no algorithm: what is edited is a
 //! [`Document`](guideway_document::Document), what draws is a [`Method`](guideway_scene::Method), and files are
-//! the business of its [`Host`]. Reading, drawing and saving happen beside the window: it shows the last picture
+//! the business of its [`AppServices`]. Reading, drawing and saving happen beside the window: it shows the last picture
 //! where it now belongs, until the next one is there.
 
 mod app;
 mod camera;
-mod host;
 mod measure;
+mod services;
 #[cfg(test)]
 mod tests;
 mod ui;
@@ -19,14 +19,19 @@ use std::sync::{Arc, OnceLock};
 
 use eframe::egui::{Context, Ui, ViewportBuilder};
 
+use guideway_layout::UserError;
+
 use app::{App, FIRST_PATIENCE};
-pub use host::{Export, FloorPlan, Host, Job, MethodChoice, Stage, Trouble};
 pub use measure::{Movement, measure};
+use services::WINDOW_ERROR;
+pub use services::{
+    AppServices, FloorPlan, Job, LoadStage, MethodChoice, PictureRequest, SweptAreas,
+};
 use work::Wake;
 
 /// What the window opens with.
 #[derive(Clone, Debug, Default)]
-pub struct Opening {
+pub struct LaunchOptions {
     /// Layout files.
     pub files: Vec<PathBuf>,
     /// What lies below them, as a person writes it; nothing if it is empty.
@@ -39,7 +44,7 @@ pub struct Opening {
 ///
 /// # Errors
 /// When there is no desktop to show a window on, or no graphics adapter that can fill it.
-pub fn run(host: Arc<dyn Host>, opening: Opening) -> Result<(), Trouble> {
+pub fn run(services: Arc<dyn AppServices>, opening: LaunchOptions) -> Result<(), UserError> {
     let options = eframe::NativeOptions {
         viewport: ViewportBuilder::default()
             .with_inner_size([1280.0, 800.0])
@@ -51,7 +56,7 @@ pub fn run(host: Arc<dyn Host>, opening: Opening) -> Result<(), Trouble> {
     };
     let window = Arc::<OnceLock<Context>>::default();
     // Files are read while the window comes up.
-    let mut app = App::new(wake_of(&window), host, opening);
+    let mut app = App::new(wake_of(&window), services, opening);
     app.first_patience = FIRST_PATIENCE;
     let create: eframe::AppCreator<'_> = Box::new(move |context| {
         app.apply_theme(&context.egui_ctx);
@@ -59,7 +64,8 @@ pub fn run(host: Arc<dyn Host>, opening: Opening) -> Result<(), Trouble> {
         let _ = window.set(context.egui_ctx.clone());
         Ok(Box::new(Shell(app)))
     });
-    eframe::run_native("Guideway", options, create).map_err(|error| Trouble {
+    eframe::run_native("Guideway", options, create).map_err(|error| UserError {
+        code: WINDOW_ERROR,
         message: format!("no window can be shown: {error}"),
         remedy: "A window needs a desktop (X11 or Wayland on Linux) and a graphics adapter for it; on Debian or \
                  Ubuntu `libvulkan1` and `mesa-vulkan-drivers` bring one that needs no hardware. \

@@ -14,9 +14,10 @@ use guideway_document::{Document, PathSet, SelectMode};
 use guideway_scene::elapsed_ms;
 use guideway_spline::{Bounds, Point};
 
-use crate::Opening;
+use crate::LaunchOptions;
 use crate::app::{App, REACH_PX};
-use crate::host::{Host, Trouble};
+use crate::services::{AppServices, WINDOW_ERROR};
+use guideway_layout::UserError;
 
 /// Size of the window, in pixels.
 const SIZE_PX: Vec2 = Vec2::new(1280.0, 800.0);
@@ -47,21 +48,21 @@ pub struct Movement {
 /// # Errors
 /// When the file cannot be read or drawn, or a movement comes to no end.
 pub fn measure(
-    host: Arc<dyn Host>,
+    services: Arc<dyn AppServices>,
     file: PathBuf,
     method: Option<String>,
-) -> Result<Vec<Movement>, Trouble> {
+) -> Result<Vec<Movement>, UserError> {
     let context = Context::default();
     // It has a frame sixty times a second, whatever happens.
     let wake = Arc::new(|| {});
     let started = Instant::now();
-    let opening = Opening {
+    let opening = LaunchOptions {
         files: vec![file],
         method,
-        ..Opening::default()
+        ..LaunchOptions::default()
     };
     let mut hand = Hand {
-        app: App::new(wake, host, opening),
+        app: App::new(wake, services, opening),
         context,
         started,
         at: Pos2::new(480.0, 400.0),
@@ -73,13 +74,15 @@ pub fn measure(
         layer.trouble.is_some() || (layer.shown.is_some() && layer.findings.is_some())
     })?;
     if let Some(trouble) = &hand.app.layers[0].trouble {
-        return Err(Trouble {
+        return Err(UserError {
+            code: WINDOW_ERROR,
             message: trouble.clone(),
             remedy: "Give a file that `guideway check` has no errors for".into(),
         });
     }
     if hand.app.layers[0].has_found_work() {
-        return Err(Trouble {
+        return Err(UserError {
+            code: WINDOW_ERROR,
             message: "work on this file was not saved when the viewer last ended".into(),
             remedy: "Open it in the window first, or measure a copy".into(),
         });
@@ -135,13 +138,14 @@ impl Hand {
         frame_ms
     }
 
-    fn wait(&mut self, is_so: impl Fn(&App) -> bool) -> Result<f64, Trouble> {
+    fn wait(&mut self, is_so: impl Fn(&App) -> bool) -> Result<f64, UserError> {
         let since = Instant::now();
         // What a thread has just brought is taken in with the next frame.
         let mut was_so = false;
         while !std::mem::replace(&mut was_so, is_so(&self.app)) || !was_so {
             if since.elapsed() > PATIENCE {
-                return Err(Trouble {
+                return Err(UserError {
+                    code: WINDOW_ERROR,
                     message: "a movement came to no end".into(),
                     remedy: "Try a smaller file, or another way of drawing".into(),
                 });
@@ -155,7 +159,7 @@ impl Hand {
         &mut self,
         name: &'static str,
         mut events: impl FnMut(usize, &mut Self) -> Vec<Event>,
-    ) -> Result<Movement, Trouble> {
+    ) -> Result<Movement, UserError> {
         self.seen.clear();
         let frames_ms = (0..FRAMES).map(|number| {
             let events = events(number, self);
@@ -195,13 +199,13 @@ impl Hand {
         }
     }
 
-    fn pan(&mut self) -> Result<Movement, Trouble> {
+    fn pan(&mut self) -> Result<Movement, UserError> {
         self.movement("pan", |number, hand| {
             hand.dragged(number, PointerButton::Middle)
         })
     }
 
-    fn zoom(&mut self, name: &'static str) -> Result<Movement, Trouble> {
+    fn zoom(&mut self, name: &'static str) -> Result<Movement, UserError> {
         self.at = Pos2::new(480.0, 400.0);
         self.movement(name, |number, hand| {
             let notches = if number < FRAMES / 2 { 0.25 } else { -0.25 };
@@ -217,8 +221,9 @@ impl Hand {
     }
 
     /// Drags one path in so many, those around the middle one.
-    fn drag(&mut self, name: &'static str, one_in: u64) -> Result<Movement, Trouble> {
-        let none = || Trouble {
+    fn drag(&mut self, name: &'static str, one_in: u64) -> Result<Movement, UserError> {
+        let none = || UserError {
+            code: WINDOW_ERROR,
             message: "there is no path in the middle that could be dragged".into(),
             remedy: "Give a file with paths".into(),
         };

@@ -1,4 +1,4 @@
-//! Draws every layout file of a folder, each in a cell with its number, and prints which file has which number:
+//! Renders every layout file of a folder into a cell of one picture, and lists the files by number:
 //!
 //!     cargo run --example contact_sheet -- FOLDER SHEET.png
 
@@ -8,22 +8,24 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use guideway::render::{Budget, Cancel, Frame, FrameSize, Style, View};
-use guideway::scene::{LineRule, Scene, SceneOptions};
-use noto_sans_mono_bitmap::{FontWeight, RasterHeight, get_raster};
+use guideway::compose::{NoProgress, Picture};
+use guideway::scene::{Frame, FrameSize, LineRule, Rgba, Scene, SceneOptions, Style, TextLine};
+use guideway::spline::Point;
 
 const COLUMNS: usize = 8;
 const CELL_PX: [usize; 2] = [240, 180];
 const MARGIN_PX: usize = 4;
-/// Wide enough to be seen, and narrow enough for icons.
+/// Wide enough to be visible, narrow enough for a thumbnail.
 const LINE_PX: f64 = 1.5;
+/// Width of a digit of the number in a cell.
+const DIGIT_PX: f64 = 9.0;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let args: Vec<_> = std::env::args_os().skip(1).collect();
     let [folder, sheet] = &args[..] else {
         return Err("usage: contact_sheet FOLDER SHEET.png".into());
     };
-    let files = files(Path::new(folder))?;
+    let files = layout_files(Path::new(folder))?;
     let step = CELL_PX.map(|side| side + MARGIN_PX);
     let rows = files.len().div_ceil(COLUMNS);
     let size = FrameSize::new(
@@ -33,8 +35,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut frame = Frame::new(size);
     frame.pixels_mut().fill([200, 200, 200, 255]);
     for (i, file) in files.iter().enumerate() {
-        let mut cell = draw(file)?;
-        number(&mut cell, i + 1);
+        let cell = render_cell(file, i + 1)?;
         let corner = [i % COLUMNS, i / COLUMNS];
         let [left, top] = [0, 1].map(|axis| corner[axis] * step[axis] + MARGIN_PX);
         let width = size.width() as usize;
@@ -49,13 +50,13 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// All files in the folders of a folder, but those that tell about the others.
-fn files(folder: &Path) -> Result<Vec<PathBuf>, Box<dyn Error>> {
+/// All files in a folder and its subfolders, except Markdown.
+fn layout_files(folder: &Path) -> Result<Vec<PathBuf>, Box<dyn Error>> {
     let mut files = Vec::new();
     for entry in fs::read_dir(folder)? {
         let path = entry?.path();
         if path.is_dir() {
-            files.extend(self::files(&path)?);
+            files.extend(layout_files(&path)?);
         } else if path.extension() != Some(OsStr::new("md")) {
             files.push(path);
         }
@@ -64,14 +65,13 @@ fn files(folder: &Path) -> Result<Vec<PathBuf>, Box<dyn Error>> {
     Ok(files)
 }
 
-fn draw(file: &Path) -> Result<Frame, Box<dyn Error>> {
+/// Renders a file, with its number in the lower left corner.
+fn render_cell(file: &Path, number: usize) -> Result<Frame, Box<dyn Error>> {
     let layout = guideway::open(file)?;
     let scene = Arc::new(Scene::new(Arc::new(layout), &SceneOptions::default())?);
-    let view = View::fit(
-        FrameSize::new(CELL_PX[0] as u32, CELL_PX[1] as u32)?,
-        scene.bounds(),
-    )?;
-    let style = Style {
+    let size = FrameSize::new(CELL_PX[0] as u32, CELL_PX[1] as u32)?;
+    let mut picture = Picture::new(scene, size);
+    picture.style = Style {
         line_rule: LineRule::World {
             width_m: 0.1,
             min_px: LINE_PX,
@@ -79,32 +79,14 @@ fn draw(file: &Path) -> Result<Frame, Box<dyn Error>> {
         },
         ..Style::default()
     };
-    let mut frame = Frame::new(view.size());
-    let mut drawing = guideway::method("cpu")?.prepare(scene, &Budget::default())?;
-    drawing.render(&view, &style, &Cancel::default(), &mut frame)?;
+    picture.overlay.texts.push(TextLine {
+        text: number.to_string(),
+        left_middle_px: Point::new(MARGIN_PX as f64, CELL_PX[1] as f64 - DIGIT_PX),
+        char_width_px: DIGIT_PX,
+        color: Rgba::opaque(0, 0, 255),
+        background: Rgba::from_u32(0),
+    });
+    let method = guideway::method("cpu")?;
+    let (frame, _) = picture.render_frame(&*method, &NoProgress)?;
     Ok(frame)
-}
-
-/// Puts a number into the lower left corner.
-fn number(cell: &mut Frame, number: usize) {
-    let mut left = MARGIN_PX;
-    for digit in number.to_string().chars() {
-        let Some(glyph) = get_raster(digit, FontWeight::Regular, RasterHeight::Size16) else {
-            continue;
-        };
-        let top = CELL_PX[1] - glyph.height();
-        for (y, row) in glyph.rows().enumerate() {
-            for (x, &ink) in row.iter().enumerate() {
-                let pixel = &mut cell.pixels_mut()[(top + y) * CELL_PX[0] + left + x];
-                // Blue over whatever lies there.
-                let mixed = |below: u8, full: u8| {
-                    let [below, full, ink] = [below, full, ink].map(u32::from);
-                    ((below * (255 - ink) + full * ink) / 255) as u8
-                };
-                let [r, g, b, a] = *pixel;
-                *pixel = [mixed(r, 0), mixed(g, 0), mixed(b, 255), a];
-            }
-        }
-        left += glyph.width();
-    }
 }

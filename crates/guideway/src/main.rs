@@ -5,13 +5,13 @@ mod cli;
 use std::env;
 
 fn main() -> std::process::ExitCode {
-    keep_drivers_from_looking_for_a_screen();
+    disable_device_selection_layer();
     cli::main()
 }
 
-/// Where there is no desktop, a layer of Mesa that chooses among graphics cards looks for one all the same,
-/// and prints an error of no concern to anybody.
-fn keep_drivers_from_looking_for_a_screen() {
+/// Disables a layer of Mesa that selects a graphics card: without a desktop it prints an error that
+/// concerns nobody.
+fn disable_device_selection_layer() {
     let has_desktop = ["DISPLAY", "WAYLAND_DISPLAY", "XDG_RUNTIME_DIR"]
         .iter()
         .any(|name| env::var_os(name).is_some());
@@ -20,7 +20,7 @@ fn keep_drivers_from_looking_for_a_screen() {
             unsafe_code,
             reason = "no other thread runs yet that could read the variables"
         )]
-        // SAFETY: this is the first thing that the program does.
+        // SAFETY: the program has started no other thread.
         unsafe {
             env::set_var("NODEVICE_SELECT", "1");
         }

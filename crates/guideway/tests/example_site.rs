@@ -1,20 +1,20 @@
-//! The example site that is kept is the one that its program makes.
+//! Tests that the committed example site is the output of its generator.
 
-#[expect(dead_code, reason = "its `main` is not called here")]
-#[path = "../examples/make_site.rs"]
+#[expect(dead_code, reason = "`main` is not called here")]
+#[path = "../examples/make_site/main.rs"]
 mod make_site;
 
 #[test]
-fn the_example_site_is_what_its_program_makes() {
-    let kept = include_str!("../examples/site.lif.json");
+fn committed_site_equals_generated_site() {
+    let committed = include_str!("../examples/site.lif.json");
     assert!(
-        kept == make_site::site(),
+        committed == make_site::site(),
         "run `cargo run --example make_site > crates/guideway/examples/site.lif.json`"
     );
 }
 
 #[test]
-fn a_large_site_is_many_halls() {
+fn campus_repeats_the_site_with_distinct_names() {
     let read = |text: &str| {
         let options = guideway::formats::ReadOptions::default();
         guideway::formats::read_bytes("site.lif.json", text.as_bytes(), &options)
@@ -24,7 +24,7 @@ fn a_large_site_is_many_halls() {
     assert_eq!(six.paths.len(), 6 * one.paths.len());
     assert_eq!(six.nodes.len(), 6 * one.nodes.len());
     assert_eq!(six.stations.len(), 6 * one.stations.len());
-    assert!(six.diagnostics.is_empty(), "all names are found, and once");
+    assert!(six.diagnostics.is_empty(), "all names are known and unique");
     let (small, large) = (
         one.paths.hull_bounds().unwrap(),
         six.paths.hull_bounds().unwrap(),

@@ -1,7 +1,7 @@
 use std::sync::Arc;
 
 use super::{App, Layer};
-use crate::host::MethodChoice;
+use crate::services::MethodChoice;
 use crate::work::renderer::FALLBACK;
 use crate::work::task::Task;
 
@@ -41,7 +41,7 @@ impl Drawing {
         let mut runs = self
             .choices
             .iter()
-            .filter(|choice| choice.why_not.is_none());
+            .filter(|choice| choice.unavailable.is_none());
         runs.next().map_or(FALLBACK, |choice| &choice.name)
     }
 }
@@ -68,8 +68,8 @@ impl App {
     pub(super) fn poll_methods(&mut self) {
         match &self.drawing.finder {
             Finder::Waits if self.layers.iter().all(Layer::has_settled) => {
-                let host = Arc::clone(&self.host);
-                let task = Task::start(&self.wake, move || host.methods());
+                let services = Arc::clone(&self.services);
+                let task = Task::start(&self.wake, move || services.methods());
                 self.drawing.finder = Finder::Looks(task);
             }
             Finder::Looks(task) => {

@@ -8,9 +8,10 @@ use guideway_scene::{FrameSize, RenderError, Style, View};
 use super::files::Saver;
 use super::swept::swept_rows;
 use super::{App, Layer};
-use crate::host::{Export, Job, Trouble};
+use crate::services::{Job, PictureRequest, SweptAreas, WINDOW_ERROR};
 use crate::work::renderer::color_image;
 use crate::work::task::Task;
+use guideway_layout::UserError;
 
 impl App {
     pub(super) fn export_picture(&mut self, path: PathBuf, width_px: u32) {
@@ -21,14 +22,15 @@ impl App {
             return;
         }
         let job = Arc::<Job>::default();
-        let (host, method) = (Arc::clone(&self.host), self.drawing.method().to_owned());
+        let (services, method) = (Arc::clone(&self.services), self.drawing.method().to_owned());
         let watched = Arc::clone(&job);
         let task = Task::start(&self.wake, move || {
-            let export = enlarged(export, width_px).map_err(|error| Trouble {
+            let export = enlarged(export, width_px).map_err(|error| UserError {
+                code: WINDOW_ERROR,
                 message: error.to_string(),
                 remedy: "Ask for a smaller picture".into(),
             })?;
-            let saved = host.save_picture(&export, &method, &watched, &path);
+            let saved = services.export_png(&export, &method, &watched, &path);
             let path = path.display();
             if watched.is_cancelled() && saved.is_err() {
                 return Ok(format!("{path} was cancelled, and is not written"));
@@ -51,9 +53,9 @@ impl App {
         if !self.is_free_to_write() {
             return;
         }
-        let host = Arc::clone(&self.host);
+        let services = Arc::clone(&self.services);
         let task = Task::start(&self.wake, move || {
-            host.save_drawing(&export, &path)?;
+            services.export_svg(&export, &path)?;
             Ok(format!("{} is written", path.display()))
         });
         self.saver = Some(Saver {
@@ -68,14 +70,14 @@ impl App {
         let Some(export) = self.exported() else {
             return;
         };
-        let (host, method) = (Arc::clone(&self.host), self.drawing.method().to_owned());
+        let (services, method) = (Arc::clone(&self.services), self.drawing.method().to_owned());
         self.copying = Some(Task::start(&self.wake, move || {
-            Ok(color_image(&host.picture(&export, &method)?))
+            Ok(color_image(&services.render(&export, &method)?))
         }));
     }
 
     /// What is seen, on paper; none where no layout is.
-    fn exported(&self) -> Option<Export> {
+    fn exported(&self) -> Option<PictureRequest> {
         let view = self.camera.view()?;
         let scene = |layer: &Layer| Some(Arc::new(layer.document.as_ref()?.scene().clone()));
         let mut scenes: Vec<_> = self.seen_layers().filter_map(scene).collect();
@@ -84,8 +86,8 @@ impl App {
         let is_seen = self.swept.is_shown && active.is_some_and(|layer| layer.is_visible);
         let areas = self.document().filter(|_| is_seen);
         let rows = areas.and_then(swept_rows);
-        let floor_plan = self.floor.read.is_some() && self.floor.is_visible;
-        Some(Export {
+        let floor_plan = self.floor.read.as_ref().filter(|_| self.floor.is_visible);
+        Some(PictureRequest {
             scene: top,
             others: scenes,
             view,
@@ -93,21 +95,26 @@ impl App {
                 background: self.look.paper(),
                 ..self.look.style()
             },
-            floor_plan: floor_plan.then(|| self.floor.plan.clone()),
-            swept: rows.map(|rows| (self.swept.vehicle.clone(), rows)),
-            grid: self.grid_list(&view),
-            marks: self.marks_list(&view),
+            floor_plan: floor_plan.cloned(),
+            swept: self
+                .swept
+                .vehicle()
+                .ok()
+                .zip(rows)
+                .map(|(vehicle, rows)| SweptAreas { vehicle, rows }),
+            grid: self.grid_sheet(&view),
+            marks: self.marks_sheet(&view),
         })
     }
 }
 
 /// The same part of the world in another size.
-fn enlarged(export: Export, width_px: u32) -> Result<Export, RenderError> {
+fn enlarged(export: PictureRequest, width_px: u32) -> Result<PictureRequest, RenderError> {
     let view = &export.view;
     let factor = f64::from(width_px) / f64::from(view.size().width());
     let height_px = (f64::from(view.size().height()) * factor).round().max(1.0);
     let size = FrameSize::new(width_px, height_px as u32)?;
-    Ok(Export {
+    Ok(PictureRequest {
         view: View::new(size, view.center_m(), view.px_per_m() * factor)?,
         grid: export.grid.scaled(factor),
         marks: export.marks.scaled(factor),
@@ -123,7 +130,7 @@ mod tests {
     use super::*;
     use crate::tests::table::lanes;
 
-    fn export(width: u32, height: u32) -> Export {
+    fn export(width: u32, height: u32) -> PictureRequest {
         let scene = Scene::new(Arc::new(lanes(1)), &SceneOptions::default()).unwrap();
         let size = FrameSize::new(width, height).unwrap();
         let mut grid = guideway_scene::DrawList::default();

@@ -5,8 +5,9 @@ use eframe::egui::Context;
 
 use super::layer::changed_on_disk;
 use super::{App, Layer, LayerNews};
-use crate::host::{Job, Trouble};
+use crate::services::Job;
 use crate::work::task::Task;
+use guideway_layout::UserError;
 
 /// A question that takes a line of text.
 pub(crate) struct Prompt {
@@ -20,7 +21,7 @@ pub(crate) struct Prompt {
 /// Something being written.
 pub(super) struct Saver {
     /// Says in a sentence what was done.
-    pub(super) task: Task<Result<String, Trouble>>,
+    pub(super) task: Task<Result<String, UserError>>,
     /// Where to, if it is the layout of the layer that is being saved.
     pub(super) layout_to: Option<PathBuf>,
     /// How far it is, if that is known.
@@ -44,7 +45,7 @@ impl App {
         }
         let options = self.look.scene_options();
         let method = self.drawing.method();
-        let layer = Layer::open(path, &self.host, method, options, &self.wake);
+        let layer = Layer::open(path, &self.services, method, options, &self.wake);
         self.layers.push(layer);
         self.active = self.layers.len() - 1;
         self.has_new_files = true;
@@ -126,7 +127,7 @@ impl App {
                 "{name} is still being saved; try again in a moment"
             ));
         }
-        layer.reload(&self.host, options, drops_changes, &self.wake);
+        layer.reload(&self.services, options, drops_changes, &self.wake);
         // As it is now it is read, so that is no change to tell of.
         self.has_new_files = true;
     }
@@ -200,7 +201,8 @@ impl App {
         };
         let path = layer.path.clone();
         let is_as_read = layer.document.as_ref().filter(|_| !layer.is_written());
-        let checked = is_as_read.map(|document| self.host.check_in_place(document.layout(), &path));
+        let checked =
+            is_as_read.map(|document| self.services.check_save_in_place(document.layout(), &path));
         let Some(Err(trouble)) = checked else {
             return self.save(path);
         };
@@ -225,10 +227,10 @@ impl App {
         if let Some(LayerNews::Notice(text)) = news {
             self.notify(text);
         }
-        let host = Arc::clone(&self.host);
+        let services = Arc::clone(&self.services);
         let to = path.clone();
         let task = Task::start(&self.wake, move || {
-            let lost = host.save(&snapshot.to_layout(), &path)?;
+            let lost = services.save_layout(&snapshot.to_layout(), &path)?;
             let mut text = format!("{} is saved", path.display());
             if !lost.is_empty() {
                 text += &format!("; its format cannot hold: {}", lost.join("; "));
@@ -242,7 +244,7 @@ impl App {
         });
     }
 
-    fn saved(&mut self, outcome: Result<String, Trouble>) {
+    fn saved(&mut self, outcome: Result<String, UserError>) {
         let layout_to = self.saver.take().and_then(|saver| saver.layout_to);
         if let Some(to) = layout_to
             && let Some(index) = self.layers.iter().position(Layer::is_saving)

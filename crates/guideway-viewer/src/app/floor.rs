@@ -6,9 +6,10 @@ use eframe::egui::Context;
 use guideway_scene::View;
 
 use super::App;
-use crate::host::{FloorPlan, Trouble};
+use crate::services::FloorPlan;
 use crate::work::beside::Beside;
 use crate::work::task::Task;
+use guideway_layout::UserError;
 
 /// The floor plan, if there is one.
 #[derive(Default)]
@@ -18,7 +19,7 @@ pub(crate) struct Floor {
     /// Why there is none.
     pub(crate) trouble: Option<String>,
     pub(crate) is_visible: bool,
-    reading: Option<Task<Result<Arc<dyn FloorPlan>, Trouble>>>,
+    reading: Option<Task<Result<Arc<dyn FloorPlan>, UserError>>>,
     pub(super) read: Option<Arc<dyn FloorPlan>>,
     pub(crate) drawn: Beside<()>,
 }
@@ -37,10 +38,10 @@ impl App {
         if plan.trim().is_empty() {
             return;
         }
-        let (host, text) = (Arc::clone(&self.host), plan.trim().to_owned());
+        let (services, text) = (Arc::clone(&self.services), plan.trim().to_owned());
         self.floor.plan.clone_from(&text);
         self.floor.is_visible = true;
-        let read = move || host.floor_plan(&text);
+        let read = move || services.read_floor_plan(&text);
         self.floor.reading = Some(Task::start(&self.wake, read));
     }
 

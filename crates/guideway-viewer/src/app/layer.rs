@@ -12,7 +12,7 @@ use guideway_spline::Bounds;
 use self::away::Away;
 use self::saving::Journal;
 use super::overlay::Overlay;
-use crate::host::{Host, Job, Stage};
+use crate::services::{AppServices, Job, LoadStage};
 use crate::work::Wake;
 use crate::work::findings::Findings;
 use crate::work::loader::{Loaded, Loader};
@@ -77,7 +77,7 @@ pub(crate) enum LayerNews {
     /// It can be seen for the first time, and this is where it is.
     Appeared(Option<Bounds<f64>>),
     /// It has come so far for the first time.
-    Reached(Stage),
+    Reached(LoadStage),
     /// Its way of drawing was let down by its device: what happened, in a sentence.
     FellBack(String),
     /// To be told to the person.
@@ -96,20 +96,20 @@ impl Drop for Layer {
 impl Layer {
     pub(crate) fn open(
         path: PathBuf,
-        host: &Arc<dyn Host>,
+        services: &Arc<dyn AppServices>,
         method: &str,
         options: SceneOptions,
         wake: &Wake,
     ) -> Self {
         Self {
             loader: Some(Loader::start(
-                Arc::clone(host),
+                Arc::clone(services),
                 path.clone(),
                 None,
                 options.clone(),
                 Arc::clone(wake),
             )),
-            renderer: Renderer::start(Arc::clone(host), method, Arc::clone(wake)),
+            renderer: Renderer::start(Arc::clone(services), method, Arc::clone(wake)),
             path,
             options,
             is_visible: true,
@@ -188,17 +188,17 @@ impl Layer {
     /// then that are not to be dropped.
     pub(crate) fn reload(
         &mut self,
-        host: &Arc<dyn Host>,
+        services: &Arc<dyn AppServices>,
         options: SceneOptions,
         drops_changes: bool,
         wake: &Wake,
     ) {
-        let (host, wake) = (Arc::clone(host), Arc::clone(wake));
+        let (services, wake) = (Arc::clone(services), Arc::clone(wake));
         self.drops_changes = drops_changes;
         (self.is_read_again, self.written) = (true, None);
         self.options = options.clone();
         let path = self.path.clone();
-        self.loader = Some(Loader::start(host, path, None, options, wake));
+        self.loader = Some(Loader::start(services, path, None, options, wake));
     }
 
     pub(crate) fn set_method(&mut self, name: &str) {
@@ -233,7 +233,7 @@ impl Layer {
     pub(crate) fn poll(
         &mut self,
         ctx: &Context,
-        host: &Arc<dyn Host>,
+        services: &Arc<dyn AppServices>,
         wake: &Wake,
     ) -> Vec<LayerNews> {
         let mut news = Vec::new();
@@ -257,7 +257,7 @@ impl Layer {
             match self.renderer.outcome() {
                 Ok(Outcome::Picture(picture)) => {
                     if self.shown.is_none() {
-                        news.push(LayerNews::Reached(Stage::Shown));
+                        news.push(LayerNews::Reached(LoadStage::Shown));
                     }
                     self.show(ctx, *picture);
                 }
@@ -271,7 +271,7 @@ impl Layer {
                         "drawing {name} stopped; it goes on by {FALLBACK}"
                     )));
                     self.renderer
-                        .restart(Arc::clone(host), FALLBACK, Arc::clone(wake));
+                        .restart(Arc::clone(services), FALLBACK, Arc::clone(wake));
                     self.send_scene();
                     return news;
                 }
@@ -285,7 +285,7 @@ impl Layer {
                 self.trouble = None;
                 // One that is read again is shown when it can be edited: until then the old one is.
                 if self.document.is_none() {
-                    news.push(LayerNews::Reached(Stage::Read));
+                    news.push(LayerNews::Reached(LoadStage::Read));
                     news.push(LayerNews::Appeared(scene.bounds()));
                     self.renderer.set_scene(scene);
                 }
@@ -293,7 +293,7 @@ impl Layer {
             Loaded::Document(document, done) => self.take_document(*document, done, news),
             Loaded::Findings(findings) => {
                 self.findings = Some(findings);
-                news.push(LayerNews::Reached(Stage::Checked));
+                news.push(LayerNews::Reached(LoadStage::Checked));
                 self.loader = None;
             }
             Loaded::Failed(trouble) => {
@@ -341,7 +341,7 @@ impl Layer {
         if is_again || std::mem::take(&mut self.owes_scene) {
             self.send_scene();
         }
-        news.push(LayerNews::Reached(Stage::Editable));
+        news.push(LayerNews::Reached(LoadStage::Editable));
     }
 
     fn show(&mut self, ctx: &Context, picture: Picture) {

@@ -31,16 +31,17 @@ pub(crate) use self::look::Look;
 pub(crate) use self::perform::leave_field;
 use self::recent::Recent;
 use self::swept::Swept;
-use crate::Opening;
+use crate::LaunchOptions;
 use crate::camera::Camera;
-use crate::host::{Host, Stage, Trouble};
+use crate::services::{AppServices, LoadStage};
 use crate::work::Wake;
 use crate::work::task::Task;
 use crate::work::watcher::Watcher;
+use guideway_layout::UserError;
 
 /// The viewer.
 pub(crate) struct App {
-    pub(crate) host: Arc<dyn Host>,
+    pub(crate) services: Arc<dyn AppServices>,
     pub(crate) wake: Wake,
     pub(crate) layers: Vec<Layer>,
     /// The layer that is edited.
@@ -76,7 +77,7 @@ pub(crate) struct App {
     /// What is being written, and the file if it is a layout.
     saver: Option<files::Saver>,
     /// The picture that is being made for the clipboard.
-    copying: Option<Task<Result<ColorImage, Trouble>>>,
+    copying: Option<Task<Result<ColorImage, UserError>>>,
     watcher: Watcher,
     has_new_files: bool,
     /// How long a frame waits for an edit.
@@ -121,12 +122,12 @@ const MOST_NOTICES: usize = 5;
 
 impl App {
     /// A viewer that begins to read its files at once, and calls `wake` for whatever that brings.
-    pub(crate) fn new(wake: Wake, host: Arc<dyn Host>, desk: Opening) -> Self {
+    pub(crate) fn new(wake: Wake, services: Arc<dyn AppServices>, desk: LaunchOptions) -> Self {
         let mut app = Self {
             drawing: Drawing::new(desk.method),
             watcher: Watcher::start(Arc::clone(&wake)),
-            recent: Recent::of(host.state_folder()),
-            host,
+            recent: Recent::of(services.state_folder()),
+            services,
             wake,
             layers: Vec::new(),
             active: 0,
@@ -182,7 +183,7 @@ impl App {
 
     fn poll_layers(&mut self, ctx: &Context) {
         for index in 0..self.layers.len() {
-            for news in self.layers[index].poll(ctx, &self.host, &self.wake) {
+            for news in self.layers[index].poll(ctx, &self.services, &self.wake) {
                 match news {
                     LayerNews::Appeared(bounds) => {
                         // The first file says where to look; another one joins it.
@@ -191,13 +192,13 @@ impl App {
                         }
                     }
                     LayerNews::Reached(stage) => {
-                        if stage == Stage::Editable {
+                        if stage == LoadStage::Editable {
                             self.recolor_if_stale(index);
                             // They may be of the layout before.
                             self.swept.drawn.clear();
                         }
-                        self.host.reached(stage, &self.layers[index].path);
-                        if stage == Stage::Read {
+                        self.services.on_stage(stage, &self.layers[index].path);
+                        if stage == LoadStage::Read {
                             self.remember(index);
                         }
                     }

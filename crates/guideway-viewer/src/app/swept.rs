@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use eframe::egui::Context;
 use guideway_document::Document;
+use guideway_envelope::{EnvelopeSource, SourceError};
 use guideway_scene::View;
 
 use super::App;
@@ -23,7 +24,7 @@ pub(crate) struct Swept {
 /// What areas are of.
 #[derive(Clone, PartialEq)]
 pub(crate) struct Of {
-    vehicle: String,
+    vehicle: EnvelopeSource,
     layer: usize,
     revision: u64,
 }
@@ -35,6 +36,16 @@ impl Default for Swept {
             vehicle: "2x1.2".to_owned(),
             drawn: Beside::default(),
         }
+    }
+}
+
+impl Swept {
+    /// The vehicle of the text field.
+    ///
+    /// # Errors
+    /// When the text is no vehicle.
+    pub(crate) fn vehicle(&self) -> Result<EnvelopeSource, SourceError> {
+        self.vehicle.trim().parse()
     }
 }
 
@@ -52,8 +63,18 @@ impl App {
         else {
             return;
         };
+        let vehicle = match self.swept.vehicle() {
+            Ok(vehicle) => vehicle,
+            Err(error) => {
+                let text = &self.swept.vehicle;
+                return self
+                    .swept
+                    .drawn
+                    .fail(format!("`{text}` is not a vehicle: {error}"));
+            }
+        };
         let of = Of {
-            vehicle: self.swept.vehicle.clone(),
+            vehicle,
             layer: self.active,
             revision: document.revision(),
         };
@@ -66,9 +87,9 @@ impl App {
             self.swept.drawn.refuse(of, *view, why);
             return;
         };
-        let (host, layout) = (Arc::clone(&self.host), document.scene().shared_layout());
-        let (vehicle, view) = (of.vehicle.clone(), *view);
-        let draw = move || host.swept(&layout, &rows, &vehicle, &view);
+        let (services, layout) = (Arc::clone(&self.services), document.scene().shared_layout());
+        let view = *view;
+        let draw = move || services.render_swept_areas(&layout, &rows, vehicle, &view);
         self.swept.drawn.ask(of, view, &self.wake, draw);
     }
 

@@ -11,7 +11,7 @@ use guideway_spline::Point;
 
 use super::desk::Desk;
 use super::table::{Table, lanes};
-use crate::host::{Export, Host};
+use crate::services::{AppServices, PictureRequest, SweptAreas};
 
 const NONE: Modifiers = Modifiers::NONE;
 const CTRL: Modifiers = Modifiers::COMMAND;
@@ -44,8 +44,8 @@ fn a_picture_of_any_size_is_written_and_can_be_stopped() {
 #[test]
 fn a_file_is_measured_by_moving_it_about_and_stays_as_it_is() {
     let table = Table::with([("site.arrow", lanes(300))]);
-    let host: Arc<dyn Host> = table.clone();
-    let movements = crate::measure(host, "site.arrow".into(), Some("cpu".into())).unwrap();
+    let services: Arc<dyn AppServices> = table.clone();
+    let movements = crate::measure(services, "site.arrow".into(), Some("cpu".into())).unwrap();
     let names: Vec<_> = movements.iter().map(|m| m.name).collect();
     assert_eq!(
         names,
@@ -69,8 +69,8 @@ fn a_file_is_measured_by_moving_it_about_and_stays_as_it_is() {
             movement.name
         );
     }
-    let host: Arc<dyn Host> = table;
-    let missing = crate::measure(host, "no.arrow".into(), None).unwrap_err();
+    let services: Arc<dyn AppServices> = table;
+    let missing = crate::measure(services, "no.arrow".into(), None).unwrap_err();
     assert!(missing.message.contains("no such file"), "{missing}");
 }
 
@@ -192,7 +192,7 @@ fn swept_areas_are_those_of_the_selection_or_of_all() {
             .drawn
             .trouble
             .as_ref()
-            .is_some_and(|t| t.contains("no vehicle"))
+            .is_some_and(|t| t.contains("not a vehicle"))
     });
     assert!(desk.app().swept.drawn.picture.is_none());
     desk.key(NONE, Key::E);
@@ -220,7 +220,7 @@ fn an_exported_picture_has_all_that_is_seen() {
         table.pictures.lock().unwrap().pop().unwrap().1
     };
     let all = export(&mut desk);
-    let counts = |e: &Export| {
+    let counts = |e: &PictureRequest| {
         let others = e.others.iter().map(|scene| scene.path_count());
         (e.scene.path_count(), others.collect::<Vec<_>>())
     };

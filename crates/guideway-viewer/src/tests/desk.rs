@@ -8,9 +8,9 @@ use guideway_document::Document;
 use guideway_spline::Point;
 
 use super::table::Table;
-use crate::Opening;
+use crate::LaunchOptions;
 use crate::app::App;
-use crate::host::Host;
+use crate::services::AppServices;
 
 /// A viewer at which a person sits.
 pub(super) struct Desk {
@@ -23,32 +23,32 @@ const MOST_LOOKS: u32 = 5_000;
 
 impl Desk {
     pub(super) fn with(table: &Arc<Table>, files: &[&str], method: Option<&str>) -> Self {
-        let host: Arc<dyn Host> = table.clone();
-        Self::of(host, table, files, method)
+        let services: Arc<dyn AppServices> = table.clone();
+        Self::of(services, table, files, method)
     }
 
-    /// With files of a host of its own.
+    /// With files of a services of its own.
     pub(super) fn of(
-        host: Arc<dyn Host>,
+        services: Arc<dyn AppServices>,
         table: &Arc<Table>,
         files: &[&str],
         method: Option<&str>,
     ) -> Self {
-        let opening = Opening {
+        let opening = LaunchOptions {
             files: files.iter().map(Into::into).collect(),
             method: method.map(str::to_owned),
-            ..Opening::default()
+            ..LaunchOptions::default()
         };
-        let mut start = Some((host, opening));
+        let mut start = Some((services, opening));
         let harness = Harness::builder()
             .with_size(Vec2::new(1200.0, 800.0))
             .with_max_steps(64)
             .build_ui_state(
                 move |ui, app: &mut Option<App>| {
-                    if let Some((host, opening)) = start.take() {
+                    if let Some((services, opening)) = start.take() {
                         let window = ui.ctx().clone();
                         let wake = Arc::new(move || window.request_repaint());
-                        let mut new = App::new(wake, host, opening);
+                        let mut new = App::new(wake, services, opening);
                         // However slow the computer, an edit is done when its key was pressed.
                         new.patience = Duration::from_secs(60);
                         *app = Some(new);

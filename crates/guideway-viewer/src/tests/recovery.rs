@@ -11,7 +11,7 @@ use tempfile::TempDir;
 
 use super::desk::Desk;
 use super::table::{Table, lanes};
-use crate::host::Job;
+use crate::services::Job;
 use crate::work::recovery::Recovery;
 
 /// A file of four lanes that were all deleted when the program crashed.

@@ -5,6 +5,7 @@ use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
 use guideway_cpu::Cpu;
+use guideway_envelope::EnvelopeSource;
 use guideway_layout::{Layout, NewPath, Value};
 use guideway_scene::{
     Budget, Cancel, EditOutcome, Frame, Method, MethodInfo, Preparation, Prepared, RenderError,
@@ -13,7 +14,8 @@ use guideway_scene::{
 use guideway_scene::{Edit, Scene};
 use guideway_spline::{Bounds, Point, Runs};
 
-use crate::host::{Export, FloorPlan, Host, Job, MethodChoice, Trouble};
+use crate::services::{AppServices, FloorPlan, Job, MethodChoice, PictureRequest, WINDOW_ERROR};
+use guideway_layout::UserError;
 
 /// Files that are only there for the test.
 #[derive(Default)]
@@ -28,7 +30,7 @@ pub(super) struct Table {
     /// Paths whose areas were last drawn.
     pub(super) swept: Mutex<Vec<u32>>,
     /// Pictures that were written.
-    pub(super) pictures: Mutex<Vec<(PathBuf, Export)>>,
+    pub(super) pictures: Mutex<Vec<(PathBuf, PictureRequest)>>,
     /// Whether the graphics device is lost; another one takes its place when one is asked for.
     is_device_lost: Mutex<Arc<AtomicBool>>,
 }
@@ -75,7 +77,7 @@ impl Table {
         }
     }
 
-    fn wait_for_disk(&self, job: &Job) -> Result<(), Trouble> {
+    fn wait_for_disk(&self, job: &Job) -> Result<(), UserError> {
         while *self
             .is_slow
             .lock()
@@ -89,8 +91,9 @@ impl Table {
         Ok(())
     }
 
-    fn trouble(message: &str) -> Trouble {
-        Trouble {
+    fn trouble(message: &str) -> UserError {
+        UserError {
+            code: WINDOW_ERROR,
             message: message.to_owned(),
             remedy: "Look elsewhere".into(),
         }
@@ -129,15 +132,15 @@ impl FloorPlan for Hall {
         Some(Bounds { min, max })
     }
 
-    fn draw(&self, view: &View) -> Result<Frame, Trouble> {
+    fn draw(&self, view: &View) -> Result<Frame, UserError> {
         let mut frame = Frame::new(view.size());
         frame.pixels_mut().fill([255, 0, 0, 255]);
         Ok(frame)
     }
 }
 
-impl Host for Table {
-    fn open(&self, path: &Path, job: &Job) -> Result<Layout, Trouble> {
+impl AppServices for Table {
+    fn read_layout(&self, path: &Path, job: &Job) -> Result<Layout, UserError> {
         job.advance(1, 2);
         self.wait_for_disk(job)?;
         let files = self
@@ -150,14 +153,14 @@ impl Host for Table {
             .ok_or_else(|| Self::trouble("there is no such file"))
     }
 
-    fn check_in_place(&self, _: &Layout, file: &Path) -> Result<(), Trouble> {
+    fn check_save_in_place(&self, _: &Layout, file: &Path) -> Result<(), UserError> {
         match file.extension().is_some_and(|ending| ending == "dxf") {
             true => Err(Self::trouble("it is a drawing")),
             false => Ok(()),
         }
     }
 
-    fn save(&self, layout: &Layout, path: &Path) -> Result<Vec<String>, Trouble> {
+    fn save_layout(&self, layout: &Layout, path: &Path) -> Result<Vec<String>, UserError> {
         self.wait_for_disk(&Job::default())?;
         if *self
             .is_full
@@ -174,13 +177,13 @@ impl Host for Table {
         Ok(vec!["nothing of it is kept for long".into()])
     }
 
-    fn save_picture(
+    fn export_png(
         &self,
-        export: &Export,
+        export: &PictureRequest,
         _method: &str,
         job: &Job,
         path: &Path,
-    ) -> Result<(), Trouble> {
+    ) -> Result<(), UserError> {
         let height = export.view.size().height();
         for row in 0..height {
             job.advance(row.into(), height.into());
@@ -194,39 +197,34 @@ impl Host for Table {
         Ok(())
     }
 
-    fn picture(&self, export: &Export, _method: &str) -> Result<Frame, Trouble> {
+    fn render(&self, export: &PictureRequest, _method: &str) -> Result<Frame, UserError> {
         Ok(Frame::new(export.view.size()))
     }
 
-    fn save_drawing(&self, _: &Export, _: &Path) -> Result<(), Trouble> {
+    fn export_svg(&self, _: &PictureRequest, _: &Path) -> Result<(), UserError> {
         Ok(())
     }
 
-    fn floor_plan(&self, plan: &str) -> Result<Arc<dyn FloorPlan>, Trouble> {
+    fn read_floor_plan(&self, plan: &str) -> Result<Arc<dyn FloorPlan>, UserError> {
         match plan {
             "hall.png@px-per-m=20" => Ok(Arc::new(Hall)),
             _ => Err(Self::trouble("that is no floor plan")),
         }
     }
 
-    fn swept(
+    fn render_swept_areas(
         &self,
         _layout: &Layout,
         rows: &[u32],
-        vehicle: &str,
+        _vehicle: EnvelopeSource,
         view: &View,
-    ) -> Result<Frame, Trouble> {
-        match vehicle {
-            "2x1.2" => {
-                let mut swept = self
-                    .swept
-                    .lock()
-                    .expect("no test panics while it holds this");
-                *swept = rows.to_vec();
-                Ok(Frame::new(view.size()))
-            }
-            _ => Err(Self::trouble("that is no vehicle")),
-        }
+    ) -> Result<Frame, UserError> {
+        let mut swept = self
+            .swept
+            .lock()
+            .expect("no test panics while it holds this");
+        *swept = rows.to_vec();
+        Ok(Frame::new(view.size()))
     }
 
     fn state_folder(&self) -> Option<PathBuf> {
@@ -238,12 +236,12 @@ impl Host for Table {
         let choice = |name: &str| MethodChoice {
             name: name.into(),
             summary: String::new(),
-            why_not: None,
+            unavailable: None,
         };
         [DEVICE, "cpu"].map(choice).into()
     }
 
-    fn method(&self, name: &str) -> Result<Box<dyn Method>, Trouble> {
+    fn start_method(&self, name: &str) -> Result<Box<dyn Method>, UserError> {
         match name {
             "cpu" => Ok(Box::new(Cpu)),
             DEVICE => Ok(Box::new(self.device())),

@@ -4,7 +4,7 @@ use eframe::egui::{Button, Label, MenuBar, ProgressBar, Ui};
 
 use crate::app::command::{Command, ENTRIES, MENUS};
 use crate::app::{App, Tool};
-use crate::host::Job;
+use crate::services::Job;
 
 impl App {
     /// Does what the pressed keys ask for. While text is being written, only those with Ctrl held count, and those

@@ -168,7 +168,7 @@ impl App {
         });
         if takes {
             let options = self.look.scene_options();
-            self.layers[index].recover(&self.host, options, &self.wake);
+            self.layers[index].recover(&self.services, options, &self.wake);
         } else if drops {
             self.layers[index].drop_journal();
         }

@@ -248,11 +248,11 @@ impl App {
                     chosen = Some(None);
                 }
                 for choice in &drawing.choices {
-                    let can = choice.why_not.is_none();
+                    let can = choice.unavailable.is_none();
                     let is_this = drawing.chosen.as_ref() == Some(&choice.name);
                     let label =
                         ui.add_enabled_ui(can, |ui| ui.selectable_label(is_this, &choice.name));
-                    let hover = choice.why_not.as_ref().unwrap_or(&choice.summary);
+                    let hover = choice.unavailable.as_ref().unwrap_or(&choice.summary);
                     if label.inner.on_hover_text(hover).clicked() {
                         chosen = Some(Some(choice.name.clone()));
                     }

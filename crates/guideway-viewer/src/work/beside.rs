@@ -6,7 +6,7 @@ use guideway_scene::{Frame, View};
 use super::Wake;
 use super::renderer::color_image;
 use super::task::Task;
-use crate::host::Trouble;
+use guideway_layout::UserError;
 
 /// The last picture of something, and the next one. `K` is what a picture is of, beside its view.
 pub(crate) struct Beside<K> {
@@ -14,7 +14,7 @@ pub(crate) struct Beside<K> {
     pub(crate) picture: Option<(TextureHandle, View)>,
     /// Why there is none.
     pub(crate) trouble: Option<String>,
-    task: Option<Task<Result<ColorImage, Trouble>>>,
+    task: Option<Task<Result<ColorImage, UserError>>>,
     /// What the task, or else the picture, is of.
     asked: Option<(K, View)>,
 }
@@ -47,6 +47,11 @@ impl<K: PartialEq> Beside<K> {
         self.task.is_none() && !self.asked.as_ref().is_some_and(is_asked)
     }
 
+    /// Shows a message in place of a picture.
+    pub(crate) fn fail(&mut self, why: String) {
+        (self.picture, self.asked, self.trouble) = (None, None, Some(why));
+    }
+
     /// There is no picture of this, and why.
     pub(crate) fn refuse(&mut self, of: K, view: View, why: String) {
         (self.picture, self.asked, self.trouble) = (None, Some((of, view)), Some(why));
@@ -58,7 +63,7 @@ impl<K: PartialEq> Beside<K> {
         of: K,
         view: View,
         wake: &Wake,
-        draw: impl FnOnce() -> Result<Frame, Trouble> + Send + 'static,
+        draw: impl FnOnce() -> Result<Frame, UserError> + Send + 'static,
     ) {
         self.asked = Some((of, view));
         self.task = Some(Task::start(wake, move || Ok(color_image(&draw()?))));

@@ -12,7 +12,8 @@ use guideway_scene::{Scene, SceneOptions};
 use super::Wake;
 use super::findings::Findings;
 use super::recovery::Found;
-use crate::host::{Host, Job, Trouble};
+use crate::services::{AppServices, Job, WINDOW_ERROR};
+use guideway_layout::UserError;
 
 /// How long the first picture may have the processor to itself.
 const PATIENCE: Duration = Duration::from_secs(1);
@@ -35,13 +36,13 @@ pub(crate) enum Loaded {
     /// What is odd in it.
     Findings(Findings),
     /// There is nothing, and this is why.
-    Failed(Trouble),
+    Failed(UserError),
 }
 
 impl Loader {
     /// Reads a file, or else the one that work was found with, to do that again: it is drawn when all is done.
     pub(crate) fn start(
-        host: Arc<dyn Host>,
+        services: Arc<dyn AppServices>,
         path: PathBuf,
         found: Option<Found>,
         options: SceneOptions,
@@ -59,7 +60,7 @@ impl Loader {
                 wake();
             };
             let path = found.as_ref().map_or(&path, |found| &found.file);
-            let scene = match read(&*host, path, &options, &watched) {
+            let scene = match read(&*services, path, &options, &watched) {
                 Ok(scene) => scene,
                 Err(trouble) => return tell(Loaded::Failed(trouble)),
             };
@@ -115,13 +116,19 @@ impl Drop for Loader {
     }
 }
 
-fn read(host: &dyn Host, path: &Path, options: &SceneOptions, job: &Job) -> Result<Scene, Trouble> {
-    let layout = Arc::new(host.open(path, job)?);
+fn read(
+    services: &dyn AppServices,
+    path: &Path,
+    options: &SceneOptions,
+    job: &Job,
+) -> Result<Scene, UserError> {
+    let layout = Arc::new(services.read_layout(path, job)?);
     // A color that another file has columns for need not be one of this file.
     let scene = Scene::new(Arc::clone(&layout), options);
     scene
         .or_else(|_| Scene::new(layout, &without_column(options)))
-        .map_err(|error| Trouble {
+        .map_err(|error| UserError {
+            code: WINDOW_ERROR,
             message: error.to_string(),
             remedy: "Open the file again".into(),
         })

@@ -5,7 +5,8 @@ use std::time::UNIX_EPOCH;
 
 use guideway_document::{Document, JournalEntry, ReplayProgress, replay};
 
-use crate::host::{Job, Trouble};
+use crate::services::{Job, WINDOW_ERROR};
+use guideway_layout::UserError;
 
 /// Begins every journal file; the digit is the version of what follows.
 const MAGIC: &[u8; 8] = b"GWJRNAL2";
@@ -231,7 +232,8 @@ impl Found {
         // They are in the journal.
         document.take_journal_entries();
         if job.is_cancelled() {
-            return Err(Trouble {
+            return Err(UserError {
+                code: WINDOW_ERROR,
                 message: "the work of last time was not done again: that was cancelled".into(),
                 remedy: "It is kept; choose once more what is to become of it".into(),
             });

@@ -11,7 +11,8 @@ use guideway_scene::{
 use guideway_scene::{Edit, Scene};
 
 use super::Wake;
-use crate::host::{Host, Trouble};
+use crate::services::AppServices;
+use guideway_layout::UserError;
 
 /// The way of drawing that runs everywhere.
 pub(crate) const FALLBACK: &str = "cpu";
@@ -84,9 +85,9 @@ enum Order {
 }
 
 impl Renderer {
-    pub(crate) fn start(host: Arc<dyn Host>, method: &str, wake: Wake) -> Self {
+    pub(crate) fn start(services: Arc<dyn AppServices>, method: &str, wake: Wake) -> Self {
         let orders = Orders::default();
-        let (outcomes, thread) = Worker::spawn(&orders, host, method, wake);
+        let (outcomes, thread) = Worker::spawn(&orders, services, method, wake);
         Self {
             orders,
             outcomes,
@@ -95,9 +96,9 @@ impl Renderer {
     }
 
     /// Begins anew, where the thread is gone, without a scene.
-    pub(crate) fn restart(&mut self, host: Arc<dyn Host>, method: &str, wake: Wake) {
+    pub(crate) fn restart(&mut self, services: Arc<dyn AppServices>, method: &str, wake: Wake) {
         self.orders.0.lock().forget();
-        let (outcomes, thread) = Worker::spawn(&self.orders, host, method, wake);
+        let (outcomes, thread) = Worker::spawn(&self.orders, services, method, wake);
         (self.outcomes, self.thread) = (outcomes, Some(thread));
     }
 
@@ -225,7 +226,7 @@ impl Shared {
 }
 
 struct Worker {
-    host: Arc<dyn Host>,
+    services: Arc<dyn AppServices>,
     shared: Arc<Shared>,
     outcomes: Sender<Outcome>,
     wake: Wake,
@@ -242,13 +243,13 @@ struct Worker {
 impl Worker {
     fn spawn(
         orders: &Orders,
-        host: Arc<dyn Host>,
+        services: Arc<dyn AppServices>,
         method: &str,
         wake: Wake,
     ) -> (Receiver<Outcome>, JoinHandle<()>) {
         let (sender, outcomes) = mpsc::channel();
         let mut worker = Self {
-            host,
+            services,
             shared: Arc::clone(&orders.0),
             outcomes: sender,
             wake,
@@ -340,7 +341,9 @@ impl Worker {
             none => {
                 let method = match &self.method {
                     Some(method) => method,
-                    None => self.method.insert(self.host.method(&self.method_name)?),
+                    None => self
+                        .method
+                        .insert(self.services.start_method(&self.method_name)?),
                 };
                 let scene = self.scene.take().ok_or(Stop::NoScene)?;
                 none.insert(method.prepare(scene, &Budget::default())?)
@@ -375,12 +378,12 @@ pub(crate) fn color_image(frame: &Frame) -> ColorImage {
 
 enum Stop {
     NoScene,
-    Method(Trouble),
+    Method(UserError),
     Render(RenderError),
 }
 
-impl From<Trouble> for Stop {
-    fn from(trouble: Trouble) -> Self {
+impl From<UserError> for Stop {
+    fn from(trouble: UserError) -> Self {
         Self::Method(trouble)
     }
 }

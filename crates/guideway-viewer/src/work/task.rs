@@ -5,7 +5,8 @@ use std::thread;
 use std::time::Duration;
 
 use super::Wake;
-use crate::host::Trouble;
+use crate::services::WINDOW_ERROR;
+use guideway_layout::UserError;
 
 /// Something that is done once, beside the window.
 pub(crate) struct Task<T> {
@@ -36,7 +37,7 @@ impl<T: Send + 'static> Task<T> {
     ///
     /// # Errors
     /// When it broke down.
-    pub(crate) fn outcome(&self) -> Option<Result<T, Trouble>> {
+    pub(crate) fn outcome(&self) -> Option<Result<T, UserError>> {
         self.outcome_within(Duration::ZERO)
     }
 
@@ -44,7 +45,7 @@ impl<T: Send + 'static> Task<T> {
     ///
     /// # Errors
     /// When it broke down.
-    pub(crate) fn wait(self) -> Result<T, Trouble> {
+    pub(crate) fn wait(self) -> Result<T, UserError> {
         self.outcome.recv().map_err(|_| broken_down())
     }
 
@@ -52,7 +53,7 @@ impl<T: Send + 'static> Task<T> {
     ///
     /// # Errors
     /// When it broke down.
-    pub(crate) fn outcome_within(&self, patience: Duration) -> Option<Result<T, Trouble>> {
+    pub(crate) fn outcome_within(&self, patience: Duration) -> Option<Result<T, UserError>> {
         self.is_awaited.store(true, Ordering::SeqCst);
         let outcome = self.outcome.recv_timeout(patience);
         self.is_awaited.store(false, Ordering::SeqCst);
@@ -69,8 +70,9 @@ impl<T: Send + 'static> Task<T> {
     }
 }
 
-fn broken_down() -> Trouble {
-    Trouble {
+fn broken_down() -> UserError {
+    UserError {
+        code: WINDOW_ERROR,
         message: "what was asked for came to no end".into(),
         remedy: "Try again, with less or by another way".into(),
     }

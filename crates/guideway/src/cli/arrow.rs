@@ -1,64 +1,55 @@
-//! Writing Arrow files from the command.
+//! Arrow files as outputs: checks their names, writes them atomically.
 
 use std::io::{self, ErrorKind};
 use std::path::Path;
 
 use guideway::formats::arrow::{WriteError, WriteProblem};
+use guideway::layout::UserError;
 use guideway::{SaveError, replace_file};
 
-use super::{Failure, input};
+use super::input;
 
-/// Endings of the names of the files that can be written.
-const ENDINGS: [&str; 2] = ["arrow", "feather"];
+/// Extensions of Arrow files.
+const EXTENSIONS: [&str; 2] = ["arrow", "feather"];
 
-/// Whether the name of a file is that of an Arrow file.
-pub(crate) fn has_ending(output: &Path) -> bool {
-    let ending = output.extension().unwrap_or_default();
-    ENDINGS.iter().any(|e| ending.eq_ignore_ascii_case(e))
-}
-
-/// Refuses what cannot be an Arrow output, before any long work is done.
-pub(crate) fn check_output(output: &Path) -> Result<(), Failure> {
-    if !has_ending(output) {
-        return Err(Failure {
-            code: "target-format",
-            message: format!(
-                "{}: only Arrow files can be written, which end in .arrow or .feather",
+/// Rejects an output that is not an Arrow file, before any long work.
+pub(crate) fn check_output(output: &Path) -> Result<(), UserError> {
+    let extension = output.extension().unwrap_or_default();
+    if !EXTENSIONS.iter().any(|e| extension.eq_ignore_ascii_case(e)) {
+        return Err(UserError::new(
+            "target-format",
+            format!(
+                "{}: not the name of an Arrow file, which ends in .arrow or .feather",
                 output.display()
             ),
-            remedy: "Name the output so, such as `site.arrow`; for a picture use `guideway render`"
-                .into(),
-        });
+            "Rename the output, such as `site.arrow`; `guideway render` writes pictures",
+        ));
     }
     if output.exists() && !output.is_file() {
-        return Err(unwritten(output, ErrorKind::IsADirectory.into()));
+        return Err(save_error(output, ErrorKind::IsADirectory.into()));
     }
     input::check_output(None, output)
 }
 
-/// Lets `write` make an Arrow file that appears whole or not at all, and returns its size too.
+/// Writes an Arrow file atomically with `write`. Returns its result and the size of the file.
 pub(crate) fn replace<T>(
     output: &Path,
     write: impl FnOnce(&Path) -> Result<T, WriteError>,
-) -> Result<(T, u64), Failure> {
+) -> Result<(T, u64), UserError> {
     replace_file(output, |file| {
         let result = write(file).map_err(|error| {
-            let remedy = error.remedy().into();
+            let remedy: String = error.remedy().into();
             match error.problem {
-                WriteProblem::Io(problem) => unwritten(output, problem),
-                other => Failure {
-                    code: "save",
-                    message: format!("{}: {other}", output.display()),
-                    remedy,
-                },
+                WriteProblem::Io(problem) => save_error(output, problem),
+                other => UserError::new("save", format!("{}: {other}", output.display()), remedy),
             }
         })?;
-        let size = std::fs::metadata(file).map_err(|problem| unwritten(output, problem))?;
+        let size = std::fs::metadata(file).map_err(|problem| save_error(output, problem))?;
         Ok((result, size.len()))
     })
 }
 
-fn unwritten(output: &Path, problem: io::Error) -> Failure {
+fn save_error(output: &Path, problem: io::Error) -> UserError {
     SaveError {
         path: output.to_owned(),
         problem,

@@ -1,4 +1,4 @@
-//! `guideway convert`: a layout in another format.
+//! `guideway convert`: writes a layout in another format.
 
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
@@ -10,49 +10,51 @@ use clap::ValueEnum;
 use guideway::formats::Format;
 use guideway::formats::lif::{self, Version};
 use guideway::formats::{Losses, arrow as arrow_format, dxf, geojson, svg};
-use guideway::layout::Layout;
+use guideway::layout::{Layout, UserError};
 use guideway::{SaveError, replace_file};
 use serde_json::{Value, json};
 
+use super::exit::Exit;
 use super::input::{self, Input};
-use super::{Exit, Failure, Output, arrow, text};
+use super::output::Output;
+use super::{arrow, text};
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = input::PLACEMENT_HELP)]
 pub(crate) struct Args {
-    /// Layout files of any format that is read, found from their content
+    /// Layout files; the content decides the format
     #[arg(required = true, value_name = "FILE", value_parser = Input::parser())]
     inputs: Vec<Input>,
-    /// File to write; the ending of its name is that of a format below, unless --to says which
+    /// File to write; its extension selects the format unless --to is given
     output: PathBuf,
-    /// Format to write
+    /// Format of the output
     #[arg(long, value_name = "FORMAT")]
     to: Option<Target>,
 }
 
-/// What can be written.
+/// The formats with a writer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum Target {
-    /// A table of paths for Apache Arrow: .arrow, .feather
+    /// Apache Arrow, a row per run: .arrow, .feather
     Arrow,
-    /// A drawing for CAD programs: .dxf
+    /// DXF, a drawing for CAD programs: .dxf
     Dxf,
-    /// GeoJSON; a route graph of Nav2 if there are nodes: .geojson
+    /// GeoJSON, a Nav2 route graph if the layout has nodes: .geojson
     Geojson,
     /// VDMA LIF 1.0: .lif.json, .lif
     Lif,
     /// VDMA LIF 2.0
     Lif2,
-    /// A drawing of the layout with true curves: .svg
+    /// SVG, a drawing with exact curves: .svg
     Svg,
 }
 
 impl Target {
-    /// The format of a file of this name.
-    pub(super) fn of(output: &Path) -> Result<Self, Failure> {
+    /// The format that the extension of a file selects.
+    pub(super) fn of(output: &Path) -> Result<Self, UserError> {
         let name = output.file_name().unwrap_or_default().to_string_lossy();
         let name = name.to_lowercase();
-        let endings = [
+        let extensions = [
             (".arrow", Self::Arrow),
             (".feather", Self::Arrow),
             (".geojson", Self::Geojson),
@@ -61,27 +63,27 @@ impl Target {
             (".dxf", Self::Dxf),
             (".svg", Self::Svg),
         ];
-        let known = endings.iter().find(|(ending, _)| name.ends_with(ending));
+        let known = extensions
+            .iter()
+            .find(|(extension, _)| name.ends_with(extension));
         known.map(|(_, target)| *target).ok_or_else(|| {
-            let endings = endings.map(|(ending, _)| ending).join(", ");
-            Failure {
-                code: "target-format",
-                message: format!(
-                    "{}: what can be written ends in {endings}",
+            let extensions = extensions.map(|(extension, _)| extension).join(", ");
+            UserError::new(
+                "target-format",
+                format!(
+                    "{}: no format has this extension; known are {extensions}",
                     output.display()
                 ),
-                remedy:
-                    "Name the output so, or say which it is, such as `--to lif2`; for a picture \
-                    use `guideway render`"
-                        .into(),
-            }
+                "Rename the output or name its format, such as `--to lif2`; `guideway render` \
+                 writes pictures",
+            )
         })
     }
 
-    /// The format to save a layout in: what the file's name says, and what the layout was read from where that leaves
-    /// it open.
+    /// The format to save a layout in: by the extension of the file, or by the source of the layout
+    /// where the extension fits several formats.
     #[cfg(feature = "viewer")]
-    pub(super) fn to_save(layout: &Layout, output: &Path) -> Result<Self, Failure> {
+    pub(super) fn to_save(layout: &Layout, output: &Path) -> Result<Self, UserError> {
         let is_geojson = layout.provenance.format == Format::GeoJson.name();
         let read = match Version::of_layout(layout) {
             Some(Version::V1) => Some(Self::Lif),
@@ -98,24 +100,22 @@ impl Target {
         }
     }
 
-    /// Refuses to replace the file that a layout was read from by less than it may hold.
+    /// Rejects saving a layout over its source if the source may hold more than the layout.
     #[cfg(feature = "viewer")]
-    pub(super) fn check_in_place(layout: &Layout, file: &Path) -> Result<(), Failure> {
+    pub(super) fn check_in_place(layout: &Layout, file: &Path) -> Result<(), UserError> {
         let refused = layout.refused.len();
         let would_lose = match Self::to_save(layout, file)? {
-            Self::Dxf | Self::Svg => {
-                "is a drawing, of which only the paths would be left".to_owned()
-            }
+            Self::Dxf | Self::Svg => "is a drawing: saving would keep only the paths".to_owned(),
             Self::Arrow | Self::Geojson if refused > 0 => {
-                format!("has paths that cannot be drawn ({refused}), which would be left out")
+                format!("has {refused} refused paths, which saving would drop")
             }
             Self::Arrow | Self::Geojson | Self::Lif | Self::Lif2 => return Ok(()),
         };
-        Err(Failure {
-            code: "target-format",
-            message: format!("{} {would_lose}", file.display()),
-            remedy: "Save the layout under another name".into(),
-        })
+        Err(UserError::new(
+            "target-format",
+            format!("{} {would_lose}", file.display()),
+            "Save the layout under another name",
+        ))
     }
 
     fn name(self) -> &'static str {
@@ -129,8 +129,8 @@ impl Target {
         }
     }
 
-    /// Writes the file whole or not at all; returns what it cannot hold, and its size.
-    pub(super) fn write(self, layout: &Layout, output: &Path) -> Result<(Losses, u64), Failure> {
+    /// Writes the file atomically. Returns the losses of the format and the size of the file.
+    pub(super) fn write(self, layout: &Layout, output: &Path) -> Result<(Losses, u64), UserError> {
         let write: TextWriter = match self {
             Self::Arrow => {
                 return arrow::replace(output, |file| {
@@ -160,7 +160,7 @@ impl Target {
     }
 }
 
-/// Writes a layout as text of some format.
+/// Writes a layout in a text format.
 type TextWriter = fn(&Layout, &mut BufWriter<File>) -> io::Result<Losses>;
 
 fn lif_options(version: Version) -> lif::WriteOptions {
@@ -170,13 +170,13 @@ fn lif_options(version: Version) -> lif::WriteOptions {
     }
 }
 
-pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, Failure> {
+pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
     let target = args.to.map_or_else(|| Target::of(&args.output), Ok)?;
     input::check_output(args.inputs.iter().map(|i| i.path.as_path()), &args.output)?;
     let (layout, read_ms) = input::read_all(&args.inputs, out)?;
-    let activity = out.activity(format!("writing {}", args.output.display()));
+    let progress = out.progress(format!("writing {}", args.output.display()));
     let (losses, bytes) = target.write(&layout, &args.output)?;
-    let write_ms = activity.finish();
+    let write_ms = progress.finish();
 
     let lost = losses.iter().map(
         |loss| json!({ "place": loss.what, "count": loss.count, "message": loss.to_string() }),
@@ -198,14 +198,14 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, Failure> {
             text::bytes(bytes)
         );
         if !losses.is_empty() {
-            text += &format!(
-                "not in a file of {}, or otherwise than before:\n",
-                target.name()
-            );
+            text += &format!("{} cannot hold, or holds in another form:\n", target.name());
         }
         for loss in losses.iter() {
-            let (what, count) = (text::plain(&loss.what, 80), text::count(loss.count));
-            text += &format!("  {what}: {count} {}\n", text::plain(&loss.detail, 200));
+            let (what, count) = (text::single_line(&loss.what, 80), text::count(loss.count));
+            text += &format!(
+                "  {what}: {count} {}\n",
+                text::single_line(&loss.detail, 200)
+            );
         }
         text + &format!(
             "took {}: reading {}, writing {}\n",
@@ -229,7 +229,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_is_saved_in_the_format_that_it_was_read_from() {
+    fn saves_in_the_format_of_the_source() {
         use Target::{Arrow, Geojson, Lif, Lif2};
         for (format, version, name, target) in [
             ("LIF", "1.0", "a.lif.json", Some(Lif)),
@@ -249,8 +249,8 @@ mod tests {
             assert_eq!(in_place.is_ok(), target.is_some(), "{name}");
         }
         let drawing = read_from("DXF", "AC1015");
-        let refused = Target::check_in_place(&drawing, Path::new("plan.dxf"));
-        assert!(refused.unwrap_err().message.contains("only the paths"));
+        let rejected = Target::check_in_place(&drawing, Path::new("plan.dxf"));
+        assert!(rejected.unwrap_err().message.contains("only the paths"));
         assert_eq!(
             Target::to_save(&drawing, Path::new("b.dxf")).ok(),
             Some(Target::Dxf)

@@ -1,19 +1,21 @@
-//! `guideway generate`: a test layout of any size, written as it is made.
+//! `guideway generate`: a test layout of any size, streamed to an Arrow file.
 
 use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 use guideway::formats::Progress;
 use guideway::formats::arrow::{ArrowWriter, Column, ColumnType, Precision, WriteError};
-use guideway::layout::Value;
+use guideway::layout::{UserError, Value};
 use guideway_datasets::{GeneratedPath, RUN_POINTS, d1, d2};
 use serde_json::json;
 
-use super::activity::Activity;
-use super::{Exit, Failure, Output, arrow, text, values};
+use super::exit::Exit;
+use super::output::Output;
+use super::progress_bar::ProgressBar;
+use super::{arrow, text, values};
 
-/// How often the display learns how far it is, in paths.
-const STEP: usize = 4096;
+/// Paths between two updates of the progress.
+const PROGRESS_STEP: usize = 4096;
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
@@ -22,30 +24,30 @@ pub(crate) struct Args {
     /// Number of paths, such as 1000000 or 1_000_000
     #[arg(long, value_name = "N", value_parser = values::paths)]
     paths: usize,
-    /// Another seed gives another layout of the same kind
+    /// Seed of the random numbers; the same seed generates the same file
     #[arg(long, value_name = "S", default_value_t = 1)]
     seed: u64,
-    /// File to write; its name ends in .arrow or .feather
+    /// Arrow file to write: .arrow or .feather
     #[arg(long, short, value_name = "FILE")]
     output: PathBuf,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Dataset {
-    /// The shape of a real site, hall beside hall
+    /// The shape of a real site: halls side by side
     D1,
-    /// Curves over one field, until every pixel lies under many
+    /// Overlapping curves on one field: every pixel has many paths
     D2,
 }
 
-pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, Failure> {
+pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
     arrow::check_output(&args.output)?;
-    let activity = out.activity(format!("writing {}", args.output.display()));
+    let progress = out.progress(format!("writing {}", args.output.display()));
     let ((), bytes) = arrow::replace(&args.output, |file| match args.dataset {
-        Dataset::D1 => write(file, d1(args.paths, args.seed), args.paths, &activity),
-        Dataset::D2 => write(file, d2(args.paths, args.seed), args.paths, &activity),
+        Dataset::D1 => write(file, d1(args.paths, args.seed), args.paths, &progress),
+        Dataset::D2 => write(file, d2(args.paths, args.seed), args.paths, &progress),
     })?;
-    let took_ms = activity.finish();
+    let took_ms = progress.finish();
 
     let segments = args.paths * (RUN_POINTS - 3);
     let body = json!({
@@ -77,7 +79,7 @@ fn write(
     file: &Path,
     paths: impl Iterator<Item = GeneratedPath>,
     total: usize,
-    activity: &Activity,
+    progress: &ProgressBar,
 ) -> Result<(), WriteError> {
     let columns = vec![
         Column::new("kind", ColumnType::Text),
@@ -92,8 +94,8 @@ fn write(
             Some(Value::Int(path.hall.into())),
         ];
         writer.push_run(&path.id, &path.run, &values)?;
-        if done % STEP == 0 {
-            activity.advance(done as u64, total as u64);
+        if done % PROGRESS_STEP == 0 {
+            progress.advance(done as u64, total as u64);
         }
     }
     writer.finish()

@@ -1,4 +1,4 @@
-//! Files that are read: one, or several as one layout, each put where it belongs.
+//! Input files: parses `FILE@placement`, reads layouts and merges them.
 
 use std::ffi::OsString;
 use std::io::{self, ErrorKind};
@@ -7,29 +7,31 @@ use std::path::{Path, PathBuf};
 use clap::builder::{OsStringValueParser, TypedValueParser};
 use guideway::SaveError;
 use guideway::formats::{ReadOptions, read_file};
-use guideway::layout::{Layout, merge};
+use guideway::layout::{Layout, UserError, merge};
 use guideway::spline::{Affine, Point};
 
-use super::{Failure, Output, values};
+use super::error::{same_file_error, usage_error};
+use super::output::Output;
+use super::values;
 
-/// What a file can be given after its name, for the help of every command that reads several.
-pub(crate) const PLACEMENT_HELP: &str = "Several files become one layout. Each can be scaled about the \
-    origin, then turned counter-clockwise by degrees, then moved by meters:\n  \
+/// Help on placements, for every command that reads several files.
+pub(crate) const PLACEMENT_HELP: &str = "Several files are merged into one layout. Each can be \
+    scaled about the origin, then rotated counter-clockwise in degrees, then moved in meters:\n  \
     FILE@scale=0.001,rotate=90,offset=12.5,-3";
 
-/// A file, and how it is put among others.
+/// A file and its placement.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Input {
     pub(crate) path: PathBuf,
     pub(crate) scale: Option<f64>,
     pub(crate) rotate_deg: Option<f64>,
     pub(crate) offset_m: Option<Point<f64>>,
-    /// Of an image: pixels a meter.
+    /// Pixels per meter, for an image.
     pub(crate) px_per_m: Option<f64>,
 }
 
 impl Input {
-    /// Reads `FILE@key=value,key=value` from an argument.
+    /// The parser of an argument `FILE@key=value,key=value`.
     pub(crate) fn parser() -> impl TypedValueParser<Value = Self> {
         OsStringValueParser::new().try_map(Self::parse)
     }
@@ -42,7 +44,7 @@ impl Input {
         let Some((path, keys)) = argument.to_str().and_then(|text| text.rsplit_once('@')) else {
             return Ok(whole);
         };
-        // A file may well have such a name.
+        // The name of an existing file may contain `@` and `=`.
         if !keys.contains('=') || whole.path.exists() {
             return Ok(whole);
         }
@@ -62,13 +64,13 @@ impl Input {
             "rotate" => self.rotate_deg = Some(values::degrees(value)?),
             "offset" => self.offset_m = Some(values::point(value)?),
             "px-per-m" => self.px_per_m = Some(values::positive(value)?),
-            _ => return Err("there is scale, rotate and offset; px-per-m of images".into()),
+            _ => return Err("the keys are scale, rotate and offset; px-per-m for images".into()),
         }
         Ok(())
     }
 
-    /// Where it is put; none if it stays where it is.
-    fn placed(&self) -> Option<Affine> {
+    /// The transform of the placement; `None` without one.
+    fn transform(&self) -> Option<Affine> {
         let Self {
             scale,
             rotate_deg,
@@ -80,12 +82,12 @@ impl Input {
         }
         let (origin, scale) = (Point::default(), scale.unwrap_or(1.0));
         let angle_rad = rotate_deg.unwrap_or(0.0).to_radians();
-        let turned = Affine::scale(scale, scale, origin).then(Affine::rotation(angle_rad, origin));
-        Some(turned.then(Affine::translation(offset_m.unwrap_or_default())))
+        let rotated = Affine::scale(scale, scale, origin).then(Affine::rotation(angle_rad, origin));
+        Some(rotated.then(Affine::translation(offset_m.unwrap_or_default())))
     }
 }
 
-/// The keys with their values; a value may have commas.
+/// Splits keys and values; a value may contain commas.
 fn pairs(keys: &str) -> Vec<(&str, String)> {
     let mut pairs: Vec<(&str, String)> = Vec::new();
     for part in keys.split(',') {
@@ -98,30 +100,34 @@ fn pairs(keys: &str) -> Vec<(&str, String)> {
     pairs
 }
 
-/// Reads a layout, showing how far it is. Returns it with the time that it took, in milliseconds.
-pub(crate) fn read(path: &Path, out: &Output) -> Result<(Layout, f64), Failure> {
-    let activity = out.activity(format!("reading {}", path.display()));
+/// Reads a layout and shows the progress. Returns it and the duration in milliseconds.
+pub(crate) fn read(path: &Path, out: &Output) -> Result<(Layout, f64), UserError> {
+    let progress = out.progress(format!("reading {}", path.display()));
     let options = ReadOptions {
-        progress: Some(&activity),
+        progress: Some(&progress),
         ..ReadOptions::default()
     };
     let layout = read_file(path, &options)?;
-    Ok((layout, activity.finish()))
+    Ok((layout, progress.finish()))
 }
 
-/// Reads several layouts and puts each where it belongs. The times of all together are in milliseconds.
-pub(crate) fn read_each(inputs: &[Input], out: &Output) -> Result<(Vec<Layout>, f64), Failure> {
+/// Reads several layouts and applies their placements. Returns them and the total duration in
+/// milliseconds.
+pub(crate) fn read_each(inputs: &[Input], out: &Output) -> Result<(Vec<Layout>, f64), UserError> {
     let (mut layouts, mut all_ms) = (Vec::new(), 0.0);
     for input in inputs {
         if input.px_per_m.is_some() {
-            return Err(Failure::arguments(
-                format!("{}: px-per-m is for images", input.path.display()),
-                "Scale a layout with scale, such as `plan.dxf@scale=0.001`",
+            return Err(usage_error(
+                format!(
+                    "{}: `px-per-m` applies only to images",
+                    input.path.display()
+                ),
+                "Use `scale` for a layout, such as `plan.dxf@scale=0.001`",
             ));
         }
         let (mut layout, ms) = read(&input.path, out)?;
-        if let Some(by) = input.placed() {
-            layout.transform(by);
+        if let Some(transform) = input.transform() {
+            layout.transform(transform);
         }
         layouts.push(layout);
         all_ms += ms;
@@ -129,45 +135,45 @@ pub(crate) fn read_each(inputs: &[Input], out: &Output) -> Result<(Vec<Layout>, 
     Ok((layouts, all_ms))
 }
 
-/// Reads several layouts as one.
-pub(crate) fn read_all(inputs: &[Input], out: &Output) -> Result<(Layout, f64), Failure> {
+/// Reads several layouts and merges them.
+pub(crate) fn read_all(inputs: &[Input], out: &Output) -> Result<(Layout, f64), UserError> {
     let (layouts, read_ms) = read_each(inputs, out)?;
-    let activity = out.activity("putting files together");
+    let progress = out.progress("merging files");
     let layout = merge(layouts);
-    Ok((layout, read_ms + activity.finish()))
+    Ok((layout, read_ms + progress.finish()))
 }
 
-/// The names of all, for a report.
+/// The names of all files, for a report.
 pub(crate) fn names(inputs: &[Input]) -> String {
     let names = inputs.iter().map(|input| input.path.to_string_lossy());
     names.collect::<Vec<_>>().join(", ")
 }
 
-/// Refuses an output that cannot be written or would replace an input, before any long work is done.
+/// Rejects an output that cannot be written or would replace an input, before any long work.
 pub(crate) fn check_output<'a>(
     inputs: impl IntoIterator<Item = &'a Path>,
     output: &Path,
-) -> Result<(), Failure> {
-    let refuse = |kind, why: &'static str| {
-        Err(Failure::from(SaveError {
+) -> Result<(), UserError> {
+    let reject = |kind, reason: &'static str| {
+        Err(UserError::from(SaveError {
             path: output.to_owned(),
-            problem: io::Error::new(kind, why),
+            problem: io::Error::new(kind, reason),
         }))
     };
     if output.is_dir() {
-        return refuse(ErrorKind::IsADirectory, "this is a folder");
+        return reject(ErrorKind::IsADirectory, "this is a folder");
     }
     let folder = output.parent().filter(|folder| *folder != Path::new(""));
     if folder.is_some_and(|folder| !folder.is_dir()) {
-        return refuse(ErrorKind::NotFound, "there is no such folder");
+        return reject(ErrorKind::NotFound, "the folder does not exist");
     }
-    // An output that is not there yet has no canonical path, and cannot be an input.
-    let Ok(there) = output.canonicalize() else {
+    // An output that does not exist has no canonical path, and is no input.
+    let Ok(existing) = output.canonicalize() else {
         return Ok(());
     };
     let mut inputs = inputs.into_iter().map(Path::canonicalize);
-    match inputs.any(|input| input.is_ok_and(|input| input == there)) {
-        true => Err(Failure::same_file(output)),
+    match inputs.any(|input| input.is_ok_and(|input| input == existing)) {
+        true => Err(same_file_error(output)),
         false => Ok(()),
     }
 }
@@ -181,23 +187,23 @@ mod tests {
     }
 
     #[test]
-    fn a_file_is_put_where_its_keys_say() {
+    fn parses_placement_keys() {
         let plain = parse("site.json").unwrap();
         assert_eq!(
-            (plain.path.to_str(), plain.placed()),
+            (plain.path.to_str(), plain.transform()),
             (Some("site.json"), None)
         );
         let input = parse("a@b/plan.dxf@scale=0.5,rotate=90,offset=10,-3").unwrap();
         assert_eq!(input.path.to_str(), Some("a@b/plan.dxf"));
-        let p = input.placed().unwrap().apply(Point::new(4.0, 2.0));
+        let p = input.transform().unwrap().apply(Point::new(4.0, 2.0));
         assert!(p.distance(Point::new(9.0, -1.0)) < 1e-12, "{p:?}");
         assert_eq!(parse("hall.png@px-per-m=20").unwrap().px_per_m, Some(20.0));
-        // No keys, so it is a name.
+        // Without keys the whole text is the name.
         assert_eq!(parse("me@home").unwrap().path.to_str(), Some("me@home"));
     }
 
     #[test]
-    fn a_file_that_is_there_is_never_cut() {
+    fn name_of_an_existing_file_is_not_split() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("plan@scale=2");
         std::fs::write(&path, "").unwrap();
@@ -205,7 +211,7 @@ mod tests {
     }
 
     #[test]
-    fn bad_keys_and_values_are_refused_with_what_there_is() {
+    fn rejects_bad_keys_and_values_with_an_example() {
         for (bad, said) in [
             ("a@size=2", "scale, rotate and offset"),
             ("a@2,scale=3", "scale, rotate and offset"),

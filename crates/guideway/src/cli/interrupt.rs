@@ -1,20 +1,21 @@
-//! What Ctrl-C does.
+//! Ctrl-C: ends the process at once, or cancels an operation that saves its results.
 
 use std::process;
 use std::sync::OnceLock;
 
+use guideway::layout::UserError;
 use guideway::render::Cancel;
 
-use super::{Failure, INTERRUPTED};
+use super::exit::INTERRUPTED;
 
-/// Work that keeps what it has when it is stopped.
-static PATIENT: OnceLock<Cancel> = OnceLock::new();
+/// Cancels the operation that saves its results when it is stopped.
+static CANCEL_ON_INTERRUPT: OnceLock<Cancel> = OnceLock::new();
 
-/// Makes Ctrl-C take half-written files away and end the process at once, whatever it is doing.
-pub(super) fn watch() -> Result<(), Failure> {
+/// Installs the handler: Ctrl-C removes unfinished files and ends the process.
+pub(super) fn watch() -> Result<(), UserError> {
     let stop = || {
-        // The first time, such work is asked to come to an end; it may be stuck, so not the second time.
-        if let Some(cancel) = PATIENT.get()
+        // The first Ctrl-C cancels the operation. It may be stuck, so the second one ends it.
+        if let Some(cancel) = CANCEL_ON_INTERRUPT.get()
             && cancel.check().is_ok()
         {
             cancel.set();
@@ -23,14 +24,16 @@ pub(super) fn watch() -> Result<(), Failure> {
         guideway::remove_unfinished();
         process::exit(INTERRUPTED);
     };
-    ctrlc::set_handler(stop).map_err(|error| Failure {
-        code: "signal",
-        message: format!("cannot watch for Ctrl-C: {error}"),
-        remedy: "Try again; if it stays so, the system refuses signal handlers here".into(),
+    ctrlc::set_handler(stop).map_err(|error| {
+        UserError::new(
+            "signal",
+            format!("cannot install the handler of Ctrl-C: {error}"),
+            "Try again; the system may refuse signal handlers in this environment",
+        )
     })
 }
 
-/// What the first Ctrl-C sets from now on, instead of ending the process.
-pub(super) fn patiently() -> Cancel {
-    PATIENT.get_or_init(Cancel::default).clone()
+/// The flag that the first Ctrl-C sets from now on, instead of ending the process.
+pub(super) fn cancel_on_interrupt() -> Cancel {
+    CANCEL_ON_INTERRUPT.get_or_init(Cancel::default).clone()
 }

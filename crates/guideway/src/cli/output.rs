@@ -1,24 +1,28 @@
+//! Reports and errors as text or JSON, and files that hold them.
+
 use std::fs;
 use std::io::{self, ErrorKind, Write};
 use std::path::Path;
 
+use guideway::layout::UserError;
 use guideway::{SaveError, replace_file};
 use serde::Serialize;
 use serde_json::json;
 
-use super::Failure;
-use super::activity::Activity;
+use super::error::json_error;
+use super::progress_bar::ProgressBar;
 
-/// Version of the JSON answers. A new key does not raise it; a changed or missing one does.
+/// Version of the JSON reports. A new key does not raise it; a changed or removed one does.
 pub(crate) const REPORT_VERSION: u32 = 1;
 
-/// Where answers go, and how.
+/// Selects text or JSON, and whether to print anything besides errors.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Output {
     json: bool,
     quiet: bool,
 }
 
+/// A report with its header: the form of every JSON answer.
 #[derive(Serialize)]
 struct Envelope<'a, T> {
     guideway: Header<'a>,
@@ -37,23 +41,23 @@ impl Output {
         Self { json, quiet }
     }
 
-    /// Whether answers are JSON.
+    /// Whether reports are JSON.
     pub(crate) fn is_json(self) -> bool {
         self.json
     }
 
-    /// Shows what takes long, until the answer is dropped.
-    pub(crate) fn activity(self, what: impl Into<String>) -> Activity {
-        Activity::start(what.into(), !self.quiet && !self.json)
+    /// Shows the progress of an operation until the result is dropped.
+    pub(crate) fn progress(self, label: impl Into<String>) -> ProgressBar {
+        ProgressBar::start(label.into(), !self.quiet && !self.json)
     }
 
-    /// Answers with a report: JSON if that was asked for, else the text that `text` makes.
+    /// Prints a report: as JSON under `--json`, else the result of `text`.
     pub(crate) fn report<T: Serialize>(
         self,
         name: &str,
         body: &T,
         text: impl FnOnce() -> String,
-    ) -> Result<(), Failure> {
+    ) -> Result<(), UserError> {
         if self.json {
             print(&envelope(name, REPORT_VERSION, body)?)
         } else if self.quiet {
@@ -63,25 +67,25 @@ impl Output {
         }
     }
 
-    /// Says something beside the answer, where it does not mix with bytes on standard output.
+    /// Prints a note to standard error, apart from bytes on standard output.
     pub(crate) fn note(self, text: &str) {
         if !self.quiet && !self.json {
-            // A note that cannot be shown changes nothing about the work.
+            // The result does not depend on a note that nobody can read.
             let _ = writeln!(io::stderr(), "{text}");
         }
     }
 
-    /// Reports a failure.
-    pub(crate) fn failure(self, failure: &Failure) {
-        let Failure {
+    /// Prints an error: as JSON to standard output, else to standard error.
+    pub(crate) fn error(self, error: &UserError) {
+        let UserError {
             code,
             message,
             remedy,
-        } = failure;
+        } = error;
         if self.json {
             let error = json!({ "code": code, "message": message, "remedy": remedy });
             if let Ok(bytes) = envelope("error", REPORT_VERSION, &json!({ "error": error })) {
-                // The exit code says the same to a reader that has gone away.
+                // A reader that has closed the pipe still has the exit code.
                 let _ = print(&bytes);
             }
         } else {
@@ -90,7 +94,7 @@ impl Output {
     }
 }
 
-fn envelope<T: Serialize>(name: &str, version: u32, body: &T) -> Result<Vec<u8>, Failure> {
+fn envelope<T: Serialize>(name: &str, version: u32, body: &T) -> Result<Vec<u8>, UserError> {
     let whole = Envelope {
         guideway: Header {
             report: name,
@@ -98,11 +102,8 @@ fn envelope<T: Serialize>(name: &str, version: u32, body: &T) -> Result<Vec<u8>,
         },
         body,
     };
-    let mut bytes = serde_json::to_vec_pretty(&whole).map_err(|error| Failure {
-        code: "json",
-        message: format!("cannot write the report as JSON: {error}"),
-        remedy: "Leave --json out".into(),
-    })?;
+    let bytes = serde_json::to_vec_pretty(&whole);
+    let mut bytes = bytes.map_err(|error| json_error(&error, "Omit --json"))?;
     bytes.push(b'\n');
     Ok(bytes)
 }
@@ -113,13 +114,13 @@ pub(crate) fn save_report<T: Serialize>(
     name: &str,
     version: u32,
     body: &T,
-) -> Result<(), Failure> {
+) -> Result<(), UserError> {
     let bytes = envelope(name, version, body)?;
     save(path, &bytes)
 }
 
-/// Saves a file whole or not at all.
-pub(crate) fn save(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+/// Saves a file atomically.
+pub(crate) fn save(path: &Path, bytes: &[u8]) -> Result<(), UserError> {
     let write = |file: &Path| {
         fs::write(file, bytes).map_err(|problem| SaveError {
             path: path.to_owned(),
@@ -129,15 +130,15 @@ pub(crate) fn save(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     Ok(replace_file(path, write)?)
 }
 
-/// Writes to standard output. A reader that wants no more, such as `head`, is no failure.
-pub(crate) fn print(bytes: &[u8]) -> Result<(), Failure> {
+/// Writes to standard output. A closed pipe (`| head`) is not an error.
+pub(crate) fn print(bytes: &[u8]) -> Result<(), UserError> {
     let mut stdout = io::stdout().lock();
     match stdout.write_all(bytes).and_then(|()| stdout.flush()) {
-        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(Failure {
-            code: "stdout",
-            message: format!("cannot write to standard output: {error}"),
-            remedy: "Check where the output is sent to".into(),
-        }),
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(UserError::new(
+            "stdout",
+            format!("cannot write to standard output: {error}"),
+            "Check the target of the redirection",
+        )),
         _ => Ok(()),
     }
 }

@@ -1,27 +1,16 @@
-//! Numbers as people read them.
+//! Formats numbers of reports for people.
 
 use guideway::layout::Value;
 
-/// A count with its thousands apart: 1,020,350.
-pub(crate) fn count(n: u64) -> String {
-    let digits = n.to_string();
-    let mut grouped = String::with_capacity(digits.len() + digits.len() / 3);
-    for (i, digit) in digits.chars().enumerate() {
-        if i > 0 && (digits.len() - i).is_multiple_of(3) {
-            grouped.push(',');
-        }
-        grouped.push(digit);
-    }
-    grouped
-}
+pub(crate) use guideway::compose::text_format::{count, single_line};
 
-/// A count with its noun, which takes an s unless there is one: 1 path, 2 paths.
+/// A count with its noun in the singular or plural: `1 path`, `2 paths`.
 pub(crate) fn counted(n: u64, noun: &str) -> String {
     let plural = if n == 1 { "" } else { "s" };
     format!("{} {noun}{plural}", count(n))
 }
 
-/// A time, to three digits.
+/// A duration to three digits.
 pub(crate) fn time(ms: f64) -> String {
     if ms < 9.995 {
         format!("{ms:.2} ms")
@@ -32,7 +21,7 @@ pub(crate) fn time(ms: f64) -> String {
     }
 }
 
-/// A number of bytes.
+/// A number of bytes with its unit.
 pub(crate) fn bytes(n: u64) -> String {
     const UNITS: [&str; 4] = ["kB", "MB", "GB", "TB"];
     if n < 1000 {
@@ -48,12 +37,12 @@ pub(crate) fn bytes(n: u64) -> String {
     format!("{value:.digits$} {}", UNITS[unit])
 }
 
-/// A number as it was meant: 0.3 where a file of single precision has 0.30000001192092896.
+/// A number without the digits of single precision: 0.3, not 0.30000001192092896.
 pub(crate) fn number(value: f64) -> String {
     Value::Float(value).to_string()
 }
 
-/// A length in meters, to the millimeter, with its thousands apart.
+/// A length in meters, to the millimeter, with its thousands separated.
 pub(crate) fn meters(value: f64) -> String {
     if !value.is_finite() || value.abs() >= 1e15 {
         return format!("{value} m");
@@ -67,24 +56,12 @@ pub(crate) fn meters(value: f64) -> String {
     format!("{sign}{whole}{point}{fraction} m")
 }
 
-/// Text from a file on one line of a terminal: no control characters, and not endless.
-pub(crate) fn plain(text: &str, most_chars: usize) -> String {
-    let safe = |c: char| if c.is_control() { '\u{fffd}' } else { c };
-    let mut shown: String = text.chars().take(most_chars).map(safe).collect();
-    if text.chars().nth(most_chars).is_some() {
-        shown.push('…');
-    }
-    shown
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn numbers_are_easy_to_read() {
-        assert_eq!(count(999), "999");
-        assert_eq!(count(1_020_350), "1,020,350");
+    fn formats_counts_times_bytes_and_lengths() {
         assert_eq!(counted(1, "path"), "1 path");
         assert_eq!(counted(0, "path"), "0 paths");
         assert_eq!(time(0.1234), "0.12 ms");
@@ -99,11 +76,5 @@ mod tests {
         assert_eq!(number(f64::from(0.3_f32)), "0.3");
         assert_eq!(number(0.1), "0.1");
         assert_eq!(number(f64::NAN), "NaN");
-    }
-
-    #[test]
-    fn text_from_a_file_cannot_command_the_terminal() {
-        assert_eq!(plain("a\u{1b}[31mb\n", 80), "a\u{fffd}[31mb\u{fffd}");
-        assert_eq!(plain("abcdef", 3), "abc…");
     }
 }

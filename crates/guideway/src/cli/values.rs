@@ -1,4 +1,4 @@
-//! How the values of arguments are read. Each refusal shows what a good value looks like.
+//! Parsers of argument values. Each error shows a valid value.
 
 use std::ffi::OsStr;
 
@@ -8,12 +8,12 @@ use guideway::layout::Limits;
 use guideway::render::{Frame, FrameSize};
 use guideway::spline::Point;
 
-/// The size of a picture that is drawn at once, such as `1920x1080`.
+/// The size of a picture that fits one frame, such as `1920x1080`.
 pub(crate) fn frame_size(text: &str) -> Result<FrameSize, String> {
     let size = size(text)?;
     if size.pixels() > Frame::MAX_PIXELS {
         return Err(format!(
-            "at most {} million pixels are drawn at once, such as 1920x1080",
+            "above the limit of {} million pixels; write a smaller size, such as 1920x1080",
             Frame::MAX_PIXELS / 1_000_000
         ));
     }
@@ -32,7 +32,7 @@ pub(crate) fn size(text: &str) -> Result<FrameSize, String> {
     };
     FrameSize::new(width, height).map_err(|_| {
         format!(
-            "each side takes 1 to {} pixels, such as 1920x1080",
+            "each side has 1 to {} pixels, such as 1920x1080",
             FrameSize::MAX_SIDE
         )
     })
@@ -40,14 +40,14 @@ pub(crate) fn size(text: &str) -> Result<FrameSize, String> {
 
 /// A point such as `12.5,-3`.
 pub(crate) fn point(text: &str) -> Result<Point<f64>, String> {
-    let refuse = || "write x and y in meters with a comma between, such as 12.5,-3".to_owned();
-    let (x, y) = text.split_once(',').ok_or_else(refuse)?;
-    let number = |text: &str| text.trim().parse::<f64>().map_err(|_| refuse());
+    let error = || "write x and y in meters, separated by a comma, such as 12.5,-3".to_owned();
+    let (x, y) = text.split_once(',').ok_or_else(error)?;
+    let number = |text: &str| text.trim().parse::<f64>().map_err(|_| error());
     let point = Point::new(number(x)?, number(y)?);
     if point.is_finite() {
         Ok(point)
     } else {
-        Err(refuse())
+        Err(error())
     }
 }
 
@@ -67,26 +67,26 @@ pub(crate) fn degrees(text: &str) -> Result<f64, String> {
     }
 }
 
-/// A number that is not negative, such as a width.
+/// A number of at least 0, such as a width.
 pub(crate) fn not_negative(text: &str) -> Result<f64, String> {
     match text.trim().parse::<f64>() {
         Ok(value) if value.is_finite() && value >= 0.0 => Ok(value),
-        _ => Err("write a number from 0 up, such as 0.1 or 2".into()),
+        _ => Err("write a number of at least 0, such as 0.1 or 2".into()),
     }
 }
 
 /// A number of paths, such as 1000000 or 1_000_000.
 pub(crate) fn paths(text: &str) -> Result<usize, String> {
-    let most = Limits::default().paths;
+    let max = Limits::default().paths;
     match text.replace('_', "").parse::<u64>() {
-        Ok(n) if (1..=most).contains(&n) => Ok(n as usize),
+        Ok(n) if (1..=max).contains(&n) => Ok(n as usize),
         _ => Err(format!(
-            "write a whole number from 1 to {most}, such as 1_000_000"
+            "write a whole number from 1 to {max}, such as 1_000_000"
         )),
     }
 }
 
-/// A number of frames, at least one.
+/// A number of frames from 1 to 100,000.
 pub(crate) fn frames(text: &str) -> Result<usize, String> {
     match text.parse::<usize>() {
         Ok(n) if (1..=100_000).contains(&n) => Ok(n),
@@ -94,23 +94,23 @@ pub(crate) fn frames(text: &str) -> Result<usize, String> {
     }
 }
 
-/// A number of minutes, up to a day.
+/// A number of minutes, at most a day.
 pub(crate) fn minutes(text: &str) -> Result<f64, String> {
     match text.trim().parse::<f64>() {
         Ok(value) if value > 0.0 && value <= 1440.0 => Ok(value),
-        _ => Err("write a number above 0 and up to 1440, such as 9 or 0.5".into()),
+        _ => Err("write a number above 0 and at most 1440, such as 9 or 0.5".into()),
     }
 }
 
-/// A share in percent, above 0 and up to 100.
+/// A share in percent, above 0 and at most 100.
 pub(crate) fn percent(text: &str) -> Result<f64, String> {
     match text.trim_end_matches('%').trim().parse::<f64>() {
         Ok(value) if value > 0.0 && value <= 100.0 => Ok(value),
-        _ => Err("write a number above 0 and up to 100, such as 1, 10 or 100".into()),
+        _ => Err("write a number above 0 and at most 100, such as 1, 10 or 100".into()),
     }
 }
 
-/// How many times nearer; below 1 it is farther away.
+/// A zoom factor; below 1 zooms out.
 pub(crate) fn times(text: &str) -> Result<f64, String> {
     match text.trim().parse::<f64>() {
         Ok(value) if (1e-3..=1e9).contains(&value) => Ok(value),
@@ -118,7 +118,7 @@ pub(crate) fn times(text: &str) -> Result<f64, String> {
     }
 }
 
-/// A method's name, which must be known, with options, which its method looks at.
+/// The name of a known method with options. The method itself parses the options.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct MethodSpec;
 
@@ -154,7 +154,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn good_values_are_taken() {
+    fn parses_valid_values() {
         assert_eq!(size("1920x1080").unwrap().width(), 1920);
         assert_eq!(size("1X2").unwrap().height(), 2);
         assert_eq!(point("-1.5, 2e3").unwrap(), Point::new(-1.5, 2000.0));
@@ -168,14 +168,14 @@ mod tests {
     }
 
     #[test]
-    fn refusals_show_a_good_value() {
+    fn errors_show_a_valid_value() {
         for bad in ["0x0", "1e9x2", "12", "x", "-1x5", "70000x1", ""] {
             assert!(size(bad).unwrap_err().contains("1920x1080"), "{bad}");
             assert!(frame_size(bad).is_err(), "{bad}");
         }
         assert!(size("65535x65535").is_ok());
-        let refusal = frame_size("65535x65535").unwrap_err();
-        assert!(refusal.contains("1920x1080"), "{refusal}");
+        let error = frame_size("65535x65535").unwrap_err();
+        assert!(error.contains("1920x1080"), "{error}");
         for bad in ["1", "1;2", "a,b", "NaN,0", "1,2,3", "inf,0"] {
             assert!(point(bad).unwrap_err().contains("12.5,-3"), "{bad}");
         }

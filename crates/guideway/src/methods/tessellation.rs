@@ -1,13 +1,15 @@
+//! The methods by hardware tessellation: `tessellation` and `tessellation-compact`.
+
 use std::sync::{Arc, LazyLock};
 
 use guideway_scene::Method;
 use guideway_tessellation::{Commands, GlDevice, Tessellation, TessellationOptions};
 
-use super::{Entry, MethodOption, Stop};
+use super::entry::{Entry, MethodOption, StartError};
 
 pub(super) const PER_PATH: Entry = Entry {
     name: "tessellation",
-    summary: "The thesis' hardware tessellation, a draw command a path; one color, 1 pixel wide",
+    summary: "Thesis 4.2: hardware tessellation, one draw call per path; one color, 1 pixel wide",
     options: OPTIONS,
     is_general: false,
     start: |options| start(options, Commands::PerPath),
@@ -15,7 +17,7 @@ pub(super) const PER_PATH: Entry = Entry {
 
 pub(super) const COMPACT: Entry = Entry {
     name: "tessellation-compact",
-    summary: "The same by one draw of all visible segments",
+    summary: "The same with a single draw call for all visible segments",
     options: OPTIONS,
     is_general: false,
     start: |options| start(options, Commands::Compact),
@@ -23,17 +25,19 @@ pub(super) const COMPACT: Entry = Entry {
 
 const OPTIONS: &[MethodOption] = &[MethodOption {
     name: "aa=multisample",
-    summary: "8 samples a pixel, or 4 where the device has no more",
+    summary: "8 samples per pixel, or 4 if the device has no more",
 }];
 
-/// Opened once, for all methods and options.
+/// Opened once for all methods and options.
 static DEVICE: LazyLock<Result<Arc<GlDevice>, String>> = LazyLock::new(GlDevice::new);
 
-fn start(options: &str, commands: Commands) -> Result<Box<dyn Method>, Stop> {
+fn start(options: &str, commands: Commands) -> Result<Box<dyn Method>, StartError> {
     let options = TessellationOptions {
         commands,
-        ..TessellationOptions::parse(options).map_err(Stop::Options)?
+        ..TessellationOptions::parse(options).map_err(StartError::Options)?
     };
-    let device = DEVICE.as_ref().map_err(|why| Stop::Missing(why.clone()))?;
+    let device = DEVICE
+        .as_ref()
+        .map_err(|why| StartError::Unavailable(why.clone()))?;
     Ok(Box::new(Tessellation::new(Arc::clone(device), options)))
 }

@@ -1,4 +1,4 @@
-//! `guideway convert` and `guideway generate`.
+//! Tests of `guideway convert` and `guideway generate`.
 
 use std::fs;
 use std::path::Path;
@@ -12,7 +12,7 @@ fn generate(output: &Path, args: &[&str]) -> std::process::Output {
 }
 
 #[test]
-fn a_converted_layout_has_the_same_paths() {
+fn converted_layout_has_the_same_paths() {
     let folder = tempfile::tempdir().unwrap();
     let arrow = folder.path().join("site.arrow");
     let mut convert = command();
@@ -59,7 +59,7 @@ fn a_converted_layout_has_the_same_paths() {
 }
 
 #[test]
-fn unknown_endings_are_refused_and_so_is_the_input() {
+fn rejects_unknown_extensions_and_the_input_as_output() {
     let folder = tempfile::tempdir().unwrap();
     let arrow = folder.path().join("a.arrow");
     assert_eq!(
@@ -88,7 +88,7 @@ fn unknown_endings_are_refused_and_so_is_the_input() {
 }
 
 #[test]
-fn geojson_has_every_path_too_and_other_endings_are_refused() {
+fn geojson_has_every_path() {
     let folder = tempfile::tempdir().unwrap();
     let target = folder.path().join("site.geojson");
     let convert = |target: &Path| {
@@ -111,7 +111,7 @@ fn geojson_has_every_path_too_and_other_endings_are_refused() {
 }
 
 #[test]
-fn what_cannot_be_read_is_not_converted() {
+fn truncated_input_is_not_converted() {
     let folder = tempfile::tempdir().unwrap();
     let whole = folder.path().join("a.arrow");
     assert_eq!(
@@ -137,7 +137,7 @@ fn what_cannot_be_read_is_not_converted() {
 }
 
 #[test]
-fn the_same_seed_gives_the_same_file() {
+fn same_seed_generates_the_same_file() {
     let folder = tempfile::tempdir().unwrap();
     let file = |name: &str, args: &[&str]| {
         let path = folder.path().join(name);
@@ -174,7 +174,7 @@ fn the_same_seed_gives_the_same_file() {
 }
 
 #[test]
-fn a_number_of_paths_is_asked_for_with_an_example() {
+fn rejects_invalid_numbers_of_paths_with_an_example() {
     let folder = tempfile::tempdir().unwrap();
     for paths in ["0", "-5", "1e6", "many"] {
         let output = generate(
@@ -189,7 +189,7 @@ fn a_number_of_paths_is_asked_for_with_an_example() {
 
 #[cfg(unix)]
 #[test]
-fn ctrl_c_stops_at_once_and_leaves_nothing() {
+fn ctrl_c_stops_at_once_and_removes_the_unfinished_file() {
     use std::time::{Duration, Instant};
 
     let folder = tempfile::tempdir().unwrap();
@@ -200,7 +200,7 @@ fn ctrl_c_stops_at_once_and_leaves_nothing() {
         .arg(&old)
         .spawn()
         .unwrap();
-    // Once its temporary file is there, it is well on its way.
+    // A temporary file shows that the command is writing.
     let started = Instant::now();
     while names_in(folder.path()).len() < 2 {
         assert!(

@@ -1,4 +1,4 @@
-//! What vehicles sweep: drawn, and checked for what is too near.
+//! Tests of swept areas: `render --envelope` and `check --clearance`.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -16,12 +16,21 @@ fn text(path: &Path) -> &str {
     path.to_str().expect("a plain path")
 }
 
-/// Lines of a route graph, each from one node of its own to another.
+/// A route graph of separate lines.
 fn graph(folder: &Path, name: &str, lines: &[[f64; 4]]) -> PathBuf {
     let mut features = Vec::new();
     for (i, [x0, y0, x1, y1]) in lines.iter().enumerate() {
         features.push(format!(
-            r#"{{"type":"Feature","properties":{{"id":"e{i}"}},"geometry":{{"type":"LineString","coordinates":[[{x0},{y0}],[{x1},{y1}]]}}}}"#
+            concat!(
+                r#"{{"type":"Feature","properties":{{"id":"e{i}"}},"#,
+                r#""geometry":{{"type":"LineString","#,
+                r#""coordinates":[[{x0},{y0}],[{x1},{y1}]]}}}}"#
+            ),
+            i = i,
+            x0 = x0,
+            y0 = y0,
+            x1 = x1,
+            y1 = y1
         ));
     }
     let crs = r#""crs":{"type":"name","properties":{"name":"EPSG:3857"}}"#;
@@ -36,7 +45,7 @@ fn graph(folder: &Path, name: &str, lines: &[[f64; 4]]) -> PathBuf {
 }
 
 #[test]
-fn swept_areas_are_drawn_below_and_accounted_for() {
+fn swept_areas_are_below_the_paths_and_reported() {
     let folder = tempfile::tempdir().unwrap();
     let (plain, with) = (folder.path().join("a.png"), folder.path().join("b.png"));
     let render = |picture: &Path, more: &[&str]| {
@@ -92,7 +101,7 @@ fn swept_areas_are_drawn_below_and_accounted_for() {
 }
 
 #[test]
-fn a_vehicle_that_makes_no_sense_and_a_file_without_envelopes_are_refused() {
+fn rejects_invalid_vehicles_and_files_without_envelopes() {
     let folder = tempfile::tempdir().unwrap();
     let (site, picture) = (site(), folder.path().join("a.png"));
     for (bad, said) in [("2x0", "2x1.2,0.5"), ("file", "no path has an envelope")] {
@@ -123,7 +132,7 @@ fn a_vehicle_that_makes_no_sense_and_a_file_without_envelopes_are_refused() {
 }
 
 #[test]
-fn paths_and_walls_too_near_are_told() {
+fn reports_paths_and_walls_below_the_clearance() {
     let folder = tempfile::tempdir().unwrap();
     let crossing = [
         [0.0, 0.0, 40.0, 0.0],
@@ -166,7 +175,7 @@ fn paths_and_walls_too_near_are_told() {
 }
 
 #[test]
-fn polygons_of_a_file_are_drawn_and_counted() {
+fn draws_and_counts_polygons_of_the_file() {
     let folder = tempfile::tempdir().unwrap();
     let (plant, picture) = (
         folder.path().join("plant.xml"),
@@ -174,8 +183,9 @@ fn polygons_of_a_file_are_drawn_and_counted() {
     );
     let model = r#"<model version="7.0.0"><point name="A" positionX="0" positionY="0"/>
         <point name="B" positionX="10000" positionY="0"/>
-        <path name="P" sourcePoint="A" destinationPoint="B"><vehicleEnvelope key="k"><vertex x="0" y="-900"/>
-        <vertex x="10000" y="-900"/><vertex x="10000" y="900"/><vertex x="5000" y="100"/><vertex x="0" y="900"/></vehicleEnvelope></path>
+        <path name="P" sourcePoint="A" destinationPoint="B"><vehicleEnvelope key="k">
+        <vertex x="0" y="-900"/><vertex x="10000" y="-900"/><vertex x="10000" y="900"/>
+        <vertex x="5000" y="100"/><vertex x="0" y="900"/></vehicleEnvelope></path>
         <path name="Q" sourcePoint="B" destinationPoint="A"/></model>"#;
     fs::write(&plant, model).unwrap();
     let args = ["--envelope", "file", "--json"];

@@ -1,12 +1,14 @@
-//! The command as its users meet it: every test runs the real binary.
+//! Tests of the command line; each runs the program itself.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests may panic as tests do")]
+#![expect(clippy::unwrap_used, reason = "helpers of tests may panic")]
 
 mod arrow;
 mod bench;
 mod envelope;
 mod render;
+mod render_files;
 mod reports;
+mod reproduce;
 mod sarif;
 mod several;
 mod support;

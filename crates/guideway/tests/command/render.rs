@@ -1,41 +1,12 @@
-//! `guideway render` and `guideway demo`.
+//! Tests of `guideway render` and `guideway demo`.
 
-use std::fs::{self, File};
-use std::path::{Path, PathBuf};
-use std::process::Stdio;
+use std::fs;
+use std::path::Path;
 
-use crate::support::{command, has_keys, json, names_in, run, site, stderr, stdout};
-
-/// Size and pixels of a PNG file.
-fn read_png(path: &Path) -> (u32, u32, Vec<u8>) {
-    let file = std::io::BufReader::new(File::open(path).unwrap());
-    let mut reader = png::Decoder::new(file).read_info().unwrap();
-    let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
-    let info = reader.next_frame(&mut pixels).unwrap();
-    (info.width, info.height, pixels)
-}
-
-fn render(picture: &Path, more: &[&str]) -> std::process::Output {
-    let site = site();
-    let mut all = command();
-    all.arg("render")
-        .arg(site)
-        .arg("-o")
-        .arg(picture)
-        .args(more);
-    all.output().unwrap()
-}
-
-fn ink(pixels: &[u8]) -> usize {
-    let white = [255; 4];
-    pixels
-        .chunks_exact(4)
-        .filter(|pixel| *pixel != white)
-        .count()
-}
+use crate::support::{command, has_keys, ink, json, names_in, read_png, render, stderr, stdout};
 
 #[test]
-fn a_file_becomes_a_picture_of_the_size_asked_for() {
+fn renders_a_picture_of_the_requested_size() {
     let folder = tempfile::tempdir().unwrap();
     let picture = folder.path().join("site.png");
     let output = render(&picture, &["--size", "640x360"]);
@@ -52,7 +23,7 @@ fn a_file_becomes_a_picture_of_the_size_asked_for() {
 }
 
 #[test]
-fn the_json_report_accounts_for_every_path() {
+fn json_report_accounts_for_every_path() {
     let folder = tempfile::tempdir().unwrap();
     let picture = folder.path().join("site.png");
     let args = [
@@ -104,7 +75,7 @@ fn the_json_report_accounts_for_every_path() {
 }
 
 #[test]
-fn every_option_of_the_look_changes_the_picture() {
+fn each_style_option_changes_the_picture() {
     let folder = tempfile::tempdir().unwrap();
     let pixels = |more: &[&str]| {
         let picture = folder.path().join("a.png");
@@ -143,7 +114,7 @@ fn every_option_of_the_look_changes_the_picture() {
 }
 
 #[test]
-fn values_that_make_no_sense_are_refused_with_an_example() {
+fn rejects_invalid_values_with_an_example() {
     let folder = tempfile::tempdir().unwrap();
     let picture = folder.path().join("a.png");
     for (args, said) in [
@@ -182,154 +153,7 @@ fn values_that_make_no_sense_are_refused_with_an_example() {
 }
 
 #[test]
-fn inputs_that_cannot_be_read_leave_no_picture() {
-    let folder = tempfile::tempdir().unwrap();
-    let picture = folder.path().join("a.png");
-    let whole = fs::read(site()).unwrap();
-    let inputs: [(&str, &[u8]); 4] = [
-        ("empty.json", b""),
-        ("truncated.json", &whole[..whole.len() / 2]),
-        ("binary.json", &[0, 159, 146, 150, 7, 0, 0, 1]),
-        ("other.json", b"{\"hello\": 1}"),
-    ];
-    for (name, bytes) in inputs {
-        let inputs = tempfile::tempdir().unwrap();
-        let input = inputs.path().join(name);
-        fs::write(&input, bytes).unwrap();
-        let output = command()
-            .arg("render")
-            .arg(&input)
-            .arg("-o")
-            .arg(&picture)
-            .output()
-            .unwrap();
-        assert_eq!(output.status.code(), Some(2), "{name}");
-        let text = stderr(&output);
-        assert!(
-            text.contains(name) && text.contains("\nhint: "),
-            "{name}: {text}"
-        );
-    }
-    for missing in ["none.json", "."] {
-        let picture = picture.to_str().unwrap();
-        assert_eq!(
-            run(["render", missing, "-o", picture]).status.code(),
-            Some(2)
-        );
-    }
-    assert!(names_in(folder.path()).is_empty());
-}
-
-#[test]
-fn outputs_that_cannot_be_written_are_refused() {
-    let folder = tempfile::tempdir().unwrap();
-    let copy = folder.path().join("site.lif.json");
-    fs::copy(site(), &copy).unwrap();
-    let before = fs::read(&copy).unwrap();
-    let aim = |output: PathBuf| {
-        command()
-            .arg("render")
-            .arg(&copy)
-            .arg("-o")
-            .arg(output)
-            .output()
-            .unwrap()
-    };
-    let roundabout = folder.path().join(".").join("site.lif.json");
-    for output in [
-        copy.clone(),
-        roundabout,
-        folder.path().to_owned(),
-        folder.path().join("no/a.png"),
-    ] {
-        let result = aim(output.clone());
-        assert_eq!(result.status.code(), Some(2), "{}", output.display());
-        assert!(stderr(&result).contains("\nhint: "));
-    }
-    assert_eq!(fs::read(&copy).unwrap(), before);
-    assert_eq!(names_in(folder.path()), ["site.lif.json"]);
-}
-
-#[cfg(unix)]
-#[test]
-fn a_full_disk_is_an_error() {
-    if Path::new("/dev/full").exists() {
-        let output = render(Path::new("/dev/full"), &["--size", "640x360"]);
-        assert_eq!(output.status.code(), Some(2));
-        assert!(stderr(&output).contains("room"), "{}", stderr(&output));
-    }
-}
-
-#[cfg(unix)]
-#[test]
-fn a_picture_is_as_readable_as_any_new_file() {
-    use std::os::unix::fs::PermissionsExt;
-
-    let folder = tempfile::tempdir().unwrap();
-    let (picture, plain) = (folder.path().join("a.png"), folder.path().join("b"));
-    render(&picture, &["--size", "16x16"]);
-    fs::write(&plain, "").unwrap();
-    let mode = |path| fs::metadata(path).unwrap().permissions().mode();
-    assert_eq!(mode(&picture), mode(&plain));
-}
-
-#[cfg(target_os = "linux")]
-#[test]
-fn names_need_not_be_utf8() {
-    use std::ffi::OsStr;
-    use std::os::unix::ffi::OsStrExt;
-
-    let folder = tempfile::tempdir().unwrap();
-    let input = folder.path().join(OsStr::from_bytes(b"h\xe4lle.json"));
-    let picture = folder.path().join(OsStr::from_bytes(b"h\xe4lle.png"));
-    fs::copy(site(), &input).unwrap();
-    let mut all = command();
-    all.arg("render")
-        .arg(&input)
-        .arg("-o")
-        .arg(&picture)
-        .args(["--size", "64x64"]);
-    assert_eq!(all.output().unwrap().status.code(), Some(0));
-    assert_eq!(read_png(&picture).0, 64);
-    assert_eq!(all.arg("--json").output().unwrap().status.code(), Some(0));
-}
-
-#[test]
-fn a_picture_goes_to_standard_output_alone() {
-    let output = render(Path::new("-"), &["--size", "64x64"]);
-    assert_eq!(output.status.code(), Some(0));
-    assert!(output.stdout.starts_with(b"\x89PNG"));
-    assert!(stderr(&output).contains("paths drawn"));
-    let both = render(Path::new("-"), &["--json"]);
-    assert_eq!(both.status.code(), Some(2));
-    assert_eq!(json(&both, "error")["error"]["code"], "usage");
-}
-
-#[test]
-fn quiet_says_nothing_and_a_closed_pipe_is_no_error() {
-    let folder = tempfile::tempdir().unwrap();
-    let output = render(
-        &folder.path().join("a.png"),
-        &["--quiet", "--size", "64x64"],
-    );
-    assert_eq!(output.status.code(), Some(0));
-    assert!(output.stdout.is_empty() && output.stderr.is_empty());
-
-    let mut child = command()
-        .args(["check"])
-        .arg(site())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    drop(child.stdout.take());
-    let output = child.wait_with_output().unwrap();
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    assert!(output.stderr.is_empty(), "{}", stderr(&output));
-}
-
-#[test]
-fn the_demo_needs_no_file() {
+fn demo_needs_no_file() {
     let folder = tempfile::tempdir().unwrap();
     let output = command()
         .arg("demo")
@@ -360,7 +184,7 @@ fn the_demo_needs_no_file() {
 }
 
 #[test]
-fn real_layouts_are_drawn() {
+fn renders_real_layouts() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/layouts");
     if !folder.is_dir() {
         eprintln!("SKIPPED: no real layouts at {}", folder.display());
@@ -390,7 +214,7 @@ fn real_layouts_are_drawn() {
 }
 
 #[test]
-fn a_method_that_draws_pictures_only_whole_says_so_of_a_large_one() {
+fn method_without_strips_rejects_a_large_picture() {
     let folder = tempfile::tempdir().unwrap();
     let picture = folder.path().join("a.png");
     let output = render(&picture, &["--size", "40000x40000", "--method", "oracle"]);
@@ -401,4 +225,65 @@ fn a_method_that_draws_pictures_only_whole_says_so_of_a_large_one() {
         "{said}"
     );
     assert!(names_in(folder.path()).is_empty());
+}
+
+#[test]
+fn plain_is_the_default() {
+    let folder = tempfile::tempdir().unwrap();
+    let bytes = |name: &str, more: &[&str]| {
+        let picture = folder.path().join(name);
+        let args: Vec<&str> = ["--size", "320x180"].iter().chain(more).copied().collect();
+        let output = render(&picture, &args);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        fs::read(&picture).unwrap()
+    };
+    assert!(bytes("a.png", &[]) == bytes("b.png", &["--plain"]));
+    assert!(bytes("a.svg", &[]) == bytes("b.svg", &["--plain"]));
+    let output = render(&folder.path().join("c.png"), &["--plain", "--grid"]);
+    assert_eq!(output.status.code(), Some(2));
+}
+
+#[test]
+fn each_decoration_changes_png_and_svg() {
+    let folder = tempfile::tempdir().unwrap();
+    let view = ["--size", "640x360", "--center", "40,16", "--scale", "20"];
+    let files = |more: &[&str]| {
+        ["a.png", "a.svg"].map(|name| {
+            let picture = folder.path().join(name);
+            let output = render(&picture, &[&view, more].concat());
+            assert_eq!(
+                output.status.code(),
+                Some(0),
+                "{more:?}: {}",
+                stderr(&output)
+            );
+            fs::read(&picture).unwrap()
+        })
+    };
+    let plain = files(&[]);
+    for more in [
+        &["--nodes"][..],
+        &["--stations"],
+        &["--arrows"],
+        &["--labels"],
+        &["--grid"],
+        &["--scale-bar"],
+        &["--title", "Halle Süd"],
+        &["--site"],
+    ] {
+        let decorated = files(more);
+        for (plain, decorated) in plain.iter().zip(&decorated) {
+            assert!(plain != decorated, "{more:?}");
+        }
+    }
+    let [_, svg] = files(&["--site", "--title", "Größe Αθήνα Склад"]);
+    let svg = String::from_utf8(svg).unwrap();
+    for part in [
+        "Größe Αθήνα Склад</text>",
+        "dock-1</text>",
+        "5 m</text>",
+        "\"grid\"",
+    ] {
+        assert!(svg.contains(part), "{part}");
+    }
 }

@@ -1,4 +1,4 @@
-//! `guideway info`, `check` and `methods`, and what helps with the command itself.
+//! Tests of `guideway info`, `check`, `methods`, `completions`, `man` and the help.
 
 use std::fs;
 use std::path::PathBuf;
@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use crate::support::{command, has_keys, json as answer, names_in, run, site, stderr, stdout};
 use serde_json::{Value, json};
 
-/// A LIF file with one edge from (0, 0) to (10, 0) that is changed by `change`.
+/// A LIF file with one edge from (0, 0) to (10, 0), modified by `change`.
 fn lif(folder: &tempfile::TempDir, change: impl FnOnce(&mut Value)) -> PathBuf {
     let node = |id: &str, x: f64| {
         json!({
@@ -53,7 +53,7 @@ fn on_file(args: &[&str], file: &PathBuf) -> std::process::Output {
 }
 
 #[test]
-fn info_tells_what_is_in_the_file() {
+fn info_summarizes_the_file() {
     let folder = tempfile::tempdir().unwrap();
     let file = lif(&folder, |_| {});
     let said = stdout(&on_file(&["info"], &file));
@@ -103,20 +103,20 @@ fn info_tells_what_is_in_the_file() {
 }
 
 #[test]
-fn check_ends_with_0_when_nothing_is_wrong() {
+fn check_exits_with_0_without_findings() {
     let folder = tempfile::tempdir().unwrap();
     let file = lif(&folder, |_| {});
     for args in [&["check"][..], &["check", "--strict"]] {
         let output = on_file(args, &file);
         assert_eq!(output.status.code(), Some(0), "{}", stdout(&output));
     }
-    // The two-way roads of the site are worth a note, and no warning.
+    // The two-way roads of the site are a note, not a warning.
     let output = on_file(&["check", "--strict"], &site());
     assert_eq!(output.status.code(), Some(0), "{}", stdout(&output));
 }
 
 #[test]
-fn check_ends_with_1_on_warnings_only_if_strict() {
+fn check_exits_with_1_on_warnings_only_if_strict() {
     let folder = tempfile::tempdir().unwrap();
     let file = lif(&folder, |layout| {
         let edge = layout["edges"][0].clone();
@@ -134,7 +134,7 @@ fn check_ends_with_1_on_warnings_only_if_strict() {
 }
 
 #[test]
-fn check_ends_with_2_on_errors_and_says_what_to_do() {
+fn check_exits_with_2_on_errors_and_prints_remedies() {
     let folder = tempfile::tempdir().unwrap();
     let file = lif(&folder, |layout| {
         layout["edges"][0]["endNodeId"] = json!("nowhere");
@@ -171,13 +171,17 @@ fn check_ends_with_2_on_errors_and_says_what_to_do() {
 }
 
 #[test]
-fn check_takes_its_thresholds_from_the_arguments() {
+fn check_applies_thresholds_of_the_arguments() {
     let folder = tempfile::tempdir().unwrap();
     let file = lif(&folder, |layout| {
         layout["edges"][0]["vehicleTypeEdgeProperties"][0]["trajectory"] = json!({
             "degree": 2,
             "knotVector": [0.0, 0.0, 0.0, 1.0, 1.0, 1.0],
-            "controlPoints": [{ "x": 0.0, "y": 0.0 }, { "x": 5.0, "y": 5.0 }, { "x": 10.0, "y": 0.0 }],
+            "controlPoints": [
+                { "x": 0.0, "y": 0.0 },
+                { "x": 5.0, "y": 5.0 },
+                { "x": 10.0, "y": 0.0 },
+            ],
         });
     });
     let kinds = |args: &[&str]| stdout(&on_file(args, &file));
@@ -187,7 +191,7 @@ fn check_takes_its_thresholds_from_the_arguments() {
 }
 
 #[test]
-fn unreadable_files_are_errors_of_every_report() {
+fn every_report_rejects_unreadable_files() {
     for name in ["info", "check"] {
         let output = run([name, "there-is-no-such-file"]);
         assert_eq!(output.status.code(), Some(2));
@@ -202,7 +206,7 @@ fn unreadable_files_are_errors_of_every_report() {
 }
 
 #[test]
-fn methods_lists_what_runs_here() {
+fn methods_lists_availability() {
     assert!(stdout(&run(["methods"])).contains("cpu"));
     let report = answer(&run(["methods", "--json"]), "methods");
     assert!(report["auto"].is_string());
@@ -215,7 +219,7 @@ fn methods_lists_what_runs_here() {
 }
 
 #[test]
-fn help_names_every_command_and_the_exit_codes() {
+fn help_lists_commands_and_exit_codes() {
     let output = run(["--help"]);
     assert_eq!(output.status.code(), Some(0));
     let said = stdout(&output);
@@ -243,7 +247,7 @@ fn help_names_every_command_and_the_exit_codes() {
 }
 
 #[test]
-fn shells_and_manuals_are_served() {
+fn prints_completions_and_manual_pages() {
     for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
         assert!(
             stdout(&run(["completions", shell])).contains("guideway"),

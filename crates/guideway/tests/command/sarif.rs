@@ -1,4 +1,5 @@
-//! SARIF against its schema. Needs Python with jsonschema; `GUIDEWAY_PYTHON` names the interpreter.
+//! Tests of SARIF output against its schema. They need Python with jsonschema; `GUIDEWAY_PYTHON`
+//! names the interpreter.
 
 use std::io::Write;
 use std::path::Path;
@@ -21,7 +22,7 @@ errors = [f'{error.json_path}: {error.message}' for error in errors]
 print('\\n'.join(errors))
 ";
 
-/// What is wrong with a log, a line each; none where Python cannot tell, which is said.
+/// The errors of a log, one per line; `None` (and a message) without Python and jsonschema.
 fn errors(log: &Value) -> Option<String> {
     let interpreter = std::env::var("GUIDEWAY_PYTHON").unwrap_or_else(|_| "python3".into());
     let python = |code| {
@@ -52,9 +53,9 @@ fn log_of(files: &[&Path]) -> Value {
 }
 
 #[test]
-fn every_log_is_sound_by_the_schema() {
+fn logs_conform_to_the_schema() {
     let bad = Path::new(env!("CARGO_MANIFEST_DIR")).join("../guideway-formats/tests/bad");
-    // With lines and without; with errors, warnings and notes; several files.
+    // With and without lines; with errors, warnings and notes; several files.
     let files = [
         "lif/knots-object.json",
         "dxf/insert-unknown-block.dxf",
@@ -72,7 +73,7 @@ fn every_log_is_sound_by_the_schema() {
 }
 
 #[test]
-fn a_log_that_breaks_the_schema_is_found() {
+fn schema_check_rejects_a_broken_log() {
     let mut log = log_of(&[site().as_path()]);
     log["runs"][0]["results"][0]["level"] = json!("grave");
     log["runs"][0]["tool"]["driver"]["name"] = Value::Null;

@@ -1,4 +1,4 @@
-//! Several files as one layout, floor plans, pictures as SVG, conversions and reports that go with them.
+//! Tests of merged files, floor plans, SVG pictures, conversions and their reports.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -16,7 +16,7 @@ fn text(path: &Path) -> &str {
     path.to_str().unwrap()
 }
 
-/// The site as a drawing.
+/// The example site as a DXF drawing.
 fn plan(folder: &Path) -> PathBuf {
     let plan = folder.join("plan.dxf");
     let output = guideway(&["convert", text(&site()), text(&plan)]);
@@ -36,7 +36,7 @@ fn pixels(path: &Path) -> Vec<[u8; 4]> {
 }
 
 #[test]
-fn files_become_one_layout_each_where_it_was_put() {
+fn merges_files_with_their_placements() {
     let folder = tempfile::tempdir().unwrap();
     let (site_path, plan) = (site(), plan(folder.path()));
     let info = |files: &[&str]| {
@@ -66,7 +66,7 @@ fn files_become_one_layout_each_where_it_was_put() {
 }
 
 #[test]
-fn what_a_file_is_given_must_make_sense() {
+fn rejects_invalid_placements() {
     for (bad, said) in [
         ("x.dxf@scale=0", "above 0"),
         ("x.dxf@size=3", "scale, rotate and offset"),
@@ -81,7 +81,7 @@ fn what_a_file_is_given_must_make_sense() {
 }
 
 #[test]
-fn identifiers_in_several_files_are_found() {
+fn check_finds_identifiers_in_several_files() {
     let folder = tempfile::tempdir().unwrap();
     let copy = folder.path().join("copy.json");
     fs::copy(site(), &copy).unwrap();
@@ -107,7 +107,7 @@ fn identifiers_in_several_files_are_found() {
 }
 
 #[test]
-fn sarif_names_every_rule_and_place() {
+fn sarif_names_rules_and_locations() {
     let folder = tempfile::tempdir().unwrap();
     let copy = folder.path().join("a b.json");
     fs::copy(site(), &copy).unwrap();
@@ -151,7 +151,7 @@ fn sarif_names_every_rule_and_place() {
 }
 
 #[test]
-fn every_format_is_written_and_read_again() {
+fn converts_to_every_format_and_back() {
     let folder = tempfile::tempdir().unwrap();
     let paths =
         |file: &Path| json(&guideway(&["info", "--json", text(file)]), "info")["paths"].clone();
@@ -182,7 +182,7 @@ fn every_format_is_written_and_read_again() {
 }
 
 #[test]
-fn a_view_is_saved_as_curves_with_its_colors() {
+fn svg_picture_has_curves_and_colors() {
     let folder = tempfile::tempdir().unwrap();
     let picture = folder.path().join("site.svg");
     let render = |more: &[&str]| {
@@ -222,7 +222,7 @@ fn a_view_is_saved_as_curves_with_its_colors() {
 }
 
 #[test]
-fn a_floor_plan_lies_below() {
+fn floor_plan_is_below_the_paths() {
     let folder = tempfile::tempdir().unwrap();
     let plan = plan(folder.path());
     let render = |picture: &Path, plan: &str| {
@@ -246,7 +246,7 @@ fn a_floor_plan_lies_below() {
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     };
     let (plain, both) = (folder.path().join("a.png"), folder.path().join("b.png"));
-    // Far away, it leaves no mark; where the layout is, it only fills what is bare.
+    // A plan far away is invisible; one under the layout changes only pixels without paths.
     render(&plain, &format!("{}@offset=5000,0", text(&plan)));
     render(&both, &format!("{}@offset=0.7,0.7", text(&plan)));
     let (plain, both) = (pixels(&plain), pixels(&both));
@@ -275,7 +275,7 @@ fn render_svg(picture: &Path, plan: &str) {
 }
 
 #[test]
-fn an_image_lies_below_with_its_scale() {
+fn image_is_below_the_paths_at_its_scale() {
     let folder = tempfile::tempdir().unwrap();
     let image = folder.path().join("hall.png");
     let mut frame = Frame::new(FrameSize::new(10, 10).unwrap());
@@ -300,7 +300,7 @@ fn an_image_lies_below_with_its_scale() {
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let all = pixels(&picture);
     let tinted = all.iter().filter(|p| **p == [200, 220, 255, 255]).count();
-    // Half as wide and as high as the picture, less what paths cover.
+    // Half as wide and as high as the picture, minus the pixels of paths.
     assert!((5_000..=10_000).contains(&tinted), "{tinted}");
 
     let vector = folder.path().join("a.svg");

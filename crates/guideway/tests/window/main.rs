@@ -1,9 +1,9 @@
-//! The window, driven by real key and mouse events on a screen that nobody sees.
+//! Tests of the window with real key and mouse events on a virtual screen.
 //!
-//! Needs `Xvfb`, `xdotool` and a Vulkan driver, which `cargo xtask test` installs.
+//! They need `Xvfb`, `xdotool` and a Vulkan driver, which `cargo xtask test` installs.
 #![cfg(all(feature = "viewer", target_os = "linux"))]
 
-mod desk;
+mod session;
 
 use std::fs;
 use std::io::BufReader;
@@ -12,11 +12,11 @@ use std::process::Command;
 use std::thread;
 use std::time::Duration;
 
-use desk::{Desk, MOST_TRIES, is_installed, looks};
 use guideway::layout::{Layout, PathRef};
 use guideway::spline::Point;
+use session::{MAX_TRIES, WindowSession, is_installed, polls};
 
-/// Scale of the window when all of the site is in it.
+/// Scale of the window when it fits the site.
 const PX_PER_M: f64 = 6.8;
 const SITE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/site.lif.json");
 
@@ -29,10 +29,10 @@ fn read_png(path: &Path) -> (u32, u32, Vec<u8>) {
     (info.width, info.height, pixels)
 }
 
-/// Holds a picture of the window, all of a file in it, to what `guideway render` makes of the file. Only the scale bar is
-/// more.
-fn assert_is_as_rendered(picture: &Path, file: &Path, rendered: &Path) {
-    /// What the scale bar may cover, from the lower left corner.
+/// Asserts that an exported picture of the window equals the output of `guideway render`, except
+/// for the scale bar.
+fn assert_equals_render(picture: &Path, file: &Path, rendered: &Path) {
+    /// Size of the area of the scale bar, from the lower left corner.
     const BAR_PX: (usize, usize) = (700, 240);
     let (width, height, of_window) = read_png(picture);
     let status = Command::new(env!("CARGO_BIN_EXE_guideway"))
@@ -61,7 +61,7 @@ fn assert_is_as_rendered(picture: &Path, file: &Path, rendered: &Path) {
 }
 
 #[test]
-fn a_site_is_edited_by_keys_and_mouse_and_saved() {
+fn keys_and_mouse_edit_and_save_a_site() {
     if !is_installed() {
         return;
     }
@@ -69,65 +69,67 @@ fn a_site_is_edited_by_keys_and_mouse_and_saved() {
     let site = folder.path().join("site.lif.json");
     fs::copy(SITE, &site).unwrap();
     let paths = guideway::open(&site).unwrap().paths.len();
-    let mut desk = Desk::with(&[&site]).expect("Xvfb starts");
+    let mut session = WindowSession::with(&[&site]).expect("Xvfb starts");
 
-    let first = desk.saved_as(&folder.path().join("same.arrow"));
+    let first = session.saved_as(&folder.path().join("same.arrow"));
     assert_eq!(first.paths.len(), paths);
 
-    // All of it, and nothing but paths.
-    desk.keys(&["f", "a", "n", "l", "g"]);
+    // Fits the site and hides everything but the paths.
+    session.keys(&["f", "a", "n", "l", "g"]);
     let picture = folder.path().join("site.png");
-    assert!(desk.answer("ctrl+e", &picture));
-    assert!(looks().any(|()| picture.exists()));
-    assert_is_as_rendered(&picture, &site, &folder.path().join("rendered.png"));
+    assert!(session.fill_dialog("ctrl+e", &picture));
+    assert!(polls().any(|()| picture.exists()));
+    assert_equals_render(&picture, &site, &folder.path().join("rendered.png"));
 
-    desk.keys(&["ctrl+a", "ctrl+d"]);
-    let doubled = desk.saved_as(&folder.path().join("doubled.arrow"));
+    session.keys(&["ctrl+a", "ctrl+d"]);
+    let doubled = session.saved_as(&folder.path().join("doubled.arrow"));
     assert_eq!(doubled.paths.len(), 2 * paths);
 
-    desk.keys(&["Delete"]);
-    let copies_gone = desk.saved_as(&folder.path().join("gone.arrow"));
+    session.keys(&["Delete"]);
+    let copies_gone = session.saved_as(&folder.path().join("gone.arrow"));
     assert_eq!(copies_gone.paths.len(), paths, "the copies were selected");
 
-    desk.keys(&["d"]);
+    session.keys(&["d"]);
     for (x, y) in [(200, 200), (400, 300), (600, 250)] {
-        desk.click(x, y);
+        session.click(x, y);
     }
-    desk.keys(&["Return"]);
-    let drawn = desk.saved_as(&folder.path().join("drawn.arrow"));
+    session.keys(&["Return"]);
+    let drawn = session.saved_as(&folder.path().join("drawn.arrow"));
     assert_eq!(drawn.paths.len(), paths + 1);
 
-    desk.keys(&["ctrl+z"]);
-    let undone = desk.saved_as(&folder.path().join("undone.arrow"));
+    session.keys(&["ctrl+z"]);
+    let undone = session.saved_as(&folder.path().join("undone.arrow"));
     assert_eq!(undone.paths.len(), paths);
 
-    desk.xdotool(&["mousemove", "400", "400", "click", "--repeat", "5", "4"]);
-    desk.keys(&["Left", "f", "b", "ctrl+q"]);
-    let status = desk.ended().expect("it ends when it is asked to");
+    session.xdotool(&["mousemove", "400", "400", "click", "--repeat", "5", "4"]);
+    session.keys(&["Left", "f", "b", "ctrl+q"]);
+    let status = session
+        .wait_for_exit()
+        .expect("the window closes on Ctrl+Q");
     assert!(status.success(), "{status}");
 }
 
 #[test]
-fn what_a_hand_has_done_outlives_a_crash() {
+fn edits_survive_a_crash() {
     if !is_installed() {
         return;
     }
     let folder = tempfile::tempdir().unwrap();
     let file = |name| folder.path().join(name);
     fs::copy(SITE, file("site.lif.json")).unwrap();
-    let mut desk = Desk::with(&[&file("site.lif.json")]).expect("Xvfb starts");
-    let before = desk.saved_as(&file("before.arrow"));
+    let mut session = WindowSession::with(&[&file("site.lif.json")]).expect("Xvfb starts");
+    let before = session.saved_as(&file("before.arrow"));
     let site = file("moved.arrow");
-    // A window that is kept waiting may see no more of a drag than a click.
-    let mut tries = (0..MOST_TRIES).map(|_| {
-        desk.keys(&["f"]);
+    // A busy window may see a drag as a click.
+    let mut tries = (0..MAX_TRIES).map(|_| {
+        session.keys(&["f"]);
         thread::sleep(Duration::from_secs(1));
-        // A box about the mezzanine, which is by itself at the top; then one of its paths, and all with it.
-        desk.drag(&[(590, 130), (600, 140), (800, 200), (875, 215)]);
-        desk.drag(&[(700, 145), (700, 140), (705, 120), (710, 105)]);
-        // What was written by the last try is no answer to this one.
+        // Selects the mezzanine by a box, then drags one of its paths, which moves the selection.
+        session.drag(&[(590, 130), (600, 140), (800, 200), (875, 215)]);
+        session.drag(&[(700, 145), (700, 140), (705, 120), (710, 105)]);
+        // The file of the last try would hide a failure of this one.
         let _ = fs::remove_file(&site);
-        desk.saved_as(&site)
+        session.saved_as(&site)
     });
     let ends = |layout: &Layout| {
         layout
@@ -158,21 +160,21 @@ fn what_a_hand_has_done_outlives_a_crash() {
 
     let journal = file(".moved.arrow.guideway-journal");
     let written = || fs::metadata(&journal).map_or(0, |of| of.len());
-    assert!(looks().any(|()| written() > 0));
+    assert!(polls().any(|()| written() > 0));
     let before = written();
-    desk.keys(&["Delete"]);
-    assert!(looks().any(|()| written() > before));
-    desk.crash(&[&site]);
+    session.keys(&["Delete"]);
+    assert!(polls().any(|()| written() > before));
+    session.crash(&[&site]);
     assert!(
-        looks().any(|()| desk.is_asked()),
-        "whether the work of last time is to be done again"
+        polls().any(|()| session.has_dialog()),
+        "the window offers to recover the unsaved work"
     );
-    let is_clicked = (0..MOST_TRIES).any(|_| {
-        desk.click(498, 409);
-        !desk.is_asked()
+    let is_clicked = (0..MAX_TRIES).any(|_| {
+        session.click(498, 409);
+        !session.has_dialog()
     });
     assert!(is_clicked);
-    let again = desk.saved_as(&file("again.arrow"));
+    let again = session.saved_as(&file("again.arrow"));
     let rest = moved.paths.iter().filter(|path| !is_of_mezzanine(path));
     assert!(
         again

@@ -8,7 +8,7 @@ use guideway_document::{Document, ReplayProgress, SavedState, Snapshot};
 use guideway_scene::SceneOptions;
 
 use super::{Layer, LayerNews, PATIENCE, Work};
-use crate::host::Host;
+use crate::services::AppServices;
 use crate::work::Wake;
 use crate::work::loader::Loader;
 use crate::work::recovery::Recovery;
@@ -90,13 +90,19 @@ impl Layer {
     }
 
     /// Reads the file again as it was, to do with it what was found.
-    pub(crate) fn recover(&mut self, host: &Arc<dyn Host>, options: SceneOptions, wake: &Wake) {
+    pub(crate) fn recover(
+        &mut self,
+        services: &Arc<dyn AppServices>,
+        options: SceneOptions,
+        wake: &Wake,
+    ) {
         let recovery = self.journal.recovery.as_ref();
         if let Some(found) = recovery.and_then(|recovery| recovery.found(&self.path)) {
             self.drops_changes = false;
             self.options = options.clone();
-            let (host, wake, path) = (Arc::clone(host), Arc::clone(wake), self.path.clone());
-            self.loader = Some(Loader::start(host, path, Some(found), options, wake));
+            let (services, wake, path) =
+                (Arc::clone(services), Arc::clone(wake), self.path.clone());
+            self.loader = Some(Loader::start(services, path, Some(found), options, wake));
         }
     }
 

@@ -292,9 +292,9 @@ impl Soak {
 }
 
 fn desk_at(shelf: &Arc<Shelf>) -> Desk {
-    let host = Arc::clone(shelf);
+    let services = Arc::clone(shelf);
     let mut desk = Desk::of(
-        host,
+        services,
         &shelf.table,
         &[&shelf.file.display().to_string()],
         None,

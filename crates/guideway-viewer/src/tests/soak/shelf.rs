@@ -3,11 +3,13 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 
+use guideway_envelope::EnvelopeSource;
 use guideway_layout::Layout;
 use guideway_scene::{Frame, Method, View};
 
-use crate::host::{Export, FloorPlan, Host, Job, MethodChoice, Trouble};
+use crate::services::{AppServices, FloorPlan, Job, MethodChoice, PictureRequest, WINDOW_ERROR};
 use crate::tests::table::Table;
+use guideway_layout::UserError;
 
 /// A folder with one file, replaced as a whole like any other that is saved. The file itself holds a number; what it
 /// stands for is kept here.
@@ -77,19 +79,20 @@ impl Shelf {
     }
 }
 
-impl Host for Shelf {
-    fn open(&self, path: &Path, _job: &Job) -> Result<Layout, Trouble> {
-        self.layout(path).ok_or_else(|| Trouble {
+impl AppServices for Shelf {
+    fn read_layout(&self, path: &Path, _job: &Job) -> Result<Layout, UserError> {
+        self.layout(path).ok_or_else(|| UserError {
+            code: WINDOW_ERROR,
             message: "there is no such file".into(),
             remedy: "Look elsewhere".into(),
         })
     }
 
-    fn check_in_place(&self, layout: &Layout, file: &Path) -> Result<(), Trouble> {
-        self.table.check_in_place(layout, file)
+    fn check_save_in_place(&self, layout: &Layout, file: &Path) -> Result<(), UserError> {
+        self.table.check_save_in_place(layout, file)
     }
 
-    fn save(&self, layout: &Layout, path: &Path) -> Result<Vec<String>, Trouble> {
+    fn save_layout(&self, layout: &Layout, path: &Path) -> Result<Vec<String>, UserError> {
         if *self
             .table
             .is_full
@@ -97,7 +100,8 @@ impl Host for Shelf {
             .expect("no test panics while it holds this")
             || path != self.file
         {
-            return Err(Trouble {
+            return Err(UserError {
+                code: WINDOW_ERROR,
                 message: "the disk is full".into(),
                 remedy: "Look elsewhere".into(),
             });
@@ -106,43 +110,43 @@ impl Host for Shelf {
         Ok(Vec::new())
     }
 
-    fn save_picture(
+    fn export_png(
         &self,
-        export: &Export,
+        export: &PictureRequest,
         method: &str,
         job: &Job,
         path: &Path,
-    ) -> Result<(), Trouble> {
-        self.table.save_picture(export, method, job, path)
+    ) -> Result<(), UserError> {
+        self.table.export_png(export, method, job, path)
     }
 
-    fn picture(&self, export: &Export, method: &str) -> Result<Frame, Trouble> {
-        self.table.picture(export, method)
+    fn render(&self, export: &PictureRequest, method: &str) -> Result<Frame, UserError> {
+        self.table.render(export, method)
     }
 
-    fn save_drawing(&self, export: &Export, path: &Path) -> Result<(), Trouble> {
-        self.table.save_drawing(export, path)
+    fn export_svg(&self, export: &PictureRequest, path: &Path) -> Result<(), UserError> {
+        self.table.export_svg(export, path)
     }
 
-    fn floor_plan(&self, plan: &str) -> Result<Arc<dyn FloorPlan>, Trouble> {
-        self.table.floor_plan(plan)
+    fn read_floor_plan(&self, plan: &str) -> Result<Arc<dyn FloorPlan>, UserError> {
+        self.table.read_floor_plan(plan)
     }
 
-    fn swept(
+    fn render_swept_areas(
         &self,
         layout: &Layout,
         rows: &[u32],
-        vehicle: &str,
+        vehicle: EnvelopeSource,
         view: &View,
-    ) -> Result<Frame, Trouble> {
-        self.table.swept(layout, rows, vehicle, view)
+    ) -> Result<Frame, UserError> {
+        self.table.render_swept_areas(layout, rows, vehicle, view)
     }
 
     fn methods(&self) -> Vec<MethodChoice> {
         self.table.methods()
     }
 
-    fn method(&self, name: &str) -> Result<Box<dyn Method>, Trouble> {
-        self.table.method(name)
+    fn start_method(&self, name: &str) -> Result<Box<dyn Method>, UserError> {
+        self.table.start_method(name)
     }
 }

@@ -1,3 +1,5 @@
+//! The report of `bench` as a table.
+
 use guideway_bench::{Comparison, Contestant, Dress, Measured, Motion, Outcome, StageTime};
 
 use crate::cli::text;
@@ -30,7 +32,7 @@ pub(super) fn text(comparison: &Comparison) -> String {
         let cells: String = cells.map(|(c, w)| format!("  {c:>w$}")).collect();
         format!("{name:<name_width$}{cells}\n")
     };
-    let mut text = what(comparison);
+    let mut text = heading(comparison);
     text += &line("method", &HEAD.map(str::to_owned));
     for (contestant, cells) in &rows {
         text += &line(&contestant.row.method, cells);
@@ -44,7 +46,8 @@ pub(super) fn text(comparison: &Comparison) -> String {
     text
 }
 
-fn what(comparison: &Comparison) -> String {
+/// The dataset, the view and the motion, in two lines.
+fn heading(comparison: &Comparison) -> String {
     let [width, height] = comparison.view.size_px;
     let motion = match comparison.motion {
         Motion::Still => "nothing moves".to_owned(),
@@ -65,14 +68,15 @@ fn what(comparison: &Comparison) -> String {
         Dress::Translucent => ", in many colors, half of them translucent",
     };
     let shade = if comparison.is_density {
-        ", by how many lie where"
+        ", shaded by density"
     } else {
         ""
     };
     format!(
-        "{}: {}, {}{dress}{shade}; {width} x {height} pixels at {:.4} pixels a meter, {motion}\n{} each after {} to warm up, in turns; \
-         times are medians, ratios of frames to the first method\n\n",
-        text::plain(&comparison.scene.name, 200),
+        "{}: {}, {}{dress}{shade}; {width} x {height} pixels at {:.4} pixels per meter, {motion}\n\
+         {} per method after {} of warm-up, interleaved; times are medians, ratios are relative to \
+         the first method\n\n",
+        text::single_line(&comparison.scene.name, 200),
         text::counted(comparison.scene.paths as u64, "path"),
         text::counted(comparison.scene.segments as u64, "segment"),
         comparison.view.px_per_m,
@@ -81,7 +85,7 @@ fn what(comparison: &Comparison) -> String {
     )
 }
 
-/// The cells under [`HEAD`]; none for a method that was not measured.
+/// The cells under [`HEAD`]; empty for a method that was not measured.
 fn cells(contestant: &Contestant) -> Vec<String> {
     let Some(m) = contestant.row.measured() else {
         return Vec::new();
@@ -127,9 +131,9 @@ fn update(m: &Measured) -> String {
         return String::new();
     };
     let how = match m.update_bytes {
-        None => "made ready anew".to_owned(),
+        None => "prepared again".to_owned(),
         Some(0) => "in place".to_owned(),
-        Some(bytes) => format!("in place, {} brought to the device", text::bytes(bytes)),
+        Some(bytes) => format!("in place, {} uploaded to the device", text::bytes(bytes)),
     };
     format!(
         "  changed scene: {} of each frame, {} of the first; {how}\n",
@@ -138,17 +142,17 @@ fn update(m: &Measured) -> String {
     )
 }
 
-fn stages(what: &str, stages: &[StageTime]) -> String {
+fn stages(label: &str, stages: &[StageTime]) -> String {
     if stages.is_empty() {
         return String::new();
     }
     let one = |stage: &StageTime| format!("{} {}", stage.name, text::time(stage.ms));
     let clock = match stages.iter().all(|stage| stage.clock == "device") {
-        true => " by the device's clock",
+        true => " by the clock of the device",
         false => "",
     };
     let all: Vec<String> = stages.iter().map(one).collect();
-    format!("  {what}: {}{clock}\n", all.join(", "))
+    format!("  {label}: {}{clock}\n", all.join(", "))
 }
 
 fn counts(m: &Measured) -> String {
@@ -167,10 +171,10 @@ fn counts(m: &Measured) -> String {
     ];
     let known: Vec<String> = work
         .into_iter()
-        .filter_map(|(count, what)| Some(format!("{} {what}", count?)))
+        .filter_map(|(count, unit)| Some(format!("{} {unit}", count?)))
         .collect();
     if !known.is_empty() {
-        text += &format!("  work of a frame: {}\n", known.join(", "));
+        text += &format!("  work per frame: {}\n", known.join(", "));
     }
     text
 }

@@ -1,56 +1,73 @@
-//! How near vehicles come to each other and to the walls of a floor plan.
+//! `--clearance`: finds swept areas too near to each other or to the walls of a floor plan.
 
 use guideway::envelope::{
-    ClearanceOptions, ClearanceReport, ClearanceWork, EnvelopeSource, Walls, check_clearance,
+    Clearance, ClearanceOptions, ClearanceWork, EnvelopeSource, Walls, check_clearance,
 };
-use guideway::layout::{Diagnostics, Layout};
+use guideway::layout::{Diagnostics, Layout, UserError};
 use serde_json::{Value, json};
 
-use super::Checked;
+use super::findings::CheckedFile;
+use crate::cli::error::usage_error;
 use crate::cli::input::{self, Input};
-use crate::cli::{Failure, Output, envelope, text, values};
+use crate::cli::output::Output;
+use crate::cli::{envelope, text, values};
 
 #[derive(Debug, clap::Args)]
-#[command(next_help_heading = "How near vehicles come")]
+#[command(next_help_heading = "Clearance")]
 pub(super) struct ClearanceArgs {
-    /// Least distance of vehicles on two paths, and from the floor plan; 0 finds what overlaps. Not looked at
-    /// unless given
-    #[arg(long, value_name = "METERS", value_parser = values::not_negative, allow_hyphen_values = true)]
+    /// Minimum distance between vehicles on two paths, and to the floor plan; 0 finds overlaps.
+    /// NoEnvelope it, distances are not checked
+    #[arg(
+        long,
+        value_name = "METERS",
+        value_parser = values::not_negative,
+        allow_hyphen_values = true
+    )]
     clearance: Option<f64>,
-    /// The vehicle: its length and width in meters, and how far its reference point is from its rear end (the middle
-    /// unless given); or `file` for the corridors that the file gives, the default
-    #[arg(long, value_name = "LENGTHxWIDTH[,REAR]", value_parser = envelope::source, requires = "clearance")]
+    /// The vehicle: length, width and the distance from its rear end to its reference point
+    /// (default: half the length), in meters; `file` (the default) uses the envelopes of the file
+    #[arg(
+        long,
+        value_name = "LENGTHxWIDTH[,REAR]",
+        value_parser = envelope::source,
+        requires = "clearance"
+    )]
     envelope: Option<EnvelopeSource>,
-    /// How near to an end that two paths have in common no distance between them counts [default: six times the
-    /// distance of the vehicle's farthest corner from its reference point]
-    #[arg(long, value_name = "METERS", value_parser = values::not_negative, requires = "clearance")]
+    /// Radius around a common end of two paths within which their distance is ignored [default: six
+    /// times the distance from the reference point to the farthest corner of the vehicle]
+    #[arg(
+        long,
+        value_name = "METERS",
+        value_parser = values::not_negative,
+        requires = "clearance"
+    )]
     near_node: Option<f64>,
-    /// Drawing or layout whose lines are walls
+    /// Drawing or layout with the walls
     #[arg(long, value_name = "FILE", value_parser = Input::parser(), requires = "clearance")]
     floor_plan: Option<Input>,
-    /// A layer of the floor plan that has walls; several can be given [default: all layers]
+    /// Layer of the floor plan with walls; can be repeated [default: all layers]
     #[arg(long, value_name = "NAME", requires = "floor_plan")]
     wall_layer: Vec<String>,
 }
 
-/// What is asked of each file.
-pub(super) struct Question {
+/// The check that runs on each file.
+pub(super) struct ClearanceCheck {
     source: EnvelopeSource,
     walls: Option<Walls>,
     options: ClearanceOptions,
 }
 
-/// The column of the layers of a drawing.
+/// Column of the layers of a drawing.
 const LAYER: &str = "layer";
 
 impl ClearanceArgs {
-    /// What is asked, with the floor plan read; nothing without a clearance.
-    pub(super) fn question(&self, out: &Output) -> Result<Option<Question>, Failure> {
+    /// The check, with the floor plan read; `None` without `--clearance`.
+    pub(super) fn check(&self, out: &Output) -> Result<Option<ClearanceCheck>, UserError> {
         let Some(clearance_m) = self.clearance else {
             return Ok(None);
         };
         let walls = self.floor_plan.as_ref().map(|plan| self.walls(plan, out));
-        Ok(Some(Question {
+        Ok(Some(ClearanceCheck {
             source: self.source(),
             walls: walls.transpose()?,
             options: ClearanceOptions {
@@ -65,7 +82,7 @@ impl ClearanceArgs {
         self.envelope.unwrap_or(EnvelopeSource::File)
     }
 
-    fn walls(&self, plan: &Input, out: &Output) -> Result<Walls, Failure> {
+    fn walls(&self, plan: &Input, out: &Output) -> Result<Walls, UserError> {
         let (layout, _) = input::read_all(std::slice::from_ref(plan), out)?;
         let layers = layout.paths.attributes.get(LAYER);
         let layer = |path: usize| layers?.values.get(path).map(|value| value.to_string());
@@ -76,9 +93,9 @@ impl ClearanceArgs {
         for name in &self.wall_layer {
             let has = |path: usize| layer(path).as_ref() == Some(name);
             if !(0..layout.paths.len()).any(has) {
-                return Err(Failure::arguments(
-                    format!("{}: no path is on a layer `{name}`", plan.path.display()),
-                    "Look at the column `layer` of `guideway info`, and name one of those",
+                return Err(usage_error(
+                    format!("{}: no path is on layer `{name}`", plan.path.display()),
+                    "Name a value of column `layer`; `guideway info` lists them",
                 ));
             }
         }
@@ -86,29 +103,27 @@ impl ClearanceArgs {
     }
 }
 
-impl Question {
-    /// Adds what is too near to what was found.
+impl ClearanceCheck {
+    /// Appends the findings of a layout to `found`.
     ///
     /// # Errors
     /// When no path has an envelope.
-    pub(super) fn ask(
+    pub(super) fn run(
         &self,
         layout: &Layout,
         found: &mut Diagnostics,
-    ) -> Result<ClearanceWork, Failure> {
+    ) -> Result<ClearanceWork, UserError> {
         let walls = self.walls.as_ref();
-        let ClearanceReport {
-            findings: near,
-            work,
-        } = check_clearance(layout, self.source, walls, &self.options);
-        envelope::need_some(work.paths, &work.no_envelope)?;
+        let Clearance { found: near, work } =
+            check_clearance(layout, self.source, walls, &self.options);
+        envelope::require_any(work.paths, &work.without)?;
         found.append(near);
         Ok(work)
     }
 }
 
-/// What it took, a line for each file.
-pub(super) fn text(files: &[Checked]) -> String {
+/// The work of the check: one line per file.
+pub(super) fn text(files: &[CheckedFile]) -> String {
     let mut text = String::new();
     for file in files {
         let Some(work) = &file.clearance else {
@@ -121,14 +136,14 @@ pub(super) fn text(files: &[Checked]) -> String {
             text::counted(work.candidates, "pair"),
             text::counted(work.tests, "distance"),
         );
-        for line in envelope::lacking(&work.no_envelope) {
+        for line in envelope::missing(&work.without) {
             text += &format!("note: {line}\n");
         }
     }
     text
 }
 
-pub(super) fn json(args: &ClearanceArgs, files: &[Checked]) -> Value {
+pub(super) fn json(args: &ClearanceArgs, files: &[CheckedFile]) -> Value {
     let works = files.iter().filter_map(|file| file.clearance);
     let sum = |of: fn(ClearanceWork) -> u64| works.clone().map(of).sum::<u64>();
     args.clearance.map_or(Value::Null, |clearance_m| {
@@ -136,7 +151,7 @@ pub(super) fn json(args: &ClearanceArgs, files: &[Checked]) -> Value {
             "clearance_m": clearance_m,
             "source": envelope::name(args.source()),
             "envelopes": sum(|work| work.paths),
-            "without": sum(|work| work.no_envelope.iter().sum()),
+            "without": sum(|work| work.without.iter().sum()),
             "candidate_pairs": sum(|work| work.candidates),
             "distances": sum(|work| work.tests),
         })

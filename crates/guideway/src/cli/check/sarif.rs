@@ -1,16 +1,17 @@
-//! Findings for code review tools: the Static Analysis Results Interchange Format, SARIF 2.1.0
+//! The findings as SARIF 2.1.0 for code review tools: Static Analysis Results Interchange Format
 //! (<https://docs.oasis-open.org/sarif/sarif/v2.1.0/sarif-v2.1.0.html>).
 
-use guideway::layout::{Code, Diagnostic, Severity};
+use guideway::layout::{Code, Diagnostic, Severity, UserError};
 use serde_json::{Value, json};
 
-use super::{Checked, kinds};
-use crate::cli::{Exit, Failure};
+use super::findings::{CheckedFile, kinds};
+use crate::cli::error::json_error;
+use crate::cli::exit::Exit;
 
 const SCHEMA: &str =
     "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json";
 
-pub(super) fn bytes(files: &[Checked], exit: Exit) -> Result<Vec<u8>, Failure> {
+pub(super) fn bytes(files: &[CheckedFile], exit: Exit) -> Result<Vec<u8>, UserError> {
     let kinds = kinds(files);
     let rules: Vec<Value> = kinds.iter().map(|(code, _)| rule(*code)).collect();
     let rule_index = |code: Code| kinds.iter().position(|(known, _)| *known == code);
@@ -23,13 +24,13 @@ pub(super) fn bytes(files: &[Checked], exit: Exit) -> Result<Vec<u8>, Failure> {
     let mut invocation = json!({ "executionSuccessful": true, "exitCode": exit.code() });
     if all > kept as u64 {
         let text = format!(
-            "{} findings of kinds that occur very often are left out",
+            "{} findings of very frequent kinds are left out",
             all - kept as u64
         );
         let note = json!({ "level": "note", "message": { "text": text } });
         invocation["toolExecutionNotifications"] = json!([note]);
     }
-    let artifact = |file: &Checked| json!({ "location": { "uri": uri(&file.file) } });
+    let artifact = |file: &CheckedFile| json!({ "location": { "uri": uri(&file.file) } });
     let log = json!({
         "$schema": SCHEMA,
         "version": "2.1.0",
@@ -47,11 +48,8 @@ pub(super) fn bytes(files: &[Checked], exit: Exit) -> Result<Vec<u8>, Failure> {
             "results": results.collect::<Vec<Value>>(),
         }],
     });
-    let mut bytes = serde_json::to_vec_pretty(&log).map_err(|error| Failure {
-        code: "json",
-        message: format!("cannot write the findings as SARIF: {error}"),
-        remedy: "Use another --format".into(),
-    })?;
+    let bytes = serde_json::to_vec_pretty(&log);
+    let mut bytes = bytes.map_err(|error| json_error(&error, "Use another --format"))?;
     bytes.push(b'\n');
     Ok(bytes)
 }
@@ -100,7 +98,7 @@ fn level(severity: Severity) -> &'static str {
     }
 }
 
-/// A file name as a URI reference (RFC 3986): relative ones stay so, as tools want them.
+/// A file name as a URI reference (RFC 3986). Relative names stay relative, as tools expect.
 fn uri(file: &str) -> String {
     let mut uri = String::new();
     for byte in file.bytes() {
@@ -123,7 +121,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn file_names_become_uris() {
+    fn encodes_file_names_as_uris() {
         assert_eq!(uri("a b/hälle.json"), "a%20b/h%C3%A4lle.json");
         assert_eq!(uri("/tmp/x#1.dxf"), "file:///tmp/x%231.dxf");
     }

@@ -1,12 +1,12 @@
-//! Findings for people.
+//! The findings of a file as a table for people.
 
 use guideway::layout::Code;
 
-use super::{Checked, Tally};
+use super::findings::{CheckedFile, SeverityCounts};
 use crate::cli::text;
 
-/// The findings of a file by kind, the worst kinds first, and how many there are.
-pub(super) fn text(file: &Checked, shown_of_each: usize) -> String {
+/// The findings of a file by kind, the most severe first, and their number.
+pub(super) fn text(file: &CheckedFile, shown_per_kind: usize) -> String {
     let found = &file.found;
     let mut kinds: Vec<(Code, u64)> = found.counts().collect();
     kinds.sort_by_key(|(code, _)| (std::cmp::Reverse(code.severity()), *code));
@@ -20,23 +20,23 @@ pub(super) fn text(file: &Checked, shown_of_each: usize) -> String {
         );
         let of_kind = || found.iter().filter(|finding| finding.code == code);
         let mut last_remedy = "";
-        for finding in of_kind().take(shown_of_each) {
-            let place = text::plain(&finding.place.to_string(), 200);
-            let message = text::plain(&finding.message, 400);
+        for finding in of_kind().take(shown_per_kind) {
+            let place = text::single_line(&finding.place.to_string(), 200);
+            let message = text::single_line(&finding.message, 400);
             text += &format!("  - {place}: {message}\n");
-            // Findings of a kind mostly share their remedy: said once, it is read.
+            // Findings of a kind mostly share their remedy: once is enough.
             if finding.remedy != last_remedy {
-                text += &format!("    hint: {}\n", text::plain(&finding.remedy, 400));
+                text += &format!("    hint: {}\n", text::single_line(&finding.remedy, 400));
                 last_remedy = &finding.remedy;
             }
         }
-        let rest = count - (of_kind().count().min(shown_of_each) as u64);
+        let rest = count - (of_kind().count().min(shown_per_kind) as u64);
         if rest > 0 {
             text += &format!("  - and {} more\n", text::count(rest));
         }
         text.push('\n');
     }
     let paths = text::counted(file.paths, "path");
-    let tally = Tally::of(std::iter::once(found)).text();
-    text + &format!("{}: {paths}, {tally}\n", file.file)
+    let counts = SeverityCounts::of(std::iter::once(found)).text();
+    text + &format!("{}: {paths}, {counts}\n", file.file)
 }

@@ -1,3 +1,5 @@
+//! Statistics of attribute columns: counts, range and most frequent values.
+
 use std::collections::HashMap;
 use std::hash::Hash;
 
@@ -7,10 +9,10 @@ use serde::Serialize;
 
 use crate::cli::text::number;
 
-/// Commonest values named for each column.
+/// Values listed per column.
 const TOP: usize = 5;
 
-/// What the values of a column are like.
+/// Statistics of a column.
 #[derive(Debug, Serialize)]
 pub(super) struct Column {
     pub(super) name: String,
@@ -18,19 +20,19 @@ pub(super) struct Column {
     pub(super) kind: &'static str,
     /// Rows with a value.
     pub(super) values: u64,
-    /// Rows without one.
+    /// Rows without a value.
     pub(super) missing: u64,
-    /// Different values.
+    /// Distinct values.
     pub(super) distinct: u64,
-    /// Least of the finite numbers.
+    /// Minimum of the finite numbers.
     pub(super) min: Option<f64>,
-    /// Greatest of the finite numbers.
+    /// Maximum of the finite numbers.
     pub(super) max: Option<f64>,
-    /// The commonest values, the commonest first; none if no value comes twice.
+    /// The most frequent values, the most frequent first; empty if every value is unique.
     pub(super) top: Vec<Top>,
 }
 
-/// A value with how often it comes.
+/// A value with the number of its rows.
 #[derive(Debug, Serialize)]
 pub(super) struct Top {
     pub(super) value: String,
@@ -55,7 +57,7 @@ fn of(attribute: &Attribute, rows: u64) -> Column {
         },
         Values::Float(v) => {
             let finite = || v.values().filter(|n| n.is_finite());
-            // Zero and minus zero are one number.
+            // Zero and minus zero count as one value.
             let bits = v.values().map(|n| (n + 0.0).to_bits());
             Column {
                 min: finite().reduce(f64::min),
@@ -119,7 +121,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn values_are_counted_and_bounded() {
+    fn counts_values_and_finds_their_range() {
         let mut attributes = Attributes::default();
         for (row, speed) in [1.5, 0.5, 1.5, -0.0, 0.0].into_iter().enumerate() {
             attributes.set(row, "speed", Value::Float(speed));

@@ -1,11 +1,13 @@
+//! Total length and bounding box of all paths.
+
 use guideway::layout::{PathRef, Paths};
 use guideway::spline::{Bounds, Point, segment_length};
 use rayon::prelude::*;
 
-/// Largest error of a segment's length, as a fraction of the size of its control polygon.
+/// Maximum error of the length of a segment, relative to the size of its control polygon.
 const TOLERANCE: f64 = 1e-7;
 
-/// How long all paths are together, in meters, and the box that holds them tightly.
+/// Total length of paths in meters, and their tight bounding box.
 pub(super) struct Extent {
     pub(super) length_m: f64,
     pub(super) bounds: Option<Bounds<f64>>,
@@ -18,7 +20,7 @@ impl Extent {
     };
 
     pub(super) fn of(paths: &Paths) -> Self {
-        // Chunks are joined in their order, so that every run gives the same digits.
+        // Joined in order, so that the rounded sum does not depend on the threads.
         const CHUNK: usize = 4096;
         let starts: Vec<usize> = (0..paths.len()).step_by(CHUNK).collect();
         let chunks: Vec<Self> = starts
@@ -42,7 +44,7 @@ impl Extent {
         };
         let size = hull.size();
         let length_m = segment_length(&segment, TOLERANCE * (size.x + size.y));
-        // Few segments stick out of the box of all before them; only those need theirs found tightly.
+        // Only a segment that may extend the box so far needs its own tight box.
         let is_inside = |all: Bounds<f64>| all.contains(hull.min) && all.contains(hull.max);
         let bounds = match self.bounds {
             Some(all) if is_inside(all) => None,
@@ -68,7 +70,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn lengths_and_boxes_of_paths_add_up() {
+    fn sums_lengths_and_unites_boxes() {
         let mut layout = Layout::default();
         for x in [0.0, 1e6] {
             let mut runs = Runs::default();

@@ -1,3 +1,5 @@
+//! The content of a layout in numbers: the `info` report.
+
 use std::collections::BTreeMap;
 
 use guideway::layout::{Code, Direction, Layout};
@@ -7,14 +9,14 @@ use super::columns::{self, Column, Top};
 use super::extent::Extent;
 use crate::cli::input::{self, Input};
 
-/// What is in a layout: the `info` report.
+/// The `info` report. Field names are keys of the JSON report.
 #[derive(Debug, Serialize)]
 pub(super) struct Summary {
     pub(super) file: String,
     pub(super) file_bytes: Option<u64>,
     pub(super) format: String,
     pub(super) format_version: String,
-    /// Elements of the source under the format's own names.
+    /// Elements of the source, by the names of its format.
     pub(super) source_counts: Vec<Count>,
     pub(super) paths: u64,
     pub(super) two_way_paths: u64,
@@ -60,7 +62,7 @@ pub(super) struct Tables {
     pub(super) stations: Vec<Column>,
 }
 
-/// A kind of finding with how often it was found.
+/// A kind of finding with its number.
 #[derive(Debug, Serialize)]
 pub(super) struct Kind {
     pub(super) code: &'static str,
@@ -80,7 +82,7 @@ impl Kind {
     }
 }
 
-/// Where the time went, in milliseconds.
+/// Duration of each step, in milliseconds.
 #[derive(Debug, Default, Serialize)]
 pub(super) struct Times {
     pub(super) read: f64,
@@ -136,7 +138,7 @@ impl Summary {
         }
     }
 
-    /// Paths of the file that cannot be drawn.
+    /// Number of paths that cannot be drawn.
     pub(super) fn refused_count(&self) -> u64 {
         self.refused.iter().map(|kind| kind.count).sum()
     }

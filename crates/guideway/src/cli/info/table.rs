@@ -1,11 +1,13 @@
+//! The `info` report as text.
+
 use super::columns::{Column, Top};
 use super::summary::{Kind, Summary};
-use crate::cli::text::{bytes, count, counted, meters, number, plain, time};
+use crate::cli::text::{bytes, count, counted, meters, number, single_line, time};
 
-/// Longest name or value shown, in characters.
-const WIDEST: usize = 40;
+/// Most characters of a name or value.
+const MAX_CHARS: usize = 40;
 
-/// The summary as a person reads it.
+/// The summary as lines of text.
 pub(super) fn text(of: &Summary) -> String {
     let mut lines = Lines::default();
     lines.put("file", &file(of));
@@ -32,7 +34,7 @@ pub(super) fn text(of: &Summary) -> String {
     lines.put("nodes", &count(of.nodes));
     lines.put("stations", &count(of.stations));
     let levels = of.levels.iter().map(|level| {
-        let name = plain(level.name.as_deref().unwrap_or(&level.id), WIDEST);
+        let name = single_line(level.name.as_deref().unwrap_or(&level.id), MAX_CHARS);
         let height = level
             .elevation_m
             .map_or_else(String::new, |m| format!(" at {}", meters(m)));
@@ -60,7 +62,7 @@ pub(super) fn text(of: &Summary) -> String {
 struct Lines(String);
 
 impl Lines {
-    /// A line with its name; nothing if there is nothing to say.
+    /// Adds a line; an empty value adds none.
     fn put(&mut self, name: &str, value: &str) {
         if !value.is_empty() {
             self.0 += &format!("{name:<12}{value}\n");
@@ -72,7 +74,9 @@ impl Lines {
             return;
         }
         self.0 += &format!("columns of {table}:\n");
-        let names = columns.iter().map(|column| plain(&column.name, WIDEST));
+        let names = columns
+            .iter()
+            .map(|column| single_line(&column.name, MAX_CHARS));
         let width = names.clone().map(|n| n.chars().count()).max().unwrap_or(0);
         for (column, name) in columns.iter().zip(names) {
             self.0 += &format!("  {name:<width$}  {}\n", column_text(column));
@@ -100,7 +104,7 @@ fn file(of: &Summary) -> String {
     let size = of
         .file_bytes
         .map_or_else(String::new, |n| format!(" ({})", bytes(n)));
-    format!("{}{size}", plain(&of.file, 400))
+    format!("{}{size}", single_line(&of.file, 400))
 }
 
 fn paths(of: &Summary) -> String {
@@ -127,7 +131,7 @@ fn bounds(of: &Summary) -> String {
 }
 
 fn column_text(column: &Column) -> String {
-    let mut text = format!("{}, {} different", column.kind, count(column.distinct));
+    let mut text = format!("{}, {} distinct", column.kind, count(column.distinct));
     if let (Some(min), Some(max)) = (column.min, column.max) {
         text += &format!(", {} to {}", number(min), number(max));
     }
@@ -145,10 +149,13 @@ fn column_text(column: &Column) -> String {
 }
 
 fn tops(top: &[Top]) -> String {
-    join(
-        top.iter()
-            .map(|top| format!("{} ({})", plain(&top.value, WIDEST), count(top.count))),
-    )
+    join(top.iter().map(|top| {
+        format!(
+            "{} ({})",
+            single_line(&top.value, MAX_CHARS),
+            count(top.count)
+        )
+    }))
 }
 
 fn join(parts: impl Iterator<Item = String>) -> String {

@@ -1,33 +1,34 @@
+//! The report of `render` as text and JSON.
+
 use std::path::Path;
 
+use guideway::compose::{Rendered, SweptReport};
+use guideway::envelope::NoEnvelope;
 use guideway::layout::Severity;
 use guideway::render::Clock;
 use guideway::scene::{Legend, Scene};
 use serde_json::{Value, json};
 
-use super::swept::SweptReport;
-use super::{Args, Drawn};
-use crate::cli::input;
-use crate::cli::text;
+use super::args::Args;
+use crate::cli::{envelope, input, text};
 
-/// Where the time went, in milliseconds.
-#[derive(Default)]
-pub(crate) struct Times {
-    pub(crate) read: f64,
-    pub(crate) scene: f64,
-    pub(crate) prepare: f64,
-    pub(crate) render: f64,
-    pub(crate) write: f64,
+/// Duration of each step, in milliseconds.
+pub(super) struct Times {
+    pub(super) read: f64,
+    pub(super) scene: f64,
+    pub(super) prepare: f64,
+    pub(super) render: f64,
+    pub(super) write: f64,
 }
 
 impl Times {
-    pub(crate) fn total(&self) -> f64 {
+    fn total(&self) -> f64 {
         self.read + self.scene + self.prepare + self.render + self.write
     }
 }
 
-pub(super) fn text(path: &Path, scene: &Scene, drawn: &Drawn, times: &Times) -> String {
-    let size = drawn.view.size();
+pub(super) fn text(path: &Path, scene: &Scene, rendered: &Rendered, times: &Times) -> String {
+    let size = rendered.view.size();
     let mut text = String::new();
     if path != Path::new("-") {
         text += &format!(
@@ -37,11 +38,8 @@ pub(super) fn text(path: &Path, scene: &Scene, drawn: &Drawn, times: &Times) -> 
             size.height()
         );
     }
-    text += &what_was_drawn(drawn);
-    text += &drawn
-        .swept
-        .as_ref()
-        .map_or_else(String::new, SweptReport::text);
+    text += &paths_text(rendered);
+    text += &rendered.swept.as_ref().map_or_else(String::new, swept_text);
     text += &format!(
         "took {}: reading {}, drawing {}, writing {}\n",
         text::time(times.total()),
@@ -52,14 +50,14 @@ pub(super) fn text(path: &Path, scene: &Scene, drawn: &Drawn, times: &Times) -> 
     if let Some(legend) = scene.legend() {
         text += &legend_text(legend);
     }
-    let odd = &scene.layout().diagnostics;
+    let findings = &scene.layout().diagnostics;
     let (errors, all) = (
-        odd.count_at_least(Severity::Error),
-        odd.count_at_least(Severity::Warning),
+        findings.count_at_least(Severity::Error),
+        findings.count_at_least(Severity::Warning),
     );
     if all > 0 {
         text += &format!(
-            "the file has {} and {}: `guideway check` shows them\n",
+            "the file has {} and {}: `guideway check` lists them\n",
             text::counted(errors, "error"),
             text::counted(all - errors, "warning")
         );
@@ -67,9 +65,9 @@ pub(super) fn text(path: &Path, scene: &Scene, drawn: &Drawn, times: &Times) -> 
     text
 }
 
-/// What became of every path, in one line.
-pub(crate) fn what_was_drawn(drawn: &Drawn) -> String {
-    let report = &drawn.report;
+/// The account of all paths on one line, and the notes.
+pub(crate) fn paths_text(rendered: &Rendered) -> String {
+    let report = &rendered.report;
     let mut text = format!(
         "{} of {} drawn by {}",
         text::count(report.drawn),
@@ -93,10 +91,10 @@ pub(crate) fn what_was_drawn(drawn: &Drawn) -> String {
 }
 
 fn legend_text(legend: &Legend) -> String {
-    let mut text = format!("colors by {}:\n", text::plain(&legend.column, 60));
+    let mut text = format!("colors by {}:\n", text::single_line(&legend.column, 60));
     for entry in &legend.entries {
         let color = entry.color;
-        let label = text::plain(&entry.label, 60);
+        let label = text::single_line(&entry.label, 60);
         text += &match entry.paths {
             Some(n) => format!("  {color}  {label} ({})\n", text::counted(n, "path")),
             None => format!("  {color}  {label}\n"),
@@ -105,10 +103,10 @@ fn legend_text(legend: &Legend) -> String {
     text
 }
 
-pub(super) fn json(args: &Args, scene: &Scene, drawn: &Drawn, times: &Times) -> Value {
-    let report = &drawn.report;
-    let (view, size) = (&drawn.view, drawn.view.size());
-    let seen = view.world_bounds();
+pub(super) fn json(args: &Args, scene: &Scene, rendered: &Rendered, times: &Times) -> Value {
+    let report = &rendered.report;
+    let (view, size) = (&rendered.view, rendered.view.size());
+    let shown = view.world_bounds();
     let layout = scene.layout();
     let stages: Vec<Value> = report
         .stages
@@ -134,10 +132,10 @@ pub(super) fn json(args: &Args, scene: &Scene, drawn: &Drawn, times: &Times) -> 
         "view": {
             "center_m": [view.center_m().x, view.center_m().y],
             "px_per_m": view.px_per_m(),
-            "min_m": [seen.min.x, seen.min.y],
-            "max_m": [seen.max.x, seen.max.y],
+            "min_m": [shown.min.x, shown.min.y],
+            "max_m": [shown.max.x, shown.max.y],
         },
-        "method": { "name": drawn.method.name, "device": drawn.method.device },
+        "method": { "name": rendered.method.name, "device": rendered.method.device },
         "paths": {
             "total": report.total,
             "drawn": report.drawn,
@@ -145,7 +143,7 @@ pub(super) fn json(args: &Args, scene: &Scene, drawn: &Drawn, times: &Times) -> 
             "hidden": report.hidden,
             "refused": report.refused,
         },
-        "envelopes": drawn.swept.as_ref().map(SweptReport::json),
+        "envelopes": rendered.swept.as_ref().map(swept_json),
         "lines": report.lines,
         "peak_bytes": report.peak_bytes,
         "bands": report.bands,
@@ -184,5 +182,39 @@ fn legend_json(legend: &Legend) -> Value {
         "column": legend.column,
         "is_continuous": legend.is_continuous,
         "entries": entries,
+    })
+}
+
+fn swept_text(swept: &SweptReport) -> String {
+    let mut text = format!(
+        "swept areas ({}): {} drawn as {}",
+        envelope::name(swept.vehicle),
+        text::count(swept.drawn),
+        text::counted(swept.polygons, "polygon"),
+    );
+    if swept.outside > 0 {
+        text += &format!(", {} outside the view", text::count(swept.outside));
+    }
+    text.push('\n');
+    for line in envelope::missing(&swept.without) {
+        text += &format!("note: {line}\n");
+    }
+    text
+}
+
+fn swept_json(swept: &SweptReport) -> Value {
+    let without = NoEnvelope::ALL
+        .into_iter()
+        .filter(|&reason| swept.without[reason as usize] > 0);
+    let without: Vec<Value> = without
+        .map(|reason| json!({ "paths": swept.without[reason as usize], "why": reason.to_string() }))
+        .collect();
+    json!({
+        "source": envelope::name(swept.vehicle),
+        "drawn": swept.drawn,
+        "outside": swept.outside,
+        "without": without,
+        "polygons": swept.polygons,
+        "tolerance_m": swept.tolerance_m,
     })
 }

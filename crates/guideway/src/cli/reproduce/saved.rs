@@ -1,24 +1,24 @@
+//! The files of a run: writes them, and reads a run back.
+
 use std::fs::{self, File};
 use std::io::{BufReader, Read};
 use std::path::Path;
 
 use guideway::SaveError;
+use guideway::layout::UserError;
 use guideway_reproduce::report;
 use guideway_reproduce::reproduce::{ResumeError, Run};
 use serde::Deserialize;
 
-use super::text::REPORT;
-use crate::cli::Failure;
+use super::names::{REPORT, RUN_FILE};
 use crate::cli::output;
 
-/// Name of the file with the run.
-pub(super) const RUN: &str = "run.json";
-/// Version of that file. A new key does not raise it; a changed or missing one does.
+/// Version of the run file. A new key does not raise it; a changed or removed one does.
 const RUN_VERSION: u32 = 2;
-/// Most bytes of a run that are read: pictures of a full run take a few megabytes.
-const MOST_BYTES: u64 = 256 << 20;
+/// Most bytes of a run file: the pictures of a full run take a few megabytes.
+const MAX_BYTES: u64 = 256 << 20;
 
-/// What says what a saved report is.
+/// The header of a saved report.
 #[derive(Deserialize)]
 struct Envelope {
     guideway: Header,
@@ -30,21 +30,21 @@ struct Header {
     version: u32,
 }
 
-/// Makes the folder, if need be, and sees whether files can be put there.
-pub(super) fn make_folder(folder: &Path) -> Result<(), Failure> {
-    let made = fs::create_dir_all(folder).and_then(|()| tempfile::tempfile_in(folder));
-    made.map_err(|problem| SaveError {
+/// Creates the folder if it does not exist, and checks that it can be written.
+pub(super) fn create_folder(folder: &Path) -> Result<(), UserError> {
+    let created = fs::create_dir_all(folder).and_then(|()| tempfile::tempfile_in(folder));
+    created.map_err(|problem| SaveError {
         path: folder.to_owned(),
         problem,
     })?;
     Ok(())
 }
 
-pub(super) fn write_run(folder: &Path, run: &Run) -> Result<(), Failure> {
-    output::save_report(&folder.join(RUN), REPORT, RUN_VERSION, run)
+pub(super) fn write_run(folder: &Path, run: &Run) -> Result<(), UserError> {
+    output::save_report(&folder.join(RUN_FILE), REPORT, RUN_VERSION, run)
 }
 
-pub(super) fn write_report(folder: &Path, run: &Run) -> Result<(), Failure> {
+pub(super) fn write_report(folder: &Path, run: &Run) -> Result<(), UserError> {
     for file in report::files(run) {
         output::save(&folder.join(&file.name), file.text.as_bytes())?;
     }
@@ -52,44 +52,48 @@ pub(super) fn write_report(folder: &Path, run: &Run) -> Result<(), Failure> {
 }
 
 /// Reads a run that [`write_run`] has written.
-pub(super) fn read(path: &Path) -> Result<Run, Failure> {
-    let refuse = |code, what| refused(path, code, what);
+pub(super) fn read(path: &Path) -> Result<Run, UserError> {
+    let error = |code, problem| run_file_error(path, code, problem);
     let mut text = String::new();
     File::open(path)
-        .and_then(|file| BufReader::new(file.take(MOST_BYTES + 1)).read_to_string(&mut text))
-        .map_err(|problem| refuse("io", problem.to_string()))?;
-    if text.len() as u64 > MOST_BYTES {
-        return Err(refuse("limit", format!("more than {MOST_BYTES} bytes")));
+        .and_then(|file| BufReader::new(file.take(MAX_BYTES + 1)).read_to_string(&mut text))
+        .map_err(|problem| error("io", problem.to_string()))?;
+    if text.len() as u64 > MAX_BYTES {
+        return Err(error(
+            "limit",
+            format!("larger than the limit of {MAX_BYTES} bytes"),
+        ));
     }
-    let syntax = |error: serde_json::Error| refuse("structure", error.to_string());
+    let syntax = |problem: serde_json::Error| error("structure", problem.to_string());
     let Envelope { guideway } = serde_json::from_str(&text).map_err(syntax)?;
     if (guideway.report.as_str(), guideway.version) != (REPORT, RUN_VERSION) {
         let found = format!("{} of version {}", guideway.report, guideway.version);
         let wanted = format!("{REPORT} of version {RUN_VERSION}");
-        let what = format!("this is a report `{found}`, not `{wanted}`");
-        return Err(refuse("structure", what));
+        let problem = format!("found a report `{found}`, expected `{wanted}`");
+        return Err(error("structure", problem));
     }
     serde_json::from_str(&text).map_err(syntax)
 }
 
-/// Why the run of a folder cannot go on.
-pub(super) fn cannot_go_on(folder: &Path, error: ResumeError) -> Failure {
-    let path = &folder.join(RUN);
+/// Converts the error of continuing the run in a folder.
+pub(super) fn resume_error(folder: &Path, error: ResumeError) -> UserError {
+    let path = &folder.join(RUN_FILE);
     match error {
-        ResumeError::Damaged(what) => refused(path, "structure", what),
-        ResumeError::Device { .. } => Failure {
-            remedy: "Continue it where it was begun, or measure all of it here with another --out"
-                .to_owned(),
-            ..refused(path, "other-device", error.to_string())
+        ResumeError::Damaged(problem) => run_file_error(path, "structure", problem),
+        ResumeError::Device { .. } => UserError {
+            remedy:
+                "Continue it on the computer that began it, or start a new run with another --out"
+                    .to_owned(),
+            ..run_file_error(path, "other-device", error.to_string())
         },
         ResumeError::Render(error) => error.into(),
     }
 }
 
-fn refused(path: &Path, code: &'static str, what: String) -> Failure {
-    Failure {
+fn run_file_error(path: &Path, code: &'static str, problem: String) -> UserError {
+    UserError::new(
         code,
-        message: format!("{}: {what}", path.display()),
-        remedy: format!("Give the {RUN} that `guideway reproduce` has written"),
-    }
+        format!("{}: {problem}", path.display()),
+        format!("Name a {RUN_FILE} that `guideway reproduce` wrote"),
+    )
 }

@@ -1,22 +1,23 @@
+//! The report of `reproduce` on the terminal.
+
 use std::path::Path;
 
+use guideway::layout::UserError;
 use guideway_reproduce::report::PAGE;
 use guideway_reproduce::reproduce::{Finding, PartFacts, Run, Verdict, findings};
 use serde_json::json;
 
-use super::saved::RUN;
-use crate::cli::{Failure, Output, text};
+use super::names::{REPORT, RUN_FILE};
+use crate::cli::output::Output;
+use crate::cli::text;
 
-/// Name of the report, in the answer and in the file.
-pub(super) const REPORT: &str = "reproduce";
-
-/// Says where the report is and what it found.
-pub(super) fn answer(folder: &Path, run: &Run, out: &Output) -> Result<(), Failure> {
+/// Prints the location of the page and the findings.
+pub(super) fn report(folder: &Path, run: &Run, out: &Output) -> Result<(), UserError> {
     let findings = findings(run);
     let page = folder.join(PAGE);
     let body = json!({
         "page": page.to_string_lossy(),
-        "run": folder.join(RUN).to_string_lossy(),
+        "run": folder.join(RUN_FILE).to_string_lossy(),
         "is_partial": run.is_partial,
         "is_whole": run.is_whole(),
         "findings": findings,
@@ -26,7 +27,7 @@ pub(super) fn answer(folder: &Path, run: &Run, out: &Output) -> Result<(), Failu
     out.report(REPORT, &body, || {
         let mut answer = format!("The report is in {}\n", page.display());
         if run.is_partial {
-            answer += "It was stopped: what was measured until then is in it.\n";
+            answer += "The run was stopped; the report holds the parts measured so far.\n";
         }
         answer += &findings.iter().map(finding).collect::<String>();
         answer += &run.parts.iter().map(part).collect::<String>();
@@ -46,7 +47,10 @@ fn finding(finding: &Finding) -> String {
 fn part(part: &PartFacts) -> String {
     match (&part.failure, part.is_cut) {
         (Some(failure), _) => format!("note: {}: {failure}\n", part.name),
-        (None, true) => format!("note: {}: its time did not do for all of it\n", part.name),
+        (None, true) => format!(
+            "note: {}: the time limit left parts unmeasured\n",
+            part.name
+        ),
         (None, false) => String::new(),
     }
 }

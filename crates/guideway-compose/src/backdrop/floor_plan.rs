@@ -1,0 +1,124 @@
+//! Floor plan at the bottom of a picture: the paths of a layout in a pale color, or an image.
+
+use std::io::{self, Write};
+use std::sync::Arc;
+
+use guideway_cpu::Cpu;
+use guideway_formats::svg::{Outline, SvgWriter, Stroke};
+use guideway_layout::Layout;
+use guideway_scene::{
+    Budget, Cancel, Frame, LineRule, Method, Prepared, Rgba, Scene, SceneError, SceneOptions,
+    Strip, Style, View,
+};
+use guideway_spline::Bounds;
+
+use super::image::Image;
+use crate::ComposeError;
+use crate::vector::outline;
+
+/// Color of all paths of a floor plan: pale, so that the layout stands out.
+const PATH_COLOR: Rgba = Rgba::opaque(0xC2, 0xCA, 0xD3);
+
+/// Line width of a floor plan: walls and shelves are outlines, not lanes.
+const LINES: LineRule = LineRule::World {
+    width_m: 0.02,
+    min_px: 1.0,
+    max_px: 2.0,
+};
+
+/// The bottom layer of a picture. Clones share its content.
+#[derive(Clone)]
+pub enum FloorPlan {
+    /// Paths, drawn as thin pale lines.
+    Paths(Arc<Scene>),
+    /// An image that lies on the floor.
+    Image(Arc<Image>),
+}
+
+/// A floor plan, prepared for rendering.
+pub enum PreparedFloorPlan {
+    /// Paths, prepared by method `cpu`.
+    Paths(Box<dyn Prepared>),
+    /// An image.
+    Image(Arc<Image>),
+}
+
+impl FloorPlan {
+    /// A floor plan that shows the paths of a layout. Their own colors and widths do not apply.
+    ///
+    /// # Errors
+    /// Never for a layout without levels; see [`Scene::new`].
+    pub fn from_layout(mut layout: Layout) -> Result<Self, SceneError> {
+        let rows = layout.paths.len();
+        layout.paths.set_color_rgba(vec![PATH_COLOR.to_u32(); rows]);
+        layout.paths.set_width_m(vec![f32::NAN; rows]);
+        let scene = Scene::new(Arc::new(layout), &SceneOptions::default())?;
+        Ok(Self::Paths(Arc::new(scene)))
+    }
+
+    /// A floor plan that shows an image.
+    pub fn from_image(image: Image) -> Self {
+        Self::Image(Arc::new(image))
+    }
+
+    /// Bounding box in meters; `None` for a layout without paths.
+    pub fn bounds(&self) -> Option<Bounds<f64>> {
+        match self {
+            Self::Paths(scene) => scene.bounds(),
+            Self::Image(image) => Some(image.bounds()),
+        }
+    }
+
+    /// Prepares the plan for rendering.
+    ///
+    /// # Errors
+    /// When the paths exceed the memory budget.
+    pub fn prepare(&self, budget: &Budget) -> Result<PreparedFloorPlan, ComposeError> {
+        Ok(match self {
+            Self::Paths(scene) => PreparedFloorPlan::Paths(Cpu.prepare(Arc::clone(scene), budget)?),
+            Self::Image(image) => PreparedFloorPlan::Image(Arc::clone(image)),
+        })
+    }
+
+    /// Writes the plan as SVG elements.
+    pub(super) fn write(&self, view: &View, page: &mut SvgWriter<'_, impl Write>) -> io::Result<()> {
+        match self {
+            Self::Image(image) => image.write(view, page),
+            Self::Paths(scene) => {
+                page.begin_group("floor plan")?;
+                for &path in scene.draw_order() {
+                    let width_px = 2.0 * LINES.radius_px(None, view.px_per_m());
+                    let outline: Outline = outline(scene, path, view, width_px);
+                    page.path("", &outline, &Stroke::new(PATH_COLOR.to_u32(), width_px))?;
+                }
+                page.end_group()
+            }
+        }
+    }
+}
+
+impl PreparedFloorPlan {
+    /// Renders the plan over `background` into a frame of the strip's size.
+    ///
+    /// # Errors
+    /// When the frame exceeds the memory budget.
+    pub fn render(
+        &mut self,
+        strip: &Strip,
+        background: Rgba,
+        frame: &mut Frame,
+    ) -> Result<(), ComposeError> {
+        match self {
+            Self::Paths(prepared) => {
+                let style = Style {
+                    line_rule: LINES,
+                    background,
+                    ..Style::default()
+                };
+                prepared.render_strip(strip, &style, &Cancel::default(), frame)?;
+            }
+            Self::Image(image) => image.draw(strip, background, frame),
+        }
+        Ok(())
+    }
+}

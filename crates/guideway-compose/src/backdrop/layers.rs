@@ -1,0 +1,181 @@
+//! Stacks the layers of a backdrop into one frame per strip, or writes them as SVG.
+
+use std::io::{self, Write};
+use std::sync::Arc;
+
+use guideway_cpu::Areas;
+use guideway_formats::svg::SvgWriter;
+use guideway_scene::Budget;
+use guideway_scene::{
+    Cancel, DrawList, Frame, FrameSize, Method, Prepared, Rgba, Scene, Strip, Style, View,
+};
+use guideway_spline::Bounds;
+
+use super::floor_plan::{FloorPlan, PreparedFloorPlan};
+use super::swept::{self, SweptAreas, SweptReport, VisibleAreas};
+use crate::ComposeError;
+use crate::blend::composite_over;
+use crate::overlay::PreparedOverlay;
+use crate::vector::{write_draw_list, write_paths};
+
+/// The layers below the paths of a picture, bottom first.
+#[derive(Clone, Default)]
+pub struct Backdrop {
+    /// A drawing or an image of the hall.
+    pub floor_plan: Option<FloorPlan>,
+    /// Shapes over the floor plan, such as the grid of a window.
+    pub lines: DrawList,
+    /// The areas that a vehicle sweeps along paths of the topmost scene.
+    pub swept: Option<SweptAreas>,
+    /// Other scenes, bottom first.
+    pub others: Vec<Arc<Scene>>,
+}
+
+impl Backdrop {
+    /// Bounding box of all layers in meters; `None` if they are empty.
+    pub(crate) fn bounds(&self, scene: &Scene) -> Option<Bounds<f64>> {
+        let plan = self.floor_plan.as_ref().and_then(FloorPlan::bounds);
+        let swept = self.swept.as_ref();
+        let swept = swept.and_then(|swept| swept::bounds(scene, swept.vehicle));
+        let others = self.others.iter().filter_map(|other| other.bounds());
+        let all = [plan, swept].into_iter().flatten().chain(others);
+        all.reduce(Bounds::union)
+    }
+
+    /// Resolves the layers for a view.
+    ///
+    /// # Errors
+    /// When swept areas are requested and no path has one.
+    pub(crate) fn visible(
+        &self,
+        scene: &Scene,
+        view: &View,
+    ) -> Result<VisibleBackdrop<'_>, ComposeError> {
+        let areas = self.swept.as_ref().map(|swept| {
+            let rows = swept.rows.as_deref().unwrap_or(scene.draw_order());
+            VisibleAreas::new(scene.layout(), rows, swept.vehicle, view)
+        });
+        Ok(VisibleBackdrop {
+            backdrop: self,
+            areas: areas.transpose()?,
+        })
+    }
+}
+
+/// A backdrop with the swept areas of one view.
+pub(crate) struct VisibleBackdrop<'b> {
+    backdrop: &'b Backdrop,
+    areas: Option<VisibleAreas>,
+}
+
+impl VisibleBackdrop<'_> {
+    /// Prepares the layers for rendering; `None` if the backdrop is empty. `grid` is drawn below
+    /// the lines of the backdrop.
+    pub(crate) fn prepare<'a>(
+        &'a self,
+        grid: &'a DrawList,
+        method: &dyn Method,
+        budget: &Budget,
+        style: &Style,
+        view: &View,
+    ) -> Result<Option<PreparedBackdrop<'a>>, ComposeError> {
+        let floor_plan = self.backdrop.floor_plan.as_ref();
+        let floor_plan = floor_plan.map(|plan| plan.prepare(budget));
+        let lines = [grid, &self.backdrop.lines].into_iter();
+        let lines = lines.filter(|lines| !lines.is_empty());
+        let others = self.backdrop.others.iter();
+        let others = others.map(|other| method.prepare(Arc::clone(other), budget));
+        let prepared = PreparedBackdrop {
+            floor_plan: floor_plan.transpose()?,
+            lines: lines
+                .map(|lines| PreparedOverlay::new(lines, view))
+                .collect(),
+            areas: self.areas.as_ref().map(VisibleAreas::polygons),
+            others: others.collect::<Result<_, _>>()?,
+            style: Style {
+                background: Rgba::from_u32(0),
+                ..*style
+            },
+            scratch: Frame::new(FrameSize::new(1, 1)?),
+        };
+        Ok((!prepared.is_empty()).then_some(prepared))
+    }
+
+    /// Writes the layers as SVG elements.
+    pub(crate) fn write(
+        &self,
+        grid: &DrawList,
+        view: &View,
+        style: &Style,
+        page: &mut SvgWriter<'_, impl Write>,
+    ) -> io::Result<()> {
+        if let Some(plan) = &self.backdrop.floor_plan {
+            plan.write(view, page)?;
+        }
+        for lines in [grid, &self.backdrop.lines] {
+            write_draw_list(lines, "grid", page)?;
+        }
+        if let Some(areas) = &self.areas {
+            areas.write(view, page)?;
+        }
+        for other in &self.backdrop.others {
+            write_paths(other, view, style, page)?;
+        }
+        Ok(())
+    }
+
+    /// Number of paths with and without a swept area; `None` if none were requested.
+    pub(crate) fn into_report(self) -> Option<SweptReport> {
+        self.areas.map(|areas| areas.report)
+    }
+}
+
+/// A backdrop that renders strip by strip.
+pub(crate) struct PreparedBackdrop<'b> {
+    floor_plan: Option<PreparedFloorPlan>,
+    lines: Vec<PreparedOverlay<'b>>,
+    areas: Option<Areas>,
+    others: Vec<Box<dyn Prepared>>,
+    /// Style of the other scenes: on a transparent background.
+    style: Style,
+    /// One of the other scenes, before it is composited.
+    scratch: Frame,
+}
+
+impl PreparedBackdrop<'_> {
+    fn is_empty(&self) -> bool {
+        self.floor_plan.is_none()
+            && self.lines.is_empty()
+            && self.areas.is_none()
+            && self.others.is_empty()
+    }
+
+    /// Renders all layers over `background`. Resizes `frame` to the strip.
+    ///
+    /// # Errors
+    /// When a layer cannot be rendered.
+    pub(crate) fn render(
+        &mut self,
+        strip: &Strip,
+        background: Rgba,
+        frame: &mut Frame,
+    ) -> Result<(), ComposeError> {
+        frame.resize(strip.size());
+        match &mut self.floor_plan {
+            Some(plan) => plan.render(strip, background, frame)?,
+            None => frame.pixels_mut().fill(background.to_u32().to_be_bytes()),
+        }
+        for lines in &self.lines {
+            lines.draw(strip, frame);
+        }
+        if let Some(areas) = &self.areas {
+            swept::draw(areas, strip, frame);
+        }
+        for other in &mut self.others {
+            other.render_strip(strip, &self.style, &Cancel::default(), &mut self.scratch)?;
+            composite_over(frame, &mut self.scratch);
+            std::mem::swap(frame, &mut self.scratch);
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,107 @@
+//! Errors of composing a picture.
+
+use std::io;
+use std::path::PathBuf;
+
+use guideway_envelope::NoEnvelope;
+use guideway_layout::UserError;
+use guideway_scene::{RenderError, SceneError};
+
+use crate::SaveError;
+
+/// Why a picture was not composed.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ComposeError {
+    /// A render method failed, the view is out of range, or the caller cancelled.
+    #[error(transparent)]
+    Render(#[from] RenderError),
+    /// The layout of a floor plan has no scene.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// The file was not written.
+    #[error(transparent)]
+    Save(#[from] SaveError),
+    /// The image of a floor plan was not read.
+    #[error(transparent)]
+    Image(#[from] ImageError),
+    /// Swept areas were requested, and none of the paths has one.
+    #[error("no path has an envelope: {reason}")]
+    NoEnvelope {
+        /// The most frequent reason.
+        reason: NoEnvelope,
+    },
+    /// SVG holds the curves themselves, so it has no count of paths per pixel.
+    #[error("SVG cannot show density shading: it holds curves, not pixels")]
+    DensityInSvg,
+}
+
+/// Why an image was not read as a floor plan.
+#[derive(Debug, thiserror::Error)]
+#[error("{}: cannot read the image: {problem}", .path.display())]
+pub struct ImageError {
+    /// The image file.
+    pub path: PathBuf,
+    /// What went wrong.
+    pub problem: ImageProblem,
+}
+
+/// What went wrong with an image.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ImageProblem {
+    /// The file cannot be read.
+    #[error(transparent)]
+    Io(#[from] io::Error),
+    /// The content is not a valid PNG.
+    #[error(transparent)]
+    Png(#[from] png::DecodingError),
+    /// The image has more pixels than a floor plan may have.
+    #[error("{width} x {height} pixels, above the limit of {limit}")]
+    TooLarge {
+        /// Columns of pixels.
+        width: u32,
+        /// Rows of pixels.
+        height: u32,
+        /// Most pixels in total.
+        limit: u64,
+    },
+}
+
+impl From<ImageError> for UserError {
+    fn from(error: ImageError) -> Self {
+        let remedy = match &error.problem {
+            ImageProblem::Io(_) => "Check that the file exists and that you may read it",
+            _ => "Save it again as PNG with at most 67 million pixels",
+        };
+        Self::new("image", error.to_string(), remedy)
+    }
+}
+
+impl From<SaveError> for UserError {
+    fn from(error: SaveError) -> Self {
+        let remedy = error.remedy();
+        Self::new("save", error.to_string(), remedy)
+    }
+}
+
+impl From<ComposeError> for UserError {
+    fn from(error: ComposeError) -> Self {
+        match error {
+            ComposeError::Render(error) => error.into(),
+            ComposeError::Scene(error) => error.into(),
+            ComposeError::Save(error) => error.into(),
+            ComposeError::Image(error) => error.into(),
+            ComposeError::NoEnvelope { .. } => Self::new(
+                "usage",
+                error.to_string(),
+                "Give the size of the vehicle, such as `--envelope 2x1.2`",
+            ),
+            ComposeError::DensityInSvg => Self::new(
+                "usage",
+                error.to_string(),
+                "Omit --shade, or save the picture as PNG",
+            ),
+        }
+    }
+}

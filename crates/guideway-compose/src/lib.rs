@@ -1,0 +1,70 @@
+//! Composes a finished picture of a layout and writes it as rows of pixels, PNG or SVG.
+//!
+//! A [`Picture`] lists the layers. [`Picture::render`] draws them strip by strip with any render
+//! method, [`Picture::save_png`] writes the strips to a PNG file in memory that does not grow with
+//! the picture, and [`Picture::save_svg`] writes the same layers as exact curves.
+//!
+//! | layer, bottom first | input | module |
+//! |---|---|---|
+//! | background | [`Style`](guideway_scene::Style) | `render`, `svg` |
+//! | floor plan | a layout or a PNG image ([`FloorPlan`]) | `backdrop` |
+//! | grid | view, [`DecorationStyle`] | `decorations` |
+//! | swept areas | paths, vehicle ([`SweptAreas`]) | `backdrop` |
+//! | other scenes | [`Scene`](guideway_scene::Scene)s below the topmost one | `backdrop` |
+//! | paths | the topmost scene | a render method, `vector` |
+//! | arrows, nodes, stations, labels | scene, view | `decorations` |
+//! | legend, title, scale bar | scene, view | `decorations` |
+//!
+//! Decorations become a [`DrawList`](guideway_scene::DrawList) of polygons and lines of text before
+//! anything is drawn, so that PNG and SVG show the same shapes. `overlay` rasterizes a draw list,
+//! `vector` writes it as SVG elements, and `text` shapes its lines with an embedded font and, for
+//! letters that this font lacks, the fonts of the system.
+//!
+//! ```
+//! use std::sync::Arc;
+//!
+//! use guideway_compose::{Decorations, NoProgress, Picture};
+//! use guideway_cpu::Cpu;
+//! use guideway_layout::{Layout, NewPath};
+//! use guideway_scene::{FrameSize, Scene, SceneOptions};
+//! use guideway_spline::{Point, Runs};
+//!
+//! let mut runs = Runs::default();
+//! runs.push_line(Point::new(0.0, 0.0), Point::new(12.0, 0.0));
+//! let mut layout = Layout::default();
+//! layout.paths.push(&NewPath { id: "aisle-1", runs: &runs, ..NewPath::default() });
+//!
+//! let scene = Arc::new(Scene::new(Arc::new(layout), &SceneOptions::default())?);
+//! let mut picture = Picture::new(scene, FrameSize::new(1280, 720)?);
+//! picture.decorations = Decorations::site("Aisle 1");
+//! # let folder = tempfile::tempdir()?;
+//! let rendered = picture.save_png(&Cpu, folder.path().join("aisle.png"), &NoProgress)?;
+//! assert_eq!(rendered.report.drawn, 1);
+//! picture.save_svg(folder.path().join("aisle.svg"))?;
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod backdrop;
+mod blend;
+mod decorations;
+mod error;
+mod files;
+mod overlay;
+mod picture;
+mod png_writer;
+mod render;
+mod svg;
+mod text;
+pub mod text_format;
+mod vector;
+
+pub use backdrop::{
+    Backdrop, FloorPlan, Image, ImagePlacement, PreparedFloorPlan, SweptAreas, SweptReport,
+    draw_swept_areas,
+};
+pub use decorations::{DecorationStyle, Decorations, grid, marks_list, scale_bar};
+pub use error::{ComposeError, ImageError, ImageProblem};
+pub use files::{SaveError, remove_unfinished, replace_file};
+pub use picture::{Picture, Viewport};
+pub use png_writer::{save_png, save_png_by, write_png_by};
+pub use render::{NoProgress, Rendered, StripSink};

@@ -1,0 +1,165 @@
+//! Rasterizes a draw list over the strips of a view.
+
+use std::ops::Range;
+
+use guideway_cpu::{Areas, lay_areas};
+use guideway_scene::{DrawList, Frame, Rgba, Strip, TextLine, View};
+use guideway_spline::Point;
+
+use crate::blend::over;
+use crate::text::{ShapedLine, line_width_px};
+
+/// A draw list, prepared for all strips of a view.
+pub(crate) struct PreparedOverlay<'l> {
+    fills: Vec<(Rgba, Areas)>,
+    texts: Vec<(&'l TextLine, ShapedLine)>,
+}
+
+impl<'l> PreparedOverlay<'l> {
+    /// Shapes all texts and converts polygons to the coordinates of the rasterizer.
+    pub(crate) fn new(list: &'l DrawList, view: &View) -> Self {
+        let fills = list.fills.iter().map(|fill| {
+            let mut areas = Areas::default();
+            for polygon in &fill.polygons {
+                let corner = |&p| view.world_from_pixel(p);
+                areas.push(&polygon.iter().map(corner).collect::<Vec<_>>());
+            }
+            (fill.color, areas)
+        });
+        let texts = list.texts.iter();
+        Self {
+            fills: fills.collect(),
+            texts: texts
+                .map(|text| (text, ShapedLine::new(&text.text)))
+                .collect(),
+        }
+    }
+
+    /// Composites the part of the list that lies in a strip over a frame of the strip's size.
+    pub(crate) fn draw(&self, strip: &Strip, frame: &mut Frame) {
+        for (color, areas) in &self.fills {
+            lay_areas(areas, strip, *color, frame);
+        }
+        let rows = strip.rows();
+        let mut canvas = StripCanvas {
+            frame,
+            rows: i64::from(rows.start)..i64::from(rows.end),
+        };
+        for (text, line) in &self.texts {
+            canvas.draw_text(text, line);
+        }
+    }
+}
+
+/// The rows of a picture that one frame holds.
+struct StripCanvas<'a> {
+    frame: &'a mut Frame,
+    rows: Range<i64>,
+}
+
+impl StripCanvas<'_> {
+    fn draw_text(&mut self, text: &TextLine, line: &ShapedLine) {
+        let size_px = text.char_width_px / TextLine::CHAR_ASPECT;
+        // Letters reach less than their size above and below the middle of the line.
+        let middle = text.left_middle_px;
+        let (top, bottom) = (middle.y - 1.5 * size_px, middle.y + 1.5 * size_px);
+        if (bottom as i64) < self.rows.start || (top as i64) >= self.rows.end {
+            return;
+        }
+        let width_px = line_width_px(text);
+        if text.background.a > 0 {
+            let corner = middle - Point::new(0.0, 0.6 * size_px);
+            self.fill(corner, Point::new(width_px, 1.2 * size_px), text.background);
+        }
+        let [r, g, b, a] = text.color.to_u32().to_be_bytes();
+        line.rasterize(middle, size_px, width_px, |x, y, coverage| {
+            let alpha = (f32::from(a) * coverage).round() as u8;
+            self.blend(x, y, [r, g, b, alpha]);
+        });
+    }
+
+    /// Composites a rectangle whose edges are rounded to whole pixels.
+    fn fill(&mut self, corner: Point<f64>, size_px: Point<f64>, color: Rgba) {
+        let end = corner + size_px;
+        let (left, right) = (corner.x.round() as i64, end.x.round() as i64);
+        let (top, bottom) = (corner.y.round() as i64, end.y.round() as i64);
+        let width = i64::from(self.frame.size().width());
+        let color = color.to_u32().to_be_bytes();
+        for y in top.max(self.rows.start)..bottom.min(self.rows.end) {
+            for x in left.max(0)..right.min(width) {
+                self.blend(x, y, color);
+            }
+        }
+    }
+
+    /// Composites a color over one pixel of the picture; outside of the strip it has no effect.
+    fn blend(&mut self, x: i64, y: i64, color: [u8; 4]) {
+        let width = i64::from(self.frame.size().width());
+        if (0..width).contains(&x) && self.rows.contains(&y) {
+            let at = ((y - self.rows.start) * width + x) as usize;
+            let pixel = &mut self.frame.pixels_mut()[at];
+            *pixel = over(color, *pixel);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use guideway_scene::FrameSize;
+
+    use super::*;
+
+    fn view(width: u32, height: u32) -> View {
+        let size = FrameSize::new(width, height).unwrap();
+        View::new(size, Point::new(3.0, 4.0), 20.0).unwrap()
+    }
+
+    fn list() -> DrawList {
+        let mut list = DrawList::default();
+        let red = Rgba::opaque(255, 0, 0);
+        list.fill_rectangle(red, Point::new(10.0, 60.0), Point::new(20.0, 80.0));
+        list.texts.push(TextLine {
+            text: "lé\u{10FFFD}".into(),
+            left_middle_px: Point::new(40.0, 64.0),
+            char_width_px: 12.0,
+            color: Rgba::BLACK,
+            background: Rgba::opaque(0, 255, 0),
+        });
+        list
+    }
+
+    fn drawn(strip: &Strip) -> Frame {
+        let mut frame = Frame::new(strip.size());
+        frame.pixels_mut().fill([255; 4]);
+        PreparedOverlay::new(&list(), strip.view()).draw(strip, &mut frame);
+        frame
+    }
+
+    #[test]
+    fn draws_fills_letters_and_missing_letters_in_their_cells() {
+        let frame = drawn(&Strip::whole(&view(100, 128)));
+        let at = |x: usize, y: usize| frame.pixels()[y * 100 + x];
+        assert_eq!((at(9, 70), at(10, 70)), ([255; 4], [255, 0, 0, 255]));
+        assert_eq!((at(15, 59), at(15, 60)), ([255; 4], [255, 0, 0, 255]));
+        assert_eq!((at(39, 64), at(77, 64)), ([255; 4], [255; 4]));
+        let dark = |x: Range<usize>| {
+            let pixels = x.flat_map(|x| (40..90).map(move |y| (x, y)));
+            pixels.filter(|&(x, y)| at(x, y)[1] < 64).count()
+        };
+        for cell in [40..52, 52..64, 64..76] {
+            assert!(dark(cell.clone()) > 4, "{cell:?}");
+        }
+    }
+
+    #[test]
+    fn strips_together_equal_the_whole() {
+        let view = view(100, 128);
+        let whole = drawn(&Strip::whole(&view));
+        let mut rows = whole.pixels().iter();
+        for strip in view.strips(0) {
+            let frame = drawn(&strip);
+            assert!(rows.by_ref().take(frame.pixels().len()).eq(frame.pixels()));
+        }
+        assert!(rows.next().is_none());
+    }
+}

@@ -1,0 +1,134 @@
+//! Encodes frames as PNG, at once or strip by strip, and writes them to files or streams.
+
+use std::fs::File;
+use std::io::{self, BufWriter, Write};
+use std::path::Path;
+
+use guideway_scene::{Frame, FrameSize};
+
+use crate::{SaveError, replace_file};
+
+/// Saves a frame as a PNG file, atomically.
+///
+/// # Errors
+/// When the folder cannot be written or its disk is full. An existing file is then unchanged.
+pub fn save_png(frame: &Frame, path: impl AsRef<Path>) -> Result<(), SaveError> {
+    save_png_by(path, frame.size(), |sink| sink(frame))
+}
+
+/// Saves a picture that is never in memory as a whole as a PNG file, atomically: `draw` hands its
+/// rows to the sink, top first, a strip per call.
+///
+/// # Errors
+/// See [`save_png`]; also those of `draw`.
+pub fn save_png_by<T, E: From<SaveError>>(
+    path: impl AsRef<Path>,
+    size: FrameSize,
+    draw: impl FnOnce(&mut dyn FnMut(&Frame) -> Result<(), E>) -> Result<T, E>,
+) -> Result<T, E> {
+    let path = path.as_ref();
+    let fail = |problem| {
+        E::from(SaveError {
+            path: path.to_owned(),
+            problem,
+        })
+    };
+    replace_file(path, |file| {
+        let file = File::create(file).map_err(fail)?;
+        write_png_by(file, size, fail, draw)
+    })
+}
+
+/// Writes a picture as PNG to a stream, strip by strip: see [`save_png_by`]. `fail` converts the
+/// errors of the stream.
+///
+/// # Errors
+/// When the stream fails, `draw` hands over too few rows, or `draw` fails.
+pub fn write_png_by<T, E>(
+    target: impl Write,
+    size: FrameSize,
+    fail: impl Fn(io::Error) -> E,
+    draw: impl FnOnce(&mut dyn FnMut(&Frame) -> Result<(), E>) -> Result<T, E>,
+) -> Result<T, E> {
+    let fail_png = |error| fail(as_io(error));
+    let mut target = BufWriter::with_capacity(1 << 16, target);
+    let mut encoder = png::Encoder::new(&mut target, size.width(), size.height());
+    encoder.set_color(png::ColorType::Rgba);
+    encoder.set_depth(png::BitDepth::Eight);
+    // Measured: files are half as large again as by default compression, which takes as long as
+    // rendering a million paths, or longer.
+    encoder.set_compression(png::Compression::Fast);
+    encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
+    let mut writer = encoder.write_header().map_err(fail_png)?;
+    let stream = writer.stream_writer_with_size(1 << 16);
+    let mut stream = stream.map_err(fail_png)?;
+    let result = draw(&mut |rows| stream.write_all(rows.bytes()).map_err(&fail))?;
+    stream.finish().map_err(fail_png)?;
+    writer.finish().map_err(fail_png)?;
+    target.flush().map_err(fail)?;
+    Ok(result)
+}
+
+fn as_io(error: png::EncodingError) -> io::Error {
+    match error {
+        png::EncodingError::IoError(error) => error,
+        other => io::Error::other(other),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn frame(width: u32, height: u32) -> Frame {
+        let mut frame = Frame::new(FrameSize::new(width, height).unwrap());
+        for (i, pixel) in frame.pixels_mut().iter_mut().enumerate() {
+            *pixel = [i as u8, 50, 255, 128 + i as u8];
+        }
+        frame
+    }
+
+    #[test]
+    fn decodes_to_the_pixels_written_at_once_or_in_strips() {
+        let rows = frame(3, 2);
+        for times in [1, 5] {
+            let size = FrameSize::new(3, 2 * times).unwrap();
+            let mut bytes = Vec::new();
+            let draw = |sink: &mut dyn FnMut(&Frame) -> io::Result<()>| {
+                (0..times).try_for_each(|_| sink(&rows))
+            };
+            write_png_by(&mut bytes, size, |problem| problem, draw).unwrap();
+
+            let mut reader = png::Decoder::new(io::Cursor::new(bytes))
+                .read_info()
+                .unwrap();
+            let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+            let info = reader.next_frame(&mut pixels).unwrap();
+            assert_eq!((info.width, info.height), (3, 2 * times));
+            assert_eq!(pixels, rows.bytes().repeat(times as usize));
+        }
+    }
+
+    #[test]
+    fn unfinished_picture_leaves_no_file() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.png");
+        let size = FrameSize::new(3, 4).unwrap();
+        let rows = frame(3, 2);
+        let half: Result<(), SaveError> = save_png_by(&path, size, |sink| sink(&rows));
+        assert!(half.is_err());
+        let stopped = save_png_by(&path, size, |sink| {
+            sink(&rows)?;
+            Err(SaveError {
+                path: path.clone(),
+                problem: io::ErrorKind::Interrupted.into(),
+            })
+        });
+        let stopped: Result<(), SaveError> = stopped;
+        assert!(stopped.is_err());
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+        let whole: Result<(), SaveError> =
+            save_png_by(&path, size, |sink| sink(&rows).and_then(|()| sink(&rows)));
+        assert!(whole.is_ok() && path.is_file());
+    }
+}

@@ -1,0 +1,178 @@
+//! Renders a picture strip by strip: paths over the backdrop, marks and margin texts over both.
+
+use std::path::Path;
+use std::sync::Arc;
+use std::time::Instant;
+
+use guideway_formats::Progress;
+use guideway_scene::{
+    Cancel, Frame, FrameSize, Method, MethodInfo, RenderError, Report, Rgba, Shading, Style, View,
+    elapsed_ms,
+};
+
+use crate::backdrop::SweptReport;
+use crate::overlay::PreparedOverlay;
+use crate::{ComposeError, Picture, blend, save_png_by};
+
+/// Outcome of a picture: the view, the account of all paths and the time per step.
+#[derive(Clone, Debug)]
+pub struct Rendered {
+    /// The view that the picture shows.
+    pub view: View,
+    /// Number of paths drawn, culled, hidden and refused, and notes for the user.
+    pub report: Report,
+    /// The render method; `svg` for SVG.
+    pub method: MethodInfo,
+    /// Number of paths with a swept area; `None` if none were requested.
+    pub swept: Option<SweptReport>,
+    /// Time to prepare scenes and backdrop.
+    pub prepare_ms: f64,
+    /// Time to render all strips.
+    pub render_ms: f64,
+    /// Time that the sink took.
+    pub write_ms: f64,
+}
+
+/// Progress that nobody follows and nobody cancels.
+pub struct NoProgress;
+
+impl Progress for NoProgress {}
+
+/// Receives the rows of a picture, top first, a strip per call.
+pub type StripSink<'a> = &'a mut dyn FnMut(&Frame) -> Result<(), ComposeError>;
+
+impl Picture {
+    /// Renders the picture with a method and hands it to `sink` strip by strip. Reports finished
+    /// rows to `progress` and stops when it is cancelled.
+    ///
+    /// # Errors
+    /// When a layer cannot be rendered, the memory budget does not suffice, swept areas are
+    /// requested and no path has one, `progress` is cancelled, or `sink` fails.
+    pub fn render(
+        &self,
+        method: &dyn Method,
+        progress: &dyn Progress,
+        sink: StripSink<'_>,
+    ) -> Result<Rendered, ComposeError> {
+        let started = Instant::now();
+        let view = self.view()?;
+        let visible = self.backdrop.visible(&self.scene, &view)?;
+        let decorations = self.place_decorations(&view);
+        let mut backdrop =
+            visible.prepare(&decorations.grid, method, &self.budget, &self.style, &view)?;
+        let mut style = self.style;
+        if backdrop.is_some() {
+            style.background.a = 0;
+        }
+        let mut prepared = method.prepare(Arc::clone(&self.scene), &self.budget)?;
+        let prepare_ms = elapsed_ms(started);
+
+        let background = self.style.background;
+        let marks = [&self.overlay, &decorations.marks];
+        let marks = marks.map(|list| PreparedOverlay::new(list, &view));
+        let margin = decorations.margin.iter();
+        let margin: Vec<_> = margin
+            .map(|(list, _)| PreparedOverlay::new(list, &view))
+            .collect();
+        let mut report = None::<Report>;
+        let (mut render_ms, mut write_ms, mut bare_pixels) = (0.0, 0.0, 0);
+        let size = FrameSize::new(1, 1)?;
+        let (mut frame, mut below) = (Frame::new(size), Frame::new(size));
+        for strip in view.strips(prepared.strip_pixels()) {
+            if progress.cancelled() {
+                return Err(RenderError::Cancelled.into());
+            }
+            let started = Instant::now();
+            let of_strip = prepared.render_strip(&strip, &style, &Cancel::default(), &mut frame)?;
+            if let Some(backdrop) = &mut backdrop {
+                backdrop.render(&strip, background, &mut below)?;
+                blend::composite_over(&below, &mut frame);
+            }
+            for marks in &marks {
+                marks.draw(&strip, &mut frame);
+            }
+            bare_pixels += count_bare(&frame, background);
+            for list in &margin {
+                list.draw(&strip, &mut frame);
+            }
+            match &mut report {
+                Some(report) => report.join(of_strip),
+                none => *none = Some(of_strip),
+            }
+            render_ms += elapsed_ms(started);
+            let started = Instant::now();
+            sink(&frame)?;
+            write_ms += elapsed_ms(started);
+            progress.advance(strip.rows().end.into(), view.size().height().into());
+        }
+        drop(backdrop);
+        let mut report = report.unwrap_or_default();
+        report
+            .notes
+            .extend(density_hint(&report, bare_pixels, &view, &self.style));
+        report.notes.extend(decorations.notes);
+        Ok(Rendered {
+            view,
+            report,
+            method: method.info(),
+            swept: visible.into_report(),
+            prepare_ms,
+            render_ms,
+            write_ms,
+        })
+    }
+
+    /// Renders the picture into one frame.
+    ///
+    /// # Errors
+    /// See [`Picture::render`].
+    pub fn render_frame(
+        &self,
+        method: &dyn Method,
+        progress: &dyn Progress,
+    ) -> Result<(Frame, Rendered), ComposeError> {
+        let mut frame = Frame::new(self.viewport.size);
+        let mut rows = frame.pixels_mut().iter_mut();
+        let rendered = self.render(method, progress, &mut |strip: &Frame| {
+            let pixels = rows.by_ref().zip(strip.pixels());
+            pixels.for_each(|(pixel, rendered)| *pixel = *rendered);
+            Ok(())
+        })?;
+        Ok((frame, rendered))
+    }
+
+    /// Renders the picture into a PNG file, atomically, in memory that does not grow with the
+    /// picture.
+    ///
+    /// # Errors
+    /// See [`Picture::render`]; also when the file cannot be written.
+    pub fn save_png(
+        &self,
+        method: &dyn Method,
+        path: impl AsRef<Path>,
+        progress: &dyn Progress,
+    ) -> Result<Rendered, ComposeError> {
+        save_png_by(path, self.viewport.size, |sink| {
+            self.render(method, progress, sink)
+        })
+    }
+}
+
+/// Pixels that show the background alone.
+fn count_bare(frame: &Frame, background: Rgba) -> usize {
+    let bare = background.to_u32().to_be_bytes();
+    let pixels = frame.pixels().iter();
+    pixels.filter(|&&pixel| pixel == bare).count()
+}
+
+/// Suggests density shading where many paths cover most of the picture.
+fn density_hint(report: &Report, bare_pixels: usize, view: &View, style: &Style) -> Option<String> {
+    const MANY_PATHS: u64 = 10_000;
+    let is_crowded = report.drawn >= MANY_PATHS && bare_pixels * 2 < view.size().pixels();
+    let note = "paths cover most of the picture; `--shade density` shows how many overlap";
+    (is_crowded && style.shading == Shading::Color).then(|| note.to_owned())
+}
+
+#[cfg(test)]
+#[path = "render_tests.rs"]
+mod tests;

@@ -1,0 +1,207 @@
+//! Tests that strips of a picture add up to the picture rendered at once, with every layer.
+
+use guideway_cpu::Cpu;
+use guideway_formats::{ReadOptions, read_file};
+use guideway_scene::density::ToneMap;
+use guideway_scene::{
+    Budget, ColorBy, DrawList, Preparation, Prepared, Scene, SceneOptions, Strip, TextLine,
+};
+use guideway_spline::Point;
+
+use super::*;
+use crate::{Backdrop, Decorations, FloorPlan, SweptAreas};
+
+/// Method `cpu` with another limit on the pixels per strip.
+struct InStrips(usize);
+
+struct PreparedInStrips(usize, Box<dyn Prepared>);
+
+impl Method for InStrips {
+    fn info(&self) -> MethodInfo {
+        Cpu.info()
+    }
+
+    fn plan_bytes(&self, _: &Scene, _: &Budget) -> u64 {
+        0
+    }
+
+    fn prepare(
+        &self,
+        scene: Arc<Scene>,
+        budget: &Budget,
+    ) -> Result<Box<dyn Prepared>, RenderError> {
+        let cpu = Cpu.prepare(scene, budget)?;
+        Ok(Box::new(PreparedInStrips(self.0, cpu)))
+    }
+}
+
+impl Prepared for PreparedInStrips {
+    fn render(
+        &mut self,
+        view: &View,
+        style: &Style,
+        cancel: &Cancel,
+        frame: &mut Frame,
+    ) -> Result<Report, RenderError> {
+        self.1.render(view, style, cancel, frame)
+    }
+
+    fn strip_pixels(&self) -> usize {
+        self.0
+    }
+
+    fn render_strip(
+        &mut self,
+        strip: &Strip,
+        style: &Style,
+        cancel: &Cancel,
+        frame: &mut Frame,
+    ) -> Result<Report, RenderError> {
+        self.1.render_strip(strip, style, cancel, frame)
+    }
+
+    fn preparation(&self) -> &Preparation {
+        self.1.preparation()
+    }
+}
+
+fn site(options: &SceneOptions) -> Arc<Scene> {
+    let path = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../guideway/examples/site.lif.json"
+    );
+    let layout = read_file(path.as_ref(), &ReadOptions::default()).unwrap();
+    Arc::new(Scene::new(Arc::new(layout), options).unwrap())
+}
+
+/// All pixels, the number of strips, and the report.
+fn rendered(strip_pixels: usize, picture: &Picture) -> (Vec<[u8; 4]>, usize, Report) {
+    let (mut pixels, mut strips) = (Vec::new(), 0);
+    let mut sink = |frame: &Frame| {
+        pixels.extend_from_slice(frame.pixels());
+        strips += 1;
+        Ok(())
+    };
+    let method = InStrips(strip_pixels);
+    let rendered = picture.render(&method, &NoProgress, &mut sink).unwrap();
+    (pixels, strips, rendered.report)
+}
+
+/// A bar and a name across the border of two strips.
+fn shapes() -> DrawList {
+    let mut list = DrawList::default();
+    let red = Rgba::opaque(255, 0, 0);
+    list.fill_rectangle(red, Point::new(100.0, 30.5), Point::new(110.0, 300.0));
+    list.texts.push(TextLine {
+        text: "a name".into(),
+        left_middle_px: Point::new(200.0, 64.0),
+        char_width_px: 9.0,
+        color: red,
+        background: Rgba::WHITE,
+    });
+    list
+}
+
+fn size() -> FrameSize {
+    FrameSize::new(500, 400).unwrap()
+}
+
+fn plain() -> Picture {
+    let mut picture = Picture::new(site(&SceneOptions::default()), size());
+    picture.overlay = shapes();
+    picture
+}
+
+fn decorated() -> Picture {
+    let by_speed = SceneOptions {
+        color_by: Some(ColorBy {
+            column: "maxSpeed".into(),
+        }),
+        ..SceneOptions::default()
+    };
+    let mut picture = Picture::new(site(&by_speed), size());
+    picture.decorations = Decorations::site("Site");
+    picture
+}
+
+fn density() -> Picture {
+    let mut picture = plain();
+    picture.style.shading = Shading::Density(ToneMap::Equalized);
+    picture
+}
+
+fn with_backdrop() -> Picture {
+    let scene = site(&SceneOptions::default());
+    let mut picture = plain();
+    picture.backdrop = Backdrop {
+        floor_plan: Some(FloorPlan::Paths(Arc::clone(&scene))),
+        lines: shapes(),
+        swept: Some(SweptAreas {
+            vehicle: guideway_envelope::EnvelopeSource::Vehicle(guideway_envelope::Body::vehicle(
+                2.0, 1.2, 1.0,
+            )),
+            rows: Some(vec![0, 2]),
+        }),
+        others: vec![scene],
+    };
+    picture
+}
+
+#[test]
+fn strips_add_up_to_the_picture_rendered_at_once() {
+    for picture in [decorated(), density(), with_backdrop()] {
+        let (whole, strips, report) = rendered(usize::MAX, &picture);
+        assert_eq!((strips, whole.len()), (1, 500 * 400));
+        let (parts, strips, of_parts) = rendered(0, &picture);
+        assert_eq!(strips, 7);
+        assert!(parts == whole);
+        assert_eq!(
+            (
+                of_parts.drawn,
+                of_parts.culled,
+                of_parts.lines,
+                of_parts.notes
+            ),
+            (report.drawn, report.culled, report.lines, report.notes)
+        );
+    }
+}
+
+#[test]
+fn svg_has_all_layers_and_the_letters_of_names() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.svg");
+    let mut picture = decorated();
+    picture.decorations.title = Some("Zürich Süd – Αθήνα".into());
+    let rendered = picture.save_svg(&path).unwrap();
+    assert!(rendered.report.drawn > 0);
+    let svg = std::fs::read_to_string(path).unwrap();
+    for part in [
+        "Zürich Süd – Αθήνα",
+        "\"grid\"",
+        "\"marks\"",
+        "\"legend\"",
+        "\"scale bar\"",
+    ] {
+        assert!(svg.contains(part), "{part}");
+    }
+}
+
+#[test]
+fn swept_areas_of_no_path_are_an_error() {
+    let mut picture = plain();
+    picture.backdrop.swept = Some(SweptAreas {
+        vehicle: guideway_envelope::EnvelopeSource::File,
+        rows: None,
+    });
+    let error = picture.render_frame(&Cpu, &NoProgress).unwrap_err();
+    assert!(matches!(error, ComposeError::NoEnvelope { .. }), "{error}");
+}
+
+#[test]
+fn density_shading_has_no_svg() {
+    let folder = tempfile::tempdir().unwrap();
+    let error = density().save_svg(folder.path().join("a.svg")).unwrap_err();
+    assert!(matches!(error, ComposeError::DensityInSvg));
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+}

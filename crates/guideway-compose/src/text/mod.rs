@@ -1,0 +1,16 @@
+//! Text: shapes a line with fonts and rasterizes its glyphs.
+//!
+//! | module | input | output |
+//! |---|---|---|
+//! | `fonts` | a character | the first font that draws it: embedded, then of the system |
+//! | `shape` | a line of text | glyphs in visual order, in units of the font size |
+//! | `rasterize` | glyphs, position and size | coverage per pixel |
+//!
+//! A letter that no font draws shows as a box. Text that the embedded fonts cover (Latin, Greek,
+//! Cyrillic and symbols) is the same on every computer.
+
+mod fonts;
+mod rasterize;
+mod shape;
+
+pub(crate) use shape::{ShapedLine, columns, line_width_px};

@@ -1,0 +1,236 @@
+//! Rasterizes shaped glyphs: outlines to exact coverage per pixel.
+
+use ab_glyph_rasterizer::{Point as RasterPoint, Rasterizer, point};
+use guideway_spline::Point;
+use skrifa::MetadataProvider;
+use skrifa::instance::{LocationRef, Size};
+use skrifa::outline::{DrawSettings, OutlinePen};
+
+use super::shape::{PlacedGlyph, ShapedLine};
+
+/// From the middle of a line down to its baseline: half the height of a capital.
+const BASELINE: f64 = 0.35;
+
+/// The box of a missing letter: left, bottom, right, top and line width, in the font size.
+const MISSING: [f64; 5] = [0.07, 0.0, 0.53, 0.7, 0.07];
+
+impl ShapedLine {
+    /// Draws the line at a font size, its left end at `left_middle`, at most `max_width_px` wide: a
+    /// wider line is condensed. Hands every covered pixel and its coverage (0 to 1) to `blend`.
+    ///
+    /// Cost: linear in the area of the letters.
+    pub(crate) fn rasterize(
+        &self,
+        left_middle: Point<f64>,
+        size_px: f64,
+        max_width_px: f64,
+        mut blend: impl FnMut(i64, i64, f32),
+    ) {
+        let natural_px = self.width * size_px;
+        let condense = if natural_px > max_width_px {
+            max_width_px / natural_px
+        } else {
+            1.0
+        };
+        // A baseline on a whole pixel keeps the feet of letters sharp.
+        let baseline = (left_middle.y + BASELINE * size_px).round();
+        for glyph in &self.glyphs {
+            let origin = Point::new(
+                left_middle.x + glyph.x * size_px * condense,
+                baseline - glyph.y * size_px,
+            );
+            let mut pen = Pen::new(origin, condense);
+            pen.draw(glyph, size_px);
+            pen.rasterize(&mut blend);
+        }
+    }
+}
+
+/// A part of an outline, in pixels, y down.
+enum Curve {
+    Line([RasterPoint; 2]),
+    Quad([RasterPoint; 3]),
+    Cubic([RasterPoint; 4]),
+}
+
+/// Collects an outline before the size of its raster is known.
+struct Pen {
+    origin: Point<f64>,
+    condense: f64,
+    curves: Vec<Curve>,
+    start: RasterPoint,
+    current: RasterPoint,
+}
+
+impl Pen {
+    fn new(origin: Point<f64>, condense: f64) -> Self {
+        Self {
+            origin,
+            condense,
+            curves: Vec::new(),
+            start: point(0.0, 0.0),
+            current: point(0.0, 0.0),
+        }
+    }
+
+    /// Draws a glyph, or the box of a missing letter.
+    fn draw(&mut self, glyph: &PlacedGlyph, size_px: f64) {
+        let Some(font) = &glyph.font else {
+            return self.draw_missing(size_px as f32);
+        };
+        let Some(tables) = font.tables() else {
+            return;
+        };
+        if let Some(outline) = tables.outline_glyphs().get(glyph.id) {
+            let size = Size::new(size_px as f32);
+            let settings = DrawSettings::unhinted(size, LocationRef::default());
+            // A damaged outline leaves a gap; the rest of the line stays readable.
+            let _ = outline.draw(settings, self);
+        }
+    }
+
+    fn draw_missing(&mut self, size_px: f32) {
+        let [left, bottom, right, top, line] = MISSING.map(|v| v as f32 * size_px);
+        // At small sizes a line of one pixel still shows.
+        let line = line.max(1.0);
+        let (inner_left, inner_right) = (left + line, right - line);
+        let (inner_bottom, inner_top) = (bottom + line, top - line);
+        // The inner contour runs the other way round, so that it is a hole.
+        let outer = [(left, bottom), (right, bottom), (right, top), (left, top)];
+        let inner = [
+            (inner_left, inner_bottom),
+            (inner_left, inner_top),
+            (inner_right, inner_top),
+            (inner_right, inner_bottom),
+        ];
+        for contour in [outer, inner] {
+            let [(x, y), others @ ..] = contour;
+            self.move_to(x, y);
+            others.into_iter().for_each(|(x, y)| self.line_to(x, y));
+            self.close();
+        }
+    }
+
+    /// From units of the outline (pixels, y up) to pixels of the picture.
+    fn at(&self, x: f32, y: f32) -> RasterPoint {
+        point(
+            (self.origin.x + f64::from(x) * self.condense) as f32,
+            (self.origin.y - f64::from(y)) as f32,
+        )
+    }
+
+    /// Hands every pixel that the outline covers to `blend`.
+    fn rasterize(&self, blend: &mut impl FnMut(i64, i64, f32)) {
+        let points = || {
+            self.curves.iter().flat_map(|curve| match curve {
+                Curve::Line(points) => points.as_slice(),
+                Curve::Quad(points) => points.as_slice(),
+                Curve::Cubic(points) => points.as_slice(),
+            })
+        };
+        let fold = |of: fn(&RasterPoint) -> f32, pick: fn(f32, f32) -> f32| {
+            points().map(of).reduce(pick).unwrap_or(0.0)
+        };
+        let (left, top) = (
+            fold(|p| p.x, f32::min).floor(),
+            fold(|p| p.y, f32::min).floor(),
+        );
+        let width = (fold(|p| p.x, f32::max) - left).ceil() as usize + 1;
+        let height = (fold(|p| p.y, f32::max) - top).ceil() as usize + 1;
+        if self.curves.is_empty() {
+            return;
+        }
+        let mut raster = Rasterizer::new(width, height);
+        let local = |p: RasterPoint| point(p.x - left, p.y - top);
+        for curve in &self.curves {
+            match *curve {
+                Curve::Line([a, b]) => raster.draw_line(local(a), local(b)),
+                Curve::Quad([a, b, c]) => raster.draw_quad(local(a), local(b), local(c)),
+                Curve::Cubic([a, b, c, d]) => {
+                    raster.draw_cubic(local(a), local(b), local(c), local(d));
+                }
+            }
+        }
+        raster.for_each_pixel_2d(|x, y, coverage| {
+            if coverage > 0.0 {
+                let (x, y) = (i64::from(x) + left as i64, i64::from(y) + top as i64);
+                blend(x, y, coverage.min(1.0));
+            }
+        });
+    }
+}
+
+impl OutlinePen for Pen {
+    fn move_to(&mut self, x: f32, y: f32) {
+        self.start = self.at(x, y);
+        self.current = self.start;
+    }
+
+    fn line_to(&mut self, x: f32, y: f32) {
+        let end = self.at(x, y);
+        self.curves.push(Curve::Line([self.current, end]));
+        self.current = end;
+    }
+
+    fn quad_to(&mut self, cx: f32, cy: f32, x: f32, y: f32) {
+        let (control, end) = (self.at(cx, cy), self.at(x, y));
+        self.curves.push(Curve::Quad([self.current, control, end]));
+        self.current = end;
+    }
+
+    fn curve_to(&mut self, ax: f32, ay: f32, bx: f32, by: f32, x: f32, y: f32) {
+        let (a, b, end) = (self.at(ax, ay), self.at(bx, by), self.at(x, y));
+        self.curves.push(Curve::Cubic([self.current, a, b, end]));
+        self.current = end;
+    }
+
+    fn close(&mut self) {
+        self.curves.push(Curve::Line([self.current, self.start]));
+        self.current = self.start;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::text::fonts::Fonts;
+
+    /// Total coverage, and the box of covered pixels: left, top, right, bottom.
+    fn ink(text: &str, size_px: f64, max_width_px: f64) -> (f32, [i64; 4]) {
+        let line = ShapedLine::with_fonts(text, &Fonts::embedded());
+        let (mut sum, mut bounds) = (0.0, [i64::MAX, i64::MAX, i64::MIN, i64::MIN]);
+        let middle = Point::new(50.0, 50.0);
+        line.rasterize(middle, size_px, max_width_px, |x, y, coverage| {
+            sum += coverage;
+            let [left, top, right, bottom] = bounds;
+            bounds = [left.min(x), top.min(y), right.max(x), bottom.max(y)];
+        });
+        (sum, bounds)
+    }
+
+    #[test]
+    fn ink_grows_with_the_area_of_letters() {
+        let (small, _) = ink("Größe", 16.0, 1e9);
+        let (large, _) = ink("Größe", 32.0, 1e9);
+        assert!((large / small - 4.0).abs() < 0.2, "{small}, {large}");
+    }
+
+    #[test]
+    fn capitals_stand_in_the_middle_of_the_line() {
+        let (_, [_, top, _, bottom]) = ink("H", 40.0, 1e9);
+        assert!((top + bottom + 1 - 100).abs() <= 3, "{top}, {bottom}");
+    }
+
+    #[test]
+    fn wide_lines_are_condensed() {
+        let (_, [left, _, right, _]) = ink("wide line", 20.0, 60.0);
+        assert!(left >= 50 && right <= 111, "{left}, {right}");
+    }
+
+    #[test]
+    fn missing_letter_is_a_hollow_box() {
+        let (area, [left, top, right, bottom]) = ink("\u{10FFFD}", 40.0, 1e9);
+        let whole = ((right - left + 1) * (bottom - top + 1)) as f32;
+        assert!(area > 50.0 && area < 0.6 * whole, "{area} of {whole}");
+    }
+}

@@ -1,0 +1,119 @@
+//! The trait that connects the window with files and render methods.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use guideway_envelope::EnvelopeSource;
+use guideway_layout::{Layout, UserError};
+use guideway_scene::{Frame, Method, View};
+
+use super::{FloorPlan, Job, PictureRequest};
+
+/// Files, pictures and render methods, as the window calls them. Calls come from several threads.
+pub trait AppServices: Send + Sync {
+    /// Reads a layout file. Reports progress to `job` and stops when the job is cancelled.
+    ///
+    /// # Errors
+    /// When the file cannot be read, or the job was cancelled.
+    fn read_layout(&self, path: &Path, job: &Job) -> Result<Layout, UserError>;
+
+    /// Checks that saving `layout` over the file that it was read from loses nothing of the file.
+    ///
+    /// # Errors
+    /// When the format has no writer, or the file may hold more than a layout, as drawings do.
+    fn check_save_in_place(&self, layout: &Layout, file: &Path) -> Result<(), UserError>;
+
+    /// Writes a layout file atomically. The extension selects the format; without a known one, the
+    /// format of the source file applies. Returns one sentence per feature that the format lacks.
+    ///
+    /// # Errors
+    /// When the format has no writer, or the file cannot be written.
+    fn save_layout(&self, layout: &Layout, path: &Path) -> Result<Vec<String>, UserError>;
+
+    /// Reads a floor plan. `plan` is a file name with an optional placement, such as
+    /// `hall.png@px-per-m=20`.
+    ///
+    /// # Errors
+    /// When `plan` has another form, or the file cannot be read.
+    fn read_floor_plan(&self, plan: &str) -> Result<Arc<dyn FloorPlan>, UserError>;
+
+    /// Renders a picture with the named method.
+    ///
+    /// # Errors
+    /// When the method is not available, or the picture cannot be rendered.
+    fn render(&self, picture: &PictureRequest, method: &str) -> Result<Frame, UserError>;
+
+    /// Renders a picture with the named method into a PNG file, atomically and in strips, so that
+    /// memory does not grow with the picture. Reports progress to `job`.
+    ///
+    /// # Errors
+    /// When the picture cannot be rendered, the file cannot be written, or the job was cancelled.
+    fn export_png(
+        &self,
+        picture: &PictureRequest,
+        method: &str,
+        job: &Job,
+        path: &Path,
+    ) -> Result<(), UserError>;
+
+    /// Writes a picture as SVG with exact curves, atomically.
+    ///
+    /// # Errors
+    /// When the file cannot be written, or SVG cannot express the style.
+    fn export_svg(&self, picture: &PictureRequest, path: &Path) -> Result<(), UserError>;
+
+    /// Renders the areas that a vehicle sweeps along paths of a layout, on a transparent background.
+    ///
+    /// # Errors
+    /// When none of the paths has a swept area.
+    fn render_swept_areas(
+        &self,
+        layout: &Layout,
+        rows: &[u32],
+        vehicle: EnvelopeSource,
+        view: &View,
+    ) -> Result<Frame, UserError>;
+
+    /// All render methods, the best for this computer first.
+    fn methods(&self) -> Vec<MethodChoice>;
+
+    /// Starts the render method of this name.
+    ///
+    /// # Errors
+    /// When the method is unknown or does not run on this computer.
+    fn start_method(&self, name: &str) -> Result<Box<dyn Method>, UserError>;
+
+    /// Called once when a file reaches a stage, for timing output.
+    fn on_stage(&self, stage: LoadStage, file: &Path) {
+        let _ = (stage, file);
+    }
+
+    /// Folder for state that outlives a run, such as recent files; `None` keeps no state.
+    fn state_folder(&self) -> Option<PathBuf> {
+        None
+    }
+}
+
+/// Progress of one file from disk to editable document.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LoadStage {
+    /// The file is read.
+    Read,
+    /// The first picture of the file is on screen.
+    Shown,
+    /// The document accepts edits.
+    Editable,
+    /// The check of the layout is complete.
+    Checked,
+}
+
+/// A render method that the user can select.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MethodChoice {
+    /// Name for [`AppServices::start_method`].
+    pub name: String,
+    /// One line on how it renders.
+    pub summary: String,
+    /// Why it does not run on this computer; `None` if it runs.
+    pub unavailable: Option<String>,
+}

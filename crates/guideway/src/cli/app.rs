@@ -1,0 +1,113 @@
+//! Parses the arguments, runs the subcommand and converts its outcome to an exit code.
+
+use std::ffi::OsStr;
+use std::process::ExitCode;
+
+use clap::{CommandFactory, Parser, Subcommand};
+use guideway::layout::UserError;
+
+use super::error::parser_error;
+use super::exit::{ERROR, Exit};
+use super::output::Output;
+#[cfg(feature = "viewer")]
+use super::view;
+use super::{
+    bench, check, convert, demo, generate, info, interrupt, methods, render, reproduce, shell,
+};
+
+/// Draws and checks the path layouts of automated guided vehicles.
+#[derive(Debug, Parser)]
+#[command(
+    name = "guideway",
+    version,
+    subcommand_required = true,
+    arg_required_else_help = true,
+    after_help = "Start with `guideway demo`, which needs no file.\n\n\
+        Exit codes: 0 success, 1 warnings under `check --strict`, 2 an error, 130 stopped by \
+        Ctrl-C."
+)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+    /// Print one JSON object instead of text, also for errors
+    #[arg(long, global = true)]
+    json: bool,
+    /// Print only errors
+    #[arg(long, short, global = true)]
+    quiet: bool,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Show layout files in a window and edit them
+    #[cfg(feature = "viewer")]
+    View(view::Args),
+    /// Draw layout files as a PNG or SVG picture
+    Render(Box<render::Args>),
+    /// Summarize the content of layout files
+    Info(info::Args),
+    /// Find mistakes in layout files
+    Check(check::Args),
+    /// Write a layout in another format
+    Convert(convert::Args),
+    /// Generate a test layout of any size
+    Generate(generate::Args),
+    /// List the render methods and whether they run on this computer
+    Methods,
+    /// Measure render methods side by side
+    Bench(Box<bench::Args>),
+    /// Measure the tables and figures of the thesis on this computer
+    Reproduce(reproduce::Args),
+    /// Draw the built-in example site
+    Demo(demo::Args),
+    /// Print the completion script of a shell
+    Completions(shell::CompletionsArgs),
+    /// Print the manual page, or write all manual pages to a folder
+    Man(shell::ManArgs),
+}
+
+/// Runs the command and returns its exit code.
+pub(crate) fn main() -> ExitCode {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => return exit_from_parser(&error),
+    };
+    let out = Output::new(cli.json, cli.quiet);
+    match interrupt::watch().and_then(|()| run(&cli.command, &out)) {
+        Ok(exit) => ExitCode::from(exit.code()),
+        Err(error) => {
+            out.error(&error);
+            ExitCode::from(ERROR)
+        }
+    }
+}
+
+fn run(command: &Command, out: &Output) -> Result<Exit, UserError> {
+    match command {
+        #[cfg(feature = "viewer")]
+        Command::View(args) => view::run(args, out),
+        Command::Render(args) => render::run(args, out),
+        Command::Info(args) => info::run(args, out),
+        Command::Check(args) => check::run(args, out),
+        Command::Convert(args) => convert::run(args, out),
+        Command::Generate(args) => generate::run(args, out),
+        Command::Methods => methods::run(out),
+        Command::Bench(args) => bench::run(args, out),
+        Command::Reproduce(args) => reproduce::run(args, out),
+        Command::Demo(args) => demo::run(args, out),
+        Command::Completions(args) => shell::completions(args, Cli::command()),
+        Command::Man(args) => shell::man(args, Cli::command(), out),
+    }
+}
+
+/// Prints help, version or the error of the parser.
+fn exit_from_parser(error: &clap::Error) -> ExitCode {
+    let wants_json = std::env::args_os().any(|arg| arg == OsStr::new("--json"));
+    if error.use_stderr() && wants_json {
+        Output::new(true, false).error(&parser_error(error));
+    } else {
+        // Only a closed pipe can fail here, and its reader wants no more.
+        let _ = error.print();
+    }
+    ExitCode::from(error.exit_code() as u8)
+}

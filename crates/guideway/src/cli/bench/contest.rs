@@ -1,0 +1,113 @@
+//! The measurement that the arguments of `bench` describe.
+
+use std::path::Path;
+
+use guideway::layout::UserError;
+use guideway::render::density::ToneMap;
+use guideway::render::{Budget, Shading, Style};
+use guideway::scene::LineRule;
+use guideway_bench::{Contest, Dataset, Dress, Motion, Moves, plain_scene};
+
+use super::args::{Args, Dressing, MotionKind};
+use crate::cli::error::usage_error;
+use crate::cli::input;
+use crate::cli::output::Output;
+use crate::cli::render::{Rule, Shade};
+
+/// Paths of a dataset without `--paths`.
+const DEFAULT_PATHS: usize = 10_000;
+/// Share of the paths that move without `--moved`.
+const DEFAULT_MOVED_PERCENT: f64 = 1.0;
+
+impl Args {
+    /// The layout file; `None` for a dataset.
+    pub(super) fn file(&self) -> Option<&Path> {
+        self.dataset().is_none().then_some(&*self.subject)
+    }
+
+    fn dataset(&self) -> Option<Dataset> {
+        match self.subject.to_str() {
+            Some("d1") => Some(Dataset::D1),
+            Some("d2") => Some(Dataset::D2),
+            _ => None,
+        }
+    }
+
+    /// The measurement that the arguments describe.
+    pub(super) fn contest(&self, out: &Output) -> Result<Contest, UserError> {
+        if self.file().is_some() && self.paths.is_some() {
+            return Err(usage_error(
+                "--paths applies only to the datasets d1 and d2",
+                "Omit --paths, or measure a dataset, such as `guideway bench d1 --paths 100000`",
+            ));
+        }
+        if self.motion != MotionKind::Edit && (self.moved.is_some() || self.apart) {
+            return Err(usage_error(
+                "--moved and --apart apply only with --motion edit",
+                "Add it, such as `--motion edit --moved 10`",
+            ));
+        }
+        let scene = match self.dataset() {
+            Some(dataset) => {
+                let _progress = out.progress("generating the dataset");
+                dataset.scene(self.paths.unwrap_or(DEFAULT_PATHS))
+            }
+            None => plain_scene(input::read(&self.subject, out)?.0),
+        };
+        let dress = match self.dress {
+            Dressing::Own => Dress::Own,
+            Dressing::Mixed => Dress::Mixed,
+            Dressing::Translucent => Dress::Translucent,
+        };
+        Ok(Contest {
+            name: self.subject.to_string_lossy().into_owned(),
+            scene: dress.scene(scene),
+            dress,
+            methods: self.specs(),
+            size: self.size,
+            magnify: self.magnify,
+            motion: match self.motion {
+                MotionKind::Still => Motion::Still,
+                MotionKind::Pan => Motion::Pan,
+                MotionKind::Zoom => Motion::Zoom,
+                MotionKind::Edit => Motion::Edit,
+            },
+            edit: Moves {
+                share: self.moved.unwrap_or(DEFAULT_MOVED_PERCENT) / 100.0,
+                is_apart: self.apart,
+            },
+            style: Style {
+                line_rule: match (self.width_px, self.line_rule) {
+                    (Some(width_px), _) => LineRule::World {
+                        width_m: 0.0,
+                        min_px: width_px,
+                        max_px: width_px,
+                    },
+                    (None, Rule::World) => LineRule::default(),
+                    (None, Rule::Thesis) => LineRule::Thesis,
+                },
+                shading: match self.shade {
+                    Shade::Color => Shading::Color,
+                    Shade::Density => Shading::Density(ToneMap::default()),
+                },
+                ..Style::default()
+            },
+            budget: Budget {
+                memory_bytes: self.memory.saturating_mul(1_000_000),
+                threads: self.threads,
+            },
+            warmup: self.warmup,
+            frames: self.frames,
+        })
+    }
+
+    /// The requested methods, or all that run here except the slow reference.
+    fn specs(&self) -> Vec<String> {
+        if self.methods.is_empty() {
+            let all = guideway::methods().into_iter();
+            let running = all.filter(|m| m.unavailable.is_none() && m.info.name != "oracle");
+            return running.map(|m| m.info.name.to_owned()).collect();
+        }
+        self.methods.clone()
+    }
+}

@@ -1,0 +1,36 @@
+//! Measures the methods, saves and prints the report.
+
+use guideway::layout::UserError;
+use guideway::render::Cancel;
+use guideway_bench::{Contestant, compare};
+
+use super::args::Args;
+use super::text;
+use crate::cli::exit::Exit;
+use crate::cli::input;
+use crate::cli::output::{self, Output, REPORT_VERSION};
+
+/// Name of the report, in the JSON answer and in the file.
+const REPORT: &str = "bench";
+
+pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
+    if let Some(path) = &args.output {
+        input::check_output(args.file(), path)?;
+    }
+    let contest = args.contest(out)?;
+    let progress = out.progress(format!("measuring {}", contest.methods.join(", ")));
+    let start = |spec: &str| guideway::method(spec).map_err(|error| error.to_string());
+    // Ctrl-C ends the process at once: no file is open before the end.
+    let comparison = compare(&contest, &start, &Cancel::default())?;
+    drop(progress);
+    if let Some(path) = &args.output {
+        output::save_report(path, REPORT, REPORT_VERSION, &comparison)?;
+    }
+    out.report(REPORT, &comparison, || text::text(&comparison))?;
+    let is_measured = |contestant: &Contestant| contestant.row.measured().is_some();
+    Ok(if comparison.methods.iter().any(is_measured) {
+        Exit::Clean
+    } else {
+        Exit::Errors
+    })
+}

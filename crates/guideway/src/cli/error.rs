@@ -1,0 +1,37 @@
+//! Errors of the command itself. Each crate converts its own errors to [`UserError`].
+
+use std::path::Path;
+
+use guideway::layout::UserError;
+
+/// Code of errors in the arguments.
+const USAGE: &str = "usage";
+
+/// Arguments that contradict each other, or lack one.
+pub(crate) fn usage_error(message: impl Into<String>, remedy: impl Into<String>) -> UserError {
+    UserError::new(USAGE, message, remedy)
+}
+
+/// An error of the argument parser, on one line.
+pub(crate) fn parser_error(error: &clap::Error) -> UserError {
+    let text = error.to_string();
+    let message = text.strip_prefix("error: ").unwrap_or(&text);
+    let first = message.split("\n\n").next().unwrap_or(message);
+    let words: Vec<&str> = first.split_whitespace().collect();
+    usage_error(words.join(" "), "See `guideway --help`")
+}
+
+/// An output file that is also an input.
+pub(crate) fn same_file_error(path: &Path) -> UserError {
+    UserError::new(
+        "same-file",
+        format!("{}: the output would replace an input", path.display()),
+        "Choose another name for the output",
+    )
+}
+
+/// A report that cannot be encoded as JSON. `remedy` names the option that avoids JSON.
+pub(crate) fn json_error(error: &serde_json::Error, remedy: &str) -> UserError {
+    let message = format!("cannot write the report as JSON: {error}");
+    UserError::new("json", message, remedy)
+}

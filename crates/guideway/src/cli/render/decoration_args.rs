@@ -1,0 +1,87 @@
+//! Options of `render` that add nodes, stations, arrows, labels, grid, scale bar and title.
+
+use guideway::compose::Decorations;
+
+use crate::cli::input::Input;
+
+#[derive(Debug, clap::Args)]
+#[command(next_help_heading = "Decorations")]
+pub(super) struct DecorationArgs {
+    /// Draw the whole site: all options of this group, and the legend with --color-by. The title is
+    /// the name of the first file unless --title is given
+    #[arg(long)]
+    site: bool,
+    /// Draw paths alone; the default
+    #[arg(
+        long,
+        conflicts_with_all = [
+            "site", "nodes", "stations", "arrows", "labels", "grid", "scale_bar", "title", "legend"
+        ]
+    )]
+    plain: bool,
+    /// Draw a diamond per node
+    #[arg(long)]
+    nodes: bool,
+    /// Draw a square per station
+    #[arg(long)]
+    stations: bool,
+    /// Draw arrows in the direction of travel
+    #[arg(long)]
+    arrows: bool,
+    /// Draw the names of stations, nodes and paths where they have room
+    #[arg(long)]
+    labels: bool,
+    /// Draw grid lines at round coordinates
+    #[arg(long)]
+    grid: bool,
+    /// Draw a scale bar in the lower left corner
+    #[arg(long)]
+    scale_bar: bool,
+    /// Draw a title at the top
+    #[arg(long, value_name = "TEXT")]
+    title: Option<String>,
+}
+
+impl DecorationArgs {
+    /// The decorations that the options select.
+    pub(super) fn decorations(&self, inputs: &[Input]) -> Decorations {
+        if self.site {
+            let title = self.title.clone();
+            return Decorations::site(title.unwrap_or_else(|| default_title(inputs)));
+        }
+        Decorations {
+            has_grid: self.grid,
+            has_arrows: self.arrows,
+            has_nodes: self.nodes,
+            has_stations: self.stations,
+            has_labels: self.labels,
+            has_scale_bar: self.scale_bar,
+            has_legend: false,
+            title: self.title.clone(),
+        }
+    }
+}
+
+/// Name of the first file without its extensions.
+fn default_title(inputs: &[Input]) -> String {
+    let name = inputs.first().and_then(|input| input.path.file_name());
+    let name = name.unwrap_or_default().to_string_lossy();
+    let stem = name.split('.').find(|part| !part.is_empty());
+    stem.unwrap_or_default().to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn title_is_name_of_first_file_without_extensions() {
+        let input = |path: &str| Input {
+            path: path.into(),
+            ..Input::default()
+        };
+        assert_eq!(default_title(&[input("a/Halle 3.lif.json")]), "Halle 3");
+        assert_eq!(default_title(&[input(".hidden.dxf")]), "hidden");
+        assert_eq!(default_title(&[]), "");
+    }
+}

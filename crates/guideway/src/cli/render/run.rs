@@ -1,0 +1,78 @@
+//! Runs `render`: reads the files, composes the picture, prints the report.
+
+use std::sync::Arc;
+
+use guideway::compose::Rendered;
+use guideway::layout::UserError;
+use guideway::scene::Scene;
+
+use super::args::Args;
+use super::report::{self, Times};
+use super::target::Target;
+use crate::cli::exit::Exit;
+use crate::cli::output::Output;
+use crate::cli::{floor_plan, input};
+
+pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
+    let options = args.options()?;
+    let target = Target::new(&args.output, out)?;
+    if let Target::File(path) = target {
+        input::check_output(args.files(), path)?;
+    }
+    // Before a large file is read: an unknown method is an error of the arguments.
+    let method = match target.is_vector() {
+        true => {
+            args.check_vector()?;
+            None
+        }
+        false => Some(guideway::method(&args.method())?),
+    };
+    let plan = args.floor_plan().map(|plan| floor_plan::read(plan, out));
+    let plan = plan.transpose()?;
+    let (layout, read_ms) = input::read_all(&args.inputs, out)?;
+    let progress = out.progress("preparing the scene");
+    let scene = Arc::new(Scene::new(Arc::new(layout), &options.scene)?);
+    let scene_ms = progress.finish();
+    let picture = args.picture(&options, Arc::clone(&scene), plan);
+    let (rendered, svg_ms) = match method {
+        None => {
+            let progress = out.progress("writing the picture");
+            let rendered = picture.save_svg(&args.output)?;
+            (rendered, progress.finish())
+        }
+        Some(method) => {
+            let progress = out.progress("rendering");
+            (target.write_png(&picture, &*method, &progress)?, 0.0)
+        }
+    };
+    let times = Times {
+        read: read_ms,
+        scene: scene_ms,
+        prepare: rendered.prepare_ms,
+        render: rendered.render_ms,
+        write: rendered.write_ms + svg_ms,
+    };
+    print_report(args, &target, &scene, &rendered, &times, out)?;
+    Ok(Exit::Clean)
+}
+
+fn print_report(
+    args: &Args,
+    target: &Target<'_>,
+    scene: &Scene,
+    rendered: &Rendered,
+    times: &Times,
+    out: &Output,
+) -> Result<(), UserError> {
+    let text = || report::text(&args.output, scene, rendered, times);
+    match target {
+        Target::StandardOutput => {
+            out.note(text().trim_end());
+            Ok(())
+        }
+        Target::File(_) => {
+            let body = report::json(args, scene, rendered, times);
+            out.report("render", &body, text)
+        }
+    }
+}

@@ -1,0 +1,137 @@
+//! Options of `render` for line widths, colors and shading.
+
+use clap::ValueEnum;
+use guideway::layout::UserError;
+use guideway::render::density::ToneMap;
+use guideway::render::{Shading, Style};
+use guideway::scene::{LineRule, Rgba};
+
+use crate::cli::error::usage_error;
+use crate::cli::values;
+
+#[derive(Debug, clap::Args)]
+#[command(next_help_heading = "Style")]
+pub(super) struct StyleArgs {
+    /// Width of paths without a width in the file [default: 0.1]
+    #[arg(
+        long,
+        value_name = "METERS",
+        value_parser = values::not_negative,
+        allow_hyphen_values = true
+    )]
+    width: Option<f64>,
+    /// Minimum width of a path in pixels [default: 1.5]
+    #[arg(long, value_name = "N", value_parser = values::not_negative, allow_hyphen_values = true)]
+    min_px: Option<f64>,
+    /// Maximum width of a path in pixels [default: 12]
+    #[arg(long, value_name = "N", value_parser = values::not_negative, allow_hyphen_values = true)]
+    max_px: Option<f64>,
+    /// Rule for widths: `world` uses the widths above, `thesis` 3 px clamped to 4 to 300 mm
+    #[arg(
+        long,
+        value_name = "RULE",
+        default_value = "world",
+        hide_default_value = true
+    )]
+    line_rule: Rule,
+    /// Color of paths without a color in the file [default: 000000]
+    #[arg(long, value_name = "RRGGBB")]
+    pub(super) color: Option<Rgba>,
+    /// Color paths by a column: `level`, `direction`, `vehicle_type` or a column of the file
+    #[arg(long, value_name = "COLUMN")]
+    pub(super) color_by: Option<String>,
+    /// Draw the legend of the colors into the picture
+    #[arg(long, requires = "color_by")]
+    pub(super) legend: bool,
+    /// Background color [default: ffffff]
+    #[arg(long, value_name = "RRGGBB")]
+    background: Option<Rgba>,
+    /// Value of a pixel: the color of the topmost path, or the number of paths
+    #[arg(long, default_value = "color")]
+    shade: Shade,
+    /// Map from the number of paths to a color, with `--shade density` [default: log]
+    #[arg(long)]
+    tone: Option<Tone>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Rule {
+    World,
+    Thesis,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Shade {
+    #[value(alias = "colour")]
+    Color,
+    Density,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Tone {
+    Log,
+    Linear,
+    Equalized,
+}
+
+impl StyleArgs {
+    pub(super) fn style(&self) -> Result<Style, UserError> {
+        let default = Style::default();
+        Ok(Style {
+            line_rule: self.line_rule()?,
+            shading: self.shading()?,
+            background: self.background.unwrap_or(default.background),
+        })
+    }
+
+    fn line_rule(&self) -> Result<LineRule, UserError> {
+        let has_widths = self.width.or(self.min_px).or(self.max_px).is_some();
+        if self.line_rule == Rule::Thesis {
+            if has_widths {
+                return Err(usage_error(
+                    "--line-rule thesis sets every width, so --width, --min-px and --max-px do not \
+                     apply",
+                    "Omit --line-rule or the widths, such as `--width 0.2 --min-px 1`",
+                ));
+            }
+            return Ok(LineRule::Thesis);
+        }
+        let mut rule = LineRule::default();
+        if let LineRule::World {
+            width_m,
+            min_px,
+            max_px,
+        } = &mut rule
+        {
+            *width_m = self.width.unwrap_or(*width_m);
+            *min_px = self.min_px.unwrap_or(*min_px);
+            // A limit beyond the default of the other one moves that default.
+            *max_px = self.max_px.unwrap_or(max_px.max(*min_px));
+            if self.min_px.is_none() {
+                *min_px = min_px.min(*max_px);
+            }
+            if min_px > max_px {
+                return Err(usage_error(
+                    format!("--min-px {min_px} exceeds --max-px {max_px}"),
+                    "Make --min-px the smaller one, such as `--min-px 1 --max-px 12`",
+                ));
+            }
+        }
+        Ok(rule)
+    }
+
+    fn shading(&self) -> Result<Shading, UserError> {
+        match (self.shade, self.tone) {
+            (Shade::Color, None) => Ok(Shading::Color),
+            (Shade::Color, Some(_)) => Err(usage_error(
+                "--tone applies only with --shade density",
+                "Add it, such as `--shade density --tone linear`",
+            )),
+            (Shade::Density, tone) => Ok(Shading::Density(match tone {
+                None | Some(Tone::Log) => ToneMap::Log,
+                Some(Tone::Linear) => ToneMap::Linear,
+                Some(Tone::Equalized) => ToneMap::Equalized,
+            })),
+        }
+    }
+}

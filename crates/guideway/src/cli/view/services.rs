@@ -1,0 +1,194 @@
+//! Files, pictures and render methods for the window.
+
+use std::any::Any;
+use std::ffi::OsString;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Instant;
+
+use etcetera::BaseStrategy;
+use guideway::compose::{Backdrop, Picture, SweptAreas, Viewport, draw_swept_areas};
+use guideway::envelope::EnvelopeSource;
+use guideway::formats::{Progress, ReadOptions, read_file};
+use guideway::layout::{Layout, UserError};
+use guideway::render::{Frame, Method, View, elapsed_ms};
+use guideway_viewer::{AppServices, Job, LoadStage, MethodChoice, PictureRequest};
+
+use super::floor_plan::WindowFloorPlan;
+use crate::cli::convert::Target;
+use crate::cli::error::usage_error;
+use crate::cli::floor_plan;
+use crate::cli::input::Input;
+use crate::cli::output::Output;
+
+/// The services of the command.
+pub(super) struct CliServices {
+    /// Start of the command, if it prints how long files take.
+    timed_since: Option<Instant>,
+    /// Whether state, such as recent files, outlives the run.
+    keeps_state: bool,
+}
+
+impl CliServices {
+    /// The services for a person at a window.
+    pub(super) fn for_window(prints_timings: bool) -> Self {
+        Self {
+            timed_since: prints_timings.then(Instant::now),
+            keeps_state: true,
+        }
+    }
+
+    /// The services for a measurement, which leaves no state behind.
+    pub(super) fn for_measurement() -> Self {
+        Self {
+            timed_since: None,
+            keeps_state: false,
+        }
+    }
+}
+
+impl AppServices for CliServices {
+    fn read_layout(&self, path: &Path, job: &Job) -> Result<Layout, UserError> {
+        let options = ReadOptions {
+            progress: Some(&JobProgress(job)),
+            ..ReadOptions::default()
+        };
+        Ok(read_file(path, &options)?)
+    }
+
+    fn check_save_in_place(&self, layout: &Layout, file: &Path) -> Result<(), UserError> {
+        Target::check_in_place(layout, file)
+    }
+
+    fn save_layout(&self, layout: &Layout, path: &Path) -> Result<Vec<String>, UserError> {
+        let (losses, _) = Target::to_save(layout, path)?.write(layout, path)?;
+        Ok(losses.iter().map(|loss| loss.to_string()).collect())
+    }
+
+    fn read_floor_plan(
+        &self,
+        plan: &str,
+    ) -> Result<Arc<dyn guideway_viewer::FloorPlan>, UserError> {
+        let input = Input::parse(OsString::from(plan)).map_err(|problem| {
+            usage_error(
+                format!("`{plan}` is not a floor plan: {problem}"),
+                "Write a file name and its placement, such as `hall.png@px-per-m=20,offset=-3,-2`",
+            )
+        })?;
+        let plan = floor_plan::read(&input, &Output::new(false, true))?;
+        Ok(Arc::new(WindowFloorPlan::new(plan)?))
+    }
+
+    fn render(&self, request: &PictureRequest, method: &str) -> Result<Frame, UserError> {
+        let method = self.start_method(method)?;
+        let progress = JobProgress(&Job::default());
+        let (frame, _) = picture(request).render_frame(&*method, &progress)?;
+        Ok(frame)
+    }
+
+    fn export_png(
+        &self,
+        request: &PictureRequest,
+        method: &str,
+        job: &Job,
+        path: &Path,
+    ) -> Result<(), UserError> {
+        let method = self.start_method(method)?;
+        picture(request).save_png(&*method, path, &JobProgress(job))?;
+        Ok(())
+    }
+
+    fn export_svg(&self, request: &PictureRequest, path: &Path) -> Result<(), UserError> {
+        picture(request).save_svg(path)?;
+        Ok(())
+    }
+
+    fn render_swept_areas(
+        &self,
+        layout: &Layout,
+        rows: &[u32],
+        vehicle: EnvelopeSource,
+        view: &View,
+    ) -> Result<Frame, UserError> {
+        Ok(draw_swept_areas(layout, rows, vehicle, view)?)
+    }
+
+    fn methods(&self) -> Vec<MethodChoice> {
+        let listed = guideway::methods().into_iter().map(|method| MethodChoice {
+            name: method.info.name.to_owned(),
+            summary: method.info.summary.to_owned(),
+            unavailable: method.unavailable,
+        });
+        let mut choices: Vec<MethodChoice> = listed.collect();
+        let best = guideway::live_method();
+        choices.sort_by_key(|choice| choice.name != best);
+        choices
+    }
+
+    fn start_method(&self, name: &str) -> Result<Box<dyn Method>, UserError> {
+        Ok(guideway::method(name)?)
+    }
+
+    fn on_stage(&self, stage: LoadStage, file: &Path) {
+        let Some(since) = self.timed_since else {
+            return;
+        };
+        let stage = match stage {
+            LoadStage::Read => "read",
+            LoadStage::Shown => "shown",
+            LoadStage::Editable => "ready to be edited",
+            LoadStage::Checked => "checked",
+        };
+        let (ms, file) = (elapsed_ms(since), file.display());
+        // Standard error may be closed.
+        let _ = writeln!(io::stderr(), "{ms:.0} ms: {file} is {stage}");
+    }
+
+    fn state_folder(&self) -> Option<PathBuf> {
+        if !self.keeps_state {
+            return None;
+        }
+        let folders = etcetera::choose_base_strategy().ok()?;
+        let folder = folders.state_dir().unwrap_or_else(|| folders.data_dir());
+        Some(folder.join("guideway"))
+    }
+}
+
+/// The picture of a request, with a legend if its colors have one.
+fn picture(request: &PictureRequest) -> Picture {
+    // The window holds only plans that `read_floor_plan` returned.
+    let plan = request.floor_plan.as_deref().and_then(|plan| {
+        let plan: &dyn Any = plan;
+        plan.downcast_ref::<WindowFloorPlan>()
+    });
+    let swept = request.swept.as_ref();
+    let mut picture = Picture::new(Arc::clone(&request.scene), request.view.size());
+    picture.viewport = Viewport::of(&request.view);
+    picture.style = request.style;
+    picture.backdrop = Backdrop {
+        floor_plan: plan.map(|plan| plan.plan().clone()),
+        lines: request.grid.clone(),
+        swept: swept.map(|swept| SweptAreas {
+            vehicle: swept.vehicle,
+            rows: Some(swept.rows.clone()),
+        }),
+        others: request.others.clone(),
+    };
+    picture.overlay = request.marks.clone();
+    picture.decorations.has_legend = request.scene.legend().is_some();
+    picture
+}
+
+/// A job of the window as the progress of readers and pictures.
+struct JobProgress<'a>(&'a Job);
+
+impl Progress for JobProgress<'_> {
+    fn advance(&self, done: u64, total: u64) {
+        self.0.advance(done, total);
+    }
+
+    fn cancelled(&self) -> bool {
+        self.0.is_cancelled()
+    }
+}

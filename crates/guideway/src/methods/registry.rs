@@ -1,0 +1,248 @@
+//! The list of all methods of this build; starts one by its name and options.
+
+use guideway_cpu::{Cpu, Oracle};
+use guideway_layout::UserError;
+use guideway_scene::{Method, MethodInfo};
+
+use super::entry::{Entry, MethodOption, StartError};
+#[cfg(feature = "gpu")]
+use super::gpu;
+#[cfg(feature = "gl")]
+use super::tessellation;
+
+/// The name that selects the best method for a single picture.
+pub const AUTO: &str = "auto";
+
+/// A method of this build, and whether it runs on this computer.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Available {
+    /// Its name and device; the device is empty if the method does not run.
+    pub info: MethodInfo,
+    /// The options that may follow its name, each after a `+`.
+    pub options: &'static [MethodOption],
+    /// Why it does not run on this computer; `None` if it runs.
+    pub unavailable: Option<String>,
+}
+
+/// Why a method was not started.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum MethodError {
+    /// No method has this name.
+    #[error("unknown method `{asked}`; known are: {}", .known.join(", "))]
+    Unknown {
+        /// The requested name.
+        asked: String,
+        /// The known names.
+        known: Vec<&'static str>,
+    },
+    /// The options of the method are invalid.
+    #[error("method `{name}`: {problem}")]
+    Option {
+        /// The requested method.
+        name: &'static str,
+        /// The invalid option, and the valid ones.
+        problem: String,
+    },
+    /// The method does not run on this computer.
+    #[error("method `{name}` does not run on this computer: {reason}")]
+    Unavailable {
+        /// The requested method.
+        name: &'static str,
+        /// The missing device or driver.
+        reason: String,
+    },
+}
+
+const CPU: Entry = Entry {
+    name: "cpu",
+    summary: "Fast and exact on any processor; needs no graphics hardware",
+    options: &[],
+    is_general: true,
+    start: |options| without_options(options, Cpu),
+};
+
+/// Every method of this build. [`AUTO`] selects the first general one that starts.
+const ENTRIES: &[Entry] = &[
+    CPU,
+    Entry {
+        name: "oracle",
+        summary: "The slow reference for all other methods, in double precision",
+        options: &[],
+        is_general: true,
+        start: |options| without_options(options, Oracle),
+    },
+    #[cfg(feature = "gpu")]
+    gpu::TILES,
+    #[cfg(feature = "gpu")]
+    gpu::GRID,
+    #[cfg(feature = "gl")]
+    tessellation::PER_PATH,
+    #[cfg(feature = "gl")]
+    tessellation::COMPACT,
+];
+
+/// Every method of this build, the preferred ones first. Starts each to find out whether it runs.
+pub fn methods() -> Vec<Available> {
+    let listed = |entry: &Entry| match (entry.start)("") {
+        Ok(method) => Available {
+            info: method.info(),
+            options: entry.options,
+            unavailable: None,
+        },
+        Err(StartError::Options(reason) | StartError::Unavailable(reason)) => Available {
+            info: MethodInfo {
+                name: entry.name,
+                summary: entry.summary,
+                device: String::new(),
+            },
+            options: entry.options,
+            unavailable: Some(reason),
+        },
+    };
+    ENTRIES.iter().map(listed).collect()
+}
+
+/// Names of all methods of this build, available or not.
+pub fn method_names() -> impl Iterator<Item = &'static str> {
+    ENTRIES.iter().map(|entry| entry.name)
+}
+
+/// Name of the best method for a picture that changes all the time, as in a window: `gpu` with
+/// graphics hardware, `cpu` without. For a single picture `cpu` is done before a device has
+/// started, and gives the same pixels on every computer.
+pub fn live_method() -> &'static str {
+    #[cfg(feature = "gpu")]
+    if gpu::is_in_hardware() {
+        return gpu::TILES.name;
+    }
+    CPU.name
+}
+
+/// Starts a method by its name and options, such as `grid+scan+aa=subpixel`. [`AUTO`] starts the
+/// best general method that runs on this computer.
+///
+/// # Errors
+/// When the method or an option is unknown, or the method does not run on this computer.
+pub fn method(spec: &str) -> Result<Box<dyn Method>, MethodError> {
+    let (name, options) = spec.split_once('+').unwrap_or((spec, ""));
+    if name == AUTO {
+        return automatic(options);
+    }
+    match ENTRIES.iter().find(|entry| entry.name == name) {
+        Some(entry) => start(entry, options),
+        None => Err(MethodError::Unknown {
+            asked: name.to_owned(),
+            known: std::iter::once(AUTO).chain(method_names()).collect(),
+        }),
+    }
+}
+
+fn automatic(options: &str) -> Result<Box<dyn Method>, MethodError> {
+    let mut unavailable = None;
+    for entry in ENTRIES.iter().filter(|entry| entry.is_general) {
+        match start(entry, options) {
+            Err(error @ MethodError::Unavailable { .. }) => unavailable = Some(error),
+            outcome => return outcome,
+        }
+    }
+    Err(unavailable.unwrap_or_else(|| MethodError::Unknown {
+        asked: AUTO.to_owned(),
+        known: method_names().collect(),
+    }))
+}
+
+fn start(entry: &Entry, options: &str) -> Result<Box<dyn Method>, MethodError> {
+    let name = entry.name;
+    (entry.start)(options).map_err(|error| match error {
+        StartError::Options(problem) => MethodError::Option { name, problem },
+        StartError::Unavailable(reason) => MethodError::Unavailable { name, reason },
+    })
+}
+
+/// Starts a method that takes no options.
+fn without_options(
+    options: &str,
+    method: impl Method + 'static,
+) -> Result<Box<dyn Method>, StartError> {
+    if options.is_empty() {
+        Ok(Box::new(method))
+    } else {
+        Err(StartError::Options(format!(
+            "unknown option `{options}`: the method takes no options"
+        )))
+    }
+}
+
+impl From<MethodError> for UserError {
+    fn from(error: MethodError) -> Self {
+        let code = match &error {
+            MethodError::Unknown { .. } => "unknown-method",
+            MethodError::Option { .. } => "method-option",
+            MethodError::Unavailable { .. } => "method-unavailable",
+        };
+        Self::new(
+            code,
+            error.to_string(),
+            "`guideway methods` lists the methods; `--method auto` selects one that runs",
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn listed_methods_start_or_report_the_same_reason() {
+        for listed in methods() {
+            match method(listed.info.name) {
+                Ok(method) => assert_eq!(method.info().name, listed.info.name),
+                Err(MethodError::Unavailable { reason, .. }) => {
+                    assert_eq!(Some(reason), listed.unavailable);
+                }
+                Err(error) => panic!("{error}"),
+            }
+        }
+    }
+
+    #[test]
+    fn methods_accept_their_listed_options() {
+        for listed in methods().iter().filter(|m| m.unavailable.is_none()) {
+            for option in listed.options {
+                let spec = format!("{}+{}", listed.info.name, option.name);
+                assert!(method(&spec).is_ok(), "{spec}");
+            }
+        }
+    }
+
+    #[test]
+    fn live_method_runs_on_this_computer_in_hardware() {
+        let name = live_method();
+        let methods = methods();
+        let listed = methods.iter().find(|m| m.info.name == name).unwrap();
+        assert_eq!(listed.unavailable, None);
+        let is_software = listed.info.device.contains("llvmpipe");
+        assert!(!is_software, "{}", listed.info.device);
+    }
+
+    #[test]
+    fn auto_selects_cpu() {
+        assert_eq!(method(AUTO).unwrap().info().name, "cpu");
+    }
+
+    #[test]
+    fn rejects_unknown_method_and_lists_the_known_ones() {
+        let error = method("gpuu").err().unwrap().to_string();
+        assert!(
+            error.contains("gpuu") && error.contains("auto, cpu"),
+            "{error}"
+        );
+    }
+
+    #[test]
+    fn rejects_unknown_option() {
+        let error = method("cpu+quick").err().unwrap();
+        assert!(matches!(error, MethodError::Option { name: "cpu", .. }));
+        assert!(error.to_string().contains("quick"), "{error}");
+    }
+}
