@@ -8,7 +8,7 @@
 //! |---|---|---|
 //! | background | [`Style`](guideway_scene::Style) | `render`, `svg` |
 //! | floor plan | a layout or a PNG image ([`FloorPlan`]) | `backdrop` |
-//! | grid | view, [`DecorationStyle`] | `decorations` |
+//! | grid | view, background color | `decorations` |
 //! | swept areas | paths, vehicle ([`SweptAreas`]) | `backdrop` |
 //! | other scenes | [`Scene`](guideway_scene::Scene)s below the topmost one | `backdrop` |
 //! | paths | the topmost scene | a render method, `vector` |
@@ -55,16 +55,17 @@ mod png_writer;
 mod render;
 mod svg;
 mod text;
-pub mod text_format;
+
 mod vector;
 
 pub use backdrop::{
     Backdrop, FloorPlan, Image, ImagePlacement, PreparedFloorPlan, SweptAreas, SweptReport,
     draw_swept_areas,
 };
-pub use decorations::{DecorationStyle, Decorations, grid, marks_list, scale_bar};
+pub use decorations::Decorations;
 pub use error::{ComposeError, ImageError, ImageProblem};
 pub use files::{SaveError, remove_unfinished, replace_file};
+pub use guideway_document::text_format;
 pub use picture::{Picture, Viewport};
 pub use png_writer::{save_png, save_png_by, write_png_by};
 pub use render::{NoProgress, Rendered, StripSink};

@@ -6,7 +6,8 @@ use guideway_scene::{Budget, DrawList, FrameSize, RenderError, Scene, Style, Vie
 use guideway_spline::{Bounds, Point};
 
 use crate::backdrop::Backdrop;
-use crate::decorations::{DecorationStyle, Decorations, PlacedDecorations, place};
+use crate::decorations::{Decorations, PlacedDecorations, place, title_band_px};
+use guideway_document::decorations::DecorationStyle;
 
 /// Everything that a picture shows. All fields are public: start with [`Picture::new`] and set
 /// those that differ.
@@ -89,7 +90,7 @@ impl Picture {
         }
         let bounds = [self.scene.bounds(), self.backdrop.bounds(&self.scene)];
         let bounds = bounds.into_iter().flatten().reduce(Bounds::union);
-        let title_px = self.decoration_style().title_band_px(&self.decorations);
+        let title_px = title_band_px(&self.decoration_style(), &self.decorations);
         let free_height = (f64::from(size.height()) - title_px).max(1.0) as u32;
         let all = View::fit(FrameSize::new(size.width(), free_height)?, bounds)?;
         let px_per_m = px_per_m.unwrap_or(all.px_per_m());

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
-use guideway_formats::svg::{SvgWriter, Stroke};
+use guideway_formats::svg::{Stroke, SvgWriter};
 use guideway_scene::{MethodInfo, Report, Shading, View};
 
 use crate::backdrop::VisibleBackdrop;
@@ -79,7 +79,7 @@ impl Picture {
         let attributes = format!(r#"width="{width}" height="{height}""#);
         let mut page = SvgWriter::begin(out, [0.0, 0.0, width, height], &attributes, &common)?;
         if style.background.a > 0 {
-            page.area([0.0, 0.0, width, height], style.background.to_u32())?;
+            page.rect([0.0, 0.0, width, height], style.background.to_u32())?;
         }
         backdrop.write(&decorations.grid, view, style, &mut page)?;
         let drawn = write_paths(scene, view, style, &mut page)?;
@@ -89,7 +89,7 @@ impl Picture {
         for (list, label) in &decorations.margin {
             write_draw_list(list, label, &mut page)?;
         }
-        page.end()?;
+        page.finish()?;
         Ok(drawn)
     }
 }

@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use guideway_formats::svg::{Outline, SvgWriter, Stroke};
+use guideway_formats::svg::{PathData, Stroke, SvgWriter};
 use guideway_layout::PathRef;
 use guideway_scene::{DrawList, Scene, Style, TextLine, View};
 use guideway_spline::{Bounds, Point};
@@ -38,20 +38,20 @@ pub(crate) fn width_px(scene: &Scene, path: u32, view: &View, style: &Style) -> 
 }
 
 /// The segments of a path whose stroke may reach into a view, in its pixels.
-pub(crate) fn outline(scene: &Scene, path: u32, view: &View, width_px: f64) -> Outline {
+pub(crate) fn outline(scene: &Scene, path: u32, view: &View, width_px: f64) -> PathData {
     let size = view.size();
     let shown = Bounds {
         min: Point::default(),
         max: Point::new(f64::from(size.width()), f64::from(size.height())),
     };
     let shown = shown.inflated(width_px / 2.0);
-    let mut outline = Outline::new(STEP_PX);
+    let mut outline = PathData::new(STEP_PX);
     let path: PathRef<'_> = scene.layout().paths.get(path as usize);
     for segment in path.runs().flat_map(|run| run.segments()) {
         let segment = segment.map(|p| view.pixel_from_world(p));
         let hull = Bounds::of_points(segment);
         if hull.is_some_and(|hull| hull.intersects(shown)) {
-            outline.push(&segment);
+            outline.push_segment(&segment);
         }
     }
     outline
@@ -68,7 +68,7 @@ pub(crate) fn write_draw_list(
     }
     page.begin_group(label)?;
     for fill in &list.fills {
-        page.areas(label, fill.color.to_u32(), STEP_PX, [&fill.polygons])?;
+        page.polygon_layer(label, fill.color.to_u32(), STEP_PX, [&fill.polygons])?;
     }
     for text in &list.texts {
         let height = text.char_width_px / TextLine::CHAR_ASPECT;
@@ -76,7 +76,7 @@ pub(crate) fn write_draw_list(
         if text.background.a > 0 {
             let corner = text.left_middle_px - Point::new(0.0, 0.6 * height);
             let rectangle = [corner.x, corner.y, width, 1.2 * height];
-            page.area(rectangle, text.background.to_u32())?;
+            page.rect(rectangle, text.background.to_u32())?;
         }
         // From the middle of a line to its baseline: half the height of a capital.
         let at = text.left_middle_px + Point::new(0.0, 0.35 * height);
@@ -108,7 +108,7 @@ mod tests {
         let mut page = SvgWriter::begin(&mut out, [0.0, 0.0, 100.0, 128.0], "", &common).unwrap();
         write_draw_list(&list, "marks", &mut page).unwrap();
         write_draw_list(&DrawList::default(), "nothing", &mut page).unwrap();
-        page.end().unwrap();
+        page.finish().unwrap();
         let text = String::from_utf8(out).unwrap();
         for part in ["lé漢", "#ff0000", "#00ff00", "marks", "M10 60"] {
             assert!(text.contains(part), "{part}: {text}");

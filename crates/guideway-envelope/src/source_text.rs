@@ -55,7 +55,8 @@ mod tests {
 
     #[test]
     fn parses_vehicles_and_file() {
-        let vehicle = |length, width, rear| Ok(EnvelopeSource::Vehicle(Body::vehicle(length, width, rear)));
+        let vehicle =
+            |length, width, rear| Ok(EnvelopeSource::Vehicle(Body::vehicle(length, width, rear)));
         assert_eq!("2x1.2".parse(), vehicle(2.0, 1.2, 1.0));
         assert_eq!("2X1.2, 0.5".parse(), vehicle(2.0, 1.2, 0.5));
         assert_eq!("2x1,0".parse(), vehicle(2.0, 1.0, 0.0));

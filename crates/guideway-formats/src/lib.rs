@@ -37,6 +37,7 @@ mod spline;
 pub mod svg;
 mod text;
 mod trajectory;
+mod user_error;
 mod vda5050;
 mod wgs84;
 mod xml;

@@ -36,6 +36,7 @@ mod report;
 mod scene;
 mod strip;
 mod style;
+mod user_error;
 mod view;
 mod width;
 

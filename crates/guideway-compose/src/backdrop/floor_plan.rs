@@ -4,7 +4,7 @@ use std::io::{self, Write};
 use std::sync::Arc;
 
 use guideway_cpu::Cpu;
-use guideway_formats::svg::{Outline, SvgWriter, Stroke};
+use guideway_formats::svg::{PathData, Stroke, SvgWriter};
 use guideway_layout::Layout;
 use guideway_scene::{
     Budget, Cancel, Frame, LineRule, Method, Prepared, Rgba, Scene, SceneError, SceneOptions,
@@ -81,14 +81,18 @@ impl FloorPlan {
     }
 
     /// Writes the plan as SVG elements.
-    pub(super) fn write(&self, view: &View, page: &mut SvgWriter<'_, impl Write>) -> io::Result<()> {
+    pub(super) fn write(
+        &self,
+        view: &View,
+        page: &mut SvgWriter<'_, impl Write>,
+    ) -> io::Result<()> {
         match self {
             Self::Image(image) => image.write(view, page),
             Self::Paths(scene) => {
                 page.begin_group("floor plan")?;
                 for &path in scene.draw_order() {
                     let width_px = 2.0 * LINES.radius_px(None, view.px_per_m());
-                    let outline: Outline = outline(scene, path, view, width_px);
+                    let outline: PathData = outline(scene, path, view, width_px);
                     page.path("", &outline, &Stroke::new(PATH_COLOR.to_u32(), width_px))?;
                 }
                 page.end_group()

@@ -1,15 +1,14 @@
 //! Places all decorations of a picture so that labels keep clear of legend, title and scale bar.
 
 use guideway_document::Document;
-use guideway_document::decorations::{Label, LabelSize, MarkOptions, Marks, marks};
+use guideway_document::decorations::{
+    DecorationStyle, Label, LabelSize, MarkOptions, Marks, grid, legend, marks, scale_bar,
+    scale_bar_box,
+};
 use guideway_scene::{DrawList, Scene, Style, View};
 use guideway_spline::{Bounds, Point};
 
-use super::grid::grid;
-use super::legend::legend;
-use super::marks::marks_list;
-use super::options::{DecorationStyle, Decorations};
-use super::scale_bar::{scale_bar, scale_bar_box};
+use super::options::{Decorations, faded, title_band_px};
 use super::title::title;
 use crate::text::columns;
 
@@ -48,7 +47,7 @@ pub(crate) fn place(
         placed.margin.push((list, "title"));
     }
     if let Some(colors) = scene.legend().filter(|_| decorations.has_legend) {
-        let top_px = style.title_band_px(decorations);
+        let top_px = title_band_px(style, decorations);
         match legend(colors, size, top_px, style) {
             Some((list, bounds)) => {
                 occupied.push(bounds);
@@ -63,7 +62,7 @@ pub(crate) fn place(
         let bounds = scale_bar_box(view, style);
         occupied.push(bounds);
         let mut list = DrawList::default();
-        let paper = DecorationStyle::faded(style.paper, PAPER_OPACITY);
+        let paper = faded(style.paper, PAPER_OPACITY);
         list.fill_rectangle(paper, bounds.min, bounds.max);
         list.append(scale_bar(view, style));
         placed.margin.push((list, "scale bar"));
@@ -80,7 +79,7 @@ pub(crate) fn place(
                     .to_owned(),
             );
         }
-        placed.marks = marks_list(&marks, style);
+        placed.marks = marks.draw(style, |at_px| at_px);
     }
     placed
 }

@@ -1,11 +1,12 @@
 //! Title: one line of text at the top center of a picture.
 
+use guideway_document::decorations::DecorationStyle;
+use guideway_document::text_format;
 use guideway_scene::{DrawList, FrameSize, Rgba, TextLine};
 use guideway_spline::{Bounds, Point};
 
-use super::options::DecorationStyle;
+use super::options::faded;
 use crate::text::line_width_px;
-use crate::text_format;
 
 /// Size of the title, in lines of the legend.
 const SIZE: f64 = 1.5;
@@ -43,7 +44,7 @@ pub(super) fn title(
         max: paper.max + Point::new(line_px / 2.0, 0.0),
     };
     let mut list = DrawList::default();
-    let color = DecorationStyle::faded(style.paper, PAPER_OPACITY);
+    let color = faded(style.paper, PAPER_OPACITY);
     list.fill_rectangle(color, paper.min, paper.max);
     list.texts.push(line);
     (list, paper)

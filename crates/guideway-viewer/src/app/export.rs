@@ -102,8 +102,8 @@ impl App {
                 .ok()
                 .zip(rows)
                 .map(|(vehicle, rows)| SweptAreas { vehicle, rows }),
-            grid: self.grid_sheet(&view),
-            marks: self.marks_sheet(&view),
+            grid: self.grid_list(&view),
+            marks: self.marks_list(&view),
         })
     }
 }
@@ -135,7 +135,7 @@ mod tests {
         let size = FrameSize::new(width, height).unwrap();
         let mut grid = guideway_scene::DrawList::default();
         grid.fill_rectangle(Rgba::BLACK, Point::new(1.0, 2.0), Point::new(3.0, 4.0));
-        Export {
+        PictureRequest {
             scene: Arc::new(scene),
             others: Vec::new(),
             view: View::new(size, Point::new(5.0, 6.0), 20.0).unwrap(),

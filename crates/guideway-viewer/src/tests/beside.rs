@@ -225,10 +225,12 @@ fn an_exported_picture_has_all_that_is_seen() {
         (e.scene.path_count(), others.collect::<Vec<_>>())
     };
     assert_eq!(counts(&all), (3, vec![2]));
-    assert_eq!(all.floor_plan.as_deref(), Some("hall.png@px-per-m=20"));
-    assert_eq!(all.swept, Some(("2x1.2".to_owned(), vec![0, 1, 2])));
+    assert_eq!(all.floor_plan.as_ref().unwrap().bounds().unwrap().min, hall);
+    let vehicle = "2x1.2".parse().unwrap();
+    let rows = vec![0, 1, 2];
+    assert_eq!(all.swept, Some(SweptAreas { vehicle, rows }));
     assert!(!all.grid.fills.is_empty());
-    let names = |e: &Export| e.marks.texts.iter().any(|text| text.text == "lane 2");
+    let names = |e: &PictureRequest| e.marks.texts.iter().any(|text| text.text == "lane 2");
     assert!(names(&all));
 
     desk.key(NONE, Key::PageDown);
@@ -241,7 +243,7 @@ fn an_exported_picture_has_all_that_is_seen() {
     }
     let bare = export(&mut desk);
     assert_eq!(counts(&bare), (2, vec![]));
-    assert_eq!((bare.floor_plan.clone(), bare.swept.clone()), (None, None));
+    assert!(bare.floor_plan.is_none() && bare.swept.is_none());
     assert!(bare.grid.fills.is_empty() && !names(&bare));
 }
 

@@ -202,8 +202,9 @@ impl Found {
         &self,
         document: &mut Document,
         job: &Job,
-    ) -> Result<ReplayProgress, Trouble> {
-        let (saved, acts) = self.acts().map_err(|problem| Trouble {
+    ) -> Result<ReplayProgress, UserError> {
+        let (saved, acts) = self.acts().map_err(|problem| UserError {
+            code: WINDOW_ERROR,
             message: format!("{} cannot be read: {problem}", self.journal.display()),
             remedy: "Make it readable and try again, or forget the work in it".into(),
         })?;

@@ -24,7 +24,10 @@ pub(crate) fn name(source: EnvelopeSource) -> String {
 }
 
 /// Fails when no path has an envelope: a check would report nothing without saying why.
-pub(crate) fn require_any(with: u64, without: &[u64; NoEnvelope::ALL.len()]) -> Result<(), UserError> {
+pub(crate) fn require_any(
+    with: u64,
+    without: &[u64; NoEnvelope::ALL.len()],
+) -> Result<(), UserError> {
     let most_frequent = NoEnvelope::ALL
         .into_iter()
         .max_by_key(|&reason| without[reason as usize]);

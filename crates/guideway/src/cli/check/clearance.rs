@@ -1,7 +1,7 @@
 //! `--clearance`: finds swept areas too near to each other or to the walls of a floor plan.
 
 use guideway::envelope::{
-    Clearance, ClearanceOptions, ClearanceWork, EnvelopeSource, Walls, check_clearance,
+    ClearanceOptions, ClearanceReport, ClearanceWork, EnvelopeSource, Walls, check_clearance,
 };
 use guideway::layout::{Diagnostics, Layout, UserError};
 use serde_json::{Value, json};
@@ -114,9 +114,11 @@ impl ClearanceCheck {
         found: &mut Diagnostics,
     ) -> Result<ClearanceWork, UserError> {
         let walls = self.walls.as_ref();
-        let Clearance { found: near, work } =
-            check_clearance(layout, self.source, walls, &self.options);
-        envelope::require_any(work.paths, &work.without)?;
+        let ClearanceReport {
+            findings: near,
+            work,
+        } = check_clearance(layout, self.source, walls, &self.options);
+        envelope::require_any(work.paths, &work.no_envelope)?;
         found.append(near);
         Ok(work)
     }
@@ -136,7 +138,7 @@ pub(super) fn text(files: &[CheckedFile]) -> String {
             text::counted(work.candidates, "pair"),
             text::counted(work.tests, "distance"),
         );
-        for line in envelope::missing(&work.without) {
+        for line in envelope::missing(&work.no_envelope) {
             text += &format!("note: {line}\n");
         }
     }
@@ -151,7 +153,7 @@ pub(super) fn json(args: &ClearanceArgs, files: &[CheckedFile]) -> Value {
             "clearance_m": clearance_m,
             "source": envelope::name(args.source()),
             "envelopes": sum(|work| work.paths),
-            "without": sum(|work| work.without.iter().sum()),
+            "without": sum(|work| work.no_envelope.iter().sum()),
             "candidate_pairs": sum(|work| work.candidates),
             "distances": sum(|work| work.tests),
         })
