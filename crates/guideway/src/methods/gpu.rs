@@ -1,6 +1,6 @@
 use std::sync::{Arc, LazyLock};
 
-use guideway_gpu::{Gpu, Tiles, TilesOptions};
+use guideway_gpu::{DeviceError, Gpu, Tiles, TilesOptions};
 use guideway_grid::{Grid, GridOptions};
 use guideway_scene::Method;
 
@@ -24,7 +24,7 @@ pub(super) const TILES: Entry = Entry {
         let mut asked = TilesOptions::default();
         for option in options.split('+').filter(|option| !option.is_empty()) {
             match option {
-                "rebuild" => asked.keeps = false,
+                "rebuild" => asked.reuses_frames = false,
                 "stages" => asked.times_stages = true,
                 _ => {
                     let what = format!("there is no option `{option}`; there are: rebuild, stages");
@@ -32,9 +32,9 @@ pub(super) const TILES: Entry = Entry {
                 }
             }
         }
-        let device = DEVICE.as_ref().map_err(|why| Stop::Missing(why.clone()))?;
+        let device = DEVICE.as_ref().map_err(|error| Stop::Missing(error.to_string()))?;
         let tiles = Tiles::new(Arc::clone(device), asked);
-        Ok(Box::new(tiles.map_err(Stop::Missing)?))
+        Ok(Box::new(tiles.map_err(|error| Stop::Missing(error.to_string()))?))
     },
 };
 
@@ -81,11 +81,11 @@ pub(super) fn is_in_hardware() -> bool {
 }
 
 /// Opened once, for all methods and options.
-static DEVICE: LazyLock<Result<Arc<Gpu>, String>> = LazyLock::new(Gpu::new);
+static DEVICE: LazyLock<Result<Arc<Gpu>, DeviceError>> = LazyLock::new(Gpu::new);
 
 fn start(options: &str) -> Result<Box<dyn Method>, Stop> {
     let options = GridOptions::parse(options).map_err(Stop::Options)?;
-    let device = DEVICE.as_ref().map_err(|why| Stop::Missing(why.clone()))?;
+    let device = DEVICE.as_ref().map_err(|error| Stop::Missing(error.to_string()))?;
     let grid = Grid::new(Arc::clone(device), options).map_err(Stop::Missing)?;
     Ok(Box::new(grid))
 }
