@@ -1,8 +1,9 @@
 //! Methods that need a graphics device, and what they may differ by from the oracle.
 
+use std::fmt::Display;
 use std::sync::{Arc, LazyLock};
 
-use guideway_gpu::{Gpu, GpuOptions, Tiles, TilesOptions};
+use guideway_gpu::{DeviceError, Gpu, Tiles, TilesOptions};
 use guideway_grid::{Grid, GridOptions};
 use guideway_scene::Method;
 use guideway_tessellation::GlDevice;
@@ -60,8 +61,8 @@ const GRIDS: [(&str, Tolerance); 3] = [
 ///
 /// # Errors
 /// What is missing for it.
-pub fn gpu() -> Result<Arc<Gpu>, String> {
-    static GPU: LazyLock<Result<Arc<Gpu>, String>> = LazyLock::new(Gpu::new);
+pub fn gpu() -> Result<Arc<Gpu>, DeviceError> {
+    static GPU: LazyLock<Result<Arc<Gpu>, DeviceError>> = LazyLock::new(Gpu::new);
     GPU.clone()
 }
 
@@ -83,14 +84,14 @@ pub fn gl() -> Result<Arc<GlDevice>, String> {
 /// When there is no such variant.
 pub fn grid(variant: &str) -> Result<Grid, String> {
     let options = GridOptions::parse(variant).expect("the variant is well written");
-    Grid::new(gpu()?, options)
+    Grid::new(gpu().map_err(|error| error.to_string())?, options)
 }
 
 /// Method `gpu`.
 ///
 /// # Errors
 /// When its device is not here.
-pub fn tiles() -> Result<Tiles, String> {
+pub fn tiles() -> Result<Tiles, DeviceError> {
     Tiles::new(gpu()?, TilesOptions::default())
 }
 
@@ -105,10 +106,8 @@ fn all() -> Vec<Result<DeviceCandidate, String>> {
         })
     });
     let mut all: Vec<_> = grids.into();
-    all.push(tiles().map(|tiles| judged_tiles("gpu", tiles)));
-    if gpu().is_ok_and(|gpu| gpu.is_software()) {
-        all.push(tiles_as_hardware().map(|tiles| judged_tiles("gpu as hardware", tiles)));
-    }
+    let tiles = tiles().map(|tiles| judged_tiles("gpu", tiles));
+    all.push(tiles.map_err(|error| error.to_string()));
     all
 }
 
@@ -121,15 +120,6 @@ fn judged_tiles(name: &str, tiles: Tiles) -> DeviceCandidate {
     }
 }
 
-/// Method `gpu` with the shaders of graphics hardware, whatever the device is.
-fn tiles_as_hardware() -> Result<Tiles, String> {
-    let options = GpuOptions {
-        as_hardware: true,
-        ..GpuOptions::default()
-    };
-    Tiles::new(Gpu::with_options(options)?, TilesOptions::default())
-}
-
 /// The candidates whose device is here.
 pub fn candidates() -> Vec<DeviceCandidate> {
     all().into_iter().filter_map(here).collect()
@@ -139,7 +129,7 @@ pub fn candidates() -> Vec<DeviceCandidate> {
 ///
 /// # Panics
 /// When the device is missing and `GUIDEWAY_REQUIRE_DEVICES` is 1.
-pub fn here<T>(found: Result<T, String>) -> Option<T> {
+pub fn here<T>(found: Result<T, impl Display>) -> Option<T> {
     match found {
         Ok(found) => Some(found),
         Err(why) => {

@@ -14,7 +14,9 @@ use crate::params::{Items, LINE_BYTES, SCAN_THREADS, WORKGROUP};
 use crate::pass::parts;
 use crate::table::Table;
 use crate::unsupported;
-use guideway_gpu::device::{DeviceBuffer, Dispatch, FETCHED, Gpu, Held, Kernel, Memory, Runner};
+use guideway_gpu::device::{
+    DeviceBuffer, DeviceError, Dispatch, Gpu, Kernel, Memory, READBACK_USAGE, Reservation, Runner,
+};
 
 /// The lines of some of the paths, sorted into the cells of the grid.
 pub(super) struct Chunk {
@@ -26,7 +28,7 @@ pub(super) struct Chunk {
     pub(super) lists_m: DeviceBuffer,
     /// The counts once more, for this side to know how much work a picture is.
     pub(super) table: Table,
-    _table_held: Held,
+    _table_held: Reservation,
 }
 
 /// All lines, sorted.
@@ -89,7 +91,7 @@ impl Builder<'_> {
         if most == 0 {
             return Ok(built);
         }
-        if self.cell_bytes() > self.gpu.binding_bytes() {
+        if self.cell_bytes() > self.gpu.max_binding_bytes() {
             return Err(self.too_much(format!("{} cells", self.options.cell_count())));
         }
         let scratch = self.scratch(most)?;
@@ -104,7 +106,7 @@ impl Builder<'_> {
             }
             let counted = self.count(packed, &scratch, &mut phases)?;
             let entries = counted.table.total();
-            if entries * LINE_BYTES > self.gpu.binding_bytes() {
+            if entries * LINE_BYTES > self.gpu.max_binding_bytes() {
                 if segments == 1 {
                     let what = format!("a segment whose lines meet {entries} cells");
                     return Err(self.too_much(what));
@@ -132,11 +134,11 @@ impl Builder<'_> {
     fn most_segments(&self) -> u64 {
         let lines_bytes = u64::from(self.options.lines_a_segment()) * LINE_BYTES;
         let points_bytes = 4 * size_of::<[f32; 2]>() as u64;
-        self.gpu.binding_bytes() / lines_bytes.max(points_bytes)
+        self.gpu.max_binding_bytes() / lines_bytes.max(points_bytes)
     }
 
     fn too_much(&self, what: String) -> RenderError {
-        let most = self.gpu.binding_bytes();
+        let most = self.gpu.max_binding_bytes();
         unsupported(
             format!("{what}: this device lets a shader see only {most} bytes at once"),
             "Ask for fewer cells or samples.",
@@ -153,7 +155,7 @@ impl Builder<'_> {
             lines_m: self.zeros("the sampled lines", lines * LINE_BYTES)?,
             fetched_counts: self
                 .memory
-                .zeros("the counts of the cells", cells, FETCHED)?,
+                .zeros("the counts of the cells", cells, READBACK_USAGE)?,
         })
     }
 
@@ -193,7 +195,7 @@ impl Builder<'_> {
         let of_lines = |slice: &Range<u32>| slice.start * lines..slice.end * lines;
         let slices: Vec<_> = slices.iter().map(of_lines).collect();
         // A row of cells is a round, and a round for each of its cells.
-        let rows_at_once = self.gpu.rounds_a_thread() / (1 + self.options.cells);
+        let rows_at_once = self.gpu.loops_per_thread() / (1 + self.options.cells);
         let rows = parts(most_rows, rows_at_once);
         let buffers = [&scratch.items, self.grid, &scratch.lines_m, &counts];
         phases.count += self.over("counting", &self.kernels.count, &buffers, &slices, &rows)?;
@@ -222,7 +224,7 @@ impl Builder<'_> {
         let host_bytes = size_of_val(&*packed.points_m) + size_of_val(&*packed.first_points);
         let _held = self
             .memory
-            .hold("the packed control points", host_bytes as u64)?;
+            .reserve("the packed control points", host_bytes as u64)?;
         let points_m = self.memory.upload("the control points", &packed.points_m)?;
         let first_points = self.memory.upload("the segments", &packed.first_points)?;
         Ok((points_m, first_points))
@@ -243,7 +245,7 @@ impl Builder<'_> {
         } = counted;
         let table_held = self
             .memory
-            .hold("the table of counts", Table::bytes(self.options.cells))?;
+            .reserve("the table of counts", Table::bytes(self.options.cells))?;
         let starts = self.zeros("the starts of the lists", self.cell_bytes())?;
         phases.prefix_sum += self.prefix_sum(&counts, &starts, scratch)?;
 
@@ -285,7 +287,7 @@ impl Builder<'_> {
                     cutter.push(items, u64::from(items) * u64::from(first + items));
                 }
                 let buffers = [&scratch.items, counts, starts];
-                let parts = parts(cells, self.gpu.rounds_a_thread());
+                let parts = parts(cells, self.gpu.loops_per_thread());
                 self.over("the prefix sum", kernel, &buffers, &cutter.finish(), &parts)
             }
             Prefix::Scan { blocks, sums, add } => {
@@ -317,8 +319,8 @@ impl Builder<'_> {
 
     /// Work and items of one submit.
     fn cutter(&self) -> Cutter {
-        let most_items = self.gpu.most_workgroups().saturating_mul(WORKGROUP);
-        Cutter::new(self.gpu.tests_a_submit(), most_items)
+        let most_items = self.gpu.max_workgroups().saturating_mul(WORKGROUP);
+        Cutter::new(self.gpu.tests_per_submit(), most_items)
     }
 
     /// Runs a kernel over ranges of items and parts of their work, one submit each, and returns
@@ -343,7 +345,7 @@ impl Builder<'_> {
                 first_part: part.start,
                 end_part: part.end,
             };
-            self.ok(self.runner.set(what, buffers[0], &items))?;
+            self.ok(self.runner.write(what, buffers[0], &items))?;
             let dispatch = Dispatch {
                 kernel,
                 bindings: &bindings,
@@ -354,7 +356,7 @@ impl Builder<'_> {
         Ok(elapsed_ms)
     }
 
-    fn ok<R>(&self, result: Result<R, String>) -> Result<R, RenderError> {
-        result.map_err(|what| self.memory.trouble(what))
+    fn ok<R>(&self, result: Result<R, DeviceError>) -> Result<R, RenderError> {
+        result.map_err(|error| self.memory.device_error(&error))
     }
 }

@@ -9,7 +9,7 @@ use crate::build::Chunk;
 use crate::kernels::Kernels;
 use crate::params::ViewParams;
 use crate::unsupported;
-use guideway_gpu::device::{Bindings, DeviceBuffer, FETCHED, Gpu, Kernel, Memory};
+use guideway_gpu::device::{Bindings, DeviceBuffer, Gpu, Kernel, Memory, READBACK_USAGE};
 
 /// Bytes of a pixel: what is remembered of it, or its color.
 pub(super) const PIXEL_BYTES: u64 = size_of::<u32>() as u64;
@@ -66,13 +66,13 @@ impl Canvas {
         };
         let pixel_bytes = PIXEL_BYTES + work_bytes + fetched_bytes;
         let width = u64::from(size.width());
-        let fit_binding = gpu.binding_bytes() / (width * fetched_bytes);
+        let fit_binding = gpu.max_binding_bytes() / (width * fetched_bytes);
         let fit_budget = memory.spare_bytes().saturating_sub(WORK_BYTES) / (width * pixel_bytes);
         if fit_binding == 0 {
             return Err(unsupported(
                 format!(
                     "rows of {width} pixels: this device lets a shader see only {} bytes at once",
-                    gpu.binding_bytes()
+                    gpu.max_binding_bytes()
                 ),
                 "Ask for a narrower picture.",
             ));
@@ -84,7 +84,11 @@ impl Canvas {
         // A buffer cannot be empty.
         let work = (pixels * work_bytes).max(WORK_BYTES);
         let work = memory.zeros("the counted work", work, storage)?;
-        let fetched = memory.zeros("the picture read back", pixels * fetched_bytes, FETCHED)?;
+        let fetched = memory.zeros(
+            "the picture read back",
+            pixels * fetched_bytes,
+            READBACK_USAGE,
+        )?;
         let kernel = purpose.kernel(kernels);
         let bind = |chunk: &Chunk| {
             let buffers = [
@@ -100,7 +104,7 @@ impl Canvas {
         };
         let bindings: Result<_, _> = chunks.iter().map(bind).collect();
         Ok(Self {
-            bindings: bindings.map_err(|what| memory.trouble(what))?,
+            bindings: bindings.map_err(|error| memory.device_error(&error))?,
             size,
             band_rows: rows as u32,
             view,

@@ -5,7 +5,7 @@ use crate::params::{
     ADD_SUMS, BIN, COUNT, HALF_EDGE_PX, PIXELS_NEAREST, PIXELS_SAMPLES, PREFIX_NAIVE, SAMPLE,
     SCAN_BLOCKS, SCAN_SUMS, SCAN_THREADS, TILE_PX, WORKGROUP,
 };
-use guideway_gpu::device::{Gpu, Kernel};
+use guideway_gpu::device::{DeviceError, Gpu, Kernel};
 
 pub(super) struct Kernels {
     pub(super) sample: Kernel,
@@ -27,7 +27,7 @@ pub(super) enum Prefix {
 }
 
 impl Kernels {
-    pub(super) fn new(gpu: &Gpu, options: &GridOptions) -> Result<Self, String> {
+    pub(super) fn new(gpu: &Gpu, options: &GridOptions) -> Result<Self, DeviceError> {
         let threads = ("WORKGROUP", f64::from(WORKGROUP));
         let scan_threads = [("SCAN_THREADS", f64::from(SCAN_THREADS))];
         let cells = ("CELLS", f64::from(options.cells));
@@ -51,7 +51,7 @@ impl Kernels {
     }
 }
 
-fn pixels(gpu: &Gpu, options: &GridOptions, counts: bool) -> Result<Kernel, String> {
+fn pixels(gpu: &Gpu, options: &GridOptions, counts: bool) -> Result<Kernel, DeviceError> {
     let flag = |holds: bool| f64::from(u8::from(holds));
     let mut constants = vec![
         ("CELLS", f64::from(options.cells)),

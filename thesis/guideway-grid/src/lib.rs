@@ -54,7 +54,7 @@ impl Grid {
     pub fn new(gpu: Arc<Gpu>, options: GridOptions) -> Result<Self, String> {
         options.check()?;
         Ok(Self(Arc::new(Variant {
-            kernels: Kernels::new(&gpu, &options)?,
+            kernels: Kernels::new(&gpu, &options).map_err(|error| error.to_string())?,
             gpu,
             options,
         })))

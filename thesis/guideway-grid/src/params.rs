@@ -69,7 +69,9 @@ pub(super) struct ViewParams {
 
 macro_rules! wgsl {
     ($($file:literal),+) => {
-        concat!($(include_str!(concat!("shaders/", $file, ".wgsl"))),+)
+        std::borrow::Cow::Borrowed(concat!(
+            $(include_str!(concat!("shaders/", $file, ".wgsl"))),+
+        ))
     };
 }
 

@@ -81,15 +81,15 @@ impl PreparedGrid {
         let runner = Runner::new(Arc::clone(&variant.gpu), &mut memory)?;
         let uniform = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
         let grid_buffer = memory.zeros("the grid", size_of::<GridParams>() as u64, uniform)?;
-        let set = runner.set("the grid", &grid_buffer, &grid);
-        set.map_err(|what| memory.trouble(what))?;
+        let set = runner.write("the grid", &grid_buffer, &grid);
+        set.map_err(|error| memory.device_error(&error))?;
         let packer = Packer {
             scene: &scene,
             local: &local,
             grid: &grid,
             options: &variant.options,
-            most_work: variant.gpu.tests_a_submit(),
-            most_items: variant.gpu.most_workgroups().saturating_mul(WORKGROUP)
+            most_work: variant.gpu.tests_per_submit(),
+            most_items: variant.gpu.max_workgroups().saturating_mul(WORKGROUP)
                 / variant.options.lines_a_segment(),
         };
         let builder = Builder {
@@ -161,17 +161,17 @@ impl PreparedGrid {
     ) -> Result<(f64, f64), RenderError> {
         let gpu = &self.variant.gpu;
         let kernel = canvas.purpose.kernel(&self.variant.kernels);
-        let ok = |what| self.memory.trouble(what);
+        let ok = |error| self.memory.device_error(&error);
         let passes = self.passes(shot);
         let (mut drawing_ms, mut fetching_ms) = (0.0, 0.0);
         for rows in canvas.bands() {
             for pass in &passes {
-                let cutter = Cutter::new(gpu.tests_a_submit(), gpu.most_workgroups());
+                let cutter = Cutter::new(gpu.tests_per_submit(), gpu.max_workgroups());
                 for tiles in pass.cut(shot, &self.chunks[pass.chunk].table, &rows, cutter) {
                     cancel.check()?;
                     let params = shot.params(&rows, &tiles, pass);
                     self.runner
-                        .set("the view", &canvas.view, &params)
+                        .write("the view", &canvas.view, &params)
                         .map_err(ok)?;
                     let dispatch = Dispatch {
                         kernel,
@@ -198,7 +198,7 @@ impl PreparedGrid {
 
     fn passes(&self, shot: &Shot) -> Vec<Pass> {
         let tables = self.chunks.iter().map(|chunk| &chunk.table);
-        pass::passes(shot, tables, self.variant.gpu.rounds_a_thread())
+        pass::passes(shot, tables, self.variant.gpu.loops_per_thread())
     }
 
     fn shot(&self, view: &View, style: &Style) -> Result<Shot, RenderError> {

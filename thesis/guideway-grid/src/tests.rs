@@ -11,15 +11,15 @@ use guideway_scene::{LineRule, Scene, SceneOptions};
 use guideway_spline::{Point, Runs};
 
 use super::*;
-use guideway_gpu::GpuOptions;
-use guideway_gpu::testing::here;
+use guideway_gpu::testing::device_or_skip;
+use guideway_gpu::{DeviceError, GpuOptions};
 
 /// The device of all tests here; none where there is none.
-static GPU: LazyLock<Result<Arc<Gpu>, String>> = LazyLock::new(Gpu::new);
+static GPU: LazyLock<Result<Arc<Gpu>, DeviceError>> = LazyLock::new(Gpu::new);
 
 /// A device, unless the test has to be skipped.
 fn gpu() -> Option<Arc<Gpu>> {
-    here(&GPU)
+    device_or_skip(&GPU)
 }
 
 /// Wavy paths over about 100 m, many of which cross.
@@ -87,7 +87,7 @@ fn chunks_bands_passes_and_prefix_sums_change_no_bit() {
         ..GpuOptions::default()
     });
     let short = limited(GpuOptions {
-        rounds_a_thread: Some(1),
+        loops_per_thread: Some(1),
         ..GpuOptions::default()
     });
     let view = view(70, 60, 0.8);
@@ -137,7 +137,7 @@ fn stopping_early_and_visiting_many_cells_change_no_bit() {
 fn the_naive_prefix_sum_goes_on_where_a_thread_has_to_stop() {
     let Some(_) = gpu() else { return };
     let short = limited(GpuOptions {
-        rounds_a_thread: Some(1),
+        loops_per_thread: Some(1),
         ..GpuOptions::default()
     });
     let view = view(70, 60, 0.8);

@@ -1,17 +1,14 @@
-//! Which adapter to use.
+//! Selects and opens a graphics adapter.
 
 use std::sync::{LazyLock, Mutex, PoisonError};
 
 use wgpu::{Adapter, Backends, Device, DeviceDescriptor, DeviceType, Features, Instance, Queue};
 
-use super::GpuOptions;
+use super::error::DeviceError;
+use super::options::GpuOptions;
 
-const NONE_FOUND: &str = "no graphics adapter was found: there is no Vulkan loader, or no driver for it. \
-     On Debian or Ubuntu install `libvulkan1` and `mesa-vulkan-drivers`, which also draw without graphics \
-     hardware";
-
-/// All devices of the process come from one instance, and are opened one after the other: sixteen threads that each opened an
-/// instance of their own were seen to hang on an H200.
+/// All devices of the process share one instance and are opened one after the other: on an H200,
+/// sixteen threads that each opened an instance were seen to hang.
 static INSTANCE: LazyLock<Mutex<Instance>> = LazyLock::new(|| {
     Mutex::new(Instance::new(wgpu::InstanceDescriptor {
         backends: Backends::PRIMARY,
@@ -19,25 +16,23 @@ static INSTANCE: LazyLock<Mutex<Instance>> = LazyLock::new(|| {
     }))
 });
 
-/// Opens the first adapter that can be opened, hardware first.
-pub(super) fn open(options: GpuOptions) -> Result<(Adapter, Device, Queue), String> {
+/// Opens the first adapter that opens, hardware before software.
+pub(super) fn open(options: GpuOptions) -> Result<(Adapter, Device, Queue), DeviceError> {
     let instance = INSTANCE.lock().unwrap_or_else(PoisonError::into_inner);
     let mut adapters = pollster::block_on(instance.enumerate_adapters(Backends::PRIMARY));
     adapters.sort_by_key(|adapter| preference(adapter.get_info().device_type));
-    let mut refusals = Vec::new();
+    let mut reasons = Vec::new();
     for adapter in adapters {
         match pollster::block_on(adapter.request_device(&descriptor_for(&adapter, options))) {
             Ok((device, queue)) => return Ok((adapter, device, queue)),
-            Err(error) => refusals.push(format!("{}: {error}", adapter.get_info().name)),
+            Err(error) => reasons.push(format!("{}: {error}", adapter.get_info().name)),
         }
     }
-    if refusals.is_empty() {
-        Err(NONE_FOUND.to_owned())
+    if reasons.is_empty() {
+        Err(DeviceError::NoAdapter)
     } else {
-        Err(format!(
-            "no graphics adapter could be opened: {}",
-            refusals.join("; ")
-        ))
+        let reasons = reasons.join("; ");
+        Err(DeviceError::NotOpened { reasons })
     }
 }
 
@@ -62,8 +57,8 @@ fn descriptor_for(adapter: &Adapter, options: GpuOptions) -> DeviceDescriptor<'s
         *side = (*side).min(workgroups);
     }
     let mut features = Features::TIMESTAMP_QUERY | Features::SUBGROUP;
-    features.set(Features::TIMESTAMP_QUERY, !options.without_clock);
-    features.set(Features::SUBGROUP, !options.without_lanes);
+    features.set(Features::TIMESTAMP_QUERY, !options.without_timestamps);
+    features.set(Features::SUBGROUP, !options.without_subgroups);
     DeviceDescriptor {
         label: Some("guideway"),
         required_features: adapter.features() & features,

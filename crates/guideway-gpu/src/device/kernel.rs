@@ -1,18 +1,22 @@
-//! Compute pipelines, and what they are made of.
+//! Compute pipelines: shader sources, compiled kernels and their bind groups.
 
-use super::{DeviceBuffer, Gpu};
+use std::borrow::Cow;
+
+use super::error::DeviceError;
+use super::gpu::Gpu;
+use super::memory::DeviceBuffer;
 
 /// A compute shader.
 pub struct Source {
-    /// What it does, for messages.
+    /// Name for messages.
     pub name: &'static str,
-    /// WGSL, with the entry point `main`.
-    pub wgsl: &'static str,
-    /// The variables that it binds, in the order of their bindings in group 0.
+    /// WGSL with the entry point `main`.
+    pub wgsl: Cow<'static, str>,
+    /// Variables of bind group 0, in the order of their bindings.
     pub bindings: &'static [&'static str],
 }
 
-/// A compute pipeline. Clones share it.
+/// A compiled compute pipeline. Clones share it.
 #[derive(Clone)]
 pub struct Kernel {
     name: &'static str,
@@ -25,11 +29,13 @@ pub struct Kernel {
 pub struct Bindings(pub(super) wgpu::BindGroup);
 
 impl Kernel {
-    /// Compiles it, with these values for its overrides.
-    pub fn new(gpu: &Gpu, source: &Source, constants: &[(&str, f64)]) -> Result<Self, String> {
-        let what = format!("the shader `{}` cannot be compiled", source.name);
+    /// Compiles a shader with values for its overrides.
+    ///
+    /// # Errors
+    /// [`DeviceError::Shader`] if the shader is invalid; any error of the device.
+    pub fn new(gpu: &Gpu, source: &Source, constants: &[(&str, f64)]) -> Result<Self, DeviceError> {
         let device = &gpu.device;
-        gpu.checked(&what, || {
+        let compiled = gpu.checked(source.name, || {
             let module = module(gpu, source);
             let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
                 label: Some(source.name),
@@ -38,7 +44,7 @@ impl Kernel {
                 entry_point: Some("main"),
                 compilation_options: wgpu::PipelineCompilationOptions {
                     constants,
-                    // Shaders set what they share themselves, with all threads of a workgroup.
+                    // Shaders initialize their workgroup memory themselves, with all threads.
                     zero_initialize_workgroup_memory: false,
                 },
                 cache: None,
@@ -49,11 +55,21 @@ impl Kernel {
                 pipeline,
                 bindings: source.bindings.len(),
             }
+        });
+        compiled.map_err(|error| match error {
+            DeviceError::Rejected { operation, message } => DeviceError::Shader {
+                name: operation,
+                message,
+            },
+            other => other,
         })
     }
 
-    /// Binds buffers, one a binding.
-    pub fn bind(&self, gpu: &Gpu, buffers: &[&DeviceBuffer]) -> Result<Bindings, String> {
+    /// Binds one buffer per binding.
+    ///
+    /// # Errors
+    /// [`DeviceError::Rejected`] if a buffer does not suit its binding.
+    pub fn bind(&self, gpu: &Gpu, buffers: &[&DeviceBuffer]) -> Result<Bindings, DeviceError> {
         debug_assert_eq!(buffers.len(), self.bindings, "{}", self.name);
         let entries: Vec<_> = (0..)
             .zip(buffers)
@@ -72,20 +88,20 @@ impl Kernel {
     }
 }
 
-/// Compiles a shader, without checks of every access while it runs: they cost a fifth of a frame
-/// (docs/performance/gpu.md, 3).
+/// Compiles a shader without run-time checks of its memory accesses: they take a fifth of the time
+/// of a frame (measured: docs/performance/gpu.md, 3).
 #[allow(
     unsafe_code,
-    reason = "wgpu trusts a shader only so: those of this crate bound every index by a count that they are \
-              given or have found themselves, and every loop by such a count, and a test draws the same bits \
-              with all checks"
+    reason = "wgpu omits the checks only for trusted shaders: those of this crate bound every \
+              index and loop by a count that they receive or compute, and a test draws the same \
+              bits with all checks"
 )]
 fn module(gpu: &Gpu, source: &Source) -> wgpu::ShaderModule {
     let descriptor = wgpu::ShaderModuleDescriptor {
         label: Some(source.name),
-        source: wgpu::ShaderSource::Wgsl(source.wgsl.into()),
+        source: wgpu::ShaderSource::Wgsl(source.wgsl.clone()),
     };
-    if gpu.options.has_checked_shaders {
+    if gpu.options().checks_shaders {
         return gpu.device.create_shader_module(descriptor);
     }
     let unchecked = wgpu::ShaderRuntimeChecks::unchecked();

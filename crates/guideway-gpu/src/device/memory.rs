@@ -1,4 +1,4 @@
-//! Every byte that a method holds, against its budget.
+//! Charges every byte of a prepared scene to its memory budget.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -6,9 +6,10 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use guideway_scene::{Budget, RenderError};
 use wgpu::BufferUsages;
 
-use super::Gpu;
+use super::error::DeviceError;
+use super::gpu::Gpu;
 
-/// What one prepared scene may hold, and what it holds.
+/// The memory account of one prepared scene.
 pub struct Memory {
     gpu: Arc<Gpu>,
     method: &'static str,
@@ -17,26 +18,26 @@ pub struct Memory {
     peak_bytes: u64,
 }
 
-/// A part of the budget, given back when dropped.
-pub struct Held {
+/// A share of the budget, returned when dropped.
+pub struct Reservation {
     bytes: u64,
-    all: Arc<AtomicU64>,
+    held_bytes: Arc<AtomicU64>,
 }
 
-impl Drop for Held {
+impl Drop for Reservation {
     fn drop(&mut self) {
-        self.all.fetch_sub(self.bytes, Ordering::Relaxed);
+        self.held_bytes.fetch_sub(self.bytes, Ordering::Relaxed);
     }
 }
 
-/// A buffer on the device, and its part of the budget.
+/// A buffer on the device and its share of the budget.
 pub struct DeviceBuffer {
     buffer: wgpu::Buffer,
-    _held: Held,
+    _reservation: Reservation,
 }
 
 impl DeviceBuffer {
-    /// The buffer itself.
+    /// The wgpu buffer.
     pub fn raw(&self) -> &wgpu::Buffer {
         &self.buffer
     }
@@ -48,7 +49,7 @@ impl DeviceBuffer {
 }
 
 impl Memory {
-    /// An empty account of `method` against a budget.
+    /// Opens an empty account of `method`.
     pub fn new(gpu: Arc<Gpu>, method: &'static str, budget: &Budget) -> Self {
         Self {
             gpu,
@@ -59,24 +60,27 @@ impl Memory {
         }
     }
 
-    /// Bytes held now.
+    /// Bytes in use.
     pub fn held_bytes(&self) -> u64 {
         self.held_bytes.load(Ordering::Relaxed)
     }
 
-    /// Bytes that may yet be held.
+    /// Bytes left in the budget.
     pub fn spare_bytes(&self) -> u64 {
         self.budget_bytes.saturating_sub(self.held_bytes())
     }
 
-    /// Most bytes held at once since it was last asked.
+    /// Returns the most bytes in use at once since the last call.
     pub fn take_peak_bytes(&mut self) -> u64 {
         let held_bytes = self.held_bytes();
         std::mem::replace(&mut self.peak_bytes, held_bytes)
     }
 
-    /// Takes a part of the budget for memory outside of the device.
-    pub fn hold(&mut self, what: &'static str, bytes: u64) -> Result<Held, RenderError> {
+    /// Reserves a share of the budget for memory of the host.
+    ///
+    /// # Errors
+    /// [`RenderError::Budget`] if the budget is too small.
+    pub fn reserve(&mut self, what: &'static str, bytes: u64) -> Result<Reservation, RenderError> {
         let needed_bytes = self.held_bytes().saturating_add(bytes);
         if needed_bytes > self.budget_bytes {
             return Err(RenderError::Budget {
@@ -88,13 +92,16 @@ impl Memory {
         }
         self.held_bytes.store(needed_bytes, Ordering::Relaxed);
         self.peak_bytes = self.peak_bytes.max(needed_bytes);
-        Ok(Held {
+        Ok(Reservation {
             bytes,
-            all: Arc::clone(&self.held_bytes),
+            held_bytes: Arc::clone(&self.held_bytes),
         })
     }
 
-    /// A buffer of zeros.
+    /// Creates a buffer of zeros.
+    ///
+    /// # Errors
+    /// [`RenderError::Budget`] if the budget is too small; any error of the device.
     pub fn zeros(
         &mut self,
         what: &'static str,
@@ -104,21 +111,28 @@ impl Memory {
         self.allocate(what, bytes, usage, false)
     }
 
-    /// A buffer of these values, for shaders to read. At least one.
+    /// Creates a storage buffer of these values; at least one.
+    ///
+    /// # Errors
+    /// As [`Self::zeros`].
     pub fn upload<T: bytemuck::NoUninit>(
         &mut self,
         what: &'static str,
         values: &[T],
     ) -> Result<DeviceBuffer, RenderError> {
         let bytes: &[u8] = bytemuck::cast_slice(values);
-        let held = self.allocate(what, bytes.len() as u64, BufferUsages::STORAGE, true)?;
-        let view = held.buffer.get_mapped_range_mut(..);
-        match view {
+        let created = self.allocate(what, bytes.len() as u64, BufferUsages::STORAGE, true)?;
+        match created.buffer.get_mapped_range_mut(..) {
             Ok(mut view) => view.copy_from_slice(bytes),
-            Err(error) => return Err(self.trouble(format!("{what}: {error}"))),
+            Err(error) => {
+                return Err(self.device_error(&DeviceError::Rejected {
+                    operation: what.to_owned(),
+                    message: error.to_string(),
+                }));
+            }
         }
-        held.buffer.unmap();
-        Ok(held)
+        created.buffer.unmap();
+        Ok(created)
     }
 
     fn allocate(
@@ -128,7 +142,7 @@ impl Memory {
         usage: BufferUsages,
         mapped_at_creation: bool,
     ) -> Result<DeviceBuffer, RenderError> {
-        let held = self.hold(what, bytes)?;
+        let reservation = self.reserve(what, bytes)?;
         let descriptor = wgpu::BufferDescriptor {
             label: Some(what),
             size: bytes,
@@ -136,19 +150,16 @@ impl Memory {
             mapped_at_creation,
         };
         let device = &self.gpu.device;
-        let made = self.gpu.checked(what, || device.create_buffer(&descriptor));
-        let buffer = made.map_err(|what| self.trouble(what))?;
+        let created = self.gpu.checked(what, || device.create_buffer(&descriptor));
+        let buffer = created.map_err(|error| self.device_error(&error))?;
         Ok(DeviceBuffer {
             buffer,
-            _held: held,
+            _reservation: reservation,
         })
     }
 
-    /// What the device did, as an error of the method.
-    pub fn trouble(&self, what: String) -> RenderError {
-        RenderError::Device {
-            method: self.method,
-            what,
-        }
+    /// Converts an error of the device to one of the method.
+    pub fn device_error(&self, error: &DeviceError) -> RenderError {
+        error.of_method(self.method)
     }
 }

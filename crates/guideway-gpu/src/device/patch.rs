@@ -1,31 +1,37 @@
-//! Changes of parts of buffers, many small ones at once.
+//! Patches of buffers: sends many small changes in one submission, and a kernel scatters them.
+
+use std::borrow::Cow;
 
 use guideway_scene::RenderError;
 use wgpu::BufferUsages;
 
-use super::{Bindings, DeviceBuffer, Dispatch, Gpu, Kernel, Memory, Runner, Source};
+use super::error::DeviceError;
+use super::gpu::Gpu;
+use super::kernel::{Kernel, Source};
+use super::memory::{DeviceBuffer, Memory};
+use super::runner::{Dispatch, Runner};
 
-/// Words of a run: a thread copies one.
-const RUN_WORDS: usize = 64;
-/// Words that are sent at a time, and runs.
-const SENT_WORDS: usize = 1 << 20;
-const SENT_RUNS: usize = 1 << 17;
+/// Most words per run: one thread copies a run.
+const MAX_RUN_WORDS: usize = 64;
+/// Most words and runs per submission.
+const BATCH_WORDS: usize = 1 << 20;
+const BATCH_RUNS: usize = 1 << 17;
 const THREADS: u32 = 64;
 
 const PATCH: Source = Source {
     name: "patch",
-    wgsl: include_str!("patch.wgsl"),
+    wgsl: Cow::Borrowed(include_str!("patch.wgsl")),
     bindings: &["batch", "runs", "words", "target_words"],
 };
 
-/// New values for parts of one buffer, in words.
+/// New values for parts of one buffer, in 32-bit words.
 #[derive(Default)]
 pub(crate) struct Patch {
     runs: Vec<Run>,
     words: Vec<u32>,
 }
 
-/// `Run` of `patch.wgsl`.
+/// A run of adjacent words. WGSL: `Run` of `patch.wgsl`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
 struct Run {
@@ -35,10 +41,13 @@ struct Run {
 }
 
 impl Patch {
-    /// Sets a value that begins at a word of the buffer.
+    /// Sets the value at a word index of the buffer.
     pub(crate) fn set<T: bytemuck::NoUninit>(&mut self, first_word: usize, value: &T) {
         let words = bytemuck::cast_slice(std::slice::from_ref(value));
-        for (part, at) in words.chunks(RUN_WORDS).zip((0..).step_by(RUN_WORDS)) {
+        for (part, at) in words
+            .chunks(MAX_RUN_WORDS)
+            .zip((0..).step_by(MAX_RUN_WORDS))
+        {
             self.set_words(first_word + at, part);
         }
     }
@@ -50,7 +59,7 @@ impl Patch {
         match self.runs.last_mut() {
             Some(last)
                 if last.target_word as usize + last.words as usize == target
-                    && (last.words + len) as usize <= RUN_WORDS =>
+                    && (last.words + len) as usize <= MAX_RUN_WORDS =>
             {
                 last.words += len;
             }
@@ -62,13 +71,13 @@ impl Patch {
         }
     }
 
-    /// Bytes that it sends.
+    /// Bytes that the patch sends.
     pub(crate) fn bytes(&self) -> u64 {
         (size_of_val(self.runs.as_slice()) + size_of_val(self.words.as_slice())) as u64
     }
 }
 
-/// What sends patches.
+/// Sends patches: the scatter kernel and its staging buffers.
 pub(crate) struct Patcher {
     kernel: Kernel,
     batch: DeviceBuffer,
@@ -80,40 +89,40 @@ impl Patcher {
     pub(crate) fn new(gpu: &Gpu, memory: &mut Memory) -> Result<Self, RenderError> {
         let kernel = Kernel::new(gpu, &PATCH, &[("THREADS", f64::from(THREADS))]);
         let what = "changes of the scene";
-        let sent = BufferUsages::STORAGE | BufferUsages::COPY_DST;
+        let staging = BufferUsages::STORAGE | BufferUsages::COPY_DST;
         Ok(Self {
-            kernel: kernel.map_err(|what| memory.trouble(what))?,
+            kernel: kernel.map_err(|error| memory.device_error(&error))?,
             batch: memory.zeros(what, 16, BufferUsages::UNIFORM | BufferUsages::COPY_DST)?,
-            runs: memory.zeros(what, (SENT_RUNS * size_of::<Run>()) as u64, sent)?,
-            words: memory.zeros(what, (SENT_WORDS * size_of::<u32>()) as u64, sent)?,
+            runs: memory.zeros(what, (BATCH_RUNS * size_of::<Run>()) as u64, staging)?,
+            words: memory.zeros(what, (BATCH_WORDS * size_of::<u32>()) as u64, staging)?,
         })
     }
 
-    /// Changes a buffer, from the next submit on.
+    /// Applies a patch to a buffer, before the next submission.
     pub(crate) fn apply(
         &self,
         gpu: &Gpu,
         runner: &Runner,
         patch: &Patch,
         target: &DeviceBuffer,
-    ) -> Result<(), String> {
+    ) -> Result<(), DeviceError> {
         let what = "changes of the scene";
         let buffers = [&self.batch, &self.runs, &self.words, target];
-        let bindings: Bindings = self.kernel.bind(gpu, &buffers)?;
+        let bindings = self.kernel.bind(gpu, &buffers)?;
         let mut runs = patch.runs.as_slice();
         while let Some(first) = runs.first() {
             let fits = |run: &&Run| {
                 let words = (run.source + run.words - first.source) as usize;
-                words <= SENT_WORDS
+                words <= BATCH_WORDS
             };
-            let count = runs.iter().take(SENT_RUNS).take_while(fits).count();
+            let count = runs.iter().take(BATCH_RUNS).take_while(fits).count();
             let (sent, rest) = runs.split_at(count);
             let last = sent[count - 1];
             let words = first.source as usize..(last.source + last.words) as usize;
             let batch = [count as u32, first.source, 0, 0];
-            runner.set(what, &self.batch, &batch)?;
-            runner.set_all(what, &self.runs, sent)?;
-            runner.set_all(what, &self.words, &patch.words[words])?;
+            runner.write(what, &self.batch, &batch)?;
+            runner.write_at(what, &self.runs, 0, sent)?;
+            runner.write_at(what, &self.words, 0, &patch.words[words])?;
             let dispatch = Dispatch {
                 kernel: &self.kernel,
                 bindings: &bindings,
@@ -129,16 +138,16 @@ impl Patcher {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::testing::reflection::{assert_binds_what_it_is_given, assert_laid_out, members};
+    use crate::testing::reflection::{assert_bindings, assert_layout, members};
 
     #[test]
-    fn the_shader_is_what_it_is_taken_for() {
-        assert_binds_what_it_is_given(&PATCH);
-        assert_laid_out(&[&PATCH], "Run", &members!(Run: target_word, source, words));
+    fn shader_matches_the_rust_layout() {
+        assert_bindings(&PATCH);
+        assert_layout(&[&PATCH], "Run", &members!(Run: target_word, source, words));
     }
 
     #[test]
-    fn neighbors_become_one_run_up_to_its_most() {
+    fn merges_adjacent_words_up_to_the_run_limit() {
         let mut patch = Patch::default();
         for word in (0..100).chain(200..201) {
             patch.set(word, &7_u32);

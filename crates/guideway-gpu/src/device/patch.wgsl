@@ -1,10 +1,12 @@
-// One thread a run: copies new values to where they belong.
+// Scatters new values to their places in a buffer.
+//
+// Bindings: batch, runs, words -> target_words. One thread per run of adjacent words.
 
 override THREADS: u32;
 
 struct Batch {
     runs: u32,
-    // Where the words that are there begin among those of all batches.
+    // Index of the first bound word among the words of all batches.
     first_source: u32,
     padding: vec2u,
 }

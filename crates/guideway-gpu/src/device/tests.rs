@@ -3,7 +3,7 @@ use wgpu::BufferUsages;
 
 use super::*;
 
-/// The device, unless there is none: then the tests of the methods say so.
+/// An account on the device, if there is one. The tests of the methods report its absence.
 fn memory(memory_bytes: u64) -> Option<Memory> {
     let gpu = Gpu::new().ok()?;
     let budget = Budget {
@@ -14,28 +14,28 @@ fn memory(memory_bytes: u64) -> Option<Memory> {
 }
 
 #[test]
-fn what_is_dropped_may_be_held_again() {
+fn dropping_a_reservation_returns_its_bytes() {
     let Some(mut memory) = memory(1000) else {
         return;
     };
-    let held = memory.hold("one", 600).unwrap();
+    let reservation = memory.reserve("one", 600).unwrap();
     let buffer = memory.zeros("two", 400, BufferUsages::STORAGE).unwrap();
     assert_eq!((memory.held_bytes(), memory.spare_bytes()), (1000, 0));
     let Err(RenderError::Budget {
         what, needed_bytes, ..
-    }) = memory.hold("three", 1)
+    }) = memory.reserve("three", 1)
     else {
-        panic!("there is no room");
+        panic!("expected a budget error");
     };
     assert_eq!((what, needed_bytes), ("three", 1001));
-    drop(held);
+    drop(reservation);
     assert_eq!((memory.held_bytes(), buffer.bytes()), (400, 400));
     assert_eq!(memory.take_peak_bytes(), 1000);
     assert_eq!(memory.take_peak_bytes(), 400);
 }
 
 #[test]
-fn an_allocation_that_the_device_refuses_is_named() {
+fn names_the_allocation_that_the_device_refuses() {
     let Some(mut memory) = memory(u64::MAX) else {
         return;
     };
@@ -43,7 +43,7 @@ fn an_allocation_that_the_device_refuses_is_named() {
     let Err(RenderError::Device { what, .. }) =
         memory.zeros("the moon", too_much, BufferUsages::STORAGE)
     else {
-        panic!("nobody has so much");
+        panic!("expected a device error");
     };
     assert!(what.contains("the moon"), "{what}");
     assert_eq!(memory.held_bytes(), 0);
@@ -51,15 +51,18 @@ fn an_allocation_that_the_device_refuses_is_named() {
 }
 
 #[test]
-fn a_shader_that_does_not_compile_is_named() {
+fn names_the_shader_that_does_not_compile() {
     let Ok(gpu) = Gpu::new() else { return };
     let source = Source {
         name: "nonsense",
-        wgsl: "fn main() {",
+        wgsl: "fn main() {".into(),
         bindings: &[],
     };
-    let Err(message) = Kernel::new(&gpu, &source, &[]) else {
-        panic!("it is no shader");
+    let Err(error) = Kernel::new(&gpu, &source, &[]) else {
+        panic!("expected a shader error");
     };
-    assert!(message.contains("nonsense"), "{message}");
+    assert!(
+        matches!(&error, DeviceError::Shader { name, .. } if name == "nonsense"),
+        "{error}"
+    );
 }

@@ -1,116 +1,69 @@
-//! Every frame from the control points: curves become lines by an error bound, lines are listed by the tiles
-//! that they touch, and each tile finds which of its samples are covered. docs/method-gpu.md has the whole.
+//! GPU rasterizer: flattens curves to lines, bins them into 16 px tiles, and resolves 64 samples
+//! per pixel, every frame from the control points. docs/method-gpu.md describes the method.
 //!
-//! The folder in the order of the data: `pack` makes of the scene what the device reads, `store` holds it there, its
-//! points in `chunk`s, `places` knows where and `edit` changes it; `shot` is a view, `level` the scale and place that its
-//! lines are made for, `paint` how its tiles are painted, `window` a part of its picture, `twins` are the exact points of what it comes near to, `room` holds
-//! the lines that a frame finds, `canvas` its tiles and pixels, `bound` the work between them, `easel` all that a picture is
-//! made with; `draw` does it, in `rounds` where that saves work, `kept` is what it need not draw again, `touched` what it must after an edit; `prepared` answers
-//! for all of it, and `work` says what a frame takes.
+//! | stage | input | output | Rust, shaders |
+//! |---|---|---|---|
+//! | upload | scene, edits | clusters of strokes, control points, styles | `upload` |
+//! | cull | clusters, view | visible clusters | `frame`, `shaders/flatten` |
+//! | flatten | visible strokes | lines; number of lines per tile | `frame`, `shaders/flatten` |
+//! | bin | lines, counts | list of lines per tile, sorted or split | `frame`, `shaders/bin` |
+//! | cover | tile lists of one opaque color | pixels | `frame`, `shaders/cover` |
+//! | composite | tile lists of many colors | pixels | `frame`, `shaders/composite` |
+//! | cache | lines, pixels of the last frame | lines, pixels to reuse | `cache`, `shaders/cache` |
+//!
+//! `device_context` has the device handles of a scene, `prepared` routes renders and edits to these
+//! stages, `method` is the entry.
+//!
+//! # Clusters
+//!
+//! Paths are cut into strokes of at most 32 segments, sorted along the Hilbert curve, and grouped
+//! by 64. A cluster stores its points relative to an origin, quantized to 16 bits per axis if it is
+//! small beside the scene:
+//!
+//! ```text
+//!   high_m ...... +----------------------------+      point = origin + step_m * (x, y)
+//!                 |   ,-- stroke 0             |      x, y in -32768 ..= 32767
+//!                 |  o--o---o---o              |
+//!                 |          + origin   ,-o-o  |      The origin is split into two floats: the
+//!                 |       o--o--o------o  stroke 63   shader subtracts the view's center from it
+//!   low_m ....... +----------------------------+      without loss.
+//! ```
+//!
+//! Views so near that half a step would exceed 1/128 px draw exact points instead (`exact_points`).
+//!
+//! # Tiles and line blocks
+//!
+//! ```text
+//!   tile_lists[tile] = start..end          references             lines (3 words each)
+//!   +----+----+----+                      +---+---+---+---+      +------+-----+-----+------+-----+
+//!   | 0  | 1  | 2  |  tile 1: 2..4  --->  | 5 | 9 | 1 | 5 | ---> | head | l 1 | l 2 | head | ... |
+//!   +----+----+----+                      +---+---+---+---+      +------+-----+-----+------+-----+
+//!   | 3  | 4  | 5  |                                               |  block of one cluster    ^
+//!   +----+----+----+                      previous block <---------+--------------------------+
+//! ```
+//!
+//! Cached lines lie in blocks, one per cluster and workgroup. The head of a block links to the
+//! cluster's previous block, so that an edit finds and invalidates all lines of the cluster.
 
-mod bound;
-mod canvas;
-mod chunk;
-mod draw;
-mod easel;
-mod edit;
-mod kept;
+mod cache;
+mod constants;
+mod device_context;
+mod frame;
 mod kernels;
-mod level;
-mod pack;
-mod paint;
-mod params;
-mod places;
+mod layouts;
+mod list_limits;
+mod method;
+mod options;
+mod paint_mode;
 mod prepared;
-mod ranks;
-mod room;
-mod rounds;
 mod shaders;
-mod shot;
-mod store;
-mod touched;
-mod twins;
-mod window;
+mod upload;
 mod work;
 
-use std::sync::{Arc, OnceLock};
+pub use method::Tiles;
+pub use options::TilesOptions;
 
-use guideway_scene::Scene;
-use guideway_scene::{Budget, Method, MethodInfo, Prepared, RenderError};
-
-use crate::device::Gpu;
-use kernels::Kernels;
-use prepared::PreparedTiles;
-
-const NAME: &str = "gpu";
-
-/// The method `gpu`: compute shaders through wgpu. Nothing is prepared but the control points themselves.
-#[derive(Clone)]
-pub struct Tiles(Arc<Shared>);
-
-/// What may be done otherwise, for comparison.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct TilesOptions {
-    /// Whether lines and finished pixels are kept from frame to frame where they are still right.
-    pub keeps: bool,
-    /// Whether the device's clock tells the stages of a frame apart. The device comes to a stop for that, so frames take longer.
-    pub times_stages: bool,
-}
-
-impl Default for TilesOptions {
-    fn default() -> Self {
-        Self {
-            keeps: true,
-            times_stages: false,
-        }
-    }
-}
-
-/// What all scenes share.
-struct Shared {
-    gpu: Arc<Gpu>,
-    kernels: Arc<Kernels>,
-    /// Made when work is first counted.
-    counting_kernels: OnceLock<Result<Arc<Kernels>, String>>,
-    options: TilesOptions,
-}
-
-impl Tiles {
-    /// The method on a device.
-    ///
-    /// # Errors
-    /// When the device does not take the shaders: a sentence with its reason.
-    pub fn new(gpu: Arc<Gpu>, options: TilesOptions) -> Result<Self, String> {
-        Ok(Self(Arc::new(Shared {
-            kernels: Arc::new(Kernels::new(&gpu)?),
-            counting_kernels: OnceLock::new(),
-            gpu,
-            options,
-        })))
-    }
-}
-
-impl Method for Tiles {
-    fn info(&self) -> MethodInfo {
-        MethodInfo {
-            name: NAME,
-            summary: "Every frame from the control points, by tiles and 64 samples a pixel, with compute shaders",
-            device: self.0.gpu.adapter_name(),
-        }
-    }
-
-    fn prepare(
-        &self,
-        scene: Arc<Scene>,
-        budget: &Budget,
-    ) -> Result<Box<dyn Prepared>, RenderError> {
-        Ok(Box::new(PreparedTiles::new(
-            Arc::clone(&self.0),
-            scene,
-            budget,
-        )?))
-    }
-}
-
+#[cfg(test)]
+mod layout_tests;
 #[cfg(test)]
 mod tests;

@@ -1,202 +1,106 @@
-use std::collections::BTreeSet;
+//! A prepared scene: routes renders, edits and work counts to the stages.
+
 use std::sync::Arc;
 use std::time::Instant;
 
 use guideway_scene::{
-    Budget, Cancel, EditOutcome, Frame, Preparation, Prepared, RenderError, Report, Shading, Stage,
-    Style, View, Work, density, elapsed_ms,
+    Budget, Cancel, Edit, Edited, Frame, Preparation, Prepared, RenderError, Report, Scene,
+    Shading, Stage, Style, View, Work, density, elapsed_ms,
 };
-use guideway_scene::{Edit, Scene};
 
-use super::draw::Drawing;
-use super::easel::Easel;
+use super::device_context::{DeviceContext, device_error};
+use super::frame::context::FrameContext;
+use super::frame::draw::{count_drawn_paths, draw_picture};
+use super::frame::renderer::{DrawResult, Renderer};
+use super::frame::target::TargetState;
 use super::kernels::Kernels;
-use super::pack::{Packed, Packing};
-use super::paint::Paint;
-use super::params::Found;
-use super::places::Places;
-use super::ranks::Ranks;
-use super::shot::Shot;
-use super::store::{Store, all_parts, is_plain};
-use super::{NAME, Shared};
-use crate::device::{DeviceBuffer, FETCHED, Memory, Patcher, Runner};
+use super::options::{NAME, Shared};
+use super::paint_mode::PaintMode;
+use super::upload::edit::{self, EditOutcome};
+use super::upload::pack::Packing;
+use super::upload::scene_buffers::SceneBuffers;
+use super::upload::uploaded_scene::UploadedScene;
 
-/// A scene on the device, and the buffers of the last frame.
-pub(super) struct PreparedTiles {
-    pub(super) shared: Arc<Shared>,
-    pub(super) kernels: Arc<Kernels>,
-    pub(super) scene: Arc<Scene>,
-    pub(super) memory: Memory,
-    pub(super) runner: Runner,
-    /// None if nothing is drawn.
-    pub(super) store: Option<Store>,
-    pub(super) found_fetched: DeviceBuffer,
-    pub(super) facts: Facts,
-    pub(super) packing: Packing,
-    /// Paths of several strokes, which the device does not count.
-    pub(super) parted: BTreeSet<u32>,
-    /// Where paths are; found out when one changes.
-    pub(super) places: Option<Places>,
-    pub(super) patcher: Option<Patcher>,
-    pub(super) easel: Easel,
-    /// Whether a change did not come to its end, so that paths may be missing from the store.
-    pub(super) is_torn: bool,
+/// A scene on the device, and the state of its last picture.
+pub(crate) struct PreparedTiles {
+    shared: Arc<Shared>,
+    pub(crate) device: DeviceContext,
+    pub(crate) scene: UploadedScene,
+    pub(crate) target: TargetState,
     preparation: Preparation,
 }
 
-/// What the processor needs to know of the scene in every frame.
-#[derive(Clone, Copy)]
-pub(super) struct Facts {
-    pub(super) clusters: u32,
-    pub(super) styles: u32,
-    /// Greatest distance of a control point from its cluster's origin, along an axis.
-    pub(super) reach_m: f64,
-    /// The largest steps that points of a cluster are rounded to.
-    pub(super) greatest_step_m: f32,
-    /// The greatest width that a path has of its own.
-    pub(super) widest_m: Option<f32>,
-    /// One color, and no widths.
-    pub(super) is_plain: bool,
-    pub(super) paint: Paint,
-}
-
-impl Facts {
-    /// What of it says how all of a picture is drawn.
-    pub(super) fn looks(&self) -> (Paint, bool, Option<f32>) {
-        (self.paint, self.is_plain, self.widest_m)
-    }
-
-    fn of(scene: &Scene) -> Self {
-        let drawn = scene.draw_order().iter();
-        let widths = drawn.filter_map(|&path| scene.width_m(path));
-        Self {
-            clusters: 0,
-            styles: 0,
-            reach_m: 0.0,
-            greatest_step_m: 0.0,
-            widest_m: widths.reduce(f32::max),
-            is_plain: is_plain(scene),
-            paint: Paint::of(scene),
-        }
-    }
-}
-
 impl PreparedTiles {
-    pub(super) fn new(
+    pub(crate) fn new(
         shared: Arc<Shared>,
         scene: Arc<Scene>,
         budget: &Budget,
     ) -> Result<Self, RenderError> {
-        let mut memory = Memory::new(Arc::clone(&shared.gpu), NAME, budget);
-        let runner = Runner::new(Arc::clone(&shared.gpu), &mut memory)?;
-        let found_bytes = size_of::<Found>() as u64;
-        let found_fetched = memory.zeros("the counters", found_bytes, FETCHED)?;
-        let easel = Easel {
-            keeps: shared.options.keeps,
-            ..Easel::default()
-        };
         let mut prepared = Self {
-            facts: Facts::of(&scene),
-            packing: Packing::of(&scene),
-            parted: BTreeSet::new(),
-            places: None,
-            patcher: None,
-            kernels: Arc::clone(&shared.kernels),
+            device: DeviceContext::new(Arc::clone(&shared.gpu), budget)?,
+            target: TargetState {
+                reuses_frames: shared.options.reuses_frames,
+                ..TargetState::default()
+            },
+            scene: UploadedScene::new(scene),
             shared,
-            scene,
             preparation: Preparation::default(),
-            memory,
-            runner,
-            store: None,
-            found_fetched,
-            easel,
-            is_torn: false,
         };
-        prepared.bring(prepared.packing)?;
+        prepared.upload(prepared.scene.packing)?;
         Ok(prepared)
     }
 
-    /// Brings the scene to the device, in place of what is there.
-    pub(super) fn bring(&mut self, packing: Packing) -> Result<(), RenderError> {
-        (self.store, self.places) = (None, None);
-        self.packing = packing;
-        self.is_torn = true;
-        self.unbind();
-        self.easel.forget();
-        self.facts = Facts::of(&self.scene);
-        let start = Instant::now();
-        let ranks = Ranks::of(&self.scene);
-        let parts = all_parts(&self.scene, &ranks);
-        self.parted = parts
-            .iter()
-            .filter(|p| !p.is_whole)
-            .map(|p| p.path)
-            .collect();
-        let packed = Packed::of(&self.scene, parts, packing);
-        let facts = &mut self.facts;
-        for cluster in &packed.clusters {
-            facts.reach_m = facts.reach_m.max(f64::from(cluster.reach_m()));
-            facts.greatest_step_m = facts.greatest_step_m.max(cluster.step_m);
-        }
-        let packed_ms = elapsed_ms(start);
-        let start = Instant::now();
-        let gpu = &self.shared.gpu;
-        self.store = Store::new(gpu, &mut self.memory, &self.scene, packed, ranks)?;
-        if let Some(store) = &self.store {
-            self.facts.clusters = store.cluster_list.len() as u32;
-            self.facts.styles = store.style_count;
-        }
-        self.set_chunks()?;
+    /// Uploads the scene, in place of its earlier buffers.
+    pub(crate) fn upload(&mut self, packing: Packing) -> Result<(), RenderError> {
+        self.target.drop_bindings();
+        self.target.drop_caches();
+        let stages = self.scene.upload(&mut self.device, packing)?;
         self.preparation = Preparation {
-            stages: vec![
-                Stage::host("pack", packed_ms),
-                Stage::host("upload", elapsed_ms(start)),
-            ],
-            held_bytes: self.memory.held_bytes(),
-            peak_bytes: self.memory.take_peak_bytes(),
+            stages,
+            held_bytes: self.device.memory.held_bytes(),
+            peak_bytes: self.device.memory.take_peak_bytes(),
             ..Preparation::default()
         };
-        self.is_torn = false;
         Ok(())
     }
 
-    /// Makes good a change that did not come to its end. Nothing is drawn before.
-    pub(super) fn mend(&mut self) -> Result<(), RenderError> {
-        if self.is_torn {
-            self.bring(Packing::of(&self.scene))
+    /// Uploads the scene again if an upload or an edit failed halfway.
+    fn recover(&mut self) -> Result<(), RenderError> {
+        if self.scene.is_incomplete {
+            self.upload(Packing::of(&self.scene.scene))
         } else {
             Ok(())
         }
     }
 
-    /// Tells the device which clusters each chunk has.
-    pub(super) fn set_chunks(&self) -> Result<(), RenderError> {
-        for chunk in self.store.iter().flat_map(Store::all_chunks) {
-            for (params, round) in chunk.params.iter().zip(0..) {
-                let set = self
-                    .runner
-                    .set("the clusters", params, &chunk.params_of(round));
-                set.map_err(|what| self.memory.trouble(what))?;
-            }
-        }
-        Ok(())
-    }
-
-    /// After colors, widths or states have changed.
-    pub(super) fn look_anew(&mut self) {
-        let facts = Facts::of(&self.scene);
-        self.facts = Facts {
-            clusters: self.facts.clusters,
-            styles: self.facts.styles,
-            reach_m: self.facts.reach_m,
-            greatest_step_m: self.facts.greatest_step_m,
-            ..facts
+    fn draw(
+        &mut self,
+        kernels: &Kernels,
+        frame: &FrameContext<'_>,
+        paint: PaintMode,
+        cancel: &Cancel,
+        take: impl FnMut(std::ops::Range<usize>, &[u8]),
+    ) -> Result<DrawResult, RenderError> {
+        let mut renderer = Renderer {
+            device: &mut self.device,
+            kernels,
+            scene: &mut self.scene,
+            target: &mut self.target,
+            times_stages: self.shared.options.times_stages,
         };
+        draw_picture(&mut renderer, frame, paint, cancel, take)
     }
 
-    /// After a buffer of the scene has become another.
-    pub(super) fn unbind(&mut self) {
-        self.easel.unbind();
+    fn prepare_target(
+        &mut self,
+        frame: &FrameContext<'_>,
+        paint: PaintMode,
+    ) -> Result<(), RenderError> {
+        let strokes = self.scene.stroke_count();
+        let has_ranks = frame.needs_ranks(paint);
+        let kernels = &self.shared.kernels;
+        self.target
+            .prepare(&mut self.device, kernels, frame.view, strokes, has_ranks)
     }
 }
 
@@ -208,31 +112,28 @@ impl Prepared for PreparedTiles {
         cancel: &Cancel,
         frame: &mut Frame,
     ) -> Result<Report, RenderError> {
-        self.mend()?;
-        let scene = Arc::clone(&self.scene);
-        let shot = Shot::new(view, style, &scene, self.facts)?;
+        self.recover()?;
+        let scene = Arc::clone(&self.scene.scene);
+        let context = FrameContext::new(view, style, &scene, self.scene.facts)?;
         let size = view.size();
         frame.resize(size);
         let mut counts = Vec::new();
         if style.shading != Shading::Color {
             counts.resize(size.pixels(), 0.0_f32);
         }
-        let mut drawing = Drawing::default();
-        if self.store.is_none() {
+        let mut result = DrawResult::default();
+        if self.scene.buffers.is_none() {
             let background = style.background;
             let pixel = [background.r, background.g, background.b, background.a];
             frame.pixels_mut().fill(pixel);
         } else {
-            let strokes = self
-                .store
-                .as_ref()
-                .map_or(0, |s| s.stroke_list.len() as u32);
             let paint = match style.shading {
-                Shading::Color => self.facts.paint,
-                Shading::Density(_) => Paint::Density,
+                Shading::Color => self.scene.facts.paint,
+                Shading::Density(_) => PaintMode::Density,
             };
-            self.make_ready(view, strokes, shot.needs_ranks(paint))?;
-            drawing = self.draw_all(&shot, paint, cancel, |pixels, bytes| {
+            self.prepare_target(&context, paint)?;
+            let kernels = Arc::clone(&self.shared.kernels);
+            result = self.draw(&kernels, &context, paint, cancel, |pixels, bytes| {
                 let words = bytes.as_chunks().0;
                 if counts.is_empty() {
                     frame.pixels_mut()[pixels].copy_from_slice(words);
@@ -246,32 +147,77 @@ impl Prepared for PreparedTiles {
         if let Shading::Density(tone) = style.shading {
             let start = Instant::now();
             density::shade(&counts, tone, style.background, frame);
-            drawing.stages.push(Stage::host("shade", elapsed_ms(start)));
+            result.stages.push(Stage::host("shade", elapsed_ms(start)));
         }
-        let drawn = self.count_drawn(&shot, &drawing);
+        let drawn = count_drawn_paths(&self.scene, &context, &result);
         Ok(Report {
-            lines: drawing.lines,
-            stages: drawing.stages,
-            peak_bytes: self.memory.take_peak_bytes(),
-            bands: drawing.windows.max(1),
+            lines: result.lines,
+            stages: result.stages,
+            peak_bytes: self.device.memory.take_peak_bytes(),
+            bands: result.windows.max(1),
             ..Report::of(NAME, &scene, drawn)
         })
     }
 
-    fn edit(&mut self, edit: &Edit) -> Result<EditOutcome, RenderError> {
-        self.change(edit)
+    fn edit(&mut self, edit: &Edit) -> Result<Edited, RenderError> {
+        let outcome = edit::apply(&mut self.scene, &mut self.device, edit)?;
+        let EditOutcome::Applied(effect) = outcome else {
+            self.upload(Packing::of(&self.scene.scene))?;
+            let bytes = |buffers: &SceneBuffers| {
+                let points = buffers.point_buffers.iter().map(|b| b.points.bytes());
+                let lists = [&buffers.strokes, &buffers.clusters, &buffers.styles];
+                points.sum::<u64>() + lists.map(|b| b.bytes()).iter().sum::<u64>()
+            };
+            return Ok(Edited::InPlace {
+                moved_bytes: self.scene.buffers.as_ref().map_or(0, bytes),
+            });
+        };
+        if effect.changes_appearance {
+            self.target.picture = None;
+        }
+        if let Some(buffers) = &self.scene.buffers {
+            self.target.mark_dirty(&effect.dirty, &buffers.cluster_list);
+        }
+        if effect.loses_lines {
+            self.target.cached_lines = None;
+        }
+        if effect.replaces_buffers {
+            self.target.drop_bindings();
+        }
+        Ok(Edited::InPlace {
+            moved_bytes: effect.moved_bytes,
+        })
     }
 
     fn preparation(&self) -> &Preparation {
         &self.preparation
     }
 
+    /// Counts the work of a picture drawn without caches. Density is not counted.
     fn count_work(
         &mut self,
         view: &View,
         style: &Style,
         cancel: &Cancel,
     ) -> Result<Work, RenderError> {
-        self.counted(view, style, cancel)
+        self.recover()?;
+        let paint = self.scene.facts.paint;
+        if style.shading != Shading::Color || self.scene.buffers.is_none() {
+            return Ok(Work::default());
+        }
+        let counting = self.shared.counting_kernels().map_err(device_error)?;
+        let scene = Arc::clone(&self.scene.scene);
+        let context = FrameContext::new(view, style, &scene, self.scene.facts)?;
+        self.prepare_target(&context, paint)?;
+        self.target.picture = None;
+        self.target.drop_bindings();
+        let reuses_frames = std::mem::replace(&mut self.target.reuses_frames, false);
+        // The first picture finds out how few clusters the view shows: the last view may differ.
+        let result = self
+            .draw(&counting, &context, paint, cancel, |_, _| ())
+            .and_then(|_| self.draw(&counting, &context, paint, cancel, |_, _| ()));
+        self.target.reuses_frames = reuses_frames;
+        self.target.drop_bindings();
+        Ok(result?.work.work())
     }
 }

@@ -1,54 +1,49 @@
-//! What must hold on any device, and for any limits that it has. Whole pictures are compared with the
-//! oracle's in `tests/tests/device_methods.rs`.
+//! Properties that hold on any device and for any of its limits. `tests/tests/device_methods.rs`
+//! compares whole pictures with the oracle.
 
 use std::sync::{Arc, LazyLock};
 
 use guideway_layout::{Layout, NewPath, OwnStyle};
 use guideway_scene::{
-    Budget, Cancel, Frame, FrameSize, Method, Prepared, Report, Shading, Style, View,
-    density::ToneMap,
+    Budget, Cancel, Frame, FrameSize, LineRule, Method, Prepared, RenderError, Report, Scene,
+    SceneOptions, Shading, Style, View, density::ToneMap,
 };
-use guideway_scene::{LineRule, Scene, SceneOptions};
 use guideway_spline::{Point, Runs};
 
-use super::room::{Room, Size};
+use super::frame::capacity::Capacity;
+use super::frame::line_buffers::LineBuffers;
+use super::prepared::PreparedTiles;
 use super::*;
-use crate::GpuOptions;
-use crate::testing::here;
+use crate::device::Gpu;
+use crate::testing::device_or_skip;
+use crate::{DeviceError, GpuOptions};
 
 mod colors;
-mod crowds;
 mod edits;
-mod levels;
-mod twins;
+mod exact_points;
+mod line_cache;
+mod long_lists;
 mod work;
 
-/// The method of all tests here, for its shaders take long to compile; none where there is no device.
-static TILES: LazyLock<Result<Tiles, String>> = LazyLock::new(|| Tiles::new(Gpu::new()?, OPTIONS));
+/// The method of all tests: compiling its shaders takes long.
+static TILES: LazyLock<Result<Tiles, DeviceError>> =
+    LazyLock::new(|| Tiles::new(Gpu::new()?, OPTIONS));
 
-/// Tests see by its stages how a frame was drawn.
+/// Stage names show how a frame was drawn.
 const OPTIONS: TilesOptions = TilesOptions {
-    keeps: true,
+    reuses_frames: true,
     times_stages: true,
 };
 
 fn tiles() -> Option<Tiles> {
-    here(&TILES)
+    device_or_skip(&TILES)
 }
 
 fn limited(options: GpuOptions) -> Tiles {
     Tiles::new(Gpu::with_options(options).unwrap(), OPTIONS).unwrap()
 }
 
-/// With the kernels of graphics hardware: a processor may have others.
-fn as_hardware() -> Tiles {
-    limited(GpuOptions {
-        as_hardware: true,
-        ..GpuOptions::default()
-    })
-}
-
-/// Bent paths of two segments, each `reach_m` long, over 100 m x 60 m.
+/// Bent paths of two segments, each about `reach_m` long, spread over 100 m x 60 m.
 fn layout(paths: u32, reach_m: f64) -> Layout {
     let mut layout = Layout::default();
     for path in 0..paths {
@@ -71,7 +66,6 @@ fn layout(paths: u32, reach_m: f64) -> Layout {
     layout
 }
 
-/// Adds a path.
 fn add(layout: &mut Layout, runs: &Runs) -> usize {
     layout.paths.push(&NewPath {
         runs,
@@ -84,7 +78,7 @@ fn plain(paths: u32, reach_m: f64) -> Arc<Scene> {
     Arc::new(Scene::new(layout, &SceneOptions::default()).unwrap())
 }
 
-/// Each path with a color, some with a width, a few translucent.
+/// A color for each path, a width for some; a few are translucent.
 fn mixed(paths: u32, reach_m: f64) -> Arc<Scene> {
     let mut layout = layout(paths, reach_m);
     for path in 0..paths {
@@ -127,7 +121,7 @@ fn picture(prepared: &mut dyn Prepared, view: &View, style: &Style) -> (Frame, R
 }
 
 #[test]
-fn the_limits_of_a_device_change_no_bit() {
+fn device_limits_do_not_change_the_picture() {
     let Some(tiles) = tiles() else { return };
     let small = limited(GpuOptions {
         storage_binding_bytes: Some(64 << 10),
@@ -138,18 +132,17 @@ fn the_limits_of_a_device_change_no_bit() {
         ..GpuOptions::default()
     });
     let checked = limited(GpuOptions {
-        has_checked_shaders: true,
+        checks_shaders: true,
         ..GpuOptions::default()
     });
-    let apart = limited(GpuOptions {
-        without_lanes: true,
+    let without_subgroups = limited(GpuOptions {
+        without_subgroups: true,
         ..GpuOptions::default()
     });
-    let shared = limited(GpuOptions {
-        longest_alone: Some(60),
+    let split = limited(GpuOptions {
+        max_unsplit_list: Some(60),
         ..GpuOptions::default()
     });
-    let hardware = as_hardware();
     for (scene, shading) in [
         (plain(3000, 8.0), Shading::Color),
         (mixed(3000, 8.0), Shading::Color),
@@ -163,9 +156,8 @@ fn the_limits_of_a_device_change_no_bit() {
             ("small", &small, true),
             ("narrow", &narrow, false),
             ("checked", &checked, false),
-            ("apart", &apart, false),
-            ("shared", &shared, false),
-            ("hardware", &hardware, false),
+            ("without subgroups", &without_subgroups, false),
+            ("split", &split, false),
         ] {
             let mut prepared = prepared(device, &scene);
             for _ in 0..2 {
@@ -178,7 +170,7 @@ fn the_limits_of_a_device_change_no_bit() {
 }
 
 #[test]
-fn a_small_budget_draws_the_same_in_more_windows() {
+fn small_budget_draws_the_same_picture_in_more_windows() {
     let Some(tiles) = tiles() else { return };
     let scene = mixed(3000, 8.0);
     let (expected, report) = picture(&mut prepared(&tiles, &scene), &all(), &Style::default());
@@ -196,7 +188,7 @@ fn a_small_budget_draws_the_same_in_more_windows() {
 }
 
 #[test]
-fn strokes_whose_ends_cannot_be_told_are_refused_by_name() {
+fn rejects_strokes_too_wide_for_the_line_format() {
     let Some(tiles) = tiles() else { return };
     let mut prepared = prepared(&tiles, &plain(30, 3.0));
     let wide = |width_m| Style {
@@ -207,7 +199,7 @@ fn strokes_whose_ends_cannot_be_told_are_refused_by_name() {
         },
         ..Style::default()
     };
-    // All is below a stroke of a million pixels, and one of three million is too much.
+    // A stroke of a million pixels covers everything; three million exceed the limit.
     let (frame, _) = picture(&mut prepared, &all(), &wide(5e5));
     let first = frame.pixels()[0];
     assert!(frame.pixels().iter().all(|&pixel| pixel == first) && first != [0xff; 4]);
@@ -218,25 +210,27 @@ fn strokes_whose_ends_cannot_be_told_are_refused_by_name() {
 }
 
 #[test]
-fn a_change_that_was_broken_off_is_made_good_before_anything_is_drawn() {
+fn uploads_the_scene_again_after_a_failed_edit() {
     let Some(tiles) = tiles() else { return };
     let scene = plain(300, 2.0);
-    let mut torn = prepared(&tiles, &scene);
+    let mut failed = prepared(&tiles, &scene);
     let style = Style::default();
-    let (expected, _) = picture(&mut torn, &all(), &style);
-    (torn.store, torn.places, torn.is_torn) = (None, None, true);
-    let (drawn, report) = picture(&mut torn, &all(), &style);
+    let (expected, _) = picture(&mut failed, &all(), &style);
+    failed.scene.buffers = None;
+    failed.scene.path_strokes = None;
+    failed.scene.is_incomplete = true;
+    let (drawn, report) = picture(&mut failed, &all(), &style);
     assert!(drawn == expected && report.drawn > 0);
 }
 
 #[test]
-fn a_picture_moved_by_whole_pixels_is_that_of_the_view() {
+fn scrolled_picture_equals_the_drawn_one() {
     let Some(tiles) = tiles() else { return };
     for scene in [plain(2000, 4.0), mixed(2000, 4.0)] {
         let style = Style::default();
-        let mut kept = prepared(&tiles, &scene);
-        picture(&mut kept, &all(), &style);
-        let mut moves = 0;
+        let mut cached = prepared(&tiles, &scene);
+        picture(&mut cached, &all(), &style);
+        let mut scrolls = 0;
         for [x_px, y_px] in [
             [5.0, 0.0],
             [12.0, -20.0],
@@ -245,17 +239,17 @@ fn a_picture_moved_by_whole_pixels_is_that_of_the_view() {
             [0.5, 0.0],
         ] {
             let moved = view([50.0 + x_px / 2.0, 30.0 + y_px / 2.0], 2.0);
-            let (frame, report) = picture(&mut kept, &moved, &style);
+            let (frame, report) = picture(&mut cached, &moved, &style);
             let (expected, _) = picture(&mut prepared(&tiles, &scene), &moved, &style);
-            // Rounding differs by the place in the picture: a sample here and there.
+            // Rounding depends on the place in the picture: single samples differ.
             let worst = frame.pixels().iter().zip(expected.pixels()).map(|(a, b)| {
                 let channels = a.iter().zip(b).map(|(a, b)| a.abs_diff(*b));
                 channels.max().unwrap_or(0)
             });
             assert!(worst.max().unwrap_or(0) <= 8, "{x_px} {y_px}");
-            moves += usize::from(report.stages.iter().any(|stage| stage.name == "move"));
+            scrolls += usize::from(report.stages.iter().any(|stage| stage.name == "scroll"));
         }
-        // Not the one out of sight of the one before, nor the one by half a pixel.
-        assert_eq!(moves, 4);
+        // All but the one by half a pixel.
+        assert_eq!(scrolls, 4);
     }
 }

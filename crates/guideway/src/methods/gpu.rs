@@ -1,97 +1,91 @@
-//! The methods by compute shaders: `gpu` and `grid`.
-
 use std::sync::{Arc, LazyLock};
 
-use guideway_gpu::{Gpu, Tiles, TilesOptions};
+use guideway_gpu::{DeviceError, Gpu, Tiles, TilesOptions};
 use guideway_grid::{Grid, GridOptions};
 use guideway_scene::Method;
 
-use super::entry::{Entry, MethodOption, StartError};
+use super::{Entry, MethodOption, Stop};
 
 pub(super) const TILES: Entry = Entry {
     name: "gpu",
-    summary: "Compute shaders, each frame from the control points; a color and a width per path",
+    summary: "Every frame from the control points, by compute shaders; every path its own color and width",
     options: &[
         MethodOption {
             name: "rebuild",
-            summary: "renders each frame from scratch, to measure the gain of reuse",
+            summary: "keeps nothing from frame to frame, to measure what that costs",
         },
         MethodOption {
             name: "stages",
-            summary: "measures each stage of a frame; the device waits between stages",
+            summary: "tells how long each stage of a frame takes, for which the device stops between them",
         },
     ],
     is_general: true,
     start: |options| {
-        let mut selected = TilesOptions::default();
+        let mut asked = TilesOptions::default();
         for option in options.split('+').filter(|option| !option.is_empty()) {
             match option {
-                "rebuild" => selected.keeps = false,
-                "stages" => selected.times_stages = true,
+                "rebuild" => asked.reuses_frames = false,
+                "stages" => asked.times_stages = true,
                 _ => {
-                    let problem = format!("unknown option `{option}`; known are: rebuild, stages");
-                    return Err(StartError::Options(problem));
+                    let what = format!("there is no option `{option}`; there are: rebuild, stages");
+                    return Err(Stop::Options(what));
                 }
             }
         }
-        let device = DEVICE
-            .as_ref()
-            .map_err(|why| StartError::Unavailable(why.clone()))?;
-        let tiles = Tiles::new(Arc::clone(device), selected);
-        Ok(Box::new(tiles.map_err(StartError::Unavailable)?))
+        let device = DEVICE.as_ref().map_err(|error| Stop::Missing(error.to_string()))?;
+        let tiles = Tiles::new(Arc::clone(device), asked);
+        Ok(Box::new(tiles.map_err(|error| Stop::Missing(error.to_string()))?))
     },
 };
 
 pub(super) const GRID: Entry = Entry {
     name: "grid",
-    summary: "Thesis 4.3: tests each pixel against the lines of its grid cell; one color",
+    summary: "The thesis' test of every pixel against the lines of its cell; one color",
     options: &[
         MethodOption {
             name: "scan",
-            summary: "prefix sum of linear cost instead of the quadratic one of the thesis",
+            summary: "prefix sum in linear work, not the quadratic one as written",
         },
         MethodOption {
             name: "radius",
-            summary: "lists lines in every cell under their stroke, so that no border cuts them",
+            summary: "lines are listed in every cell that they cover: none is cut at a border",
         },
         MethodOption {
             name: "exit",
-            summary: "stops testing a pixel once it is fully covered",
+            summary: "a pixel stops once it is fully covered",
         },
         MethodOption {
             name: "aa=none",
-            summary: "no antialiasing",
+            summary: "hard edges, not smooth ones",
         },
         MethodOption {
             name: "aa=subpixel",
-            summary: "32 samples per pixel",
+            summary: "32 sub-samples a pixel",
         },
         MethodOption {
             name: "samples=5",
-            summary: "samples per segment, 10 in the thesis",
+            summary: "samples a segment, 10 as written",
         },
         MethodOption {
             name: "cells=256",
-            summary: "cells per side of the grid, 128 in the thesis",
+            summary: "cells a side of the grid, 128 as written",
         },
     ],
     is_general: false,
     start,
 };
 
-/// Whether the graphics device is hardware, not a software implementation.
+/// Whether there is a graphics device that is more than a program on the processor.
 pub(super) fn is_in_hardware() -> bool {
     DEVICE.as_ref().is_ok_and(|device| !device.is_software())
 }
 
-/// Opened once for all methods and options.
-static DEVICE: LazyLock<Result<Arc<Gpu>, String>> = LazyLock::new(Gpu::new);
+/// Opened once, for all methods and options.
+static DEVICE: LazyLock<Result<Arc<Gpu>, DeviceError>> = LazyLock::new(Gpu::new);
 
-fn start(options: &str) -> Result<Box<dyn Method>, StartError> {
-    let options = GridOptions::parse(options).map_err(StartError::Options)?;
-    let device = DEVICE
-        .as_ref()
-        .map_err(|why| StartError::Unavailable(why.clone()))?;
-    let grid = Grid::new(Arc::clone(device), options).map_err(StartError::Unavailable)?;
+fn start(options: &str) -> Result<Box<dyn Method>, Stop> {
+    let options = GridOptions::parse(options).map_err(Stop::Options)?;
+    let device = DEVICE.as_ref().map_err(|error| Stop::Missing(error.to_string()))?;
+    let grid = Grid::new(Arc::clone(device), options).map_err(Stop::Missing)?;
     Ok(Box::new(grid))
 }

@@ -3,9 +3,7 @@
 use naga::TypeInner;
 
 use super::*;
-use guideway_gpu::testing::reflection::{
-    assert_binds_what_it_is_given, assert_laid_out, members, parse,
-};
+use guideway_gpu::testing::reflection::{assert_bindings, assert_layout, members, parse};
 
 const SHADERS: &[&Source] = &[
     &SAMPLE,
@@ -22,20 +20,20 @@ const SHADERS: &[&Source] = &[
 #[test]
 fn every_shader_binds_what_it_is_given() {
     for source in SHADERS {
-        assert_binds_what_it_is_given(source);
+        assert_bindings(source);
     }
 }
 
 #[test]
 fn uniforms_are_laid_out_alike() {
     let items = members!(Items: first, end, first_part, end_part);
-    assert_laid_out(SHADERS, "Items", &items);
+    assert_layout(SHADERS, "Items", &items);
     let grid = members!(GridParams: origin_m, cells_per_m, reach_m);
-    assert_laid_out(SHADERS, "Grid", &grid);
+    assert_layout(SHADERS, "Grid", &grid);
     let view = members!(ViewParams: center_m, half_size_px, box_low_m, box_high_m, excess_m, m_per_px,
         px_per_m, radius_m, color, background, width_px, first_row, rows, first_tile, end_tile,
         first_cell_row, end_cell_row, first_line, end_line, is_first_pass, is_last_pass);
-    assert_laid_out(SHADERS, "View", &view);
+    assert_layout(SHADERS, "View", &view);
 }
 
 #[test]

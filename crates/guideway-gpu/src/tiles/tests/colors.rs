@@ -1,8 +1,8 @@
-//! Opaque paths in many colors: what lies on top is seen, however long the lists and whatever the ranks.
+//! Opaque paths in many colors: the topmost path is visible for any list length and any ranks.
 
 use super::*;
 
-/// Paths with a color each, opaque, and some with a width.
+/// An opaque color for each path, a width for some.
 fn colored(mut layout: Layout) -> Layout {
     for path in 0..layout.paths.len() as u32 {
         let style = OwnStyle {
@@ -22,8 +22,8 @@ pub(super) fn opaque(layout: Layout) -> Arc<Scene> {
     scene(colored(layout))
 }
 
-/// A path that goes up and down very often, within a few meters, below some others and above most.
-fn crowded_by_one() -> Layout {
+/// One path fills a few meters with very many segments, below some paths and above most.
+fn dominated_by_one_path() -> Layout {
     let mut layout = layout(200, 6.0);
     let control: Vec<_> = (0..2000)
         .map(|i| {
@@ -46,15 +46,15 @@ fn crowded_by_one() -> Layout {
     layout
 }
 
-/// Where one path, out of sight, is translucent, lists are sorted as a whole and drawn by another kernel.
+/// A translucent path out of sight makes the method sort whole lists and use another kernel.
 #[test]
-fn they_are_drawn_as_if_lists_were_sorted_as_a_whole() {
+fn batches_draw_the_same_as_sorted_lists() {
     let Some(tiles) = tiles() else { return };
     let far = view([50.0, 30.0], 0.5);
     for (name, layout, view) in [
         ("short lists", layout(600, 6.0), all()),
         ("long lists", layout(6000, 8.0), far),
-        ("one path in most of a list", crowded_by_one(), all()),
+        ("one path in most of a list", dominated_by_one_path(), all()),
     ] {
         let layout = colored(layout);
         let mut beside = layout.clone();
@@ -73,7 +73,7 @@ fn they_are_drawn_as_if_lists_were_sorted_as_a_whole() {
             };
             let (frame, _) = picture(&mut prepared(&tiles, &scene(layout.clone())), &view, &style);
             let (other, _) = picture(&mut prepared(&tiles, &scene(beside.clone())), &view, &style);
-            // Points are rounded otherwise where a scene is larger: a sample here and there.
+            // A larger scene has larger quantization steps: single samples differ.
             let pairs = frame.pixels().iter().zip(other.pixels());
             let differ = pairs.filter(|(a, b)| (0..3).any(|i| a[i].abs_diff(b[i]) > 8));
             let (differ, drawn) = (differ.count(), view.size().pixels());

@@ -1,4 +1,4 @@
-//! What is kept over edits: lines of clusters and parts of pictures that they do not touch.
+//! Edits keep cached lines of other clusters, and cached tiles that they do not touch.
 
 use guideway_layout::Geometry;
 use guideway_scene::{Edit, Insertion, PathState};
@@ -6,40 +6,40 @@ use guideway_spline::Affine;
 
 use super::*;
 
-/// A scene drawn with all that is kept, and the same with the same history that keeps nothing.
+/// A scene drawn with caches, and the same scene with the same history drawn without.
 struct Pair {
-    kept: PreparedTiles,
-    anew: PreparedTiles,
+    cached: PreparedTiles,
+    uncached: PreparedTiles,
     style: Style,
 }
 
 impl Pair {
     fn new(tiles: &Tiles, scene: &Arc<Scene>, style: Style) -> Self {
-        let mut anew = prepared(tiles, scene);
-        anew.easel.keeps = false;
+        let mut uncached = prepared(tiles, scene);
+        uncached.target.reuses_frames = false;
         Self {
-            kept: prepared(tiles, scene),
-            anew,
+            cached: prepared(tiles, scene),
+            uncached,
             style,
         }
     }
 
     fn edit(&mut self, edit: &Edit) {
-        for prepared in [&mut self.kept, &mut self.anew] {
+        for prepared in [&mut self.cached, &mut self.uncached] {
             prepared.edit(edit).unwrap();
         }
     }
 
-    /// The picture, the same by both, and what is said of it by the one that keeps something.
+    /// Draws both, asserts equal pictures, and returns the report of the one with caches.
     #[track_caller]
     fn check(&mut self, view: &View) -> (Frame, Report) {
-        if let Some(store) = &mut self.kept.store {
-            let known = store.whole_paths.clone();
-            store.count_whole_paths(0..known.len());
-            assert_eq!(store.whole_paths, known);
+        if let Some(buffers) = &mut self.cached.scene.buffers {
+            let known = buffers.whole_paths.clone();
+            buffers.count_whole_paths(0..known.len());
+            assert_eq!(buffers.whole_paths, known);
         }
-        let (frame, report) = picture(&mut self.kept, view, &self.style);
-        let (expected, _) = picture(&mut self.anew, view, &self.style);
+        let (frame, report) = picture(&mut self.cached, view, &self.style);
+        let (expected, _) = picture(&mut self.uncached, view, &self.style);
         let wrong = frame.pixels().iter().zip(expected.pixels());
         let wrong = wrong.filter(|(a, b)| a != b).count();
         assert_eq!(wrong, 0, "wrong pixels of {view:?}");
@@ -51,7 +51,7 @@ fn has_stage(report: &Report, name: &str) -> bool {
     report.stages.iter().any(|stage| stage.name == name)
 }
 
-/// Rows of paths whose first point is nearest to a place.
+/// Rows of the paths whose hull center is nearest to a place.
 fn nearest(scene: &Scene, place: [f64; 2], count: usize) -> Arc<[u32]> {
     let place = Point::new(place[0], place[1]);
     let mut rows: Vec<u32> = scene.draw_order().to_vec();
@@ -77,7 +77,8 @@ fn insertion(points: &[[f64; 2]], width_m: Option<f32>) -> Insertion {
     }
 }
 
-/// Edits of few paths each, all about the middle: moved a little and far, of more points, hidden, shown, removed, inserted.
+/// Edits of few paths each, near the center: small and large moves, more points, hide, show,
+/// remove, insert.
 fn edits(scene: &Scene) -> Vec<Edit> {
     let some = |place, count| nearest(scene, place, count);
     let by = |x, y| Affine::translation(Point::new(x, y));
@@ -119,7 +120,7 @@ fn edits(scene: &Scene) -> Vec<Edit> {
 }
 
 #[test]
-fn an_edit_leaves_the_lines_of_what_it_does_not_touch() {
+fn edit_refreshes_only_the_lines_of_its_clusters() {
     let Some(tiles) = tiles() else { return };
     let density = style(Shading::Density(ToneMap::Log));
     for (scene, style, has_few) in [
@@ -130,76 +131,77 @@ fn an_edit_leaves_the_lines_of_what_it_does_not_touch() {
     ] {
         let mut pair = Pair::new(&tiles, &scene, style);
         let view = |step: usize| view([50.0, 30.0], 3.0 + 0.01 * step as f64);
-        // The first frame may try to make do with less room, and then keeps no lines: that depends on what is hidden by chance.
+        // The first frame may enable occlusion, and then caches no lines.
         for step in 0..2 {
-            // Made by one workgroup a cluster, or by several.
-            pair.kept.easel.has_few = has_few;
+            // Flattened by one workgroup per cluster, or by several.
+            pair.cached.target.has_few_clusters = has_few;
             pair.check(&view(step));
         }
-        let mut struck = 0;
+        let mut refreshed = 0;
         for (edit, step) in edits(&scene).iter().zip(1..) {
-            // Views of one level, never the one before, so that no part of a picture is kept.
+            // Views of one LOD, never the previous view, so that no picture is reused.
             let (before, report) = pair.check(&view(2 * step));
-            assert!(!has_stage(&report, "strike"));
+            assert!(!has_stage(&report, "invalidate"));
             pair.edit(edit);
             let (after, report) = pair.check(&view(2 * step + 1));
             assert!(before != after);
-            struck += usize::from(has_stage(&report, "strike"));
-            assert!(!has_stage(&report, "cull") || !has_stage(&report, "strike"));
+            refreshed += usize::from(has_stage(&report, "invalidate"));
+            assert!(!has_stage(&report, "cull") || !has_stage(&report, "invalidate"));
         }
-        assert!(struck >= 6, "{struck}");
-        // Two edits, and a view of another level.
+        assert!(refreshed >= 6, "{refreshed}");
+        // Two edits, and a view of another LOD in between.
         let [first, second] = [0, 7].map(|i| edits(&scene)[i].clone());
         pair.edit(&first);
-        let nearer = super::view([50.0, 30.0], 9.0);
         pair.edit(&second);
-        assert!(has_stage(&pair.check(&view(30)).1, "strike"));
+        assert!(has_stage(&pair.check(&view(30)).1, "invalidate"));
         pair.edit(&first);
+        let nearer = super::view([50.0, 30.0], 9.0);
         pair.check(&nearer);
         pair.check(&view(31));
     }
 }
 
 #[test]
-fn lines_are_made_anew_once_many_are_others() {
+fn flattens_all_lines_once_many_have_changed() {
     let Some(tiles) = tiles() else { return };
     let scene = plain(6000, 4.0);
     let mut pair = Pair::new(&tiles, &scene, Style::default());
-    // With room for all that is added.
-    let room = Size {
+    // Capacity for all added lines.
+    let capacity = Capacity {
         lines: 1 << 18,
         references: 1 << 20,
         has_ranks: false,
     };
-    pair.kept.easel.room = Some(Room::new(&mut pair.kept.memory, room).unwrap());
+    pair.cached.target.lines =
+        Some(LineBuffers::new(&mut pair.cached.device.memory, capacity).unwrap());
     let view = |step: u32| view([50.0, 30.0], 3.0 + 0.005 * f64::from(step));
     pair.check(&view(0));
-    let to_and_fro = |step: u32| Edit::Transform {
+    let back_and_forth = |step: u32| Edit::Transform {
         paths: nearest(&scene, [50.0, 30.0], 60),
         by: Affine::translation(Point::new(
             if step.is_multiple_of(2) { 0.3 } else { -0.3 },
             0.0,
         )),
     };
-    let mut anew = Vec::new();
+    let mut full_passes = Vec::new();
     for step in 1..20 {
-        pair.edit(&to_and_fro(step));
+        pair.edit(&back_and_forth(step));
         if has_stage(&pair.check(&view(step)).1, "cull") {
-            anew.push(step);
+            full_passes.push(step);
         }
     }
-    assert!((1..10).contains(&anew.len()), "{anew:?}");
-    // More than a quarter at once.
+    assert!((1..10).contains(&full_passes.len()), "{full_passes:?}");
+    // More than a quarter of the clusters at once.
     pair.edit(&Edit::Transform {
         paths: (0..6000).step_by(3).collect(),
         by: Affine::translation(Point::new(0.1, 0.2)),
     });
     let (_, report) = pair.check(&view(20));
-    assert!(has_stage(&report, "cull") && !has_stage(&report, "strike"));
+    assert!(has_stage(&report, "cull") && !has_stage(&report, "invalidate"));
 }
 
 #[test]
-fn an_edit_of_a_view_that_stays_draws_the_tiles_that_it_touches() {
+fn edit_redraws_only_the_tiles_that_it_touches() {
     let Some(tiles) = tiles() else { return };
     let density = style(Shading::Density(ToneMap::Log));
     let narrow = limited(GpuOptions {
@@ -208,22 +210,23 @@ fn an_edit_of_a_view_that_stays_draws_the_tiles_that_it_touches() {
     });
     let size = FrameSize::new(420, 260).unwrap();
     let here = View::new(size, Point::new(50.0, 30.0), 4.0).unwrap();
-    for (tiles, scene, style, has_room) in [
+    for (tiles, scene, style, has_space) in [
         (&tiles, plain(6000, 1.0), Style::default(), true),
         (&tiles, mixed(6000, 1.0), Style::default(), true),
         (&tiles, plain(6000, 1.0), density, true),
-        // Where there is no room behind the lines that are kept, and where the picture is not held at once.
+        // No space behind the cached lines; and buffers that hold only a part of the picture.
         (&tiles, mixed(6000, 1.0), Style::default(), false),
         (&narrow, mixed(6000, 1.0), Style::default(), false),
     ] {
         let mut pair = Pair::new(tiles, &scene, style);
-        if has_room {
-            let room = Size {
+        if has_space {
+            let capacity = Capacity {
                 lines: 1 << 18,
                 references: 1 << 20,
                 has_ranks: true,
             };
-            pair.kept.easel.room = Some(Room::new(&mut pair.kept.memory, room).unwrap());
+            pair.cached.target.lines =
+                Some(LineBuffers::new(&mut pair.cached.device.memory, capacity).unwrap());
         }
         let (mut before, whole) = pair.check(&here);
         let nearer = View::new(size, Point::new(50.0, 30.0), 4.01).unwrap();
@@ -235,26 +238,26 @@ fn an_edit_of_a_view_that_stays_draws_the_tiles_that_it_touches() {
             parts += usize::from(2 * report.lines < whole.lines);
             before = after;
             if step.is_multiple_of(3) {
-                // Lines were kept all the time, but for what was touched.
-                let is_renewed = has_stage(&pair.check(&nearer).1, "strike");
+                // Cached lines survived, but for those of edited clusters.
+                let is_renewed = has_stage(&pair.check(&nearer).1, "invalidate");
                 pair.check(&here);
                 renewed += usize::from(is_renewed);
             }
         }
         assert!(
-            (parts >= 6 && renewed > 0) || !has_room,
+            (parts >= 6 && renewed > 0) || !has_space,
             "{parts} {renewed}"
         );
-        // Out of sight nothing is drawn.
+        // An edit out of sight draws nothing.
         let aside = View::new(size, Point::new(10.0, 10.0), 20.0).unwrap();
         pair.check(&aside);
         pair.edit(&edits(&scene)[0]);
-        assert!(pair.check(&aside).1.lines == 0 || !has_room);
+        assert!(pair.check(&aside).1.lines == 0 || !has_space);
     }
 }
 
 #[test]
-fn what_changes_the_looks_of_all_draws_all_anew() {
+fn change_of_appearance_redraws_all() {
     let Some(tiles) = tiles() else { return };
     let scene = plain(3000, 2.0);
     let mut pair = Pair::new(&tiles, &scene, Style::default());
@@ -282,27 +285,27 @@ fn what_changes_the_looks_of_all_draws_all_anew() {
 }
 
 #[test]
-fn a_picture_that_was_edited_can_be_moved() {
+fn scrolls_an_edited_picture() {
     let Some(tiles) = tiles() else { return };
     let scene = mixed(3000, 2.0);
-    let mut kept = prepared(&tiles, &scene);
+    let mut cached = prepared(&tiles, &scene);
     let style = Style::default();
-    picture(&mut kept, &all(), &style);
+    picture(&mut cached, &all(), &style);
     for (edit, step) in edits(&scene).iter().zip(1..) {
-        kept.edit(edit).unwrap();
+        cached.edit(edit).unwrap();
         let moved = view(
             [50.0 + 2.5 * f64::from(step % 3), 30.0 - f64::from(step)],
             2.0,
         );
-        let (frame, report) = picture(&mut kept, &moved, &style);
-        assert!(has_stage(&report, "move"), "{edit:?}");
-        let mut anew = prepared(&tiles, &scene);
-        anew.easel.keeps = false;
+        let (frame, report) = picture(&mut cached, &moved, &style);
+        assert!(has_stage(&report, "scroll"), "{edit:?}");
+        let mut uncached = prepared(&tiles, &scene);
+        uncached.target.reuses_frames = false;
         for edit in edits(&scene)[..step as usize].iter() {
-            anew.edit(edit).unwrap();
+            uncached.edit(edit).unwrap();
         }
-        let (expected, _) = picture(&mut anew, &moved, &style);
-        // Rounding differs by the place in the picture: a sample here and there.
+        let (expected, _) = picture(&mut uncached, &moved, &style);
+        // Rounding depends on the place in the picture: single samples differ.
         let worst = frame
             .pixels()
             .iter()

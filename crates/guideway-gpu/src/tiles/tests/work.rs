@@ -1,11 +1,12 @@
-//! What a frame takes is counted to the last word, and timed.
+//! Counts of work are exact, and stages are timed.
 
 use guideway_scene::{Stage, Work};
 
 use super::*;
 
-/// Level lines within one tile of 14 x 9, where 10 px are a meter; if they have colors, each another one.
-fn level_lines(count: usize, color_rgba: Option<u32>) -> Arc<Scene> {
+/// Horizontal lines within one tile of 14 x 9, at 10 px per meter; in different colors if given
+/// one.
+fn horizontal_lines(count: usize, color_rgba: Option<u32>) -> Arc<Scene> {
     let mut layout = Layout::default();
     let mut runs = Runs::default();
     runs.push_line(Point::new(2.2, 9.0), Point::new(2.8, 9.0));
@@ -20,7 +21,7 @@ fn level_lines(count: usize, color_rgba: Option<u32>) -> Arc<Scene> {
     Arc::new(Scene::new(Arc::new(layout), &SceneOptions::default()).unwrap())
 }
 
-/// 4 px there.
+/// 4 px wide at 10 px per meter.
 fn wide() -> Style {
     Style {
         line_rule: LineRule::World {
@@ -32,39 +33,34 @@ fn wide() -> Style {
     }
 }
 
-/// Fails unless the kernels of this device count as many tests and words written.
+/// Asserts that the method counts as many tests and words written.
 #[track_caller]
-fn assert_alike_here(
-    work: &Work,
-    tiles: &Tiles,
-    scene: &Arc<Scene>,
-    (view, style): (&View, &Style),
-) {
-    let mut here = prepared(tiles, scene);
-    let here = here.count_work(view, style, &Cancel::default()).unwrap();
+fn assert_counts(work: &Work, tiles: &Tiles, scene: &Arc<Scene>, (view, style): (&View, &Style)) {
+    let mut other = prepared(tiles, scene);
+    let counted = other.count_work(view, style, &Cancel::default());
+    let counted = counted.unwrap();
     assert_eq!(
-        (here.tests, here.bytes_written),
+        (counted.tests, counted.bytes_written),
         (work.tests, work.bytes_written)
     );
 }
 
 #[test]
-fn work_is_counted_exactly() {
+fn counts_work_of_one_color_exactly() {
     let Some(tiles) = tiles() else { return };
-    let hardware = as_hardware();
     let style = wide();
     let view = view([10.5, 6.5], 10.0);
     for lines in [1, 2] {
-        let scene = level_lines(lines, None);
-        let mut prepared = prepared(&hardware, &scene);
+        let scene = horizontal_lines(lines, None);
+        let mut prepared = prepared(&tiles, &scene);
         let mut count = || prepared.count_work(&view, &style, &Cancel::default());
         let work = count().unwrap();
-        assert_alike_here(&work, &tiles, &scene, (&view, &style));
         let n = lines as u64;
-        assert_eq!(work.tests, Some(n * 4 * u64::from(params::SAMPLE_ROWS)));
-        // The cluster and its paths; a line a workgroup; references and the longest list; a line in its tile; the list.
+        assert_eq!(work.tests, Some(n * 4 * u64::from(constants::SAMPLE_ROWS)));
+        // The cluster and its paths; per line its block, its tile count and its reference; the
+        // total of references and the longest list; the list entry.
         assert_eq!(work.atomics, Some(2 + n + 2 + n + 1));
-        // The cluster, a line, three words a tile, references, pixels.
+        // The cluster, three words per line and per tile, references, pixels.
         let words = 1 + n * 3 + 3 * 14 * 9 + n + 210 * 130;
         assert_eq!(work.bytes_written, Some(4 * words));
         assert!(work.bytes_read > Some(n * 4 * 6));
@@ -78,26 +74,24 @@ fn work_is_counted_exactly() {
 }
 
 #[test]
-fn work_of_opaque_paths_is_counted_alike_by_teams_and_by_rows() {
+fn counts_equal_work_with_and_without_subgroups() {
     let Some(tiles) = tiles() else { return };
-    let teams = as_hardware();
-    let rows = limited(GpuOptions {
-        without_lanes: true,
+    let without_subgroups = limited(GpuOptions {
+        without_subgroups: true,
         ..GpuOptions::default()
     });
     let view = view([10.5, 6.5], 10.0);
     for lines in [2, 3] {
-        let scene = level_lines(lines, Some(0x1020_30ff));
-        let mut prepared = prepared(&teams, &scene);
+        let scene = horizontal_lines(lines, Some(0x1020_30ff));
+        let mut prepared = prepared(&tiles, &scene);
         let mut count = || prepared.count_work(&view, &wide(), &Cancel::default());
         let work = count().unwrap();
-        assert_alike_here(&work, &tiles, &scene, (&view, &wide()));
-        assert_alike_here(&work, &rows, &scene, (&view, &wide()));
+        assert_counts(&work, &without_subgroups, &scene, (&view, &wide()));
         let n = lines as u64;
-        assert_eq!(work.tests, Some(n * 4 * u64::from(params::SAMPLE_ROWS)));
-        // As of one color, and how long the one tile took.
+        assert_eq!(work.tests, Some(n * 4 * u64::from(constants::SAMPLE_ROWS)));
+        // As for one color, and the loop count of the tile.
         assert_eq!(work.atomics, Some(5 + 2 * n + 1));
-        // As of one color; the rank of a line.
+        // As for one color; the rank of each line.
         let words = 1 + n * 3 + 3 * 14 * 9 + n + 210 * 130 + n;
         assert_eq!(work.bytes_written, Some(4 * words));
         assert_eq!(count().unwrap(), work);
@@ -105,29 +99,27 @@ fn work_of_opaque_paths_is_counted_alike_by_teams_and_by_rows() {
 }
 
 #[test]
-fn work_of_translucent_paths_is_counted_exactly() {
+fn counts_work_of_translucent_paths_exactly() {
     let Some(tiles) = tiles() else { return };
-    let hardware = as_hardware();
     let view = view([10.5, 6.5], 10.0);
     let mut read = Vec::new();
     for lines in [1, 2] {
-        let scene = level_lines(lines, Some(0x1020_3080));
-        let mut prepared = prepared(&hardware, &scene);
+        let scene = horizontal_lines(lines, Some(0x1020_3080));
+        let mut prepared = prepared(&tiles, &scene);
         let mut count = || prepared.count_work(&view, &wide(), &Cancel::default());
         let work = count().unwrap();
-        assert_alike_here(&work, &tiles, &scene, (&view, &wide()));
         let n = lines as u64;
-        assert_eq!(work.tests, Some(n * 4 * u64::from(params::SAMPLE_ROWS)));
-        // As of one color, and how long the one tile took.
+        assert_eq!(work.tests, Some(n * 4 * u64::from(constants::SAMPLE_ROWS)));
+        // As for one color, and the loop count of the tile.
         assert_eq!(work.atomics, Some(5 + 2 * n + 1));
-        // As of one color; the rank of a line; a list that is brought into order.
+        // As for one color; the rank of each line; a sorted list.
         let sorted = if n > 1 { n } else { 0 };
         let words = 1 + n * 3 + 3 * 14 * 9 + n + 210 * 130 + n + sorted;
         assert_eq!(work.bytes_written, Some(4 * words));
         read.push(work.bytes_read);
         assert_eq!(count().unwrap(), work);
     }
-    // Sorting reads a rank by its reference for each, and the references again.
+    // Sorting reads each rank by its reference, and the references again.
     assert!(read[1] >= read[0].map(|bytes| bytes + 4 * 2 * 3));
     let mut mixed = prepared(&tiles, &mixed(30, 3.0));
     let work = mixed.count_work(&all(), &wide(), &Cancel::default());
@@ -141,7 +133,7 @@ fn work_of_translucent_paths_is_counted_exactly() {
 }
 
 #[test]
-fn stages_are_told_apart_where_that_is_asked_for_and_change_no_bit() {
+fn timing_stages_does_not_change_the_picture() {
     let Some(tiles) = tiles() else { return };
     let whole = Tiles::new(Arc::clone(&tiles.0.gpu), TilesOptions::default()).unwrap();
     let (scene, style) = (plain(300, 4.0), Style::default());
@@ -161,8 +153,8 @@ fn stages_are_told_apart_where_that_is_asked_for_and_change_no_bit() {
         [
             "cull",
             "flatten",
-            "starts",
-            "list",
+            "offsets",
+            "bin",
             "cover",
             Stage::READ_BACK
         ]

@@ -1,0 +1,54 @@
+//! The device as the stages of a frame use it: memory account, submissions, counters.
+
+use std::sync::Arc;
+
+use guideway_scene::{Budget, RenderError};
+
+use super::layouts::FrameCounters;
+use super::options::NAME;
+use crate::device::{DeviceBuffer, DeviceError, Gpu, Memory, READBACK_USAGE, Runner};
+
+/// Device handles of one prepared scene.
+pub(crate) struct DeviceContext {
+    pub(crate) gpu: Arc<Gpu>,
+    pub(crate) memory: Memory,
+    pub(crate) runner: Runner,
+    counters_readback: DeviceBuffer,
+}
+
+impl DeviceContext {
+    pub(crate) fn new(gpu: Arc<Gpu>, budget: &Budget) -> Result<Self, RenderError> {
+        let mut memory = Memory::new(Arc::clone(&gpu), NAME, budget);
+        let runner = Runner::new(Arc::clone(&gpu), &mut memory)?;
+        let bytes = size_of::<FrameCounters>() as u64;
+        let counters_readback = memory.zeros("the counters", bytes, READBACK_USAGE)?;
+        Ok(Self {
+            gpu,
+            memory,
+            runner,
+            counters_readback,
+        })
+    }
+
+    /// Reads the counters of the last window back.
+    pub(crate) fn fetch_counters(
+        &self,
+        buffer: &DeviceBuffer,
+    ) -> Result<FrameCounters, RenderError> {
+        let mut counters = FrameCounters::default();
+        let fetched = self.runner.fetch(
+            "the counters",
+            buffer,
+            &self.counters_readback,
+            size_of::<FrameCounters>() as u64,
+            |bytes| bytemuck::bytes_of_mut(&mut counters).copy_from_slice(bytes),
+        );
+        fetched.map_err(device_error)?;
+        Ok(counters)
+    }
+}
+
+/// Converts an error of the device to one of method `gpu`.
+pub(crate) fn device_error(error: DeviceError) -> RenderError {
+    error.of_method(NAME)
+}

@@ -1,0 +1,168 @@
+// Composites the tiles of translucent paths front to back, or counts paths per pixel (density).
+// Lists are in falling draw rank, so that strokes of one path are adjacent: the samples of a path
+// are gathered first, then composited once.
+//
+// Bindings: frame, tile_lists, references, lines, line_ranks, styles -> pixels, counters. One
+// workgroup per tile; a thread owns one sample row and writes one pixel.
+
+// import: composite/row_lists.wgsl
+// import: composite/loop_count.wgsl
+// import: shared/tile.wgsl
+// import: shared/blend.wgsl
+
+// True if pixels hold path counts instead of colors.
+override IS_DENSITY: bool;
+
+var<workgroup> capsules: array<Capsule, BATCH_LINES>;
+var<workgroup> ranks: array<u32, BATCH_LINES>;
+var<workgroup> colors: array<u32, BATCH_LINES>;
+// Red, green, blue and opacity sums per pixel.
+var<workgroup> sums: array<atomic<u32>, THREADS * 4>;
+
+@group(0) @binding(7) var<storage, read_write> counters: CounterBuffer;
+
+// Transmittance of each sample of this thread's row.
+var<private> transmittance: array<f32, ROW_WORDS * 32>;
+
+// Fixed-point steps of one sample in a sum.
+const SUM_STEPS: f32 = 256.0;
+
+fn add_color(pixel: u32, color: u32, samples: f32) {
+    let parts = vec4u(vec4f(channels(color).rgb, 255.0) * samples * SUM_STEPS + 0.5);
+    for (var channel = 0u; channel < 4u; channel++) {
+        atomicAdd(&sums[pixel * 4u + channel], parts[channel]);
+    }
+}
+
+// Multiplies the transmittance of samples by 1 - opacity. Returns how much it falls.
+fn take_transmittance(first_sample: u32, bits: u32, opacity: f32) -> f32 {
+    loops += countOneBits(bits);
+    var taken = 0.0;
+    for (var left = bits; left != 0u; left &= left - 1u) {
+        let sample = first_sample + firstTrailingBit(left);
+        let part = transmittance[sample] * opacity;
+        taken += part;
+        transmittance[sample] -= part;
+    }
+    return taken;
+}
+
+// Composites the gathered samples of a path below all before, and starts the next path.
+fn composite_path(row: u32, color: u32, gathered: ptr<function, SampleRow>) {
+    let opacity = f32(color >> 24u) / 255.0;
+    let first_pixel = (row / SAMPLE_ROWS) * TILE_PX;
+    for (var word = 0u; word < ROW_WORDS; word++) {
+        loops++;
+        let all = (*gathered)[word];
+        let fresh = select(all & ~covered[word], all, IS_DENSITY);
+        (*gathered)[word] = 0u;
+        for (var left = fresh; left != 0u;) {
+            loops++;
+            let of_word = firstTrailingBit(left) / SAMPLES_PER_ROW;
+            let bits = pixel_bits(left, of_word);
+            left &= ~(bits << (of_word * SAMPLES_PER_ROW));
+            let pixel = first_pixel + word * PIXELS_PER_WORD + of_word;
+            if IS_DENSITY {
+                atomicAdd(&sums[pixel * 4u], countOneBits(bits));
+            } else {
+                let first_sample = word * 32u + of_word * SAMPLES_PER_ROW;
+                add_color(pixel, color, take_transmittance(first_sample, bits, opacity));
+            }
+        }
+        if !IS_DENSITY && opacity >= 1.0 {
+            covered[word] |= fresh;
+        }
+    }
+}
+
+// Loads lines, and lists each for the pixel rows in which it may be visible.
+fn load_batch(tile: Tile, thread: u32, first: u32, end: u32) {
+    clear_row_lists(thread);
+    if thread < BATCH_LINES && first + thread < end {
+        let capsule = capsule_of_reference(tile, first + thread);
+        let rank = line_ranks[references[first + thread]];
+        count_reads(2u);
+        capsules[thread] = capsule;
+        ranks[thread] = rank;
+        colors[thread] = style_of(rank).color;
+        insert_line(thread, capsule);
+    }
+    workgroupBarrier();
+}
+
+@compute @workgroup_size(THREADS)
+fn main(
+    @builtin(workgroup_id) id: vec3u,
+    @builtin(num_workgroups) count: vec3u,
+    @builtin(local_invocation_index) thread: u32,
+) {
+    let index = workgroup_index(id, count);
+    if index >= frame.columns * frame.rows {
+        return;
+    }
+    let tile = tile_of(index);
+    let list = tile_list(index);
+    if thread == 0u {
+        count_reads(2u);
+    }
+    if list.x >= list.y {
+        write_pixel(tile, thread, select(frame.background, 0u, IS_DENSITY));
+        report_work();
+        return;
+    }
+    for (var channel = 0u; channel < 4u; channel++) {
+        atomicStore(&sums[thread * 4u + channel], 0u);
+    }
+    begin_loop_count(thread);
+    init_open_pixels(tile, thread);
+    covered = outside_picture(tile, thread);
+    if !IS_DENSITY {
+        for (var i = 0u; i < ROW_WORDS * 32u; i++) {
+            transmittance[i] = 1.0;
+            loops++;
+        }
+    }
+    workgroupBarrier();
+    var rank = 0xffffffffu;
+    var color = 0u;
+    var gathered: SampleRow;
+    for (var first = list.x; first < list.y; first += BATCH_LINES) {
+        load_batch(tile, thread, first, list.y);
+        // Of loading lines and closing pixels.
+        loops += 1u + BATCH_WORDS + 3u * TILE_PX;
+        for (var word = 0u; word < BATCH_WORDS; word++) {
+            var left = lines_of_pixel_row(thread, word);
+            for (; left != 0u; left &= left - 1u) {
+                loops += 1u + ROW_WORDS;
+                let line = word * 32u + firstTrailingBit(left);
+                if ranks[line] != rank {
+                    composite_path(thread, color, &gathered);
+                    rank = ranks[line];
+                    color = colors[line];
+                }
+                cover(&gathered, capsules[line], thread);
+            }
+        }
+        if IS_DENSITY {
+            workgroupBarrier();
+        } else if !close_pixels(thread) {
+            break;
+        }
+    }
+    composite_path(thread, color, &gathered);
+    fold_loop_count();
+    workgroupBarrier();
+    report_loop_count(thread);
+    let samples = f32(SAMPLE_ROWS * SAMPLES_PER_ROW);
+    var sum: vec4u;
+    for (var channel = 0u; channel < 4u; channel++) {
+        sum[channel] = atomicLoad(&sums[thread * 4u + channel]);
+    }
+    if IS_DENSITY {
+        write_pixel(tile, thread, bitcast<u32>(f32(sum.x) / samples));
+    } else {
+        let shares = vec4f(sum) / (samples * SUM_STEPS);
+        write_pixel(tile, thread, over_background(shares.rgb, shares.a / 255.0));
+    }
+    report_work();
+}

@@ -1,0 +1,40 @@
+// Line format: four 24-bit coordinates in three words, fixed-point in LOD pixels. All stages of a
+// frame and later frames of the same LOD read the same words. The importing shader binds
+// `lines: array<u32>`.
+//
+//     word 0: x1 (bits 0-22)  bits 0-7   of y2 (bits 24-31)
+//     word 1: y1 (bits 0-22)  bits 8-15  of y2 (bits 24-31)
+//     word 2: x2 (bits 0-22)  bits 16-22 of y2 (bits 24-30)
+
+// import: shared/frame.wgsl
+// import: shared/work.wgsl
+
+const LINE_WORDS: u32 = 3u;
+// First word of a culled line. No other line has bit 23 set.
+const NO_LINE: u32 = 0xffffffffu;
+// 2^23: from here on floats are whole numbers, and their low bits are those of the number.
+const WHOLE: f32 = 8388608.0;
+// The step at the center of the LOD.
+const MIDDLE: f32 = 4194304.0;
+
+fn packed_line(line: vec4f) -> vec3u {
+    let steps = clamp(line * frame.steps_per_px + MIDDLE, vec4f(0.0), vec4f(WHOLE - 1.0));
+    let bits = bitcast<vec4u>(steps + WHOLE) & vec4u(0x7fffffu);
+    return bits.xyz | ((vec3u(bits.w) << vec3u(24u, 16u, 8u)) & vec3u(0xff000000u));
+}
+
+// Returns a line in picture pixels. One fma, because a compiler could round separate operations
+// differently in different kernels, and counted tiles must equal listed tiles.
+fn line_of(words: vec3u) -> vec4f {
+    let high = words >> vec3u(24u);
+    let last = high.x | (high.y << 8u) | (high.z << 16u);
+    let bits = vec4u(words & vec3u(0x7fffffu), last) | vec4u(0x4b000000u);
+    let steps = bitcast<vec4f>(bits) - (WHOLE + MIDDLE);
+    return fma(steps, vec4f(frame.px_per_step), frame.lod_origin_px.xyxy);
+}
+
+fn words_of_line(line: u32) -> vec3u {
+    count_reads(LINE_WORDS);
+    let first = line * LINE_WORDS;
+    return vec3u(lines[first], lines[first + 1u], lines[first + 2u]);
+}

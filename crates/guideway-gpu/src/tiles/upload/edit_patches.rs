@@ -1,0 +1,105 @@
+//! Collects the changes of an edit as patches of scene buffers, and sends them.
+
+use std::collections::BTreeMap;
+
+use guideway_scene::RenderError;
+
+use super::scene_buffers::SceneBuffers;
+use crate::device::{DeviceBuffer, Patch, Patcher};
+use crate::tiles::device_context::{DeviceContext, device_error};
+use crate::tiles::layouts::{Cluster, Stroke};
+use guideway_scene::cluster::DirtyClusters;
+
+const STROKE_WORDS: usize = size_of::<Stroke>() / 4;
+const CLUSTER_WORDS: usize = size_of::<Cluster>() / 4;
+
+/// A buffer of a scene.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Target {
+    /// The point buffer with this index.
+    Points(usize),
+    /// The cache of exact points.
+    ExactPoints,
+    Strokes,
+    Clusters,
+    Styles,
+}
+
+/// Changes of an edit.
+#[derive(Default)]
+pub(crate) struct EditPatches {
+    points: BTreeMap<Target, Patch>,
+    /// Changed strokes.
+    pub(crate) strokes: Vec<u32>,
+    /// Changed cluster entries.
+    pub(crate) clusters: DirtyClusters,
+    /// Clusters with changed curves.
+    pub(crate) dirty: DirtyClusters,
+    /// Finished patches.
+    pub(crate) other: Vec<(Target, Patch)>,
+}
+
+impl EditPatches {
+    /// Sets points of a buffer from index `first_point` on.
+    pub(crate) fn set_points<T: bytemuck::NoUninit>(
+        &mut self,
+        target: Target,
+        first_point: u32,
+        points: impl Iterator<Item = T>,
+    ) {
+        let patch = self.points.entry(target).or_default();
+        let words = size_of::<T>() / size_of::<u32>();
+        for (point, index) in points.zip(first_point as usize..) {
+            patch.set(index * words, &point);
+        }
+    }
+
+    /// Sends all patches, but for strokes and clusters if these were uploaded anew. Returns the
+    /// bytes sent, without those of `other`.
+    pub(crate) fn send(
+        &self,
+        buffers: &SceneBuffers,
+        patcher: &mut Option<Patcher>,
+        device: &mut DeviceContext,
+        is_uploaded: bool,
+    ) -> Result<u64, RenderError> {
+        let (mut strokes, mut clusters) = (Patch::default(), Patch::default());
+        if !is_uploaded {
+            for &stroke in &self.strokes {
+                let index = stroke as usize;
+                strokes.set(index * STROKE_WORDS, &buffers.stroke_list[index]);
+            }
+            for cluster in self.clusters.iter() {
+                clusters.set(cluster * CLUSTER_WORDS, &buffers.cluster_list[cluster]);
+            }
+        }
+        let mut patches = vec![(Target::Strokes, &strokes), (Target::Clusters, &clusters)];
+        let points = self.points.iter();
+        patches.extend(points.map(|(&target, patch)| (target, patch)));
+        let bytes = patches.iter().map(|(_, patch)| patch.bytes()).sum();
+        patches.extend(self.other.iter().map(|(target, patch)| (*target, patch)));
+        let patcher = match patcher {
+            Some(patcher) => patcher,
+            none => none.insert(Patcher::new(&device.gpu, &mut device.memory)?),
+        };
+        for (target, patch) in patches {
+            if let Some(buffer) = target.buffer(buffers) {
+                let sent = patcher.apply(&device.gpu, &device.runner, patch, buffer);
+                sent.map_err(device_error)?;
+            }
+        }
+        Ok(bytes)
+    }
+}
+
+impl Target {
+    fn buffer(self, buffers: &SceneBuffers) -> Option<&DeviceBuffer> {
+        Some(match self {
+            Self::Points(index) => &buffers.point_buffers[index].points,
+            Self::ExactPoints => &buffers.exact_points.as_ref()?.buffer.points,
+            Self::Strokes => &buffers.strokes,
+            Self::Clusters => &buffers.clusters,
+            Self::Styles => &buffers.styles,
+        })
+    }
+}

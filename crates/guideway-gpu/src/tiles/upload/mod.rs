@@ -1,0 +1,27 @@
+//! Uploads a scene to the device, and applies edits in place.
+//!
+//! | file | what it does |
+//! |---|---|
+//! | `path_parts` | cuts paths into strokes |
+//! | `cluster`, `pack` | groups neighboring strokes to clusters; quantizes their points |
+//! | `draw_ranks`, `facts` | draw ranks of paths; scene properties that each frame needs |
+//! | `point_buffer`, `scene_buffers` | the buffers of a scene, as many as binding limits require |
+//! | `exact_points` | exact points of near clusters, uploaded on demand |
+//! | `path_strokes` | finds the strokes of a path, for edits |
+//! | `uploaded_scene` | the scene and all of the above |
+//! | `near_upload` | uploads exact points of near clusters |
+//! | `edit`, `edit_patches` | applies an edit; `dirty_clusters` are the clusters it changes |
+
+pub(crate) mod cluster;
+pub(crate) mod draw_ranks;
+pub(crate) mod edit;
+mod edit_patches;
+pub(crate) mod exact_points;
+pub(crate) mod facts;
+pub(crate) mod near_upload;
+pub(crate) mod pack;
+pub(crate) mod path_parts;
+pub(crate) mod path_strokes;
+pub(crate) mod point_buffer;
+pub(crate) mod scene_buffers;
+pub(crate) mod uploaded_scene;

@@ -1,0 +1,152 @@
+//! Packs path parts for the device: sorts them by the Hilbert curve, groups 64 to a cluster, and
+//! quantizes the points of clusters that are small beside the scene.
+
+use guideway_layout::Layout;
+use guideway_scene::{Rgba, Scene};
+use guideway_spline::{Bounds, Point, hilbert};
+
+use super::cluster::ClusterOrigin;
+use super::path_parts::PathPart;
+use crate::tiles::constants::CLUSTER_STROKES;
+use crate::tiles::layouts::{Cluster, PathStyle, PointFormat, Stroke};
+
+/// Steps per scene size, at least. Derived: a view of the whole scene shows the rounding only if it
+/// is wider than 16,384 pixels.
+const STEPS_PER_SCENE: f64 = (1 << 20) as f64;
+/// Steps from the origin of a cluster to the farthest place that its points may move to. Derived:
+/// slightly less than 16 bits hold.
+const MAX_STEPS: f64 = 32_000.0;
+
+/// How a scene is packed, for as long as it is on the device.
+#[derive(Clone, Copy)]
+pub(crate) struct Packing {
+    /// Bounds of all paths.
+    bounds_m: Bounds<f64>,
+    /// Greatest quantization step; clusters that need a larger one have exact points.
+    max_step_m: f64,
+}
+
+/// Packed strokes. Clusters index these points and strokes; those with rounded points come first.
+#[derive(Default)]
+pub(crate) struct Packed {
+    pub(crate) rounded: Vec<u32>,
+    pub(crate) exact_m: Vec<[f32; 2]>,
+    pub(crate) strokes: Vec<Stroke>,
+    pub(crate) clusters: Vec<Cluster>,
+}
+
+impl Packing {
+    pub(crate) fn of(scene: &Scene) -> Self {
+        let bounds_m = scene.bounds().unwrap_or(Bounds {
+            min: Point::default(),
+            max: Point::default(),
+        });
+        let size_m = bounds_m.size();
+        Self {
+            bounds_m,
+            max_step_m: size_m.x.max(size_m.y) / STEPS_PER_SCENE,
+        }
+    }
+
+    /// The same packing with exact points only.
+    pub(crate) fn exact(self) -> Self {
+        Self {
+            max_step_m: 0.0,
+            ..self
+        }
+    }
+
+    /// Sorts parts along the Hilbert curve, by the midpoint of their ends. The strokes of a path
+    /// lie on the device in this order, so the order of two parts must not depend on the others.
+    pub(crate) fn sort(&self, layout: &Layout, parts: &mut [PathPart]) {
+        parts.sort_by_cached_key(|part| {
+            let mut points = part.points(layout);
+            let first = points.next().unwrap_or_default();
+            let last = points.last().unwrap_or(first);
+            hilbert(first + (last - first) * 0.5, self.bounds_m)
+        });
+    }
+
+    /// The step of a cluster of this size; 0 if its points stay exact.
+    fn step_m(&self, size_m: Point<f64>) -> f32 {
+        let border_m = |size_m: f64| size_m / 2.0 + max_move_m(size_m);
+        let step_m = border_m(size_m.x).max(border_m(size_m.y)) / MAX_STEPS;
+        if step_m <= self.max_step_m {
+            step_m as f32
+        } else {
+            0.0
+        }
+    }
+}
+
+/// Farthest that points of a cluster of this size may move beyond its box along an axis: a larger
+/// cluster would cull badly.
+pub(crate) fn max_move_m(size_m: f64) -> f64 {
+    size_m.max(1.0)
+}
+
+impl Packed {
+    /// Packs parts. Neighbors in the world become neighbors in memory.
+    pub(crate) fn of(scene: &Scene, mut parts: Vec<PathPart>, packing: Packing) -> Self {
+        let (mut packed, mut exact) = (Self::default(), Self::default());
+        packing.sort(scene.layout(), &mut parts);
+        for parts in parts.chunks(CLUSTER_STROKES as usize) {
+            let points = parts.iter().flat_map(|part| part.points(scene.layout()));
+            let Some(bounds) = Bounds::of_points(points) else {
+                continue;
+            };
+            let cluster = Cluster::within(bounds, packing.step_m(bounds.size()));
+            match cluster.format() {
+                PointFormat::Rounded => packed.add(scene, cluster, parts),
+                PointFormat::Exact => exact.add(scene, cluster, parts),
+            }
+        }
+        let strokes = packed.strokes.len() as u32;
+        packed.strokes.append(&mut exact.strokes);
+        let shifted = exact.clusters.into_iter().map(|cluster| Cluster {
+            first_stroke: cluster.first_stroke + strokes,
+            ..cluster
+        });
+        packed.clusters.extend(shifted);
+        packed.exact_m = exact.exact_m;
+        packed
+    }
+
+    fn add(&mut self, scene: &Scene, mut cluster: Cluster, parts: &[PathPart]) {
+        let layout = scene.layout();
+        let origin = ClusterOrigin::of(&cluster);
+        let format = cluster.format();
+        cluster.first_point = match format {
+            PointFormat::Rounded => self.rounded.len() as u32,
+            PointFormat::Exact => self.exact_m.len() as u32,
+        };
+        cluster.first_stroke = self.strokes.len() as u32;
+        cluster.strokes = parts.len() as u32;
+        for part in parts {
+            let width_m = scene.width_m(part.path).unwrap_or(-1.0);
+            cluster.widest_m = cluster.widest_m.max(width_m);
+            let stroke = part.stroke(cluster.points);
+            cluster.points += stroke.points();
+            self.strokes.push(stroke);
+            let points = part.points(layout).map(|p| origin.local_m(p));
+            match format {
+                PointFormat::Rounded => self.rounded.extend(points.map(|p| cluster.quantize(p))),
+                PointFormat::Exact => self.exact_m.extend(points),
+            }
+        }
+        self.clusters.push(cluster);
+    }
+}
+
+/// Color and width of a path.
+pub(crate) fn path_style(scene: &Scene, row: u32) -> PathStyle {
+    PathStyle {
+        color: device_color(scene.color(row)),
+        width_m: scene.width_m(row).unwrap_or(-1.0),
+    }
+}
+
+/// A color as in the device's pixels: red in the lowest byte.
+pub(crate) fn device_color(color: Rgba) -> u32 {
+    u32::from_le_bytes([color.r, color.g, color.b, color.a])
+}

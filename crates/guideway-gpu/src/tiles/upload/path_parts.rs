@@ -1,0 +1,62 @@
+//! Cuts paths into parts of at most 32 segments, each of which becomes one stroke.
+
+use guideway_layout::Layout;
+use guideway_spline::Point;
+
+use crate::tiles::constants::{SEGMENTS_BIT, STROKE_SEGMENTS, WHOLE_PATH};
+use crate::tiles::layouts::Stroke;
+
+/// A part of a run of a path.
+#[derive(Clone, Copy)]
+pub(crate) struct PathPart {
+    pub(crate) path: u32,
+    rank: u32,
+    run: u32,
+    first_point: u32,
+    segments: u32,
+    pub(crate) is_whole: bool,
+}
+
+impl PathPart {
+    /// Appends the parts of a path.
+    pub(crate) fn of_path(layout: &Layout, path: u32, rank: u32, parts: &mut Vec<Self>) {
+        let first = parts.len();
+        for (run, index) in layout.paths.get(path as usize).runs().zip(0..) {
+            let segments = run.len() - 3;
+            for first in (0..segments).step_by(STROKE_SEGMENTS) {
+                parts.push(Self {
+                    path,
+                    rank,
+                    run: index,
+                    first_point: first as u32,
+                    segments: (segments - first).min(STROKE_SEGMENTS) as u32,
+                    is_whole: false,
+                });
+            }
+        }
+        if let [whole] = &mut parts[first..] {
+            whole.is_whole = true;
+        }
+    }
+
+    /// The stroke of this part, with its first point within its cluster.
+    pub(crate) fn stroke(&self, first_point: u32) -> Stroke {
+        let whole = if self.is_whole { WHOLE_PATH } else { 0 };
+        Stroke {
+            extent: first_point | self.segments << SEGMENTS_BIT | whole,
+            rank: self.rank,
+        }
+    }
+
+    /// Control points in world coordinates.
+    pub(crate) fn points<'a>(
+        &self,
+        layout: &'a Layout,
+    ) -> impl Iterator<Item = Point<f64>> + use<'a> {
+        let mut runs = layout.paths.get(self.path as usize).runs();
+        let run = runs.nth(self.run as usize);
+        let first = self.first_point as usize;
+        let points = first..first + self.segments as usize + 3;
+        points.filter_map(move |index| Some(run.as_ref()?.get(index)))
+    }
+}
