@@ -3,16 +3,21 @@
 mod prerequisites;
 mod step;
 
+use std::path::Path;
 use std::process::ExitCode;
 use std::sync::LazyLock;
 
 use anyhow::{Result, bail};
+use xtask::module_graph::workspace_circles;
+use xtask::style::check_repository;
 
 use step::{STARTED, cargo, elapsed_s, heading};
 
 const HELP: &str = "\
 cargo xtask test        everything: format, lints, all tests, docs, licenses (what CI runs)
 cargo xtask quick       format, lints and tests, without installing anything
+cargo xtask style [WORD]
+                        circles of modules and breaches of the style rules, in files whose name has WORD
 cargo xtask fuzz [MINUTES [TARGET...]]
                         each fuzz target for so long (1 unless said)
 cargo xtask soak [MINUTES [SEED [FILE]]]
@@ -28,6 +33,8 @@ fn main() -> ExitCode {
         ("quick", []) => quick(),
         ("fuzz", rest) => fuzz(rest),
         ("soak", rest) => soak(rest),
+        ("style", []) => style(""),
+        ("style", [word]) => style(word),
         _ => {
             print!("{HELP}");
             return ExitCode::from(2);
@@ -108,6 +115,29 @@ fn soak(args: &[String]) -> Result<()> {
     cargo(&["test", "-p", "guideway-viewer", "--lib", "--"])
         .args(run)
         .run()
+}
+
+/// Prints what `xtask/tests` would fail on.
+fn style(word: &str) -> Result<()> {
+    let top = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let circles = workspace_circles(&top)?;
+    let circles = circles
+        .iter()
+        .map(|(root, circle)| format!("circle in {}: {circle}", root.display()));
+    let violations = check_repository(&top)?;
+    let violations = violations
+        .iter()
+        .filter(|violation| violation.file.contains(word))
+        .map(ToString::to_string);
+    let circles = circles.filter(|circle| circle.contains(word));
+    let found: Vec<String> = violations.chain(circles).collect();
+    for line in &found {
+        println!("{line}");
+    }
+    if !found.is_empty() {
+        bail!("{} breaches", found.len());
+    }
+    Ok(())
 }
 
 fn quick() -> Result<()> {
