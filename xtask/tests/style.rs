@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use xtask::style::{check_file, check_repository};
+use xtask::style::{check_file, check_links, check_repository};
 
 #[test]
 fn every_file_keeps_the_style_rules() {
@@ -66,4 +66,13 @@ fn finds_forbidden_words() {
     assert!(only_message("crates/a/src/a.rs", text).contains("FrameTarget"));
     assert!(only_message("docs/a.md", "The colour of a path.\n").contains("color"));
     assert!(check_file("docs/a.md", "Easels are not easels.\n").is_empty());
+}
+
+#[test]
+fn finds_broken_links() {
+    let top = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let text = "[a](Cargo.toml) [b](https://example.org) [c](#part) [d](missing.md#part)\n";
+    let found = check_links(top, "README.md", text);
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert!(found[0].message.contains("missing.md"));
 }

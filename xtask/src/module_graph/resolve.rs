@@ -72,7 +72,7 @@ fn distant_methods<'a>(
             continue;
         };
         let owner = found.resolve(module, &[of.to_owned()], 0);
-        if !owner.is_some_and(|(owner, _)| owner.file != module.file) {
+        if owner.is_none_or(|(owner, _)| owner.file == module.file) {
             continue;
         }
         let callers = modules.iter().filter(|user| user.calls.contains(name));

@@ -1,6 +1,7 @@
-//! The rules of CONTRIBUTING.md that a machine can hold: line width, file length, module headers and
-//! words that must not come back.
+//! The rules of CONTRIBUTING.md that a machine can hold: line width, file length, module headers,
+//! words that must not come back, and links between files.
 
+mod links;
 mod rules;
 mod words;
 
@@ -8,6 +9,7 @@ use std::fmt;
 use std::path::Path;
 use std::process::Command;
 
+pub use links::check_links;
 pub use rules::check_file;
 
 /// A line that breaks a rule.
@@ -41,6 +43,9 @@ pub fn check_repository(top: &Path) -> std::io::Result<Vec<Violation>> {
     for name in names.lines() {
         if let Ok(text) = std::fs::read_to_string(top.join(name)) {
             violations.extend(check_file(name, &text));
+            if name.ends_with(".md") {
+                violations.extend(check_links(top, name, &text));
+            }
         }
     }
     Ok(violations)
