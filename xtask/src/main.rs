@@ -1,22 +1,28 @@
-//! Project chores. `cargo xtask test` installs what it needs and runs every check there is.
+//! Project chores: `cargo xtask test` installs what it needs and runs every check.
 
 mod prerequisites;
 mod step;
 
+use std::path::Path;
 use std::process::ExitCode;
 use std::sync::LazyLock;
 
 use anyhow::{Result, bail};
+use xtask::module_graph::workspace_circles;
+use xtask::style::check_repository;
 
+use prerequisites::{CARGO_DENY, CARGO_FUZZ, MDBOOK};
 use step::{STARTED, cargo, elapsed_s, heading};
 
 const HELP: &str = "\
 cargo xtask test        everything: format, lints, all tests, docs, licenses (what CI runs)
 cargo xtask quick       format, lints and tests, without installing anything
+cargo xtask style [WORD]
+                        circles of modules and breaches of the style rules, in files whose name has WORD
 cargo xtask fuzz [MINUTES [TARGET...]]
-                        each fuzz target for so long (1 unless said)
+                        each fuzz target for that time (default: 1)
 cargo xtask soak [MINUTES [SEED [FILE]]]
-                        the viewer under hands that do anything for so long (1 unless said); writes a record
+                        the window under random input for that time (default: 1); writes a record
 ";
 
 fn main() -> ExitCode {
@@ -28,6 +34,8 @@ fn main() -> ExitCode {
         ("quick", []) => quick(),
         ("fuzz", rest) => fuzz(rest),
         ("soak", rest) => soak(rest),
+        ("style", []) => style(""),
+        ("style", [word]) => style(word),
         _ => {
             print!("{HELP}");
             return ExitCode::from(2);
@@ -46,9 +54,10 @@ fn main() -> ExitCode {
 }
 
 fn test() -> Result<()> {
-    heading("what is needed");
+    heading("prerequisites");
     prerequisites::rust_components()?;
-    let deny = prerequisites::cargo_deny()?;
+    let deny = CARGO_DENY.ensure()?;
+    let mdbook = MDBOOK.ensure()?;
     let python = prerequisites::python()?;
     step::set_env("GUIDEWAY_PYTHON", &python);
     prerequisites::software_devices()?;
@@ -58,6 +67,7 @@ fn test() -> Result<()> {
     cargo(&["doc", "--workspace", "--no-deps", "--quiet"])
         .env("RUSTDOCFLAGS", "-D warnings")
         .run()?;
+    step::command(&mdbook).args(["build", "docs"]).run()?;
     heading("licenses, sources and bans");
     step::command(&deny)
         .args(["check", "bans", "licenses", "sources"])
@@ -67,7 +77,7 @@ fn test() -> Result<()> {
         .args(["check", "advisories"])
         .capture()?;
     if !advisories.succeeded {
-        // Without a network there is no advisory database to ask: that must be seen, and is no fault.
+        // Without a network there is no advisory database: report that, and do not fail.
         if advisories
             .stderr
             .contains("failed to fetch advisory database")
@@ -83,14 +93,15 @@ fn test() -> Result<()> {
 }
 
 fn fuzz(args: &[String]) -> Result<()> {
-    prerequisites::cargo_fuzz()?;
-    // As it is built for the tests: by itself, what it depends on has other features and is built once more.
+    CARGO_FUZZ.ensure()?;
+    // Built with the workspace, as for the tests: alone it would rebuild its dependencies with
+    // other features.
     cargo(&["build", "--quiet", "--workspace", "--example", "fuzz"]).run()?;
     let built = std::env::current_exe()?.with_file_name("examples");
     step::command(built.join("fuzz")).args(args).run()
 }
 
-/// What is asked goes to the test that does it by its environment.
+/// Runs the soak test of the window, which takes its arguments from the environment.
 fn soak(args: &[String]) -> Result<()> {
     let names = [
         "GUIDEWAY_SOAK_MINUTES",
@@ -108,6 +119,29 @@ fn soak(args: &[String]) -> Result<()> {
     cargo(&["test", "-p", "guideway-viewer", "--lib", "--"])
         .args(run)
         .run()
+}
+
+/// Prints what `xtask/tests` would fail on.
+fn style(word: &str) -> Result<()> {
+    let top = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let circles = workspace_circles(&top)?;
+    let circles = circles
+        .iter()
+        .map(|(root, circle)| format!("circle in {}: {circle}", root.display()));
+    let violations = check_repository(&top)?;
+    let violations = violations
+        .iter()
+        .filter(|violation| violation.file.contains(word))
+        .map(ToString::to_string);
+    let circles = circles.filter(|circle| circle.contains(word));
+    let found: Vec<String> = violations.chain(circles).collect();
+    for line in &found {
+        println!("{line}");
+    }
+    if !found.is_empty() {
+        bail!("{} breaches", found.len());
+    }
+    Ok(())
 }
 
 fn quick() -> Result<()> {

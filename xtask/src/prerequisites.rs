@@ -1,4 +1,4 @@
-//! What the checks need beside Rust and a C compiler, and how to get it.
+//! Installs the tools and packages that the checks need beyond Rust and a C compiler.
 
 use std::path::{Path, PathBuf};
 
@@ -6,18 +6,75 @@ use anyhow::{Result, bail};
 
 use crate::step::{cargo, command};
 
+/// Debian packages of Mesa's software Vulkan and OpenGL, for tests of graphics methods.
 const SOFTWARE_DEVICES: &[&str] = &[
     "libvulkan1",
     "mesa-vulkan-drivers",
     "libegl1",
     "libgl1-mesa-dri",
 ];
-/// A screen that nobody sees, and hands for it: for the tests of the window.
+/// Debian packages of a virtual screen and synthetic input, for tests of the window.
 const SCREEN: &[&str] = &["xvfb", "xdotool", "libxkbcommon-x11-0"];
-const CARGO_DENY_VERSION: &str = "0.20.2";
-const CARGO_FUZZ_VERSION: &str = "0.13.1";
 
-/// `rustfmt` and `clippy`, through rustup where they are missing.
+/// A tool from crates.io, installed once into cargo's own folder.
+pub(crate) struct Tool {
+    /// Name of the crate and of its program.
+    pub(crate) name: &'static str,
+    version: &'static str,
+    /// Further arguments of `cargo install`.
+    features: &'static [&'static str],
+}
+
+pub(crate) const CARGO_DENY: Tool = Tool {
+    name: "cargo-deny",
+    version: "0.20.2",
+    features: &[],
+};
+pub(crate) const CARGO_FUZZ: Tool = Tool {
+    name: "cargo-fuzz",
+    version: "0.13.1",
+    features: &[],
+};
+pub(crate) const MDBOOK: Tool = Tool {
+    name: "mdbook",
+    version: "0.5.4",
+    features: &["--no-default-features"],
+};
+
+impl Tool {
+    /// The path of the program, which is installed first where it is missing.
+    pub(crate) fn ensure(&self) -> Result<PathBuf> {
+        if let Some(program) = self.find() {
+            return Ok(program);
+        }
+        println!("installing {} {}, once", self.name, self.version);
+        // Unoptimized: the tool runs for seconds, and this saves minutes of building.
+        cargo(&["install", self.name, "--version", self.version])
+            .args(["--locked", "--quiet", "--debug"])
+            .args(["--config", "profile.dev.debug=0"])
+            .args(self.features)
+            .run()?;
+        match self.find() {
+            Some(program) => Ok(program),
+            None => bail!(
+                "{} is installed, but neither on PATH nor in cargo's folder",
+                self.name
+            ),
+        }
+    }
+
+    fn find(&self) -> Option<PathBuf> {
+        let home = std::env::var_os("CARGO_HOME").map(PathBuf::from);
+        let home = home.or_else(|| Some(PathBuf::from(std::env::var_os("HOME")?).join(".cargo")));
+        let installed = home.map(|home| home.join("bin").join(self.name));
+        [Some(PathBuf::from(self.name)), installed]
+            .into_iter()
+            .flatten()
+            .find(|program| command(program).args(["--version"]).succeeds())
+    }
+}
+
+/// Installs `rustfmt` and `clippy` through rustup where they are missing.
 pub(crate) fn rust_components() -> Result<()> {
     for (subcommand, component) in [("fmt", "rustfmt"), ("clippy", "clippy")] {
         if cargo(&[subcommand, "--version"]).succeeds() {
@@ -29,52 +86,16 @@ pub(crate) fn rust_components() -> Result<()> {
             .is_err()
         {
             bail!(
-                "`cargo {subcommand}` is missing: install your distribution's {component}, or use rustup"
+                "`cargo {subcommand}` is missing: install your distribution's {component}, \
+                 or use rustup"
             );
         }
     }
     Ok(())
 }
 
-/// `cargo deny`, built once into cargo's own folder.
-pub(crate) fn cargo_deny() -> Result<PathBuf> {
-    let program = PathBuf::from("cargo-deny");
-    if !command(&program).args(["--version"]).succeeds() {
-        println!("installing cargo-deny {CARGO_DENY_VERSION}, a minute or two the first time");
-        install_tool("cargo-deny", CARGO_DENY_VERSION)?;
-    }
-    if command(&program).args(["--version"]).succeeds() {
-        return Ok(program);
-    }
-    // Installed, but cargo's folder is not on the path.
-    let home = std::env::var_os("CARGO_HOME").map(PathBuf::from);
-    let home = home.or_else(|| Some(PathBuf::from(std::env::var_os("HOME")?).join(".cargo")));
-    match home {
-        Some(home) => Ok(home.join("bin").join(program)),
-        None => {
-            bail!("cargo-deny is installed but not on PATH, and neither CARGO_HOME nor HOME is set")
-        }
-    }
-}
-
-/// `cargo fuzz`, built once into cargo's own folder.
-pub(crate) fn cargo_fuzz() -> Result<()> {
-    if cargo(&["fuzz", "--version"]).succeeds() {
-        return Ok(());
-    }
-    println!("installing cargo-fuzz {CARGO_FUZZ_VERSION}, half a minute the first time");
-    install_tool("cargo-fuzz", CARGO_FUZZ_VERSION)
-}
-
-/// Builds a tool into cargo's own folder. Not optimized: it runs for seconds, and that saves minutes of building.
-fn install_tool(name: &str, version: &str) -> Result<()> {
-    cargo(&["install", name, "--version", version, "--locked", "--quiet"])
-        .args(["--debug", "--config", "profile.dev.debug=0"])
-        .run()
-}
-
-/// A Python that can import pyarrow, polars and jsonschema, in a virtual environment under `target/`, for the tests
-/// that look at our files from outside.
+/// A Python with pyarrow, polars and jsonschema, in a virtual environment under `target/`, for tests
+/// that read Guideway's files with other programs.
 pub(crate) fn python() -> Result<PathBuf> {
     let workspace = Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("..")
@@ -84,21 +105,14 @@ pub(crate) fn python() -> Result<PathBuf> {
     if imports_all(&python) {
         return Ok(python);
     }
-    let make = || command("python3").args(["-m", "venv"]).args([&folder]);
-    if !make().succeeds() {
+    let create = || command("python3").args(["-m", "venv"]).args([&folder]);
+    if !create().succeeds() {
         apt_install(&["python3", "python3-venv"])?;
-        make().run()?;
+        create().run()?;
     }
     command(&python)
-        .args([
-            "-m",
-            "pip",
-            "install",
-            "--quiet",
-            "pyarrow",
-            "polars",
-            "jsonschema",
-        ])
+        .args(["-m", "pip", "install", "--quiet"])
+        .args(["pyarrow", "polars", "jsonschema"])
         .run()?;
     if !imports_all(&python) {
         bail!(
@@ -109,16 +123,16 @@ pub(crate) fn python() -> Result<PathBuf> {
     Ok(python)
 }
 
-/// Vulkan and OpenGL on the processor, and a screen, so that the methods for graphics devices and the window are
-/// tested without any.
+/// Installs software Vulkan and OpenGL and a virtual screen, so that the graphics methods and the
+/// window can be tested without hardware.
 pub(crate) fn software_devices() -> Result<()> {
     if !command("dpkg").args(["--version"]).succeeds() {
-        // Another system: its own drivers do, and the tests say what they miss.
+        // Not a Debian system: its own drivers serve, and tests report what is missing.
         return Ok(());
     }
-    let is_there = |package: &&str| command("dpkg").args(["--status", package]).succeeds();
+    let is_installed = |package: &&str| command("dpkg").args(["--status", package]).succeeds();
     let packages = [SOFTWARE_DEVICES, SCREEN].concat();
-    if packages.iter().all(is_there) {
+    if packages.iter().all(is_installed) {
         return Ok(());
     }
     apt_install(&packages)
@@ -134,26 +148,19 @@ fn apt_install(packages: &[&str]) -> Result<()> {
     let is_root = command("sh")
         .args(["-c", "test \"$(id -u)\" = 0"])
         .succeeds();
+    let sudo: &[&str] = if is_root { &[] } else { &["sudo", "-n"] };
     let apt = |args: &[&str]| {
-        let all: Vec<&str> = if is_root { vec![] } else { vec!["sudo", "-n"] };
-        let all: Vec<&str> = all
-            .into_iter()
-            .chain(["apt-get"])
-            .chain(args.iter().copied())
-            .collect();
-        command(all[0])
-            .args(&all[1..])
+        let words = [sudo, &["apt-get"], args].concat();
+        command(words[0])
+            .args(&words[1..])
             .env("DEBIAN_FRONTEND", "noninteractive")
             .run()
     };
-    let install: Vec<&str> = ["install", "-y", "--no-install-recommends"]
-        .into_iter()
-        .chain(packages.iter().copied())
-        .collect();
+    let install = [&["install", "-y", "--no-install-recommends"], packages].concat();
     if apt(&["update", "-q"]).and_then(|()| apt(&install)).is_err() {
         bail!(
-            "this needs the packages {}, and they could not be installed (no rights, or no apt): \
-             run `sudo apt-get install {}` and start again",
+            "cannot install the packages {} (no rights, or no apt): run `sudo apt-get install {}` \
+             and start again",
             packages.join(", "),
             packages.join(" ")
         );

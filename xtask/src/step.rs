@@ -1,3 +1,5 @@
+//! Runs commands: each is printed before it runs, with the environment that all steps share.
+
 use std::ffi::{OsStr, OsString};
 use std::process::Command;
 use std::sync::{LazyLock, Mutex, PoisonError};
@@ -5,24 +7,24 @@ use std::time::Instant;
 
 use anyhow::{Context, Result, bail};
 
-/// One command to run, shown before it runs.
+/// One command to run.
 pub(crate) struct Step(Command);
 
-/// How a captured command ended.
+/// The result of a captured command.
 pub(crate) struct Captured {
     pub(crate) succeeded: bool,
     pub(crate) stderr: String,
 }
 
-/// When this program began.
+/// Start time of this program.
 pub(crate) static STARTED: LazyLock<Instant> = LazyLock::new(Instant::now);
 
-/// Seconds since then.
+/// Seconds since [`STARTED`].
 pub(crate) fn elapsed_s() -> f64 {
     STARTED.elapsed().as_secs_f64()
 }
 
-/// Says what comes now, and how long all before it took.
+/// Prints the title of the next check and the time elapsed so far.
 pub(crate) fn heading(title: &str) {
     println!("\n== {title} (after {:.0} s)", elapsed_s());
 }
@@ -50,7 +52,7 @@ impl Step {
         self
     }
 
-    /// Runs it with its output shown; fails if it fails.
+    /// Runs the command with its output shown; fails when the command fails.
     pub(crate) fn run(mut self) -> Result<()> {
         println!("$ {:?}", self.0);
         let status = self
@@ -63,7 +65,7 @@ impl Step {
         Ok(())
     }
 
-    /// Runs it and keeps what it says.
+    /// Runs the command and captures its output.
     pub(crate) fn capture(mut self) -> Result<Captured> {
         let output = self
             .0
@@ -76,7 +78,7 @@ impl Step {
         })
     }
 
-    /// Whether it can be started and succeeds, its output unseen.
+    /// Whether the command starts and succeeds; its output is discarded.
     pub(crate) fn succeeds(self) -> bool {
         self.capture().is_ok_and(|c| c.succeeded)
     }

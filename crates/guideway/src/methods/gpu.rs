@@ -32,9 +32,13 @@ pub(super) const TILES: Entry = Entry {
                 }
             }
         }
-        let device = DEVICE.as_ref().map_err(|error| Stop::Missing(error.to_string()))?;
+        let device = DEVICE
+            .as_ref()
+            .map_err(|error| Stop::Missing(error.to_string()))?;
         let tiles = Tiles::new(Arc::clone(device), asked);
-        Ok(Box::new(tiles.map_err(|error| Stop::Missing(error.to_string()))?))
+        Ok(Box::new(
+            tiles.map_err(|error| Stop::Missing(error.to_string()))?,
+        ))
     },
 };
 
@@ -85,7 +89,9 @@ static DEVICE: LazyLock<Result<Arc<Gpu>, DeviceError>> = LazyLock::new(Gpu::new)
 
 fn start(options: &str) -> Result<Box<dyn Method>, Stop> {
     let options = GridOptions::parse(options).map_err(Stop::Options)?;
-    let device = DEVICE.as_ref().map_err(|error| Stop::Missing(error.to_string()))?;
+    let device = DEVICE
+        .as_ref()
+        .map_err(|error| Stop::Missing(error.to_string()))?;
     let grid = Grid::new(Arc::clone(device), options).map_err(Stop::Missing)?;
     Ok(Box::new(grid))
 }
