@@ -149,9 +149,7 @@ mod tests {
         let mut picture = picture();
         picture.decorations.title = Some("Hall 3".into());
         let view = picture.view().unwrap();
-        let band_px = picture
-            .decoration_style()
-            .title_band_px(&picture.decorations);
+        let band_px = title_band_px(&picture.decoration_style(), &picture.decorations);
         let top = view.pixel_from_world(picture.scene.bounds().unwrap().max);
         assert!(top.y > band_px && band_px > 10.0, "{top:?}, {band_px}");
     }

@@ -21,10 +21,6 @@ impl Method for InStrips {
         Cpu.info()
     }
 
-    fn plan_bytes(&self, _: &Scene, _: &Budget) -> u64 {
-        0
-    }
-
     fn prepare(
         &self,
         scene: Arc<Scene>,

@@ -180,7 +180,7 @@ fn the_phases_are_timed_and_counted() {
 fn a_device_without_a_clock_is_timed_from_outside() {
     let Some(gpu) = gpu() else { return };
     let silent = limited(GpuOptions {
-        without_clock: true,
+        without_timestamps: true,
         ..GpuOptions::default()
     });
     let view = view(70, 60, 0.8);

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use guideway_scene::{
-    Budget, Cancel, Edit, Edited, Frame, Preparation, Prepared, RenderError, Report, Scene,
+    Budget, Cancel, Edit, EditOutcome, Frame, Preparation, Prepared, RenderError, Report, Scene,
     Shading, Stage, Style, View, Work, density, elapsed_ms,
 };
 
@@ -16,7 +16,7 @@ use super::frame::target::TargetState;
 use super::kernels::Kernels;
 use super::options::{NAME, Shared};
 use super::paint_mode::PaintMode;
-use super::upload::edit::{self, EditOutcome};
+use super::upload::edit::{self, SceneBufferEdit};
 use super::upload::pack::Packing;
 use super::upload::scene_buffers::SceneBuffers;
 use super::upload::uploaded_scene::UploadedScene;
@@ -159,16 +159,16 @@ impl Prepared for PreparedTiles {
         })
     }
 
-    fn edit(&mut self, edit: &Edit) -> Result<Edited, RenderError> {
+    fn edit(&mut self, edit: &Edit) -> Result<EditOutcome, RenderError> {
         let outcome = edit::apply(&mut self.scene, &mut self.device, edit)?;
-        let EditOutcome::Applied(effect) = outcome else {
+        let SceneBufferEdit::Applied(effect) = outcome else {
             self.upload(Packing::of(&self.scene.scene))?;
             let bytes = |buffers: &SceneBuffers| {
                 let points = buffers.point_buffers.iter().map(|b| b.points.bytes());
                 let lists = [&buffers.strokes, &buffers.clusters, &buffers.styles];
                 points.sum::<u64>() + lists.map(|b| b.bytes()).iter().sum::<u64>()
             };
-            return Ok(Edited::InPlace {
+            return Ok(EditOutcome::InPlace {
                 moved_bytes: self.scene.buffers.as_ref().map_or(0, bytes),
             });
         };
@@ -184,7 +184,7 @@ impl Prepared for PreparedTiles {
         if effect.replaces_buffers {
             self.target.drop_bindings();
         }
-        Ok(Edited::InPlace {
+        Ok(EditOutcome::InPlace {
             moved_bytes: effect.moved_bytes,
         })
     }

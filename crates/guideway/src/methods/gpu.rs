@@ -1,97 +1,100 @@
+//! The methods by compute shaders: `gpu` and `grid`.
+
 use std::sync::{Arc, LazyLock};
 
 use guideway_gpu::{DeviceError, Gpu, Tiles, TilesOptions};
 use guideway_grid::{Grid, GridOptions};
 use guideway_scene::Method;
 
-use super::{Entry, MethodOption, Stop};
+use super::entry::{Entry, MethodOption, StartError};
 
 pub(super) const TILES: Entry = Entry {
     name: "gpu",
-    summary: "Every frame from the control points, by compute shaders; every path its own color and width",
+    summary: "Compute shaders, each frame from the control points; a color and a width per path",
     options: &[
         MethodOption {
             name: "rebuild",
-            summary: "keeps nothing from frame to frame, to measure what that costs",
+            summary: "renders each frame from scratch, to measure the gain of reuse",
         },
         MethodOption {
             name: "stages",
-            summary: "tells how long each stage of a frame takes, for which the device stops between them",
+            summary: "measures each stage of a frame; the device waits between stages",
         },
     ],
     is_general: true,
     start: |options| {
-        let mut asked = TilesOptions::default();
+        let mut selected = TilesOptions::default();
         for option in options.split('+').filter(|option| !option.is_empty()) {
             match option {
-                "rebuild" => asked.reuses_frames = false,
-                "stages" => asked.times_stages = true,
+                "rebuild" => selected.reuses_frames = false,
+                "stages" => selected.times_stages = true,
                 _ => {
-                    let what = format!("there is no option `{option}`; there are: rebuild, stages");
-                    return Err(Stop::Options(what));
+                    let problem = format!("unknown option `{option}`; known are: rebuild, stages");
+                    return Err(StartError::Options(problem));
                 }
             }
         }
-        let device = DEVICE
-            .as_ref()
-            .map_err(|error| Stop::Missing(error.to_string()))?;
-        let tiles = Tiles::new(Arc::clone(device), asked);
-        Ok(Box::new(
-            tiles.map_err(|error| Stop::Missing(error.to_string()))?,
-        ))
+        let tiles = Tiles::new(device()?, selected).map_err(unavailable)?;
+        Ok(Box::new(tiles))
     },
 };
 
 pub(super) const GRID: Entry = Entry {
     name: "grid",
-    summary: "The thesis' test of every pixel against the lines of its cell; one color",
+    summary: "Thesis 4.3: tests each pixel against the lines of its grid cell; one color",
     options: &[
         MethodOption {
             name: "scan",
-            summary: "prefix sum in linear work, not the quadratic one as written",
+            summary: "prefix sum of linear cost instead of the quadratic one of the thesis",
         },
         MethodOption {
             name: "radius",
-            summary: "lines are listed in every cell that they cover: none is cut at a border",
+            summary: "lists lines in every cell under their stroke, so that no border cuts them",
         },
         MethodOption {
             name: "exit",
-            summary: "a pixel stops once it is fully covered",
+            summary: "stops testing a pixel once it is fully covered",
         },
         MethodOption {
             name: "aa=none",
-            summary: "hard edges, not smooth ones",
+            summary: "no antialiasing",
         },
         MethodOption {
             name: "aa=subpixel",
-            summary: "32 sub-samples a pixel",
+            summary: "32 samples per pixel",
         },
         MethodOption {
             name: "samples=5",
-            summary: "samples a segment, 10 as written",
+            summary: "samples per segment, 10 in the thesis",
         },
         MethodOption {
             name: "cells=256",
-            summary: "cells a side of the grid, 128 as written",
+            summary: "cells per side of the grid, 128 in the thesis",
         },
     ],
     is_general: false,
     start,
 };
 
-/// Whether there is a graphics device that is more than a program on the processor.
+/// Whether the graphics device is hardware, not a software implementation.
 pub(super) fn is_in_hardware() -> bool {
     DEVICE.as_ref().is_ok_and(|device| !device.is_software())
 }
 
-/// Opened once, for all methods and options.
+/// Opened once for all methods and options.
 static DEVICE: LazyLock<Result<Arc<Gpu>, DeviceError>> = LazyLock::new(Gpu::new);
 
-fn start(options: &str) -> Result<Box<dyn Method>, Stop> {
-    let options = GridOptions::parse(options).map_err(Stop::Options)?;
-    let device = DEVICE
-        .as_ref()
-        .map_err(|error| Stop::Missing(error.to_string()))?;
-    let grid = Grid::new(Arc::clone(device), options).map_err(Stop::Missing)?;
+fn start(options: &str) -> Result<Box<dyn Method>, StartError> {
+    let options = GridOptions::parse(options).map_err(StartError::Options)?;
+    let grid = Grid::new(device()?, options).map_err(StartError::Unavailable)?;
     Ok(Box::new(grid))
+}
+
+/// The device, or why there is none.
+fn device() -> Result<Arc<Gpu>, StartError> {
+    DEVICE.as_ref().map(Arc::clone).map_err(unavailable)
+}
+
+fn unavailable(error: impl std::fmt::Display) -> StartError {
+    StartError::Unavailable(error.to_string())
 }

@@ -23,7 +23,7 @@ const STYLE_WORDS: usize = size_of::<PathStyle>() / 4;
 const MAX_UNUSED_POINTS: usize = 1 << 16;
 
 /// Result of an edit.
-pub(crate) enum EditOutcome {
+pub(crate) enum SceneBufferEdit {
     /// The buffers are up to date.
     Applied(EditEffect),
     /// The scene must be uploaded anew.
@@ -50,7 +50,7 @@ pub(crate) fn apply(
     uploaded: &mut UploadedScene,
     device: &mut DeviceContext,
     edit: &Edit,
-) -> Result<EditOutcome, RenderError> {
+) -> Result<SceneBufferEdit, RenderError> {
     let first_new = uploaded.scene.row_count() as u32;
     let scene = Arc::make_mut(&mut uploaded.scene);
     scene.edit(edit).map_err(RenderError::Edit)?;
@@ -68,16 +68,16 @@ pub(crate) fn apply(
     let has_ranks =
         |buffers: &SceneBuffers| rows.iter().all(|&row| buffers.ranks.rank(row).is_some());
     if !uploaded.buffers.as_ref().is_some_and(has_ranks) {
-        return Ok(EditOutcome::NeedsUpload);
+        return Ok(SceneBufferEdit::NeedsUpload);
     }
     if !keeps_styles {
         write_styles(uploaded, device, &rows, &mut effect)?;
     }
     if !matches!(edit, Edit::Restyle(_)) && !write_curves(uploaded, device, &rows, &mut effect)? {
-        return Ok(EditOutcome::NeedsUpload);
+        return Ok(SceneBufferEdit::NeedsUpload);
     }
     uploaded.is_incomplete = false;
-    Ok(EditOutcome::Applied(effect))
+    Ok(SceneBufferEdit::Applied(effect))
 }
 
 /// Writes colors and widths of rows.
