@@ -71,7 +71,7 @@ impl Body {
     /// The body at a heading, counter-clockwise from the x axis, with its reference point at the
     /// origin.
     pub fn at_heading(&self, heading_rad: f64) -> ConvexPolygon {
-        let corners = self.corners().map(|corner| turn(corner, heading_rad));
+        let corners = self.corners().map(|corner| rotate(corner, heading_rad));
         ConvexPolygon::hull(corners).expect("four corners")
     }
 
@@ -83,7 +83,7 @@ impl Body {
     ///        /  \           the arc lies in the triangle of its ends and the intersection of
     ///   low .-""-. high     its end tangents (apex), at the distance r / cos(a / 2)
     /// ```
-    pub(crate) fn turned(&self, [low, high]: [f64; 2]) -> ConvexPolygon {
+    pub(crate) fn hull_at_headings(&self, [low, high]: [f64; 2]) -> ConvexPolygon {
         let angle_rad = high - low;
         if angle_rad == 0.0 {
             return self.at_heading(low);
@@ -92,8 +92,8 @@ impl Body {
             let apex_scale = (angle_rad / 2.0).cos().recip();
             let middle = (low + high) / 2.0;
             let of_corner = |corner| {
-                let apex = turn(corner, middle) * apex_scale;
-                [turn(corner, low), apex, turn(corner, high)]
+                let apex = rotate(corner, middle) * apex_scale;
+                [rotate(corner, low), apex, rotate(corner, high)]
             };
             self.corners().map(of_corner).as_flattened().to_vec()
         } else {
@@ -101,14 +101,14 @@ impl Body {
             let corner = Point::new(self.reach_m() / FRAC_PI_8.cos(), 0.0);
             let directions = (0..8).map(|i| f64::from(2 * i + 1) * FRAC_PI_8);
             directions
-                .map(|direction| turn(corner, direction))
+                .map(|direction| rotate(corner, direction))
                 .collect()
         };
         ConvexPolygon::hull(points).expect("there are corners")
     }
 
-    /// Error bound of [`Self::turned`] for a range of headings: the chord of the arc of the
-    /// farthest corner.
+    /// Error bound of [`Self::hull_at_headings`] for a range of headings: the chord of the arc of
+    /// the farthest corner.
     pub(crate) fn turning_error_m(&self, angle_rad: f64) -> f64 {
         if angle_rad <= MAX_ARC_RAD {
             2.0 * self.reach_m() * (angle_rad / 2.0).sin()
@@ -118,11 +118,11 @@ impl Body {
     }
 }
 
-/// Largest range of headings that [`Body::turned`] bounds by arcs. Derived: beyond a quarter turn,
-/// the apexes lie farther out than the octagon.
+/// Largest range of headings that [`Body::hull_at_headings`] bounds by arcs. Beyond it, an octagon
+/// around the circle is used, because the apexes recede as 1 / cos(angle / 2).
 const MAX_ARC_RAD: f64 = FRAC_PI_2;
 
-fn turn(p: Point<f64>, angle_rad: f64) -> Point<f64> {
+fn rotate(p: Point<f64>, angle_rad: f64) -> Point<f64> {
     let (sin, cos) = angle_rad.sin_cos();
     Point::new(p.x * cos - p.y * sin, p.x * sin + p.y * cos)
 }

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!    A + B: merge the edges of both by direction       distance(A, B) = distance of the
-//!    O(n + m), rotating calipers on two rings          origin from A + (-B); 0 inside
+//!    O(n + m)                                          origin from A + (-B); 0 inside
 //! ```
 
 use std::cmp::Ordering;

@@ -26,8 +26,8 @@ impl Hull {
     ///
     /// Error bound: let all Bezier points be within f of the chord. Then their hull is too, and
     /// every point of the chord is within f of the curve (see [`guideway_spline::flatten_run`]). So
-    /// every point of the hull is within 2 f of the curve. [`Body::turned`] adds the error of the
-    /// headings.
+    /// every point of the hull is within 2 f of the curve. [`Body::hull_at_headings`] adds the
+    /// error of the headings.
     pub(crate) fn of_pieces(body: &Body, pieces: &[CurvePiece]) -> Option<Self> {
         let mut parts = pieces.chunk_by(|_, next| !next.starts_part);
         let (mut outer, error_m) = Self::of_connected(body, parts.next()?)?;
@@ -52,7 +52,7 @@ impl Hull {
         let headings = pieces.iter().map(|piece| piece.headings);
         let headings = headings.reduce(|[a, b], [low, high]| [a.min(low), b.max(high)])?;
         let points = || pieces.iter().flat_map(|piece| piece.points);
-        let outer = ConvexPolygon::hull(points())?.sum(&body.turned(headings));
+        let outer = ConvexPolygon::hull(points())?.sum(&body.hull_at_headings(headings));
         let ends = [pieces.first()?.points[0], pieces.last()?.points[3]];
         let flatness_m = points().map(|p| distance_from(ends, p)).fold(0.0, f64::max);
         let error_m = 2.0 * flatness_m + body.turning_error_m(headings[1] - headings[0]);

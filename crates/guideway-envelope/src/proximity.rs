@@ -152,7 +152,9 @@ impl Search<'_, '_> {
         let [a, b] = self.parts(nodes).map(|part| &part.hull);
         let is_exempt = |parts: &[&SweepPart; 2]| {
             let exempt_zones = self.question.exempt_zones.iter();
-            exempt_zones.copied().any(|m| m.has(parts) == Coverage::All)
+            exempt_zones
+                .copied()
+                .any(|m| m.coverage(parts) == Coverage::All)
         };
         if apart_m(a.bounds, b.bounds) > threshold_m || is_exempt(&self.parts(nodes)) {
             return None;
@@ -179,7 +181,7 @@ impl Search<'_, '_> {
         let exempt_zones = self.question.exempt_zones.iter();
         let is_partly = exempt_zones
             .copied()
-            .any(|m| m.has(&parts) == Coverage::Some);
+            .any(|m| m.coverage(&parts) == Coverage::Some);
         let finest_m = |side: usize| self.trees[side].sweep.finest_m(self.question.tolerance_m);
         let [a, b] = [0, 1].map(|side| parts[side].extent_m() / finest_m(side));
         (is_partly && a.max(b) > 1.0).then(|| usize::from(b > a))
@@ -235,7 +237,7 @@ enum Coverage {
 
 impl ExemptZone {
     /// The share of the reference points of two parts that the zone contains.
-    fn has(self, parts: &[&SweepPart; 2]) -> Coverage {
+    fn coverage(self, parts: &[&SweepPart; 2]) -> Coverage {
         let [a, b] = [0, 1].map(|side| {
             let (center, bounds) = (self.centers_m[side], parts[side].hull.reference_bounds);
             match self.radius_m {

@@ -20,7 +20,7 @@ const BASE_ALIASED: u64 = 1 << 16;
 pub(crate) struct Yaml<'t> {
     values: Vec<NodeData<'t>>,
     /// Duplicate keys of objects with their lines; the last value of a key is used.
-    pub(crate) repeated: Vec<(String, u32)>,
+    pub(crate) duplicate_keys: Vec<(String, u32)>,
     /// First line of a second document, which is not read.
     pub(crate) next_document: Option<u32>,
 }
@@ -48,7 +48,7 @@ impl<'t> Yaml<'t> {
         let mut tree = TreeBuilder {
             yaml: Self {
                 values: Vec::new(),
-                repeated: Vec::new(),
+                duplicate_keys: Vec::new(),
                 next_document: None,
             },
             counter: ElementCounter::new(text, &source.options.limits),
@@ -199,7 +199,7 @@ impl<'t> TreeBuilder<'t, '_> {
             for (key, value) in entries {
                 if !seen.insert(key) {
                     let line = self.yaml.values[*value as usize].line;
-                    self.yaml.repeated.push((key.to_string(), line));
+                    self.yaml.duplicate_keys.push((key.to_string(), line));
                 }
             }
         }

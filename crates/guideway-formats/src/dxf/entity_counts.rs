@@ -2,7 +2,7 @@
 
 use super::text::decode_text;
 
-/// Kinds counted by name; the rest share one counter. The DXF reference lists about 50 kinds.
+/// Kinds counted by name; the rest share one counter, which bounds the counts of a hostile file.
 const MAX_KINDS: usize = 64;
 
 /// Number of records per kind, in file order.

@@ -35,7 +35,7 @@ const UNITS_M: [f64; 25] = [
     6_336_000.0 / 3_937.0,
 ];
 
-/// Unit of drawings without `$INSUNITS`: a millimeter, as most European CAD templates assume.
+/// Unit of drawings without `$INSUNITS`: a millimeter, the unit of metric CAD templates.
 const DEFAULT_UNIT_M: f64 = 1e-3;
 
 /// Meters per drawing unit. Reports a finding and assumes millimeters if `code` names no unit.

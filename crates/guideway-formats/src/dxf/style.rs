@@ -41,7 +41,7 @@ impl Color {
 /// The color of an AutoCAD Color Index, 0xRRGGBBAA; 0 for an invalid index. Ignores the sign, which
 /// marks a layer as off.
 ///
-/// Source: measured: the palette of AutoCAD, reproduced by a formula (see the test below).
+/// Source: the palette of AutoCAD, reproduced by a formula; the test below has samples of it.
 pub(super) fn aci_color(index: i64) -> u32 {
     const FIRST: [u32; 10] = [
         0, 0xFF0000FF, 0xFFFF00FF, 0x00FF00FF, 0x00FFFFFF, 0x0000FFFF, 0xFF00FFFF, WHITE,

@@ -1,5 +1,5 @@
 //! Writes the sections around the entities that CAD programs require: HEADER, TABLES and BLOCKS
-//! before them, OBJECTS after them. Source: DXF reference; the minimum that AutoCAD opens.
+//! before them, OBJECTS after them. Source: DXF reference; the minimum that CAD programs require.
 
 use std::io::{self, Write};
 

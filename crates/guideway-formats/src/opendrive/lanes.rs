@@ -84,7 +84,7 @@ impl<'d, 't> LaneSection<'d, 't> {
 
     /// Whether a lane is drawn. The center lane has no width; it stands for a road without other
     /// lanes.
-    pub(super) fn shows(&self, lane: &Lane<'_, '_>) -> bool {
+    pub(super) fn draws(&self, lane: &Lane<'_, '_>) -> bool {
         lane.id != 0 || self.lanes.len() == 1
     }
 

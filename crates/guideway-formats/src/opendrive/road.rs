@@ -176,7 +176,7 @@ impl<'a, 'd, 't> RoadMapper<'a, 'd, 't> {
         }
         for (lane, segments) in section.lanes.iter().zip(&segments) {
             self.reader.lane_count += 1;
-            if section.shows(lane) {
+            if section.draws(lane) {
                 let id = format!("{}.{index}.{}", road.id, lane.id);
                 self.map_lane(road, &id, lane, segments)?;
             }

@@ -91,7 +91,7 @@ impl<'a, 'y> SiteMapper<'a, 'y> {
 
     /// Reports duplicate keys and further documents of the file.
     fn report_document(&mut self, yaml: &Yaml<'_>) {
-        for (key, line) in &yaml.repeated {
+        for (key, line) in &yaml.duplicate_keys {
             let at: PlaceFn<'_> = &|| Place {
                 element: "an object".into(),
                 line: Some(*line),

@@ -9,7 +9,7 @@
 //! | write | layout | SVG elements | `write`, `svg_writer`, `xml_text` |
 //!
 //! The reader uses `svgtypes`, the parser below `usvg`, and not `usvg` itself: `usvg` computes in
-//! single precision, flattens arcs with an error of up to 0.1 units, drops unpainted shapes without
+//! single precision, converts arcs with an error of up to 0.1 units, drops unpainted shapes without
 //! a report, and expands `use` and markers to a million elements.
 
 mod context;

@@ -37,7 +37,7 @@ const BASE_REPEATED_BYTES: u64 = 16 << 20;
 /// Further bytes of elements that references may repeat, per byte of the file.
 const REPEATED_PER_BYTE: u64 = 16;
 
-/// Cost of repeating any element, in bytes: about what its record takes in the parsed tree.
+/// Cost of repeating any element, in bytes, so that empty groups are not free.
 const ELEMENT_COST: u64 = 64;
 
 /// Walks a document.

@@ -14,7 +14,7 @@ use crate::common_losses::common_losses;
 /// Name of the attribute column that holds group names.
 const GROUP_COLUMN: &str = "group";
 
-/// Width of paths without a width, in meters: a visible line on a plan of 100 m.
+/// Width of paths without a width, in meters.
 const DEFAULT_WIDTH_M: f64 = 0.1;
 
 /// Color of paths without a color: opaque black.
