@@ -55,16 +55,17 @@ mod png_writer;
 mod render;
 mod svg;
 mod text;
-pub mod text_format;
 mod vector;
 
 pub use backdrop::{
     Backdrop, FloorPlan, Image, ImagePlacement, PreparedFloorPlan, SweptAreas, SweptReport,
     draw_swept_areas,
 };
-pub use decorations::{DecorationStyle, Decorations, grid, marks_list, scale_bar};
+pub use decorations::Decorations;
 pub use error::{ComposeError, ImageError, ImageProblem};
 pub use files::{SaveError, remove_unfinished, replace_file};
+pub use guideway_document::decorations::{DecorationStyle, grid, legend, scale_bar};
+pub use guideway_document::text_format;
 pub use picture::{Picture, Viewport};
 pub use png_writer::{save_png, save_png_by, write_png_by};
 pub use render::{NoProgress, Rendered, StripSink};

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
-use guideway_formats::svg::{SvgWriter, Stroke};
+use guideway_formats::svg::{Stroke, SvgWriter};
 use guideway_scene::{MethodInfo, Report, Shading, View};
 
 use crate::backdrop::VisibleBackdrop;

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 use std::sync::Arc;
 
 use guideway_cpu::Cpu;
-use guideway_formats::svg::{Outline, SvgWriter, Stroke};
+use guideway_formats::svg::{Outline, Stroke, SvgWriter};
 use guideway_layout::Layout;
 use guideway_scene::{
     Budget, Cancel, Frame, LineRule, Method, Prepared, Rgba, Scene, SceneError, SceneOptions,
@@ -81,7 +81,11 @@ impl FloorPlan {
     }
 
     /// Writes the plan as SVG elements.
-    pub(super) fn write(&self, view: &View, page: &mut SvgWriter<'_, impl Write>) -> io::Result<()> {
+    pub(super) fn write(
+        &self,
+        view: &View,
+        page: &mut SvgWriter<'_, impl Write>,
+    ) -> io::Result<()> {
         match self {
             Self::Image(image) => image.write(view, page),
             Self::Paths(scene) => {

@@ -119,7 +119,11 @@ impl Image {
     }
 
     /// Writes the image as an SVG element that embeds the file.
-    pub(super) fn write(&self, view: &View, page: &mut SvgWriter<'_, impl Write>) -> io::Result<()> {
+    pub(super) fn write(
+        &self,
+        view: &View,
+        page: &mut SvgWriter<'_, impl Write>,
+    ) -> io::Result<()> {
         let size = self.size();
         let on_page = |x: f64, y: f64| {
             view.pixel_from_world(

@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use guideway_cpu::{Areas, lay_areas};
-use guideway_envelope::{ConvexPolygon, MIN_TOLERANCE_M, EnvelopeSource, NoEnvelope};
+use guideway_envelope::{ConvexPolygon, EnvelopeSource, MIN_TOLERANCE_M, NoEnvelope};
 use guideway_formats::svg::SvgWriter;
 use guideway_layout::Layout;
 use guideway_scene::{Frame, Rgba, Scene, Strip, View};
@@ -149,7 +149,11 @@ impl VisibleAreas {
     }
 
     /// Writes the areas as an SVG group.
-    pub(super) fn write(&self, view: &View, page: &mut SvgWriter<'_, impl Write>) -> io::Result<()> {
+    pub(super) fn write(
+        &self,
+        view: &View,
+        page: &mut SvgWriter<'_, impl Write>,
+    ) -> io::Result<()> {
         let on_page = |polygon: &ConvexPolygon| -> Vec<Point<f64>> {
             let corners = polygon.points().iter();
             corners.map(|&p| view.pixel_from_world(p)).collect()

@@ -1,17 +1,15 @@
 //! Places all decorations of a picture so that labels keep clear of legend, title and scale bar.
 
 use guideway_document::Document;
-use guideway_document::decorations::{Label, LabelSize, MarkOptions, Marks, marks};
-use guideway_scene::{DrawList, Scene, Style, View};
+use guideway_document::decorations::{
+    DecorationStyle, Label, LabelSize, MarkOptions, Marks, grid, legend, marks, scale_bar,
+    scale_bar_box,
+};
+use guideway_scene::{DrawList, Scene, Style, TextLine, View};
 use guideway_spline::{Bounds, Point};
 
-use super::grid::grid;
-use super::legend::legend;
-use super::marks::marks_list;
-use super::options::{DecorationStyle, Decorations};
-use super::scale_bar::{scale_bar, scale_bar_box};
+use super::options::Decorations;
 use super::title::title;
-use crate::text::columns;
 
 /// Opacity of the paper behind the scale bar.
 const PAPER_OPACITY: f64 = 0.9;
@@ -48,7 +46,7 @@ pub(crate) fn place(
         placed.margin.push((list, "title"));
     }
     if let Some(colors) = scene.legend().filter(|_| decorations.has_legend) {
-        let top_px = style.title_band_px(decorations);
+        let top_px = decorations.title_band_px(style);
         match legend(colors, size, top_px, style) {
             Some((list, bounds)) => {
                 occupied.push(bounds);
@@ -63,7 +61,7 @@ pub(crate) fn place(
         let bounds = scale_bar_box(view, style);
         occupied.push(bounds);
         let mut list = DrawList::default();
-        let paper = DecorationStyle::faded(style.paper, PAPER_OPACITY);
+        let paper = style.paper.with_opacity(PAPER_OPACITY);
         list.fill_rectangle(paper, bounds.min, bounds.max);
         list.append(scale_bar(view, style));
         placed.margin.push((list, "scale bar"));
@@ -80,7 +78,7 @@ pub(crate) fn place(
                     .to_owned(),
             );
         }
-        placed.marks = marks_list(&marks, style);
+        placed.marks = marks.draw(style, |at_px| at_px);
     }
     placed
 }
@@ -122,7 +120,7 @@ fn visible_marks(
 }
 
 fn label_box(label: &Label, size: LabelSize) -> Bounds<f64> {
-    let width_px = columns(&label.text) as f64 * size.char_px;
+    let width_px = TextLine::columns(&label.text) as f64 * size.char_px;
     let half = Point::new(0.0, size.line_px / 2.0);
     Bounds {
         min: label.at_px - half,

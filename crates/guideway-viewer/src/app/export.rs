@@ -102,8 +102,8 @@ impl App {
                 .ok()
                 .zip(rows)
                 .map(|(vehicle, rows)| SweptAreas { vehicle, rows }),
-            grid: self.grid_sheet(&view),
-            marks: self.marks_sheet(&view),
+            grid: self.grid_list(&view),
+            marks: self.marks_list(&view),
         })
     }
 }

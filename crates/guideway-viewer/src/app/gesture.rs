@@ -1,6 +1,6 @@
 use eframe::egui::Modifiers;
-use guideway_document::decorations::{Handle, handles};
-use guideway_document::{Document, Hit, PathSet, PointRef, SelectMode, SnapOptions, round_step};
+use guideway_document::decorations::{Handle, handles, round_step};
+use guideway_document::{Document, Hit, PathSet, PointRef, SelectMode, SnapOptions};
 use guideway_scene::View;
 use guideway_spline::{Affine, Bounds, Point};
 

@@ -1,4 +1,4 @@
-use guideway_document::decorations::MarkKind;
+use guideway_document::decorations::DecorationStyle;
 use guideway_scene::density::ToneMap;
 use guideway_scene::{ColorBy, LineRule, Rgba, SceneOptions};
 use guideway_scene::{Shading, Style};
@@ -58,17 +58,12 @@ impl Look {
 
     /// Color of lines and texts beside the paths.
     pub(crate) fn mark_ink(&self) -> Rgba {
-        let gray = if self.is_dark { 220 } else { 40 };
-        Rgba::opaque(gray, gray, gray)
+        self.decoration_style(1.0).ink
     }
 
-    /// Color of a mark.
-    pub(crate) fn mark_color(&self, kind: MarkKind) -> Rgba {
-        match kind {
-            MarkKind::Arrow => self.mark_ink(),
-            MarkKind::Node => Rgba::opaque(0, 140, 90),
-            MarkKind::Station => Rgba::opaque(200, 40, 120),
-        }
+    /// Colors and sizes of decorations, at `px_per_point` pixels per point.
+    pub(crate) fn decoration_style(&self, px_per_point: f64) -> DecorationStyle {
+        DecorationStyle::new(self.paper(), px_per_point)
     }
 
     /// What a scene is made with.

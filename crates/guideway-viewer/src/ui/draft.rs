@@ -1,13 +1,13 @@
 use eframe::egui::{FontId, Painter, Pos2, Stroke, Vec2};
 use guideway_document::decorations::path_outline;
-use guideway_document::drawn_path;
 use guideway_document::measure::{Bend, bends, length_m, tightest_radius_m};
+use guideway_document::{drawn_path, text_format};
 use guideway_layout::PathRef;
 use guideway_scene::View;
 use guideway_spline::Point;
 
 use super::canvas::Screen;
-use super::paint::{HOVERED, OUTLINE, length_text, paint_outline, write_on_paper};
+use super::paint::{HOVERED, OUTLINE, paint_outline, write_on_paper};
 use crate::app::{App, Tool};
 
 /// A path less bent than this is as good as straight.
@@ -68,9 +68,9 @@ fn measured(points: &[Point<f64>]) -> String {
     };
     let way = *b - *a;
     let angle = way.y.atan2(way.x).to_degrees();
-    let last = format!("{} at {angle:.1}°", length_text(last_m));
+    let last = format!("{} at {angle:.1}°", text_format::length(last_m));
     if points.len() > 2 {
-        format!("{last}, {} in all", length_text(all_m))
+        format!("{last}, {} in all", text_format::length(all_m))
     } else {
         last
     }
@@ -78,10 +78,13 @@ fn measured(points: &[Point<f64>]) -> String {
 
 /// How long a path is, and how tight its bends, which are given.
 pub(super) fn shape_text(path: PathRef<'_>, bends: &[Bend]) -> String {
-    let length = length_text(length_m(path));
+    let length = text_format::length(length_m(path));
     let radius_m = tightest_radius_m(bends);
     match radius_m.is_finite() && radius_m < STRAIGHT_M {
-        true => format!("{length} long, tightest bend {}", length_text(radius_m)),
+        true => format!(
+            "{length} long, tightest bend {}",
+            text_format::length(radius_m)
+        ),
         false => format!("{length} long, straight"),
     }
 }
