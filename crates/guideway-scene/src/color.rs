@@ -43,6 +43,14 @@ impl Rgba {
         self.a == 255
     }
 
+    /// The color with another opacity, 0 to 1.
+    pub fn with_opacity(self, opacity: f64) -> Self {
+        Self {
+            a: (255.0 * opacity).round() as u8,
+            ..self
+        }
+    }
+
     /// Interpolates linearly per channel: `self` at `t` = 0, `other` at `t` = 1.
     pub fn lerp(self, other: Self, t: f64) -> Self {
         let mix = |a: u8, b: u8| (f64::from(a) + (f64::from(b) - f64::from(a)) * t).round() as u8;

@@ -4,7 +4,7 @@ use guideway_scene::{DrawList, TextLine};
 use guideway_spline::Point;
 
 use super::marks::{Arrow, Marks};
-use super::style::{DecorationStyle, MarkKind, with_alpha};
+use super::style::{DecorationStyle, MarkKind};
 
 /// Length of an arrow head, per unit of half its width.
 const HEAD_LENGTH: f64 = 2.25;
@@ -62,7 +62,7 @@ impl Marks {
                 left_middle_px: map(label.at_px),
                 char_width_px: style.label_size().char_px,
                 color: style.ink,
-                background: with_alpha(style.paper, LABEL_PAPER_OPACITY),
+                background: style.paper.with_opacity(LABEL_PAPER_OPACITY),
             });
         }
         list

@@ -4,7 +4,7 @@ use guideway_scene::{DrawList, View};
 use guideway_spline::Point;
 
 use super::round_step::round_step;
-use super::style::{DecorationStyle, with_alpha};
+use super::style::DecorationStyle;
 
 /// Least distance between grid lines, in points.
 const MIN_SPACING_POINTS: f64 = 96.0;
@@ -16,7 +16,7 @@ const OPACITY: f64 = 0.12;
 /// The grid of a view: lines one point wide, 1, 2 or 5 times a power of ten meters apart.
 pub fn grid(view: &View, style: &DecorationStyle) -> DrawList {
     let mut list = DrawList::default();
-    let color = with_alpha(style.ink, OPACITY);
+    let color = style.ink.with_opacity(OPACITY);
     let half_px = style.px_per_point / 2.0;
     let size = view.size();
     let (width, height) = (f64::from(size.width()), f64::from(size.height()));

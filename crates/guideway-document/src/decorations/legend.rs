@@ -3,7 +3,7 @@
 use guideway_scene::{DrawList, FrameSize, Legend, LegendEntry, TextLine};
 use guideway_spline::{Bounds, Point};
 
-use super::style::{DecorationStyle, with_alpha};
+use super::style::DecorationStyle;
 use crate::text_format::{count, single_line};
 
 /// Longest label, in characters.
@@ -34,7 +34,7 @@ pub fn legend(
         left_middle_px: Point::default(),
         char_width_px: line_px * TextLine::CHAR_ASPECT,
         color: style.ink,
-        background: with_alpha(style.paper, 0.0),
+        background: style.paper.with_opacity(0.0),
     };
     let column = text_line(single_line(&legend.column, MAX_LABEL_CHARS));
     let labels: Vec<TextLine> = legend.entries.iter().map(label).map(text_line).collect();
@@ -52,7 +52,7 @@ pub fn legend(
         return None;
     }
     let mut list = DrawList::default();
-    list.fill_rectangle(with_alpha(style.paper, PAPER_OPACITY), min, max);
+    list.fill_rectangle(style.paper.with_opacity(PAPER_OPACITY), min, max);
     let corner = min + gap;
     for (i, entry) in legend.entries.iter().enumerate() {
         let swatch = corner + Point::new(0.0, (i as f64 + 1.25) * line_px);

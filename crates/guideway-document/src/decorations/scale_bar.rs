@@ -4,7 +4,7 @@ use guideway_scene::{DrawList, TextLine, View};
 use guideway_spline::{Bounds, Point};
 
 use super::round_step::round_step;
-use super::style::{DecorationStyle, with_alpha};
+use super::style::DecorationStyle;
 use crate::text_format;
 
 /// Least length of the bar, in points.
@@ -37,7 +37,7 @@ pub fn scale_bar(view: &View, style: &DecorationStyle) -> DrawList {
         left_middle_px: left + LABEL_POINTS * point_px,
         char_width_px: style.label_size().char_px,
         color: style.ink,
-        background: with_alpha(style.paper, 0.0),
+        background: style.paper.with_opacity(0.0),
     });
     list
 }

@@ -50,7 +50,7 @@ impl DecorationStyle {
             ink: Rgba::opaque(gray, gray, gray),
             paper: match background.a {
                 0 => Rgba::WHITE,
-                _ => with_alpha(background, 1.0),
+                _ => background.with_opacity(1.0),
             },
             node: Rgba::opaque(0, 140, 90),
             station: Rgba::opaque(200, 40, 120),
@@ -88,14 +88,6 @@ impl DecorationStyle {
     /// Height of a line of the legend, in pixels.
     pub fn line_px(&self) -> f64 {
         LEGEND_LINE_POINTS * self.px_per_point
-    }
-}
-
-/// A color with another alpha, 0 to 1.
-pub(super) fn with_alpha(color: Rgba, alpha: f64) -> Rgba {
-    Rgba {
-        a: (255.0 * alpha).round() as u8,
-        ..color
     }
 }
 
