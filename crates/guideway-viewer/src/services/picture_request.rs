@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use guideway_envelope::EnvelopeSource;
 use guideway_layout::UserError;
-use guideway_scene::{Frame, Scene, DrawList, Style, View};
+use guideway_scene::{DrawList, Frame, Scene, Style, View};
 use guideway_spline::Bounds;
 
 /// The content of a picture, from the bottom: floor plan, grid, swept areas, other scenes, the
