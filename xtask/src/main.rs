@@ -114,7 +114,7 @@ fn soak(args: &[String]) -> Result<()> {
     for (name, value) in names.into_iter().zip(args) {
         step::set_env(name, value);
     }
-    let test = "tests::soak::a_day_of_anything";
+    let test = "tests::soak::long_soak_loses_nothing";
     let run = ["--ignored", "--exact", test, "--nocapture"];
     cargo(&["test", "-p", "guideway-viewer", "--lib", "--"])
         .args(run)

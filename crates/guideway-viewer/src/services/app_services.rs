@@ -62,7 +62,8 @@ pub trait AppServices: Send + Sync {
     /// When the file cannot be written, or SVG cannot express the style.
     fn export_svg(&self, picture: &PictureRequest, path: &Path) -> Result<(), UserError>;
 
-    /// Renders the areas that a vehicle sweeps along paths of a layout, on a transparent background.
+    /// Renders the areas that a vehicle sweeps along paths of a layout, on a transparent
+    /// background.
     ///
     /// # Errors
     /// When none of the paths has a swept area.

@@ -6,10 +6,9 @@
 mod app_services;
 mod job;
 mod picture_request;
+mod window_error;
 
 pub use app_services::{AppServices, LoadStage, MethodChoice};
 pub use job::Job;
 pub use picture_request::{FloorPlan, PictureRequest, SweptAreas};
-
-/// Code of the errors that the window itself reports.
-pub(crate) const WINDOW_ERROR: &str = "window";
+pub(crate) use window_error::WINDOW_ERROR;

@@ -1,6 +1,8 @@
+//! Compares layouts as text, one line per path and node.
+
 use guideway_layout::{Layout, PathRef};
 
-/// All that is saved of the paths and nodes of a layout, a line each.
+/// Everything that a file holds of paths and nodes, one line each.
 pub(super) fn content(layout: &Layout) -> Vec<String> {
     let paths = &layout.paths;
     let path = |path: PathRef<'_>| {
@@ -26,7 +28,7 @@ pub(super) fn content(layout: &Layout) -> Vec<String> {
     paths.iter().map(path).chain(all_nodes).collect()
 }
 
-/// The first line in which two layouts differ.
+/// The first line that differs between two layouts.
 pub(super) fn difference(a: &Layout, b: &Layout) -> Option<String> {
     let (a, b) = (content(a), content(b));
     let lines = a.iter().zip(&b).find(|(a, b)| a != b);
@@ -35,13 +37,13 @@ pub(super) fn difference(a: &Layout, b: &Layout) -> Option<String> {
 }
 
 #[test]
-fn any_difference_is_seen() {
+fn detects_any_difference() {
     use guideway_layout::Value;
     use guideway_spline::{Affine, Point};
 
-    let site = super::table::lanes(4);
+    let site = super::services::lanes(4);
     assert_eq!(difference(&site, &site.clone()), None);
-    assert!(difference(&site, &super::table::lanes(3)).is_some());
+    assert!(difference(&site, &super::services::lanes(3)).is_some());
     let changes: [fn(&mut Layout); 3] = [
         |site| {
             let by = Affine::translation(Point::new(1e-12, 0.0));

@@ -1,171 +1,207 @@
-//! Files that are opened, read again, saved and left.
+//! Opening, reloading, saving and closing of files.
 
 use eframe::egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable;
 
-use super::desk::Desk;
-use super::table::{Table, lanes};
+use super::services::{TestServices, lanes};
+use super::test_window::{TestWindow, has_notice};
 
 const NONE: Modifiers = Modifiers::NONE;
 const CTRL: Modifiers = Modifiers::COMMAND;
 
 #[test]
-fn a_file_is_saved_and_a_full_disk_loses_nothing() {
-    let mut desk = Desk::looking_at(lanes(4));
-    let at = desk.at(5.0, 2.0);
-    desk.click(at);
-    desk.key(NONE, Key::Delete);
-    *desk.table.is_full.lock().unwrap() = true;
-    desk.key(CTRL, Key::S);
-    desk.wait(|app| {
-        app.notices
-            .iter()
-            .any(|notice| notice.contains("disk is full"))
-    });
-    assert!(desk.document().is_changed());
-    *desk.table.is_full.lock().unwrap() = false;
-    desk.key(CTRL, Key::S);
-    desk.wait(|app| app.notices.iter().any(|notice| notice.contains("is saved")));
-    assert!(!desk.document().is_changed());
-    let saved = desk.table.files.lock().unwrap()[std::path::Path::new("site.arrow")].clone();
+fn saves_a_file_and_keeps_changes_on_a_full_disk() {
+    let mut window = TestWindow::showing(lanes(4));
+    let at = window.at(5.0, 2.0);
+    window.click(at);
+    window.key(NONE, Key::Delete);
+    *window.disk.is_full.lock().unwrap() = true;
+    window.key(CTRL, Key::S);
+    window.wait(|app| has_notice(app, "disk is full"));
+    assert!(window.document().is_changed());
+    *window.disk.is_full.lock().unwrap() = false;
+    window.key(CTRL, Key::S);
+    window.wait(|app| has_notice(app, "Saved"));
+    assert!(!window.document().is_changed());
+    let saved = window.disk.files.lock().unwrap()[std::path::Path::new("site.arrow")].clone();
     let ids: Vec<&str> = saved.paths.iter().map(|path| path.id()).collect();
     assert_eq!(ids, ["lane 0", "lane 2", "lane 3"]);
 }
 
 #[test]
-fn a_drawing_is_not_replaced_by_its_paths() {
-    let table = Table::with([("plan.dxf", lanes(2))]);
-    let mut desk = Desk::with(&table, &["plan.dxf"], Some("cpu"));
-    desk.wait(|app| app.layers[0].document.is_some());
-    desk.key(CTRL, Key::S);
-    assert!(!desk.app().is_writing());
-    assert_eq!(desk.app().prompt.as_ref().unwrap().text, "plan.lif.json");
-    desk.key(NONE, Key::Enter);
-    desk.wait(|app| app.layers[0].name() == "plan.lif.json");
-    let files = desk.table.files.lock().unwrap();
+fn prompts_for_a_name_instead_of_overwriting_a_drawing() {
+    let disk = TestServices::with([("plan.dxf", lanes(2))]);
+    let mut window = TestWindow::open(&disk, &["plan.dxf"], Some("cpu"));
+    window.wait(|app| app.files.layers()[0].document().is_some());
+    window.key(CTRL, Key::S);
+    assert!(!window.app().writer.is_busy());
+    assert_eq!(
+        window.app().dialogs.prompt.open_mut().unwrap().text,
+        "plan.lif.json"
+    );
+    window.key(NONE, Key::Enter);
+    window.wait(|app| app.files.layers()[0].name() == "plan.lif.json");
+    let files = window.disk.files.lock().unwrap();
     assert!(files.contains_key(std::path::Path::new("plan.lif.json")));
 }
 
 #[test]
-fn a_file_that_is_being_saved_is_neither_left_nor_read_again() {
-    let mut desk = Desk::looking_at(lanes(4));
-    let all = |desk: &mut Desk| {
-        desk.key(CTRL, Key::A);
-        desk.key(NONE, Key::Delete);
-        desk.wait(|app| !app.layers[0].is_busy());
+fn file_being_saved_is_neither_closed_nor_reloaded() {
+    let mut window = TestWindow::showing(lanes(4));
+    let all = |window: &mut TestWindow| {
+        window.key(CTRL, Key::A);
+        window.key(NONE, Key::Delete);
+        window.wait(|app| !app.files.layers()[0].is_busy());
     };
-    all(&mut desk);
-    *desk.table.is_slow.lock().unwrap() = true;
-    desk.key(CTRL, Key::S);
-    assert!(!desk.document().is_changed() && desk.app().layers[0].is_changed());
-    desk.key(CTRL, Key::W);
-    desk.app().reload(0, true);
-    assert!(!desk.app().layers[0].is_reading(), "it would read what was");
-    desk.key(CTRL, Key::Q);
-    assert!(desk.harness.query_by_label("Quit without saving").is_some());
-    *desk.table.is_slow.lock().unwrap() = false;
-    desk.wait(|app| !app.layers[0].is_changed());
+    all(&mut window);
+    *window.disk.is_blocked.lock().unwrap() = true;
+    window.key(CTRL, Key::S);
+    assert!(!window.document().is_changed() && window.app().files.layers()[0].is_changed());
+    window.key(CTRL, Key::W);
+    window.app().reload(0, true);
+    assert!(
+        !window.app().files.layers()[0].is_loading(),
+        "it would read the old file"
+    );
+    window.key(CTRL, Key::Q);
+    assert!(
+        window
+            .harness
+            .query_by_label("Quit without saving")
+            .is_some()
+    );
+    *window.disk.is_blocked.lock().unwrap() = false;
+    window.wait(|app| !app.files.layers()[0].is_changed());
     let file = std::path::Path::new("site.arrow");
-    assert!(desk.table.files.lock().unwrap()[file].paths.is_empty());
-    desk.harness.run_steps(3);
-    assert!(desk.harness.query_by_label("Quit without saving").is_none());
+    assert!(window.disk.files.lock().unwrap()[file].paths.is_empty());
+    window.harness.run_steps(3);
+    assert!(
+        window
+            .harness
+            .query_by_label("Quit without saving")
+            .is_none()
+    );
 }
 
 #[test]
-fn a_file_that_is_being_read_again_is_not_saved_over() {
-    let mut desk = Desk::looking_at(lanes(4));
-    *desk.table.is_slow.lock().unwrap() = true;
+fn file_being_reloaded_is_not_saved() {
+    let mut window = TestWindow::showing(lanes(4));
+    *window.disk.is_blocked.lock().unwrap() = true;
     let others = [("site.arrow".into(), lanes(7))];
-    desk.table.files.lock().unwrap().extend(others);
-    desk.app().reload(0, false);
-    desk.key(CTRL, Key::A);
-    desk.key(NONE, Key::Delete);
-    desk.key(CTRL, Key::S);
-    let said = |app: &crate::App, text: &str| app.notices.iter().any(|n| n.contains(text));
-    assert!(said(desk.app(), "still being read") && !desk.app().is_writing());
-    *desk.table.is_slow.lock().unwrap() = false;
-    desk.wait(|app| said(app, "has changed on disk"));
-    assert!(desk.document().is_changed());
+    window.disk.files.lock().unwrap().extend(others);
+    window.app().reload(0, false);
+    window.key(CTRL, Key::A);
+    window.key(NONE, Key::Delete);
+    window.key(CTRL, Key::S);
+    assert!(has_notice(window.app(), "still being loaded") && !window.app().writer.is_busy());
+    *window.disk.is_blocked.lock().unwrap() = false;
+    window.wait(|app| has_notice(app, "has changed on disk"));
+    assert!(window.document().is_changed());
     let file = std::path::Path::new("site.arrow");
     assert_eq!(
-        desk.table.files.lock().unwrap()[file].paths.iter().count(),
+        window.disk.files.lock().unwrap()[file].paths.iter().count(),
         7
     );
 }
 
 #[test]
-fn reading_a_file_is_stopped_by_a_key_or_a_button_and_begun_anew() {
-    let table = Table::with([("site.arrow", lanes(4))]);
-    *table.is_slow.lock().unwrap() = true;
-    let mut desk = Desk::with(&table, &["site.arrow"], Some("cpu"));
+fn load_is_cancelled_by_key_or_button_and_restarts() {
+    let disk = TestServices::with([("site.arrow", lanes(4))]);
+    *disk.is_blocked.lock().unwrap() = true;
+    let mut window = TestWindow::open(&disk, &["site.arrow"], Some("cpu"));
     for by_key in [true, false] {
-        desk.wait(|app| {
-            let load = app.layers[0].load();
+        window.wait(|app| {
+            let load = app.files.layers()[0].load_job();
             load.is_some_and(|load| load.fraction() == Some(0.5))
         });
         match by_key {
-            true => desk.key(NONE, Key::Escape),
-            false => desk.harness.get_by_label("Cancel").click(),
+            true => window.key(NONE, Key::Escape),
+            false => window.harness.get_by_label("Cancel").click(),
         }
-        desk.wait(|app| app.layers[0].load().is_none());
-        let trouble = desk.app().layers[0].trouble.clone();
-        assert!(trouble.is_some_and(|trouble| trouble.contains("cancelled")));
-        desk.app().reload(0, false);
+        window.wait(|app| app.files.layers()[0].load_job().is_none());
+        let error = window.app().files.layers()[0].error().map(str::to_owned);
+        assert!(error.is_some_and(|error| error.contains("cancelled")));
+        window.app().reload(0, false);
     }
-    *table.is_slow.lock().unwrap() = false;
-    desk.wait(|app| app.layers[0].is_settled() && app.layers[0].trouble.is_none());
+    *disk.is_blocked.lock().unwrap() = false;
+    window
+        .wait(|app| app.files.layers()[0].is_settled() && app.files.layers()[0].error().is_none());
 }
 
 #[test]
-fn a_file_that_was_open_lately_is_opened_by_its_digit() {
+fn digit_opens_a_recent_file() {
     let folder = tempfile::tempdir().unwrap();
     let [a, b, gone] = ["a.arrow", "b.arrow", "gone.arrow"].map(|name| folder.path().join(name));
     for file in [&a, &b] {
         std::fs::write(file, "").unwrap();
     }
-    let table = Table::with([]);
-    *table.state.lock().unwrap() = Some(folder.path().join("state"));
+    let disk = TestServices::with([]);
+    *disk.state.lock().unwrap() = Some(folder.path().join("state"));
     for file in [&a, &b, &gone] {
-        table.files.lock().unwrap().insert(file.clone(), lanes(3));
+        disk.files.lock().unwrap().insert(file.clone(), lanes(3));
     }
     let files = [&a, &gone, &b].map(|file| file.to_str().unwrap());
-    let mut desk = Desk::with(&table, &files, Some("cpu"));
-    desk.wait(|app| app.layers.iter().all(|layer| layer.document.is_some()));
-    drop(desk);
-    let mut desk = Desk::with(&table, &[], Some("cpu"));
-    desk.wait(|app| app.recent.files().len() == 3);
-    let order = desk.app().recent.files();
+    let mut window = TestWindow::open(&disk, &files, Some("cpu"));
+    window.wait(|app| {
+        app.files
+            .layers()
+            .iter()
+            .all(|layer| layer.document().is_some())
+    });
+    drop(window);
+    let mut window = TestWindow::open(&disk, &[], Some("cpu"));
+    window.wait(|app| app.files.recent().files().len() == 3);
+    let order = window.app().files.recent().files();
     let there = order.iter().position(|(file, _)| *file == a).unwrap();
     let missing = order.iter().position(|(file, _)| *file == gone).unwrap();
     let digits = [Key::Num1, Key::Num2, Key::Num3];
-    desk.key(CTRL.plus(Modifiers::SHIFT), Key::O);
-    desk.key(NONE, digits[missing]);
-    assert!(desk.app().choosing.is_some() && desk.app().layers.is_empty());
-    desk.key(NONE, digits[there]);
-    assert!(desk.app().choosing.is_none() && desk.app().layers[0].is_at(&a));
-    desk.wait(|app| app.layers[0].document.is_some());
-    assert_eq!(desk.app().recent.files()[0].0, a, "it is the newest now");
+    window.key(CTRL.plus(Modifiers::SHIFT), Key::O);
+    window.key(NONE, digits[missing]);
+    assert!(window.app().dialogs.recent.is_open() && window.app().files.layers().is_empty());
+    window.key(NONE, digits[there]);
+    assert!(!window.app().dialogs.recent.is_open() && window.app().files.layers()[0].is_at(&a));
+    window.wait(|app| app.files.layers()[0].document().is_some());
+    assert_eq!(
+        window.app().files.recent().files()[0].0,
+        a,
+        "it is the newest"
+    );
 }
 
 #[test]
-fn one_bad_file_does_not_keep_others_from_opening() {
-    let table = Table::with([("b.arrow", lanes(3))]);
-    let mut desk = Desk::with(&table, &["a.arrow", "b.arrow"], Some("cpu"));
-    desk.wait(|app| app.layers[0].trouble.is_some() && app.layers[1].shown.is_some());
-    let trouble = desk.app().layers[0].trouble.clone().unwrap();
-    assert!(trouble.contains("no such file"), "{trouble}");
+fn unreadable_file_does_not_block_others() {
+    let disk = TestServices::with([("b.arrow", lanes(3))]);
+    let mut window = TestWindow::open(&disk, &["a.arrow", "b.arrow"], Some("cpu"));
+    window.wait(|app| {
+        app.files.layers()[0].error().is_some() && app.files.layers()[1].picture.shown().is_some()
+    });
+    let error = window.app().files.layers()[0]
+        .error()
+        .map(str::to_owned)
+        .unwrap();
+    assert!(error.contains("no such file"), "{error}");
 }
 
 #[test]
-fn unsaved_changes_are_asked_about() {
-    let mut desk = Desk::looking_at(lanes(3));
-    desk.key(CTRL, Key::A);
-    desk.key(NONE, Key::Delete);
-    desk.key(CTRL, Key::W);
-    assert_eq!(desk.app().layers.len(), 1, "it stays open");
-    desk.key(CTRL, Key::Q);
-    assert!(desk.harness.query_by_label("Quit without saving").is_some());
-    desk.harness.get_by_label("Stay").click();
-    desk.harness.run_steps(3);
-    assert!(desk.harness.query_by_label("Quit without saving").is_none());
+fn asks_before_discarding_unsaved_changes() {
+    let mut window = TestWindow::showing(lanes(3));
+    window.key(CTRL, Key::A);
+    window.key(NONE, Key::Delete);
+    window.key(CTRL, Key::W);
+    assert_eq!(window.app().files.layers().len(), 1, "the file stays open");
+    window.key(CTRL, Key::Q);
+    assert!(
+        window
+            .harness
+            .query_by_label("Quit without saving")
+            .is_some()
+    );
+    window.harness.get_by_label("Keep editing").click();
+    window.harness.run_steps(3);
+    assert!(
+        window
+            .harness
+            .query_by_label("Quit without saving")
+            .is_none()
+    );
 }

@@ -1,15 +1,16 @@
-//! The viewer driven as a person drives it, by mouse and keys, without a window.
+//! Tests that drive the whole application by mouse and keys, without a window.
 
-mod beside;
+mod background;
 mod content;
-mod desk;
-mod drags;
+mod drag;
 mod files;
 mod findings;
-mod fingers;
-mod hand;
-mod journeys;
-mod random;
+mod methods;
+mod random_input;
+mod random_run;
 mod recovery;
+pub(crate) mod services;
 mod soak;
-pub(crate) mod table;
+mod test_window;
+mod touch;
+mod workflows;

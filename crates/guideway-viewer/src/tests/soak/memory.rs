@@ -1,7 +1,9 @@
-/// Growth over a whole run that is taken for chance: what the allocator keeps differs from rest to rest.
-const MOST_GROWTH_MB: f64 = 48.0;
+//! Memory of the process at rest.
 
-/// Megabytes of memory that the process holds; none where the system does not say.
+/// Tolerated growth over a run: the memory that the allocator keeps varies from rest to rest.
+const MAX_GROWTH_MB: f64 = 48.0;
+
+/// Resident megabytes of the process; `None` where the system does not report them.
 pub(super) fn resident_mb() -> Option<f64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status
@@ -11,7 +13,7 @@ pub(super) fn resident_mb() -> Option<f64> {
     Some(kb / 1024.0)
 }
 
-/// What memory at rest grew by from the second quarter of a run to the last, by their medians.
+/// Growth of memory at rest, from the median of the second quarter of a run to that of the last.
 pub(super) fn growth_mb(at_rest_mb: &[f64]) -> f64 {
     let quarter = at_rest_mb.len() / 4;
     if quarter == 0 {
@@ -29,14 +31,14 @@ pub(super) fn growth_mb(at_rest_mb: &[f64]) -> f64 {
 /// When memory at rest grows.
 pub(super) fn check(at_rest_mb: &[f64]) -> Result<(), String> {
     let growth_mb = growth_mb(at_rest_mb);
-    if growth_mb > MOST_GROWTH_MB {
+    if growth_mb > MAX_GROWTH_MB {
         return Err(format!("memory at rest grew by {growth_mb:.1} MB"));
     }
     Ok(())
 }
 
 #[test]
-fn what_leaks_is_told_from_what_does_not() {
+fn distinguishes_a_leak_from_noise() {
     let noise = |i: usize| ((i * 7919) % 13) as f64;
     let flat: Vec<f64> = (0..400).map(|i| 200.0 + noise(i)).collect();
     assert_eq!(check(&flat), Ok(()));

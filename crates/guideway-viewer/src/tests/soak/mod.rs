@@ -1,9 +1,9 @@
-//! Hours of a person who does anything: what is saved is what the journal says was done, a crash loses nothing, and
-//! memory stays flat.
+//! The soak test: random input for hours. Every save equals the replayed journal, no crash loses
+//! work, no thread panics, and memory at rest stays flat.
 
+mod file_store;
 mod memory;
 mod saves;
-mod shelf;
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -19,39 +19,39 @@ use guideway_document::{Document, replay};
 use guideway_layout::Layout;
 
 use super::content::difference;
-use super::desk::Desk;
-use super::hand::{Chance, act, calm_down, keep_open};
-use super::table::lanes;
-use crate::app::command::Command;
-use crate::work::recovery::written;
-use shelf::Shelf;
+use super::random_input::{RandomSource, act, close_dialogs, keep_open};
+use super::services::lanes;
+use super::test_window::TestWindow;
+use crate::command::Command;
+use crate::editing::read_entries;
+use file_store::FileStore;
 
-/// Events from one rest, with the file as it was at first, to the next.
-const EVENTS_A_CHAPTER: usize = 200;
+/// Events per chapter. A chapter ends at rest, with the first file loaded again.
+const EVENTS_PER_CHAPTER: usize = 200;
 
-/// When a run is over.
+/// Length of a run.
 enum Length {
     Chapters(usize),
     Minutes(f64),
 }
 
 struct Soak {
-    shelf: Arc<Shelf>,
-    desk: Desk,
+    store: Arc<FileStore>,
+    window: TestWindow,
     first: Layout,
-    chance: Chance,
+    random: RandomSource,
     record: Record,
 }
 
-/// What was done, and what it took.
+/// Counts of actions, and memory over time.
 #[derive(Default)]
 struct Record {
     counts: BTreeMap<&'static str, u64>,
-    /// Minutes since the start, and megabytes, at the end of each chapter.
+    /// Minutes since the start, and resident megabytes, at the end of each chapter.
     rests: Vec<(f64, f64)>,
 }
 
-/// Panics of any thread, also of those that the viewer goes on without.
+/// Panics of all threads, also of those that the window replaces.
 static PANICS: AtomicU64 = AtomicU64::new(0);
 
 fn count_panics() {
@@ -71,7 +71,7 @@ impl Record {
         self.rests.iter().map(|&(_, mb)| mb).collect()
     }
 
-    /// All of it, as text.
+    /// The record as text.
     fn text(&self, seed: u64, minutes: f64) -> String {
         let mut text = format!("seed {seed}, {minutes:.1} minutes\n");
         for (what, count) in &self.counts {
@@ -93,13 +93,13 @@ impl Record {
 impl Soak {
     fn new(seed: u64) -> Self {
         let first = lanes(60);
-        let shelf = Shelf::with(&first);
-        let desk = desk_at(&shelf);
+        let store = FileStore::with(&first);
+        let window = open_window(&store);
         Self {
-            shelf,
-            desk,
+            store,
+            window,
             first,
-            chance: Chance(seed),
+            random: RandomSource(seed),
             record: Record::default(),
         }
     }
@@ -116,7 +116,7 @@ impl Soak {
             if is_over {
                 break;
             }
-            (0..EVENTS_A_CHAPTER).try_for_each(|_| self.act())?;
+            (0..EVENTS_PER_CHAPTER).try_for_each(|_| self.act())?;
             self.save()?;
             self.rest();
             if let Some(mb) = memory::resident_mb() {
@@ -128,201 +128,213 @@ impl Soak {
             return Err(format!("threads panicked, {panics} of them"));
         }
         match length {
-            // Other tests share the memory of the process.
+            // Other tests share the process, so its memory says nothing.
             Length::Chapters(_) => Ok(()),
             Length::Minutes(_) => memory::check(&self.record.at_rest_mb()),
         }
     }
 
-    /// Something that hands do, or that befalls them.
+    /// Random input, or a random fault.
     fn act(&mut self) -> Result<(), String> {
-        match self.chance.below(400) {
+        match self.random.below(400) {
             0 => self.save()?,
             1 => self.crash()?,
             2 | 3 => {
-                self.shelf.table.lose_device();
+                self.store.disk.lose_device();
                 self.record.count("device lost");
             }
             4 | 5 => {
                 let choices = [None, Some("cpu".to_owned()), Some("device".to_owned())];
-                let chosen = choices[self.chance.below(3)].clone();
-                self.desk.app().set_method(chosen);
+                let chosen = choices[self.random.below(3)].clone();
+                self.window.app().set_method(chosen);
                 self.record.count("other method");
             }
             6 => self.fail_to_save()?,
             _ => {
-                let what = act(&mut self.desk, &mut self.chance);
+                let what = act(&mut self.window, &mut self.random);
                 self.record.count(what);
             }
         }
         let file = self.file();
-        keep_open(&mut self.desk, &file);
+        keep_open(&mut self.window, &file);
         Ok(())
     }
 
-    /// Saves, and compares what is written with what the journal says was done.
+    /// Saves, and compares the file with the replayed journal.
     fn save(&mut self) -> Result<(), String> {
         let base = self
-            .shelf
-            .layout(&self.shelf.file)
+            .store
+            .layout(&self.store.file)
             .expect("the file is there");
         self.press_save();
-        self.desk.wait(|app| {
+        self.window.wait(|app| {
             app.document()
                 .is_some_and(|document| !document.is_changed())
         });
         self.record.count("save");
         let saved = self
-            .shelf
-            .layout(&self.shelf.file)
+            .store
+            .layout(&self.store.file)
             .expect("the file is there");
-        let is = self.desk.document().to_layout();
+        let is = self.window.document().to_layout();
         if let Some(lines) = difference(&saved, &is) {
-            return Err(format!("what is saved is not what is there: {lines}"));
+            return Err(format!("the saved file differs from the document: {lines}"));
         }
-        let replayed = match written(&self.shelf.file) {
+        let replayed = match read_entries(&self.store.file) {
             None => base,
             Some((acts, from)) => {
                 let from = self
-                    .shelf
+                    .store
                     .layout(&from)
                     .expect("the file as it was read is kept");
                 let mut document = document(from);
                 if replay(&acts, &mut document, |_| true).bytes != acts.len() {
-                    return Err("the journal cannot be done again".into());
+                    return Err("the journal cannot be replayed".into());
                 }
                 document.to_layout()
             }
         };
         let lines = difference(&saved, &replayed);
         lines.map_or(Ok(()), |lines| {
-            Err(format!("what is saved is not what was done: {lines}"))
+            Err(format!(
+                "the saved file differs from the replayed journal: {lines}"
+            ))
         })
     }
 
-    /// Saves to a disk that is full: the file must stay what it is.
+    /// Saves to a full disk: the file must stay unchanged.
     fn fail_to_save(&mut self) -> Result<(), String> {
         let before = self
-            .shelf
-            .layout(&self.shelf.file)
+            .store
+            .layout(&self.store.file)
             .expect("the file is there");
         let set_full = |soak: &Self, is_full| {
-            let disk = soak.shelf.table.is_full.lock();
-            *disk.expect("no test panics while it holds this") = is_full;
+            let disk = soak.store.disk.is_full.lock();
+            *disk.expect("no test panics while it holds the lock") = is_full;
         };
         set_full(self, true);
         self.press_save();
-        self.desk.wait(|app| {
-            app.notices
+        self.window.wait(|app| {
+            app.dialogs
+                .notices
+                .texts()
                 .iter()
                 .any(|notice| notice.contains("disk is full"))
         });
         set_full(self, false);
         self.record.count("save to a full disk");
         let after = self
-            .shelf
-            .layout(&self.shelf.file)
+            .store
+            .layout(&self.store.file)
             .expect("the file is there");
         let lines = difference(&before, &after);
         lines.map_or(Ok(()), |lines| Err(format!("a failed save left: {lines}")))
     }
 
     fn press_save(&mut self) {
-        calm_down(&mut self.desk);
-        self.desk.wait(|app| !app.is_writing());
-        self.desk.app().notices.clear();
-        self.desk.key(Modifiers::COMMAND, Key::S);
-        self.desk.wait(|app| !app.is_writing());
+        close_dialogs(&mut self.window);
+        self.window.wait(|app| !app.writer.is_busy());
+        self.window.app().dialogs.notices.clear();
+        self.window.key(Modifiers::COMMAND, Key::S);
+        self.window.wait(|app| !app.writer.is_busy());
     }
 
-    /// The program ends without a chance to tidy up, and is started again.
+    /// Simulates a crash, in which no destructor runs, and restarts the window.
     fn crash(&mut self) -> Result<(), String> {
-        calm_down(&mut self.desk);
-        self.desk.wait(|app| !app.is_writing());
-        let before = self.desk.document().to_layout();
-        let is_changed = self.desk.document().is_changed();
-        let folder = self.shelf.file.parent().expect("it is in a folder");
+        close_dialogs(&mut self.window);
+        self.window.wait(|app| !app.writer.is_busy());
+        let before = self.window.document().to_layout();
+        let is_changed = self.window.document().is_changed();
+        let folder = self.store.file.parent().expect("it is in a folder");
         let names = fs::read_dir(folder).expect("the folder is there");
         let left: Vec<(PathBuf, Vec<u8>)> = names
             .filter_map(|entry| Some(entry.ok()?.path()))
-            .filter(|path| *path != self.shelf.file)
+            .filter(|path| *path != self.store.file)
             .filter_map(|path| Some((path.clone(), fs::read(path).ok()?)))
             .collect();
-        self.desk.app().layers.clear();
+        while !self.window.app().files.layers().is_empty() {
+            self.window.app().files.close(0);
+        }
         for (path, bytes) in left {
             fs::write(path, bytes).expect("there is room for it");
         }
-        self.desk = desk_at(&self.shelf);
+        self.window = open_window(&self.store);
         self.record.count("crash");
         if is_changed {
-            self.desk.wait(|app| app.layers[0].has_found_work());
+            self.window
+                .wait(|app| app.files.layers()[0].has_unsaved_work());
         }
-        // What was done and undone may be done again, too.
-        if self.desk.app().layers[0].has_found_work() {
-            self.desk.harness.run_steps(3);
-            self.desk.harness.get_by_label("Do it again").click();
-            self.desk
-                .wait(|app| app.notices.iter().any(|n| n.contains("done again")));
+        // Undone edits are unsaved work too.
+        if self.window.app().files.layers()[0].has_unsaved_work() {
+            self.window.harness.run_steps(3);
+            self.window.harness.get_by_label("Recover").click();
+            self.window.wait(|app| {
+                app.dialogs
+                    .notices
+                    .texts()
+                    .iter()
+                    .any(|n| n.contains("Recovered"))
+            });
         }
-        let lines = difference(&before, &self.desk.document().to_layout());
+        let lines = difference(&before, &self.window.document().to_layout());
         lines.map_or(Ok(()), |lines| Err(format!("a crash lost work: {lines}")))
     }
 
-    /// Puts the file as it was at first and reads it again, so that the memory held can be compared.
+    /// Restores and reloads the first file, so that memory is comparable.
     fn rest(&mut self) {
-        self.shelf.put(&self.first);
-        let app = self.desk.app();
-        app.look = crate::app::Look::default();
+        self.store.put(&self.first);
+        let app = self.window.app();
+        app.settings = crate::display_settings::DisplaySettings::default();
         app.reload(0, true);
-        self.desk.wait(|app| !app.layers[0].is_reading());
+        self.window.wait(|app| !app.files.layers()[0].is_loading());
         let paths = self.first.paths.len();
-        let ctx = self.desk.harness.ctx.clone();
-        self.desk.app().perform(Command::Fit, &ctx);
+        let ctx = self.window.harness.ctx.clone();
+        self.window.app().perform(Command::ZoomToAll, &ctx);
         let is_whole = |report: &guideway_scene::Report| report.drawn == paths as u64;
-        self.desk.wait(|app| {
-            let shown = app.layers[0].shown.as_ref();
+        self.window.wait(|app| {
+            let shown = app.files.layers()[0].picture.shown();
             shown.is_some_and(|shown| is_whole(&shown.report))
         });
         self.record.count("rest");
     }
 
     fn file(&self) -> String {
-        self.shelf.file.display().to_string()
+        self.store.file.display().to_string()
     }
 }
 
-fn desk_at(shelf: &Arc<Shelf>) -> Desk {
-    let services = Arc::clone(shelf);
-    let mut desk = Desk::of(
+fn open_window(store: &Arc<FileStore>) -> TestWindow {
+    let services = Arc::clone(store);
+    let mut window = TestWindow::with_services(
         services,
-        &shelf.table,
-        &[&shelf.file.display().to_string()],
+        &store.disk,
+        &[&store.file.display().to_string()],
         None,
     );
-    desk.wait(|app| app.document().is_some() && app.layers[0].shown.is_some());
-    desk
+    window.wait(|app| app.document().is_some() && app.files.layers()[0].picture.shown().is_some());
+    window
 }
 
 fn document(layout: Layout) -> Document {
-    Document::new(Arc::new(layout), &Default::default()).expect("no column is asked for")
+    Document::new(Arc::new(layout), &Default::default()).expect("the options name no column")
 }
 
 #[test]
-fn a_short_day_of_anything() {
+fn short_soak_loses_nothing() {
     let mut soak = Soak::new(11);
     let outcome = soak.run(&Length::Chapters(5));
     println!("{}", soak.record.text(11, 0.0));
     assert_eq!(outcome, Ok(()));
-    // It would have told of a thread that panics, too.
+    // A thread that panics fails the run.
     let thread = std::thread::spawn(|| panic!("on purpose"));
     assert!(thread.join().is_err());
     assert!(soak.run(&Length::Chapters(0)).is_err());
 }
 
-/// As long as asked: `cargo xtask soak --minutes 60`.
+/// Runs for GUIDEWAY_SOAK_MINUTES: `cargo xtask soak --minutes 60`.
 #[test]
-#[ignore = "takes as long as it is told to"]
-fn a_day_of_anything() {
+#[ignore = "runs for GUIDEWAY_SOAK_MINUTES"]
+fn long_soak_loses_nothing() {
     let number = |name: &str| std::env::var(name).ok()?.parse::<f64>().ok();
     let minutes = number("GUIDEWAY_SOAK_MINUTES").unwrap_or(1.0);
     let seed = number("GUIDEWAY_SOAK_SEED").unwrap_or(1.0) as u64;
@@ -339,30 +351,36 @@ fn a_day_of_anything() {
 }
 
 #[test]
-fn an_undo_that_is_not_written_down_is_caught() {
+fn detects_an_undo_without_journal_entry() {
     let mut soak = Soak::new(3);
-    soak.desk.document().select_all();
-    soak.desk.document().delete_selection().unwrap();
-    soak.desk.harness.step();
+    soak.window.document().select_all();
+    soak.window.document().delete_selection().unwrap();
+    soak.window.harness.step();
     soak.save().unwrap();
-    soak.desk.document().undo();
-    soak.desk.document().take_journal_entries();
+    soak.window.document().undo();
+    soak.window.document().take_journal_entries();
     let caught = soak.save().unwrap_err();
-    assert!(caught.contains("not what was done"), "{caught}");
+    assert!(
+        caught.contains("differs from the replayed journal"),
+        "{caught}"
+    );
 }
 
 #[test]
-fn an_undo_that_does_something_else_is_caught() {
+fn detects_an_undo_with_another_effect() {
     let mut soak = Soak::new(3);
-    soak.desk.document().select_all();
-    soak.desk.document().delete_selection().unwrap();
-    soak.desk.harness.step();
-    soak.desk.document().undo();
-    soak.desk.harness.step();
-    // What the journal does not know of, as if undoing had put a node aside.
+    soak.window.document().select_all();
+    soak.window.document().delete_selection().unwrap();
+    soak.window.harness.step();
+    soak.window.document().undo();
+    soak.window.harness.step();
+    // An edit without a journal entry, as if undo had moved a node.
     let aside = guideway_spline::Point::new(0.0, 0.5);
-    soak.desk.document().move_node(0, aside).unwrap();
-    soak.desk.document().take_journal_entries();
+    soak.window.document().move_node(0, aside).unwrap();
+    soak.window.document().take_journal_entries();
     let caught = soak.save().unwrap_err();
-    assert!(caught.contains("not what was done"), "{caught}");
+    assert!(
+        caught.contains("differs from the replayed journal"),
+        "{caught}"
+    );
 }

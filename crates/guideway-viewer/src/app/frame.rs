@@ -1,0 +1,234 @@
+//! One frame: takes the results of background threads, shows all parts, and routes their actions.
+
+use std::thread;
+use std::time::Duration;
+
+use eframe::egui::{CentralPanel, Context, Frame, Panel, ScrollArea, TextWrapMode, Ui};
+
+use super::routing::release_keyboard;
+use super::state::App;
+use crate::backdrop::ActiveDocument;
+use crate::canvas::CanvasPainter;
+use crate::files::{Layer, LayerContext, LayerEvent};
+use crate::panels::{MenuBar, SidePanel, StatusBar, pressed_commands};
+use crate::render_queue::{FALLBACK_METHOD, RenderRequest};
+use crate::services::LoadStage;
+use crate::tools::PointerEvent;
+
+/// Width of the side panel, in points. It is fixed: the canvas must not resize while the content of
+/// the panel follows the pointer.
+const SIDE_PANEL_WIDTH: f32 = 320.0;
+
+impl App {
+    /// Shows one frame.
+    pub(crate) fn show(&mut self, ui: &mut Ui) {
+        let ctx = ui.ctx().clone();
+        self.poll(&ctx);
+        for command in pressed_commands(&ctx) {
+            self.perform(command, &ctx);
+        }
+        Panel::top("menus").show(ui, |ui| {
+            let bar = MenuBar {
+                files: &self.files,
+                writer: &self.writer,
+                tool: self.tools.tool(),
+            };
+            let actions = bar.show(ui);
+            self.apply_all(actions, &ctx);
+        });
+        Panel::bottom("status").show(ui, |ui| {
+            let bar = StatusBar {
+                canvas: &self.canvas,
+                files: &self.files,
+                tools: &self.tools,
+                settings: &self.settings,
+            };
+            bar.show(ui);
+        });
+        let side = Panel::right("side").exact_size(SIDE_PANEL_WIDTH);
+        side.show(ui, |ui| {
+            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+                ui.style_mut().wrap_mode = Some(TextWrapMode::Wrap);
+                self.show_side_panel(ui, &ctx);
+            });
+        });
+        CentralPanel::default()
+            .frame(Frame::NONE)
+            .show(ui, |ui| self.show_canvas(ui));
+        let actions = self.dialogs.show(&ctx, &self.files);
+        self.apply_all(actions, &ctx);
+    }
+
+    fn show_side_panel(&mut self, ui: &mut Ui, ctx: &Context) {
+        let mut panel = SidePanel {
+            files: &mut self.files,
+            floor_plan: &mut self.floor_plan,
+            tools: &mut self.tools,
+            exact_edit: &mut self.exact_edit,
+            find: &mut self.find,
+            settings: &mut self.settings,
+            swept_areas: &mut self.swept_areas,
+            findings: &mut self.findings,
+            methods: &self.methods,
+        };
+        let actions = panel.show(ui);
+        self.apply_all(actions, ctx);
+    }
+
+    fn show_canvas(&mut self, ui: &mut Ui) {
+        let primary_pans = self.tools.tool().adds_points();
+        for event in self.canvas.input(ui, primary_pans) {
+            self.point(event);
+            if matches!(event, PointerEvent::Clicked(..)) {
+                release_keyboard(ui.ctx());
+            }
+        }
+        let Some(view) = self.canvas.camera.view() else {
+            return;
+        };
+        self.request_pictures();
+        let options = self.settings.mark_options(self.canvas.px_per_point());
+        let (wait, repaint) = (self.edit_wait, &self.context.repaint);
+        if let Some(layer) = self.files.active_mut().filter(|layer| layer.is_visible) {
+            layer.slot.request_overlay(&view, &options, wait, repaint);
+        }
+        let screen = self.canvas.screen();
+        let painter = CanvasPainter {
+            screen,
+            view,
+            pointer_px: self.canvas.pointer_px(),
+            modifiers: ui.input(|input| input.modifiers),
+            settings: &self.settings,
+            files: &self.files,
+            floor_plan: &self.floor_plan,
+            swept_areas: &self.swept_areas,
+            tools: &self.tools,
+        };
+        painter.paint(&ui.painter_at(screen.rect));
+    }
+
+    /// Requests the pictures of the present view.
+    fn request_pictures(&mut self) {
+        let Some(view) = self.canvas.picture_view() else {
+            return;
+        };
+        let style = self.settings.style();
+        let layers = self.files.layers_mut().iter_mut();
+        for layer in layers.filter(|layer| layer.is_visible) {
+            layer.picture.request(RenderRequest { view, style });
+        }
+        let LayerContext { services, repaint } = &self.context;
+        let file_index = self.files.active_index();
+        let document = self.files.document();
+        let active = document.map(|document| ActiveDocument {
+            file_index,
+            document,
+        });
+        self.swept_areas.request(active, &view, services, repaint);
+        self.floor_plan.request(&view, repaint);
+    }
+
+    /// Takes the results of all background threads.
+    fn poll(&mut self, ctx: &Context) {
+        self.poll_layers(ctx);
+        self.wait_for_first_picture(ctx);
+        let LayerContext { services, repaint } = &self.context;
+        let has_pictures = self.files.layers().iter().all(Layer::has_picture_or_error);
+        if self.methods.poll(has_pictures, services, repaint) {
+            self.files.set_method(self.methods.name());
+        }
+        if let Some(element) = self.find.poll(self.files.document()) {
+            self.zoom_to(element);
+        }
+        self.swept_areas.poll(ctx);
+        if let Some(bounds) = self.floor_plan.poll(ctx)
+            && self.files.layers().is_empty()
+        {
+            self.canvas.camera.fit(bounds);
+        }
+        self.poll_files(ctx);
+    }
+
+    fn poll_layers(&mut self, ctx: &Context) {
+        for index in 0..self.files.layers().len() {
+            for event in self.files.poll_layer(ctx, index) {
+                self.take_event(event, index);
+            }
+        }
+    }
+
+    fn take_event(&mut self, event: LayerEvent, index: usize) {
+        match event {
+            LayerEvent::Appeared(bounds) => {
+                // The first file sets the view; others join it.
+                if let (0, Some(bounds)) = (index, bounds) {
+                    self.canvas.camera.fit(bounds);
+                }
+            }
+            LayerEvent::Reached(stage) => {
+                let path = self.files.layers()[index].path();
+                self.context.services.on_stage(stage, path);
+                if stage == LoadStage::Editable {
+                    let options = self.settings.scene_options();
+                    self.files.recolor_one(index, &options);
+                    // They may show the replaced document.
+                    self.swept_areas.clear();
+                }
+                if stage == LoadStage::Read {
+                    let notice = self.files.remember(index);
+                    self.notify_all(notice);
+                }
+            }
+            LayerEvent::FellBack(why) => {
+                // All files share the device, so each reports the failure.
+                if self.methods.name() != FALLBACK_METHOD {
+                    self.dialogs.notices.add(why);
+                    self.set_method(Some(FALLBACK_METHOD.to_owned()));
+                }
+            }
+            LayerEvent::Notice(text) => self.dialogs.notices.add(text),
+        }
+    }
+
+    /// Delays all frames but the first until a file has a picture: see
+    /// [`FIRST_PICTURE_WAIT`](super::FIRST_PICTURE_WAIT).
+    fn wait_for_first_picture(&mut self, ctx: &Context) {
+        const STEP: Duration = Duration::from_millis(2);
+        while self.canvas.camera.view().is_some()
+            && !self.files.layers().is_empty()
+            && !self.files.layers().iter().any(Layer::has_picture_or_error)
+            && !self.first_picture_wait.is_zero()
+        {
+            self.request_pictures();
+            thread::sleep(STEP);
+            self.first_picture_wait = self.first_picture_wait.saturating_sub(STEP);
+            self.poll_layers(ctx);
+        }
+    }
+
+    /// Takes dropped files, changes on disk, and finished writes.
+    fn poll_files(&mut self, ctx: &Context) {
+        for file in ctx.input(|input| input.raw.dropped_files.clone()) {
+            self.open_dropped(file.path());
+        }
+        if let Some(written) = self.writer.poll() {
+            if let Some(path) = written.layout_path {
+                let saved_as = written.result.is_ok().then_some(path);
+                let notices = self.files.end_save(saved_as);
+                self.notify_all(notices);
+            }
+            let text = written.result.unwrap_or_else(|error| error.to_string());
+            self.dialogs.notices.add(text);
+        }
+        let notices = self.files.poll_watcher(&self.settings.scene_options());
+        self.notify_all(notices);
+        let notice = self.clipboard.poll(ctx);
+        self.notify_all(notice);
+    }
+
+    fn notify_all(&mut self, notices: impl IntoIterator<Item = String>) {
+        for notice in notices {
+            self.dialogs.notices.add(notice);
+        }
+    }
+}

@@ -1,0 +1,298 @@
+//! Routes actions, commands and pointer events to the part that owns the state.
+
+use eframe::egui::{Context, Theme};
+use guideway_document::{Document, Element, SelectMode};
+use guideway_spline::{Bounds, Point};
+
+use super::state::App;
+use crate::action::Action;
+use crate::canvas::Canvas;
+use crate::command::Command;
+use crate::display_settings::DisplaySettings;
+use crate::editing::EditTask;
+use crate::files::{LayerEvent, OpenFiles};
+use crate::panels::dialogs::PromptKind;
+use crate::selection::selection_command;
+use crate::tools::{PointerEvent, Tool, ToolContext, ToolEffect};
+
+/// Distance of one key press of a pan command, in pixels.
+const PAN_STEP_PX: f64 = 80.0;
+/// Scale factor of one zoom command.
+const ZOOM_STEP: f64 = 1.25;
+
+impl App {
+    /// Routes the actions of a part.
+    pub(super) fn apply_all(&mut self, actions: Vec<Action>, ctx: &Context) {
+        for action in actions {
+            self.apply(action, ctx);
+        }
+    }
+
+    fn apply(&mut self, action: Action, ctx: &Context) {
+        let repaint = &self.context.repaint;
+        match action {
+            Action::Command(command) => self.perform(command, ctx),
+            Action::SelectTool(tool) => self.tools.select(tool),
+            Action::Edit(task) => self.edit(task),
+            Action::SelectByQuery(mode) => self.select_by_query(mode),
+            Action::Search => self.find.search(self.files.document(), repaint),
+            Action::ZoomTo(element) => self.zoom_to(element),
+            Action::Check(options) => {
+                if let Some(layer) = self.files.active_mut() {
+                    layer.tasks.check(layer.slot.document(), options, repaint);
+                }
+            }
+            Action::Open(path) => self.open(path),
+            Action::SaveAs(path) => self.save(path),
+            Action::ExportPng { path, width_px } => self.export_png(path, width_px),
+            Action::ExportSvg(path) => self.export_svg(path),
+            Action::SetFloorPlan(text) => {
+                let services = &self.context.services;
+                self.floor_plan.set(&text, services, repaint);
+            }
+            Action::Activate(index) => self.files.activate(index),
+            Action::Close(index) => self.close(index),
+            Action::Recover(index) => {
+                self.files.recover(index, self.settings.scene_options());
+            }
+            Action::DiscardUnsavedWork(index) => {
+                if let Some(layer) = self.files.layers_mut().get_mut(index) {
+                    layer.discard_journal();
+                }
+            }
+            Action::SetMethod(chosen) => self.set_method(chosen),
+            Action::ApplyTheme => self.apply_theme(ctx),
+            Action::Recolor => self.recolor(),
+            Action::Notify(text) => self.dialogs.notices.add(text),
+            Action::QuitWithoutSaving => self.dialogs.quit.quit_without_saving(ctx),
+        }
+    }
+
+    /// Runs a command of a menu or shortcut.
+    pub(crate) fn perform(&mut self, command: Command, ctx: &Context) {
+        let settings = &mut self.settings;
+        let prompt = |app: &mut Self, kind| {
+            let file = app.files.active().map(|layer| layer.path());
+            app.dialogs.prompt.ask(kind, file);
+        };
+        match command {
+            Command::Open => prompt(self, PromptKind::Open),
+            Command::OpenRecent => self.dialogs.recent.open(self.files.recent().files()),
+            Command::Reload => self.reload(self.files.active_index(), true),
+            Command::Save => self.save_in_place(),
+            Command::SaveAs => prompt(self, PromptKind::SaveAs),
+            Command::FloorPlan => {
+                let text = self.floor_plan.text().to_owned();
+                let prompt = &mut self.dialogs.prompt;
+                prompt.ask_with_text(PromptKind::FloorPlan, text);
+            }
+            Command::ExportPng => prompt(self, PromptKind::ExportPng),
+            Command::ExportSvg => prompt(self, PromptKind::ExportSvg),
+            Command::CopyPicture => self.copy_picture(),
+            Command::Close => self.close_active(),
+            Command::Quit => self.dialogs.quit.quit(ctx, &self.files),
+            Command::NextFile => self.files.activate_next(),
+            Command::Find => self.find.wants_focus = true,
+            Command::Shortcuts => self.dialogs.shortcuts.is_open ^= true,
+            Command::Cancel => self.cancel(ctx),
+            Command::FinishPath => self.finish_path(),
+            Command::Undo | Command::Redo => {
+                self.tools.abort_gesture();
+                self.edit_selection(command);
+            }
+            Command::SelectAll
+            | Command::Deselect
+            | Command::Delete
+            | Command::Duplicate
+            | Command::RotateLeft
+            | Command::FlipHorizontal
+            | Command::FlipVertical
+            | Command::Refine
+            | Command::Hide
+            | Command::Isolate
+            | Command::ShowAll => self.edit_selection(command),
+            Command::ToolSelect => self.tools.select(Tool::Select),
+            Command::ToolPoints => self.tools.select(Tool::Points),
+            Command::ToolDraw => self.tools.select(Tool::Draw),
+            Command::ToolMeasure => self.tools.select(Tool::Measure),
+            Command::ZoomToAll
+            | Command::ZoomToSelection
+            | Command::ZoomIn
+            | Command::ZoomOut
+            | Command::PanLeft
+            | Command::PanRight
+            | Command::PanUp
+            | Command::PanDown
+            | Command::Back
+            | Command::Forward => self.move_camera(command),
+            Command::Arrows => settings.has_arrows ^= true,
+            Command::Symbols => settings.has_symbols ^= true,
+            Command::Labels => settings.has_labels ^= true,
+            Command::Grid => settings.has_grid ^= true,
+            Command::Density => settings.is_density ^= true,
+            Command::ThesisRule => settings.is_thesis_rule ^= true,
+            Command::SweptAreas => self.swept_areas.is_visible ^= true,
+            Command::Dark => {
+                settings.is_dark ^= true;
+                self.apply_theme(ctx);
+                self.recolor();
+            }
+        }
+    }
+
+    fn edit_selection(&mut self, command: Command) {
+        let view = self.canvas.camera.view();
+        if let Some(task) = selection_command(command, view.as_ref()) {
+            self.edit(task);
+        }
+    }
+
+    fn move_camera(&mut self, command: Command) {
+        let camera = &mut self.canvas.camera;
+        match command {
+            Command::ZoomToAll => {
+                let plan = self.floor_plan.visible();
+                let plan = plan.and_then(|plan| plan.bounds());
+                let all = self.files.visible_bounds().into_iter().chain(plan);
+                if let Some(all) = all.reduce(Bounds::union) {
+                    camera.fit(all);
+                }
+            }
+            Command::ZoomToSelection => {
+                let document = self.files.document();
+                if let Some(bounds) = document.and_then(Document::selection_bounds) {
+                    camera.zoom_to(bounds);
+                }
+            }
+            Command::ZoomIn => camera.zoom_center(ZOOM_STEP),
+            Command::ZoomOut => camera.zoom_center(1.0 / ZOOM_STEP),
+            Command::PanLeft => camera.pan(Point::new(PAN_STEP_PX, 0.0)),
+            Command::PanRight => camera.pan(Point::new(-PAN_STEP_PX, 0.0)),
+            Command::PanUp => camera.pan(Point::new(0.0, PAN_STEP_PX)),
+            Command::PanDown => camera.pan(Point::new(0.0, -PAN_STEP_PX)),
+            Command::Back => camera.back(),
+            Command::Forward => camera.forward(),
+            _ => {}
+        }
+    }
+
+    /// Aborts dialogs, gesture, tool or selection, in this order; cancels exports and loads.
+    fn cancel(&mut self, ctx: &Context) {
+        release_keyboard(ctx);
+        self.dialogs.close_all();
+        if !self.tools.cancel() {
+            self.edit_selection(Command::Deselect);
+        }
+        if let Some(job) = self.writer.job() {
+            job.cancel();
+        }
+        let layers = self.files.layers_mut().iter_mut();
+        for layer in layers.filter(|layer| layer.load_job().is_some()) {
+            layer.cancel_load();
+        }
+    }
+
+    /// Runs an edit of the active document. One that takes longer than a frame continues in the
+    /// background.
+    pub(crate) fn edit(&mut self, task: EditTask) {
+        let (wait, repaint) = (self.edit_wait, &self.context.repaint);
+        let layer = self.files.active_mut();
+        let event = layer.and_then(|layer| layer.run(task, wait, repaint));
+        if let Some(LayerEvent::Notice(text)) = event {
+            self.dialogs.notices.add(text);
+        }
+    }
+
+    /// Routes a pointer event to the tools.
+    pub(super) fn point(&mut self, event: PointerEvent) {
+        let Some(context) = tool_context(&self.files, &self.canvas, &self.settings) else {
+            if matches!(event, PointerEvent::DragEnded(_)) {
+                self.tools.abort_gesture();
+            }
+            return;
+        };
+        let effect = self.tools.handle(event, &context);
+        self.apply_effect(effect);
+    }
+
+    fn finish_path(&mut self) {
+        if let Some(context) = tool_context(&self.files, &self.canvas, &self.settings) {
+            let effect = self.tools.finish_path(&context);
+            self.apply_effect(effect);
+        }
+    }
+
+    fn apply_effect(&mut self, effect: Option<ToolEffect>) {
+        match effect {
+            Some(ToolEffect::Edit(task)) => self.edit(task),
+            Some(ToolEffect::ExpectEdit) => {
+                if let Some(layer) = self.files.active_mut() {
+                    layer.slot.expect_edit(&self.context.repaint);
+                }
+            }
+            None => {}
+        }
+    }
+
+    /// Zooms to an element and selects it if it is a path.
+    pub(super) fn zoom_to(&mut self, element: Element) {
+        let bounds = self.files.document().and_then(|d| d.bounds_of(element));
+        if let Some(bounds) = bounds {
+            self.canvas.camera.zoom_to(bounds);
+        }
+        if let Element::Path(path) = element {
+            self.edit(EditTask::view_change(move |document| {
+                document.select([path].into_iter().collect(), SelectMode::Replace);
+            }));
+        }
+    }
+
+    fn select_by_query(&mut self, mode: SelectMode) {
+        let Some(layer) = self.files.active_mut() else {
+            return;
+        };
+        let (query, repaint) = (&self.find.query, &self.context.repaint);
+        let document = layer.slot.document();
+        let result = layer.tasks.select_where(document, query, mode, repaint);
+        self.find.query_error = result.err().map(|error| error.to_string());
+    }
+
+    /// Renders with another method; `None` selects the best.
+    pub(crate) fn set_method(&mut self, chosen: Option<String>) {
+        self.methods.choose(chosen);
+        self.files.set_method(self.methods.name());
+    }
+
+    /// Recolors all files whose scenes have other options.
+    pub(crate) fn recolor(&mut self) {
+        self.files.recolor(&self.settings.scene_options());
+    }
+
+    /// Applies the light or dark theme to all panels.
+    pub(crate) fn apply_theme(&self, ctx: &Context) {
+        ctx.set_theme(match self.settings.is_dark {
+            true => Theme::Dark,
+            false => Theme::Light,
+        });
+    }
+}
+
+/// The input of the tools; `None` while the canvas has no size.
+fn tool_context<'a>(
+    files: &'a OpenFiles,
+    canvas: &Canvas,
+    settings: &DisplaySettings,
+) -> Option<ToolContext<'a>> {
+    Some(ToolContext {
+        view: canvas.camera.view()?,
+        document: files.document(),
+        line_rule: settings.line_rule(),
+    })
+}
+
+/// Takes the keyboard focus from a text field, so that shortcuts work again.
+pub(super) fn release_keyboard(ctx: &Context) {
+    if let Some(field) = ctx.memory(|memory| memory.focused()) {
+        ctx.memory_mut(|memory| memory.surrender_focus(field));
+    }
+}

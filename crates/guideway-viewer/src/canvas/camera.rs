@@ -1,0 +1,210 @@
+//! The camera: center and scale of the view, and the view history.
+
+use guideway_document::ViewHistory;
+use guideway_scene::{FrameSize, View};
+use guideway_spline::{Bounds, Point};
+
+/// Center and scale of the view, and the views before. Positions are pixels of the picture.
+#[derive(Clone, Debug)]
+pub(crate) struct Camera {
+    /// `None` while the canvas has no size.
+    size: Option<FrameSize>,
+    position: Position,
+    history: ViewHistory<Position>,
+    /// True if the position is not in the history yet.
+    is_moving: bool,
+    /// Bounds to fit as soon as the canvas has a size.
+    pending_fit: Option<Bounds<f64>>,
+}
+
+/// Least extent shown by [`Camera::zoom_to`], in meters: about two vehicle lengths.
+const MIN_EXTENT_M: f64 = 5.0;
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Position {
+    center_m: Point<f64>,
+    px_per_m: f64,
+}
+
+impl Camera {
+    pub(crate) fn new() -> Self {
+        let position = Position {
+            center_m: Point::new(0.0, 0.0),
+            px_per_m: 20.0,
+        };
+        Self {
+            size: None,
+            position,
+            history: ViewHistory::new(position),
+            is_moving: false,
+            pending_fit: None,
+        }
+    }
+
+    /// The view; `None` while the canvas has no size.
+    pub(crate) fn view(&self) -> Option<View> {
+        View::new(self.size?, self.position.center_m, self.position.px_per_m).ok()
+    }
+
+    /// Sets the size of the canvas; the center stays.
+    pub(crate) fn resize(&mut self, width: u32, height: u32) {
+        self.size = FrameSize::new(width, height).ok();
+        if self.size.is_some()
+            && let Some(bounds) = self.pending_fit.take()
+        {
+            self.fit(bounds);
+        }
+    }
+
+    /// Moves the world by this many pixels.
+    pub(crate) fn pan(&mut self, by_px: Point<f64>) {
+        let by_m = Point::new(-by_px.x, by_px.y) * (1.0 / self.position.px_per_m);
+        self.move_to(Position {
+            center_m: self.position.center_m + by_m,
+            ..self.position
+        });
+    }
+
+    /// Scales the view about `at_px`, whose world position stays.
+    pub(crate) fn zoom(&mut self, factor: f64, at_px: Point<f64>) {
+        let Some(view) = self.view() else {
+            return;
+        };
+        let fixed_m = view.world_from_pixel(at_px);
+        self.move_to(Position {
+            center_m: fixed_m + (self.position.center_m - fixed_m) * (1.0 / factor),
+            px_per_m: self.position.px_per_m * factor,
+        });
+    }
+
+    /// Scales the view about its center.
+    pub(crate) fn zoom_center(&mut self, factor: f64) {
+        self.move_to(Position {
+            px_per_m: self.position.px_per_m * factor,
+            ..self.position
+        });
+    }
+
+    /// Shows a whole box; enters the view history.
+    pub(crate) fn fit(&mut self, bounds: Bounds<f64>) {
+        let Some(size) = self.size else {
+            self.pending_fit = Some(bounds);
+            return;
+        };
+        if let Ok(view) = View::fit(size, Some(bounds)) {
+            self.settle();
+            self.move_to(Position {
+                center_m: view.center_m(),
+                px_per_m: view.px_per_m(),
+            });
+            self.settle();
+        }
+    }
+
+    /// Shows a box with its surroundings, for an element that may be a point.
+    pub(crate) fn zoom_to(&mut self, bounds: Bounds<f64>) {
+        let size_m = bounds.size();
+        self.fit(bounds.inflated(((MIN_EXTENT_M - size_m.x.max(size_m.y)) / 2.0).max(0.0)));
+    }
+
+    /// Ends a movement: its position enters the view history.
+    pub(crate) fn settle(&mut self) {
+        if std::mem::take(&mut self.is_moving) {
+            self.history.go(self.position);
+        }
+    }
+
+    /// Returns to the previous view.
+    pub(crate) fn back(&mut self) {
+        self.settle();
+        self.position = self.history.back().unwrap_or(self.position);
+    }
+
+    /// Goes to the next view of the history.
+    pub(crate) fn forward(&mut self) {
+        self.settle();
+        self.position = self.history.forward().unwrap_or(self.position);
+    }
+
+    /// Moves to a position, unless it is beyond the limits of a view.
+    fn move_to(&mut self, position: Position) {
+        // The limits do not depend on the size of the view.
+        let is_valid = FrameSize::new(1, 1)
+            .and_then(|size| View::new(size, position.center_m, position.px_per_m))
+            .is_ok();
+        if is_valid {
+            self.position = position;
+            self.is_moving = true;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn camera() -> Camera {
+        let mut camera = Camera::new();
+        camera.resize(800, 600);
+        camera
+    }
+
+    #[test]
+    fn zoom_keeps_the_position_under_the_pointer() {
+        let mut camera = camera();
+        let at_px = Point::new(123.0, 456.0);
+        let before = camera.view().unwrap().world_from_pixel(at_px);
+        for factor in [1.7, 0.2, 30.0] {
+            camera.zoom(factor, at_px);
+            let after = camera.view().unwrap().world_from_pixel(at_px);
+            assert!(after.distance(before) < 1e-9);
+        }
+    }
+
+    #[test]
+    fn pan_moves_the_world_with_the_pointer() {
+        let mut camera = camera();
+        let world = camera
+            .view()
+            .unwrap()
+            .world_from_pixel(Point::new(100.0, 100.0));
+        camera.pan(Point::new(30.0, -20.0));
+        let pixel = camera.view().unwrap().pixel_from_world(world);
+        assert!(pixel.distance(Point::new(130.0, 80.0)) < 1e-9);
+    }
+
+    #[test]
+    fn view_stays_valid_at_its_limits() {
+        let mut camera = camera();
+        for _ in 0..1000 {
+            camera.zoom(0.5, Point::new(0.0, 0.0));
+            camera.pan(Point::new(1e9, 0.0));
+        }
+        assert!(camera.view().is_some());
+        camera.zoom(f64::NAN, Point::new(0.0, 0.0));
+        for _ in 0..1000 {
+            camera.zoom(2.0, Point::new(0.0, 0.0));
+        }
+        assert!(camera.view().is_some());
+    }
+
+    #[test]
+    fn fit_waits_for_a_size_and_enters_the_history() {
+        let mut camera = Camera::new();
+        assert_eq!(camera.view(), None);
+        let bounds = Bounds {
+            min: Point::new(10.0, 10.0),
+            max: Point::new(50.0, 20.0),
+        };
+        camera.fit(bounds);
+        camera.resize(0, 0);
+        assert_eq!(camera.view(), None);
+        camera.resize(400, 300);
+        let seen = camera.view().unwrap().world_bounds();
+        assert!(seen.contains(bounds.min) && seen.contains(bounds.max));
+        camera.back();
+        assert_eq!(camera.view().unwrap().center_m(), Point::new(0.0, 0.0));
+        camera.forward();
+        assert_eq!(camera.view().unwrap().center_m(), bounds.center());
+    }
+}

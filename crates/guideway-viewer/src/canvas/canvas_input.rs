@@ -1,0 +1,224 @@
+//! Pointer, wheel and touch input of the canvas: moves the camera and reports pointer events.
+
+use eframe::egui::{
+    Event, Key, MouseWheelSource, MouseWheelUnit, PointerButton, Pos2, Rect, Response, Sense, Ui,
+};
+use guideway_scene::{FrameSize, View};
+use guideway_spline::Point;
+
+use super::camera::Camera;
+use super::screen::Screen;
+use crate::tools::PointerEvent;
+
+/// Scale factor of one notch of a mouse wheel.
+const ZOOM_PER_NOTCH: f64 = 1.2;
+/// Points of window scrolling that count as one notch, where a wheel reports points.
+const POINTS_PER_NOTCH: f32 = 50.0;
+/// Lines of a page, where a wheel reports pages.
+const LINES_PER_PAGE: f32 = 10.0;
+
+/// The canvas: camera, position in the window, and pointer.
+pub(crate) struct Canvas {
+    pub(crate) camera: Camera,
+    screen: Screen,
+    pointer_px: Option<Point<f64>>,
+    /// Longest side of a texture of this computer, in pixels.
+    max_texture_side: u32,
+}
+
+impl Default for Canvas {
+    fn default() -> Self {
+        Self {
+            camera: Camera::new(),
+            screen: Screen {
+                rect: Rect::ZERO,
+                px_per_point: 1.0,
+            },
+            pointer_px: None,
+            max_texture_side: 0,
+        }
+    }
+}
+
+impl Canvas {
+    /// Upper left corner of the canvas in the window.
+    pub(crate) fn origin(&self) -> Pos2 {
+        self.screen.rect.min
+    }
+
+    pub(crate) fn screen(&self) -> Screen {
+        self.screen
+    }
+
+    /// Pixels of the picture per point of the window.
+    pub(crate) fn px_per_point(&self) -> f64 {
+        f64::from(self.screen.px_per_point)
+    }
+
+    /// Position of the pointer in the picture.
+    pub(crate) fn pointer_px(&self) -> Option<Point<f64>> {
+        self.pointer_px
+    }
+
+    /// The view to render: that of the camera, at lower resolution where it exceeds a texture.
+    pub(crate) fn picture_view(&self) -> Option<View> {
+        shrunk_to_texture(&self.camera.view()?, self.max_texture_side)
+    }
+
+    /// Takes all available space of `ui` and handles its input. Returns pointer events in order.
+    /// With `primary_pans` the primary button pans instead of dragging.
+    pub(crate) fn input(&mut self, ui: &mut Ui, primary_pans: bool) -> Vec<PointerEvent> {
+        let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
+        let px_per_point = ui.ctx().pixels_per_point();
+        self.screen = Screen { rect, px_per_point };
+        let size_px = rect.size() * px_per_point;
+        self.camera
+            .resize(size_px.x.round() as u32, size_px.y.round() as u32);
+        self.max_texture_side = ui.input(|input| input.max_texture_side) as u32;
+        self.pointer_px = response.hover_pos().map(|at| self.screen.pixel(at));
+        let events = self.pointer_events(ui, &response, primary_pans);
+        self.wheel(ui, &response);
+        let is_moving = ui.input(|input| input.pointer.any_down() || input.is_scrolling());
+        if !is_moving {
+            self.camera.settle();
+        }
+        events
+    }
+
+    fn pointer_events(
+        &mut self,
+        ui: &Ui,
+        response: &Response,
+        primary_pans: bool,
+    ) -> Vec<PointerEvent> {
+        let mut events = Vec::new();
+        let screen = self.screen;
+        let modifiers = ui.input(|input| input.modifiers);
+        // The last movement may arrive in the same frame as the release.
+        let drags = |button| response.dragged_by(button) || response.drag_stopped_by(button);
+        let is_space_down = ui.input(|input| input.key_down(Key::Space));
+        let is_panning = drags(PointerButton::Middle)
+            || drags(PointerButton::Secondary)
+            || (drags(PointerButton::Primary) && (primary_pans || is_space_down));
+        if is_panning {
+            self.pan(ui.input(|input| input.pointer.delta()));
+        } else if response.drag_started_by(PointerButton::Primary)
+            && let Some(origin) = ui.input(|input| input.pointer.press_origin())
+        {
+            events.push(PointerEvent::DragStarted(screen.pixel(origin)));
+        }
+        let at_px = response.interact_pointer_pos().map(|at| screen.pixel(at));
+        if drags(PointerButton::Primary)
+            && !is_panning
+            && let Some(at_px) = at_px
+        {
+            events.push(PointerEvent::Dragged(at_px, modifiers));
+        }
+        if response.drag_stopped_by(PointerButton::Primary) {
+            events.push(PointerEvent::DragEnded(modifiers));
+        }
+        if let Some(at_px) = at_px {
+            if response.clicked() {
+                events.push(PointerEvent::Clicked(at_px, modifiers));
+            }
+            if response.double_clicked() {
+                events.push(PointerEvent::DoubleClicked);
+            }
+        }
+        if !ui.input(|input| input.pointer.any_down()) {
+            events.push(PointerEvent::Hover(self.pointer_px));
+        }
+        if let Some(at_px) = self.pointer_px {
+            let is_pressed = |key| ui.input(|input| input.key_pressed(key));
+            events.extend(is_pressed(Key::Insert).then_some(PointerEvent::InsertPoint(at_px)));
+            events.extend(is_pressed(Key::Backspace).then_some(PointerEvent::RemovePoint(at_px)));
+        }
+        events
+    }
+
+    /// Pans by points of the window.
+    fn pan(&mut self, by: eframe::egui::Vec2) {
+        let by_px = by * self.screen.px_per_point;
+        self.camera
+            .pan(Point::new(f64::from(by_px.x), f64::from(by_px.y)));
+    }
+
+    /// A wheel zooms, two fingers on a trackpad pan, and a pinch zooms.
+    fn wheel(&mut self, ui: &Ui, response: &Response) {
+        let (pinch, touch, events) = ui.input(|input| {
+            (
+                input.zoom_delta(),
+                input.multi_touch(),
+                input.raw.events.clone(),
+            )
+        });
+        if let Some(touch) = touch {
+            self.pan(touch.translation_delta);
+            let at_px = self.screen.pixel(touch.center_pos);
+            self.camera.zoom(f64::from(touch.zoom_delta), at_px);
+            return;
+        }
+        let Some(at_px) = response.hover_pos().map(|at| self.screen.pixel(at)) else {
+            return;
+        };
+        if pinch != 1.0 {
+            self.camera.zoom(f64::from(pinch), at_px);
+            return;
+        }
+        for event in events {
+            let Event::MouseWheel {
+                unit,
+                delta,
+                source,
+                modifiers,
+                ..
+            } = event
+            else {
+                continue;
+            };
+            if modifiers.command {
+                // egui reports it as a pinch.
+                continue;
+            }
+            let is_trackpad = match source {
+                MouseWheelSource::Unknown => unit == MouseWheelUnit::Point,
+                MouseWheelSource::Wheel => false,
+                _ => true,
+            };
+            if is_trackpad {
+                self.pan(delta);
+                continue;
+            }
+            let notches = match unit {
+                MouseWheelUnit::Line => delta.y,
+                MouseWheelUnit::Page => delta.y * LINES_PER_PAGE,
+                MouseWheelUnit::Point => delta.y / POINTS_PER_NOTCH,
+            };
+            self.camera
+                .zoom(ZOOM_PER_NOTCH.powf(f64::from(notches)), at_px);
+        }
+    }
+}
+
+/// The same part of the world, divided by an integer factor until it fits a texture.
+fn shrunk_to_texture(view: &View, max_side: u32) -> Option<View> {
+    let (width, height) = (view.size().width(), view.size().height());
+    let factor = width.max(height).div_ceil(max_side.max(1));
+    let size = FrameSize::new((width / factor).max(1), (height / factor).max(1)).ok()?;
+    View::new(size, view.center_m(), view.px_per_m() / f64::from(factor)).ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn picture_larger_than_a_texture_is_shrunk() {
+        let size = FrameSize::new(900, 600).unwrap();
+        let view = View::new(size, Point::new(1.0, 2.0), 12.0).unwrap();
+        assert_eq!(shrunk_to_texture(&view, 1000), Some(view));
+        let small = shrunk_to_texture(&view, 400).unwrap();
+        assert_eq!((small.size().width(), small.px_per_m()), (300, 4.0));
+        assert_eq!(small.world_bounds(), view.world_bounds());
+    }
+}

@@ -1,0 +1,155 @@
+//! Paints the canvas from its parts, bottom first: background, floor plan, grid, swept areas,
+//! layouts, marks, gesture, scale bar, legend, messages.
+
+use eframe::egui::{
+    Color32, FontId, Modifiers, Painter, Pos2, Rect, Stroke, TextureHandle, Vec2, pos2,
+};
+use guideway_document::PathSet;
+use guideway_document::decorations::{DecorationStyle, handles, legend, outline, scale_bar};
+use guideway_scene::View;
+use guideway_spline::Point;
+
+use super::draft::Draft;
+use super::paint_draw_list::{color32, paint_draw_list};
+use super::paint_gesture::{
+    HOVER_COLOR, MIN_OUTLINE_WIDTH, SELECTION_COLOR, paint_box, paint_handles, paint_outline,
+};
+use super::screen::Screen;
+use crate::backdrop::{FloorPlanLayer, SweptAreasLayer};
+use crate::display_settings::DisplaySettings;
+use crate::files::{Layer, OpenFiles};
+use crate::tools::{Gesture, Tool, ToolContext, Tools};
+
+const MESSAGE_POINTS: f32 = 15.0;
+
+/// Everything that the canvas shows, read only.
+pub(crate) struct CanvasPainter<'a> {
+    pub(crate) screen: Screen,
+    pub(crate) view: View,
+    pub(crate) pointer_px: Option<Point<f64>>,
+    pub(crate) modifiers: Modifiers,
+    pub(crate) settings: &'a DisplaySettings,
+    pub(crate) files: &'a OpenFiles,
+    pub(crate) floor_plan: &'a FloorPlanLayer,
+    pub(crate) swept_areas: &'a SweptAreasLayer,
+    pub(crate) tools: &'a Tools,
+}
+
+impl CanvasPainter<'_> {
+    /// Paints all parts.
+    pub(crate) fn paint(&self, painter: &Painter) {
+        let px_per_point = f64::from(self.screen.px_per_point);
+        let style = self.settings.decoration_style(px_per_point);
+        let list = |list| paint_draw_list(painter, self.screen, &list);
+        let background = color32(self.settings.background());
+        painter.rect_filled(self.screen.rect, 0.0, background);
+        self.paint_picture(painter, self.floor_plan.shown());
+        list(self.settings.grid(&self.view, px_per_point));
+        self.paint_picture(painter, self.swept_areas.shown());
+        for layer in self.files.visible() {
+            let shown = layer.picture.shown();
+            self.paint_picture(painter, shown.map(|shown| (&shown.texture, &shown.view)));
+        }
+        if let Some(layer) = self.files.active().filter(|layer| layer.is_visible) {
+            self.paint_overlay(painter, layer, &style);
+        }
+        self.paint_gesture(painter);
+        list(scale_bar(&self.view, &style));
+        let document = self.files.document();
+        let colors = document.and_then(|document| document.scene().legend());
+        let colors = colors.and_then(|colors| legend(colors, self.view.size(), 0.0, &style));
+        if let Some((colors, _)) = colors {
+            list(colors);
+        }
+        self.paint_messages(painter);
+    }
+
+    /// Paints the last picture where it belongs in the present view, until the next one is
+    /// complete.
+    fn paint_picture(&self, painter: &Painter, picture: Option<(&TextureHandle, &View)>) {
+        if let Some((texture, of)) = picture {
+            let rect = self.screen.picture_rect(of, &self.view);
+            let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+            painter.image(texture.id(), rect, whole, Color32::WHITE);
+        }
+    }
+
+    /// Paints outlines and marks of the active file.
+    fn paint_overlay(&self, painter: &Painter, layer: &Layer, style: &DecorationStyle) {
+        let Some(overlay) = layer.slot.overlay().last() else {
+            return;
+        };
+        let (view, screen) = (&self.view, self.screen);
+        let place = |pixel: Point<f64>| match overlay.view == *view {
+            true => pixel,
+            false => view.pixel_from_world(overlay.view.world_from_pixel(pixel)),
+        };
+        let to_screen = |pixel| screen.point(place(pixel));
+        let scale = f64::from(screen.px_per_point);
+        // Half the width of the lines, so that the outline shows on wide lines too.
+        let radius_px = self.settings.line_rule().radius_px(None, view.px_per_m());
+        let stroke = |color| Stroke::new(MIN_OUTLINE_WIDTH.max((radius_px / scale) as f32), color);
+        let (selected, hovered) = (stroke(SELECTION_COLOR), stroke(HOVER_COLOR));
+        paint_outline(painter, &overlay.selection, selected, to_screen);
+        if let Gesture::Move { by_m, .. } = self.tools.gesture() {
+            let by = Vec2::new(by_m.x as f32, -by_m.y as f32) * (view.px_per_m() / scale) as f32;
+            paint_outline(painter, &overlay.selection, hovered, |pixel| {
+                to_screen(pixel) + by
+            });
+        }
+        let document = layer.document();
+        if let (Some(hit), Some(document)) = (self.tools.hovered(document), document) {
+            let lines = outline(document, &PathSet::from_iter([hit.path]), view);
+            paint_outline(painter, &lines, hovered, |pixel| screen.point(pixel));
+        }
+        paint_draw_list(painter, screen, &overlay.marks.draw(style, place));
+        if let (Tool::Points, Some(document)) = (self.tools.tool(), document) {
+            paint_handles(painter, screen, &handles(document, view));
+        }
+    }
+
+    fn paint_gesture(&self, painter: &Painter) {
+        match self.tools.gesture() {
+            Gesture::Box { from_px, to_px } => paint_box(painter, self.screen, *from_px, *to_px),
+            Gesture::Points(points) => {
+                let context = ToolContext {
+                    view: self.view,
+                    document: self.files.document(),
+                    line_rule: self.settings.line_rule(),
+                };
+                let next = self.pointer_px.map(|at| self.view.world_from_pixel(at));
+                let next = next.map(|at_m| self.tools.snapped(&context, at_m, self.modifiers));
+                let points_m: Vec<Point<f64>> = points.iter().copied().chain(next).collect();
+                let draft = Draft {
+                    tool: self.tools.tool(),
+                    points_m: &points_m,
+                };
+                draft.paint(painter, self.screen, &self.view, self.settings);
+            }
+            _ => {}
+        }
+    }
+
+    /// Paints the errors of all files, or a hint if no file is open.
+    fn paint_messages(&self, painter: &Painter) {
+        let layers = self.files.layers();
+        let errors = layers.iter().filter_map(|layer| {
+            let error = layer.error()?;
+            Some(format!("{}: {error}", layer.name()))
+        });
+        let hint = "Drop a layout file here, or open one with Ctrl+O";
+        let hint = layers.is_empty().then(|| hint.to_owned());
+        let width = (self.screen.rect.width() - 32.0).max(50.0);
+        let mut at: Pos2 = self.screen.rect.center_top() + Vec2::new(0.0, 40.0);
+        let color = color32(self.settings.decoration_style(1.0).ink);
+        for text in hint.into_iter().chain(errors) {
+            let font = FontId::proportional(MESSAGE_POINTS);
+            let galley = painter.layout(text, font, color, width);
+            let corner = at - Vec2::new(galley.size().x / 2.0, 0.0);
+            let back = Rect::from_min_size(corner, galley.size()).expand(8.0);
+            painter.rect_filled(back, 4.0, color32(self.settings.background()));
+            at.y += galley.size().y + 20.0;
+            painter.galley(corner, galley, color);
+        }
+    }
+}

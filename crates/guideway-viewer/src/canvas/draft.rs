@@ -1,0 +1,98 @@
+//! Paints the path that is drawn, or the polyline that is measured, with its dimensions.
+
+use eframe::egui::{FontId, Painter, Pos2, Stroke, Vec2};
+use guideway_document::decorations::path_outline;
+use guideway_document::measure::bends;
+use guideway_document::{drawn_path, text_format};
+use guideway_scene::View;
+use guideway_spline::Point;
+
+use super::paint_draw_list::{color32, paint_text_box};
+use super::paint_gesture::{HOVER_COLOR, MIN_OUTLINE_WIDTH, paint_outline};
+use super::screen::Screen;
+use super::shape_text::shape_text;
+use crate::display_settings::DisplaySettings;
+use crate::tools::Tool;
+
+const TEXT_POINTS: f32 = 13.0;
+/// Opacity of the box behind the dimensions.
+const BACKGROUND_OPACITY: f32 = 0.75;
+
+/// A path being drawn, or a polyline being measured.
+pub(super) struct Draft<'a> {
+    pub(super) tool: Tool,
+    /// The points so far and the one at the pointer, in meters.
+    pub(super) points_m: &'a [Point<f64>],
+}
+
+impl Draft<'_> {
+    /// Paints points, control polygon, curve and dimensions.
+    pub(super) fn paint(
+        &self,
+        painter: &Painter,
+        screen: Screen,
+        view: &View,
+        settings: &DisplaySettings,
+    ) {
+        let place = |&at_m| screen.point(view.pixel_from_world(at_m));
+        let corners: Vec<Pos2> = self.points_m.iter().map(place).collect();
+        for at in &corners {
+            painter.circle_filled(*at, 3.0, HOVER_COLOR);
+        }
+        let Some(&last) = corners.last() else {
+            return;
+        };
+        let text = if self.tool == Tool::Measure {
+            painter.line(corners, Stroke::new(1.5, HOVER_COLOR));
+            dimensions(self.points_m)
+        } else {
+            painter.line(corners, Stroke::new(1.0, HOVER_COLOR.gamma_multiply(0.5)));
+            drawn_path(self.points_m).map_or_else(String::new, |layout| {
+                let path = layout.paths.get(0);
+                let stroke = Stroke::new(MIN_OUTLINE_WIDTH, HOVER_COLOR);
+                let outline = path_outline(path, view);
+                paint_outline(painter, &outline, stroke, |pixel| screen.point(pixel));
+                shape_text(path, &bends(path))
+            })
+        };
+        let background = color32(settings.background()).gamma_multiply(BACKGROUND_OPACITY);
+        paint_text_box(
+            painter,
+            last + Vec2::new(12.0, -12.0),
+            &text,
+            FontId::proportional(TEXT_POINTS),
+            color32(settings.decoration_style(1.0).ink),
+            background,
+        );
+    }
+}
+
+/// Length and angle of the last line, and the total length of several lines.
+fn dimensions(points: &[Point<f64>]) -> String {
+    let lengths = points.array_windows().map(|[a, b]| a.distance(*b));
+    let (last_m, total_m) = lengths.fold((0.0, 0.0), |(_, sum), length| (length, sum + length));
+    let Some([a, b]) = points.last_chunk() else {
+        return String::new();
+    };
+    let along = *b - *a;
+    let angle = along.y.atan2(along.x).to_degrees();
+    let last = format!("{} at {angle:.1}°", text_format::length(last_m));
+    if points.len() > 2 {
+        format!("{last}, {} in total", text_format::length(total_m))
+    } else {
+        last
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn dimensions_give_the_last_line_and_the_total() {
+        let points = [(0.0, 0.0), (3.0, 0.0), (3.0, 4.0)].map(|(x, y)| Point::new(x, y));
+        assert_eq!(dimensions(&points[..1]), "");
+        assert_eq!(dimensions(&points[..2]), "3 m at 0.0°");
+        assert_eq!(dimensions(&points), "4 m at 90.0°, 7 m in total");
+    }
+}

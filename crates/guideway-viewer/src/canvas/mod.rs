@@ -1,0 +1,23 @@
+//! The canvas: the part of the window that shows the picture.
+//!
+//! | part | input | output | file |
+//! |---|---|---|---|
+//! | [`Canvas`] | pointer, wheel, touch | camera moves, pointer events | `canvas_input` |
+//! | [`Camera`](camera::Camera) | pan, zoom, fit | view, view history | `camera` |
+//! | [`CanvasPainter`] | pictures, draw lists, gesture | shapes of egui | `canvas_painter` |
+//!
+//! Decorations (grid, scale bar, marks, legend) come as draw lists from
+//! [`guideway_document::decorations`].
+
+mod camera;
+mod canvas_input;
+mod canvas_painter;
+mod draft;
+mod paint_draw_list;
+mod paint_gesture;
+mod screen;
+mod shape_text;
+
+pub(crate) use canvas_input::Canvas;
+pub(crate) use canvas_painter::CanvasPainter;
+pub(crate) use shape_text::shape_text;

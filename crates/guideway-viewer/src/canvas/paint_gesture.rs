@@ -1,0 +1,64 @@
+//! Paints outlines of paths, handles of control points, and selection boxes.
+
+use eframe::egui::{Color32, Mesh, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, Vec2};
+use guideway_document::decorations::{Handle, Outline};
+use guideway_spline::Point;
+
+use super::screen::Screen;
+
+pub(super) const SELECTION_COLOR: Color32 = Color32::from_rgb(30, 120, 255);
+pub(super) const HOVER_COLOR: Color32 = Color32::from_rgb(255, 140, 0);
+/// Least width of an outline, in points.
+pub(super) const MIN_OUTLINE_WIDTH: f32 = 2.5;
+/// Side of the square of a handle, in points.
+const HANDLE_SIZE: f32 = 7.0;
+
+/// Paints the outline of paths; `to_screen` maps its pixels to points of the window.
+pub(super) fn paint_outline(
+    painter: &Painter,
+    outline: &Outline,
+    stroke: Stroke,
+    to_screen: impl Fn(Point<f64>) -> Pos2,
+) {
+    match outline {
+        Outline::Lines(lines) => {
+            let shape = |line: &Vec<Point<f64>>| {
+                let points: Vec<Pos2> = line.iter().map(|&p| to_screen(p)).collect();
+                Shape::line(points, stroke)
+            };
+            painter.extend(lines.iter().map(shape));
+        }
+        Outline::Cells(cells, side) => {
+            let mut mesh = Mesh::default();
+            let far = Point::new(*side, *side);
+            for &cell in cells {
+                let rect = Rect::from_two_pos(to_screen(cell), to_screen(cell + far));
+                mesh.add_colored_rect(rect, stroke.color.gamma_multiply(0.5));
+            }
+            painter.add(mesh);
+        }
+    }
+}
+
+/// Paints the control polygon of the selected paths and its handles.
+pub(super) fn paint_handles(painter: &Painter, screen: Screen, handles: &[Handle]) {
+    for [before, after] in handles.array_windows() {
+        if after.follows {
+            let ends = [before, after].map(|handle| screen.point(handle.at_px));
+            painter.line_segment(ends, Stroke::new(1.0, SELECTION_COLOR.gamma_multiply(0.5)));
+        }
+    }
+    for handle in handles {
+        let rect = Rect::from_center_size(screen.point(handle.at_px), Vec2::splat(HANDLE_SIZE));
+        let stroke = Stroke::new(1.5, SELECTION_COLOR);
+        painter.rect(rect, 1.0, Color32::WHITE, stroke, StrokeKind::Middle);
+    }
+}
+
+/// Paints a selection box between two opposite corners, in pixels.
+pub(super) fn paint_box(painter: &Painter, screen: Screen, a: Point<f64>, b: Point<f64>) {
+    let rect = Rect::from_two_pos(screen.point(a), screen.point(b));
+    painter.rect_filled(rect, 0.0, SELECTION_COLOR.gamma_multiply(0.12));
+    let stroke = Stroke::new(1.0, SELECTION_COLOR);
+    painter.rect_stroke(rect, 0.0, stroke, StrokeKind::Middle);
+}

@@ -1,0 +1,36 @@
+//! The text about length and bends of a path.
+
+use guideway_document::measure::{Bend, length_m, tightest_radius_m};
+use guideway_document::text_format;
+use guideway_layout::PathRef;
+
+/// A path whose tightest bend exceeds this radius counts as straight, in meters.
+const STRAIGHT_RADIUS_M: f64 = 1e5;
+
+/// Length and tightest bend of a path with these bends.
+pub(crate) fn shape_text(path: PathRef<'_>, bends: &[Bend]) -> String {
+    let length = text_format::length(length_m(path));
+    let radius_m = tightest_radius_m(bends);
+    match radius_m.is_finite() && radius_m < STRAIGHT_RADIUS_M {
+        true => {
+            let radius = text_format::length(radius_m);
+            format!("{length} long, tightest bend {radius}")
+        }
+        false => format!("{length} long, straight"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use guideway_document::measure::bends;
+
+    use super::*;
+    use crate::tests::services::lanes;
+
+    #[test]
+    fn straight_path_has_no_radius() {
+        let layout = lanes(1);
+        let path = layout.paths.get(0);
+        assert_eq!(shape_text(path, &bends(path)), "10 m long, straight");
+    }
+}

@@ -1,0 +1,156 @@
+//! Display settings: colors, line widths, and the decorations that are shown, for all files alike.
+
+use guideway_document::decorations::{DecorationStyle, MarkOptions, grid};
+use guideway_scene::density::ToneMap;
+use guideway_scene::{ColorBy, DrawList, LineRule, Rgba, SceneOptions, Shading, Style, View};
+
+/// The display settings.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct DisplaySettings {
+    pub(crate) is_dark: bool,
+    /// The attribute column that colors the paths; `None` uses the colors of the file.
+    pub(crate) color_by: Option<String>,
+    pub(crate) is_thesis_rule: bool,
+    /// Width of paths without a width of their own, in meters.
+    pub(crate) width_m: f64,
+    /// Least width on screen, in pixels.
+    pub(crate) min_px: f64,
+    pub(crate) is_density: bool,
+    pub(crate) has_arrows: bool,
+    pub(crate) has_symbols: bool,
+    pub(crate) has_labels: bool,
+    pub(crate) has_grid: bool,
+}
+
+impl Default for DisplaySettings {
+    fn default() -> Self {
+        Self {
+            is_dark: false,
+            color_by: None,
+            is_thesis_rule: false,
+            width_m: 0.1,
+            min_px: 1.5,
+            is_density: false,
+            has_arrows: true,
+            has_symbols: true,
+            has_labels: true,
+            has_grid: true,
+        }
+    }
+}
+
+impl DisplaySettings {
+    /// Background color of the picture.
+    pub(crate) fn background(&self) -> Rgba {
+        if self.is_dark {
+            Rgba::opaque(24, 26, 30)
+        } else {
+            Rgba::WHITE
+        }
+    }
+
+    /// Color of paths without a color of their own.
+    fn path_color(&self) -> Rgba {
+        if self.is_dark {
+            Rgba::opaque(222, 226, 232)
+        } else {
+            Rgba::BLACK
+        }
+    }
+
+    /// Colors and sizes of decorations, at `px_per_point` pixels per point of the screen.
+    pub(crate) fn decoration_style(&self, px_per_point: f64) -> DecorationStyle {
+        DecorationStyle::new(self.background(), px_per_point)
+    }
+
+    /// The marks that are shown: arrows, symbols, labels.
+    pub(crate) fn mark_options(&self, px_per_point: f64) -> MarkOptions {
+        let label_size = self.decoration_style(px_per_point).label_size();
+        MarkOptions {
+            px_per_point,
+            arrows: self.has_arrows.then(|| self.line_rule()),
+            symbols: self.has_symbols,
+            labels: self.has_labels.then_some(label_size),
+        }
+    }
+
+    /// The grid of a view; empty if it is off.
+    pub(crate) fn grid(&self, view: &View, px_per_point: f64) -> DrawList {
+        match self.has_grid {
+            true => grid(view, &self.decoration_style(px_per_point)),
+            false => DrawList::default(),
+        }
+    }
+
+    /// The options that scenes are made with.
+    pub(crate) fn scene_options(&self) -> SceneOptions {
+        SceneOptions {
+            color: Some(self.path_color()),
+            color_by: self.color_by.clone().map(|column| ColorBy { column }),
+            level: None,
+        }
+    }
+
+    /// True if the scenes of the two settings differ.
+    pub(crate) fn needs_other_scene(&self, other: &Self) -> bool {
+        self.is_dark != other.is_dark || self.color_by != other.color_by
+    }
+
+    /// The style of the picture of one file. Its background is transparent: the window paints
+    /// background, grid and other files below it.
+    pub(crate) fn style(&self) -> Style {
+        Style {
+            line_rule: self.line_rule(),
+            shading: if self.is_density {
+                Shading::Density(ToneMap::Log)
+            } else {
+                Shading::Color
+            },
+            background: Rgba::from_u32(0),
+        }
+    }
+
+    pub(crate) fn line_rule(&self) -> LineRule {
+        if self.is_thesis_rule {
+            return LineRule::Thesis;
+        }
+        match LineRule::default() {
+            LineRule::World { max_px, .. } => LineRule::World {
+                width_m: self.width_m,
+                min_px: self.min_px,
+                max_px: max_px.max(self.min_px),
+            },
+            LineRule::Thesis => LineRule::Thesis,
+        }
+    }
+
+    /// True if arrows, symbols or labels are shown.
+    pub(crate) fn has_marks(&self) -> bool {
+        self.has_arrows || self.has_symbols || self.has_labels
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_color_settings_need_another_scene() {
+        let settings = DisplaySettings::default();
+        let mut wide = settings.clone();
+        wide.width_m = 2.0;
+        let mut dark = settings.clone();
+        dark.is_dark = true;
+        assert!(!settings.needs_other_scene(&wide) && settings.needs_other_scene(&dark));
+    }
+
+    #[test]
+    fn least_width_never_exceeds_the_greatest() {
+        let mut settings = DisplaySettings::default();
+        settings.min_px = 1e3;
+        let LineRule::World { min_px, max_px, .. } = settings.line_rule() else {
+            panic!("the thesis' rule is off");
+        };
+        assert!(min_px <= max_px);
+    }
+}

@@ -1,0 +1,52 @@
+//! One edit of a document, as a closure that can run on another thread.
+
+use std::time::Duration;
+
+use guideway_document::Document;
+
+use super::journal::Journal;
+use super::notice::Notice;
+
+/// Longest time that a frame waits for an edit before it continues without the document: half a
+/// frame at 60 Hz.
+pub(crate) const EDIT_WAIT: Duration = Duration::from_millis(8);
+
+/// A change of a document or of its journal. It returns a notice for the user if it fails.
+pub(crate) struct EditTask(Box<EditFn>);
+
+type EditFn = dyn FnOnce(&mut Document, &mut Journal) -> Result<(), Notice> + Send;
+
+impl EditTask {
+    /// Changes selection or visibility, which the journal does not record.
+    pub(crate) fn view_change(change: impl FnOnce(&mut Document) + Send + 'static) -> Self {
+        Self::with_journal(move |document, _| {
+            change(document);
+            Ok(())
+        })
+    }
+
+    /// Edits the layout; refused while unsaved work of an earlier run awaits a decision.
+    pub(crate) fn edit<E: ToString>(
+        edit: impl FnOnce(&mut Document) -> Result<(), E> + Send + 'static,
+    ) -> Self {
+        Self::with_journal(move |document, journal| {
+            journal.check_is_decided()?;
+            edit(document).map_err(|error| error.to_string())
+        })
+    }
+
+    /// Changes document and journal.
+    pub(crate) fn with_journal(
+        change: impl FnOnce(&mut Document, &mut Journal) -> Result<(), Notice> + Send + 'static,
+    ) -> Self {
+        Self(Box::new(change))
+    }
+
+    /// Runs the edit.
+    ///
+    /// # Errors
+    /// The notice of a refused edit.
+    pub(super) fn run(self, document: &mut Document, journal: &mut Journal) -> Result<(), Notice> {
+        (self.0)(document, journal)
+    }
+}

@@ -1,0 +1,143 @@
+//! Records the edits of one document in its journal file, and suspends that while a save runs.
+
+use std::io;
+use std::path::Path;
+
+use guideway_document::{Document, ReplayProgress, SavedState};
+
+use super::journal_file::JournalFile;
+use super::notice::Notice;
+use super::unsaved_work::UnsavedWork;
+
+/// The journal of a document. It moves between threads with its document.
+#[derive(Default)]
+pub(crate) struct Journal {
+    /// `None` before a document is loaded, and after the file could not be written.
+    file: Option<JournalFile>,
+    /// The saved state before the save in progress. While a save runs nothing is recorded: an entry
+    /// would belong to neither the old nor the new file.
+    saving: Option<SavedState>,
+}
+
+impl Journal {
+    /// Opens the journal of a layout file that was just read.
+    pub(crate) fn open(layout_file: &Path) -> Self {
+        Self {
+            file: Some(JournalFile::open(layout_file)),
+            saving: None,
+        }
+    }
+
+    /// The notice about unsaved work that does not match the layout file, if there is any.
+    pub(crate) fn mismatch_notice(&self, layout_file: &Path) -> Option<Notice> {
+        let kept = self.file.as_ref()?.mismatched_copy()?;
+        Some(format!(
+            "{} has changed since it was left with unsaved work. That work is kept in {}",
+            layout_file.display(),
+            kept.display()
+        ))
+    }
+
+    /// True if unsaved work of an earlier run awaits a decision.
+    pub(crate) fn has_unsaved_work(&self) -> bool {
+        self.file
+            .as_ref()
+            .is_some_and(JournalFile::has_unsaved_work)
+    }
+
+    /// Unsaved work of an earlier run.
+    pub(crate) fn unsaved_work(&self, layout_file: &Path) -> Option<UnsavedWork> {
+        self.file.as_ref()?.unsaved_work(layout_file)
+    }
+
+    /// Checks that no unsaved work awaits a decision: new entries would mix with it.
+    ///
+    /// # Errors
+    /// The notice for the user.
+    pub(super) fn check_is_decided(&self) -> Result<(), Notice> {
+        match self.has_unsaved_work() {
+            false => Ok(()),
+            true => Err("Recover or discard the unsaved work first".into()),
+        }
+    }
+
+    /// Appends all edits since the last call.
+    ///
+    /// # Errors
+    /// Once, when the journal cannot be written; later calls record nothing.
+    pub(super) fn record(&mut self, document: &mut Document, file: &Path) -> Result<(), Notice> {
+        match &mut self.file {
+            Some(journal) if self.saving.is_none() => {
+                let result = journal.record(document, file);
+                self.close_on_error(result, file)
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Continues behind recovered work. Returns how much was recovered, as a notice.
+    pub(crate) fn resume(&mut self, progress: ReplayProgress, file: &Path) -> Option<Notice> {
+        let journal = self.file.as_mut()?;
+        let steps = match progress.entries {
+            1 => "Recovered 1 step".to_owned(),
+            entries => format!("Recovered {entries} steps"),
+        };
+        let result = journal.resume(progress, file).map(|is_all| match is_all {
+            true => steps,
+            false => format!("{steps}; the journal is damaged after them"),
+        });
+        Some(
+            self.close_on_error(result, file)
+                .unwrap_or_else(|notice| notice),
+        )
+    }
+
+    /// Suspends recording while the layout is saved, and copies the file as read.
+    ///
+    /// # Errors
+    /// When the journal cannot be written. The save may go on.
+    pub(crate) fn begin_save(&mut self, before: SavedState, file: &Path) -> Result<(), Notice> {
+        self.saving = Some(before);
+        let result = self.file.as_ref().map_or(Ok(()), |j| j.copy_base(file));
+        self.close_on_error(result, file)
+    }
+
+    /// Resumes recording after a successful save to `file`.
+    ///
+    /// # Errors
+    /// When the journal cannot be written.
+    pub(crate) fn complete_save(&mut self, file: &Path) -> Result<(), Notice> {
+        self.saving = None;
+        match &mut self.file {
+            Some(journal) => {
+                let result = journal.mark_saved(file);
+                self.close_on_error(result, file)
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// Resumes recording after a failed save. Returns the saved state to restore.
+    pub(crate) fn abort_save(&mut self) -> Option<SavedState> {
+        self.saving.take()
+    }
+
+    /// Deletes the journal: its work is saved or unwanted.
+    pub(crate) fn discard(&mut self) {
+        if let Some(journal) = &mut self.file {
+            journal.delete();
+        }
+    }
+
+    /// Closes the journal if it cannot be written.
+    fn close_on_error<T>(&mut self, result: io::Result<T>, file: &Path) -> Result<T, Notice> {
+        result.map_err(|error| {
+            self.file = None;
+            format!(
+                "{}: cannot write the journal beside this file: {error}. Unsaved work would not \
+                 survive a crash: save often",
+                file.display()
+            )
+        })
+    }
+}

@@ -1,0 +1,29 @@
+//! The document of one open file, and everything that reads or changes it on other threads.
+//!
+//! | part | owns | file |
+//! |---|---|---|
+//! | [`DocumentSlot`] | document, queued edits, journal, overlay | `document_slot` |
+//! | [`EditTask`] | one edit, run on another thread | `edit_task` |
+//! | [`Journal`] | the record of unsaved edits | `journal`, `journal_file`, `unsaved_work` |
+//! | [`Overlay`](overlay::Overlay) | marks and outlines of a view | `overlay` |
+//! | [`BackgroundTasks`] | recoloring, queries, checks | `background_tasks` |
+
+mod background_tasks;
+mod document_slot;
+mod edit_task;
+mod findings;
+mod journal;
+mod journal_file;
+mod journal_header;
+mod notice;
+mod overlay;
+mod unsaved_work;
+
+pub(crate) use background_tasks::{BackgroundTasks, TaskEvent};
+pub(crate) use document_slot::{DocumentSlot, EditReturn};
+pub(crate) use edit_task::{EDIT_WAIT, EditTask};
+pub(crate) use findings::Findings;
+pub(crate) use journal::Journal;
+#[cfg(test)]
+pub(crate) use journal_file::{JournalFile, read_entries};
+pub(crate) use unsaved_work::UnsavedWork;

@@ -1,0 +1,131 @@
+//! Marks and outlines of one view, computed by a background task.
+
+use std::sync::Arc;
+#[cfg(test)]
+use std::sync::mpsc::Receiver;
+use std::time::{Duration, Instant};
+
+use guideway_document::Document;
+use guideway_document::decorations::{MarkOptions, Marks, Outline, marks, outline};
+use guideway_scene::View;
+
+use crate::background::{BackgroundTask, RepaintHandle};
+
+/// Marks and selection outline over the picture of one document. Like the picture, the last overlay
+/// stays on screen until the next one is complete.
+#[derive(Default)]
+pub(crate) struct Overlay {
+    last: Option<OverlayContent>,
+    task: Option<BackgroundTask<OverlayContent>>,
+    /// Input of the task in progress, or else of the last content.
+    requested: Option<OverlayInput>,
+}
+
+#[derive(Clone, PartialEq)]
+struct OverlayInput {
+    view: View,
+    options: MarkOptions,
+    revision: u64,
+}
+
+/// Marks and outlines of a view.
+pub(crate) struct OverlayContent {
+    pub(crate) view: View,
+    pub(crate) marks: Marks,
+    pub(crate) selection: Outline,
+    elapsed: Duration,
+}
+
+impl Overlay {
+    /// Requests the overlay of a view, unless a task is in progress or the last one had the same
+    /// input. Waits for it if the last one took less than `wait`.
+    pub(super) fn request(
+        &mut self,
+        document: &Arc<Document>,
+        view: &View,
+        options: &MarkOptions,
+        wait: Duration,
+        repaint: &RepaintHandle,
+    ) {
+        let input = OverlayInput {
+            view: *view,
+            options: *options,
+            revision: document.revision(),
+        };
+        if self.task.is_some() || self.requested.as_ref() == Some(&input) {
+            return;
+        }
+        let document = Arc::clone(document);
+        self.start(input, repaint, move |input| {
+            OverlayContent::new(&document, input)
+        });
+        if self.last().is_none_or(|last| last.elapsed < wait) {
+            self.poll(wait);
+        }
+    }
+
+    fn start(
+        &mut self,
+        input: OverlayInput,
+        repaint: &RepaintHandle,
+        compute: impl FnOnce(&OverlayInput) -> OverlayContent + Send + 'static,
+    ) {
+        self.requested = Some(input.clone());
+        self.task = Some(BackgroundTask::start(repaint, move || compute(&input)));
+    }
+
+    /// Repeats the last request with a task that blocks until `rest` yields or disconnects.
+    #[cfg(test)]
+    pub(super) fn repeat_blocked(
+        &mut self,
+        document: &Arc<Document>,
+        repaint: &RepaintHandle,
+        rest: Receiver<()>,
+    ) {
+        let input = self.requested.clone().expect("an overlay was requested");
+        let document = Arc::clone(document);
+        self.start(input, repaint, move |input| {
+            let _ = rest.recv();
+            OverlayContent::new(&document, input)
+        });
+    }
+
+    /// Takes the result if it is complete within `wait`.
+    pub(super) fn poll(&mut self, wait: Duration) {
+        let result = self.task.as_ref().and_then(|task| task.result_within(wait));
+        if let Some(content) = result {
+            self.task = None;
+            // After a panic, which was reported, the last content stays.
+            self.last = content.ok().or(self.last.take());
+        }
+    }
+
+    /// The last complete overlay.
+    pub(crate) fn last(&self) -> Option<&OverlayContent> {
+        self.last.as_ref()
+    }
+
+    /// True if a task reads the document.
+    pub(super) fn is_busy(&self) -> bool {
+        self.task.is_some()
+    }
+
+    /// Abandons the request before an edit. The caller waits for the task, which still reads the
+    /// document.
+    pub(super) fn abandon(&mut self) -> Option<BackgroundTask<OverlayContent>> {
+        self.requested = None;
+        self.task.take()
+    }
+}
+
+impl OverlayContent {
+    fn new(document: &Document, input: &OverlayInput) -> Self {
+        let started = Instant::now();
+        Self {
+            view: input.view,
+            marks: marks(document, &input.view, &input.options),
+            selection: outline(document, document.selection(), &input.view),
+            elapsed: started.elapsed(),
+        }
+    }
+}

@@ -1,0 +1,79 @@
+//! Unsaved work of an earlier run: replays its journal on the file that it begins with.
+
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::PathBuf;
+
+use guideway_document::{Document, ReplayProgress, replay};
+use guideway_layout::UserError;
+
+use super::journal_header::read_header;
+use crate::services::{Job, WINDOW_ERROR};
+
+/// A journal that an earlier run left, and its base file.
+pub(crate) struct UnsavedWork {
+    pub(super) journal: PathBuf,
+    /// The layout file that the journal begins with.
+    pub(crate) base: PathBuf,
+}
+
+impl UnsavedWork {
+    /// Replays the journal on a document of [`Self::base`].
+    ///
+    /// # Errors
+    /// When the journal cannot be read, or the job was cancelled.
+    pub(crate) fn replay(
+        &self,
+        document: &mut Document,
+        job: &Job,
+    ) -> Result<ReplayProgress, UserError> {
+        let (saved_bytes, entries) = self.entries().map_err(|error| {
+            UserError::new(
+                WINDOW_ERROR,
+                format!(
+                    "{}: cannot read the journal: {error}",
+                    self.journal.display()
+                ),
+                "Make the file readable and recover again, or discard the unsaved work",
+            )
+        })?;
+        let replay_to = |document: &mut Document, from: ReplayProgress, end: usize| {
+            let done = replay(&entries[from.bytes..end], document, |done| {
+                job.advance((from.bytes + done.bytes) as u64, entries.len() as u64);
+                !job.is_cancelled()
+            });
+            ReplayProgress {
+                entries: from.entries + done.entries,
+                bytes: from.bytes + done.bytes,
+            }
+        };
+        let start = ReplayProgress {
+            entries: 0,
+            bytes: 0,
+        };
+        let mut done = replay_to(document, start, saved_bytes);
+        if done.bytes == saved_bytes {
+            document.mark_saved();
+            done = replay_to(document, done, entries.len());
+        }
+        // The journal has these entries already.
+        document.take_journal_entries();
+        if job.is_cancelled() {
+            return Err(UserError::new(
+                WINDOW_ERROR,
+                "the recovery of unsaved work was cancelled",
+                "The work is kept: choose again whether to recover or discard it",
+            ));
+        }
+        Ok(done)
+    }
+
+    /// All entries, and how many of their bytes are in the saved file.
+    fn entries(&self) -> io::Result<(usize, Vec<u8>)> {
+        let mut journal = File::open(&self.journal)?;
+        let (_, saved_bytes) = read_header(&mut journal)?;
+        let mut entries = Vec::new();
+        journal.read_to_end(&mut entries)?;
+        Ok((entries.len().min(saved_bytes as usize), entries))
+    }
+}

@@ -1,0 +1,142 @@
+//! Collects everything that the canvas shows into a picture request.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use guideway_document::decorations::{marks, scale_bar};
+use guideway_layout::UserError;
+use guideway_scene::{DrawList, FrameSize, RenderError, Style, View};
+
+use crate::backdrop::{FloorPlanLayer, SweptAreasLayer};
+use crate::display_settings::DisplaySettings;
+use crate::files::{Layer, OpenFiles};
+use crate::services::{AppServices, Job, PictureRequest};
+
+/// Everything that the canvas shows.
+pub(crate) struct PictureContent<'a> {
+    pub(crate) view: View,
+    /// Pixels of the picture per point of the screen.
+    pub(crate) px_per_point: f64,
+    pub(crate) settings: &'a DisplaySettings,
+    pub(crate) files: &'a OpenFiles,
+    pub(crate) floor_plan: &'a FloorPlanLayer,
+    pub(crate) swept_areas: &'a SweptAreasLayer,
+}
+
+impl PictureContent<'_> {
+    /// The request for this picture; `None` if no document is visible.
+    pub(crate) fn request(&self) -> Option<PictureRequest> {
+        let scene = |layer: &Layer| Some(Arc::new(layer.document()?.scene().clone()));
+        let mut scenes: Vec<_> = self.files.visible().filter_map(scene).collect();
+        let top = scenes.pop()?;
+        let settings = self.settings;
+        let active = self.files.active().filter(|layer| layer.is_visible);
+        let document = active.and_then(Layer::document);
+        Some(PictureRequest {
+            scene: top,
+            others: scenes,
+            view: self.view,
+            style: Style {
+                background: settings.background(),
+                ..settings.style()
+            },
+            floor_plan: self.floor_plan.visible().cloned(),
+            swept: document.and_then(|document| self.swept_areas.areas(document)),
+            grid: settings.grid(&self.view, self.px_per_point),
+            marks: self.marks(),
+        })
+    }
+
+    /// Arrows, symbols, labels and scale bar.
+    fn marks(&self) -> DrawList {
+        let mut list = DrawList::default();
+        let style = self.settings.decoration_style(self.px_per_point);
+        let active = self.files.active().filter(|layer| layer.is_visible);
+        if let Some(document) = active.and_then(Layer::document) {
+            let options = self.settings.mark_options(self.px_per_point);
+            list = marks(document, &self.view, &options).draw(&style, |at_px| at_px);
+        }
+        list.append(scale_bar(&self.view, &style));
+        list
+    }
+}
+
+/// Writes a PNG of this width and returns a sentence for the user.
+///
+/// # Errors
+/// When the size exceeds the limits of a frame, or rendering or writing fails.
+pub(crate) fn png_picture(
+    picture: PictureRequest,
+    width_px: u32,
+    method: &str,
+    services: &dyn AppServices,
+    job: &Job,
+    path: &Path,
+) -> Result<String, UserError> {
+    let picture = scaled_to(picture, width_px)?;
+    let result = services.export_png(&picture, method, job, path);
+    let path = path.display();
+    if job.is_cancelled() && result.is_err() {
+        return Ok(format!("The export of {path} was cancelled"));
+    }
+    result?;
+    let (width, height) = (picture.view.size().width(), picture.view.size().height());
+    Ok(format!("Wrote {path}, {width} x {height} pixels"))
+}
+
+/// The same part of the world at another width in pixels.
+fn scaled_to(picture: PictureRequest, width_px: u32) -> Result<PictureRequest, RenderError> {
+    let view = &picture.view;
+    let factor = f64::from(width_px) / f64::from(view.size().width());
+    let height_px = (f64::from(view.size().height()) * factor).round().max(1.0);
+    let size = FrameSize::new(width_px, height_px as u32)?;
+    Ok(PictureRequest {
+        view: View::new(size, view.center_m(), view.px_per_m() * factor)?,
+        grid: picture.grid.scaled(factor),
+        marks: picture.marks.scaled(factor),
+        ..picture
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use guideway_scene::{Rgba, Scene, SceneOptions};
+    use guideway_spline::Point;
+
+    use super::*;
+    use crate::tests::services::lanes;
+
+    fn picture(width: u32, height: u32) -> PictureRequest {
+        let scene = Scene::new(Arc::new(lanes(1)), &SceneOptions::default()).unwrap();
+        let size = FrameSize::new(width, height).unwrap();
+        let mut grid = DrawList::default();
+        grid.fill_rectangle(Rgba::BLACK, Point::new(1.0, 2.0), Point::new(3.0, 4.0));
+        PictureRequest {
+            scene: Arc::new(scene),
+            others: Vec::new(),
+            view: View::new(size, Point::new(5.0, 6.0), 20.0).unwrap(),
+            style: Style::default(),
+            floor_plan: None,
+            swept: None,
+            grid,
+            marks: DrawList::default(),
+        }
+    }
+
+    #[test]
+    fn scaled_picture_shows_the_same_part_of_the_world() {
+        let small = picture(400, 300);
+        let large = scaled_to(small.clone(), 40_000).unwrap();
+        let size = large.view.size();
+        assert_eq!((size.width(), size.height()), (40_000, 30_000));
+        assert_eq!(large.view.world_bounds(), small.view.world_bounds());
+        let corner = large.grid.fills[0].polygons[0][2];
+        assert_eq!(corner, Point::new(300.0, 400.0));
+    }
+
+    #[test]
+    fn rejects_a_picture_beyond_the_frame_limits() {
+        let error = scaled_to(picture(100, 300), 65_535).err().unwrap();
+        assert!(error.to_string().contains("65535"), "{error}");
+    }
+}

@@ -1,0 +1,98 @@
+//! Writes one file at a time in the background: a layout, a PNG or an SVG.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use guideway_layout::UserError;
+
+use crate::background::{BackgroundTask, RepaintHandle};
+use crate::services::Job;
+
+/// The file being written, if any.
+#[derive(Default)]
+pub(crate) struct FileWriter {
+    current: Option<Write>,
+}
+
+struct Write {
+    /// Returns a sentence about the written file.
+    task: BackgroundTask<Result<String, UserError>>,
+    /// Path of the file, if it is a layout.
+    layout_path: Option<PathBuf>,
+    /// Progress, if the writer reports it.
+    job: Option<Arc<Job>>,
+}
+
+/// The end of a write.
+pub(crate) struct Written {
+    /// A sentence about the written file.
+    pub(crate) result: Result<String, UserError>,
+    /// Path of the file, if it is a layout.
+    pub(crate) layout_path: Option<PathBuf>,
+}
+
+impl FileWriter {
+    /// True if a file is being written.
+    pub(crate) fn is_busy(&self) -> bool {
+        self.current.is_some()
+    }
+
+    /// Starts to write; `write` returns a sentence for the user. Requires [`Self::is_busy`] to be
+    /// false: a write in progress would lose its result.
+    pub(crate) fn start(
+        &mut self,
+        layout_path: Option<PathBuf>,
+        job: Option<Arc<Job>>,
+        repaint: &RepaintHandle,
+        write: impl FnOnce() -> Result<String, UserError> + Send + 'static,
+    ) {
+        self.current = Some(Write {
+            task: BackgroundTask::start(repaint, write),
+            layout_path,
+            job,
+        });
+    }
+
+    /// Progress of the file being written, if the writer reports it.
+    pub(crate) fn job(&self) -> Option<&Job> {
+        self.current.as_ref()?.job.as_deref()
+    }
+
+    /// Takes the result of a finished write.
+    pub(crate) fn poll(&mut self) -> Option<Written> {
+        let result = self.current.as_ref()?.task.result()?;
+        let write = self.current.take()?;
+        Some(Written {
+            result: result.flatten(),
+            layout_path: write.layout_path,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::mpsc;
+    use std::thread;
+    use std::time::Duration;
+
+    use super::*;
+
+    #[test]
+    fn is_busy_until_the_result_is_taken() {
+        let mut writer = FileWriter::default();
+        let (finish, rest) = mpsc::channel::<()>();
+        let repaint: RepaintHandle = Arc::new(|| {});
+        writer.start(Some("site.arrow".into()), None, &repaint, move || {
+            let _ = rest.recv();
+            Ok("saved".into())
+        });
+        assert!(writer.poll().is_none() && writer.is_busy());
+        drop(finish);
+        let written = (0..5_000).find_map(|_| {
+            thread::sleep(Duration::from_millis(1));
+            writer.poll()
+        });
+        assert_eq!(written.unwrap().result, Ok("saved".into()));
+        assert!(!writer.is_busy());
+    }
+}

@@ -1,0 +1,26 @@
+//! Open files: loading, saving, watching, and the list of recent files.
+//!
+//! | part | owns | file |
+//! |---|---|---|
+//! | [`OpenFiles`] | the open files, the active one, watcher, recent files | `open_files` |
+//! | [`Layer`] | one open file: loader, document slot, picture, background tasks | `layer` |
+//! | [`Loader`](loader::Loader) | the thread that reads a file | `loader` |
+//! | [`FileWriter`] | the file being written | `file_writer` |
+//! | [`Watcher`](watcher::Watcher) | the thread that detects changes on disk | `watcher` |
+//! | [`RecentFiles`](recent_files::RecentFiles) | files of earlier runs | `recent_files` |
+
+mod file_writer;
+mod layer;
+mod layer_context;
+mod layer_event;
+mod loader;
+mod open_files;
+mod recent_files;
+mod save_state;
+mod watcher;
+
+pub(crate) use file_writer::FileWriter;
+pub(crate) use layer::Layer;
+pub(crate) use layer_context::LayerContext;
+pub(crate) use layer_event::LayerEvent;
+pub(crate) use open_files::OpenFiles;

@@ -1,0 +1,267 @@
+//! The open files, the active one among them, and what is remembered and watched of them.
+
+use std::path::{Path, PathBuf};
+
+use eframe::egui::Context;
+use guideway_document::Document;
+use guideway_scene::SceneOptions;
+use guideway_spline::Bounds;
+
+use super::layer::{Layer, changed_on_disk};
+use super::layer_context::LayerContext;
+use super::layer_event::LayerEvent;
+use super::recent_files::RecentFiles;
+use super::watcher::Watcher;
+
+/// The open files from the bottom; the active one is drawn on top and edited.
+pub(crate) struct OpenFiles {
+    layers: Vec<Layer>,
+    active: usize,
+    recent: RecentFiles,
+    watcher: Watcher,
+    /// True if the watcher's list is outdated.
+    is_watch_outdated: bool,
+    context: LayerContext,
+}
+
+impl OpenFiles {
+    pub(crate) fn new(context: LayerContext) -> Self {
+        Self {
+            layers: Vec::new(),
+            active: 0,
+            recent: RecentFiles::load(context.services.state_folder()),
+            watcher: Watcher::start(context.repaint.clone()),
+            is_watch_outdated: false,
+            context,
+        }
+    }
+
+    pub(crate) fn context(&self) -> &LayerContext {
+        &self.context
+    }
+
+    pub(crate) fn layers(&self) -> &[Layer] {
+        &self.layers
+    }
+
+    pub(crate) fn layers_mut(&mut self) -> &mut [Layer] {
+        &mut self.layers
+    }
+
+    pub(crate) fn recent(&self) -> &RecentFiles {
+        &self.recent
+    }
+
+    pub(crate) fn active_index(&self) -> usize {
+        self.active
+    }
+
+    /// The file that is edited.
+    pub(crate) fn active(&self) -> Option<&Layer> {
+        self.layers.get(self.active)
+    }
+
+    pub(crate) fn active_mut(&mut self) -> Option<&mut Layer> {
+        self.layers.get_mut(self.active)
+    }
+
+    /// The document that is edited, unless it is not loaded or an edit has it.
+    pub(crate) fn document(&self) -> Option<&Document> {
+        self.active()?.document()
+    }
+
+    /// The visible files, from the bottom; the active one is on top.
+    pub(crate) fn visible(&self) -> impl Iterator<Item = &Layer> {
+        let others = self.layers.iter().enumerate();
+        let others = others.filter(|(index, _)| *index != self.active);
+        let all = others.map(|(_, layer)| layer).chain(self.active());
+        all.filter(|layer| layer.is_visible)
+    }
+
+    /// The box around all visible documents.
+    pub(crate) fn visible_bounds(&self) -> Option<Bounds<f64>> {
+        let bounds = self
+            .visible()
+            .filter_map(|layer| layer.document()?.bounds());
+        bounds.reduce(Bounds::union)
+    }
+
+    pub(crate) fn has_changes(&self) -> bool {
+        self.layers.iter().any(Layer::is_changed)
+    }
+
+    /// True if nothing is in progress in any file.
+    pub(crate) fn is_settled(&self) -> bool {
+        self.layers.iter().all(Layer::is_settled)
+    }
+
+    /// Edits the next file from now on.
+    pub(crate) fn activate_next(&mut self) {
+        self.active = (self.active + 1) % self.layers.len().max(1);
+    }
+
+    pub(crate) fn activate(&mut self, index: usize) {
+        self.active = index.min(self.layers.len().saturating_sub(1));
+    }
+
+    /// Opens a file, or activates it if it is open.
+    pub(crate) fn open(&mut self, path: PathBuf, method: &str, options: SceneOptions) {
+        if let Some(index) = self.layers.iter().position(|layer| layer.is_at(&path)) {
+            self.active = index;
+            return;
+        }
+        let layer = Layer::open(path, method, options, &self.context);
+        self.layers.push(layer);
+        self.active = self.layers.len() - 1;
+        self.is_watch_outdated = true;
+    }
+
+    pub(crate) fn close(&mut self, index: usize) {
+        self.layers.remove(index);
+        self.active = self.active.min(self.layers.len().saturating_sub(1));
+        self.is_watch_outdated = true;
+    }
+
+    /// Reads a file again. Returns a notice if that has to wait.
+    pub(crate) fn reload(
+        &mut self,
+        index: usize,
+        options: SceneOptions,
+        drops_changes: bool,
+    ) -> Option<String> {
+        let layer = self.layers.get_mut(index)?;
+        if layer.save.is_saving() {
+            let name = layer.name();
+            return Some(format!("{name} is being saved; try again in a moment"));
+        }
+        layer.reload(options, drops_changes, &self.context);
+        // The watcher takes the present state on disk as known.
+        self.is_watch_outdated = true;
+        None
+    }
+
+    /// Replays the unsaved work of a file.
+    pub(crate) fn recover(&mut self, index: usize, options: SceneOptions) {
+        if let Some(layer) = self.layers.get_mut(index) {
+            layer.recover(options, &self.context);
+        }
+    }
+
+    /// Recolors all files whose scenes have other options.
+    pub(crate) fn recolor(&mut self, options: &SceneOptions) {
+        for index in 0..self.layers.len() {
+            self.recolor_one(index, options);
+        }
+    }
+
+    /// Recolors one file if its scene has other options.
+    pub(crate) fn recolor_one(&mut self, index: usize, options: &SceneOptions) {
+        let layer = &mut self.layers[index];
+        let repaint = &self.context.repaint;
+        layer
+            .tasks
+            .recolor(layer.slot.document(), options.clone(), repaint);
+    }
+
+    /// Replaces the render method of all files.
+    pub(crate) fn set_method(&mut self, name: &str) {
+        for layer in &self.layers {
+            layer.picture.set_method(name);
+        }
+    }
+
+    /// Takes the results of the threads of one file.
+    pub(crate) fn poll_layer(&mut self, ctx: &Context, index: usize) -> Vec<LayerEvent> {
+        self.layers[index].poll(ctx, &self.context)
+    }
+
+    /// Reloads files that other programs changed. Returns notices for the user.
+    pub(crate) fn poll_watcher(&mut self, options: &SceneOptions) -> Vec<String> {
+        if std::mem::take(&mut self.is_watch_outdated) {
+            let paths = self.layers.iter().map(|layer| layer.path().to_owned());
+            self.watcher.set_files(paths.collect());
+        }
+        let mut notices = Vec::new();
+        for (path, state) in self.watcher.changed().collect::<Vec<_>>() {
+            let is_foreign = |l: &Layer| l.is_at(&path) && !l.save.has_written(state);
+            let Some(index) = self.layers.iter().position(is_foreign) else {
+                continue;
+            };
+            let name = self.layers[index].name();
+            if self.layers[index].is_changed() {
+                notices.push(changed_on_disk(&name));
+            } else {
+                notices.extend(self.reload(index, options.clone(), false));
+                notices.push(format!("{name} has changed on disk and is reloaded"));
+            }
+        }
+        notices
+    }
+
+    /// Ends the save in progress; with a path, the layout was written there. Returns notices.
+    pub(crate) fn end_save(&mut self, saved_as: Option<PathBuf>) -> Vec<String> {
+        let is_saving = |layer: &Layer| layer.save.is_saving();
+        let Some(index) = self.layers.iter().position(is_saving) else {
+            return Vec::new();
+        };
+        let is_written = saved_as.is_some();
+        let event = self.layers[index].end_save(saved_as, &self.context.repaint);
+        self.is_watch_outdated = true;
+        let mut notices = Vec::new();
+        if let Some(LayerEvent::Notice(notice)) = event {
+            notices.push(notice);
+        }
+        if is_written {
+            notices.extend(self.remember(index));
+        }
+        notices
+    }
+
+    /// Adds a file to the recent files. Returns a notice if the list cannot be written.
+    pub(crate) fn remember(&mut self, index: usize) -> Option<String> {
+        let path: &Path = self.layers[index].path();
+        let error = self.recent.add(path).err()?;
+        Some(format!("cannot write the list of recent files: {error}"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::tests::services::{TestServices, lanes};
+
+    fn open_files() -> OpenFiles {
+        let services = TestServices::with([("a.arrow", lanes(1)), ("b.arrow", lanes(2))]);
+        let repaint: crate::background::RepaintHandle = Arc::new(|| {});
+        let mut files = OpenFiles::new(LayerContext { services, repaint });
+        for name in ["a.arrow", "b.arrow"] {
+            files.open(name.into(), "cpu", SceneOptions::default());
+        }
+        files
+    }
+
+    #[test]
+    fn opening_an_open_file_activates_it() {
+        let mut files = open_files();
+        assert_eq!(files.active_index(), 1);
+        files.open("a.arrow".into(), "cpu", SceneOptions::default());
+        assert_eq!((files.layers().len(), files.active_index()), (2, 0));
+    }
+
+    #[test]
+    fn active_file_is_on_top_and_another_takes_over_when_it_closes() {
+        let mut files = open_files();
+        files.activate(0);
+        let names: Vec<String> = files.visible().map(Layer::name).collect();
+        assert_eq!(names, ["b.arrow", "a.arrow"]);
+        files.activate_next();
+        files.close(1);
+        assert!(
+            files
+                .active()
+                .is_some_and(|layer| layer.name() == "a.arrow")
+        );
+    }
+}

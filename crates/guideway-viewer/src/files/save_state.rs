@@ -1,0 +1,129 @@
+//! The save and reload state of one open file, and the steps of a save.
+
+use std::path::{Path, PathBuf};
+
+use guideway_document::Snapshot;
+
+use super::watcher::{Stamp, stamp};
+use crate::editing::{DocumentSlot, EditTask};
+
+/// True if a file is being saved or reloaded, and its state on disk after the last save.
+#[derive(Default)]
+pub(crate) struct SaveState {
+    is_saving: bool,
+    is_reloading: bool,
+    /// True if the document that is being loaded replaces unsaved changes.
+    drops_changes: bool,
+    /// State of the file after the last save from this window.
+    written: Stamp,
+}
+
+impl SaveState {
+    pub(crate) fn is_saving(&self) -> bool {
+        self.is_saving
+    }
+
+    /// True if this window saved the file since it was read.
+    pub(crate) fn is_written(&self) -> bool {
+        self.written.is_some()
+    }
+
+    /// True if this window wrote the file into this state.
+    pub(crate) fn has_written(&self, state: Stamp) -> bool {
+        state.is_some() && self.written == state
+    }
+
+    pub(super) fn drops_changes(&self) -> bool {
+        self.drops_changes
+    }
+
+    pub(super) fn begin_reload(&mut self, drops_changes: bool) {
+        self.drops_changes = drops_changes;
+        (self.is_reloading, self.written) = (true, None);
+    }
+
+    pub(super) fn keep_changes(&mut self) {
+        self.drops_changes = false;
+    }
+
+    pub(super) fn end_reload(&mut self) {
+        self.is_reloading = false;
+    }
+
+    /// Begins a save: returns the snapshot to write and notices for the user. `None` while the file
+    /// is reloaded, an edit has the document, or unsaved work awaits a decision: the content to
+    /// save is not certain then.
+    pub(super) fn begin(
+        &mut self,
+        slot: &mut DocumentSlot,
+        file: &Path,
+    ) -> Option<(Snapshot, Vec<String>)> {
+        if slot.journal().has_unsaved_work() || self.is_reloading {
+            return None;
+        }
+        let document = slot.document_mut()?;
+        let snapshot = document.snapshot();
+        let before = document.mark_saved();
+        self.is_saving = true;
+        let recorded = slot.record(file);
+        let copied = slot.journal_mut().begin_save(before, file);
+        let notices = [recorded, copied].into_iter().filter_map(Result::err);
+        Some((snapshot, notices.collect()))
+    }
+
+    /// Ends a save. Returns the edit that completes it in the document and its journal.
+    pub(super) fn end(&mut self, saved_as: Option<PathBuf>) -> EditTask {
+        self.is_saving = false;
+        match saved_as {
+            Some(path) => {
+                self.written = stamp(&path);
+                EditTask::with_journal(move |_, journal| journal.complete_save(&path))
+            }
+            None => EditTask::with_journal(|document, journal| {
+                if let Some(before) = journal.abort_save() {
+                    document.restore_saved(before);
+                }
+                Ok(())
+            }),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+    use std::time::Duration;
+
+    use guideway_document::Document;
+
+    use super::*;
+    use crate::background::RepaintHandle;
+    use crate::tests::services::lanes;
+
+    #[test]
+    fn failed_save_leaves_the_document_changed() {
+        let mut slot = DocumentSlot::default();
+        let mut document = Document::new(lanes(2).into(), &Default::default()).unwrap();
+        document.select_all();
+        document.delete_selection().unwrap();
+        slot.replace(document);
+        let (mut save, file) = (SaveState::default(), Path::new("site.arrow"));
+        assert!(save.begin(&mut slot, file).is_some() && save.is_saving());
+        assert!(!slot.document().unwrap().is_changed());
+        let repaint: RepaintHandle = Arc::new(|| {});
+        slot.run(save.end(None), Duration::from_secs(60), file, &repaint);
+        assert!(slot.document().unwrap().is_changed() && !save.is_written());
+    }
+
+    #[test]
+    fn refuses_to_save_while_the_file_is_reloaded() {
+        let mut slot = DocumentSlot::default();
+        let document = Document::new(lanes(2).into(), &Default::default()).unwrap();
+        slot.replace(document);
+        let mut save = SaveState::default();
+        save.begin_reload(false);
+        assert!(save.begin(&mut slot, Path::new("site.arrow")).is_none());
+        save.end_reload();
+        assert!(save.begin(&mut slot, Path::new("site.arrow")).is_some());
+    }
+}

@@ -1,0 +1,122 @@
+//! Detects files that other programs changed, by polling their time and size.
+
+use std::collections::HashMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
+use std::thread;
+use std::time::{Duration, SystemTime};
+
+use crate::background::RepaintHandle;
+
+/// Polling interval. Polling works on every disk and network file system and sees replaced files;
+/// notifications of the operating system do not.
+const POLL_INTERVAL: Duration = Duration::from_secs(1);
+
+/// The thread that watches files.
+pub(crate) struct Watcher {
+    files: Sender<Vec<PathBuf>>,
+    changed: Receiver<(PathBuf, Stamp)>,
+}
+
+/// Time and size of a file, which identify its state; `None` without a file.
+pub(crate) type Stamp = Option<(SystemTime, u64)>;
+
+impl Watcher {
+    pub(crate) fn start(repaint: RepaintHandle) -> Self {
+        let (files, new_files) = mpsc::channel::<Vec<PathBuf>>();
+        let (sender, changed) = mpsc::channel();
+        thread::spawn(move || {
+            let mut states = FileStates::default();
+            loop {
+                match new_files.recv_timeout(POLL_INTERVAL) {
+                    Ok(files) => states.set_files(files),
+                    Err(RecvTimeoutError::Timeout) => {
+                        for file in states.poll() {
+                            if sender.send(file).is_err() {
+                                return;
+                            }
+                            repaint();
+                        }
+                    }
+                    Err(RecvTimeoutError::Disconnected) => return,
+                }
+            }
+        });
+        Self { files, changed }
+    }
+
+    /// Replaces the list of watched files; their present state counts as known.
+    pub(crate) fn set_files(&self, files: Vec<PathBuf>) {
+        // The thread ends only when `self` is dropped.
+        let _ = self.files.send(files);
+    }
+
+    /// The changed files and their new states.
+    pub(crate) fn changed(&self) -> impl Iterator<Item = (PathBuf, Stamp)> {
+        self.changed.try_iter()
+    }
+}
+
+#[derive(Default)]
+struct FileStates {
+    /// Per file the last reported and the last seen state.
+    files: HashMap<PathBuf, (Stamp, Stamp)>,
+}
+
+impl FileStates {
+    fn set_files(&mut self, files: Vec<PathBuf>) {
+        let state = |file: PathBuf| {
+            let stamp = stamp(&file);
+            (file, (stamp, stamp))
+        };
+        self.files = files.into_iter().map(state).collect();
+    }
+
+    /// Files that changed and then stayed the same for one interval: those that are still being
+    /// written or are missing for a moment are reported later.
+    fn poll(&mut self) -> Vec<(PathBuf, Stamp)> {
+        let mut changed = Vec::new();
+        for (file, (reported, seen)) in &mut self.files {
+            let now = stamp(file);
+            if now == *seen && now != *reported && now.is_some() {
+                *reported = now;
+                changed.push((file.clone(), now));
+            }
+            *seen = now;
+        }
+        changed
+    }
+}
+
+pub(crate) fn stamp(file: &Path) -> Stamp {
+    let metadata = fs::metadata(file).ok()?;
+    Some((metadata.modified().ok()?, metadata.len()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn reports_a_change_once_after_writing_ends() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("a.txt");
+        fs::write(&file, "1").unwrap();
+        let mut states = FileStates::default();
+        states.set_files(vec![file.clone()]);
+        assert!(states.poll().is_empty());
+        fs::write(&file, "12").unwrap();
+        assert!(states.poll().is_empty(), "it may still be written");
+        assert_eq!(states.poll(), [(file.clone(), stamp(&file))]);
+        assert!(states.poll().is_empty(), "reported once");
+        fs::remove_file(&file).unwrap();
+        assert!(
+            states.poll().is_empty() && states.poll().is_empty(),
+            "it may come back"
+        );
+        fs::write(&file, "123").unwrap();
+        states.poll();
+        assert_eq!(states.poll(), [(file.clone(), stamp(&file))]);
+    }
+}

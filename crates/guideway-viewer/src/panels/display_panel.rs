@@ -1,0 +1,67 @@
+//! The Display section: colors, line widths, decorations, swept areas.
+
+use eframe::egui::{ComboBox, Slider, TextEdit, Ui};
+use guideway_layout::Layout;
+
+use crate::action::Action;
+use crate::backdrop::SweptAreasLayer;
+use crate::display_settings::DisplaySettings;
+use crate::files::OpenFiles;
+
+/// Columns that color every layout, beside its attributes.
+const BUILT_IN_COLUMNS: [&str; 3] = ["direction", "level", "vehicle_type"];
+const FILE_COLORS: &str = "as in the file";
+
+/// Shows the section.
+pub(super) fn show(
+    ui: &mut Ui,
+    files: &OpenFiles,
+    settings: &mut DisplaySettings,
+    swept_areas: &mut SweptAreasLayer,
+    actions: &mut Vec<Action>,
+) {
+    let before = settings.clone();
+    let columns = files.document().map_or(Vec::new(), |d| columns(d.layout()));
+    ComboBox::from_label("Color")
+        .selected_text(settings.color_by.as_deref().unwrap_or(FILE_COLORS))
+        .show_ui(ui, |ui| {
+            ui.selectable_value(&mut settings.color_by, None, FILE_COLORS);
+            for column in columns {
+                ui.selectable_value(&mut settings.color_by, Some(column.clone()), column);
+            }
+        });
+    ui.checkbox(&mut settings.is_thesis_rule, "Line widths of the thesis");
+    ui.add_enabled_ui(!settings.is_thesis_rule, |ui| {
+        let width = Slider::new(&mut settings.width_m, 0.0..=2.0).suffix(" m");
+        ui.add(width.text("Width"));
+        let min_width = Slider::new(&mut settings.min_px, 0.5..=8.0).suffix(" px");
+        ui.add(min_width.text("Minimum"));
+    });
+    ui.checkbox(&mut settings.is_density, "Density");
+    ui.checkbox(&mut settings.has_arrows, "Arrows");
+    ui.checkbox(&mut settings.has_symbols, "Nodes and stations");
+    ui.checkbox(&mut settings.has_labels, "Labels");
+    ui.checkbox(&mut settings.has_grid, "Grid");
+    ui.checkbox(&mut settings.is_dark, "Dark");
+    ui.checkbox(&mut swept_areas.is_visible, "Swept areas");
+    let label = ui.label("Vehicle: LENGTHxWIDTH or LENGTHxWIDTH,REAR in meters, or `file`");
+    ui.add(TextEdit::singleline(&mut swept_areas.vehicle_text))
+        .labelled_by(label.id);
+    if let Some(error) = swept_areas.error() {
+        ui.colored_label(ui.visuals().error_fg_color, error);
+    }
+    if before.is_dark != settings.is_dark {
+        actions.push(Action::ApplyTheme);
+    }
+    if before.needs_other_scene(settings) {
+        actions.push(Action::Recolor);
+    }
+}
+
+/// Columns that can color the paths of a layout.
+fn columns(layout: &Layout) -> Vec<String> {
+    let attributes = layout.paths.attributes.iter();
+    let attributes = attributes.map(|column| column.name.clone());
+    let built_in = BUILT_IN_COLUMNS.map(str::to_owned);
+    attributes.chain(built_in).collect()
+}

@@ -1,0 +1,87 @@
+//! The Files section: open files, floor plan, levels.
+
+use eframe::egui::{Label, RichText, Ui};
+use guideway_document::Document;
+
+use crate::action::Action;
+use crate::backdrop::FloorPlanLayer;
+use crate::editing::EditTask;
+use crate::files::OpenFiles;
+
+/// Shows the section.
+pub(super) fn show(
+    ui: &mut Ui,
+    files: &mut OpenFiles,
+    floor_plan: &mut FloorPlanLayer,
+    actions: &mut Vec<Action>,
+) {
+    let (active, has_several) = (files.active_index(), files.layers().len() > 1);
+    for (index, layer) in files.layers_mut().iter_mut().enumerate() {
+        ui.horizontal(|ui| {
+            let mark = if layer.is_changed() { "*" } else { "" };
+            let name = format!("{}{mark}", layer.name());
+            let label = ui.selectable_label(active == index, name);
+            let path = layer.path().display().to_string();
+            if label.on_hover_text(path).clicked() {
+                actions.push(Action::Activate(index));
+            }
+            ui.checkbox(&mut layer.is_visible, "shown");
+            if has_several && !layer.is_changed() && ui.small_button("Close").clicked() {
+                actions.push(Action::Close(index));
+            }
+        });
+        if let Some(document) = layer.document() {
+            let scene = document.scene();
+            ui.small(format!(
+                "{} paths, {} hidden, {} refused",
+                scene.path_count(),
+                scene.hidden_count(),
+                document.layout().refused.len(),
+            ));
+        }
+    }
+    show_floor_plan(ui, floor_plan);
+    let levels = files.document().map_or(Vec::new(), levels);
+    if levels.len() > 1 {
+        show_levels(ui, levels, actions);
+    }
+}
+
+fn show_floor_plan(ui: &mut Ui, floor_plan: &mut FloorPlanLayer) {
+    if floor_plan.text().is_empty() {
+        return;
+    }
+    let label = match floor_plan.is_reading() {
+        true => "floor plan (loading)",
+        false => "floor plan",
+    };
+    ui.checkbox(&mut floor_plan.is_visible, label);
+    let text = floor_plan.text();
+    let plan = Label::new(RichText::new(text).small());
+    ui.add(plan.truncate()).on_hover_text(text);
+    if let Some(error) = floor_plan.error() {
+        ui.colored_label(ui.visuals().error_fg_color, error);
+    }
+}
+
+fn show_levels(ui: &mut Ui, levels: Vec<(u32, String)>, actions: &mut Vec<Action>) {
+    ui.horizontal_wrapped(|ui| {
+        ui.label("Level:");
+        let all = [(None, "all".to_owned())].into_iter();
+        let each = levels.into_iter().map(|(level, name)| (Some(level), name));
+        for (level, name) in all.chain(each) {
+            if ui.button(name).clicked() {
+                let show = EditTask::view_change(move |document| document.show_level(level));
+                actions.push(Action::Edit(show));
+            }
+        }
+    });
+}
+
+/// Row and name of every level.
+fn levels(document: &Document) -> Vec<(u32, String)> {
+    let levels = document.layout().levels.iter().zip(0..);
+    levels
+        .map(|(level, row)| (row, level.name.clone().unwrap_or_else(|| level.id.clone())))
+        .collect()
+}

@@ -1,0 +1,61 @@
+//! The Find section: search by name, and selection by query.
+
+use eframe::egui::{Key, TextEdit, Ui};
+use guideway_document::{Element, SelectMode};
+
+use crate::action::Action;
+use crate::files::{Layer, OpenFiles};
+use crate::selection::Find;
+
+/// Shows the section.
+pub(super) fn show(ui: &mut Ui, files: &OpenFiles, find: &mut Find, actions: &mut Vec<Action>) {
+    let label = ui.label("Name");
+    let field = TextEdit::singleline(&mut find.name).hint_text("path, node or station");
+    let field = ui.add(field).labelled_by(label.id);
+    if std::mem::take(&mut find.wants_focus) {
+        field.request_focus();
+    }
+    if field.changed() {
+        actions.push(Action::Search);
+    }
+    let is_entered = |ui: &Ui| ui.input(|input| input.key_pressed(Key::Enter));
+    if field.lost_focus() && is_entered(ui) {
+        find.zooms_to_first = true;
+    }
+    if let Some(document) = files.document() {
+        let layout = document.layout();
+        for element in find.results(layout) {
+            let kind = match element {
+                Element::Path(_) => "path",
+                Element::Node(_) => "node",
+                Element::Station(_) => "station",
+            };
+            if ui.link(format!("{kind} {}", element.id(layout))).clicked() {
+                actions.push(Action::ZoomTo(element));
+            }
+        }
+    }
+    let label = ui.label("Query");
+    let field = TextEdit::singleline(&mut find.query).hint_text("maxSpeed > 1 and id ~ dock");
+    let field = ui.add(field).labelled_by(label.id);
+    if field.lost_focus() && is_entered(ui) {
+        actions.push(Action::SelectByQuery(SelectMode::Replace));
+    }
+    ui.horizontal(|ui| {
+        for (label, mode) in [
+            ("Select matches", SelectMode::Replace),
+            ("Add", SelectMode::Add),
+            ("Remove", SelectMode::Remove),
+        ] {
+            if ui.button(label).clicked() {
+                actions.push(Action::SelectByQuery(mode));
+            }
+        }
+        if files.active().is_some_and(Layer::is_busy) {
+            ui.spinner();
+        }
+    });
+    if let Some(error) = &find.query_error {
+        ui.colored_label(ui.visuals().error_fg_color, error);
+    }
+}

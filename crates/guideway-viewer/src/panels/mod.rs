@@ -1,0 +1,21 @@
+//! The panels of the window: menu bar, status bar, side panel, dialogs.
+//!
+//! Panels own the state of their own fields only. They read the other parts and return
+//! [`Action`](crate::action::Action)s.
+
+pub(crate) mod dialogs;
+mod display_panel;
+mod files_panel;
+mod find_panel;
+mod findings_panel;
+mod menu_bar;
+mod path_panel;
+mod render_panel;
+mod selection_panel;
+mod side_panel;
+mod status_bar;
+
+pub(crate) use findings_panel::FindingsPanel;
+pub(crate) use menu_bar::{MenuBar, pressed_commands};
+pub(crate) use side_panel::SidePanel;
+pub(crate) use status_bar::StatusBar;

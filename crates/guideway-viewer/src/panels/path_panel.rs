@@ -1,0 +1,97 @@
+//! The Path section: shape, curvature and attributes of the path under the pointer.
+
+use eframe::egui::{Grid, Label, Pos2, Sense, Shape, Stroke, Ui, Vec2};
+use guideway_document::Document;
+use guideway_document::measure::{Bend, bends};
+
+use crate::canvas::shape_text;
+use crate::files::OpenFiles;
+use crate::tools::{MAX_HOVER_CANDIDATES, Tools};
+
+/// Longest list of attributes.
+const MAX_ATTRIBUTES: usize = 40;
+const PLOT_HEIGHT: f32 = 48.0;
+
+/// Shows the path under the pointer, or else the only selected one.
+pub(super) fn show(ui: &mut Ui, files: &OpenFiles, tools: &Tools) {
+    let Some(document) = files.document() else {
+        return;
+    };
+    let selected = document.selection();
+    let only = selected.min().filter(|_| selected.len() == 1);
+    let hovered = tools.hovered(Some(document));
+    let Some(row) = hovered.map(|hit| hit.path).or(only) else {
+        ui.label("Hover over a path or select one");
+        return;
+    };
+    let path = document.layout().paths.get(row as usize);
+    ui.strong(path.id());
+    let reverse = hovered.and_then(|hit| document.reverse_path_at(hit, MAX_HOVER_CANDIDATES));
+    if let Some(reverse) = reverse {
+        let id = document.layout().paths.id(reverse as usize);
+        ui.label(format!("Reverse path: {id} (click again to select it)"));
+    }
+    let bends = bends(path);
+    ui.label(shape_text(path, &bends));
+    plot_curvature(ui, &bends);
+    show_attributes(ui, document, row);
+}
+
+fn show_attributes(ui: &mut Ui, document: &Document, row: u32) {
+    let layout = document.layout();
+    let path = layout.paths.get(row as usize);
+    let node = |node: Option<u32>| node.map_or("none", |node| layout.nodes.id(node)).to_owned();
+    let types: Vec<&str> = layout.paths.vehicle_types().of(row as usize).collect();
+    let built_in = [
+        ("from node", node(path.start_node())),
+        ("to node", node(path.end_node())),
+        ("vehicle types", types.join(", ")),
+    ];
+    let columns = layout.paths.attributes.iter().filter_map(|column| {
+        let value = column.values.get(row as usize)?;
+        Some((column.name.as_str(), value.to_string()))
+    });
+    let grid = Grid::new("attributes").num_columns(2);
+    grid.min_col_width(120.0)
+        .max_col_width(150.0)
+        .show(ui, |ui| {
+            let all = built_in.into_iter().chain(columns);
+            let mut all = all.filter(|(_, value)| !value.is_empty());
+            for (name, value) in all.by_ref().take(MAX_ATTRIBUTES) {
+                ui.add(Label::new(name).truncate());
+                ui.add(Label::new(value).truncate());
+                ui.end_row();
+            }
+            let more = all.count();
+            if more > 0 {
+                ui.small(format!("and {more} more"));
+            }
+        });
+}
+
+/// Plots curvature over arc length.
+fn plot_curvature(ui: &mut Ui, bends: &[Bend]) {
+    let (Some(first), Some(last)) = (bends.first(), bends.last()) else {
+        return;
+    };
+    let curvatures = bends.iter().map(|bend| bend.curvature.abs());
+    let max_curvature = curvatures.fold(1e-6, f64::max);
+    let size = Vec2::new(ui.available_width(), PLOT_HEIGHT);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
+    let color = ui.visuals().text_color();
+    let length_m = (last.along_m - first.along_m).max(1e-9);
+    let point = |bend: &Bend| {
+        let x = ((bend.along_m - first.along_m) / length_m) as f32;
+        let y = (0.5 - 0.5 * bend.curvature / max_curvature) as f32;
+        Pos2::new(
+            rect.left() + x * rect.width(),
+            rect.top() + y * rect.height(),
+        )
+    };
+    let painter = ui.painter_at(rect);
+    let axis = Stroke::new(1.0, color.gamma_multiply(0.3));
+    painter.hline(rect.x_range(), rect.center().y, axis);
+    let curve = bends.iter().map(point).collect();
+    painter.add(Shape::line(curve, Stroke::new(1.5, color)));
+    response.on_hover_text("Curvature along the path; up is a left turn");
+}

@@ -1,0 +1,150 @@
+//! The picture of one open file: its render thread, and the last picture as a texture.
+
+use std::sync::Arc;
+use std::sync::mpsc::TryRecvError;
+
+use eframe::egui::{Context, TextureHandle, TextureOptions};
+use guideway_scene::{Report, Scene, View};
+
+use super::method_selection::FALLBACK_METHOD;
+use super::queue::RenderQueue;
+use super::renderer::Renderer;
+use super::request::RenderRequest;
+use super::worker::{Picture, RenderEvent};
+use crate::background::RepaintHandle;
+use crate::services::AppServices;
+
+/// Renders one file and holds its last picture.
+pub(crate) struct LayerPicture {
+    renderer: Renderer,
+    shown: Option<ShownPicture>,
+    requested: Option<RenderRequest>,
+}
+
+/// A picture as a texture.
+pub(crate) struct ShownPicture {
+    pub(crate) texture: TextureHandle,
+    /// Number of this picture among those of the file, from 1.
+    pub(crate) number: u64,
+    pub(crate) view: View,
+    pub(crate) report: Report,
+    /// Milliseconds from the start of the request to the finished picture.
+    pub(crate) wall_ms: f64,
+}
+
+/// A change of the picture that concerns the open file.
+pub(crate) enum PictureEvent {
+    /// A new picture is shown.
+    Shown { is_first: bool },
+    /// The render thread needs the current scene.
+    NeedsScene,
+    /// The fallback method replaced the selected one; the reason as a sentence.
+    FellBack(String),
+    /// The last request has no picture; the reason.
+    Failed(String),
+}
+
+impl LayerPicture {
+    /// Starts a render thread, which waits for a scene.
+    pub(crate) fn start(
+        services: &Arc<dyn AppServices>,
+        method: &str,
+        repaint: &RepaintHandle,
+    ) -> Self {
+        Self {
+            renderer: Renderer::start(Arc::clone(services), method, Arc::clone(repaint)),
+            shown: None,
+            requested: None,
+        }
+    }
+
+    /// The last picture.
+    pub(crate) fn shown(&self) -> Option<&ShownPicture> {
+        self.shown.as_ref()
+    }
+
+    /// A queue that accepts edits from any thread.
+    pub(crate) fn queue(&self) -> RenderQueue {
+        self.renderer.queue()
+    }
+
+    /// Replaces the scene.
+    pub(crate) fn set_scene(&self, scene: Arc<Scene>) {
+        self.renderer.set_scene(scene);
+    }
+
+    /// Replaces the render method.
+    pub(crate) fn set_method(&self, name: &str) {
+        self.renderer.set_method(name);
+    }
+
+    /// Requests a picture, unless the same one was requested last.
+    pub(crate) fn request(&mut self, request: RenderRequest) {
+        if self.requested != Some(request) {
+            self.renderer.request(request);
+            self.requested = Some(request);
+        }
+    }
+
+    /// True if the last request is on screen and no other is in progress.
+    pub(crate) fn is_settled(&self) -> bool {
+        let is_shown = |request: &RenderRequest| {
+            let shown = self.shown.as_ref();
+            shown.is_some_and(|shown| shown.view == request.view)
+        };
+        self.requested.as_ref().is_none_or(is_shown) && !self.renderer.is_busy()
+    }
+
+    /// Takes finished pictures; `name` names the file in the texture and in notices.
+    pub(crate) fn poll(
+        &mut self,
+        ctx: &Context,
+        name: &str,
+        services: &Arc<dyn AppServices>,
+        repaint: &RepaintHandle,
+    ) -> Vec<PictureEvent> {
+        let mut events = Vec::new();
+        loop {
+            match self.renderer.try_event() {
+                Ok(RenderEvent::Picture(picture)) => {
+                    let is_first = self.shown.is_none();
+                    self.show(ctx, name, *picture);
+                    events.push(PictureEvent::Shown { is_first });
+                }
+                Ok(RenderEvent::NeedsScene) => events.push(PictureEvent::NeedsScene),
+                Ok(RenderEvent::FellBack(why)) => events.push(PictureEvent::FellBack(why)),
+                Ok(RenderEvent::Failed(why)) => events.push(PictureEvent::Failed(why)),
+                Err(TryRecvError::Empty) => return events,
+                Err(TryRecvError::Disconnected) => {
+                    events.push(PictureEvent::FellBack(format!(
+                        "an internal error stopped rendering {name}. Switched to \
+                         `{FALLBACK_METHOD}`"
+                    )));
+                    let (services, repaint) = (Arc::clone(services), Arc::clone(repaint));
+                    self.renderer.restart(services, FALLBACK_METHOD, repaint);
+                    events.push(PictureEvent::NeedsScene);
+                    return events;
+                }
+            }
+        }
+    }
+
+    fn show(&mut self, ctx: &Context, name: &str, picture: Picture) {
+        let options = TextureOptions::LINEAR;
+        let number = self.shown.as_ref().map_or(0, |shown| shown.number) + 1;
+        let texture = match self.shown.take() {
+            Some(mut shown) => {
+                shown.texture.set(picture.image, options);
+                shown.texture
+            }
+            None => ctx.load_texture(name, picture.image, options),
+        };
+        self.shown = Some(ShownPicture {
+            texture,
+            number,
+            view: picture.request.view,
+            report: picture.report,
+            wall_ms: picture.wall_ms,
+        });
+    }
+}

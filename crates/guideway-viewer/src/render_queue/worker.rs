@@ -1,0 +1,207 @@
+//! The render thread: applies updates to its scene and renders the newest request.
+
+use std::sync::Arc;
+use std::sync::mpsc::{self, Receiver, Sender};
+use std::thread::{self, JoinHandle};
+use std::time::Instant;
+
+use eframe::egui::ColorImage;
+use guideway_layout::UserError;
+use guideway_scene::{
+    Budget, Cancel, EditOutcome, Frame, Method, Prepared, RenderError, Report, Scene, elapsed_ms,
+};
+
+use super::color_image::color_image;
+use super::method_selection::FALLBACK_METHOD;
+use super::queue::{RenderJob, RenderQueue, SceneUpdate};
+use super::request::RenderRequest;
+use crate::background::RepaintHandle;
+use crate::services::AppServices;
+
+/// A message from the render thread to the window.
+pub(crate) enum RenderEvent {
+    Picture(Box<Picture>),
+    /// The worker lost its scene and needs the current one.
+    NeedsScene,
+    /// The method failed and [`FALLBACK_METHOD`] replaces it; the reason as a sentence.
+    FellBack(String),
+    /// The request has no picture; the reason.
+    Failed(String),
+}
+
+/// A finished picture.
+pub(crate) struct Picture {
+    pub(crate) request: RenderRequest,
+    pub(crate) image: ColorImage,
+    pub(crate) report: Report,
+    /// Milliseconds from the start of the request to the finished picture.
+    pub(crate) wall_ms: f64,
+}
+
+/// Starts a render thread without a scene.
+pub(super) fn spawn(
+    queue: &RenderQueue,
+    services: Arc<dyn AppServices>,
+    method: &str,
+    repaint: RepaintHandle,
+) -> (Receiver<RenderEvent>, JoinHandle<()>) {
+    let (sender, events) = mpsc::channel();
+    let mut worker = Worker {
+        services,
+        queue: queue.clone(),
+        events: sender,
+        repaint,
+        method_name: method.to_owned(),
+        method: None,
+        scene: None,
+        prepared: None,
+        // The window sends the first scene without a request.
+        has_requested_scene: true,
+        frame: None,
+    };
+    (events, thread::spawn(move || worker.run()))
+}
+
+struct Worker {
+    services: Arc<dyn AppServices>,
+    queue: RenderQueue,
+    events: Sender<RenderEvent>,
+    repaint: RepaintHandle,
+    method_name: String,
+    method: Option<Box<dyn Method>>,
+    /// The scene until it is prepared. Afterwards the method owns it and edits it without a copy.
+    scene: Option<Arc<Scene>>,
+    prepared: Option<Box<dyn Prepared>>,
+    /// True if a [`RenderEvent::NeedsScene`] is unanswered.
+    has_requested_scene: bool,
+    frame: Option<Frame>,
+}
+
+impl Worker {
+    fn run(&mut self) {
+        while let Some(RenderJob { updates, request }) = self.queue.next_job() {
+            for update in updates {
+                self.apply(update);
+            }
+            if let Some((request, cancel)) = request {
+                self.render(request, &cancel);
+            }
+        }
+    }
+
+    fn apply(&mut self, update: SceneUpdate) {
+        match update {
+            SceneUpdate::Scene(scene) => {
+                self.scene = Some(scene);
+                self.prepared = None;
+                self.has_requested_scene = false;
+            }
+            SceneUpdate::Edit(edit) => {
+                let is_applied = match (&mut self.prepared, &mut self.scene) {
+                    (Some(prepared), _) => {
+                        matches!(prepared.edit(&edit), Ok(EditOutcome::InPlace { .. }))
+                    }
+                    (None, Some(scene)) => Arc::make_mut(scene).edit(&edit).is_ok(),
+                    (None, None) => false,
+                };
+                if !is_applied {
+                    // The next request asks the window for the current scene.
+                    self.prepared = None;
+                    self.scene = None;
+                }
+            }
+            SceneUpdate::Method(name) => {
+                self.method_name = name;
+                self.method = None;
+                self.prepared = None;
+            }
+        }
+    }
+
+    fn render(&mut self, request: RenderRequest, cancel: &Cancel) {
+        let started = Instant::now();
+        match self.picture(&request, cancel, started) {
+            Ok(picture) => self.send(RenderEvent::Picture(Box::new(picture))),
+            Err(Stop::NoScene) if self.has_requested_scene => {}
+            Err(Stop::NoScene) => {
+                self.has_requested_scene = true;
+                self.send(RenderEvent::NeedsScene);
+            }
+            Err(Stop::Render(RenderError::Cancelled)) => {}
+            Err(Stop::Method(error)) => self.fall_back(&request, cancel, &error.to_string()),
+            Err(Stop::Render(error @ RenderError::Device { .. })) => {
+                self.fall_back(&request, cancel, &error.to_string());
+            }
+            Err(Stop::Render(error)) => self.send(RenderEvent::Failed(error.to_string())),
+        }
+    }
+
+    /// Switches to the method that runs on every computer and renders again.
+    fn fall_back(&mut self, request: &RenderRequest, cancel: &Cancel, why: &str) {
+        if self.method_name == FALLBACK_METHOD {
+            self.send(RenderEvent::Failed(why.to_owned()));
+            return;
+        }
+        let name = &self.method_name;
+        let notice = format!("method `{name}` failed: {why}. Switched to `{FALLBACK_METHOD}`");
+        self.send(RenderEvent::FellBack(notice));
+        self.apply(SceneUpdate::Method(FALLBACK_METHOD.to_owned()));
+        self.render(*request, cancel);
+    }
+
+    fn picture(
+        &mut self,
+        request: &RenderRequest,
+        cancel: &Cancel,
+        started: Instant,
+    ) -> Result<Picture, Stop> {
+        let prepared = match &mut self.prepared {
+            Some(prepared) => prepared,
+            none => {
+                let method = match &self.method {
+                    Some(method) => method,
+                    None => {
+                        let method = self.services.start_method(&self.method_name)?;
+                        self.method.insert(method)
+                    }
+                };
+                let scene = self.scene.take().ok_or(Stop::NoScene)?;
+                none.insert(method.prepare(scene, &Budget::default())?)
+            }
+        };
+        let size = request.view.size();
+        let frame = self.frame.get_or_insert_with(|| Frame::new(size));
+        let report = prepared.render(&request.view, &request.style, cancel, frame)?;
+        Ok(Picture {
+            request: *request,
+            image: color_image(frame),
+            report,
+            wall_ms: elapsed_ms(started),
+        })
+    }
+
+    fn send(&self, event: RenderEvent) {
+        // The receiver is gone if the file was closed in the meantime.
+        let _ = self.events.send(event);
+        (self.repaint)();
+    }
+}
+
+/// Why there is no picture.
+enum Stop {
+    NoScene,
+    Method(UserError),
+    Render(RenderError),
+}
+
+impl From<UserError> for Stop {
+    fn from(error: UserError) -> Self {
+        Self::Method(error)
+    }
+}
+
+impl From<RenderError> for Stop {
+    fn from(error: RenderError) -> Self {
+        Self::Render(error)
+    }
+}

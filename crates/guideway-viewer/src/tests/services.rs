@@ -1,0 +1,313 @@
+//! Services of the tests: files in memory, and a graphics device that can be lost.
+
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex};
+use std::time::Duration;
+
+use guideway_cpu::Cpu;
+use guideway_envelope::EnvelopeSource;
+use guideway_layout::{Layout, NewPath, Value};
+use guideway_scene::{
+    Budget, Cancel, EditOutcome, Frame, Method, MethodInfo, Preparation, Prepared, RenderError,
+    Report, Style, View,
+};
+use guideway_scene::{Edit, Scene};
+use guideway_spline::{Bounds, Point, Runs};
+
+use crate::services::{AppServices, FloorPlan, Job, MethodChoice, PictureRequest, WINDOW_ERROR};
+use guideway_layout::UserError;
+
+/// Files in memory and switches for faults.
+#[derive(Default)]
+pub(crate) struct TestServices {
+    pub(crate) files: Mutex<HashMap<PathBuf, Layout>>,
+    /// True if the disk is full.
+    pub(crate) is_full: Mutex<bool>,
+    /// True if reading and writing block.
+    pub(crate) is_blocked: Mutex<bool>,
+    /// The state folder.
+    pub(crate) state: Mutex<Option<PathBuf>>,
+    /// Paths of the last rendered swept areas.
+    pub(crate) swept: Mutex<Vec<u32>>,
+    /// Exported pictures.
+    pub(crate) pictures: Mutex<Vec<(PathBuf, PictureRequest)>>,
+    /// True if the graphics device is lost. The next start of the method resets it.
+    is_device_lost: Mutex<Arc<AtomicBool>>,
+}
+
+/// The method of the graphics device; it ranks above `cpu`.
+const DEVICE: &str = "device";
+
+/// A graphics device that can be lost; renders as `cpu` does.
+struct Device {
+    is_lost: Arc<AtomicBool>,
+}
+
+/// A scene prepared on the device.
+struct PreparedOnDevice {
+    is_lost: Arc<AtomicBool>,
+    prepared: Box<dyn Prepared>,
+}
+
+impl TestServices {
+    pub(crate) fn with(files: impl IntoIterator<Item = (&'static str, Layout)>) -> Arc<Self> {
+        let files = files
+            .into_iter()
+            .map(|(name, layout)| (name.into(), layout))
+            .collect();
+        Arc::new(Self {
+            files: Mutex::new(files),
+            ..Self::default()
+        })
+    }
+
+    /// Loses the graphics device, as a driver crash does.
+    pub(crate) fn lose_device(&self) {
+        let lost = self.is_device_lost.lock();
+        let lost = lost.expect("no test panics while it holds the lock");
+        lost.store(true, Ordering::Relaxed);
+    }
+
+    fn device(&self) -> Device {
+        let lost = self.is_device_lost.lock();
+        let mut lost = lost.expect("no test panics while it holds the lock");
+        *lost = Arc::default();
+        Device {
+            is_lost: Arc::clone(&lost),
+        }
+    }
+
+    fn wait_for_disk(&self, job: &Job) -> Result<(), UserError> {
+        while *self
+            .is_blocked
+            .lock()
+            .expect("no test panics while it holds the lock")
+        {
+            if job.is_cancelled() {
+                return Err(Self::error("cancelled"));
+            }
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        Ok(())
+    }
+
+    fn error(message: &str) -> UserError {
+        UserError {
+            code: WINDOW_ERROR,
+            message: message.to_owned(),
+            remedy: "Try another one".into(),
+        }
+    }
+}
+
+/// Parallel paths of 10 m along x, 2 m apart, each between its own two nodes.
+pub(crate) fn lanes(count: u32) -> Layout {
+    let mut layout = Layout::default();
+    for row in 0..count {
+        let y = 2.0 * f64::from(row);
+        let ends = [Point::new(0.0, y), Point::new(10.0, y)];
+        let [start, end] = ends.map(|at| layout.nodes.push(&format!("n{row} {}", at.x), at, None));
+        let mut runs = Runs::default();
+        runs.push_line(ends[0], ends[1]);
+        let path = NewPath {
+            id: &format!("lane {row}"),
+            runs: &runs,
+            start_node: Some(start),
+            end_node: Some(end),
+            ..NewPath::default()
+        };
+        let row = layout.paths.push(&path);
+        let speed = Value::Float(f64::from(row as u32) / 2.0);
+        layout.paths.attributes.set(row, "speed", speed);
+    }
+    layout
+}
+
+/// A red floor plan of 40 m x 30 m.
+struct Hall;
+
+impl FloorPlan for Hall {
+    fn bounds(&self) -> Option<Bounds<f64>> {
+        let (min, max) = (Point::new(-20.0, -15.0), Point::new(20.0, 15.0));
+        Some(Bounds { min, max })
+    }
+
+    fn draw(&self, view: &View) -> Result<Frame, UserError> {
+        let mut frame = Frame::new(view.size());
+        frame.pixels_mut().fill([255, 0, 0, 255]);
+        Ok(frame)
+    }
+}
+
+impl AppServices for TestServices {
+    fn read_layout(&self, path: &Path, job: &Job) -> Result<Layout, UserError> {
+        job.advance(1, 2);
+        self.wait_for_disk(job)?;
+        let files = self
+            .files
+            .lock()
+            .expect("no test panics while it holds the lock");
+        files
+            .get(path)
+            .cloned()
+            .ok_or_else(|| Self::error("no such file"))
+    }
+
+    fn check_save_in_place(&self, _: &Layout, file: &Path) -> Result<(), UserError> {
+        match file.extension().is_some_and(|ending| ending == "dxf") {
+            true => Err(Self::error("the file is a drawing")),
+            false => Ok(()),
+        }
+    }
+
+    fn save_layout(&self, layout: &Layout, path: &Path) -> Result<Vec<String>, UserError> {
+        self.wait_for_disk(&Job::default())?;
+        if *self
+            .is_full
+            .lock()
+            .expect("no test panics while it holds the lock")
+        {
+            return Err(Self::error("the disk is full"));
+        }
+        let mut files = self
+            .files
+            .lock()
+            .expect("no test panics while it holds the lock");
+        files.insert(path.to_owned(), layout.clone());
+        Ok(vec!["the format is a test".into()])
+    }
+
+    fn export_png(
+        &self,
+        export: &PictureRequest,
+        _method: &str,
+        job: &Job,
+        path: &Path,
+    ) -> Result<(), UserError> {
+        let height = export.view.size().height();
+        for row in 0..height {
+            job.advance(row.into(), height.into());
+            self.wait_for_disk(job)?;
+        }
+        let mut pictures = self
+            .pictures
+            .lock()
+            .expect("no test panics while it holds the lock");
+        pictures.push((path.to_owned(), export.clone()));
+        Ok(())
+    }
+
+    fn render(&self, export: &PictureRequest, _method: &str) -> Result<Frame, UserError> {
+        Ok(Frame::new(export.view.size()))
+    }
+
+    fn export_svg(&self, _: &PictureRequest, _: &Path) -> Result<(), UserError> {
+        Ok(())
+    }
+
+    fn read_floor_plan(&self, plan: &str) -> Result<Arc<dyn FloorPlan>, UserError> {
+        match plan {
+            "hall.png@px-per-m=20" => Ok(Arc::new(Hall)),
+            _ => Err(Self::error("not a floor plan")),
+        }
+    }
+
+    fn render_swept_areas(
+        &self,
+        _layout: &Layout,
+        rows: &[u32],
+        _vehicle: EnvelopeSource,
+        view: &View,
+    ) -> Result<Frame, UserError> {
+        let mut swept = self
+            .swept
+            .lock()
+            .expect("no test panics while it holds the lock");
+        *swept = rows.to_vec();
+        Ok(Frame::new(view.size()))
+    }
+
+    fn state_folder(&self) -> Option<PathBuf> {
+        let state = self.state.lock();
+        state
+            .expect("no test panics while it holds the lock")
+            .clone()
+    }
+
+    fn methods(&self) -> Vec<MethodChoice> {
+        let choice = |name: &str| MethodChoice {
+            name: name.into(),
+            summary: String::new(),
+            unavailable: None,
+        };
+        [DEVICE, "cpu"].map(choice).into()
+    }
+
+    fn start_method(&self, name: &str) -> Result<Box<dyn Method>, UserError> {
+        match name {
+            "cpu" => Ok(Box::new(Cpu)),
+            DEVICE => Ok(Box::new(self.device())),
+            _ => Err(Self::error("no such method")),
+        }
+    }
+}
+
+impl Method for Device {
+    fn info(&self) -> MethodInfo {
+        MethodInfo {
+            name: DEVICE,
+            ..Cpu.info()
+        }
+    }
+
+    fn prepare(
+        &self,
+        scene: Arc<Scene>,
+        budget: &Budget,
+    ) -> Result<Box<dyn Prepared>, RenderError> {
+        Ok(Box::new(PreparedOnDevice {
+            is_lost: Arc::clone(&self.is_lost),
+            prepared: Cpu.prepare(scene, budget)?,
+        }))
+    }
+}
+
+impl PreparedOnDevice {
+    fn check(&self) -> Result<(), RenderError> {
+        match self.is_lost.load(Ordering::Relaxed) {
+            false => Ok(()),
+            true => Err(RenderError::Device {
+                method: DEVICE,
+                what: "the device was lost".into(),
+            }),
+        }
+    }
+}
+
+impl Prepared for PreparedOnDevice {
+    fn render(
+        &mut self,
+        view: &View,
+        style: &Style,
+        cancel: &Cancel,
+        frame: &mut Frame,
+    ) -> Result<Report, RenderError> {
+        self.check()?;
+        let report = self.prepared.render(view, style, cancel, frame)?;
+        Ok(Report {
+            method: DEVICE,
+            ..report
+        })
+    }
+
+    fn edit(&mut self, edit: &Edit) -> Result<EditOutcome, RenderError> {
+        self.check()?;
+        self.prepared.edit(edit)
+    }
+
+    fn preparation(&self) -> &Preparation {
+        self.prepared.preparation()
+    }
+}

@@ -1,0 +1,38 @@
+//! The state outside the tools that a pointer event depends on.
+
+use guideway_document::{Document, Hit};
+use guideway_scene::{LineRule, View};
+use guideway_spline::Point;
+
+use super::hit_test::HIT_RADIUS_PX;
+
+/// View, document and line widths at the time of a pointer event.
+pub(crate) struct ToolContext<'a> {
+    pub(crate) view: View,
+    /// The active document; `None` while it is loaded or an edit has it.
+    pub(crate) document: Option<&'a Document>,
+    pub(crate) line_rule: LineRule,
+}
+
+impl ToolContext<'_> {
+    pub(super) fn world(&self, at_px: Point<f64>) -> Point<f64> {
+        self.view.world_from_pixel(at_px)
+    }
+
+    /// The radius of hit tests in meters.
+    pub(super) fn hit_radius_m(&self) -> f64 {
+        HIT_RADIUS_PX / self.view.px_per_m()
+    }
+
+    /// The topmost path under the pointer; `None` if more than `max_candidates` are near it.
+    pub(super) fn pick(&self, at_px: Point<f64>, max_candidates: usize) -> Option<Hit> {
+        let (px_per_m, at_m) = (self.view.px_per_m(), self.world(at_px));
+        self.document?.pick(
+            self.line_rule,
+            px_per_m,
+            at_m,
+            HIT_RADIUS_PX,
+            max_candidates,
+        )
+    }
+}
