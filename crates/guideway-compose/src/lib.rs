@@ -8,7 +8,7 @@
 //! |---|---|---|
 //! | background | [`Style`](guideway_scene::Style) | `render`, `svg` |
 //! | floor plan | a layout or a PNG image ([`FloorPlan`]) | `backdrop` |
-//! | grid | view, background color | `decorations` |
+//! | grid | view, [`DecorationStyle`] | `decorations` |
 //! | swept areas | paths, vehicle ([`SweptAreas`]) | `backdrop` |
 //! | other scenes | [`Scene`](guideway_scene::Scene)s below the topmost one | `backdrop` |
 //! | paths | the topmost scene | a render method, `vector` |
@@ -55,7 +55,6 @@ mod png_writer;
 mod render;
 mod svg;
 mod text;
-
 mod vector;
 
 pub use backdrop::{
@@ -65,6 +64,7 @@ pub use backdrop::{
 pub use decorations::Decorations;
 pub use error::{ComposeError, ImageError, ImageProblem};
 pub use files::{SaveError, remove_unfinished, replace_file};
+pub use guideway_document::decorations::{DecorationStyle, grid, legend, scale_bar};
 pub use guideway_document::text_format;
 pub use picture::{Picture, Viewport};
 pub use png_writer::{save_png, save_png_by, write_png_by};

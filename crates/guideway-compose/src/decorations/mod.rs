@@ -1,17 +1,16 @@
-//! Decorations of a picture, placed so that they keep clear of each other.
-//!
-//! `guideway-document` draws grid, scale bar, legend, arrows, symbols and labels, as the window does.
+//! Selects and places the decorations of a picture, as draw lists in its pixels.
 //!
 //! | module | input | output |
 //! |---|---|---|
-//! | `options` | | the selection of decorations |
-//! | `title` | a text | one line, top center |
+//! | `options` | | [`Decorations`]: the selection |
+//! | `title` | a text | draw list: one line at the top center |
 //! | `place` | scene, view, selection | draw lists that keep clear of each other |
+//!
+//! `guideway_document::decorations` draws grid, marks, scale bar and legend.
 
 mod options;
 mod place;
 mod title;
 
 pub use options::Decorations;
-pub(crate) use options::title_band_px;
 pub(crate) use place::{PlacedDecorations, place};

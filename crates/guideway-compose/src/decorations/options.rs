@@ -1,7 +1,6 @@
-//! Selection of the decorations of a picture.
+//! Selection of decorations.
 
 use guideway_document::decorations::DecorationStyle;
-use guideway_scene::Rgba;
 
 /// The decorations of a picture. The default is none.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -39,24 +38,16 @@ impl Decorations {
         }
     }
 
+    /// Height of the band that the title occupies, in pixels; zero without a title.
+    pub(crate) fn title_band_px(&self, style: &DecorationStyle) -> f64 {
+        match self.title {
+            Some(_) => 2.5 * style.line_px(),
+            None => 0.0,
+        }
+    }
+
     /// Whether there is any arrow, node, station or label.
     pub(super) fn has_marks(&self) -> bool {
         self.has_arrows || self.has_nodes || self.has_stations || self.has_labels
-    }
-}
-
-/// Height of the band that a title reserves, in pixels; zero without a title.
-pub(crate) fn title_band_px(style: &DecorationStyle, decorations: &Decorations) -> f64 {
-    match decorations.title {
-        Some(_) => 2.5 * style.line_px(),
-        None => 0.0,
-    }
-}
-
-/// A color with another opacity.
-pub(super) fn faded(color: Rgba, opacity: f64) -> Rgba {
-    Rgba {
-        a: (f64::from(color.a) * opacity).round() as u8,
-        ..color
     }
 }

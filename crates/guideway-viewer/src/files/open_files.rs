@@ -36,10 +36,6 @@ impl OpenFiles {
         }
     }
 
-    pub(crate) fn context(&self) -> &LayerContext {
-        &self.context
-    }
-
     pub(crate) fn layers(&self) -> &[Layer] {
         &self.layers
     }
