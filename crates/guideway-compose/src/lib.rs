@@ -55,7 +55,6 @@ mod png_writer;
 mod render;
 mod svg;
 mod text;
-
 mod vector;
 
 pub use backdrop::{
@@ -65,7 +64,6 @@ pub use backdrop::{
 pub use decorations::Decorations;
 pub use error::{ComposeError, ImageError, ImageProblem};
 pub use files::{SaveError, remove_unfinished, replace_file};
-pub use guideway_document::text_format;
 pub use picture::{Picture, Viewport};
 pub use png_writer::{save_png, save_png_by, write_png_by};
 pub use render::{NoProgress, Rendered, StripSink};

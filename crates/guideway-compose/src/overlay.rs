@@ -7,7 +7,7 @@ use guideway_scene::{DrawList, Frame, Rgba, Strip, TextLine, View};
 use guideway_spline::Point;
 
 use crate::blend::over;
-use crate::text::{ShapedLine, line_width_px};
+use crate::text::ShapedLine;
 
 /// A draw list, prepared for all strips of a view.
 pub(crate) struct PreparedOverlay<'l> {
@@ -66,7 +66,7 @@ impl StripCanvas<'_> {
         if (bottom as i64) < self.rows.start || (top as i64) >= self.rows.end {
             return;
         }
-        let width_px = line_width_px(text);
+        let width_px = text.width_px();
         if text.background.a > 0 {
             let corner = middle - Point::new(0.0, 0.6 * size_px);
             self.fill(corner, Point::new(width_px, 1.2 * size_px), text.background);

@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
+use guideway_document::decorations::DecorationStyle;
 use guideway_scene::{Budget, DrawList, FrameSize, RenderError, Scene, Style, View};
 use guideway_spline::{Bounds, Point};
 
 use crate::backdrop::Backdrop;
 use crate::decorations::{Decorations, PlacedDecorations, place, title_band_px};
-use guideway_document::decorations::DecorationStyle;
 
 /// Everything that a picture shows. All fields are public: start with [`Picture::new`] and set
 /// those that differ.
@@ -90,7 +90,7 @@ impl Picture {
         }
         let bounds = [self.scene.bounds(), self.backdrop.bounds(&self.scene)];
         let bounds = bounds.into_iter().flatten().reduce(Bounds::union);
-        let title_px = title_band_px(&self.decoration_style(), &self.decorations);
+        let title_px = title_band_px(&self.decorations, &self.decoration_style());
         let free_height = (f64::from(size.height()) - title_px).max(1.0) as u32;
         let all = View::fit(FrameSize::new(size.width(), free_height)?, bounds)?;
         let px_per_m = px_per_m.unwrap_or(all.px_per_m());
@@ -149,7 +149,7 @@ mod tests {
         let mut picture = picture();
         picture.decorations.title = Some("Hall 3".into());
         let view = picture.view().unwrap();
-        let band_px = title_band_px(&picture.decoration_style(), &picture.decorations);
+        let band_px = title_band_px(&picture.decorations, &picture.decoration_style());
         let top = view.pixel_from_world(picture.scene.bounds().unwrap().max);
         assert!(top.y > band_px && band_px > 10.0, "{top:?}, {band_px}");
     }

@@ -7,8 +7,6 @@ use guideway_layout::PathRef;
 use guideway_scene::{DrawList, Scene, Style, TextLine, View};
 use guideway_spline::{Bounds, Point};
 
-use crate::text::line_width_px;
-
 /// Step of coordinates, in pixels: far below what a viewer can show.
 pub(crate) const STEP_PX: f64 = 1e-3;
 
@@ -72,7 +70,7 @@ pub(crate) fn write_draw_list(
     }
     for text in &list.texts {
         let height = text.char_width_px / TextLine::CHAR_ASPECT;
-        let width = line_width_px(text);
+        let width = text.width_px();
         if text.background.a > 0 {
             let corner = text.left_middle_px - Point::new(0.0, 0.6 * height);
             let rectangle = [corner.x, corner.y, width, 1.2 * height];

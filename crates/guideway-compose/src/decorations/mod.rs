@@ -13,5 +13,5 @@ mod place;
 mod title;
 
 pub use options::Decorations;
-pub(crate) use options::title_band_px;
 pub(crate) use place::{PlacedDecorations, place};
+pub(crate) use title::title_band_px;

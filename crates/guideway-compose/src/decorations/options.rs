@@ -1,8 +1,5 @@
 //! Selection of the decorations of a picture.
 
-use guideway_document::decorations::DecorationStyle;
-use guideway_scene::Rgba;
-
 /// The decorations of a picture. The default is none.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Decorations {
@@ -42,21 +39,5 @@ impl Decorations {
     /// Whether there is any arrow, node, station or label.
     pub(super) fn has_marks(&self) -> bool {
         self.has_arrows || self.has_nodes || self.has_stations || self.has_labels
-    }
-}
-
-/// Height of the band that a title reserves, in pixels; zero without a title.
-pub(crate) fn title_band_px(style: &DecorationStyle, decorations: &Decorations) -> f64 {
-    match decorations.title {
-        Some(_) => 2.5 * style.line_px(),
-        None => 0.0,
-    }
-}
-
-/// A color with another opacity.
-pub(super) fn faded(color: Rgba, opacity: f64) -> Rgba {
-    Rgba {
-        a: (f64::from(color.a) * opacity).round() as u8,
-        ..color
     }
 }

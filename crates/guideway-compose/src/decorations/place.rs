@@ -5,12 +5,11 @@ use guideway_document::decorations::{
     DecorationStyle, Label, LabelSize, MarkOptions, Marks, grid, legend, marks, scale_bar,
     scale_bar_box,
 };
-use guideway_scene::{DrawList, Scene, Style, View};
+use guideway_scene::{DrawList, Scene, Style, TextLine, View};
 use guideway_spline::{Bounds, Point};
 
-use super::options::{Decorations, faded, title_band_px};
-use super::title::title;
-use crate::text::columns;
+use super::options::Decorations;
+use super::title::{title, title_band_px};
 
 /// Opacity of the paper behind the scale bar.
 const PAPER_OPACITY: f64 = 0.9;
@@ -47,7 +46,7 @@ pub(crate) fn place(
         placed.margin.push((list, "title"));
     }
     if let Some(colors) = scene.legend().filter(|_| decorations.has_legend) {
-        let top_px = title_band_px(style, decorations);
+        let top_px = title_band_px(decorations, style);
         match legend(colors, size, top_px, style) {
             Some((list, bounds)) => {
                 occupied.push(bounds);
@@ -62,7 +61,7 @@ pub(crate) fn place(
         let bounds = scale_bar_box(view, style);
         occupied.push(bounds);
         let mut list = DrawList::default();
-        let paper = faded(style.paper, PAPER_OPACITY);
+        let paper = style.paper.with_opacity(PAPER_OPACITY);
         list.fill_rectangle(paper, bounds.min, bounds.max);
         list.append(scale_bar(view, style));
         placed.margin.push((list, "scale bar"));
@@ -121,7 +120,7 @@ fn visible_marks(
 }
 
 fn label_box(label: &Label, size: LabelSize) -> Bounds<f64> {
-    let width_px = columns(&label.text) as f64 * size.char_px;
+    let width_px = TextLine::columns(&label.text) as f64 * size.char_px;
     let half = Point::new(0.0, size.line_px / 2.0);
     Bounds {
         min: label.at_px - half,

@@ -5,15 +5,24 @@ use guideway_document::text_format;
 use guideway_scene::{DrawList, FrameSize, Rgba, TextLine};
 use guideway_spline::{Bounds, Point};
 
-use super::options::faded;
-use crate::text::line_width_px;
+use super::options::Decorations;
 
+/// Height of the band that a title keeps to itself, in lines of the legend.
+const BAND: f64 = 2.5;
 /// Size of the title, in lines of the legend.
 const SIZE: f64 = 1.5;
 /// Most characters.
 const MAX_CHARS: usize = 80;
 /// Opacity of the paper behind the title.
 const PAPER_OPACITY: f64 = 0.9;
+
+/// Height of the band that the title keeps to itself, in pixels; zero without a title.
+pub(crate) fn title_band_px(decorations: &Decorations, style: &DecorationStyle) -> f64 {
+    match decorations.title {
+        Some(_) => BAND * style.line_px(),
+        None => 0.0,
+    }
+}
 
 /// The title and its box. A title that is wider than the picture ends in `…`.
 pub(super) fn title(
@@ -32,7 +41,7 @@ pub(super) fn title(
         color: style.ink,
         background: Rgba::from_u32(0),
     };
-    let width_px = line_width_px(&line);
+    let width_px = line.width_px();
     line.left_middle_px.x = ((width - width_px) / 2.0).max(line_px / 2.0);
     let half_height = Point::new(0.0, 0.75 * line_px);
     let paper = Bounds {
@@ -44,7 +53,7 @@ pub(super) fn title(
         max: paper.max + Point::new(line_px / 2.0, 0.0),
     };
     let mut list = DrawList::default();
-    let color = faded(style.paper, PAPER_OPACITY);
+    let color = style.paper.with_opacity(PAPER_OPACITY);
     list.fill_rectangle(color, paper.min, paper.max);
     list.texts.push(line);
     (list, paper)

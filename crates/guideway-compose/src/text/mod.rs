@@ -13,4 +13,4 @@ mod fonts;
 mod rasterize;
 mod shape;
 
-pub(crate) use shape::{ShapedLine, columns, line_width_px};
+pub(crate) use shape::ShapedLine;

@@ -6,7 +6,6 @@ use std::sync::Arc;
 use guideway_scene::TextLine;
 use harfrust::{Direction, GlyphId, ShapeOptions, UnicodeBuffer};
 use unicode_bidi::{BidiInfo, Level};
-use unicode_width::UnicodeWidthStr;
 
 use super::fonts::{FONTS, Font, Fonts};
 
@@ -27,16 +26,6 @@ pub(crate) struct ShapedLine {
     pub(super) glyphs: Vec<PlacedGlyph>,
     /// Width in units of the font size.
     pub(super) width: f64,
-}
-
-/// Width that a text may take, in pixels.
-pub(crate) fn line_width_px(text: &TextLine) -> f64 {
-    columns(&text.text) as f64 * text.char_width_px
-}
-
-/// Columns of a text as in a terminal: two for an ideograph, none for an accent.
-pub(crate) fn columns(text: &str) -> usize {
-    text.width()
 }
 
 impl ShapedLine {

@@ -2,7 +2,7 @@
 
 use guideway::layout::Value;
 
-pub(crate) use guideway::compose::text_format::{count, single_line};
+pub(crate) use guideway::document::text_format::{count, single_line};
 
 /// A count with its noun in the singular or plural: `1 path`, `2 paths`.
 pub(crate) fn counted(n: u64, noun: &str) -> String {
