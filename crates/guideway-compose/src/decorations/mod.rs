@@ -1,6 +1,6 @@
 //! Decorations of a picture, placed so that they keep clear of each other.
 //!
-//! `guideway-document` draws grid, scale bar, legend, arrows, symbols and labels, as the window does.
+//! `guideway-document` draws grid, scale bar, legend, arrows, symbols and labels, as for the window.
 //!
 //! | module | input | output |
 //! |---|---|---|
