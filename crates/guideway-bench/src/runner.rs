@@ -182,10 +182,6 @@ mod tests {
             Oracle.info()
         }
 
-        fn plan_bytes(&self, scene: &Scene, budget: &Budget) -> u64 {
-            Oracle.plan_bytes(scene, budget)
-        }
-
         fn prepare(
             &self,
             scene: Arc<Scene>,

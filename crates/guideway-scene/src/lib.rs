@@ -33,7 +33,7 @@ pub use color_by::{ColorBy, Legend, LegendEntry};
 pub use edit::{Edit, EditError, Insertion};
 pub use error::RenderError;
 pub use frame::{Frame, FrameSize};
-pub use method::{Budget, Cancel, Edited, Method, MethodInfo, NO_PATH, Prepared};
+pub use method::{Budget, Cancel, Edited, Method, MethodInfo, Prepared};
 pub use report::{Clock, Preparation, Report, Stage, Work, elapsed_ms};
 pub use scene::{LayoutCopy, PathState, Scene, SceneError, SceneOptions};
 pub use sheet::{Sheet, Text};

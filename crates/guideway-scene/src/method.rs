@@ -3,17 +3,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::{Edit, Frame, Preparation, RenderError, Report, Scene, Strip, Style, View, Work};
 
-/// Where no path is, in [`Prepared::top_paths`].
-pub const NO_PATH: u32 = u32::MAX;
-
 /// One way of turning a scene into pixels. Immutable once made: share it between threads.
 pub trait Method: Send + Sync {
     /// What it is called and where it runs.
     fn info(&self) -> MethodInfo;
-
-    /// Bytes that the method would hold for a scene, itself and its largest frame, before any of it is
-    /// allocated. An estimate from above.
-    fn plan_bytes(&self, scene: &Scene, budget: &Budget) -> u64;
 
     /// Makes a scene ready to be drawn from any view.
     ///
@@ -72,35 +65,6 @@ pub trait Prepared: Send {
     /// or [`RenderError::Device`] when there is no room for it: what was made ready is then of no more use.
     fn edit(&mut self, _edit: &Edit) -> Result<Edited, RenderError> {
         Ok(Edited::NotInPlace)
-    }
-
-    /// For each pixel of a view, row by row, the path of the highest draw rank that covers any part of it, or
-    /// [`NO_PATH`]. None if this method does not know. A view of a few pixels around a cursor finds what is
-    /// under it.
-    ///
-    /// # Errors
-    /// As [`Prepared::render`].
-    fn top_paths(
-        &mut self,
-        _view: &View,
-        _style: &Style,
-        _cancel: &Cancel,
-    ) -> Result<Option<Vec<u32>>, RenderError> {
-        Ok(None)
-    }
-
-    /// The paths that cover any part of a view, hidden below others or not, by rising row. None if this method
-    /// does not know.
-    ///
-    /// # Errors
-    /// As [`Prepared::render`].
-    fn paths_in(
-        &mut self,
-        _view: &View,
-        _style: &Style,
-        _cancel: &Cancel,
-    ) -> Result<Option<Vec<u32>>, RenderError> {
-        Ok(None)
     }
 
     /// What making the scene ready took.

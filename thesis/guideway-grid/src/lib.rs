@@ -76,10 +76,6 @@ impl Method for Grid {
         }
     }
 
-    fn plan_bytes(&self, scene: &Scene, _budget: &Budget) -> u64 {
-        prepared::plan_bytes(&self.0, scene)
-    }
-
     fn prepare(
         &self,
         scene: Arc<Scene>,

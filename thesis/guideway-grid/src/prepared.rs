@@ -12,18 +12,14 @@ use wgpu::BufferUsages;
 use crate::build::{Builder, Built, Chunk};
 use crate::canvas::{Canvas, PIXEL_BYTES, Purpose};
 use crate::cut::Cutter;
-use crate::local::{Local, Met};
+use crate::local::Local;
 use crate::options::Binning;
 use crate::pack::Packer;
 use crate::params::{GridParams, LINE_BYTES, WORKGROUP};
 use crate::pass::Pass;
 use crate::shot::{Shot, Widths};
-use crate::table::Table;
 use crate::{NAME, Variant, pass, unsupported};
 use guideway_gpu::device::{DeviceBuffer, Dispatch, Memory, Runner};
-
-/// Largest frame that is planned for.
-const PLANNED_PIXELS: u64 = 3840 * 2160;
 
 const BORDERS_NOTE: &str = "Lines are listed without their width, as the thesis writes: part of it is \
      missing across the borders of cells. Option `radius` mends that.";
@@ -42,30 +38,6 @@ pub(super) struct PreparedGrid {
     chunks: Vec<Chunk>,
     canvas: Option<Canvas>,
     preparation: Preparation,
-}
-
-/// See [`guideway_scene::Method::plan_bytes`].
-pub(super) fn plan_bytes(variant: &Variant, scene: &Scene) -> u64 {
-    let options = &variant.options;
-    let local = Local::of(scene);
-    let grid = local.grid(options);
-    let paths = &scene.layout().paths;
-    let drawn = scene.draw_order().iter();
-    let runs = drawn.flat_map(|&path| paths.get(path as usize).runs());
-    let segments = runs.flat_map(|run| run.segments());
-    let entries: u64 = segments
-        .map(|segment| segment.map(|point| local.local_from_world(point)))
-        .map(|segment| Met::by(&segment, &grid, options).entries)
-        .sum();
-    // Lists and, for a while, sampled lines and twice the control points; a picture and its way back.
-    let lines = local.segments * u64::from(options.lines_a_segment());
-    let points_bytes = 2 * local.segments * (4 * size_of::<[f32; 2]>() as u64 + 4);
-    let chunks = 1 + 2 * entries * LINE_BYTES / variant.gpu.binding_bytes();
-    let tables_bytes = Table::bytes(options.cells) + u64::from(options.cell_count()) * 8;
-    (entries + lines) * LINE_BYTES
-        + points_bytes
-        + (chunks + 2) * tables_bytes
-        + 2 * PLANNED_PIXELS * PIXEL_BYTES
 }
 
 /// The color of all paths.

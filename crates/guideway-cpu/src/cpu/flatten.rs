@@ -62,11 +62,7 @@ fn hull(points: &[Point<f64>]) -> Bounds<f64> {
 }
 
 /// The part of a line within a box (Liang and Barsky 1984).
-pub(super) fn clip(
-    a: Point<f64>,
-    b: Point<f64>,
-    within: Bounds<f64>,
-) -> Option<(Point<f64>, Point<f64>)> {
+fn clip(a: Point<f64>, b: Point<f64>, within: Bounds<f64>) -> Option<(Point<f64>, Point<f64>)> {
     let (mut from, mut to) = (0.0_f64, 1.0_f64);
     let along = b - a;
     for (start, step, min, max) in [

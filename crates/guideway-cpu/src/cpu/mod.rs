@@ -8,11 +8,9 @@
 //! `stroke` and `span`, `canvas`); `keep` keeps the picture.
 //! Of one color, pixels that are full for certain in the views to come are found beside that, and not covered again
 //! (`filled`).
-//! What lies where is asked apart from that (`ask`).
 //! Coverage is an OR of bits, and all that is added up is a whole number or added in draw order, so the picture
 //! is the same on every run, with any number of threads, any vector instructions and in any number of bands.
 
-mod ask;
 mod backdrop;
 mod bins;
 mod canvas;
@@ -70,10 +68,6 @@ impl Method for Cpu {
             summary: "error-bounded lines by tile, 128 or 256 samples a pixel, on all cores",
             device: "CPU".to_owned(),
         }
-    }
-
-    fn plan_bytes(&self, scene: &Scene, budget: &Budget) -> u64 {
-        prepared::plan_bytes(scene, budget)
     }
 
     fn prepare(

@@ -11,7 +11,6 @@ use guideway_scene::{Edit, Scene};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::NAME;
-use super::ask::Question;
 use super::filled::{Filled, Fills};
 use super::frame::{Buffers, Easel, TooMuch};
 use super::index::Index;
@@ -19,12 +18,8 @@ use super::kept::Kept;
 use super::painter::Painter;
 use super::vectors::LaneWidth;
 
-/// Largest frame that is planned for.
-const PLANNED_PIXELS: u64 = 3840 * 2160;
 /// Pixels that are drawn at once of a picture that is drawn in strips.
 const STRIP_PIXELS: usize = 1 << 25;
-/// Bytes that a path's lines take where all are seen, about: more are there only for fewer paths.
-const PLANNED_PATH_BYTES: u64 = 100;
 
 /// A scene with what stays the same from frame to frame, and the buffers of the last one.
 pub(super) struct CpuPrepared {
@@ -40,14 +35,6 @@ pub(super) struct CpuPrepared {
     /// Of the last picture that was drawn in strips by density.
     tones: Option<(View, Style, Tones)>,
     pub(super) lane_width: LaneWidth,
-}
-
-/// See [`guideway_scene::Method::plan_bytes`].
-pub(super) fn plan_bytes(scene: &Scene, budget: &Budget) -> u64 {
-    let frame = PLANNED_PIXELS * size_of::<[u8; 4]>() as u64;
-    let lines = scene.row_count() as u64 * PLANNED_PATH_BYTES;
-    let all = fixed_bytes(scene, budget) + 2 * frame + lines;
-    all.min(budget.memory_bytes)
 }
 
 /// Bytes that are needed however small the picture.
@@ -140,33 +127,6 @@ impl CpuPrepared {
         self.kept = None;
         self.fills.forget();
         self.index.forget_lines(|_| false);
-    }
-}
-
-impl CpuPrepared {
-    /// Answers what lies in a view, which takes so many bytes at most.
-    fn ask(
-        &mut self,
-        (view, style, cancel): (&View, &Style, &Cancel),
-        bytes: usize,
-        answer: impl FnOnce(&Question<'_>) -> Result<Vec<u32>, RenderError> + Send,
-    ) -> Result<Option<Vec<u32>>, RenderError> {
-        let needed = fixed_bytes(&self.scene, &self.budget) + bytes as u64;
-        if needed > self.budget.memory_bytes {
-            return Err(too_small("the answer", needed, &self.budget));
-        }
-        let (index, sights) = (&self.index, &mut self.buffers.sights);
-        let strip = Strip::whole(view);
-        let shot = index.shot(&self.scene, self.lane_width, (&strip, style, cancel));
-        install(self.pool.as_ref(), || {
-            sights.look(&index.extents, &shot);
-            let question = Question {
-                shot: &shot,
-                index,
-                sights,
-            };
-            answer(&question).map(Some)
-        })
     }
 }
 
@@ -362,28 +322,6 @@ impl Prepared for CpuPrepared {
             }
         }
         Ok(Edited::InPlace { moved_bytes: 0 })
-    }
-
-    fn top_paths(
-        &mut self,
-        view: &View,
-        style: &Style,
-        cancel: &Cancel,
-    ) -> Result<Option<Vec<u32>>, RenderError> {
-        let bytes = view.size().pixels() * 2 * size_of::<u32>();
-        self.ask((view, style, cancel), bytes, |question| {
-            question.top_paths()
-        })
-    }
-
-    fn paths_in(
-        &mut self,
-        view: &View,
-        style: &Style,
-        cancel: &Cancel,
-    ) -> Result<Option<Vec<u32>>, RenderError> {
-        let bytes = self.scene.row_count() * (1 + size_of::<u32>());
-        self.ask((view, style, cancel), bytes, |question| question.paths_in())
     }
 
     fn preparation(&self) -> &Preparation {

@@ -102,11 +102,6 @@ impl Sights {
         self.chunks.iter().flatten()
     }
 
-    /// All of them, in parallel.
-    pub(super) fn par_iter(&self) -> impl ParallelIterator<Item = &Sight> {
-        self.chunks.par_iter().flatten()
-    }
-
     /// All of them in chunks, in parallel.
     pub(super) fn par_chunks(&self) -> impl ParallelIterator<Item = &[Sight]> {
         self.chunks.par_iter().map(Vec::as_slice)

@@ -40,11 +40,6 @@ impl Method for Oracle {
         }
     }
 
-    fn plan_bytes(&self, scene: &Scene, budget: &Budget) -> u64 {
-        let strokes = scene.draw_order().len() * size_of::<Stroke>();
-        strokes as u64 + BAND_BYTES.min(budget.memory_bytes)
-    }
-
     fn prepare(
         &self,
         scene: Arc<Scene>,

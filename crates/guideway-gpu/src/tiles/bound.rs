@@ -31,8 +31,6 @@ pub(super) struct Buffers<'a> {
     pub(super) shares: Option<&'a DeviceBuffer>,
     /// Clusters that were touched, if any has been.
     pub(super) touched: Option<&'a DeviceBuffer>,
-    /// A bit a path, where paths are only to be marked.
-    pub(super) marks: Option<&'a DeviceBuffer>,
     /// Whether the clock tells stages apart.
     pub(super) times_stages: bool,
 }
@@ -211,11 +209,6 @@ impl Bound {
             filled,
             ..
         } = b.canvas;
-        if let Some(marks) = b.marks {
-            let buffers = [frame, found, lines, line_ranks, styles, marks];
-            let over = Over::Lines(WORKGROUP);
-            return self.add("mark", b, &kernels.touch, over, &buffers);
-        }
         let buffers = [frame, counts, lists, filled, found];
         self.add(
             "starts",
@@ -260,7 +253,6 @@ impl Bound {
         ];
         match self.paint {
             Paint::One => buffers.extend([&canvas.counts, &b.store.found]),
-            Paint::Ids | Paint::Touch => {}
             Paint::Opaque | Paint::Translucent | Paint::Density => buffers.push(&b.store.found),
         }
         let shares = b.shares.filter(|_| self.manner.shares);

@@ -93,8 +93,8 @@ impl PreparedTiles {
         if self.memory.spare_bytes() < bytes {
             self.unbind();
             let has_ranks = (self.easel.room.as_ref()).is_some_and(|room| room.size.has_ranks);
-            (self.easel.room, self.probe.room) = (None, None);
-            (self.easel.shares, self.probe.shares) = (None, None);
+            self.easel.room = None;
+            self.easel.shares = None;
             let least = Size::first(0, has_ranks).within(&self.shared.gpu, &self.memory);
             self.easel.room = Some(Room::new(&mut self.memory, least)?);
         }
@@ -145,7 +145,6 @@ impl PreparedTiles {
             canvas,
             shares: easel.shares.as_ref(),
             touched: easel.touched.as_ref(),
-            marks: self.marks.as_ref(),
             times_stages: self.shared.options.times_stages,
         };
         let samples = shot.samples();
@@ -203,7 +202,7 @@ impl PreparedTiles {
             // A list has had too few places.
             return self.draw(shot, paint, window, first_row, lines, drawing);
         }
-        let is_too_long = self.is_too_long(&found, paint, samples);
+        let is_too_long = self.is_too_long(&found, paint);
         let is_long = is_too_long || keeps_waiting(&self.shared.gpu, &found);
         self.easel.has_long = paint == Paint::One && is_long;
         if manner.shares {
@@ -213,8 +212,8 @@ impl PreparedTiles {
     }
 
     /// Whether a thread of a tile may not go on to the end of its list.
-    fn is_too_long(&self, found: &Found, paint: Paint, samples: Samples) -> bool {
-        paint.rounds(found, samples) > u64::from(self.shared.gpu.rounds_a_thread())
+    fn is_too_long(&self, found: &Found, paint: Paint) -> bool {
+        paint.rounds(found) > u64::from(self.shared.gpu.rounds_a_thread())
     }
 
     /// Has room for what several workgroups cover of a tile. False if there cannot be.
@@ -258,7 +257,7 @@ impl PreparedTiles {
     }
 
     /// Draws windows, the first ones first, in halves where there is no room for all that is found.
-    pub(super) fn draw_windows(
+    fn draw_windows(
         &mut self,
         shot: &Shot<'_>,
         paint: Paint,
@@ -286,7 +285,7 @@ impl PreparedTiles {
                 continue;
             }
             let holds = |room: &Room| room.size.holds(&found);
-            let is_too_long = self.is_too_long(&found, paint, shot.samples());
+            let is_too_long = self.is_too_long(&found, paint);
             if !is_too_long && self.easel.room.as_ref().is_some_and(holds) {
                 // A part of a picture says little of all of it.
                 if paint == Paint::One && !drawing.is_part {

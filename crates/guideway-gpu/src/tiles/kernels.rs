@@ -6,8 +6,8 @@ use super::params::{
     TILE_THREADS, WAITED_FOR, WORKGROUP,
 };
 use super::shaders::{
-    COVERS, COVERS_APART, COVERS_IN_STEP, CULL, FLATTEN, FLATTEN_IN_STEP, IDS, LAYERS, LIST_KEPT,
-    OPAQUE, OPAQUE_TEAMS, RECOUNT, SCATTER, SHARE, SHIFT, SORT, STARTS, STRIKE, TOUCH,
+    COVERS, COVERS_APART, COVERS_IN_STEP, CULL, FLATTEN, FLATTEN_IN_STEP, LAYERS, LIST_KEPT,
+    OPAQUE, OPAQUE_TEAMS, RECOUNT, SCATTER, SHARE, SHIFT, SORT, STARTS, STRIKE,
 };
 use crate::device::{Gpu, Kernel, Source};
 
@@ -29,7 +29,6 @@ pub(super) struct Kernels {
     /// Of short lists, and of all others.
     pub(super) sort: [Kernel; 2],
     pub(super) shift: Kernel,
-    pub(super) touch: Kernel,
     /// Coarse and fine.
     painters: [Painters; 2],
 }
@@ -44,7 +43,6 @@ pub(super) struct Painters {
     pub(super) opaque: Kernel,
     pub(super) translucent: Kernel,
     pub(super) density: Kernel,
-    pub(super) ids: Kernel,
 }
 
 impl Kernels {
@@ -62,7 +60,6 @@ impl Kernels {
             scatter,
             sort: sorts(gpu, &[])?,
             shift: Kernel::new(gpu, &SHIFT, &[constant("THREADS", WORKGROUP)])?,
-            touch: Kernel::new(gpu, &TOUCH, &[tile, constant("WORKGROUP", WORKGROUP)])?,
             painters: [
                 Painters::new(gpu, Samples::Coarse)?,
                 Painters::new(gpu, Samples::Fine)?,
@@ -107,7 +104,6 @@ impl Painters {
             opaque: opaque(gpu, samples, &[])?,
             translucent: layers(gpu, samples, false, &[])?,
             density: layers(gpu, samples, true, &[])?,
-            ids: painter(gpu, &IDS[samples as usize], &[])?,
         })
     }
 }

@@ -6,9 +6,8 @@
 //! lines are made for, `paint` how its tiles are painted, `window` a part of its picture, `twins` are the exact points of what it comes near to, `room` holds
 //! the lines that a frame finds, `canvas` its tiles and pixels, `bound` the work between them, `easel` all that a picture is
 //! made with; `draw` does it, in `rounds` where that saves work, `kept` is what it need not draw again, `touched` what it must after an edit; `prepared` answers
-//! for all of it, `ask` says what is where, and `work` what a frame takes.
+//! for all of it, and `work` says what a frame takes.
 
-mod ask;
 mod bound;
 mod canvas;
 mod chunk;
@@ -98,10 +97,6 @@ impl Method for Tiles {
             summary: "Every frame from the control points, by tiles and 64 samples a pixel, with compute shaders",
             device: self.0.gpu.adapter_name(),
         }
-    }
-
-    fn plan_bytes(&self, scene: &Scene, budget: &Budget) -> u64 {
-        prepared::plan_bytes(scene, budget)
     }
 
     fn prepare(

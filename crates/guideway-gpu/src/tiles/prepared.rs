@@ -13,17 +13,13 @@ use super::easel::Easel;
 use super::kernels::Kernels;
 use super::pack::{Packed, Packing};
 use super::paint::Paint;
-use super::params::{Found, Stroke};
+use super::params::Found;
 use super::places::Places;
 use super::ranks::Ranks;
-use super::room::Size;
 use super::shot::Shot;
 use super::store::{Store, all_parts, is_plain};
 use super::{NAME, Shared};
 use crate::device::{DeviceBuffer, FETCHED, Memory, Patcher, Runner};
-
-/// Largest frame that is planned for.
-const PLANNED_PIXELS: u64 = 3840 * 2160;
 
 /// A scene on the device, and the buffers of the last frame.
 pub(super) struct PreparedTiles {
@@ -43,10 +39,6 @@ pub(super) struct PreparedTiles {
     pub(super) places: Option<Places>,
     pub(super) patcher: Option<Patcher>,
     pub(super) easel: Easel,
-    /// For questions about a few pixels, so that the picture stays.
-    pub(super) probe: Easel,
-    /// A bit a path, while paths are marked.
-    pub(super) marks: Option<DeviceBuffer>,
     /// Whether a change did not come to its end, so that paths may be missing from the store.
     pub(super) is_torn: bool,
     preparation: Preparation,
@@ -89,17 +81,6 @@ impl Facts {
     }
 }
 
-/// See [`guideway_scene::Method::plan_bytes`].
-pub(super) fn plan_bytes(scene: &Scene, budget: &Budget) -> u64 {
-    let geometry = scene.layout().paths.geometry();
-    let paths = scene.draw_order().len() as u64;
-    let points = (geometry.segment_count() as u64 + 3 * paths) * size_of::<[f32; 2]>() as u64;
-    let strokes = paths * size_of::<Stroke>() as u64;
-    let room = Size::first(u32::try_from(paths).unwrap_or(u32::MAX), true).bytes();
-    let pixels = PLANNED_PIXELS * size_of::<u32>() as u64;
-    (points + strokes + room + pixels).min(budget.memory_bytes)
-}
-
 impl PreparedTiles {
     pub(super) fn new(
         shared: Arc<Shared>,
@@ -129,8 +110,6 @@ impl PreparedTiles {
             store: None,
             found_fetched,
             easel,
-            probe: Easel::default(),
-            marks: None,
             is_torn: false,
         };
         prepared.bring(prepared.packing)?;
@@ -218,7 +197,6 @@ impl PreparedTiles {
     /// After a buffer of the scene has become another.
     pub(super) fn unbind(&mut self) {
         self.easel.unbind();
-        self.probe.unbind();
     }
 }
 
@@ -282,24 +260,6 @@ impl Prepared for PreparedTiles {
 
     fn edit(&mut self, edit: &Edit) -> Result<Edited, RenderError> {
         self.change(edit)
-    }
-
-    fn top_paths(
-        &mut self,
-        view: &View,
-        style: &Style,
-        cancel: &Cancel,
-    ) -> Result<Option<Vec<u32>>, RenderError> {
-        self.tops(view, style, cancel).map(Some)
-    }
-
-    fn paths_in(
-        &mut self,
-        view: &View,
-        style: &Style,
-        cancel: &Cancel,
-    ) -> Result<Option<Vec<u32>>, RenderError> {
-        self.touching(view, style, cancel).map(Some)
     }
 
     fn preparation(&self) -> &Preparation {

@@ -150,18 +150,6 @@ macro_rules! tile_bindings {
     };
 }
 
-pub(super) const TOUCH: Source = Source {
-    name: "touch",
-    wgsl: wgsl!("frame", "work", "before", "view", "style", "lines", "touch"),
-    bindings: &["frame", "found", "lines", "line_ranks", "styles", "marks"],
-};
-
-/// Which path lies on top; by [`Samples`].
-pub(super) const IDS: [Source; 2] = [
-    tiles!(4, "ids", ["ids"], tile_bindings!()),
-    tiles!(16, "ids", ["ids"], tile_bindings!()),
-];
-
 macro_rules! cover {
     ($samples:literal, [$($lanes:literal),+], [$($main:literal),+], $bindings:expr) => {
         tiles!(

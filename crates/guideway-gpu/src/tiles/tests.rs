@@ -5,7 +5,7 @@ use std::sync::{Arc, LazyLock};
 
 use guideway_layout::{Layout, NewPath, OwnStyle};
 use guideway_scene::{
-    Budget, Cancel, Frame, FrameSize, Method, NO_PATH, Prepared, Report, Shading, Style, View,
+    Budget, Cancel, Frame, FrameSize, Method, Prepared, Report, Shading, Style, View,
     density::ToneMap,
 };
 use guideway_scene::{LineRule, Scene, SceneOptions};
@@ -258,104 +258,4 @@ fn a_picture_moved_by_whole_pixels_is_that_of_the_view() {
         // Not the one out of sight of the one before, nor the one by half a pixel.
         assert_eq!(moves, 4);
     }
-}
-
-/// Least and greatest distance of a path's curve from a pixel, near enough.
-fn distance_px(scene: &Scene, path: u32, view: &View, pixel: [u32; 2]) -> f64 {
-    let low = pixel.map(f64::from);
-    let segments = scene.layout().paths.get(path as usize).runs();
-    let points = segments.flat_map(|run| run.segments()).flat_map(|segment| {
-        (0..=64).map(move |i| guideway_spline::uniform::point(&segment, f64::from(i) / 64.0))
-    });
-    let distances = points.map(|p| {
-        let p = view.pixel_from_world(p);
-        let nearest = Point::new(
-            p.x.clamp(low[0], low[0] + 1.0),
-            p.y.clamp(low[1], low[1] + 1.0),
-        );
-        p.distance(nearest)
-    });
-    distances.fold(f64::INFINITY, f64::min)
-}
-
-#[test]
-fn questions_find_what_lies_there() {
-    let Some(tiles) = tiles() else { return };
-    let scene = mixed(400, 6.0);
-    let (style, cancel) = (Style::default(), Cancel::default());
-    let whole = view([50.0, 30.0], 4.0);
-    let mut prepared = prepared(&tiles, &scene);
-    let (before, _) = picture(&mut prepared, &whole, &style);
-    // A window of whole pixels of that view.
-    let size = FrameSize::new(24, 18).unwrap();
-    let center = whole.world_from_pixel(Point::new(80.0 + 12.0, 60.0 + 9.0));
-    let probe = View::new(size, center, 4.0).unwrap();
-    let tops = prepared
-        .top_paths(&probe, &style, &cancel)
-        .unwrap()
-        .unwrap();
-    let here = prepared.paths_in(&probe, &style, &cancel).unwrap().unwrap();
-    assert!(here.is_sorted() && here.len() > 3, "{here:?}");
-    let radius_px = |path| style.line_rule.radius_px(scene.width_m(path), 4.0);
-    let mut expected_here = Vec::new();
-    let mut nearest = vec![f64::INFINITY; 400];
-    for (index, &top) in (0..).zip(&tops) {
-        let pixel = [index % 24, index / 24];
-        for path in 0..400 {
-            let beyond_px = distance_px(&scene, path, &probe, pixel) - radius_px(path);
-            nearest[path as usize] = nearest[path as usize].min(beyond_px);
-            // A pixel's samples keep an eighth of it away from its corners.
-            if beyond_px < -0.25 {
-                assert!(
-                    top != NO_PATH && top >= path,
-                    "{path} covers {pixel:?}, on top is {top}"
-                );
-            }
-            assert!(
-                top != path || beyond_px < 0.05,
-                "{path} at {pixel:?}: {beyond_px}"
-            );
-        }
-    }
-    for (path, beyond_px) in (0..).zip(nearest) {
-        if beyond_px < -0.05 {
-            expected_here.push(path);
-        }
-        assert!(
-            !here.contains(&path) || beyond_px < 0.05,
-            "{path}: {beyond_px}"
-        );
-    }
-    assert!(expected_here.iter().all(|path| here.contains(path)));
-    // The picture is not touched by what is asked.
-    let (after, _) = picture(&mut prepared, &whole, &style);
-    assert!(before.pixels() == after.pixels());
-    let nowhere = view([1e4, 1e4], 4.0);
-    let none = prepared
-        .top_paths(&nowhere, &style, &cancel)
-        .unwrap()
-        .unwrap();
-    assert!(none.iter().all(|&path| path == NO_PATH));
-    assert_eq!(
-        prepared.paths_in(&nowhere, &style, &cancel).unwrap(),
-        Some(vec![])
-    );
-}
-
-#[test]
-fn thin_lines_of_the_thesis_are_found_too() {
-    let Some(tiles) = tiles() else { return };
-    let thesis = Style {
-        line_rule: LineRule::Thesis,
-        ..Style::default()
-    };
-    let mut prepared = prepared(&tiles, &plain(200, 6.0));
-    let tops = prepared.top_paths(&all(), &thesis, &Cancel::default());
-    let found = tops
-        .unwrap()
-        .unwrap()
-        .into_iter()
-        .filter(|&p| p != NO_PATH)
-        .count();
-    assert!(found > 1000, "{found}");
 }

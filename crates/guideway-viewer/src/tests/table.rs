@@ -260,10 +260,6 @@ impl Method for Device {
         }
     }
 
-    fn plan_bytes(&self, scene: &Scene, budget: &Budget) -> u64 {
-        Cpu.plan_bytes(scene, budget)
-    }
-
     fn prepare(
         &self,
         scene: Arc<Scene>,

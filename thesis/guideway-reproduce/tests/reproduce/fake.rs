@@ -34,10 +34,6 @@ impl Method for Fake {
         }
     }
 
-    fn plan_bytes(&self, _: &Scene, _: &Budget) -> u64 {
-        0
-    }
-
     fn prepare(
         &self,
         scene: Arc<Scene>,

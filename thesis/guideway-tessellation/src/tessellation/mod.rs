@@ -26,12 +26,9 @@ use guideway_scene::{
 
 use crate::device::GlDevice;
 use crate::options::{Commands, TessellationOptions};
-use crate::sys::{Limits, Target};
+use crate::sys::Limits;
 use crate::worker::Worker;
 use renderer::{Renderer, Start};
-
-/// Largest frame that is planned for.
-const PLANNED_PIXELS: u64 = 3840 * 2160;
 
 /// Draws lines one pixel wide in one color, by the tessellation stages of OpenGL.
 #[derive(Clone, Debug)]
@@ -74,21 +71,6 @@ impl Method for Tessellation {
             },
             device: self.device.description().to_owned(),
         }
-    }
-
-    fn plan_bytes(&self, scene: &Scene, _budget: &Budget) -> u64 {
-        let geometry = scene.layout().paths.geometry();
-        let all = plan::ChunkPlan {
-            order: 0..geometry.path_count(),
-            paths: geometry.path_count() as u32,
-            segments: u32::try_from(geometry.segment_count()).unwrap_or(u32::MAX),
-            points: u32::try_from(geometry.point_count()).unwrap_or(u32::MAX),
-        };
-        let samples = self.options.antialias.samples(self.limits.samples);
-        let frame = PLANNED_PIXELS * size_of::<[u8; 4]>() as u64;
-        all.bytes(self.options.commands).total()
-            + frame
-            + Target::bytes_for(PLANNED_PIXELS, samples)
     }
 
     fn prepare(

@@ -13,9 +13,6 @@ const SHADERS: &[&Source] = &[
     &FLATTEN_IN_STEP[0],
     &FLATTEN_IN_STEP[1],
     &SHIFT,
-    &TOUCH,
-    &IDS[0],
-    &IDS[1],
     &RECOUNT,
     &LIST_KEPT,
     &STARTS,
@@ -69,7 +66,6 @@ fn structures_are_laid_out_alike() {
     let found = members!(Found: rounded, exact, lines, references, drawn, longest, full_tiles, rounds, missing,
         shared_tiles, parts, longest_alone, work);
     assert_laid_out(SHADERS, "Counters", &found);
-    assert_laid_out(SHADERS, "CountersBefore", &found);
     assert_laid_out(SHADERS, "Place", &members!(Place: seen, block));
 }
 
@@ -103,7 +99,6 @@ fn rows_of_a_pixel_have_as_many_samples_as_is_said() {
             &COVERS_IN_STEP,
             &OPAQUE,
             &LAYERS,
-            &IDS,
         ] {
             assert!(sources[samples as usize].wgsl.starts_with(&said), "{said}");
         }

@@ -17,19 +17,6 @@ fn radius_px(width_m: f32) -> f32 {
     return max(min(width_m * frame.px_per_m * 0.5, frame.most_radius_px), frame.least_radius_px);
 }
 
-// What is drawn of the picture: its upper left and lower right corner.
-struct Window {
-    low_px: vec2f,
-    high_px: vec2f,
-}
-
-fn window() -> Window {
-    let first = vec2u(frame.first_column, frame.first_row);
-    let end = first + vec2u(frame.columns, frame.rows);
-    let size_px = vec2u(frame.width_px, frame.height_px);
-    return Window(vec2f(first * TILE_PX), vec2f(min(end * TILE_PX, size_px)));
-}
-
 // Half a width and a pixel around it, in pixels of the level.
 fn reach_of(radius_px: f32) -> f32 {
     return (radius_px + 1.0) * frame.level_px_a_px;

@@ -17,10 +17,6 @@ impl Method for InStrips {
         guideway::method("cpu").unwrap().info()
     }
 
-    fn plan_bytes(&self, _: &Scene, _: &Budget) -> u64 {
-        0
-    }
-
     fn prepare(
         &self,
         scene: Arc<Scene>,
