@@ -13,6 +13,7 @@
 //!   while it is translucent. A pixel is the mean over its square, of sRGB values as stored.
 //! - Density shading shows the mean number of paths that cover a pixel ([`density`]).
 
+pub mod cluster;
 mod color;
 mod color_by;
 pub mod density;

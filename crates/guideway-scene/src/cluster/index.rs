@@ -1,0 +1,58 @@
+//! Clusters of rows with the bounds of each: what a renderer culls by.
+
+use rayon::prelude::*;
+
+use super::bounds::{ClusterBounds, MemberHull};
+use super::order::{CLUSTER_LEN, ClusterOrder};
+
+/// Rows in clusters, and where each cluster lies. [`ClusterIndex::begin_edit`] and the methods beside
+/// it keep the bounds up to date.
+#[derive(Clone, Debug, Default)]
+pub struct ClusterIndex {
+    pub(super) order: ClusterOrder,
+    pub(super) bounds: Vec<Option<ClusterBounds>>,
+}
+
+impl ClusterIndex {
+    /// Finds the bounds of each cluster by `hull`, which returns the box of some rows. All threads
+    /// share the work.
+    pub fn new(order: ClusterOrder, hull: impl Fn(&[u32]) -> MemberHull + Sync) -> Self {
+        let clusters = order.rows().par_chunks(CLUSTER_LEN);
+        let bounds = clusters.map(|rows| hull(rows).map(ClusterBounds::new));
+        let bounds = bounds.collect();
+        Self { order, bounds }
+    }
+
+    /// The order of the rows and their clusters.
+    #[inline]
+    pub fn order(&self) -> &ClusterOrder {
+        &self.order
+    }
+
+    /// The rows of a cluster.
+    ///
+    /// # Panics
+    /// If there is no such cluster.
+    #[inline]
+    pub fn rows_of(&self, cluster: u32) -> &[u32] {
+        self.order.rows_of(cluster)
+    }
+
+    /// Bounds of each cluster; none of clusters without points.
+    #[inline]
+    pub fn bounds(&self) -> &[Option<ClusterBounds>] {
+        &self.bounds
+    }
+
+    /// Heap bytes held.
+    pub fn heap_bytes(&self) -> usize {
+        let bounds = self.bounds.capacity() * size_of::<Option<ClusterBounds>>();
+        self.order.heap_bytes() + bounds
+    }
+
+    /// Upper bound of [`Self::heap_bytes`] for `rows` rows.
+    pub fn planned_bytes(rows: usize) -> usize {
+        let bounds = rows.div_ceil(CLUSTER_LEN) * size_of::<Option<ClusterBounds>>();
+        bounds + 2 * rows * size_of::<u32>()
+    }
+}
