@@ -18,14 +18,12 @@ const MIN_POINT_BUDGET: u64 = 1 << 18;
 /// Control points that a file may expand to in addition, per byte.
 pub(crate) const POINTS_PER_BYTE: u64 = 4;
 
-/// Detail of a path that [`Builder::within_point_budget`] turns down.
-pub(crate) const POINT_BUDGET_EXCEEDED: &str =
-    "too many control points for a file of this size; this curve would exceed the limit";
-
 /// Fills a layout within the limits of a read.
 pub(crate) struct Builder<'a> {
     pub(crate) source: Source<'a>,
     pub(crate) layout: Layout,
+    /// Control points that the file may expand to.
+    point_budget: u64,
     /// Control points that the file may still expand to.
     pub(crate) points_left: u64,
     text_bytes: u64,
@@ -51,10 +49,12 @@ impl<'a> Builder<'a> {
             ..Layout::default()
         };
         source.name.clone_into(&mut layout.provenance.source);
+        let point_budget = MIN_POINT_BUDGET + file_bytes as u64 * POINTS_PER_BYTE;
         Self {
             source,
             layout,
-            points_left: MIN_POINT_BUDGET + file_bytes as u64 * POINTS_PER_BYTE,
+            point_budget,
+            points_left: point_budget,
             text_bytes: 0,
             max_text_bytes: max_text_bytes(file_bytes as u64),
             file_bytes: file_bytes as u64,
@@ -110,6 +110,20 @@ impl<'a> Builder<'a> {
         let points = path.runs.points().len() as u64;
         self.points_left = self.points_left.saturating_sub(points);
         Ok(self.layout.paths.push(path))
+    }
+
+    /// Sets the number of control points that the file may expand to.
+    pub(crate) fn set_point_budget(&mut self, points: u64) {
+        (self.point_budget, self.points_left) = (points, points);
+    }
+
+    /// Describes a curve that exceeds the point budget.
+    pub(crate) fn point_budget_exceeded(&self) -> String {
+        let limit = self.point_budget;
+        format!(
+            "too many control points for a file of this size (limit {limit}); this curve would \
+             exceed it"
+        )
     }
 
     /// Returns whether a curve fits into the point budget of the file.

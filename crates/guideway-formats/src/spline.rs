@@ -4,7 +4,7 @@
 use guideway_layout::Code;
 use guideway_spline::{Nurbs, Point, Runs, knots, nurbs_to_runs, polyline_to_runs};
 
-use crate::builder::{Builder, POINT_BUDGET_EXCEEDED, PlaceFn};
+use crate::builder::{Builder, PlaceFn};
 
 /// Largest number of control points of a curve that is approximated instead of converted exactly.
 ///
@@ -55,12 +55,8 @@ impl Builder<'_> {
         // times.
         if !done.exact && !self.within_point_budget(runs) {
             let remedy = "The control polygon is drawn; split the file, or lower the degree";
-            self.report(
-                Code::ApproximateShape,
-                at,
-                || POINT_BUDGET_EXCEEDED.to_owned(),
-                remedy,
-            );
+            let detail = self.point_budget_exceeded();
+            self.report(Code::ApproximateShape, at, || detail, remedy);
             runs.clear();
             polyline_to_runs(curve.points(), runs);
             return true;

@@ -10,7 +10,7 @@ use super::shapes::{ExceededLimit, ShapeLimits, append_arc, append_polyline, app
 use super::style::{Color, path_color};
 use super::text::decode_text;
 use crate::ReadError;
-use crate::builder::{Builder, POINT_BUDGET_EXCEEDED, POINTS_PER_BYTE, PlaceFn, Table};
+use crate::builder::{Builder, POINTS_PER_BYTE, PlaceFn, Table};
 
 /// Entities that INSERTs may expand to in any file. Without this bound, nested INSERTs in a file of
 /// a kilobyte expand to more entities than a machine can hold.
@@ -48,7 +48,7 @@ pub(super) struct EntityMapper<'a> {
 
 impl<'a> EntityMapper<'a> {
     pub(super) fn new(mut builder: Builder<'a>, file_bytes: usize) -> Self {
-        builder.points_left = BASE_POINTS + file_bytes as u64 * POINTS_PER_BYTE;
+        builder.set_point_budget(BASE_POINTS + file_bytes as u64 * POINTS_PER_BYTE);
         Self {
             builder,
             colors: Vec::new(),
@@ -110,11 +110,11 @@ impl<'a> EntityMapper<'a> {
             let (code, detail) = match limit {
                 ExceededLimit::Coordinate => (
                     Code::OutOfRange,
-                    "it exceeds the largest allowed coordinate",
+                    "it exceeds the largest allowed coordinate".to_owned(),
                 ),
-                ExceededLimit::Points => (Code::Implausible, POINT_BUDGET_EXCEEDED),
+                ExceededLimit::Points => (Code::Implausible, self.builder.point_budget_exceeded()),
             };
-            return self.refuse(entity, context, code, detail, at);
+            return self.refuse(entity, context, code, &detail, at);
         }
         if runs.is_empty() {
             let detail = "it has fewer than two points";

@@ -9,7 +9,7 @@ use roxmltree::Node;
 use super::center::{align, center_line};
 use super::osm::{is_deleted, positions, tag};
 use crate::ReadError;
-use crate::builder::{POINT_BUDGET_EXCEEDED, PlaceFn, Table};
+use crate::builder::{PlaceFn, Table};
 use crate::source::Source;
 use crate::xml::{Xml, children};
 use crate::xml_builder::XmlBuilder;
@@ -136,13 +136,15 @@ impl<'a, 'd, 't> MapMapper<'a, 'd, 't> {
         // Lanelets share bounds, so many of them could read a few long bounds without end: every
         // read is charged to the budget of control points.
         if self.base.builder.points_left == 0 {
-            return self.refuse(lanelet, Code::Implausible, POINT_BUDGET_EXCEEDED);
+            let detail = self.base.builder.point_budget_exceeded();
+            return self.refuse(lanelet, Code::Implausible, &detail);
         }
         let read = [left, right].map(|bound| children(bound, "nd").count() as u64);
         let points_left = self.base.builder.points_left.checked_sub(read[0] + read[1]);
         self.base.builder.points_left = points_left.unwrap_or(0);
         if points_left.is_none() {
-            return self.refuse(lanelet, Code::Implausible, POINT_BUDGET_EXCEEDED);
+            let detail = self.base.builder.point_budget_exceeded();
+            return self.refuse(lanelet, Code::Implausible, &detail);
         }
         let (mut left, mut right) = (self.points(left)?, self.points(right)?);
         if left.is_empty() || right.is_empty() {
@@ -185,7 +187,8 @@ impl<'a, 'd, 't> MapMapper<'a, 'd, 't> {
         }
         let builder = &mut self.base.builder;
         if !builder.within_point_budget(&runs) {
-            return self.refuse(element, Code::Implausible, POINT_BUDGET_EXCEEDED);
+            let detail = builder.point_budget_exceeded();
+            return self.refuse(element, Code::Implausible, &detail);
         }
         let id = id(element);
         builder.check_text(id)?;

@@ -12,7 +12,7 @@ use super::plan_view::read_geometry;
 use super::polynomial::Piecewise;
 use super::reader::DocumentReader;
 use crate::ReadError;
-use crate::builder::{POINT_BUDGET_EXCEEDED, PlaceFn, Table};
+use crate::builder::{PlaceFn, Table};
 use crate::source::Source;
 use crate::xml::{Xml, child, children};
 
@@ -208,22 +208,24 @@ impl<'a, 'd, 't> RoadMapper<'a, 'd, 't> {
                 break;
             }
         }
-        let refused = if !self.reader.base.builder.within_point_budget(&runs) {
-            Some((Code::Implausible, POINT_BUDGET_EXCEEDED))
+        let builder = &mut self.reader.base.builder;
+        let refused = if !builder.within_point_budget(&runs) {
+            Some((Code::Implausible, builder.point_budget_exceeded()))
         } else if runs.is_empty() {
             Some((
                 Code::MissingField,
-                "the road has no geometry line beside it",
+                "the road has no geometry line beside it".to_owned(),
             ))
         } else if !runs.points().iter().all(|p| p.is_finite()) {
             Some((
                 Code::NonFinite,
-                "the geometry line has a point without a direction, or its numbers overflow",
+                "the geometry line has a point without a direction, or its numbers overflow"
+                    .to_owned(),
             ))
-        } else if !self.reader.base.builder.within_coordinate_limit(&runs) {
+        } else if !builder.within_coordinate_limit(&runs) {
             Some((
                 Code::OutOfRange,
-                "it exceeds the largest allowed coordinate",
+                "it exceeds the largest allowed coordinate".to_owned(),
             ))
         } else {
             None
@@ -232,8 +234,8 @@ impl<'a, 'd, 't> RoadMapper<'a, 'd, 't> {
             let remedy = "It is left out; correct the road in the tool that wrote the file";
             self.reader
                 .base
-                .report(code, lane.node, || detail.to_owned(), remedy);
-            return self.reader.base.builder.refuse(id, code, detail);
+                .report(code, lane.node, || detail.clone(), remedy);
+            return self.reader.base.builder.refuse(id, code, &detail);
         }
         if error_m > tolerance_m {
             let message =

@@ -8,7 +8,7 @@ use super::context::ElementContext;
 use super::path_builder::PathBuilder;
 use super::shapes::append_shape;
 use crate::ReadError;
-use crate::builder::{POINT_BUDGET_EXCEEDED, Table};
+use crate::builder::Table;
 use crate::source::Source;
 use crate::xml::Xml;
 use crate::xml_builder::XmlBuilder;
@@ -72,18 +72,19 @@ impl<'a, 'd, 't> ShapeMapper<'a, 'd, 't> {
         let refused = if path.is_out_of_range() || !builder.within_coordinate_limit(runs) {
             Some((
                 Code::OutOfRange,
-                "it exceeds the largest allowed coordinate",
+                "it exceeds the largest allowed coordinate".to_owned(),
             ))
         } else if runs.is_empty() {
-            Some((Code::TooFewPoints, "it contains no line and no curve"))
+            let detail = "it contains no line and no curve";
+            Some((Code::TooFewPoints, detail.to_owned()))
         } else if !builder.within_point_budget(runs) {
-            Some((Code::Implausible, POINT_BUDGET_EXCEEDED))
+            Some((Code::Implausible, builder.point_budget_exceeded()))
         } else {
             None
         };
         if let Some((code, detail)) = refused {
             let remedy = "It is left out; correct it in the tool that wrote the file";
-            let detail = error.map_or(detail.to_owned(), |error| error.to_string());
+            let detail = error.map_or(detail, |error| error.to_string());
             self.base.report(code, node, || detail.clone(), remedy);
             return self.refuse(node, context, code, &detail);
         }
