@@ -11,6 +11,7 @@
 //! | `geometry`, `run_points` | the curves of all paths in flat buffers |
 //! | `text`, `cells`, `attribute` | columns of texts, optional values and attributes |
 //! | `code`, `diagnostic`, `limits` | findings and limits of readers |
+//! | `user_error` | the error that the command and the window show |
 //! | `merge` | joins layouts |
 //! | `check` | finds defects of geometry and topology |
 //!

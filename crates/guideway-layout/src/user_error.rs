@@ -3,17 +3,17 @@
 use std::error::Error;
 use std::fmt;
 
-/// Why a command or an action of the window failed.
+/// The failure of a command or of an action in the window.
 ///
-/// Every crate converts its own errors into this one (`impl From<ReadError> for UserError`), so that
-/// the command and the window report the same failure in the same words.
+/// Every crate converts its own errors into this one (`impl From<ReadError> for UserError`), so
+/// that the command and the window report the same failure in the same words.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UserError {
     /// Stable name of the kind of failure, for programs: it never changes.
     pub code: &'static str,
-    /// What happened and where: begins with the file or option it is about, has no final period.
+    /// Failure and place: starts with the file or option, without final period.
     pub message: String,
-    /// What to do, as an imperative sentence without its final period.
+    /// Action that resolves it: an imperative sentence without final period.
     pub remedy: String,
 }
 
