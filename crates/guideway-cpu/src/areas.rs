@@ -1,4 +1,7 @@
-//! Areas of one color: pixels by the samples that any of them covers, as the oracle has it.
+//! Fills the union of convex polygons with one color: swept areas and floor plans below the paths.
+//!
+//! A sample counts once, however many polygons cover it: 16 x 16 samples per pixel, one bit each,
+//! as in the oracle. Bands of eight rows of pixels are independent, and threads share them.
 
 use std::ops::Range;
 
@@ -9,12 +12,12 @@ use rayon::prelude::*;
 
 /// Samples along each side of a pixel.
 const SAMPLES: usize = 16;
-/// Rows of pixels that are drawn at once.
+/// Rows of pixels per band: the samples of a band fit in the cache.
 const BAND_PX: usize = 8;
-/// Samples of a row in one word.
+/// Samples per word.
 const WORD: usize = u64::BITS as usize;
 
-/// Convex polygons in meters, that together are one area.
+/// Convex polygons, in meters, whose union is one area.
 #[derive(Clone, Debug, Default)]
 pub struct Areas {
     points: Vec<Point<f64>>,
@@ -22,7 +25,7 @@ pub struct Areas {
 }
 
 impl Areas {
-    /// Adds a convex polygon, its corners in order either way round.
+    /// Adds a convex polygon; its corners in either orientation.
     pub fn push(&mut self, corners: &[Point<f64>]) {
         self.points.extend_from_slice(corners);
         self.ends.push(self.points.len());
@@ -49,14 +52,17 @@ impl Areas {
     }
 }
 
-/// Lays areas over a strip of a picture, which keeps what shines through: where several of them are, the color
-/// counts once.
+/// Composites areas over a strip of a picture; overlaps of polygons are filled once.
 ///
 /// # Panics
-/// When the picture has not the size of the strip.
+/// If the size of `frame` is not that of the strip.
 pub fn lay_areas(areas: &Areas, strip: &Strip, color: Rgba, frame: &mut Frame) {
     let (view, size) = (strip.view(), strip.size());
-    assert_eq!(frame.size(), size, "the picture is that of the strip");
+    assert_eq!(
+        frame.size(),
+        size,
+        "the frame has to have the size of the strip"
+    );
     let (width, height) = (size.width() as usize, size.height() as usize);
     let top_px = strip.rows().start as usize;
     let bands = bands(areas, view, top_px, height.div_ceil(BAND_PX));
@@ -73,11 +79,11 @@ pub fn lay_areas(areas: &Areas, strip: &Strip, color: Rgba, frame: &mut Frame) {
                 let corners: Vec<_> = corners.map(|&p| view.pixel_from_world(p)).collect();
                 samples.cover(&corners);
             }
-            samples.lay(color, pixels);
+            samples.composite(color, pixels);
         });
 }
 
-/// The polygons that may cover a sample of each band, from a row of the view on.
+/// Per band, from a row of the view on, the polygons that may cover its samples.
 fn bands(areas: &Areas, view: &View, top_px: usize, count: usize) -> Vec<Vec<u32>> {
     let mut bands = vec![Vec::new(); count];
     for (i, corners) in areas.iter().enumerate() {
@@ -87,7 +93,7 @@ fn bands(areas: &Areas, view: &View, top_px: usize, count: usize) -> Vec<Vec<u32
         let (top, bottom) = rows.fold((f64::INFINITY, f64::NEG_INFINITY), |(top, bottom), y| {
             (top.min(y), bottom.max(y))
         });
-        // Out of range saturates; NaN is 0.
+        // Casts saturate; NaN gives 0.
         let (first, end) = (top.max(0.0) as usize, (bottom + 1.0).max(0.0) as usize);
         for band in &mut bands[first.min(count)..end.min(count).max(first.min(count))] {
             band.push(i as u32);
@@ -96,7 +102,7 @@ fn bands(areas: &Areas, view: &View, top_px: usize, count: usize) -> Vec<Vec<u32
     bands
 }
 
-/// The samples of a band, a bit each.
+/// The samples of a band, one bit each.
 struct Samples {
     width_px: usize,
     top_px: usize,
@@ -115,7 +121,7 @@ impl Samples {
         }
     }
 
-    /// Marks the samples in a convex polygon, in pixels.
+    /// Sets the samples within a convex polygon, in pixels.
     fn cover(&mut self, corners: &[Point<f64>]) {
         let (top, bottom) = corners
             .iter()
@@ -125,7 +131,7 @@ impl Samples {
         let top_px = self.top_px as f64;
         for row in samples_between(top - top_px, bottom - top_px, BAND_PX * SAMPLES) {
             let y = top_px + (row as f64 + 0.5) / SAMPLES as f64;
-            let (left, right) = cut(corners, y);
+            let (left, right) = row_span(corners, y);
             let columns = samples_between(left, right, self.width_px * SAMPLES);
             self.mark(row, columns);
         }
@@ -148,8 +154,8 @@ impl Samples {
         }
     }
 
-    /// Lays the color over each pixel for its share of samples.
-    fn lay(&self, color: Rgba, pixels: &mut [[u8; 4]]) {
+    /// Composites the color over each pixel, weighted by its share of covered samples.
+    fn composite(&self, color: Rgba, pixels: &mut [[u8; 4]]) {
         let mut covered = vec![0_u32; self.width_px];
         for (row, pixels) in pixels.chunks_exact_mut(self.width_px).enumerate() {
             covered.fill(0);
@@ -166,24 +172,26 @@ impl Samples {
             for (pixel, &covered) in pixels.iter_mut().zip(&covered) {
                 if covered > 0 {
                     let share = f64::from(covered) / (SAMPLES * SAMPLES) as f64;
-                    *pixel = mixed(*pixel, color, share);
+                    *pixel = blend(*pixel, color, share);
                 }
             }
         }
     }
 }
 
-/// Indices of the samples of a side from one place to another, in pixels; samples are in the middle of their squares.
+/// The samples between two positions along an axis, in pixels; a sample is the center of its
+/// square.
 fn samples_between(from: f64, to: f64, count: usize) -> Range<usize> {
     let side = SAMPLES as f64;
-    // Out of range saturates.
+    // Casts saturate.
     let first = (from * side - 0.5).ceil().max(0.0) as usize;
     let end = ((to * side - 0.5).floor() + 1.0).max(0.0) as usize;
     first..end.min(count)
 }
 
-/// From where to where a horizontal line is in a convex polygon; backwards if it is not.
-fn cut(corners: &[Point<f64>], y: f64) -> (f64, f64) {
+/// Left and right end of a horizontal line within a convex polygon; infinite, reversed, if there is
+/// none.
+fn row_span(corners: &[Point<f64>], y: f64) -> (f64, f64) {
     let (mut left, mut right) = (f64::INFINITY, f64::NEG_INFINITY);
     let next = corners.iter().cycle().skip(1);
     for (a, b) in corners.iter().zip(next) {
@@ -195,8 +203,8 @@ fn cut(corners: &[Point<f64>], y: f64) -> (f64, f64) {
     (left, right)
 }
 
-/// The mean of a pixel of which a share lies under a color, both with straight alpha.
-fn mixed(below: [u8; 4], color: Rgba, share: f64) -> [u8; 4] {
+/// Composites a color over a share of a pixel; both have straight alpha.
+fn blend(below: [u8; 4], color: Rgba, share: f64) -> [u8; 4] {
     let [opacity, b] = [color.a, below[3]].map(|alpha| f64::from(alpha) / 255.0);
     let a = opacity * share;
     let shines = b * (1.0 - a);

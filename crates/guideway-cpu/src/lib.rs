@@ -1,5 +1,10 @@
-//! Render methods that need no GPU: [`Oracle`], the judge, and [`Cpu`], the one to use; and [`lay_areas`], for what
-//! lies below paths.
+//! Render methods without a GPU.
+//!
+//! | item          | does                                                                  |
+//! |---------------|-----------------------------------------------------------------------|
+//! | [`Cpu`]       | renders paths fast, on all cores                                      |
+//! | [`Oracle`]    | renders paths exactly and slowly: the reference of all tests          |
+//! | [`lay_areas`] | composites the union of convex polygons, such as swept areas          |
 
 mod areas;
 mod cpu;

@@ -1,4 +1,4 @@
-//! A frame like the last one asks for no memory but for its report, however large the scene.
+//! A frame like the one before allocates only its report, however large the scene.
 
 use std::sync::Arc;
 
@@ -8,10 +8,10 @@ use guideway_scene::{Budget, Cancel, Frame, FrameSize, Method, Style, View};
 use guideway_scene::{Scene, SceneOptions};
 use guideway_spline::{Point, Runs};
 
-/// Most bytes of a report, with the times of its stages.
+/// Upper bound of the bytes of a report with its stages.
 const REPORT_BYTES: u64 = 1024;
 
-/// Waves beside and across each other, of one color or of two.
+/// Waves that cross each other, in one or two colors.
 fn scene(colors: usize) -> Arc<Scene> {
     let mut layout = Layout::default();
     for path in 0..3000 {
@@ -32,7 +32,7 @@ fn scene(colors: usize) -> Arc<Scene> {
     Arc::new(Scene::new(Arc::new(layout), &SceneOptions::default()).expect("no options"))
 }
 
-/// Most bytes that frames of some views ask for, after all of them were drawn once.
+/// Most bytes that a frame allocates after all views were drawn before.
 fn most_bytes(scene: &Arc<Scene>, views: &[View]) -> u64 {
     let mut prepared = Cpu
         .prepare(Arc::clone(scene), &Budget::default())
@@ -53,8 +53,8 @@ fn most_bytes(scene: &Arc<Scene>, views: &[View]) -> u64 {
 }
 
 #[test]
-fn a_steady_frame_asks_for_no_memory() {
-    // All on this thread, for that is the one whose memory is counted.
+fn a_steady_frame_allocates_nothing() {
+    // One thread: only allocations of this thread are counted.
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(1)
         .use_current_thread();
@@ -74,7 +74,7 @@ fn a_steady_frame_asks_for_no_memory() {
             assert!(bytes <= REPORT_BYTES, "{motion}, {colors} colors: {bytes}");
         }
     }
-    // The counter does count: a first frame makes all lines.
+    // The counter works: the first frame allocates all lines.
     let scene = scene(1);
     let asked = allocation_counter::measure(|| {
         let mut prepared = Cpu.prepare(Arc::clone(&scene), &Budget::default()).unwrap();

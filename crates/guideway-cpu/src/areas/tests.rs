@@ -1,3 +1,5 @@
+//! Areas against a test of every sample and polygon.
+
 use guideway_scene::FrameSize;
 
 use super::*;
@@ -54,7 +56,7 @@ fn expected(areas: &Areas, view: &View) -> Vec<[u8; 4]> {
         .collect()
 }
 
-/// Pixels in which the two differ.
+/// Number of pixels that differ from the expected ones.
 fn different(areas: &Areas, expected: &[[u8; 4]], view: &View) -> usize {
     let frame = drawn(areas, view);
     let pairs = frame.pixels().iter().zip(expected);
@@ -77,7 +79,7 @@ fn some_areas() -> Areas {
     let mut clockwise = polygon(4, at(-2.0, 0.3), 0.6);
     clockwise.reverse();
     areas.push(&clockwise);
-    // Far larger than the picture, thinner than a pixel, beside it, and nothing at all.
+    // Larger than the picture, thinner than a pixel, outside, and without area.
     areas.push(&[at(-900.0, 502.0), at(900.0, 501.9), at(-903.0, -498.1)]);
     areas.push(&[at(2.0, -3.0), at(2.03, -3.0), at(2.02, 3.0)]);
     areas.push(&polygon(6, at(50.0, 50.0), 3.0));
@@ -86,7 +88,7 @@ fn some_areas() -> Areas {
 }
 
 #[test]
-fn each_pixel_is_the_share_of_its_samples_that_any_area_covers() {
+fn pixels_match_a_test_of_every_sample() {
     for scale in [0.01, 3.0, 10.0, 4000.0] {
         let (areas, view) = (some_areas(), view(scale));
         let expected = expected(&areas, &view);
@@ -95,7 +97,7 @@ fn each_pixel_is_the_share_of_its_samples_that_any_area_covers() {
 }
 
 #[test]
-fn strips_are_rows_of_the_whole() {
+fn strips_are_rows_of_the_whole_picture() {
     let size = FrameSize::new(70, 200).unwrap();
     let view = View::new(size, Point::new(1000.0, -7.0), 30.0).unwrap();
     let areas = some_areas();
@@ -116,7 +118,7 @@ fn strips_are_rows_of_the_whole() {
 }
 
 #[test]
-fn the_comparison_finds_what_is_missing() {
+fn the_comparison_detects_missing_polygons() {
     let (areas, view) = (some_areas(), view(10.0));
     let expected = expected(&areas, &view);
     for left_out in [0, 1, 2, 3, 4] {
@@ -128,7 +130,7 @@ fn the_comparison_finds_what_is_missing() {
 }
 
 #[test]
-fn over_nothing_the_color_itself_is_seen() {
+fn a_color_over_transparency_keeps_its_hue() {
     let view = view(10.0);
     let mut frame = Frame::new(view.size());
     lay_areas(&some_areas(), &Strip::whole(&view), INK, &mut frame);

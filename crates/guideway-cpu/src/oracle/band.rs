@@ -1,20 +1,20 @@
-//! The samples of some rows of pixels.
+//! Samples of a band of the picture: composites chords over them, and averages them to pixels.
 
 use guideway_scene::Rgba;
 use guideway_spline::{Bounds, Point};
 
-/// Samples along one side of a pixel.
+/// Samples along each side of a pixel.
 const SIDE: usize = 16;
-const SAMPLES_A_PIXEL: usize = SIDE * SIDE;
+const SAMPLES_PER_PIXEL: usize = SIDE * SIDE;
 
-/// A horizontal band of the picture, sample by sample.
+/// Some rows of pixels with all their samples.
 pub(super) struct Band {
     bounds_px: Bounds<f64>,
     columns: usize,
     rows: usize,
     background: Rgba,
     samples: Vec<Sample>,
-    /// How often each pixel's samples were covered.
+    /// Per pixel, the number of samples covered, summed over paths.
     hits: Vec<u64>,
 }
 
@@ -22,16 +22,17 @@ pub(super) struct Band {
 struct Sample {
     /// Red, green and blue times opacity, then opacity: 0 to 255.
     over: [f32; 4],
-    /// The last path that covered it, so that a path that meets itself covers it once; 0 for none.
+    /// Number of the last path that covered it, 0 for none: a path that crosses itself covers it
+    /// once.
     covered_by: u32,
 }
 
 impl Band {
-    /// Memory for one pixel.
-    pub(super) const BYTES_A_PIXEL: u64 =
-        (SAMPLES_A_PIXEL * size_of::<Sample>() + size_of::<u64>()) as u64;
+    /// Bytes per pixel.
+    pub(super) const BYTES_PER_PIXEL: u64 =
+        (SAMPLES_PER_PIXEL * size_of::<Sample>() + size_of::<u64>()) as u64;
 
-    /// A band of `rows` rows of pixels, with nothing on the background.
+    /// A band of `rows` rows of pixels that shows the background.
     pub(super) fn new(first_row: u32, rows: u32, width: u32, background: Rgba) -> Self {
         let pixels = rows as usize * width as usize;
         let empty = Sample {
@@ -47,7 +48,7 @@ impl Band {
             columns: width as usize * SIDE,
             rows: rows as usize * SIDE,
             background,
-            samples: vec![empty; pixels * SAMPLES_A_PIXEL],
+            samples: vec![empty; pixels * SAMPLES_PER_PIXEL],
             hits: vec![0; pixels],
         }
     }
@@ -60,8 +61,8 @@ impl Band {
         self.samples.capacity() * size_of::<Sample>() + self.hits.capacity() * size_of::<u64>()
     }
 
-    /// Lays `color` over every sample within the radius of the line from `start` to `end` that the path
-    /// number `order` has not covered yet.
+    /// Composites `color` over every sample within the radius of the line from `start` to `end`
+    /// that path number `order` has not covered yet.
     pub(super) fn cover(
         &mut self,
         start: Point<f64>,
@@ -83,7 +84,7 @@ impl Band {
         for row in first_row..last_row {
             for column in first_column..last_column {
                 let from_start = origin + Point::new(position(column), position(row)) - start;
-                // Nearest point of the line; a line of no length is a point.
+                // Nearest point of the line; a line without length is a point.
                 let fraction = if length_squared > 0.0 {
                     (from_start.dot(along) / length_squared).clamp(0.0, 1.0)
                 } else {
@@ -102,7 +103,7 @@ impl Band {
         }
     }
 
-    /// The mean color of each pixel, rounded to nearest.
+    /// Writes the mean color of each pixel, rounded to nearest.
     pub(super) fn write_colors(&self, pixels: &mut [[u8; 4]]) {
         let width = self.columns / SIDE;
         for (index, pixel) in pixels.iter_mut().enumerate() {
@@ -116,24 +117,24 @@ impl Band {
                     }
                 }
             }
-            *pixel = straight(sum.map(|s| s / SAMPLES_A_PIXEL as f64), self.background);
+            *pixel = straight(sum.map(|s| s / SAMPLES_PER_PIXEL as f64), self.background);
         }
     }
 
-    /// The mean number of paths that cover each pixel.
+    /// Writes the mean number of paths that cover each pixel.
     pub(super) fn write_counts(&self, counts: &mut [f32]) {
         for (count, &hits) in counts.iter_mut().zip(&self.hits) {
-            *count = (hits as f64 / SAMPLES_A_PIXEL as f64) as f32;
+            *count = (hits as f64 / SAMPLES_PER_PIXEL as f64) as f32;
         }
     }
 }
 
-/// Where a sample lies, in pixels from the first sample's pixel.
+/// Position of a sample along an axis, in pixels from the corner of the band.
 fn position(index: usize) -> f64 {
     (index as f64 + 0.5) / SIDE as f64
 }
 
-/// A range of samples that holds all those from `low - radius` to `high + radius`, and at most two more.
+/// The samples from `low - radius` to `high + radius`, and at most two more.
 fn samples_between(low_px: f64, high_px: f64, radius_px: f64, count: usize) -> (usize, usize) {
     let first = ((low_px - radius_px) * SIDE as f64 - 0.5).floor();
     let end = ((high_px + radius_px) * SIDE as f64 - 0.5).ceil() + 1.0;
@@ -151,7 +152,7 @@ fn premultiplied(color: Rgba) -> [f32; 4] {
     ]
 }
 
-/// Where nothing is, the background has the say on the color that does not show.
+/// Converts to straight alpha. A transparent pixel takes the color of the background.
 fn straight([r, g, b, a]: [f64; 4], background: Rgba) -> [u8; 4] {
     if a == 0.0 {
         return [background.r, background.g, background.b, 0];

@@ -1,22 +1,22 @@
-//! From a cubic segment to chords that never leave it by more than a two-thousandth of a pixel.
+//! Splits a cubic segment into chords within 1/2000 px of it (de Casteljau subdivision).
 
 use guideway_spline::{Bounds, Point};
 
-/// Greatest distance between a curve and its chord.
+/// Largest distance of a chord from its curve. Derived: far below the spacing of samples, 1/16 px.
 const CHORD_ERROR_PX: f64 = 1.0 / 2000.0;
-/// Halvings after which even a segment from one end of the world to the other is a point on the screen.
-const MOST_HALVINGS: u32 = 100;
+/// Most halvings of a segment. Derived: shrinks any segment of finite coordinates below a pixel.
+const MAX_HALVINGS: u32 = 100;
 
-/// Which chords are wanted.
+/// Limits of the chords.
 pub(super) struct Chords {
-    /// Parts of a curve outside this box are left out.
+    /// Drops the parts of a curve outside this box.
     pub(super) near_px: Bounds<f64>,
-    /// Longer chords are split, so that the box around each holds few samples.
-    pub(super) longest_px: f64,
+    /// Splits longer chords, so that the box of each holds few samples.
+    pub(super) max_length_px: f64,
 }
 
 impl Chords {
-    /// Visits the chords of one segment of a uniform cubic B-spline (thesis eq. 3.2).
+    /// Calls `visit` with the chords of one segment of a uniform cubic B-spline (thesis eq. 3.2).
     pub(super) fn of_segment(
         &self,
         control: &[Point<f64>; 4],
@@ -29,7 +29,7 @@ impl Chords {
             (p1 + p2 * 2.0) * (1.0 / 3.0),
             (p1 + p2 * 4.0 + p3) * (1.0 / 6.0),
         ];
-        self.of_bezier(&bezier, MOST_HALVINGS, visit);
+        self.of_bezier(&bezier, MAX_HALVINGS, visit);
     }
 
     fn of_bezier(
@@ -48,7 +48,7 @@ impl Chords {
         if !hull.intersects(self.near_px) {
             return;
         }
-        let is_short = hull.size().x.max(hull.size().y) <= self.longest_px;
+        let is_short = hull.size().x.max(hull.size().y) <= self.max_length_px;
         if halvings_left == 0 || (is_short && chord_error(bezier) <= CHORD_ERROR_PX) {
             return visit(a, d);
         }
@@ -62,8 +62,8 @@ impl Chords {
     }
 }
 
-/// Bound of the distance between curve and chord: an eighth of the greatest second derivative, which is
-/// six times a second difference of the control points.
+/// Upper bound of the distance between curve and chord: 1/8 of the largest second derivative, which
+/// is 6 times the larger second difference of the control points.
 fn chord_error(bezier: &[Point<f64>; 4]) -> f64 {
     let [a, b, c, d] = *bezier;
     let first = a - b * 2.0 + c;

@@ -1,8 +1,12 @@
-//! The judge: brute force in `f64`, simple enough to be believed.
+//! Method `oracle`: the reference renderer that tests compare all others with. Brute force in
+//! `f64`, simple enough to verify by reading.
 //!
-//! Each pixel is the mean of 16 x 16 samples. Paths are laid over the samples one by one, from the lowest
-//! draw rank to the highest; a path covers a sample when one of the chords of its curve is near enough.
-//! There is no index, and no code of any other method: not even the curve mathematics.
+//! A pixel is the mean of 16 x 16 samples. Paths are composited sample by sample, from the lowest
+//! draw rank to the highest; a path covers a sample that is within its radius of a chord of its
+//! curve. The oracle has no index and shares no code with other methods, not even the spline
+//! mathematics.
+//!
+//! Cost: O(paths x pixels in the box of each path).
 
 mod band;
 mod chords;
@@ -24,10 +28,11 @@ use chords::Chords;
 
 const NAME: &str = "oracle";
 
-/// Most bytes of samples held at a time, as long as one row of pixels takes no more.
+/// Most bytes of samples of a band, unless one row of pixels takes more. Derived: a small part of
+/// the default budget, and large enough that few paths are drawn in several bands.
 const BAND_BYTES: u64 = 48 << 20;
 
-/// The method that all others are compared with: exact, and slow.
+/// The reference method: exact to 1/256 of the area of a pixel, and slow.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Oracle;
 
@@ -35,7 +40,7 @@ impl Method for Oracle {
     fn info(&self) -> MethodInfo {
         MethodInfo {
             name: NAME,
-            summary: "exact to 1/256 of a pixel's area by brute force; judges the other methods",
+            summary: "reference: exact to 1/256 of a pixel's area, by brute force; slow",
             device: "CPU, one thread".to_owned(),
         }
     }
@@ -57,17 +62,17 @@ impl Method for Oracle {
 struct PreparedOracle {
     scene: Arc<Scene>,
     memory_bytes: u64,
-    /// Nothing: there is no index.
+    /// Empty: the oracle prepares nothing.
     preparation: Preparation,
 }
 
-/// A path that may be seen.
+/// A path that may be visible.
 struct Stroke {
     path: u32,
     color: Rgba,
     radius_px: f64,
-    /// Holds all that the path covers.
-    reach_px: Bounds<f64>,
+    /// Bounding box of all that the path covers.
+    bounds_px: Bounds<f64>,
 }
 
 impl Prepared for PreparedOracle {
@@ -79,7 +84,7 @@ impl Prepared for PreparedOracle {
         frame: &mut Frame,
     ) -> Result<Report, RenderError> {
         let started = Instant::now();
-        let rows_a_band = self.rows_a_band(view)?;
+        let rows_per_band = self.rows_per_band(view)?;
         let strokes = self.strokes(view, style, cancel)?;
         let culled_ms = elapsed_ms(started);
 
@@ -90,8 +95,8 @@ impl Prepared for PreparedOracle {
             Shading::Density(_) => vec![0.0; view.size().pixels()],
         };
         let (mut lines, mut bands, mut band_bytes) = (0, 0, 0);
-        for first_row in (0..height).step_by(rows_a_band as usize) {
-            let rows = rows_a_band.min(height - first_row);
+        for first_row in (0..height).step_by(rows_per_band as usize) {
+            let rows = rows_per_band.min(height - first_row);
             let mut band = Band::new(first_row, rows, width, style.background);
             for (order, stroke) in (1..).zip(&strokes) {
                 cancel.check()?;
@@ -136,8 +141,9 @@ impl Prepared for PreparedOracle {
 }
 
 impl PreparedOracle {
-    fn rows_a_band(&self, view: &View) -> Result<u32, RenderError> {
-        let row_bytes = Band::BYTES_A_PIXEL * u64::from(view.size().width());
+    /// Number of rows of pixels that fit into the memory of a band.
+    fn rows_per_band(&self, view: &View) -> Result<u32, RenderError> {
+        let row_bytes = Band::BYTES_PER_PIXEL * u64::from(view.size().width());
         if row_bytes > self.memory_bytes {
             return Err(RenderError::Budget {
                 method: NAME,
@@ -150,14 +156,14 @@ impl PreparedOracle {
         Ok(rows.clamp(1, u64::from(view.size().height())) as u32)
     }
 
-    /// The paths that are not outside the view, in draw order.
+    /// The paths whose boxes meet the picture, in draw order.
     fn strokes(
         &self,
         view: &View,
         style: &Style,
         cancel: &Cancel,
     ) -> Result<Vec<Stroke>, RenderError> {
-        let seen_px = Bounds {
+        let picture_px = Bounds {
             min: Point::new(0.0, 0.0),
             max: Point::new(
                 f64::from(view.size().width()),
@@ -171,27 +177,27 @@ impl PreparedOracle {
             let points_px = runs.flat_map(|run| run.iter().map(|p| view.pixel_from_world(p)));
             let width_m = self.scene.width_m(path);
             let radius_px = style.line_rule.radius_px(width_m, view.px_per_m());
-            let reach_px = Bounds::of_points(points_px).map(|hull| hull.inflated(radius_px));
-            if let Some(reach_px) = reach_px.filter(|reach| reach.intersects(seen_px)) {
+            let bounds_px = Bounds::of_points(points_px).map(|hull| hull.inflated(radius_px));
+            if let Some(bounds_px) = bounds_px.filter(|bounds| bounds.intersects(picture_px)) {
                 strokes.push(Stroke {
                     path,
                     color: self.scene.color(path),
                     radius_px,
-                    reach_px,
+                    bounds_px,
                 });
             }
         }
         Ok(strokes)
     }
 
-    /// Lays one path over the samples of a band, and returns the number of chords that it took.
+    /// Composites one path over the samples of a band; returns the number of its chords.
     fn draw(&self, view: &View, stroke: &Stroke, order: u32, band: &mut Band) -> u64 {
-        if !stroke.reach_px.intersects(band.bounds_px()) {
+        if !stroke.bounds_px.intersects(band.bounds_px()) {
             return 0;
         }
         let chords = Chords {
             near_px: band.bounds_px().inflated(stroke.radius_px),
-            longest_px: stroke.radius_px.max(1.0),
+            max_length_px: stroke.radius_px.max(1.0),
         };
         let mut lines = 0;
         let path = self.scene.layout().paths.get(stroke.path as usize);

@@ -1,4 +1,4 @@
-//! The judge is judged by closed forms, and by points on the curve from another definition of it.
+//! The oracle against closed forms, and against points of the curve from the Cox-de Boor recursion.
 
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -40,7 +40,7 @@ fn layout(paths: &[Runs]) -> Layout {
     layout
 }
 
-/// One meter a pixel, the origin in the lower left corner.
+/// One meter per pixel, the origin in the lower left corner.
 fn view(width: u32, height: u32) -> View {
     let middle = point(f64::from(width) / 2.0, f64::from(height) / 2.0);
     View::new(FrameSize::new(width, height).unwrap(), middle, 1.0).unwrap()
@@ -85,7 +85,7 @@ fn draw(layout: Layout, color: Rgba, view: &View, style: &Style) -> (Frame, Repo
     draw_within(layout, color, view, style, 1 << 30).unwrap()
 }
 
-/// Coverage of black paths on white, pixel by pixel.
+/// Coverage per pixel of black paths on white.
 fn coverage(paths: &[Runs], view: &View, style: &Style) -> Vec<f64> {
     let (frame, _) = draw(layout(paths), Rgba::BLACK, view, style);
     let ink = |p: &[u8; 4]| 1.0 - f64::from(p[0]) / 255.0;
@@ -94,7 +94,8 @@ fn coverage(paths: &[Runs], view: &View, style: &Style) -> Vec<f64> {
 
 #[test]
 fn a_level_line_covers_its_share_of_each_row() {
-    // From 3.25 to 5.75 m up in a picture of 10 rows: rows 4 to 6, the outer ones to three quarters.
+    // From 3.25 to 5.75 m up in a picture of 10 rows: rows 4 to 6, the outer ones to three
+    // quarters.
     let across = line(point(-10.0, 4.5), point(30.0, 4.5));
     let ink = coverage(&[across], &view(20, 10), &wide(2.5));
     for (row, expected) in [(3, 0.0), (4, 0.75), (5, 1.0), (6, 0.75), (7, 0.0)] {
@@ -120,7 +121,7 @@ fn lines_and_dots_have_the_area_of_a_capsule() {
 }
 
 #[test]
-fn a_path_that_crosses_itself_is_not_darker_there() {
+fn a_path_that_crosses_itself_covers_once() {
     let bow = curve(&[
         point(-30.0, -60.0),
         point(70.0, 60.0),
@@ -142,13 +143,13 @@ fn a_path_that_crosses_itself_is_not_darker_there() {
     let inside = [255, 127, 127, 255];
     assert!(frame.pixels().contains(&inside));
     assert!(frame.pixels().iter().all(|p| p[1] >= inside[1]));
-    // Two paths there are.
+    // Two paths are darker.
     let (twice, _) = draw(layout(&[bow.clone(), bow]), red, &view(40, 60), &wide(6.0));
     assert!(twice.pixels().contains(&[255, 63, 63, 255]));
 }
 
 #[test]
-fn straight_alpha_keeps_its_color_over_nothing() {
+fn a_color_over_transparency_keeps_its_hue() {
     let style = Style {
         background: Rgba::from_u32(0x1122_3300),
         ..wide(2.0)
@@ -168,7 +169,7 @@ fn straight_alpha_keeps_its_color_over_nothing() {
     assert_eq!(frame.pixels()[45], [10, 20, 200, 64]);
 }
 
-/// The basis function `i` of order `k` over the knots 0, 1, 2, ..
+/// The basis function `i` of order `k` over the knots 0, 1, 2, ...
 fn cox_de_boor(i: usize, k: usize, t: f64) -> f64 {
     let knot = i as f64;
     if k == 1 {
@@ -180,7 +181,7 @@ fn cox_de_boor(i: usize, k: usize, t: f64) -> f64 {
 }
 
 #[test]
-fn dense_points_of_the_curve_cover_the_same_pixels() {
+fn coverage_matches_dense_points_of_the_curve() {
     let control = [
         point(-4.0, 3.0),
         point(4.0, 16.0),
@@ -251,7 +252,7 @@ fn density_is_the_mean_number_of_paths() {
 }
 
 #[test]
-fn bands_change_nothing_and_too_little_memory_is_said() {
+fn bands_change_no_bit_and_too_little_memory_is_rejected() {
     let paths = [
         curve(&[(0.0, 9.0), (40.0, -30.0), (-9.0, 70.0), (60.0, 30.0)].map(|(x, y)| point(x, y))),
         line(point(-5.0, -5.0), point(45.0, 60.0)),
@@ -268,7 +269,7 @@ fn bands_change_nothing_and_too_little_memory_is_said() {
 }
 
 #[test]
-fn work_stops_when_it_is_asked_to() {
+fn stops_when_cancelled() {
     let scene = Scene::new(
         Arc::new(layout(&[line(point(0.0, 0.0), point(9.0, 9.0))])),
         &SceneOptions::default(),
