@@ -1,61 +1,52 @@
-//! Method `cpu`: lines by tile, covered until nothing is left to be covered, in parallel.
+//! Method `cpu`: flattens curves to lines, bins them into 32 px tiles, and resolves the coverage of
+//! each tile, on all cores.
 //!
-//! Paths that are near each other (`order`) form clusters, once (`index`). A frame (`frame`) goes through five stages: `cull`
-//! finds the clusters in sight (`sight`), and what of the picture has to be drawn (`kept`); `flatten` turns their
-//! curves into lines (`cluster`, `simplify`), unless those of an earlier frame will do; `bin` lists the clusters of
-//! each tile of 32 x 32 pixels (`bins`), or of wide ones the lines that cross it (`crossings`); `cover` finds which
-//! samples of each tile the lines cover (`paint`, then `seen` for one color or `layers` for several, `fixed` or
-//! `stroke` and `span`, `canvas`); `keep` keeps the picture.
-//! Of one color, pixels that are full for certain in the views to come are found beside that, and not covered again
-//! (`filled`).
-//! Coverage is an OR of bits, and all that is added up is a whole number or added in draw order, so the picture
-//! is the same on every run, with any number of threads, any vector instructions and in any number of bands.
+//! | stage   | input                      | output                              | folder         |
+//! |---------|----------------------------|-------------------------------------|----------------|
+//! | sort    | hulls of the paths         | clusters of 64 neighbors, once      | `frame`        |
+//! | cull    | cluster bounds, view       | visible clusters; damaged pixels    | `bin`, `frame` |
+//! | flatten | curves of visible clusters | polylines, cached per scale         | `flatten`      |
+//! | bin     | polylines, cluster boxes   | clusters and line ranges per tile   | `bin`          |
+//! | cover   | lists and lines of a tile  | covered samples, resolved to pixels | `raster`       |
+//! | keep    | the picture                | the picture cache of the next frame | `frame`        |
+//!
+//! `ground` holds what the stages share. Imports run from `frame` over `raster`, `bin` and
+//! `flatten` to `ground`. The sort is that of `guideway_scene::cluster`.
+//!
+//! ```text
+//!   picture, in tiles        tile: 32 x 32 px               pixel: 16 rows of samples
+//!
+//!   +----+----+----+----+    +--+--+--+--+--+--+--+--+
+//!   |    |    |    |    |    |  |  |  |  |  |  |  |  | row 0    x . x . x . x .   solid:
+//!   +----+----+----+----+    |  |  |  |  |  |  |  |  | ...      . x . x . x . x   8 per row,
+//!   |    |    |    |    |    |  |  |  |  |  |  |  |  | row 31   x . x . x . x .   checkered
+//!   +----+----+----+----+    +--+--+--+--+--+--+--+--+          ...
+//!                             8 windows of 4 px (solid)
+//!                            16 windows of 2 px (layered)       x x x x x x ...   layered:
+//!                                                               x x x x x x ...   16 per row
+//!   block: one row of pixels of a window, 16 words of 32 bits:  ...
+//!   one word per row of samples, one bit per sample
+//! ```
+//!
+//! Solid masks serve opaque paths of one color: their strokes cover samples in any order. Layered
+//! masks serve all else, by descending draw rank.
+//!
+//! Coverage is an OR of bits, and sums are of integers or in draw order: the picture has the same
+//! bits in every run, with any number of threads, vector instructions and bands.
 
-mod backdrop;
-mod bins;
-mod canvas;
-mod cluster;
-mod crossings;
-mod disc;
-mod extent;
-mod filled;
-mod fixed;
+mod bin;
 mod flatten;
 mod frame;
-mod index;
-mod joins;
-mod joints;
-mod kept;
-mod layers;
-mod order;
-mod paint;
-mod painter;
-mod place;
-mod polylines;
-mod prepared;
-mod seen;
-mod shot;
-mod sight;
-mod simplify;
-mod span;
-mod stretch;
-mod stroke;
+mod ground;
+mod raster;
 #[cfg(test)]
-mod tests;
-mod threads;
-mod tiles;
-mod vectors;
+mod testing;
 
 use std::sync::Arc;
 
-use guideway_scene::Scene;
-use guideway_scene::{Budget, Method, MethodInfo, Prepared, RenderError};
+use guideway_scene::{Budget, Method, MethodInfo, Prepared, RenderError, Scene};
 
-/// Lanes that work beside each other: rows of samples of a pixel, or lines. One vector of AVX-512, two of
-/// AVX2, four of SSE and NEON.
-const LANES: usize = 16;
-
-/// Draws on all cores, without a GPU.
+/// The fast render method without a GPU.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Cpu;
 
@@ -65,7 +56,8 @@ impl Method for Cpu {
     fn info(&self) -> MethodInfo {
         MethodInfo {
             name: NAME,
-            summary: "error-bounded lines by tile, 128 or 256 samples a pixel, on all cores",
+            summary: "CPU rasterizer: bins error-bounded lines into tiles, 128 or 256 samples per \
+                      pixel, on all cores",
             device: "CPU".to_owned(),
         }
     }
@@ -75,6 +67,6 @@ impl Method for Cpu {
         scene: Arc<Scene>,
         budget: &Budget,
     ) -> Result<Box<dyn Prepared>, RenderError> {
-        Ok(Box::new(prepared::CpuPrepared::new(scene, budget)?))
+        Ok(Box::new(frame::prepared::CpuPrepared::new(scene, budget)?))
     }
 }

@@ -1,0 +1,19 @@
+//! A frame from view to pixels.
+//!
+//! | module            | does                                                                     |
+//! |-------------------|--------------------------------------------------------------------------|
+//! | `prepared`        | owns the scene and what lasts between frames; renders and applies edits  |
+//! | `clusters`        | clusters, cached lines and styles of the scene                           |
+//! | `memory`          | plans a frame within the budget                                          |
+//! | `pipeline`        | runs the stages for the bands of a frame                                 |
+//! | `flatten_visible` | flattens the visible clusters of a band                                  |
+//! | `picture_cache`   | reuses the last picture after a pan or an edit                           |
+
+pub(super) mod clusters;
+pub(super) mod flatten_visible;
+pub(super) mod memory;
+pub(super) mod picture_cache;
+pub(super) mod pipeline;
+pub(super) mod prepared;
+#[cfg(test)]
+mod tests;

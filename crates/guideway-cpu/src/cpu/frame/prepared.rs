@@ -1,0 +1,343 @@
+//! Method `cpu` with a prepared scene: draws frames within the memory budget, and applies edits.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use bytemuck::cast_slice;
+use guideway_scene::cluster::PendingEdit;
+use guideway_scene::density::ToneScale;
+use guideway_scene::{
+    Budget, Cancel, Edit, EditOutcome, Frame, Preparation, Prepared, RenderError, Report, Scene,
+    Shading, Stage, Strip, Style, View, elapsed_ms,
+};
+use rayon::{ThreadPool, ThreadPoolBuilder};
+
+use super::clusters::{PreparedClusters, StyleSummary};
+use super::flatten_visible::DrawError;
+use super::memory::{FrameMemory, fixed_bytes, over_budget, threads};
+use super::picture_cache::PictureCache;
+use super::pipeline::{FramePipeline, FrameTarget};
+use crate::cpu::NAME;
+use crate::cpu::ground::frame_context::FrameContext;
+use crate::cpu::ground::simd::SimdLevel;
+use crate::cpu::ground::snapped_view::SnappedTransform;
+use crate::cpu::raster::full_pixel_cache::FullPixelCache;
+
+/// Most pixels of a strip: 128 MiB of colors.
+const STRIP_PIXELS: usize = 1 << 25;
+
+/// A prepared scene, and what frames leave to the next one.
+pub(crate) struct CpuPrepared {
+    scene: Arc<Scene>,
+    budget: Budget,
+    /// None: the threads that the process shares.
+    pool: Option<ThreadPool>,
+    clusters: PreparedClusters,
+    preparation: Preparation,
+    pipeline: FramePipeline,
+    picture: Option<PictureCache>,
+    full_pixels: FullPixelCache,
+    /// ToneScale of the last picture whose density was drawn in strips.
+    tones: Option<(View, Style, ToneScale)>,
+    simd: SimdLevel,
+}
+
+fn install<R: Send>(pool: Option<&ThreadPool>, work: impl FnOnce() -> R + Send) -> R {
+    match pool {
+        Some(pool) => pool.install(work),
+        None => work(),
+    }
+}
+
+impl CpuPrepared {
+    /// Sorts the paths of a scene into clusters.
+    ///
+    /// # Errors
+    /// [`RenderError::Budget`] if the clusters and the buffers of the threads exceed the budget.
+    pub(crate) fn new(scene: Arc<Scene>, budget: &Budget) -> Result<Self, RenderError> {
+        let fixed = fixed_bytes(&scene, budget);
+        if fixed > budget.memory_bytes {
+            return Err(over_budget("the index of the paths", fixed, budget));
+        }
+        // If the system refuses more threads, use those that the process shares.
+        let builder = ThreadPoolBuilder::new().num_threads(budget.threads);
+        let pool = (budget.threads > 0).then(|| builder.build().ok()).flatten();
+        let start = Instant::now();
+        let clusters = install(pool.as_ref(), || PreparedClusters::new(&scene));
+        let held_bytes = clusters.bytes();
+        Ok(Self {
+            scene,
+            budget: *budget,
+            pool,
+            clusters,
+            preparation: Preparation {
+                stages: vec![Stage::host("sort", elapsed_ms(start))],
+                held_bytes,
+                peak_bytes: held_bytes,
+                ..Preparation::default()
+            },
+            pipeline: FramePipeline::new(threads(budget)),
+            picture: None,
+            full_pixels: FullPixelCache::default(),
+            tones: None,
+            simd: SimdLevel::default(),
+        })
+    }
+}
+
+/// A strip of the scene as one frame draws it.
+pub(crate) fn frame_context<'a>(
+    scene: &'a Scene,
+    summary: &StyleSummary,
+    simd: SimdLevel,
+    (strip, style, cancel): (&'a Strip, &'a Style, &'a Cancel),
+) -> FrameContext<'a> {
+    let is_density = style.shading != Shading::Color;
+    FrameContext {
+        scene,
+        strip,
+        view: strip.view(),
+        transform: SnappedTransform::new(strip.view()),
+        style,
+        cancel,
+        own_widths: summary.own_widths,
+        simd,
+        solid: summary.solid.filter(|_| !is_density),
+        inset_for_zoom: None,
+    }
+}
+
+/// Stores what a frame has drawn, if a later frame may reuse it.
+fn keep_picture(
+    picture: &mut Option<PictureCache>,
+    (ctx, is_moved): (&FrameContext<'_>, bool),
+    pipeline: &FramePipeline,
+    pixels: &[[u8; 4]],
+    has_room: bool,
+) {
+    match picture {
+        Some(picture) if is_moved => picture.store(&pipeline.damage, pixels),
+        Some(picture) if picture.is_alike(ctx) => {
+            if has_room {
+                picture.store_all(ctx, pixels);
+            }
+        }
+        _ => *picture = Some(PictureCache::new(ctx)),
+    }
+}
+
+impl Prepared for CpuPrepared {
+    fn render(
+        &mut self,
+        view: &View,
+        style: &Style,
+        cancel: &Cancel,
+        frame: &mut Frame,
+    ) -> Result<Report, RenderError> {
+        self.render_strip(&Strip::whole(view), style, cancel, frame)
+    }
+
+    fn strip_pixels(&self) -> usize {
+        STRIP_PIXELS
+    }
+
+    fn render_strip(
+        &mut self,
+        strip: &Strip,
+        style: &Style,
+        cancel: &Cancel,
+        frame: &mut Frame,
+    ) -> Result<Report, RenderError> {
+        let memory = FrameMemory::plan(
+            fixed_bytes(&self.scene, &self.budget),
+            (strip, style),
+            &mut self.picture,
+            &mut self.full_pixels,
+            &self.budget,
+        );
+        // A frame that fails leaves no picture.
+        let mut picture = self.picture.take();
+        let needed = memory.needed_bytes;
+        let Some(limit_bytes) = self.budget.memory_bytes.checked_sub(needed) else {
+            return Err(over_budget("the picture", needed, &self.budget));
+        };
+        let Self {
+            scene,
+            budget,
+            pool,
+            clusters,
+            pipeline,
+            tones,
+            simd,
+            full_pixels,
+            ..
+        } = self;
+        let ctx = frame_context(scene, &clusters.style, *simd, (strip, style, cancel));
+        pipeline.start();
+        let bands = install(pool.as_ref(), || {
+            let is_moved = pipeline.time("cull", |p| {
+                frame.resize(strip.size());
+                p.visible.cull(clusters.index.bounds(), &ctx);
+                p.damage.clear(strip);
+                let picture = picture.as_mut();
+                let is_moved =
+                    picture.is_some_and(|picture| picture.move_to(&ctx, &p.visible, &mut p.damage));
+                if !is_moved {
+                    p.damage.fill(strip);
+                }
+                is_moved
+            });
+            let can_probe = memory.uses_full_pixels && !is_moved;
+            let found = can_probe.then(|| full_pixels.plan(&ctx)).flatten();
+            let mut target = FrameTarget {
+                ctx: &ctx,
+                frame,
+                cached: picture.as_ref().filter(|_| is_moved),
+                full_pixels: full_pixels.lookup(&ctx, 0.0),
+                probe: found.as_ref().map(|found| {
+                    let known = full_pixels.lookup(&ctx, found.max_px_per_m());
+                    (found, known)
+                }),
+                limit_bytes,
+            };
+            let drawn = match style.shading {
+                Shading::Color => pipeline.draw(&mut target, clusters),
+                Shading::Density(tone) => pipeline.draw_density(&mut target, clusters, tone, tones),
+            };
+            let bands = drawn.map_err(|error| match error {
+                DrawError::OverBudget(bytes) => {
+                    over_budget("the lines of one row of tiles", needed + bytes, budget)
+                }
+                DrawError::Failed(error) => error,
+            })?;
+            if let Some(found) = found {
+                full_pixels.keep(found);
+            }
+            if strip.is_whole() {
+                pipeline.time("keep", |p| {
+                    let pixels = match style.shading {
+                        Shading::Color => frame.pixels(),
+                        Shading::Density(_) => cast_slice(&p.counts),
+                    };
+                    // Lines may soon need the other half of the budget.
+                    let used_bytes = memory.own_bytes + memory.frame_bytes + p.peak_bytes;
+                    let has_room = used_bytes <= budget.memory_bytes / 2;
+                    keep_picture(&mut picture, (&ctx, is_moved), p, pixels, has_room);
+                });
+            }
+            Ok(bands)
+        })?;
+        let picture_bytes = picture.as_ref().map_or(0, PictureCache::bytes);
+        let picture_bytes = memory.picture_bytes.max(picture_bytes);
+        self.picture = picture;
+        Ok(Report {
+            stages: std::mem::take(&mut pipeline.stages),
+            lines: pipeline.line_count,
+            peak_bytes: memory.own_bytes + picture_bytes + pipeline.peak_bytes,
+            bands,
+            ..Report::of(NAME, scene, pipeline.path_count)
+        })
+    }
+
+    fn edit(&mut self, edit: &Edit) -> Result<EditOutcome, RenderError> {
+        let Self {
+            scene,
+            budget,
+            pool,
+            clusters,
+            picture,
+            full_pixels,
+            tones,
+            ..
+        } = self;
+        let begin = |paths: &[u32]| -> Vec<PendingEdit> {
+            // The scene rejects an edit of paths that it does not have.
+            let last = paths.iter().copied().max();
+            if last.is_some_and(|path| path as usize >= scene.row_count()) {
+                return Vec::new();
+            }
+            install(pool.as_ref(), || clusters.begin_edit(scene, paths))
+        };
+        let pending = match edit {
+            Edit::Transform { paths, .. } | Edit::Reshape { paths, .. } => begin(paths),
+            Edit::SetStates(_) => begin(&edit.paths().collect::<Vec<u32>>()),
+            Edit::Restyle(_) | Edit::Insert(_) => Vec::new(),
+        };
+        let scene_now = Arc::make_mut(scene);
+        install(pool.as_ref(), || scene_now.edit(edit)).map_err(RenderError::Edit)?;
+        *tones = None;
+        full_pixels.forget();
+        let fixed = fixed_bytes(scene, budget);
+        if fixed > budget.memory_bytes {
+            return Err(over_budget("the index of the paths", fixed, budget));
+        }
+        let before = (clusters.style.solid, clusters.style.own_widths);
+        let changes = install(pool.as_ref(), || {
+            if !matches!(edit, Edit::Transform { .. } | Edit::Reshape { .. }) {
+                clusters.style = StyleSummary::of(scene);
+            }
+            match edit {
+                Edit::Transform { by, .. } => clusters.apply_edit(scene, &pending, Some(*by)),
+                Edit::Reshape { .. } | Edit::SetStates(_) => {
+                    clusters.apply_edit(scene, &pending, None)
+                }
+                Edit::Restyle(_) => clusters.bounds_of(&edit.paths().collect::<Vec<_>>()),
+                Edit::Insert(_) => clusters.append(scene),
+            }
+        });
+        if let Some(picture) = picture {
+            // One color is drawn by another rasterizer than several.
+            if before == (clusters.style.solid, clusters.style.own_widths) {
+                picture.add_changes(&changes);
+            } else {
+                picture.forget();
+            }
+        }
+        Ok(EditOutcome::InPlace { moved_bytes: 0 })
+    }
+
+    fn preparation(&self) -> &Preparation {
+        &self.preparation
+    }
+}
+
+/// Access for tests.
+#[cfg(test)]
+impl CpuPrepared {
+    /// Whether the last frame drew only a part of the picture.
+    pub(crate) fn has_reused(&self) -> bool {
+        let rects = self.pipeline.damage.rects_px();
+        let damaged: usize = rects.map(|(x, y)| x.len() * y.len()).sum();
+        let all = self.picture.as_ref().map_or(0, PictureCache::pixel_count);
+        damaged < all
+    }
+
+    /// Number of pixels of a picture that are known to be full.
+    pub(crate) fn known_pixels(&self, view: &View, style: &Style) -> u32 {
+        let (strip, cancel) = (Strip::whole(view), Cancel::default());
+        let frame = (&strip, style, &cancel);
+        let ctx = frame_context(&self.scene, &self.clusters.style, self.simd, frame);
+        self.full_pixels.lookup(&ctx, 0.0).count(&ctx)
+    }
+
+    /// Lists lines per tile for clusters of at least so many tiles.
+    pub(crate) fn list_lines_from(&mut self, min_tiles: usize) {
+        self.pipeline.lists.line_lists.min_tiles = min_tiles;
+    }
+
+    /// Number of clusters that the last frame has flattened.
+    pub(crate) fn flattened_clusters(&self) -> usize {
+        self.pipeline.dirty_clusters.len()
+    }
+
+    /// Makes the next frame start from the curves.
+    pub(crate) fn forget_picture(&mut self) {
+        self.picture = None;
+        self.full_pixels.forget();
+        self.clusters.cache.evict(|_| false);
+    }
+
+    pub(crate) fn set_simd(&mut self, simd: SimdLevel) {
+        self.simd = simd;
+    }
+}

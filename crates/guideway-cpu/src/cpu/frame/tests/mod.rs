@@ -1,0 +1,5 @@
+//! Frames from view to pixels.
+
+mod budget;
+mod edits;
+mod picture_cache;

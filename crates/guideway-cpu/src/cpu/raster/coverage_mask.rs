@@ -1,0 +1,400 @@
+//! Coverage mask of a tile: which samples its strokes cover, one bit per sample.
+//!
+//! Input: capsules, row by row of pixels. Output: the samples as bits for [`super::resolve`], or
+//! summed colors and counts per pixel.
+
+#[cfg(test)]
+mod tests;
+
+use std::ops::Range;
+
+use guideway_scene::Rgba;
+use guideway_spline::Point;
+
+use super::bits::{
+    MAX_WINDOW_PX, SampleBlock, WINDOW_COLUMNS, full_pixels, high_bits, low_bits, pixel_counts,
+    set_bits,
+};
+use super::capsule::RowSpans;
+use crate::cpu::ground::samples::{ROWS, SOLID};
+use crate::cpu::ground::tile::{PixelRows, SampleCounts, TILE_PX};
+
+/// Transmittance of each sample of a block, from 0 to 1.
+type Transmittance = [[f32; WINDOW_COLUMNS]; ROWS];
+/// One flag per block: a word per window, a bit per row of pixels.
+type DirtyBits<const C: usize> = [u32; C];
+
+/// Least number of pixels, beside the width of the stroke, for which a row of pixels is restricted
+/// to those it needs. Measured: shorter rows cost less than the restriction.
+const WIDE_PX: u32 = 11;
+
+/// Coverage of a stroke, row by row.
+pub(crate) trait RowCoverage {
+    /// Stroke width in pixels.
+    fn width_px(&self) -> u32;
+    /// The pixels of a row that the stroke may touch, one bit each.
+    fn pixels(&self, row: usize) -> u32;
+    /// The samples covered in a row of pixels.
+    fn spans(&self, row: usize) -> RowSpans;
+}
+
+/// Rows and columns of pixels of a tile, one bit each.
+#[derive(Clone, Copy)]
+pub(crate) struct PixelBox {
+    pub(crate) rows: u32,
+    pub(crate) pixels: u32,
+}
+
+/// The samples of one tile: which are covered, and by what, from the highest draw rank down.
+///
+/// Strokes are collected as a shape. [`Self::composite`] draws one color below all that is there,
+/// wherever the shape is, and starts a new shape. If all is one opaque color, all strokes are one
+/// shape in any order: such a mask is solid (`C` = [`SOLID`]).
+///
+/// ```text
+///   tile: 32 x 32 px, C windows of 32 sample columns    block: one row of pixels of a window
+///
+///         window 0      window C-1                        16 rows of 32 samples, a word each
+///       +---------+   +---------+                         row 0   ################................
+///       | block 0 |...| block 0 |  row 0 of pixels        row 1   ################................
+///       | block 1 |   | block 1 |  row 1                   ...     32 / C pixels side by side
+///       |   ...   |   |   ...   |
+///       +---------+   +---------+
+/// ```
+pub(crate) struct CoverageMask<const C: usize> {
+    pub(super) shape: Box<[[SampleBlock; TILE_PX]; C]>,
+    /// Blocks in which the shape may have samples.
+    pub(super) touched: DirtyBits<C>,
+    /// Pixels of each row through which lower paths are visible.
+    open_pixels: PixelRows,
+    /// Blocks with such a pixel.
+    pub(super) open: DirtyBits<C>,
+    /// Whether solid strokes record full pixels.
+    closes: bool,
+    opaque: Box<[[SampleBlock; TILE_PX]; C]>,
+    /// Blocks with something translucent.
+    translucent: DirtyBits<C>,
+    transmittance: Vec<[Transmittance; TILE_PX]>,
+    /// Sums over the samples of each pixel: red, green, blue (0 to 255) and opacity (0 to 1).
+    pub(super) sums: Box<[[[f32; 4]; TILE_PX]; TILE_PX]>,
+}
+
+impl<const C: usize> CoverageMask<C> {
+    pub(crate) const WINDOW_PX: usize = TILE_PX / C;
+    const IS_SOLID: bool = C == SOLID;
+    const NO_BLOCKS: [[SampleBlock; TILE_PX]; C] = [[[0; ROWS]; TILE_PX]; C];
+
+    pub(crate) fn new() -> Self {
+        Self {
+            shape: Box::new(Self::NO_BLOCKS),
+            touched: [0; C],
+            open_pixels: [0; TILE_PX],
+            open: [0; C],
+            closes: true,
+            opaque: Box::new(Self::NO_BLOCKS),
+            translucent: [0; C],
+            transmittance: Vec::new(),
+            sums: Box::new([[[0.0; 4]; TILE_PX]; TILE_PX]),
+        }
+    }
+
+    /// Upper bound of the heap bytes held.
+    pub(crate) fn bytes(is_opaque: bool) -> u64 {
+        let transmittance = if is_opaque {
+            0
+        } else {
+            size_of::<Transmittance>()
+        };
+        let blocks = C * TILE_PX * (2 * size_of::<SampleBlock>() + transmittance);
+        (blocks + size_of::<[[[f32; 4]; TILE_PX]; TILE_PX]>()) as u64
+    }
+
+    /// Starts an empty tile of `width_px` by `height_px` visible pixels. The rest counts as
+    /// covered.
+    pub(crate) fn begin(&mut self, width_px: usize, height_px: usize) {
+        // In most tiles of a near view few blocks are dirty.
+        for (blocks, touched) in self.shape.iter_mut().zip(self.touched) {
+            set_bits(touched).for_each(|row| blocks[row] = [0; ROWS]);
+        }
+        (self.touched, self.translucent) = ([0; C], [0; C]);
+        self.closes = true;
+        for (window, open) in self.open.iter_mut().enumerate() {
+            let is_seen = window * Self::WINDOW_PX < width_px;
+            *open = if is_seen {
+                low_bits(height_px as u32)
+            } else {
+                0
+            };
+        }
+        self.open_pixels = [0; TILE_PX];
+        self.open_pixels[..height_px].fill(low_bits(width_px as u32));
+        let last = (width_px - 1) / Self::WINDOW_PX;
+        let unseen = !low_bits(((width_px - last * Self::WINDOW_PX) * C) as u32);
+        if unseen != 0 {
+            self.shape[last] = [[unseen; ROWS]; TILE_PX];
+            self.touched[last] = u32::MAX;
+        }
+    }
+
+    /// Starts an empty tile for shapes that are composited.
+    pub(crate) fn begin_layers(&mut self, width_px: usize, height_px: usize) {
+        self.begin(width_px, height_px);
+        std::mem::swap(&mut self.shape, &mut self.opaque);
+        *self.shape = Self::NO_BLOCKS;
+        self.touched = [0; C];
+        *self.sums = [[[0.0; 4]; TILE_PX]; TILE_PX];
+    }
+
+    /// Number of pixels in blocks with samples, and the visible pixels that are full.
+    pub(crate) fn pixel_coverage(&self, width_px: usize, height_px: usize) -> (u32, PixelRows) {
+        let seen = low_bits(width_px as u32);
+        let mut closed = [0; TILE_PX];
+        for (closed, open) in closed.iter_mut().zip(&self.open_pixels).take(height_px) {
+            *closed = seen & !open;
+        }
+        let empty = self.touched.iter().zip(&self.open);
+        let empty = empty
+            .map(|(touched, open)| (!touched & open).count_ones())
+            .sum::<u32>();
+        let blocks = (width_px.div_ceil(Self::WINDOW_PX) * height_px) as u32;
+        ((blocks - empty) * Self::WINDOW_PX as u32, closed)
+    }
+
+    /// Covers some pixels of an empty tile. Samples of windows without open pixels are left unset:
+    /// nothing reads them.
+    #[inline(always)]
+    pub(crate) fn close_pixels(&mut self, pixels: &PixelRows) {
+        let mut closed = [0; TILE_PX];
+        for row in 0..TILE_PX {
+            closed[row] = self.open_pixels[row] & pixels[row];
+            self.open_pixels[row] &= !pixels[row];
+        }
+        for window in 0..C {
+            let of_window = low_bits(Self::WINDOW_PX as u32) << (window * Self::WINDOW_PX);
+            let (mut open, mut part) = ([0; TILE_PX], [0; TILE_PX]);
+            for row in 0..TILE_PX {
+                let is_open = self.open_pixels[row] & of_window != 0;
+                open[row] = if is_open { 1 << row } else { 0 };
+                let is_part = is_open & (closed[row] & of_window != 0);
+                part[row] = if is_part { 1 << row } else { 0 };
+            }
+            self.open[window] &= open.iter().fold(0, |all, bit| all | bit);
+            for row in set_bits(part.iter().fold(0, |all, bit| all | bit)) {
+                self.set_samples(window, row % TILE_PX, closed[row % TILE_PX]);
+            }
+        }
+    }
+
+    /// Sets all samples of some pixels of a row in one window.
+    #[inline(always)]
+    fn set_samples(&mut self, window: usize, row: usize, pixels: u32) {
+        let pixels = pixels >> (window * Self::WINDOW_PX);
+        let mut mask = 0;
+        for pixel in 0..Self::WINDOW_PX {
+            mask |= (pixels >> pixel & 1) * (low_bits(C as u32) << (pixel * C));
+        }
+        for word in &mut self.shape[window][row] {
+            *word |= mask;
+        }
+        self.touched[window] |= 1 << row;
+    }
+
+    /// Stops recording full pixels, where recording costs more than covering them again.
+    pub(crate) fn skip_closing(&mut self) {
+        self.closes = false;
+    }
+
+    /// Number of open pixels.
+    pub(crate) fn open_count(&self) -> u32 {
+        self.open_pixels.iter().map(|row| row.count_ones()).sum()
+    }
+
+    /// Starts a tile that is full.
+    pub(crate) fn begin_full(&mut self) {
+        self.open = [0; C];
+        self.open_pixels = [0; TILE_PX];
+    }
+
+    /// Blocks with open pixels.
+    #[inline(always)]
+    pub(crate) fn open(&self) -> &DirtyBits<C> {
+        &self.open
+    }
+
+    /// Whether all visible pixels are full.
+    #[inline(always)]
+    pub(crate) fn is_full(&self) -> bool {
+        self.open.iter().fold(0, |all, open| all | open) == 0
+    }
+
+    /// Whether a box, in pixels, holds an open pixel.
+    #[inline(always)]
+    pub(crate) fn is_open(&self, min: Point<f32>, max: Point<f32>) -> bool {
+        // Casting a negative float gives 0, which clamps to the tile.
+        let end_row = (max.y as usize).saturating_add(1).min(TILE_PX);
+        let rows = &self.open_pixels[(min.y as usize).min(end_row)..end_row];
+        let open = rows.iter().fold(0, |all, open| all | open);
+        open & high_bits(min.x as u32) & low_bits((max.x as u32).saturating_add(1)) != 0
+    }
+
+    /// Adds a part of a stroke to the shape.
+    #[inline(always)]
+    pub(crate) fn stroke(&mut self, stroke: &impl RowCoverage, part: PixelBox) {
+        let PixelBox { rows, pixels } = part;
+        let is_wide = pixels.count_ones() > stroke.width_px().saturating_add(WIDE_PX);
+        for row in set_bits(rows) {
+            let pixels = if is_wide {
+                pixels & stroke.pixels(row)
+            } else {
+                pixels
+            };
+            if let Some(windows) = self.open_windows(row, pixels) {
+                let spans = stroke.spans(row);
+                self.add_all(windows, row, &spans);
+            }
+        }
+    }
+
+    /// The windows from the first to the last open one of some pixels of a row; none if all are
+    /// full.
+    #[inline(always)]
+    fn open_windows(&self, row: usize, pixels: u32) -> Option<Range<usize>> {
+        let open = self.open_pixels[row % TILE_PX] & pixels;
+        let end = C - open.leading_zeros() as usize / Self::WINDOW_PX;
+        (open != 0).then_some(open.trailing_zeros() as usize / Self::WINDOW_PX..end)
+    }
+
+    /// Adds the coverage of some windows of a row.
+    #[inline(always)]
+    fn add_all(&mut self, windows: Range<usize>, row: usize, spans: &RowSpans) {
+        for window in windows {
+            self.add(window, row % TILE_PX, spans);
+        }
+    }
+
+    #[inline(always)]
+    fn add(&mut self, window: usize, row: usize, spans: &RowSpans) {
+        let left = (window * WINDOW_COLUMNS) as u32;
+        let block = &mut self.shape[window][row];
+        let mut all = u32::MAX;
+        for ((word, &first), &end) in block.iter_mut().zip(&spans.first).zip(&spans.end) {
+            *word |= high_bits(first.max(left) - left) ^ high_bits(end.max(left) - left);
+            all &= *word;
+        }
+        self.touched[window] |= 1 << row;
+        if Self::IS_SOLID && self.closes {
+            self.close(window, row, all);
+        }
+    }
+
+    /// Records full pixels of a block; `all` has the samples that are covered in every row.
+    #[inline(always)]
+    fn close(&mut self, window: usize, row: usize, all: u32) {
+        let full = full_pixels::<C>(all);
+        self.open_pixels[row] &= !(full << (window * Self::WINDOW_PX));
+        if all == u32::MAX {
+            self.open[window] &= !(1 << row);
+        }
+    }
+
+    /// Composites a color where the shape is, below all colors before, and starts a new shape.
+    #[inline(always)]
+    pub(crate) fn composite(&mut self, color: Rgba) {
+        let [r, g, b] = [color.r, color.g, color.b].map(f32::from);
+        let ink = [r, g, b, 1.0];
+        let opacity = f32::from(color.a) / 255.0;
+        for window in 0..C {
+            for row in set_bits(std::mem::take(&mut self.touched[window])) {
+                let mut fresh = std::mem::take(&mut self.shape[window][row]);
+                for (new, old) in fresh.iter_mut().zip(&self.opaque[window][row]) {
+                    *new &= !old;
+                }
+                let weights = if color.is_opaque() && self.translucent[window] >> row & 1 == 0 {
+                    pixel_counts::<C>(&fresh).map(f32::from)
+                } else {
+                    self.blend_translucent(window, row, &fresh, opacity)
+                };
+                let sums = &mut self.sums[row][window * Self::WINDOW_PX..];
+                for (sum, weight) in sums.iter_mut().zip(weights).take(Self::WINDOW_PX) {
+                    for (sum, part) in sum.iter_mut().zip(ink) {
+                        *sum += part * weight;
+                    }
+                }
+                if color.is_opaque() {
+                    self.cover(window, row, &fresh);
+                }
+            }
+        }
+    }
+
+    /// Adds the samples of the shape to the `counts` of their pixels, and starts a new shape.
+    #[inline(always)]
+    pub(crate) fn count(&mut self, counts: &mut SampleCounts) {
+        for window in 0..C {
+            for row in set_bits(std::mem::take(&mut self.touched[window])) {
+                let shape = std::mem::take(&mut self.shape[window][row]);
+                let counts = &mut counts[row][window * Self::WINDOW_PX..];
+                let fresh = pixel_counts::<C>(&shape);
+                for (count, n) in counts.iter_mut().zip(fresh).take(Self::WINDOW_PX) {
+                    *count += u32::from(n);
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn cover(&mut self, window: usize, row: usize, fresh: &SampleBlock) {
+        let mut all = u32::MAX;
+        for (old, new) in self.opaque[window][row].iter_mut().zip(fresh) {
+            *old |= new;
+            all &= *old;
+        }
+        self.close(window, row, all);
+    }
+
+    /// Blends a translucent color: takes `opacity` of the transmittance at the samples of `fresh`
+    /// and returns the weight of the color per pixel.
+    #[inline(always)]
+    fn blend_translucent(
+        &mut self,
+        window: usize,
+        row: usize,
+        fresh: &SampleBlock,
+        opacity: f32,
+    ) -> [f32; MAX_WINDOW_PX] {
+        const ALL: Transmittance = [[1.0; WINDOW_COLUMNS]; ROWS];
+        if self.transmittance.is_empty() {
+            self.transmittance = vec![[ALL; TILE_PX]; C];
+        }
+        let block = &mut self.transmittance[window][row];
+        if self.translucent[window] >> row & 1 == 0 {
+            self.translucent[window] |= 1 << row;
+            *block = ALL;
+        }
+        let mut rows = 0_u32;
+        for (row, word) in fresh.iter().enumerate() {
+            rows |= u32::from(*word != 0) << row;
+        }
+        let rows = rows.trailing_zeros() as usize..(u32::BITS - rows.leading_zeros()) as usize;
+        // Column by column: a sum over neighbors would be a chain of dependent additions.
+        let mut taken = [[0.0; C]; MAX_WINDOW_PX];
+        for row in rows {
+            let (transmittance, word) = (&mut block[row % ROWS], fresh[row % ROWS]);
+            let (pixels, _) = transmittance.as_chunks_mut::<C>();
+            for (pixel, (transmittance, taken)) in pixels.iter_mut().zip(&mut taken).enumerate() {
+                let bits = word >> (pixel * C);
+                for column in 0..C {
+                    let is_taken = bits >> column & 1 == 1;
+                    let part = if is_taken {
+                        transmittance[column] * opacity
+                    } else {
+                        0.0
+                    };
+                    taken[column] += part;
+                    transmittance[column] -= part;
+                }
+            }
+        }
+        taken.map(|columns| columns.into_iter().sum())
+    }
+}

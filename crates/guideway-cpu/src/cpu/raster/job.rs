@@ -1,0 +1,55 @@
+//! Input of the raster stage: what all tiles of a band share, and the tile that is drawn.
+
+use guideway_scene::cluster::ClusterIndex;
+use guideway_spline::Point;
+
+use super::full_pixel_cache::{FullPixelBand, FullPixelLookup};
+use crate::cpu::bin::cull::VisibleClusters;
+use crate::cpu::bin::tile_lists::TileLists;
+use crate::cpu::flatten::line_cache::LineCache;
+use crate::cpu::ground::damage::{DamageMap, TileGrid};
+use crate::cpu::ground::frame_context::FrameContext;
+
+/// A band of the picture and what is drawn in it.
+#[derive(Clone, Copy)]
+pub(crate) struct BandJob<'a> {
+    pub(crate) ctx: &'a FrameContext<'a>,
+    pub(crate) grid: &'a TileGrid,
+    pub(crate) index: &'a ClusterIndex,
+    pub(crate) cache: &'a LineCache,
+    /// Draw rank of each path; none if the rank is the row.
+    pub(crate) ranks: Option<&'a [u32]>,
+    pub(crate) visible: &'a VisibleClusters,
+    pub(crate) lists: &'a TileLists,
+    /// The pixels that are drawn.
+    pub(crate) damage: &'a DamageMap,
+    /// Pixels that are known to be full.
+    pub(crate) full_pixels: FullPixelLookup<'a>,
+    /// Where the frame looks for pixels that stay full.
+    pub(crate) probe: Option<BandProbe<'a>>,
+    /// Half the stroke width in pixels, if all paths share one.
+    pub(crate) common_radius_px: Option<f64>,
+    /// Half the stroke width of the widest path, in pixels.
+    pub(crate) max_radius_px: f64,
+}
+
+/// A look for pixels that stay full in the frames to come.
+#[derive(Clone, Copy)]
+pub(crate) struct BandProbe<'a> {
+    /// The frame with inset strokes.
+    pub(crate) ctx: &'a FrameContext<'a>,
+    /// Receives the pixels.
+    pub(crate) found: &'a FullPixelBand,
+    /// Pixels that are known to stay full already.
+    pub(crate) full_pixels: FullPixelLookup<'a>,
+}
+
+/// The damaged part of a tile.
+pub(crate) struct Tile {
+    /// Index in the grid of the band.
+    pub(crate) index: usize,
+    /// Upper left corner of the damage, in pixels of the view.
+    pub(crate) corner: Point<f64>,
+    pub(crate) width_px: usize,
+    pub(crate) height_px: usize,
+}

@@ -1,0 +1,34 @@
+//! Raster stage: computes which samples of a tile its lines cover, and resolves the samples to
+//! pixels.
+//!
+//! | module                        | does                                                     |
+//! |-------------------------------|----------------------------------------------------------|
+//! | `tiles`                       | loops over the tiles of a band, on all threads           |
+//! | `job`                         | what the tiles of a band share; the tile that is drawn   |
+//! | `cluster_in_tile`             | the lines of one cluster relative to a tile              |
+//! | `layered`                     | several colors: strokes by descending draw rank          |
+//! | `line_batch`                  | 16 lines side by side: boxes, slopes, capsules           |
+//! | `capsule`, `caps`             | sample spans of one stroke; tables of its round caps     |
+//! | `fixed_point`                 | the same three in 16-bit integers                        |
+//! | `coverage_mask`, `bits`       | the samples of a tile as bits                            |
+//! | `resolve`, `background`       | coverage to RGBA                                         |
+//! | `full_pixel_cache`            | pixels known to stay full while the view zooms           |
+//! | `tile_rows`, `thread_scratch` | pixels and buffers of one thread                         |
+
+pub(super) mod background;
+pub(super) mod bits;
+pub(super) mod caps;
+pub(super) mod capsule;
+pub(super) mod cluster_in_tile;
+pub(super) mod coverage_mask;
+pub(super) mod fixed_point;
+pub(super) mod full_pixel_cache;
+pub(super) mod job;
+pub(super) mod layered;
+pub(super) mod line_batch;
+pub(super) mod resolve;
+#[cfg(test)]
+mod tests;
+pub(super) mod thread_scratch;
+pub(super) mod tile_rows;
+pub(super) mod tiles;
