@@ -3,6 +3,7 @@
 //!
 //! | Stage | Input | Output | File |
 //! |---|---|---|---|
+//! | parse | text such as `2x1.2,0.5` or `file` | source | `source_text` |
 //! | source | layout, vehicle or columns | headings, areas | `source`, `heading`, `file_area` |
 //! | follow | path and heading | curve pieces with headings | `path_follower`, `curve_piece` |
 //! | bound | curve pieces and body | convex polygons | `sweep`, `hull`, `body`, `convex` |

@@ -1,4 +1,4 @@
-//! Parses the text form of a [`EnvelopeSource`]: `LENGTHxWIDTH`, `LENGTHxWIDTH,REAR` or `file`.
+//! Parses the text form of an [`EnvelopeSource`]: `LENGTHxWIDTH`, `LENGTHxWIDTH,REAR` or `file`.
 
 use std::error::Error;
 use std::fmt;
@@ -9,7 +9,7 @@ use crate::{Body, EnvelopeSource};
 /// Longest accepted side of a vehicle, in meters: a larger value is a mistake in the unit.
 const MAX_SIDE_M: f64 = 100.0;
 
-/// The text is no [`EnvelopeSource`].
+/// A text that does not describe an [`EnvelopeSource`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SourceError;
 
