@@ -2,7 +2,7 @@
 
 use guideway_spline::{Affine, Bounds, Point};
 
-/// Box of the control points of some rows, in meters; none if they have no points.
+/// Box of the control points of some rows, in meters; `None` without points.
 pub type MemberHull = Option<Bounds<f64>>;
 
 /// Bounding box of a cluster, in meters, and the origin of its local coordinates.

@@ -34,7 +34,7 @@ pub trait RowHulls: Sync {
 pub struct PendingEdit {
     cluster: u32,
     members: Members,
-    /// Hull of those members; none if it was not looked up.
+    /// Hull of those members; `None` if it was not looked up.
     from: Option<MemberHull>,
 }
 
@@ -111,7 +111,7 @@ impl ClusterIndex {
         self.apply_edit(&pending.collect::<Vec<_>>(), None, hulls)
     }
 
-    /// The bounds of a cluster after an edit; a look at all members only if nothing less suffices.
+    /// The bounds of a cluster after an edit. Looks at all members only if it has to.
     fn updated(
         &self,
         edit: &PendingEdit,
@@ -143,7 +143,7 @@ impl ClusterIndex {
         edit.members.count_ones() as usize == self.rows_of(edit.cluster).len()
     }
 
-    /// Hull of some members of a cluster; none if they are more than a few.
+    /// Hull of some members of a cluster; `None` if they are more than a few.
     fn hull_of_few(
         &self,
         cluster: u32,

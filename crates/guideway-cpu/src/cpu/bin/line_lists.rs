@@ -23,7 +23,7 @@ use crate::cpu::ground::tile::TILE_PX;
 /// Fewest tiles of a cluster whose lines are listed. Measured: below, the lists cost more than they
 /// save.
 const MIN_TILES: usize = 64;
-/// Most lines per tile of such a cluster: of more, each tile looks at all pieces instead.
+/// Most lines per tile of such a cluster: with more, each tile tests all pieces instead.
 const MAX_LINES_PER_TILE: usize = 8;
 /// Distance from a stroke, in pixels, up to which a tile counts as touched: more than the
 /// rasterizer rounds a line by.
@@ -75,8 +75,8 @@ impl LineLists {
         }
     }
 
-    /// Lists the lines of all clusters that span many tiles; of none if there are more than `max`
-    /// ranges.
+    /// Lists the lines of all clusters that span many tiles, or of no cluster if that takes more
+    /// than `max` ranges.
     pub(crate) fn find(&mut self, input: BinInput<'_>, max: usize) {
         let is_wide = |cluster: &VisibleCluster| {
             let tiles = cluster.columns().len() * cluster.rows().len();

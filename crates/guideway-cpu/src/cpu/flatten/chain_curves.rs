@@ -25,7 +25,7 @@ const LONG: f32 = 1024.0;
 /// pass pays.
 const ENDS: [usize; PASSES] = [8, 16, 24, 36, 64];
 
-/// Which run follows which, and the order of the chains.
+/// Followers of runs, and the order of the chains.
 #[derive(Default)]
 pub(crate) struct CurveChains {
     /// The run that follows each run.

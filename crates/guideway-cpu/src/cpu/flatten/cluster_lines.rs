@@ -26,8 +26,8 @@ pub(crate) enum ClusterLines {
     /// Not flattened.
     #[default]
     None,
-    /// Vertices in units of so many meters from the origin of the cluster, y down: valid for every
-    /// view of that unit.
+    /// Vertices relative to the origin of the cluster, y down, with their unit in meters: valid for
+    /// every view of that unit.
     Cached(f64, Polylines<i16>),
     /// Vertices in pixels of one frame, clipped at the picture: of clusters too large for 16 bits.
     Clipped(Polylines<f32>),
@@ -140,7 +140,7 @@ fn count_within(lines: &Polylines<i16>, within: &Bounds<f32>, counts: &mut [u32;
     *counts = lines.count_within(within);
 }
 
-/// Where center lines touch the picture, in units from the origin of a cluster, y down.
+/// Box of the center lines that touch the picture, in units from the origin of a cluster, y down.
 fn clip_units(ctx: &FrameContext<'_>, origin_px: Point<f64>, unit_m: f64) -> Bounds<f32> {
     let units_per_px = 1.0 / (ctx.view.px_per_m() * unit_m);
     let clip = ctx.clip_px();

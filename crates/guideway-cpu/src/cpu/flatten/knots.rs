@@ -51,7 +51,7 @@ pub(crate) struct Knots {
 }
 
 impl CurveRun {
-    /// A run of one member; none if it has no segment.
+    /// A run of one member; `None` without a segment.
     pub(crate) fn new(member: usize, points: Range<usize>) -> Option<Self> {
         (points.len() >= 4).then_some(Self {
             member: 1 << member,

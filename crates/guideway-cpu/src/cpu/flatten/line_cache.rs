@@ -21,7 +21,7 @@ pub(crate) struct LineCache {
     pub(crate) bytes: u64,
 }
 
-/// What the cached lines of a cluster are valid for.
+/// State of the cached lines of a cluster: the views that they are valid for.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct LineState {
     /// Key of the views that can draw them; the default key is that of no view.

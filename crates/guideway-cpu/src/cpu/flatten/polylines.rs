@@ -1,4 +1,4 @@
-//! Polylines of a cluster, laid out for SIMD: coordinates, pieces with boxes, and passes of pieces.
+//! Polylines of a cluster in a layout for SIMD: coordinates, pieces with boxes, passes of pieces.
 
 use std::ops::Range;
 

@@ -19,7 +19,7 @@ pub(crate) struct PreparedClusters {
 /// Styles of all drawn paths, as far as stages choose their work by them.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct StyleSummary {
-    /// Draw rank of each path; none if the rank is the row.
+    /// Draw rank of each path; `None` if ranks are rows.
     pub(crate) ranks: Option<Vec<u32>>,
     pub(crate) own_widths: OwnWidths,
     /// The color of all paths, if it is one and opaque.

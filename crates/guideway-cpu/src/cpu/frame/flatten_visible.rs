@@ -18,7 +18,7 @@ use crate::cpu::ground::scene_hulls::prefetch_paths;
 
 /// Why a band was not drawn.
 pub(crate) enum DrawError {
-    /// Lines or lists exceed the memory limit: they need at least so many bytes.
+    /// Lines or lists exceed the memory limit: lower bound of the bytes they need.
     OverBudget(u64),
     Failed(RenderError),
 }

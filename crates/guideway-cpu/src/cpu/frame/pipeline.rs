@@ -49,11 +49,11 @@ pub(crate) struct FramePipeline {
 pub(crate) struct FrameTarget<'a, 'p> {
     pub(crate) ctx: &'a FrameContext<'a>,
     pub(crate) frame: &'p mut Frame,
-    /// What undamaged pixels show.
+    /// Pixels of the undamaged parts.
     pub(crate) cached: Option<&'a PictureCache>,
     /// Pixels that are known to be full.
     pub(crate) full_pixels: FullPixelLookup<'a>,
-    /// Where the frame looks for pixels that stay full, and those that are known to.
+    /// Band that receives full pixels, and the pixels that are known to stay full.
     pub(crate) probe: Option<(&'a FullPixelBand, FullPixelLookup<'a>)>,
     /// Most bytes of lines and lists.
     pub(crate) limit_bytes: u64,

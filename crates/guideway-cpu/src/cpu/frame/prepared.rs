@@ -320,7 +320,7 @@ impl CpuPrepared {
         self.full_pixels.lookup(&ctx, 0.0).count(&ctx)
     }
 
-    /// Lists lines per tile for clusters of at least so many tiles.
+    /// Lists lines per tile for clusters of `min_tiles` tiles or more.
     pub(crate) fn list_lines_from(&mut self, min_tiles: usize) {
         self.pipeline.lists.line_lists.min_tiles = min_tiles;
     }

@@ -1,4 +1,5 @@
-//! What one frame draws: scene, view, strip and style, and the widths and scales derived from them.
+//! Frame context: scene, view, strip and style of one frame, and the widths and scales derived from
+//! them.
 
 use std::ops::Range;
 
@@ -52,7 +53,7 @@ const MARGIN_PX: f64 = 1.0 / 16.0;
 /// view, and the rims of pixels that the look-up leaves out.
 const FULL_PIXEL_INSET_PX: f64 = 0.25;
 
-/// Least and greatest own width of the drawn paths, in meters; none if no path has an own width.
+/// Least and greatest own width of the drawn paths, in meters; `None` without own widths.
 pub(crate) type OwnWidths = Option<(f32, f32)>;
 
 /// The frame that is being drawn.
@@ -69,8 +70,8 @@ pub(crate) struct FrameContext<'a> {
     pub(crate) simd: SimdLevel,
     /// The color of all paths, if it is one and opaque.
     pub(crate) solid: Option<Rgba>,
-    /// Zoom factor up to which every stroke has to be at least as wide as it is drawn; none for the
-    /// stroke widths of the view itself.
+    /// Zoom factor up to which every stroke has to be at least as wide as it is drawn; `None` draws
+    /// the stroke widths of the view.
     pub(crate) inset_for_zoom: Option<f64>,
 }
 
@@ -176,8 +177,8 @@ impl FrameContext<'_> {
         }
     }
 
-    /// Where center lines touch the picture, in pixels. One pixel more keeps the caps of lines that
-    /// are clipped there out of the picture.
+    /// Box of the center lines that touch the picture, in pixels. One pixel more keeps the caps of
+    /// lines that are clipped there out of the picture.
     pub(crate) fn clip_px(&self) -> Bounds<f64> {
         self.picture_px().inflated(self.max_radius_px() + 1.0)
     }

@@ -82,7 +82,7 @@ fn half_chord<const C: usize>(radius: f32, off_phases: i32) -> f32 {
     if is_beside { NONE } else { half }
 }
 
-/// Tables kept at a time, for paths with own widths.
+/// Tables held at a time, for paths with own widths.
 const TABLES: usize = 3;
 
 /// The tables of the last few radii.

@@ -134,7 +134,7 @@ impl<'a, const C: usize> ClusterInTile<'a, C> {
         self.job.index.rows_of(self.visible.cluster)[member]
     }
 
-    /// Where lines may touch the tile, in the unit of their vertices.
+    /// Box in which lines may touch the tile, in the unit of their vertices.
     #[inline(always)]
     fn tile_box<T>(&self, mapped: &TileLines<'_, T, C>) -> Bounds<f32> {
         let reach = columns::<C>(self.job.max_radius_px + 1.0 / 16.0);

@@ -255,7 +255,7 @@ impl<const C: usize> CoverageMask<C> {
         }
     }
 
-    /// The windows from the first to the last open one of some pixels of a row; none if all are
+    /// The windows from the first to the last open one of some pixels of a row; `None` if all are
     /// full.
     #[inline(always)]
     fn open_windows(&self, row: usize, pixels: u32) -> Option<Range<usize>> {

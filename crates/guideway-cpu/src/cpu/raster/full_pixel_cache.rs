@@ -42,7 +42,7 @@ const MIN_VISIBLE_SHARE: f64 = 0.9;
 /// Rim of a pixel that the look-up leaves out, in pixels of the band. The inset of strokes allows
 /// for it.
 const SIDE_PX: f64 = 1.0 / 64.0;
-/// Results kept per band, of different scales: a zoom often comes back.
+/// Results held per band, of different scales: a zoom often comes back.
 const BANDS_KEPT: usize = 16;
 /// Pixels per word.
 const WORD_PX: i64 = u32::BITS as i64;

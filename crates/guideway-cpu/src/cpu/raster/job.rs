@@ -17,7 +17,7 @@ pub(crate) struct BandJob<'a> {
     pub(crate) grid: &'a TileGrid,
     pub(crate) index: &'a ClusterIndex,
     pub(crate) cache: &'a LineCache,
-    /// Draw rank of each path; none if the rank is the row.
+    /// Draw rank of each path; `None` if ranks are rows.
     pub(crate) ranks: Option<&'a [u32]>,
     pub(crate) visible: &'a VisibleClusters,
     pub(crate) lists: &'a TileLists,
@@ -25,7 +25,7 @@ pub(crate) struct BandJob<'a> {
     pub(crate) damage: &'a DamageMap,
     /// Pixels that are known to be full.
     pub(crate) full_pixels: FullPixelLookup<'a>,
-    /// Where the frame looks for pixels that stay full.
+    /// Probe for pixels that stay full.
     pub(crate) probe: Option<BandProbe<'a>>,
     /// Half the stroke width in pixels, if all paths share one.
     pub(crate) common_radius_px: Option<f64>,

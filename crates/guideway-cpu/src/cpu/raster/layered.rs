@@ -24,7 +24,7 @@ const STROKES_PER_SHAPE: usize = 32;
 #[derive(Clone, Copy, PartialEq)]
 struct Layer {
     color: Rgba,
-    /// The only path of the shape; none if several paths of one opaque color share it.
+    /// The only path of the shape; `None` if several paths of one opaque color share it.
     alone: Option<u32>,
 }
 
@@ -34,7 +34,7 @@ pub(crate) struct LayeredTile<'a> {
     tile: &'a Tile,
     mask: &'a mut CoverageMask<LAYERED>,
     cap_tables: &'a mut CapTables<LAYERED>,
-    /// Where shapes are counted instead of composited.
+    /// Sample counts, if shapes are counted instead of composited.
     counts: Option<&'a mut SampleCounts>,
     x: [[f32; LANES]; 2],
     y: [[f32; LANES]; 2],

@@ -30,7 +30,7 @@ pub(crate) struct LineBatch<const C: usize> {
     radius: f32,
 }
 
-/// What the capsules have beside their ends.
+/// Slopes and border offsets of the capsules.
 pub(crate) struct LineSlopes {
     phases: [[i32; LANES]; 2],
     slope: [f32; LANES],

@@ -26,8 +26,7 @@ pub(crate) struct FixedCapTable {
     rows_above: i32,
 }
 
-/// Where the half chords for one center are: those of all rows, and those of the first row of
-/// pixels.
+/// Positions of the half chords for one center: of all rows, and of the first row of pixels.
 #[derive(Clone, Copy)]
 pub(crate) struct CapRows {
     first: i32,

@@ -30,7 +30,7 @@ pub(crate) fn pixel_of(at: i16) -> u16 {
 
 /// Borders of the strokes between their caps, one stroke per lane: left, then right.
 pub(crate) struct Borders {
-    /// Where they leave the upper cap. Borders of level lines are in no row.
+    /// Points where they leave the upper cap. Borders of level lines are in no row.
     x: [[i16; LANES]; 2],
     y: [[i16; LANES]; 2],
     /// Height from there to the lower cap.
@@ -94,7 +94,7 @@ pub(crate) struct FixedCapsule {
     x: [i16; 2],
     y: [i16; 2],
     caps: [CapRows; 2],
-    /// Where its borders leave the upper cap, and where they reach the lower one.
+    /// Points where its borders leave the upper cap and reach the lower one.
     border_x: [i16; 2],
     border_y: [i16; 2],
     border_end: [i16; 2],
