@@ -77,7 +77,7 @@ impl<'a> Mapper<'a> {
         if ignored > 0 {
             let message = || {
                 format!(
-                    "{ignored} properties exceed the limit of {MAX_COLUMNS} columns or of name length"
+                    "{ignored} properties exceed the limit of {MAX_COLUMNS} columns or of names"
                 )
             };
             let remedy = "They are ignored; remove properties, or shorten their names";

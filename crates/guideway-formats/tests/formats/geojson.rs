@@ -217,7 +217,8 @@ fn draws_every_geometry_type() {
     let layout = collection(&format!(
         r#"{}, {}, {}, {}, {}, {},
            {{"id": "C", "type": "Feature", "properties": null, "geometry":
-             {{"type": "GeometryCollection", "geometries": [{{"type": "Point", "coordinates": [7, 7]}},
+             {{"type": "GeometryCollection", "geometries": [{{"type": "Point",
+                             "coordinates": [7, 7]}},
                             {{"type": "LineString", "coordinates": [[0, 0], [7, 7]]}}]}}}}"#,
         feature(r#""id": "P""#, "Point", "[1, 2, 30]"),
         feature(r#""id": "PP""#, "MultiPoint", "[[1, 2], [3, 4]]"),
