@@ -18,12 +18,6 @@ pub enum DeviceError {
         /// Name and reason of each adapter.
         reasons: String,
     },
-    /// The device lacks features or limits that a method needs.
-    #[error("{reason}")]
-    Unsupported {
-        /// The limit and the need.
-        reason: String,
-    },
     /// The driver rejected a shader.
     #[error("the shader `{name}` cannot be compiled: {message}")]
     Shader {

@@ -88,8 +88,8 @@ impl Kernel {
     }
 }
 
-/// Compiles a shader without run-time checks of its memory accesses: they take a fifth of the time
-/// of a frame (measured: docs/performance/gpu.md, 3).
+/// Compiles a shader without run-time checks of its memory accesses. Measured: the checks take a
+/// fifth of the time of a frame.
 #[allow(
     unsafe_code,
     reason = "wgpu omits the checks only for trusted shaders: those of this crate bound every \

@@ -1,5 +1,5 @@
 //! GPU rasterizer: flattens curves to lines, bins them into 16 px tiles, and resolves 64 samples
-//! per pixel, every frame from the control points. docs/method-gpu.md describes the method.
+//! per pixel, every frame from the control points. docs/pipeline.md describes the method.
 //!
 //! | stage | input | output | Rust, shaders |
 //! |---|---|---|---|
