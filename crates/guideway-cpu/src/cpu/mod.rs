@@ -46,11 +46,12 @@ use std::sync::Arc;
 
 use guideway_scene::{Budget, Method, MethodInfo, Prepared, RenderError, Scene};
 
+use frame::memory::NAME;
+use frame::prepared::CpuPrepared;
+
 /// The fast render method without a GPU.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Cpu;
-
-const NAME: &str = "cpu";
 
 impl Method for Cpu {
     fn info(&self) -> MethodInfo {
@@ -67,6 +68,6 @@ impl Method for Cpu {
         scene: Arc<Scene>,
         budget: &Budget,
     ) -> Result<Box<dyn Prepared>, RenderError> {
-        Ok(Box::new(frame::prepared::CpuPrepared::new(scene, budget)?))
+        Ok(Box::new(CpuPrepared::new(scene, budget)?))
     }
 }

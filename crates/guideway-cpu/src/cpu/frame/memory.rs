@@ -4,9 +4,11 @@ use guideway_scene::{Budget, RenderError, Scene, Shading, Strip, Style};
 
 use super::clusters::PreparedClusters;
 use super::picture_cache::PictureCache;
-use crate::cpu::NAME;
 use crate::cpu::raster::full_pixel_cache::{FullPixelBand, FullPixelCache};
 use crate::cpu::raster::thread_scratch::ThreadScratch;
+
+/// Name of the method in options, errors and reports.
+pub(crate) const NAME: &str = "cpu";
 
 /// Memory of a frame.
 pub(crate) struct FrameMemory {

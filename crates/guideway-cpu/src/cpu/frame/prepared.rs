@@ -14,10 +14,9 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::clusters::{PreparedClusters, StyleSummary};
 use super::flatten_visible::DrawError;
-use super::memory::{FrameMemory, fixed_bytes, over_budget, threads};
+use super::memory::{FrameMemory, NAME, fixed_bytes, over_budget, threads};
 use super::picture_cache::PictureCache;
 use super::pipeline::{FramePipeline, FrameTarget};
-use crate::cpu::NAME;
 use crate::cpu::ground::frame_context::FrameContext;
 use crate::cpu::ground::simd::SimdLevel;
 use crate::cpu::ground::snapped_view::SnappedTransform;
