@@ -28,10 +28,10 @@ pub struct Available {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum MethodError {
     /// No method has this name.
-    #[error("unknown method `{asked}`; known are: {}", .known.join(", "))]
+    #[error("unknown method `{requested}`; known are: {}", .known.join(", "))]
     Unknown {
         /// The requested name.
-        asked: String,
+        requested: String,
         /// The known names.
         known: Vec<&'static str>,
     },
@@ -131,7 +131,7 @@ pub fn method(spec: &str) -> Result<Box<dyn Method>, MethodError> {
     match ENTRIES.iter().find(|entry| entry.name == name) {
         Some(entry) => start(entry, options),
         None => Err(MethodError::Unknown {
-            asked: name.to_owned(),
+            requested: name.to_owned(),
             known: std::iter::once(AUTO).chain(method_names()).collect(),
         }),
     }
@@ -146,7 +146,7 @@ fn automatic(options: &str) -> Result<Box<dyn Method>, MethodError> {
         }
     }
     Err(unavailable.unwrap_or_else(|| MethodError::Unknown {
-        asked: AUTO.to_owned(),
+        requested: AUTO.to_owned(),
         known: method_names().collect(),
     }))
 }

@@ -20,12 +20,12 @@ pub(super) fn bytes(files: &[CheckedFile], exit: Exit) -> Result<Vec<u8>, UserEr
         file.found.iter().map(result)
     });
     let all: u64 = kinds.iter().map(|(_, count)| count).sum();
-    let kept: usize = files.iter().map(|file| file.found.iter().count()).sum();
+    let listed: usize = files.iter().map(|file| file.found.iter().count()).sum();
     let mut invocation = json!({ "executionSuccessful": true, "exitCode": exit.code() });
-    if all > kept as u64 {
+    if all > listed as u64 {
         let text = format!(
             "{} findings of very frequent kinds are left out",
-            all - kept as u64
+            all - listed as u64
         );
         let note = json!({ "level": "note", "message": { "text": text } });
         invocation["toolExecutionNotifications"] = json!([note]);
