@@ -18,7 +18,7 @@ const HELP: &str = "\
 cargo xtask test        everything: format, lints, all tests, docs, licenses (what CI runs)
 cargo xtask quick       format, lints and tests, without installing anything
 cargo xtask style [WORD]
-                        circles of modules and breaches of the style rules, in files whose name has WORD
+                        module circles and breaches of the style rules (in files named WORD)
 cargo xtask fuzz [MINUTES [TARGET...]]
                         each fuzz target for that time (default: 1)
 cargo xtask soak [MINUTES [SEED [FILE]]]

@@ -42,11 +42,11 @@ pub enum ComposeError {
 pub struct ImageError {
     /// The image file.
     pub path: PathBuf,
-    /// What went wrong.
+    /// The failure.
     pub problem: ImageProblem,
 }
 
-/// What went wrong with an image.
+/// A failure to read an image.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ImageProblem {

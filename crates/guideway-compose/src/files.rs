@@ -19,7 +19,7 @@ pub struct SaveError {
 }
 
 impl SaveError {
-    /// What the user can do about it.
+    /// Advice for the user.
     pub fn remedy(&self) -> &'static str {
         match self.problem.kind() {
             io::ErrorKind::NotFound => "Create the folder first, or check its spelling",

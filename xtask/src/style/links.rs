@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::Violation;
+use super::violation::Violation;
 
 /// Finds relative links of a Markdown file at `name` whose target does not exist below `top`.
 pub fn check_links(top: &Path, name: &str, text: &str) -> Vec<Violation> {

@@ -1,6 +1,6 @@
 //! The rules, applied to one file.
 
-use super::Violation;
+use super::violation::Violation;
 use super::words::FORBIDDEN;
 
 /// Widest line of code, comments and prose, in characters.
@@ -107,10 +107,16 @@ fn has_header(text: &str) -> bool {
         .is_some_and(|line| line.starts_with("//!"))
 }
 
+/// Tables cannot be wrapped, in Markdown as in documentation comments.
 fn is_too_wide(line: &str, kind: Kind, in_fence: bool) -> bool {
-    let is_exempt = kind == Kind::Markdown
-        && (in_fence || line.trim_start().starts_with('|') || line.contains("]("));
-    !is_exempt && line.chars().count() > MAX_COLUMNS && !line.contains("http")
+    let text = line
+        .trim_start()
+        .trim_start_matches(['/', '!'])
+        .trim_start();
+    let is_exempt = text.starts_with('|')
+        || line.contains("http")
+        || kind == Kind::Markdown && (in_fence || line.contains("]("));
+    !is_exempt && line.chars().count() > MAX_COLUMNS
 }
 
 /// The prose of a line: the text of a comment, or a line of Markdown.

@@ -23,7 +23,7 @@ pub(crate) struct PlacedDecorations {
     pub(crate) marks: DrawList,
     /// Over everything, with the label of each SVG group.
     pub(crate) margin: Vec<(DrawList, &'static str)>,
-    /// What is left out, for the report.
+    /// Decorations that are left out, for the report.
     pub(crate) notes: Vec<String>,
 }
 

@@ -1,3 +1,5 @@
+//! Clearances between pairs of paths.
+
 use guideway_layout::{
     Code, Diagnostics, DisplayPosition, Layout, element_name, element_place, same_curves,
 };

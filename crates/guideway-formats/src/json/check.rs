@@ -180,7 +180,7 @@ impl Builder<'_> {
     }
 }
 
-/// Iterates over the items of an array with their indices; over none if the field is not an array.
+/// Iterates over the items of an array with their indices. A field that is not an array has none.
 pub(crate) fn items<T>(
     list: &Field<Vec<Field<T>>>,
 ) -> impl ExactSizeIterator<Item = (usize, &Field<T>)> {

@@ -35,8 +35,8 @@ impl<'t, T> FromJson<'t> for LazyArray<'t, T> {
 }
 
 impl<'t, T: FromJson<'t>> Field<LazyArray<'t, T>> {
-    /// Returns a cursor over the items; `file` is the whole text. There are none if the field is
-    /// not an array.
+    /// Returns a cursor over the items; `file` is the whole text. A field that is not
+    /// an array has none.
     pub(crate) fn items(&self, file: &'t str) -> LazyItems<'t, T> {
         LazyItems {
             file,

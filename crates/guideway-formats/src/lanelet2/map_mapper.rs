@@ -133,8 +133,8 @@ impl<'a, 'd, 't> MapMapper<'a, 'd, 't> {
             let detail = "its left or right bound is not a way of the file";
             return self.refuse(lanelet, Code::UnknownNode, detail);
         };
-        // Lanelets share bounds, so many of them could read a few long bounds without end: every
-        // read is charged to the budget of control points.
+        // Lanelets share bounds, and a million lanelets could each read the same long bounds: the
+        // budget of control points pays for every read.
         if self.base.builder.points_left == 0 {
             let detail = self.base.builder.point_budget_exceeded();
             return self.refuse(lanelet, Code::Implausible, &detail);
