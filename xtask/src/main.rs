@@ -3,7 +3,6 @@
 mod prerequisites;
 mod step;
 
-use std::path::Path;
 use std::process::ExitCode;
 use std::sync::LazyLock;
 
@@ -121,9 +120,9 @@ fn soak(args: &[String]) -> Result<()> {
         .run()
 }
 
-/// Prints what `xtask/tests` would fail on.
+/// Prints the breaches of the repository in the current folder, on which `xtask/tests` fails.
 fn style(word: &str) -> Result<()> {
-    let top = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let top = std::env::current_dir()?;
     let circles = workspace_circles(&top)?;
     let circles = circles
         .iter()

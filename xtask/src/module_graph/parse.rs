@@ -22,8 +22,10 @@ pub struct Module {
     pub used: BTreeSet<Vec<String>>,
     /// Methods of inherent implementations: type and method.
     pub methods: Vec<(String, String)>,
-    /// Names of the methods that its code calls.
-    pub calls: BTreeSet<String>,
+    /// Names of the methods of traits and of their implementations.
+    pub trait_methods: BTreeSet<String>,
+    /// Names of the methods that its code calls on `self`.
+    pub self_calls: BTreeSet<String>,
 }
 
 /// One name of a `use` declaration.
@@ -198,13 +200,21 @@ impl<'ast> Visit<'ast> for Collector<'_> {
         if is_test(&item.attrs) {
             return;
         }
-        if let (None, syn::Type::Path(of)) = (&item.trait_, &*item.self_ty)
-            && let Some(last) = of.path.segments.last()
-        {
-            for part in &item.items {
-                if let syn::ImplItem::Fn(method) = part {
-                    let name = method.sig.ident.to_string();
-                    self.0.methods.push((last.ident.to_string(), name));
+        let of = match &*item.self_ty {
+            syn::Type::Path(of) => of.path.segments.last(),
+            _ => None,
+        };
+        for part in &item.items {
+            let syn::ImplItem::Fn(method) = part else {
+                continue;
+            };
+            let name = method.sig.ident.to_string();
+            match of {
+                Some(of) if item.trait_.is_none() => {
+                    self.0.methods.push((of.ident.to_string(), name));
+                }
+                _ => {
+                    self.0.trait_methods.insert(name);
                 }
             }
         }
@@ -217,6 +227,11 @@ impl<'ast> Visit<'ast> for Collector<'_> {
         }
     }
 
+    fn visit_trait_item_fn(&mut self, item: &'ast syn::TraitItemFn) {
+        self.0.trait_methods.insert(item.sig.ident.to_string());
+        visit::visit_trait_item_fn(self, item);
+    }
+
     fn visit_path(&mut self, path: &'ast syn::Path) {
         let names = path.segments.iter().map(|s| s.ident.to_string());
         self.0.used.insert(names.collect());
@@ -224,7 +239,9 @@ impl<'ast> Visit<'ast> for Collector<'_> {
     }
 
     fn visit_expr_method_call(&mut self, call: &'ast syn::ExprMethodCall) {
-        self.0.calls.insert(call.method.to_string());
+        if matches!(&*call.receiver, syn::Expr::Path(path) if path.path.is_ident("self")) {
+            self.0.self_calls.insert(call.method.to_string());
+        }
         visit::visit_expr_method_call(self, call);
     }
 

@@ -54,8 +54,9 @@ pub fn arrows(modules: &[Module]) -> Vec<Arrow> {
     arrows.collect()
 }
 
-/// Calls of methods that are implemented in another file than their type: the file that calls, and the
-/// one that implements. Only methods whose name is unique in the crate are known by their name.
+/// Calls of `self.method()` where the method is implemented in another file than its type: the file
+/// that calls, and the one that implements. Methods are known by their name, where it is unique in the
+/// crate.
 fn distant_methods<'a>(
     found: &Crate<'a>,
     modules: &'a [Module],
@@ -66,6 +67,8 @@ fn distant_methods<'a>(
             by_name.entry(method).or_default().push((module, of));
         }
     }
+    let is_of_trait = |name: &str| modules.iter().any(|m| m.trait_methods.contains(name));
+    by_name.retain(|name, _| !is_of_trait(name));
     let mut calls = Vec::new();
     for (name, implementations) in by_name {
         let [(module, of)] = implementations[..] else {
@@ -75,7 +78,7 @@ fn distant_methods<'a>(
         if owner.is_none_or(|(owner, _)| owner.file == module.file) {
             continue;
         }
-        let callers = modules.iter().filter(|user| user.calls.contains(name));
+        let callers = modules.iter().filter(|user| user.self_calls.contains(name));
         calls.extend(callers.map(|user| (user, (module, format!("{of}::{name}")))));
     }
     calls

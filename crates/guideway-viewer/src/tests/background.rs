@@ -169,7 +169,7 @@ fn picture_shows_an_edit_before_its_task_ends() {
         rest.recv().expect("the test holds the sender");
         done
     });
-    let drawn = |app: &crate::App| {
+    let drawn = |app: &crate::app::App| {
         app.files.layers()[0]
             .picture
             .shown()
@@ -186,7 +186,7 @@ fn picture_shows_an_edit_before_its_task_ends() {
 fn swept_areas_follow_the_selection() {
     let mut window = TestWindow::showing(lanes(4));
     let of = |rows: &'static [u32]| {
-        move |app: &crate::App, disk: &TestServices| {
+        move |app: &crate::app::App, disk: &TestServices| {
             let drawn = disk.swept.lock().unwrap();
             app.swept_areas.shown().is_some() && *drawn == rows
         }

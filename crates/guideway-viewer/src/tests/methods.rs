@@ -10,7 +10,7 @@ const NONE: Modifiers = Modifiers::NONE;
 const CTRL: Modifiers = Modifiers::COMMAND;
 
 /// The method that rendered the picture of the first file.
-fn rendered_by(app: &crate::App) -> Option<&'static str> {
+fn rendered_by(app: &crate::app::App) -> Option<&'static str> {
     Some(app.files.layers()[0].picture.shown()?.report.method)
 }
 

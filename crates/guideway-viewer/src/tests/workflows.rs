@@ -265,7 +265,7 @@ fn clicks_alternate_between_the_paths_of_a_reverse_pair() {
 }
 
 /// The path under the pointer.
-fn hovered_path(app: &crate::App) -> Option<u32> {
+fn hovered_path(app: &crate::app::App) -> Option<u32> {
     app.tools.hovered(app.document()).map(|hit| hit.path)
 }
 
@@ -306,7 +306,7 @@ fn hiding_and_display_settings_update_the_picture() {
     let at = window.at(5.0, 2.0);
     window.click(at);
     window.key(NONE, Key::H);
-    let drawn = |app: &crate::App, count| {
+    let drawn = |app: &crate::app::App, count| {
         app.files.layers()[0]
             .picture
             .shown()
