@@ -246,7 +246,7 @@ fn plain_is_the_default() {
 #[test]
 fn each_decoration_changes_png_and_svg() {
     let folder = tempfile::tempdir().unwrap();
-    let view = ["--size", "640x360", "--center", "40,16", "--scale", "20"];
+    let view = ["--size", "640x360", "--center", "40,8", "--scale", "20"];
     let files = |more: &[&str]| {
         ["a.png", "a.svg"].map(|name| {
             let picture = folder.path().join(name);
