@@ -1,3 +1,5 @@
+//! Measures the methods of a contest side by side and returns the comparison.
+
 use std::sync::Arc;
 
 use guideway_scene::Scene;
@@ -5,89 +7,90 @@ use guideway_scene::{Budget, Cancel, FrameSize, Method, RenderError, Shading, St
 use serde::{Deserialize, Serialize};
 
 use crate::edits::{Edits, Moves};
-use crate::measured::Fault;
-use crate::runner::{Frames, Runner, Shot};
+use crate::measured::MeasureError;
+use crate::runner::{FrameRequest, Frames, Runner};
+use crate::start::{Start, StartError};
 use crate::zoomed_view::zoomed_view;
-use crate::{Dress, Machine, Motion, Outcome, Row, Start, interleaved};
+use crate::{Machine, Motion, Outcome, Row, StylePreset, interleaved};
 
 /// One case in which methods are compared.
 #[derive(Clone, Debug)]
 pub struct Contest {
-    /// What the scene is called: `d1`, `d2` or the name of a file.
+    /// Name of the scene: `d1`, `d2` or a file name.
     pub name: String,
-    /// What is drawn.
+    /// Scene to draw.
     pub scene: Arc<Scene>,
-    /// How it was dressed, for the record.
-    pub dress: Dress,
-    /// Methods with their options; ratios are to the first.
+    /// Style preset of the scene, for the report.
+    pub style_preset: StylePreset,
+    /// Methods with their options; ratios are relative to the first.
     pub methods: Vec<String>,
     /// Size of the picture.
     pub size: FrameSize,
-    /// How many times nearer the busiest place than where all is seen; 1 to see all, less for farther away.
+    /// Zoom factor about the densest point; 1 shows all paths, less zooms out.
     pub magnify: f64,
-    /// What changes from frame to frame.
+    /// Change from frame to frame.
     pub motion: Motion,
-    /// What [`Motion::Edit`] moves.
+    /// Paths that [`Motion::Edit`] moves.
     pub edit: Moves,
-    /// How it looks.
+    /// Style of the frames.
     pub style: Style,
-    /// What each method may use.
+    /// Memory and threads per method.
     pub budget: Budget,
-    /// Frames after the first that do not count.
+    /// Unmeasured frames after the first.
     pub warmup: usize,
-    /// Frames that count.
+    /// Measured frames.
     pub frames: usize,
 }
 
-/// What came of a [`Contest`].
+/// The result of a [`Contest`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Comparison {
-    /// Where it was measured.
+    /// The measuring computer.
     pub machine: Machine,
-    /// What was drawn.
+    /// The scene.
     pub scene: SceneFacts,
-    /// What its paths look like.
-    #[serde(default)]
-    pub dress: Dress,
-    /// Whether pixels show how many paths there are, in place of their colors.
+    /// Colors and widths of its paths.
+    #[serde(default, rename = "dress")]
+    pub style_preset: StylePreset,
+    /// Whether pixels show the number of paths instead of their colors.
     #[serde(default)]
     pub is_density: bool,
-    /// How the first frame saw it.
+    /// View of the first frame.
     pub view: ViewFacts,
-    /// What changed from frame to frame.
+    /// Change from frame to frame.
     pub motion: Motion,
-    /// Share of the paths that were to move, with [`Motion::Edit`].
+    /// Requested share of moved paths, with [`Motion::Edit`].
     pub edit_share: Option<f64>,
-    /// Paths that moved: one at the least.
+    /// Number of moved paths, at least one.
     pub edit_paths: Option<usize>,
-    /// Whether each of them went its own way.
+    /// Whether each path moves by its own curve.
     pub edit_is_apart: Option<bool>,
-    /// Frames of each method after the first that do not count.
+    /// Unmeasured frames per method after the first.
     pub warmup: usize,
-    /// Frames of each method that count.
+    /// Measured frames per method.
     pub frames: usize,
-    /// Memory that each method was allowed.
+    /// Memory limit per method.
     pub memory_bytes: u64,
-    /// One row a method, in the order asked for.
+    /// One row per method, in the requested order.
     pub methods: Vec<Contestant>,
 }
 
 /// One method of a [`Comparison`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Contestant {
-    /// Where the method runs; none when it does not.
+    /// Device of the method; `None` if it does not run.
     pub device: Option<String>,
-    /// Median frame time in units of the first method's.
+    /// Median frame time relative to the first method.
     pub ratio: Option<f64>,
-    /// What was measured.
+    /// The measurement.
     #[serde(flatten)]
     pub row: Row,
 }
 
-/// What was drawn.
+/// Name and size of a scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SceneFacts {
-    /// `d1`, `d2` or the name of a file.
+    /// `d1`, `d2` or a file name.
     pub name: String,
     /// Paths of the input.
     pub paths: usize,
@@ -95,14 +98,14 @@ pub struct SceneFacts {
     pub segments: usize,
 }
 
-/// A view.
+/// Size, center and scale of a view.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ViewFacts {
     /// Width and height in pixels.
     pub size_px: [u32; 2],
-    /// The point in the middle, in meters.
+    /// Center in meters.
     pub center_m: [f64; 2],
-    /// Scale in pixels a meter.
+    /// Scale in pixels per meter.
     pub px_per_m: f64,
 }
 
@@ -116,10 +119,10 @@ impl From<&View> for ViewFacts {
     }
 }
 
-/// Measures all methods of a contest in one run. A method that does not run gets a row that says why.
+/// Measures all methods of a contest. A method that does not run gets a row with the reason.
 ///
 /// # Errors
-/// When the caller cancels, or there is no such view.
+/// When the caller cancels, or the view is out of range.
 pub fn compare(
     contest: &Contest,
     start: Start<'_>,
@@ -127,7 +130,7 @@ pub fn compare(
 ) -> Result<Comparison, RenderError> {
     let view = zoomed_view(contest.size, &contest.scene, contest.magnify)?;
     let is_edited = contest.motion == Motion::Edit;
-    let shot = Shot {
+    let request = FrameRequest {
         view,
         motion: contest.motion,
         edits: is_edited.then(|| Edits::new(&contest.scene, contest.edit)),
@@ -138,9 +141,9 @@ pub fn compare(
             enough_ms: f64::INFINITY,
         },
     };
-    let started: Vec<Result<Box<dyn Method>, String>> =
+    let started: Vec<Result<Box<dyn Method>, StartError>> =
         contest.methods.iter().map(|spec| start(spec)).collect();
-    let outcomes = outcomes(contest, &started, &shot, cancel)?;
+    let outcomes = outcomes(contest, &started, &request, cancel)?;
     let layout = contest.scene.layout();
     Ok(Comparison {
         machine: Machine::here(),
@@ -149,12 +152,12 @@ pub fn compare(
             paths: layout.path_count(),
             segments: layout.paths.geometry().segment_count(),
         },
-        dress: contest.dress,
+        style_preset: contest.style_preset,
         is_density: contest.style.shading != Shading::Color,
         view: ViewFacts::from(&view),
         motion: contest.motion,
         edit_share: is_edited.then_some(contest.edit.share),
-        edit_paths: shot.edits.as_ref().map(Edits::path_count),
+        edit_paths: request.edits.as_ref().map(Edits::path_count),
         edit_is_apart: is_edited.then_some(contest.edit.is_apart),
         warmup: contest.warmup,
         frames: contest.frames,
@@ -163,26 +166,28 @@ pub fn compare(
     })
 }
 
-/// One outcome a method, in the order asked for.
+/// One outcome per method, in the requested order.
 fn outcomes(
     contest: &Contest,
-    started: &[Result<Box<dyn Method>, String>],
-    shot: &Shot,
+    started: &[Result<Box<dyn Method>, StartError>],
+    request: &FrameRequest,
     cancel: &Cancel,
 ) -> Result<Vec<Outcome>, RenderError> {
     let mut ready = Vec::new();
     let mut runners = Vec::new();
     for method in started {
-        let runner = method.as_ref().map_err(Clone::clone).and_then(|method| {
-            let runner = Runner::new(&**method, &contest.scene, contest.budget);
-            runner.map_err(|error| Fault::from(error).to_string())
-        });
+        let runner = match method {
+            Ok(method) => {
+                Runner::new(&**method, &contest.scene, contest.budget).map_err(MeasureError::from)
+            }
+            Err(error) => Err(error.clone().into()),
+        };
         cancel.check()?;
         ready.push(runner.map(|runner| runners.push(runner)));
     }
-    let mut measured = interleaved::measure(&mut runners, shot, cancel)?.into_iter();
-    let outcome = |ready: Result<(), String>| match ready {
-        Err(why_not) => Outcome::WhyNot(why_not),
+    let mut measured = interleaved::measure(&mut runners, request, cancel)?.into_iter();
+    let outcome = |ready: Result<(), MeasureError>| match ready {
+        Err(error) => Outcome::NotMeasured(error.to_string()),
         Ok(()) => match measured.next() {
             Some(result) => Outcome::from(result),
             None => unreachable!("every runner has a result"),
@@ -193,7 +198,7 @@ fn outcomes(
 
 fn contestants(
     contest: &Contest,
-    started: &[Result<Box<dyn Method>, String>],
+    started: &[Result<Box<dyn Method>, StartError>],
     outcomes: Vec<Outcome>,
 ) -> Vec<Contestant> {
     let median_ms = |outcome: &Outcome| outcome.measured().map(|m| m.frame_ms.median);
@@ -218,11 +223,11 @@ mod tests {
 
     use super::*;
 
-    fn start(spec: &str) -> Result<Box<dyn Method>, String> {
+    fn start(spec: &str) -> Result<Box<dyn Method>, StartError> {
         match spec {
             "cpu" => Ok(Box::new(Cpu)),
             "oracle" => Ok(Box::new(Oracle)),
-            _ => Err(format!("no `{spec}` here")),
+            _ => Err(StartError::new(format_args!("no method `{spec}`"))),
         }
     }
 
@@ -230,7 +235,7 @@ mod tests {
         Contest {
             name: "d1".into(),
             scene: crate::Dataset::D1.scene(60),
-            dress: Dress::Own,
+            style_preset: StylePreset::Own,
             methods: methods.iter().map(|&m| m.to_owned()).collect(),
             size: FrameSize::new(64, 36).unwrap(),
             magnify: 1.0,
@@ -247,7 +252,7 @@ mod tests {
     }
 
     #[test]
-    fn methods_that_run_are_measured_and_the_others_say_why_not() {
+    fn rows_hold_a_measurement_or_the_reason_for_its_absence() {
         for motion in [Motion::Still, Motion::Pan, Motion::Zoom, Motion::Edit] {
             let contest = contest(motion, &["cpu", "nothing", "oracle"]);
             let comparison = compare(&contest, &start, &Cancel::default()).unwrap();
@@ -256,7 +261,7 @@ mod tests {
             };
             assert_eq!(
                 nothing.row.outcome,
-                Outcome::WhyNot("no `nothing` here".into())
+                Outcome::NotMeasured("no method `nothing`".into())
             );
             assert_eq!((nothing.ratio, cpu.ratio), (None, Some(1.0)));
             for contestant in [cpu, oracle] {
@@ -272,7 +277,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_magnified_is_seen_from_nearer() {
+    fn magnification_scales_the_view_and_culls_paths() {
         let mut contest = contest(Motion::Still, &["cpu"]);
         let all = compare(&contest, &start, &Cancel::default()).unwrap();
         contest.magnify = 20.0;
@@ -283,12 +288,12 @@ mod tests {
     }
 
     #[test]
-    fn a_method_without_memory_enough_says_so_and_the_others_go_on() {
+    fn exceeded_budget_is_reported_with_its_option() {
         let mut contest = contest(Motion::Still, &["cpu", "oracle"]);
         contest.budget.memory_bytes = 1000;
         let comparison = compare(&contest, &start, &Cancel::default()).unwrap();
         for contestant in &comparison.methods {
-            let Outcome::WhyNot(why) = &contestant.row.outcome else {
+            let Outcome::NotMeasured(why) = &contestant.row.outcome else {
                 panic!("1000 bytes do: {contestant:?}");
             };
             assert!(why.contains("--memory"), "{why}");
@@ -296,7 +301,7 @@ mod tests {
     }
 
     #[test]
-    fn cancelling_ends_it() {
+    fn cancelling_ends_the_comparison() {
         let cancel = Cancel::default();
         cancel.set();
         let result = compare(&contest(Motion::Still, &["cpu"]), &start, &cancel);

@@ -1,3 +1,5 @@
+//! Generates the scenes of the datasets D1 and D2 from a number of paths.
+
 use std::sync::Arc;
 
 use guideway_datasets::{GeneratedPath, RUN_POINTS, d1, d2};
@@ -5,21 +7,21 @@ use guideway_layout::{Geometry, Layout, Paths, RunPoints, TextColumn};
 use guideway_scene::{Scene, SceneOptions};
 use serde::{Deserialize, Serialize};
 
-/// Seed of the datasets: every run measures the same paths.
+/// Seed of the datasets; constant, so that every run measures the same paths.
 const SEED: u64 = 1;
 
-/// One of the two kinds of layout that the thesis measures with.
+/// One of the two datasets of the thesis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Dataset {
-    /// The shape of a real site.
+    /// Halls with aisles, roads and docks, as on a real site.
     D1,
-    /// Curves over one field, until every pixel lies under many.
+    /// Curves scattered over one field, with heavy overlap.
     D2,
 }
 
 impl Dataset {
-    /// Both.
+    /// Both datasets.
     pub const ALL: [Self; 2] = [Self::D1, Self::D2];
 
     /// `D1` or `D2`.
@@ -30,7 +32,7 @@ impl Dataset {
         }
     }
 
-    /// A layout of so many paths.
+    /// A layout with this number of paths.
     pub fn layout(self, paths: usize) -> Layout {
         match self {
             Self::D1 => collect(d1(paths, SEED)),
@@ -38,13 +40,13 @@ impl Dataset {
         }
     }
 
-    /// The same, black, ready to be prepared.
+    /// A scene with this number of black paths.
     pub fn scene(self, paths: usize) -> Arc<Scene> {
         plain_scene(self.layout(paths))
     }
 
-    /// The same as [`Self::scene`] in less time, where a larger scene has it inside. D1 plans its halls for
-    /// the whole number of paths, D2 throws one path after the other.
+    /// [`Self::scene`], copied from a larger scene if that contains it, which is faster. `None` for
+    /// D1, whose halls depend on the number of paths; the paths of D2 do not.
     pub fn part(self, larger: &Scene, paths: usize) -> Option<Arc<Scene>> {
         match self {
             Self::D1 => None,
@@ -53,10 +55,10 @@ impl Dataset {
     }
 }
 
-/// A scene with the layout's own colors and every path shown.
+/// A scene with the colors of the layout and all paths visible.
 pub fn plain_scene(layout: Layout) -> Arc<Scene> {
     let scene = Scene::new(Arc::new(layout), &SceneOptions::default());
-    Arc::new(scene.expect("only a level or a column that was asked for can be missing"))
+    Arc::new(scene.expect("default options name no level and no column"))
 }
 
 fn collect(paths: impl Iterator<Item = GeneratedPath>) -> Layout {
@@ -72,7 +74,7 @@ fn collect(paths: impl Iterator<Item = GeneratedPath>) -> Layout {
     }
 }
 
-/// The first paths of a layout that [`collect`] has made.
+/// The first paths of a layout that [`collect`] built.
 fn first(layout: &Layout, paths: usize) -> Layout {
     let own = || layout.paths.iter().take(paths);
     let mut points = Vec::with_capacity(own().len() * RUN_POINTS);
@@ -99,7 +101,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn datasets_have_as_many_paths_as_asked_for() {
+    fn datasets_have_the_requested_number_of_paths() {
         for dataset in Dataset::ALL {
             let scene = dataset.scene(123);
             assert_eq!(scene.draw_order().len(), 123);
@@ -108,7 +110,7 @@ mod tests {
     }
 
     #[test]
-    fn a_part_of_a_scene_is_the_smaller_scene() {
+    fn part_equals_the_smaller_scene() {
         let larger = Dataset::D2.scene(300);
         let (part, whole) = (Dataset::D2.part(&larger, 123), Dataset::D2.scene(123));
         let of = |scene: &Scene| {
@@ -124,7 +126,7 @@ mod tests {
         assert_eq!(part.bounds(), whole.bounds());
         let run = part.layout().paths.get(0).runs().next();
         assert!(matches!(run, Some(RunPoints::F32(_))));
-        // Not so where all depends on the number of paths.
+        // The halls of D1 depend on the number of paths.
         assert!(Dataset::D1.part(&Dataset::D1.scene(300), 123).is_none());
     }
 }

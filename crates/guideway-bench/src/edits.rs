@@ -1,3 +1,6 @@
+//! Builds the edits of [`crate::Motion::Edit`]: a share of the paths moves, and the next frame
+//! moves them back.
+
 use std::cell::OnceCell;
 use std::sync::Arc;
 
@@ -5,35 +8,35 @@ use guideway_scene::RenderError;
 use guideway_scene::{Edit, Scene};
 use guideway_spline::{Affine, Point};
 
-/// How far [`crate::Motion::Edit`] moves a path, in meters. Exact in `f32`, so that there and back is where
-/// it began.
+/// Shift of a moved path, in meters. Exact in `f32`, so that the second move restores the first
+/// position.
 const BY_M: Point<f64> = Point { x: 0.5, y: 0.25 };
 
-/// Which paths [`crate::Motion::Edit`] moves each frame, and how.
+/// The paths that [`crate::Motion::Edit`] moves per frame, and the kind of edit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Moves {
     /// Share of all paths, from 0 to 1.
     pub share: f64,
-    /// Whether each goes its own way, by curves given anew; else one map moves all of them.
+    /// Whether each path gets its own new curve; otherwise one transform moves all of them.
     pub is_apart: bool,
 }
 
-/// An edit that every other frame takes back.
+/// An edit and its inverse; frames apply them alternately.
 #[derive(Clone, Debug)]
 pub struct Edits {
     there_and_back: [Edit; 2],
     before: Arc<Scene>,
-    /// Made when the first method asks for it.
+    /// Built on the first request.
     after: OnceCell<Arc<Scene>>,
 }
 
 impl Edits {
-    /// Moves a share of the paths, evenly among all, and one at the least.
+    /// Moves a share of the paths, evenly spaced in row order, and at least one.
     pub fn new(scene: &Arc<Scene>, moves: Moves) -> Self {
-        let paths = spread(scene.row_count(), moves.share);
+        let paths = evenly_spaced(scene.row_count(), moves.share);
         Self {
             there_and_back: if moves.is_apart {
-                apart(scene, &paths)
+                move_separately(scene, &paths)
             } else {
                 [BY_M, BY_M * -1.0].map(|by_m| Edit::Transform {
                     paths: Arc::clone(&paths),
@@ -45,17 +48,20 @@ impl Edits {
         }
     }
 
-    /// Paths that each edit moves.
+    /// Number of paths per edit.
     pub fn path_count(&self) -> usize {
         self.there_and_back[0].paths().count()
     }
 
-    /// What frame number `frame` changes.
+    /// The edit of frame number `frame`.
     pub fn edit(&self, frame: usize) -> &Edit {
         &self.there_and_back[frame % 2]
     }
 
-    /// The scene that frame number `frame` shows, for a method that cannot change the one that it has.
+    /// The edited scene of frame number `frame`, for a method that cannot edit in place.
+    ///
+    /// # Errors
+    /// When the scene refuses the edit.
     pub fn scene(&self, frame: usize) -> Result<&Arc<Scene>, RenderError> {
         if frame % 2 == 1 {
             return Ok(&self.before);
@@ -69,16 +75,16 @@ impl Edits {
     }
 }
 
-/// Each path by itself: neighbors never go the same way.
-fn apart(scene: &Scene, paths: &Arc<[u32]>) -> [Edit; 2] {
+/// New curves per path, shifted in four directions so that neighbors differ.
+fn move_separately(scene: &Scene, paths: &Arc<[u32]>) -> [Edit; 2] {
     let rows = paths.iter().map(|&path| path as usize);
     let before = scene.layout().paths.geometry().select(rows);
     let Point { x, y } = BY_M;
-    let ways = [(x, y), (-y, x), (-x, -y), (y, -x)].map(|(x, y)| Point::new(x, y));
+    let directions = [(x, y), (-y, x), (-x, -y), (y, -x)].map(|(x, y)| Point::new(x, y));
     let mut after = before.clone();
     for curve in 0..after.path_count() {
-        let way = Affine::translation(ways[curve % ways.len()]);
-        after.transform([curve], way);
+        let shift = Affine::translation(directions[curve % directions.len()]);
+        after.transform([curve], shift);
     }
     [after, before].map(|curves| Edit::Reshape {
         paths: Arc::clone(paths),
@@ -86,8 +92,8 @@ fn apart(scene: &Scene, paths: &Arc<[u32]>) -> [Edit; 2] {
     })
 }
 
-/// Rows at even distances.
-fn spread(rows: usize, share: f64) -> Arc<[u32]> {
+/// A share of the rows, at even distances.
+fn evenly_spaced(rows: usize, share: f64) -> Arc<[u32]> {
     let count = ((rows as f64 * share).round() as usize).max(1).min(rows);
     (0..count).map(|i| (i * rows / count) as u32).collect()
 }
@@ -103,7 +109,7 @@ mod tests {
     }
 
     #[test]
-    fn the_share_that_was_asked_for_moves_and_nothing_else() {
+    fn moves_the_requested_share_only() {
         let before = Dataset::D1.scene(200);
         for (share, expected) in [(0.000_1, 1), (0.01, 2), (0.1, 20), (1.0, 200)] {
             for is_apart in [false, true] {
@@ -127,7 +133,7 @@ mod tests {
     }
 
     #[test]
-    fn there_and_back_is_where_it_began() {
+    fn alternating_edits_restore_the_scene() {
         let scene = Dataset::D2.scene(100);
         for is_apart in [false, true] {
             let moves = Moves {
@@ -149,7 +155,7 @@ mod tests {
     }
 
     #[test]
-    fn an_empty_scene_has_nothing_to_move() {
+    fn an_empty_scene_has_no_paths_to_move() {
         for is_apart in [false, true] {
             let moves = Moves {
                 share: 0.5,

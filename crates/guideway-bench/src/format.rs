@@ -1,6 +1,6 @@
-//! Numbers as they stand in sentences and tables.
+//! Formats numbers for sentences and tables: from a value to text with its unit.
 
-/// To three significant digits, without an exponent.
+/// Three significant digits, without an exponent.
 pub fn digits(value: f64) -> String {
     let size = value.abs();
     let places = if size >= 99.95 {
@@ -10,13 +10,13 @@ pub fn digits(value: f64) -> String {
     } else if size >= 0.9995 || size == 0.0 {
         2
     } else {
-        // One more for each zero behind the point.
+        // One more digit per zero after the decimal point.
         (2 - size.log10().floor() as i32).clamp(3, 9) as usize
     };
     format!("{value:.places$}")
 }
 
-/// A time given in milliseconds.
+/// A time in milliseconds, as `16.7 ms` or `1.50 s`.
 pub fn time(ms: f64) -> String {
     if ms >= 999.5 {
         format!("{} s", digits(ms / 1e3))
@@ -25,7 +25,7 @@ pub fn time(ms: f64) -> String {
     }
 }
 
-/// A whole number with its thousands apart.
+/// A whole number with thousands separators.
 pub fn count(value: u64) -> String {
     let digits = value.to_string();
     let mut grouped = String::new();
@@ -38,17 +38,17 @@ pub fn count(value: u64) -> String {
     grouped
 }
 
-/// How many times as much: `1.8 times`.
+/// A ratio: `1.8 times`.
 pub fn times(ratio: f64) -> String {
     format!("{} times", digits(ratio))
 }
 
-/// Megabytes, as the thesis gives memory.
+/// Bytes in megabytes, the unit of the thesis.
 pub fn megabytes(bytes: u64) -> f64 {
     bytes as f64 / 1e6
 }
 
-/// A share as percent.
+/// A share in percent: 0.123 gives `12.3 %`.
 pub fn percent(share: f64) -> String {
     let digits = digits(share * 100.0);
     let short = match digits.split_once('.') {
@@ -63,7 +63,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn three_digits_are_enough() {
+    fn formats_three_significant_digits() {
         let cases = [
             (0.0, "0.00"),
             (0.01234, "0.0123"),

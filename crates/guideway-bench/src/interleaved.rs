@@ -1,37 +1,38 @@
-//! Methods draw the same frames in turns, one frame each, so that whatever drifts hits all alike.
+//! Draws the frames of a request with several runners in turns, one frame each, and returns one
+//! result per runner. A drift of the machine (heat, other load) thus affects all methods alike.
 
 use std::time::Instant;
 
 use guideway_scene::{Cancel, Clock, RenderError, Report, elapsed_ms};
 
 use crate::Summary;
-use crate::measured::{Fault, FrameTime, Measured, PathCounts, StageTime, WorkCounts};
-use crate::runner::{Frames, Runner, Sample, Shot};
+use crate::measured::{FrameTime, MeasureError, Measured, PathCounts, StageTime, WorkCounts};
+use crate::runner::{FrameRequest, Frames, Runner, Sample};
 
-/// Draws a shot with every runner and returns one result for each.
+/// Draws a request with every runner and returns one result per runner.
 ///
 /// # Errors
-/// Only when the caller cancels; other failures are results.
+/// Only when the caller cancels; other failures are part of the results.
 pub fn measure(
     runners: &mut [Runner<'_>],
-    shot: &Shot,
+    request: &FrameRequest,
     cancel: &Cancel,
-) -> Result<Vec<Result<Measured, Fault>>, RenderError> {
-    let mut tracks: Vec<Result<Track, Fault>> =
+) -> Result<Vec<Result<Measured, MeasureError>>, RenderError> {
+    let mut tracks: Vec<Result<Track, MeasureError>> =
         runners.iter().map(|_| Ok(Track::default())).collect();
     let mut turn = 0;
-    let is_open = |track: &Result<Track, _>| matches!(track, Ok(t) if !t.is_done(&shot.frames));
+    let is_open = |track: &Result<Track, _>| matches!(track, Ok(t) if !t.is_done(&request.frames));
     while tracks.iter().any(is_open) {
         for step in 0..runners.len() {
-            // Another one begins each time, so that none always comes after the same neighbor.
-            let who = (turn + step) % runners.len();
-            let Ok(track) = &mut tracks[who] else {
+            // The first runner changes each turn, so that none always follows the same neighbor.
+            let index = (turn + step) % runners.len();
+            let Ok(track) = &mut tracks[index] else {
                 continue;
             };
-            if !track.is_done(&shot.frames)
-                && let Err(error) = track.advance(&mut runners[who], shot, cancel)
+            if !track.is_done(&request.frames)
+                && let Err(error) = track.advance(&mut runners[index], request, cancel)
             {
-                tracks[who] = Err(error);
+                tracks[index] = Err(error);
             }
             cancel.check()?;
         }
@@ -39,13 +40,13 @@ pub fn measure(
     }
     let mut results = Vec::with_capacity(runners.len());
     for (runner, track) in runners.iter_mut().zip(tracks) {
-        results.push(track.and_then(|track| track.finish(runner, shot, cancel)));
+        results.push(track.and_then(|track| track.finish(runner, request, cancel)));
         cancel.check()?;
     }
     Ok(results)
 }
 
-/// What one method has drawn so far.
+/// Samples of one method so far.
 #[derive(Default)]
 struct Track {
     drawn: usize,
@@ -68,26 +69,26 @@ impl Track {
     fn advance(
         &mut self,
         runner: &mut Runner<'_>,
-        shot: &Shot,
+        request: &FrameRequest,
         cancel: &Cancel,
-    ) -> Result<(), Fault> {
+    ) -> Result<(), MeasureError> {
         let started = Instant::now();
-        let sample = runner.draw(shot, self.drawn, cancel)?;
+        let sample = runner.draw(request, self.drawn, cancel)?;
         if self.drawn == 0 {
             self.first = FrameTime {
                 ms: sample.frame_ms,
                 wall_ms: sample.wall_ms,
                 update_ms: sample.update.map(|update| update.ms),
             };
-        } else if self.drawn > shot.frames.warmup || self.spent_ms > shot.frames.enough_ms {
-            self.keep(sample);
+        } else if self.drawn > request.frames.warmup || self.spent_ms > request.frames.enough_ms {
+            self.record(sample);
         }
         self.drawn += 1;
         self.spent_ms += elapsed_ms(started);
         Ok(())
     }
 
-    fn keep(&mut self, sample: Sample) {
+    fn record(&mut self, sample: Sample) {
         self.frame_ms.push(sample.frame_ms);
         self.wall_ms.push(sample.wall_ms);
         self.update_ms.extend(sample.update.map(|update| update.ms));
@@ -110,20 +111,20 @@ impl Track {
     fn finish(
         self,
         runner: &mut Runner<'_>,
-        shot: &Shot,
+        request: &FrameRequest,
         cancel: &Cancel,
-    ) -> Result<Measured, Fault> {
+    ) -> Result<Measured, MeasureError> {
         let report = &self.last;
         if !report.accounts_for_all() {
-            return Err(Fault::Report("does not account for every path"));
+            return Err(MeasureError::Report("does not account for every path"));
         }
         let summary = |samples: &[f64]| {
-            Summary::of(samples).ok_or(Fault::Report("has a time that is not a number"))
+            Summary::of(samples).ok_or(MeasureError::Report("has a time that is not finite"))
         };
         let stages = self.stages.iter().map(|(name, clock, samples)| {
             Ok(StageTime::new(name, *clock, summary(samples)?.median))
         });
-        let work = runner.count_work(shot, cancel)?;
+        let work = runner.count_work(request, cancel)?;
         let (held_bytes, prepare_peak_bytes) = runner.held_and_peak_bytes();
         Ok(Measured {
             prepare: runner.preparation().clone(),
@@ -132,13 +133,13 @@ impl Track {
             wall_ms: summary(&self.wall_ms)?,
             update_ms: Summary::of(&self.update_ms),
             update_bytes: self.update_bytes,
-            stages: stages.collect::<Result<_, Fault>>()?,
+            stages: stages.collect::<Result<_, MeasureError>>()?,
             paths: PathCounts::from(report),
             lines: report.lines,
             bands: report.bands,
             held_bytes,
             peak_bytes: prepare_peak_bytes.max(report.peak_bytes),
-            work: WorkCounts::of_frame(work, shot.view.size().pixels()),
+            work: WorkCounts::of_frame(work, request.view.size().pixels()),
             notes: report.notes.clone(),
         })
     }

@@ -1,12 +1,23 @@
 //! Measures render methods side by side on the same frames.
 //!
-//! [`compare`] renders the same frames with several methods, one frame each in turn ([`interleaved`]), and
-//! returns times, memory and work per method. A method is known by its name alone: the caller starts it
+//! [`compare`] takes a [`Contest`] (a scene, a view, a motion and a list of methods), renders its
+//! frames with every method, one frame each in turn ([`interleaved`]), and returns times, memory
+//! and counted work per method. The crate knows methods by name only: the caller starts them
 //! ([`Start`]).
+//!
+//! | module | purpose |
+//! |---|---|
+//! | `dataset`, `style_preset` | scenes to measure, and their colors and widths |
+//! | `zoomed_view`, `motion`, `edits` | the view, and its change from frame to frame |
+//! | `start` | starts a method from its name |
+//! | [`runner`] | prepares one method and times its frames |
+//! | [`interleaved`] | draws the frames of several runners in turns |
+//! | `comparison` | measures a whole contest |
+//! | `measured`, `statistics`, `machine` | the report: results, summaries, the computer |
+//! | [`format`] | numbers for tables and sentences |
 
 mod comparison;
 mod dataset;
-mod dress;
 mod edits;
 pub mod format;
 pub mod interleaved;
@@ -14,22 +25,20 @@ mod machine;
 mod measured;
 mod motion;
 pub mod runner;
+mod start;
 mod statistics;
+mod style_preset;
 mod zoomed_view;
-
-use guideway_scene::Method;
 
 pub use comparison::{Comparison, Contest, Contestant, SceneFacts, ViewFacts, compare};
 pub use dataset::{Dataset, plain_scene};
-pub use dress::Dress;
 pub use edits::{Edits, Moves};
 pub use machine::Machine;
 pub use measured::{
-    Fault, FrameTime, Measured, Outcome, PathCounts, Prepare, Row, StageTime, WorkCounts,
+    FrameTime, MeasureError, Measured, Outcome, PathCounts, Prepare, Row, StageTime, WorkCounts,
 };
 pub use motion::Motion;
+pub use start::{Start, StartError};
 pub use statistics::Summary;
+pub use style_preset::StylePreset;
 pub use zoomed_view::zoomed_view;
-
-/// Starts a method from its name and options, such as `grid+scan`; the error says why it cannot run here.
-pub type Start<'a> = &'a dyn Fn(&str) -> Result<Box<dyn Method>, String>;

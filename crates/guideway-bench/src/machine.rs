@@ -1,27 +1,30 @@
+//! Reads the processor, memory and system of this computer for the report of a measurement.
+
 use std::fs;
 use std::thread;
 
 use serde::{Deserialize, Serialize};
 
-/// The computer and the program that a run was measured with. What the system does not tell is none.
+/// The computer and the program of a measurement. A field is `None` if the system does not report
+/// it.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Machine {
     /// Model of the processor.
     pub cpu: Option<String>,
-    /// Threads that the processor runs at once, as far as this program may use them.
+    /// Hardware threads available to this program.
     pub cores: usize,
-    /// Main memory.
+    /// Size of the main memory.
     pub memory_bytes: Option<u64>,
-    /// Operating system with its version, and the processor's architecture.
+    /// Operating system with its version, and the processor architecture.
     pub os: String,
     /// Version of Guideway.
     pub guideway: String,
-    /// How it was compiled: `release` or `debug`.
+    /// Build profile: `release` or `debug`.
     pub profile: String,
 }
 
 impl Machine {
-    /// Looks at this computer.
+    /// Describes this computer.
     pub fn here() -> Self {
         let read = |path| fs::read_to_string(path).unwrap_or_default();
         Self {
@@ -71,7 +74,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_the_system_tells_is_read() {
+    fn reads_the_processor_memory_and_system() {
         let cpuinfo = "processor\t: 0\nmodel name\t: Some CPU @ 2.00GHz\nmodel name\t: other\n";
         let model = value(cpuinfo, "model name", ':');
         assert_eq!(model.as_deref(), Some("Some CPU @ 2.00GHz"));
@@ -82,7 +85,7 @@ mod tests {
     }
 
     #[test]
-    fn what_the_system_does_not_tell_is_none() {
+    fn missing_system_facts_are_none() {
         assert_eq!(value("", "model name", ':'), None);
         assert_eq!(value("model name :", "model name", ':'), None);
         assert_eq!(

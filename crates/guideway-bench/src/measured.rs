@@ -1,28 +1,29 @@
-//! What was measured, as it is kept in files (docs/bench.md).
+//! Results of a measurement, as the JSON reports store them (docs/bench.md).
 
 use guideway_scene::{Clock, Preparation, RenderError, Report, Work};
 use serde::{Deserialize, Serialize};
 
-use crate::Summary;
+use crate::{StartError, Summary};
 
-/// One method's part in a measurement.
+/// The result of one method.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
-    /// The method with its options, as it was asked for.
+    /// The method with its options, as requested.
     pub method: String,
-    /// What came of it.
+    /// Measurement, or the reason for its absence.
     #[serde(flatten)]
     pub outcome: Outcome,
 }
 
-/// What came of measuring one method.
+/// The measurement of one method, or the reason for its absence.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Outcome {
-    /// It was measured.
+    /// The method was measured.
     Measured(Box<Measured>),
-    /// It was not, and why.
-    WhyNot(String),
+    /// The method was not measured, for this reason.
+    #[serde(rename = "why_not")]
+    NotMeasured(String),
 }
 
 impl Outcome {
@@ -30,7 +31,7 @@ impl Outcome {
     pub fn measured(&self) -> Option<&Measured> {
         match self {
             Self::Measured(measured) => Some(measured),
-            Self::WhyNot(_) => None,
+            Self::NotMeasured(_) => None,
         }
     }
 }
@@ -42,11 +43,11 @@ impl Row {
     }
 }
 
-impl From<Result<Measured, Fault>> for Outcome {
-    fn from(result: Result<Measured, Fault>) -> Self {
+impl From<Result<Measured, MeasureError>> for Outcome {
+    fn from(result: Result<Measured, MeasureError>) -> Self {
         match result {
             Ok(measured) => Self::Measured(Box::new(measured)),
-            Err(fault) => Self::WhyNot(fault.to_string()),
+            Err(fault) => Self::NotMeasured(fault.to_string()),
         }
     }
 }
@@ -54,73 +55,74 @@ impl From<Result<Measured, Fault>> for Outcome {
 /// Times, memory and work of one method. Times are in milliseconds.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Measured {
-    /// Making the scene ready, the first time.
+    /// First preparation of the scene.
     pub prepare: Prepare,
-    /// The first frame, which may have to load or compile something.
+    /// The first frame, which may load or compile resources.
     pub first_frame: FrameTime,
-    /// Until the picture was complete where it was made, by the device's clock where it has one. With
-    /// [`crate::Motion::Edit`], making the changed scene ready is part of it.
+    /// Time until the picture is complete in the memory of the method, by the clock of the device
+    /// if it has one. With [`crate::Motion::Edit`], it includes the update.
     pub frame_ms: Summary,
-    /// The same work seen from outside, with the way to the device and back.
+    /// Wall time of the same work, including transfers to and from the device.
     pub wall_ms: Summary,
-    /// Making the changed scene ready, with [`crate::Motion::Edit`].
+    /// Update of the prepared scene, with [`crate::Motion::Edit`].
     pub update_ms: Option<Summary>,
-    /// Bytes brought to the device by the last edit; none without one, or where all was made ready anew.
+    /// Bytes that the last edit uploaded to the device; `None` without an edit, or if the method
+    /// prepared the whole scene again.
     pub update_bytes: Option<u64>,
-    /// Parts of the frames.
+    /// Stages of the frames.
     pub stages: Vec<StageTime>,
-    /// What became of the paths in the last frame.
+    /// Drawn, culled and refused paths of the last frame.
     pub paths: PathCounts,
-    /// Lines that the last frame's curves were turned into.
+    /// Lines that the curves of the last frame were flattened to.
     pub lines: u64,
-    /// Bands that the last frame was drawn in.
+    /// Bands of the last frame.
     pub bands: u32,
-    /// Bytes that stay allocated from frame to frame, beside the scene.
+    /// Bytes allocated between frames, without the scene.
     pub held_bytes: u64,
-    /// Most bytes held at once, for making ready or for a frame.
+    /// Peak bytes of the preparation and of a frame.
     pub peak_bytes: u64,
     /// Counted work of the first view.
     pub work: WorkCounts,
-    /// What the method drew otherwise than asked.
+    /// Deviations from the request that the method reports.
     pub notes: Vec<String>,
 }
 
-/// Making a scene ready.
+/// Preparation of a scene.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Prepare {
-    /// Time of its stages together.
+    /// Sum of its stages, in milliseconds.
     pub ms: f64,
-    /// Time seen from outside, with allocating and sending to the device.
+    /// Wall time, including allocation and transfer to the device.
     pub wall_ms: f64,
-    /// Parts of it.
+    /// Its stages.
     pub stages: Vec<StageTime>,
-    /// Counted work of it.
+    /// Its counted work.
     pub work: WorkCounts,
 }
 
 /// Times of one frame, each as in [`Measured`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct FrameTime {
-    /// Until the picture was complete where it was made.
+    /// Time until the picture is complete in the memory of the method.
     pub ms: f64,
-    /// Seen from outside.
+    /// Wall time.
     pub wall_ms: f64,
-    /// Making the changed scene ready, with [`crate::Motion::Edit`].
+    /// Update of the prepared scene, with [`crate::Motion::Edit`].
     pub update_ms: Option<f64>,
 }
 
-/// Time of one part; the median where there were several.
+/// Time of one stage; the median of several samples.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StageTime {
-    /// What the method calls it.
+    /// Name of the stage.
     pub name: String,
-    /// By whose clock: `host` or `device`.
+    /// Clock: `host` or `device`.
     pub clock: String,
-    /// How long it took.
+    /// Time in milliseconds.
     pub ms: f64,
 }
 
-/// What became of every path: total = drawn + outside + hidden + refused.
+/// Path counts of a frame: total = drawn + outside + hidden + refused.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct PathCounts {
     /// Paths of the input.
@@ -135,16 +137,16 @@ pub struct PathCounts {
     pub refused: u64,
 }
 
-/// Work in numbers that any device would give; none where the method does not count it.
+/// Work in device-independent counts; `None` if the method does not count it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct WorkCounts {
-    /// Tests of a point against a line.
+    /// Point-line distance tests.
     pub tests: Option<u64>,
-    /// The same for each pixel of the picture; none for a preparation, which has no picture.
+    /// Tests per pixel of the picture; `None` for a preparation.
     pub tests_a_pixel: Option<f64>,
-    /// Atomic operations on memory that all threads see.
+    /// Atomic operations on memory shared by all threads.
     pub atomics: Option<u64>,
-    /// Bytes that threads ask for, before any cache.
+    /// Bytes that threads read, before any cache.
     pub bytes_read: Option<u64>,
     /// Bytes that threads write, before any cache.
     pub bytes_written: Option<u64>,
@@ -163,7 +165,7 @@ impl From<Work> for WorkCounts {
 }
 
 impl WorkCounts {
-    /// The work of a frame of so many pixels.
+    /// The work of a frame with this number of pixels.
     pub fn of_frame(work: Work, pixels: usize) -> Self {
         Self {
             tests_a_pixel: work.tests.map(|tests| tests as f64 / pixels as f64),
@@ -173,11 +175,11 @@ impl WorkCounts {
 }
 
 impl Prepare {
-    /// From what a method reports, and the wall time of preparation.
+    /// Converts the report of a method, and adds the wall time of the preparation.
     pub fn new(preparation: &Preparation, wall_ms: f64) -> Self {
         let stages = preparation.stages.iter();
         Self {
-            // The sum of no stages is negative zero.
+            // `f64::sum` of an empty list is -0.0.
             ms: preparation.elapsed_ms() + 0.0,
             wall_ms,
             stages: stages
@@ -187,7 +189,7 @@ impl Prepare {
         }
     }
 
-    /// The mean of several times of making the same scene ready; none of none.
+    /// The mean of repeated preparations of one scene; `None` for an empty list.
     pub fn mean(all: &[Self]) -> Option<Self> {
         let first = all.first()?;
         let mean = |of: &dyn Fn(&Self) -> f64| all.iter().map(of).sum::<f64>() / all.len() as f64;
@@ -230,21 +232,24 @@ impl From<&Report> for PathCounts {
     }
 }
 
-/// Why a method was not measured.
+/// The reason why a method was not measured.
 #[derive(Debug, thiserror::Error)]
-pub enum Fault {
-    /// It refused or failed, with what to do about it where that is known.
+pub enum MeasureError {
+    /// The method cannot start.
+    #[error(transparent)]
+    Start(#[from] StartError),
+    /// The method refused or failed; the text includes a known remedy.
     #[error("{}", with_remedy(.0))]
     Method(#[from] RenderError),
-    /// It drew, but what it says of it cannot be right.
-    #[error("its report {0}")]
+    /// The method drew, but its report is inconsistent.
+    #[error("the report of the method {0}")]
     Report(&'static str),
 }
 
 fn with_remedy(error: &RenderError) -> String {
     match error {
         RenderError::Unsupported { remedy, .. } => format!("{error}. {remedy}"),
-        RenderError::Budget { .. } => format!("{error}. Allow more with --memory"),
+        RenderError::Budget { .. } => format!("{error}. Raise the limit with --memory"),
         _ => error.to_string(),
     }
 }
@@ -254,7 +259,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_mean_is_taken_stage_by_stage() {
+    fn mean_averages_each_stage() {
         let prepare = |ms: f64| Prepare {
             ms,
             wall_ms: 2.0 * ms,

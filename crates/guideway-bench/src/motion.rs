@@ -1,39 +1,41 @@
+//! A motion computes the view of each frame from the first view and the frame number.
+
 use guideway_scene::{RenderError, View};
 use guideway_spline::Point;
 use serde::{Deserialize, Serialize};
 
-/// What changes from frame to frame.
+/// Change from frame to frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Motion {
-    /// Nothing.
+    /// No change.
     #[default]
     Still,
-    /// The view moves by whole pixels, as when a person drags it.
+    /// The view moves by whole pixels, as when dragged.
     Pan,
-    /// The view comes a little nearer each frame, and goes away again.
+    /// The view zooms in by 2 % per frame, then out again.
     Zoom,
-    /// Some paths move; the view does not.
+    /// Some paths move; the view stays.
     Edit,
 }
 
-/// Frames until a motion turns back, so that it never loses sight of where it began.
+/// Frames until a motion reverses, so that the view stays near its start.
 const TURN: usize = 32;
-/// Steps of [`Motion::Pan`], one after the other and again.
+/// Steps of [`Motion::Pan`], repeated in this order.
 const PAN_PX: [Point<f64>; 4] = [
     Point { x: 5.0, y: 0.0 },
     Point { x: 3.0, y: 0.0 },
     Point { x: 5.0, y: 2.0 },
     Point { x: 0.0, y: 3.0 },
 ];
-/// Growth of the scale each frame of [`Motion::Zoom`].
+/// Scale factor per frame of [`Motion::Zoom`].
 const ZOOM: f64 = 1.02;
 
 impl Motion {
-    /// What frame number `frame` sees, when frame 0 sees `start`.
+    /// The view of frame number `frame`; frame 0 has the view `start`.
     ///
     /// # Errors
-    /// When the motion ends where no view may be ([`View::new`]).
+    /// When the moved view is out of range ([`View::new`]).
     pub fn view(self, start: &View, frame: usize) -> Result<View, RenderError> {
         let along = frame % (2 * TURN);
         let steps = along.min(2 * TURN - along);
@@ -61,7 +63,7 @@ mod tests {
     }
 
     #[test]
-    fn panning_goes_by_whole_pixels_both_ways_and_comes_back() {
+    fn panning_moves_by_whole_pixels_and_returns() {
         let shift_px = |frame| {
             let view = Motion::Pan.view(&start(), frame).unwrap();
             let shift = (view.center_m() - start().center_m()) * start().px_per_m();
@@ -72,21 +74,21 @@ mod tests {
         assert_eq!(shift_px(5), (18.0, 5.0));
         assert_eq!(shift_px(2 * TURN), (0.0, 0.0));
         assert_eq!(shift_px(TURN + 1), shift_px(TURN - 1));
-        // Whoever keeps a picture by its view alone finds none before the turn.
+        // No view repeats before the reversal, so a cache keyed by view gets no hits.
         for frame in 1..=TURN {
             assert!((0..frame).all(|before| shift_px(before) != shift_px(frame)));
         }
     }
 
     #[test]
-    fn zooming_comes_nearer_and_goes_away_again() {
+    fn zooming_in_reverses_and_returns() {
         let scale = |frame| Motion::Zoom.view(&start(), frame).unwrap().px_per_m();
         assert!(scale(1) > scale(0) && scale(TURN) > scale(TURN + 1));
         assert_eq!(scale(2 * TURN), 2.0);
     }
 
     #[test]
-    fn what_stands_still_is_seen_from_one_place() {
+    fn still_and_edit_keep_the_view() {
         for motion in [Motion::Still, Motion::Edit] {
             assert_eq!(motion.view(&start(), 7).unwrap(), start());
         }

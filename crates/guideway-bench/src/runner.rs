@@ -1,4 +1,4 @@
-//! One method under measurement: prepares a scene once, then draws and times its frames.
+//! A runner prepares a scene once with one method, then draws frames and returns their times.
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -13,7 +13,7 @@ use crate::Motion;
 use crate::edits::Edits;
 use crate::measured::Prepare;
 
-/// A method with a scene made ready.
+/// A method with a prepared scene.
 pub struct Runner<'m> {
     method: &'m dyn Method,
     budget: Budget,
@@ -22,55 +22,59 @@ pub struct Runner<'m> {
     frame: Frame,
 }
 
-/// What is drawn, and how often.
+/// The view, motion and style of the frames to draw, and their number.
 #[derive(Clone)]
-pub struct Shot {
-    /// What the first frame sees.
+pub struct FrameRequest {
+    /// View of the first frame.
     pub view: View,
-    /// What changes from frame to frame.
+    /// Change from frame to frame.
     pub motion: Motion,
-    /// What [`Motion::Edit`] changes.
+    /// Edits of [`Motion::Edit`]; `None` for other motions.
     pub edits: Option<Edits>,
-    /// How it looks.
+    /// Style of the frames.
     pub style: Style,
-    /// How often.
+    /// Number of frames.
     pub frames: Frames,
 }
 
-/// How many frames are taken.
+/// Number of frames per method.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frames {
-    /// Frames after the first that do not count.
+    /// Unmeasured frames after the first.
     pub warmup: usize,
-    /// Frames that count.
+    /// Measured frames.
     pub count: usize,
-    /// Once a method has drawn for so long, one frame that counts is enough.
+    /// Drawing time in milliseconds after which one measured frame suffices.
     pub enough_ms: f64,
 }
 
 /// One drawn frame.
 pub struct Sample {
-    /// Until the picture was complete where it was made, with the update.
+    /// Time in milliseconds until the picture is complete in the memory of the method, including
+    /// the update.
     pub frame_ms: f64,
-    /// Seen from outside.
+    /// Wall time of the call, in milliseconds.
     pub wall_ms: f64,
-    /// Making the changed scene ready.
+    /// Update to the changed scene; `None` without an edit.
     pub update: Option<Update>,
-    /// What the method says.
+    /// Report of the method.
     pub report: Report,
 }
 
-/// Making a changed scene ready.
+/// The update of a prepared scene to an edit.
 #[derive(Clone, Copy)]
 pub struct Update {
     /// Wall time in milliseconds.
     pub ms: f64,
-    /// Brought to the device; none where all of the scene was made ready anew.
+    /// Bytes uploaded to the device; `None` if the method prepared the whole scene again.
     pub bytes: Option<u64>,
 }
 
 impl<'m> Runner<'m> {
-    /// Makes a scene ready.
+    /// Prepares a scene.
+    ///
+    /// # Errors
+    /// When the method refuses the scene or the budget.
     pub fn new(
         method: &'m dyn Method,
         scene: &Arc<Scene>,
@@ -86,18 +90,21 @@ impl<'m> Runner<'m> {
         })
     }
 
-    /// What making the scene ready took, the first time.
+    /// Times and work of the first preparation.
     pub fn preparation(&self) -> &Prepare {
         &self.prepare
     }
 
-    /// Bytes held from frame to frame, and most held while making ready.
+    /// Bytes held between frames, and peak bytes of the preparation.
     pub fn held_and_peak_bytes(&self) -> (u64, u64) {
         let preparation = self.prepared.preparation();
         (preparation.held_bytes, preparation.peak_bytes)
     }
 
     /// Draws one picture and returns it.
+    ///
+    /// # Errors
+    /// When the method fails or the caller cancels.
     pub fn picture(
         &mut self,
         view: &View,
@@ -108,21 +115,24 @@ impl<'m> Runner<'m> {
         Ok(&self.frame)
     }
 
-    /// Draws frame `number` of a shot.
+    /// Draws frame `number` of a request.
+    ///
+    /// # Errors
+    /// When the method fails, the caller cancels, or no such view exists.
     pub fn draw(
         &mut self,
-        shot: &Shot,
+        request: &FrameRequest,
         number: usize,
         cancel: &Cancel,
     ) -> Result<Sample, RenderError> {
         cancel.check()?;
-        let view = shot.motion.view(&shot.view, number)?;
+        let view = request.motion.view(&request.view, number)?;
         let started = Instant::now();
-        let edits = shot.edits.as_ref();
+        let edits = request.edits.as_ref();
         let update = edits.map(|edits| self.update(edits, number)).transpose()?;
         let report = self
             .prepared
-            .render(&view, &shot.style, cancel, &mut self.frame)?;
+            .render(&view, &request.style, cancel, &mut self.frame)?;
         Ok(Sample {
             frame_ms: report.frame_ms() + update.map_or(0.0, |update| update.ms),
             wall_ms: elapsed_ms(started),
@@ -131,7 +141,7 @@ impl<'m> Runner<'m> {
         })
     }
 
-    /// Changes the scene in place, or makes the changed one ready if the method cannot do that.
+    /// Edits the prepared scene in place, or prepares the edited scene if the method cannot.
     fn update(&mut self, edits: &Edits, number: usize) -> Result<Update, RenderError> {
         let started = Instant::now();
         if let EditOutcome::InPlace { moved_bytes } = self.prepared.edit(edits.edit(number))? {
@@ -148,9 +158,17 @@ impl<'m> Runner<'m> {
         })
     }
 
-    /// Counts the work of the first frame of a shot.
-    pub fn count_work(&mut self, shot: &Shot, cancel: &Cancel) -> Result<Work, RenderError> {
-        self.prepared.count_work(&shot.view, &shot.style, cancel)
+    /// Counts the work of the first frame of a request.
+    ///
+    /// # Errors
+    /// When the method fails or the caller cancels.
+    pub fn count_work(
+        &mut self,
+        request: &FrameRequest,
+        cancel: &Cancel,
+    ) -> Result<Work, RenderError> {
+        self.prepared
+            .count_work(&request.view, &request.style, cancel)
     }
 }
 
@@ -173,11 +191,11 @@ mod tests {
     use super::*;
     use crate::{Dataset, Moves};
 
-    /// A method that takes a changed scene only by preparing it.
-    struct Anew;
-    struct PreparedAnew(Box<dyn Prepared>);
+    /// A method that cannot edit in place: it prepares each edited scene again.
+    struct Repreparing;
+    struct Reprepared(Box<dyn Prepared>);
 
-    impl Method for Anew {
+    impl Method for Repreparing {
         fn info(&self) -> MethodInfo {
             Oracle.info()
         }
@@ -187,11 +205,11 @@ mod tests {
             scene: Arc<Scene>,
             budget: &Budget,
         ) -> Result<Box<dyn Prepared>, RenderError> {
-            Ok(Box::new(PreparedAnew(Oracle.prepare(scene, budget)?)))
+            Ok(Box::new(Reprepared(Oracle.prepare(scene, budget)?)))
         }
     }
 
-    impl Prepared for PreparedAnew {
+    impl Prepared for Reprepared {
         fn render(
             &mut self,
             view: &View,
@@ -208,10 +226,10 @@ mod tests {
     }
 
     #[test]
-    fn an_edit_shows_in_turn_in_place_and_anew() {
+    fn edits_in_place_and_by_preparation_draw_equal_frames() {
         let scene = Dataset::D1.scene(30);
         let size = FrameSize::new(96, 54).unwrap();
-        let shot = Shot {
+        let request = FrameRequest {
             view: View::fit(size, scene.bounds()).unwrap(),
             motion: Motion::Edit,
             edits: Some(Edits::new(
@@ -230,13 +248,15 @@ mod tests {
         };
         let cancel = Cancel::default();
         let runner = |method| Runner::new(method, &scene, Budget::default()).unwrap();
-        let (mut in_place, mut anew) = (runner(&Oracle), runner(&Anew));
-        let before = in_place.picture(&shot.view, &shot.style, &cancel).unwrap();
+        let (mut in_place, mut anew) = (runner(&Oracle), runner(&Repreparing));
+        let before = in_place
+            .picture(&request.view, &request.style, &cancel)
+            .unwrap();
         let before = before.clone();
         for number in 0..4 {
-            let sample = in_place.draw(&shot, number, &cancel).unwrap();
+            let sample = in_place.draw(&request, number, &cancel).unwrap();
             assert_eq!(sample.update.unwrap().bytes, Some(0));
-            let sample = anew.draw(&shot, number, &cancel).unwrap();
+            let sample = anew.draw(&request, number, &cancel).unwrap();
             assert_eq!(sample.update.unwrap().bytes, None);
             assert_eq!(in_place.frame == before, number % 2 == 1);
             assert!(in_place.frame == anew.frame, "frame {number}");

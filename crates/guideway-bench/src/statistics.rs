@@ -1,28 +1,30 @@
+//! Summarizes the samples of one quantity: mean, median, extremes and percentiles.
+
 use serde::{Deserialize, Serialize};
 
-/// What many samples of one quantity come to, in the unit of the samples.
+/// Summary of the samples of one quantity, in their unit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Summary {
     /// Number of samples.
     pub count: usize,
-    /// Arithmetic mean, as the thesis gives its times.
+    /// Arithmetic mean; the thesis reports means.
     pub mean: f64,
-    /// Half of the samples lie below.
+    /// 50th percentile.
     pub median: f64,
-    /// Least sample.
+    /// Smallest sample.
     pub min: f64,
-    /// Greatest sample.
+    /// Largest sample.
     pub max: f64,
-    /// A twentieth of the samples lies below.
+    /// 5th percentile.
     pub p5: f64,
-    /// A twentieth of the samples lies above.
+    /// 95th percentile.
     pub p95: f64,
-    /// From `p5` to `p95`, as a fraction of the median; 0 when that is 0.
+    /// `(p95 - p5) / median`; 0 if the median is 0.
     pub spread: f64,
 }
 
 impl Summary {
-    /// Sums up samples; none when there are none, or one is not finite.
+    /// Summarizes samples; `None` when the list is empty or a sample is not finite.
     pub fn of(samples: &[f64]) -> Option<Self> {
         if samples.is_empty() || !samples.iter().all(|s| s.is_finite()) {
             return None;
@@ -51,12 +53,12 @@ impl Summary {
     }
 }
 
-/// The sample that a fraction lies below, between two where need be (Hyndman and Fan's type 7).
+/// Quantile of sorted samples, interpolated linearly between two (Hyndman and Fan's type 7).
 fn quantile(sorted: &[f64], fraction: f64) -> f64 {
-    let place = fraction * (sorted.len() - 1) as f64;
-    let below = place as usize;
+    let position = fraction * (sorted.len() - 1) as f64;
+    let below = position as usize;
     let above = (below + 1).min(sorted.len() - 1);
-    sorted[below] + (sorted[above] - sorted[below]) * (place - below as f64)
+    sorted[below] + (sorted[above] - sorted[below]) * (position - below as f64)
 }
 
 #[cfg(test)]
@@ -64,7 +66,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn samples_in_any_order_are_summed_up() {
+    fn summarizes_unsorted_samples() {
         let samples: Vec<f64> = (0..=100).rev().map(f64::from).collect();
         let summary = Summary::of(&samples).unwrap();
         let expected = Summary {
@@ -81,14 +83,14 @@ mod tests {
     }
 
     #[test]
-    fn the_median_lies_between_two_samples_and_ignores_one_outlier() {
+    fn median_interpolates_and_ignores_an_outlier() {
         assert_eq!(Summary::of(&[1.0, 2.0]).unwrap().median, 1.5);
         let summary = Summary::of(&[2.0, 900.0, 1.0]).unwrap();
         assert_eq!((summary.median, summary.mean), (2.0, 301.0));
     }
 
     #[test]
-    fn one_sample_has_no_spread_and_none_no_summary() {
+    fn one_sample_has_no_spread_and_no_samples_have_no_summary() {
         let summary = Summary::of(&[4.0]).unwrap();
         assert_eq!((summary.p5, summary.p95, summary.spread), (4.0, 4.0, 0.0));
         assert_eq!(Summary::of(&[]), None);

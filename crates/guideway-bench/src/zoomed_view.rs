@@ -1,24 +1,28 @@
+//! Computes a view from a scene and a zoom factor: the whole scene, or a part about its densest
+//! point.
+
 use std::collections::BTreeMap;
 
 use guideway_scene::Scene;
 use guideway_scene::{FrameSize, RenderError, View};
 use guideway_spline::{Bounds, Point};
 
-/// All of a scene, or so many times nearer what is around its busiest place.
+/// The view of the whole scene, magnified `times`; above 1, it is centered on the densest point.
 ///
 /// # Errors
-/// When there is no such view ([`View::fit`], [`View::new`]).
+/// When the view is out of range ([`View::fit`], [`View::new`]).
 pub fn zoomed_view(size: FrameSize, scene: &Scene, times: f64) -> Result<View, RenderError> {
     let all = View::fit(size, scene.bounds())?;
     if times <= 1.0 {
         return View::new(size, all.center_m(), all.px_per_m() * times);
     }
-    let center = busiest(scene).unwrap_or(all.center_m());
+    let center = densest_point(scene).unwrap_or(all.center_m());
     View::new(size, center, all.px_per_m() * times)
 }
 
-/// The middle of the path that is nearest to the middle of those in the fullest part of the box.
-fn busiest(scene: &Scene) -> Option<Point<f64>> {
+/// Splits the bounds of the scene into 16 x 16 cells, takes the cell with most path centers, and
+/// returns the center nearest to their mean, so that the view always contains a path.
+fn densest_point(scene: &Scene) -> Option<Point<f64>> {
     const PARTS: f64 = 16.0;
     let bounds = scene.bounds()?;
     let part = |at: f64, low: f64, extent: f64| {

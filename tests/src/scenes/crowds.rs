@@ -5,8 +5,8 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use guideway_scene::LineRule;
 use guideway_scene::density::ToneMap;
 
+use super::scene_case::{SceneCase, case};
 use super::shapes::LOOP;
-use super::{SceneCase, case};
 use crate::random::Lcg;
 use crate::sketch::Sketch;
 
@@ -154,7 +154,8 @@ pub(super) fn cases() -> Vec<SceneCase> {
     cases
 }
 
-/// Aisles straight and crossed, with quarter turns between them: eight segments a path, as at a real site.
+/// Aisles straight and crossed, with quarter turns between them: eight segments a path, as at a
+/// real site.
 pub fn site(sketch: Sketch, paths: usize, seed: u64) -> Sketch {
     let size = sketch.build().view.size();
     let mut lcg = Lcg::new(seed);

@@ -1,6 +1,6 @@
 //! Pictures of odd sizes, with nothing in them, or with paths that are not drawn.
 
-use super::{SceneCase, case};
+use super::scene_case::{SceneCase, case};
 use crate::sketch::Sketch;
 
 pub(super) fn cases() -> Vec<SceneCase> {

@@ -1,6 +1,6 @@
 //! Straight lines: every slope, every position within a pixel, every length.
 
-use super::{SceneCase, case};
+use super::scene_case::{SceneCase, case};
 use crate::sketch::Sketch;
 
 pub(super) fn cases() -> Vec<SceneCase> {

@@ -1,59 +1,25 @@
-//! Scenes of one behavior each, named `topic/case`.
+//! Scenes of the suite, named `topic/case`: one file per topic, each scene for one behavior.
+//!
+//! | module | scenes |
+//! |---|---|
+//! | `lines`, `shapes`, `widths` | straight lines, curves with caps and joins, stroke widths |
+//! | `tiles`, `places`, `frames` | tile borders, distant origins and zoom, picture sizes |
+//! | `order`, `translucency` | draw order and blending |
+//! | `crowds` | many paths, and density |
+//! | `suite`, `scene_case` | the list of all scenes, and the type of one |
 
 mod crowds;
 mod frames;
 mod lines;
 mod order;
 mod places;
+mod scene_case;
 mod shapes;
+mod suite;
 mod tiles;
 mod translucency;
 mod widths;
 
-use crate::sketch::{Drawing, Sketch};
-
 pub use crowds::{long_curves, short_paths, site};
-
-/// One scene of the suite.
-pub struct SceneCase {
-    /// Stable name: `topic/case`.
-    pub name: String,
-    sketch: Box<dyn Fn() -> Sketch + Send + Sync>,
-}
-
-impl SceneCase {
-    /// Everything that a method needs for it.
-    pub fn build(&self) -> Drawing {
-        self.sketch().build()
-    }
-
-    /// Its description, to be varied.
-    pub fn sketch(&self) -> Sketch {
-        (self.sketch)()
-    }
-}
-
-/// Every scene of the suite.
-pub fn all() -> Vec<SceneCase> {
-    [
-        lines::cases(),
-        shapes::cases(),
-        widths::cases(),
-        tiles::cases(),
-        order::cases(),
-        translucency::cases(),
-        places::cases(),
-        frames::cases(),
-        crowds::cases(),
-    ]
-    .into_iter()
-    .flatten()
-    .collect()
-}
-
-fn case(name: impl Into<String>, sketch: impl Fn() -> Sketch + Send + Sync + 'static) -> SceneCase {
-    SceneCase {
-        name: name.into(),
-        sketch: Box::new(sketch),
-    }
-}
+pub use scene_case::SceneCase;
+pub use suite::all;

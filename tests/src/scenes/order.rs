@@ -1,6 +1,6 @@
 //! What lies over what, and in which color.
 
-use super::{SceneCase, case};
+use super::scene_case::{SceneCase, case};
 use crate::sketch::Sketch;
 
 const RED: u32 = 0xd020_20ff;

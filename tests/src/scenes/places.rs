@@ -1,6 +1,6 @@
 //! Far from the origin, close to the curve, and from very high up.
 
-use super::{SceneCase, case};
+use super::scene_case::{SceneCase, case};
 use crate::sketch::Sketch;
 
 pub(super) fn cases() -> Vec<SceneCase> {

@@ -1,6 +1,6 @@
 //! Caps, joins, cusps, loops and curves that are hardly any.
 
-use super::{SceneCase, case};
+use super::scene_case::{SceneCase, case};
 use crate::sketch::Sketch;
 
 /// One segment that crosses itself: the Bezier curve (10, 10), (110, 80), (-30, 80), (70, 10).

@@ -1,6 +1,7 @@
-//! Lines on and around the borders of tiles of 16, 32 and 64 pixels, where a method may cut its work.
+//! Lines on and around the borders of tiles of 16, 32 and 64 pixels, where a method may cut its
+//! work.
 
-use super::{SceneCase, case};
+use super::scene_case::{SceneCase, case};
 use crate::sketch::Sketch;
 
 pub(super) fn cases() -> Vec<SceneCase> {

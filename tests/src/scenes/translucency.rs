@@ -1,7 +1,7 @@
 //! Paths that let through what lies below.
 
+use super::scene_case::{SceneCase, case};
 use super::shapes::LOOP;
-use super::{SceneCase, case};
 use crate::sketch::Sketch;
 
 const HALF_RED: u32 = 0xd020_2080;

@@ -2,7 +2,7 @@
 
 use guideway_scene::LineRule;
 
-use super::{SceneCase, case};
+use super::scene_case::{SceneCase, case};
 use crate::sketch::Sketch;
 
 pub(super) fn cases() -> Vec<SceneCase> {

@@ -56,7 +56,7 @@ fn header(run: &Run) -> String {
              each other, not with the thesis'.",
         );
     }
-    let machines = || run.sittings.iter().map(|sitting| &sitting.machine);
+    let machines = || run.sessions.iter().map(|session| &session.machine);
     if machines().any(|machine| machine.profile != "release") {
         html += &notice(
             "Compiled by the debug profile: work on the processor takes longer than it has to.",
@@ -65,7 +65,7 @@ fn header(run: &Run) -> String {
     let processors = distinct(machines().map(processor));
     if processors.len() > 1 {
         html += &notice(
-            "Its sittings had different processors: times that the processor takes part in do not all compare.",
+            "Its sessions had different processors: times that the processor takes part in do not all compare.",
         );
     }
     let devices = run.methods.iter().filter_map(|m| m.device.clone());
@@ -84,11 +84,11 @@ fn header(run: &Run) -> String {
 }
 
 fn measured(run: &Run) -> String {
-    let started: Vec<&str> = run.sittings.iter().map(|s| s.started.as_str()).collect();
+    let started: Vec<&str> = run.sessions.iter().map(|s| s.started.as_str()).collect();
     let elapsed = time(run.elapsed_s() * 1e3);
     let took = match started.len() {
         0 | 1 => elapsed,
-        several => format!("{several} sittings of {elapsed} together"),
+        several => format!("{several} sessions of {elapsed} together"),
     };
     format!("{}, in {took}", started.join("; "))
 }

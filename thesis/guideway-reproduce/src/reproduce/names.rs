@@ -1,18 +1,18 @@
-//! Names by which the thesis' methods and their stages are told apart.
+//! Names of methods, of their stages, and of the parts of a run.
 
-/// Per-pixel intersection as the thesis writes it.
+/// Per-pixel intersection as in the thesis.
 pub(crate) const GRID: &str = "grid";
-/// The same with a work-efficient prefix sum.
+/// `grid` with a work-efficient prefix sum.
 pub(crate) const GRID_SCAN: &str = "grid+scan";
-/// The same with every line in all cells that it reaches.
+/// `grid+scan` with each line in all cells that its radius reaches.
 pub(crate) const GRID_MENDED: &str = "grid+scan+radius";
-/// As the thesis writes it, but with edges that do not fade.
+/// `grid` without anti-aliasing.
 pub(crate) const GRID_HARD: &str = "grid+aa=none";
-/// Tessellation as the thesis writes it: one indirect command a path.
+/// Tessellation as in the thesis: one indirect draw per path.
 pub(crate) const TESSELLATION: &str = "tessellation";
-/// The same with one draw for all patches.
+/// Tessellation with one draw for all patches.
 pub(crate) const TESSELLATION_COMPACT: &str = "tessellation-compact";
-/// The judge of all methods.
+/// The reference of all methods.
 pub(crate) const ORACLE: &str = "oracle";
 
 /// Phases of building the grid.
@@ -24,3 +24,20 @@ pub(crate) const BIN: &str = "bin";
 /// Stages of a frame by tessellation.
 pub(crate) const CULL: &str = "cull";
 pub(crate) const TESSELLATE_AND_DRAW: &str = "tessellate and draw";
+
+/// Parts of a run. The run file stores these names.
+pub(crate) const PICTURES: &str = "pictures";
+pub(crate) const BORDERS: &str = "coverage at the borders of cells";
+pub(crate) const OCCUPANCY: &str = "frame time against pixels inside the grid";
+pub(crate) const MAGNIFICATION: &str = "frame time against magnification";
+pub(crate) const MOST_PATHS: &str = "most paths at 60 frames a second";
+pub(crate) const GROWTH: &str = "time against number of paths";
+/// All parts of a whole run, in the order of their measurement.
+pub(crate) const PARTS: [&str; 6] = [
+    PICTURES,
+    BORDERS,
+    OCCUPANCY,
+    MAGNIFICATION,
+    MOST_PATHS,
+    GROWTH,
+];

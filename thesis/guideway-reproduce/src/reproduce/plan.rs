@@ -1,10 +1,12 @@
+//! The plan of a run: methods, datasets, picture size, frames and time limit.
+
 use serde::{Deserialize, Serialize};
 
-use super::Search;
 use super::names::{GRID, GRID_MENDED, GRID_SCAN, TESSELLATION, TESSELLATION_COMPACT};
+use super::search::Search;
 use guideway_bench::Dataset;
 
-/// The thesis' methods and their variants, and beside them the methods that are not the thesis'.
+/// The methods of the thesis with their variants, and the methods of Guideway.
 pub const METHODS: [&str; 10] = [
     GRID,
     GRID_SCAN,
@@ -18,44 +20,44 @@ pub const METHODS: [&str; 10] = [
     "cpu",
 ];
 
-/// Everything that decides what is measured, so that a run says of itself what it is.
+/// All settings of a run; the run file stores them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Plan {
-    /// Whether this is the short run for slow devices.
+    /// Whether this is the quick run for slow devices.
     pub is_quick: bool,
     /// Methods with their options.
     pub methods: Vec<String>,
     /// Width and height of the measured pictures.
     pub size_px: [u32; 2],
-    /// Memory that each method may use.
+    /// Memory limit per method.
     pub memory_bytes: u64,
     /// Paths of D1 and of D2 in tables 5.2 and 5.3 and in figure 5.3.
     pub view_paths: [usize; 2],
     /// Numbers of paths in figures 5.4 and 5.5.
     pub sizes: Vec<usize>,
-    /// Times that a scene is made ready for figure 5.5, after a first time that does not count.
+    /// Measured preparations of a scene for figure 5.5, after an unmeasured one.
     pub repeats: usize,
-    /// Table 5.1.
+    /// Search of table 5.1.
     pub search: Search,
-    /// Frames after the first that do not count.
+    /// Unmeasured frames after the first.
     pub warmup: usize,
-    /// Frames that count.
+    /// Measured frames.
     pub frames: usize,
-    /// Once a method has drawn a view for so long, one frame that counts is enough.
+    /// Drawing time of a view in milliseconds after which one measured frame suffices.
     pub enough_ms: f64,
-    /// Time for one sitting, of the last one where they differ.
+    /// Time limit of the last session.
     pub minutes: f64,
 }
 
 impl Plan {
-    /// What the thesis measured, for a graphics device.
+    /// The measurements of the thesis, for a graphics device.
     pub fn full() -> Self {
         Self {
             is_quick: false,
             methods: METHODS.map(str::to_owned).to_vec(),
             size_px: [1920, 1080],
             memory_bytes: 16_000_000_000,
-            // The thesis does not say; these are the counts of its table 5.1.
+            // The thesis does not state them; these are the counts of its table 5.1.
             view_paths: [1_020_350, 756_000],
             sizes: vec![90_000, 180_000, 360_000, 540_000, 720_000],
             repeats: 10,
@@ -73,7 +75,7 @@ impl Plan {
         }
     }
 
-    /// The same in small, so that it ends in minutes on a processor that plays the graphics device.
+    /// Smaller measurements that end within minutes on a software graphics device.
     pub fn quick() -> Self {
         Self {
             is_quick: true,
@@ -96,7 +98,7 @@ impl Plan {
         }
     }
 
-    /// Paths of a dataset in the tables of views.
+    /// Number of paths of a dataset in the tables and figures of views.
     pub fn view_paths(&self, dataset: Dataset) -> usize {
         match dataset {
             Dataset::D1 => self.view_paths[0],

@@ -1,20 +1,21 @@
-//! Taking up a run that its time or its user cut short, perhaps from a file that somebody changed.
+//! Continues a run that its time limit or its user cut short, after checks of the run file.
 
 use guideway_layout::Limits;
 use guideway_scene::{Cancel, RenderError};
 
-use super::lab::Lab;
-use super::{Run, measure};
+use super::measure::measure;
+use super::run::Run;
+use super::session::Session;
 use guideway_bench::Start;
 
-/// Why a run cannot go on.
+/// A run cannot continue.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ResumeError {
-    /// What it says of itself cannot be.
+    /// The record holds impossible values.
     #[error("{0}")]
     Damaged(String),
-    /// A method runs elsewhere than before, so that its numbers would not compare.
-    #[error("{method} ran on {before}, and here it runs on {here}")]
+    /// A method runs on another device than before, so that the times are not comparable.
+    #[error("method `{method}` ran on {before}; on this computer it runs on {here}")]
     Device {
         /// The method with its options.
         method: String,
@@ -23,16 +24,16 @@ pub enum ResumeError {
         /// Its device now.
         here: String,
     },
-    /// The plan's pictures have no possible size.
+    /// The picture size of the plan is invalid.
     #[error(transparent)]
     Render(#[from] RenderError),
 }
 
-/// Measures what a run lacks, because its time was over, it was stopped, or a part of it failed. All that was
-/// measured stays, and a search goes on from its trials. A run that lacks nothing comes back as it is.
+/// Measures the parts that a run lacks after a time limit, a stop or a failure. Existing
+/// measurements stay, and a search continues from its trials. A complete run returns unchanged.
 ///
 /// # Errors
-/// When the run is damaged, or the devices of its methods are not those of before.
+/// When the record is damaged, or a method runs on another device than before.
 pub fn resume(
     run: Run,
     start: Start<'_>,
@@ -41,12 +42,12 @@ pub fn resume(
 ) -> Result<Run, ResumeError> {
     check_counts(&run)?;
     let plan = run.plan.clone();
-    let lab = Lab::new(&plan, start, cancel, progress)?;
-    check_devices(&run, &lab)?;
-    Ok(measure(run, &lab))
+    let session = Session::new(&plan, start, cancel, progress)?;
+    check_devices(&run, &session)?;
+    Ok(measure(run, &session))
 }
 
-/// Whether every number of paths can be measured.
+/// Checks that every number of paths in the record is within the limits of a layout.
 fn check_counts(run: &Run) -> Result<(), ResumeError> {
     let (plan, search) = (&run.plan, &run.plan.search);
     let found = run.results.most_paths.iter();
@@ -58,19 +59,19 @@ fn check_counts(run: &Run) -> Result<(), ResumeError> {
         .chain(plan.sizes.iter().copied())
         .chain(trials);
     if let Some(paths) = counts.find(|paths| !(1..=most).contains(paths)) {
-        let why = format!("it has a dataset of {paths} paths, where 1 to {most} can be measured");
+        let why = format!("a dataset of {paths} paths is outside the limits of 1 to {most} paths");
         return Err(ResumeError::Damaged(why));
     }
     if search.least > search.ceiling {
         let (least, ceiling) = (search.least, search.ceiling);
-        let why = format!("its search goes from {least} paths up to {ceiling}");
+        let why = format!("the search range from {least} to {ceiling} paths is empty");
         return Err(ResumeError::Damaged(why));
     }
     Ok(())
 }
 
-fn check_devices(run: &Run, lab: &Lab<'_>) -> Result<(), ResumeError> {
-    for facts in lab.facts() {
+fn check_devices(run: &Run, session: &Session<'_>) -> Result<(), ResumeError> {
+    for facts in session.facts() {
         let mut before = run.methods.iter().filter(|m| m.method == facts.method);
         let before = before.next().and_then(|m| m.device.clone());
         if before != facts.device {

@@ -1,38 +1,41 @@
-//! What a run writes down. The page and all tables are made from this alone.
+//! The record of a run, as `run.json` stores it. The page and all tables derive from it alone.
 
 use serde::{Deserialize, Serialize};
 
-use super::{Limit, Plan, Trial, pending};
+use super::names::PARTS;
+use super::plan::Plan;
+use super::search::{Limit, Trial};
 use guideway_bench::{Dataset, Machine, Measured, Outcome, Row};
 
-/// Why there is no measurement where the time did not do; a run that goes on measures such rows.
+/// Reason of a row that the time limit left out; a continued run measures such rows.
 pub(crate) const OUT_OF_TIME: &str = "the time for this part was over";
 
 /// One run of `guideway reproduce`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Run {
-    /// When and where it was measured: once, and once more each time that it went on.
-    pub sittings: Vec<Sitting>,
-    /// Whether its last sitting was stopped before its end.
+    /// Times and computers of the measurement: one entry per start or continuation.
+    #[serde(rename = "sittings")]
+    pub sessions: Vec<RunSession>,
+    /// Whether the user stopped the last session.
     pub is_partial: bool,
-    /// What was to be measured.
+    /// Planned measurements.
     pub plan: Plan,
-    /// The methods, and why some do not run.
+    /// The methods with their devices.
     pub methods: Vec<MethodFacts>,
-    /// Parts of the run, in order.
+    /// Parts of the run in order.
     pub parts: Vec<PartFacts>,
-    /// What was measured.
+    /// Measurements.
     pub results: Results,
 }
 
-/// What was measured at a time.
+/// One session of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Sitting {
-    /// Where it was measured.
+pub struct RunSession {
+    /// The measuring computer.
     pub machine: Machine,
-    /// When it began, RFC 3339 in UTC.
+    /// Start time, RFC 3339 in UTC.
     pub started: String,
-    /// How long it took.
+    /// Duration in seconds.
     pub elapsed_s: f64,
 }
 
@@ -41,22 +44,22 @@ pub struct Sitting {
 pub struct MethodFacts {
     /// Name with options.
     pub method: String,
-    /// The device that it runs on, with its driver.
+    /// Its device with the driver.
     pub device: Option<String>,
-    /// Why it does not run here.
+    /// Reason why it does not run.
     pub why_not: Option<String>,
 }
 
 /// One part of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PartFacts {
-    /// What was measured in it.
+    /// Name of the part.
     pub name: String,
-    /// How long it took, in all sittings together.
+    /// Duration in seconds, summed over all sessions.
     pub elapsed_s: f64,
-    /// Whether its time was over before its end.
+    /// Whether the time limit cut it.
     pub is_cut: bool,
-    /// Why it ended early, if it failed.
+    /// Error that ended it early.
     pub failure: Option<String>,
 }
 
@@ -69,10 +72,10 @@ pub struct Results {
     pub occupancy: Vec<Reading>,
     /// Figure 5.3: `at` is the magnification, 0.1 where everything is seen.
     pub zoom: Vec<Reading>,
-    /// Figures 5.4 and 5.5: `at` is the number of paths. Everything is seen; `prepare` is the mean of the
-    /// plan's repeats.
+    /// Figures 5.4 and 5.5: `at` is the number of paths. Everything is seen; `prepare` is the mean
+    /// of the plan's repeats.
     pub growth: Vec<Reading>,
-    /// Coverage against the oracle's, for lines that lie across the borders of cells.
+    /// Coverage relative to the oracle, for lines across the borders of cells.
     pub borders: Vec<Border>,
     /// Figures 5.1, 5.2, 5.3, 5.6 and 5.7.
     pub pictures: Vec<Picture>,
@@ -81,13 +84,13 @@ pub struct Results {
 /// One method at one point of a table or a curve.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Reading {
-    /// What was drawn.
+    /// The dataset.
     pub dataset: Dataset,
-    /// How many paths of it.
+    /// Its number of paths.
     pub paths: usize,
-    /// Where on the axis.
+    /// Position on the axis of the table or figure.
     pub at: f64,
-    /// What was measured.
+    /// The measurement.
     #[serde(flatten)]
     pub row: Row,
 }
@@ -95,69 +98,69 @@ pub struct Reading {
 /// The most paths that one method draws at 60 frames a second.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MostPaths {
-    /// What was drawn.
+    /// The dataset.
     pub dataset: Dataset,
-    /// The most paths; none when even the fewest tried take too long.
+    /// The most paths; `None` when even the smallest trial takes too long.
     pub paths: Option<usize>,
-    /// Why there are not more.
+    /// Reason why more paths are not possible.
     pub limit: Limit,
-    /// What the method said when it refused more.
+    /// Error of the method that refused more paths.
     pub reason: Option<String>,
-    /// All counts tried.
+    /// All trials in order.
     pub trials: Vec<Trial>,
-    /// What was measured with that many paths.
+    /// The measurement with the most paths.
     #[serde(flatten)]
     pub row: Row,
 }
 
-/// How much of the oracle's coverage one method shows.
+/// Coverage of one method relative to the oracle.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Border {
     /// The method with its options.
     pub method: String,
-    /// Share of the oracle's coverage that is missing.
+    /// Missing share of the oracle's coverage.
     pub lost: Option<f64>,
-    /// Coverage that the oracle has not, as a share of the oracle's.
+    /// Surplus coverage, relative to the oracle's coverage.
     pub added: Option<f64>,
-    /// Why it was not measured.
+    /// Reason why it was not measured.
     pub why_not: Option<String>,
 }
 
 /// A picture of the page.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Picture {
-    /// The figure it belongs to, such as `5.3`.
+    /// Number of its figure, such as `5.3`.
     pub figure: String,
-    /// What it shows.
+    /// Content of the picture.
     pub caption: String,
     /// Width and height.
     pub size_px: [u32; 2],
-    /// Times that a page enlarges each pixel.
+    /// Enlargement of each pixel on the page.
     pub enlarged: u32,
-    /// The file, in base 64.
+    /// The PNG file in base 64.
     pub png_base64: String,
 }
 
 impl Run {
-    /// How long all sittings took.
+    /// Duration of all sessions in seconds.
     pub fn elapsed_s(&self) -> f64 {
-        self.sittings.iter().map(|sitting| sitting.elapsed_s).sum()
+        self.sessions.iter().map(|session| session.elapsed_s).sum()
     }
 
-    /// Whether nothing is left that [`super::resume`] would measure.
+    /// Whether every part is complete, so that [`super::resume`] has nothing to measure.
     pub fn is_whole(&self) -> bool {
-        pending(self).is_empty()
+        PARTS.iter().all(|part| self.has(part))
     }
 
-    /// Whether a part was measured to its end.
+    /// Whether a part is complete: neither cut nor failed.
     pub(super) fn has(&self, part: &str) -> bool {
         let is_whole = |facts: &PartFacts| !facts.is_cut && facts.failure.is_none();
         let mut own = self.parts.iter().filter(|facts| facts.name == part);
         own.any(is_whole)
     }
 
-    /// Writes down what became of a part.
-    pub(super) fn note(&mut self, facts: PartFacts) {
+    /// Records the outcome of a part; durations of several sessions add up.
+    pub(super) fn record(&mut self, facts: PartFacts) {
         match self.parts.iter_mut().find(|old| old.name == facts.name) {
             Some(old) => {
                 let elapsed_s = old.elapsed_s + facts.elapsed_s;
@@ -169,7 +172,7 @@ impl Run {
 }
 
 impl Results {
-    /// The readings of one method and dataset, by where they are on the axis.
+    /// The measured readings of one method and dataset, sorted by position on the axis.
     pub(crate) fn curve<'a>(
         readings: &'a [Reading],
         dataset: Dataset,
@@ -207,23 +210,24 @@ impl Reading {
         (self.dataset, self.paths, self.row.method.as_str()) == (dataset, paths, method)
     }
 
-    /// How many readings of one method and scene there are that a longer time would not change.
+    /// Number of readings of one method and scene that the time limit did not leave out.
     pub(crate) fn settled(rows: &[Self], dataset: Dataset, paths: usize, method: &str) -> usize {
         let is_settled = |row: &&Self| {
-            let left_out = matches!(&row.row.outcome, Outcome::WhyNot(why) if why == OUT_OF_TIME);
+            let left_out =
+                matches!(&row.row.outcome, Outcome::NotMeasured(why) if why == OUT_OF_TIME);
             row.is_of(dataset, paths, method) && !left_out
         };
         rows.iter().filter(is_settled).count()
     }
 
-    /// Puts a reading where one was left out before, or at the end.
+    /// Replaces the reading at the same position, or appends.
     pub(crate) fn put(self, rows: &mut Vec<Self>) {
-        let has_my_place = |row: &&mut Self| {
-            // Not by its bits, which a file may have rounded.
+        let is_same = |row: &&mut Self| {
+            // With a tolerance: the file may have rounded the number.
             let is_at = (row.at - self.at).abs() < 1e-9;
             is_at && row.is_of(self.dataset, self.paths, &self.row.method)
         };
-        match rows.iter_mut().find(has_my_place) {
+        match rows.iter_mut().find(is_same) {
             Some(row) => *row = self,
             None => rows.push(self),
         }

@@ -1,63 +1,73 @@
-//! The most paths that a method draws within a frame time: bracket by doubling, then close in.
+//! Finds the most paths that a method draws within a frame time.
+//!
+//! The search first doubles (or halves) the count until it brackets the answer, then narrows the
+//! bracket by interpolation (regula falsi) with every third step a bisection:
+//!
+//! ```text
+//! within the target      beyond the target
+//!   low ----------- guess ----------- high
+//! ```
+//!
+//! It takes some 10 to 16 trials for a tolerance of 2 %.
 
 use guideway_scene::RenderError;
 use serde::{Deserialize, Serialize};
 
-/// What is searched for, and where.
+/// Target and range of the search.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Search {
-    /// Longest median frame time that counts, in milliseconds.
+    /// Limit of the median frame time, in milliseconds.
     pub target_ms: f64,
     /// Paths of the first trial.
     pub start: usize,
-    /// Fewest paths that are tried.
+    /// Fewest paths of a trial.
     pub least: usize,
-    /// Most paths that are tried.
+    /// Most paths of a trial.
     pub ceiling: usize,
-    /// The search ends when the count is known to this fraction.
+    /// Relative width of the bracket at which the search ends.
     pub tolerance: f64,
 }
 
-/// Why there are not more paths.
+/// The reason why more paths are not possible.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Limit {
-    /// With more, frames take too long.
+    /// With more paths, frames take too long.
     FrameTime,
-    /// More were not tried.
+    /// The count reached [`Search::ceiling`].
     Ceiling,
-    /// Even the fewest that were tried take too long.
+    /// Even [`Search::least`] paths take too long.
     TooSlow,
-    /// More are refused, such as for lack of memory.
+    /// The method refuses more paths, for example for lack of memory.
     Refused,
-    /// The time for the search was over.
+    /// The time limit ended the search.
     Time,
 }
 
-/// One count that was tried.
+/// One trial of the search.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Trial {
-    /// Paths.
+    /// Number of paths.
     pub paths: usize,
-    /// Median frame time in milliseconds; none when the method refused.
+    /// Median frame time in milliseconds; `None` when the method refused.
     pub frame_ms: Option<f64>,
 }
 
-/// What a search found.
+/// State and result of a search.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Found<T> {
-    /// The most paths within the target, and what was measured of them.
+    /// The most paths within the target, with their measurement.
     pub(crate) best: Option<(usize, T)>,
-    /// Why there are not more.
+    /// Reason why more paths are not possible.
     pub(crate) limit: Limit,
-    /// What the method said when it refused more.
+    /// Error of the method that refused more paths.
     pub(crate) reason: Option<String>,
     /// All trials in order.
     pub(crate) trials: Vec<Trial>,
 }
 
 impl<T> Found<T> {
-    /// What a search begins with.
+    /// The state before the first trial.
     pub(crate) fn nothing() -> Self {
         Self {
             best: None,
@@ -68,19 +78,29 @@ impl<T> Found<T> {
     }
 }
 
+/// Result of one trial.
+pub(crate) enum Attempt<T> {
+    /// The method drew: median frame time in milliseconds, and the measurement.
+    Drawn { frame_ms: f64, measurement: T },
+    /// The method refused, for this reason.
+    Refused { reason: String },
+}
+
 enum Next {
     Try(usize),
     End(Limit),
 }
 
 impl Search {
-    /// Runs trials until the answer is known, after those of a search that ended early. A trial returns the
-    /// frame time and what to keep of it, or why the method refuses; `is_over` ends the search early.
+    /// Continues a search until it ends, or until `is_over`. `trial` measures a number of paths.
+    ///
+    /// # Errors
+    /// When a trial fails, or the caller cancels.
     pub(crate) fn run<T>(
         &self,
         mut found: Found<T>,
         is_over: impl Fn() -> bool,
-        mut trial: impl FnMut(usize) -> Result<Result<(f64, T), String>, RenderError>,
+        mut trial: impl FnMut(usize) -> Result<Attempt<T>, RenderError>,
     ) -> Result<Found<T>, RenderError> {
         found.limit = loop {
             let paths = match self.next(&found.trials) {
@@ -88,21 +108,24 @@ impl Search {
                 Next::Try(paths) => paths,
                 Next::End(limit) => break limit,
             };
-            let (frame_ms, kept) = match trial(paths)? {
-                Ok((frame_ms, kept)) => (Some(frame_ms), Some(kept)),
-                Err(reason) => {
+            let frame_ms = match trial(paths)? {
+                Attempt::Drawn {
+                    frame_ms,
+                    measurement,
+                } => {
+                    if frame_ms <= self.target_ms {
+                        found.best = Some((paths, measurement));
+                    }
+                    Some(frame_ms)
+                }
+                Attempt::Refused { reason } => {
                     found.reason = Some(reason);
-                    (None, None)
+                    None
                 }
             };
             found.trials.push(Trial { paths, frame_ms });
-            if let Some(kept) = kept
-                && self.is_within(frame_ms)
-            {
-                found.best = Some((paths, kept));
-            }
         };
-        // Of a search that may go on, the refusal may yet be the answer.
+        // A search without time may continue and still end with the refusal.
         if !matches!(found.limit, Limit::Refused | Limit::Time) {
             found.reason = None;
         }
@@ -114,7 +137,7 @@ impl Search {
     }
 
     fn next(&self, trials: &[Trial]) -> Next {
-        // The answer lies between the last count within the target and the last beyond.
+        // The bracket: the last count within the target, and the last beyond it.
         let last = |is_low| {
             let mut own = trials
                 .iter()
@@ -123,7 +146,7 @@ impl Search {
         };
         let low = last(true).and_then(|t| Some((t.paths, t.frame_ms?)));
         let high = last(false).map(|t| (t.paths, t.frame_ms));
-        // A count that is far off is left by larger steps.
+        // Larger steps far from the target.
         let step = |nearness: f64| if nearness < 0.2 { 4 } else { 2 };
         match (low, high) {
             (None, None) => Next::Try(self.start.clamp(self.least, self.ceiling)),
@@ -149,10 +172,12 @@ impl Search {
                     });
                 }
                 let fraction = match high_ms {
-                    // Times grow about in line with paths; every third step halves, in case they do not.
+                    // Interpolate, because times grow almost linearly with paths; bisect every
+                    // third step, in case they do not.
                     Some(high_ms) if !trials.len().is_multiple_of(3) && high_ms > low_ms => {
                         let guess = (self.target_ms - low_ms) / (high_ms - low_ms);
-                        // A little to the far side of the guess, so that the bracket closes from there too.
+                        // Beyond the guess by part of the tolerance, so that both ends of the
+                        // bracket move.
                         let nudge = 0.4 * self.tolerance * low as f64 / width as f64;
                         if guess < 0.5 {
                             guess + nudge
@@ -181,20 +206,34 @@ mod tests {
         tolerance: 0.02,
     };
 
-    /// Searches with a method whose frame takes a + b n milliseconds and that refuses above `room` paths.
-    fn search(a_ms: f64, b_ms: f64, room: usize) -> Found<usize> {
+    fn drawn<T>(frame_ms: f64, measurement: T) -> Attempt<T> {
+        Attempt::Drawn {
+            frame_ms,
+            measurement,
+        }
+    }
+
+    fn refused<T>() -> Attempt<T> {
+        Attempt::Refused {
+            reason: "no memory".to_owned(),
+        }
+    }
+
+    /// Searches with a method that takes a + b n milliseconds for n paths and refuses above
+    /// `capacity`.
+    fn search(a_ms: f64, b_ms: f64, capacity: usize) -> Found<usize> {
         let trial = |paths: usize| {
-            Ok(if paths > room {
-                Err("no memory".to_owned())
+            Ok(if paths > capacity {
+                refused()
             } else {
-                Ok((a_ms + b_ms * paths as f64, paths))
+                drawn(a_ms + b_ms * paths as f64, paths)
             })
         };
         SEARCH.run(Found::nothing(), || false, trial).unwrap()
     }
 
     #[test]
-    fn the_most_paths_are_found_to_two_percent_in_few_trials() {
+    fn finds_the_most_paths_to_two_percent_in_sixteen_trials() {
         for most in [
             300.0,
             7_000.0,
@@ -220,21 +259,21 @@ mod tests {
     }
 
     #[test]
-    fn a_method_that_is_never_too_slow_reaches_the_ceiling() {
+    fn a_fast_method_reaches_the_ceiling() {
         let found = search(1.0, 1e-9, usize::MAX);
         assert_eq!(found.best.unwrap().0, SEARCH.ceiling);
         assert_eq!(found.limit, Limit::Ceiling);
     }
 
     #[test]
-    fn a_method_that_is_always_too_slow_has_no_answer() {
+    fn a_slow_method_ends_at_the_fewest_paths() {
         let found = search(20.0, 1e-6, usize::MAX);
         assert_eq!((found.best, found.limit), (None, Limit::TooSlow));
         assert_eq!(found.trials.last().unwrap().paths, SEARCH.least);
     }
 
     #[test]
-    fn lack_of_memory_is_told_from_lack_of_time() {
+    fn distinguishes_refusal_from_frame_time() {
         let found = search(1.0, 1e-6, 500_000);
         let (paths, _) = found.best.unwrap();
         assert!((490_000..=500_000).contains(&paths), "{paths}");
@@ -242,17 +281,17 @@ mod tests {
         assert_eq!(found.reason.as_deref(), Some("no memory"));
         let nothing = search(1.0, 1e-6, 0);
         assert_eq!((nothing.best, nothing.limit), (None, Limit::Refused));
-        // Refused at first, but then it was the time after all.
+        // The first trial is refused, but a smaller one exceeds the frame time.
         let found = search(1.0, 5e-4, 40_000);
         assert_eq!((found.limit, found.reason), (Limit::FrameTime, None));
     }
 
     #[test]
-    fn the_search_ends_in_time_and_on_cancel() {
+    fn ends_at_the_time_limit_and_on_cancel() {
         let trials = std::cell::Cell::new(0);
         let count = |paths: usize| {
             trials.set(trials.get() + 1);
-            Ok(Ok((paths as f64 * 1e-5, ())))
+            Ok(drawn(paths as f64 * 1e-5, ()))
         };
         let nothing = Found::nothing();
         let found = SEARCH.run(nothing, || trials.get() >= 2, count).unwrap();
@@ -264,16 +303,16 @@ mod tests {
     }
 
     #[test]
-    fn a_search_that_goes_on_tries_nothing_twice() {
+    fn a_continued_search_repeats_no_trial() {
         let whole = search(1.0, 1e-6, 500_000);
         for cut in 0..=whole.trials.len() {
             let left = std::cell::Cell::new(cut);
             let trial = |paths: usize| {
                 left.set(left.get().saturating_sub(1));
                 Ok(if paths > 500_000 {
-                    Err("no memory".to_owned())
+                    refused()
                 } else {
-                    Ok((1.0 + 1e-6 * paths as f64, paths))
+                    drawn(1.0 + 1e-6 * paths as f64, paths)
                 })
             };
             let is_over = || left.get() == 0;
@@ -284,12 +323,12 @@ mod tests {
     }
 
     #[test]
-    fn times_that_jump_about_still_end_the_search() {
+    fn noisy_times_still_end_the_search() {
         let mut random = 1_u32;
         let noisy = |paths: usize| {
             random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
             let noise = 0.8 + 0.4 * f64::from(random >> 16) / 65_536.0;
-            Ok(Ok((paths as f64 * 3e-5 * noise, ())))
+            Ok(drawn(paths as f64 * 3e-5 * noise, ()))
         };
         let found = SEARCH.run(Found::nothing(), || false, noisy).unwrap();
         assert_eq!(found.limit, Limit::FrameTime);

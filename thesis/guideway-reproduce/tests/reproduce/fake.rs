@@ -1,4 +1,4 @@
-//! Methods whose costs are known, for they are made up.
+//! A fake method with given frame times and capacity.
 
 use std::sync::Arc;
 
@@ -8,21 +8,21 @@ use guideway_scene::{
     Style, View, Work,
 };
 
-/// A method whose frames take `a_ms` and `b_ms` for each path, by what it says.
+/// A method that reports frames of `a_ms` plus `b_ms` per path.
 #[derive(Clone, Copy)]
 pub(crate) struct Fake {
     pub(crate) device: &'static str,
     pub(crate) a_ms: f64,
     pub(crate) b_ms: f64,
-    /// Paths that it has memory for.
-    pub(crate) room: usize,
+    /// Most paths that it accepts.
+    pub(crate) capacity: usize,
 }
 
 pub(crate) const FAKE: Fake = Fake {
     device: "a made-up device",
     a_ms: 1.0,
     b_ms: 0.01,
-    room: usize::MAX,
+    capacity: usize::MAX,
 };
 
 impl Method for Fake {
@@ -40,7 +40,7 @@ impl Method for Fake {
         budget: &Budget,
     ) -> Result<Box<dyn Prepared>, RenderError> {
         let paths = scene.draw_order().len();
-        if paths > self.room {
+        if paths > self.capacity {
             return Err(RenderError::Budget {
                 method: "fake",
                 what: "paths",

@@ -1,4 +1,4 @@
-//! A whole run and its report, with methods whose costs are known.
+//! Tests a whole run and its report with fake methods of known cost.
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests may panic as tests do")]
 
@@ -9,11 +9,11 @@ mod resume;
 use std::cell::RefCell;
 
 use fake::{FAKE, Fake};
-use guideway_bench::Dataset;
+use guideway_bench::{Dataset, StartError};
 use guideway_reproduce::reproduce::{Limit, Plan, Run, Verdict, findings, reproduce};
 use guideway_scene::{Cancel, Method};
 
-/// A plan that takes no time with methods that take none.
+/// A small plan, fast with fake methods.
 fn plan(methods: &[&str]) -> Plan {
     Plan {
         methods: methods.iter().map(|&m| m.to_owned()).collect(),
@@ -27,23 +27,25 @@ fn plan(methods: &[&str]) -> Plan {
 }
 
 fn run_with(plan: &Plan, cancel: &Cancel, fake: impl Fn(&str) -> Option<Fake>) -> Run {
-    let start = |spec: &str| -> Result<Box<dyn Method>, String> {
+    let start = |spec: &str| -> Result<Box<dyn Method>, StartError> {
         match fake(spec) {
             Some(fake) => Ok(Box::new(fake)),
-            None => Err(format!("{spec} needs a <device> & a driver")),
+            None => Err(StartError::new(format_args!(
+                "{spec} needs a <device> & a driver"
+            ))),
         }
     };
     reproduce(plan, &start, cancel, &|_| {}).unwrap()
 }
 
 #[test]
-fn everything_is_measured_as_the_methods_say() {
+fn records_the_numbers_of_every_method() {
     let methods = ["grid", "grid+scan", "tessellation", "cpu"];
     let run = run_with(&plan(&methods), &Cancel::default(), |spec| match spec {
         "cpu" => None,
         "tessellation" => Some(Fake { b_ms: 0.05, ..FAKE }),
         "grid+scan" => Some(Fake {
-            room: 1_000,
+            capacity: 1_000,
             ..FAKE
         }),
         _ => Some(FAKE),
@@ -57,7 +59,7 @@ fn everything_is_measured_as_the_methods_say() {
         0
     );
 
-    // 60 frames a second: (1000 / 60 - 1) / 0.01 paths, or the room that there is.
+    // 60 frames per second: (1000 / 60 - 1) / 0.01 paths, or the capacity.
     for found in &run.results.most_paths {
         let (most, limit) = match found.row.method.as_str() {
             "grid" => (1_566, Limit::FrameTime),
@@ -78,7 +80,7 @@ fn everything_is_measured_as_the_methods_say() {
         assert_eq!(measured.held_bytes, paths as u64 * 100);
     }
 
-    // Every method has a row everywhere, also the one that does not run.
+    // Every method has a row in each table, including the unavailable one.
     let results = &run.results;
     assert_eq!(results.occupancy.len(), 2 * 4 * 3);
     assert_eq!(results.zoom.len(), 2 * 4 * 4);
@@ -104,7 +106,7 @@ fn everything_is_measured_as_the_methods_say() {
             _ => 1.0 + 0.01 * reading.paths as f64,
         };
         let measured = reading.row.measured().unwrap();
-        // Without fetching the picture, which this method says takes long.
+        // Without the read-back of the picture, which this method reports as slow.
         assert!(
             (measured.frame_ms.mean - expected_ms).abs() < 1e-9,
             "{reading:?}"
@@ -125,7 +127,7 @@ fn everything_is_measured_as_the_methods_say() {
 }
 
 #[test]
-fn a_method_that_does_not_run_says_why_everywhere() {
+fn every_row_of_an_unavailable_method_has_the_reason() {
     let run = run_with(&plan(&["grid"]), &Cancel::default(), |_| None);
     let why = "grid needs a <device> & a driver";
     assert_eq!(run.methods[0].why_not.as_deref(), Some(why));
@@ -138,7 +140,7 @@ fn a_method_that_does_not_run_says_why_everywhere() {
 }
 
 #[test]
-fn a_run_that_is_stopped_keeps_what_it_has() {
+fn a_stopped_run_keeps_its_measurements() {
     let cancel = Cancel::default();
     let parts = RefCell::new(Vec::new());
     let progress = |what: &str| {
@@ -147,7 +149,7 @@ fn a_run_that_is_stopped_keeps_what_it_has() {
             cancel.set();
         }
     };
-    let start = |_: &str| -> Result<Box<dyn Method>, String> { Ok(Box::new(FAKE)) };
+    let start = |_: &str| -> Result<Box<dyn Method>, StartError> { Ok(Box::new(FAKE)) };
     let run = reproduce(&plan(&["grid"]), &start, &cancel, &progress).unwrap();
     assert!(run.is_partial && parts.borrow().len() > 5);
     assert_eq!(run.results.zoom.len(), 2 * 4);
@@ -157,7 +159,7 @@ fn a_run_that_is_stopped_keeps_what_it_has() {
 }
 
 #[test]
-fn what_the_time_does_not_do_for_is_marked() {
+fn marks_parts_beyond_the_time_limit() {
     let plan = Plan {
         minutes: 1e-9,
         ..plan(&["grid"])

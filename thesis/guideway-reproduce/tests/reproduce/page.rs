@@ -1,4 +1,4 @@
-//! The page and the tables that are made from a run.
+//! Tests the page and the tables of a run.
 
 use guideway_reproduce::report::{PAGE, files};
 use guideway_reproduce::reproduce::Run;
@@ -76,7 +76,7 @@ fn the_page_has_every_table_and_figure() {
 }
 
 #[test]
-fn the_page_needs_nothing_else() {
+fn the_page_loads_no_other_file() {
     let page = page(&full());
     let document = Document::parse_with_options(&page, with_dtd()).expect("well-formed");
     for node in document.descendants() {
@@ -100,7 +100,7 @@ fn the_page_needs_nothing_else() {
 }
 
 #[test]
-fn what_is_missing_is_said() {
+fn the_page_states_missing_measurements() {
     let run = run_with(&plan(&METHODS), &Cancel::default(), |_| None);
     let text = page(&run);
     Document::parse_with_options(&text, with_dtd()).expect("well-formed");
@@ -117,7 +117,7 @@ fn what_is_missing_is_said() {
 }
 
 #[test]
-fn chips_that_hardly_rasterize_are_told_of_beside_tessellation() {
+fn warns_about_tessellation_on_compute_devices() {
     let on = |device| {
         let run = run_with(&plan(&["grid", "tessellation"]), &Cancel::default(), |_| {
             Some(Fake { device, ..FAKE })
@@ -128,7 +128,7 @@ fn chips_that_hardly_rasterize_are_told_of_beside_tessellation() {
 }
 
 #[test]
-fn tables_are_files_too() {
+fn writes_every_table_as_csv() {
     let run = full();
     let files = files(&run);
     let names: Vec<&str> = files.iter().map(|file| file.name.as_str()).collect();
@@ -161,18 +161,18 @@ fn tables_are_files_too() {
     assert_eq!(lines.count(), 2 * METHODS.len() - 1);
 }
 
-/// Whether two values are the same but for the last digit of their numbers, which the reader may round.
-fn are_same(a: &Value, b: &Value) -> bool {
+/// Whether two values are equal up to the last digit of their numbers, which the reader may round.
+fn are_equal(a: &Value, b: &Value) -> bool {
     match (a, b) {
         (Value::Number(a), Value::Number(b)) => {
             let (a, b) = (a.as_f64().unwrap(), b.as_f64().unwrap());
             (a - b).abs() <= 1e-12 * a.abs()
         }
         (Value::Array(a), Value::Array(b)) => {
-            a.len() == b.len() && a.iter().zip(b).all(|(a, b)| are_same(a, b))
+            a.len() == b.len() && a.iter().zip(b).all(|(a, b)| are_equal(a, b))
         }
         (Value::Object(a), Value::Object(b)) => {
-            let same = |(key, value)| b.get(key).is_some_and(|other| are_same(value, other));
+            let same = |(key, value)| b.get(key).is_some_and(|other| are_equal(value, other));
             a.len() == b.len() && a.iter().all(same)
         }
         (a, b) => a == b,
@@ -180,19 +180,19 @@ fn are_same(a: &Value, b: &Value) -> bool {
 }
 
 #[test]
-fn a_run_comes_back_from_its_json() {
+fn json_round_trip_preserves_a_run() {
     let run = run_with(&plan(&METHODS), &Cancel::default(), |spec| {
         (spec != "grid+scan").then_some(FAKE)
     });
     let saved = serde_json::to_value(&run).unwrap();
     let back: Run = serde_json::from_str(&saved.to_string()).unwrap();
-    assert!(are_same(&saved, &serde_json::to_value(&back).unwrap()));
+    assert!(are_equal(&saved, &serde_json::to_value(&back).unwrap()));
     Document::parse_with_options(&page(&back), with_dtd()).expect("well-formed");
 
     let mut other = saved.clone();
     other["results"]["zoom"][0]["paths"] = 301.into();
-    assert!(!are_same(&saved, &other));
+    assert!(!are_equal(&saved, &other));
     other = saved.clone();
     other["results"]["zoom"][0]["method"] = "cpu".into();
-    assert!(!are_same(&saved, &other));
+    assert!(!are_equal(&saved, &other));
 }

@@ -1,11 +1,11 @@
-//! Runs that were cut short and go on.
+//! Tests the continuation of incomplete runs.
 
 use std::cell::RefCell;
 
-use guideway_bench::{Dataset, Outcome};
+use guideway_bench::{Dataset, Outcome, StartError};
 use guideway_reproduce::report::{PAGE, files};
 use guideway_reproduce::reproduce::{
-    Limit, Plan, Reading, ResumeError, Run, Sitting, reproduce, resume,
+    Limit, Plan, Reading, ResumeError, Run, RunSession, reproduce, resume,
 };
 use guideway_scene::{Cancel, Method};
 
@@ -15,25 +15,25 @@ use super::plan;
 const METHODS: [&str; 2] = ["grid", "tessellation"];
 const OUT_OF_TIME: &str = "the time for this part was over";
 
-/// Goes on with a run; says what was measured.
-fn go_on(run: Run, fake: Fake) -> Result<(Run, Vec<String>), ResumeError> {
-    let told = RefCell::new(Vec::new());
-    let tell = |what: &str| told.borrow_mut().push(what.to_owned());
-    let start = |_: &str| -> Result<Box<dyn Method>, String> { Ok(Box::new(fake)) };
-    let run = resume(run, &start, &Cancel::default(), &tell)?;
-    Ok((run, told.into_inner()))
+/// Continues a run; returns it with the progress messages.
+fn resume_with(run: Run, fake: Fake) -> Result<(Run, Vec<String>), ResumeError> {
+    let messages = RefCell::new(Vec::new());
+    let show = |message: &str| messages.borrow_mut().push(message.to_owned());
+    let start = |_: &str| -> Result<Box<dyn Method>, StartError> { Ok(Box::new(fake)) };
+    let run = resume(run, &start, &Cancel::default(), &show)?;
+    Ok((run, messages.into_inner()))
 }
 
-/// A run that is cancelled when it begins on what is told so.
+/// A run that the user stops at a progress message.
 fn run(plan: &Plan, stop_at: &str) -> Run {
     let cancel = Cancel::default();
-    let tell = |what: &str| {
-        if what == stop_at {
+    let show = |message: &str| {
+        if message == stop_at {
             cancel.set();
         }
     };
-    let start = |_: &str| -> Result<Box<dyn Method>, String> { Ok(Box::new(FAKE)) };
-    reproduce(plan, &start, &cancel, &tell).unwrap()
+    let start = |_: &str| -> Result<Box<dyn Method>, StartError> { Ok(Box::new(FAKE)) };
+    reproduce(plan, &start, &cancel, &show).unwrap()
 }
 
 fn whole() -> Run {
@@ -48,7 +48,7 @@ fn place(reading: &Reading) -> Place {
     (reading.dataset, reading.paths, reading.at, method, ms)
 }
 
-/// Everything in a run that does not depend on the clock.
+/// Compares everything in two runs except times of the clock.
 fn assert_same(a: &Run, b: &Run) {
     let (x, y) = (&a.results, &b.results);
     for (x, y) in [
@@ -76,7 +76,7 @@ fn assert_same(a: &Run, b: &Run) {
 }
 
 #[test]
-fn a_run_cut_by_its_time_becomes_whole() {
+fn resume_completes_a_run_cut_by_its_time_limit() {
     let short = Plan {
         minutes: 1e-9,
         ..plan(&METHODS)
@@ -84,18 +84,22 @@ fn a_run_cut_by_its_time_becomes_whole() {
     let mut cut = run(&short, "");
     assert!(!cut.is_whole() && !cut.is_partial);
     cut.plan.minutes = 60.0;
-    let (done, told) = go_on(cut, FAKE).unwrap();
-    assert!(told.iter().all(|what| !what.starts_with("picture")));
+    let (done, messages) = resume_with(cut, FAKE).unwrap();
+    assert!(
+        messages
+            .iter()
+            .all(|message| !message.starts_with("picture"))
+    );
     assert!(done.is_whole());
     assert_same(&done, &whole());
-    assert_eq!(done.sittings.len(), 2);
-    let elapsed_s = |sitting: &Sitting| sitting.elapsed_s;
-    let sum: f64 = done.sittings.iter().map(elapsed_s).sum();
+    assert_eq!(done.sessions.len(), 2);
+    let elapsed_s = |session: &RunSession| session.elapsed_s;
+    let sum: f64 = done.sessions.iter().map(elapsed_s).sum();
     assert_eq!(done.elapsed_s(), sum);
 }
 
 #[test]
-fn a_run_that_was_stopped_becomes_whole_wherever_it_was() {
+fn resume_completes_a_run_stopped_in_any_part() {
     let plan = plan(&METHODS);
     for stop_at in [
         "picture of figure 5.3",
@@ -106,16 +110,16 @@ fn a_run_that_was_stopped_becomes_whole_wherever_it_was() {
     ] {
         let stopped = run(&plan, stop_at);
         assert!(stopped.is_partial && !stopped.is_whole(), "{stop_at}");
-        let (done, told) = go_on(stopped, FAKE).unwrap();
-        assert_eq!(told[0], stop_at);
+        let (done, messages) = resume_with(stopped, FAKE).unwrap();
+        assert_eq!(messages[0], stop_at);
         assert_same(&done, &whole());
     }
 }
 
 #[test]
-fn what_was_measured_stays_and_nothing_else_is_measured_again() {
+fn resume_measures_only_missing_rows() {
     let left_out = |reading: &mut Reading| {
-        reading.row.outcome = Outcome::WhyNot(OUT_OF_TIME.to_owned());
+        reading.row.outcome = Outcome::NotMeasured(OUT_OF_TIME.to_owned());
     };
     let mut cut = whole();
     // The last two views of a method in the middle, and a size of another.
@@ -125,17 +129,17 @@ fn what_was_measured_stays_and_nothing_else_is_measured_again() {
     found.trials.truncate(2);
     let trials = found.trials.clone();
     (found.limit, found.paths) = (Limit::Time, None);
-    found.row.outcome = Outcome::WhyNot(OUT_OF_TIME.to_owned());
+    found.row.outcome = Outcome::NotMeasured(OUT_OF_TIME.to_owned());
     for part in &mut cut.parts[3..] {
         part.is_cut = true;
     }
 
     let slower = Fake { b_ms: 0.02, ..FAKE };
-    let (done, told) = go_on(cut.clone(), slower).unwrap();
-    let wanted = |what: &&String| !what.starts_with("most paths: grid on D2");
-    let told: Vec<&String> = told.iter().filter(wanted).collect();
+    let (done, messages) = resume_with(cut.clone(), slower).unwrap();
+    let wanted = |message: &&String| !message.starts_with("most paths: grid on D2");
+    let messages: Vec<&String> = messages.iter().filter(wanted).collect();
     assert_eq!(
-        told,
+        messages,
         [
             "magnification: tessellation on D1",
             "growth: tessellation on D1 with 50 paths"
@@ -158,7 +162,7 @@ fn what_was_measured_stays_and_nothing_else_is_measured_again() {
     let at = |readings: &[Reading]| readings.iter().map(|r| r.at).collect::<Vec<_>>();
     assert_eq!(at(&before.zoom), at(&after.zoom));
     assert_eq!(before.occupancy.len(), after.occupancy.len());
-    // The search goes on from its trials.
+    // The search continues from its trials.
     let found = &after.most_paths[2];
     assert_eq!(found.trials[..2], trials);
     assert!(found.trials.len() > 2 && found.limit == Limit::FrameTime);
@@ -166,42 +170,42 @@ fn what_was_measured_stays_and_nothing_else_is_measured_again() {
 }
 
 #[test]
-fn a_whole_run_has_nothing_to_go_on_with() {
+fn resume_returns_a_complete_run_unchanged() {
     let whole = whole();
-    let (same, told) = go_on(whole.clone(), FAKE).unwrap();
+    let (same, messages) = resume_with(whole.clone(), FAKE).unwrap();
     assert_eq!(same, whole);
-    assert!(told.is_empty(), "{told:?}");
+    assert!(messages.is_empty(), "{messages:?}");
 }
 
 #[test]
-fn another_device_is_refused() {
+fn rejects_another_device() {
     let stopped = run(&plan(&METHODS), "magnification: grid on D1");
     let other = Fake {
         device: "another device",
         ..FAKE
     };
-    let error = go_on(stopped.clone(), other).unwrap_err();
+    let error = resume_with(stopped.clone(), other).unwrap_err();
     assert!(matches!(error, ResumeError::Device { .. }));
     assert_eq!(
         error.to_string(),
-        "grid ran on a made-up device, and here it runs on another device"
+        "method `grid` ran on a made-up device; on this computer it runs on another device"
     );
-    // Nor may a method be gone.
-    let gone = |spec: &str| -> Result<Box<dyn Method>, String> {
+    // A method without a device is rejected too.
+    let unavailable = |spec: &str| -> Result<Box<dyn Method>, StartError> {
         match spec {
             "grid" => Ok(Box::new(FAKE)),
-            _ => Err("it is gone".to_owned()),
+            _ => Err(StartError::new("no device")),
         }
     };
-    let error = resume(stopped, &gone, &Cancel::default(), &|_| {}).unwrap_err();
+    let error = resume(stopped, &unavailable, &Cancel::default(), &|_| {}).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "tessellation ran on a made-up device, and here it runs on no device"
+        "method `tessellation` ran on a made-up device; on this computer it runs on no device"
     );
 }
 
 #[test]
-fn counts_that_cannot_be_are_refused() {
+fn rejects_path_counts_out_of_range() {
     let damage: [fn(&mut Run); 6] = [
         |run| run.plan.view_paths[1] = 0,
         |run| run.plan.sizes.push(usize::MAX),
@@ -214,17 +218,20 @@ fn counts_that_cannot_be_are_refused() {
     for (i, damage) in damage.iter().enumerate() {
         let mut run = stopped.clone();
         damage(&mut run);
-        let error = go_on(run, FAKE).unwrap_err();
+        let error = resume_with(run, FAKE).unwrap_err();
         assert!(matches!(error, ResumeError::Damaged(_)), "{i}: {error}");
         assert!(error.to_string().contains("paths"), "{i}: {error}");
     }
     let mut run = stopped;
     run.plan.size_px = [0, 0];
-    assert!(matches!(go_on(run, FAKE), Err(ResumeError::Render(_))));
+    assert!(matches!(
+        resume_with(run, FAKE),
+        Err(ResumeError::Render(_))
+    ));
 }
 
 #[test]
-fn a_trial_that_makes_no_sense_ends_the_search() {
+fn contradictory_trials_end_the_search() {
     let mut cut = whole();
     let found = &mut cut.results.most_paths[0];
     found.limit = Limit::Time;
@@ -233,7 +240,7 @@ fn a_trial_that_makes_no_sense_ends_the_search() {
     found.trials[0].frame_ms = Some(1e9);
     found.trials.rotate_left(1);
     cut.parts[4].is_cut = true;
-    let (done, _) = go_on(cut, FAKE).unwrap();
+    let (done, _) = resume_with(cut, FAKE).unwrap();
     assert_eq!(done.results.most_paths[0].limit, Limit::FrameTime);
 }
 
@@ -244,12 +251,12 @@ fn the_page_tells_of_all_sittings() {
         files.find(|file| file.name == PAGE).unwrap().text
     };
     let mut run = whole();
-    assert!(!page(&run).contains("sittings"));
-    run.sittings.push(run.sittings[0].clone());
+    assert!(!page(&run).contains("sessions"));
+    run.sessions.push(run.sessions[0].clone());
     let same = page(&run);
-    assert!(same.contains(", in 2 sittings of ") && same.contains("It took 2 sittings"));
+    assert!(same.contains(", in 2 sessions of ") && same.contains("The run took 2 sessions"));
     assert!(!same.contains("different processors"));
-    run.sittings[1].machine.cpu = Some("Another <CPU>".to_owned());
+    run.sessions[1].machine.cpu = Some("Another <CPU>".to_owned());
     let other = page(&run);
     assert!(other.contains("different processors") && other.contains("Another &lt;CPU&gt;"));
 }

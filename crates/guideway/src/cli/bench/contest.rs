@@ -6,7 +6,7 @@ use guideway::layout::UserError;
 use guideway::render::density::ToneMap;
 use guideway::render::{Budget, Shading, Style};
 use guideway::scene::LineRule;
-use guideway_bench::{Contest, Dataset, Dress, Motion, Moves, plain_scene};
+use guideway_bench::{Contest, Dataset, Motion, Moves, StylePreset, plain_scene};
 
 use super::args::{Args, Dressing, MotionKind};
 use crate::cli::error::usage_error;
@@ -54,15 +54,15 @@ impl Args {
             }
             None => plain_scene(input::read(&self.subject, out)?.0),
         };
-        let dress = match self.dress {
-            Dressing::Own => Dress::Own,
-            Dressing::Mixed => Dress::Mixed,
-            Dressing::Translucent => Dress::Translucent,
+        let style_preset = match self.dress {
+            Dressing::Own => StylePreset::Own,
+            Dressing::Mixed => StylePreset::Mixed,
+            Dressing::Translucent => StylePreset::Translucent,
         };
         Ok(Contest {
             name: self.subject.to_string_lossy().into_owned(),
-            scene: dress.scene(scene),
-            dress,
+            scene: style_preset.scene(scene),
+            style_preset,
             methods: self.specs(),
             size: self.size,
             magnify: self.magnify,

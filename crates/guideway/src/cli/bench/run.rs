@@ -2,7 +2,7 @@
 
 use guideway::layout::UserError;
 use guideway::render::Cancel;
-use guideway_bench::{Contestant, compare};
+use guideway_bench::{Contestant, StartError, compare};
 
 use super::args::Args;
 use super::text;
@@ -19,7 +19,7 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
     }
     let contest = args.contest(out)?;
     let progress = out.progress(format!("measuring {}", contest.methods.join(", ")));
-    let start = |spec: &str| guideway::method(spec).map_err(|error| error.to_string());
+    let start = |spec: &str| guideway::method(spec).map_err(StartError::new);
     // Ctrl-C ends the process at once: no file is open before the end.
     let comparison = compare(&contest, &start, &Cancel::default())?;
     drop(progress);

@@ -1,6 +1,6 @@
 //! The report of `bench` as a table.
 
-use guideway_bench::{Comparison, Contestant, Dress, Measured, Motion, Outcome, StageTime};
+use guideway_bench::{Comparison, Contestant, Measured, Motion, Outcome, StageTime, StylePreset};
 
 use crate::cli::text;
 
@@ -36,7 +36,7 @@ pub(super) fn text(comparison: &Comparison) -> String {
     text += &line("method", &HEAD.map(str::to_owned));
     for (contestant, cells) in &rows {
         text += &line(&contestant.row.method, cells);
-        if let Outcome::WhyNot(why_not) = &contestant.row.outcome {
+        if let Outcome::NotMeasured(why_not) = &contestant.row.outcome {
             text += &format!("  not measured: {why_not}\n");
         }
     }
@@ -62,10 +62,10 @@ fn heading(comparison: &Comparison) -> String {
             format!("{} moved each frame{ways}", text::counted(moved, "path"))
         }
     };
-    let dress = match comparison.dress {
-        Dress::Own => "",
-        Dress::Mixed => ", in many colors",
-        Dress::Translucent => ", in many colors, half of them translucent",
+    let style = match comparison.style_preset {
+        StylePreset::Own => "",
+        StylePreset::Mixed => ", in many colors",
+        StylePreset::Translucent => ", in many colors, half of them translucent",
     };
     let shade = if comparison.is_density {
         ", shaded by density"
@@ -73,7 +73,7 @@ fn heading(comparison: &Comparison) -> String {
         ""
     };
     format!(
-        "{}: {}, {}{dress}{shade}; {width} x {height} pixels at {:.4} pixels per meter, {motion}\n\
+        "{}: {}, {}{style}{shade}; {width} x {height} pixels at {:.4} pixels per meter, {motion}\n\
          {} per method after {} of warm-up, interleaved; times are medians, ratios are relative to \
          the first method\n\n",
         text::single_line(&comparison.scene.name, 200),

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use guideway::layout::UserError;
 use guideway::render::Cancel;
-use guideway_bench::Start;
+use guideway_bench::{Start, StartError};
 use guideway_reproduce::reproduce::{Plan, Run, reproduce, resume};
 
 use super::names::RUN_FILE;
@@ -91,7 +91,7 @@ fn measure(
     out: &Output,
     work: impl FnOnce(Start<'_>, &Cancel, &dyn Fn(&str)) -> Result<Run, UserError>,
 ) -> Result<Run, UserError> {
-    let start = |spec: &str| guideway::method(spec).map_err(|error| error.to_string());
+    let start = |spec: &str| guideway::method(spec).map_err(StartError::new);
     let shown: RefCell<Option<ProgressBar>> = RefCell::default();
     let show = |part: &str| {
         let mut shown = shown.borrow_mut();

@@ -1,19 +1,21 @@
-use super::{Block, Section};
+//! The last section: describes the measurement, and lists the methods and the parts of the run.
+
+use super::section::{Block, Section};
 use crate::report::table::{Cell, Column, Table};
 use crate::reproduce::{MethodFacts, PartFacts, Run};
 use guideway_bench::format::{count, digits, megabytes};
 
-/// Where and how all of it was measured.
+/// The section about the measurement.
 pub(super) fn section(run: &Run) -> Section {
     let plan = &run.plan;
-    let how = format!(
-        "Pictures of {} x {} pixels. A frame's time runs until the picture is complete where it was made, by \
-         the device's clock where the method has one, without fetching it; the time seen from outside has the \
-         way there and back. Of each view a first frame and {} more do not count, then {} do; a method \
-         that has drawn one view for {} s ends with one frame that counts. Means as in the thesis, medians \
-         with the range from the 5th to the 95th percentile beside them. Lines are as wide as in the thesis: \
-         a radius of 1.5 pixels held within 2 to 150 mm. Methods are measured one after the other, each \
-         with up to {} MB of memory; `guideway bench` lets them take turns.",
+    let settings = format!(
+        "Pictures have {} x {} pixels. The frame time ends when the picture is complete on the device, by \
+         the clock of the device if it has one, without the transfer to the host; the wall time includes \
+         transfers. Each view starts with one frame and {} more of warm-up, followed by {} measured frames; \
+         after {} s of drawing, one measured frame suffices. The tables show means, as in the thesis, and \
+         medians with the 5th and 95th percentile. Lines have the width of the thesis: a radius of 1.5 \
+         pixels, clamped to 2 to 150 mm. Methods run one after the other, each with up to {} MB of memory; \
+         `guideway bench` interleaves them.",
         plan.size_px[0],
         plan.size_px[1],
         plan.warmup,
@@ -21,17 +23,17 @@ pub(super) fn section(run: &Run) -> Section {
         digits(plan.enough_ms / 1e3),
         count(megabytes(plan.memory_bytes) as u64),
     );
-    let mut blocks = vec![Block::Text(how)];
-    if run.sittings.len() > 1 {
-        let sittings = run.sittings.len();
+    let mut blocks = vec![Block::Text(settings)];
+    if run.sessions.len() > 1 {
+        let sessions = run.sessions.len();
         blocks.push(Block::Text(format!(
-            "It took {sittings} sittings on the same devices; each measured what those before it had left out."
+            "The run took {sessions} sessions on the same devices; each continued the one before."
         )));
     }
     blocks.extend([Block::Table(methods(run)), Block::Table(parts(run))]);
     Section {
         id: "about",
-        title: "How it was measured",
+        title: "Method of measurement",
         blocks,
     }
 }
@@ -62,7 +64,9 @@ fn parts(run: &Run) -> Table {
     let row = |part: &PartFacts| {
         let note = match (&part.failure, part.is_cut) {
             (Some(failure), _) => failure.clone(),
-            (None, true) => "its time was over: some of it is missing".to_owned(),
+            (None, true) => {
+                "the time limit cut this part: some measurements are missing".to_owned()
+            }
             (None, false) => String::new(),
         };
         vec![

@@ -1,4 +1,8 @@
-use super::{Block, Section, computes_only, frame_cells, frame_columns, median_cell, why_not};
+//! Figures 5.4 and 5.5: charts and tables of frame and build times against the number of paths.
+
+use super::blocks::compute_device_warning;
+use super::cells::{frame_cells, frame_columns, median_cell, why_not};
+use super::section::{Block, Section};
 use crate::report::chart::{Chart, Series};
 use crate::report::table::{Cell, Column, Table};
 use crate::reproduce::names::{
@@ -20,15 +24,15 @@ const PHASES: [(&str, &str); 4] = [
 pub(super) fn frames(run: &Run) -> Section {
     let mut blocks = vec![Block::Text(
         "All paths are in view. As in the thesis, the upper line of each method is the whole frame: \
-         culling, tessellating and drawing."
+         culling, tessellation and drawing."
             .to_owned(),
     )];
-    blocks.extend(computes_only(run));
+    blocks.extend(compute_device_warning(run));
     blocks.extend(Dataset::ALL.map(|dataset| Block::Chart(frame_chart(run, dataset))));
     blocks.push(Block::Table(frame_table(run)));
     Section {
         id: "input-size",
-        title: "Culling, tessellating and drawing against input size",
+        title: "Culling, tessellation and drawing against input size",
         blocks,
     }
 }
@@ -56,7 +60,7 @@ fn frame_chart(run: &Run, dataset: Dataset) -> Chart {
     }
     Chart {
         title: format!(
-            "Figure 5.4: culling beside the whole frame, dataset {}",
+            "Figure 5.4: culling and the whole frame, dataset {}",
             dataset.name()
         ),
         x_label: "paths",
@@ -85,15 +89,15 @@ fn frame_table(run: &Run) -> Table {
         Column::new("Method", "method"),
         Column::new("Paths", "paths"),
         Column::new("Culling (ms)", "cull_ms"),
-        Column::new("Tessellating and drawing (ms)", "tessellate_and_draw_ms"),
+        Column::new("Tessellation and drawing (ms)", "tessellate_and_draw_ms"),
         Column::in_page("Frame: mean (ms)"),
         Column::in_page("median, 5 to 95 % (ms)"),
         Column::new("Not measured", "why_not"),
     ];
-    columns.extend(frame_columns(""));
+    columns.extend(frame_columns());
     Table {
         name: "figure-5.4",
-        title: "Numbers of figure 5.4, and the whole frame of all other methods".to_owned(),
+        title: "Numbers of figure 5.4, and whole frames of the other methods".to_owned(),
         is_folded: true,
         columns,
         rows: run.results.growth.iter().map(frame_row).collect(),
@@ -116,11 +120,11 @@ fn frame_row(reading: &Reading) -> Vec<Cell> {
     cells
 }
 
-/// Figure 5.5, which the thesis' text calls 5.6.
+/// Figure 5.5; the text of the thesis refers to it as 5.6.
 pub(super) fn builds(run: &Run) -> Section {
     let mut blocks = vec![Block::Text(format!(
-        "What is done once for a layout before the first frame, each phase apart: means of {} times, \
-         after one that does not count. The thesis numbers its figure 5.5 and speaks of 5.6.",
+        "Phases of the build before the first frame of a layout: means of {} runs after one of \
+         warm-up. The text of the thesis refers to its figure 5.5 as 5.6.",
         run.plan.repeats
     ))];
     for method in [GRID, GRID_MENDED] {
@@ -167,15 +171,15 @@ fn build_table(run: &Run) -> Table {
     ];
     columns.extend(PHASES.map(|(phase, key)| Column::new(format!("{phase} (ms)"), key)));
     columns.extend([
-        Column::new("All of it (ms)", "prepare_ms"),
-        Column::new("Seen from outside (ms)", "prepare_wall_ms"),
+        Column::new("Total (ms)", "prepare_ms"),
+        Column::new("Wall time (ms)", "prepare_wall_ms"),
         Column::new("Held (MB)", "held_mb"),
         Column::new("Peak (MB)", "peak_mb"),
         Column::new("Not measured", "why_not"),
     ]);
     Table {
         name: "figure-5.5",
-        title: "Numbers of figure 5.5, and making ready for all other methods".to_owned(),
+        title: "Numbers of figure 5.5, and preparation by the other methods".to_owned(),
         is_folded: true,
         columns,
         rows: run.results.growth.iter().map(build_row).collect(),

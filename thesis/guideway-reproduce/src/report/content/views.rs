@@ -1,6 +1,8 @@
-use super::{
-    Block, Section, by_method, frame_cells, frame_columns, median_cell, pictures, why_not,
-};
+//! Tables 5.2 and 5.3 and figure 5.3: frame times against pixels inside the grid and magnification.
+
+use super::blocks::pictures;
+use super::cells::{frame_cells, frame_columns, median_cell, why_not};
+use super::section::{Block, Section};
 use crate::report::chart::{Chart, Series};
 use crate::report::table::{Cell, Column, Table};
 use crate::reproduce::{Reading, Results, Run, names, thesis};
@@ -11,9 +13,9 @@ use guideway_bench::format::{count, percent};
 pub(super) fn occupancy(run: &Run) -> Section {
     let paths = Dataset::ALL.map(|d| count(run.plan.view_paths(d) as u64));
     let text = format!(
-        "Frame times while the view is panned until a part of its pixels lies outside the box of all \
-         curves: {} paths of D1 and {} of D2. The share inside is counted, not estimated. The thesis' own \
-         times are from another machine ({}), and it does not say how many paths they are for.",
+        "Frame times of {} paths of D1 and {} of D2, with the view panned until part of its pixels is outside \
+         the bounds of all curves. The share inside is counted per pixel. The times of the thesis are from \
+         another machine ({}); the thesis does not state their number of paths.",
         paths[0],
         paths[1],
         thesis::MACHINE
@@ -37,23 +39,22 @@ fn occupancy_table(run: &Run, dataset: Dataset) -> Table {
         Column::in_file("share_inside"),
         Column::in_page("Frame: mean (ms)"),
         Column::in_page("median, 5 to 95 % (ms)"),
-        Column::in_page("Seen from outside (ms)"),
-        Column::new("Tests a pixel", "tests_a_pixel"),
+        Column::in_page("Wall time (ms)"),
+        Column::new("Tests per pixel", "tests_a_pixel"),
         Column::new("Thesis (ms)", "thesis_ms"),
         Column::new("Not measured", "why_not"),
     ];
-    columns.extend(frame_columns(""));
+    columns.extend(frame_columns());
     let mut rows = Vec::new();
-    let all = by_method(run, &run.results.occupancy, dataset, |r| {
-        (r.dataset, &r.row)
-    });
-    for (method, readings) in all {
-        for (i, reading) in readings.into_iter().enumerate() {
-            let theirs = thesis::OCCUPANCY_MS.iter().find(|(d, _)| *d == dataset);
-            let theirs = theirs.and_then(|(_, ms)| ms.get(i).copied());
+    let thesis_ms = thesis::OCCUPANCY_MS.iter().find(|(d, _)| *d == dataset);
+    for method in &run.plan.methods {
+        let readings = run.results.occupancy.iter();
+        let own = readings.filter(|r| r.dataset == dataset && r.row.method == *method);
+        for (i, reading) in own.enumerate() {
+            let thesis_ms = thesis_ms.and_then(|(_, ms)| ms.get(i).copied());
             rows.push(occupancy_row(
                 reading,
-                theirs.filter(|_| method == names::GRID),
+                thesis_ms.filter(|_| method == names::GRID),
             ));
         }
     }
@@ -89,7 +90,7 @@ fn occupancy_row(reading: &Reading, thesis_ms: Option<f64>) -> Vec<Cell> {
 /// Figure 5.3.
 pub(super) fn zoom(run: &Run) -> Section {
     let mut blocks = vec![Block::Text(
-        "At 10 % everything is in view; at 200 % it is 20 times as large, around the busiest place of the \
+        "At 10 % all paths are in view; at 200 % they are 20 times as large, about the densest point of the \
          layout."
             .to_owned(),
     )];
@@ -127,13 +128,13 @@ fn zoom_table(run: &Run) -> Table {
         Column::in_page("Magnification"),
         Column::in_file("magnification"),
         Column::in_file("paths"),
-        Column::new("Paths not outside", "paths_drawn"),
+        Column::new("Paths in view", "paths_drawn"),
         Column::in_page("Frame: mean (ms)"),
         Column::in_page("median, 5 to 95 % (ms)"),
-        Column::new("Tests a pixel", "tests_a_pixel"),
+        Column::new("Tests per pixel", "tests_a_pixel"),
         Column::new("Not measured", "why_not"),
     ];
-    columns.extend(frame_columns(""));
+    columns.extend(frame_columns());
     let row = |reading: &Reading| {
         let measured = reading.row.measured();
         let mut cells = vec![

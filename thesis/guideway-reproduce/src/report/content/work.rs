@@ -1,13 +1,16 @@
-use super::{Block, Section, why_not};
+//! Coverage at the borders of cells, and the counted work of a frame.
+
+use super::cells::why_not;
+use super::section::{Block, Section};
 use crate::report::table::{Cell, Column, Table};
 use crate::reproduce::{Border, Reading, Run};
 use guideway_bench::format::{megabytes, percent};
 
-/// Share of the coverage from which on a method that lacks it draws the wrong picture. Lines of one pixel, in
-/// place of three, lack two thirds.
+/// Missing share of the coverage above which a picture counts as empty. Derived: a method with
+/// lines one pixel wide instead of three lacks two thirds.
 const BLIND: f64 = 0.9;
 
-/// Coverage against the oracle's.
+/// The section about coverage relative to the oracle.
 pub(super) fn borders(run: &Run) -> Section {
     let share = |share: Option<f64>| share.map_or(Cell::Nothing, |s| Cell::text(percent(s)));
     let row = |border: &Border| {
@@ -22,7 +25,7 @@ pub(super) fn borders(run: &Run) -> Section {
     };
     let table = Table {
         name: "borders",
-        title: "Coverage of one hall at 20 pixels a meter, against the oracle's".to_owned(),
+        title: "Coverage of one hall at 20 pixels per meter, relative to the oracle".to_owned(),
         is_folded: false,
         columns: vec![
             Column::new("Method", "method"),
@@ -36,9 +39,9 @@ pub(super) fn borders(run: &Run) -> Section {
     };
     let mut blocks = vec![
         Block::Text(
-                "How much of the coverage of the exact oracle each method lacks, and how much it adds. Some \
-                 of both is the shape of its edges, which fade otherwise than a true area does; what the \
-                 grid as written lacks beyond its mended variant is lost at the borders of cells."
+                "Missing and surplus coverage of each method, relative to the exact oracle. Part of both \
+                 comes from the profile of anti-aliased edges; the additional loss of `grid` compared \
+                 with `grid+scan+radius` occurs at the borders of cells."
                     .to_owned(),
             ),
         Block::Table(table),
@@ -51,31 +54,31 @@ pub(super) fn borders(run: &Run) -> Section {
     }
 }
 
-/// A warning about methods whose pictures lack nearly everything.
+/// A warning about methods with an almost empty picture.
 fn blind(run: &Run) -> Option<Block> {
     let borders = run.results.borders.iter();
     let blind = borders.filter(|border| border.lost.is_some_and(|lost| lost > BLIND));
     let names: Vec<&str> = blind.map(|border| border.method.as_str()).collect();
     (!names.is_empty()).then(|| {
         Block::Text(format!(
-            "Mind the times of {}: hardly anything of this picture was drawn.",
+            "Mind the times of {}: the picture is almost empty.",
             names.join(", ")
         ))
     })
 }
 
-/// Counters that need no hardware to compare.
+/// The section about device-independent work counts.
 pub(super) fn section(run: &Run) -> Section {
     let table = Table {
         name: "work",
-        title: "Work of one frame with most pixels inside the grid, and of building".to_owned(),
+        title: "Work of one frame with most pixels inside the grid, and of the build".to_owned(),
         is_folded: false,
         columns: vec![
             Column::new("Dataset", "dataset"),
             Column::new("Method", "method"),
             Column::new("Paths", "paths"),
             Column::new("Lines", "lines"),
-            Column::new("Tests a pixel", "tests_a_pixel"),
+            Column::new("Tests per pixel", "tests_a_pixel"),
             Column::in_file("tests"),
             Column::new("Atomics", "atomics"),
             Column::in_page("Read (MB)"),
@@ -98,9 +101,9 @@ pub(super) fn section(run: &Run) -> Section {
         title: "Counted work",
         blocks: vec![
             Block::Text(
-                "Numbers that any device would give, so that machines need not be alike to be compared: \
-                 tests of a point against a line, atomic operations, and the bytes that threads ask for and \
-                 write before any cache. Empty where a method does not count."
+                "Device-independent counts, comparable between machines: point-line distance tests, atomic \
+                 operations, and bytes that threads read and write before any cache. A cell is empty if \
+                 the method does not count."
                     .to_owned(),
             ),
             Block::Table(table),
@@ -108,7 +111,7 @@ pub(super) fn section(run: &Run) -> Section {
     }
 }
 
-/// The reading with most pixels inside, of each dataset and method.
+/// The reading with most pixels inside, per dataset and method.
 fn fullest(run: &Run) -> Vec<&Reading> {
     let mut fullest: Vec<&Reading> = Vec::new();
     for reading in &run.results.occupancy {

@@ -1,7 +1,6 @@
-//! Claims on building the grid.
+//! Judges the claims on building the grid, by the phase times of the growth part.
 
-use super::table::at_most_paths;
-use super::{Judgment, in_all};
+use super::judgment::{Judgment, at_most_paths, in_all};
 use crate::reproduce::names::{BIN, COUNT, GRID, GRID_SCAN, PREFIX_SUM, SAMPLE};
 use crate::reproduce::{Results, Run};
 use guideway_bench::format::{count, digits, percent, time, times};
@@ -12,7 +11,7 @@ fn phase_ms(measured: &Measured, phase: &str) -> Option<f64> {
     Some(stage.ms)
 }
 
-/// The four phases of the grid's build together, without what the processor does before them.
+/// Sum of the four phases of the build, without the host work before them.
 fn phases_ms(measured: &Measured) -> Option<f64> {
     let phases = [SAMPLE, COUNT, PREFIX_SUM, BIN];
     phases
@@ -30,10 +29,10 @@ pub(super) fn sampling(run: &Run) -> Judgment {
             return None;
         }
         let more = many.0.at / few.0.at;
-        // The power of the number of paths that the time grows with.
+        // Exponent p of time ~ paths^p.
         let power = (many_ms / few_ms).ln() / more.ln();
         let evidence = format!(
-            "{}: from {} to {} paths it grows from {} to {}, as their number to the power of {}.",
+            "{}: from {} to {} paths the time grows from {} to {}, as the number of paths to the power of {}.",
             dataset.name(),
             count(few.0.paths as u64),
             count(many.0.paths as u64),
@@ -55,7 +54,7 @@ pub(super) fn contention(run: &Run) -> Judgment {
         return None;
     }
     let evidence = format!(
-        "With {} paths both phases together take {} on D1 and {} on D2, {} as long.",
+        "With {} paths both phases take {} on D1 and {} on D2, {} as long.",
         count(paths as u64),
         time(d1_ms),
         time(d2_ms),
@@ -95,8 +94,8 @@ pub(super) fn scan(run: &Run) -> Judgment {
             return None;
         }
         let evidence = format!(
-            "{} with {} paths: {} as written, {} by a scan ({} as fast). As written it is {} of \
-             the four phases' {}.",
+            "{} with {} paths: {} as written, {} with a scan ({} as fast). As written, it takes {} of \
+             the {} of all four phases.",
             dataset.name(),
             count(paths as u64),
             time(naive_ms),
@@ -116,15 +115,15 @@ pub(super) fn dynamic(run: &Run) -> Judgment {
         let (build_ms, draw_ms) = (phases_ms(measured)?, measured.frame_ms.mean);
         let holds = build_ms + draw_ms > frame_ms;
         let meaning = if !holds {
-            "Both fit into one frame: the grid can be built anew whenever a path moves."
+            "Both fit into one frame: each edit can rebuild the grid."
         } else if build_ms > frame_ms {
-            "The build alone takes longer than a frame may."
+            "The build alone exceeds the time of a frame."
         } else {
-            "Each fits into one frame, both together do not."
+            "Each fits into one frame, but not both together."
         };
         let evidence = format!(
-            "{} with {} paths: {} for the four phases of the build and {} to draw, of {} that a frame \
-             has. {meaning}",
+            "{} with {} paths: {} for the four phases of the build and {} to draw, of {} per frame. \
+             {meaning}",
             dataset.name(),
             count(paths as u64),
             time(build_ms),

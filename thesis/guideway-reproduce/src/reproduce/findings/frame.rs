@@ -1,13 +1,12 @@
-//! Claims on the time of a frame and on what is seen.
+//! Judges the claims on frame times and coverage, by the views, growth and border parts.
 
-use super::table::at_most_paths;
-use super::{Judgment, in_all};
+use super::judgment::{Judgment, at_most_paths, in_all};
 use crate::reproduce::names::{CULL, GRID, GRID_MENDED, TESSELLATION, TESSELLATION_COMPACT};
 use crate::reproduce::{Reading, Results, Run};
 use guideway_bench::format::{count, digits, percent, time, times};
 use guideway_bench::{Dataset, Measured};
 
-/// A change below this is taken for none.
+/// Smallest ratio of two times that counts as a change. Chosen: above the noise of repeated runs.
 const NOTABLE: f64 = 1.1;
 
 pub(super) fn occupancy(run: &Run) -> Judgment {
@@ -68,18 +67,18 @@ fn zoom(run: &Run, method: &str) -> Judgment {
     }))
 }
 
-/// What became of the work, where it is counted.
+/// The counted work of both views, or the culled paths for a method without counts.
 fn tests(far: &(&Reading, &Measured), near: &(&Reading, &Measured)) -> String {
     match (far.1.work.tests_a_pixel, near.1.work.tests_a_pixel) {
         (Some(far_tests), Some(near_tests)) => format!(
-            " A pixel tests {} lines at {} and {} at {}: all those of its cell.",
+            " Each pixel tests {} lines at {} and {} at {}: all lines of its cell.",
             digits(far_tests),
             percent(far.0.at),
             digits(near_tests),
             percent(near.0.at),
         ),
         _ => format!(
-            " {} of {} paths are outside the view at the end.",
+            " At the largest magnification, {} of {} paths are outside the view.",
             count(near.1.paths.outside),
             count(near.1.paths.total)
         ),
@@ -92,12 +91,12 @@ pub(super) fn bottleneck(run: &Run) -> Judgment {
         let (each_ms, one_ms) = (each.frame_ms.mean, one.frame_ms.mean);
         let holds = each_ms < one_ms * NOTABLE;
         let meaning = if holds {
-            "Drawing the same patches by one command is no faster, so it is not the commands."
+            "One command for the same patches is no faster, so commands are not the bottleneck."
         } else {
-            "The patches are the same, so the difference is the cost of one indirect command a path."
+            "The patches are the same, so the difference is the cost of one indirect command per path."
         };
         let evidence = format!(
-            "{} with {} paths: {} with one command a path, {} with one for all. {meaning}",
+            "{} with {} paths: {} with one command per path, {} with one for all. {meaning}",
             dataset.name(),
             count(paths as u64),
             time(each_ms),
@@ -133,11 +132,11 @@ pub(super) fn overlap(run: &Run) -> Judgment {
     let (d1_ms, d2_ms) = (d1.frame_ms.mean, d2.frame_ms.mean);
     let ratio = (d1_ms / d2_ms).max(d2_ms / d1_ms);
     let evidence = format!(
-        "With {} paths: {} on D1, {} on D2; the longer is {} the shorter.",
+        "With {} paths: {} on D1, {} on D2; a ratio of {}.",
         count(paths as u64),
         time(d1_ms),
         time(d2_ms),
-        times(ratio),
+        digits(ratio),
     );
     Some((ratio <= 1.25, evidence))
 }
@@ -148,21 +147,21 @@ pub(super) fn borders(run: &Run) -> Judgment {
         all.filter(|b| b.method == method).find_map(|b| b.lost)
     };
     let (written, mended) = (lost(GRID)?, lost(GRID_MENDED)?);
-    // A method that hardly draws anything shows nothing about borders.
+    // A method with an almost empty picture is no evidence about borders.
     if mended > 0.5 {
         return None;
     }
-    // A thousandth is what rounding to 8 bits may come to.
+    // Derived: rounding to 8 bits changes the coverage by up to a thousandth.
     let holds = written - mended < 1e-3;
     let meaning = if holds {
-        "Filing lines by their reach gains nothing."
+        "Entering lines by their radius has no effect."
     } else {
-        "A line reaches beyond its box by its radius; where a border of cells lies in between, the far \
-         side misses it."
+        "A stroke extends beyond the box of its line by the radius; a cell in between that does not list \
+         the line lacks this part."
     };
     let evidence = format!(
-        "Of the oracle's coverage {} is missing with lines filed by their box, {} with lines filed by \
-         their reach. {meaning}",
+        "{} of the coverage of the oracle is missing with lines entered by their box, {} with lines \
+         entered by their radius. {meaning}",
         percent(written),
         percent(mended),
     );

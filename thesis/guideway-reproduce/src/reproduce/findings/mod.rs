@@ -1,165 +1,20 @@
-//! Which claims of the thesis hold in a run, judged from its numbers alone.
+//! Judges the claims of the thesis: from a run to one verdict per claim, with its evidence.
+//!
+//! | module | purpose |
+//! |---|---|
+//! | `claims` | the claims, and the function that judges them all |
+//! | `build`, `frame`, `most_paths` | judges by the part of the run that they read |
+//! | `judgment` | the result of a judge, and helpers |
+//! | `finding` | the claim with its verdict, as the report shows it |
 
 mod build;
+mod claims;
+mod finding;
 mod frame;
-mod table;
+mod judgment;
+mod most_paths;
 #[cfg(test)]
 mod tests;
 
-use serde::{Deserialize, Serialize};
-
-use super::Run;
-
-/// One claim of the thesis and what a run says to it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Finding {
-    /// What it is about.
-    pub title: String,
-    /// Where the thesis says so.
-    pub section: String,
-    /// What the thesis says.
-    pub claim: String,
-    /// Whether that is so here.
-    pub verdict: Verdict,
-    /// The numbers that decided, and what they mean.
-    pub evidence: String,
-}
-
-/// Whether a claim holds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Verdict {
-    /// It does, in this run.
-    Holds,
-    /// It does not, in this run.
-    DoesNotHold,
-    /// This run does not say.
-    NotMeasured,
-}
-
-/// Whether a claim holds and why; none when the run lacks what it takes to say.
-type Judgment = Option<(bool, String)>;
-
-struct Claim {
-    title: &'static str,
-    section: &'static str,
-    text: &'static str,
-    judge: fn(&Run) -> Judgment,
-}
-
-const CLAIMS: [Claim; 14] = [
-    Claim {
-        title: "More paths per pixel than by tessellation",
-        section: "5.3, table 5.1",
-        text: "Per-pixel intersection draws more paths at 60 frames a second than tessellation.",
-        judge: table::more_paths,
-    },
-    Claim {
-        title: "Memory",
-        section: "5.3, table 5.1",
-        text: "Per-pixel intersection needs more memory than tessellation.",
-        judge: table::more_memory,
-    },
-    Claim {
-        title: "Fewer pixels inside the grid",
-        section: "5.3.2, tables 5.2 and 5.3",
-        text: "The more pixels are inside the grid, the longer per-pixel intersection takes.",
-        judge: frame::occupancy,
-    },
-    Claim {
-        title: "Magnifying, per pixel",
-        section: "5.3, figure 5.3",
-        text: "Magnifying makes frames faster, because paths outside the view cost nothing.",
-        judge: frame::zoom_of_grid,
-    },
-    Claim {
-        title: "Magnifying, by tessellation",
-        section: "5.3, figure 5.3",
-        text: "Magnifying makes frames faster, because paths outside the view cost nothing.",
-        judge: frame::zoom_of_tessellation,
-    },
-    Claim {
-        title: "What limits tessellation",
-        section: "5.3.1",
-        text: "Geometry throughput is the limiting factor: the patches that have to be processed.",
-        judge: frame::bottleneck,
-    },
-    Claim {
-        title: "Culling is cheap",
-        section: "5.3.1, figure 5.4",
-        text: "View frustum culling has a small impact on the time of a frame.",
-        judge: frame::culling,
-    },
-    Claim {
-        title: "Overlap and tessellation",
-        section: "5.3.1",
-        text: "Tessellation performs similarly in both datasets.",
-        judge: frame::overlap,
-    },
-    Claim {
-        title: "Sampling",
-        section: "5.3.2, figure 5.5",
-        text: "Sampling scales linearly with the number of paths.",
-        judge: build::sampling,
-    },
-    Claim {
-        title: "Overlap and the grid's build",
-        section: "5.3.2, figure 5.5",
-        text: "Counting and binning take longer in D2, where more paths share a cell.",
-        judge: build::contention,
-    },
-    Claim {
-        title: "Prefix sum",
-        section: "6.3",
-        text: "The prefix sum is the fastest of the four phases.",
-        judge: build::prefix_sum,
-    },
-    Claim {
-        title: "A parallel prefix sum",
-        section: "6.3",
-        text: "A work-efficient parallel prefix sum would be faster than the naive one.",
-        judge: build::scan,
-    },
-    Claim {
-        title: "Lines at the borders of cells",
-        section: "4.3.3",
-        text: "Filing a line under the cells of its box is enough to draw it.",
-        judge: frame::borders,
-    },
-    Claim {
-        title: "Layouts that change",
-        section: "6.1.1",
-        text: "The grid is too slow to build for layouts that change while they are shown.",
-        judge: build::dynamic,
-    },
-];
-
-/// Judges every claim.
-pub fn findings(run: &Run) -> Vec<Finding> {
-    let finding = |claim: &Claim| {
-        let (verdict, evidence) = match (claim.judge)(run) {
-            Some((true, evidence)) => (Verdict::Holds, evidence),
-            Some((false, evidence)) => (Verdict::DoesNotHold, evidence),
-            None => {
-                let evidence = "This run has not the measurements that it takes to say.";
-                (Verdict::NotMeasured, evidence.to_owned())
-            }
-        };
-        Finding {
-            title: claim.title.to_owned(),
-            section: claim.section.to_owned(),
-            claim: claim.text.to_owned(),
-            verdict,
-            evidence,
-        }
-    };
-    CLAIMS.iter().map(finding).collect()
-}
-
-/// Sentences of every dataset that has one, and whether the claim holds in all of those.
-fn in_all(each: impl IntoIterator<Item = Judgment>) -> Judgment {
-    let judged: Vec<(bool, String)> = each.into_iter().flatten().collect();
-    let sentences: Vec<&str> = judged.iter().map(|(_, text)| text.as_str()).collect();
-    let evidence = sentences.join(" ");
-    (!judged.is_empty()).then(|| (judged.iter().all(|(holds, _)| *holds), evidence))
-}
+pub use claims::findings;
+pub use finding::{Finding, Verdict};

@@ -1,13 +1,13 @@
 use guideway_scene::Clock;
 
 use super::*;
-use crate::reproduce::{Border, Limit, MostPaths, Plan, Reading, Results};
+use crate::reproduce::{Border, Limit, MostPaths, Plan, Reading, Results, Run};
 use guideway_bench::WorkCounts;
 use guideway_bench::{Dataset, Measured, Outcome, Prepare, Row, StageTime, Summary};
 
 fn run(results: Results) -> Run {
     Run {
-        sittings: Vec::new(),
+        sessions: Vec::new(),
         is_partial: false,
         plan: Plan::quick(),
         methods: Vec::new(),
@@ -58,7 +58,7 @@ fn most(method: &str, paths: Option<usize>, limit: Limit) -> MostPaths {
         trials: Vec::new(),
         row: Row {
             method: method.into(),
-            outcome: Outcome::WhyNot(String::new()),
+            outcome: Outcome::NotMeasured(String::new()),
         },
     }
 }

@@ -1,35 +1,43 @@
-//! Coverage that is lost where a line is filed under the cells of its box, but reaches beyond them by its
-//! radius.
+//! Compares the coverage of each method with the oracle, for lines across the borders of grid
+//! cells.
+//!
+//! The grid of the thesis enters a line in the cells of its bounding box, but the stroke extends
+//! beyond them by its radius, and loses coverage there.
 
 use guideway_scene::{Frame, FrameSize, RenderError, View};
 
-use crate::reproduce::lab::{Deadline, Lab};
+use crate::reproduce::deadline::Deadline;
 use crate::reproduce::names::ORACLE;
 use crate::reproduce::run::{Border, Results};
+use crate::reproduce::session::Session;
 use guideway_bench::Dataset;
 
-/// One hall, small enough for the judge; its cells are then some 20 pixels wide.
+/// One hall, small enough for the slow oracle; its cells are then some 20 pixels wide.
 const PATHS: usize = 1_000;
 const SIZE_PX: [u32; 2] = [480, 270];
 const PX_PER_M: f64 = 20.0;
 
 /// Compares every method's coverage with the oracle's.
-pub(crate) fn borders(lab: &Lab<'_>, _: Deadline, out: &mut Results) -> Result<(), RenderError> {
-    let scene = lab.scene(Dataset::D1, PATHS);
+pub(crate) fn borders(
+    session: &Session<'_>,
+    _: Deadline,
+    out: &mut Results,
+) -> Result<(), RenderError> {
+    let scene = session.scene(Dataset::D1, PATHS);
     let size = FrameSize::new(SIZE_PX[0], SIZE_PX[1])?;
     let center = View::fit(size, scene.bounds())?.center_m();
     let view = View::new(size, center, PX_PER_M)?;
-    let judged = lab.picture(ORACLE, &scene, &view)?;
-    for spec in &lab.plan.methods {
+    let expected = session.picture(ORACLE, &scene, &view)?;
+    for spec in &session.plan.methods {
         if out.borders.iter().any(|border| border.method == *spec) {
             continue;
         }
-        lab.tell(&format!("coverage: {spec} against {ORACLE}"));
-        let drawn = lab.picture(spec, &scene, &view)?;
-        out.borders.push(match (&judged, drawn) {
-            (Ok(judged), Ok(drawn)) => compared(spec, judged, &drawn),
-            (Err(why), _) => not_compared(spec, format!("{ORACLE}: {why}")),
-            (_, Err(why)) => not_compared(spec, why),
+        session.show_progress(&format!("coverage: {spec} against {ORACLE}"));
+        let drawn = session.picture(spec, &scene, &view)?;
+        out.borders.push(match (&expected, drawn) {
+            (Ok(expected), Ok(drawn)) => compared(spec, expected, &drawn),
+            (Err(error), _) => not_compared(spec, format!("{ORACLE}: {error}")),
+            (_, Err(error)) => not_compared(spec, error.to_string()),
         });
     }
     Ok(())
@@ -44,16 +52,16 @@ fn not_compared(spec: &str, why_not: String) -> Border {
     }
 }
 
-fn compared(spec: &str, judged: &Frame, drawn: &Frame) -> Border {
+fn compared(spec: &str, expected: &Frame, drawn: &Frame) -> Border {
     let (mut all, mut lost, mut added) = (0.0, 0.0, 0.0);
-    for (expected, seen) in judged.pixels().iter().zip(drawn.pixels()) {
+    for (expected, seen) in expected.pixels().iter().zip(drawn.pixels()) {
         let (expected, seen) = (coverage(expected), coverage(seen));
         all += expected;
         lost += (expected - seen).max(0.0);
         added += (seen - expected).max(0.0);
     }
     if all == 0.0 {
-        return not_compared(spec, format!("{ORACLE} draws nothing there"));
+        return not_compared(spec, format!("the picture of {ORACLE} is empty"));
     }
     Border {
         method: spec.to_owned(),
@@ -63,7 +71,7 @@ fn compared(spec: &str, judged: &Frame, drawn: &Frame) -> Border {
     }
 }
 
-/// How black a pixel is: paths are black, the sheet is white.
+/// Coverage of a pixel: paths are black on white.
 fn coverage(&[red, ..]: &[u8; 4]) -> f64 {
     1.0 - f64::from(red) / 255.0
 }
@@ -81,16 +89,16 @@ mod tests {
     }
 
     #[test]
-    fn missing_and_surplus_coverage_are_told_apart() {
-        let judged = frame([0, 0, 255, 255]);
-        let same = compared("a", &judged, &judged);
+    fn separates_missing_and_surplus_coverage() {
+        let expected = frame([0, 0, 255, 255]);
+        let same = compared("a", &expected, &expected);
         assert_eq!((same.lost, same.added), (Some(0.0), Some(0.0)));
-        let drawn = compared("a", &judged, &frame([0, 255, 0, 0]));
+        let drawn = compared("a", &expected, &frame([0, 255, 0, 0]));
         assert_eq!((drawn.lost, drawn.added), (Some(0.5), Some(1.0)));
     }
 
     #[test]
-    fn an_empty_judge_compares_nothing() {
+    fn rejects_an_empty_picture_of_the_oracle() {
         let empty = frame([255; 4]);
         assert!(compared("a", &empty, &empty).why_not.is_some());
     }

@@ -1,44 +1,44 @@
-//! Table 5.1: the most paths at 60 frames a second.
+//! Table 5.1: searches for the most paths at 60 frames per second.
 
 use guideway_scene::{RenderError, View};
 
-use crate::reproduce::Limit;
-use crate::reproduce::lab::{Deadline, Lab};
+use crate::reproduce::deadline::Deadline;
 use crate::reproduce::run::{MostPaths, OUT_OF_TIME, Results};
-use crate::reproduce::search::Found;
+use crate::reproduce::search::{Attempt, Found, Limit};
+use crate::reproduce::session::Session;
 use guideway_bench::{Dataset, Measured, Outcome, Row};
 
 /// Searches for the most paths of each method and dataset.
 pub(crate) fn most_paths(
-    lab: &Lab<'_>,
+    session: &Session<'_>,
     time: Deadline,
     out: &mut Results,
 ) -> Result<(), RenderError> {
     let rows = &mut out.most_paths;
-    let mut open: Vec<_> = lab.cases().collect();
+    let mut open: Vec<_> = session.cases().collect();
     open.retain(|&(dataset, spec)| {
-        place(rows, dataset, spec).is_none_or(|place| rows[place].limit == Limit::Time)
+        index_of(rows, dataset, spec).is_none_or(|index| rows[index].limit == Limit::Time)
     });
     for (i, &(dataset, spec)) in open.iter().enumerate() {
-        let place = place(rows, dataset, spec);
-        let begun = place.map_or_else(Found::nothing, |place| begun(&rows[place]));
-        let found = find(lab, dataset, spec, begun, time.share(open.len() - i))?;
+        let index = index_of(rows, dataset, spec);
+        let begun = index.map_or_else(Found::nothing, |index| recorded(&rows[index]));
+        let found = find(session, dataset, spec, begun, time.share(open.len() - i))?;
         let row = row(dataset, spec, found);
-        match place {
-            Some(place) => rows[place] = row,
+        match index {
+            Some(index) => rows[index] = row,
             None => rows.push(row),
         }
     }
     Ok(())
 }
 
-fn place(rows: &[MostPaths], dataset: Dataset, spec: &str) -> Option<usize> {
+fn index_of(rows: &[MostPaths], dataset: Dataset, spec: &str) -> Option<usize> {
     let is_own = |row: &MostPaths| row.dataset == dataset && row.row.method == spec;
     rows.iter().position(is_own)
 }
 
-/// A search as far as it went.
-fn begun(row: &MostPaths) -> Found<Measured> {
+/// The recorded state of a search.
+fn recorded(row: &MostPaths) -> Found<Measured> {
     Found {
         best: row.paths.zip(row.row.measured().cloned()),
         limit: row.limit,
@@ -48,28 +48,32 @@ fn begun(row: &MostPaths) -> Found<Measured> {
 }
 
 fn find(
-    lab: &Lab<'_>,
+    session: &Session<'_>,
     dataset: Dataset,
     spec: &str,
     begun: Found<Measured>,
     time: Deadline,
 ) -> Result<Found<Measured>, RenderError> {
-    lab.plan.search.run(
+    session.plan.search.run(
         begun,
-        || lab.is_over(time),
+        || session.is_over(time),
         |paths| {
-            lab.tell(&format!(
+            session.show_progress(&format!(
                 "most paths: {spec} on {}, trying {paths}",
                 dataset.name()
             ));
-            let scene = lab.scene(dataset, paths);
-            let all = View::fit(lab.size, scene.bounds())?;
-            // A trial that has begun is measured to its end.
-            let mut outcomes = lab.measure_all(spec, &scene, &[all], Deadline::never())?;
-            // The thesis goes by the mean; the median is the same on a quiet machine, and bears a busy one.
+            let scene = session.scene(dataset, paths);
+            let all = View::fit(session.size, scene.bounds())?;
+            // A started trial runs to its end.
+            let mut outcomes = session.measure_all(spec, &scene, &[all], Deadline::never())?;
+            // The thesis uses the mean; the median equals it on an idle machine, and tolerates
+            // load.
             Ok(match outcomes.remove(0) {
-                Outcome::Measured(measured) => Ok((measured.frame_ms.median, *measured)),
-                Outcome::WhyNot(why) => Err(why),
+                Outcome::Measured(measured) => Attempt::Drawn {
+                    frame_ms: measured.frame_ms.median,
+                    measurement: *measured,
+                },
+                Outcome::NotMeasured(reason) => Attempt::Refused { reason },
             })
         },
     )
@@ -79,12 +83,12 @@ fn row(dataset: Dataset, spec: &str, found: Found<Measured>) -> MostPaths {
     let (paths, outcome) = match found.best {
         Some((paths, measured)) => (Some(paths), Outcome::Measured(Box::new(measured))),
         None => {
-            let why = match (found.limit, &found.reason) {
+            let reason = match (found.limit, &found.reason) {
                 (Limit::Time, _) => OUT_OF_TIME,
                 (_, Some(reason)) => reason,
-                (_, None) => "even the fewest paths that were tried take too long",
+                (_, None) => "even the fewest paths of the search exceed the frame time",
             };
-            (None, Outcome::WhyNot(why.to_owned()))
+            (None, Outcome::NotMeasured(reason.to_owned()))
         }
     };
     MostPaths {

@@ -1,4 +1,4 @@
-//! The pictures of chapter 5, drawn by the thesis' own method.
+//! Draws the pictures of chapter 5 with the grid of the thesis, and encodes them as PNG.
 
 use std::sync::Arc;
 
@@ -8,13 +8,14 @@ use guideway_scene::Scene;
 use guideway_scene::{Frame, FrameSize, RenderError, View};
 
 use super::views::{MAGNIFICATIONS, magnified};
-use crate::reproduce::lab::{Deadline, Lab};
+use crate::reproduce::deadline::Deadline;
 use crate::reproduce::names::{GRID, GRID_HARD};
 use crate::reproduce::run::{Picture, Results};
+use crate::reproduce::session::Session;
 use guideway_bench::Dataset;
 use guideway_bench::format::count;
 
-/// How a figure is drawn: a part of the dataset so large that it fills the picture.
+/// One picture of a figure: dataset, method and view.
 struct Figure {
     number: &'static str,
     shows: &'static str,
@@ -22,19 +23,19 @@ struct Figure {
     method: &'static str,
     magnification: f64,
     size_px: [u32; 2],
-    /// Times that each pixel is enlarged; the picture then shows only its middle.
+    /// Enlargement of each pixel; an enlarged picture shows only the middle of the view.
     enlarged: u32,
 }
 
 impl Figure {
-    /// What it shows, but not by which method.
+    /// The caption without the method.
     fn caption(&self, paths: usize) -> String {
         let (shows, dataset) = (self.shows, self.dataset.name());
         let (percent, paths) = (self.magnification * 100.0, count(paths as u64));
         format!("{shows}{dataset} at {percent:.0} %, {paths} paths")
     }
 
-    /// What is seen, and in how many pixels.
+    /// The view, with the size before enlargement.
     fn view(&self, scene: &Scene) -> Result<View, RenderError> {
         let [width, height] = self.size_px;
         let whole = magnified(FrameSize::new(width, height)?, scene, self.magnification)?;
@@ -44,18 +45,22 @@ impl Figure {
 }
 
 /// Draws every picture of the page.
-pub(crate) fn pictures(lab: &Lab<'_>, _: Deadline, out: &mut Results) -> Result<(), RenderError> {
+pub(crate) fn pictures(
+    session: &Session<'_>,
+    _: Deadline,
+    out: &mut Results,
+) -> Result<(), RenderError> {
     for figure in figures() {
-        let paths = lab.plan.view_paths(figure.dataset);
+        let paths = session.plan.view_paths(figure.dataset);
         let caption = figure.caption(paths);
         let is_it = |p: &Picture| p.figure == figure.number && p.caption.starts_with(&caption);
         if out.pictures.iter().any(is_it) {
             continue;
         }
-        lab.tell(&format!("picture of figure {}", figure.number));
-        let scene = lab.scene(figure.dataset, paths);
+        session.show_progress(&format!("picture of figure {}", figure.number));
+        let scene = session.scene(figure.dataset, paths);
         let view = figure.view(&scene)?;
-        if let Some((method, frame)) = draw(lab, figure.method, &scene, &view)? {
+        if let Some((method, frame)) = draw(session, figure.method, &scene, &view)? {
             out.pictures.push(Picture {
                 figure: figure.number.to_owned(),
                 caption: format!("{caption}, by {method}"),
@@ -100,29 +105,29 @@ fn figures() -> Vec<Figure> {
     figures
 }
 
-/// The picture and the method that drew it. Where the one wanted is not to be measured or does not run, it is
-/// another, unless the edges are the point of the picture.
+/// The picture and its method. Falls back to another method of the plan if the wanted one is not
+/// planned or does not run, except for pictures of edges without anti-aliasing.
 fn draw(
-    lab: &Lab<'_>,
+    session: &Session<'_>,
     wanted: &str,
     scene: &Arc<Scene>,
     view: &View,
 ) -> Result<Option<(String, Frame)>, RenderError> {
-    let methods = lab.plan.methods.iter().map(String::as_str);
-    let is_asked_for = methods.clone().any(|spec| spec.starts_with(GRID));
-    let own = is_asked_for.then_some(wanted);
-    for spec in own
+    let methods = session.plan.methods.iter().map(String::as_str);
+    let has_grid = methods.clone().any(|spec| spec.starts_with(GRID));
+    let first = has_grid.then_some(wanted);
+    for spec in first
         .into_iter()
         .chain(methods.filter(|_| wanted != GRID_HARD))
     {
-        if let Ok(frame) = lab.picture(spec, scene, view)? {
+        if let Ok(frame) = session.picture(spec, scene, view)? {
             return Ok(Some((spec.to_owned(), frame)));
         }
     }
     Ok(None)
 }
 
-/// The file of a picture, with one channel if it has no colors.
+/// Encodes a picture as PNG, with one channel if it is gray and opaque.
 fn png(frame: &Frame) -> Vec<u8> {
     let is_gray = |&[r, g, b, a]: &[u8; 4]| r == g && g == b && a == 255;
     let (color, bytes): (_, Vec<u8>) = if frame.pixels().iter().all(is_gray) {
@@ -167,7 +172,7 @@ mod tests {
     }
 
     #[test]
-    fn pictures_keep_their_pixels_gray_or_not() {
+    fn png_preserves_gray_and_colored_pixels() {
         for (pixel, channels) in [([9, 9, 9, 255], 1), ([9, 8, 9, 255], 4), ([9, 9, 9, 8], 4)] {
             let mut frame = Frame::new(FrameSize::new(3, 2).unwrap());
             frame.pixels_mut().fill(pixel);

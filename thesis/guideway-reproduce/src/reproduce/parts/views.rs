@@ -1,22 +1,23 @@
-//! Tables 5.2 and 5.3 and figure 5.3: one scene from several views.
+//! Tables 5.2 and 5.3 and figure 5.3: measures one scene in several views.
 
 use guideway_scene::Scene;
 use guideway_scene::{FrameSize, RenderError, View};
 use guideway_spline::{Bounds, Point};
 
-use crate::reproduce::lab::{Deadline, Lab};
+use crate::reproduce::deadline::Deadline;
 use crate::reproduce::run::{Reading, Results};
+use crate::reproduce::session::Session;
 use guideway_bench::Dataset;
 use guideway_bench::zoomed_view;
 
-/// Shares of pixels inside the box that the thesis measures at.
+/// Shares of pixels inside the bounds of the scene, as in the thesis.
 const SHARES: [f64; 3] = [0.0, 0.5, 1.0];
-/// Magnifications of figure 5.3; at the least, everything is seen.
+/// Magnifications of figure 5.3; the smallest shows the whole scene.
 pub(crate) const MAGNIFICATIONS: [f64; 4] = [0.1, 0.5, 1.0, 2.0];
 
-/// Frame times against the share of pixels inside the box of all curves.
+/// Measures frame times against the share of pixels inside the bounds of the scene.
 pub(crate) fn occupancy(
-    lab: &Lab<'_>,
+    session: &Session<'_>,
     time: Deadline,
     out: &mut Results,
 ) -> Result<(), RenderError> {
@@ -25,13 +26,13 @@ pub(crate) fn occupancy(
             return Ok(Vec::new());
         };
         let view = |share| {
-            let view = panned(lab.size, bounds, share)?;
+            let view = panned(session.size, bounds, share)?;
             Ok((share_inside(&view, bounds), view))
         };
         SHARES.into_iter().map(view).collect()
     };
     sweep(
-        lab,
+        session,
         time,
         "pixels inside the grid",
         &mut out.occupancy,
@@ -40,30 +41,39 @@ pub(crate) fn occupancy(
     )
 }
 
-/// Frame times against magnification.
-pub(crate) fn zoom(lab: &Lab<'_>, time: Deadline, out: &mut Results) -> Result<(), RenderError> {
+/// Measures frame times against magnification.
+pub(crate) fn zoom(
+    session: &Session<'_>,
+    time: Deadline,
+    out: &mut Results,
+) -> Result<(), RenderError> {
     let views = |scene: &Scene| {
-        let view = |magnification| Ok((magnification, magnified(lab.size, scene, magnification)?));
+        let view = |magnification| {
+            Ok((
+                magnification,
+                magnified(session.size, scene, magnification)?,
+            ))
+        };
         MAGNIFICATIONS.into_iter().map(view).collect()
     };
     let count = MAGNIFICATIONS.len();
-    sweep(lab, time, "magnification", &mut out.zoom, count, views)
+    sweep(session, time, "magnification", &mut out.zoom, count, views)
 }
 
 fn sweep(
-    lab: &Lab<'_>,
+    session: &Session<'_>,
     time: Deadline,
-    what: &str,
+    axis: &str,
     rows: &mut Vec<Reading>,
     count: usize,
     views: impl Fn(&Scene) -> Result<Vec<(f64, View)>, RenderError>,
 ) -> Result<(), RenderError> {
-    let paths = |dataset| lab.plan.view_paths(dataset);
-    // The time runs out but once, so what a case lacks are its last views.
+    let paths = |dataset| session.plan.view_paths(dataset);
+    // The time limit cuts a case once, so only its last views are missing.
     let settled = |rows: &[Reading], (dataset, spec)| {
         Reading::settled(rows, dataset, paths(dataset), spec).min(count)
     };
-    let mut open: Vec<_> = lab.cases().collect();
+    let mut open: Vec<_> = session.cases().collect();
     open.retain(|&case| settled(rows, case) < count);
     let mut left = open.len();
     for dataset in Dataset::ALL {
@@ -71,18 +81,18 @@ fn sweep(
         if open.is_empty() {
             continue;
         }
-        let scene = lab.scene(dataset, paths(dataset));
-        let (places, views): (Vec<f64>, Vec<View>) = views(&scene)?.into_iter().unzip();
+        let scene = session.scene(dataset, paths(dataset));
+        let (positions, views): (Vec<f64>, Vec<View>) = views(&scene)?.into_iter().unzip();
         for &&(_, spec) in &open {
-            lab.tell(&format!("{what}: {spec} on {}", dataset.name()));
+            session.show_progress(&format!("{axis}: {spec} on {}", dataset.name()));
             let done = settled(rows, (dataset, spec));
-            let outcomes = lab.measure_all(
+            let outcomes = session.measure_all(
                 spec,
                 &scene,
                 views.get(done..).unwrap_or_default(),
                 time.share(left),
             )?;
-            for (&at, outcome) in places.iter().skip(done).zip(outcomes) {
+            for (&at, outcome) in positions.iter().skip(done).zip(outcomes) {
                 Reading::new(dataset, paths(dataset), at, spec, outcome).put(rows);
             }
             left -= 1;
@@ -91,17 +101,17 @@ fn sweep(
     Ok(())
 }
 
-/// A view that the box fills, panned until only a share of it is inside.
+/// A view filled by the bounds, then panned right until `share` of its pixels is inside.
 fn panned(size: FrameSize, bounds: Bounds<f64>, share: f64) -> Result<View, RenderError> {
     let (width, height) = (f64::from(size.width()), f64::from(size.height()));
     let px_per_m = (width / bounds.size().x).max(height / bounds.size().y);
     let width_m = width / px_per_m;
-    // The box's right edge moves from the picture's right edge to its left one.
+    // The right edge of the bounds moves from the right edge of the view to the left one.
     let center = Point::new(bounds.max.x + width_m * (0.5 - share), bounds.center().y);
     View::new(size, center, px_per_m)
 }
 
-/// Share of the pixels whose centers are inside the box.
+/// Share of the pixels with their center inside the bounds.
 fn share_inside(view: &View, bounds: Bounds<f64>) -> f64 {
     let size = view.size();
     let center_m =
@@ -115,8 +125,8 @@ fn share_inside(view: &View, bounds: Bounds<f64>) -> f64 {
     (columns * rows) as f64 / size.pixels() as f64
 }
 
-/// The view of a magnification. The thesis sees most of its dataset at 10 %; here it is all, and at any other
-/// what is around the busiest place.
+/// The view at a magnification: the whole scene at 10 % (most of it in the thesis), otherwise the
+/// part about its densest point.
 pub(crate) fn magnified(
     size: FrameSize,
     scene: &Scene,
@@ -130,7 +140,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn panning_leaves_the_share_that_was_asked_for() {
+    fn panned_view_has_the_requested_share_inside() {
         let size = FrameSize::new(200, 100).unwrap();
         for (width_m, height_m) in [(400.0, 100.0), (30.0, 300.0)] {
             let bounds = Bounds {
@@ -148,7 +158,7 @@ mod tests {
     }
 
     #[test]
-    fn everything_is_seen_at_ten_percent_and_some_path_at_any() {
+    fn ten_percent_shows_all_paths_and_every_view_shows_one() {
         let scene = Dataset::D1.scene(3_000);
         let size = FrameSize::new(640, 360).unwrap();
         let all = magnified(size, &scene, 0.1).unwrap();

@@ -1,26 +1,26 @@
+//! A session starts each method once, caches recent scenes, and measures views of them for the
+//! parts of a run.
+
 use std::cell::{Cell, RefCell};
 use std::collections::HashMap;
 use std::rc::Rc;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
 
 use guideway_scene::{Budget, Cancel, Frame, FrameSize, Method, RenderError, Style, View};
 use guideway_scene::{LineRule, Scene};
 
-use super::run::OUT_OF_TIME;
-use super::{MethodFacts, Plan};
-use guideway_bench::Fault;
-use guideway_bench::runner::{Frames, Runner, Shot};
-use guideway_bench::{Dataset, Measured, Motion, Outcome, Start, interleaved};
+use super::deadline::Deadline;
+use super::plan::Plan;
+use super::run::{MethodFacts, OUT_OF_TIME};
+use guideway_bench::MeasureError;
+use guideway_bench::runner::{FrameRequest, Frames, Runner};
+use guideway_bench::{Dataset, Measured, Motion, Outcome, Start, StartError, interleaved};
 
-/// Most paths of all datasets that are kept for later.
-const KEPT_PATHS: usize = 5_000_000;
+/// Most paths of all cached scenes: at eight segments per path, some 500 MB.
+const CACHED_PATHS: usize = 5_000_000;
 
-/// Even shares of the time that one piece of a part may take.
-const PATIENCE: u32 = 4;
-
-/// What every part of a run measures with.
-pub(crate) struct Lab<'a> {
+/// Methods, scenes and settings that all parts of a run share.
+pub(crate) struct Session<'a> {
     pub(crate) plan: &'a Plan,
     pub(crate) size: FrameSize,
     pub(crate) cancel: &'a Cancel,
@@ -31,39 +31,9 @@ pub(crate) struct Lab<'a> {
     is_cut: Cell<bool>,
 }
 
-type Started = Result<Rc<dyn Method>, String>;
+type Started = Result<Rc<dyn Method>, StartError>;
 
-/// When something has to be over, if ever.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Deadline(Option<Instant>);
-
-impl Deadline {
-    pub(crate) fn after(seconds: f64) -> Self {
-        let wait = Duration::try_from_secs_f64(seconds.max(0.0)).ok();
-        Self(wait.and_then(|wait| Instant::now().checked_add(wait)))
-    }
-
-    /// The deadline of the first of so many pieces of what is left. It may take a few times its even share,
-    /// for most take less.
-    pub(crate) fn share(self, pieces: usize) -> Self {
-        let now = Instant::now();
-        Self(self.0.map(|end| {
-            let left = end.saturating_duration_since(now);
-            now + (left * PATIENCE / u32::try_from(pieces.max(1)).unwrap_or(u32::MAX)).min(left)
-        }))
-    }
-
-    /// No end.
-    pub(crate) fn never() -> Self {
-        Self(None)
-    }
-
-    fn is_over(self) -> bool {
-        self.0.is_some_and(|end| Instant::now() >= end)
-    }
-}
-
-impl<'a> Lab<'a> {
+impl<'a> Session<'a> {
     pub(crate) fn new(
         plan: &'a Plan,
         start: Start<'a>,
@@ -82,24 +52,24 @@ impl<'a> Lab<'a> {
         })
     }
 
-    /// Tells what is being done.
-    pub(crate) fn tell(&self, what: &str) {
-        (self.progress)(what);
+    /// Reports the current measurement to the caller.
+    pub(crate) fn show_progress(&self, current: &str) {
+        (self.progress)(current);
     }
 
-    /// Whether the time is over, so that something has to be left out.
+    /// Whether the time is over. If so, the part counts as cut.
     pub(crate) fn is_over(&self, time: Deadline) -> bool {
         let is_over = time.is_over();
         self.is_cut.set(self.is_cut.get() || is_over);
         is_over
     }
 
-    /// Whether something was left out since this was asked last.
+    /// Whether the time cut the part since the last call.
     pub(crate) fn take_is_cut(&self) -> bool {
         self.is_cut.take()
     }
 
-    /// The method of this name, started once.
+    /// The method with this name and options, started on first use.
     pub(crate) fn method(&self, spec: &str) -> Started {
         let mut methods = self.methods.borrow_mut();
         let entry = methods.entry(spec.to_owned());
@@ -115,31 +85,32 @@ impl<'a> Lab<'a> {
         Dataset::ALL.into_iter().flat_map(with_all)
     }
 
-    /// A dataset of so many paths, from memory if it was used lately.
+    /// A dataset with this number of paths, from the cache of recent scenes or from a larger one in
+    /// it.
     pub(crate) fn scene(&self, dataset: Dataset, paths: usize) -> Arc<Scene> {
         let mut scenes = self.scenes.borrow_mut();
-        let place = scenes.iter().position(|s| (s.0, s.1) == (dataset, paths));
-        let scene = match place {
-            Some(place) => scenes.remove(place).2,
+        let cached = scenes.iter().position(|s| (s.0, s.1) == (dataset, paths));
+        let scene = match cached {
+            Some(index) => scenes.remove(index).2,
             None => {
                 let larger = scenes.iter().position(|s| s.0 == dataset && s.1 > paths);
-                let part = larger.and_then(|place| {
-                    let part = dataset.part(&scenes[place].2, paths)?;
-                    // It was of use, so it is kept.
-                    scenes[place..].rotate_left(1);
+                let part = larger.and_then(|index| {
+                    let part = dataset.part(&scenes[index].2, paths)?;
+                    // Eviction removes the least recently used scene first.
+                    scenes[index..].rotate_left(1);
                     Some(part)
                 });
                 part.unwrap_or_else(|| dataset.scene(paths))
             }
         };
         scenes.push((dataset, paths, Arc::clone(&scene)));
-        while scenes.len() > 1 && scenes.iter().map(|s| s.1).sum::<usize>() > KEPT_PATHS {
+        while scenes.len() > 1 && scenes.iter().map(|s| s.1).sum::<usize>() > CACHED_PATHS {
             scenes.remove(0);
         }
         scene
     }
 
-    /// What methods may use.
+    /// Memory and threads per method.
     pub(crate) fn budget(&self) -> Budget {
         Budget {
             memory_bytes: self.plan.memory_bytes,
@@ -147,7 +118,7 @@ impl<'a> Lab<'a> {
         }
     }
 
-    /// How the thesis draws.
+    /// The style of the thesis.
     pub(crate) fn style(&self) -> Style {
         Style {
             line_rule: LineRule::Thesis,
@@ -155,7 +126,7 @@ impl<'a> Lab<'a> {
         }
     }
 
-    /// Measures one view with a scene that was made ready.
+    /// Measures one view of a prepared scene.
     ///
     /// # Errors
     /// Only when the caller cancels.
@@ -163,8 +134,8 @@ impl<'a> Lab<'a> {
         &self,
         runner: &mut Runner<'_>,
         view: &View,
-    ) -> Result<Result<Measured, Fault>, RenderError> {
-        let shot = Shot {
+    ) -> Result<Result<Measured, MeasureError>, RenderError> {
+        let request = FrameRequest {
             view: *view,
             motion: Motion::Still,
             edits: None,
@@ -175,11 +146,12 @@ impl<'a> Lab<'a> {
                 enough_ms: self.plan.enough_ms,
             },
         };
-        let mut results = interleaved::measure(std::slice::from_mut(runner), &shot, self.cancel)?;
+        let mut results =
+            interleaved::measure(std::slice::from_mut(runner), &request, self.cancel)?;
         Ok(results.remove(0))
     }
 
-    /// Measures several views of one scene with one method, as far as the time does.
+    /// Measures several views of one scene with one method until the time is over.
     ///
     /// # Errors
     /// Only when the caller cancels.
@@ -190,22 +162,22 @@ impl<'a> Lab<'a> {
         views: &[View],
         time: Deadline,
     ) -> Result<Vec<Outcome>, RenderError> {
-        let same = |why: String| vec![Outcome::WhyNot(why); views.len()];
+        let all_missing = |reason: String| vec![Outcome::NotMeasured(reason); views.len()];
         if self.is_over(time) {
-            return Ok(same(OUT_OF_TIME.to_owned()));
+            return Ok(all_missing(OUT_OF_TIME.to_owned()));
         }
         let method = match self.method(spec) {
             Ok(method) => method,
-            Err(why) => return Ok(same(why)),
+            Err(error) => return Ok(all_missing(error.to_string())),
         };
-        let mut runner = match self.ready(spec, &*method, scene) {
+        let mut runner = match self.prepare(spec, &*method, scene) {
             Ok(runner) => runner,
-            Err(fault) => return Ok(same(fault.to_string())),
+            Err(error) => return Ok(all_missing(error.to_string())),
         };
         let mut outcomes = Vec::with_capacity(views.len());
         for view in views {
             outcomes.push(if self.is_over(time) {
-                Outcome::WhyNot(OUT_OF_TIME.to_owned())
+                Outcome::NotMeasured(OUT_OF_TIME.to_owned())
             } else {
                 Outcome::from(self.measure(&mut runner, view)?)
             });
@@ -213,25 +185,25 @@ impl<'a> Lab<'a> {
         Ok(outcomes)
     }
 
-    /// Which methods of the plan run, and where.
+    /// Device of each method of the plan, or the reason why it does not run.
     pub(crate) fn facts(&self) -> impl Iterator<Item = MethodFacts> {
         self.plan.methods.iter().map(|spec| {
             let started = self.method(spec);
             MethodFacts {
                 method: spec.clone(),
                 device: started.as_ref().ok().map(|method| method.info().device),
-                why_not: started.err(),
+                why_not: started.err().map(|error| error.to_string()),
             }
         })
     }
 
-    /// Makes a scene ready. A method whose device gave up is started anew the next time.
-    pub(crate) fn ready<'m>(
+    /// Prepares a scene. After a device error, the next use starts the method again.
+    pub(crate) fn prepare<'m>(
         &self,
         spec: &str,
         method: &'m dyn Method,
         scene: &Arc<Scene>,
-    ) -> Result<Runner<'m>, Fault> {
+    ) -> Result<Runner<'m>, MeasureError> {
         let runner = Runner::new(method, scene, self.budget());
         if let Err(RenderError::Device { .. }) = runner {
             self.methods.borrow_mut().remove(spec);
@@ -239,7 +211,7 @@ impl<'a> Lab<'a> {
         Ok(runner?)
     }
 
-    /// One picture by one method, or why there is none.
+    /// One picture by one method, or the reason for its absence.
     ///
     /// # Errors
     /// Only when the caller cancels.
@@ -248,17 +220,17 @@ impl<'a> Lab<'a> {
         spec: &str,
         scene: &Arc<Scene>,
         view: &View,
-    ) -> Result<Result<Frame, String>, RenderError> {
+    ) -> Result<Result<Frame, MeasureError>, RenderError> {
         self.cancel.check()?;
         let method = match self.method(spec) {
             Ok(method) => method,
-            Err(why) => return Ok(Err(why)),
+            Err(error) => return Ok(Err(error.into())),
         };
-        let picture = self.ready(spec, &*method, scene).and_then(|mut runner| {
+        let picture = self.prepare(spec, &*method, scene).and_then(|mut runner| {
             let picture = runner.picture(view, &self.style(), self.cancel);
             Ok(picture.cloned()?)
         });
         self.cancel.check()?;
-        Ok(picture.map_err(|fault| fault.to_string()))
+        Ok(picture)
     }
 }

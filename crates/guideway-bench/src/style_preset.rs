@@ -1,3 +1,5 @@
+//! A style preset replaces the colors and widths of a scene, and returns the restyled scene.
+
 use std::sync::Arc;
 
 use guideway_layout::OwnStyle;
@@ -6,26 +8,27 @@ use serde::{Deserialize, Serialize};
 
 use crate::plain_scene;
 
-/// What paths look like.
+/// Colors and widths of the paths.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Dress {
-    /// As the layout says; a dataset is black.
+pub enum StylePreset {
+    /// Those of the layout; a dataset is black.
     #[default]
     Own,
-    /// Each path has a color of its own, opaque, and a width.
+    /// An opaque color per path, and one of four widths.
     Mixed,
-    /// The same, half of them translucent.
+    /// As [`StylePreset::Mixed`], with half of the paths translucent.
     Translucent,
 }
 
-/// Widths of [`Dress::Mixed`]: around the 0.1 m of paths that have none.
+/// Widths of [`StylePreset::Mixed`]: around 0.1 m, the width of paths without one.
 const WIDTHS_M: [f32; 4] = [0.05, 0.1, 0.15, 0.2];
-/// A step through colors that does not soon come back (Fibonacci hashing, Knuth 6.4).
+/// Multiplier that spreads successive rows over all colors (Fibonacci hashing, Knuth 6.4: 2^32 /
+/// phi).
 const NEXT_COLOR: u32 = 0x9e37_79b9;
 
-impl Dress {
-    /// A scene in which paths look so.
+impl StylePreset {
+    /// The scene with the colors and widths of the preset.
     pub fn scene(self, scene: Arc<Scene>) -> Arc<Scene> {
         if self == Self::Own {
             return scene;
@@ -54,13 +57,16 @@ mod tests {
     use crate::Dataset;
 
     #[test]
-    fn paths_are_dressed_as_asked() {
+    fn restyles_every_path_of_the_scene() {
         let scene = Dataset::D1.scene(40);
         assert!(scene.common_color().is_some());
-        assert!(Arc::ptr_eq(&Dress::Own.scene(Arc::clone(&scene)), &scene));
-        let mixed = Dress::Mixed.scene(Arc::clone(&scene));
+        assert!(Arc::ptr_eq(
+            &StylePreset::Own.scene(Arc::clone(&scene)),
+            &scene
+        ));
+        let mixed = StylePreset::Mixed.scene(Arc::clone(&scene));
         assert!(mixed.common_color().is_none() && mixed.is_opaque());
-        assert!(!Dress::Translucent.scene(scene).is_opaque());
+        assert!(!StylePreset::Translucent.scene(scene).is_opaque());
         let widths: std::collections::BTreeSet<_> = (0..40)
             .map(|path| mixed.width_m(path).map(f32::to_bits))
             .collect();
