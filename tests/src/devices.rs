@@ -4,7 +4,7 @@ use std::fmt::Display;
 use std::sync::{Arc, LazyLock};
 
 use guideway_gpu::{DeviceError, Gpu, Tiles, TilesOptions};
-use guideway_grid::{Grid, GridOptions};
+use guideway_grid::{Grid, GridError, GridOptions};
 use guideway_scene::Method;
 use guideway_tessellation::GlDevice;
 
@@ -82,9 +82,9 @@ pub fn gl() -> Result<Arc<GlDevice>, String> {
 ///
 /// # Panics
 /// When there is no such variant.
-pub fn grid(variant: &str) -> Result<Grid, String> {
+pub fn grid(variant: &str) -> Result<Grid, GridError> {
     let options = GridOptions::parse(variant).expect("the variant is well written");
-    Grid::new(gpu().map_err(|error| error.to_string())?, options)
+    Grid::new(gpu()?, options)
 }
 
 /// Method `gpu`.
@@ -100,7 +100,7 @@ fn all() -> Vec<Result<DeviceCandidate, String>> {
     let grids = GRIDS.map(|(variant, tolerance)| {
         Ok(DeviceCandidate {
             name: format!("grid {variant}"),
-            method: Box::new(grid(variant)?),
+            method: Box::new(grid(variant).map_err(|error| error.to_string())?),
             tolerance,
             least_scenes: 150,
         })

@@ -1,4 +1,4 @@
-//! The shaders of one variant, compiled.
+//! The compiled shaders of one variant, with its options as pipeline constants.
 
 use crate::options::{Antialias, GridOptions, PrefixSum};
 use crate::params::{
@@ -7,16 +7,18 @@ use crate::params::{
 };
 use guideway_gpu::device::{DeviceError, Gpu, Kernel};
 
+/// All shaders of a variant.
 pub(super) struct Kernels {
     pub(super) sample: Kernel,
     pub(super) count: Kernel,
     pub(super) prefix: Prefix,
     pub(super) bin: Kernel,
     pub(super) pixels: Kernel,
-    /// As `pixels`, and counts the work.
-    pub(super) counting_pixels: Kernel,
+    /// Like `pixels`, and counts the work.
+    pub(super) pixels_with_counts: Kernel,
 }
 
+/// Shaders of the prefix sum.
 pub(super) enum Prefix {
     Naive(Kernel),
     Scan {
@@ -27,11 +29,15 @@ pub(super) enum Prefix {
 }
 
 impl Kernels {
+    /// Compiles all shaders.
+    ///
+    /// # Errors
+    /// When the device rejects a shader.
     pub(super) fn new(gpu: &Gpu, options: &GridOptions) -> Result<Self, DeviceError> {
         let threads = ("WORKGROUP", f64::from(WORKGROUP));
         let scan_threads = [("SCAN_THREADS", f64::from(SCAN_THREADS))];
         let cells = ("CELLS", f64::from(options.cells));
-        let lines = ("LINES", f64::from(options.lines_a_segment()));
+        let lines = ("LINES", f64::from(options.lines_per_segment()));
         let prefix = match options.prefix_sum {
             PrefixSum::Naive => Prefix::Naive(Kernel::new(gpu, &PREFIX_NAIVE, &[threads])?),
             PrefixSum::Scan => Prefix::Scan {
@@ -46,13 +52,13 @@ impl Kernels {
             prefix,
             bin: Kernel::new(gpu, &BIN, &[threads, cells])?,
             pixels: pixels(gpu, options, false)?,
-            counting_pixels: pixels(gpu, options, true)?,
+            pixels_with_counts: pixels(gpu, options, true)?,
         })
     }
 }
 
 fn pixels(gpu: &Gpu, options: &GridOptions, counts: bool) -> Result<Kernel, DeviceError> {
-    let flag = |holds: bool| f64::from(u8::from(holds));
+    let flag = |is_set: bool| f64::from(u8::from(is_set));
     let mut constants = vec![
         ("CELLS", f64::from(options.cells)),
         ("TILE_PX", f64::from(TILE_PX)),

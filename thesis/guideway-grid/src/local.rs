@@ -1,37 +1,39 @@
-//! The scene as the device sees it: in `f32` meters from the middle of its box, under a uniform grid.
+//! Local coordinates of a scene: `f32` meters from the center of its bounds, under a uniform grid.
+//!
+//! Input: the scene. Output: origin, bounds, rounding error and grid parameters.
 
-use guideway_scene::{FrameSize, View};
-use guideway_scene::{LineRule, Scene};
+use guideway_scene::{FrameSize, LineRule, Scene, View};
 use guideway_spline::{Bounds, Point};
 
 use crate::options::{Binning, GridOptions};
 use crate::params::GridParams;
 
-/// The picture that lists are made for: it shows the whole scene.
+/// Size of the picture of the whole scene for which lists are built.
 const PLANNED_PX: (u32, u32) = (1920, 1080);
 
-/// Place and size of a scene.
+/// Local origin and extent of a scene.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Local {
-    /// Where the device's coordinates have their origin.
+pub(super) struct LocalScene {
+    /// Origin of local coordinates, in world coordinates.
     center_m: Point<f64>,
-    /// Box of the curves, from there.
+    /// Bounds of the curves, in local coordinates.
     pub(super) bounds_m: Bounds<f64>,
-    /// Greatest coordinate of a control point, from there.
+    /// Largest absolute local coordinate of a control point.
     reach_m: f64,
-    /// Longest side of a segment's control points' box.
+    /// Longest side of the bounds of one segment's control points.
     segment_m: f64,
     pub(super) segments: u64,
 }
 
-impl Local {
+impl LocalScene {
+    /// Measures a scene.
     pub(super) fn of(scene: &Scene) -> Self {
         let origin = Point::new(0.0, 0.0);
-        let nowhere = Bounds {
+        let empty = Bounds {
             min: origin,
             max: origin,
         };
-        let bounds = scene.bounds().unwrap_or(nowhere);
+        let bounds = scene.bounds().unwrap_or(empty);
         let center_m = bounds.center();
         let mut local = Self {
             center_m,
@@ -48,8 +50,8 @@ impl Local {
         let runs = drawn.flat_map(|&path| paths.get(path as usize).runs());
         for segment in runs.flat_map(|run| run.segments()) {
             if let Some(hull) = Bounds::of_points(segment.map(|p| p - center_m)) {
-                let reaches = [hull.min.x, hull.min.y, hull.max.x, hull.max.y].map(f64::abs);
-                local.reach_m = reaches.into_iter().fold(local.reach_m, f64::max);
+                let distances = [hull.min.x, hull.min.y, hull.max.x, hull.max.y].map(f64::abs);
+                local.reach_m = distances.into_iter().fold(local.reach_m, f64::max);
                 local.segment_m = local.segment_m.max(hull.size().x).max(hull.size().y);
             }
             local.segments += 1;
@@ -57,32 +59,32 @@ impl Local {
         local
     }
 
-    /// A point as the device sees it.
+    /// Converts a point to local coordinates.
     pub(super) fn local_from_world(&self, point_m: Point<f64>) -> [f32; 2] {
         let local = (point_m - self.center_m).to_f32();
         [local.x, local.y]
     }
 
-    /// How far from its place a line may appear because the device computes in `f32`, in pixels: a bound.
+    /// Upper bound of a line's displacement by `f32` arithmetic, in pixels.
     ///
-    /// With u = 2^-24, a coordinate up to X is rounded by at most u X: once as a control point, once as an
-    /// end of a line, once as the middle of the view and once as a pixel. What is computed relative to a
-    /// segment, its points and the projection on its lines, is off by at most 8 u of its size. The middle
-    /// of a view that is off the scene is at most half a picture away from any pixel that meets it, which
-    /// adds less than a hundredth of a pixel.
+    /// derived: with u = 2^-24, rounding moves a coordinate up to X by at most u X: once as a
+    /// control point, once as an end of a line, once as the center of the view and once as a pixel.
+    /// Points and projections relative to a segment are off by at most 8 u times its size. The
+    /// center of a view outside the scene is at most half a picture away from any pixel that shows
+    /// the scene, which adds less than 0.01 pixels.
     pub(super) fn rounding_px(&self, px_per_m: f64) -> f64 {
         let unit = f64::from(f32::EPSILON) / 2.0;
         unit * (4.0 * self.reach_m + 8.0 * self.segment_m) * px_per_m + 0.01
     }
 
-    /// The grid over the box of the curves.
+    /// Parameters of the grid over the bounds of the curves.
     pub(super) fn grid(&self, options: &GridOptions) -> GridParams {
         let cells = f64::from(options.cells);
         let size_m = self.bounds_m.size();
-        // A side that is hardly more than rounding is one cell.
-        let least_m = cells * self.reach_m * f64::from(f32::EPSILON);
+        // A side within the rounding error becomes a single cell.
+        let min_side_m = cells * self.reach_m * f64::from(f32::EPSILON);
         let cells_per_m = |side_m: f64| {
-            if side_m > least_m {
+            if side_m > min_side_m {
                 cells / side_m
             } else {
                 0.0
@@ -101,36 +103,43 @@ impl Local {
         }
     }
 
-    /// How far beyond its box a line is entered: as far as it shows by the thesis' rule in a picture of the
-    /// whole scene, and so in all closer ones, but at most a cell. Where a view's lines reach farther,
-    /// pixels look into the cells beside their own too: what is seen is the same, but takes longer.
+    /// Distance beyond its bounds at which a cell still lists a line: the radius of the thesis'
+    /// line rule in a picture of the whole scene, which covers all closer views, but at most one
+    /// cell. In views with wider lines, pixels also read neighbor cells: the same picture, but
+    /// slower.
     fn binned_reach_m(&self, cells_per_m: [f64; 2], options: &GridOptions) -> f64 {
         let size = FrameSize::new(PLANNED_PX.0, PLANNED_PX.1);
         let whole = size.and_then(|size| View::fit(size, Some(self.bounds_m)));
-        let shows_m = whole.map_or(0.0, |view| {
+        let visible_m = whole.map_or(0.0, |view| {
             let radius_px = LineRule::Thesis.radius_px(None, view.px_per_m());
-            (radius_px + options.antialias.beyond_px()) / view.px_per_m()
+            (radius_px + options.antialias.margin_px()) / view.px_per_m()
         });
         let shorter_side_m = 1.0 / cells_per_m[0].max(cells_per_m[1]);
-        // A hair more, so that rounding never takes it for less.
-        (1.001 * shows_m).min(shorter_side_m)
+        // The factor keeps rounding from shrinking the distance.
+        (1.001 * visible_m).min(shorter_side_m)
     }
 }
 
-/// How many cells the lines of a segment meet: at most, but for rounding.
-pub(super) struct Met {
-    /// All lines together.
+/// Upper bound of the cells that the lines of a segment overlap, up to rounding.
+pub(super) struct CellBound {
+    /// Cells of all lines together.
     pub(super) entries: u64,
-    /// Rows of cells that one line meets.
+    /// Rows of cells that one line overlaps.
     pub(super) rows: u32,
 }
 
-impl Met {
-    /// The derivative of a uniform cubic B-spline is a mean of the differences of its control points, so
-    /// none of its lines is longer than the longest difference over the number of lines; and none meets a
-    /// cell that the box of all control points does not meet.
-    pub(super) fn by(control_m: &[[f32; 2]; 4], grid: &GridParams, options: &GridOptions) -> Self {
-        let lines = options.lines_a_segment();
+impl CellBound {
+    /// Bounds the cells of a segment.
+    ///
+    /// derived: the derivative of a uniform cubic B-spline is a mean of the differences of its
+    /// control points, so no line is longer than the longest difference divided by the number of
+    /// lines; and no line leaves the bounds of the control points.
+    pub(super) fn of_segment(
+        control_m: &[[f32; 2]; 4],
+        grid: &GridParams,
+        options: &GridOptions,
+    ) -> Self {
+        let lines = options.lines_per_segment();
         let cells = |axis: usize| {
             let reach_m = f64::from(grid.reach_m);
             let per_m = f64::from(grid.cells_per_m[axis]);

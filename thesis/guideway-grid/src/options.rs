@@ -1,67 +1,69 @@
-//! The variants of the method.
+//! Options of the method: reads, checks and writes the words after its name.
 
 use std::f64::consts::FRAC_1_SQRT_2;
 use std::fmt;
 
+use crate::error::OptionsError;
 use crate::params::HALF_EDGE_PX;
 
-/// Which variant of the method to use. The default is the method as the thesis writes it.
+/// Options of the method. The default is the method of the thesis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct GridOptions {
-    /// Samples of each segment, 2 to 64; lines are one less.
+    /// Samples per segment, 2 to 64; a segment has one line less.
     pub samples: u32,
-    /// Cells along each side of the grid, 1 to 1024; at most 512 with the naive prefix sum.
+    /// Cells per side of the grid, 1 to 1024; at most 512 with the naive prefix sum.
     pub cells: u32,
-    /// How the places of the cells' lists are found.
+    /// Algorithm that computes the starts of the cells' lists.
     pub prefix_sum: PrefixSum,
-    /// Which cells a line is entered in.
+    /// Rule that selects the cells that list a line.
     pub binning: Binning,
-    /// Whether a pixel stops at lines that change nothing any more.
+    /// Stops testing a pixel once it is fully covered.
     pub early_exit: bool,
-    /// How edges are smoothed.
+    /// Antialiasing of edges.
     pub antialias: Antialias,
 }
 
-/// How the places of the cells' lists are found.
+/// Algorithm that computes the starts of the cells' lists.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum PrefixSum {
-    /// Every cell adds up all cells before it (thesis, figure 4.6).
+    /// Every cell sums all cells before it (thesis, figure 4.6): quadratic cost.
     #[default]
     Naive,
-    /// By a work-efficient scan (Harris et al., GPU Gems 3, chapter 39).
+    /// A work-efficient scan (Harris et al., GPU Gems 3, chapter 39): linear cost.
     Scan,
 }
 
-/// Which cells a line is entered in.
+/// Rule that selects the cells that list a line.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Binning {
-    /// Those that its box meets (thesis, figure 4.4). What a line covers beyond its box and its cells is
-    /// lost.
+    /// Cells that overlap the bounds of the line without its width (thesis, figure 4.4). The parts
+    /// of the stroke in other cells are missing.
     #[default]
     LineBox,
-    /// Those that its box meets when grown by the radius. Nothing is lost.
+    /// Cells that overlap the bounds of the whole stroke. No part is missing.
     LineBoxWithRadius,
 }
 
-/// How edges are smoothed.
+/// Antialiasing of edges.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Antialias {
-    /// By the distance to the nearest line (thesis, 4.3.6).
+    /// Coverage from the distance to the nearest line (thesis, 4.3.6).
     #[default]
     Smooth,
-    /// Not at all.
+    /// No antialiasing.
     None,
-    /// By 32 samples a pixel (thesis, 6.1.2).
+    /// 32 samples per pixel (thesis, 6.1.2).
     Subpixel,
 }
 
 impl Antialias {
-    /// How far from a line's edge the middle of a pixel may be that the line leaves a mark on.
-    pub(super) fn beyond_px(self) -> f64 {
+    /// Largest distance from a line's edge to the center of a pixel that the line changes, in
+    /// pixels.
+    pub(super) fn margin_px(self) -> f64 {
         match self {
             Self::Smooth => f64::from(HALF_EDGE_PX),
             Self::None => 0.0,
-            // Half of a pixel's diagonal.
+            // derived: half the diagonal of a pixel.
             Self::Subpixel => FRAC_1_SQRT_2,
         }
     }
@@ -80,19 +82,18 @@ impl Default for GridOptions {
     }
 }
 
-const WORDS: &str = "`naive` or `scan`, `radius`, `exit`, `aa=smooth`, `aa=none` or `aa=subpixel`, \
-     `samples=` and a number, `cells=` and a number";
-
-/// The prefix sum as written takes half a million times a million additions for 1024 x 1024 cells.
-const MOST_NAIVE_CELLS: u32 = 512;
+/// derived: the naive prefix sum of 1024 x 1024 cells would take 5.5e11 additions; 512 x 512 cells
+/// take a sixteenth of that.
+const MAX_NAIVE_CELLS: u32 = 512;
 
 impl GridOptions {
-    /// Reads what [`fmt::Display`] writes: words joined by `+`, such as
-    /// `scan+radius+exit+aa=subpixel+samples=5+cells=256`. What is not named is as in the default.
+    /// Parses the output of [`fmt::Display`]: words joined by `+`, such as
+    /// `scan+radius+exit+aa=subpixel+samples=5+cells=256`. Options without a word have their
+    /// default.
     ///
     /// # Errors
-    /// A sentence that names the word that is wrong and those that there are.
-    pub fn parse(text: &str) -> Result<Self, String> {
+    /// When a word is unknown, repeats an earlier one, or has a value out of range.
+    pub fn parse(text: &str) -> Result<Self, OptionsError> {
         let mut options = Self::default();
         let mut topics: Vec<&str> = Vec::new();
         for word in text.split('+').filter(|_| !text.is_empty()) {
@@ -108,13 +109,17 @@ impl GridOptions {
                 ("aa", Some("subpixel")) => options.antialias = Antialias::Subpixel,
                 ("samples", Some(number)) => options.samples = parse_number(word, number)?,
                 ("cells", Some(number)) => options.cells = parse_number(word, number)?,
-                _ => return Err(format!("`{word}` is no option of `grid`; there is {WORDS}")),
+                _ => {
+                    let option = word.to_owned();
+                    return Err(OptionsError::Unknown { option });
+                }
             }
             let topic = if topic == "naive" { "scan" } else { topic };
             if topics.contains(&topic) {
-                return Err(format!(
-                    "`{text}`: `{word}` repeats or contradicts a word before it"
-                ));
+                return Err(OptionsError::Repeated {
+                    text: text.to_owned(),
+                    option: word.to_owned(),
+                });
             }
             topics.push(topic);
         }
@@ -122,70 +127,60 @@ impl GridOptions {
         Ok(options)
     }
 
-    /// Whether all numbers are possible.
+    /// Checks that all numbers are in range.
     ///
     /// # Errors
-    /// A sentence that names the one that is not, and those that are.
-    pub fn check(&self) -> Result<(), String> {
-        if !(2..=64).contains(&self.samples) {
-            return Err(format!(
-                "{} samples are not possible: 2 to 64 are",
-                self.samples
-            ));
+    /// When a number is out of range: the error names it and the range.
+    pub fn check(&self) -> Result<(), OptionsError> {
+        let (samples, cells) = (self.samples, self.cells);
+        if !(2..=64).contains(&samples) {
+            return Err(OptionsError::Samples { samples });
         }
-        if !(1..=1024).contains(&self.cells) {
-            return Err(format!(
-                "{} cells a side are not possible: 1 to 1024 are",
-                self.cells
-            ));
+        if !(1..=1024).contains(&cells) {
+            return Err(OptionsError::Cells { cells });
         }
-        if self.prefix_sum == PrefixSum::Naive && self.cells > MOST_NAIVE_CELLS {
-            return Err(format!(
-                "the naive prefix sum takes too long for {0} x {0} cells: add `scan`, or ask for \
-                 {MOST_NAIVE_CELLS} at most",
-                self.cells
-            ));
+        if self.prefix_sum == PrefixSum::Naive && cells > MAX_NAIVE_CELLS {
+            let limit = MAX_NAIVE_CELLS;
+            return Err(OptionsError::TooManyNaiveCells { cells, limit });
         }
         Ok(())
     }
 
-    /// Lines that a segment becomes.
-    pub(super) fn lines_a_segment(&self) -> u32 {
+    /// Lines per segment.
+    pub(super) fn lines_per_segment(&self) -> u32 {
         self.samples - 1
     }
 
-    /// All cells of the grid.
+    /// Number of cells of the grid.
     pub(super) fn cell_count(&self) -> u32 {
         self.cells * self.cells
     }
 }
 
-fn parse_number(word: &str, number: &str) -> Result<u32, String> {
-    let number = number.parse();
-    number.map_err(|_| format!("`{word}` is not possible: it takes a whole number"))
+fn parse_number(word: &str, number: &str) -> Result<u32, OptionsError> {
+    number.parse().map_err(|_| OptionsError::NotANumber {
+        option: word.to_owned(),
+    })
 }
 
 impl fmt::Display for GridOptions {
-    /// The words of [`GridOptions::parse`] for what differs from the default.
+    /// Writes the words of [`GridOptions::parse`] for all options that differ from their default.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let usual = Self::default();
+        let default = Self::default();
         let antialias = match self.antialias {
             Antialias::Smooth => "",
             Antialias::None => "aa=none",
             Antialias::Subpixel => "aa=subpixel",
         };
-        let number = |name, value, usual| {
-            let differs = value != usual;
-            differs.then(|| format!("{name}={value}"))
-        };
-        let word = |holds: bool, word: &str| holds.then(|| word.to_owned());
+        let number = |name, value, default| (value != default).then(|| format!("{name}={value}"));
+        let word = |is_set: bool, word: &str| is_set.then(|| word.to_owned());
         let words = [
             word(self.prefix_sum == PrefixSum::Scan, "scan"),
             word(self.binning == Binning::LineBoxWithRadius, "radius"),
             word(self.early_exit, "exit"),
             word(!antialias.is_empty(), antialias),
-            number("samples", self.samples, usual.samples),
-            number("cells", self.cells, usual.cells),
+            number("samples", self.samples, default.samples),
+            number("cells", self.cells, default.cells),
         ];
         let words: Vec<_> = words.into_iter().flatten().collect();
         f.write_str(&words.join("+"))
@@ -197,7 +192,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_variant_is_read_as_it_is_written() {
+    fn parses_what_display_writes() {
         for text in [
             "",
             "scan",
@@ -217,22 +212,22 @@ mod tests {
     }
 
     #[test]
-    fn what_is_wrong_is_named() {
+    fn names_the_wrong_option_and_the_limit() {
         for (text, named) in [
-            ("scam", "`scam` is no option"),
-            ("scan+", "`` is no option"),
-            ("scan=1", "`scan=1` is no option"),
-            ("aa", "`aa` is no option"),
-            ("aa=fast", "`aa=fast` is no option"),
+            ("scam", "unknown option `scam`"),
+            ("scan+", "unknown option ``"),
+            ("scan=1", "unknown option `scan=1`"),
+            ("aa", "unknown option `aa`"),
+            ("aa=fast", "unknown option `aa=fast`"),
             ("samples=1", "2 to 64"),
-            ("samples=", "`samples=` is not possible"),
+            ("samples=", "invalid option `samples=`"),
             ("scan+cells=1025", "1 to 1024"),
-            ("cells=-1", "`cells=-1` is not possible"),
+            ("cells=-1", "invalid option `cells=-1`"),
             ("cells=513", "add `scan`"),
             ("naive+scan", "`scan` repeats"),
             ("exit+exit", "`exit` repeats"),
         ] {
-            let message = GridOptions::parse(text).unwrap_err();
+            let message = GridOptions::parse(text).unwrap_err().to_string();
             assert!(message.contains(named), "{text}: {message}");
         }
     }

@@ -1,36 +1,38 @@
-//! Control points of some of the paths, as the device reads them.
+//! Packs the control points of some paths for the device.
+//!
+//! Input: paths in draw order. Output: local `f32` points, and ranges of segments per submission.
 
 use std::ops::Range;
 
 use guideway_scene::Scene;
 
-use crate::cut::Cutter;
-use crate::local::{Local, Met};
+use crate::local::{CellBound, LocalScene};
 use crate::options::GridOptions;
 use crate::params::GridParams;
+use crate::split::WorkSplitter;
 
-/// What an atomic addition, or the sampling of a line, takes at most: so many distance tests.
-const TESTS_AN_ENTRY: u64 = 10;
+/// Upper bound of the time of an atomic addition or of sampling a line, in distance tests.
+const TESTS_PER_ENTRY: u64 = 10;
 
-/// How far a scene has been packed.
+/// The first segment that is not yet packed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Cursor {
-    /// Place in the draw order.
+    /// Index in the draw order.
     path: usize,
     run: usize,
     segment: usize,
 }
 
-/// Segments for the device.
+/// Packed segments.
 #[derive(Default)]
 pub(super) struct Packed {
     pub(super) points_m: Vec<[f32; 2]>,
-    /// The first of the four control points of each segment.
+    /// Index of the first of the four control points of each segment.
     pub(super) first_points: Vec<u32>,
-    /// Segments to submit at a time.
+    /// Ranges of segments, one per submission.
     pub(super) slices: Vec<Range<u32>>,
-    /// Most rows of cells that one line meets.
-    pub(super) most_rows: u32,
+    /// Most rows of cells that one line overlaps.
+    pub(super) max_rows: u32,
 }
 
 impl Packed {
@@ -39,22 +41,23 @@ impl Packed {
     }
 }
 
-/// What is packed.
+/// Packs a scene, some segments per call.
 pub(super) struct Packer<'a> {
     pub(super) scene: &'a Scene,
-    pub(super) local: &'a Local,
+    pub(super) local: &'a LocalScene,
     pub(super) grid: &'a GridParams,
     pub(super) options: &'a GridOptions,
-    /// Most work, in distance tests, and most segments to submit at a time.
-    pub(super) most_work: u64,
-    pub(super) most_items: u32,
+    /// Most work per submission, in distance tests.
+    pub(super) max_work: u64,
+    /// Most segments per submission.
+    pub(super) max_items: u32,
 }
 
 impl Packer<'_> {
-    /// Packs at most so many segments from `cursor` on, and says where the rest begins.
-    pub(super) fn pack(&self, mut cursor: Cursor, most_segments: u32) -> (Packed, Cursor) {
+    /// Packs at most `max_segments` segments from `cursor` on. Returns them and the next cursor.
+    pub(super) fn pack(&self, mut cursor: Cursor, max_segments: u32) -> (Packed, Cursor) {
         let mut packed = Packed::default();
-        let mut cutter = Cutter::new(self.most_work, self.most_items);
+        let mut splitter = WorkSplitter::new(self.max_work, self.max_items);
         let paths = &self.scene.layout().paths;
         while let Some(&path) = self.scene.draw_order().get(cursor.path) {
             let mut runs = paths.get(path as usize).runs();
@@ -66,7 +69,7 @@ impl Packer<'_> {
                 continue;
             };
             let rest = run.len() - 3 - cursor.segment;
-            let taken = rest.min((most_segments - packed.segments()) as usize);
+            let taken = rest.min((max_segments - packed.segments()) as usize);
             if taken == 0 {
                 break;
             }
@@ -75,9 +78,9 @@ impl Packer<'_> {
             let local = points.map(|point| self.local.local_from_world(run.get(point)));
             packed.points_m.extend(local);
             for segment in packed.points_m[first..].array_windows() {
-                let met = Met::by(segment, self.grid, self.options);
-                cutter.push(1, TESTS_AN_ENTRY * met.entries);
-                packed.most_rows = packed.most_rows.max(met.rows);
+                let bound = CellBound::of_segment(segment, self.grid, self.options);
+                splitter.push(1, TESTS_PER_ENTRY * bound.entries);
+                packed.max_rows = packed.max_rows.max(bound.rows);
             }
             packed
                 .first_points
@@ -95,7 +98,7 @@ impl Packer<'_> {
                 }
             };
         }
-        packed.slices = cutter.finish();
+        packed.slices = splitter.finish();
         (packed, cursor)
     }
 }

@@ -1,22 +1,22 @@
-//! What shaders and this side agree on. A test compares it with the shaders themselves.
+//! The interface to the shaders: constants, uniforms and sources. Tests compare it with the WGSL.
 
 use bytemuck::{Pod, Zeroable};
 
 use guideway_gpu::device::Source;
 
-/// Threads of a workgroup that goes over items.
+/// Threads per workgroup of the shaders that process one item per thread.
 pub(super) const WORKGROUP: u32 = 64;
-/// Threads of a workgroup of the scan; a block has two cells for each.
+/// Threads per workgroup of the scan; each thread has two cells of a block.
 pub(super) const SCAN_THREADS: u32 = 256;
-/// Side of a tile of pixels, which is a workgroup.
+/// Side of a tile, the pixels of one workgroup.
 pub(super) const TILE_PX: u32 = 8;
-/// Half of what an edge is smoothed over, in pixels.
+/// Half the width of a smoothed edge, in pixels.
 pub(super) const HALF_EDGE_PX: f32 = 0.75;
 
-/// All parts of an item's work, or all of a pixel's lines.
+/// The open end of a range: all parts of an item's work, or all lines of a cell.
 pub(super) const ALL: u32 = u32::MAX;
 
-/// A line on the device: start and end.
+/// Bytes of a line on the device: start and end.
 pub(super) const LINE_BYTES: u64 = size_of::<[f32; 4]>() as u64;
 
 /// `Items` of `items.wgsl`.
@@ -106,7 +106,7 @@ pub(super) const SCAN_SUMS: Source = Source {
 };
 
 pub(super) const ADD_SUMS: Source = Source {
-    name: "adding of sums",
+    name: "add sums",
     wgsl: wgsl!("add_sums"),
     bindings: &["starts", "block_sums"],
 };
@@ -117,7 +117,7 @@ pub(super) const BIN: Source = Source {
     bindings: &["items", "grid", "lines_m", "starts", "filled", "lists_m"],
 };
 
-/// Pixels by the distance to the nearest line.
+/// Coverage from the distance to the nearest line.
 pub(super) const PIXELS_NEAREST: Source = Source {
     name: "pixels",
     wgsl: wgsl!("view", "cells", "line", "nearest", "pixels"),
@@ -126,7 +126,7 @@ pub(super) const PIXELS_NEAREST: Source = Source {
     ],
 };
 
-/// Pixels by sub-samples.
+/// Coverage from 32 samples per pixel.
 pub(super) const PIXELS_SAMPLES: Source = Source {
     wgsl: wgsl!("view", "cells", "line", "samples", "pixels"),
     ..PIXELS_NEAREST

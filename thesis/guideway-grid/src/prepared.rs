@@ -1,55 +1,60 @@
+//! A prepared scene: draws views from the sorted lines, pass by pass and band by band.
+//!
+//! Input: the grid of a scene, a view and a style. Output: RGBA pixels and a report.
+
 use std::ops::Range;
 use std::sync::Arc;
 use std::time::Instant;
 
+use guideway_gpu::device::{DeviceBuffer, Dispatch, Memory, Runner};
 use guideway_scene::{
-    Budget, Cancel, Frame, FrameSize, Preparation, Prepared, RenderError, Report, Stage, Style,
-    View, Work, elapsed_ms,
+    Budget, Cancel, Frame, FrameSize, Preparation, Prepared, RenderError, Report, Rgba, Scene,
+    Stage, Style, View, Work, elapsed_ms,
 };
-use guideway_scene::{Rgba, Scene};
 use wgpu::BufferUsages;
 
-use crate::build::{Builder, Built, Chunk};
-use crate::canvas::{Canvas, PIXEL_BYTES, Purpose};
-use crate::cut::Cutter;
-use crate::local::Local;
+use crate::chunk::Chunk;
+use crate::frame_context::{FrameContext, Widths};
+use crate::grid_builder::{BuiltGrid, GridBuilder};
+use crate::local::LocalScene;
 use crate::options::Binning;
 use crate::pack::Packer;
 use crate::params::{GridParams, LINE_BYTES, WORKGROUP};
 use crate::pass::Pass;
-use crate::shot::{Shot, Widths};
-use crate::{NAME, Variant, pass, unsupported};
-use guideway_gpu::device::{DeviceBuffer, Dispatch, Memory, Runner};
+use crate::pass_plan;
+use crate::picture_buffers::{PIXEL_BYTES, PictureBuffers, Purpose};
+use crate::split::WorkSplitter;
+use crate::variant::{NAME, Variant, unsupported};
 
-const BORDERS_NOTE: &str = "Lines are listed without their width, as the thesis writes: part of it is \
-     missing across the borders of cells. Option `radius` mends that.";
+const BORDERS_NOTE: &str = "Cells list lines without their width, as in the thesis, so strokes are \
+     cut at cell borders. Add option `radius` for whole strokes.";
 
-/// A scene whose lines are sorted, and the buffers of the last picture.
+/// A scene with its grid, and the buffers of the last picture.
 pub(super) struct PreparedGrid {
     variant: Arc<Variant>,
     scene: Arc<Scene>,
     memory: Memory,
     runner: Runner,
-    local: Local,
+    local: LocalScene,
     color: Rgba,
     widths: Widths,
     grid: GridParams,
     grid_buffer: DeviceBuffer,
     chunks: Vec<Chunk>,
-    canvas: Option<Canvas>,
+    buffers: Option<PictureBuffers>,
     preparation: Preparation,
 }
 
-/// The color of all paths.
+/// The color that all paths share.
 fn one_color(scene: &Scene) -> Result<Rgba, RenderError> {
     match scene.common_color() {
         None => Err(unsupported(
             "paths of several colors",
-            "Leave --color-by out, or use `--method cpu`.",
+            "Remove --color-by, or use `--method cpu`.",
         )),
         Some(color) if !color.is_opaque() => Err(unsupported(
             "translucent paths",
-            "Ask for an opaque color, or use `--method cpu`.",
+            "Use an opaque color, or `--method cpu`.",
         )),
         Some(color) => Ok(color),
     }
@@ -66,6 +71,10 @@ fn widths(scene: &Scene) -> Widths {
 }
 
 impl PreparedGrid {
+    /// Builds the grid of a scene on the device.
+    ///
+    /// # Errors
+    /// When paths have several colors or translucent ones, or memory or the device fail.
     pub(super) fn new(
         variant: Arc<Variant>,
         scene: Arc<Scene>,
@@ -73,26 +82,26 @@ impl PreparedGrid {
     ) -> Result<Self, RenderError> {
         let color = one_color(&scene)?;
         let start = Instant::now();
-        let local = Local::of(&scene);
+        let local = LocalScene::of(&scene);
         let grid = local.grid(&variant.options);
-        let bounded_ms = elapsed_ms(start);
+        let bound_ms = elapsed_ms(start);
 
         let mut memory = Memory::new(Arc::clone(&variant.gpu), NAME, budget);
         let runner = Runner::new(Arc::clone(&variant.gpu), &mut memory)?;
         let uniform = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
         let grid_buffer = memory.zeros("the grid", size_of::<GridParams>() as u64, uniform)?;
-        let set = runner.write("the grid", &grid_buffer, &grid);
-        set.map_err(|error| memory.device_error(&error))?;
+        let written = runner.write("the grid", &grid_buffer, &grid);
+        written.map_err(|error| memory.device_error(&error))?;
         let packer = Packer {
             scene: &scene,
             local: &local,
             grid: &grid,
             options: &variant.options,
-            most_work: variant.gpu.tests_per_submit(),
-            most_items: variant.gpu.max_workgroups().saturating_mul(WORKGROUP)
-                / variant.options.lines_a_segment(),
+            max_work: variant.gpu.tests_per_submit(),
+            max_items: variant.gpu.max_workgroups().saturating_mul(WORKGROUP)
+                / variant.options.lines_per_segment(),
         };
-        let builder = Builder {
+        let builder = GridBuilder {
             gpu: &variant.gpu,
             options: &variant.options,
             kernels: &variant.kernels,
@@ -100,14 +109,14 @@ impl PreparedGrid {
             runner: &runner,
             grid: &grid_buffer,
         };
-        let Built {
+        let BuiltGrid {
             chunks,
             stages,
             atomics,
         } = builder.build(&packer, local.segments)?;
-        let bounded = Stage::host("bound", bounded_ms);
+        let bound = Stage::host("bound", bound_ms);
         let preparation = Preparation {
-            stages: std::iter::once(bounded).chain(stages).collect(),
+            stages: std::iter::once(bound).chain(stages).collect(),
             held_bytes: memory.held_bytes(),
             peak_bytes: memory.take_peak_bytes(),
             work: Work {
@@ -126,20 +135,25 @@ impl PreparedGrid {
             grid,
             grid_buffer,
             chunks,
-            canvas: None,
+            buffers: None,
             preparation,
         })
     }
 
-    fn canvas(&mut self, size: FrameSize, purpose: Purpose) -> Result<Canvas, RenderError> {
-        // A picture keeps its canvas; what was kept for another size gives way first.
-        if let Some(canvas) = self.canvas.take()
+    /// The buffers of the last picture when they fit, else new ones.
+    fn buffers(
+        &mut self,
+        size: FrameSize,
+        purpose: Purpose,
+    ) -> Result<PictureBuffers, RenderError> {
+        // To stay within the budget, buffers of another size are freed before new ones are made.
+        if let Some(buffers) = self.buffers.take()
             && purpose == Purpose::Picture
-            && canvas.size == size
+            && buffers.size == size
         {
-            return Ok(canvas);
+            return Ok(buffers);
         }
-        Canvas::new(
+        PictureBuffers::new(
             &self.variant.gpu,
             &mut self.memory,
             size,
@@ -150,32 +164,33 @@ impl PreparedGrid {
         )
     }
 
-    /// Draws on a canvas, hands out band by band what came of it, and returns milliseconds of drawing and of
-    /// fetching.
+    /// Draws a frame and passes the result of each band to `take`. Returns the milliseconds of
+    /// drawing and of reading back.
     fn draw(
         &self,
-        shot: &Shot,
-        canvas: &Canvas,
+        context: &FrameContext,
+        buffers: &PictureBuffers,
         cancel: &Cancel,
         mut take: impl FnMut(Range<u32>, &[u8]),
     ) -> Result<(f64, f64), RenderError> {
         let gpu = &self.variant.gpu;
-        let kernel = canvas.purpose.kernel(&self.variant.kernels);
+        let kernel = buffers.purpose.kernel(&self.variant.kernels);
         let ok = |error| self.memory.device_error(&error);
-        let passes = self.passes(shot);
+        let passes = self.passes(context);
         let (mut drawing_ms, mut fetching_ms) = (0.0, 0.0);
-        for rows in canvas.bands() {
+        for rows in buffers.bands() {
             for pass in &passes {
-                let cutter = Cutter::new(gpu.tests_per_submit(), gpu.max_workgroups());
-                for tiles in pass.cut(shot, &self.chunks[pass.chunk].table, &rows, cutter) {
+                let splitter = WorkSplitter::new(gpu.tests_per_submit(), gpu.max_workgroups());
+                let table = &self.chunks[pass.chunk].table;
+                for tiles in pass_plan::tile_ranges(pass, context, table, &rows, splitter) {
                     cancel.check()?;
-                    let params = shot.params(&rows, &tiles, pass);
+                    let params = context.params(&rows, &tiles, pass);
                     self.runner
-                        .write("the view", &canvas.view, &params)
+                        .write("the view", &buffers.view, &params)
                         .map_err(ok)?;
                     let dispatch = Dispatch {
                         kernel,
-                        bindings: &canvas.bindings[pass.chunk],
+                        bindings: &buffers.bindings[pass.chunk],
                         workgroups: tiles.end - tiles.start,
                     };
                     drawing_ms += self.runner.run("the picture", &[dispatch]).map_err(ok)?;
@@ -183,11 +198,11 @@ impl PreparedGrid {
             }
             cancel.check()?;
             let start = Instant::now();
-            let (result, row_bytes) = canvas.result();
+            let (result, row_bytes) = buffers.result();
             let bytes = u64::from(rows.end - rows.start) * row_bytes;
             let fetched =
                 self.runner
-                    .fetch("the picture", result, &canvas.fetched, bytes, |bytes| {
+                    .fetch("the picture", result, &buffers.fetched, bytes, |bytes| {
                         take(rows, bytes);
                     });
             fetched.map_err(ok)?;
@@ -196,13 +211,13 @@ impl PreparedGrid {
         Ok((drawing_ms, fetching_ms))
     }
 
-    fn passes(&self, shot: &Shot) -> Vec<Pass> {
+    fn passes(&self, context: &FrameContext) -> Vec<Pass> {
         let tables = self.chunks.iter().map(|chunk| &chunk.table);
-        pass::passes(shot, tables, self.variant.gpu.loops_per_thread())
+        pass_plan::passes(context, tables, self.variant.gpu.loops_per_thread())
     }
 
-    fn shot(&self, view: &View, style: &Style) -> Result<Shot, RenderError> {
-        Shot::new(
+    fn context(&self, view: &View, style: &Style) -> Result<FrameContext, RenderError> {
+        FrameContext::new(
             view,
             style,
             self.color,
@@ -222,7 +237,7 @@ impl Prepared for PreparedGrid {
         cancel: &Cancel,
         frame: &mut Frame,
     ) -> Result<Report, RenderError> {
-        let shot = self.shot(view, style)?;
+        let context = self.context(view, style)?;
         let size = view.size();
         frame.resize(size);
         let (mut bands, mut stages) = (1, Vec::new());
@@ -230,24 +245,25 @@ impl Prepared for PreparedGrid {
             let Rgba { r, g, b, a } = style.background;
             frame.pixels_mut().fill([r, g, b, a]);
         } else {
-            let canvas = self.canvas(size, Purpose::Picture)?;
+            let buffers = self.buffers(size, Purpose::Picture)?;
             let width = size.width() as usize;
-            let (drawing_ms, fetching_ms) = self.draw(&shot, &canvas, cancel, |rows, bytes| {
-                let band = rows.start as usize * width..rows.end as usize * width;
-                frame.pixels_mut()[band].copy_from_slice(bytes.as_chunks().0);
-            })?;
-            bands = canvas.bands().len() as u32;
+            let (drawing_ms, fetching_ms) =
+                self.draw(&context, &buffers, cancel, |rows, bytes| {
+                    let band = rows.start as usize * width..rows.end as usize * width;
+                    frame.pixels_mut()[band].copy_from_slice(bytes.as_chunks().0);
+                })?;
+            bands = buffers.bands().len() as u32;
             stages.push(self.runner.stage("test pixels", drawing_ms));
             stages.push(Stage::host(Stage::READ_BACK, fetching_ms));
-            self.canvas = Some(canvas);
+            self.buffers = Some(buffers);
         }
-        let loses_borders = self.variant.options.binning == Binning::LineBox;
+        let cuts_borders = self.variant.options.binning == Binning::LineBox;
         Ok(Report {
             stages,
-            lines: self.local.segments * u64::from(self.variant.options.lines_a_segment()),
+            lines: self.local.segments * u64::from(self.variant.options.lines_per_segment()),
             peak_bytes: self.memory.take_peak_bytes(),
             bands,
-            notes: if loses_borders {
+            notes: if cuts_borders {
                 vec![BORDERS_NOTE.to_owned()]
             } else {
                 Vec::new()
@@ -266,25 +282,25 @@ impl Prepared for PreparedGrid {
         style: &Style,
         cancel: &Cancel,
     ) -> Result<Work, RenderError> {
-        let shot = self.shot(view, style)?;
-        let (mut tests, mut looks) = (0, 0);
+        let context = self.context(view, style)?;
+        let (mut tests, mut lookups) = (0, 0);
         if !self.chunks.is_empty() {
-            let canvas = self.canvas(view.size(), Purpose::Work)?;
-            self.draw(&shot, &canvas, cancel, |_, bytes| {
-                for [of_tests, of_looks] in bytes.as_chunks().0.as_chunks().0 {
-                    tests += u64::from(u32::from_le_bytes(*of_tests));
-                    looks += u64::from(u32::from_le_bytes(*of_looks));
+            let buffers = self.buffers(view.size(), Purpose::Work)?;
+            self.draw(&context, &buffers, cancel, |_, bytes| {
+                for [pixel_tests, pixel_lookups] in bytes.as_chunks().0.as_chunks().0 {
+                    tests += u64::from(u32::from_le_bytes(*pixel_tests));
+                    lookups += u64::from(u32::from_le_bytes(*pixel_lookups));
                 }
             })?;
         }
         let pixels = view.size().pixels() as u64;
-        let passes = self.passes(&shot).len() as u64;
-        // Two tables a look; what is remembered is read again by every pass but the first.
-        let remembered = pixels * passes.saturating_sub(1) * PIXEL_BYTES;
+        let passes = self.passes(&context).len() as u64;
+        // A look-up reads a start and a count; every pass but the first reads the pixel's state.
+        let state_bytes = pixels * passes.saturating_sub(1) * PIXEL_BYTES;
         Ok(Work {
             tests: Some(tests),
             atomics: Some(0),
-            bytes_read: Some(tests * LINE_BYTES + looks * 2 * 4 + remembered),
+            bytes_read: Some(tests * LINE_BYTES + lookups * 2 * 4 + state_bytes),
             bytes_written: Some(pixels * passes * PIXEL_BYTES),
         })
     }

@@ -1,28 +1,28 @@
-//! The method on small scenes: what must hold on any device. Whole pictures are compared with the oracle's
-//! in `tests/tests/device_methods.rs`.
+//! Tests of the method on small scenes, for any device. `tests/tests/device_methods.rs` compares
+//! whole pictures with the oracle's.
 
 use std::sync::{Arc, LazyLock};
 
+use guideway_gpu::testing::device_or_skip;
+use guideway_gpu::{DeviceError, Gpu, GpuOptions};
 use guideway_layout::{Layout, NewPath};
 use guideway_scene::{
-    Budget, Cancel, Clock, Frame, FrameSize, Method, Prepared, RenderError, Report, Style, View,
+    Budget, Cancel, Clock, Frame, FrameSize, LineRule, Method, Prepared, RenderError, Report,
+    Scene, SceneOptions, Style, View,
 };
-use guideway_scene::{LineRule, Scene, SceneOptions};
 use guideway_spline::{Point, Runs};
 
 use super::*;
-use guideway_gpu::testing::device_or_skip;
-use guideway_gpu::{DeviceError, GpuOptions};
 
-/// The device of all tests here; none where there is none.
+/// The device of these tests, or the reason why it is missing.
 static GPU: LazyLock<Result<Arc<Gpu>, DeviceError>> = LazyLock::new(Gpu::new);
 
-/// A device, unless the test has to be skipped.
+/// The device, or `None` when the test must be skipped.
 fn gpu() -> Option<Arc<Gpu>> {
     device_or_skip(&GPU)
 }
 
-/// Wavy paths over about 100 m, many of which cross.
+/// Wavy paths over about 100 m; many of them cross.
 fn scene(paths: u32) -> Arc<Scene> {
     let mut layout = Layout::default();
     for path in 0..paths {
@@ -70,7 +70,7 @@ fn limited(options: GpuOptions) -> Arc<Gpu> {
     Gpu::with_options(options).unwrap()
 }
 
-/// A device of which a shader sees so little that the lines of [`scene`] come in many chunks.
+/// A device with bindings so small that the lines of [`scene`] need many chunks.
 fn small_bindings() -> Arc<Gpu> {
     limited(GpuOptions {
         storage_binding_bytes: Some(8 << 10),
@@ -79,7 +79,7 @@ fn small_bindings() -> Arc<Gpu> {
 }
 
 #[test]
-fn chunks_bands_passes_and_prefix_sums_change_no_bit() {
+fn chunks_bands_passes_and_prefix_sums_keep_the_picture() {
     let Some(gpu) = gpu() else { return };
     let small = small_bindings();
     let narrow = limited(GpuOptions {
@@ -121,12 +121,12 @@ fn chunks_bands_passes_and_prefix_sums_change_no_bit() {
 }
 
 #[test]
-fn stopping_early_and_visiting_many_cells_change_no_bit() {
+fn early_exit_and_cell_count_keep_the_picture() {
     let Some(gpu) = gpu() else { return };
     let view = view(70, 60, 0.8);
     let (expected, _) = draw(&gpu, "scan+radius+cells=40", &view);
     assert!(draw(&gpu, "scan+radius+exit+cells=40", &view).0 == expected);
-    // Any number of cells: one; more than a block of the scan; so many that pixels look into dozens.
+    // From one cell, over more than a block of the scan, to dozens of cells per pixel.
     for cells in [1, 7, 23, 100, 333] {
         let (frame, _) = draw(&gpu, &format!("scan+radius+cells={cells}"), &view);
         assert!(frame == expected, "{cells} cells");
@@ -134,7 +134,7 @@ fn stopping_early_and_visiting_many_cells_change_no_bit() {
 }
 
 #[test]
-fn the_naive_prefix_sum_goes_on_where_a_thread_has_to_stop() {
+fn naive_prefix_sum_resumes_after_the_iteration_limit() {
     let Some(_) = gpu() else { return };
     let short = limited(GpuOptions {
         loops_per_thread: Some(1),
@@ -146,7 +146,7 @@ fn the_naive_prefix_sum_goes_on_where_a_thread_has_to_stop() {
 }
 
 #[test]
-fn a_picture_has_lines_where_they_are() {
+fn draws_and_reports_all_lines() {
     let Some(gpu) = gpu() else { return };
     let (frame, report) = draw(&gpu, "scan+radius", &view(70, 60, 0.8));
     let dark = frame.pixels().iter().filter(|p| p[0] < 128).count();
@@ -158,7 +158,7 @@ fn a_picture_has_lines_where_they_are() {
 }
 
 #[test]
-fn the_phases_are_timed_and_counted() {
+fn preparation_times_every_phase_and_counts_atomics() {
     let Some(gpu) = gpu() else { return };
     for gpu in [gpu, small_bindings()] {
         let prepared = grid(&gpu, "cells=40")
@@ -171,13 +171,13 @@ fn the_phases_are_timed_and_counted() {
             ["bound", "pack", "sample", "count", "prefix sum", "bin"]
         );
         assert!(preparation.peak_bytes > preparation.held_bytes);
-        // A segment, and each line twice in at least one cell.
+        // One per segment, and two per line and cell.
         assert!(preparation.work.atomics >= Some(30 * 6 * (1 + 2 * 9)));
     }
 }
 
 #[test]
-fn a_device_without_a_clock_is_timed_from_outside() {
+fn host_clock_times_a_device_without_timestamps() {
     let Some(gpu) = gpu() else { return };
     let silent = limited(GpuOptions {
         without_timestamps: true,
@@ -192,25 +192,26 @@ fn a_device_without_a_clock_is_timed_from_outside() {
 }
 
 #[test]
-fn impossible_options_are_refused_however_they_are_made() {
+fn new_rejects_options_out_of_range() {
     let Some(gpu) = gpu() else { return };
     let options = GridOptions {
         samples: 1,
         ..GridOptions::default()
     };
-    assert!(Grid::new(gpu, options).is_err());
+    let error = Grid::new(gpu, options).err();
+    assert_eq!(error, Some(OptionsError::Samples { samples: 1 }.into()));
 }
 
 #[test]
-fn work_is_counted_exactly() {
+fn counts_work_exactly() {
     let Some(gpu) = gpu() else { return };
     for gpu in [gpu, small_bindings()] {
-        // All pixels are inside the grid, which has one cell: each tests all lines.
+        // All pixels are inside the single cell of the grid, so each tests all lines.
         let view = view(20, 15, 4.0);
         let mut prepared = grid(&gpu, "cells=1")
             .prepare(scene(30), &Budget::default())
             .unwrap();
-        // Wide enough for pixels to be covered wholly.
+        // Wide enough to cover pixels fully.
         let style = Style {
             line_rule: LineRule::World {
                 width_m: 3.0,
@@ -242,7 +243,7 @@ fn work_is_counted_exactly() {
 }
 
 #[test]
-fn every_budget_gives_the_same_picture_or_says_what_it_takes() {
+fn every_budget_gives_the_same_picture_or_names_the_needed_bytes() {
     let Some(gpu) = gpu() else { return };
     let view = view(300, 200, 2.0);
     let (expected, full) = draw(&gpu, "scan+cells=40", &view);
@@ -276,7 +277,7 @@ fn every_budget_gives_the_same_picture_or_says_what_it_takes() {
 }
 
 #[test]
-fn a_lost_device_is_an_error() {
+fn reports_a_lost_device() {
     let Some(_) = gpu() else { return };
     let lost = limited(GpuOptions::default());
     let grid = grid(&lost, "scan");
@@ -297,7 +298,7 @@ fn a_lost_device_is_an_error() {
 }
 
 #[test]
-fn a_set_cancel_stops_before_the_first_submit() {
+fn cancel_stops_before_the_first_submission() {
     let Some(gpu) = gpu() else { return };
     let mut prepared = grid(&gpu, "scan")
         .prepare(scene(3), &Budget::default())
@@ -311,12 +312,12 @@ fn a_set_cancel_stops_before_the_first_submit() {
 }
 
 #[test]
-fn views_beyond_single_precision_are_refused() {
+fn rejects_views_beyond_single_precision() {
     let Some(gpu) = gpu() else { return };
     let mut prepared = grid(&gpu, "scan+radius")
         .prepare(scene(30), &Budget::default())
         .unwrap();
-    // Coordinates up to 60 m and segments of 40 m: 600 m of rounding units.
+    // derived: coordinates up to 60 m and segments of 40 m bound the rounding by 600 m x 2^-24.
     assert!(picture(prepared.as_mut(), &view(20, 20, 2000.0)).is_ok());
     let refused = picture(prepared.as_mut(), &view(20, 20, 4000.0)).unwrap_err();
     assert!(refused.to_string().contains("pixels off"), "{refused}");

@@ -85,8 +85,9 @@ pub(super) fn is_in_hardware() -> bool {
 static DEVICE: LazyLock<Result<Arc<Gpu>, DeviceError>> = LazyLock::new(Gpu::new);
 
 fn start(options: &str) -> Result<Box<dyn Method>, StartError> {
-    let options = GridOptions::parse(options).map_err(StartError::Options)?;
-    let grid = Grid::new(device()?, options).map_err(StartError::Unavailable)?;
+    let options =
+        GridOptions::parse(options).map_err(|error| StartError::Options(error.to_string()))?;
+    let grid = Grid::new(device()?, options).map_err(unavailable)?;
     Ok(Box::new(grid))
 }
 

@@ -1,4 +1,4 @@
-// Third step: every cell adds the sum of the blocks before its own.
+// Prefix sum, step 3: adds to every cell the sum of all blocks before its block.
 
 override SCAN_THREADS: u32;
 

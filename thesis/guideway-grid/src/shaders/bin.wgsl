@@ -1,7 +1,7 @@
-// Phase 4 (thesis, 4.3.5): every line is copied into the lists of its cells.
+// Phase 4 (thesis, 4.3.5): copies every line into the lists of its cells.
 
 @group(0) @binding(3) var<storage, read> starts: array<u32>;
-// How many lines each cell has so far.
+// Lines per list so far.
 @group(0) @binding(4) var<storage, read_write> filled: array<atomic<u32>>;
 @group(0) @binding(5) var<storage, read_write> lists_m: array<vec4f>;
 

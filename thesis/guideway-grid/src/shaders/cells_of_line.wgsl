@@ -1,4 +1,5 @@
-// The cells that a line's box meets, grown by the reach (thesis, figures 4.4 and 4.5). Parts are rows of it.
+// The cells that overlap a line's bounds, inflated by the reach (thesis, figures 4.4 and 4.5). The
+// parts of `items` are rows of these cells.
 
 struct CellBox {
     low: vec2u,

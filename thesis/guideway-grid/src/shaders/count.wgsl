@@ -1,4 +1,4 @@
-// Phase 2 (thesis, 4.3.3): how many lines each cell has.
+// Phase 2 (thesis, 4.3.3): counts the lines of each cell.
 
 @group(0) @binding(3) var<storage, read_write> counts: array<atomic<u32>>;
 

@@ -1,19 +1,19 @@
-// One thread an item, over a range of them.
+// A range of items, one per thread, and the part of each item's work.
 
 override WORKGROUP: u32;
 
 struct Items {
     first: u32,
-    // Behind the last.
+    // One past the last.
     end: u32,
-    // Which part of each item's work, where a thread would go round its loop too often for all of it.
+    // The part of each item's work, which bounds the iterations of a thread.
     first_part: u32,
     end_part: u32,
 }
 
 @group(0) @binding(0) var<uniform> items: Items;
 
-// The item of a thread; there is none from `items.end` on. Workgroups are dispatched in rows.
+// The item of a thread; items from `items.end` on do not exist. Workgroups are dispatched in rows.
 fn item_of(workgroup: vec3u, workgroups: vec3u, thread: u32) -> u32 {
     return items.first + (workgroup.y * workgroups.x + workgroup.x) * WORKGROUP + thread;
 }

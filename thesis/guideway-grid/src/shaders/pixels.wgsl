@@ -1,18 +1,18 @@
-// The picture (thesis, 4.3.6): one thread a pixel, over all the lines of its cell.
+// Draws the picture (thesis, 4.3.6): one thread per pixel tests all lines of its cell.
 
-// Side of a tile, a workgroup's pixels.
+// Side of a tile, the pixels of one workgroup.
 override TILE_PX: u32;
-// Stop at lines that change nothing any more.
+// Stops testing a pixel once it is fully covered.
 override EARLY_EXIT: bool;
-// Count the work.
+// Counts distance tests and cell look-ups.
 override COUNT: bool;
 
 @group(0) @binding(2) var<storage, read> starts: array<u32>;
 @group(0) @binding(3) var<storage, read> counts: array<u32>;
 @group(0) @binding(4) var<storage, read> lists_m: array<vec4f>;
-// Between passes what the pixel remembers, with the last its color.
+// Between passes the state of each pixel; after the last pass its color.
 @group(0) @binding(5) var<storage, read_write> pixels: array<u32>;
-// Tests of lines and look-ups of cells, a pixel.
+// Distance tests and cell look-ups per pixel.
 @group(0) @binding(6) var<storage, read_write> work: array<vec2u>;
 
 @compute @workgroup_size(TILE_PX, TILE_PX)
@@ -31,12 +31,12 @@ fn main(
         return;
     }
     let index = pixel.y * view.width_px + pixel.x;
-    var seen = NOTHING;
+    var state = EMPTY;
     if view.is_first_pass == 0u {
-        seen = pixels[index];
+        state = pixels[index];
     }
     var tests = 0u;
-    var looks = 0u;
+    var lookups = 0u;
 
     let center_px = vec2f(f32(pixel.x), f32(view.first_row + pixel.y)) + 0.5;
     let offset_m = (center_px - view.half_size_px) * view.m_per_px;
@@ -49,12 +49,12 @@ fn main(
             for (var x = low.x; x <= high.x; x++) {
                 let cell = y * CELLS + x;
                 let end = starts[cell] + min(counts[cell], view.end_line);
-                looks += 1u;
+                lookups += 1u;
                 for (var i = starts[cell] + view.first_line; i < end; i++) {
-                    if EARLY_EXIT && is_full(seen) {
+                    if EARLY_EXIT && is_full(state) {
                         break;
                     }
-                    seen = cover(seen, point_m, lists_m[i]);
+                    state = cover(state, point_m, lists_m[i]);
                     tests += 1u;
                 }
             }
@@ -63,22 +63,22 @@ fn main(
 
     if COUNT {
         let before = select(work[index], vec2u(0u), view.is_first_pass == 1u);
-        work[index] = before + vec2u(tests, looks);
+        work[index] = before + vec2u(tests, lookups);
     }
-    pixels[index] = seen;
+    pixels[index] = state;
     if view.is_last_pass == 1u {
-        pixels[index] = blend(coverage(seen));
+        pixels[index] = blend(coverage(state));
     }
 }
 
-// The color over the background. Where nothing shows, the background has the say on the color.
-fn blend(share: f32) -> u32 {
+// Blends the color over the background. Fully transparent pixels keep the background's color.
+fn blend(covered: f32) -> u32 {
     let ink = unpack4x8unorm(view.color);
-    let below = unpack4x8unorm(view.background);
-    let opacity = mix(below.a, 1.0, share);
+    let back = unpack4x8unorm(view.background);
+    let opacity = mix(back.a, 1.0, covered);
     if opacity == 0.0 {
         return view.background;
     }
-    let color = mix(below.rgb * below.a, ink.rgb, share) / opacity;
+    let color = mix(back.rgb * back.a, ink.rgb, covered) / opacity;
     return pack4x8unorm(vec4f(color, opacity));
 }

@@ -1,5 +1,5 @@
-// Phase 3 as in the thesis (4.3.4, figure 4.6): every cell adds up all the cells before it. Parts are some
-// of these.
+// Phase 3 as in the thesis (4.3.4, figure 4.6): every cell sums all cells before it. The parts of
+// `items` are ranges of these cells.
 
 @group(0) @binding(1) var<storage, read> counts: array<u32>;
 @group(0) @binding(2) var<storage, read_write> starts: array<u32>;

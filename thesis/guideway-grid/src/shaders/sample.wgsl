@@ -1,13 +1,13 @@
-// Phase 1 (thesis, 4.3.2): every segment becomes lines between uniform samples.
+// Phase 1 (thesis, 4.3.2): splits every segment into lines between uniform samples.
 
-// Lines a segment.
+// Lines per segment.
 override LINES: u32;
 
 @group(0) @binding(1) var<storage, read> points_m: array<vec2f>;
-// The first of the four control points of each segment.
+// Index of the first of the four control points of each segment.
 @group(0) @binding(2) var<storage, read> first_points: array<u32>;
 @group(0) @binding(3) var<storage, read_write> line_count: atomic<u32>;
-// Start and end.
+// Start and end of each line.
 @group(0) @binding(4) var<storage, read_write> lines_m: array<vec4f>;
 
 @compute @workgroup_size(WORKGROUP)
@@ -21,22 +21,23 @@ fn main(
         return;
     }
     let first = first_points[segment];
-    // Relative to one of them, rounding is that of a segment's size and not of the scene's.
+    // Relative to one control point, rounding scales with the segment and not with the scene.
     let base_m = points_m[first + 1u];
     let p0 = points_m[first] - base_m;
     let p2 = points_m[first + 2u] - base_m;
     let p3 = points_m[first + 3u] - base_m;
 
-    let place = atomicAdd(&line_count, LINES);
+    let first_line = atomicAdd(&line_count, LINES);
     var start_m = base_m + point(p0, p2, p3, 0.0);
     for (var i = 0u; i < LINES; i++) {
         let end_m = base_m + point(p0, p2, p3, f32(i + 1u) / f32(LINES));
-        lines_m[place + i] = vec4f(start_m, end_m);
+        lines_m[first_line + i] = vec4f(start_m, end_m);
         start_m = end_m;
     }
 }
 
-// The uniform cubic B-spline (thesis, equation 3.2), less the second control point.
+// A point of the uniform cubic B-spline (thesis, equation 3.2), relative to its second control
+// point.
 fn point(p0: vec2f, p2: vec2f, p3: vec2f, t: f32) -> vec2f {
     let s = 1.0 - t;
     let b2 = ((3.0 - 3.0 * t) * t + 3.0) * t + 1.0;

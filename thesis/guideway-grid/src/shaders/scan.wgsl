@@ -1,14 +1,14 @@
-// The work-efficient scan of Blelloch, as in Harris et al., GPU Gems 3, chapter 39: a tree of sums in the
-// memory of one workgroup. No workgroup waits for another.
+// Blelloch's work-efficient exclusive scan (Harris et al., GPU Gems 3, chapter 39): a tree of sums
+// in workgroup memory. Cost: linear in the values. No workgroup waits for another.
 
-// Threads of a workgroup; a power of two. Each has two values of a block.
+// Threads per workgroup, a power of two; each has two values of a block.
 override SCAN_THREADS: u32;
 
 var<workgroup> tree: array<u32, 2u * SCAN_THREADS>;
 
-// Turns each value of the tree into the sum of those before it, and returns the sum of all.
+// Replaces each value of the tree by the sum of all values before it; returns the total.
 fn scan(thread: u32) -> u32 {
-    // Up: every inner node becomes the sum of its leaves.
+    // Up: every inner node gets the sum of its leaves.
     var stride = 1u;
     for (var nodes = SCAN_THREADS; nodes > 0u; nodes >>= 1u) {
         workgroupBarrier();
@@ -23,7 +23,7 @@ fn scan(thread: u32) -> u32 {
     if thread == 0u {
         tree[root] = 0u;
     }
-    // Down: every node hands its left child what is before it, and its right child that and the left.
+    // Down: every node passes its prefix to the left child, and prefix plus left sum to the right.
     for (var nodes = 1u; nodes <= SCAN_THREADS; nodes <<= 1u) {
         stride >>= 1u;
         workgroupBarrier();

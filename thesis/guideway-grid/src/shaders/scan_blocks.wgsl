@@ -1,4 +1,4 @@
-// Phase 3 by a scan, first step: every block of cells by itself.
+// Prefix sum, step 1: scans every block of cells on its own.
 
 @group(0) @binding(0) var<storage, read> counts: array<u32>;
 @group(0) @binding(1) var<storage, read_write> starts: array<u32>;
@@ -12,7 +12,7 @@ fn main(
 ) {
     let block = workgroup.y * workgroups.x + workgroup.x;
     let first = 2u * (block * SCAN_THREADS + thread);
-    // Reading beyond the end gives some value; only sums beyond the end depend on it.
+    // Reads past the end return any value; only sums past the end depend on them.
     tree[2u * thread] = counts[first];
     tree[2u * thread + 1u] = counts[first + 1u];
     let sum = scan(thread);

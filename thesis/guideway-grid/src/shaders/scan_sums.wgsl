@@ -1,5 +1,5 @@
-// Second step: the sum of each block becomes that of all blocks before it. One workgroup, over as many
-// blocks as there are.
+// Prefix sum, step 2: replaces the sum of each block by the sum of all blocks before it. A single
+// workgroup loops over all blocks.
 
 @group(0) @binding(0) var<storage, read_write> block_sums: array<u32>;
 

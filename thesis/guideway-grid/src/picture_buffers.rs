@@ -1,53 +1,59 @@
-//! The pixels of a picture, in bands of rows that fit a binding and the budget.
+//! Device buffers of a picture, in bands of rows that fit one binding and the budget.
 
 use std::ops::Range;
 
+use guideway_gpu::device::{Bindings, DeviceBuffer, Gpu, Kernel, Memory, READBACK_USAGE};
 use guideway_scene::{FrameSize, RenderError};
 use wgpu::BufferUsages;
 
-use crate::build::Chunk;
+use crate::chunk::Chunk;
 use crate::kernels::Kernels;
 use crate::params::ViewParams;
-use crate::unsupported;
-use guideway_gpu::device::{Bindings, DeviceBuffer, Gpu, Kernel, Memory, READBACK_USAGE};
+use crate::variant::unsupported;
 
-/// Bytes of a pixel: what is remembered of it, or its color.
+/// Bytes of a pixel: its state between passes, or its color.
 pub(super) const PIXEL_BYTES: u64 = size_of::<u32>() as u64;
-/// Bytes of the work of a pixel: tests and look-ups.
+/// Bytes of the counters of a pixel: distance tests and cell look-ups.
 const WORK_BYTES: u64 = size_of::<[u32; 2]>() as u64;
 
-/// What a canvas is for.
+/// The result that the buffers receive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Purpose {
+    /// The color per pixel.
     Picture,
-    /// The numbers of tests and look-ups of each pixel.
+    /// The distance tests and cell look-ups per pixel.
     Work,
 }
 
 impl Purpose {
+    /// The shader that computes the result.
     pub(super) fn kernel(self, kernels: &Kernels) -> &Kernel {
         match self {
             Self::Picture => &kernels.pixels,
-            Self::Work => &kernels.counting_pixels,
+            Self::Work => &kernels.pixels_with_counts,
         }
     }
 }
 
 /// Buffers for one size of picture.
-pub(super) struct Canvas {
+pub(super) struct PictureBuffers {
     pub(super) size: FrameSize,
-    /// Rows of all bands but the last.
+    /// Rows per band; the last may have fewer.
     band_rows: u32,
     pub(super) view: DeviceBuffer,
     pixels: DeviceBuffer,
     work: DeviceBuffer,
     pub(super) fetched: DeviceBuffer,
-    /// One a chunk.
+    /// One per chunk.
     pub(super) bindings: Vec<Bindings>,
     pub(super) purpose: Purpose,
 }
 
-impl Canvas {
+impl PictureBuffers {
+    /// Allocates the buffers, with the most rows per band that fit.
+    ///
+    /// # Errors
+    /// When one row exceeds a binding of the device, or the budget.
     pub(super) fn new(
         gpu: &Gpu,
         memory: &mut Memory,
@@ -71,16 +77,16 @@ impl Canvas {
         if fit_binding == 0 {
             return Err(unsupported(
                 format!(
-                    "rows of {width} pixels: this device lets a shader see only {} bytes at once",
+                    "rows of {width} pixels: a shader of this device can bind at most {} bytes",
                     gpu.max_binding_bytes()
                 ),
-                "Ask for a narrower picture.",
+                "Render a narrower picture.",
             ));
         }
-        // Without room for one row, the allocations say what it would have taken.
+        // When the budget holds no row, the allocation of one row fails and names the needed bytes.
         let rows = fit_binding.min(fit_budget.max(1)).min(size.height().into());
         let pixels = width * rows;
-        let pixels_held = memory.zeros("the pixels", pixels * PIXEL_BYTES, storage)?;
+        let pixel_buffer = memory.zeros("the pixels", pixels * PIXEL_BYTES, storage)?;
         // A buffer cannot be empty.
         let work = (pixels * work_bytes).max(WORK_BYTES);
         let work = memory.zeros("the counted work", work, storage)?;
@@ -97,7 +103,7 @@ impl Canvas {
                 &chunk.starts,
                 &chunk.counts,
                 &chunk.lists_m,
-                &pixels_held,
+                &pixel_buffer,
                 &work,
             ];
             kernel.bind(gpu, &buffers)
@@ -108,14 +114,14 @@ impl Canvas {
             size,
             band_rows: rows as u32,
             view,
-            pixels: pixels_held,
+            pixels: pixel_buffer,
             work,
             fetched,
             purpose,
         })
     }
 
-    /// Bands of rows, from the top.
+    /// The rows of each band, from the top.
     pub(super) fn bands(&self) -> impl ExactSizeIterator<Item = Range<u32>> + use<> {
         let (rows, height) = (self.band_rows, self.size.height());
         (0..height.div_ceil(rows)).map(move |band| {
@@ -124,7 +130,7 @@ impl Canvas {
         })
     }
 
-    /// What is fetched of a band, and how many bytes of it a row has.
+    /// The buffer to read back after each band, and its bytes per row.
     pub(super) fn result(&self) -> (&DeviceBuffer, u64) {
         let width = u64::from(self.size.width());
         match self.purpose {

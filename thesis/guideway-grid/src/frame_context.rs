@@ -1,26 +1,26 @@
-//! One view of a scene: whether it can be drawn, and what shaders need to know of it.
+//! The context of a frame: checks that the method can draw a view, and computes the parameters of
+//! its shaders.
 
 use std::ops::Range;
 
-use guideway_scene::{LineRule, Rgba};
-use guideway_scene::{RenderError, Shading, Style, View};
+use guideway_scene::{LineRule, RenderError, Rgba, Shading, Style, View};
 use guideway_spline::{Bounds, Point};
 
-use crate::local::Local;
+use crate::local::LocalScene;
 use crate::options::{Binning, GridOptions};
 use crate::params::{GridParams, ViewParams};
 use crate::pass::Pass;
-use crate::unsupported;
+use crate::variant::unsupported;
 
-/// Farthest that a line may be from where it belongs, in pixels.
-const MOST_ROUNDING_PX: f64 = 0.1;
+/// Largest displacement of a line by rounding, in pixels, before a view is refused.
+const MAX_ROUNDING_PX: f64 = 0.1;
 
-/// What is seen.
-pub(super) struct Shot {
+/// A view of a scene that the method can draw.
+pub(super) struct FrameContext {
     pub(super) view: View,
-    pub(super) local: Local,
+    pub(super) local: LocalScene,
     pub(super) grid: GridParams,
-    /// Along each side of the grid.
+    /// Cells per side of the grid.
     pub(super) cells: u32,
     params: ViewParams,
 }
@@ -28,59 +28,62 @@ pub(super) struct Shot {
 /// The widths of the paths of a scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Widths {
-    /// The same for all: their own or that of the rule.
+    /// One width for all paths; `None` takes the width of the line rule.
     One(Option<f32>),
+    /// Different widths.
     Several,
 }
 
-impl Shot {
-    /// A view, unless the method cannot draw it.
+impl FrameContext {
+    /// Checks a view and computes the parameters that all its dispatches share.
+    ///
+    /// # Errors
+    /// When the style or the widths are unsupported, or `f32` is too coarse for the scale.
     pub(super) fn new(
         view: &View,
         style: &Style,
         color: Rgba,
         widths: Widths,
-        local: Local,
+        local: LocalScene,
         grid: GridParams,
         options: &GridOptions,
     ) -> Result<Self, RenderError> {
         if style.shading != Shading::Color {
             return Err(unsupported(
-                "how many paths cover a pixel",
-                "Ask for color shading, or use `--method cpu`.",
+                "shading by density",
+                "Use color shading, or `--method cpu`.",
             ));
         }
         let px_per_m = view.px_per_m();
         let width_m = match widths {
             Widths::One(width_m) => width_m,
-            // A rule that gives all paths one width does not ask for theirs.
+            // This rule gives all paths the same width, whatever their own.
             Widths::Several if style.line_rule == LineRule::Thesis => None,
             Widths::Several => {
                 return Err(unsupported(
                     "paths of several widths",
-                    "Ask for the line rule of the thesis, or use `--method cpu`.",
+                    "Use the line rule of the thesis, or `--method cpu`.",
                 ));
             }
         };
         let rounding_px = local.rounding_px(px_per_m);
-        if rounding_px > MOST_ROUNDING_PX {
+        if rounding_px > MAX_ROUNDING_PX {
             return Err(unsupported(
                 format!(
-                    "this view: in the single precision of the device, lines of so large a scene at \
-                     {px_per_m} pixels a meter may be {rounding_px:.2} pixels off, and {MOST_ROUNDING_PX} \
-                     is allowed"
+                    "this view: at {px_per_m} pixels per meter the single precision of the device \
+                     may draw lines {rounding_px:.2} pixels off; the limit is {MAX_ROUNDING_PX}"
                 ),
                 "Zoom out, draw a part of the layout, or use `--method cpu`.",
             ));
         }
-        // Nothing that `f32` can hold is as far away as this, nor does the square of it overflow.
+        // derived: 1e18 exceeds every distance in a scene, and its square does not overflow `f32`.
         let radius_m = (style.line_rule.radius_px(width_m, px_per_m) / px_per_m).clamp(0.0, 1e18);
-        let reach_m = radius_m + options.antialias.beyond_px() / px_per_m;
-        let (beyond_box_m, excess_m) = match options.binning {
+        let reach_m = radius_m + options.antialias.margin_px() / px_per_m;
+        let (margin_m, excess_m) = match options.binning {
             Binning::LineBox => (0.0, 0.0),
             Binning::LineBoxWithRadius => (reach_m, (reach_m - f64::from(grid.reach_m)).max(0.0)),
         };
-        let bounds = local.bounds_m.inflated(beyond_box_m);
+        let bounds = local.bounds_m.inflated(margin_m);
         let side = |point: Point<f64>| [point.x as f32, point.y as f32];
         let size = view.size();
         let half = |side: u32| (f64::from(side) / 2.0) as f32;
@@ -93,8 +96,8 @@ impl Shot {
             m_per_px: (1.0 / px_per_m) as f32,
             px_per_m: px_per_m as f32,
             radius_m: radius_m as f32,
-            color: in_bytes(color),
-            background: in_bytes(style.background),
+            color: packed_rgba(color),
+            background: packed_rgba(style.background),
             width_px: size.width(),
             first_row: 0,
             rows: 0,
@@ -117,7 +120,7 @@ impl Shot {
         })
     }
 
-    /// The view for one dispatch: these rows of pixels and tiles of them.
+    /// The parameters of one dispatch: a range of tiles of the pixel rows `rows`.
     pub(super) fn params(&self, rows: &Range<u32>, tiles: &Range<u32>, pass: &Pass) -> ViewParams {
         ViewParams {
             first_row: rows.start,
@@ -134,8 +137,8 @@ impl Shot {
         }
     }
 
-    /// Corners of the box outside of which nothing is drawn, in meters from the middle of the scene.
-    pub(super) fn box_m(&self) -> Bounds<f64> {
+    /// Bounds of everything drawn, in meters from the local origin.
+    pub(super) fn draw_bounds_m(&self) -> Bounds<f64> {
         let point = |[x, y]: [f32; 2]| Point::new(f64::from(x), f64::from(y));
         Bounds {
             min: point(self.params.box_low_m),
@@ -143,13 +146,13 @@ impl Shot {
         }
     }
 
-    /// How far beyond the cells where it is entered a line may be seen.
+    /// Distance by which a line may be visible beyond the cells that list it.
     pub(super) fn excess_m(&self) -> f64 {
         f64::from(self.params.excess_m)
     }
 }
 
-/// A color as it is in the bytes of a picture.
-fn in_bytes(color: Rgba) -> u32 {
+/// Packs a color into the byte order of a picture.
+fn packed_rgba(color: Rgba) -> u32 {
     u32::from_le_bytes([color.r, color.g, color.b, color.a])
 }

@@ -1,59 +1,52 @@
-//! The four phases before the first picture (thesis, figure 4.3), chunk by chunk.
+//! Builds the grid of a scene in the four phases of the thesis (figure 4.3).
+//!
+//! Input: packed control points. Output: the lines of every cell, in chunks that fit one binding.
+//!
+//! ```text
+//! segments --sample--> lines --count--> lines per cell --prefix sum--> starts --bin--> lists
+//! ```
 
 use std::ops::Range;
 use std::time::Instant;
 
+use guideway_gpu::device::{
+    DeviceBuffer, DeviceError, Dispatch, Gpu, Kernel, Memory, READBACK_USAGE, Runner,
+};
 use guideway_scene::{RenderError, Stage, elapsed_ms};
 use wgpu::BufferUsages;
 
-use crate::cut::Cutter;
+use crate::chunk::Chunk;
+use crate::count_table::CountTable;
 use crate::kernels::{Kernels, Prefix};
 use crate::options::GridOptions;
 use crate::pack::{Cursor, Packed, Packer};
 use crate::params::{Items, LINE_BYTES, SCAN_THREADS, WORKGROUP};
-use crate::pass::parts;
-use crate::table::Table;
-use crate::unsupported;
-use guideway_gpu::device::{
-    DeviceBuffer, DeviceError, Dispatch, Gpu, Kernel, Memory, READBACK_USAGE, Reservation, Runner,
-};
+use crate::split::{WorkSplitter, equal_ranges};
+use crate::variant::unsupported;
 
-/// The lines of some of the paths, sorted into the cells of the grid.
-pub(super) struct Chunk {
-    /// Where the list of each cell begins.
-    pub(super) starts: DeviceBuffer,
-    /// How many lines each cell has.
-    pub(super) counts: DeviceBuffer,
-    /// Lines, cell by cell.
-    pub(super) lists_m: DeviceBuffer,
-    /// The counts once more, for this side to know how much work a picture is.
-    pub(super) table: Table,
-    _table_held: Reservation,
-}
-
-/// All lines, sorted.
+/// The grid of a scene: all lines, sorted by cell.
 #[derive(Default)]
-pub(super) struct Built {
+pub(super) struct BuiltGrid {
     pub(super) chunks: Vec<Chunk>,
     pub(super) stages: Vec<Stage>,
-    /// Atomic operations that it took.
+    /// Atomic operations of all phases.
     pub(super) atomics: u64,
 }
 
-/// What a build needs.
-pub(super) struct Builder<'a> {
+/// Runs the four phases on a device.
+pub(super) struct GridBuilder<'a> {
     pub(super) gpu: &'a Gpu,
     pub(super) options: &'a GridOptions,
     pub(super) kernels: &'a Kernels,
     pub(super) memory: &'a mut Memory,
     pub(super) runner: &'a Runner,
-    /// The grid, as shaders have it.
+    /// The uniform buffer of [`crate::params::GridParams`].
     pub(super) grid: &'a DeviceBuffer,
 }
 
-/// Milliseconds of each phase.
+/// Milliseconds per phase.
 #[derive(Default)]
-struct Phases {
+struct PhaseTimes {
     pack: f64,
     sample: f64,
     count: f64,
@@ -61,44 +54,47 @@ struct Phases {
     bin: f64,
 }
 
-/// Buffers that all chunks use in turn.
+/// Buffers that all chunks share, one after the other.
 struct Scratch {
     items: DeviceBuffer,
     lines_m: DeviceBuffer,
     fetched_counts: DeviceBuffer,
 }
 
-/// A chunk whose lines are counted, but not sorted yet.
-struct Counted {
+/// A chunk whose lines are counted, but not yet sorted.
+struct CountedChunk {
     counts: DeviceBuffer,
-    table: Table,
-    /// Lines to submit at a time.
+    table: CountTable,
+    /// Ranges of lines, one per submission.
     slices: Vec<Range<u32>>,
-    /// Rows of the cells of each line to go over at a time.
+    /// Ranges of cell rows per line, one per submission.
     rows: Vec<Range<u32>>,
 }
 
-impl Builder<'_> {
-    /// Sorts the lines of all segments, of which there are so many.
+impl GridBuilder<'_> {
+    /// Sorts the lines of all `segments` segments into cells.
+    ///
+    /// # Errors
+    /// When the device or the budget has too little memory, or the device fails.
     pub(super) fn build(
         mut self,
         packer: &Packer<'_>,
         segments: u64,
-    ) -> Result<Built, RenderError> {
-        let mut built = Built::default();
-        let mut phases = Phases::default();
-        let mut most = self.most_segments().min(segments) as u32;
-        if most == 0 {
+    ) -> Result<BuiltGrid, RenderError> {
+        let mut built = BuiltGrid::default();
+        let mut phases = PhaseTimes::default();
+        let mut max_segments = self.max_segments().min(segments) as u32;
+        if max_segments == 0 {
             return Ok(built);
         }
         if self.cell_bytes() > self.gpu.max_binding_bytes() {
-            return Err(self.too_much(format!("{} cells", self.options.cell_count())));
+            return Err(self.exceeds_binding(format!("{} cells", self.options.cell_count())));
         }
-        let scratch = self.scratch(most)?;
+        let scratch = self.scratch(max_segments)?;
         let mut cursor = Cursor::default();
         loop {
             let start = Instant::now();
-            let (packed, next) = packer.pack(cursor, most);
+            let (packed, next) = packer.pack(cursor, max_segments);
             phases.pack += elapsed_ms(start);
             let segments = packed.segments();
             if segments == 0 {
@@ -108,10 +104,11 @@ impl Builder<'_> {
             let entries = counted.table.total();
             if entries * LINE_BYTES > self.gpu.max_binding_bytes() {
                 if segments == 1 {
-                    let what = format!("a segment whose lines meet {entries} cells");
-                    return Err(self.too_much(what));
+                    let what = format!("a segment whose lines overlap {entries} cells");
+                    return Err(self.exceeds_binding(what));
                 }
-                most = segments / 2;
+                // Pack the same segments again, in two chunks.
+                max_segments = segments / 2;
                 continue;
             }
             built
@@ -130,23 +127,23 @@ impl Builder<'_> {
         Ok(built)
     }
 
-    /// Segments whose control points and lines fit one binding each.
-    fn most_segments(&self) -> u64 {
-        let lines_bytes = u64::from(self.options.lines_a_segment()) * LINE_BYTES;
+    /// Most segments whose control points and whose lines each fit one binding.
+    fn max_segments(&self) -> u64 {
+        let lines_bytes = u64::from(self.options.lines_per_segment()) * LINE_BYTES;
         let points_bytes = 4 * size_of::<[f32; 2]>() as u64;
         self.gpu.max_binding_bytes() / lines_bytes.max(points_bytes)
     }
 
-    fn too_much(&self, what: String) -> RenderError {
-        let most = self.gpu.max_binding_bytes();
+    fn exceeds_binding(&self, what: String) -> RenderError {
+        let limit = self.gpu.max_binding_bytes();
         unsupported(
-            format!("{what}: this device lets a shader see only {most} bytes at once"),
-            "Ask for fewer cells or samples.",
+            format!("{what}: a shader of this device can bind at most {limit} bytes"),
+            "Use fewer cells or samples.",
         )
     }
 
-    fn scratch(&mut self, most_segments: u32) -> Result<Scratch, RenderError> {
-        let lines = u64::from(most_segments) * u64::from(self.options.lines_a_segment());
+    fn scratch(&mut self, max_segments: u32) -> Result<Scratch, RenderError> {
+        let lines = u64::from(max_segments) * u64::from(self.options.lines_per_segment());
         let items = size_of::<Items>() as u64;
         let uniform = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
         let cells = self.cell_bytes();
@@ -159,25 +156,25 @@ impl Builder<'_> {
         })
     }
 
-    /// A buffer for shaders.
+    /// Allocates a storage buffer that holds zeros.
     fn zeros(&mut self, what: &'static str, bytes: u64) -> Result<DeviceBuffer, RenderError> {
         let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC;
         self.memory.zeros(what, bytes, usage)
     }
 
-    /// Bytes of one number a cell.
+    /// Bytes of a buffer with one `u32` per cell.
     fn cell_bytes(&self) -> u64 {
         u64::from(self.options.cell_count()) * size_of::<u32>() as u64
     }
 
-    /// Phases 1 and 2: from control points to lines, and how many of them each cell has.
+    /// Phases 1 and 2: samples control points into lines, and counts the lines per cell.
     fn count(
         &mut self,
         packed: Packed,
         scratch: &Scratch,
-        phases: &mut Phases,
-    ) -> Result<Counted, RenderError> {
-        let (slices, most_rows) = (packed.slices.clone(), packed.most_rows);
+        phases: &mut PhaseTimes,
+    ) -> Result<CountedChunk, RenderError> {
+        let (slices, max_rows) = (packed.slices.clone(), packed.max_rows);
         let (points_m, first_points) = self.upload(packed)?;
         let line_count = self.zeros("the line counter", size_of::<u32>() as u64)?;
         let buffers = [
@@ -187,33 +184,34 @@ impl Builder<'_> {
             &line_count,
             &scratch.lines_m,
         ];
-        let whole = parts(1, 1);
-        phases.sample += self.over("sampling", &self.kernels.sample, &buffers, &slices, &whole)?;
+        let whole = equal_ranges(1, 1);
+        let kernel = &self.kernels.sample;
+        phases.sample += self.run_ranges("sampling", kernel, &buffers, &slices, &whole)?;
 
         let counts = self.zeros("the counts of the cells", self.cell_bytes())?;
-        let lines = self.options.lines_a_segment();
-        let of_lines = |slice: &Range<u32>| slice.start * lines..slice.end * lines;
-        let slices: Vec<_> = slices.iter().map(of_lines).collect();
-        // A row of cells is a round, and a round for each of its cells.
+        let lines = self.options.lines_per_segment();
+        let line_range = |slice: &Range<u32>| slice.start * lines..slice.end * lines;
+        let slices: Vec<_> = slices.iter().map(line_range).collect();
+        // A thread loops once per row of cells, and once per cell of the row.
         let rows_at_once = self.gpu.loops_per_thread() / (1 + self.options.cells);
-        let rows = parts(most_rows, rows_at_once);
+        let rows = equal_ranges(max_rows, rows_at_once);
         let buffers = [&scratch.items, self.grid, &scratch.lines_m, &counts];
-        phases.count += self.over("counting", &self.kernels.count, &buffers, &slices, &rows)?;
+        let kernel = &self.kernels.count;
+        phases.count += self.run_ranges("counting", kernel, &buffers, &slices, &rows)?;
 
         let mut table = None;
-        let (through, bytes) = (&scratch.fetched_counts, counts.bytes());
         let fetched = self.runner.fetch(
             "the counts of the cells",
             &counts,
-            through,
-            bytes,
+            &scratch.fetched_counts,
+            counts.bytes(),
             |counts| {
-                table = Some(Table::new(counts, self.options.cells));
+                table = Some(CountTable::new(counts, self.options.cells));
             },
         );
         self.ok(fetched)?;
-        Ok(Counted {
-            table: table.expect("what is fetched is looked at"),
+        Ok(CountedChunk {
+            table: table.expect("a successful fetch calls its closure"),
             counts,
             slices,
             rows,
@@ -222,7 +220,7 @@ impl Builder<'_> {
 
     fn upload(&mut self, packed: Packed) -> Result<(DeviceBuffer, DeviceBuffer), RenderError> {
         let host_bytes = size_of_val(&*packed.points_m) + size_of_val(&*packed.first_points);
-        let _held = self
+        let _reservation = self
             .memory
             .reserve("the packed control points", host_bytes as u64)?;
         let points_m = self.memory.upload("the control points", &packed.points_m)?;
@@ -230,29 +228,29 @@ impl Builder<'_> {
         Ok((points_m, first_points))
     }
 
-    /// Phases 3 and 4: where the list of each cell begins, and the lists.
+    /// Phases 3 and 4: computes the start of each cell's list, and fills the lists.
     fn sort(
         &mut self,
-        counted: Counted,
+        counted: CountedChunk,
         scratch: &Scratch,
-        phases: &mut Phases,
+        phases: &mut PhaseTimes,
     ) -> Result<Chunk, RenderError> {
-        let Counted {
+        let CountedChunk {
             counts,
             table,
             slices,
             rows,
         } = counted;
-        let table_held = self
+        let table_reservation = self
             .memory
-            .reserve("the table of counts", Table::bytes(self.options.cells))?;
+            .reserve("the table of counts", CountTable::bytes(self.options.cells))?;
         let starts = self.zeros("the starts of the lists", self.cell_bytes())?;
         phases.prefix_sum += self.prefix_sum(&counts, &starts, scratch)?;
 
         // A buffer cannot be empty.
         let lists_bytes = table.total().max(1) * LINE_BYTES;
         let lists_m = self.zeros("the lists of lines", lists_bytes)?;
-        let filled = self.zeros("the filling of the lists", self.cell_bytes())?;
+        let filled = self.zeros("the lengths of the lists", self.cell_bytes())?;
         let lines_m = &scratch.lines_m;
         let buffers = [
             &scratch.items,
@@ -262,13 +260,14 @@ impl Builder<'_> {
             &filled,
             &lists_m,
         ];
-        phases.bin += self.over("binning", &self.kernels.bin, &buffers, &slices, &rows)?;
+        let kernel = &self.kernels.bin;
+        phases.bin += self.run_ranges("binning", kernel, &buffers, &slices, &rows)?;
         Ok(Chunk {
             starts,
             counts,
             lists_m,
             table,
-            _table_held: table_held,
+            _table_reservation: table_reservation,
         })
     }
 
@@ -281,14 +280,15 @@ impl Builder<'_> {
         let cells = self.options.cell_count();
         match &self.kernels.prefix {
             Prefix::Naive(kernel) => {
-                let mut cutter = self.cutter();
+                let mut splitter = self.splitter();
                 for first in (0..cells).step_by(WORKGROUP as usize) {
                     let items = WORKGROUP.min(cells - first);
-                    cutter.push(items, u64::from(items) * u64::from(first + items));
+                    splitter.push(items, u64::from(items) * u64::from(first + items));
                 }
                 let buffers = [&scratch.items, counts, starts];
-                let parts = parts(cells, self.gpu.loops_per_thread());
-                self.over("the prefix sum", kernel, &buffers, &cutter.finish(), &parts)
+                let parts = equal_ranges(cells, self.gpu.loops_per_thread());
+                let ranges = splitter.finish();
+                self.run_ranges("the prefix sum", kernel, &buffers, &ranges, &parts)
             }
             Prefix::Scan { blocks, sums, add } => {
                 let block_count = cells.div_ceil(2 * SCAN_THREADS);
@@ -297,9 +297,9 @@ impl Builder<'_> {
                 let bind = |kernel: &Kernel, buffers: &[&DeviceBuffer]| {
                     self.ok(kernel.bind(self.gpu, buffers))
                 };
-                let of_blocks = bind(blocks, &[counts, starts, &block_sums])?;
-                let of_sums = bind(sums, &[&block_sums])?;
-                let of_cells = bind(add, &[starts, &block_sums])?;
+                let block_bindings = bind(blocks, &[counts, starts, &block_sums])?;
+                let sum_bindings = bind(sums, &[&block_sums])?;
+                let cell_bindings = bind(add, &[starts, &block_sums])?;
                 let dispatch = |kernel, bindings, workgroups| Dispatch {
                     kernel,
                     bindings,
@@ -308,24 +308,24 @@ impl Builder<'_> {
                 self.ok(self.runner.run(
                     "the prefix sum",
                     &[
-                        dispatch(blocks, &of_blocks, block_count),
-                        dispatch(sums, &of_sums, 1),
-                        dispatch(add, &of_cells, block_count),
+                        dispatch(blocks, &block_bindings, block_count),
+                        dispatch(sums, &sum_bindings, 1),
+                        dispatch(add, &cell_bindings, block_count),
                     ],
                 ))
             }
         }
     }
 
-    /// Work and items of one submit.
-    fn cutter(&self) -> Cutter {
-        let most_items = self.gpu.max_workgroups().saturating_mul(WORKGROUP);
-        Cutter::new(self.gpu.tests_per_submit(), most_items)
+    /// A splitter with the device's limits per submission.
+    fn splitter(&self) -> WorkSplitter {
+        let max_items = self.gpu.max_workgroups().saturating_mul(WORKGROUP);
+        WorkSplitter::new(self.gpu.tests_per_submit(), max_items)
     }
 
-    /// Runs a kernel over ranges of items and parts of their work, one submit each, and returns
-    /// milliseconds.
-    fn over(
+    /// Runs a kernel over every pair of an item range and a part of the items' work, one submission
+    /// each. Returns the elapsed milliseconds.
+    fn run_ranges(
         &self,
         what: &'static str,
         kernel: &Kernel,
