@@ -6,7 +6,7 @@ use std::sync::{Arc, LazyLock};
 use guideway_gpu::{DeviceError, Gpu, Tiles, TilesOptions};
 use guideway_grid::{Grid, GridError, GridOptions};
 use guideway_scene::Method;
-use guideway_tessellation::GlDevice;
+use guideway_tessellation::{GlDevice, GlError};
 
 use crate::compare::Tolerance;
 
@@ -70,8 +70,8 @@ pub fn gpu() -> Result<Arc<Gpu>, DeviceError> {
 ///
 /// # Errors
 /// What is missing for it.
-pub fn gl() -> Result<Arc<GlDevice>, String> {
-    static GL: LazyLock<Result<Arc<GlDevice>, String>> = LazyLock::new(GlDevice::new);
+pub fn gl() -> Result<Arc<GlDevice>, GlError> {
+    static GL: LazyLock<Result<Arc<GlDevice>, GlError>> = LazyLock::new(GlDevice::new);
     GL.clone()
 }
 

@@ -1,10 +1,15 @@
+//! Finds an OpenGL device that draws without a window.
+//!
+//! Input: the platforms of EGL. Output: the first hardware device, else a software rasterizer.
+
 use std::sync::Arc;
 
+use crate::error::GlError;
 use crate::sys::{Gl, Limits, Platform, platforms};
 use crate::worker::Worker;
 
-/// An OpenGL device that needs no window: real graphics hardware if there is any, else a processor that
-/// stands in for it. Share it between methods.
+/// An OpenGL device without a window: graphics hardware if present, else a software rasterizer.
+/// Several methods can share it.
 #[derive(Clone, Debug)]
 pub struct GlDevice {
     pub(crate) platform: Platform,
@@ -14,39 +19,42 @@ pub struct GlDevice {
 }
 
 impl GlDevice {
-    /// Looks for a device with OpenGL 4.5 or newer, through EGL: first what Mesa finds, then every device by
-    /// itself.
+    /// Searches for a device with OpenGL 4.5 or newer through EGL: first Mesa's choice, then each
+    /// device of the computer.
     ///
     /// # Errors
-    /// When there is none: a sentence on what is missing and what to install.
-    pub fn new() -> Result<Arc<Self>, String> {
-        // A thread of its own: whoever asks keeps the context that may be current there.
+    /// When no device has it: the error names the reasons and what to install.
+    pub fn new() -> Result<Arc<Self>, GlError> {
+        // On another thread, so that the caller keeps its own current context.
         let found = Worker::start(|| Self::find().map(|found| ((), found)));
-        let (_, found) = found.unwrap_or_else(|| Err("its thread failed".to_owned())).map_err(|why| {
-            format!(
-                "no OpenGL 4.5 without a window ({why}); install the driver of the graphics card, or for drawing \
-                 by the processor Mesa's (`libegl1 libgl1-mesa-dri` on Debian and Ubuntu)"
-            )
+        let found = found.unwrap_or(Err(GlError::ThreadEnded));
+        let (_, found) = found.map_err(|error| match error {
+            GlError::NoDevice { .. } => error,
+            _ => GlError::NoDevice {
+                reasons: error.to_string(),
+            },
         })?;
         Ok(Arc::new(found))
     }
 
-    fn find() -> Result<Self, String> {
+    fn find() -> Result<Self, GlError> {
         let (mut software, mut refusals) = (None, Vec::new());
         for platform in platforms()? {
             match Self::open(platform) {
                 Ok(found) if !found.is_software => return Ok(found),
                 Ok(found) => software = software.or(Some(found)),
-                Err(why) => refusals.push(format!("{platform:?}: {why}")),
+                Err(error) => refusals.push(format!("{platform:?}: {error}")),
             }
         }
         if refusals.is_empty() {
-            refusals.push("EGL offers no platform for it".to_owned());
+            refusals.push(GlError::NoPlatform.to_string());
         }
-        software.ok_or_else(|| refusals.join("; "))
+        software.ok_or_else(|| GlError::NoDevice {
+            reasons: refusals.join("; "),
+        })
     }
 
-    fn open(platform: Platform) -> Result<Self, String> {
+    fn open(platform: Platform) -> Result<Self, GlError> {
         let gl = Gl::new(platform)?;
         Ok(Self {
             platform,
@@ -56,12 +64,12 @@ impl GlDevice {
         })
     }
 
-    /// What the device and its OpenGL are called.
+    /// Name of the device, and its OpenGL version.
     pub fn description(&self) -> &str {
         &self.description
     }
 
-    /// Whether the processor does the work of a graphics device.
+    /// Whether the device is a software rasterizer.
     pub fn is_software(&self) -> bool {
         self.is_software
     }
@@ -73,17 +81,17 @@ mod tests {
 
     use super::*;
 
-    /// Set for the process that finds no driver.
+    /// Set in the child process, which finds no driver.
     const CHILD: &str = "GUIDEWAY_TEST_WITHOUT_EGL";
 
     #[test]
-    fn without_a_driver_it_says_what_to_install() {
+    fn missing_driver_names_the_packages_to_install() {
         if std::env::var_os(CHILD).is_none() {
-            // libglvnd looks for drivers where this says; it is read once a process.
+            // libglvnd reads the directory of its drivers once per process.
             let child = Command::new(std::env::current_exe().unwrap())
                 .args([
                     "--exact",
-                    "device::tests::without_a_driver_it_says_what_to_install",
+                    "device::tests::missing_driver_names_the_packages_to_install",
                 ])
                 .env(CHILD, "1")
                 .env("__EGL_VENDOR_LIBRARY_DIRS", "/nowhere")
@@ -94,11 +102,12 @@ mod tests {
             return;
         }
         match GlDevice::new() {
-            Err(why) => assert!(
-                why.contains("OpenGL 4.5") && why.contains("`libegl1 libgl1-mesa-dri`"),
-                "{why}"
-            ),
-            Ok(_) => println!("SKIPPED: this libEGL finds its driver wherever it is told to look"),
+            Err(error) => {
+                let text = error.to_string();
+                assert!(text.contains("OpenGL 4.5"), "{text}");
+                assert!(text.contains("`libegl1 libgl1-mesa-dri`"), "{text}");
+            }
+            Ok(_) => println!("SKIPPED: this libEGL ignores the directory of drivers"),
         }
     }
 }

@@ -1,66 +1,80 @@
+//! Options of the method: reads and writes the words after its name.
+
 use std::fmt;
 
-/// How visible paths reach the tessellator.
+/// The draw commands for visible paths.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Commands {
-    /// One indirect command a path, as the thesis has it.
+    /// One indirect command per path, as in the thesis.
     #[default]
     PerPath,
-    /// One draw of the patches of all visible paths.
+    /// A single command for the patches of all visible paths.
     Compact,
 }
 
-/// What is done against jagged lines.
+/// Antialiasing of lines.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Antialias {
-    /// Nothing: a pixel is either line or background.
+    /// No antialiasing: a pixel is either line or background.
     #[default]
     None,
-    /// Eight samples a pixel, or four where the device has no more.
+    /// Eight samples per pixel, or four if the device has no more.
     Multisample,
 }
 
 impl Antialias {
-    /// Samples a pixel on a device that has at most so many.
-    pub(crate) fn samples(self, most: u32) -> u32 {
+    /// Samples per pixel on a device with at most `max_samples`.
+    pub(crate) fn samples(self, max_samples: u32) -> u32 {
         match self {
             Self::None => 1,
-            Self::Multisample => most.min(8),
+            Self::Multisample => max_samples.min(8),
         }
     }
 }
 
-/// How method `tessellation` draws.
+/// Options of method `tessellation`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct TessellationOptions {
-    /// How visible paths reach the tessellator.
+    /// The draw commands for visible paths.
     pub commands: Commands,
-    /// What is done against jagged lines.
+    /// Antialiasing of lines.
     pub antialias: Antialias,
 }
 
 const KNOWN: &str = "aa=none, aa=multisample";
 
+/// An option that the method does not have.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("unknown option `{option}`; known are: {}", KNOWN)]
+pub struct UnknownOption {
+    /// The option as written.
+    pub option: String,
+}
+
 impl TessellationOptions {
-    /// Reads what may follow the name of the method, such as `aa=multisample`, with a plus sign between
-    /// several. What is not named stays at its default; [`Commands`] are chosen by the name itself.
+    /// Parses the options after the name of the method, such as `aa=multisample`, joined by `+`.
+    /// Other options have their default; the name itself selects the [`Commands`].
     ///
     /// # Errors
-    /// When there is no such option: a sentence with those that there are.
-    pub fn parse(text: &str) -> Result<Self, String> {
+    /// When an option is unknown: the error names it and all known ones.
+    pub fn parse(text: &str) -> Result<Self, UnknownOption> {
         let mut options = Self::default();
         for option in text.split('+').filter(|option| !option.is_empty()) {
             options.antialias = match option {
                 "aa=none" => Antialias::None,
                 "aa=multisample" => Antialias::Multisample,
-                _ => return Err(format!("there is no option `{option}`; there is: {KNOWN}")),
+                _ => {
+                    let option = option.to_owned();
+                    return Err(UnknownOption { option });
+                }
             };
         }
         Ok(options)
     }
 }
 
-/// The options that are not at their default, as [`TessellationOptions::parse`] reads them.
+/// Writes all options that differ from their default, in the syntax of
+/// [`TessellationOptions::parse`].
 impl fmt::Display for TessellationOptions {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.antialias {
@@ -75,7 +89,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn options_are_read_as_they_are_written() {
+    fn parses_what_display_writes_and_names_unknown_options() {
         for antialias in [Antialias::None, Antialias::Multisample] {
             let options = TessellationOptions {
                 antialias,
@@ -91,11 +105,8 @@ mod tests {
             assert!(TessellationOptions::parse(known).is_ok(), "{known}");
         }
         for bad in ["aa", "aa=smooth", "aa=none;", "commands=compact"] {
-            let refused = TessellationOptions::parse(bad).unwrap_err();
-            assert!(
-                refused.contains(bad) && refused.contains(KNOWN),
-                "{refused}"
-            );
+            let error = TessellationOptions::parse(bad).unwrap_err().to_string();
+            assert!(error.contains(bad) && error.contains(KNOWN), "{error}");
         }
     }
 }

@@ -1,18 +1,22 @@
+//! A thread that owns a value which cannot leave it, such as an OpenGL context.
+//!
+//! Input: closures. Output: their results, sent back to the caller.
+
 use std::sync::mpsc::{Sender, channel, sync_channel};
 use std::thread::{self, JoinHandle};
 
 type Job<T> = Box<dyn FnOnce(&mut T) + Send>;
 
-/// A thread with a value that cannot leave it, such as whatever belongs to an OpenGL context. Work is sent
-/// there; the threads that ask keep their own context, if they have one.
+/// A thread that owns a value. Callers send work to it, and keep their own OpenGL context.
 pub(crate) struct Worker<T> {
-    /// None while it ends.
+    /// `None` once the worker is being dropped.
     jobs: Option<Sender<Job<T>>>,
     thread: Option<JoinHandle<()>>,
 }
 
 impl<T: 'static> Worker<T> {
-    /// Starts a thread and makes its value there; none if the thread does not start or `make` panics.
+    /// Starts a thread and makes its value there. Returns `None` when the thread does not start or
+    /// `make` panics.
     pub(crate) fn start<R, E>(
         make: impl FnOnce() -> Result<(T, R), E> + Send + 'static,
     ) -> Option<Result<(Self, R), E>>
@@ -20,7 +24,7 @@ impl<T: 'static> Worker<T> {
         R: Send + 'static,
         E: Send + 'static,
     {
-        let (jobs, to_do) = channel::<Job<T>>();
+        let (jobs, queue) = channel::<Job<T>>();
         let (made, outcome) = sync_channel(1);
         let work = move || {
             let mut value = match make() {
@@ -33,7 +37,7 @@ impl<T: 'static> Worker<T> {
                     return;
                 }
             };
-            for job in to_do {
+            for job in queue {
                 job(&mut value);
             }
         };
@@ -45,7 +49,8 @@ impl<T: 'static> Worker<T> {
         Some(outcome.recv().ok()?.map(|extra| (worker, extra)))
     }
 
-    /// Does `work` there and waits for it; none if it panicked, now or earlier.
+    /// Runs `work` on the thread and waits for it. Returns `None` when this or earlier work
+    /// panicked.
     pub(crate) fn call<R: Send + 'static>(
         &self,
         work: impl FnOnce(&mut T) -> R + Send + 'static,
@@ -63,7 +68,7 @@ impl<T> Drop for Worker<T> {
     fn drop(&mut self) {
         self.jobs = None;
         if let Some(thread) = self.thread.take() {
-            // If it panicked, that was told when it was last called.
+            // The last call already reported a panic.
             let _ = thread.join();
         }
     }
@@ -74,9 +79,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn work_is_done_on_one_other_thread() {
+    fn runs_all_work_on_the_same_other_thread() {
         let here = thread::current().id();
-        let make = || Ok::<_, String>((thread::current().id(), ()));
+        let make = || Ok::<_, ()>((thread::current().id(), ()));
         let (worker, ()) = Worker::start(make).unwrap().unwrap();
         let same = worker.call(|home| *home == thread::current().id());
         assert_eq!(same, Some(true));
@@ -84,10 +89,10 @@ mod tests {
     }
 
     #[test]
-    fn failures_and_panics_come_back() {
-        let refused = Worker::<()>::start(|| Err::<((), ()), _>("no")).unwrap();
-        assert_eq!(refused.err(), Some("no"));
-        let (worker, ()) = Worker::start(|| Ok::<_, String>((7, ()))).unwrap().unwrap();
+    fn returns_errors_and_panics_to_the_caller() {
+        let outcome = Worker::<()>::start(|| Err::<((), ()), _>("no")).unwrap();
+        assert_eq!(outcome.err(), Some("no"));
+        let (worker, ()) = Worker::start(|| Ok::<_, ()>((7, ()))).unwrap().unwrap();
         assert_eq!(worker.call(|_| panic!("a panic for the test")), None::<()>);
         assert_eq!(worker.call(|n| *n), None);
     }

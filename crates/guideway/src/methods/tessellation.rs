@@ -3,7 +3,7 @@
 use std::sync::{Arc, LazyLock};
 
 use guideway_scene::Method;
-use guideway_tessellation::{Commands, GlDevice, Tessellation, TessellationOptions};
+use guideway_tessellation::{Commands, GlDevice, GlError, Tessellation, TessellationOptions};
 
 use super::entry::{Entry, MethodOption, StartError};
 
@@ -29,15 +29,16 @@ const OPTIONS: &[MethodOption] = &[MethodOption {
 }];
 
 /// Opened once for all methods and options.
-static DEVICE: LazyLock<Result<Arc<GlDevice>, String>> = LazyLock::new(GlDevice::new);
+static DEVICE: LazyLock<Result<Arc<GlDevice>, GlError>> = LazyLock::new(GlDevice::new);
 
 fn start(options: &str, commands: Commands) -> Result<Box<dyn Method>, StartError> {
     let options = TessellationOptions {
         commands,
-        ..TessellationOptions::parse(options).map_err(StartError::Options)?
+        ..TessellationOptions::parse(options)
+            .map_err(|error| StartError::Options(error.to_string()))?
     };
     let device = DEVICE
         .as_ref()
-        .map_err(|why| StartError::Unavailable(why.clone()))?;
+        .map_err(|error| StartError::Unavailable(error.to_string()))?;
     Ok(Box::new(Tessellation::new(Arc::clone(device), options)))
 }

@@ -1,4 +1,4 @@
-// A point of a segment (thesis equation 3.2), in pixels.
+// A point of a segment of a uniform cubic B-spline (thesis, equation 3.2), in pixels.
 vec2 bspline(vec2 p0, vec2 p1, vec2 p2, vec2 p3, float t) {
     // The columns are the rows of the equation's matrix.
     const mat4 basis = mat4(

@@ -1,4 +1,4 @@
-// One color for all.
+// Writes the color that all lines share.
 layout(location = 0) out vec4 rgba;
 
 void main() {

@@ -1,4 +1,4 @@
-// One thread a path: appends a draw command for each that is seen (thesis figure 4.2).
+// Culling, one thread per path: appends a draw command per visible path (thesis, figure 4.2).
 layout(std430, binding = COMMANDS) writeonly restrict buffer Commands { DrawElements commands[]; };
 
 void main() {
@@ -7,9 +7,10 @@ void main() {
         return;
     }
     PathRecord path = paths[id];
-    if (is_seen(path)) {
-        uint place = atomicAdd(tally.drawn, 1u);
-        commands[place] =
-            DrawElements(CORNERS * path.segment_count, 1u, CORNERS * path.first_segment, 0u, 0u);
+    if (is_visible(path)) {
+        uint slot = atomicAdd(counters.drawn, 1u);
+        uint index_count = PATCH_VERTICES * path.segment_count;
+        uint first_index = PATCH_VERTICES * path.first_segment;
+        commands[slot] = DrawElements(index_count, 1u, first_index, 0u, 0u);
     }
 }

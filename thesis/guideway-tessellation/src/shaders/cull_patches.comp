@@ -1,4 +1,5 @@
-// One thread a path: appends the segments of each that is seen to the patches of one draw.
+// Culling, one thread per path: appends the segments of each visible path to the patches of one
+// draw.
 layout(std430, binding = SEGMENTS) readonly restrict buffer Segments { uint segments[]; };
 layout(std430, binding = PATCHES) writeonly restrict buffer Patches { uint patches[]; };
 
@@ -8,11 +9,12 @@ void main() {
         return;
     }
     PathRecord path = paths[id];
-    if (is_seen(path)) {
-        atomicAdd(tally.drawn, 1u);
-        uint place = atomicAdd(tally.vertex_count, CORNERS * path.segment_count) / CORNERS;
+    if (is_visible(path)) {
+        atomicAdd(counters.drawn, 1u);
+        uint vertices = PATCH_VERTICES * path.segment_count;
+        uint slot = atomicAdd(counters.vertex_count, vertices) / PATCH_VERTICES;
         for (uint i = 0u; i < path.segment_count; ++i) {
-            patches[place + i] = segments[path.first_segment + i];
+            patches[slot + i] = segments[path.first_segment + i];
         }
     }
 }

@@ -1,4 +1,4 @@
-// A control point, by the index buffer.
+// Converts a control point, selected by the index buffer, to pixels.
 layout(location = POINT) in vec2 point_m;
 
 void main() {

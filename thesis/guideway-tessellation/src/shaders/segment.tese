@@ -1,4 +1,4 @@
-// A point of a segment (thesis 4.2.2).
+// Computes a point of a segment (thesis 4.2.2), rounded to the subpixel grid.
 layout(isolines, equal_spacing) in;
 
 void main() {

@@ -1,11 +1,14 @@
+//! Buffers in the memory of the device: allocation, writes, reads and bindings.
+
 use std::rc::Rc;
 
 use bytemuck::Pod;
 use glow::HasContext;
 
 use super::Gl;
+use crate::error::GlError;
 
-/// Memory of the device.
+/// A buffer in the memory of the device.
 pub(crate) struct Buffer {
     gl: Rc<Gl>,
     name: glow::Buffer,
@@ -13,13 +16,21 @@ pub(crate) struct Buffer {
 }
 
 impl Buffer {
-    /// A buffer of `bytes` bytes, at least one; `what` names it in an error.
-    pub(crate) fn new(gl: &Rc<Gl>, what: &str, bytes: u64) -> Result<Self, String> {
-        let size = i32::try_from(bytes)
-            .map_err(|_| format!("{bytes} bytes of {what} are more than one buffer holds"))?;
-        // SAFETY: without data there is no host memory to read.
+    /// Allocates a buffer of `bytes` bytes, at least one; `what` names it in an error.
+    ///
+    /// # Errors
+    /// When the size exceeds one buffer, or the device is out of memory.
+    pub(crate) fn new(gl: &Rc<Gl>, what: &str, bytes: u64) -> Result<Self, GlError> {
+        let size = i32::try_from(bytes).map_err(|_| GlError::BufferTooLarge {
+            buffer: what.to_owned(),
+            bytes,
+        })?;
+        // SAFETY: without data the call reads no host memory.
         let name = unsafe {
-            let name = gl.raw.create_named_buffer()?;
+            let name = gl
+                .raw
+                .create_named_buffer()
+                .map_err(GlError::create("buffer"))?;
             gl.raw
                 .named_buffer_storage(name, size, None, glow::DYNAMIC_STORAGE_BIT);
             name
@@ -33,22 +44,22 @@ impl Buffer {
         Ok(buffer)
     }
 
-    /// A buffer that holds `data`.
-    pub(crate) fn of<T: Pod>(gl: &Rc<Gl>, what: &str, data: &T) -> Result<Self, String> {
+    /// Allocates a buffer that holds `data`.
+    pub(crate) fn of<T: Pod>(gl: &Rc<Gl>, what: &str, data: &T) -> Result<Self, GlError> {
         let buffer = Self::new(gl, what, size_of::<T>() as u64)?;
         buffer.write(0, std::slice::from_ref(data));
         Ok(buffer)
     }
 
-    /// Size.
+    /// Size in bytes.
     pub(crate) fn bytes(&self) -> u64 {
         self.bytes
     }
 
-    /// Writes `data` from item `first` on.
+    /// Writes `data` to item `first` and the following ones.
     ///
     /// # Panics
-    /// When it does not fit.
+    /// When the data exceeds the buffer.
     pub(crate) fn write<T: Pod>(&self, first: usize, data: &[T]) {
         let offset = first * size_of::<T>();
         let bytes: &[u8] = bytemuck::cast_slice(data);
@@ -60,10 +71,10 @@ impl Buffer {
         }
     }
 
-    /// Reads the first `data.len()` items; waits for what writes them.
+    /// Reads the first `data.len()` items. Waits for pending writes.
     ///
     /// # Panics
-    /// When there are not so many.
+    /// When the buffer has fewer items.
     pub(crate) fn read<T: Pod>(&self, data: &mut [T]) {
         let bytes: &mut [u8] = bytemuck::cast_slice_mut(data);
         assert!(bytes.len() as u64 <= self.bytes);
@@ -75,7 +86,7 @@ impl Buffer {
         }
     }
 
-    /// Binds it to a storage block.
+    /// Binds the buffer to a storage block.
     pub(crate) fn bind_storage(&self, binding: u32) {
         unsafe {
             self.gl
@@ -84,7 +95,7 @@ impl Buffer {
         }
     }
 
-    /// Binds it to a uniform block.
+    /// Binds the buffer to a uniform block.
     pub(crate) fn bind_uniform(&self, binding: u32) {
         unsafe {
             self.gl

@@ -1,4 +1,6 @@
-//! OpenGL contexts without a window or a surface.
+//! OpenGL contexts without a window or a surface, through EGL.
+//!
+//! Input: a platform. Output: a context that is current on the calling thread.
 
 use std::ffi::c_void;
 use std::ptr;
@@ -6,35 +8,44 @@ use std::sync::OnceLock;
 
 use khronos_egl as egl;
 
+use crate::error::GlError;
+
 type Egl = egl::DynamicInstance<egl::EGL1_5>;
 
-// EGL_MESA_platform_surfaceless and EGL_EXT_platform_device.
+// Values from the specifications EGL_MESA_platform_surfaceless and EGL_EXT_platform_device.
 const PLATFORM_SURFACELESS: egl::Enum = 0x31DD;
 const PLATFORM_DEVICE: egl::Enum = 0x313F;
 
-/// Where a context can be made without a window system.
+/// A way to open a display without a window system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Platform {
-    /// Whatever Mesa finds.
+    /// The device that Mesa selects.
     Surfaceless,
-    /// A device, by its number: the way to a driver that is not Mesa's.
+    /// A device by its index: reaches drivers other than Mesa's.
     Device(usize),
 }
 
-/// Loaded once and never unloaded: drivers do not survive that.
-fn library() -> Result<&'static Egl, String> {
-    static LIBRARY: OnceLock<Result<Egl, String>> = OnceLock::new();
-    // SAFETY: the library is called libEGL, so it is taken to be one.
-    let load = || unsafe { Egl::load_required() }.map_err(|e| format!("libEGL 1.5: {e}"));
+/// The EGL library. It stays loaded, because drivers do not support unloading.
+fn library() -> Result<&'static Egl, GlError> {
+    static LIBRARY: OnceLock<Result<Egl, GlError>> = OnceLock::new();
+    let load = || {
+        // SAFETY: a library by the name of libEGL has the functions of EGL.
+        unsafe { Egl::load_required() }.map_err(|e| GlError::NoEgl {
+            message: e.to_string(),
+        })
+    };
     LIBRARY.get_or_init(load).as_ref().map_err(Clone::clone)
 }
 
-/// The platforms that this computer's EGL offers.
-pub(crate) fn platforms() -> Result<Vec<Platform>, String> {
+/// Lists the platforms that EGL offers on this computer.
+///
+/// # Errors
+/// When libEGL is missing.
+pub(crate) fn platforms() -> Result<Vec<Platform>, GlError> {
     let egl = library()?;
     let extensions = egl
         .query_string(None, egl::EXTENSIONS)
-        .map_err(|e| format!("EGL tells no extensions: {e}"))?
+        .map_err(failed("list its extensions"))?
         .to_string_lossy();
     let has = |name: &str| extensions.split(' ').any(|e| e == name);
     let mut platforms = Vec::new();
@@ -53,8 +64,8 @@ fn devices(egl: &Egl) -> Vec<*mut c_void> {
     let Some(address) = egl.get_proc_address("eglQueryDevicesEXT") else {
         return Vec::new();
     };
-    // SAFETY: this is the function's signature in EGL_EXT_device_enumeration; it writes at most as many
-    // devices as there is room for, and their number.
+    // SAFETY: the signature is that of EGL_EXT_device_enumeration; the function writes the number
+    // of devices and at most as many devices as the vector holds.
     unsafe {
         let query = std::mem::transmute::<extern "system" fn(), QueryDevices>(address);
         let mut count = 0;
@@ -70,7 +81,7 @@ fn devices(egl: &Egl) -> Vec<*mut c_void> {
     }
 }
 
-/// An OpenGL context, current on the thread that made it until it is dropped. Raw pointers keep it there.
+/// An OpenGL context, current on its thread until dropped. Raw pointers make it `!Send`.
 pub(super) struct Context {
     egl: &'static Egl,
     display: egl::Display,
@@ -78,15 +89,18 @@ pub(super) struct Context {
 }
 
 impl Context {
-    /// Makes the newest context that will do, 4.6 or 4.5 core, and makes it current.
-    pub(super) fn new(platform: Platform) -> Result<Self, String> {
+    /// Makes a core context of OpenGL 4.6, or else 4.5, and makes it current.
+    ///
+    /// # Errors
+    /// When the thread already has a context, or EGL fails.
+    pub(super) fn new(platform: Platform) -> Result<Self, GlError> {
         let egl = library()?;
         if egl.get_current_context().is_some() {
-            return Err("this thread has an OpenGL context already".to_owned());
+            return Err(GlError::ContextExists);
         }
         let display = open(egl, platform)?;
         egl.bind_api(egl::OPENGL_API)
-            .map_err(|e| format!("this EGL has no desktop OpenGL: {e}"))?;
+            .map_err(failed("select desktop OpenGL"))?;
         let context = create(egl, display)?;
         // From here on, `Drop` cleans up.
         let context = Self {
@@ -95,75 +109,89 @@ impl Context {
             context,
         };
         egl.make_current(display, None, None, Some(context.context))
-            .map_err(|e| format!("the context cannot be made current: {e}"))?;
+            .map_err(failed("make the context current"))?;
         Ok(context)
     }
 
-    /// The address of an OpenGL function; null when there is none.
+    /// The address of an OpenGL function, or null when the driver lacks it.
     pub(super) fn address(&self, function: &str) -> *const c_void {
         let address = self.egl.get_proc_address(function);
         address.map_or(ptr::null(), |f| f as *const c_void)
     }
 
-    /// An OpenGL function.
+    /// Loads an OpenGL function.
     ///
     /// # Safety
-    /// `F` is the type of the function of this name.
-    pub(super) unsafe fn function<F: Copy>(&self, name: &str) -> Result<F, String> {
+    /// `F` must be the type of the function with this name.
+    ///
+    /// # Errors
+    /// When the driver lacks the function.
+    pub(super) unsafe fn function<F: Copy>(&self, name: &str) -> Result<F, GlError> {
         let address = self.address(name);
         if address.is_null() {
-            return Err(format!("it has no {name}"));
+            return Err(GlError::Missing {
+                feature: name.to_owned(),
+            });
         }
         assert_eq!(size_of::<F>(), size_of_val(&address));
-        // SAFETY: by the caller's word `F` is a function pointer, and the address is not null.
+        // SAFETY: the caller guarantees that `F` is a function pointer, and the address is not
+        // null.
         Ok(unsafe { std::mem::transmute_copy(&address) })
     }
 }
 
 impl Drop for Context {
     fn drop(&mut self) {
-        // What fails here fails on a lost device, where nothing is left to clean up. The display is the
-        // whole process' own and stays open.
+        // These calls only fail on a lost device, which has nothing left to clean up. The display
+        // stays open because the whole process shares it.
         let _ = self.egl.make_current(self.display, None, None, None);
         let _ = self.egl.destroy_context(self.display, self.context);
     }
 }
 
-fn open(egl: &Egl, platform: Platform) -> Result<egl::Display, String> {
+/// Opens the display of a platform, and checks its extensions.
+fn open(egl: &Egl, platform: Platform) -> Result<egl::Display, GlError> {
     let (kind, native) = match platform {
         Platform::Surfaceless => (PLATFORM_SURFACELESS, egl::DEFAULT_DISPLAY),
         Platform::Device(number) => {
             let device = devices(egl).get(number).copied();
-            (PLATFORM_DEVICE, device.ok_or("the device is gone")?)
+            let device = device.ok_or_else(|| GlError::Egl {
+                operation: "open the device",
+                message: "it was removed".to_owned(),
+            })?;
+            (PLATFORM_DEVICE, device)
         }
     };
-    // SAFETY: both platforms are offered, and take the default display or a device that was just listed.
+    // SAFETY: EGL offers both platforms; they take the default display, or a device from the list.
     let display = unsafe { egl.get_platform_display(kind, native, &[egl::ATTRIB_NONE]) }
-        .map_err(|e| format!("no display: {e}"))?;
+        .map_err(failed("open a display"))?;
     egl.initialize(display)
-        .map_err(|e| format!("the display does not start: {e}"))?;
+        .map_err(failed("initialize the display"))?;
     let extensions = egl
         .query_string(Some(display), egl::EXTENSIONS)
-        .map_err(|e| format!("the display tells no extensions: {e}"))?
+        .map_err(failed("list the extensions of the display"))?
         .to_string_lossy();
     for needed in ["EGL_KHR_surfaceless_context", "EGL_KHR_no_config_context"] {
         if !extensions.split(' ').any(|e| e == needed) {
-            return Err(format!("the display lacks {needed}"));
+            return Err(GlError::Missing {
+                feature: needed.to_owned(),
+            });
         }
     }
     Ok(display)
 }
 
-fn create(egl: &Egl, display: egl::Display) -> Result<egl::Context, String> {
-    // SAFETY: EGL_KHR_no_config_context allows for none.
+/// Creates the newest context that the driver has.
+fn create(egl: &Egl, display: egl::Display) -> Result<egl::Context, GlError> {
+    // SAFETY: EGL_KHR_no_config_context allows a null configuration.
     let no_config = unsafe { egl::Config::from_ptr(ptr::null_mut()) };
-    // A driver that can tell when the device was reset is asked to; not all can.
-    let telling = [
+    // Requests notification of device resets; drivers without it get a second try.
+    let notifying = [
         egl::CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY,
         egl::LOSE_CONTEXT_ON_RESET,
     ];
-    let mut refusal = String::new();
-    for (minor, extra) in [(6, &telling[..]), (5, &telling), (6, &[]), (5, &[])] {
+    let mut refusal = GlError::NoPlatform;
+    for (minor, extra) in [(6, &notifying[..]), (5, &notifying), (6, &[]), (5, &[])] {
         let mut attributes = vec![
             egl::CONTEXT_MAJOR_VERSION,
             4,
@@ -176,8 +204,16 @@ fn create(egl: &Egl, display: egl::Display) -> Result<egl::Context, String> {
         attributes.push(egl::NONE);
         match egl.create_context(display, no_config, None, &attributes) {
             Ok(context) => return Ok(context),
-            Err(e) => refusal = format!("it gives no OpenGL 4.5 core context: {e}"),
+            Err(e) => refusal = failed("create an OpenGL 4.5 core context")(e),
         }
     }
     Err(refusal)
+}
+
+/// Adds the failed operation to an error of EGL.
+fn failed(operation: &'static str) -> impl FnOnce(egl::Error) -> GlError {
+    move |error| GlError::Egl {
+        operation,
+        message: error.to_string(),
+    }
 }

@@ -1,3 +1,7 @@
+//! An OpenGL context with its functions, limits and error checks.
+//!
+//! Input: a platform. Output: a context that has every feature that the method needs.
+
 use std::ffi::c_void;
 use std::rc::Rc;
 use std::time::Duration;
@@ -5,45 +9,48 @@ use std::time::Duration;
 use glow::HasContext;
 
 use super::egl::{Context, Platform};
-use super::{Buffer, Program, Vertices};
+use crate::error::GlError;
 
 type MultiDrawElementsIndirectCount =
     unsafe extern "system" fn(u32, u32, *const c_void, isize, i32, i32);
 type GetQuery = unsafe extern "system" fn(u32, u32, *mut i32);
 type GetResetStatus = unsafe extern "system" fn() -> u32;
 
-/// What a device can do at most.
+/// Limits of a device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Limits {
-    /// Bytes of one buffer that a shader reads or writes.
+    /// Most bytes of a buffer that a shader reads or writes.
     pub(crate) buffer_bytes: u64,
-    /// Workgroups of one dispatch.
+    /// Most workgroups per dispatch.
     pub(crate) workgroups: u32,
-    /// Side of a picture, in pixels.
+    /// Longest side of a picture, in pixels.
     pub(crate) picture_side: u32,
-    /// Samples a pixel.
+    /// Most samples per pixel.
     pub(crate) samples: u32,
-    /// Allocations before the device is out of memory, to test what happens then.
+    /// Allocations that succeed before the device reports that it is out of memory.
     #[cfg(test)]
     pub(crate) allocations: u32,
 }
 
-/// A context of its own with what it can do; see the module for its rules.
+/// A current OpenGL context and its extension functions; `sys` lists the safety rules.
 pub(crate) struct Gl {
     pub(super) raw: glow::Context,
-    multi_draw: MultiDrawElementsIndirectCount,
+    pub(super) multi_draw: MultiDrawElementsIndirectCount,
     get_query: GetQuery,
     reset_status: GetResetStatus,
     #[cfg(test)]
     allocations_left: std::cell::Cell<u32>,
-    // The last to be dropped.
+    // The last field, so that it is dropped last.
     #[cfg_attr(not(test), expect(dead_code, reason = "held for its drop"))]
     pub(super) context: Context,
 }
 
 impl Gl {
-    /// Makes a context on this thread and checks that it has everything that the methods need.
-    pub(crate) fn new(platform: Platform) -> Result<Rc<Self>, String> {
+    /// Makes a context on this thread and checks that it has every feature of the method.
+    ///
+    /// # Errors
+    /// When EGL fails, the thread already has a context, or the driver lacks a feature.
+    pub(crate) fn new(platform: Platform) -> Result<Rc<Self>, GlError> {
         let context = Context::new(platform)?;
         // SAFETY: the context is current, and `Context` gives addresses of OpenGL functions.
         let raw = unsafe { glow::Context::from_loader_function(|name| context.address(name)) };
@@ -53,9 +60,9 @@ impl Gl {
                 .supported_extensions()
                 .contains("GL_ARB_indirect_parameters")
         {
-            return Err("it has no GL_ARB_indirect_parameters".to_owned());
+            return Err(missing("GL_ARB_indirect_parameters"));
         }
-        // SAFETY: the types are the functions' own, as the OpenGL registry gives them.
+        // SAFETY: the types are those of the OpenGL registry.
         let gl = unsafe {
             Self {
                 multi_draw: context.function(if has_count {
@@ -72,21 +79,21 @@ impl Gl {
             }
         };
         if gl.query_bits(glow::TIMESTAMP) == 0 {
-            return Err("it has no timer queries".to_owned());
+            return Err(missing("timer queries"));
         }
         if gl.integer(glow::MAX_VERTEX_SHADER_STORAGE_BLOCKS) < 2 {
-            return Err("its vertex shaders read no storage buffers".to_owned());
+            return Err(missing("storage buffers in vertex shaders"));
         }
         Ok(Rc::new(gl))
     }
 
-    /// What the device and its OpenGL are called.
+    /// Name of the device, and its OpenGL version.
     pub(crate) fn description(&self) -> String {
         let text = |name| unsafe { self.raw.get_parameter_string(name) };
         format!("{}, OpenGL {}", text(glow::RENDERER), text(glow::VERSION))
     }
 
-    /// Whether the processor does the work of a graphics device.
+    /// Whether the device is a software rasterizer.
     pub(crate) fn is_software(&self) -> bool {
         let renderer = unsafe { self.raw.get_parameter_string(glow::RENDERER) };
         ["llvmpipe", "softpipe", "swrast", "SwiftShader"]
@@ -94,7 +101,7 @@ impl Gl {
             .any(|software| renderer.contains(software))
     }
 
-    /// What the device can do at most.
+    /// Queries the limits of the device.
     pub(crate) fn limits(&self) -> Limits {
         let block_bytes = unsafe {
             self.raw
@@ -111,7 +118,7 @@ impl Gl {
         }
         let side = self.integer(glow::MAX_RENDERBUFFER_SIZE);
         Limits {
-            // Sizes and offsets are signed 32-bit numbers here.
+            // `glow` takes sizes and offsets as signed 32-bit numbers.
             buffer_bytes: block_bytes.clamp(0, i64::from(i32::MAX)) as u64,
             workgroups: groups.max(0) as u32,
             picture_side: side.min(viewport[0]).min(viewport[1]).max(0) as u32,
@@ -132,56 +139,55 @@ impl Gl {
         bits
     }
 
-    /// Fails when anything went wrong since the last call; `doing` says what was being done.
-    pub(crate) fn check(&self, doing: &str) -> Result<(), String> {
+    /// Checks for errors since the last call; `operation` names the calls in the error.
+    ///
+    /// # Errors
+    /// When the device was lost or is out of memory, or a call was wrong.
+    pub(crate) fn check(&self, operation: &str) -> Result<(), GlError> {
+        let operation = || operation.to_owned();
         // SAFETY: the function takes nothing.
         let status = unsafe { (self.reset_status)() };
         if status != glow::NO_ERROR {
-            return Err(format!(
-                "the device was reset at {doing}; prepare the scene again"
-            ));
+            return Err(GlError::Reset {
+                operation: operation(),
+            });
         }
         match unsafe { self.raw.get_error() } {
             glow::NO_ERROR => Ok(()),
-            glow::OUT_OF_MEMORY => Err(format!(
-                "no memory left at {doing}; ask for a smaller picture or fewer paths, or close what else \
-                 uses the device"
-            )),
-            glow::CONTEXT_LOST => Err(format!(
-                "the device was lost at {doing}; prepare the scene again"
-            )),
-            code => Err(format!(
-                "OpenGL error {code:#06x} at {doing}; update its driver, or report this"
-            )),
+            glow::OUT_OF_MEMORY => Err(GlError::OutOfMemory {
+                operation: operation(),
+            }),
+            glow::CONTEXT_LOST => Err(GlError::Lost {
+                operation: operation(),
+            }),
+            code => Err(GlError::Rejected {
+                operation: operation(),
+                code,
+            }),
         }
     }
 
-    /// Lets so many allocations succeed.
+    /// Lets the next `count` allocations succeed and all later ones fail.
     #[cfg(test)]
     pub(crate) fn allow_allocations(&self, count: u32) {
         self.allocations_left.set(count);
     }
 
-    /// As [`Self::check`], after an allocation.
-    pub(super) fn check_allocation(&self, what: &str, bytes: u64) -> Result<(), String> {
+    /// Like [`Self::check`], after an allocation.
+    pub(super) fn check_allocation(&self, what: &str, bytes: u64) -> Result<(), GlError> {
+        let operation = format!("the allocation of {bytes} bytes for {what}");
         #[cfg(test)]
         {
             let left = self.allocations_left.get();
             if left == 0 {
-                return Err(format!("no memory left at {what}, as the test asks"));
+                return Err(GlError::OutOfMemory { operation });
             }
             self.allocations_left.set(left - 1);
         }
-        self.check(&format!("the {bytes} bytes of {what}"))
+        self.check(&operation)
     }
 
-    /// Runs a compute program.
-    pub(crate) fn dispatch(&self, program: &Program, groups: u32) {
-        program.bind();
-        unsafe { self.raw.dispatch_compute(groups, 1, 1) };
-    }
-
-    /// Makes what shaders wrote visible to draws, to shaders and to the host.
+    /// Makes shader writes visible to draws, to shaders and to the host.
     pub(crate) fn barrier(&self) {
         let visible = glow::COMMAND_BARRIER_BIT
             | glow::SHADER_STORAGE_BARRIER_BIT
@@ -189,64 +195,20 @@ impl Gl {
         unsafe { self.raw.memory_barrier(visible) };
     }
 
-    /// Makes patches of so many vertices from now on.
-    pub(crate) fn patches_of(&self, vertices: u32) {
+    /// Sets the number of vertices per patch.
+    pub(crate) fn set_patch_vertices(&self, vertices: u32) {
         unsafe {
             self.raw
                 .patch_parameter_i32(glow::PATCH_VERTICES, vertices as i32);
         }
     }
 
-    /// Draws patches by as many of the packed indexed commands in `commands` as the number at the start of
-    /// `count` says, at most `most`.
-    pub(crate) fn draw_commands(
-        &self,
-        program: &Program,
-        vertices: &Vertices,
-        commands: &Buffer,
-        count: &Buffer,
-        most: u32,
-    ) {
-        program.bind();
-        vertices.bind();
-        commands.bind(glow::DRAW_INDIRECT_BUFFER);
-        count.bind(glow::PARAMETER_BUFFER);
-        // SAFETY: the commands are read from the buffer bound for them, from its start, packed; the count
-        // from the other. There are at most `most` of them, as the caller planned.
-        unsafe {
-            (self.multi_draw)(
-                glow::PATCHES,
-                glow::UNSIGNED_INT,
-                std::ptr::null(),
-                0,
-                most as i32,
-                0,
-            );
-        }
-    }
-
-    /// Draws patches by the unindexed command at `offset_bytes` in `command`.
-    pub(crate) fn draw_command(
-        &self,
-        program: &Program,
-        vertices: &Vertices,
-        command: &Buffer,
-        offset_bytes: usize,
-    ) {
-        program.bind();
-        vertices.bind();
-        command.bind(glow::DRAW_INDIRECT_BUFFER);
-        unsafe {
-            self.raw
-                .draw_arrays_indirect_offset(glow::PATCHES, offset_bytes as i32);
-        }
-    }
-
-    /// Waits until all work is done, or for as long as it `is_wanted`.
-    pub(crate) fn finish(&self, mut is_wanted: impl FnMut() -> bool) -> Result<(), String> {
-        /// How often that is asked.
+    /// Waits until the device is idle, or until `is_wanted` returns false.
+    pub(crate) fn finish(&self, mut is_wanted: impl FnMut() -> bool) -> Result<(), GlError> {
+        /// Interval of the calls of `is_wanted`: a tenth of the delay that a user notices.
         const STEP: Duration = Duration::from_millis(10);
-        let fence = unsafe { self.raw.fence_sync(glow::SYNC_GPU_COMMANDS_COMPLETE, 0) }?;
+        let fence = unsafe { self.raw.fence_sync(glow::SYNC_GPU_COMMANDS_COMPLETE, 0) }
+            .map_err(GlError::create("fence"))?;
         let wait = || {
             let step_ns = STEP.as_nanos() as i32;
             unsafe {
@@ -260,51 +222,14 @@ impl Gl {
         }
         unsafe { self.raw.delete_sync(fence) };
         match status {
-            glow::WAIT_FAILED => Err("waiting for the device failed".to_owned()),
+            glow::WAIT_FAILED => Err(GlError::Wait),
             _ => Ok(()),
         }
     }
 }
 
-/// Counts the primitives that draws make.
-pub(crate) struct Primitives {
-    gl: Rc<Gl>,
-    query: glow::Query,
-}
-
-impl Primitives {
-    /// A counter.
-    pub(crate) fn new(gl: &Rc<Gl>) -> Result<Self, String> {
-        let query = unsafe { gl.raw.create_query() }?;
-        Ok(Self {
-            gl: Rc::clone(gl),
-            query,
-        })
-    }
-
-    /// Counts what `draw` draws.
-    pub(crate) fn during(&self, draw: impl FnOnce()) {
-        unsafe {
-            self.gl
-                .raw
-                .begin_query(glow::PRIMITIVES_GENERATED, self.query);
-        }
-        draw();
-        unsafe { self.gl.raw.end_query(glow::PRIMITIVES_GENERATED) };
-    }
-
-    /// What was counted; waits for it.
-    pub(crate) fn count(&self) -> u64 {
-        unsafe {
-            self.gl
-                .raw
-                .get_query_parameter_u64(self.query, glow::QUERY_RESULT)
-        }
-    }
-}
-
-impl Drop for Primitives {
-    fn drop(&mut self) {
-        unsafe { self.gl.raw.delete_query(self.query) };
+fn missing(feature: &str) -> GlError {
+    GlError::Missing {
+        feature: feature.to_owned(),
     }
 }

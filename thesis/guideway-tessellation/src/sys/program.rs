@@ -1,10 +1,13 @@
+//! Shader programs and vertex arrays.
+
 use std::rc::Rc;
 
 use glow::HasContext;
 
 use super::{Buffer, Gl};
+use crate::error::GlError;
 
-/// What a shader is for.
+/// The pipeline stage of a shader.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum ShaderStage {
     Vertex,
@@ -14,18 +17,21 @@ pub(crate) enum ShaderStage {
     Compute,
 }
 
-/// Shaders linked to run together.
+/// A linked program of one or more shaders.
 pub(crate) struct Program {
     gl: Rc<Gl>,
     name: glow::Program,
 }
 
 impl Program {
-    /// Compiles and links shaders, given by their sources.
-    pub(crate) fn new(gl: &Rc<Gl>, sources: &[(ShaderStage, String)]) -> Result<Self, String> {
+    /// Compiles and links shaders from their sources.
+    ///
+    /// # Errors
+    /// When the driver rejects a shader: the error holds its message.
+    pub(crate) fn new(gl: &Rc<Gl>, sources: &[(ShaderStage, String)]) -> Result<Self, GlError> {
         let program = Self {
             gl: Rc::clone(gl),
-            name: unsafe { gl.raw.create_program() }?,
+            name: unsafe { gl.raw.create_program() }.map_err(GlError::create("program"))?,
         };
         for (stage, source) in sources {
             program.attach(*stage, source)?;
@@ -35,10 +41,10 @@ impl Program {
             return Ok(program);
         }
         let log = unsafe { gl.raw.get_program_info_log(program.name) };
-        Err(format!("its driver does not link the shaders: {log}"))
+        Err(GlError::Link { log })
     }
 
-    fn attach(&self, stage: ShaderStage, source: &str) -> Result<(), String> {
+    fn attach(&self, stage: ShaderStage, source: &str) -> Result<(), GlError> {
         let kind = match stage {
             ShaderStage::Vertex => glow::VERTEX_SHADER,
             ShaderStage::TessControl => glow::TESS_CONTROL_SHADER,
@@ -48,19 +54,20 @@ impl Program {
         };
         let raw = &self.gl.raw;
         unsafe {
-            let shader = raw.create_shader(kind)?;
+            let shader = raw.create_shader(kind).map_err(GlError::create("shader"))?;
             raw.shader_source(shader, source);
             raw.compile_shader(shader);
             raw.attach_shader(self.name, shader);
-            // It lives on while it is attached.
+            // OpenGL deletes the shader together with the program.
             raw.delete_shader(shader);
             if raw.get_shader_compile_status(shader) {
                 return Ok(());
             }
             let log = raw.get_shader_info_log(shader);
-            Err(format!(
-                "its driver does not compile the {stage:?} shader: {log}"
-            ))
+            Err(GlError::Compile {
+                stage: format!("{stage:?}"),
+                log,
+            })
         }
     }
 
@@ -80,28 +87,29 @@ impl Drop for Program {
     }
 }
 
-/// Where a draw takes its vertices from.
-pub(crate) struct Vertices {
+/// The source of the vertices of a draw.
+pub(crate) struct VertexArray {
     gl: Rc<Gl>,
     name: glow::VertexArray,
 }
 
-impl Vertices {
-    /// From storage buffers, by the number of the vertex.
-    pub(crate) fn pulled(gl: &Rc<Gl>) -> Result<Self, String> {
+impl VertexArray {
+    /// Without attributes: the shader pulls its data from storage buffers by vertex index.
+    pub(crate) fn pulled(gl: &Rc<Gl>) -> Result<Self, GlError> {
         Ok(Self {
             gl: Rc::clone(gl),
-            name: unsafe { gl.raw.create_named_vertex_array() }?,
+            name: unsafe { gl.raw.create_named_vertex_array() }
+                .map_err(GlError::create("vertex array"))?,
         })
     }
 
-    /// Two `f32` a vertex, out of `points` by the `u32` indices in `elements`.
+    /// Two `f32` per vertex from `points`, by the `u32` indices in `elements`.
     pub(crate) fn indexed(
         gl: &Rc<Gl>,
         location: u32,
         points: &Buffer,
         elements: &Buffer,
-    ) -> Result<Self, String> {
+    ) -> Result<Self, GlError> {
         let vertices = Self::pulled(gl)?;
         let (raw, name) = (&gl.raw, vertices.name);
         let stride = size_of::<[f32; 2]>() as i32;
@@ -120,7 +128,7 @@ impl Vertices {
     }
 }
 
-impl Drop for Vertices {
+impl Drop for VertexArray {
     fn drop(&mut self) {
         unsafe { self.gl.raw.delete_vertex_array(self.name) };
     }

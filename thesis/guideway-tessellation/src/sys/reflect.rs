@@ -1,4 +1,4 @@
-//! What a driver made of the declarations in shaders, for tests to hold against ours.
+//! Reflection of compiled shaders, which tests compare with the Rust declarations.
 
 use std::ptr;
 
@@ -25,11 +25,11 @@ pub(crate) struct Block {
 pub(crate) struct Member {
     pub(crate) name: String,
     pub(crate) offset: usize,
-    /// Bytes from one item to the next of the array that it is in; 0 where there is none.
+    /// Bytes between the items of the enclosing array; 0 without an array.
     pub(crate) stride: usize,
 }
 
-/// Asks about one program.
+/// Queries one program.
 pub(crate) struct Reflection<'a> {
     gl: &'a Gl,
     program: u32,
@@ -75,7 +75,7 @@ impl<'a> Reflection<'a> {
             .collect()
     }
 
-    /// Locations of the vertex attributes by name, those of OpenGL's own left out.
+    /// Names and locations of the vertex attributes, without OpenGL's built-in ones.
     pub(crate) fn attributes(&self) -> Vec<(String, u32)> {
         let inputs = (0..self.count(glow::PROGRAM_INPUT)).map(|input| {
             let location = self.property(glow::PROGRAM_INPUT, input, glow::LOCATION);
@@ -86,10 +86,10 @@ impl<'a> Reflection<'a> {
             .collect()
     }
 
-    /// A parameter of the program, in as many numbers as it has.
+    /// A parameter of the program that has `N` numbers.
     pub(crate) fn parameter<const N: usize>(&self, name: u32) -> [i32; N] {
         let mut values = [0; N];
-        // SAFETY: the caller asks for a parameter of `N` numbers.
+        // SAFETY: the caller requests a parameter of `N` numbers.
         unsafe {
             let get: GetProgram = self.function("glGetProgramiv");
             get(self.program, name, values.as_mut_ptr());
@@ -114,15 +114,15 @@ impl<'a> Reflection<'a> {
 
     fn name(&self, interface: u32, index: u32) -> String {
         let (mut text, mut length) = (vec![0; 256], 0);
-        // SAFETY: at most as many bytes are written as there is room for.
+        // SAFETY: the function writes at most `capacity` bytes.
         unsafe {
             let get: GetName = self.function("glGetProgramResourceName");
-            let room = text.len() as i32;
+            let capacity = text.len() as i32;
             get(
                 self.program,
                 interface,
                 index,
-                room,
+                capacity,
                 &raw mut length,
                 text.as_mut_ptr(),
             );
@@ -133,16 +133,16 @@ impl<'a> Reflection<'a> {
 
     fn property(&self, interface: u32, index: u32, property: u32) -> i32 {
         let mut value = 0;
-        // SAFETY: one property is asked for, and at most one number written.
+        // SAFETY: the call queries one property, and writes at most one number.
         unsafe {
             let get: GetResource = self.function("glGetProgramResourceiv");
-            let (asked, found) = (&raw const property, &raw mut value);
+            let (requested, found) = (&raw const property, &raw mut value);
             get(
                 self.program,
                 interface,
                 index,
                 1,
-                asked,
+                requested,
                 1,
                 ptr::null_mut(),
                 found,
@@ -157,9 +157,9 @@ impl<'a> Reflection<'a> {
     }
 
     /// # Safety
-    /// As for a context.
+    /// `F` must be the type of the function with this name.
     unsafe fn function<F: Copy>(&self, name: &str) -> F {
-        // SAFETY: the caller's word.
+        // SAFETY: the caller guarantees the type.
         unsafe { self.gl.context.function(name) }.expect("OpenGL 4.3 has it")
     }
 }

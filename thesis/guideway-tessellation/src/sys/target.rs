@@ -1,32 +1,38 @@
+//! Render targets: RGBA pictures on the device, with one or more samples per pixel.
+
 use std::rc::Rc;
 
 use glow::HasContext;
 
 use super::Gl;
+use crate::error::GlError;
 
 const PIXEL_BYTES: u64 = 4;
 
-/// A picture on the device, 8 bits each of red, green, blue and opacity. Its first row is its upper one.
+/// A picture on the device, with 8 bits per RGBA channel. Its first row is the top row.
 pub(crate) struct Target {
     gl: Rc<Gl>,
     width: u32,
     height: u32,
     samples: u32,
-    /// What is drawn into.
+    /// The surface that draws write.
     drawn: Surface,
-    /// What the samples of each pixel come together in, when there are several.
+    /// The surface of the mean of all samples, when a pixel has several.
     resolved: Option<Surface>,
 }
 
 impl Target {
-    /// Bytes of a target of so many pixels.
+    /// Bytes of a target of `pixels` pixels.
     pub(crate) fn bytes_for(pixels: u64, samples: u32) -> u64 {
         let surfaces = if samples > 1 { samples + 1 } else { 1 };
         pixels * u64::from(surfaces) * PIXEL_BYTES
     }
 
-    /// A target of this size in pixels, with 1 or more samples each.
-    pub(crate) fn new(gl: &Rc<Gl>, width: u32, height: u32, samples: u32) -> Result<Self, String> {
+    /// Allocates a target of this size in pixels, with 1 or more samples per pixel.
+    ///
+    /// # Errors
+    /// When the device is out of memory, or cannot draw into the format.
+    pub(crate) fn new(gl: &Rc<Gl>, width: u32, height: u32, samples: u32) -> Result<Self, GlError> {
         let resolved = match samples {
             1 => None,
             _ => Some(Surface::new(gl, width, height, 1)?),
@@ -41,29 +47,29 @@ impl Target {
         })
     }
 
-    /// Whether it is of this size.
-    pub(crate) fn is(&self, width: u32, height: u32, samples: u32) -> bool {
+    /// Whether the target has this size.
+    pub(crate) fn has_size(&self, width: u32, height: u32, samples: u32) -> bool {
         (self.width, self.height, self.samples) == (width, height, samples)
     }
 
-    /// Bytes that it takes.
+    /// Bytes on the device.
     pub(crate) fn bytes(&self) -> u64 {
         Self::bytes_for(u64::from(self.width) * u64::from(self.height), self.samples)
     }
 
-    /// Fills it with one color, and draws into it from now on through a square viewport of `viewport_side`
-    /// whose middle is at pixel (`middle_x`, `middle_y`).
-    pub(crate) fn begin(&self, rgba: [f32; 4], middle_x: i32, middle_y: i32, viewport_side: u32) {
+    /// Clears the target to one color, and makes it the target of draws through a square viewport
+    /// of `viewport_side` pixels centered at pixel (`center_x`, `center_y`).
+    pub(crate) fn begin(&self, rgba: [f32; 4], center_x: i32, center_y: i32, viewport_side: u32) {
         let raw = &self.gl.raw;
         let (side, half) = (viewport_side as i32, viewport_side as i32 / 2);
         unsafe {
             raw.bind_framebuffer(glow::FRAMEBUFFER, Some(self.drawn.framebuffer));
             raw.clear_buffer_f32_slice(glow::COLOR, 0, &rgba);
-            raw.viewport(middle_x - half, middle_y - half, side, side);
+            raw.viewport(center_x - half, center_y - half, side, side);
         }
     }
 
-    /// Brings the samples of each pixel together by their mean.
+    /// Averages the samples of each pixel.
     pub(crate) fn resolve(&self) {
         let Some(resolved) = &self.resolved else {
             return;
@@ -90,7 +96,7 @@ impl Target {
     /// Reads the upper left `width` x `height` pixels into rows of `row_pixels` pixels each.
     ///
     /// # Panics
-    /// When the target or `pixels` is smaller.
+    /// When the target or `pixels` is too small.
     pub(crate) fn read(&self, width: u32, height: u32, row_pixels: u32, pixels: &mut [[u8; 4]]) {
         assert!(width <= self.width && height <= self.height && width <= row_pixels && height > 0);
         let needed = (height as usize - 1) * row_pixels as usize + width as usize;
@@ -113,6 +119,7 @@ impl Target {
     }
 }
 
+/// A framebuffer with one color renderbuffer.
 struct Surface {
     gl: Rc<Gl>,
     framebuffer: glow::Framebuffer,
@@ -120,17 +127,22 @@ struct Surface {
 }
 
 impl Surface {
-    fn new(gl: &Rc<Gl>, width: u32, height: u32, samples: u32) -> Result<Self, String> {
+    fn new(gl: &Rc<Gl>, width: u32, height: u32, samples: u32) -> Result<Self, GlError> {
         let raw = &gl.raw;
         let (w, h) = (width as i32, height as i32);
         let surface = unsafe {
             Self {
                 gl: Rc::clone(gl),
-                framebuffer: raw.create_framebuffer()?,
-                renderbuffer: raw.create_renderbuffer()?,
+                framebuffer: raw
+                    .create_framebuffer()
+                    .map_err(GlError::create("framebuffer"))?,
+                renderbuffer: raw
+                    .create_renderbuffer()
+                    .map_err(GlError::create("renderbuffer"))?,
             }
         };
-        let what = format!("a picture of {width} x {height} pixels with {samples} samples each");
+        let picture =
+            format!("a picture of {width} x {height} pixels with {samples} samples per pixel");
         let bytes = u64::from(width) * u64::from(height) * u64::from(samples) * PIXEL_BYTES;
         unsafe {
             raw.bind_renderbuffer(glow::RENDERBUFFER, Some(surface.renderbuffer));
@@ -146,7 +158,7 @@ impl Surface {
                 raw.renderbuffer_storage(glow::RENDERBUFFER, glow::RGBA8, w, h);
             }
         }
-        gl.check_allocation(&what, bytes)?;
+        gl.check_allocation(&picture, bytes)?;
         let complete = unsafe {
             raw.bind_framebuffer(glow::FRAMEBUFFER, Some(surface.framebuffer));
             raw.framebuffer_renderbuffer(
@@ -160,7 +172,7 @@ impl Surface {
         if complete {
             Ok(surface)
         } else {
-            Err(format!("it cannot draw into {what}"))
+            Err(GlError::Framebuffer { picture })
         }
     }
 }

@@ -1,39 +1,41 @@
+//! The background: converts its color for the device, and pixels back from it.
+
 use guideway_scene::Rgba;
 
 use super::camera::rgba;
 
-/// What lies below the lines, and how it is stored on the device.
+/// The color below the lines, and its form on the device.
 ///
-/// The mean of several samples is right for colors multiplied with their opacity. With an opaque background,
-/// or one sample, that is the same.
+/// The mean of several samples is correct only for premultiplied colors. An opaque background or a
+/// single sample needs no multiplication.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Background {
     color: Rgba,
-    is_multiplied: bool,
+    is_premultiplied: bool,
 }
 
 impl Background {
-    /// A background below `samples` samples a pixel.
+    /// A background for `samples` samples per pixel.
     pub(super) fn new(color: Rgba, samples: u32) -> Self {
         Self {
             color,
-            is_multiplied: samples > 1 && !color.is_opaque(),
+            is_premultiplied: samples > 1 && !color.is_opaque(),
         }
     }
 
-    /// As the device keeps it.
+    /// The color in the form of the device.
     pub(super) fn stored(&self) -> [f32; 4] {
         let [r, g, b, a] = rgba(self.color);
-        if self.is_multiplied {
+        if self.is_premultiplied {
             [r * a, g * a, b * a, a]
         } else {
             [r, g, b, a]
         }
     }
 
-    /// Makes pixels from the device what frames hold: colors apart from their opacity.
+    /// Converts pixels from the device to those of frames, which are not premultiplied.
     pub(super) fn restore(&self, pixels: &mut [[u8; 4]]) {
-        if !self.is_multiplied {
+        if !self.is_premultiplied {
             return;
         }
         for [r, g, b, a] in pixels.iter_mut().filter(|p| p[3] > 0) {

@@ -1,4 +1,6 @@
-//! The buffers of one chunk of a scene, filled and drawn.
+//! A chunk of a scene on the device: fills its buffers, culls its paths and draws them.
+//!
+//! Input: a planned range of paths. Output: draws, and the counts of visible paths and segments.
 
 use std::rc::Rc;
 
@@ -8,35 +10,40 @@ use guideway_spline::{Bounds, Point};
 
 use super::plan::{ChunkPlan, Plan};
 use super::shared::{
-    COMMANDS, CORNERS, DrawElements, PATCHES, PATHS, POINT, POINTS, PathRecord, SEGMENTS, TALLY,
-    Tally, WORKGROUP,
+    COMMANDS, COUNTERS, Counters, DrawElements, PATCH_VERTICES, PATCHES, PATHS, POINT, POINTS,
+    PathRecord, SEGMENTS, WORKGROUP,
 };
+use crate::error::GlError;
 use crate::options::Commands;
-use crate::sys::{Buffer, Gl, Program, Vertices};
+use crate::sys::{Buffer, Gl, Program, VertexArray, dispatch, draw_command, draw_commands};
 
-/// Paths on the device.
+/// The buffers of some paths.
 pub(super) struct Chunk {
     path_count: u32,
     commands: Commands,
     points: Buffer,
     paths: Buffer,
-    /// What the pre-pass counts, and what it appends to.
-    tally: Buffer,
+    /// Counters of the culling pass.
+    counters: Buffer,
+    /// Commands or patches that the culling pass appends.
     output: Buffer,
     segments: Buffer,
-    vertices: Vertices,
+    vertices: VertexArray,
 }
 
-/// What one frame showed of a chunk.
+/// Counts of the visible parts of a chunk.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Seen {
+pub(super) struct VisibleCounts {
     pub(super) paths: u64,
     pub(super) segments: u64,
 }
 
 impl Chunk {
-    /// Takes the memory that was planned.
-    pub(super) fn new(gl: &Rc<Gl>, plan: &ChunkPlan, commands: Commands) -> Result<Self, String> {
+    /// Allocates the planned buffers.
+    ///
+    /// # Errors
+    /// When the device is out of memory.
+    pub(super) fn new(gl: &Rc<Gl>, plan: &ChunkPlan, commands: Commands) -> Result<Self, GlError> {
         let bytes = plan.bytes(commands);
         let points = Buffer::new(gl, "control points", bytes.points)?;
         let (written, read) = match commands {
@@ -48,18 +55,18 @@ impl Chunk {
             path_count: plan.paths,
             commands,
             vertices: match commands {
-                Commands::PerPath => Vertices::indexed(gl, POINT, &points, &segments)?,
-                Commands::Compact => Vertices::pulled(gl)?,
+                Commands::PerPath => VertexArray::indexed(gl, POINT, &points, &segments)?,
+                Commands::Compact => VertexArray::pulled(gl)?,
             },
             points,
             paths: Buffer::new(gl, "paths", bytes.paths)?,
-            tally: Buffer::of(gl, "counters", &Tally::NONE)?,
+            counters: Buffer::of(gl, "counters", &Counters::INITIAL)?,
             output: Buffer::new(gl, written, bytes.output)?,
             segments,
         })
     }
 
-    /// Copies the paths there.
+    /// Copies the paths to the buffers.
     pub(super) fn fill(&self, scene: &Scene, plan: &Plan, chunk: &ChunkPlan) {
         let mut points = Upload::new(&self.points);
         let mut paths = Upload::new(&self.paths);
@@ -75,7 +82,7 @@ impl Chunk {
                 for first in (points.written..).take(count as usize) {
                     match self.commands {
                         Commands::PerPath => {
-                            (first..first + CORNERS).for_each(|i| segments.push(i));
+                            (first..first + PATCH_VERTICES).for_each(|i| segments.push(i));
                         }
                         Commands::Compact => segments.push(first),
                     }
@@ -104,16 +111,16 @@ impl Chunk {
 
     fn entries_per_segment(&self) -> u32 {
         match self.commands {
-            Commands::PerPath => CORNERS,
+            Commands::PerPath => PATCH_VERTICES,
             Commands::Compact => 1,
         }
     }
 
-    /// Finds the paths that are seen, and lists what to draw.
+    /// Lists the draws of all visible paths.
     pub(super) fn cull(&self, gl: &Gl, program: &Program) {
-        self.tally.write(0, &[Tally::NONE]);
+        self.counters.write(0, &[Counters::INITIAL]);
         self.paths.bind_storage(PATHS);
-        self.tally.bind_storage(TALLY);
+        self.counters.bind_storage(COUNTERS);
         match self.commands {
             Commands::PerPath => self.output.bind_storage(COMMANDS),
             Commands::Compact => {
@@ -121,53 +128,56 @@ impl Chunk {
                 self.output.bind_storage(PATCHES);
             }
         }
-        gl.dispatch(program, self.path_count.div_ceil(WORKGROUP));
+        dispatch(gl, program, self.path_count.div_ceil(WORKGROUP));
     }
 
-    /// Draws what was listed.
+    /// Draws the listed paths.
     pub(super) fn draw(&self, gl: &Gl, program: &Program) {
         match self.commands {
-            Commands::PerPath => gl.draw_commands(
+            Commands::PerPath => draw_commands(
+                gl,
                 program,
                 &self.vertices,
                 &self.output,
-                &self.tally,
+                &self.counters,
                 self.path_count,
             ),
             Commands::Compact => {
                 self.output.bind_storage(PATCHES);
                 self.points.bind_storage(POINTS);
-                gl.draw_command(program, &self.vertices, &self.tally, Tally::COMMAND_OFFSET);
+                let offset_bytes = Counters::COMMAND_OFFSET;
+                draw_command(gl, program, &self.vertices, &self.counters, offset_bytes);
             }
         }
     }
 
-    /// Paths that the last pre-pass found; waits for it.
-    pub(super) fn seen_paths(&self) -> u64 {
-        u64::from(self.tally().drawn)
+    /// Visible paths of the last culling pass. Waits for it.
+    pub(super) fn visible_paths(&self) -> u64 {
+        u64::from(self.counters().drawn)
     }
 
-    /// All that the last pre-pass found; waits for it, and reads commands back where nothing else tells.
-    pub(super) fn seen(&self) -> Seen {
-        let tally = self.tally();
+    /// Visible paths and segments of the last culling pass. Waits for it; with one command per path
+    /// it reads all commands back.
+    pub(super) fn visible(&self) -> VisibleCounts {
+        let counters = self.counters();
         let vertices = match self.commands {
             Commands::PerPath => {
-                let mut commands = vec![DrawElements::default(); tally.drawn as usize];
+                let mut commands = vec![DrawElements::default(); counters.drawn as usize];
                 self.output.read(&mut commands);
                 commands.iter().map(|c| u64::from(c.index_count)).sum()
             }
-            Commands::Compact => u64::from(tally.vertex_count),
+            Commands::Compact => u64::from(counters.vertex_count),
         };
-        Seen {
-            paths: u64::from(tally.drawn),
-            segments: vertices / u64::from(CORNERS),
+        VisibleCounts {
+            paths: u64::from(counters.drawn),
+            segments: vertices / u64::from(PATCH_VERTICES),
         }
     }
 
-    fn tally(&self) -> Tally {
-        let mut tally = [Tally::NONE];
-        self.tally.read(&mut tally);
-        tally[0]
+    fn counters(&self) -> Counters {
+        let mut counters = [Counters::INITIAL];
+        self.counters.read(&mut counters);
+        counters[0]
     }
 
     pub(super) fn path_count(&self) -> u64 {
@@ -179,7 +189,7 @@ impl Chunk {
         let buffers = [
             &self.points,
             &self.paths,
-            &self.tally,
+            &self.counters,
             &self.output,
             &self.segments,
         ];
@@ -187,18 +197,19 @@ impl Chunk {
     }
 }
 
-/// Bytes that [`Chunk::fill`] holds in host memory.
+/// Bytes of host memory that [`Chunk::fill`] holds.
 pub(super) const STAGING_BYTES: u64 = 3 * Upload::<u32>::PIECE_BYTES as u64;
 
-/// A buffer being written, piece by piece.
+/// A buffered writer to a device buffer.
 struct Upload<'a, T> {
     buffer: &'a Buffer,
     piece: Vec<T>,
-    /// Items so far.
+    /// Items pushed so far.
     written: u32,
 }
 
 impl<'a, T: Pod> Upload<'a, T> {
+    /// Host memory of a writer. Larger pieces gain nothing, smaller ones cost calls.
     const PIECE_BYTES: usize = 1 << 20;
 
     fn new(buffer: &'a Buffer) -> Self {

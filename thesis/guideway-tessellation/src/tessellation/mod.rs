@@ -1,8 +1,15 @@
-//! Method `tessellation` (thesis 4.2).
+//! Method `tessellation` (thesis 4.2): draws one patch of four control points per cubic segment.
 //!
-//! A path is patches of four control points, one a cubic segment. For every frame a compute pre-pass tests
-//! the box of each path against the view and appends what to draw; the tessellator turns the patches that
-//! are drawn into as many lines as they are pixels long.
+//! | stage | input | output | module |
+//! |---|---|---|---|
+//! | plan | scene, device limits | chunks of paths, buffer sizes | `plan` |
+//! | upload | chunks | control points, path records, indices | `chunk` |
+//! | tile | view, budget | tiles of the picture | `tiles` |
+//! | cull | path bounds, view | draw commands of visible paths | `chunk`, `camera` |
+//! | draw | visible patches | about one line per pixel of length | `chunk`, `programs` |
+//! | read back | pixels | frame, report | `renderer`, `background`, `work` |
+//!
+//! `shared` declares the data that Rust and GLSL exchange.
 
 mod background;
 mod camera;
@@ -18,19 +25,19 @@ mod work;
 
 use std::sync::Arc;
 
-use guideway_scene::Scene;
 use guideway_scene::{
     Budget, Cancel, Frame, FrameSize, Method, MethodInfo, Preparation, Prepared, RenderError,
-    Report, Style, View, Work,
+    Report, Scene, Style, View, Work,
 };
 
 use crate::device::GlDevice;
+use crate::error::GlError;
 use crate::options::{Commands, TessellationOptions};
 use crate::sys::Limits;
 use crate::worker::Worker;
-use renderer::{Renderer, Start};
+use renderer::{Renderer, RendererConfig};
 
-/// Draws lines one pixel wide in one color, by the tessellation stages of OpenGL.
+/// Draws lines 1 pixel wide in one color, with the tessellation stages of OpenGL.
 #[derive(Clone, Debug)]
 pub struct Tessellation {
     device: Arc<GlDevice>,
@@ -39,8 +46,8 @@ pub struct Tessellation {
 }
 
 impl Tessellation {
-    /// The method on this device. It is called `tessellation`, or `tessellation-compact` when it draws all
-    /// patches by one command.
+    /// The method on a device. Its name is `tessellation`, or `tessellation-compact` with a single
+    /// draw command for all patches.
     pub fn new(device: Arc<GlDevice>, options: TessellationOptions) -> Self {
         Self {
             limits: device.limits,
@@ -63,10 +70,10 @@ impl Method for Tessellation {
             name: self.name(),
             summary: match self.options.commands {
                 Commands::PerPath => {
-                    "hardware tessellation of thesis 4.2, one indirect command a path; 1 px lines, one color"
+                    "Thesis 4.2: hardware tessellation, one draw call per path; one color, 1 px wide"
                 }
                 Commands::Compact => {
-                    "hardware tessellation of thesis 4.2, one draw of all visible patches; 1 px lines, one color"
+                    "Thesis 4.2: hardware tessellation, a single draw call; one color, 1 px wide"
                 }
             },
             device: self.device.description().to_owned(),
@@ -79,7 +86,7 @@ impl Method for Tessellation {
         budget: &Budget,
     ) -> Result<Box<dyn Prepared>, RenderError> {
         let method = self.name();
-        let start = Start {
+        let config = RendererConfig {
             device: Arc::clone(&self.device),
             method,
             options: self.options,
@@ -88,7 +95,7 @@ impl Method for Tessellation {
             scene,
         };
         let (worker, preparation) =
-            Worker::start(move || Renderer::new(start)).ok_or_else(|| gone(method))??;
+            Worker::start(move || Renderer::new(config)).ok_or_else(|| thread_ended(method))??;
         Ok(Box::new(PreparedTessellation {
             method,
             worker,
@@ -97,7 +104,7 @@ impl Method for Tessellation {
     }
 }
 
-/// A renderer, and the thread that it lives on.
+/// A renderer on its own thread.
 struct PreparedTessellation {
     method: &'static str,
     worker: Worker<Renderer>,
@@ -112,14 +119,15 @@ impl Prepared for PreparedTessellation {
         cancel: &Cancel,
         frame: &mut Frame,
     ) -> Result<Report, RenderError> {
-        // The frame goes there and comes back, for that thread cannot borrow it.
+        // The thread cannot borrow the frame, so the frame moves there and back.
         let mut lent = std::mem::replace(frame, Frame::new(FrameSize::new(1, 1)?));
         let (view, style, cancel) = (*view, *style, cancel.clone());
         let work = move |renderer: &mut Renderer| {
             let report = renderer.render(&view, &style, &cancel, &mut lent);
             (report, lent)
         };
-        let (report, lent) = self.worker.call(work).ok_or_else(|| gone(self.method))?;
+        let outcome = self.worker.call(work);
+        let (report, lent) = outcome.ok_or_else(|| thread_ended(self.method))?;
         *frame = lent;
         report
     }
@@ -136,13 +144,11 @@ impl Prepared for PreparedTessellation {
     ) -> Result<Work, RenderError> {
         let (view, style, cancel) = (*view, *style, cancel.clone());
         let work = move |renderer: &mut Renderer| renderer.count_work(&view, &style, &cancel);
-        self.worker.call(work).ok_or_else(|| gone(self.method))?
+        let outcome = self.worker.call(work);
+        outcome.ok_or_else(|| thread_ended(self.method))?
     }
 }
 
-fn gone(method: &'static str) -> RenderError {
-    RenderError::Device {
-        method,
-        what: "its thread ended; prepare the scene again, and report this".to_owned(),
-    }
+fn thread_ended(method: &'static str) -> RenderError {
+    GlError::ThreadEnded.of_method(method)
 }

@@ -1,4 +1,6 @@
-//! What of a scene goes where, before any memory of the device is taken.
+//! Plans the buffers of a scene before any allocation on the device.
+//!
+//! Input: the scene and the limits of the device. Output: chunks of paths, extents and widths.
 
 use std::ops::Range;
 
@@ -6,50 +8,50 @@ use guideway_layout::PathRef;
 use guideway_scene::{LineRule, Rgba, Scene};
 use guideway_spline::{Bounds, Point};
 
-use super::shared::{CORNERS, DrawElements, PathRecord, Tally, WORKGROUP};
+use super::shared::{Counters, DrawElements, PATCH_VERTICES, PathRecord, WORKGROUP};
 use crate::options::Commands;
 use crate::sys::Limits;
 
-/// A scene measured and cut into chunks that the device's limits allow for.
+/// The measures of a scene, and its chunks within the limits of the device.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Plan {
-    /// Where the device's coordinates begin: the middle of the scene.
+    /// Origin of the coordinates on the device: the center of the scene.
     pub(super) origin_m: Point<f64>,
-    /// Largest coordinate from there.
+    /// Largest absolute coordinate relative to the origin.
     pub(super) reach_m: f64,
-    /// Longest side of the box of one segment's control points.
+    /// Longest side of the bounds of one segment's control points.
     pub(super) longest_m: f64,
     pub(super) widths: Widths,
-    /// Longer side of the box of the smallest path's control points; infinite without paths.
+    /// Longer side of the control points' bounds of the smallest path; infinite without paths.
     pub(super) smallest_m: f64,
     pub(super) chunks: Vec<ChunkPlan>,
 }
 
-/// Paths, next to each other in draw order, that share buffers.
+/// Consecutive paths of the draw order that share buffers.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct ChunkPlan {
-    /// Places in the draw order.
+    /// Indices in the draw order.
     pub(super) order: Range<usize>,
-    /// Those that have segments.
+    /// Paths with segments.
     pub(super) paths: u32,
     pub(super) segments: u32,
     pub(super) points: u32,
 }
 
-/// Bytes of each buffer of a chunk.
+/// Bytes per buffer of a chunk.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct ChunkBytes {
     pub(super) points: u64,
     pub(super) paths: u64,
-    /// A commands buffer or a list of patches: what the pre-pass writes.
+    /// The output of the culling pass: draw commands or patches.
     pub(super) output: u64,
-    /// Indices of control points: four a segment, or the first only.
+    /// Indices of control points: all four per segment, or only the first.
     pub(super) segments: u64,
 }
 
 impl ChunkBytes {
     pub(super) fn total(self) -> u64 {
-        self.points + self.paths + self.output + self.segments + size_of::<Tally>() as u64
+        self.points + self.paths + self.output + self.segments + size_of::<Counters>() as u64
     }
 
     fn largest(self) -> u64 {
@@ -62,38 +64,38 @@ impl ChunkBytes {
 
 impl ChunkPlan {
     pub(super) fn bytes(&self, commands: Commands) -> ChunkBytes {
-        let of = |count: u32, size: usize| u64::from(count) * size as u64;
-        let corner = of(self.segments, size_of::<u32>());
+        let bytes = |count: u32, size: usize| u64::from(count) * size as u64;
+        let indices = bytes(self.segments, size_of::<u32>());
         let (output, segments) = match commands {
             Commands::PerPath => (
-                of(self.paths, size_of::<DrawElements>()),
-                corner * u64::from(CORNERS),
+                bytes(self.paths, size_of::<DrawElements>()),
+                indices * u64::from(PATCH_VERTICES),
             ),
-            Commands::Compact => (corner, corner),
+            Commands::Compact => (indices, indices),
         };
         ChunkBytes {
-            points: of(self.points, size_of::<[f32; 2]>()),
-            paths: of(self.paths, size_of::<PathRecord>()),
+            points: bytes(self.points, size_of::<[f32; 2]>()),
+            paths: bytes(self.paths, size_of::<PathRecord>()),
             output,
             segments,
         }
     }
 
     fn fits(&self, commands: Commands, limits: &Limits) -> bool {
-        let most_paths = u64::from(limits.workgroups) * u64::from(WORKGROUP);
-        self.bytes(commands).largest() <= limits.buffer_bytes && u64::from(self.paths) <= most_paths
+        let max_paths = u64::from(limits.workgroups) * u64::from(WORKGROUP);
+        self.bytes(commands).largest() <= limits.buffer_bytes && u64::from(self.paths) <= max_paths
     }
 
-    /// No paths yet, from this place in the draw order on.
-    fn at(start: usize) -> Self {
+    /// An empty chunk that begins at this index of the draw order.
+    fn empty_at(start: usize) -> Self {
         Self {
             order: start..start,
             ..Self::default()
         }
     }
 
-    /// With one more path; none if that is more than can be counted.
-    fn with(&self, path: Size) -> Option<Self> {
+    /// The chunk with one more path, or `None` when a count overflows.
+    fn with(&self, path: PathSize) -> Option<Self> {
         Some(Self {
             order: self.order.start..self.order.end + 1,
             paths: self.paths + u32::from(path.segments > 0),
@@ -103,29 +105,34 @@ impl ChunkPlan {
     }
 }
 
+/// Counts of one path.
 #[derive(Clone, Copy)]
-struct Size {
+struct PathSize {
     segments: u32,
     points: u32,
 }
 
-fn size(path: PathRef<'_>) -> Size {
+fn path_size(path: PathRef<'_>) -> PathSize {
     let runs = || path.runs().filter(|run| run.segments().len() > 0);
-    Size {
+    PathSize {
         segments: runs().map(|run| run.segments().len() as u32).sum(),
         points: runs().map(|run| run.len() as u32).sum(),
     }
 }
 
 impl Plan {
-    /// Measures a scene.
+    /// Measures a scene and splits it into chunks.
     ///
     /// # Errors
-    /// When one path alone is beyond the device's limits: its row, and which limit.
-    pub(super) fn new(scene: &Scene, commands: Commands, limits: &Limits) -> Result<Self, TooLong> {
-        let middle = scene.bounds().map(Bounds::center);
+    /// When a single path exceeds the limits of the device.
+    pub(super) fn new(
+        scene: &Scene,
+        commands: Commands,
+        limits: &Limits,
+    ) -> Result<Self, PathTooLong> {
+        let center = scene.bounds().map(Bounds::center);
         let mut plan = Self {
-            origin_m: middle.unwrap_or(Point::new(0.0, 0.0)),
+            origin_m: center.unwrap_or(Point::new(0.0, 0.0)),
             reach_m: 0.0,
             longest_m: 0.0,
             widths: Widths::default(),
@@ -138,15 +145,15 @@ impl Plan {
             plan.widths.add(scene.width_m(row));
             plan.measure(path);
             let with_path = |chunk: &ChunkPlan| {
-                let with = chunk.with(size(path));
+                let with = chunk.with(path_size(path));
                 with.filter(|with| with.fits(commands, limits))
             };
             chunk = match with_path(&chunk) {
                 Some(larger) => larger,
                 None => {
-                    let next = ChunkPlan::at(chunk.order.end);
+                    let next = ChunkPlan::empty_at(chunk.order.end);
                     plan.chunks.push(chunk);
-                    with_path(&next).ok_or(TooLong { row })?
+                    with_path(&next).ok_or(PathTooLong { row })?
                 }
             };
         }
@@ -167,8 +174,8 @@ impl Plan {
         }
         for run in path.runs() {
             for point in run.iter() {
-                let away_m = point - self.origin_m;
-                self.reach_m = self.reach_m.max(away_m.x.abs()).max(away_m.y.abs());
+                let offset_m = point - self.origin_m;
+                self.reach_m = self.reach_m.max(offset_m.x.abs()).max(offset_m.y.abs());
             }
             for hull in run.segments().filter_map(Bounds::of_points) {
                 self.longest_m = self.longest_m.max(hull.size().x).max(hull.size().y);
@@ -177,40 +184,46 @@ impl Plan {
     }
 }
 
-/// A path with more control points than one buffer of the device holds.
+/// A path whose control points exceed one buffer of the device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct TooLong {
+pub(super) struct PathTooLong {
     pub(super) row: u32,
 }
 
-/// The widths that the paths of a scene have: enough of them to ask a rule, which grows with the width.
+/// The range of the widths of a scene's paths. A line rule grows with the width, so that its values
+/// at both ends bound all others.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Widths {
-    some_have_none: bool,
-    least_and_most_m: Option<(f32, f32)>,
+    /// Whether a path has no width.
+    includes_none: bool,
+    /// Smallest and largest width.
+    range_m: Option<(f32, f32)>,
 }
 
 impl Widths {
     fn add(&mut self, width_m: Option<f32>) {
-        match (width_m, self.least_and_most_m) {
-            (None, _) => self.some_have_none = true,
-            (Some(w), None) => self.least_and_most_m = Some((w, w)),
-            (Some(w), Some((least, most))) => {
-                self.least_and_most_m = Some((least.min(w), most.max(w)));
+        match (width_m, self.range_m) {
+            (None, _) => self.includes_none = true,
+            (Some(w), None) => self.range_m = Some((w, w)),
+            (Some(w), Some((min, max))) => {
+                self.range_m = Some((min.min(w), max.max(w)));
             }
         }
     }
 
-    /// Whether a rule asks for lines one pixel wide, whichever the path.
+    /// Whether a line rule makes all paths 1 pixel wide.
     pub(super) fn are_one_pixel(&self, rule: &LineRule, px_per_m: f64) -> bool {
-        let own = self.least_and_most_m.into_iter();
-        own.flat_map(|(least, most)| [Some(least), Some(most)])
-            .chain(self.some_have_none.then_some(None))
+        let own = self.range_m.into_iter();
+        own.flat_map(|(min, max)| [Some(min), Some(max)])
+            .chain(self.includes_none.then_some(None))
             .all(|width_m| (2.0 * rule.radius_px(width_m, px_per_m) - 1.0).abs() < 1e-6)
     }
 }
 
-/// The one opaque color of a scene's paths, black if there are none; or what it has instead.
+/// The opaque color that all paths share, or black without paths.
+///
+/// # Errors
+/// When paths differ in color or are translucent: a phrase that names the unsupported content.
 pub(super) fn one_color(scene: &Scene) -> Result<Rgba, &'static str> {
     match scene.common_color() {
         None => Err("paths of several colors"),

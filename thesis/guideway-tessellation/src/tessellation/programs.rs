@@ -1,8 +1,9 @@
-//! The shaders, from their files.
+//! Compiles the shader programs of culling and drawing.
 
 use std::rc::Rc;
 
-use super::shared::{CORNERS, px_per_line, source};
+use super::shared::{PATCH_VERTICES, px_per_line, source};
+use crate::error::GlError;
 use crate::options::{Commands, TessellationOptions};
 use crate::sys::{Gl, Program, ShaderStage};
 
@@ -17,20 +18,24 @@ const TESS_CONTROL: &str = include_str!("../shaders/segment.tesc");
 const TESS_EVALUATION: &str = include_str!("../shaders/segment.tese");
 const FRAGMENT: &str = include_str!("../shaders/color.frag");
 
-/// The pre-pass and the drawing.
+/// The programs of the culling pass and of the draws.
 pub(super) struct Programs {
     pub(super) cull: Program,
     pub(super) draw: Program,
 }
 
 impl Programs {
-    pub(super) fn new(gl: &Rc<Gl>, options: TessellationOptions) -> Result<Self, String> {
+    /// Compiles both programs.
+    ///
+    /// # Errors
+    /// When the driver rejects a shader.
+    pub(super) fn new(gl: &Rc<Gl>, options: TessellationOptions) -> Result<Self, GlError> {
         let px_per_line = format!("#define PX_PER_LINE {:?}\n", px_per_line(options.antialias));
         let (cull, vertex) = match options.commands {
             Commands::PerPath => (CULL_COMMANDS, INDEXED),
             Commands::Compact => (CULL_PATCHES, PULLED),
         };
-        gl.patches_of(CORNERS);
+        gl.set_patch_vertices(PATCH_VERTICES);
         Ok(Self {
             cull: Program::new(gl, &[(ShaderStage::Compute, source(&[CULL, cull]))])?,
             draw: Program::new(

@@ -1,30 +1,33 @@
-//! A scene on the device, drawn view by view. It lives on one thread, with its context.
+//! Renders a scene from the device's buffers. Lives on one thread, together with its context.
+//!
+//! Input: a view and a style. Output: RGBA pixels and a report.
 
 use std::rc::Rc;
 use std::sync::Arc;
 use std::time::Instant;
 
 use guideway_scene::{
-    Budget, Cancel, Frame, Preparation, RenderError, Report, Shading, Stage, Style, View, Work,
-    elapsed_ms,
+    Budget, Cancel, Frame, Preparation, RenderError, Report, Rgba, Scene, Shading, Stage, Style,
+    View, Work, elapsed_ms,
 };
-use guideway_scene::{Rgba, Scene};
 
 use super::background::Background;
 use super::camera;
-use super::chunk::{Chunk, STAGING_BYTES, Seen};
-use super::plan::{Plan, TooLong, one_color};
+use super::chunk::{Chunk, STAGING_BYTES, VisibleCounts};
+use super::plan::{PathTooLong, Plan, one_color};
 use super::programs::Programs;
 use super::shared::{self, VIEW};
 use super::tiles::{Tile, Tiling};
 use super::work::work;
 use crate::device::GlDevice;
+use crate::error::GlError;
 use crate::options::TessellationOptions;
-use crate::sys::{Buffer, Gl, Limits, Primitives, Target, Timeline};
+use crate::sys::{Buffer, Gl, Limits, PrimitiveCounter, Target, Timeline};
 
-/// Lines may be this far off their place before a view is refused.
-const MOST_ERROR_PX: f64 = 0.1;
+/// Largest displacement of a line by rounding, in pixels, before a view is refused.
+const MAX_ERROR_PX: f64 = 0.1;
 
+/// A scene on the device.
 pub(super) struct Renderer {
     gl: Rc<Gl>,
     method: &'static str,
@@ -37,14 +40,14 @@ pub(super) struct Renderer {
     programs: Programs,
     chunks: Vec<Chunk>,
     view: Buffer,
-    /// That of the last frame.
+    /// The target of the last frame.
     target: Option<Rc<Target>>,
     timeline: Timeline,
-    primitives: Primitives,
+    primitives: PrimitiveCounter,
 }
 
-/// What a method needs to start a renderer on another thread.
-pub(super) struct Start {
+/// The input of [`Renderer::new`], which moves to another thread.
+pub(super) struct RendererConfig {
     pub(super) device: Arc<GlDevice>,
     pub(super) method: &'static str,
     pub(super) options: TessellationOptions,
@@ -54,18 +57,22 @@ pub(super) struct Start {
 }
 
 impl Renderer {
-    pub(super) fn new(start: Start) -> Result<(Self, Preparation), RenderError> {
-        let Start {
+    /// Plans a scene, compiles the shaders and uploads the buffers.
+    ///
+    /// # Errors
+    /// When the scene is unsupported, or memory or the device fail.
+    pub(super) fn new(config: RendererConfig) -> Result<(Self, Preparation), RenderError> {
+        let RendererConfig {
             method,
             options,
             limits,
             scene,
             ..
-        } = start;
+        } = config;
         let unsupported = |what: &str, remedy: &str| unsupported(method, what, remedy);
-        let failed = |what| RenderError::Device { method, what };
+        let failed = |error: GlError| error.of_method(method);
         let color = one_color(&scene)
-            .map_err(|what| unsupported(what, "Draw it in one color, or by another method."))?;
+            .map_err(|what| unsupported(what, "Use one opaque color, or another method."))?;
 
         let mut stages = Vec::new();
         let mut since = Instant::now();
@@ -73,27 +80,30 @@ impl Renderer {
             stages.push(Stage::host(name, elapsed_ms(since)));
             since = Instant::now();
         };
-        let plan = Plan::new(&scene, options.commands, &limits).map_err(|TooLong { row }| {
+        let plan = Plan::new(&scene, options.commands, &limits).map_err(|PathTooLong { row }| {
             let id = scene.layout().paths.id(row as usize);
-            let most = limits.buffer_bytes;
+            let limit = limits.buffer_bytes;
             unsupported(
-                &format!("path `{id}`: its control points fill more than the {most} bytes of one buffer of the device"),
-                "Split the path, or draw it by another method.",
+                &format!(
+                    "path `{id}`, whose control points exceed the {limit} bytes of one buffer of \
+                     the device"
+                ),
+                "Split the path, or use another method.",
             )
         })?;
         let held_bytes = plan.bytes(options.commands) + size_of::<shared::View>() as u64;
         let peak_bytes = held_bytes + STAGING_BYTES;
-        if peak_bytes > start.budget.memory_bytes {
+        if peak_bytes > config.budget.memory_bytes {
             return Err(RenderError::Budget {
                 method,
-                what: "the control points and what is drawn of them",
+                what: "the control points and the draw commands",
                 needed_bytes: peak_bytes,
-                budget_bytes: start.budget.memory_bytes,
+                budget_bytes: config.budget.memory_bytes,
             });
         }
         done("plan");
 
-        let gl = Gl::new(start.device.platform).map_err(failed)?;
+        let gl = Gl::new(config.device.platform).map_err(failed)?;
         #[cfg(test)]
         gl.allow_allocations(limits.allocations);
         let programs = Programs::new(&gl, options).map_err(failed)?;
@@ -121,7 +131,7 @@ impl Renderer {
             method,
             options,
             limits,
-            budget_bytes: start.budget.memory_bytes,
+            budget_bytes: config.budget.memory_bytes,
             scene,
             color,
             plan,
@@ -130,12 +140,13 @@ impl Renderer {
             view,
             target: None,
             timeline: Timeline::new(&gl),
-            primitives: Primitives::new(&gl).map_err(failed)?,
+            primitives: PrimitiveCounter::new(&gl).map_err(failed)?,
             gl,
         };
         Ok((renderer, preparation))
     }
 
+    /// Draws a view into a frame.
     pub(super) fn render(
         &mut self,
         view: &View,
@@ -158,10 +169,11 @@ impl Renderer {
             self.read(&tile, &target, background, frame)?;
             read_back_ms += elapsed_ms(started);
         }
-        let drawn = self.chunks.iter().map(Chunk::seen_paths).sum();
+        let drawn = self.chunks.iter().map(Chunk::visible_paths).sum();
         self.report(view, style, drawn, tiling.count(), read_back_ms)
     }
 
+    /// Counts the work of a view without drawing it.
     pub(super) fn count_work(
         &mut self,
         view: &View,
@@ -173,29 +185,30 @@ impl Renderer {
         self.cull(view, &tiling.first())?;
         self.finish(cancel)?;
         let paths: u64 = self.chunks.iter().map(Chunk::path_count).sum();
-        let seen = self.chunks.iter().map(Chunk::seen);
-        let seen = seen.fold(Seen::default(), |a, b| Seen {
+        let visible = self.chunks.iter().map(Chunk::visible);
+        let visible = visible.fold(VisibleCounts::default(), |a, b| VisibleCounts {
             paths: a.paths + b.paths,
             segments: a.segments + b.segments,
         });
         self.gl.check("counting").map_err(|e| self.failed(e))?;
-        Ok(work(self.options.commands, paths, seen, tiling.count()))
+        Ok(work(self.options.commands, paths, visible, tiling.count()))
     }
 
-    /// How the view is cut, once it is sure that it can be drawn.
+    /// Checks that the method can draw a view, and splits it into tiles.
     fn tiling(&self, view: &View, style: &Style) -> Result<Tiling, RenderError> {
         if style.shading != Shading::Color {
-            let remedy = "Ask for colors, or for another method.";
-            return Err(unsupported(self.method, "density", remedy));
+            let remedy = "Use color shading, or another method.";
+            return Err(unsupported(self.method, "shading by density", remedy));
         }
         let error_px = camera::error_px(&self.plan, view);
-        if error_px > MOST_ERROR_PX {
+        if error_px > MAX_ERROR_PX {
             return Err(unsupported(
                 self.method,
                 &format!(
-                    "so close a view: single precision would place lines up to {error_px:.2} pixels off"
+                    "this scale: single precision would displace lines by up to {error_px:.2} \
+                     pixels; the limit is {MAX_ERROR_PX}"
                 ),
-                "Zoom out, or ask for another method.",
+                "Zoom out, or use another method.",
             ));
         }
         let pixels = view.size().pixels() as u64;
@@ -205,9 +218,9 @@ impl Renderer {
                 + pixels * size_of::<[u8; 4]>() as u64
         };
         let spare = self.budget_bytes.saturating_sub(needed(0));
-        let most_pixels = spare / Target::bytes_for(1, self.samples());
+        let max_pixels = spare / Target::bytes_for(1, self.samples());
         let side = self.limits.picture_side;
-        Tiling::new(view.size(), side, most_pixels).ok_or_else(|| RenderError::Budget {
+        Tiling::new(view.size(), side, max_pixels).ok_or_else(|| RenderError::Budget {
             method: self.method,
             what: "one row of the picture",
             needed_bytes: needed(u64::from(view.size().width().min(side / 2))),
@@ -223,12 +236,12 @@ impl Renderer {
         self.chunks.iter().map(Chunk::bytes).sum::<u64>() + self.view.bytes()
     }
 
-    /// What tiles are drawn into: that of the last frame if it fits.
+    /// The target of the tiles: that of the last frame if its size matches.
     fn target(&mut self, tiling: &Tiling) -> Result<Rc<Target>, RenderError> {
         let (width, height, samples) = (tiling.width, tiling.height, self.samples());
-        // An old one goes before the new one comes: both together may be more than the budget.
-        let kept = self.target.take();
-        let target = match kept.filter(|target| target.is(width, height, samples)) {
+        // Frees the old target before the new allocation: both together may exceed the budget.
+        let last = self.target.take();
+        let target = match last.filter(|target| target.has_size(width, height, samples)) {
             Some(target) => target,
             None => {
                 Rc::new(Target::new(&self.gl, width, height, samples).map_err(|e| self.failed(e))?)
@@ -238,9 +251,9 @@ impl Renderer {
         Ok(target)
     }
 
-    /// Lists what is seen of the whole view.
+    /// Lists the draws of all paths that are visible in the whole view.
     fn cull(&mut self, view: &View, tile: &Tile) -> Result<(), RenderError> {
-        self.look(view, tile);
+        self.write_view(view, tile);
         self.timeline.restart();
         self.mark()?;
         for chunk in &self.chunks {
@@ -258,9 +271,9 @@ impl Renderer {
         target: &Target,
         background: Background,
     ) -> Result<(), RenderError> {
-        self.look(view, tile);
+        self.write_view(view, tile);
         self.mark()?;
-        let (x, y) = tile.viewport_middle();
+        let (x, y) = tile.viewport_center();
         target.begin(background.stored(), x as i32, y as i32, tile.viewport_side);
         self.primitives.during(|| {
             for chunk in &self.chunks {
@@ -272,7 +285,7 @@ impl Renderer {
         self.gl.check("drawing").map_err(|e| self.failed(e))
     }
 
-    fn look(&self, view: &View, tile: &Tile) {
+    fn write_view(&self, view: &View, tile: &Tile) {
         let uniforms = camera::uniforms(&self.plan, view, tile, self.color);
         self.view.write(0, &[uniforms]);
         self.view.bind_uniform(VIEW);
@@ -321,7 +334,7 @@ impl Renderer {
         let elapsed_ms = self.timeline.elapsed_ms();
         let lines = self.primitives.count();
         self.gl.check("measuring").map_err(|e| self.failed(e))?;
-        // Culling, then each tile; between them is what the host does.
+        // Even intervals are the culling pass and the tiles; odd ones are host work between them.
         let stage = |name, elapsed_ms| Stage {
             name,
             elapsed_ms,
@@ -343,29 +356,28 @@ impl Renderer {
         })
     }
 
-    /// What is drawn otherwise than asked.
+    /// Notes on differences between the picture and the style.
     fn notes(&self, view: &View, style: &Style) -> Vec<String> {
         let mut notes = Vec::new();
         let widths = &self.plan.widths;
         if !widths.are_one_pixel(&style.line_rule, view.px_per_m()) {
-            notes.push("Lines are one pixel wide, whatever is asked.".to_owned());
+            notes.push("All lines are one pixel wide; the method ignores widths.".to_owned());
         }
-        // The control points of a straight segment reach three times as far as it does.
+        // derived: the control points of a straight segment span three times its length.
         if self.plan.smallest_m * view.px_per_m() < 3.0 {
-            notes.push("Paths shorter than a pixel may leave no mark.".to_owned());
+            notes.push("Paths shorter than a pixel may be missing.".to_owned());
         }
         if self.samples() > 1 && self.gl.is_software() {
             notes.push(
-                "Anti-aliased lines have small gaps, for the processor stands in for a graphics device here."
+                "Antialiased lines have small gaps, because the device is a software rasterizer."
                     .to_owned(),
             );
         }
         notes
     }
 
-    fn failed(&self, what: String) -> RenderError {
-        let method = self.method;
-        RenderError::Device { method, what }
+    fn failed(&self, error: GlError) -> RenderError {
+        error.of_method(self.method)
     }
 }
 

@@ -1,45 +1,46 @@
-//! What the host and the shaders agree on. It is stated here and nowhere else: every shader is compiled
-//! with the text that [`source`] makes of it.
+//! The data that Rust and GLSL exchange: constants, bindings and structures.
+//!
+//! Only this module declares them: [`source`] generates the GLSL declarations of every shader.
 
 use bytemuck::{Pod, Zeroable};
 
 use crate::options::Antialias;
 
-/// Control points of a cubic segment, which is the vertices of a patch.
-pub(super) const CORNERS: u32 = 4;
-/// Threads of a workgroup of the pre-pass, one a path.
+/// Vertices per patch: the control points of a cubic segment.
+pub(super) const PATCH_VERTICES: u32 = 4;
+/// Threads per workgroup of the culling pass; one thread per path.
 pub(super) const WORKGROUP: u32 = 64;
-/// Samples of a segment that its length is measured by (thesis 4.2.1).
+/// Samples per segment that estimate its length (thesis 4.2.1).
 pub(super) const LENGTH_SAMPLES: u32 = 5;
-/// Least and most lines of one isoline (thesis 4.2.1; also what OpenGL has).
+/// Fewest and most lines per isoline (thesis 4.2.1; also the limits of OpenGL).
 pub(super) const LINES: (f32, f32) = (1.0, 64.0);
-/// Pixels along a segment that one line stands for: 1 in the thesis. With several samples a pixel it is 2, for
-/// such lines are as good, and Mesa's llvmpipe drops any that is all within one row or column of pixels.
+/// Length of one line, in pixels: 1 in the thesis. With several samples per pixel it is 2: such
+/// lines look the same, and Mesa's llvmpipe drops lines within a single row or column of pixels.
 pub(super) const fn px_per_line(antialias: Antialias) -> f32 {
     match antialias {
         Antialias::None => 1.0,
         Antialias::Multisample => 2.0,
     }
 }
-/// How far a line may be from the curve that it stands for, in pixels.
+/// Largest distance between a line and its curve, in pixels.
 pub(super) const FLATNESS_PX: f32 = 0.1;
-/// Positions are rounded to this fraction of a pixel, as rasterizers do anyway: whole pixels can then be
-/// added and taken away without a change of shape.
+/// Steps per pixel to which positions are rounded, the subpixel precision of rasterizers. Shifts by
+/// whole pixels then keep the shape of a line.
 pub(super) const STEPS_PER_PX: f32 = 256.0;
 
-/// Uniform block.
+/// Binding of the uniform block.
 pub(super) const VIEW: u32 = 0;
-/// Storage blocks.
+/// Bindings of the storage blocks.
 pub(super) const PATHS: u32 = 0;
-pub(super) const TALLY: u32 = 1;
+pub(super) const COUNTERS: u32 = 1;
 pub(super) const COMMANDS: u32 = 2;
 pub(super) const SEGMENTS: u32 = 3;
 pub(super) const PATCHES: u32 = 4;
 pub(super) const POINTS: u32 = 5;
-/// Vertex attribute.
+/// Location of the vertex attribute.
 pub(super) const POINT: u32 = 0;
 
-/// A Rust structure with its fields as GLSL knows them.
+/// Declares a structure for Rust and GLSL.
 macro_rules! shared {
     ($(#[$doc:meta])* $name:ident { $($(#[$field_doc:meta])* $field:ident: $kind:ident,)* }) => {
         $(#[$doc])*
@@ -48,10 +49,10 @@ macro_rules! shared {
         pub(super) struct $name { $($(#[$field_doc])* pub(super) $field: shared!(@rust $kind),)* }
 
         impl $name {
-            /// The fields, as they are declared in GLSL.
+            /// The GLSL declarations of the fields.
             const GLSL: &str = concat!($(stringify!($kind), " ", stringify!($field), ";\n"),*);
 
-            /// Name and byte offset of every field.
+            /// Name and byte offset per field.
             #[cfg(test)]
             pub(super) const OFFSETS: &[(&str, usize)] =
                 &[$((stringify!($field), std::mem::offset_of!($name, $field)),)*];
@@ -64,16 +65,16 @@ macro_rules! shared {
 }
 
 shared! {
-    /// What is seen, and how. World positions are meters from the origin of the scene; pixels are counted
-    /// from the middle of the picture, y down.
+    /// The view. World positions are meters from the origin of the scene; pixels count from the
+    /// center of the picture, with y down.
     View {
-        /// Middle of the view, as the sum of two numbers.
+        /// Center of the view, as the sum of two numbers for precision.
         center_high_m: vec2,
         center_low_m: vec2,
-        /// Box of all that can leave a mark.
-        seen_min_m: vec2,
-        seen_max_m: vec2,
-        /// The pixel in the middle of the viewport.
+        /// Bounds of everything that can change a pixel.
+        visible_min_m: vec2,
+        visible_max_m: vec2,
+        /// The pixel at the center of the viewport.
         viewport_px: vec2,
         px_per_m: float,
         clip_per_px: float,
@@ -82,7 +83,8 @@ shared! {
 }
 
 shared! {
-    /// What the pre-pass knows of a path (thesis 4.2.3): the box of its control points, and its segments.
+    /// The input of the culling pass per path (thesis 4.2.3): bounds of the control points, and
+    /// segments.
     PathRecord {
         min_m: vec2,
         max_m: vec2,
@@ -103,9 +105,9 @@ shared! {
 }
 
 shared! {
-    /// What the pre-pass adds up: the paths that are seen, which is also the number of commands, and their
-    /// vertices, in what is `DrawArraysIndirectCommand` of OpenGL from there on.
-    Tally {
+    /// The counters of the culling pass: the number of visible paths, which is also the number of
+    /// commands, followed by OpenGL's `DrawArraysIndirectCommand` with their vertices.
+    Counters {
         drawn: uint,
         vertex_count: uint,
         instance_count: uint,
@@ -114,35 +116,35 @@ shared! {
     }
 }
 
-impl Tally {
-    /// Nothing seen yet.
-    pub(super) const NONE: Self = Self {
+impl Counters {
+    /// The counters before the culling pass.
+    pub(super) const INITIAL: Self = Self {
         drawn: 0,
         vertex_count: 0,
         instance_count: 1,
         first_vertex: 0,
         base_instance: 0,
     };
-    /// Where the command begins.
-    pub(super) const COMMAND_OFFSET: usize = std::mem::offset_of!(Tally, vertex_count);
+    /// Byte offset of the command.
+    pub(super) const COMMAND_OFFSET: usize = std::mem::offset_of!(Counters, vertex_count);
 }
 
-/// The source of a shader: all that is shared, then its parts.
+/// Assembles the source of a shader: the shared declarations, then its parts.
 pub(super) fn source(parts: &[&str]) -> String {
     let mut text = String::from("#version 450 core\n");
     let mut define = |name: &str, value: &dyn std::fmt::Debug| {
         text += &format!("#define {name} {value:?}\n");
     };
-    define("CORNERS", &CORNERS);
+    define("PATCH_VERTICES", &PATCH_VERTICES);
     define("WORKGROUP", &WORKGROUP);
     define("LENGTH_SAMPLES", &LENGTH_SAMPLES);
-    define("LEAST_LINES", &LINES.0);
-    define("MOST_LINES", &LINES.1);
+    define("MIN_LINES", &LINES.0);
+    define("MAX_LINES", &LINES.1);
     define("FLATNESS_PX", &FLATNESS_PX);
     define("STEPS_PER_PX", &STEPS_PER_PX);
     for (name, binding) in [
         ("PATHS", PATHS),
-        ("TALLY", TALLY),
+        ("COUNTERS", COUNTERS),
         ("COMMANDS", COMMANDS),
         ("SEGMENTS", SEGMENTS),
         ("PATCHES", PATCHES),
@@ -154,7 +156,7 @@ pub(super) fn source(parts: &[&str]) -> String {
     for (name, fields) in [
         ("PathRecord", PathRecord::GLSL),
         ("DrawElements", DrawElements::GLSL),
-        ("Tally", Tally::GLSL),
+        ("Counters", Counters::GLSL),
     ] {
         text += &format!("struct {name} {{\n{fields}}};\n");
     }

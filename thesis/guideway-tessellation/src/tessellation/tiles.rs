@@ -1,25 +1,25 @@
-//! Pictures that are larger than the device draws at once, or than the budget holds.
+//! Tiles of a picture that exceeds the viewport of the device or the budget.
 
 use guideway_scene::FrameSize;
 
-/// Side of the square that is drawn through, in pixels: a power of two, so that dividing by it is exact and
-/// lines are the same in every tile. What is outside of a tile but within the square is not clipped.
+/// Side of the square viewport, in pixels. A power of two makes division exact, so that lines are
+/// equal in all tiles. Lines outside the tile but inside the viewport are not clipped.
 const VIEWPORT_SIDE: u32 = 1 << 14;
 
-/// A picture in tiles of one size; those at the right and lower border show less.
+/// A picture in tiles of equal size; those at the right and bottom border show less.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Tiling {
     size: FrameSize,
     viewport_side: u32,
-    /// Size of a tile.
+    /// Size of a tile, in pixels.
     pub(super) width: u32,
     pub(super) height: u32,
 }
 
-/// A part of the picture.
+/// A rectangle of the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Tile {
-    /// Its upper left pixel.
+    /// The upper left pixel.
     pub(super) x: u32,
     pub(super) y: u32,
     pub(super) width: u32,
@@ -28,14 +28,14 @@ pub(super) struct Tile {
 }
 
 impl Tiling {
-    /// The fewest tiles within a device's longest side and a number of pixels; none if those are less than
-    /// one row of a tile.
-    pub(super) fn new(size: FrameSize, longest_side: u32, most_pixels: u64) -> Option<Self> {
+    /// The fewest tiles within the longest side of the device and a number of pixels. Returns
+    /// `None` when the pixels do not suffice for one row of a tile.
+    pub(super) fn new(size: FrameSize, longest_side: u32, max_pixels: u64) -> Option<Self> {
         let viewport_side = longest_side.min(VIEWPORT_SIDE).checked_ilog2()?;
         let viewport_side = 1 << viewport_side;
         let side = viewport_side / 2;
         let width = size.width().min(side);
-        let rows = most_pixels.checked_div(u64::from(width))?;
+        let rows = max_pixels.checked_div(u64::from(width))?;
         let height = u64::from(size.height().min(side)).min(rows) as u32;
         (height > 0).then_some(Self {
             size,
@@ -45,7 +45,7 @@ impl Tiling {
         })
     }
 
-    /// How many tiles there are.
+    /// Number of tiles.
     pub(super) fn count(&self) -> u32 {
         self.size.width().div_ceil(self.width) * self.size.height().div_ceil(self.height)
     }
@@ -76,8 +76,8 @@ impl Tiling {
 }
 
 impl Tile {
-    /// The pixel of the tile that is in the middle of the viewport.
-    pub(super) fn viewport_middle(&self) -> (u32, u32) {
+    /// The pixel of the tile at the center of the viewport.
+    pub(super) fn viewport_center(&self) -> (u32, u32) {
         (self.width / 2, self.height / 2)
     }
 }
@@ -100,22 +100,22 @@ mod tests {
             (65_535, 1, 16_384, u64::MAX),
         ] {
             let tiling = tiling(width, height, side, pixels).unwrap();
-            let mut seen = vec![0_u8; (width * height) as usize];
+            let mut covered = vec![0_u8; (width * height) as usize];
             for tile in tiling.tiles() {
                 assert!(tile.width * 2 <= side && u64::from(tile.width * tile.height) <= pixels);
                 for y in tile.y..tile.y + tile.height {
                     for x in tile.x..tile.x + tile.width {
-                        seen[(y * width + x) as usize] += 1;
+                        covered[(y * width + x) as usize] += 1;
                     }
                 }
             }
-            assert!(seen.iter().all(|&times| times == 1));
+            assert!(covered.iter().all(|&times| times == 1));
             assert_eq!(tiling.tiles().count(), tiling.count() as usize);
         }
     }
 
     #[test]
-    fn no_tile_is_less_than_a_row() {
+    fn returns_none_when_a_row_does_not_fit() {
         assert_eq!(tiling(100, 70, 1 << 14, 99), None);
         assert_eq!(tiling(100, 70, 0, u64::MAX), None);
     }

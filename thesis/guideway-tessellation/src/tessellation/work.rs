@@ -1,24 +1,26 @@
+//! Counts the memory traffic and the atomic operations of a frame.
+
 use guideway_scene::Work;
 
-use super::chunk::Seen;
-use super::shared::{CORNERS, DrawElements, PathRecord};
+use super::chunk::VisibleCounts;
+use super::shared::{DrawElements, PATCH_VERTICES, PathRecord};
 use crate::options::Commands;
 
-/// What one frame asks of memory: the pre-pass over `paths`, and in each tile the commands and the vertices
-/// of what is seen. What rasterizing writes depends on the device and is left out.
-pub(super) fn work(commands: Commands, paths: u64, seen: Seen, tiles: u32) -> Work {
+/// The work of one frame: the culling pass over `paths`, and per tile the commands and vertices of
+/// the visible paths. It excludes the writes of the rasterizer, which depend on the device.
+pub(super) fn work(commands: Commands, paths: u64, visible: VisibleCounts, tiles: u32) -> Work {
     let index = size_of::<u32>() as u64;
-    let vertices = seen.segments * u64::from(CORNERS);
-    // Each vertex is an index, or a patch, and a control point.
+    let vertices = visible.segments * u64::from(PATCH_VERTICES);
+    // Each vertex reads an index (or a patch) and a control point.
     let drawn_vertices = vertices * (index + size_of::<[f32; 2]>() as u64);
     let (written, culled, drawn, atomics) = match commands {
         Commands::PerPath => {
-            let written = seen.paths * size_of::<DrawElements>() as u64;
-            (written, 0, written + drawn_vertices, seen.paths)
+            let written = visible.paths * size_of::<DrawElements>() as u64;
+            (written, 0, written + drawn_vertices, visible.paths)
         }
         Commands::Compact => {
-            let written = seen.segments * index;
-            (written, written, drawn_vertices, 2 * seen.paths)
+            let written = visible.segments * index;
+            (written, written, drawn_vertices, 2 * visible.paths)
         }
     };
     Work {

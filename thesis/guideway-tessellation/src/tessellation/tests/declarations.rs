@@ -1,20 +1,21 @@
-//! Structures, bindings and constants, as the driver understood them.
+//! Compares structures, bindings and constants with the driver's reflection.
 
 use std::rc::Rc;
 
 use super::super::programs::Programs;
 use super::super::shared::{
-    COMMANDS, CORNERS, DrawElements, PATCHES, PATHS, POINT, POINTS, PathRecord, SEGMENTS, TALLY,
-    Tally, VIEW, View, WORKGROUP, source,
+    COMMANDS, COUNTERS, Counters, DrawElements, PATCH_VERTICES, PATCHES, PATHS, POINT, POINTS,
+    PathRecord, SEGMENTS, VIEW, View, WORKGROUP, source,
 };
 use super::device;
+use crate::error::GlError;
 use crate::options::{Commands, TessellationOptions};
 use crate::sys::reflect::{Block, Reflection};
 use crate::sys::{Gl, Program, ShaderStage};
 
 type Fields = &'static [(&'static str, usize)];
 
-/// Block, binding, prefix of its fields, bytes from item to item, fields.
+/// Block, binding, prefix of its fields, array stride in bytes, fields.
 const DECLARED: &[(&str, u32, &str, usize, Fields)] = &[
     ("View", VIEW, "", 0, View::OFFSETS),
     (
@@ -24,7 +25,7 @@ const DECLARED: &[(&str, u32, &str, usize, Fields)] = &[
         size_of::<PathRecord>(),
         PathRecord::OFFSETS,
     ),
-    ("TallyBlock", TALLY, "tally.", 0, Tally::OFFSETS),
+    ("CountersBlock", COUNTERS, "counters.", 0, Counters::OFFSETS),
     (
         "Commands",
         COMMANDS,
@@ -55,7 +56,7 @@ const DECLARED: &[(&str, u32, &str, usize, Fields)] = &[
     ),
 ];
 
-/// Where the driver and the host disagree.
+/// Differences between the declarations of the driver and the host.
 fn disagreements(block: &Block) -> Vec<String> {
     let Some((_, binding, prefix, stride, fields)) =
         DECLARED.iter().find(|declared| declared.0 == block.name)
@@ -74,9 +75,9 @@ fn disagreements(block: &Block) -> Vec<String> {
             .iter()
             .find(|(field, _)| format!("{prefix}{field}") == member.name);
         // Only arrays have a stride.
-        let is_alike = field.is_some_and(|(_, offset)| *offset == member.offset)
+        let is_equal = field.is_some_and(|(_, offset)| *offset == member.offset)
             && (*stride == 0 || *stride == member.stride);
-        if !is_alike {
+        if !is_equal {
             found.push(format!("{}: {member:?}", block.name));
         }
     }
@@ -88,9 +89,9 @@ fn context() -> Option<Rc<Gl>> {
 }
 
 #[test]
-fn every_shader_reads_what_the_host_writes() {
+fn shaders_and_host_have_equal_declarations() {
     let Some(gl) = context() else { return };
-    let mut seen = Vec::new();
+    let mut found = Vec::new();
     for commands in [Commands::PerPath, Commands::Compact] {
         let programs = Programs::new(
             &gl,
@@ -103,7 +104,7 @@ fn every_shader_reads_what_the_host_writes() {
         for program in [&programs.cull, &programs.draw] {
             for block in Reflection::new(&gl, program).blocks() {
                 assert_eq!(disagreements(&block), [""; 0]);
-                seen.push(block.name);
+                found.push(block.name);
             }
         }
         let cull = Reflection::new(&gl, &programs.cull);
@@ -111,7 +112,7 @@ fn every_shader_reads_what_the_host_writes() {
         assert_eq!(groups, [WORKGROUP as i32, 1, 1]);
         let draw = Reflection::new(&gl, &programs.draw);
         let patch = draw.parameter(glow::TESS_CONTROL_OUTPUT_VERTICES);
-        assert_eq!(patch, [CORNERS as i32]);
+        assert_eq!(patch, [PATCH_VERTICES as i32]);
         let attributes = match commands {
             Commands::PerPath => vec![("point_m".to_owned(), POINT)],
             Commands::Compact => Vec::new(),
@@ -119,25 +120,27 @@ fn every_shader_reads_what_the_host_writes() {
         assert_eq!(draw.attributes(), attributes);
     }
     for (name, ..) in DECLARED {
-        assert!(seen.iter().any(|s| s == name), "{name} is in no shader");
+        assert!(found.iter().any(|s| s == name), "{name} is in no shader");
     }
 }
 
 #[test]
-fn other_layouts_and_bindings_are_found() {
+fn differing_layouts_and_bindings_are_detected() {
     let Some(gl) = context() else { return };
     let right = "layout(std430, binding = PATHS) buffer Paths { PathRecord paths[]; };";
     let swapped =
         "struct Swapped { vec2 max_m; vec2 min_m; uint first_segment; uint segment_count; };
         layout(std430, binding = PATHS) buffer Paths { Swapped paths[]; };";
-    let padded = "struct Padded { vec2 min_m; vec2 max_m; uint first_segment; uint segment_count; vec4 more; };
+    let padded = "struct Padded {
+            vec2 min_m; vec2 max_m; uint first_segment; uint segment_count; vec4 more;
+        };
         layout(std430, binding = PATHS) buffer Paths { Padded paths[]; };";
-    let elsewhere = "layout(std430, binding = TALLY) buffer Paths { PathRecord paths[]; };";
+    let misplaced = "layout(std430, binding = COUNTERS) buffer Paths { PathRecord paths[]; };";
     for (declaration, is_right) in [
         (right, true),
         (swapped, false),
         (padded, false),
-        (elsewhere, false),
+        (misplaced, false),
     ] {
         let text = format!(
             "layout(local_size_x = 1) in;\n{declaration}\n
@@ -151,13 +154,13 @@ fn other_layouts_and_bindings_are_found() {
 }
 
 #[test]
-fn a_shader_that_does_not_compile_says_why() {
+fn compile_error_names_the_stage_and_the_cause() {
     let Some(gl) = context() else { return };
     let broken = [(
         ShaderStage::Compute,
         source(&["void main() { nothing(); }\n"]),
     )];
-    let error = Program::new(&gl, &broken).err().unwrap();
+    let error = Program::new(&gl, &broken).err().unwrap().to_string();
     assert!(
         error.contains("Compute") && error.contains("nothing"),
         "{error}"
@@ -165,10 +168,11 @@ fn a_shader_that_does_not_compile_says_why() {
 }
 
 #[test]
-fn a_thread_has_one_context_at_a_time() {
+fn rejects_a_second_context_on_a_thread() {
     let Some(gl) = context() else { return };
     let platform = device().unwrap().platform;
-    assert!(Gl::new(platform).is_err());
+    let second = Gl::new(platform).err();
+    assert_eq!(second, Some(GlError::ContextExists));
     drop(gl);
     assert!(Gl::new(platform).is_ok());
 }

@@ -1,4 +1,4 @@
-//! Small devices, small budgets and devices that fail.
+//! Tests with small devices, small budgets and failing allocations.
 
 use guideway_scene::{Budget, Method, RenderError};
 use guideway_spline::{Point, Runs};
@@ -15,7 +15,7 @@ fn within(memory_bytes: u64) -> Budget {
 }
 
 #[test]
-fn chunks_draw_the_same_as_one_buffer() {
+fn chunks_keep_the_picture() {
     let paths = winding(400);
     let scene = scene(&paths);
     for method in every_variant() {
@@ -38,7 +38,7 @@ fn chunks_draw_the_same_as_one_buffer() {
 }
 
 #[test]
-fn tiles_draw_the_same_as_one_picture() {
+fn tiles_keep_the_picture() {
     let scene = scene(&winding(300));
     let view = view(200, 90);
     for method in every_variant() {
@@ -52,7 +52,7 @@ fn tiles_draw_the_same_as_one_picture() {
             (tiled_report.drawn, tiled_report.lines),
             (report.drawn, report.lines)
         );
-        // Lines that leave the small viewport are clipped by it, and then rounded anew.
+        // The small viewport clips lines that leave it, which rounds their ends again.
         let differing = tiled
             .pixels()
             .iter()
@@ -64,14 +64,14 @@ fn tiles_draw_the_same_as_one_picture() {
 }
 
 #[test]
-fn a_tight_budget_draws_in_bands_and_one_too_tight_is_refused() {
+fn small_budgets_draw_in_bands_or_are_rejected() {
     let scene = scene(&winding(50));
     let view = view(320, 240);
     for method in every_variant() {
         let (whole, report) = draw(&method, &scene, &view, &Budget::default()).unwrap();
         let held = report.peak_bytes + 4 * 320 * 240;
         let fits = |memory_bytes: u64| draw(&method, &scene, &view, &within(memory_bytes));
-        // Staging takes more than this picture does.
+        // The staging memory exceeds that of this picture.
         let staging = super::super::chunk::STAGING_BYTES;
         assert!(held < staging);
         let (mut bands, mut refused) = (1, 0);
@@ -97,7 +97,7 @@ fn a_tight_budget_draws_in_bands_and_one_too_tight_is_refused() {
 }
 
 #[test]
-fn bytes_are_planned_from_above_and_told_as_they_are() {
+fn plan_bounds_and_report_states_the_bytes() {
     let scene = scene(&winding(200));
     for method in every_variant() {
         let budget = Budget::default();
@@ -118,7 +118,7 @@ fn bytes_are_planned_from_above_and_told_as_they_are() {
 }
 
 #[test]
-fn a_device_out_of_memory_at_any_allocation_is_an_error_that_names_it() {
+fn out_of_memory_names_the_allocation() {
     let scene = scene(&winding(50));
     for method in every_variant() {
         let mut names = Vec::new();
@@ -146,7 +146,7 @@ fn a_device_out_of_memory_at_any_allocation_is_an_error_that_names_it() {
 }
 
 #[test]
-fn a_path_beyond_one_buffer_is_refused_by_name() {
+fn rejects_a_path_beyond_one_buffer_by_name() {
     let mut long = Runs::default();
     let points: Vec<_> = (0..1000).map(|i| Point::new(f64::from(i), 0.0)).collect();
     long.push(&points);

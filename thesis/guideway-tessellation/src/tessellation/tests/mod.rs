@@ -1,4 +1,4 @@
-//! The method held to its contract, on whatever OpenGL device is there.
+//! Tests of the method's contract on the OpenGL device of the computer.
 
 mod declarations;
 mod limits;
@@ -7,28 +7,30 @@ mod pictures;
 use std::sync::{Arc, OnceLock};
 
 use guideway_layout::{Layout, NewPath};
-use guideway_scene::{Budget, Cancel, Frame, FrameSize, Method, RenderError, Report, Style, View};
-use guideway_scene::{LineRule, Scene, SceneOptions};
+use guideway_scene::{
+    Budget, Cancel, Frame, FrameSize, LineRule, Method, RenderError, Report, Scene, SceneOptions,
+    Style, View,
+};
 use guideway_spline::{Point, Runs};
 
 use super::Tessellation;
 use crate::device::GlDevice;
 use crate::options::{Antialias, Commands, TessellationOptions};
 
-/// The device of these tests; none where there is none, unless `GUIDEWAY_REQUIRE_DEVICES` is 1.
+/// The device of these tests, or `None` without one, unless `GUIDEWAY_REQUIRE_DEVICES` is 1.
 fn device() -> Option<Arc<GlDevice>> {
     static DEVICE: OnceLock<Option<Arc<GlDevice>>> = OnceLock::new();
-    let look = || match GlDevice::new() {
+    let open = || match GlDevice::new() {
         Ok(device) => Some(device),
-        Err(why) if std::env::var("GUIDEWAY_REQUIRE_DEVICES").is_ok_and(|v| v == "1") => {
-            panic!("{why}")
+        Err(error) if std::env::var("GUIDEWAY_REQUIRE_DEVICES").is_ok_and(|v| v == "1") => {
+            panic!("{error}")
         }
-        Err(why) => {
-            eprintln!("SKIPPED: {why}");
+        Err(error) => {
+            eprintln!("SKIPPED: {error}");
             None
         }
     };
-    DEVICE.get_or_init(look).clone()
+    DEVICE.get_or_init(open).clone()
 }
 
 fn method(commands: Commands, antialias: Antialias) -> Option<Tessellation> {
@@ -39,7 +41,7 @@ fn method(commands: Commands, antialias: Antialias) -> Option<Tessellation> {
     Some(Tessellation::new(device()?, options))
 }
 
-/// Every variant on the device of these tests; none where there is none.
+/// Every variant on the device of these tests; empty without a device.
 fn every_variant() -> Vec<Tessellation> {
     let both = [Antialias::None, Antialias::Multisample];
     let commands = both.map(|aa| [(Commands::PerPath, aa), (Commands::Compact, aa)]);
@@ -48,7 +50,7 @@ fn every_variant() -> Vec<Tessellation> {
         .collect()
 }
 
-/// A scene of paths, each a list of runs.
+/// A scene with one path per list of runs.
 fn scene(paths: &[Runs]) -> Arc<Scene> {
     let mut layout = Layout::default();
     for (row, runs) in paths.iter().enumerate() {
@@ -61,7 +63,7 @@ fn scene(paths: &[Runs]) -> Arc<Scene> {
     Arc::new(Scene::new(Arc::new(layout), &SceneOptions::default()).unwrap())
 }
 
-/// Paths of one to three runs that wind through 100 x 100 m and somewhat beyond, the same every time.
+/// Deterministic winding paths of one to three runs, in and around 100 x 100 m.
 fn winding(count: u32) -> Vec<Runs> {
     let number = |i: u32| f64::from(i.wrapping_mul(2_654_435_761) >> 16) / 65_536.0;
     let path = |row: u32| {

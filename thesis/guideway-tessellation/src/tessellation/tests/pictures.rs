@@ -1,13 +1,13 @@
-//! What is drawn, told and counted.
+//! Tests of pictures, reports, notes and work counts.
 
 use std::sync::Arc;
 
 use guideway_layout::{Layout, NewPath};
 use guideway_scene::density::ToneMap;
 use guideway_scene::{
-    Budget, Cancel, Frame, FrameSize, Method, RenderError, Shading, Stage, Style, View,
+    Budget, Cancel, Frame, FrameSize, LineRule, Method, RenderError, Rgba, Scene, SceneOptions,
+    Shading, Stage, Style, View,
 };
-use guideway_scene::{LineRule, Rgba, Scene, SceneOptions};
 use guideway_spline::{Point, Runs};
 
 use super::{draw, every_variant, one_pixel, scene, view, winding};
@@ -24,8 +24,8 @@ fn pixel(frame: &Frame, x: u32, y: u32) -> [u8; 4] {
 }
 
 #[test]
-fn pixels_are_counted_from_the_upper_left_and_meters_up() {
-    // One line near the upper edge, from the left; nothing else.
+fn pixel_rows_count_down_and_meters_up() {
+    // A single line near the upper edge, from the left.
     let scene = scene(&[line((0.5, 97.5), (40.5, 97.5))]);
     for method in every_variant() {
         let (frame, report) = draw(&method, &scene, &view(100, 100), &Budget::default()).unwrap();
@@ -45,7 +45,7 @@ fn pixels_are_counted_from_the_upper_left_and_meters_up() {
 }
 
 #[test]
-fn variants_agree_bit_by_bit_and_every_time() {
+fn variants_draw_identical_pictures_every_time() {
     let scene = scene(&winding(500));
     let mut first: Vec<(Antialias, Frame, u64)> = Vec::new();
     for method in every_variant().into_iter().chain(every_variant()) {
@@ -65,7 +65,7 @@ fn variants_agree_bit_by_bit_and_every_time() {
 }
 
 #[test]
-fn views_follow_each_other() {
+fn views_of_one_scene_are_independent() {
     let scene = scene(&winding(200));
     for method in every_variant() {
         let mut prepared = method
@@ -88,7 +88,7 @@ fn views_follow_each_other() {
 }
 
 #[test]
-fn paths_out_of_sight_are_culled_and_no_others() {
+fn culls_exactly_the_paths_outside_the_view() {
     let far = [(200.0, 50.0), (-100.0, 50.0), (50.0, 200.0), (50.0, -100.0)];
     let mut paths: Vec<_> = far
         .iter()
@@ -107,8 +107,8 @@ fn paths_out_of_sight_are_culled_and_no_others() {
 }
 
 #[test]
-fn close_to_a_long_bend_no_corner_shows() {
-    // A second difference of 160,000 pixels: 64 lines alone would be 5 pixels off between their ends.
+fn long_bends_stay_smooth_at_large_scales() {
+    // A second difference of 160,000 pixels: 64 lines would be 5 pixels off between their ends.
     let mut bend = Runs::default();
     let control = [
         (-30.0, -100.0),
@@ -145,7 +145,7 @@ fn close_to_a_long_bend_no_corner_shows() {
 }
 
 #[test]
-fn work_is_counted_as_the_shaders_do_it() {
+fn count_work_matches_the_shaders() {
     let paths = winding(300);
     let scene = scene(&paths);
     for method in every_variant() {
@@ -157,7 +157,7 @@ fn work_is_counted_as_the_shaders_do_it() {
         let report = prepared.render(&view, &style, &cancel, &mut frame).unwrap();
         let work = prepared.count_work(&view, &style, &cancel).unwrap();
         assert_eq!(work.tests, None);
-        // Every path has segments here; how many are seen is told by what is written.
+        // Every path has segments here, so the bytes written give the visible paths.
         let written = work.bytes_written.unwrap();
         let read = work.bytes_read.unwrap();
         match method.options.commands {
@@ -179,7 +179,7 @@ fn work_is_counted_as_the_shaders_do_it() {
 }
 
 #[test]
-fn what_cannot_be_drawn_is_refused_with_a_remedy() {
+fn rejects_unsupported_input_with_a_remedy() {
     let two_colors = |second: Rgba| {
         let mut layout = Layout::default();
         for row in 0..2 {
@@ -247,7 +247,7 @@ fn what_cannot_be_drawn_is_refused_with_a_remedy() {
 }
 
 #[test]
-fn what_is_drawn_otherwise_is_told_and_cancelling_stops() {
+fn notes_differences_and_stops_when_cancelled() {
     let mut paths = winding(5);
     paths.push(line((50.0, 50.0), (50.0, 50.0)));
     let scene = scene(&paths);
@@ -269,15 +269,15 @@ fn what_is_drawn_otherwise_is_told_and_cancelling_stops() {
             let report = prepared
                 .render(&view(50, 50), &style, &Cancel::default(), &mut frame)
                 .unwrap();
-            let told = |about: &str| report.notes.iter().filter(|n| n.contains(about)).count();
+            let notes_on = |text: &str| report.notes.iter().filter(|n| n.contains(text)).count();
             assert_eq!(
-                told("one pixel wide"),
+                notes_on("one pixel wide"),
                 notes,
                 "{rule:?}: {:?}",
                 report.notes
             );
-            assert_eq!(told("shorter than a pixel"), 1);
-            assert_eq!(told("gaps"), usize::from(is_gapped));
+            assert_eq!(notes_on("shorter than a pixel"), 1);
+            assert_eq!(notes_on("gaps"), usize::from(is_gapped));
         }
         let cancel = Cancel::default();
         cancel.set();
@@ -287,7 +287,7 @@ fn what_is_drawn_otherwise_is_told_and_cancelling_stops() {
 }
 
 #[test]
-fn a_translucent_background_keeps_the_color_of_the_line() {
+fn line_keeps_its_color_on_a_translucent_background() {
     let scene = scene(&[line((10.0, 20.0), (90.0, 70.0))]);
     let style = Style {
         background: Rgba::from_u32(0xff80_4000),
