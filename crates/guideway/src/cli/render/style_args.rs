@@ -71,6 +71,7 @@ pub(crate) enum Shade {
 enum Tone {
     Log,
     Linear,
+    #[value(alias = "equalised")]
     Equalized,
 }
 
