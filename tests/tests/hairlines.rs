@@ -68,7 +68,7 @@ fn outcome(case: &SceneCase, device: &Arc<GlDevice>) -> Option<Result<(), String
         let (frame, report) = match drawn_alike(device, antialias, &drawing) {
             Ok(drawn) => drawn,
             Err(RenderError::Unsupported { what, remedy, .. }) => {
-                let is_said = ["density", "translucent", "so close a view"];
+                let is_said = ["density", "translucent", "single precision"];
                 assert!(is_said.iter().any(|s| what.contains(s)) && remedy.ends_with('.'));
                 return None;
             }

@@ -57,7 +57,7 @@ impl FrameContext {
         let px_per_m = view.px_per_m();
         let width_m = match widths {
             Widths::One(width_m) => width_m,
-            // This rule gives all paths the same width, whatever their own.
+            // This rule gives all paths the same width and ignores their own.
             Widths::Several if style.line_rule == LineRule::Thesis => None,
             Widths::Several => {
                 return Err(unsupported(

@@ -10,6 +10,18 @@
 //! | plan | parameters, counts per cell | passes, ranges of tiles | `pass_plan`, `pass`, `split` |
 //! | draw | passes | RGBA pixels | `prepared`, `picture_buffers` |
 //!
+//! The lists of 3 x 2 cells, numbered from the lower left, with three lines:
+//!
+//! ```text
+//! +-------+-------+-------+
+//! | aaaaaaaaaaa   |       |    cell      0    1     2    3    4    5
+//! +-------+-------+-------+    counts    1    2     1    1    1    0
+//! | bbbbbbbbb ccccccccc   |    starts    0    1     3    4    5    6
+//! +-------+-------+-------+    lists     b    b c   c    a    a
+//! ```
+//!
+//! Cost: a pixel tests every line of its cell; a line takes 16 bytes per cell that it overlaps.
+//!
 //! `params` and `kernels` hold the interface to the shaders; `method` is the entry, `variant` its
 //! shared state.
 

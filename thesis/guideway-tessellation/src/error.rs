@@ -15,7 +15,7 @@ pub enum GlError {
         reasons: String,
     },
     /// The thread of the context ended.
-    #[error("the OpenGL thread ended; prepare the scene again, and report this error")]
+    #[error("the OpenGL thread ended unexpectedly; retry, and report this error")]
     ThreadEnded,
     /// libEGL is missing or too old.
     #[error("libEGL 1.5 cannot be loaded: {message}")]

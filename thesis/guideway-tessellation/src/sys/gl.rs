@@ -205,15 +205,15 @@ impl Gl {
 
     /// Waits until the device is idle, or until `is_wanted` returns false.
     pub(crate) fn finish(&self, mut is_wanted: impl FnMut() -> bool) -> Result<(), GlError> {
-        /// Interval of the calls of `is_wanted`: a tenth of the delay that a user notices.
-        const STEP: Duration = Duration::from_millis(10);
+        /// Interval of the calls of `is_wanted`: bounds the delay of a cancelled frame.
+        const INTERVAL: Duration = Duration::from_millis(10);
         let fence = unsafe { self.raw.fence_sync(glow::SYNC_GPU_COMMANDS_COMPLETE, 0) }
             .map_err(GlError::create("fence"))?;
         let wait = || {
-            let step_ns = STEP.as_nanos() as i32;
+            let interval_ns = INTERVAL.as_nanos() as i32;
             unsafe {
                 self.raw
-                    .client_wait_sync(fence, glow::SYNC_FLUSH_COMMANDS_BIT, step_ns)
+                    .client_wait_sync(fence, glow::SYNC_FLUSH_COMMANDS_BIT, interval_ns)
             }
         };
         let mut status = wait();

@@ -6,14 +6,14 @@ use super::plan::Plan;
 use super::shared;
 use super::tiles::Tile;
 
-/// Largest distance of a changed pixel from the curve: derived: half a pixel across, half a pixel
-/// along, rounded up.
+/// Largest distance of a changed pixel from the curve. derived: half a pixel across and half a
+/// pixel along the line, rounded up.
 const MARGIN_PX: f64 = 1.0;
 /// Relative rounding error of `f32`.
 const HALF_ULP: f64 = f32::EPSILON as f64 / 2.0;
 /// Error of a point that the shaders compute from exact control points, relative to their largest
-/// coordinate: derived: 3 roundings to pixels and at most 13 in equation 3.2.
-const EVALUATION: f64 = 16.0 * HALF_ULP;
+/// coordinate. derived: 3 roundings to pixels and at most 13 in equation 3.2.
+const EVALUATION_ERROR: f64 = 16.0 * HALF_ULP;
 
 /// Upper bound of the displacement of a visible line, in pixels: by rounding control points to
 /// `f32` around the origin of the scene, and by the arithmetic of segments that extend past the
@@ -22,7 +22,7 @@ pub(super) fn error_px(plan: &Plan, view: &View) -> f64 {
     let size = view.size();
     let half_side_px = f64::from(size.width().max(size.height())) / 2.0 + MARGIN_PX;
     let stored_px = plan.reach_m * view.px_per_m() * HALF_ULP;
-    let computed_px = (half_side_px + plan.longest_m * view.px_per_m()) * EVALUATION;
+    let computed_px = (half_side_px + plan.longest_m * view.px_per_m()) * EVALUATION_ERROR;
     stored_px + computed_px
 }
 

@@ -209,7 +209,7 @@ struct Upload<'a, T> {
 }
 
 impl<'a, T: Pod> Upload<'a, T> {
-    /// Host memory of a writer. Larger pieces gain nothing, smaller ones cost calls.
+    /// Bytes of host memory per writer, and so of each write to the device.
     const PIECE_BYTES: usize = 1 << 20;
 
     fn new(buffer: &'a Buffer) -> Self {

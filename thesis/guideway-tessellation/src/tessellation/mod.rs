@@ -120,15 +120,15 @@ impl Prepared for PreparedTessellation {
         frame: &mut Frame,
     ) -> Result<Report, RenderError> {
         // The thread cannot borrow the frame, so the frame moves there and back.
-        let mut lent = std::mem::replace(frame, Frame::new(FrameSize::new(1, 1)?));
+        let mut moved = std::mem::replace(frame, Frame::new(FrameSize::new(1, 1)?));
         let (view, style, cancel) = (*view, *style, cancel.clone());
         let work = move |renderer: &mut Renderer| {
-            let report = renderer.render(&view, &style, &cancel, &mut lent);
-            (report, lent)
+            let report = renderer.render(&view, &style, &cancel, &mut moved);
+            (report, moved)
         };
         let outcome = self.worker.call(work);
-        let (report, lent) = outcome.ok_or_else(|| thread_ended(self.method))?;
-        *frame = lent;
+        let (report, moved) = outcome.ok_or_else(|| thread_ended(self.method))?;
+        *frame = moved;
         report
     }
 

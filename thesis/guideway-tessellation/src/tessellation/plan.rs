@@ -220,14 +220,23 @@ impl Widths {
     }
 }
 
+/// Colors that the method cannot draw.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub(super) enum UnsupportedColor {
+    #[error("paths of several colors")]
+    Several,
+    #[error("translucent paths")]
+    Translucent,
+}
+
 /// The opaque color that all paths share, or black without paths.
 ///
 /// # Errors
-/// When paths differ in color or are translucent: a phrase that names the unsupported content.
-pub(super) fn one_color(scene: &Scene) -> Result<Rgba, &'static str> {
+/// When paths differ in color or are translucent.
+pub(super) fn one_color(scene: &Scene) -> Result<Rgba, UnsupportedColor> {
     match scene.common_color() {
-        None => Err("paths of several colors"),
-        Some(color) if !color.is_opaque() => Err("translucent paths"),
+        None => Err(UnsupportedColor::Several),
+        Some(color) if !color.is_opaque() => Err(UnsupportedColor::Translucent),
         Some(color) => Ok(color),
     }
 }

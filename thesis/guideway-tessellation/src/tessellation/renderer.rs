@@ -71,8 +71,12 @@ impl Renderer {
         } = config;
         let unsupported = |what: &str, remedy: &str| unsupported(method, what, remedy);
         let failed = |error: GlError| error.of_method(method);
-        let color = one_color(&scene)
-            .map_err(|what| unsupported(what, "Use one opaque color, or another method."))?;
+        let color = one_color(&scene).map_err(|error| {
+            unsupported(
+                &error.to_string(),
+                "Use one opaque color, or another method.",
+            )
+        })?;
 
         let mut stages = Vec::new();
         let mut since = Instant::now();
