@@ -32,7 +32,8 @@ fn uniforms_have_the_same_layout_in_rust_and_wgsl() {
     assert_layout(SHADERS, "Grid", &grid);
     let view = members!(ViewParams: center_m, half_size_px, box_low_m, box_high_m, excess_m,
         m_per_px, px_per_m, radius_m, color, background, width_px, first_row, rows,
-        first_tile, end_tile, first_cell_row, end_cell_row, first_line, end_line, is_first_pass, is_last_pass);
+        first_tile, end_tile, first_cell_row, end_cell_row, first_line, end_line,
+        is_first_pass, is_last_pass);
     assert_layout(SHADERS, "View", &view);
 }
 

@@ -7,13 +7,14 @@
 //! | tile | view, budget | tiles of the picture | `tiles` |
 //! | cull | path bounds, view | draw commands of visible paths | `chunk`, `camera` |
 //! | draw | visible patches | about one line per pixel of length | `chunk`, `programs` |
-//! | read back | pixels | frame, report | `renderer`, `background`, `work` |
+//! | read back | pixels | frame, report | `renderer`, `background`, `notes`, `work` |
 //!
 //! `shared` declares the data that Rust and GLSL exchange.
 
 mod background;
 mod camera;
 mod chunk;
+mod notes;
 mod plan;
 mod programs;
 mod renderer;
@@ -70,10 +71,10 @@ impl Method for Tessellation {
             name: self.name(),
             summary: match self.options.commands {
                 Commands::PerPath => {
-                    "Thesis 4.2: hardware tessellation, one draw call per path; one color, 1 px wide"
+                    "Thesis 4.2: hardware tessellation, one draw call per path; 1 px, one color"
                 }
                 Commands::Compact => {
-                    "Thesis 4.2: hardware tessellation, a single draw call; one color, 1 px wide"
+                    "Thesis 4.2: hardware tessellation, a single draw call; 1 px, one color"
                 }
             },
             device: self.device.description().to_owned(),

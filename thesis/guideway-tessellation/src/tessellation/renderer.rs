@@ -14,6 +14,7 @@ use guideway_scene::{
 use super::background::Background;
 use super::camera;
 use super::chunk::{Chunk, STAGING_BYTES, VisibleCounts};
+use super::notes::notes;
 use super::plan::{PathTooLong, Plan, one_color};
 use super::programs::Programs;
 use super::shared::{self, VIEW};
@@ -345,6 +346,7 @@ impl Renderer {
             clock: self.timeline.clock(),
         };
         let draw_ms = elapsed_ms[2..].iter().step_by(2).sum();
+        let has_gaps = self.samples() > 1 && self.gl.is_software();
         let target_bytes = self.target.as_ref().map_or(0, |target| target.bytes());
         Ok(Report {
             stages: vec![
@@ -355,29 +357,9 @@ impl Renderer {
             lines,
             peak_bytes: self.held_bytes() + target_bytes,
             bands,
-            notes: self.notes(view, style),
+            notes: notes(&self.plan, view, style, has_gaps),
             ..Report::of(self.method, &self.scene, drawn)
         })
-    }
-
-    /// Notes on differences between the picture and the style.
-    fn notes(&self, view: &View, style: &Style) -> Vec<String> {
-        let mut notes = Vec::new();
-        let widths = &self.plan.widths;
-        if !widths.are_one_pixel(&style.line_rule, view.px_per_m()) {
-            notes.push("All lines are one pixel wide; the method ignores widths.".to_owned());
-        }
-        // derived: the control points of a straight segment span three times its length.
-        if self.plan.smallest_m * view.px_per_m() < 3.0 {
-            notes.push("Paths shorter than a pixel may be missing.".to_owned());
-        }
-        if self.samples() > 1 && self.gl.is_software() {
-            notes.push(
-                "Antialiased lines have small gaps, because the device is a software rasterizer."
-                    .to_owned(),
-            );
-        }
-        notes
     }
 
     fn failed(&self, error: GlError) -> RenderError {
