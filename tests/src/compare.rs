@@ -1,48 +1,50 @@
-//! How far two pictures are apart, and whether that is near enough.
+//! Compares two pictures pixel by pixel, and checks the difference against a tolerance.
 
 use guideway_scene::Frame;
 
-/// How far two pictures of one size are apart, in levels of 0 to 255. Colors count as much as they show:
-/// they are multiplied with their opacity first.
+use crate::error::BoxError;
+
+/// Difference of two pictures of equal size, in levels of 0 to 255. Colors are premultiplied by
+/// opacity.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Difference {
-    /// Mean over all pixels and their colors; a pixel's opacity counts where it is further off.
+    /// Mean over all pixels of the larger of the mean color difference and the opacity difference.
     pub mean_abs: f64,
-    /// Share of the pixels whose worst channel is within [`Tolerance::within`].
+    /// Share of the pixels with their worst channel within [`Tolerance::within`].
     pub share_within: f64,
     /// The worst channel of the worst pixel.
     pub max_abs: f64,
     /// Column and row of the worst pixel.
     pub worst: (u32, u32),
-    /// Pixels that differ at all.
+    /// Number of pixels that differ.
     pub differing_pixels: usize,
 }
 
-/// How far two pictures may be apart.
+/// Limits of the difference of two pictures.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
-    /// Greatest mean, in levels of 0 to 255.
+    /// Limit of the mean, in levels of 0 to 255.
     pub mean: f64,
-    /// This share of the pixels is at most so many levels off.
+    /// Limit in levels, and the share of the pixels that must be within it.
     pub within: (f64, f64),
-    /// Greatest difference of any pixel, in levels.
+    /// Limit of the worst pixel, in levels.
     pub max: f64,
 }
 
 impl Tolerance {
-    /// For methods that compute coverage in `f32` or by fewer samples than the oracle.
+    /// For methods with coverage in `f32` or with fewer samples than the oracle.
     pub const STANDARD: Self = Self {
         mean: 1.5,
         within: (32.0, 0.999),
         max: 128.0,
     };
-    /// For two pictures that are the same, bit for bit.
+    /// For equal pictures.
     pub const NONE: Self = Self {
         mean: 0.0,
         within: (0.0, 1.0),
         max: 0.0,
     };
-    /// For two pictures that differ by nothing but the rounding of coordinates.
+    /// For pictures that differ only by rounded coordinates.
     pub const ROUNDING: Self = Self {
         mean: 0.1,
         within: (4.0, 0.999),
@@ -50,37 +52,37 @@ impl Tolerance {
     };
 }
 
-/// Measures how far `actual` is from `expected`, by the limits of `tolerance`.
+/// Measures the difference of `actual` and `expected`, and checks it against `tolerance`.
 ///
 /// # Errors
-/// When they differ in size, or by more than `tolerance`: the message names the limit and the worst pixel.
+/// When the sizes differ, or a limit is exceeded: the message names the limit and the worst pixel.
 pub fn check(
     expected: &Frame,
     actual: &Frame,
     tolerance: &Tolerance,
-) -> Result<Difference, String> {
+) -> Result<Difference, BoxError> {
     if expected.size() != actual.size() {
         let size = |f: &Frame| format!("{} x {}", f.size().width(), f.size().height());
         let (expected, actual) = (size(expected), size(actual));
-        return Err(format!("the size is {actual}, not {expected}"));
+        return Err(format!("the size is {actual}, not {expected}").into());
     }
     let difference = measure(expected, actual, tolerance.within.0);
     let limits = [
         (
             difference.mean_abs > tolerance.mean,
-            format!("a mean of at most {}", tolerance.mean),
+            format!("mean at most {}", tolerance.mean),
         ),
         (
             difference.share_within < tolerance.within.1,
             format!(
-                "{} % of the pixels within {}",
+                "{} % of the pixels within {} levels",
                 tolerance.within.1 * 100.0,
                 tolerance.within.0
             ),
         ),
         (
             difference.max_abs > tolerance.max,
-            format!("no pixel beyond {}", tolerance.max),
+            format!("no pixel beyond {} levels", tolerance.max),
         ),
     ];
     let broken: Vec<_> = limits.into_iter().filter(|l| l.0).map(|l| l.1).collect();
@@ -90,8 +92,8 @@ pub fn check(
     let (x, y) = difference.worst;
     let at = y as usize * expected.size().width() as usize + x as usize;
     Err(format!(
-        "asked: {}; found: mean {:.3}, {:.3} % within, {} pixels differ, the worst ({x}, {y}) by {:.0}: \
-         {:?} is expected, {:?} is drawn",
+        "expected {}; found mean {:.3}, {:.3} % within, {} pixels differ, the worst ({x}, {y}) by {:.0}: \
+         expected {:?}, drawn {:?}",
         broken.join(" and "),
         difference.mean_abs,
         difference.share_within * 100.0,
@@ -99,10 +101,11 @@ pub fn check(
         difference.max_abs,
         expected.pixels()[at],
         actual.pixels()[at],
-    ))
+    )
+    .into())
 }
 
-/// How far one pixel is from another: by their worst channel.
+/// Difference of two pixels: that of their worst channel.
 pub fn pixel_difference(expected: [u8; 4], actual: [u8; 4]) -> f64 {
     let channels = channel_differences(expected, actual);
     channels.into_iter().fold(0.0, f64::max)

@@ -1,4 +1,4 @@
-//! Methods that need a graphics device, and what they may differ by from the oracle.
+//! Methods on graphics devices to test, with the limits of their differences from the oracle.
 
 use std::fmt::Display;
 use std::sync::{Arc, LazyLock};
@@ -9,48 +9,51 @@ use guideway_scene::Method;
 use guideway_tessellation::{GlDevice, GlError};
 
 use crate::compare::Tolerance;
+use crate::error::BoxError;
 
-/// A method on a device that must agree with the oracle, within its means.
+/// A method on a device to compare with the oracle.
 pub struct DeviceCandidate {
     /// Name of the method and its variant.
     pub name: String,
     /// The method.
     pub method: Box<dyn Method>,
-    /// How far from the oracle it may be.
+    /// Limit of its difference from the oracle.
     pub tolerance: Tolerance,
-    /// Fewest scenes of the suite that it must be able to draw.
+    /// Fewest scenes of the suite that it must draw.
     pub least_scenes: usize,
 }
 
-/// For `grid` by the distance to the nearest line. The extremes are pictures of edges alone, and crowds.
+/// For `grid` with coverage by the distance to the nearest line. Pictures of edges only and of
+/// crowds differ most (measured):
 ///
-/// - An edge is a smoothstep over 1.5 px instead of the area covered, which changes the pixels beside it by
-///   up to 40 levels; in a picture three pixels high nearly all are (mean 10, 91 % within 32, 90 at most).
-/// - Of many lines on a pixel only the nearest counts, not their union: 144 levels where 200 lines of
-///   0.004 px lie side by side.
+/// - An edge is a smoothstep over 1.5 px instead of the covered area, which changes adjacent pixels
+///   by up to 40 levels; in a picture three pixels high, nearly all are adjacent (mean 10, 91 %
+///   within 32, 90 at most).
+/// - Only the nearest line of a pixel counts, not the union: 144 levels with 200 adjacent lines of
+///   0.004 px.
 pub const SMOOTH_EDGES: Tolerance = Tolerance {
     mean: 11.0,
     within: (32.0, 0.90),
     max: 160.0,
 };
 
-/// As [`SMOOTH_EDGES`], and with the thesis' 10 samples a segment: a chord of a curve that fills the picture
-/// with one segment is up to a pixel or two beside it, where a pixel can be anything (211 levels).
+/// As [`SMOOTH_EDGES`], with the 10 samples per segment of the thesis: the chords of a segment as
+/// large as the picture are up to two pixels off the curve (measured: 211 levels).
 pub const TEN_SAMPLES: Tolerance = Tolerance {
     max: 225.0,
     ..SMOOTH_EDGES
 };
 
-/// For `grid` by 32 samples a pixel instead of the oracle's 256: on a line of half a pixel they are off by
-/// up to 38 levels, and by 3 on average where a picture is nothing but thin lines.
+/// For `grid` with 32 samples per pixel instead of the oracle's 256. Measured: up to 38 levels on a
+/// line of half a pixel, and a mean of 3 in pictures of thin lines.
 pub const SUB_SAMPLES: Tolerance = Tolerance {
     mean: 3.5,
     within: (32.0, 0.999),
     max: 48.0,
 };
 
-/// The variants of `grid` under test. That as the thesis writes it is not among them, for it loses coverage
-/// between cells.
+/// The tested variants of `grid`; the one of the thesis loses coverage between cells and is not
+/// among them.
 const GRIDS: [(&str, Tolerance); 3] = [
     ("scan+radius", TEN_SAMPLES),
     ("scan+radius+exit+samples=64", SMOOTH_EDGES),
@@ -60,7 +63,7 @@ const GRIDS: [(&str, Tolerance); 3] = [
 /// The device of [`guideway_gpu`].
 ///
 /// # Errors
-/// What is missing for it.
+/// When the computer has no such device.
 pub fn gpu() -> Result<Arc<Gpu>, DeviceError> {
     static GPU: LazyLock<Result<Arc<Gpu>, DeviceError>> = LazyLock::new(Gpu::new);
     GPU.clone()
@@ -69,7 +72,7 @@ pub fn gpu() -> Result<Arc<Gpu>, DeviceError> {
 /// The device of [`guideway_tessellation`].
 ///
 /// # Errors
-/// What is missing for it.
+/// When the computer has no such device.
 pub fn gl() -> Result<Arc<GlDevice>, GlError> {
     static GL: LazyLock<Result<Arc<GlDevice>, GlError>> = LazyLock::new(GlDevice::new);
     GL.clone()
@@ -78,40 +81,40 @@ pub fn gl() -> Result<Arc<GlDevice>, GlError> {
 /// A variant of `grid`.
 ///
 /// # Errors
-/// When its device is not here.
+/// When the computer has no suitable device.
 ///
 /// # Panics
-/// When there is no such variant.
+/// When the variant is unknown.
 pub fn grid(variant: &str) -> Result<Grid, GridError> {
-    let options = GridOptions::parse(variant).expect("the variant is well written");
+    let options = GridOptions::parse(variant).expect("a known variant");
     Grid::new(gpu()?, options)
 }
 
 /// Method `gpu`.
 ///
 /// # Errors
-/// When its device is not here.
+/// When the computer has no suitable device.
 pub fn tiles() -> Result<Tiles, DeviceError> {
     Tiles::new(gpu()?, TilesOptions::default())
 }
 
-/// Every candidate, or what is missing for it.
-fn all() -> Vec<Result<DeviceCandidate, String>> {
+/// Every candidate, or the reason why it cannot run.
+fn all() -> Vec<Result<DeviceCandidate, BoxError>> {
     let grids = GRIDS.map(|(variant, tolerance)| {
         Ok(DeviceCandidate {
             name: format!("grid {variant}"),
-            method: Box::new(grid(variant).map_err(|error| error.to_string())?),
+            method: Box::new(grid(variant)?),
             tolerance,
             least_scenes: 150,
         })
     });
     let mut all: Vec<_> = grids.into();
-    let tiles = tiles().map(|tiles| judged_tiles("gpu", tiles));
-    all.push(tiles.map_err(|error| error.to_string()));
+    let tiles = tiles().map(|tiles| tiles_candidate("gpu", tiles));
+    all.push(tiles.map_err(BoxError::from));
     all
 }
 
-fn judged_tiles(name: &str, tiles: Tiles) -> DeviceCandidate {
+fn tiles_candidate(name: &str, tiles: Tiles) -> DeviceCandidate {
     DeviceCandidate {
         name: name.to_owned(),
         method: Box::new(tiles),
@@ -120,16 +123,16 @@ fn judged_tiles(name: &str, tiles: Tiles) -> DeviceCandidate {
     }
 }
 
-/// The candidates whose device is here.
+/// The candidates that can run on this computer.
 pub fn candidates() -> Vec<DeviceCandidate> {
-    all().into_iter().filter_map(here).collect()
+    all().into_iter().filter_map(available_or_skip).collect()
 }
 
-/// Something that needs a device, unless the device is missing: then says so, for a test to be skipped.
+/// The value, or `None` with a message for a skipped test when the device is missing.
 ///
 /// # Panics
 /// When the device is missing and `GUIDEWAY_REQUIRE_DEVICES` is 1.
-pub fn here<T>(found: Result<T, impl Display>) -> Option<T> {
+pub fn available_or_skip<T>(found: Result<T, impl Display>) -> Option<T> {
     match found {
         Ok(found) => Some(found),
         Err(why) => {

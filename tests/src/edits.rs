@@ -1,4 +1,4 @@
-//! Edits of every kind, by chance but the same on every machine.
+//! Seeded random edits of every kind, equal on every machine.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -10,14 +10,14 @@ use guideway_spline::{Affine, Point, Runs};
 
 use crate::random::Lcg;
 
-/// Where curves are put.
+/// The area for random curves.
 pub struct Area {
     low: Point<f64>,
     size: Point<f64>,
 }
 
 impl Area {
-    /// All that a view shows.
+    /// The area of a view.
     pub fn of(view: &View) -> Self {
         let seen = view.world_bounds();
         Self {
@@ -31,13 +31,13 @@ impl Area {
         self.low + Point::new(x * self.size.x, y * self.size.y)
     }
 
-    /// A step of up to a share of the area.
+    /// A random step of up to a share of the area.
     fn step(&self, share: f64, lcg: &mut Lcg) -> Point<f64> {
         let mut along = |side: f64| lcg.between(-share, share) * side;
         Point::new(along(self.size.x), along(self.size.y))
     }
 
-    /// A curve of a few runs that hang together by nothing.
+    /// A curve of one to three unconnected runs.
     fn curve(&self, lcg: &mut Lcg) -> Runs {
         let mut runs = Runs::default();
         for _ in 0..1 + lcg.below(3) {
@@ -55,10 +55,10 @@ impl Area {
     }
 }
 
-/// Makes an edit that a scene can take.
+/// Creates a valid edit of a scene.
 pub type Kind = fn(&Scene, &Area, &mut Lcg) -> Edit;
 
-/// One kind of edit after the other, by what becomes of the paths.
+/// All kinds of edits, each with its effect on the paths.
 pub const KINDS: [(&str, Kind); 9] = [
     ("turned and moved", |scene, area, lcg| {
         let turn = Affine::rotation(lcg.between(-0.3, 0.3), area.point(lcg));
@@ -68,12 +68,12 @@ pub const KINDS: [(&str, Kind); 9] = [
             by: turn.then(shift),
         }
     }),
-    // Some so far that they come back only when all is undone.
+    // Some far outside the views, where they stay until the undo.
     ("moved far away", |scene, area, lcg| Edit::Transform {
         paths: rows(scene, lcg),
         by: Affine::translation(area.step(1.0, lcg) * 10_f64.powi(lcg.below(5) as i32)),
     }),
-    // As many points as before.
+    // With an unchanged number of points.
     ("bent", |scene, area, lcg| {
         let paths = rows(scene, lcg);
         let geometry = scene.layout().paths.geometry();
@@ -130,7 +130,7 @@ pub const KINDS: [(&str, Kind); 9] = [
     }),
 ];
 
-/// A few rows, removed ones among them.
+/// Up to 5 % of the rows, including removed ones.
 fn rows(scene: &Scene, lcg: &mut Lcg) -> Arc<[u32]> {
     let all = scene.row_count();
     let count = 1 + lcg.below(all / 20 + 1);
@@ -158,16 +158,16 @@ mod tests {
     use guideway_scene::{Budget, Frame, Method};
 
     use super::*;
-    use crate::methods::show;
+    use crate::methods::render_view;
     use crate::scenes::site;
     use crate::sketch::Sketch;
 
     #[test]
-    fn every_kind_shows() {
+    fn every_kind_changes_the_picture() {
         let drawing = site(Sketch::new(48, 32), 40, 1).build();
         let picture = |scene: &Scene| -> Frame {
             let prepared = Oracle.prepare(Arc::new(scene.clone()), &Budget::default());
-            let shown = show(
+            let shown = render_view(
                 prepared.expect("memory enough").as_mut(),
                 &drawing.view,
                 &drawing.style,

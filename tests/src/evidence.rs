@@ -1,4 +1,4 @@
-//! Pictures for the person who looks into a failure.
+//! Writes the expected, the actual and the difference picture of a failed comparison as PNG.
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter};
@@ -11,8 +11,8 @@ use crate::compare::pixel_difference;
 /// Pixels between two pictures.
 const GAP_PX: usize = 4;
 
-/// Writes the expected picture, the difference five times as strong, and the actual one side by side
-/// under `target/scene-suite/`, and returns where.
+/// Writes the expected picture, the difference amplified five times, and the actual picture side by
+/// side to `target/scene-suite/`, and returns the path of the file.
 ///
 /// # Errors
 /// When the file cannot be written.
@@ -27,7 +27,7 @@ pub fn write(name: &str, expected: &Frame, actual: &Frame) -> io::Result<PathBuf
     Ok(file)
 }
 
-/// Writes pictures as one, so many in a row, on gray.
+/// Writes pictures in a grid of `columns` on gray to one PNG file.
 ///
 /// # Errors
 /// When the file cannot be written.

@@ -1,61 +1,64 @@
-//! How far pictures of lines one pixel wide, drawn by a rasterizer of lines, are from the oracle's.
+//! Compares pictures of one-pixel lines by a line rasterizer with those of the oracle, by position.
 //!
-//! Such lines cannot agree pixel by pixel. Without anti-aliasing a pixel is line or background where the
-//! oracle gives it a share; with it there are a few samples a pixel, and ends are cut off square. What must
-//! agree is where lines are: so neighbors count.
+//! Such pictures cannot agree pixel by pixel: without anti-aliasing a pixel is either line or
+//! background, and the oracle gives it partial coverage; with multisampling a pixel has few
+//! samples, and caps are square. The comparison therefore accepts a line in any of the eight
+//! neighbors of a pixel.
 
 use guideway_scene::Frame;
 use guideway_scene::LineRule;
 
 use crate::compare::pixel_difference;
+use crate::error::BoxError;
 use crate::sketch::{Drawing, Sketch};
 
-/// How many pixels may be wrong, in which way.
+/// Limits of the difference of two pictures of one-pixel lines.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
-    /// Of the pixels that the oracle covers by more than half, this share may have nothing drawn on it or its
-    /// eight neighbors.
+    /// Largest share of lost pixels: those that the oracle covers by more than half, and that are
+    /// empty together with their eight neighbors.
     pub lost: f64,
-    /// Of the pixels that are line in either picture, the second, a share, may be off by more than the
-    /// first, in levels of 0 to 255.
+    /// Limit in levels of 0 to 255, and the largest share of the line pixels of either picture
+    /// beyond it.
     pub beyond: (f64, f64),
 }
 
 impl Tolerance {
-    /// Without anti-aliasing. Of a line at 45 degrees through the corners of pixels, a row of them is left out
-    /// that the oracle covers by two thirds.
+    /// Without anti-aliasing. A line at 45 degrees through pixel corners lacks a row of pixels that
+    /// the oracle covers by two thirds.
     pub const ALIASED: Self = Self {
         lost: 0.0,
         beyond: (160.0, 0.25),
     };
-    /// With four samples a pixel or more. Paths shorter than a pixel are the worst, for their ends are cut
-    /// off square where the oracle rounds them; and Mesa's llvmpipe loses what a line has in the pixels at
-    /// the borders of its tiles of 64 x 64.
+    /// With at least four samples per pixel. Paths shorter than a pixel differ most, because their
+    /// caps are square and those of the oracle round; and Mesa's llvmpipe loses lines in the pixels
+    /// at the borders of its 64 x 64 tiles.
     pub const MULTISAMPLED: Self = Self {
         lost: 0.02,
         beyond: (160.0, 0.15),
     };
 }
 
-/// Pixels of two pictures of one size.
+/// Pixel counts of two pictures of equal size.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Difference {
-    /// Line in either picture.
+    /// Line pixels of either picture.
     pub marked: usize,
-    /// Drawn on, but the oracle leaves it and its eight neighbors alone. There may be none.
+    /// Drawn pixels that are empty in the oracle's picture together with their neighbors. Must be
+    /// 0.
     pub stray: usize,
-    /// Covered by more than half by the oracle.
+    /// Pixels that the oracle covers by more than half.
     pub covered: usize,
-    /// Of those, with nothing drawn on them or their eight neighbors.
+    /// Covered pixels that are empty together with their neighbors.
     pub lost: usize,
-    /// Off by more than the tolerance has it.
+    /// Pixels beyond the limit of the tolerance.
     pub beyond: usize,
 }
 
-/// Pixels that may be lost or off in any picture: a share of next to none is none.
-const FEW: f64 = 8.0;
+/// Lost or differing pixels that any picture may have, because shares of few pixels round to 0.
+const SLACK_PX: f64 = 8.0;
 
-/// The drawing of a sketch with lines one pixel wide in one color.
+/// The drawing of a sketch, with lines one pixel wide in one color.
 pub fn drawing(sketch: Sketch) -> Drawing {
     let mut drawing = sketch.in_one_color().build();
     drawing.style.line_rule = LineRule::World {
@@ -66,26 +69,26 @@ pub fn drawing(sketch: Sketch) -> Drawing {
     drawing
 }
 
-/// Compares pictures of dark lines on `background` or of others that show on it as well.
+/// Compares pictures of lines on `background`.
 ///
 /// # Errors
-/// When they differ in size, or by more than `tolerance`.
+/// When the sizes differ, or a limit of `tolerance` is exceeded.
 pub fn check(
     expected: &Frame,
     actual: &Frame,
     background: [u8; 4],
     tolerance: &Tolerance,
-) -> Result<Difference, String> {
+) -> Result<Difference, BoxError> {
     if expected.size() != actual.size() {
-        return Err("the sizes differ".to_owned());
+        return Err("the sizes differ".into());
     }
     let difference = measure(expected, actual, background, tolerance.beyond.0);
-    let most = |share: f64, of: usize| share * of as f64 + FEW;
+    let most = |share: f64, of: usize| share * of as f64 + SLACK_PX;
     let is_off = difference.stray > 0
         || difference.lost as f64 > most(tolerance.lost, difference.covered)
         || difference.beyond as f64 > most(tolerance.beyond.1, difference.marked);
     if is_off {
-        Err(format!("{difference:?} is more than {tolerance:?}"))
+        Err(format!("{difference:?} exceeds {tolerance:?}").into())
     } else {
         Ok(difference)
     }
@@ -102,7 +105,7 @@ fn measure(expected: &Frame, actual: &Frame, background: [u8; 4], levels: f64) -
         rows.flat_map(|y| columns.clone().map(move |x| (x, y)))
             .any(|(x, y)| ink(frame, x, y) > 0.0)
     };
-    // The color of the lines shows as much as the darkest pixel, if there is any line.
+    // The pixel with the strongest difference has the color of the lines.
     let pixels = expected.pixels().iter().chain(actual.pixels());
     let most = pixels
         .map(|&p| pixel_difference(background, p))

@@ -1,9 +1,18 @@
-//! What the whole-system tests share: scenes of one behavior each, the methods that draw them, and the
-//! comparison of their pictures with the oracle's.
+//! Shared parts of the whole-system tests: scenes, methods to test, and comparison with the oracle.
+//!
+//! | module | purpose |
+//! |---|---|
+//! | [`sketch`], [`scenes`] | describes a drawing in pixels; the scene suite |
+//! | [`edits`], [`random`] | seeded random edits and numbers |
+//! | [`methods`], [`devices`] | methods on the processor, and on graphics devices |
+//! | [`compare`], [`hairline`] | compares pictures, and pictures of one-pixel lines |
+//! | [`evidence`] | writes pictures of failed comparisons |
+//! | [`error`] | the error type of all of them |
 
 pub mod compare;
 pub mod devices;
 pub mod edits;
+pub mod error;
 pub mod evidence;
 pub mod hairline;
 pub mod methods;

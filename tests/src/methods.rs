@@ -1,4 +1,4 @@
-//! The methods under test, and one way to run them all.
+//! Methods on the processor to test, and functions that draw with any method.
 
 use std::sync::Arc;
 
@@ -8,17 +8,18 @@ use guideway_scene::{
 };
 
 use crate::compare::Tolerance;
+use crate::error::BoxError;
 use crate::sketch::Drawing;
 
-/// A method that must agree with the oracle.
+/// A method to compare with the oracle.
 pub struct Candidate {
     /// The method.
     pub method: Box<dyn Method>,
-    /// How far from the oracle it may be.
+    /// Limit of its difference from the oracle.
     pub tolerance: Tolerance,
 }
 
-/// Every method but the oracle.
+/// Every method on the processor except the oracle.
 pub fn methods() -> Vec<Candidate> {
     vec![Candidate {
         method: Box::new(Cpu),
@@ -26,56 +27,56 @@ pub fn methods() -> Vec<Candidate> {
     }]
 }
 
-/// Draws once.
+/// Prepares and draws a drawing once.
 ///
 /// # Errors
-/// What the method says.
+/// The error of the method.
 ///
 /// # Panics
-/// When the drawing's options name a level or column that it has not.
+/// When the options of the drawing name a missing level or column.
 pub fn draw(
     method: &dyn Method,
     drawing: &Drawing,
     budget: &Budget,
 ) -> Result<(Frame, Report), RenderError> {
     let mut prepared = method.prepare(Arc::new(drawing.scene()), budget)?;
-    show(prepared.as_mut(), &drawing.view, &drawing.style)
+    render_view(prepared.as_mut(), &drawing.view, &drawing.style)
 }
 
-/// Draws a view of a scene that was made ready.
+/// Draws a view of a prepared scene.
 ///
 /// # Errors
-/// What the method says.
-pub fn show(
+/// The error of the method.
+pub fn render_view(
     prepared: &mut dyn Prepared,
     view: &View,
     style: &Style,
 ) -> Result<(Frame, Report), RenderError> {
-    // One pixel: the method has to give the frame its size.
+    // One pixel: the method must resize the frame.
     let mut frame = Frame::new(FrameSize::new(1, 1)?);
     let report = prepared.render(view, style, &Cancel::default(), &mut frame)?;
     Ok((frame, report))
 }
 
-/// Draws by the oracle.
+/// Draws with the oracle.
 ///
 /// # Panics
-/// When it fails: it has memory enough for every drawing here.
-pub fn judge(drawing: &Drawing) -> (Frame, Report) {
+/// When the oracle fails.
+pub fn draw_reference(drawing: &Drawing) -> (Frame, Report) {
     draw(&Oracle, drawing, &Budget::default()).expect("the oracle draws everything")
 }
 
-/// Whether a report accounts for every path of its drawing.
+/// Checks that a report counts every path of its drawing.
 ///
 /// # Errors
-/// When it does not: a sentence with the report.
-pub fn account(report: &Report, drawing: &Drawing) -> Result<(), String> {
+/// When a count is wrong: the message holds the report.
+pub fn check_counts(report: &Report, drawing: &Drawing) -> Result<(), BoxError> {
     let layout = &drawing.layout;
     if report.total != layout.path_count() as u64
         || report.refused != layout.refused.len() as u64
         || !report.accounts_for_all()
     {
-        return Err(format!("not every path is accounted for: {report:?}"));
+        return Err(format!("the report does not count every path: {report:?}").into());
     }
     Ok(())
 }

@@ -1,21 +1,21 @@
-//! Numbers that look random and are the same on every machine.
+//! Seeded pseudo-random numbers, equal on every machine.
 
 /// A linear congruential generator with Knuth's MMIX constants.
 #[derive(Clone, Debug)]
 pub struct Lcg(u64);
 
 impl Lcg {
-    /// A sequence of its own for each seed.
+    /// The sequence of a seed.
     pub fn new(seed: u64) -> Self {
         let mut lcg = Self(seed);
-        // The first numbers of neighboring seeds are alike.
+        // The first numbers of neighboring seeds are correlated.
         for _ in 0..4 {
             lcg.unit();
         }
         lcg
     }
 
-    /// From 0 up to but not including 1.
+    /// Uniform in `0..1`.
     pub fn unit(&mut self) -> f64 {
         self.0 = self
             .0
@@ -24,12 +24,12 @@ impl Lcg {
         (self.0 >> 32) as f64 / (1_u64 << 32) as f64
     }
 
-    /// From `low` up to but not including `high`.
+    /// Uniform in `low..high`.
     pub fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.unit()
     }
 
-    /// One of 0 to `count` - 1.
+    /// Uniform in `0..count`.
     pub fn below(&mut self, count: usize) -> usize {
         (self.unit() * count as f64) as usize
     }

@@ -1,4 +1,5 @@
-//! Scenes in few words: lengths in pixels, y up, the origin in the lower left corner of the picture.
+//! A sketch describes a drawing in pixels (y up, the origin in the lower left corner) and builds
+//! layout, style and view from it.
 
 use std::sync::Arc;
 
@@ -8,31 +9,31 @@ use guideway_scene::{FrameSize, Shading, Style, View};
 use guideway_scene::{LineRule, Rgba, Scene, SceneOptions};
 use guideway_spline::{Point, Runs};
 
-/// Everything that a method needs for one picture.
+/// Layout, style and view of one picture.
 #[derive(Clone, Debug)]
 pub struct Drawing {
     /// The paths.
     pub layout: Layout,
-    /// How they are styled.
+    /// Options of the scene.
     pub options: SceneOptions,
-    /// How the frame looks.
+    /// Style of the frame.
     pub style: Style,
-    /// What is seen of it.
+    /// View of the scene.
     pub view: View,
 }
 
 impl Drawing {
-    /// The paths with their styles.
+    /// The scene of the layout and the options.
     ///
     /// # Panics
-    /// When the options name a level or column that the layout has not.
+    /// When the options name a missing level or column.
     pub fn scene(&self) -> Scene {
         Scene::new(Arc::new(self.layout.clone()), &self.options)
             .expect("the options of a drawing suit its layout")
     }
 }
 
-/// A drawing being described.
+/// Builder of a [`Drawing`].
 #[derive(Clone, Debug)]
 pub struct Sketch {
     size: FrameSize,
@@ -57,10 +58,10 @@ struct Stroke {
 }
 
 impl Sketch {
-    /// An empty picture at one pixel a meter, with lines 2 pixels wide.
+    /// An empty picture at one pixel per meter, with lines 2 pixels wide.
     ///
     /// # Panics
-    /// When a side is not at least 1.
+    /// When the width or height is 0.
     pub fn new(width: u32, height: u32) -> Self {
         Self {
             size: FrameSize::new(width, height).expect("a picture has pixels"),
@@ -76,13 +77,13 @@ impl Sketch {
         }
     }
 
-    /// Sets the scale. What is drawn stays, for it is given in pixels.
+    /// Sets the scale. The drawing in pixels stays the same.
     pub fn px_per_m(mut self, px_per_m: f64) -> Self {
         self.px_per_m = px_per_m;
         self
     }
 
-    /// Moves the layout and the view to another place in the world, in meters.
+    /// Moves the layout and the view to another position in the world, in meters.
     pub fn at(mut self, x_m: f64, y_m: f64) -> Self {
         self.origin_m = Point::new(x_m, y_m);
         self
@@ -94,7 +95,7 @@ impl Sketch {
         self
     }
 
-    /// Sets the rule of widths, in place of a common one.
+    /// Sets the line rule, instead of a common width.
     pub fn rule(mut self, rule: LineRule) -> Self {
         self.rule = Some(rule);
         self
@@ -106,13 +107,13 @@ impl Sketch {
         self
     }
 
-    /// Shows how many paths there are.
+    /// Shades by the number of paths per pixel.
     pub fn density(mut self, tone: ToneMap) -> Self {
         self.style.shading = Shading::Density(tone);
         self
     }
 
-    /// Sets the color of all paths that have none of their own, 0xRRGGBBAA.
+    /// Sets the color of all paths without a color, 0xRRGGBBAA.
     pub fn common_color(mut self, rgba: u32) -> Self {
         self.options.color = Some(Rgba::from_u32(rgba));
         self
@@ -156,7 +157,7 @@ impl Sketch {
         self.curve(&line_control(from, to))
     }
 
-    /// Adds a path straight from corner to corner, a run a side.
+    /// Adds a path of straight runs, one per side, from corner to corner.
     pub fn polyline(self, corners: &[(f64, f64)]) -> Self {
         let sides: Vec<_> = corners
             .windows(2)
@@ -191,7 +192,7 @@ impl Sketch {
         self
     }
 
-    /// The same paths without colors of their own.
+    /// The same paths without colors.
     pub fn in_one_color(mut self) -> Self {
         for stroke in &mut self.strokes {
             stroke.color_rgba = 0;
@@ -199,7 +200,7 @@ impl Sketch {
         self
     }
 
-    /// The paths in another order: `order[i]` is drawn as number `i`.
+    /// The paths in another order: path `order[i]` moves to index `i`.
     pub fn reordered(mut self, order: &[usize]) -> Self {
         self.strokes = order.iter().map(|&i| self.strokes[i].clone()).collect();
         self
@@ -224,7 +225,7 @@ impl Sketch {
     /// The drawing.
     ///
     /// # Panics
-    /// When the scale or place is not one that a view can have.
+    /// When the scale or position is out of range for a view.
     pub fn build(&self) -> Drawing {
         let (width, height) = (f64::from(self.size.width()), f64::from(self.size.height()));
         let center_m = self.world_from_sketch(Point::new(width / 2.0, height / 2.0));
@@ -266,7 +267,7 @@ impl Sketch {
                 .map(|s| s.level.unwrap_or(u32::MAX))
                 .collect(),
         );
-        // Columns that say nothing are left out, as readers of files do.
+        // Without empty columns, as file readers do.
         if strokes.iter().any(|s| s.color_rgba != 0) {
             paths.set_color_rgba(strokes.iter().map(|s| s.color_rgba).collect());
         }

@@ -1,9 +1,9 @@
-//! The dependency arrows of ARCHITECTURE.md: they point one way, and siblings never meet.
+//! Checks the crate dependencies of ARCHITECTURE.md: one direction, no dependency between siblings.
 
 use std::collections::BTreeMap;
 use std::process::Command;
 
-/// What each crate may depend on inside the workspace.
+/// Allowed dependencies of each crate inside the workspace.
 const ALLOWED: &[(&str, &[&str])] = &[
     ("guideway-spline", &[]),
     ("guideway-layout", SPLINE),
@@ -81,8 +81,8 @@ const SPLINE: &[&str] = &["guideway-spline"];
 const MODEL: &[&str] = &["guideway-spline", "guideway-layout"];
 const SCENE: &[&str] = &["guideway-spline", "guideway-layout", "guideway-scene"];
 
-/// Crates that only one room may name.
-const KEPT_TO: &[(&str, &str)] = &[
+/// External crates that only the listed crates may depend on.
+const RESTRICTED: &[(&str, &str)] = &[
     ("arrow-ipc", "guideway-formats"),
     ("roxmltree", "guideway-formats"),
     ("saphyr-parser", "guideway-formats"),
@@ -123,21 +123,23 @@ fn violations(dependencies: &Dependencies) -> Vec<String> {
         for name in names {
             let inside = name.starts_with("guideway");
             if inside && allowed.is_some_and(|allowed| !allowed.contains(&name.as_str())) {
-                found.push(format!("{krate} -> {name}: this arrow is not allowed"));
+                found.push(format!("{krate} -> {name}: this dependency is not allowed"));
             }
-            let keepers = KEPT_TO
+            let users = RESTRICTED
                 .iter()
-                .find(|(kept, _)| kept == name)
-                .map(|(_, keepers)| *keepers);
-            if keepers.is_some_and(|keepers| !keepers.split(' ').any(|k| k == krate)) {
+                .find(|(restricted, _)| restricted == name)
+                .map(|(_, users)| *users);
+            if users.is_some_and(|users| !users.split(' ').any(|user| user == krate)) {
                 found.push(format!(
-                    "{krate} -> {name}: only {} may name it",
-                    keepers.unwrap_or("")
+                    "{krate} -> {name}: only {} may depend on it",
+                    users.unwrap_or("")
                 ));
             }
         }
         if allowed.is_none() && !["guideway", "guideway-tests", "xtask"].contains(&krate.as_str()) {
-            found.push(format!("{krate}: a new crate needs its arrows stated here"));
+            found.push(format!(
+                "{krate}: list the allowed dependencies of the new crate in this test"
+            ));
         }
     }
     found
@@ -173,7 +175,7 @@ fn workspace_dependencies() -> Dependencies {
 }
 
 #[test]
-fn arrows_point_one_way() {
+fn crate_dependencies_are_allowed() {
     let dependencies = workspace_dependencies();
     assert!(
         dependencies.len() >= 9,
@@ -184,7 +186,7 @@ fn arrows_point_one_way() {
 }
 
 #[test]
-fn wrong_arrows_are_found() {
+fn finds_forbidden_dependencies() {
     let one =
         |krate: &str, name: &str| Dependencies::from([(krate.to_owned(), vec![name.to_owned()])]);
     assert_eq!(
@@ -200,7 +202,7 @@ fn wrong_arrows_are_found() {
     assert_eq!(
         violations(&one("guideway-cpu", "wgpu")).len(),
         1,
-        "kept to one room"
+        "restricted"
     );
     assert_eq!(
         violations(&one("guideway-new", "serde")).len(),
@@ -211,7 +213,7 @@ fn wrong_arrows_are_found() {
 }
 
 #[test]
-fn the_core_needs_no_gpu_library() {
+fn default_features_off_exclude_gpu_libraries() {
     let output = Command::new(env!("CARGO"))
         .args([
             "tree",
@@ -231,7 +233,7 @@ fn the_core_needs_no_gpu_library() {
     for gpu in ["wgpu ", "ash ", "glow ", "khronos-egl "] {
         assert!(
             !tree.lines().any(|line| line.starts_with(gpu)),
-            "{gpu} is in the tree"
+            "{gpu} is a dependency"
         );
     }
 }

@@ -1,8 +1,10 @@
-//! The comparator must fail where pictures are wrong: a comparator that cannot fail judges nothing.
+//! Tests the picture comparison: it must accept equal pictures and reject every kind of wrong
+//! picture.
 
 use guideway_scene::{Frame, FrameSize};
 use guideway_tests::compare::{Difference, Tolerance, check};
-use guideway_tests::methods::judge;
+use guideway_tests::error::BoxError;
+use guideway_tests::methods::draw_reference;
 use guideway_tests::sketch::Sketch;
 
 const RED: u32 = 0xd020_20ff;
@@ -23,7 +25,7 @@ fn sketch() -> Sketch {
 }
 
 fn picture(sketch: &Sketch) -> Frame {
-    judge(&sketch.build()).0
+    draw_reference(&sketch.build()).0
 }
 
 fn changed(change: impl Fn(usize, [u8; 4]) -> [u8; 4]) -> Frame {
@@ -34,7 +36,7 @@ fn changed(change: impl Fn(usize, [u8; 4]) -> [u8; 4]) -> Frame {
     frame
 }
 
-/// A picture whose pixel (x, y) is that at `from(x, y)` in the right one.
+/// The right picture with pixel (x, y) taken from `from(x, y)`.
 fn moved(from: impl Fn(usize, usize) -> (usize, usize)) -> Frame {
     let right = picture(&sketch());
     let width = right.size().width() as usize;
@@ -44,7 +46,7 @@ fn moved(from: impl Fn(usize, usize) -> (usize, usize)) -> Frame {
     })
 }
 
-fn compare(actual: &Frame) -> Result<Difference, String> {
+fn compare(actual: &Frame) -> Result<Difference, BoxError> {
     check(&picture(&sketch()), actual, &Tolerance::STANDARD)
 }
 
@@ -72,7 +74,7 @@ fn tiny_noise_passes() {
 }
 
 #[test]
-fn colors_that_do_not_show_are_not_compared() {
+fn ignores_colors_of_transparent_pixels() {
     let nothing = |rgba: u32| picture(&Sketch::new(9, 9).background(rgba));
     let (black, white) = (nothing(0), nothing(0xffff_ff00));
     assert_ne!(black, white);
@@ -82,7 +84,7 @@ fn colors_that_do_not_show_are_not_compared() {
 }
 
 #[test]
-fn a_difference_is_measured_as_it_is() {
+fn measures_a_known_difference() {
     let other = changed(|index, [r, g, b, a]| {
         let off = if index == 96 * 5 + 7 { 100 } else { 0 };
         [r, g.saturating_sub(off), b, a]
@@ -113,7 +115,7 @@ fn a_shift_by_one_pixel_fails() {
 }
 
 #[test]
-fn one_wrong_pixel_fails_and_is_named() {
+fn names_one_wrong_pixel() {
     let other = changed(|index, pixel| {
         if index == 96 * 3 + 2 {
             [255 - pixel[0], 255 - pixel[1], 255 - pixel[2], 255]
@@ -121,10 +123,10 @@ fn one_wrong_pixel_fails_and_is_named() {
             pixel
         }
     });
-    let message = compare(&other).unwrap_err();
+    let message = compare(&other).unwrap_err().to_string();
     assert!(message.contains("(2, 3) by 255"), "{message}");
     assert!(
-        message.contains("[255, 255, 255, 255] is expected"),
+        message.contains("expected [255, 255, 255, 255]"),
         "{message}"
     );
 }
@@ -162,7 +164,8 @@ fn a_transparent_picture_fails() {
 
 #[test]
 fn a_wrong_size_fails() {
-    let message = compare(&Frame::new(FrameSize::new(64, 96).unwrap())).unwrap_err();
+    let other = Frame::new(FrameSize::new(64, 96).unwrap());
+    let message = compare(&other).unwrap_err().to_string();
     assert!(message.contains("64 x 96, not 96 x 64"), "{message}");
 }
 

@@ -1,20 +1,21 @@
-//! Methods on graphics devices draw what they can as the oracle does, each within its own tolerance.
+//! Compares every scene that a method on a graphics device supports with the oracle.
 
 use guideway_scene::{Budget, Frame, RenderError};
 use guideway_tests::compare::{Difference, check};
 use guideway_tests::devices::{DeviceCandidate, candidates};
+use guideway_tests::error::BoxError;
 use guideway_tests::evidence;
-use guideway_tests::methods::{account, draw, judge};
+use guideway_tests::methods::{check_counts, draw, draw_reference};
 use guideway_tests::scenes::{self, SceneCase};
 
 struct Outcome {
     scene: String,
     candidate: usize,
-    difference: Result<Difference, String>,
+    difference: Result<Difference, BoxError>,
 }
 
 #[test]
-fn every_device_method_draws_what_it_can_as_the_oracle_does() {
+fn device_methods_match_the_oracle_in_supported_scenes() {
     let candidates = candidates();
     if candidates.is_empty() {
         return;
@@ -34,7 +35,7 @@ fn every_device_method_draws_what_it_can_as_the_oracle_does() {
         print_worst(&candidate.name, &drawn);
         assert!(
             drawn.len() >= candidate.least_scenes,
-            "{} draws {} scenes, and {} are asked",
+            "{} draws {} scenes, fewer than the required {}",
             candidate.name,
             drawn.len(),
             candidate.least_scenes
@@ -49,7 +50,7 @@ fn every_device_method_draws_what_it_can_as_the_oracle_does() {
     );
 }
 
-/// What the candidates make of a scene that they can draw.
+/// The outcomes of the candidates that support a scene.
 fn outcomes(case: &SceneCase, candidates: &[DeviceCandidate]) -> Vec<Outcome> {
     let drawing = case.build();
     let mut expected = None;
@@ -64,10 +65,10 @@ fn outcomes(case: &SceneCase, candidates: &[DeviceCandidate]) -> Vec<Outcome> {
                 );
                 continue;
             }
-            Err(error) => Err(error.to_string()),
+            Err(error) => Err(error.into()),
             Ok((actual, report)) => {
-                let expected = expected.get_or_insert_with(|| judge(&drawing).0);
-                account(&report, &drawing)
+                let expected = expected.get_or_insert_with(|| draw_reference(&drawing).0);
+                check_counts(&report, &drawing)
                     .and_then(|()| compare(&case.name, candidate, expected, &actual))
             }
         };
@@ -85,12 +86,12 @@ fn compare(
     candidate: &DeviceCandidate,
     expected: &Frame,
     actual: &Frame,
-) -> Result<Difference, String> {
+) -> Result<Difference, BoxError> {
     check(expected, actual, &candidate.tolerance).map_err(|message| {
         let name = format!("{} {scene}", candidate.name);
         let written = evidence::write(&name, expected, actual);
         let shown = written.map_or_else(|e| e.to_string(), |file| file.display().to_string());
-        format!("{message}; see {shown}")
+        format!("{message}; see {shown}").into()
     })
 }
 

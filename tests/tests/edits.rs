@@ -1,4 +1,4 @@
-//! A scene that a method changed in place looks as the same scene made ready anew.
+//! Compares scenes edited in place with the oracle's picture of the edited scene, and tests undo.
 
 use std::sync::Arc;
 
@@ -10,23 +10,25 @@ use guideway_spline::{Affine, Point};
 use guideway_tests::compare::{Tolerance, check};
 use guideway_tests::devices::candidates;
 use guideway_tests::edits::{Area, KINDS};
-use guideway_tests::methods::{methods, show};
+use guideway_tests::error::BoxError;
+use guideway_tests::methods::{methods, render_view};
 use guideway_tests::random::Lcg;
 use guideway_tests::scenes::{long_curves, site};
 use guideway_tests::sketch::{Drawing, Sketch};
 
 /// A method under test.
-struct Contender {
+struct TestedMethod {
     name: String,
     method: Box<dyn Method>,
-    /// How far from the oracle's picture of the changed scene it may be. A method lays out a changed scene
-    /// otherwise than a new one, and then rounds otherwise, so its own picture of that is no measure.
+    /// Limit of the difference from the oracle's picture of the edited scene. Not from the method's
+    /// own picture of a newly prepared scene, because an edited scene has other clusters, and other
+    /// rounding.
     tolerance: Tolerance,
-    /// How far from its first picture it may be when all is undone.
+    /// Limit of the difference from its first picture after the undo of all edits.
     undone: Tolerance,
 }
 
-fn contenders() -> Vec<Contender> {
+fn tested_methods() -> Vec<TestedMethod> {
     let oracle: (_, Box<dyn Method>, _) = ("oracle".to_owned(), Box::new(Oracle), Tolerance::NONE);
     let on_processor = methods().into_iter().map(|candidate| {
         let name = candidate.method.info().name.to_owned();
@@ -36,7 +38,7 @@ fn contenders() -> Vec<Contender> {
         .into_iter()
         .map(|candidate| (candidate.name, candidate.method, candidate.tolerance));
     let all = std::iter::once(oracle).chain(on_processor).chain(on_device);
-    all.map(|(name, method, tolerance)| Contender {
+    all.map(|(name, method, tolerance)| TestedMethod {
         undone: match name.as_str() {
             "oracle" => Tolerance::NONE,
             _ => Tolerance::ROUNDING,
@@ -53,43 +55,43 @@ fn sketch() -> Sketch {
 }
 
 #[test]
-fn a_site_in_f32() {
-    tell(&site(sketch().width(1.2), 400, 31).in_f32().build(), 1);
+fn edits_a_site_in_f32() {
+    check_edits(&site(sketch().width(1.2), 400, 31).in_f32().build(), 1);
 }
 
 #[test]
-fn a_translucent_site_far_from_the_origin() {
+fn edits_a_translucent_site_far_from_the_origin() {
     let sketch = sketch().px_per_m(20.0).at(7e6, -3e6);
     let drawing = site(sketch, 100, 32).common_color(0x2060_a080).build();
-    tell(&drawing, 2);
+    check_edits(&drawing, 2);
 }
 
 #[test]
-fn the_density_of_long_curves() {
+fn edits_the_density_of_long_curves() {
     let sketch = sketch().width(1.0).density(ToneMap::Log);
-    tell(&long_curves(sketch, 30, 33).build(), 1);
+    check_edits(&long_curves(sketch, 30, 33).build(), 1);
 }
 
 #[test]
-fn curves_that_are_small_beside_their_scene() {
-    // `gpu` rounds their points, and draws exact ones in the view from near.
+fn edits_curves_that_are_small_relative_to_the_scene() {
+    // `gpu` rounds their points, and uses exact points in the magnified view.
     let sketch = long_curves(sketch().width(1.2), 80, 35);
     let drawing = sketch.line((3e4, 0.0), (3e4 + 9.0, 5.0)).build();
-    tell(&drawing, 1);
+    check_edits(&drawing, 1);
 }
 
-/// Every method that edits in place shows every step of a story, and after all is undone what it showed first.
-fn tell(drawing: &Drawing, rounds: usize) {
-    let story = Story::new(drawing, rounds);
-    for contender in contenders() {
-        if !edits_in_place(contender.method.as_ref()) {
-            println!("SKIPPED: {} does not edit in place", contender.name);
-            let must = ["oracle", "cpu", "gpu"].contains(&contender.name.as_str());
-            assert!(!must, "{} edited in place before", contender.name);
+/// Checks every step of an edit sequence with every method that edits in place.
+fn check_edits(drawing: &Drawing, rounds: usize) {
+    let sequence = EditSequence::new(drawing, rounds);
+    for tested in tested_methods() {
+        if !edits_in_place(tested.method.as_ref()) {
+            println!("SKIPPED: {} does not edit in place", tested.name);
+            let must = ["oracle", "cpu", "gpu"].contains(&tested.name.as_str());
+            assert!(!must, "{} must edit in place", tested.name);
             continue;
         }
-        if let Err(error) = contender.play(&story) {
-            panic!("{}: {error}", contender.name);
+        if let Err(error) = tested.check(&sequence) {
+            panic!("{}: {error}", tested.name);
         }
     }
 }
@@ -105,8 +107,8 @@ fn edits_in_place(method: &dyn Method) -> bool {
     edited != EditOutcome::NotInPlace
 }
 
-/// A scene and what becomes of it: rounds of edits of every kind, and then all of them undone.
-struct Story {
+/// A scene with rounds of edits of every kind, followed by the undo of all edits.
+struct EditSequence {
     style: Style,
     views: Vec<View>,
     start: Scene,
@@ -114,23 +116,23 @@ struct Story {
 }
 
 struct Step {
-    /// What becomes of some paths.
-    what: String,
+    /// Effect on the paths.
+    effect: String,
     edit: Edit,
-    /// With the edit.
+    /// The scene after the edit.
     scene: Scene,
-    /// One of the story's views of it.
     view: View,
-    judged: Frame,
+    /// The oracle's picture of the view.
+    expected: Frame,
 }
 
-impl Story {
+impl EditSequence {
     fn new(drawing: &Drawing, rounds: usize) -> Self {
         let mut lcg = Lcg::new(34);
         let views = views(&drawing.view);
         let area = Area::of(&drawing.view);
         let start = drawing.scene();
-        let mut story = Self {
+        let mut sequence = Self {
             style: drawing.style,
             views,
             start: start.clone(),
@@ -138,77 +140,82 @@ impl Story {
         };
         let mut scene = start;
         let mut undo = Vec::new();
-        for (what, kind) in (0..rounds).flat_map(|_| KINDS) {
+        for (effect, kind) in (0..rounds).flat_map(|_| KINDS) {
             let edit = kind(&scene, &area, &mut lcg);
             let back = scene.clone().edit_with_undo(&edit, |_| {});
             let back = back.expect("an edit that can be done");
-            undo.push((format!("no longer {what}"), back));
-            story.take(what.to_owned(), edit, &mut scene, &mut lcg);
+            undo.push((format!("undo of {effect}"), back));
+            sequence.push(effect.to_owned(), edit, &mut scene, &mut lcg);
         }
-        while let Some((what, edit)) = undo.pop() {
-            story.take(what, edit, &mut scene, &mut lcg);
+        while let Some((effect, edit)) = undo.pop() {
+            sequence.push(effect, edit, &mut scene, &mut lcg);
         }
-        story
+        sequence
     }
 
-    fn take(&mut self, what: String, edit: Edit, scene: &mut Scene, lcg: &mut Lcg) {
+    fn push(&mut self, effect: String, edit: Edit, scene: &mut Scene, lcg: &mut Lcg) {
         scene.edit(&edit).expect("an edit that can be done");
         let view = self.views[lcg.below(self.views.len())];
-        let mut judge = prepare(&Oracle, scene);
-        let (judged, _) = draw(judge.as_mut(), &view, &self.style);
+        let mut oracle = prepare(&Oracle, scene);
+        let (expected, _) = draw(oracle.as_mut(), &view, &self.style);
         self.steps.push(Step {
-            what,
+            effect,
             edit,
             scene: scene.clone(),
             view,
-            judged,
+            expected,
         });
     }
 }
 
-impl Contender {
-    /// Takes every step in place, and ends where it began.
-    fn play(&self, story: &Story) -> Result<(), String> {
-        let mut prepared = prepare(self.method.as_ref(), &story.start);
+impl TestedMethod {
+    /// Applies every step in place; after the last, the pictures must equal the first ones.
+    fn check(&self, sequence: &EditSequence) -> Result<(), BoxError> {
+        let mut prepared = prepare(self.method.as_ref(), &sequence.start);
         let pictures = |prepared: &mut dyn Prepared| -> Vec<Frame> {
-            let picture = |view| draw(prepared, view, &story.style).0;
-            story.views.iter().map(picture).collect()
+            let picture = |view| draw(prepared, view, &sequence.style).0;
+            sequence.views.iter().map(picture).collect()
         };
         let before = pictures(prepared.as_mut());
-        for (number, step) in story.steps.iter().enumerate() {
-            self.take(step, &story.style, prepared.as_mut())
+        for (number, step) in sequence.steps.iter().enumerate() {
+            self.check_step(step, &sequence.style, prepared.as_mut())
                 .map_err(|error| {
                     let paths: Vec<u32> = step.edit.paths().collect();
-                    format!("step {number}, {}, {paths:?}: {error}", step.what)
+                    format!("step {number}, {}, {paths:?}: {error}", step.effect)
                 })?;
         }
         let after = pictures(prepared.as_mut());
         for (number, (before, after)) in before.iter().zip(&after).enumerate() {
             check(before, after, &self.undone)
-                .map_err(|error| format!("view {number} with all undone: {error}"))?;
+                .map_err(|error| format!("view {number} after the undo of all edits: {error}"))?;
         }
-        println!("{}: undone to the bit: {}", self.name, before == after);
+        println!("{}: undo restores all bits: {}", self.name, before == after);
         Ok(())
     }
 
-    fn take(&self, step: &Step, style: &Style, prepared: &mut dyn Prepared) -> Result<(), String> {
-        let edited = prepared.edit(&step.edit).map_err(|e| e.to_string())?;
+    fn check_step(
+        &self,
+        step: &Step,
+        style: &Style,
+        prepared: &mut dyn Prepared,
+    ) -> Result<(), BoxError> {
+        let edited = prepared.edit(&step.edit)?;
         if edited == EditOutcome::NotInPlace {
-            return Err("not in place, as edits before were".to_owned());
+            return Err("not in place, unlike earlier edits".into());
         }
         let (actual, report) = draw(prepared, &step.view, style);
-        account(&report, &step.scene)?;
-        check(&step.judged, &actual, &self.tolerance).map(drop)
+        check_counts(&report, &step.scene)?;
+        check(&step.expected, &actual, &self.tolerance).map(drop)
     }
 }
 
-fn account(report: &Report, scene: &Scene) -> Result<(), String> {
+fn check_counts(report: &Report, scene: &Scene) -> Result<(), BoxError> {
     let is_whole = report.accounts_for_all()
         && report.total == scene.path_count() as u64
         && report.hidden == scene.hidden_count() as u64;
     match is_whole {
         true => Ok(()),
-        false => Err(format!("not every path is accounted for: {report:?}")),
+        false => Err(format!("the report does not count every path: {report:?}").into()),
     }
 }
 
@@ -218,10 +225,10 @@ fn prepare(method: &dyn Method, scene: &Scene) -> Box<dyn Prepared> {
 }
 
 fn draw(prepared: &mut dyn Prepared, view: &View, style: &Style) -> (Frame, Report) {
-    show(prepared, view, style).expect("a small scene is no trouble")
+    render_view(prepared, view, style).expect("a small scene can be drawn")
 }
 
-/// All of a drawing, the same a few whole pixels beside, a part of it from near, and all from afar.
+/// The view of a drawing, one shifted by whole pixels, one magnified, and one zoomed out.
 fn views(all: &View) -> Vec<View> {
     let (center, scale) = (all.center_m(), all.px_per_m());
     let view = |shift_px: (f64, f64), zoom: f64| {

@@ -1,7 +1,7 @@
-//! Method `gpu` draws large layouts as `cpu` does, from anywhere: all of them in view to 400 times as near.
+//! Compares method `gpu` with `cpu` in random views of large layouts, magnified up to 400 times.
 //!
-//! `GUIDEWAY_LARGE_VIEWS=1` takes layouts of up to a million paths at 1920 x 1080, for a real graphics card.
-//! The worst of each view is printed with `--nocapture`.
+//! `GUIDEWAY_LARGE_VIEWS=1` selects layouts of up to a million paths at 1920 x 1080 pixels, for a
+//! real graphics card. `--nocapture` prints the difference of each view.
 
 use std::sync::Arc;
 
@@ -12,26 +12,26 @@ use guideway_scene::{Budget, Frame, FrameSize, Method, Prepared, Style, View};
 use guideway_scene::{LineRule, Scene, SceneOptions};
 use guideway_spline::{Point, Runs};
 use guideway_tests::compare::{Tolerance, check};
-use guideway_tests::devices::{here, tiles};
+use guideway_tests::devices::{available_or_skip, tiles};
 use guideway_tests::evidence;
-use guideway_tests::methods::show;
+use guideway_tests::methods::render_view;
 use guideway_tests::random::Lcg;
 
-/// Views of each layout.
+/// Number of views per layout.
 const VIEWS: usize = 5;
-/// How many times as near as with all in view the nearest may be.
+/// Largest magnification, relative to the view of the whole layout.
 const MOST_ZOOM: f64 = 400.0;
 
 #[derive(Clone, Copy)]
 enum Dataset {
     D1,
     D2,
-    /// D1 with a path so far away that the points of the others may be rounded.
-    Aside,
+    /// D1 with one path far away, so that a method may round the points of the others.
+    D1WithFarPath,
 }
-use Dataset::{Aside, D1, D2};
+use Dataset::{D1, D1WithFarPath, D2};
 
-/// What is drawn, and how large.
+/// Layouts to draw, and the size of the pictures.
 struct Plan {
     layouts: &'static [(Dataset, usize)],
     size: (u32, u32),
@@ -43,7 +43,7 @@ const SMALL: Plan = Plan {
         (D2, 1_000),
         (D1, 10_000),
         (D2, 3_000),
-        (Aside, 10_000),
+        (D1WithFarPath, 10_000),
     ],
     size: (640, 360),
 };
@@ -58,8 +58,10 @@ const LARGE: Plan = Plan {
 };
 
 #[test]
-fn random_views_of_large_layouts_are_drawn_alike() {
-    let Some(gpu) = here(tiles()) else { return };
+fn gpu_matches_cpu_in_random_views_of_large_layouts() {
+    let Some(gpu) = available_or_skip(tiles()) else {
+        return;
+    };
     let is_large = std::env::var("GUIDEWAY_LARGE_VIEWS").is_ok_and(|v| v == "1");
     let plan = if is_large { LARGE } else { SMALL };
     println!("on {}", gpu.info().device);
@@ -68,28 +70,33 @@ fn random_views_of_large_layouts_are_drawn_alike() {
         let name = match dataset {
             D1 => format!("d1 {paths}"),
             D2 => format!("d2 {paths}"),
-            Aside => format!("d1 {paths} and one aside"),
+            D1WithFarPath => format!("d1 {paths} and a far one"),
         };
         let scene = Arc::new(scene(dataset, paths));
-        let shots = shots(&scene, plan.size, seed);
-        wrong.extend(compare(&name, &gpu, &scene, &shots));
+        let styled_views = styled_views(&scene, plan.size, seed);
+        wrong.extend(compare(&name, &gpu, &scene, &styled_views));
     }
     assert!(wrong.is_empty(), "wrong views:\n{}", wrong.join("\n"));
 }
 
-/// What is wrong with the views of one layout.
-fn compare(name: &str, gpu: &dyn Method, scene: &Arc<Scene>, shots: &[Shot]) -> Vec<String> {
-    let mut judge = prepare(&Cpu, scene);
+/// Errors of the views of one layout.
+fn compare(
+    name: &str,
+    gpu: &dyn Method,
+    scene: &Arc<Scene>,
+    styled_views: &[StyledView],
+) -> Vec<String> {
+    let mut cpu = prepare(&Cpu, scene);
     let mut prepared = prepare(gpu, scene);
     let mut wrong = Vec::new();
     let mut pictures = Vec::new();
-    for (number, shot) in shots.iter().enumerate() {
-        let what = format!("{name} view {number}, {shot}");
-        let judged = shot.draw(judge.as_mut());
-        let pair = judged.and_then(|judged| Ok((judged, shot.draw(prepared.as_mut())?)));
-        let difference = pair.and_then(|(judged, drawn)| {
-            let difference = difference(&what, &judged, &drawn);
-            pictures.push((shot, drawn));
+    for (number, styled) in styled_views.iter().enumerate() {
+        let what = format!("{name} view {number}, {styled}");
+        let expected = styled.draw(cpu.as_mut());
+        let pair = expected.and_then(|expected| Ok((expected, styled.draw(prepared.as_mut())?)));
+        let difference = pair.and_then(|(expected, drawn)| {
+            let difference = difference(&what, &expected, &drawn);
+            pictures.push((styled, drawn));
             difference
         });
         println!(
@@ -98,22 +105,25 @@ fn compare(name: &str, gpu: &dyn Method, scene: &Arc<Scene>, shots: &[Shot]) -> 
         );
         wrong.extend(difference.err().map(|error| format!("{what}: {error}")));
     }
-    // Backwards, so that what a method keeps of the view before is another view's.
-    for (shot, first) in pictures.iter().rev() {
-        if shot.draw(prepared.as_mut()).as_ref() != Ok(first) {
-            wrong.push(format!("{name}, {shot}: another picture the second time"));
+    // In reverse, so that caches of the previous view hold another view.
+    for (styled, first) in pictures.iter().rev() {
+        if styled.draw(prepared.as_mut()).as_ref() != Ok(first) {
+            wrong.push(format!("{name}, {styled}: the second picture differs"));
         }
     }
     wrong
 }
 
-/// How far a picture is from the judge's: a sentence, or too far.
-fn difference(what: &str, judged: &Frame, drawn: &Frame) -> Result<String, String> {
+/// Difference of a picture from the expected one, as a sentence; an error beyond the tolerance.
+fn difference(what: &str, expected: &Frame, drawn: &Frame) -> Result<String, String> {
     let background = Style::default().background;
     let background = [background.r, background.g, background.b, background.a];
-    let covered = judged.pixels().iter().filter(|pixel| **pixel != background);
-    let share = covered.count() as f64 / judged.pixels().len() as f64;
-    match check(judged, drawn, &Tolerance::STANDARD) {
+    let covered = expected
+        .pixels()
+        .iter()
+        .filter(|pixel| **pixel != background);
+    let share = covered.count() as f64 / expected.pixels().len() as f64;
+    match check(expected, drawn, &Tolerance::STANDARD) {
         Ok(found) => Ok(format!(
             "{:.1} % covered, mean {:.3}, {:.3} % within, {:.0} at most",
             share * 100.0,
@@ -122,7 +132,7 @@ fn difference(what: &str, judged: &Frame, drawn: &Frame) -> Result<String, Strin
             found.max_abs
         )),
         Err(error) => {
-            let written = evidence::write(what, judged, drawn);
+            let written = evidence::write(what, expected, drawn);
             let shown = written.map_or_else(|e| e.to_string(), |file| file.display().to_string());
             Err(format!("{error}; see {shown}"))
         }
@@ -142,7 +152,7 @@ fn scene(dataset: Dataset, paths: usize) -> Scene {
     let layout = match dataset {
         D1 => layout(d1(paths, 1)),
         D2 => layout(d2(paths, 1)),
-        Aside => {
+        D1WithFarPath => {
             let mut layout = layout(d1(paths, 1));
             let mut runs = Runs::default();
             runs.push_line(Point::new(3000.0, 0.0), Point::new(3001.0, 1.0));
@@ -167,23 +177,23 @@ fn layout(paths: impl Iterator<Item = GeneratedPath>) -> Layout {
     }
 }
 
-/// A view and how it looks.
-struct Shot {
+/// A view with its style.
+struct StyledView {
     view: View,
     style: Style,
     zoom: f64,
 }
 
-impl Shot {
+impl StyledView {
     fn draw(&self, prepared: &mut dyn Prepared) -> Result<Frame, String> {
-        let drawn = show(prepared, &self.view, &self.style);
+        let drawn = render_view(prepared, &self.view, &self.style);
         drawn
             .map(|(frame, _)| frame)
             .map_err(|error| error.to_string())
     }
 }
 
-impl std::fmt::Display for Shot {
+impl std::fmt::Display for StyledView {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let Point { x, y } = self.view.center_m();
         let rule = match self.style.line_rule {
@@ -192,23 +202,23 @@ impl std::fmt::Display for Shot {
         };
         write!(
             f,
-            "{:.1} times as near, at ({x:.1}, {y:.1}), {rule}",
+            "magnified {:.1} times, at ({x:.1}, {y:.1}), {rule}",
             self.zoom
         )
     }
 }
 
-/// All in view first, then from near beside some path, by both rules in turn.
-fn shots(scene: &Scene, (width, height): (u32, u32), seed: u64) -> Vec<Shot> {
+/// The whole layout first, then magnified views near random paths, by both line rules alternately.
+fn styled_views(scene: &Scene, (width, height): (u32, u32), seed: u64) -> Vec<StyledView> {
     let mut lcg = Lcg::new(seed);
     let size = FrameSize::new(width, height).expect("a picture has pixels");
     let all = View::fit(size, scene.bounds()).expect("the view is usable");
-    let mut shot = |number: usize| {
+    let mut styled = |number: usize| {
         let (mut center, mut zoom) = (all.center_m(), 1.0);
         if number > 0 {
             zoom = lcg.between(0.0, MOST_ZOOM.ln()).exp();
             let path = scene.layout().paths.get(lcg.below(scene.row_count()));
-            // So little aside that its end is seen.
+            // A random offset that keeps the end of the path in view.
             let most_m = 0.4 * f64::from(height) / (all.px_per_m() * zoom);
             let mut aside = || lcg.between(-most_m, most_m);
             let aside = Point::new(aside(), aside());
@@ -218,7 +228,7 @@ fn shots(scene: &Scene, (width, height): (u32, u32), seed: u64) -> Vec<Shot> {
             0 => LineRule::default(),
             _ => LineRule::Thesis,
         };
-        Shot {
+        StyledView {
             view: View::new(size, center, all.px_per_m() * zoom).expect("the view is usable"),
             style: Style {
                 line_rule,
@@ -227,5 +237,5 @@ fn shots(scene: &Scene, (width, height): (u32, u32), seed: u64) -> Vec<Shot> {
             zoom,
         }
     };
-    (0..VIEWS).map(&mut shot).collect()
+    (0..VIEWS).map(&mut styled).collect()
 }

@@ -1,17 +1,18 @@
-//! Lines entered in cells without their radius lose coverage across the borders of cells; entered with it,
-//! they do not.
+//! Tests coverage at the borders of grid cells: lines entered without their radius lose coverage,
+//! lines entered with it do not.
 
 use guideway_scene::{Budget, Frame};
 use guideway_tests::compare::check;
-use guideway_tests::devices::{SMOOTH_EDGES, grid, here};
-use guideway_tests::methods::{draw, judge};
+use guideway_tests::devices::{SMOOTH_EDGES, available_or_skip, grid};
+use guideway_tests::methods::{draw, draw_reference};
 use guideway_tests::sketch::{Drawing, Sketch};
 
 /// Side of the picture and of the grid's box.
 const SIDE: u32 = 128;
 
-/// Two cells along each side, of 64 pixels: one line just left of the border between them and one just below
-/// it, both wide enough to reach over it. Two hairs in the corners make the box as large as the picture.
+/// Two cells of 64 pixels along each side: one line just left of the border between them, one just
+/// below it, both wide enough to cross it. Two hairs in the corners extend the box to the whole
+/// picture.
 fn crossing_a_border() -> Drawing {
     let side = f64::from(SIDE);
     Sketch::new(SIDE, SIDE)
@@ -24,15 +25,15 @@ fn crossing_a_border() -> Drawing {
 }
 
 fn picture(variant: &str, drawing: &Drawing) -> Option<Frame> {
-    let grid = here(grid(variant))?;
+    let grid = available_or_skip(grid(variant))?;
     let drawn = draw(&grid, drawing, &Budget::default());
     Some(drawn.expect("one color and one width").0)
 }
 
 #[test]
-fn as_written_a_border_cuts_lines_and_with_the_radius_it_does_not() {
+fn lines_lose_coverage_at_cell_borders_without_the_radius_only() {
     let drawing = crossing_a_border();
-    let (expected, _) = judge(&drawing);
+    let (expected, _) = draw_reference(&drawing);
     let Some(written) = picture("scan+cells=2", &drawing) else {
         return;
     };
@@ -40,12 +41,12 @@ fn as_written_a_border_cuts_lines_and_with_the_radius_it_does_not() {
         return;
     };
     if let Err(message) = check(&expected, &mended, &SMOOTH_EDGES) {
-        panic!("with the radius: {message}");
+        panic!("with radius: {message}");
     }
     let lost = check(&expected, &written, &SMOOTH_EDGES);
-    assert!(lost.is_err(), "the comparator sees no loss: {lost:?}");
+    assert!(lost.is_err(), "the comparison finds no loss: {lost:?}");
 
-    // Every pixel that differs has lost, all of them lie beyond the border, and within the radius of it.
+    // Every different pixel lost coverage, beyond the border and within the radius.
     let mut lost = 0;
     for (index, (written, mended)) in written.pixels().iter().zip(mended.pixels()).enumerate() {
         if written == mended {
@@ -55,11 +56,11 @@ fn as_written_a_border_cuts_lines_and_with_the_radius_it_does_not() {
         assert!(written[0] > mended[0], "({x}, {y}) is darker as written");
         let is_right = (64..69).contains(&x);
         let is_above = (58..64).contains(&y) && x >= 64;
-        // Of the box's border too, where the hairs in the corners are.
+        // The border of the box too, because of the hairs in the corners.
         let is_outside = [0, SIDE - 1].contains(&x) || [0, SIDE - 1].contains(&y);
         assert!(
             is_right || is_above || is_outside,
-            "({x}, {y}) has lost too"
+            "({x}, {y}) has lost coverage"
         );
         lost += 1;
     }
@@ -67,10 +68,10 @@ fn as_written_a_border_cuts_lines_and_with_the_radius_it_does_not() {
 }
 
 #[test]
-fn the_loss_is_reported() {
+fn the_report_notes_the_loss() {
     let drawing = crossing_a_border();
     for (variant, notes) in [("scan", 1), ("scan+radius", 0)] {
-        let Some(grid) = here(grid(variant)) else {
+        let Some(grid) = available_or_skip(grid(variant)) else {
             return;
         };
         let (_, report) = draw(&grid, &drawing, &Budget::default()).expect("it draws");

@@ -1,4 +1,4 @@
-//! Method `tessellation` draws its lines where the oracle does, over the scene suite.
+//! Compares the line positions of method `tessellation` with the oracle, over the scene suite.
 
 use std::num::NonZero;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -7,14 +7,15 @@ use std::thread;
 
 use guideway_scene::{Budget, Frame, RenderError, Report};
 use guideway_tessellation::{Antialias, Commands, GlDevice, Tessellation, TessellationOptions};
-use guideway_tests::devices::{gl, here};
+use guideway_tests::devices::{available_or_skip, gl};
+use guideway_tests::error::BoxError;
 use guideway_tests::evidence;
 use guideway_tests::hairline::{Difference, Tolerance, check, drawing};
-use guideway_tests::methods::{draw, judge};
+use guideway_tests::methods::{draw, draw_reference};
 use guideway_tests::scenes::{self, SceneCase};
 use guideway_tests::sketch::{Drawing, Sketch};
 
-/// Fewest scenes that must be drawn. The others show density, are translucent, or are too close.
+/// Fewest scenes that the method must draw. It rejects density, translucency and extreme zoom.
 const LEAST_SCENES: usize = 200;
 
 const VARIANTS: [(Antialias, Tolerance); 2] = [
@@ -22,7 +23,7 @@ const VARIANTS: [(Antialias, Tolerance); 2] = [
     (Antialias::Multisample, Tolerance::MULTISAMPLED),
 ];
 
-/// Paths shorter than a pixel: a line that does not leave the middle of its pixel is not drawn.
+/// Scenes of paths shorter than a pixel: a line inside the diamond of its pixel is not drawn.
 const LOST_BELOW_A_PIXEL: [&str; 5] = [
     "crowds/short-paths-below-a-pixel",
     "dots/row",
@@ -30,7 +31,8 @@ const LOST_BELOW_A_PIXEL: [&str; 5] = [
     "tiles/dots-on-corners-of-32",
     "tiles/dots-on-corners-of-64",
 ];
-/// Thin pictures and lines along a border, most of which llvmpipe leaves out when there are several samples.
+/// Scenes of thin pictures and of lines along a border, most of which llvmpipe omits with several
+/// samples.
 const LOST_AT_BORDERS: [&str; 5] = [
     "sizes/1x96",
     "sizes/96x1",
@@ -40,8 +42,10 @@ const LOST_AT_BORDERS: [&str; 5] = [
 ];
 
 #[test]
-fn lines_are_where_the_oracle_has_them() {
-    let Some(device) = here(gl()) else { return };
+fn line_positions_match_the_oracle() {
+    let Some(device) = available_or_skip(gl()) else {
+        return;
+    };
     let cases = scenes::all();
     let outcomes = in_parallel(&cases, |case| outcome(case, &device));
     let drawn: Vec<_> = outcomes.iter().flatten().collect();
@@ -60,21 +64,21 @@ fn lines_are_where_the_oracle_has_them() {
     );
 }
 
-/// None for a scene that the method refuses.
+/// The outcome of a scene; `None` if the method rejects it.
 fn outcome(case: &SceneCase, device: &Arc<GlDevice>) -> Option<Result<(), String>> {
     let drawing = drawing(case.sketch());
     let mut expected = None;
     for (antialias, tolerance) in VARIANTS {
-        let (frame, report) = match drawn_alike(device, antialias, &drawing) {
+        let (frame, report) = match draw_repeatedly(device, antialias, &drawing) {
             Ok(drawn) => drawn,
             Err(RenderError::Unsupported { what, remedy, .. }) => {
-                let is_said = ["density", "translucent", "single precision"];
-                assert!(is_said.iter().any(|s| what.contains(s)) && remedy.ends_with('.'));
+                let rejected = ["density", "translucent", "single precision"];
+                assert!(rejected.iter().any(|s| what.contains(s)) && remedy.ends_with('.'));
                 return None;
             }
             Err(error) => return Some(Err(format!("{}: {error}", case.name))),
         };
-        let expected = expected.get_or_insert_with(|| judge(&drawing).0);
+        let expected = expected.get_or_insert_with(|| draw_reference(&drawing).0);
         let tolerance = allowed(&case.name, antialias, tolerance, &report);
         if let Err(wrong) = compare(expected, &frame, &drawing, &tolerance) {
             let name = format!("tessellation-{antialias:?}-{}", case.name);
@@ -89,15 +93,15 @@ fn outcome(case: &SceneCase, device: &Arc<GlDevice>) -> Option<Result<(), String
     Some(Ok(()))
 }
 
-/// The tolerance in a scene where paths may be lost that the method said it would lose.
+/// The tolerance of a scene; lost paths are allowed if the report of the method notes them.
 fn allowed(scene: &str, antialias: Antialias, tolerance: Tolerance, report: &Report) -> Tolerance {
-    let is_told = |about: &str| report.notes.iter().any(|note| note.contains(about));
+    let is_noted = |about: &str| report.notes.iter().any(|note| note.contains(about));
     let is_lossy = match antialias {
-        Antialias::None => LOST_BELOW_A_PIXEL.contains(&scene) && is_told("shorter than a pixel"),
+        Antialias::None => LOST_BELOW_A_PIXEL.contains(&scene) && is_noted("shorter than a pixel"),
         Antialias::Multisample => LOST_BELOW_A_PIXEL
             .iter()
             .chain(&LOST_AT_BORDERS)
-            .any(|lossy| *lossy == scene && (is_told("shorter than a pixel") || is_told("gaps"))),
+            .any(|lossy| *lossy == scene && (is_noted("shorter than a pixel") || is_noted("gaps"))),
     };
     Tolerance {
         lost: if is_lossy { 1.0 } else { tolerance.lost },
@@ -110,14 +114,14 @@ fn compare(
     actual: &Frame,
     drawing: &Drawing,
     tolerance: &Tolerance,
-) -> Result<Difference, String> {
+) -> Result<Difference, BoxError> {
     let background = drawing.style.background;
     let background = [background.r, background.g, background.b, background.a];
     check(expected, actual, background, tolerance)
 }
 
-/// Draws by each way of giving commands, twice: always the same bytes.
-fn drawn_alike(
+/// Draws with each kind of draw commands, twice; all pictures must be equal.
+fn draw_repeatedly(
     device: &Arc<GlDevice>,
     antialias: Antialias,
     drawing: &Drawing,
@@ -143,7 +147,7 @@ fn drawn_alike(
     Ok((frame, report))
 }
 
-/// Five paths, nothing symmetric.
+/// Five paths without symmetry.
 fn sketch(moved: (f64, f64)) -> Sketch {
     let at = |x: f64, y: f64| (x + moved.0, y + moved.1);
     Sketch::new(96, 64)
@@ -159,19 +163,21 @@ fn sketch(moved: (f64, f64)) -> Sketch {
         .line(at(60.0, 58.3), at(92.0, 58.3))
 }
 
-/// Whether the tolerance of either variant lets the device's picture of `actual` pass for `expected`.
+/// Whether the device's picture of `actual` matches `expected`, per variant.
 fn passes(device: &Arc<GlDevice>, expected: &Sketch, actual: &Sketch) -> [bool; 2] {
-    let (expected, _) = judge(&drawing(expected.clone()));
+    let (expected, _) = draw_reference(&drawing(expected.clone()));
     let actual = drawing(actual.clone());
     VARIANTS.map(|(antialias, tolerance)| {
-        let (frame, _) = drawn_alike(device, antialias, &actual).expect("it can be drawn");
+        let (frame, _) = draw_repeatedly(device, antialias, &actual).expect("it can be drawn");
         compare(&expected, &frame, &actual, &tolerance).is_ok()
     })
 }
 
 #[test]
-fn other_pictures_fail() {
-    let Some(device) = here(gl()) else { return };
+fn rejects_moved_and_missing_paths() {
+    let Some(device) = available_or_skip(gl()) else {
+        return;
+    };
     let right = sketch((0.0, 0.0));
     assert_eq!(passes(&device, &right, &right), [true; 2]);
     for moved in [(2.0, 0.0), (0.0, 2.0), (-2.0, 0.0), (0.0, -2.0)] {
@@ -196,9 +202,9 @@ fn other_pictures_fail() {
 }
 
 #[test]
-fn turned_and_mirrored_pictures_fail() {
+fn rejects_rotated_and_mirrored_pictures() {
     let right = drawing(sketch((0.0, 0.0)));
-    let (expected, _) = judge(&right);
+    let (expected, _) = draw_reference(&right);
     let (width, height) = (96, 64);
     for from in [
         |x: usize, y: usize| (x, 63 - y),
@@ -220,9 +226,9 @@ fn turned_and_mirrored_pictures_fail() {
 }
 
 #[test]
-fn faded_pictures_fail() {
+fn rejects_faded_pictures() {
     let right = drawing(sketch((0.0, 0.0)));
-    let (expected, _) = judge(&right);
+    let (expected, _) = draw_reference(&right);
     let mut faded = expected.clone();
     for [r, g, b, _] in faded.pixels_mut() {
         for channel in [r, g, b] {

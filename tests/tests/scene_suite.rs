@@ -1,4 +1,5 @@
-//! Every method draws every scene as the oracle does, and the same on any machine.
+//! Compares every method on the processor with the oracle in every scene, for any threads and
+//! memory.
 
 use std::collections::HashSet;
 use std::num::NonZero;
@@ -8,36 +9,37 @@ use std::thread;
 
 use guideway_scene::{Budget, Frame, Method, RenderError};
 use guideway_tests::compare::{Difference, check};
+use guideway_tests::error::BoxError;
 use guideway_tests::evidence;
-use guideway_tests::methods::{Candidate, account, draw, judge, methods};
+use guideway_tests::methods::{Candidate, check_counts, draw, draw_reference, methods};
 use guideway_tests::scenes::{self, SceneCase};
 use guideway_tests::sketch::Drawing;
 
-/// Small pictures need bands only when there is next to no memory.
+/// Budgets small enough that small pictures need several bands.
 const TIGHT_BUDGETS_BYTES: [u64; 5] = [16 << 20, 4 << 20, 1 << 20, 256 << 10, 64 << 10];
-/// Threads that draw within them.
+/// Number of threads with these budgets.
 const TIGHT_THREADS: usize = 2;
 
 struct Outcome {
     scene: String,
     method: &'static str,
-    difference: Result<Difference, String>,
-    /// Most bands that the picture was drawn in.
+    difference: Result<Difference, BoxError>,
+    /// Largest number of bands of the picture.
     bands: u32,
 }
 
 #[test]
-fn every_method_draws_every_scene_as_the_oracle_does() {
+fn methods_match_the_oracle_in_every_scene() {
     let cases = scenes::all();
     let methods = methods();
     let outcomes: Vec<Outcome> = in_parallel(&cases, |case| {
         let drawing = case.build();
-        let (expected, report) = judge(&drawing);
-        let told = account(&report, &drawing).map(|()| Difference::default());
+        let (expected, report) = draw_reference(&drawing);
+        let counted = check_counts(&report, &drawing).map(|()| Difference::default());
         let own = Outcome {
             scene: case.name.clone(),
             method: "oracle",
-            difference: told,
+            difference: counted,
             bands: report.bands,
         };
         let judged = methods
@@ -65,12 +67,12 @@ fn every_method_draws_every_scene_as_the_oracle_does() {
     for candidate in &methods {
         let name = candidate.method.info().name;
         let in_bands = outcomes.iter().any(|o| o.method == name && o.bands > 1);
-        assert!(in_bands, "{name} was never short of memory");
+        assert!(in_bands, "{name} never used several bands");
     }
 }
 
 #[test]
-fn there_are_scenes_enough_and_each_has_its_own_name() {
+fn scene_names_are_unique_and_cover_the_suite() {
     let cases = scenes::all();
     assert!(cases.len() >= 120, "{} scenes", cases.len());
     let names: HashSet<_> = cases.iter().map(|case| case.name.as_str()).collect();
@@ -86,12 +88,12 @@ fn outcome(
 ) -> Outcome {
     let method = candidate.method.as_ref();
     let mut bands = 0;
-    let difference = drawn_alike(method, drawing, &mut bands).and_then(|actual| {
+    let difference = draw_repeatedly(method, drawing, &mut bands).and_then(|actual| {
         check(expected, &actual, &candidate.tolerance).map_err(|message| {
             let name = format!("{}-{}", method.info().name, case.name);
             let written = evidence::write(&name, expected, &actual);
             let shown = written.map_or_else(|e| e.to_string(), |file| file.display().to_string());
-            format!("{message}; see {shown}")
+            format!("{message}; see {shown}").into()
         })
     });
     Outcome {
@@ -102,36 +104,38 @@ fn outcome(
     }
 }
 
-/// Draws again and again, by any number of threads and with ever less memory: always the same bytes.
-fn drawn_alike(method: &dyn Method, drawing: &Drawing, bands: &mut u32) -> Result<Frame, String> {
+/// Draws with several numbers of threads and with decreasing memory; all pictures must be equal.
+fn draw_repeatedly(
+    method: &dyn Method,
+    drawing: &Drawing,
+    bands: &mut u32,
+) -> Result<Frame, BoxError> {
     let within = |memory_bytes, threads| Budget {
         memory_bytes,
         threads,
     };
     let plenty = Budget::default().memory_bytes;
-    let (first, report) =
-        draw(method, drawing, &within(plenty, 1)).map_err(|error| error.to_string())?;
-    account(&report, drawing)?;
+    let (first, report) = draw(method, drawing, &within(plenty, 1))?;
+    check_counts(&report, drawing)?;
     let mut needed_bytes = 0;
     for threads in [1, TIGHT_THREADS, 3, 8] {
-        let (again, report) =
-            draw(method, drawing, &within(plenty, threads)).map_err(|error| error.to_string())?;
-        account(&report, drawing)?;
+        let (again, report) = draw(method, drawing, &within(plenty, threads))?;
+        check_counts(&report, drawing)?;
         if again != first {
-            return Err(format!("{threads} threads draw another picture than one"));
+            return Err(format!("the picture by {threads} threads differs from one thread").into());
         }
         if threads == TIGHT_THREADS {
             needed_bytes = report.peak_bytes + size_of_val(again.pixels()) as u64;
         }
     }
-    // A little less may do, in bands.
+    // With slightly less memory, the method may need bands.
     let short = [15, 12].map(|sixteenths| needed_bytes * sixteenths / 16);
     for memory_bytes in TIGHT_BUDGETS_BYTES.into_iter().chain(short) {
         match draw(method, drawing, &within(memory_bytes, TIGHT_THREADS)) {
             Ok((again, report)) if again == first => *bands = report.bands.max(*bands),
-            Ok(_) => return Err(format!("another picture within {memory_bytes} bytes")),
+            Ok(_) => return Err(format!("the picture within {memory_bytes} bytes differs").into()),
             Err(RenderError::Budget { .. }) => {}
-            Err(error) => return Err(error.to_string()),
+            Err(error) => return Err(error.into()),
         }
     }
     Ok(first)

@@ -1,10 +1,10 @@
-//! What must hold of pictures whatever they show: checked for the oracle and for every other method.
+//! Tests properties of all pictures, for the oracle and every other method on the processor.
 
 use std::f64::consts::TAU;
 
 use guideway_scene::{Budget, Frame, Method};
 use guideway_tests::compare::{Tolerance, check};
-use guideway_tests::methods::{draw, judge, methods};
+use guideway_tests::methods::{draw, draw_reference, methods};
 use guideway_tests::random::Lcg;
 use guideway_tests::scenes::{long_curves, short_paths, site};
 use guideway_tests::sketch::Sketch;
@@ -22,15 +22,16 @@ fn picture(method: &dyn Method, sketch: &Sketch) -> Frame {
     drawn.expect("there is memory enough").0
 }
 
-/// For two pictures whose paths are in other clusters, or the same at another place: `cpu` rounds lines to a grid of their
-/// cluster, which moves a border by up to an eighth of a pixel (20 levels were seen, and a mean of 0.24).
+/// For pictures with other clusters or another origin: `cpu` rounds lines to the grid of their
+/// cluster, which moves an edge by up to an eighth of a pixel. Measured: up to 20 levels, and a
+/// mean of 0.24.
 const OTHER_CLUSTERS: Tolerance = Tolerance {
     mean: 1.0,
     within: (24.0, 0.99),
     max: 64.0,
 };
 
-/// What a path may change of others.
+/// Limit of the change that an added path may cause in others.
 fn beside_others(method: &dyn Method) -> Tolerance {
     match method.info().name {
         "oracle" => Tolerance::NONE,
@@ -38,7 +39,7 @@ fn beside_others(method: &dyn Method) -> Tolerance {
     }
 }
 
-/// A few paths of any kind.
+/// A sketch of a few paths of any generator.
 fn any_sketch() -> impl Strategy<Value = Sketch> {
     (0..3, 0..1000_u64, 0.1..6.0).prop_map(|(kind, seed, width)| {
         let empty = Sketch::new(48, 40).width(width);
@@ -54,7 +55,7 @@ proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(24) })]
 
     #[test]
-    fn a_place_in_the_world_changes_nothing(
+    fn pictures_do_not_depend_on_the_origin(
         sketch in any_sketch(),
         x_m in -1e7..1e7,
         y_m in -1e7..1e7,
@@ -73,7 +74,7 @@ proptest! {
     }
 
     #[test]
-    fn the_order_of_paths_of_one_color_changes_nothing(sketch in any_sketch(), seed in 0..1000_u64) {
+    fn pictures_in_one_color_do_not_depend_on_the_order(sketch in any_sketch(), seed in 0..1000_u64) {
         let sketch = sketch.in_one_color();
         let mut order: Vec<usize> = (0..sketch.len()).collect();
         let mut lcg = Lcg::new(seed);
@@ -88,7 +89,7 @@ proptest! {
     }
 
     #[test]
-    fn another_path_never_lightens_black_on_white(sketch in any_sketch()) {
+    fn an_added_path_lightens_no_pixel(sketch in any_sketch()) {
         let sketch = sketch.in_one_color();
         let fewer = sketch.clone().first(sketch.len() - 1);
         for method in all_methods() {
@@ -103,7 +104,7 @@ proptest! {
     }
 
     #[test]
-    fn paths_outside_the_view_leave_no_mark(sketch in any_sketch(), turn in 0.0..1.0, width in 0.1..30.0) {
+    fn paths_outside_the_view_change_no_pixel(sketch in any_sketch(), turn in 0.0..1.0, width in 0.1..30.0) {
         let (sin, cos) = f64::sin_cos(turn * TAU);
         let far = |r: f64| (24.0 + r * cos - 400.0 * sin, 20.0 + r * sin + 400.0 * cos);
         let more = sketch.clone().line(far(-300.0), far(300.0)).own_width(width);
@@ -119,7 +120,7 @@ proptest! {
 }
 
 #[test]
-fn scenes_far_away_are_those_at_the_origin() {
+fn distant_scenes_match_those_at_the_origin() {
     let sketch = site(Sketch::new(160, 120).px_per_m(100.0), 200, 77);
     for method in all_methods() {
         let here = picture(method.as_ref(), &sketch);
@@ -139,11 +140,11 @@ fn scenes_far_away_are_those_at_the_origin() {
 }
 
 #[test]
-fn the_judge_finds_nothing_where_all_paths_are_culled() {
+fn the_oracle_culls_all_paths_outside_the_view() {
     let sketch = Sketch::new(64, 48)
         .line((-40.0, -40.0), (-24.0, -24.0))
         .line((80.0, 10.0), (90.0, 40.0));
-    let (frame, report) = judge(&sketch.build());
+    let (frame, report) = draw_reference(&sketch.build());
     assert_eq!((report.drawn, report.culled), (0, 2));
     assert!(frame.pixels().iter().all(|&pixel| pixel == [255; 4]));
 }

@@ -1,4 +1,5 @@
-//! Many paths: the shapes of real sites and of artificial crowds, by small seeded generators.
+//! Scenes of many paths by seeded generators: sites, long curves, short paths; also precision and
+//! density.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -154,14 +155,13 @@ pub(super) fn cases() -> Vec<SceneCase> {
     cases
 }
 
-/// Aisles straight and crossed, with quarter turns between them: eight segments a path, as at a
-/// real site.
+/// Straight aisles, crossings and quarter turns, with eight segments per path, as on a real site.
 pub fn site(sketch: Sketch, paths: usize, seed: u64) -> Sketch {
     let size = sketch.build().view.size();
     let mut lcg = Lcg::new(seed);
     (0..paths).fold(sketch, |sketch, _| {
         let mut heading = FRAC_PI_2 * lcg.below(4) as f64;
-        // Aisles are six pixels apart.
+        // Aisle spacing: six pixels.
         let aisle = |position: f64| (position / 6.0).round() * 6.0 + 0.35;
         let mut at = (
             aisle(lcg.between(0.0, f64::from(size.width()))),
@@ -183,7 +183,7 @@ pub fn site(sketch: Sketch, paths: usize, seed: u64) -> Sketch {
     })
 }
 
-/// Curves of eight segments from side to side of the picture, all over each other.
+/// Overlapping curves of eight segments across the picture.
 pub fn long_curves(sketch: Sketch, paths: usize, seed: u64) -> Sketch {
     let size = sketch.build().view.size();
     let (width, height) = (f64::from(size.width()), f64::from(size.height()));
@@ -203,7 +203,7 @@ pub fn long_curves(sketch: Sketch, paths: usize, seed: u64) -> Sketch {
     })
 }
 
-/// Curves of one segment and a few pixels.
+/// Curves of one segment, a few pixels long.
 pub fn short_paths(sketch: Sketch, paths: usize, seed: u64) -> Sketch {
     let size = sketch.build().view.size();
     let (width, height) = (f64::from(size.width()), f64::from(size.height()));
@@ -220,13 +220,13 @@ pub fn short_paths(sketch: Sketch, paths: usize, seed: u64) -> Sketch {
     })
 }
 
-/// A walk that turns a little with each step.
+/// Control points of a random walk with small turns.
 fn wandering(points: usize, seed: u64) -> Vec<(f64, f64)> {
     let mut lcg = Lcg::new(seed);
     let (mut x, mut y, mut heading) = (80.0, 60.0, 0.0);
     (0..points)
         .map(|_| {
-            // Back toward the middle, the more so the further away.
+            // A pull toward the center that grows with the distance.
             let home = f64::atan2(60.0 - y, 80.0 - x);
             let pull = f64::hypot((x - 80.0) / 70.0, (y - 60.0) / 50.0)
                 .powi(4)

@@ -1,4 +1,4 @@
-//! Pictures of odd sizes, with nothing in them, or with paths that are not drawn.
+//! Scenes of odd picture sizes, backgrounds, empty views, levels and refused paths.
 
 use super::scene_case::{SceneCase, case};
 use crate::sketch::Sketch;
@@ -44,7 +44,7 @@ pub(super) fn cases() -> Vec<SceneCase> {
                 .line((10.0, 51.0), (60.0, 53.0))
         }),
         case("nothing/around-the-view", || {
-            // The box meets the view; the path does not.
+            // The box intersects the view, but the path does not.
             Sketch::new(64, 48).polyline(&[(-30.0, 24.0), (32.0, 110.0), (100.0, 24.0)])
         }),
         case("nothing/outside-by-a-hair", || {

@@ -1,4 +1,4 @@
-//! Straight lines: every slope, every position within a pixel, every length.
+//! Scenes of straight lines: slopes, positions within a pixel, lengths.
 
 use super::scene_case::{SceneCase, case};
 use crate::sketch::Sketch;

@@ -1,4 +1,4 @@
-//! What lies over what, and in which color.
+//! Scenes of draw order and colors: file order, ranks, overlapping paths.
 
 use super::scene_case::{SceneCase, case};
 use crate::sketch::Sketch;
@@ -139,7 +139,8 @@ fn crossing_ranked([red, green, blue]: [i32; 3]) -> Sketch {
         .rank(blue)
 }
 
-/// Each a little to the right of the one before, so that a sliver of each stays in view.
+/// A thousand lines, each shifted to the right of the one before, so that a sliver of each stays
+/// visible.
 fn thousand(rank: fn(i32) -> i32) -> Sketch {
     (0..1000).fold(Sketch::new(128, 48).width(6.0), |sketch, i| {
         let x = 6.0 + 0.115 * f64::from(i);

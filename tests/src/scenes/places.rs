@@ -1,4 +1,4 @@
-//! Far from the origin, close to the curve, and from very high up.
+//! Scenes far from the origin, and at extreme scales.
 
 use super::scene_case::{SceneCase, case};
 use crate::sketch::Sketch;
@@ -37,7 +37,7 @@ pub(super) fn cases() -> Vec<SceneCase> {
             )
         }));
         cases.push(case(format!("zoom/curve-of-{name}px-crosses"), move || {
-            // The middle of the segment is in the middle of the picture.
+            // The segment is centered in the picture.
             let l = length_px;
             let control = [
                 (-l, -0.1 * l),
@@ -98,16 +98,17 @@ fn three_paths() -> Sketch {
         .own_width(5.0)
 }
 
-/// Bent paths all over the picture, and one so far away that points of the others may be rounded.
+/// Bent paths across the picture, and one far away, so that a method may round the points of the
+/// others.
 fn small_beside_the_scene(length_px: f64) -> Sketch {
     let far = Sketch::new(96, 64)
         .width(1.5)
         .line((1e5, 0.0), (1e5 + 9.0, 5.0));
     (0..300_u32).fold(far, |sketch, path| {
         let f = f64::from(path);
-        let place =
+        let position =
             |share: f64, side: f64| (f * share).fract() * (side + length_px) - length_px / 2.0;
-        let (x, y) = (place(0.618_034, 96.0), place(0.754_878, 64.0));
+        let (x, y) = (position(0.618_034, 96.0), position(0.754_878, 64.0));
         let control = [0.0, 0.25, 0.5, 0.75, 1.0].map(|part| {
             let turn = 2.4 * f + 1.5 * part;
             let out_px = length_px * part;

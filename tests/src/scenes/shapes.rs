@@ -1,9 +1,9 @@
-//! Caps, joins, cusps, loops and curves that are hardly any.
+//! Scenes of caps, joins, curves, cusps, loops and degenerate curves.
 
 use super::scene_case::{SceneCase, case};
 use crate::sketch::Sketch;
 
-/// One segment that crosses itself: the Bezier curve (10, 10), (110, 80), (-30, 80), (70, 10).
+/// One segment that crosses itself: Bezier (10, 10), (110, 80), (-30, 80), (70, 10).
 pub(super) const LOOP: [(f64, f64); 4] = [
     (-770.0, -340.0),
     (250.0, 80.0),

@@ -1,5 +1,4 @@
-//! Lines on and around the borders of tiles of 16, 32 and 64 pixels, where a method may cut its
-//! work.
+//! Scenes of lines at the borders of 16, 32 and 64 pixel tiles, where a method may divide its work.
 
 use super::scene_case::{SceneCase, case};
 use crate::sketch::Sketch;
@@ -18,7 +17,7 @@ pub(super) fn cases() -> Vec<SceneCase> {
         cases.push(case(
             format!("tiles/edge-touches-borders-of-{tile}"),
             move || {
-                // Two pixels wide, so that the edge and not the middle is on the border.
+                // Two pixels wide, so that the edge of the stroke is on the border.
                 Sketch::new(136, 136)
                     .line((6.0, 136.0 - at + 1.0), (130.0, 136.0 - at + 1.0))
                     .line((at - 1.0, 6.0), (at - 1.0, 130.0))

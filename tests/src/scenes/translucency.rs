@@ -1,4 +1,4 @@
-//! Paths that let through what lies below.
+//! Scenes of translucent paths and backgrounds.
 
 use super::scene_case::{SceneCase, case};
 use super::shapes::LOOP;

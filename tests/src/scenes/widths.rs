@@ -1,4 +1,4 @@
-//! From a fiftieth of a pixel to wider than the picture, by every rule.
+//! Scenes of widths from 0.02 px to wider than the picture, by every line rule.
 
 use guideway_scene::LineRule;
 

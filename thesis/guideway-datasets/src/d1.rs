@@ -1,24 +1,26 @@
+//! Generates dataset D1, a site of halls: from a number of paths and a seed to the paths.
+
 use guideway_spline::Point;
 
 use crate::GeneratedPath;
 use crate::hall::{Hall, most_size_m};
 use crate::random::Random;
 
-/// Paths of a hall, about.
+/// Approximate number of paths per hall.
 const HALL_PATHS: usize = 1_000;
-/// Width to height of the whole site.
+/// Aspect ratio of the whole site.
 const SITE_ASPECT: f64 = 16.0 / 9.0;
 
-/// A site of halls with about a thousand paths each, side by side in about 16:9.
+/// A site of halls with about a thousand paths each, in rows that form about 16:9.
 ///
-/// One hall is some 110 m wide: aisles 3 to 4 m apart that are joined by roads of two lanes, turns with
-/// radii of 1.5 to 3 m, changes of lane, and docks along two walls. Paths that meet do so without a gap
-/// or a kink. No two halls are alike.
+/// One hall is some 110 m wide: aisles 3 to 4 m apart, roads of two lanes that connect them, turns
+/// with radii of 1.5 to 3 m, lane changes, and docks along two walls. Connected paths share
+/// position and direction at their ends. Random dimensions make all halls different.
 pub fn d1(paths: usize, seed: u64) -> impl Iterator<Item = GeneratedPath> {
     let halls = (paths.saturating_add(HALL_PATHS / 2) / HALL_PATHS).max(1);
     let site = Site::new(paths, halls);
     (0..halls).flat_map(move |hall| {
-        // Shares of whole paths that add up exactly.
+        // Integer shares that add up to `paths` exactly.
         let share = |hall: usize| (paths as u128 * hall as u128 / halls as u128) as usize;
         let wanted = share(hall + 1) - share(hall);
         let mut random = Random::new(seed, hall as u64);
@@ -29,7 +31,8 @@ pub fn d1(paths: usize, seed: u64) -> impl Iterator<Item = GeneratedPath> {
     })
 }
 
-/// Where the halls stand; the middle of the site is the origin, where `f32` is finest.
+/// Positions of the halls; the center of the site is the origin, where `f32` has the best
+/// resolution.
 struct Site {
     columns: usize,
     rows: usize,
@@ -53,7 +56,7 @@ impl Site {
         let from_middle = |index: usize, count: usize| index as f64 - (count - 1) as f64 / 2.0;
         Point::new(
             from_middle(column, self.columns) * self.cell.x,
-            // Row after row from the top, as one reads.
+            // Rows from top to bottom.
             -from_middle(row, self.rows) * self.cell.y,
         )
     }

@@ -1,7 +1,18 @@
-//! One hall: aisles between racks, roads across them, turns from each into each, docks along the walls.
+//! Builds one hall: aisles between racks, roads across them, turns between both, docks along the
+//! walls.
 //!
-//! Lanes meet in nodes half an aisle's spacing beside each aisle, so every turn has half that spacing as
-//! its radius and begins and ends exactly where other paths do.
+//! ```text
+//!   dock  dock          d d d   docks at the wall
+//! ==+=====+=====+==     road 2 (two lanes)
+//!   |     |     |       aisles of block 1
+//! ==+=====+=====+==     road 1 (two lanes, same direction)
+//!   |     |     |       aisles of block 0
+//! ==+=====+=====+==     road 0 (two lanes)
+//!   dock  dock          docks at the wall
+//! ```
+//!
+//! Lanes have nodes half an aisle spacing beside each aisle. A turn has this distance as its
+//! radius, so it starts and ends exactly at the ends of other paths.
 
 use guideway_spline::Point;
 
@@ -9,22 +20,22 @@ use crate::random::Random;
 use crate::shape::{self, Run};
 use crate::{GeneratedPath, Kind};
 
-/// Roads across the aisles: at both ends of them and in the middle.
+/// Roads across the aisles: one at each end, and one in the middle.
 const ROADS: usize = 3;
 const BLOCKS: usize = ROADS - 1;
 const RIGHT: Point<f64> = Point::new(1.0, 0.0);
 const UP: Point<f64> = Point::new(0.0, 1.0);
 
-/// What a hall is built to, in meters; the middle of the hall is the origin.
+/// Dimensions of a hall in meters; the center of the hall is the origin.
 pub(crate) struct Hall {
     number: u32,
     aisles: Vec<Aisle>,
     lane_count: usize,
     spacing: f64,
-    /// Height of the lower lane of each road.
+    /// y of the lower lane of each road.
     roads: [f64; ROADS],
     lane_gap: f64,
-    /// Pieces that each aisle is cut into between two roads.
+    /// Paths per aisle between two roads.
     pieces: usize,
     ring_radius: f64,
     dock_length: f64,
@@ -34,11 +45,11 @@ pub(crate) struct Hall {
 struct Aisle {
     index: usize,
     x: f64,
-    /// 1.0 if vehicles go up it, -1.0 if down.
-    way: f64,
+    /// 1.0 for vehicles that drive up, -1.0 for down.
+    direction: f64,
 }
 
-/// How large a hall may become, in meters.
+/// Upper bound of the size of a hall, in meters.
 pub(crate) fn most_size_m(paths: usize) -> Point<f64> {
     let aisles = aisle_guess(paths) + AISLE_VARIATION;
     Point::new(f64::from(aisles) * MOST_SPACING_M + 12.0, 118.0)
@@ -47,7 +58,7 @@ pub(crate) fn most_size_m(paths: usize) -> Point<f64> {
 const AISLE_VARIATION: u32 = 3;
 const MOST_SPACING_M: f64 = 4.0;
 
-/// Each aisle brings about 31 paths with it, and the ring around them about 30 in all.
+/// Estimated number of aisles. Derived: an aisle adds about 31 paths, the ring about 30 in total.
 fn aisle_guess(paths: usize) -> u32 {
     let paths = u32::try_from(paths).unwrap_or(u32::MAX);
     (paths.saturating_sub(30) / 31).clamp(2, 48)
@@ -68,14 +79,14 @@ impl Hall {
         let middle = (lane_count - 1) as f64 / 2.0;
         let mut aisles = Vec::with_capacity(lane_count);
         for index in 0..lane_count {
-            // Some racks stand back to back with no aisle between them.
+            // Some racks stand back to back without an aisle.
             if index > 0 && random.percent(6) {
                 continue;
             }
             aisles.push(Aisle {
                 index,
                 x: (index as f64 - middle) * spacing,
-                way: if index % 2 == 0 { 1.0 } else { -1.0 },
+                direction: if index % 2 == 0 { 1.0 } else { -1.0 },
             });
         }
         let sign = |random: &mut Random| if random.percent(50) { 1.0 } else { -1.0 };
@@ -91,13 +102,13 @@ impl Hall {
             dock_length: random.between(3.0, 6.0),
             mirror: Point::new(sign(random), sign(random)),
         };
-        // Aisles are cut so finely that there are paths enough; a few docks too many are left out.
+        // Aisles split into as many paths as needed; the caller drops surplus docks at the end.
         let missing = paths.saturating_sub(hall.count_without_aisles());
         hall.pieces = missing.div_ceil(BLOCKS * hall.aisles.len()).max(1);
         hall
     }
 
-    /// Every path, the ones that a hall can do without last.
+    /// All paths; docks last, because the caller truncates the list.
     pub(crate) fn paths(&self, center: Point<f64>) -> Vec<GeneratedPath> {
         let mut sink = Sink {
             hall: self,
@@ -118,7 +129,7 @@ impl Hall {
         self.paths(Point::default()).len() - uncut
     }
 
-    /// The node before aisle `index`; there is one after the last, too.
+    /// x of the node before aisle `index`; the last node is after the last aisle.
     fn node_x(&self, index: usize) -> f64 {
         (index as f64 - self.lane_count as f64 / 2.0) * self.spacing
     }
@@ -127,8 +138,8 @@ impl Hall {
         self.roads[road] + lane as f64 * self.lane_gap
     }
 
-    /// 1.0 if vehicles on the lane go right: both lanes of the middle road, one of the others.
-    fn lane_way(road: usize, lane: usize) -> f64 {
+    /// 1.0 for lanes to the right: both lanes of the middle road, the lower lane of the others.
+    fn lane_direction(road: usize, lane: usize) -> f64 {
         if road == 1 || lane == 0 { 1.0 } else { -1.0 }
     }
 
@@ -140,13 +151,14 @@ impl Hall {
                     Point::new(self.node_x(index), y),
                     Point::new(self.node_x(index + 1), y),
                 );
-                let way = Self::lane_way(road, lane);
-                sink.push(Kind::Cross, 2 * road + lane, index, directed(run, way));
+                let direction = Self::lane_direction(road, lane);
+                let run = directed(run, direction);
+                sink.push(Kind::Cross, 2 * road + lane, index, run);
             }
         }
     }
 
-    /// Where the aisles of a block begin and end.
+    /// Lower and upper y of the aisles of a block.
     fn block(&self, block: usize) -> (f64, f64) {
         let radius = self.spacing / 2.0;
         let (low, high) = (self.lane_y(block, 1), self.lane_y(block + 1, 0));
@@ -161,31 +173,41 @@ impl Hall {
                 for piece in 0..self.pieces {
                     let run = upright(aisle.x, y(piece), y(piece + 1));
                     let number = block * self.pieces + piece;
-                    sink.push(Kind::Aisle, aisle.index, number, directed(run, aisle.way));
+                    sink.push(
+                        Kind::Aisle,
+                        aisle.index,
+                        number,
+                        directed(run, aisle.direction),
+                    );
                 }
             }
             let run = upright(aisle.x, self.block(0).1, self.block(1).0);
-            sink.push(Kind::Through, aisle.index, 0, directed(run, aisle.way));
+            sink.push(
+                Kind::Through,
+                aisle.index,
+                0,
+                directed(run, aisle.direction),
+            );
         }
     }
 
-    /// From and to both lanes of the road at both ends of each aisle.
+    /// Turns between each end of an aisle and both lanes of the road there.
     fn turns(&self, sink: &mut Sink<'_>) {
         for aisle in &self.aisles {
             for end in 0..2 * BLOCKS {
                 let (block, upper) = (end / 2, end % 2 == 1);
-                // Away from the road, into the block.
+                // Direction from the road into the block.
                 let inward = if upper { -UP } else { UP };
                 for lane in 0..2 {
                     let road = block + usize::from(upper);
-                    // The lane nearer to the block is the upper one at its lower end.
+                    // At the lower end of a block, the upper lane is nearer.
                     let far = if upper { lane } else { 1 - lane };
-                    let enters = aisle.way * inward.y > 0.0;
+                    let enters = aisle.direction * inward.y > 0.0;
                     let corner = Corner {
                         road,
                         lane,
                         x: aisle.x,
-                        away: inward,
+                        outward: inward,
                         straight: far as f64 * self.lane_gap,
                     };
                     let number = 2 * end + lane;
@@ -200,15 +222,15 @@ impl Hall {
         }
     }
 
-    /// Stations at both walls, each with a way in and a way out.
+    /// Stations at both walls, each with a path in and a path out.
     fn docks(&self, sink: &mut Sink<'_>) {
         for aisle in &self.aisles {
-            for (wall, away) in [(0, -UP), (1, UP)] {
+            for (wall, outward) in [(0, -UP), (1, UP)] {
                 let corner = Corner {
                     road: wall * (ROADS - 1),
                     lane: wall,
                     x: aisle.x,
-                    away,
+                    outward,
                     straight: self.dock_length,
                 };
                 for enters in [true, false] {
@@ -224,20 +246,26 @@ impl Hall {
         }
     }
 
-    /// From a lane to a line across it, or back; vehicles keep to the way of the lane.
+    /// A turn from a lane into a line across it, or back, in the direction of the lane.
     fn corner(&self, corner: &Corner, enters: bool) -> Run {
         let radius = self.spacing / 2.0;
-        let way = Self::lane_way(corner.road, corner.lane);
-        let toward = if enters { way } else { -way };
+        let direction = Self::lane_direction(corner.road, corner.lane);
+        let toward = if enters { direction } else { -direction };
         let start = Point::new(
             corner.x - toward * radius,
             self.lane_y(corner.road, corner.lane),
         );
-        let run = shape::turn(start, RIGHT * toward, corner.away, radius, corner.straight);
+        let run = shape::turn(
+            start,
+            RIGHT * toward,
+            corner.outward,
+            radius,
+            corner.straight,
+        );
         if enters { run } else { shape::reversed(run) }
     }
 
-    /// Lanes along the two outer aisles that join the roads, and turns back where lanes are opposite.
+    /// Lanes outside the outer aisles that connect the roads, and U-turns at the outer roads.
     fn ring(&self, sink: &mut Sink<'_>) {
         const PIECES: usize = 4;
         let radius = self.ring_radius;
@@ -266,7 +294,7 @@ impl Hall {
         }
     }
 
-    /// Between the lanes of the middle road, which lead the same way.
+    /// Changes between the lanes of the middle road, which have the same direction.
     fn lane_changes(&self, sink: &mut Sink<'_>) {
         let length = 2.0 * self.spacing;
         for (number, index) in (0..self.lane_count.saturating_sub(1))
@@ -283,18 +311,18 @@ impl Hall {
     }
 }
 
-/// First number of the lines of the ring, beyond those of all aisles.
+/// First line number of the ring, above the numbers of all aisles.
 const RING: usize = 90;
 
 /// A turn between a lane and a line across it.
 struct Corner {
     road: usize,
     lane: usize,
-    /// Position of the line across.
+    /// x of the line across.
     x: f64,
-    /// Direction of the line, away from the lane.
-    away: Point<f64>,
-    /// How far the path goes straight on after the arc.
+    /// Direction of the line, pointing away from the lane.
+    outward: Point<f64>,
+    /// Length of the straight part after the arc.
     straight: f64,
 }
 
@@ -306,8 +334,13 @@ fn upright(x: f64, low: f64, high: f64) -> Run {
     shape::line(Point::new(x, low), Point::new(x, high))
 }
 
-fn directed(run: Run, way: f64) -> Run {
-    if way > 0.0 { run } else { shape::reversed(run) }
+/// The run, reversed for a negative direction.
+fn directed(run: Run, direction: f64) -> Run {
+    if direction > 0.0 {
+        run
+    } else {
+        shape::reversed(run)
+    }
 }
 
 /// Collects the paths of one hall.

@@ -1,9 +1,16 @@
-//! Seeded layouts to measure and test with, made path by path: a few megabytes whatever the count.
+//! Generates seeded layouts for measurements and tests, path by path, within a few megabytes.
 //!
-//! [`d1`] has the shape of a real site, hall beside hall; [`d2`] throws curves over one field until every
-//! pixel lies under many. Both have exactly as many paths as asked for, each of eight segments. The same
-//! count and seed give the same bits on every machine: nothing depends on its mathematics library, on
-//! threads or on the order of a hash table.
+//! [`d1`] generates halls with aisles, roads and docks, as on a real site; [`d2`] scatters curves
+//! over one field with heavy overlap. Both return exactly the requested number of paths, each of
+//! eight segments. The same count and seed give the same bits on every machine: the generators use
+//! no system math library, no threads and no hash tables.
+//!
+//! | module | purpose |
+//! |---|---|
+//! | `d1`, `hall` | the site, and one hall of it |
+//! | `d2` | the field of curves |
+//! | `shape` | the curves: lines, turns, U-turns, lane changes |
+//! | `random` | seeded random numbers |
 //!
 //! ```
 //! let paths: Vec<_> = guideway_datasets::d1(1_000, 7).collect();
@@ -30,9 +37,9 @@ pub const RUN_POINTS: usize = 11;
 pub struct GeneratedPath {
     /// Identifier, unique in the dataset.
     pub id: String,
-    /// What the path is for.
+    /// Purpose of the path.
     pub kind: Kind,
-    /// Speed allowed, in meters a second.
+    /// Speed allowed, in meters per second.
     pub max_speed_m_s: f32,
     /// Number of the hall, from 0.
     pub hall: u32,
@@ -40,22 +47,22 @@ pub struct GeneratedPath {
     pub run: [Point<f32>; RUN_POINTS],
 }
 
-/// What a path of a dataset is for.
+/// Purpose of a path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Kind {
     /// A lane between racks.
     Aisle,
     /// A lane across the aisles.
     Cross,
-    /// From an aisle straight over a road into the aisle beyond.
+    /// A path straight across a road, from one aisle into the next.
     Through,
-    /// From one lane into another at a right angle.
+    /// A turn from one lane into another at a right angle.
     Turn,
-    /// From one lane into the opposite one.
+    /// A turn from one lane into the opposite one.
     UTurn,
-    /// From one lane into the one beside it.
+    /// A change to the adjacent lane.
     LaneChange,
-    /// To or from a station at a wall.
+    /// A path to or from a station at a wall.
     Dock,
 }
 
@@ -84,7 +91,7 @@ impl Kind {
         }
     }
 
-    /// Letter that stands for the kind in identifiers.
+    /// Letter of the kind in identifiers.
     fn letter(self) -> char {
         match self {
             Self::Aisle => 'A',
@@ -97,7 +104,7 @@ impl Kind {
         }
     }
 
-    /// Speed allowed, in meters a second.
+    /// Speed allowed, in meters per second.
     fn max_speed_m_s(self) -> f32 {
         match self {
             Self::Cross => 2.0,

@@ -1,4 +1,4 @@
-//! The curves that paths are made of, as runs of eight segments.
+//! Builds the curves of paths as runs of eight B-spline segments, from start, direction and size.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -10,7 +10,7 @@ use crate::RUN_POINTS;
 pub(crate) type Run = [Point<f64>; RUN_POINTS];
 
 const SEGMENTS: usize = RUN_POINTS - 3;
-/// Points where segments meet, the two ends included.
+/// Joints of the segments, including both ends.
 const KNOTS: usize = SEGMENTS + 1;
 
 /// A straight line.
@@ -18,8 +18,8 @@ pub(crate) fn line(start: Point<f64>, end: Point<f64>) -> Run {
     std::array::from_fn(|i| start.lerp(end, (i as f64 - 1.0) / SEGMENTS as f64))
 }
 
-/// A quarter circle from `start`, `radius` on along `from` and as much along `to`, then straight on for
-/// `straight`. Both directions have length 1.
+/// A quarter circle from `start` and direction `from` to direction `to`, followed by a straight
+/// part of length `straight`. Both directions have length 1.
 pub(crate) fn turn(
     start: Point<f64>,
     from: Point<f64>,
@@ -40,7 +40,7 @@ pub(crate) fn turn(
     .fit(from, to)
 }
 
-/// A half circle from `start` that comes back `2 * radius` beside it, on the side of `across`.
+/// A half circle from `start` that ends at a distance of `2 * radius` in the direction `across`.
 pub(crate) fn u_turn(start: Point<f64>, from: Point<f64>, across: Point<f64>, radius: f64) -> Run {
     at_knots(radius * PI, |distance| {
         let angle = distance / radius;
@@ -49,7 +49,7 @@ pub(crate) fn u_turn(start: Point<f64>, from: Point<f64>, across: Point<f64>, ra
     .fit(from, -from)
 }
 
-/// A change to the lane that lies `shift` beside, `length` further on.
+/// A lane change: ends `length` along `from` and displaced by `shift`.
 pub(crate) fn lane_change(
     start: Point<f64>,
     from: Point<f64>,
@@ -58,20 +58,20 @@ pub(crate) fn lane_change(
 ) -> Run {
     at_knots(length, |distance| {
         let t = distance / length;
-        // Begins and ends with no slope and no curvature.
+        // Zero slope and curvature at both ends.
         let moved = t - libm::sin(2.0 * PI * t) / (2.0 * PI);
         start + from * distance + shift * moved
     })
     .fit(from, from)
 }
 
-/// The same curve, run through from its end.
+/// The same curve in the opposite direction.
 pub(crate) fn reversed(mut run: Run) -> Run {
     run.reverse();
     run
 }
 
-/// Points evenly spaced along a curve, where the segments of its run will meet.
+/// Points evenly spaced along a curve: the joints of the segments of its run.
 struct Knots {
     points: [Point<f64>; KNOTS],
     step: f64,
@@ -86,10 +86,11 @@ fn at_knots(length: f64, curve: impl Fn(f64) -> Point<f64>) -> Knots {
 }
 
 impl Knots {
-    /// The run through all points that begins and ends in the directions given, each of length 1.
+    /// The run that interpolates all points with the given end directions, each of length 1.
     ///
-    /// `(P[k-1] + 4 P[k] + P[k+1]) / 6` is the k-th point and `(P[2] - P[0]) / 2` the derivative at the
-    /// start. With the outer control points put in, a tridiagonal system is left.
+    /// `(P[k-1] + 4 P[k] + P[k+1]) / 6` is the k-th point and `(P[2] - P[0]) / 2` the derivative at
+    /// the start. Substituting the outer control points leaves a tridiagonal system, solved by
+    /// elimination (Thomas algorithm) in linear time.
     fn fit(&self, start: Point<f64>, end: Point<f64>) -> Run {
         let last = KNOTS - 1;
         let (start, end) = (start * self.step, end * self.step);

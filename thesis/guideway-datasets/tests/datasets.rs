@@ -1,4 +1,4 @@
-//! What the datasets promise: exact counts, the same bits everywhere, curves that join, sizes in range.
+//! Tests the documented properties of the datasets: exact counts, equal bits, joined curves, sizes.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -25,7 +25,7 @@ fn hash(paths: impl Iterator<Item = GeneratedPath>) -> u64 {
 }
 
 #[test]
-fn the_same_seed_gives_the_same_bits_on_every_machine() {
+fn equal_seeds_give_equal_bits_on_every_machine() {
     assert_eq!(hash(d1(2_500, 1)), D1_HASH, "{:#x}", hash(d1(2_500, 1)));
     assert_eq!(hash(d2(2_500, 1)), D2_HASH, "{:#x}", hash(d2(2_500, 1)));
     assert_ne!(hash(d1(2_500, 2)), D1_HASH);
@@ -36,7 +36,7 @@ const D1_HASH: u64 = 0x987e_6d81_2962_f1a8;
 const D2_HASH: u64 = 0xb309_1870_98b6_519d;
 
 #[test]
-fn there_are_exactly_as_many_paths_as_asked_for_and_no_name_twice() {
+fn path_counts_are_exact_and_ids_unique() {
     for count in [0, 1, 2, 9, 99, 499, 500, 1_000, 1_499, 1_500, 12_345] {
         for paths in [
             d1(count, 3).collect::<Vec<_>>(),
@@ -51,9 +51,9 @@ fn there_are_exactly_as_many_paths_as_asked_for_and_no_name_twice() {
 }
 
 #[test]
-fn the_second_dataset_grows_at_its_end() {
+fn a_smaller_d2_is_a_prefix_of_a_larger_one() {
     assert!(d2(300, 3).take(123).eq(d2(123, 3)));
-    // The first plans its halls for all paths.
+    // The halls of D1 depend on the number of paths.
     assert!(!d1(3_000, 3).take(1_230).eq(d1(1_230, 3)));
 }
 
@@ -80,7 +80,7 @@ fn a_hall_has_about_a_thousand_paths_and_every_kind() {
 }
 
 #[test]
-fn halls_stand_beside_each_other() {
+fn halls_do_not_overlap() {
     let paths: Vec<_> = d1(9_000, 6).collect();
     let boxes: Vec<_> = (0..9)
         .map(|hall| {
@@ -114,12 +114,12 @@ fn paths_meet_without_a_gap_or_a_kink() {
         });
         loose += usize::from(!joined);
     }
-    // Only docks that were left out to keep the count exact may leave an end without another.
+    // Docks dropped for an exact count may leave loose ends.
     assert!(loose <= 2, "{loose} of {} ends are loose", ends.len());
 }
 
 #[test]
-fn turns_have_radii_that_vehicles_can_drive() {
+fn turns_have_drivable_radii() {
     for path in d1(3_000, 9).filter(|p| p.kind == Kind::Turn) {
         for segment in path.run.array_windows::<4>() {
             let segment = segment.map(Point::to_f64);
@@ -134,7 +134,7 @@ fn turns_have_radii_that_vehicles_can_drive() {
 }
 
 #[test]
-fn curves_of_the_second_dataset_have_the_lengths_promised_and_fill_the_field() {
+fn curves_of_d2_have_documented_lengths_and_fill_the_field() {
     let pixel_m = D2_WIDTH_M / 1920.0;
     let mut under = vec![0_u32; 48 * 27];
     for path in d2(20_000, 4) {
@@ -161,7 +161,7 @@ fn curves_of_the_second_dataset_have_the_lengths_promised_and_fill_the_field() {
             under[cell(y, 27) * 48 + cell(x, 48)] += 1;
         }
     }
-    // On average 170 control points fall into a cell.
+    // Derived: 20,000 paths x 11 points / 1,296 cells = 170 control points per cell on average.
     assert!(under.iter().all(|&n| n > 5), "{:?}", under.iter().min());
 }
 
@@ -176,7 +176,7 @@ fn bounds(paths: &[GeneratedPath]) -> (Point<f64>, Point<f64>) {
     })
 }
 
-/// Both ends of a path: where, and in which direction of length 1.
+/// Position and unit direction of both ends of a path.
 fn ends(path: &GeneratedPath) -> [(Point<f64>, Point<f64>); 2] {
     let run = path.run.map(Point::to_f64);
     let first = [run[0], run[1], run[2], run[3]];

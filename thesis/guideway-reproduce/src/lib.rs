@@ -1,7 +1,10 @@
-//! Reproduces the thesis' tables and figures on this machine and writes the report on them.
+//! Reproduces the tables and figures of the thesis on this computer, and writes the report.
 //!
-//! [`reproduce::reproduce`] follows a plan through every measurement of the thesis and records a run;
-//! [`report::files`] writes the page and the tables from that record alone.
+//! | stage | input | output |
+//! |---|---|---|
+//! | [`reproduce::reproduce`], [`reproduce::resume`] | a plan, or an incomplete run | a run |
+//! | [`reproduce::findings`] | a run | verdicts on the claims of the thesis |
+//! | [`report::files`] | a run | the page and the CSV tables |
 
 pub mod report;
 pub mod reproduce;

@@ -1,21 +1,21 @@
-//! Line charts as SVG that follows the colors of its page.
+//! Draws line charts as SVG with the colors of the style sheet of the page.
 
 use super::xml::escape;
 use guideway_bench::format::digits;
 
 const WIDTH: f64 = 720.0;
 const HEIGHT: f64 = 340.0;
-/// Room for the axes and their labels.
+/// Margins for the axes and their labels, in pixels.
 const LEFT: f64 = 64.0;
 const RIGHT: f64 = 16.0;
 const TOP: f64 = 14.0;
 const BOTTOM: f64 = 46.0;
-/// From this ratio of greatest to least value on, equal ratios are shown as equal distances.
+/// Ratio of largest to smallest value above which the axis is logarithmic.
 const LOG_RATIO: f64 = 60.0;
-/// Classes of lines that the style sheet tells apart.
+/// Number of line classes in the style sheet.
 const STYLES: usize = 10;
 
-/// A line chart: values from 0 up against anything.
+/// A line chart of non-negative values.
 #[derive(Clone, Debug)]
 pub(crate) struct Chart {
     pub(crate) title: String,
@@ -24,14 +24,14 @@ pub(crate) struct Chart {
     pub(crate) series: Vec<Series>,
 }
 
-/// One line, its points from left to right.
+/// One line with its points from left to right.
 #[derive(Clone, Debug)]
 pub(crate) struct Series {
     pub(crate) name: String,
     pub(crate) points: Vec<(f64, f64)>,
 }
 
-/// How values of one axis become places.
+/// Maps the values of one axis to positions from 0 to 1.
 struct Axis {
     from: f64,
     to: f64,
@@ -63,8 +63,8 @@ impl Axis {
         }
     }
 
-    /// From 0 at the beginning to 1 at the end.
-    fn place(&self, value: f64) -> f64 {
+    /// Position of a value: 0 at the start, 1 at the end.
+    fn position(&self, value: f64) -> f64 {
         if self.is_log {
             (value.max(self.from) / self.from).ln() / (self.to / self.from).ln()
         } else {
@@ -73,7 +73,7 @@ impl Axis {
     }
 }
 
-/// The least of 1, 2, 2.5 and 5 times a power of ten that is not below.
+/// The smallest 1, 2, 2.5 or 5 times a power of ten that is at least `value`.
 fn round_up(value: f64) -> f64 {
     let power = 10_f64.powf(value.log10().floor());
     let factors = [1.0, 2.0, 2.5, 5.0];
@@ -84,12 +84,12 @@ fn round_up(value: f64) -> f64 {
 }
 
 impl Chart {
-    /// Whether there is anything to show.
+    /// Whether no series has a point.
     pub(crate) fn is_empty(&self) -> bool {
         self.series.iter().all(|series| series.points.is_empty())
     }
 
-    /// The chart as a figure; nothing if it is empty.
+    /// The chart as an HTML figure; an empty string for an empty chart.
     pub(crate) fn html(&self) -> String {
         if self.is_empty() {
             return String::new();
@@ -115,7 +115,7 @@ impl Chart {
         let above_zero = self.values().map(|p| p.1).filter(|&y| y > 0.0);
         let y_least = above_zero.fold(y_most, f64::min);
         let y_axis = if y_most / y_least > LOG_RATIO {
-            // Beyond six decades the least values would only press all others together.
+            // At most six decades: smaller values would compress the rest of the chart.
             Axis::log(y_least.max(y_most * 1e-6), y_most)
         } else {
             Axis::linear(y_most)
@@ -125,8 +125,8 @@ impl Chart {
 
     fn svg(&self) -> String {
         let (x_axis, y_axis) = self.axes();
-        let x = |value: f64| LEFT + x_axis.place(value) * (WIDTH - LEFT - RIGHT);
-        let y = |value: f64| HEIGHT - BOTTOM - y_axis.place(value) * (HEIGHT - TOP - BOTTOM);
+        let x = |value: f64| LEFT + x_axis.position(value) * (WIDTH - LEFT - RIGHT);
+        let y = |value: f64| HEIGHT - BOTTOM - y_axis.position(value) * (HEIGHT - TOP - BOTTOM);
         let (bottom, right) = (HEIGHT - BOTTOM, WIDTH - RIGHT);
         let mut svg = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" role=\"img\" \
@@ -166,12 +166,12 @@ impl Chart {
         for (i, series) in self.series.iter().enumerate() {
             let class = format!("s{}", i % STYLES);
             let points = series.points.iter();
-            let places: Vec<String> = points
+            let positions: Vec<String> = points
                 .map(|p| format!("{:.1},{:.1}", x(p.0), y(p.1)))
                 .collect();
             svg += &format!(
                 "<polyline class=\"{class}\" points=\"{}\"/>\n",
-                places.join(" ")
+                positions.join(" ")
             );
             for point in &series.points {
                 svg += &format!(
@@ -203,10 +203,10 @@ impl Chart {
     }
 }
 
-/// A number on an axis, as short as it can be told: 0, 2.5, 90k, 1M.
+/// Short label of a number on an axis: 0, 2.5, 90k, 1M.
 fn label(value: f64) -> String {
     let short = |value: f64, unit: &str| {
-        // Ticks are sums of steps, which leaves dust behind their last digit.
+        // Ticks are sums of steps with rounding errors.
         let text = format!("{value:.6}");
         format!("{}{unit}", text.trim_end_matches('0').trim_end_matches('.'))
     };
@@ -236,7 +236,7 @@ mod tests {
     }
 
     #[test]
-    fn points_lie_where_their_values_are() {
+    fn points_have_positions_of_their_values() {
         let chart = chart(&[(0.0, 0.0), (100.0, 5.0), (200.0, 10.0)]);
         let html = chart.html();
         roxmltree::Document::parse(&html).expect("well-formed");
@@ -271,7 +271,7 @@ mod tests {
     }
 
     #[test]
-    fn every_line_has_a_style_of_its_own() {
+    fn the_style_sheet_has_every_line_class() {
         let sheet = include_str!("style.css");
         assert!(STYLES >= crate::reproduce::METHODS.len());
         for style in 0..STYLES {
@@ -286,7 +286,7 @@ mod tests {
     }
 
     #[test]
-    fn wide_ranges_are_logarithmic_and_odd_ones_no_trouble() {
+    fn wide_ranges_are_logarithmic_and_extremes_finite() {
         assert!(
             chart(&[(1.0, 0.1), (2.0, 100.0)])
                 .html()

@@ -1,4 +1,4 @@
-//! The page: one file that needs no other, no script and no network.
+//! Writes the page from the sections: one HTML file without scripts or external resources.
 
 use super::content::{Block, Section};
 use super::xml::{element, escape};
@@ -8,7 +8,7 @@ use guideway_bench::format::{count, time};
 
 const STYLE: &str = include_str!("style.css");
 
-/// The whole page. It is XML too, so that any reader of either can check it.
+/// The whole page, also valid XML, so that XML tools can check it.
 pub(super) fn page(run: &Run, sections: &[Section]) -> String {
     let title = if run.plan.is_quick {
         "Guideway: the thesis reproduced in small"
@@ -16,7 +16,7 @@ pub(super) fn page(run: &Run, sections: &[Section]) -> String {
         "Guideway: the thesis reproduced"
     };
     let mut html = format!(
-        "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"en-GB\">\n<head>\n\
+        "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"en-US\">\n<head>\n\
          <meta charset=\"utf-8\"/>\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n\
          <title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<header>\n<h1>{title}</h1>\n"
     );
@@ -45,27 +45,25 @@ pub(super) fn page(run: &Run, sections: &[Section]) -> String {
 fn header(run: &Run) -> String {
     let mut html = String::new();
     if run.is_partial {
-        html += &notice(
-            "Stopped before its end: what was measured until then is here, the rest is missing.",
-        );
+        html += &notice("Stopped before its end: this report holds the measurements so far.");
     }
     if run.plan.is_quick {
         html += &notice(
-            "This is the quick run: fewer paths, smaller pictures and fewer frames than in the thesis, so that it \
-             ends in minutes even on a processor that plays the graphics device. Its numbers compare with \
-             each other, not with the thesis'.",
+            "This is the quick run: fewer paths, smaller pictures and fewer frames than in the thesis, for \
+             results within minutes even on a software graphics device. Compare its numbers with each \
+             other, not with those of the thesis.",
         );
     }
     let machines = || run.sessions.iter().map(|session| &session.machine);
     if machines().any(|machine| machine.profile != "release") {
         html += &notice(
-            "Compiled by the debug profile: work on the processor takes longer than it has to.",
+            "Compiled with the debug profile: times on the processor are longer than in a release build.",
         );
     }
-    let processors = distinct(machines().map(processor));
+    let processors = unique(machines().map(processor));
     if processors.len() > 1 {
         html += &notice(
-            "Its sessions had different processors: times that the processor takes part in do not all compare.",
+            "The sessions had different processors: their times on the processor are not comparable.",
         );
     }
     let devices = run.methods.iter().filter_map(|m| m.device.clone());
@@ -73,9 +71,9 @@ fn header(run: &Run) -> String {
     for (name, values) in [
         ("Measured", vec![measured(run)]),
         ("Processor", processors),
-        ("System", distinct(machines().map(|m| m.os.clone()))),
-        ("Devices", distinct(devices)),
-        ("Guideway", distinct(machines().map(build))),
+        ("System", unique(machines().map(|m| m.os.clone()))),
+        ("Devices", unique(devices)),
+        ("Guideway", unique(machines().map(build))),
     ] {
         let value = escape(&values.join("; "));
         html += &format!("<dt>{name}</dt><dd>{value}</dd>\n");
@@ -88,7 +86,7 @@ fn measured(run: &Run) -> String {
     let elapsed = time(run.elapsed_s() * 1e3);
     let took = match started.len() {
         0 | 1 => elapsed,
-        several => format!("{several} sessions of {elapsed} together"),
+        several => format!("{several} sessions of {elapsed} in total"),
     };
     format!("{}, in {took}", started.join("; "))
 }
@@ -109,15 +107,15 @@ fn build(machine: &Machine) -> String {
     format!("{}, {} build", machine.guideway, machine.profile)
 }
 
-/// Every value once, in the order of their first places.
-fn distinct(values: impl Iterator<Item = String>) -> Vec<String> {
-    let mut distinct = Vec::new();
+/// Every value once, in the order of first occurrence.
+fn unique(values: impl Iterator<Item = String>) -> Vec<String> {
+    let mut unique = Vec::new();
     for value in values {
-        if !distinct.contains(&value) {
-            distinct.push(value);
+        if !unique.contains(&value) {
+            unique.push(value);
         }
     }
-    distinct
+    unique
 }
 
 fn notice(text: &str) -> String {
@@ -129,16 +127,16 @@ fn block(block: &Block) -> String {
         Block::Text(text) => element("p", text),
         Block::Findings(findings) => findings.iter().map(finding).collect(),
         Block::Table(table) if table.rows.is_empty() => {
-            element("p", &format!("{}: nothing was measured.", table.title))
+            element("p", &format!("{}: no measurements.", table.title))
         }
         Block::Table(table) => table.html(),
         Block::Chart(chart) if chart.is_empty() => {
-            element("p", &format!("{}: nothing was measured.", chart.title))
+            element("p", &format!("{}: no measurements.", chart.title))
         }
         Block::Chart(chart) => chart.html(),
         Block::Pictures(caption, pictures) if pictures.is_empty() => element(
             "p",
-            &format!("{caption}: no method that draws it runs here."),
+            &format!("{caption}: no method for it runs on this computer."),
         ),
         Block::Pictures(caption, pictures) => {
             let pictures: String = pictures.iter().map(picture).collect();

@@ -1,18 +1,20 @@
+//! A table of the report: shown as HTML with rounded numbers, written as CSV with full precision.
+
 use super::xml::escape;
 use guideway_bench::format::{count, digits};
 
-/// A table of the page, which is a CSV file too.
+/// A table of the page and of a CSV file.
 #[derive(Clone, Debug)]
 pub(crate) struct Table {
     /// Name of the CSV file and anchor in the page, such as `table-5.1`.
     pub(crate) name: &'static str,
-    /// What it shows.
+    /// Caption.
     pub(crate) title: String,
-    /// Whether the page shows it only on demand, below the chart that is made from it.
+    /// Whether the page folds it, below the chart of its numbers.
     pub(crate) is_folded: bool,
     /// Columns from left to right.
     pub(crate) columns: Vec<Column>,
-    /// One cell a column each.
+    /// Rows with one cell per column.
     pub(crate) rows: Vec<Vec<Cell>>,
 }
 
@@ -25,13 +27,13 @@ pub(crate) struct Column {
     key: Option<String>,
 }
 
-/// What stands in a cell.
+/// Content of a cell.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Cell {
     Text(String),
     Number(f64),
     Count(u64),
-    /// A median, and the 5th and 95th percentile.
+    /// A median with the 5th and 95th percentile.
     Range([f64; 3]),
     Nothing,
 }
@@ -104,7 +106,7 @@ impl From<Option<u64>> for Cell {
 }
 
 impl Table {
-    /// The table as a file by RFC 4180, numbers in full.
+    /// The table as CSV (RFC 4180), with full precision.
     pub(crate) fn csv(&self) -> String {
         let line = |cells: Vec<String>| cells.join(",") + "\r\n";
         let keys = self.columns.iter().filter_map(|column| column.key.clone());
@@ -117,7 +119,7 @@ impl Table {
         file
     }
 
-    /// The table as markup, numbers to three digits. Columns with nothing in them are left out.
+    /// The table as HTML, with three significant digits and without empty columns.
     pub(crate) fn html(&self) -> String {
         let has_cells = |column: usize| {
             let mut cells = self.rows.iter().filter_map(|row| row.get(column));
@@ -159,7 +161,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_file_has_numbers_in_full_and_the_page_readable_ones() {
+    fn csv_has_full_precision_and_html_three_digits() {
         let table = Table {
             name: "table-1",
             title: "A <title>".into(),

@@ -1,6 +1,7 @@
-//! Text inside of markup.
+//! Escapes text for HTML and XML markup.
 
-/// Text that stays text, in an element or in an attribute between double quotes.
+/// Escapes text for an element, or for an attribute in double quotes. Replaces forbidden
+/// characters.
 pub(super) fn escape(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
     for c in text.chars() {
@@ -9,7 +10,7 @@ pub(super) fn escape(text: &str) -> String {
             '<' => safe.push_str("&lt;"),
             '>' => safe.push_str("&gt;"),
             '"' => safe.push_str("&quot;"),
-            // What XML takes nowhere, not even escaped.
+            // Characters that XML forbids, even escaped.
             '\u{fffe}' | '\u{ffff}' => safe.push('\u{fffd}'),
             c if c.is_control() && !c.is_ascii_whitespace() => safe.push('\u{fffd}'),
             '\u{c}' => safe.push(' '),
@@ -19,7 +20,7 @@ pub(super) fn escape(text: &str) -> String {
     safe
 }
 
-/// An element with text in it.
+/// An element with escaped text.
 pub(super) fn element(name: &str, text: &str) -> String {
     format!("<{name}>{}</{name}>\n", escape(text))
 }
@@ -29,7 +30,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn any_text_is_text_in_markup() {
+    fn escapes_any_text() {
         let odd = "<b a=\"1\">&amp;\u{1b}\u{0}\u{c}\u{ffff}\u{85}é\n";
         let markup = format!("<p t=\"{0}\">{0}</p>", escape(odd));
         let document = roxmltree::Document::parse(&markup).expect("well-formed");

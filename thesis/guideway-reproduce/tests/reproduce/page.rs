@@ -105,8 +105,8 @@ fn the_page_states_missing_measurements() {
     let text = page(&run);
     Document::parse_with_options(&text, with_dtd()).expect("well-formed");
     assert!(text.contains("needs a &lt;device&gt; &amp; a driver"));
-    assert!(text.contains("Figure 5.1: dataset D1: no method that draws it runs here."));
-    assert!(text.contains("nothing was measured."));
+    assert!(text.contains("Figure 5.1: dataset D1: no method for it runs on this computer."));
+    assert!(text.contains("no measurements."));
     let mut run = full();
     assert!(!page(&run).contains("Stopped before its end"));
     run.is_partial = true;

@@ -1,3 +1,5 @@
+//! Tests of the findings: each claim with results that confirm it and results that refute it.
+
 use guideway_scene::Clock;
 
 use super::*;
@@ -23,7 +25,7 @@ fn frame(ms: f64) -> Measured {
     }
 }
 
-/// With the times of sampling, counting, the prefix sum and binning.
+/// A measurement with the given times of sampling, counting, prefix sum and binning.
 fn build(phases_ms: [f64; 4]) -> Measured {
     let names = ["sample", "count", "prefix sum", "bin"];
     let stage = |(name, ms)| StageTime::new(name, Clock::Device, ms);
@@ -63,7 +65,7 @@ fn most(method: &str, paths: Option<usize>, limit: Limit) -> MostPaths {
     }
 }
 
-/// Judges one claim by numbers that must confirm it and by numbers that must not.
+/// Judges one claim by results that confirm it, and by results that refute it.
 fn judge(title: &str, holds: Results, fails: Results, words: &[&str]) {
     for (results, verdict) in [(holds, Verdict::Holds), (fails, Verdict::DoesNotHold)] {
         let findings = findings(&run(results));
@@ -76,7 +78,7 @@ fn judge(title: &str, holds: Results, fails: Results, words: &[&str]) {
 }
 
 #[test]
-fn nothing_measured_is_nothing_said() {
+fn an_empty_run_has_no_verdicts() {
     for finding in findings(&run(Results::default())) {
         assert_eq!(finding.verdict, Verdict::NotMeasured, "{finding:?}");
     }
@@ -291,7 +293,7 @@ fn borders() {
 }
 
 #[test]
-fn one_dataset_against_the_claim_is_enough() {
+fn a_claim_must_hold_in_every_dataset() {
     let both = |d2_ms| Results {
         zoom: [(Dataset::D1, 1.0), (Dataset::D2, d2_ms)]
             .into_iter()
