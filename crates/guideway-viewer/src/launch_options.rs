@@ -7,7 +7,7 @@ use std::path::PathBuf;
 pub struct LaunchOptions {
     /// Layout files to open.
     pub files: Vec<PathBuf>,
-    /// Floor plan: see [`AppServices::read_floor_plan`](crate::AppServices::read_floor_plan). Empty for none.
+    /// Floor plan, as for [`read_floor_plan`](crate::AppServices::read_floor_plan); empty for none.
     pub floor_plan: String,
     /// Name of the render method; `None` selects the best one that runs here.
     pub method: Option<String>,

@@ -55,8 +55,8 @@ pub fn arrows(modules: &[Module]) -> Vec<Arrow> {
 }
 
 /// Calls of `self.method()` where the method is implemented in another file than its type: the file
-/// that calls, and the one that implements. Methods are known by their name, where it is unique in the
-/// crate.
+/// that calls, and the one that implements. Methods are known by their name, where it is unique in
+/// the crate.
 fn distant_methods<'a>(
     found: &Crate<'a>,
     modules: &'a [Module],

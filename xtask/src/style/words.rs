@@ -12,7 +12,6 @@ pub(super) const FORBIDDEN: &[(&str, &str)] = &[
     ("Grain", "FlattenQuality"),
     ("Laid", "PreparedOverlay"),
     ("Manner", "dispatch plan"),
-    ("Painter", "EntityMapper or thread scratch"),
     ("Sheet", "DrawList"),
     ("Shot", "FrameContext or RenderRequest"),
     ("Sight", "VisibleCluster"),

@@ -119,7 +119,7 @@ fn draw_windows(
     Ok(())
 }
 
-/// How to proceed after a window.
+/// The step after a window.
 enum NextStep {
     Done,
     /// Capacities have grown, or the window is drawn in another way.

@@ -1,4 +1,4 @@
-//! Where the lines of a window come from.
+//! Origin of the lines of a window: flattened now, or cached.
 
 /// Lines of a window.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -9,8 +9,7 @@ pub(crate) enum LineSource {
     Lod,
     /// This many cached lines.
     Cached(u32),
-    /// This many cached lines; those of dirty clusters, of which there are so many, are flattened
-    /// again.
+    /// Cached lines, and the dirty clusters whose lines are flattened again (counts).
     Refreshed(u32, u32),
 }
 

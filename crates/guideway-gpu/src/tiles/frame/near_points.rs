@@ -120,7 +120,7 @@ fn point_count(r: &Renderer<'_>, clusters: &[u32]) -> u32 {
 }
 
 /// Replaces the cache by an empty one for `points` points, and more if the budget allows. Returns
-/// `false` if there is no room for so many.
+/// `false` if the budget has no room for them.
 fn allocate(r: &mut Renderer<'_>, points: u32) -> Result<bool, RenderError> {
     r.target.drop_bindings();
     let Some(buffers) = &mut r.scene.buffers else {

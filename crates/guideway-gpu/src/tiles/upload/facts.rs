@@ -19,7 +19,7 @@ pub(crate) struct SceneFacts {
     pub(crate) widest_m: Option<f32>,
     /// True if all paths have one color, and none a width of its own.
     pub(crate) is_plain: bool,
-    /// How its tiles are drawn.
+    /// Paint mode of its tiles.
     pub(crate) paint: PaintMode,
 }
 

@@ -17,7 +17,7 @@ const STEPS_PER_SCENE: f64 = (1 << 20) as f64;
 /// slightly less than 16 bits hold.
 const MAX_STEPS: f64 = 32_000.0;
 
-/// How a scene is packed, for as long as it is on the device.
+/// Packing parameters of a scene while it is on the device.
 #[derive(Clone, Copy)]
 pub(crate) struct Packing {
     /// Bounds of all paths.

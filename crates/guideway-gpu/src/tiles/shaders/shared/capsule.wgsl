@@ -29,7 +29,7 @@ struct Capsule {
     // The end with the smaller y, and the vector to the other end.
     upper: vec2f,
     along: vec2f,
-    // Where the left and the right border leave the upper cap.
+    // Heights at which the left and the right border leave the upper cap.
     left_y: f32,
     right_y: f32,
     inverse_dy: f32,
