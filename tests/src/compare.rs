@@ -92,8 +92,8 @@ pub fn check(
     let (x, y) = difference.worst;
     let at = y as usize * expected.size().width() as usize + x as usize;
     Err(format!(
-        "expected {}; found mean {:.3}, {:.3} % within, {} pixels differ, the worst ({x}, {y}) by {:.0}: \
-         expected {:?}, drawn {:?}",
+        "expected {}; found mean {:.3}, {:.3} % within, {} pixels differ, the worst ({x}, {y}) by \
+         {:.0}: expected {:?}, drawn {:?}",
         broken.join(" and "),
         difference.mean_abs,
         difference.share_within * 100.0,

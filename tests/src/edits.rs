@@ -4,8 +4,7 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use guideway_layout::{Geometry, OwnStyle};
-use guideway_scene::View;
-use guideway_scene::{Edit, Insertion, PathState, Scene};
+use guideway_scene::{Edit, Insertion, PathState, Scene, View};
 use guideway_spline::{Affine, Point, Runs};
 
 use crate::random::Lcg;

@@ -5,8 +5,7 @@
 //! samples, and caps are square. The comparison therefore accepts a line in any of the eight
 //! neighbors of a pixel.
 
-use guideway_scene::Frame;
-use guideway_scene::LineRule;
+use guideway_scene::{Frame, LineRule};
 
 use crate::compare::pixel_difference;
 use crate::error::BoxError;

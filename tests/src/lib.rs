@@ -7,6 +7,7 @@
 //! | [`methods`], [`devices`] | methods on the processor, and on graphics devices |
 //! | [`compare`], [`hairline`] | compares pictures, and pictures of one-pixel lines |
 //! | [`evidence`] | writes pictures of failed comparisons |
+//! | [`parallel`] | runs a function over a list on all threads |
 //! | [`error`] | the error type of all of them |
 
 pub mod compare;
@@ -16,6 +17,7 @@ pub mod error;
 pub mod evidence;
 pub mod hairline;
 pub mod methods;
+pub mod parallel;
 pub mod random;
 pub mod scenes;
 pub mod sketch;

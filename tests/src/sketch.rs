@@ -5,8 +5,7 @@ use std::sync::Arc;
 
 use guideway_layout::{Code, Geometry, Layout, Level, NewPath, Paths, TextColumn};
 use guideway_scene::density::ToneMap;
-use guideway_scene::{FrameSize, Shading, Style, View};
-use guideway_scene::{LineRule, Rgba, Scene, SceneOptions};
+use guideway_scene::{FrameSize, LineRule, Rgba, Scene, SceneOptions, Shading, Style, View};
 use guideway_spline::{Point, Runs};
 
 /// Layout, style and view of one picture.

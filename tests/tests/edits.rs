@@ -4,8 +4,9 @@ use std::sync::Arc;
 
 use guideway_cpu::Oracle;
 use guideway_scene::density::ToneMap;
-use guideway_scene::{Budget, EditOutcome, Frame, Method, Prepared, Report, Style, View};
-use guideway_scene::{Edit, Scene};
+use guideway_scene::{
+    Budget, Edit, EditOutcome, Frame, Method, Prepared, Report, Scene, Style, View,
+};
 use guideway_spline::{Affine, Point};
 use guideway_tests::compare::{Tolerance, check};
 use guideway_tests::devices::candidates;

@@ -8,11 +8,14 @@ use std::sync::Arc;
 use guideway_cpu::Cpu;
 use guideway_datasets::{GeneratedPath, RUN_POINTS, d1, d2};
 use guideway_layout::{Geometry, Layout, NewPath, Paths};
-use guideway_scene::{Budget, Frame, FrameSize, Method, Prepared, Style, View};
-use guideway_scene::{LineRule, Scene, SceneOptions};
+use guideway_scene::{
+    Budget, Frame, FrameSize, LineRule, Method, Prepared, RenderError, Scene, SceneOptions, Style,
+    View,
+};
 use guideway_spline::{Point, Runs};
 use guideway_tests::compare::{Tolerance, check};
 use guideway_tests::devices::{available_or_skip, tiles};
+use guideway_tests::error::BoxError;
 use guideway_tests::evidence;
 use guideway_tests::methods::render_view;
 use guideway_tests::random::Lcg;
@@ -94,15 +97,15 @@ fn compare(
         let what = format!("{name} view {number}, {styled}");
         let expected = styled.draw(cpu.as_mut());
         let pair = expected.and_then(|expected| Ok((expected, styled.draw(prepared.as_mut())?)));
-        let difference = pair.and_then(|(expected, drawn)| {
+        let difference = pair.map_err(BoxError::from).and_then(|(expected, drawn)| {
             let difference = difference(&what, &expected, &drawn);
             pictures.push((styled, drawn));
             difference
         });
-        println!(
-            "{what}: {}",
-            difference.as_ref().unwrap_or_else(|error| error)
-        );
+        match &difference {
+            Ok(found) => println!("{what}: {found}"),
+            Err(error) => println!("{what}: {error}"),
+        }
         wrong.extend(difference.err().map(|error| format!("{what}: {error}")));
     }
     // In reverse, so that caches of the previous view hold another view.
@@ -115,7 +118,7 @@ fn compare(
 }
 
 /// Difference of a picture from the expected one, as a sentence; an error beyond the tolerance.
-fn difference(what: &str, expected: &Frame, drawn: &Frame) -> Result<String, String> {
+fn difference(what: &str, expected: &Frame, drawn: &Frame) -> Result<String, BoxError> {
     let background = Style::default().background;
     let background = [background.r, background.g, background.b, background.a];
     let covered = expected
@@ -134,7 +137,7 @@ fn difference(what: &str, expected: &Frame, drawn: &Frame) -> Result<String, Str
         Err(error) => {
             let written = evidence::write(what, expected, drawn);
             let shown = written.map_or_else(|e| e.to_string(), |file| file.display().to_string());
-            Err(format!("{error}; see {shown}"))
+            Err(format!("{error}; see {shown}").into())
         }
     }
 }
@@ -185,11 +188,8 @@ struct StyledView {
 }
 
 impl StyledView {
-    fn draw(&self, prepared: &mut dyn Prepared) -> Result<Frame, String> {
-        let drawn = render_view(prepared, &self.view, &self.style);
-        drawn
-            .map(|(frame, _)| frame)
-            .map_err(|error| error.to_string())
+    fn draw(&self, prepared: &mut dyn Prepared) -> Result<Frame, RenderError> {
+        render_view(prepared, &self.view, &self.style).map(|(frame, _)| frame)
     }
 }
 

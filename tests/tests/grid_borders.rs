@@ -37,10 +37,10 @@ fn lines_lose_coverage_at_cell_borders_without_the_radius_only() {
     let Some(written) = picture("scan+cells=2", &drawing) else {
         return;
     };
-    let Some(mended) = picture("scan+radius+cells=2", &drawing) else {
+    let Some(with_radius) = picture("scan+radius+cells=2", &drawing) else {
         return;
     };
-    if let Err(message) = check(&expected, &mended, &SMOOTH_EDGES) {
+    if let Err(message) = check(&expected, &with_radius, &SMOOTH_EDGES) {
         panic!("with radius: {message}");
     }
     let lost = check(&expected, &written, &SMOOTH_EDGES);
@@ -48,12 +48,20 @@ fn lines_lose_coverage_at_cell_borders_without_the_radius_only() {
 
     // Every different pixel lost coverage, beyond the border and within the radius.
     let mut lost = 0;
-    for (index, (written, mended)) in written.pixels().iter().zip(mended.pixels()).enumerate() {
-        if written == mended {
+    for (index, (written, with_radius)) in written
+        .pixels()
+        .iter()
+        .zip(with_radius.pixels())
+        .enumerate()
+    {
+        if written == with_radius {
             continue;
         }
         let (x, y) = (index as u32 % SIDE, index as u32 / SIDE);
-        assert!(written[0] > mended[0], "({x}, {y}) is darker as written");
+        assert!(
+            written[0] > with_radius[0],
+            "({x}, {y}) is darker as written"
+        );
         let is_right = (64..69).contains(&x);
         let is_above = (58..64).contains(&y) && x >= 64;
         // The border of the box too, because of the hairs in the corners.

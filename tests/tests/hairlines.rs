@@ -1,9 +1,6 @@
 //! Compares the line positions of method `tessellation` with the oracle, over the scene suite.
 
-use std::num::NonZero;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex};
-use std::thread;
+use std::sync::Arc;
 
 use guideway_scene::{Budget, Frame, RenderError, Report};
 use guideway_tessellation::{Antialias, Commands, GlDevice, Tessellation, TessellationOptions};
@@ -12,6 +9,7 @@ use guideway_tests::error::BoxError;
 use guideway_tests::evidence;
 use guideway_tests::hairline::{Difference, Tolerance, check, drawing};
 use guideway_tests::methods::{draw, draw_reference};
+use guideway_tests::parallel::in_parallel;
 use guideway_tests::scenes::{self, SceneCase};
 use guideway_tests::sketch::{Drawing, Sketch};
 
@@ -58,14 +56,14 @@ fn line_positions_match_the_oracle() {
         wrong.len(),
         wrong
             .iter()
-            .map(|w| w.as_str())
+            .map(|error| error.to_string())
             .collect::<Vec<_>>()
             .join("\n")
     );
 }
 
 /// The outcome of a scene; `None` if the method rejects it.
-fn outcome(case: &SceneCase, device: &Arc<GlDevice>) -> Option<Result<(), String>> {
+fn outcome(case: &SceneCase, device: &Arc<GlDevice>) -> Option<Result<(), BoxError>> {
     let drawing = drawing(case.sketch());
     let mut expected = None;
     for (antialias, tolerance) in VARIANTS {
@@ -76,7 +74,7 @@ fn outcome(case: &SceneCase, device: &Arc<GlDevice>) -> Option<Result<(), String
                 assert!(rejected.iter().any(|s| what.contains(s)) && remedy.ends_with('.'));
                 return None;
             }
-            Err(error) => return Some(Err(format!("{}: {error}", case.name))),
+            Err(error) => return Some(Err(format!("{}: {error}", case.name).into())),
         };
         let expected = expected.get_or_insert_with(|| draw_reference(&drawing).0);
         let tolerance = allowed(&case.name, antialias, tolerance, &report);
@@ -87,7 +85,8 @@ fn outcome(case: &SceneCase, device: &Arc<GlDevice>) -> Option<Result<(), String
             return Some(Err(format!(
                 "{} {antialias:?}: {wrong}; see {shown}",
                 case.name
-            )));
+            )
+            .into()));
         }
     }
     Some(Ok(()))
@@ -238,22 +237,4 @@ fn rejects_faded_pictures() {
     for (_, tolerance) in VARIANTS {
         assert!(compare(&expected, &faded, &right, &tolerance).is_err());
     }
-}
-
-fn in_parallel<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> {
-    let (next, done) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
-    let threads = thread::available_parallelism().map_or(1, NonZero::get);
-    thread::scope(|scope| {
-        for _ in 0..threads {
-            scope.spawn(|| {
-                while let Some(item) = items.get(next.fetch_add(1, Ordering::Relaxed)) {
-                    let result = work(item);
-                    done.lock()
-                        .expect("no test thread panics here")
-                        .push(result);
-                }
-            });
-        }
-    });
-    done.into_inner().expect("no test thread panics here")
 }

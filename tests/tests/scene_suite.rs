@@ -2,16 +2,13 @@
 //! memory.
 
 use std::collections::HashSet;
-use std::num::NonZero;
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::thread;
 
 use guideway_scene::{Budget, Frame, Method, RenderError};
 use guideway_tests::compare::{Difference, check};
 use guideway_tests::error::BoxError;
 use guideway_tests::evidence;
 use guideway_tests::methods::{Candidate, check_counts, draw, draw_reference, methods};
+use guideway_tests::parallel::in_parallel;
 use guideway_tests::scenes::{self, SceneCase};
 use guideway_tests::sketch::Drawing;
 
@@ -163,27 +160,4 @@ fn print_worst(outcomes: &[Outcome]) {
             difference.max_abs
         );
     }
-}
-
-fn in_parallel<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> {
-    let next = AtomicUsize::new(0);
-    let done = Mutex::new(Vec::new());
-    let threads = thread::available_parallelism().map_or(1, NonZero::get);
-    thread::scope(|scope| {
-        for _ in 0..threads {
-            scope.spawn(|| {
-                loop {
-                    let index = next.fetch_add(1, Ordering::Relaxed);
-                    let Some(item) = items.get(index) else { break };
-                    let result = work(item);
-                    done.lock()
-                        .expect("no test thread panics here")
-                        .push((index, result));
-                }
-            });
-        }
-    });
-    let mut done = done.into_inner().expect("no test thread panics here");
-    done.sort_by_key(|(index, _)| *index);
-    done.into_iter().map(|(_, result)| result).collect()
 }

@@ -32,7 +32,7 @@ const OTHER_CLUSTERS: Tolerance = Tolerance {
 };
 
 /// Limit of the change that an added path may cause in others.
-fn beside_others(method: &dyn Method) -> Tolerance {
+fn added_path_tolerance(method: &dyn Method) -> Tolerance {
     match method.info().name {
         "oracle" => Tolerance::NONE,
         _ => OTHER_CLUSTERS,
@@ -52,7 +52,10 @@ fn any_sketch() -> impl Strategy<Value = Sketch> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(24) })]
+    #![proptest_config(ProptestConfig {
+        failure_persistence: None,
+        ..ProptestConfig::with_cases(24)
+    })]
 
     #[test]
     fn pictures_do_not_depend_on_the_origin(
@@ -74,7 +77,10 @@ proptest! {
     }
 
     #[test]
-    fn pictures_in_one_color_do_not_depend_on_the_order(sketch in any_sketch(), seed in 0..1000_u64) {
+    fn pictures_in_one_color_do_not_depend_on_the_order(
+        sketch in any_sketch(),
+        seed in 0..1000_u64,
+    ) {
         let sketch = sketch.in_one_color();
         let mut order: Vec<usize> = (0..sketch.len()).collect();
         let mut lcg = Lcg::new(seed);
@@ -83,7 +89,8 @@ proptest! {
         }
         let shuffled = sketch.clone().reordered(&order);
         for method in all_methods() {
-            let (right, other) = (picture(method.as_ref(), &sketch), picture(method.as_ref(), &shuffled));
+            let right = picture(method.as_ref(), &sketch);
+            let other = picture(method.as_ref(), &shuffled);
             prop_assert!(right == other, "{}", method.info().name);
         }
     }
@@ -93,18 +100,23 @@ proptest! {
         let sketch = sketch.in_one_color();
         let fewer = sketch.clone().first(sketch.len() - 1);
         for method in all_methods() {
-            let (with, without) = (picture(method.as_ref(), &sketch), picture(method.as_ref(), &fewer));
+            let with = picture(method.as_ref(), &sketch);
+            let without = picture(method.as_ref(), &fewer);
             let mut lighter = without.clone();
             for (pixel, with) in lighter.pixels_mut().iter_mut().zip(with.pixels()) {
                 pixel[0] = pixel[0].max(with[0]);
             }
-            let outcome = check(&without, &lighter, &beside_others(method.as_ref()));
+            let outcome = check(&without, &lighter, &added_path_tolerance(method.as_ref()));
             prop_assert!(outcome.is_ok(), "{}: {outcome:?}", method.info().name);
         }
     }
 
     #[test]
-    fn paths_outside_the_view_change_no_pixel(sketch in any_sketch(), turn in 0.0..1.0, width in 0.1..30.0) {
+    fn paths_outside_the_view_change_no_pixel(
+        sketch in any_sketch(),
+        turn in 0.0..1.0,
+        width in 0.1..30.0,
+    ) {
         let (sin, cos) = f64::sin_cos(turn * TAU);
         let far = |r: f64| (24.0 + r * cos - 400.0 * sin, 20.0 + r * sin + 400.0 * cos);
         let more = sketch.clone().line(far(-300.0), far(300.0)).own_width(width);
@@ -112,7 +124,7 @@ proptest! {
         for method in all_methods() {
             let (with, report) = draw(method.as_ref(), &drawing, &Budget::default()).unwrap();
             let without = picture(method.as_ref(), &sketch);
-            let outcome = check(&without, &with, &beside_others(method.as_ref()));
+            let outcome = check(&without, &with, &added_path_tolerance(method.as_ref()));
             prop_assert!(outcome.is_ok(), "{}: {outcome:?}", method.info().name);
             prop_assert!(report.accounts_for_all());
         }

@@ -2,8 +2,7 @@
 
 use std::sync::Arc;
 
-use guideway_scene::Scene;
-use guideway_scene::{Budget, Cancel, FrameSize, Method, RenderError, Shading, Style, View};
+use guideway_scene::{Budget, Cancel, FrameSize, Method, RenderError, Scene, Shading, Style, View};
 use serde::{Deserialize, Serialize};
 
 use crate::edits::{Edits, Moves};

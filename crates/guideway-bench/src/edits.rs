@@ -4,8 +4,7 @@
 use std::cell::OnceCell;
 use std::sync::Arc;
 
-use guideway_scene::RenderError;
-use guideway_scene::{Edit, Scene};
+use guideway_scene::{Edit, RenderError, Scene};
 use guideway_spline::{Affine, Point};
 
 /// Shift of a moved path, in meters. Exact in `f32`, so that the second move restores the first

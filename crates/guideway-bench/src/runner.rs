@@ -3,10 +3,9 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use guideway_scene::Scene;
 use guideway_scene::{
-    Budget, Cancel, EditOutcome, Frame, FrameSize, Method, Prepared, RenderError, Report, Style,
-    View, Work, elapsed_ms,
+    Budget, Cancel, EditOutcome, Frame, FrameSize, Method, Prepared, RenderError, Report, Scene,
+    Style, View, Work, elapsed_ms,
 };
 
 use crate::Motion;
@@ -248,7 +247,7 @@ mod tests {
         };
         let cancel = Cancel::default();
         let runner = |method| Runner::new(method, &scene, Budget::default()).unwrap();
-        let (mut in_place, mut anew) = (runner(&Oracle), runner(&Repreparing));
+        let (mut in_place, mut prepared_again) = (runner(&Oracle), runner(&Repreparing));
         let before = in_place
             .picture(&request.view, &request.style, &cancel)
             .unwrap();
@@ -256,10 +255,10 @@ mod tests {
         for number in 0..4 {
             let sample = in_place.draw(&request, number, &cancel).unwrap();
             assert_eq!(sample.update.unwrap().bytes, Some(0));
-            let sample = anew.draw(&request, number, &cancel).unwrap();
+            let sample = prepared_again.draw(&request, number, &cancel).unwrap();
             assert_eq!(sample.update.unwrap().bytes, None);
             assert_eq!(in_place.frame == before, number % 2 == 1);
-            assert!(in_place.frame == anew.frame, "frame {number}");
+            assert!(in_place.frame == prepared_again.frame, "frame {number}");
         }
     }
 }

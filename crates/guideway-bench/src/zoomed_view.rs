@@ -3,8 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use guideway_scene::Scene;
-use guideway_scene::{FrameSize, RenderError, View};
+use guideway_scene::{FrameSize, RenderError, Scene, View};
 use guideway_spline::{Bounds, Point};
 
 /// The view of the whole scene, magnified `times`; above 1, it is centered on the densest point.

@@ -78,7 +78,7 @@ impl Kind {
         Self::Dock,
     ];
 
-    /// The name, as it is written to files.
+    /// Name of the kind in files.
     pub fn name(self) -> &'static str {
         match self {
             Self::Aisle => "aisle",

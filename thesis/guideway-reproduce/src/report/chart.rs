@@ -129,14 +129,15 @@ impl Chart {
         let y = |value: f64| HEIGHT - BOTTOM - y_axis.position(value) * (HEIGHT - TOP - BOTTOM);
         let (bottom, right) = (HEIGHT - BOTTOM, WIDTH - RIGHT);
         let mut svg = format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" role=\"img\" \
-             aria-label=\"{}\">\n",
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" \
+             role=\"img\" aria-label=\"{}\">\n",
             escape(&self.title)
         );
         for &tick in &y_axis.ticks {
             let (at, label) = (y(tick), label(tick));
             svg += &format!(
-                "<line class=\"grid\" x1=\"{LEFT}\" y1=\"{at:.1}\" x2=\"{right}\" y2=\"{at:.1}\"/>\n"
+                "<line class=\"grid\" x1=\"{LEFT}\" y1=\"{at:.1}\" x2=\"{right}\" \
+                 y2=\"{at:.1}\"/>\n"
             );
             svg += &format!(
                 "<text class=\"y\" x=\"{}\" y=\"{:.1}\">{label}</text>\n",
@@ -175,7 +176,8 @@ impl Chart {
             );
             for point in &series.points {
                 svg += &format!(
-                    "<circle class=\"{class}\" cx=\"{:.1}\" cy=\"{:.1}\" r=\"3.5\"><title>{}: {} at {}</title></circle>\n",
+                    "<circle class=\"{class}\" cx=\"{:.1}\" cy=\"{:.1}\" r=\"3.5\"><title>{}: {} \
+                     at {}</title></circle>\n",
                     x(point.0),
                     y(point.1),
                     escape(&series.name),

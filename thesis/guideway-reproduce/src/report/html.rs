@@ -17,8 +17,10 @@ pub(super) fn page(run: &Run, sections: &[Section]) -> String {
     };
     let mut html = format!(
         "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"en-US\">\n<head>\n\
-         <meta charset=\"utf-8\"/>\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n\
-         <title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<header>\n<h1>{title}</h1>\n"
+         <meta charset=\"utf-8\"/>\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n\
+         <title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<header>\n\
+         <h1>{title}</h1>\n"
     );
     html += &header(run);
     html += "<nav><ol>\n";
@@ -49,21 +51,23 @@ fn header(run: &Run) -> String {
     }
     if run.plan.is_quick {
         html += &notice(
-            "This is the quick run: fewer paths, smaller pictures and fewer frames than in the thesis, for \
-             results within minutes even on a software graphics device. Compare its numbers with each \
-             other, not with those of the thesis.",
+            "This is the quick run: fewer paths, smaller pictures and fewer frames than in the \
+             thesis, for results within minutes even on a software graphics device. Compare its \
+             numbers with each other, not with those of the thesis.",
         );
     }
     let machines = || run.sessions.iter().map(|session| &session.machine);
     if machines().any(|machine| machine.profile != "release") {
         html += &notice(
-            "Compiled with the debug profile: times on the processor are longer than in a release build.",
+            "Compiled with the debug profile: times on the processor are longer than in a release \
+             build.",
         );
     }
     let processors = unique(machines().map(processor));
     if processors.len() > 1 {
         html += &notice(
-            "The sessions had different processors: their times on the processor are not comparable.",
+            "The sessions had different processors: their times on the processor are not \
+             comparable.",
         );
     }
     let devices = run.methods.iter().filter_map(|m| m.device.clone());
@@ -142,7 +146,8 @@ fn block(block: &Block) -> String {
             let pictures: String = pictures.iter().map(picture).collect();
             let caption = escape(caption);
             format!(
-                "<figure><figcaption>{caption}</figcaption>\n<div class=\"pictures\">\n{pictures}</div></figure>\n"
+                "<figure><figcaption>{caption}</figcaption>\n\
+                 <div class=\"pictures\">\n{pictures}</div></figure>\n"
             )
         }
     }

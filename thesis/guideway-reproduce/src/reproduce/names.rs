@@ -5,7 +5,7 @@ pub(crate) const GRID: &str = "grid";
 /// `grid` with a work-efficient prefix sum.
 pub(crate) const GRID_SCAN: &str = "grid+scan";
 /// `grid+scan` with each line in all cells that its radius reaches.
-pub(crate) const GRID_MENDED: &str = "grid+scan+radius";
+pub(crate) const GRID_RADIUS: &str = "grid+scan+radius";
 /// `grid` without anti-aliasing.
 pub(crate) const GRID_HARD: &str = "grid+aa=none";
 /// Tessellation as in the thesis: one indirect draw per path.

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::names::{GRID, GRID_MENDED, GRID_SCAN, TESSELLATION, TESSELLATION_COMPACT};
+use super::names::{GRID, GRID_RADIUS, GRID_SCAN, TESSELLATION, TESSELLATION_COMPACT};
 use super::search::Search;
 use guideway_bench::Dataset;
 
@@ -10,7 +10,7 @@ use guideway_bench::Dataset;
 pub const METHODS: [&str; 10] = [
     GRID,
     GRID_SCAN,
-    GRID_MENDED,
+    GRID_RADIUS,
     "grid+scan+radius+exit",
     "grid+scan+radius+exit+aa=subpixel",
     TESSELLATION,

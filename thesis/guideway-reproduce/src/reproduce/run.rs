@@ -95,7 +95,7 @@ pub struct Reading {
     pub row: Row,
 }
 
-/// The most paths that one method draws at 60 frames a second.
+/// The most paths that one method draws at 60 frames per second.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MostPaths {
     /// The dataset.

@@ -6,8 +6,9 @@ use std::collections::HashMap;
 use std::rc::Rc;
 use std::sync::Arc;
 
-use guideway_scene::{Budget, Cancel, Frame, FrameSize, Method, RenderError, Style, View};
-use guideway_scene::{LineRule, Scene};
+use guideway_scene::{
+    Budget, Cancel, Frame, FrameSize, LineRule, Method, RenderError, Scene, Style, View,
+};
 
 use super::deadline::Deadline;
 use super::plan::Plan;

@@ -2,10 +2,9 @@
 
 use std::sync::Arc;
 
-use guideway_scene::Scene;
 use guideway_scene::{
-    Budget, Cancel, Frame, Method, MethodInfo, Preparation, Prepared, RenderError, Report, Stage,
-    Style, View, Work,
+    Budget, Cancel, Frame, Method, MethodInfo, Preparation, Prepared, RenderError, Report, Scene,
+    Stage, Style, View, Work,
 };
 
 /// A method that reports frames of `a_ms` plus `b_ms` per path.

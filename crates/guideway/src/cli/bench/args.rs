@@ -43,7 +43,7 @@ pub(crate) struct Args {
     pub(super) magnify: f64,
     /// Colors and widths of the paths
     #[arg(long, default_value = "own")]
-    pub(super) dress: Dressing,
+    pub(super) dress: StyleChoice,
     /// Value of a pixel: the color of the topmost path, or the number of paths
     #[arg(long, default_value = "color")]
     pub(super) shade: Shade,
@@ -94,7 +94,7 @@ pub(super) enum MotionKind {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum Dressing {
+pub(super) enum StyleChoice {
     /// Those of the layout; a dataset is black
     Own,
     /// A color per path, and one of four widths

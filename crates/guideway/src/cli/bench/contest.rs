@@ -8,7 +8,7 @@ use guideway::render::{Budget, Shading, Style};
 use guideway::scene::LineRule;
 use guideway_bench::{Contest, Dataset, Motion, Moves, StylePreset, plain_scene};
 
-use super::args::{Args, Dressing, MotionKind};
+use super::args::{Args, MotionKind, StyleChoice};
 use crate::cli::error::usage_error;
 use crate::cli::input;
 use crate::cli::output::Output;
@@ -55,9 +55,9 @@ impl Args {
             None => plain_scene(input::read(&self.subject, out)?.0),
         };
         let style_preset = match self.dress {
-            Dressing::Own => StylePreset::Own,
-            Dressing::Mixed => StylePreset::Mixed,
-            Dressing::Translucent => StylePreset::Translucent,
+            StyleChoice::Own => StylePreset::Own,
+            StyleChoice::Mixed => StylePreset::Mixed,
+            StyleChoice::Translucent => StylePreset::Translucent,
         };
         Ok(Contest {
             name: self.subject.to_string_lossy().into_owned(),

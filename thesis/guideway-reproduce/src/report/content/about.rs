@@ -9,13 +9,13 @@ use guideway_bench::format::{count, digits, megabytes};
 pub(super) fn section(run: &Run) -> Section {
     let plan = &run.plan;
     let settings = format!(
-        "Pictures have {} x {} pixels. The frame time ends when the picture is complete on the device, by \
-         the clock of the device if it has one, without the transfer to the host; the wall time includes \
-         transfers. Each view starts with one frame and {} more of warm-up, followed by {} measured frames; \
-         after {} s of drawing, one measured frame suffices. The tables show means, as in the thesis, and \
-         medians with the 5th and 95th percentile. Lines have the width of the thesis: a radius of 1.5 \
-         pixels, clamped to 2 to 150 mm. Methods run one after the other, each with up to {} MB of memory; \
-         `guideway bench` interleaves them.",
+        "Pictures have {} x {} pixels. The frame time ends when the picture is complete on the \
+         device, by the clock of the device if it has one, without the transfer to the host; the \
+         wall time includes transfers. Each view starts with one frame and {} more of warm-up, \
+         followed by {} measured frames; after {} s of drawing, one measured frame suffices. The \
+         tables show means, as in the thesis, and medians with the 5th and 95th percentile. Lines \
+         have the width of the thesis: a radius of 1.5 pixels, clamped to 2 to 150 mm. Methods run \
+         one after the other, each with up to {} MB of memory; `guideway bench` interleaves them.",
         plan.size_px[0],
         plan.size_px[1],
         plan.warmup,

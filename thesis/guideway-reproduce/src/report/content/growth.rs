@@ -6,7 +6,7 @@ use super::section::{Block, Section};
 use crate::report::chart::{Chart, Series};
 use crate::report::table::{Cell, Column, Table};
 use crate::reproduce::names::{
-    BIN, COUNT, CULL, GRID, GRID_MENDED, PREFIX_SUM, SAMPLE, TESSELLATE_AND_DRAW,
+    BIN, COUNT, CULL, GRID, GRID_RADIUS, PREFIX_SUM, SAMPLE, TESSELLATE_AND_DRAW,
 };
 use crate::reproduce::{Reading, Results, Run};
 use guideway_bench::format::megabytes;
@@ -23,8 +23,8 @@ const PHASES: [(&str, &str); 4] = [
 /// Figure 5.4.
 pub(super) fn frames(run: &Run) -> Section {
     let mut blocks = vec![Block::Text(
-        "All paths are in view. As in the thesis, the upper line of each method is the whole frame: \
-         culling, tessellation and drawing."
+        "All paths are in view. As in the thesis, the upper line of each method is the whole \
+         frame: culling, tessellation and drawing."
             .to_owned(),
     )];
     blocks.extend(compute_device_warning(run));
@@ -127,7 +127,7 @@ pub(super) fn builds(run: &Run) -> Section {
          warm-up. The text of the thesis refers to its figure 5.5 as 5.6.",
         run.plan.repeats
     ))];
-    for method in [GRID, GRID_MENDED] {
+    for method in [GRID, GRID_RADIUS] {
         for dataset in Dataset::ALL {
             let chart = build_chart(run, dataset, method);
             if !chart.is_empty() {

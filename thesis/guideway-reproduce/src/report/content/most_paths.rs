@@ -11,10 +11,10 @@ use guideway_bench::format::{count, digits, megabytes};
 pub(super) fn section(run: &Run) -> Section {
     let search = &run.plan.search;
     let mut blocks = vec![Block::Text(format!(
-        "The most paths with a median frame time of at most {} ms, all in view, to a tolerance of {} %; the \
-         search covers {} to {} paths. Memory is the allocation of the method without the layout, between \
-         frames and at the peak. The last two columns are the numbers of the thesis, from another machine \
-         ({}).",
+        "The most paths with a median frame time of at most {} ms, all in view, to a tolerance of \
+         {} %; the search covers {} to {} paths. Memory is the allocation of the method without \
+         the layout, between frames and at the peak. The last two columns are the numbers of the \
+         thesis, from another machine ({}).",
         digits(search.target_ms),
         search.tolerance * 100.0,
         count(search.least as u64),

@@ -13,8 +13,8 @@ pub(crate) fn sections(run: &Run) -> Vec<Section> {
             title: "Findings",
             blocks: vec![
                 Block::Text(
-                    "The claims of the thesis, each with a verdict of this run. Every verdict derives \
-                     from the tables below and holds for this machine only."
+                    "The claims of the thesis, each with a verdict of this run. Every verdict \
+                     derives from the tables below and holds for this machine only."
                         .to_owned(),
                 ),
                 Block::Findings(findings(run)),
@@ -40,8 +40,8 @@ fn datasets(run: &Run) -> Section {
         blocks: vec![
             Block::Text(
                 "D1 of the thesis is a real site that is not public, and D2 derives from it. This \
-                 reproduction generates both: D1 has halls with aisles, roads and docks; D2 scatters \
-                 curves over one field with heavy overlap."
+                 reproduction generates both: D1 has halls with aisles, roads and docks; D2 \
+                 scatters curves over one field with heavy overlap."
                     .to_owned(),
             ),
             pictures(run, "5.1", "Figure 5.1: dataset D1"),
@@ -56,8 +56,8 @@ fn appearance(run: &Run) -> Section {
         title: "Path appearance",
         blocks: vec![
             Block::Text(
-                "Lines with smooth edges (anti-aliasing) and with hard edges. Figure 5.7 shows the middle \
-                 of figure 5.6 with enlarged pixels."
+                "Lines with smooth edges (anti-aliasing) and with hard edges. Figure 5.7 shows the \
+                 middle of figure 5.6 with enlarged pixels."
                     .to_owned(),
             ),
             pictures(run, "5.6", "Figure 5.6: paths with smooth edges and without"),

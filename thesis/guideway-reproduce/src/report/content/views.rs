@@ -13,9 +13,10 @@ use guideway_bench::format::{count, percent};
 pub(super) fn occupancy(run: &Run) -> Section {
     let paths = Dataset::ALL.map(|d| count(run.plan.view_paths(d) as u64));
     let text = format!(
-        "Frame times of {} paths of D1 and {} of D2, with the view panned until part of its pixels is outside \
-         the bounds of all curves. The share inside is counted per pixel. The times of the thesis are from \
-         another machine ({}); the thesis does not state their number of paths.",
+        "Frame times of {} paths of D1 and {} of D2, with the view panned until part of its pixels \
+         is outside the bounds of all curves. The share inside is counted per pixel. The times of \
+         the thesis are from another machine ({}); the thesis does not state their number of \
+         paths.",
         paths[0],
         paths[1],
         thesis::MACHINE
@@ -90,8 +91,8 @@ fn occupancy_row(reading: &Reading, thesis_ms: Option<f64>) -> Vec<Cell> {
 /// Figure 5.3.
 pub(super) fn zoom(run: &Run) -> Section {
     let mut blocks = vec![Block::Text(
-        "At 10 % all paths are in view; at 200 % they are 20 times as large, about the densest point of the \
-         layout."
+        "At 10 % all paths are in view; at 200 % they are 20 times as large, about the densest \
+         point of the layout."
             .to_owned(),
     )];
     for dataset in Dataset::ALL {

@@ -39,11 +39,11 @@ pub(super) fn borders(run: &Run) -> Section {
     };
     let mut blocks = vec![
         Block::Text(
-                "Missing and surplus coverage of each method, relative to the exact oracle. Part of both \
-                 comes from the profile of anti-aliased edges; the additional loss of `grid` compared \
-                 with `grid+scan+radius` occurs at the borders of cells."
-                    .to_owned(),
-            ),
+            "Missing and surplus coverage of each method, relative to the exact oracle. Part \
+                 of both comes from the profile of anti-aliased edges; the additional loss of \
+                 `grid` compared with `grid+scan+radius` occurs at the borders of cells."
+                .to_owned(),
+        ),
         Block::Table(table),
     ];
     blocks.extend(blind(run));
@@ -101,9 +101,9 @@ pub(super) fn section(run: &Run) -> Section {
         title: "Counted work",
         blocks: vec![
             Block::Text(
-                "Device-independent counts, comparable between machines: point-line distance tests, atomic \
-                 operations, and bytes that threads read and write before any cache. A cell is empty if \
-                 the method does not count."
+                "Device-independent counts, comparable between machines: point-line distance \
+                 tests, atomic operations, and bytes that threads read and write before any cache. \
+                 A cell is empty if the method does not count."
                     .to_owned(),
             ),
             Block::Table(table),

@@ -32,7 +32,8 @@ pub(super) fn sampling(run: &Run) -> Judgment {
         // Exponent p of time ~ paths^p.
         let power = (many_ms / few_ms).ln() / more.ln();
         let evidence = format!(
-            "{}: from {} to {} paths the time grows from {} to {}, as the number of paths to the power of {}.",
+            "{}: from {} to {} paths the time grows from {} to {}, as the number of paths to the \
+             power of {}.",
             dataset.name(),
             count(few.0.paths as u64),
             count(many.0.paths as u64),
@@ -94,8 +95,8 @@ pub(super) fn scan(run: &Run) -> Judgment {
             return None;
         }
         let evidence = format!(
-            "{} with {} paths: {} as written, {} with a scan ({} as fast). As written, it takes {} of \
-             the {} of all four phases.",
+            "{} with {} paths: {} as written, {} with a scan ({} as fast). As written, it takes {} \
+             of the {} of all four phases.",
             dataset.name(),
             count(paths as u64),
             time(naive_ms),
@@ -122,8 +123,8 @@ pub(super) fn dynamic(run: &Run) -> Judgment {
             "Each fits into one frame, but not both together."
         };
         let evidence = format!(
-            "{} with {} paths: {} for the four phases of the build and {} to draw, of {} per frame. \
-             {meaning}",
+            "{} with {} paths: {} for the four phases of the build and {} to draw, of {} per \
+             frame. {meaning}",
             dataset.name(),
             count(paths as u64),
             time(build_ms),

@@ -1,7 +1,7 @@
 //! Judges the claims on frame times and coverage, by the views, growth and border parts.
 
 use super::judgment::{Judgment, at_most_paths, in_all};
-use crate::reproduce::names::{CULL, GRID, GRID_MENDED, TESSELLATION, TESSELLATION_COMPACT};
+use crate::reproduce::names::{CULL, GRID, GRID_RADIUS, TESSELLATION, TESSELLATION_COMPACT};
 use crate::reproduce::{Reading, Results, Run};
 use guideway_bench::format::{count, digits, percent, time, times};
 use guideway_bench::{Dataset, Measured};
@@ -87,13 +87,15 @@ fn tests(far: &(&Reading, &Measured), near: &(&Reading, &Measured)) -> String {
 
 pub(super) fn bottleneck(run: &Run) -> Judgment {
     in_all(Dataset::ALL.map(|dataset| {
-        let (paths, [each, one]) = at_most_paths(run, dataset, [TESSELLATION, TESSELLATION_COMPACT])?;
+        let (paths, [each, one]) =
+            at_most_paths(run, dataset, [TESSELLATION, TESSELLATION_COMPACT])?;
         let (each_ms, one_ms) = (each.frame_ms.mean, one.frame_ms.mean);
         let holds = each_ms < one_ms * NOTABLE;
         let meaning = if holds {
             "One command for the same patches is no faster, so commands are not the bottleneck."
         } else {
-            "The patches are the same, so the difference is the cost of one indirect command per path."
+            "The patches are the same, so the difference is the cost of one indirect command per \
+             path."
         };
         let evidence = format!(
             "{} with {} paths: {} with one command per path, {} with one for all. {meaning}",
@@ -146,24 +148,24 @@ pub(super) fn borders(run: &Run) -> Judgment {
         let all = run.results.borders.iter();
         all.filter(|b| b.method == method).find_map(|b| b.lost)
     };
-    let (written, mended) = (lost(GRID)?, lost(GRID_MENDED)?);
+    let (written, with_radius) = (lost(GRID)?, lost(GRID_RADIUS)?);
     // A method with an almost empty picture is no evidence about borders.
-    if mended > 0.5 {
+    if with_radius > 0.5 {
         return None;
     }
     // Derived: rounding to 8 bits changes the coverage by up to a thousandth.
-    let holds = written - mended < 1e-3;
+    let holds = written - with_radius < 1e-3;
     let meaning = if holds {
         "Entering lines by their radius has no effect."
     } else {
-        "A stroke extends beyond the box of its line by the radius; a cell in between that does not list \
-         the line lacks this part."
+        "A stroke extends beyond the box of its line by the radius; a cell in between that does \
+         not list the line lacks this part."
     };
     let evidence = format!(
-        "{} of the coverage of the oracle is missing with lines entered by their box, {} with lines \
-         entered by their radius. {meaning}",
+        "{} of the coverage of the oracle is missing with lines entered by their box, {} with \
+         lines entered by their radius. {meaning}",
         percent(written),
-        percent(mended),
+        percent(with_radius),
     );
     Some((holds, evidence))
 }

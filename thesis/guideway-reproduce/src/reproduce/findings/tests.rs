@@ -4,8 +4,7 @@ use guideway_scene::Clock;
 
 use super::*;
 use crate::reproduce::{Border, Limit, MostPaths, Plan, Reading, Results, Run};
-use guideway_bench::WorkCounts;
-use guideway_bench::{Dataset, Measured, Outcome, Prepare, Row, StageTime, Summary};
+use guideway_bench::{Dataset, Measured, Outcome, Prepare, Row, StageTime, Summary, WorkCounts};
 
 fn run(results: Results) -> Run {
     Run {
@@ -272,7 +271,7 @@ fn building() {
 
 #[test]
 fn borders() {
-    let table = |written, mended| {
+    let table = |written, with_radius| {
         let border = |method: &str, lost| Border {
             method: method.into(),
             lost: Some(lost),
@@ -280,7 +279,10 @@ fn borders() {
             why_not: None,
         };
         Results {
-            borders: vec![border("grid", written), border("grid+scan+radius", mended)],
+            borders: vec![
+                border("grid", written),
+                border("grid+scan+radius", with_radius),
+            ],
             ..Results::default()
         }
     };

@@ -3,15 +3,13 @@
 
 use std::sync::Arc;
 
-use guideway_scene::Scene;
-use guideway_scene::{RenderError, View};
+use guideway_scene::{RenderError, Scene, View};
 
 use crate::reproduce::deadline::Deadline;
 use crate::reproduce::names::SAMPLE;
 use crate::reproduce::run::{Reading, Results};
 use crate::reproduce::session::Session;
-use guideway_bench::Outcome;
-use guideway_bench::Prepare;
+use guideway_bench::{Outcome, Prepare};
 
 /// Measures preparation and frame times for each number of paths.
 pub(crate) fn growth(

@@ -4,8 +4,7 @@ use std::sync::Arc;
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use guideway_scene::Scene;
-use guideway_scene::{Frame, FrameSize, RenderError, View};
+use guideway_scene::{Frame, FrameSize, RenderError, Scene, View};
 
 use super::views::{MAGNIFICATIONS, magnified};
 use crate::reproduce::deadline::Deadline;

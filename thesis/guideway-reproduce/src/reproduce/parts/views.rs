@@ -1,14 +1,12 @@
 //! Tables 5.2 and 5.3 and figure 5.3: measures one scene in several views.
 
-use guideway_scene::Scene;
-use guideway_scene::{FrameSize, RenderError, View};
+use guideway_scene::{FrameSize, RenderError, Scene, View};
 use guideway_spline::{Bounds, Point};
 
 use crate::reproduce::deadline::Deadline;
 use crate::reproduce::run::{Reading, Results};
 use crate::reproduce::session::Session;
-use guideway_bench::Dataset;
-use guideway_bench::zoomed_view;
+use guideway_bench::{Dataset, zoomed_view};
 
 /// Shares of pixels inside the bounds of the scene, as in the thesis.
 const SHARES: [f64; 3] = [0.0, 0.5, 1.0];
