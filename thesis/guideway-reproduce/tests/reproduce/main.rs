@@ -123,7 +123,7 @@ fn records_the_numbers_of_every_method() {
         Verdict::Holds
     );
     assert_eq!(verdict("Magnifying, per pixel"), Verdict::DoesNotHold);
-    assert_eq!(verdict("What limits tessellation"), Verdict::NotMeasured);
+    assert_eq!(verdict("Bottleneck of tessellation"), Verdict::NotMeasured);
 }
 
 #[test]

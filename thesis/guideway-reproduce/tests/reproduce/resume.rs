@@ -245,7 +245,7 @@ fn contradictory_trials_end_the_search() {
 }
 
 #[test]
-fn the_page_tells_of_all_sittings() {
+fn the_page_lists_all_sessions() {
     let page = |run: &Run| {
         let mut files = files(run).into_iter();
         files.find(|file| file.name == PAGE).unwrap().text

@@ -45,7 +45,7 @@ const CLAIMS: [Claim; 14] = [
         judge: frame::zoom_of_tessellation,
     },
     Claim {
-        title: "What limits tessellation",
+        title: "Bottleneck of tessellation",
         section: "5.3.1",
         text: "Geometry throughput is the limiting factor: the patches that have to be processed.",
         judge: frame::bottleneck,

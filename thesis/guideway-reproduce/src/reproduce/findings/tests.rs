@@ -217,7 +217,7 @@ fn tessellation() {
     let holds = || table(10.0, 9.9, 0.5, 11.0);
     let fails = || table(10.0, 2.0, 5.0, 20.0);
     judge(
-        "What limits tessellation",
+        "Bottleneck of tessellation",
         holds(),
         fails(),
         &["90 paths", "10.0 ms"],
