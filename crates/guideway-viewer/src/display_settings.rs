@@ -146,8 +146,10 @@ mod tests {
 
     #[test]
     fn least_width_never_exceeds_the_greatest() {
-        let mut settings = DisplaySettings::default();
-        settings.min_px = 1e3;
+        let settings = DisplaySettings {
+            min_px: 1e3,
+            ..DisplaySettings::default()
+        };
         let LineRule::World { min_px, max_px, .. } = settings.line_rule() else {
             panic!("the thesis' rule is off");
         };

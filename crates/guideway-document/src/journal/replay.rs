@@ -30,7 +30,7 @@ pub fn replay(
     let mut bytes = journal;
     while let Some((payload, rest)) = next_payload(bytes).filter(|_| continues(progress)) {
         let entry = decode::decode(payload);
-        if !entry.is_some_and(|entry| perform(entry, document).is_ok()) {
+        if entry.is_none_or(|entry| perform(entry, document).is_err()) {
             break;
         }
         bytes = rest;

@@ -104,10 +104,10 @@ impl PointStore {
         match self {
             Self::None => {}
             Self::F32(typed) => {
-                append_hulls(&mut typed.boxes, &typed.points[..typed.accepted], ends)
+                append_hulls(&mut typed.boxes, &typed.points[..typed.accepted], ends);
             }
             Self::F64(typed) => {
-                append_hulls(&mut typed.boxes, &typed.points[..typed.accepted], ends)
+                append_hulls(&mut typed.boxes, &typed.points[..typed.accepted], ends);
             }
         }
     }

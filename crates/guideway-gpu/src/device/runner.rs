@@ -178,10 +178,12 @@ impl Runner {
                 let mut ticks = [[0_u64; 2]; MAX_STAGES];
                 let buffer = &clock.readback;
                 let bytes = TIMESTAMP_BYTES;
-                PendingRead::of_submission(&self.gpu, what, buffer, bytes, submission)?
-                    .finish(&self.gpu, |bytes| {
-                        bytemuck::bytes_of_mut(&mut ticks).copy_from_slice(bytes)
-                    })?;
+                PendingRead::of_submission(&self.gpu, what, buffer, bytes, submission)?.finish(
+                    &self.gpu,
+                    |bytes| {
+                        bytemuck::bytes_of_mut(&mut ticks).copy_from_slice(bytes);
+                    },
+                )?;
                 for (span_ms, [begin, end]) in spans_ms.iter_mut().zip(ticks) {
                     *span_ms = end.saturating_sub(begin) as f64 * clock.tick_ns * 1e-6;
                 }
