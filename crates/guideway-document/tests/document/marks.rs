@@ -1,10 +1,11 @@
 //! Marks and outlines.
 
+use std::sync::Arc;
+
 use guideway_document::decorations::{LabelSize, MAX_MARKED, MarkOptions, Outline, marks, outline};
-use guideway_document::{PathSet, ReversePairs, SelectMode};
-use guideway_layout::{Layout, NewPath};
-use guideway_scene::LineRule;
-use guideway_scene::View;
+use guideway_document::{Document, PathSet, ReversePairs, SelectMode};
+use guideway_layout::{Layout, Level, NewPath};
+use guideway_scene::{LineRule, SceneOptions, View};
 use guideway_spline::{Point, Runs};
 
 use crate::site::{document_of, lanes, p, view};
@@ -41,6 +42,33 @@ fn arrows_lie_on_their_paths_and_point_along_them() {
     }
     assert_eq!(marks.nodes.len(), 3);
     assert!(!marks.left_out);
+}
+
+#[test]
+fn marks_of_other_levels_are_hidden() {
+    let mut layout = Layout::default();
+    for (level, id) in ["ground", "roof"].into_iter().enumerate() {
+        layout.levels.push(Level {
+            id: id.into(),
+            name: None,
+            elevation_m: None,
+        });
+        let node = layout
+            .nodes
+            .push(id, p(level as f64, 0.0), Some(level as u32));
+        let here = Some(p(level as f64, 1.0));
+        layout
+            .stations
+            .push(id, here, vec![node], Some(level as u32));
+    }
+    let options = SceneOptions {
+        level: Some("roof".into()),
+        ..SceneOptions::default()
+    };
+    let document = Document::new(Arc::new(layout), &options).unwrap();
+    let marks = marks(&document, &view(p(0.5, 0.5), 40.0), &ALL);
+    assert_eq!((marks.nodes.len(), marks.stations.len()), (1, 1));
+    assert!(marks.labels.iter().all(|label| label.text == "roof"));
 }
 
 /// Three lanes with a return path each: the reversed curve, other control points on the same line,

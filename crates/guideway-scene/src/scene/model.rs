@@ -32,6 +32,8 @@ pub struct Scene {
     /// State per row; empty while all paths are shown.
     pub(crate) states: Vec<PathState>,
     removed_count: usize,
+    /// The only visible level; `None` shows all.
+    level: Option<u32>,
     draw_order: Vec<u32>,
     /// Computed on first use after a change.
     bounds: OnceLock<Option<Bounds<f64>>>,
@@ -78,7 +80,8 @@ impl Scene {
     /// # Errors
     /// When the options name a level or a column that the layout does not have.
     pub fn new(layout: Arc<Layout>, options: &SceneOptions) -> Result<Self, SceneError> {
-        let states = states(&layout, options.level.as_deref())?;
+        let level = visible_level(&layout, options.level.as_deref())?;
+        let states = states(&layout, level);
         let draw_order = draw_order(&layout, &states);
         let base = options.color.unwrap_or(Rgba::BLACK);
         let (colors, legend) = match &options.color_by {
@@ -98,10 +101,16 @@ impl Scene {
             base,
             states,
             removed_count: 0,
+            level,
             draw_order,
             bounds: OnceLock::new(),
             legend,
         })
+    }
+
+    /// Returns `true` if elements of a level are visible. Elements without a level belong to all.
+    pub fn shows_level(&self, level: Option<u32>) -> bool {
+        level.is_none() || self.level.is_none() || level == self.level
     }
 
     /// The layout.
@@ -220,23 +229,30 @@ impl Scene {
     }
 }
 
-/// Initial state per row: hides the paths of all levels but `level`.
-fn states(layout: &Layout, level: Option<&str>) -> Result<Vec<PathState>, SceneError> {
-    let Some(asked) = level else {
-        return Ok(Vec::new());
+/// The index of the level of this name or id.
+fn visible_level(layout: &Layout, asked: Option<&str>) -> Result<Option<u32>, SceneError> {
+    let Some(asked) = asked else {
+        return Ok(None);
     };
-    let only = layout.level_named(asked);
-    if only.is_none() {
-        return Err(SceneError::UnknownLevel {
+    match layout.level_named(asked) {
+        Some(level) => Ok(Some(level)),
+        None => Err(SceneError::UnknownLevel {
             asked: asked.to_owned(),
             known: layout.levels.iter().map(level_label).collect(),
-        });
+        }),
     }
-    let state = |path: PathRef<'_>| match path.level() == only {
+}
+
+/// Initial state per row: hides the paths of all levels but `level`.
+fn states(layout: &Layout, level: Option<u32>) -> Vec<PathState> {
+    if level.is_none() {
+        return Vec::new();
+    }
+    let state = |path: PathRef<'_>| match path.level() == level {
         true => PathState::Shown,
         false => PathState::Hidden,
     };
-    Ok(layout.paths.iter().map(state).collect())
+    layout.paths.iter().map(state).collect()
 }
 
 fn draw_order(layout: &Layout, states: &[PathState]) -> Vec<u32> {

@@ -5,7 +5,8 @@
 //! With two numbers it writes that many copies of the site side by side, in that many rows.
 //!
 //! The site is a distribution hall of our own design: two ring lanes in opposite directions,
-//! high-bay aisles, docks, chargers, parking, a production loop, and a mezzanine as a second layout.
+//! high-bay aisles, docks, chargers, parking, a production loop, and a mezzanine as a second
+//! layout.
 
 mod file;
 mod hall;
