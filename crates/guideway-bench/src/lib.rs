@@ -14,7 +14,7 @@
 //! | [`interleaved`] | draws the frames of several runners in turns |
 //! | `comparison` | measures a whole contest |
 //! | `measured`, `statistics`, `machine` | the report: results, summaries, the computer |
-//! | [`format`] | numbers for tables and sentences |
+//! | [`mod@format`] | numbers for tables and sentences |
 
 mod comparison;
 mod dataset;

@@ -53,7 +53,7 @@
 //!
 //! # Render
 //!
-//! A [`Scene`](scene::Scene) resolves colors, widths and draw order once. A [method](method)
+//! A [`Scene`](scene::Scene) resolves colors, widths and draw order once. A [method()]
 //! prepares the scene and then renders any view of it; the report accounts for every path.
 //!
 //! ```

@@ -1,4 +1,5 @@
-//! Writes the report of a [`Run`]: an HTML page and CSV tables. Equal runs give equal files.
+//! Writes the report of a [`Run`](crate::reproduce::Run): an HTML page and CSV tables. Equal runs
+//! give equal files.
 //!
 //! | module | purpose |
 //! |---|---|
