@@ -51,7 +51,7 @@ pub struct Comparison {
     /// Colors and widths of its paths.
     #[serde(default, rename = "dress")]
     pub style_preset: StylePreset,
-    /// Whether pixels show the number of paths instead of their colors.
+    /// True if pixels show the number of paths instead of their colors.
     #[serde(default)]
     pub is_density: bool,
     /// View of the first frame.
@@ -62,7 +62,7 @@ pub struct Comparison {
     pub edit_share: Option<f64>,
     /// Number of moved paths, at least one.
     pub edit_paths: Option<usize>,
-    /// Whether each path moves by its own curve.
+    /// True if each path moves by its own curve.
     pub edit_is_apart: Option<bool>,
     /// Unmeasured frames per method after the first.
     pub warmup: usize,

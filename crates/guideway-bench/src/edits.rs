@@ -16,7 +16,7 @@ const BY_M: Point<f64> = Point { x: 0.5, y: 0.25 };
 pub struct Moves {
     /// Share of all paths, from 0 to 1.
     pub share: f64,
-    /// Whether each path gets its own new curve; otherwise one transform moves all of them.
+    /// True if each path gets its own new curve; otherwise one transform moves all of them.
     pub is_apart: bool,
 }
 

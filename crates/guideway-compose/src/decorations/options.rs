@@ -46,7 +46,7 @@ impl Decorations {
         }
     }
 
-    /// Whether there is any arrow, node, station or label.
+    /// Returns `true` if there is any arrow, node, station or label.
     pub(super) fn has_marks(&self) -> bool {
         self.has_arrows || self.has_nodes || self.has_stations || self.has_labels
     }

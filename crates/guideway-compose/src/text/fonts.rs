@@ -36,7 +36,7 @@ impl Font {
     }
 }
 
-/// Whether a font has an outline for a character; fonts of colored bitmaps have none.
+/// Returns `true` if a font has an outline for a character; fonts of colored bitmaps have none.
 fn draws(tables: &FontRef<'_>, c: char) -> bool {
     let glyph = tables.charmap().map(c);
     glyph.is_some_and(|glyph| c.is_whitespace() || tables.outline_glyphs().get(glyph).is_some())
@@ -83,7 +83,8 @@ impl Fonts {
     }
 }
 
-/// Whether a character belongs to the one before: combining marks, joiners, variation selectors.
+/// Returns `true` if a character belongs to the one before: combining marks, joiners, variation
+/// selectors.
 fn continues(c: char) -> bool {
     matches!(c,
         '\u{300}'..='\u{36F}' | '\u{1AB0}'..='\u{1AFF}' | '\u{1DC0}'..='\u{1DFF}'
