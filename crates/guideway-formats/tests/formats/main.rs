@@ -21,6 +21,7 @@ mod lif_write;
 mod opendrive;
 mod opentcs;
 mod rmf;
+mod ros_map;
 mod round_trip;
 mod same;
 mod sniff;
