@@ -81,12 +81,19 @@ fn is_arrow(file: &mut File) -> Result<bool, Problem> {
 /// Reads the bytes of a file that is no layout, such as an image.
 ///
 /// # Errors
-/// When the file cannot be read or is larger than the limit, or when the caller cancels.
+/// When the file cannot be read, when it is larger than `max_bytes` or than the limit of layouts,
+/// or when the caller cancels.
 pub(crate) fn read_file_bytes(
     path: &Path,
     options: &ReadOptions<'_>,
+    max_bytes: u64,
 ) -> Result<Vec<u8>, ReadError> {
-    let bytes = open(path).and_then(|mut file| read_whole(&mut file, options));
+    let limits = Limits {
+        file_bytes: options.limits.file_bytes.min(max_bytes),
+        ..options.limits.clone()
+    };
+    let options = ReadOptions { limits, ..*options };
+    let bytes = open(path).and_then(|mut file| read_whole(&mut file, &options));
     bytes.map_err(|problem| ReadError::new(path.display().to_string(), problem))
 }
 

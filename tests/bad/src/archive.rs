@@ -160,7 +160,7 @@ impl Display for Archive {
     }
 }
 
-/// Whether a text needs no escapes.
+/// Returns `true` if a text needs no escapes.
 fn is_whole(text: &str) -> bool {
     let is_closed = text.is_empty() || text.ends_with('\n');
     let is_header = |line: &str| line.starts_with(START);

@@ -19,8 +19,8 @@ const COLUMNS: usize = 96;
 #[error("invalid escape `\\{0}`; valid are `\\\\`, `\\r`, `\\xHH`, and `\\` at the end of a line")]
 pub struct EscapeError(String);
 
-/// Whether editors and git keep a text as it is: no control character but tab and newline, and no
-/// byte order mark.
+/// Returns `true` if editors and git keep a text as it is: no control character but tab and
+/// newline, and no byte order mark.
 pub(crate) fn is_plain(text: &str) -> bool {
     text.chars().all(is_plain_char)
 }

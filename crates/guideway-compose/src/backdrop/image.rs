@@ -201,6 +201,7 @@ mod tests {
         let image = image(0.0);
         assert_eq!(color_at(&image, 11.0, 21.0, 0.5), [128, 128, 128, 255]);
     }
+
     #[test]
     fn map_lies_at_its_origin_turned_by_its_yaw() {
         let grid = OccupancyGrid {

@@ -17,7 +17,7 @@ pub struct Raster {
     pub height: usize,
     /// Red, green, blue and opacity per pixel, not premultiplied; the top row first.
     pub pixels: Vec<[u8; 4]>,
-    /// Whether the file has an opacity per pixel.
+    /// True if the file has an opacity per pixel.
     pub has_alpha: bool,
     /// The bytes of the file if it is PNG, for formats that embed the file.
     pub png: Option<Vec<u8>>,

@@ -12,7 +12,7 @@ use crate::Problem;
 /// Greatest value that the format allows for its brightest pixel.
 const MAX_MAXVAL: u64 = 65_535;
 
-/// Whether bytes begin as PGM.
+/// Returns `true` if bytes begin as PGM.
 pub(super) fn is_pgm(bytes: &[u8]) -> bool {
     matches!(bytes, [b'P', b'2' | b'5', next, ..] if next.is_ascii_whitespace() || *next == b'#')
 }

@@ -11,7 +11,7 @@ use crate::Problem;
 /// First bytes of a PNG file.
 const MAGIC: &[u8] = b"\x89PNG";
 
-/// Whether bytes begin as PNG.
+/// Returns `true` if bytes begin as PNG.
 pub(super) fn is_png(bytes: &[u8]) -> bool {
     bytes.starts_with(MAGIC)
 }

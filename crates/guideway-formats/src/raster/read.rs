@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use guideway_layout::{Limits, Place};
+use guideway_layout::Place;
 
 use super::image::Raster;
 use super::{pgm, png};
@@ -13,7 +13,7 @@ use crate::{Problem, ReadError, ReadOptions};
 /// that PNG and PGM take, and as much again for texts in it.
 const MAX_FILE_BYTES: u64 = 1 << 30;
 
-/// Whether bytes begin as an image of a format that [`read_file`] reads.
+/// Returns `true` if bytes begin as an image of a format that [`read_file`] reads.
 pub fn is_raster(bytes: &[u8]) -> bool {
     png::is_png(bytes) || pgm::is_pgm(bytes)
 }
@@ -24,11 +24,7 @@ pub fn is_raster(bytes: &[u8]) -> bool {
 /// When the file cannot be read, has another format, is damaged, or exceeds a limit: 1 GiB,
 /// [`MAX_PIXELS`](super::MAX_PIXELS) pixels.
 pub fn read_file(path: &Path, options: &ReadOptions<'_>) -> Result<Raster, ReadError> {
-    let limits = Limits {
-        file_bytes: options.limits.file_bytes.min(MAX_FILE_BYTES),
-        ..options.limits.clone()
-    };
-    let bytes = read_file_bytes(path, &ReadOptions { limits, ..*options })?;
+    let bytes = read_file_bytes(path, options, MAX_FILE_BYTES)?;
     read(bytes).map_err(|problem| ReadError::new(path.display().to_string(), problem))
 }
 

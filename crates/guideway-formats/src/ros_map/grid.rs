@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use guideway_layout::{Limits, Place};
+use guideway_layout::Place;
 use guideway_spline::Point;
 
 use super::map_file::{MapFile, MapMode};
@@ -41,18 +41,13 @@ pub struct OccupancyGrid {
 ///
 /// # Errors
 /// When a file cannot be read, a field is missing, unknown or wrong, or a limit is exceeded: 1 MiB
-/// for the map file, [`raster::MAX_PIXELS`], [`Limits::coordinate_m`].
+/// for the map file, [`raster::MAX_PIXELS`], [`Limits::coordinate_m`](guideway_layout::Limits).
 pub fn read_file(path: &Path, options: &ReadOptions<'_>) -> Result<OccupancyGrid, ReadError> {
-    let limits = Limits {
-        file_bytes: options.limits.file_bytes.min(MAX_FILE_BYTES),
-        ..options.limits.clone()
-    };
-    let short = ReadOptions { limits, ..*options };
-    let bytes = read_file_bytes(path, &short)?;
+    let bytes = read_file_bytes(path, options, MAX_FILE_BYTES)?;
     let name = path.display().to_string();
     let source = Source {
         name: &name,
-        options: &short,
+        options,
     };
     let map = MapFile::parse(&source, path, &bytes)?;
     let image = raster::read_file(&map.image, options).map_err(|error| match error.problem {

@@ -35,7 +35,7 @@ pub struct MapFile {
     pub image: PathBuf,
     /// Resolution and origin as a placement.
     pub placement: ImagePlacement,
-    /// Whether white pixels are occupied and black ones free.
+    /// True if white pixels are occupied and black ones free.
     pub negate: bool,
     /// Occupancy above which a pixel is occupied, from 0 to 1.
     pub occupied_thresh: f64,

@@ -40,13 +40,18 @@ impl OccupancyGrid {
         layout.map_err(|problem| ReadError::new(&self.name, problem))
     }
 
-    /// Whether the cell exists and is occupied.
-    fn is_wall(&self, x: i64, y: i64) -> bool {
-        let is_inside = (0..self.width as i64).contains(&x) && (0..self.height as i64).contains(&y);
-        is_inside && self.cells[y as usize * self.width + x as usize] == OCCUPIED
+    /// Index of a cell of the grid.
+    fn index(&self, x: i64, y: i64) -> usize {
+        y as usize * self.width + x as usize
     }
 
-    /// Whether the cell and its four neighbors are occupied.
+    /// Returns `true` if the cell exists and is occupied.
+    fn is_wall(&self, x: i64, y: i64) -> bool {
+        let is_inside = (0..self.width as i64).contains(&x) && (0..self.height as i64).contains(&y);
+        is_inside && self.cells[self.index(x, y)] == OCCUPIED
+    }
+
+    /// Returns `true` if the cell and its four neighbors are occupied.
     fn is_deep(&self, x: i64, y: i64) -> bool {
         let cells = [(0, 0), (1, 0), (-1, 0), (0, 1), (0, -1)];
         cells.iter().all(|(i, j)| self.is_wall(x + i, y + j))
@@ -58,7 +63,7 @@ struct Outlines<'g> {
     grid: &'g OccupancyGrid,
     /// Maps corners of cells, y down, to meters.
     world: Affine,
-    /// Per cell: whether its upper side is part of an outline that was followed.
+    /// Per cell: true if its upper side is part of an outline that was followed.
     seen: Vec<bool>,
     /// Number of lines so far.
     lines: usize,
@@ -75,7 +80,7 @@ impl Outlines<'_> {
         for y in 0..self.grid.height as i64 {
             for x in 0..self.grid.width as i64 {
                 let is_start = self.grid.is_wall(x, y) && !self.grid.is_wall(x, y - 1);
-                if !is_start || self.seen[self.cell(x, y)] {
+                if !is_start || self.seen[self.grid.index(x, y)] {
                     continue;
                 }
                 let runs = self.outline((x, y))?;
@@ -90,10 +95,6 @@ impl Outlines<'_> {
         Ok(layout)
     }
 
-    fn cell(&self, x: i64, y: i64) -> usize {
-        y as usize * self.grid.width + x as usize
-    }
-
     /// The outline through the upper side of a cell, with walls on its right hand.
     fn outline(&mut self, start: Corner) -> Result<Runs, Problem> {
         let mut runs = Runs::default();
@@ -101,8 +102,7 @@ impl Outlines<'_> {
         let mut last = start;
         loop {
             if step == (1, 0) {
-                let cell = self.cell(x, y);
-                self.seen[cell] = true;
+                self.seen[self.grid.index(x, y)] = true;
             }
             (x, y) = (x + step.0, y + step.1);
             let next = self.turn((x, y), step);

@@ -3,8 +3,8 @@
 /// Bytes of a text that are searched. Maps take 200 bytes, and comments may precede the keys.
 const SEARCHED: usize = 1 << 16;
 
-/// Whether a text has the top-level keys of a map: `image`, and one of those that place it or tell
-/// the meaning of its pixels.
+/// Returns `true` if a text has the top-level keys of a map: `image`, and one of those that place
+/// it or tell the meaning of its pixels.
 pub fn is_ros_map(text: &[u8]) -> bool {
     let text = &text[..text.len().min(SEARCHED)];
     let has = |key: &[u8]| {
