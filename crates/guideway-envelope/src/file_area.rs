@@ -1,4 +1,4 @@
-//! Reads the area of a path from a file: polygons with holes in, convex parts out.
+//! Reads the area of a path from a file: splits polygons with holes into convex parts.
 
 use earcut::{Earcut, deviation};
 use guideway_layout::{Layout, PathRef, Value};
