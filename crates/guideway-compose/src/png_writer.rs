@@ -55,8 +55,8 @@ pub fn write_png_by<T, E>(
     let mut encoder = png::Encoder::new(&mut target, size.width(), size.height());
     encoder.set_color(png::ColorType::Rgba);
     encoder.set_depth(png::BitDepth::Eight);
-    // Measured: files are half as large again as by default compression, which takes as long as
-    // rendering a million paths, or longer.
+    // Measured on D1 at 1920 x 1080: 6 ms instead of the 47 ms of default compression, which is as
+    // long as rendering its million paths; files are 1.1 to 1.7 times as large.
     encoder.set_compression(png::Compression::Fast);
     encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
     let mut writer = encoder.write_header().map_err(fail_png)?;
