@@ -6,8 +6,7 @@ use std::sync::Arc;
 use guideway::compose::{Decorations, Picture, Rendered};
 use guideway::formats::{ReadOptions, read_bytes};
 use guideway::layout::UserError;
-use guideway::render::FrameSize;
-use guideway::scene::{ColorBy, Legend, LineRule, Scene, SceneOptions};
+use guideway::scene::{ColorBy, FrameSize, Legend, LineRule, Scene, SceneOptions};
 use serde_json::json;
 
 use super::exit::Exit;

@@ -47,7 +47,8 @@ fn placement(input: &Input) -> Result<ImagePlacement, UserError> {
     })
 }
 
-/// Whether a file begins as PNG. For a file that cannot be read, the reader reports the error.
+/// Returns `true` if a file begins as PNG. For a file that cannot be read, the reader reports the
+/// error.
 fn is_png(path: &Path) -> bool {
     let mut first = [0; PNG.len()];
     path.is_file()

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use guideway::render::{Frame, FrameSize};
+use guideway::scene::{Frame, FrameSize};
 use serde_json::Value;
 
 use crate::support::{command, has_keys, json, names_in, site, stderr, stdout};

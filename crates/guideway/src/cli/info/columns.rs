@@ -29,12 +29,12 @@ pub(super) struct Column {
     /// Maximum of the finite numbers.
     pub(super) max: Option<f64>,
     /// The most frequent values, the most frequent first; empty if every value is unique.
-    pub(super) top: Vec<Top>,
+    pub(super) top: Vec<FrequentValue>,
 }
 
 /// A value with the number of its rows.
 #[derive(Debug, Serialize)]
-pub(super) struct Top {
+pub(super) struct FrequentValue {
     pub(super) value: String,
     pub(super) count: u64,
 }
@@ -106,7 +106,7 @@ fn tally<T: Eq + Hash + Ord>(
         max: None,
         top: top
             .iter()
-            .map(|(value, count)| Top {
+            .map(|(value, count)| FrequentValue {
                 value: shown(value),
                 count: *count,
             })

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use guideway::layout::{Code, Direction, Layout};
 use serde::Serialize;
 
-use super::columns::{self, Column, Top};
+use super::columns::{self, Column, FrequentValue};
 use super::extent::Extent;
 use crate::cli::input::{self, Input};
 
@@ -25,7 +25,7 @@ pub(super) struct Summary {
     pub(super) nodes: u64,
     pub(super) stations: u64,
     pub(super) levels: Vec<LevelSummary>,
-    pub(super) vehicle_types: Vec<Top>,
+    pub(super) vehicle_types: Vec<FrequentValue>,
     pub(super) bounds_m: Option<Box2>,
     pub(super) length_m: f64,
     pub(super) attributes: Tables,
@@ -160,7 +160,7 @@ fn levels(layout: &Layout) -> Vec<LevelSummary> {
     layout.levels.iter().zip(paths).map(summary).collect()
 }
 
-fn vehicle_types(layout: &Layout) -> Vec<Top> {
+fn vehicle_types(layout: &Layout) -> Vec<FrequentValue> {
     let types = layout.paths.vehicle_types();
     let mut counts: BTreeMap<&str, u64> = BTreeMap::new();
     if !types.names().is_empty() {
@@ -168,7 +168,7 @@ fn vehicle_types(layout: &Layout) -> Vec<Top> {
             *counts.entry(name).or_insert(0) += 1;
         }
     }
-    let top = |(value, count): (&str, u64)| Top {
+    let top = |(value, count): (&str, u64)| FrequentValue {
         value: value.to_owned(),
         count,
     };

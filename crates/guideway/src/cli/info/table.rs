@@ -1,6 +1,6 @@
 //! The `info` report as text.
 
-use super::columns::{Column, Top};
+use super::columns::{Column, FrequentValue};
 use super::summary::{Kind, Summary};
 use crate::cli::text::{bytes, count, counted, meters, number, single_line, time};
 
@@ -41,7 +41,7 @@ pub(super) fn text(of: &Summary) -> String {
         format!("{name}{height} ({})", counted(level.paths, "path"))
     });
     lines.put("levels", &join(levels));
-    lines.put("vehicles", &tops(&of.vehicle_types));
+    lines.put("vehicles", &frequent_values(&of.vehicle_types));
     lines.put("memory", &bytes(of.memory_bytes));
     lines.columns("paths", &of.attributes.paths);
     lines.columns("nodes", &of.attributes.nodes);
@@ -139,7 +139,7 @@ fn column_text(column: &Column) -> String {
         text += &format!(", {} without", count(column.missing));
     }
     if !column.top.is_empty() {
-        text += &format!(": {}", tops(&column.top));
+        text += &format!(": {}", frequent_values(&column.top));
     }
     let rest = column.distinct.saturating_sub(column.top.len() as u64);
     if rest > 0 && !column.top.is_empty() {
@@ -148,7 +148,7 @@ fn column_text(column: &Column) -> String {
     text
 }
 
-fn tops(top: &[Top]) -> String {
+fn frequent_values(top: &[FrequentValue]) -> String {
     join(top.iter().map(|top| {
         format!(
             "{} ({})",

@@ -5,8 +5,7 @@ use std::path::Path;
 use guideway::compose::{Rendered, SweptReport};
 use guideway::envelope::NoEnvelope;
 use guideway::layout::Severity;
-use guideway::render::Clock;
-use guideway::scene::{Legend, Scene};
+use guideway::scene::{Clock, Legend, Scene};
 use serde_json::{Value, json};
 
 use super::args::Args;

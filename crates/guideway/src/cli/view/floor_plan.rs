@@ -4,8 +4,7 @@ use std::sync::{Mutex, PoisonError};
 
 use guideway::compose::{ComposeError, FloorPlan, PreparedFloorPlan};
 use guideway::layout::UserError;
-use guideway::render::{Budget, Frame, Strip, View};
-use guideway::scene::Rgba;
+use guideway::scene::{Budget, Frame, Rgba, Strip, View};
 use guideway::spline::Bounds;
 
 /// The floor plan of the window.

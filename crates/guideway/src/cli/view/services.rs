@@ -12,7 +12,7 @@ use guideway::compose::{Backdrop, Picture, SweptAreas, Viewport, draw_swept_area
 use guideway::envelope::EnvelopeSource;
 use guideway::formats::{Progress, ReadOptions, read_file};
 use guideway::layout::{Layout, UserError};
-use guideway::render::{Frame, Method, View, elapsed_ms};
+use guideway::scene::{Frame, Method, View, elapsed_ms};
 use guideway_viewer::{AppServices, Job, LoadStage, MethodChoice, PictureRequest};
 
 use super::floor_plan::WindowFloorPlan;
@@ -26,7 +26,7 @@ use crate::cli::output::Output;
 pub(super) struct CliServices {
     /// Start of the command, if it prints how long files take.
     timed_since: Option<Instant>,
-    /// Whether state, such as recent files, outlives the run.
+    /// True if state, such as recent files, outlives the run.
     keeps_state: bool,
 }
 
