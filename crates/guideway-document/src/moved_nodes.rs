@@ -10,7 +10,7 @@ use guideway_spline::Point;
 pub(crate) struct MovedNodes(BTreeMap<u32, Point<f64>>);
 
 impl MovedNodes {
-    /// True if no node was ever moved.
+    /// Returns `true` if no node was ever moved.
     pub(crate) fn is_empty(&self) -> bool {
         self.0.is_empty()
     }

@@ -37,7 +37,7 @@ pub(super) enum Operator {
 }
 
 impl Condition {
-    /// True if a path fulfills the condition.
+    /// Returns `true` if a path fulfills the condition.
     pub(super) fn holds(&self, layout: &Layout, path: u32) -> bool {
         match self {
             Self::All(parts) => parts.iter().all(|part| part.holds(layout, path)),

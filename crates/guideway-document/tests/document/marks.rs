@@ -144,6 +144,18 @@ fn labels_do_not_overlap() {
 }
 
 #[test]
+fn labels_of_level_paths_are_above_them_and_hide_no_arrow() {
+    let view = view(p(5.0, 1.0), 40.0);
+    let marks = marks_of(lanes(3), &view);
+    let at = |text: &str| marks.labels.iter().find(|label| label.text == text);
+    let label = at("path-1").unwrap_or_else(|| panic!("{:?}", marks.labels));
+    let path_px = view.pixel_from_world(p(5.0, 1.0));
+    assert_eq!(label.at_px.y, path_px.y - 14.0);
+    // The arrow in the middle of the path stays.
+    assert!(marks.arrows.iter().any(|arrow| arrow.at_px == path_px));
+}
+
+#[test]
 fn a_crowded_view_has_no_marks_and_sets_left_out() {
     let layout = lanes(MAX_MARKED + 1);
     let far = marks_of(layout.clone(), &view(p(5.0, 1000.0), 0.2));
