@@ -1,5 +1,5 @@
-//! A vehicle body: a rectangle around a reference point. Computes convex polygons that contain it at
-//! one heading or at a range of headings.
+//! A vehicle body: a rectangle around a reference point. Computes convex polygons that contain it
+//! at one heading or at a range of headings.
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_8};
 

@@ -83,8 +83,8 @@ pub enum RenderError {
 }
 
 impl RenderError {
-    /// [`RenderError::Unsupported`] of a method: the feature that it cannot draw, and a sentence with
-    /// an alternative that works.
+    /// [`RenderError::Unsupported`] of a method: the feature that it cannot draw, and a sentence
+    /// with an alternative that works.
     pub fn unsupported(method: &'static str, what: impl Into<String>, remedy: &str) -> Self {
         Self::Unsupported {
             method,

@@ -25,8 +25,7 @@ type Transmittance = [[f32; WINDOW_COLUMNS]; ROWS];
 type DirtyBits<const C: usize> = [u32; C];
 
 /// Least number of pixels, beside the width of the stroke, for which a row of pixels is restricted
-/// to those it needs. Shorter rows cost less than the restriction. Measured on two cores of a Xeon:
-/// D1 magnified 20 times takes 2.8 to 3.6 ms with it, 3.7 to 4.4 ms without.
+/// to those it needs. Measured by `guideway bench d1 --methods cpu --magnify 20`.
 const WIDE_PX: u32 = 11;
 
 /// Coverage of a stroke, row by row.
