@@ -43,6 +43,8 @@ pub(super) struct Name<'a> {
     pub(super) at_px: Point<f64>,
     /// Sides to try, the preferred one first.
     pub(super) sides: &'static [Side],
+    /// True if the name must not hide an arrow.
+    pub(super) spares_arrows: bool,
 }
 
 impl LabelSize {
@@ -72,8 +74,8 @@ impl LabelSize {
     }
 }
 
-/// Places names beside their positions, first come, first served. Prefers sides clear of the boxes
-/// `arrows`. Omits a name that would overlap another label or a symbol, or leave the picture.
+/// Places names beside their positions, first come, first served. Omits a name that would leave the
+/// picture or overlap another label, a symbol or, if it spares arrows, one of the boxes `arrows`.
 pub(super) fn place<'a>(
     names: impl Iterator<Item = Name<'a>>,
     symbols: impl Iterator<Item = Point<f64>>,
@@ -99,17 +101,19 @@ pub(super) fn place<'a>(
         let is_clear = |bounds: Bounds<f64>, others: &[Bounds<f64>]| {
             !others.iter().any(|other| other.intersects(bounds))
         };
-        let candidates = name.sides.iter().filter_map(|&side| {
+        let placed = name.sides.iter().find_map(|&side| {
             let label = Label {
                 text: text.clone(),
                 at_px: size.left_middle_px(side, name.at_px, width_px),
             };
             let bounds = size.label_box(&label);
             let is_inside = picture.contains(bounds.min) && picture.contains(bounds.max);
-            (is_inside && is_clear(bounds, &taken)).then_some((label, bounds))
+            let is_free = is_inside
+                && is_clear(bounds, &taken)
+                && (!name.spares_arrows || is_clear(bounds, arrows));
+            is_free.then_some((label, bounds))
         });
-        let hides_arrow = |(_, bounds): &(Label, Bounds<f64>)| !is_clear(*bounds, arrows);
-        if let Some((label, bounds)) = candidates.min_by_key(hides_arrow) {
+        if let Some((label, bounds)) = placed {
             // Keeps a space between neighbors, which would read as one name.
             let space = Point::new(size.char_px, 0.0);
             taken.push(Bounds {
@@ -138,7 +142,12 @@ mod tests {
     }
 
     fn name(text: &'static str, at_px: Point<f64>, sides: &'static [Side]) -> Name<'static> {
-        Name { text, at_px, sides }
+        Name {
+            text,
+            at_px,
+            sides,
+            spares_arrows: true,
+        }
     }
 
     #[test]
@@ -152,7 +161,7 @@ mod tests {
     }
 
     #[test]
-    fn prefers_the_first_side_that_is_clear_of_arrows() {
+    fn takes_the_first_side_that_is_clear_of_arrows() {
         let at = Point::new(50.0, 50.0);
         let head = Point::new(10.0, 4.0);
         let arrow = Bounds {
@@ -165,7 +174,7 @@ mod tests {
             labels.first().map(|label| label.at_px)
         };
         let above = Point::new(50.0 - 1.5 * SIZE.char_px, 50.0 - SIZE.line_px);
-        assert_eq!(placed(&[Side::Right]), Some(Point::new(57.0, 50.0)));
+        assert_eq!(placed(&[Side::Right]), None);
         assert_eq!(
             placed(&[Side::Right, Side::Above, Side::Below]),
             Some(above)

@@ -120,8 +120,8 @@ impl<'d> Visible<'d> {
         arrows.take(2 * MAX_MARKED).collect()
     }
 
-    /// Labels of stations, nodes and paths, in order of priority, clear of `symbols` and preferably
-    /// of `arrows`. The label of a path is beside the path: above a level one, right of others.
+    /// Labels of stations, nodes and paths, in order of priority, clear of `symbols`, and those of
+    /// paths clear of `arrows`. A path has its label above it if it is level, else to its right.
     fn labels(
         &self,
         symbols: &[Point<f64>],
@@ -132,12 +132,18 @@ impl<'d> Visible<'d> {
         const RIGHT: &[Side] = &[Side::Right];
         const BESIDE_UPRIGHT: &[Side] = &[Side::Right, Side::Above, Side::Below];
         const BESIDE_LEVEL: &[Side] = &[Side::Above, Side::Below, Side::Right];
-        let name = |text, at_px, sides| Name { text, at_px, sides };
+        let name = |text, at_px, sides, spares_arrows| Name {
+            text,
+            at_px,
+            sides,
+            spares_arrows,
+        };
         let layout = self.document.layout();
         let stations = self.stations.iter();
-        let stations = stations.map(|&(row, at_px)| name(layout.stations.id(row), at_px, RIGHT));
+        let stations =
+            stations.map(|&(row, at_px)| name(layout.stations.id(row), at_px, RIGHT, false));
         let nodes = self.nodes.iter();
-        let nodes = nodes.map(|&(row, at_px)| name(layout.nodes.id(row), at_px, RIGHT));
+        let nodes = nodes.map(|&(row, at_px)| name(layout.nodes.id(row), at_px, RIGHT, false));
         let paths = self.paths.iter().filter_map(|&path| {
             let path = layout.paths.get(path as usize);
             let (at_px, is_level) = arrows::middle(path, self.view, px_per_point)?;
@@ -146,7 +152,7 @@ impl<'d> Visible<'d> {
             } else {
                 BESIDE_UPRIGHT
             };
-            Some(name(path.id(), at_px, sides))
+            Some(name(path.id(), at_px, sides, true))
         });
         let names = stations.chain(nodes).chain(paths);
         let symbols = symbols.iter().copied();

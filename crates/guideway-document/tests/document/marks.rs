@@ -132,7 +132,12 @@ fn reverse_pairs_share_two_way_arrows() {
 
 #[test]
 fn labels_do_not_overlap() {
-    let marks = marks_of(lanes(100), &view(p(5.0, 50.0), 5.0));
+    let without_arrows = MarkOptions {
+        arrows: None,
+        ..ALL
+    };
+    let view = view(p(5.0, 50.0), 5.0);
+    let marks = marks(&document_of(lanes(100)), &view, &without_arrows);
     assert!(marks.labels.len() > 10);
     for (i, a) in marks.labels.iter().enumerate() {
         for b in &marks.labels[..i] {
