@@ -19,6 +19,7 @@ mod common_losses;
 pub mod dxf;
 mod ellipse;
 mod error;
+mod fields;
 mod format;
 pub mod geojson;
 mod input;

@@ -72,7 +72,7 @@ impl Comparison {
             let number = match value {
                 Value::Int(v) => Some(v as f64),
                 Value::Float(v) => Some(v),
-                Value::Bool(_) | Value::Text(_) => None,
+                Value::Bool(_) | Value::Text(_) | Value::Json(_) => None,
             };
             match (number, self.number, value) {
                 (Some(left), Some(right), _) => left.partial_cmp(&right),

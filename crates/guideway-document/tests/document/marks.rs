@@ -52,6 +52,7 @@ fn marks_of_other_levels_are_hidden() {
             id: id.into(),
             name: None,
             elevation_m: None,
+            ..Level::default()
         });
         let node = layout
             .nodes

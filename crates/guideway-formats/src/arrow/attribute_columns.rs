@@ -131,6 +131,7 @@ impl<'a> AttributeColumn<'a> {
             }
         };
         Some(Attribute {
+            quantity: None,
             name: field.name().clone(),
             values,
             source_type,
@@ -198,10 +199,11 @@ impl<'a> TextCells<'a> {
     }
 
     fn into_values(self) -> Values {
-        Values::Text {
-            text: self.sink.into_column(),
-            present: self.present,
-        }
+        let text = self.sink.into_column();
+        Values::Text(guideway_layout::TextCells::from_column(
+            &text,
+            &self.present,
+        ))
     }
 }
 

@@ -43,6 +43,7 @@ impl<'w, W: Write> FeatureWriter<'w, W> {
             Value::Int(value) => write!(self.out, "{value}"),
             Value::Float(value) => self.json(&value),
             Value::Text(value) => self.json(value),
+            Value::Json(value) => write!(self.out, "{value}"),
         }
     }
 

@@ -133,6 +133,7 @@ impl Mapper<'_> {
             id: id.into_owned(),
             name: name.map(str::to_owned),
             elevation_m: None,
+            attributes: guideway_layout::Attributes::default(),
         });
         Ok(())
     }

@@ -172,6 +172,7 @@ pub(super) fn column_json(values: &Values, row: usize) -> Option<Value> {
         Cell::Int(value) => Some(value.into()),
         Cell::Float(value) => value.is_finite().then(|| value.into()),
         Cell::Text(value) => Some(value.into()),
+        Cell::Json(value) => serde_json::from_str(value).ok(),
     }
 }
 

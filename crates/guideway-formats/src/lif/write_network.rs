@@ -58,6 +58,7 @@ impl<'a> Network<'a> {
                 id,
                 name,
                 elevation_m: None,
+                attributes: guideway_layout::Attributes::default(),
             }));
         }
         let mut network = Self {

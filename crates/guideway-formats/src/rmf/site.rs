@@ -153,6 +153,7 @@ impl<'a, 'y> SiteMapper<'a, 'y> {
                 id: level.name.to_owned(),
                 name: None,
                 elevation_m: elevation.filter(|e| e.is_finite()),
+                attributes: guideway_layout::Attributes::default(),
             });
         let mut nodes = Vec::with_capacity(level.positions.len());
         for (i, vertex) in level

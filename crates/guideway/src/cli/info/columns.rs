@@ -65,12 +65,8 @@ fn of(attribute: &Attribute, rows: u64) -> Column {
                 ..tally("number", bits, |&b| number(f64::from_bits(b)))
             }
         }
-        Values::Text { text, present } => {
-            let here = text.iter().zip(present).filter(|(_, here)| **here);
-            tally("text", here.map(|(text, _)| text), |text| {
-                (*text).to_owned()
-            })
-        }
+        Values::Text(v) => tally("text", v.iter().flatten(), |text| (*text).to_owned()),
+        Values::Json(v) => tally("JSON", v.iter().flatten(), |text| (*text).to_owned()),
     };
     column.name.clone_from(&attribute.name);
     column.missing = rows.saturating_sub(column.values);

@@ -1,29 +1,35 @@
-//! [`Paths`]: the table of all paths, with one column per property, and [`PathRef`], a row of it.
+//! [`Paths`]: the table of all paths, with one column per property.
 
-use guideway_spline::{Affine, Bounds, Point, Runs, uniform};
+use guideway_spline::{Bounds, Point, Runs, uniform};
 
+use crate::optional_column::{OptionalColumn, push};
 use crate::{
-    Attributes, Direction, Geometry, NewPath, OwnStyle, RunPoints, TextColumn, VehicleTypes,
+    Attribute, Attributes, Direction, Geometry, NewPath, OwnStyle, RunPoints, SourceSpans,
+    TextColumn, TypeEntries, Value, WrittenCurve, WrittenCurves,
 };
 
 /// Index that means "none" in the columns of nodes and levels.
-const NONE: u32 = u32::MAX;
+pub(super) const NONE: u32 = u32::MAX;
 
 /// All paths of a layout, one column per property. A property that no path sets has no column.
 #[derive(Clone, Debug, Default)]
 pub struct Paths {
-    ids: TextColumn,
-    geometry: Geometry,
-    start_nodes: Option<Vec<u32>>,
-    end_nodes: Option<Vec<u32>>,
-    directions: Option<Vec<Direction>>,
-    levels: Option<Vec<u32>>,
-    vehicle_types: VehicleTypes,
-    width_m: Option<Vec<f32>>,
-    color_rgba: Option<Vec<u32>>,
-    rank: Option<Vec<i32>>,
-    /// Further columns of the file.
+    pub(super) ids: TextColumn,
+    pub(super) geometry: Geometry,
+    pub(super) start_nodes: OptionalColumn<u32>,
+    pub(super) end_nodes: OptionalColumn<u32>,
+    pub(super) directions: OptionalColumn<Direction>,
+    pub(super) levels: OptionalColumn<u32>,
+    pub(super) vehicle_types: TypeEntries,
+    pub(super) width_m: OptionalColumn<f32>,
+    pub(super) color_rgba: OptionalColumn<u32>,
+    pub(super) rank: OptionalColumn<i32>,
+    pub(super) written_curves: WrittenCurves,
+    /// Further columns. A property that differs between the vehicle types of a path is in the
+    /// entries of [`Self::vehicle_types`] instead.
     pub attributes: Attributes,
+    /// Places of the paths in the text of their file. Several paths may have the same place.
+    pub source: SourceSpans,
 }
 
 impl Paths {
@@ -41,7 +47,7 @@ impl Paths {
         Self {
             ids,
             geometry,
-            vehicle_types: VehicleTypes::unrestricted(rows),
+            vehicle_types: TypeEntries::unrestricted(rows),
             ..Self::default()
         }
     }
@@ -74,34 +80,6 @@ impl Paths {
         row
     }
 
-    /// Sets the stroke width of every path, in meters; NaN where the rule of the view decides.
-    ///
-    /// # Panics
-    /// When the length is not [`Self::len`], as in the other setters of columns.
-    pub fn set_width_m(&mut self, column: Vec<f32>) {
-        assert_eq!(column.len(), self.len());
-        self.width_m = Some(column);
-    }
-
-    /// Sets the color of every path, 0xRRGGBBAA; 0 where the rule of the view decides.
-    pub fn set_color_rgba(&mut self, column: Vec<u32>) {
-        assert_eq!(column.len(), self.len());
-        self.color_rgba = Some(column);
-    }
-
-    /// Sets the draw rank of every path: higher ranks cover lower ones, equal ranks paint in file
-    /// order.
-    pub fn set_rank(&mut self, column: Vec<i32>) {
-        assert_eq!(column.len(), self.len());
-        self.rank = Some(column);
-    }
-
-    /// Sets the level of every path; `u32::MAX` means no level.
-    pub fn set_levels(&mut self, column: Vec<u32>) {
-        assert_eq!(column.len(), self.len());
-        self.levels = Some(column);
-    }
-
     /// Number of paths.
     pub fn len(&self) -> usize {
         self.ids.len()
@@ -122,31 +100,14 @@ impl Paths {
         &self.geometry
     }
 
-    /// Maps the curves of some paths: see [`Geometry::transform`].
-    pub fn transform(&mut self, paths: impl IntoIterator<Item = usize>, by: Affine) {
-        self.geometry.transform(paths, by);
+    /// The curve of a path as its file wrote it, where the runs do not say it all.
+    pub fn written_curve(&self, path: usize) -> Option<&WrittenCurve> {
+        self.written_curves.get(path)
     }
 
-    /// Replaces the curves of some paths: see [`Geometry::replace_all`].
-    pub fn replace_curves(&mut self, paths: &[u32], with: &Geometry) {
-        self.geometry.replace_all(paths, with);
-    }
-
-    /// Sets the style of one path; properties that are `None` follow the rule of the view.
-    ///
-    /// # Panics
-    /// When `path` is not below [`Self::len`].
-    pub fn set_own_style(&mut self, path: usize, style: OwnStyle) {
-        let rows = self.len();
-        let width_m = style.width_m.unwrap_or(f32::NAN);
-        if let Some(column) = column_for(&mut self.width_m, rows, f32::NAN, style.width_m.is_some())
-        {
-            column[path] = width_m;
-        }
-        let color = style.color_rgba.unwrap_or(0);
-        if let Some(column) = column_for(&mut self.color_rgba, rows, 0, color != 0) {
-            column[path] = color;
-        }
+    /// The curves as their files wrote them.
+    pub fn written_curves(&self) -> &WrittenCurves {
+        &self.written_curves
     }
 
     /// Style that a path sets itself.
@@ -177,9 +138,42 @@ impl Paths {
         self.rank.as_deref()
     }
 
-    /// The vehicle types that may use each path.
-    pub fn vehicle_types(&self) -> &VehicleTypes {
+    /// The vehicle types that may use each path, with the properties that differ between them.
+    pub fn vehicle_types(&self) -> &TypeEntries {
         &self.vehicle_types
+    }
+
+    /// Value of a path in a column: that for all of its vehicle types, else that of the first type
+    /// that has one.
+    pub fn value(&self, path: usize, name: &str) -> Option<Value<'_>> {
+        let own = self.attributes.value(path, name);
+        own.or_else(|| self.vehicle_types.first_value(path, name))
+    }
+
+    /// Returns `true` if a column of this name exists, for all vehicle types or per type.
+    pub fn has_column(&self, name: &str) -> bool {
+        self.column(name).is_some()
+    }
+
+    /// The column of this name that has the values for all vehicle types, else that of the entries.
+    pub fn column(&self, name: &str) -> Option<&Attribute> {
+        let own = self.attributes.get(name);
+        own.or_else(|| self.vehicle_types.attributes.get(name))
+    }
+
+    /// Names of all columns: those for all vehicle types, then those per type.
+    pub fn column_names(&self) -> impl Iterator<Item = &str> {
+        let own = self.attributes.iter().map(|column| column.name.as_str());
+        let per_type = self.vehicle_types.attributes.iter();
+        let per_type = per_type.map(|column| column.name.as_str());
+        own.chain(per_type.filter(|name| self.attributes.get(name).is_none()))
+    }
+
+    /// Value of a path in a column for one of its vehicle types.
+    pub fn value_for(&self, path: usize, vehicle_type: &str, name: &str) -> Option<Value<'_>> {
+        let entry = self.vehicle_types.entry_for(path, vehicle_type);
+        let of_type = entry.and_then(|row| self.vehicle_types.attributes.value(row, name));
+        of_type.or_else(|| self.attributes.value(path, name))
     }
 
     /// One path with all its properties except attributes.
@@ -202,46 +196,6 @@ impl Paths {
     pub fn hull_bounds(&self) -> Option<Bounds<f64>> {
         self.geometry.hull_bounds(0..self.len())
     }
-
-    /// Heap bytes in use.
-    pub fn heap_bytes(&self) -> usize {
-        self.ids.heap_bytes()
-            + self.geometry.heap_bytes()
-            + bytes_of(&self.start_nodes)
-            + bytes_of(&self.end_nodes)
-            + bytes_of(&self.directions)
-            + bytes_of(&self.levels)
-            + bytes_of(&self.width_m)
-            + bytes_of(&self.color_rgba)
-            + bytes_of(&self.rank)
-            + self.vehicle_types.heap_bytes()
-            + self.attributes.heap_bytes()
-    }
-}
-
-/// An optional column, created if `is_needed`.
-fn column_for<T: Clone>(
-    column: &mut Option<Vec<T>>,
-    rows: usize,
-    none: T,
-    is_needed: bool,
-) -> Option<&mut Vec<T>> {
-    if is_needed {
-        column.get_or_insert_with(|| vec![none; rows]);
-    }
-    column.as_mut()
-}
-
-/// Appends to an optional column of `rows` rows; creates it for the first value other than `none`.
-fn push<T: Clone + PartialEq>(column: &mut Option<Vec<T>>, rows: usize, none: T, value: T) {
-    let is_needed = value != none;
-    if let Some(column) = column_for(column, rows, none, is_needed) {
-        column.push(value);
-    }
-}
-
-fn bytes_of<T>(column: &Option<Vec<T>>) -> usize {
-    column.as_ref().map_or(0, |c| c.capacity() * size_of::<T>())
 }
 
 /// One path of a [`Paths`] table.
@@ -317,27 +271,4 @@ fn some(column: Option<&Vec<u32>>, row: usize) -> Option<u32> {
     column
         .map(|column| column[row])
         .filter(|&index| index != NONE)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn properties_of_later_paths_leave_earlier_ones_unset() {
-        let mut paths = Paths::default();
-        paths.push(&NewPath::default());
-        paths.push(&NewPath {
-            end_node: Some(3),
-            direction: Direction::Both,
-            level: Some(1),
-            ..NewPath::default()
-        });
-        paths.push(&NewPath::default());
-        let indices = |path: PathRef| (path.start_node(), path.end_node(), path.level());
-        let (none, some) = ((None, None, None), (None, Some(3), Some(1)));
-        assert!(paths.iter().map(indices).eq([none, some, none]));
-        let directions = [Direction::Forward, Direction::Both, Direction::Forward];
-        assert!(paths.iter().map(PathRef::direction).eq(directions));
-    }
 }
