@@ -1,9 +1,12 @@
 //! Layout builder: collects the paths, nodes and stations that a text reader finds into a
 //! [`Layout`], holds them to the limits and to budgets by file size, and records diagnostics.
 
-use guideway_layout::{Attributes, Code, Diagnostics, Layout, NewPath, Place, TextColumn, Value};
+use guideway_layout::{
+    Attributes, Code, Diagnostics, Layout, NewPath, Place, Property, TextColumn, Value,
+};
 use guideway_spline::{Point, Runs};
 
+use crate::fields::FormatField;
 use crate::{Problem, ReadError, source::Source, text::printable};
 
 /// Makes the place of an element in the file. The builder calls it only for diagnostics it stores:
@@ -37,7 +40,11 @@ pub(crate) struct Builder<'a> {
 #[derive(Clone, Copy)]
 pub(crate) enum Table {
     Paths,
+    /// Entries of paths per vehicle type.
+    PathTypes,
     Nodes,
+    /// Entries of nodes per vehicle type.
+    NodeTypes,
     Stations,
 }
 
@@ -178,7 +185,7 @@ impl<'a> Builder<'a> {
         Ok(self.layout.stations.push(id, position_m, nodes, level))
     }
 
-    /// Sets an attribute of a row.
+    /// Sets an attribute of a row. A number of a known property is in its SI unit.
     pub(crate) fn set(
         &mut self,
         table: Table,
@@ -186,18 +193,45 @@ impl<'a> Builder<'a> {
         name: &str,
         value: Value<'_>,
     ) -> Result<(), ReadError> {
-        if let Value::Text(text) = value {
+        if let Value::Text(text) | Value::Json(text) = value {
             self.charge_text(text)?;
         }
         self.attributes(table).set(row, name, value);
         Ok(())
     }
 
+    /// Sets the property of a row that a field of the file holds, in SI units.
+    pub(crate) fn set_field(
+        &mut self,
+        table: Table,
+        row: usize,
+        field: &FormatField,
+        value: Value<'_>,
+    ) -> Result<(), ReadError> {
+        let quantity = field.property().and_then(Property::quantity);
+        let number = match value {
+            Value::Int(number) => Some(number as f64),
+            Value::Float(number) => Some(number),
+            Value::Bool(_) | Value::Text(_) | Value::Json(_) => None,
+        };
+        match (quantity, number) {
+            (Some(quantity), Some(number)) => {
+                let number = number * field.factor;
+                let attributes = self.attributes(table);
+                attributes.set_quantity(row, field.property, number, quantity);
+                Ok(())
+            }
+            _ => self.set(table, row, field.property, value),
+        }
+    }
+
     /// The attributes of a table.
     pub(crate) fn attributes(&mut self, table: Table) -> &mut Attributes {
         match table {
             Table::Paths => &mut self.layout.paths.attributes,
+            Table::PathTypes => &mut self.layout.paths.vehicle_types_mut().attributes,
             Table::Nodes => &mut self.layout.nodes.attributes,
+            Table::NodeTypes => &mut self.layout.nodes.vehicle_types_mut().attributes,
             Table::Stations => &mut self.layout.stations.attributes,
         }
     }

@@ -16,7 +16,7 @@ use guideway::scene::{Frame, Method, View, elapsed_ms};
 use guideway_viewer::{AppServices, Job, LoadStage, MethodChoice, PictureRequest};
 
 use super::floor_plan::WindowFloorPlan;
-use crate::cli::convert::Target;
+use crate::cli::convert;
 use crate::cli::error::usage_error;
 use crate::cli::floor_plan;
 use crate::cli::input::Input;
@@ -58,11 +58,11 @@ impl AppServices for CliServices {
     }
 
     fn check_save_in_place(&self, layout: &Layout, file: &Path) -> Result<(), UserError> {
-        Target::check_in_place(layout, file)
+        convert::check_in_place(layout, file)
     }
 
     fn save_layout(&self, layout: &Layout, path: &Path) -> Result<Vec<String>, UserError> {
-        let (losses, _) = Target::to_save(layout, path)?.write(layout, path)?;
+        let (losses, _) = convert::write(convert::target_to_save(layout, path)?, layout, path)?;
         Ok(losses.iter().map(|loss| loss.to_string()).collect())
     }
 

@@ -1,0 +1,177 @@
+//! Targets: the formats that can be written, with their names and file extensions.
+
+use std::fs::File;
+use std::io::{BufWriter, Write};
+use std::path::Path;
+use std::time::SystemTime;
+
+use guideway_layout::Layout;
+
+use crate::lif::{self, Version};
+use crate::{Format, Losses, WriteError, arrow, dxf, geojson, svg};
+
+/// A format that can be written, in one of its versions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Target {
+    /// Apache Arrow, one row per run of a path.
+    Arrow,
+    /// DXF, a drawing for CAD programs.
+    Dxf,
+    /// GeoJSON.
+    GeoJson,
+    /// VDMA LIF 1.0.
+    Lif1,
+    /// VDMA LIF 2.0.
+    Lif2,
+    /// SVG, a drawing with exact curves.
+    Svg,
+}
+
+impl Target {
+    /// All targets.
+    pub const ALL: &[Self] = &[
+        Self::Arrow,
+        Self::Dxf,
+        Self::GeoJson,
+        Self::Lif1,
+        Self::Lif2,
+        Self::Svg,
+    ];
+
+    /// Identifier on the command line.
+    pub fn id(self) -> &'static str {
+        match self {
+            Self::Arrow => "arrow",
+            Self::Dxf => "dxf",
+            Self::GeoJson => "geojson",
+            Self::Lif1 => "lif",
+            Self::Lif2 => "lif2",
+            Self::Svg => "svg",
+        }
+    }
+
+    /// The target with this identifier.
+    pub fn from_id(id: &str) -> Option<Self> {
+        let mut all = Self::ALL.iter().copied();
+        all.find(|target| target.id() == id)
+    }
+
+    /// Name for people.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Arrow => "Arrow",
+            Self::Dxf => "DXF",
+            Self::GeoJson => "GeoJSON",
+            Self::Lif1 => "LIF 1.0",
+            Self::Lif2 => "LIF 2.0",
+            Self::Svg => "SVG",
+        }
+    }
+
+    /// Description for the help of the command, without extensions.
+    pub fn description(self) -> &'static str {
+        match self {
+            Self::Arrow => "Apache Arrow, a row per run",
+            Self::Dxf => "DXF, a drawing for CAD programs",
+            Self::GeoJson => "GeoJSON, a Nav2 route graph if the layout has nodes",
+            Self::Lif1 => "VDMA LIF 1.0",
+            Self::Lif2 => "VDMA LIF 2.0",
+            Self::Svg => "SVG, a drawing with exact curves",
+        }
+    }
+
+    /// File extensions that select the target, in lower case.
+    pub fn extensions(self) -> &'static [&'static str] {
+        match self {
+            Self::Arrow => &[".arrow", ".feather"],
+            Self::Dxf => &[".dxf"],
+            Self::GeoJson => &[".geojson"],
+            Self::Lif1 => &[".lif.json", ".lif"],
+            Self::Lif2 => &[],
+            Self::Svg => &[".svg"],
+        }
+    }
+
+    /// The target that the extension of a file selects.
+    pub fn of_file_name(name: &str) -> Option<Self> {
+        let name = name.to_lowercase();
+        let has = |target: &Self| target.extensions().iter().any(|end| name.ends_with(end));
+        Self::ALL.iter().copied().find(has)
+    }
+
+    /// The target that holds everything that the file of a layout held: that of the same format and
+    /// version. `None` if the format of the file has no writer.
+    pub fn of_source(layout: &Layout) -> Option<Self> {
+        match Version::of_layout(layout) {
+            Some(Version::V1) => Some(Self::Lif1),
+            Some(Version::V2) => Some(Self::Lif2),
+            None => {
+                let is = |format: Format| layout.provenance.format == format.name();
+                let targets = [
+                    (Format::GeoJson, Self::GeoJson),
+                    (Format::Arrow, Self::Arrow),
+                    (Format::Dxf, Self::Dxf),
+                    (Format::Svg, Self::Svg),
+                ];
+                let found = targets.into_iter().find(|(format, _)| is(*format));
+                found.map(|(_, target)| target)
+            }
+        }
+    }
+
+    /// Returns `true` if the target is a drawing, which holds the paths only.
+    pub fn is_drawing(self) -> bool {
+        matches!(self, Self::Dxf | Self::Svg)
+    }
+
+    /// Writes a layout to a file. Returns the losses.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn write_file(self, layout: &Layout, path: &Path) -> Result<Losses, WriteError> {
+        if self == Self::Arrow {
+            return arrow::write_layout(layout, path, &arrow::WriteOptions::default());
+        }
+        let fail = |problem: std::io::Error| WriteError {
+            path: path.to_owned(),
+            problem: problem.into(),
+        };
+        let file = File::create(path).map_err(fail)?;
+        let mut out = BufWriter::with_capacity(1 << 16, file);
+        let losses = self.write_text(layout, &mut out).map_err(fail)?;
+        out.flush().map_err(fail)?;
+        Ok(losses)
+    }
+
+    fn write_text(self, layout: &Layout, out: &mut impl Write) -> std::io::Result<Losses> {
+        let lif_options = |version| lif::WriteOptions {
+            version,
+            exported: SystemTime::now(),
+        };
+        match self {
+            Self::Arrow => unreachable!("Arrow has a writer of files"),
+            Self::Dxf => dxf::write_layout(layout, out),
+            Self::GeoJson => geojson::write_layout(layout, out, &geojson::WriteOptions::default()),
+            Self::Lif1 => lif::write_layout(layout, out, &lif_options(Version::V1)),
+            Self::Lif2 => lif::write_layout(layout, out, &lif_options(Version::V2)),
+            Self::Svg => svg::write_layout(layout, out),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn identifiers_and_extensions_select_one_target() {
+        for &target in Target::ALL {
+            assert_eq!(Target::from_id(target.id()), Some(target));
+            for extension in target.extensions() {
+                let name = format!("Hall 2{}", extension.to_uppercase());
+                assert_eq!(Target::of_file_name(&name), Some(target));
+            }
+        }
+        assert_eq!(Target::of_file_name("plan.png"), None);
+    }
+}
