@@ -19,6 +19,7 @@
 //! | `code`, `diagnostic`, `limits` | findings and limits of readers |
 //! | `user_error` | the error that the command and the window show |
 //! | `merge` | joins layouts |
+//! | `compare` | differences between two layouts |
 //! | `check` | finds defects of geometry and topology |
 //!
 //! ```
@@ -37,6 +38,7 @@ mod attribute;
 mod cells;
 mod check;
 mod code;
+mod compare;
 mod diagnostic;
 mod geometry;
 mod groups;
@@ -66,6 +68,7 @@ pub use check::{
     CheckOptions, DisplayPosition, check, check_across, element_name, element_place, same_curves,
 };
 pub use code::{Code, Severity};
+pub use compare::{CompareOptions, Difference, differences};
 pub use diagnostic::{Diagnostic, Diagnostics, Place};
 pub use geometry::{Geometry, Hulls, append_hulls};
 pub use groups::{Block, Member, VehicleType, Zone};
