@@ -35,7 +35,11 @@ pub(super) fn compare_cells(
     if are_equal(cells, options.relative_tolerance) {
         return;
     }
-    found.add(&format!("column {name}"), || {
+    let what = match cells[0] {
+        Some(_) => format!("column {name}"),
+        None => format!("new column {name}"),
+    };
+    found.add(&what, || {
         let [before, after] = cells.map(describe);
         format!("{}: {name} is {after} instead of {before}", element())
     });

@@ -22,7 +22,8 @@ impl Default for CompareOptions {
 /// A kind of difference between two layouts.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Difference {
-    /// Kind, such as `directions` or `column maxSpeed`: the names that losses of writers have.
+    /// Kind, such as `directions` or `column maxSpeed`: the names that losses of writers have. What
+    /// the first layout lacks begins with `new`, such as `new nodes`.
     pub what: String,
     /// Number of elements that differ.
     pub count: u64,

@@ -118,7 +118,11 @@ fn compare_layouts([a, b]: [&Layout; 2], options: &CompareOptions, found: &mut D
     let attributes: [(&Attributes, usize); 2] = [(&a.attributes, 0), (&b.attributes, 0)];
     compare_row(attributes, || "the layout".to_owned(), options, &mut own);
     for difference in own.into_vec() {
-        found.add("layout properties", || difference.example);
+        let what = match difference.what.starts_with("new ") {
+            true => "new layout properties",
+            false => "layout properties",
+        };
+        found.add(what, || difference.example);
     }
 }
 
@@ -139,7 +143,9 @@ fn pairs<'a, T>(
         found.add(what, || format!("`{}` is lost", ids[0][row as usize]));
     }
     for &row in rows.added() {
-        found.add(what, || format!("`{}` is new", ids[1][row as usize]));
+        found.add(&format!("new {what}"), || {
+            format!("`{}` is new", ids[1][row as usize])
+        });
     }
     let pairs = rows.pairs().map(|(p, q)| {
         if rows.is_by_order() {

@@ -23,7 +23,7 @@ pub(super) fn compare(
         });
     }
     for &row in pairs.added() {
-        found.add("paths", || {
+        found.add("new paths", || {
             format!("path `{}` is new", b.paths.id(row as usize))
         });
     }
@@ -165,10 +165,18 @@ impl Pair<'_> {
         let [a, b] = self.layouts.map(|layout| &layout.paths);
         let [before, after] = [a.own_style(p), b.own_style(q)];
         if before.width_m != after.width_m {
-            found.add("widths", || self.name());
+            found.add(
+                if before.width_m.is_none() {
+                    "new widths"
+                } else {
+                    "widths"
+                },
+                || self.name(),
+            );
         }
         if before.color_rgba != after.color_rgba {
-            found.add("colors", || self.name());
+            let is_new = before.color_rgba.is_none();
+            found.add(if is_new { "new colors" } else { "colors" }, || self.name());
         }
         let rank = |column: Option<&[i32]>, row: usize| column.map_or(0, |ranks| ranks[row]);
         if rank(a.rank(), p) != rank(b.rank(), q) {

@@ -18,7 +18,7 @@ pub(super) fn compare_nodes(
         found.add("nodes", || format!("node `{}` is lost", a.nodes.id(row)));
     }
     for &row in pairs.added() {
-        found.add("nodes", || format!("node `{}` is new", b.nodes.id(row)));
+        found.add("new nodes", || format!("node `{}` is new", b.nodes.id(row)));
     }
     for (p, q) in pairs.pairs() {
         let name = || format!("node `{}`", a.nodes.id(p));
@@ -75,7 +75,7 @@ pub(super) fn compare_stations(
         });
     }
     for &row in pairs.added() {
-        found.add("stations", || {
+        found.add("new stations", || {
             format!("station `{}` is new", b.stations.id(row))
         });
     }
