@@ -63,7 +63,7 @@ pub(crate) const FILES: &[(&str, &str)] = files![
     "shared/tile.wgsl",
     "shared/tile_range.wgsl",
     "shared/view.wgsl",
-    "shared/work.wgsl",
+    "shared/work_counts.wgsl",
     "shared/workgroup_histogram.wgsl",
     "shared/workgroup_scan.wgsl",
 ];

@@ -10,7 +10,7 @@
 //                /     /     .'  right_y
 
 // import: shared/frame.wgsl
-// import: shared/work.wgsl
+// import: shared/work_counts.wgsl
 
 override SAMPLE_ROWS: u32;
 override FIRST_COLUMNS: u32;

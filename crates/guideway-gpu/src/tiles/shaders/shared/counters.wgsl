@@ -4,7 +4,7 @@
 // Lines, references and split lists are counted beyond the capacity of their buffers, so that the
 // host can grow them and draw again.
 
-// import: shared/work.wgsl
+// import: shared/work_counts.wgsl
 
 struct Counters {
     // Visible clusters drawn from rounded and from exact points.

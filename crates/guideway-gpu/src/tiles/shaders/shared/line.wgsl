@@ -7,7 +7,7 @@
 //     word 2: x2 (bits 0-22)  bits 16-22 of y2 (bits 24-30)
 
 // import: shared/frame.wgsl
-// import: shared/work.wgsl
+// import: shared/work_counts.wgsl
 
 const LINE_WORDS: u32 = 3u;
 // First word of a culled line. No other line has bit 23 set.

@@ -2,7 +2,7 @@
 // The importing shader binds `styles: array<Style>` and `line_ranks: array<u32>`.
 
 // import: shared/frame.wgsl
-// import: shared/work.wgsl
+// import: shared/work_counts.wgsl
 // import: shared/view.wgsl
 
 struct Style {

@@ -1,7 +1,7 @@
 // Access to one tile: its list of lines, its pixels. Used by all kernels that draw tiles.
 
 // import: shared/frame.wgsl
-// import: shared/work.wgsl
+// import: shared/work_counts.wgsl
 // import: shared/capsule.wgsl
 // import: shared/line.wgsl
 // import: shared/style.wgsl
