@@ -7,6 +7,7 @@ use std::process::Command;
 const ALLOWED: &[(&str, &[&str])] = &[
     ("guideway-spline", &[]),
     ("guideway-layout", SPLINE),
+    ("guideway-bad-files", &[]),
     ("guideway-formats", MODEL),
     ("guideway-datasets", MODEL),
     ("guideway-scene", MODEL),
@@ -49,6 +50,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     (
         "guideway-laws",
         &[
+            "guideway-bad-files",
             "guideway-spline",
             "guideway-layout",
             "guideway-formats",

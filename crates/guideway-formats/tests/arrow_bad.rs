@@ -1,16 +1,13 @@
 //! Damaged and malicious Arrow files give an error or a layout, without panic or large allocation.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
+use guideway_bad_files::folder;
 use guideway_formats::arrow::{ArrowWriter, Column, ColumnType, Precision};
 use guideway_formats::{ReadOptions, read_bytes, read_file};
 use guideway_layout::{Layout, Value};
 use guideway_spline::Point;
-
-fn folder() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/bad/arrow")
-}
 
 /// Describes the outcome of a file in the format of `expect.tsv`.
 fn outcome(path: &Path) -> String {
@@ -36,14 +33,15 @@ fn outcome(path: &Path) -> String {
 
 #[test]
 fn bad_files_have_the_expected_outcome() {
-    let table = fs::read_to_string(folder().join("expect.tsv")).expect("the table is there");
+    let folder = folder("arrow");
+    let table = fs::read_to_string(folder.join("expect.tsv")).expect("the table is there");
     let mut rows: Vec<(&str, &str)> = Vec::new();
     for line in table.lines().filter(|l| !l.starts_with('#')) {
         rows.push(line.split_once('\t').expect("file, tab, outcome"));
     }
     let mut wrong = Vec::new();
     for (name, expected) in &rows {
-        let actual = outcome(&folder().join(name));
+        let actual = outcome(&folder.join(name));
         if actual != *expected {
             wrong.push(format!("{name}\t{actual}"));
         }
@@ -54,7 +52,7 @@ fn bad_files_have_the_expected_outcome() {
         wrong.join("\n")
     );
 
-    let files = fs::read_dir(folder()).expect("the folder is there");
+    let files = fs::read_dir(folder).expect("the folder is there");
     let files = files.map(|f| f.expect("a file").file_name().into_string().expect("ASCII"));
     for file in files.filter(|f| f.ends_with(".arrow")) {
         assert!(
@@ -140,7 +138,7 @@ fn changed_bytes_do_not_panic() {
         "lz4-garbled",
         "dictionary-key-beyond",
     ] {
-        files.push(fs::read(folder().join(format!("{name}.arrow"))).expect("a file"));
+        files.push(fs::read(folder("arrow").join(format!("{name}.arrow"))).expect("a file"));
     }
     let mut state = 0x9e37_79b9_7f4a_7c15_u64;
     let mut next = |below: usize| {

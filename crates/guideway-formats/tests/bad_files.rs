@@ -1,7 +1,6 @@
 //! Bad files have the outcome stated in their table, and no file causes a panic.
 //!
-//! A line of `bad/*/expect.tsv` has a file name, a tab, and either `error` with the code of the
-//! error, or `ok` with the codes of all diagnostics. Names with the prefix `generated:` refer to
+//! Files and tables are those of `guideway_bad_files`. Names with the prefix `generated:` refer to
 //! `hostile`.
 
 #![allow(clippy::unwrap_used, reason = "a test may fail by a panic")]
@@ -10,33 +9,36 @@ mod hostile;
 mod outcome;
 
 use std::fs;
-use std::path::PathBuf;
 
+use guideway_bad_files::{folder, inputs};
 use serde_json::Value;
 
 use outcome::{check, check_any, check_error, read};
 
-fn bad_files() -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/bad")
+/// The bytes of a stored file, named by format and name.
+fn bad_file(path: &str) -> Vec<u8> {
+    guideway_bad_files::input(path).unwrap()
 }
 
-/// Checks each line of the table of a folder, and that each file has a line.
-fn check_folder(folder: &str) {
-    let path = bad_files().join(folder);
-    let table = fs::read_to_string(path.join("expect.tsv")).unwrap();
+fn bad_text(path: &str) -> String {
+    String::from_utf8(bad_file(path)).unwrap()
+}
+
+/// Checks each line of the table of a format, and that each stored file has a line.
+fn check_format(format: &str) {
+    let table = fs::read_to_string(folder(format).join("expect.tsv")).unwrap();
     let lines: Vec<(&str, &str)> = table.lines().filter_map(|l| l.split_once('\t')).collect();
+    let archive = inputs(format).unwrap();
     let mut failures = Vec::new();
     for &(name, expected) in &lines {
         let bytes = match name.strip_prefix("generated:") {
-            Some(recipe) => hostile::generate(folder, recipe).expect(name),
-            None => fs::read(path.join(name)).expect(name),
+            Some(recipe) => hostile::generate(format, recipe).expect(name),
+            None => archive.get(name).expect(name).to_vec(),
         };
         failures.extend(check(name, &bytes, expected).err().map(|f| f.to_string()));
     }
-    let listed = |name: &str| name == "expect.tsv" || lines.iter().any(|(n, _)| *n == name);
-    for entry in path.read_dir().unwrap() {
-        let name = entry.unwrap().file_name().into_string().unwrap();
-        if !listed(&name) {
+    for (name, _) in archive.iter() {
+        if !lines.iter().any(|(listed, _)| *listed == name) {
             failures.push(format!("{name}: not in the table"));
         }
     }
@@ -45,61 +47,52 @@ fn check_folder(folder: &str) {
 
 #[test]
 fn bad_lif_files() {
-    check_folder("lif");
+    check_format("lif");
 }
 
 #[test]
 fn bad_open_tcs_files() {
-    check_folder("opentcs");
+    check_format("opentcs");
 }
 
 #[test]
 fn bad_vda_5050_files() {
-    check_folder("vda5050");
+    check_format("vda5050");
 }
 
 #[test]
 fn bad_dxf_files() {
-    check_folder("dxf");
+    check_format("dxf");
 }
 
 #[test]
 fn bad_geojson_files() {
-    check_folder("geojson");
+    check_format("geojson");
 }
 
 #[test]
 fn bad_rmf_files() {
-    check_folder("rmf");
+    check_format("rmf");
 }
 
 #[test]
 fn bad_svg_files() {
-    check_folder("svg");
+    check_format("svg");
 }
 
 #[test]
 fn bad_opendrive_files() {
-    check_folder("opendrive");
+    check_format("opendrive");
 }
 
 #[test]
 fn bad_lanelet2_files() {
-    check_folder("lanelet2");
+    check_format("lanelet2");
 }
 
 #[test]
 fn bad_files_of_any_kind() {
-    check_folder("any");
-}
-
-#[test]
-fn bad_arrow_files() {
-    if bad_files().join("arrow/expect.tsv").is_file() {
-        check_folder("arrow");
-    } else {
-        println!("SKIPPED: there is no table of bad Arrow files");
-    }
+    check_format("any");
 }
 
 #[test]
@@ -133,7 +126,7 @@ const VALID: [&str; 12] = [
 #[test]
 fn rejects_every_truncation() {
     for file in VALID {
-        let whole = fs::read(bad_files().join(file)).unwrap();
+        let whole = bad_file(file);
         let content = whole.trim_ascii_end().len();
         for length in 0..content {
             let error = match read(file, &whole[..length]).unwrap() {
@@ -154,7 +147,7 @@ const VALID_YAML: [&str; 2] = ["rmf/valid.yaml", "rmf/valid-graph.yaml"];
 #[test]
 fn truncated_yaml_does_not_panic() {
     for file in VALID_YAML {
-        let whole = fs::read(bad_files().join(file)).unwrap();
+        let whole = bad_file(file);
         for length in 0..whole.len() {
             check_any(file, &whole[..length]);
         }
@@ -165,7 +158,7 @@ fn truncated_yaml_does_not_panic() {
 #[test]
 fn single_byte_changes_do_not_panic() {
     for file in VALID.into_iter().chain(VALID_YAML) {
-        let whole = fs::read(bad_files().join(file)).unwrap();
+        let whole = bad_file(file);
         for at in 0..whole.len() {
             for byte in [
                 0, b'"', b'<', b'&', b'-', b'9', b'{', b']', b'*', b' ', 0x80, 0xFF,
@@ -205,7 +198,7 @@ fn fields_of_other_types_do_not_panic() {
         ("geojson/valid.geojson", 20),
         ("geojson/valid-graph.geojson", 30),
     ] {
-        change_every_field(&fs::read_to_string(bad_files().join(file)).unwrap(), fields);
+        change_every_field(&bad_text(file), fields);
     }
 }
 
@@ -264,7 +257,7 @@ fn attributes_of_other_values_do_not_panic() {
         "opendrive/valid.xodr",
         "lanelet2/valid.osm",
     ] {
-        let whole = fs::read_to_string(bad_files().join(file)).unwrap();
+        let whole = bad_text(file);
         change_every_attribute(&whole);
     }
 }

@@ -67,9 +67,12 @@ fn fuzz(target: &Target, seconds: u64) -> Outcome<String> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let corpus = folder.join("corpus").join(target.name);
     fs::create_dir_all(&corpus)?;
+    for (name, bytes) in target.seeds()? {
+        fs::write(corpus.join(name), bytes)?;
+    }
     let mut command = cargo_fuzz("run");
     command.arg(target.name).arg(corpus);
-    command.args(target.seed_folders()).arg("--");
+    command.arg("--");
     command.arg(format!("-max_total_time={seconds}"));
     command.arg(format!("-timeout={TIMEOUT_S}"));
     command.arg("-print_final_stats=1");

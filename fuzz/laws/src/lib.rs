@@ -13,11 +13,14 @@ mod convert;
 mod journal;
 mod read;
 
-use std::path::{Path, PathBuf};
+use std::fs;
+use std::io::Result;
+use std::path::Path;
 
 pub use self::convert::convert;
 pub use self::journal::{document, journal};
 pub use self::read::read;
+use Seeds::{Bad, Stored};
 
 /// A fuzz target.
 #[derive(Clone, Copy, Debug)]
@@ -26,12 +29,21 @@ pub struct Target {
     pub name: &'static str,
     /// Panics if the bytes break the law.
     pub law: fn(&[u8]),
-    /// Folders of seeds, relative to the root of the repository.
-    pub seeds: &'static [&'static str],
+    /// Sources of its seeds.
+    pub seeds: &'static [Seeds],
+}
+
+/// A source of seeds.
+#[derive(Clone, Copy, Debug)]
+pub enum Seeds {
+    /// The bad files of a format.
+    Bad(&'static str),
+    /// The files of a folder of `fuzz/seeds`.
+    Stored(&'static str),
 }
 
 macro_rules! targets {
-    ($($name:ident: $law:ident from $($seeds:literal)*;)*) => {
+    ($($name:ident: $law:ident from $($seeds:expr),*;)*) => {
         /// All fuzz targets.
         pub const TARGETS: &[Target] = &[$(Target {
             name: stringify!($name),
@@ -42,29 +54,57 @@ macro_rules! targets {
 }
 
 targets! {
-    arrow: read from "fuzz/seeds/arrow";
-    convert: convert from
-        "fuzz/seeds/arrow"
-        "crates/guideway-formats/tests/bad/dxf"
-        "crates/guideway-formats/tests/bad/geojson"
-        "crates/guideway-formats/tests/bad/lif"
-        "crates/guideway-formats/tests/bad/svg";
-    dxf: read from "crates/guideway-formats/tests/bad/dxf";
-    geojson: read from "crates/guideway-formats/tests/bad/geojson";
-    journal: journal from "fuzz/seeds/journal";
-    lanelet2: read from "crates/guideway-formats/tests/bad/lanelet2";
-    lif: read from "crates/guideway-formats/tests/bad/lif";
-    opendrive: read from "crates/guideway-formats/tests/bad/opendrive";
-    opentcs: read from "crates/guideway-formats/tests/bad/opentcs";
-    rmf: read from "crates/guideway-formats/tests/bad/rmf";
-    svg: read from "crates/guideway-formats/tests/bad/svg";
-    vda5050: read from "crates/guideway-formats/tests/bad/vda5050";
+    arrow: read from Stored("arrow");
+    convert: convert from Bad("dxf"), Bad("geojson"), Bad("lif"), Bad("svg"), Stored("arrow");
+    dxf: read from Bad("dxf");
+    geojson: read from Bad("geojson");
+    journal: journal from Stored("journal");
+    lanelet2: read from Bad("lanelet2");
+    lif: read from Bad("lif");
+    opendrive: read from Bad("opendrive");
+    opentcs: read from Bad("opentcs");
+    rmf: read from Bad("rmf");
+    svg: read from Bad("svg");
+    vda5050: read from Bad("vda5050");
 }
 
 impl Target {
-    /// Paths of the folders of seeds.
-    pub fn seed_folders(&self) -> impl Iterator<Item = PathBuf> {
-        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-        self.seeds.iter().map(move |folder| root.join(folder))
+    /// Names and bytes of all seeds, in the same order in every run.
+    ///
+    /// # Errors
+    /// When an archive of bad files or a folder of seeds cannot be read.
+    pub fn seeds(&self) -> Result<Vec<(String, Vec<u8>)>> {
+        let mut all = Vec::new();
+        for seeds in self.seeds {
+            all.extend(seeds.read()?);
+        }
+        Ok(all)
+    }
+}
+
+impl Seeds {
+    /// Names and bytes, sorted by name.
+    fn read(self) -> Result<Vec<(String, Vec<u8>)>> {
+        match self {
+            Bad(format) => {
+                let archive = guideway_bad_files::inputs(format)?;
+                let files = archive.iter();
+                Ok(files
+                    .map(|(name, bytes)| (format!("{format}-{name}"), bytes.to_vec()))
+                    .collect())
+            }
+            Stored(folder) => {
+                let seeds = Path::new(env!("CARGO_MANIFEST_DIR")).join("../seeds");
+                let mut all = Vec::new();
+                for entry in fs::read_dir(seeds.join(folder))? {
+                    let entry = entry?;
+                    let name = entry.file_name();
+                    let bytes = fs::read(entry.path())?;
+                    all.push((format!("{folder}-{}", name.display()), bytes));
+                }
+                all.sort();
+                Ok(all)
+            }
+        }
     }
 }

@@ -14,18 +14,9 @@ use mutate::Mutator;
 
 const MUTANTS: usize = 500;
 
-/// Larger seeds only serve the tests of bad files: their mutants take too long.
-const MAX_BYTES: usize = 1 << 16;
-
 fn seeds(target: &Target) -> Vec<Vec<u8>> {
-    let files = target.seed_folders().flat_map(|folder| {
-        let entries = fs::read_dir(&folder).unwrap_or_else(|e| panic!("{}: {e}", folder.display()));
-        entries.map(|entry| entry.unwrap().path())
-    });
-    let mut files: Vec<_> = files.filter(|f| !f.ends_with("expect.tsv")).collect();
-    files.sort();
-    let seeds = files.into_iter().map(|file| fs::read(file).unwrap());
-    seeds.filter(|bytes| bytes.len() <= MAX_BYTES).collect()
+    let seeds = target.seeds().unwrap();
+    seeds.into_iter().map(|(_, bytes)| bytes).collect()
 }
 
 /// The first bytes that break a law, if any.

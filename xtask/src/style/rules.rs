@@ -84,8 +84,7 @@ pub fn check_file(name: &str, text: &str) -> Vec<Violation> {
 fn kind(name: &str) -> Option<Kind> {
     let is_exempt = name.starts_with("xtask/src/style/")
         || name.starts_with("xtask/tests/style")
-        || name.starts_with("bench/runs/")
-        || name.contains("/tests/bad/");
+        || name.starts_with("bench/runs/");
     let ending = name.rsplit_once('.')?.1;
     match ending {
         _ if is_exempt => None,

@@ -1,8 +1,9 @@
 //! Tests of SARIF output against its schema. They need Python with jsonschema; `GUIDEWAY_PYTHON`
 //! names the interpreter.
 
+use std::fs;
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use serde_json::{Value, json};
@@ -52,9 +53,16 @@ fn log_of(files: &[&Path]) -> Value {
     serde_json::from_slice(&output.stdout).unwrap_or_else(|e| panic!("{e}: {}", stderr(&output)))
 }
 
+/// Writes one of the bad files, named by format and name, into a folder. Returns its path.
+fn bad_file(folder: &Path, file: &str) -> PathBuf {
+    let path = folder.join(file.replace('/', "-"));
+    fs::write(&path, guideway_bad_files::input(file).unwrap()).unwrap();
+    path
+}
+
 #[test]
 fn logs_conform_to_the_schema() {
-    let bad = Path::new(env!("CARGO_MANIFEST_DIR")).join("../guideway-formats/tests/bad");
+    let folder = tempfile::tempdir().unwrap();
     // With and without lines; with errors, warnings and notes; several files.
     let files = [
         "lif/knots-object.json",
@@ -62,7 +70,7 @@ fn logs_conform_to_the_schema() {
         "opentcs/valid.xml",
         "geojson/valid-graph.geojson",
     ]
-    .map(|file| bad.join(file));
+    .map(|file| bad_file(folder.path(), file));
     let mut logs: Vec<Value> = files.iter().map(|file| log_of(&[file.as_path()])).collect();
     logs.push(log_of(&[site().as_path(), files[0].as_path()]));
     for log in logs {
@@ -87,8 +95,8 @@ fn schema_check_rejects_a_broken_log() {
 
 #[test]
 fn findings_in_json_files_have_lines() {
-    let bad = Path::new(env!("CARGO_MANIFEST_DIR")).join("../guideway-formats/tests/bad");
-    let log = log_of(&[bad.join("lif/knots-object.json").as_path()]);
+    let folder = tempfile::tempdir().unwrap();
+    let log = log_of(&[&bad_file(folder.path(), "lif/knots-object.json")]);
     let results = log["runs"][0]["results"].as_array().unwrap();
     let wrong = results
         .iter()

@@ -1,0 +1,45 @@
+//! Adds files to the archive of a format, or unpacks it:
+//! `cargo run -p guideway-bad-files -- add FORMAT FILE...`, `... -- unpack FORMAT FOLDER`.
+
+use std::fs;
+use std::io::{Error, Result};
+use std::path::Path;
+
+use guideway_bad_files::{archive_path, inputs};
+
+fn main() -> Result<()> {
+    let args: Vec<String> = std::env::args().skip(1).collect();
+    let args: Vec<&str> = args.iter().map(String::as_str).collect();
+    match args[..] {
+        ["add", format, ref files @ ..] if !files.is_empty() => add(format, files),
+        ["unpack", format, folder] => unpack(format, Path::new(folder)),
+        _ => Err(Error::other(
+            "usage: add FORMAT FILE... | unpack FORMAT FOLDER",
+        )),
+    }
+}
+
+fn add(format: &str, files: &[&str]) -> Result<()> {
+    let mut archive = inputs(format)?;
+    for file in files {
+        let name = Path::new(file).file_name().unwrap_or_default();
+        let name = name.to_string_lossy();
+        if !archive.insert(&name, fs::read(file)?) {
+            let path = archive_path(format);
+            return Err(Error::other(format!(
+                "{file}: {} has a file `{name}`, or the name has characters other than letters, \
+                 digits and `-._`; rename the file",
+                path.display()
+            )));
+        }
+    }
+    fs::write(archive_path(format), archive.to_string())
+}
+
+fn unpack(format: &str, folder: &Path) -> Result<()> {
+    fs::create_dir_all(folder)?;
+    for (name, bytes) in inputs(format)?.iter() {
+        fs::write(folder.join(name), bytes)?;
+    }
+    Ok(())
+}
