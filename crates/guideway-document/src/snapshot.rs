@@ -2,9 +2,8 @@
 
 use std::sync::Arc;
 
-use guideway_layout::{CheckOptions, Diagnostics, Layout, NewPath, Paths, check};
+use guideway_layout::{CheckOptions, Diagnostics, Layout, NewPath, check};
 use guideway_scene::PathState;
-use guideway_spline::Runs;
 
 use crate::PathSet;
 use crate::document::Document;
@@ -50,37 +49,36 @@ impl Snapshot {
         self.state
     }
 
-    /// Diagnostics of the reader, and findings of [`check`] in the present state. Rows are those of
+    /// Findings of [`check`] in the present state, and diagnostics of the reader. Rows are those of
     /// the document, where removed paths still have one.
     pub fn findings(&self, options: &CheckOptions) -> Diagnostics {
         let old = &*self.layout;
-        let mut found = old.diagnostics.clone();
         let is_unchanged = self.removed.is_empty() && self.moved_nodes.is_empty();
-        found.append(if is_unchanged {
+        let mut found = if is_unchanged {
             check(old, options)
         } else {
             check(&self.layout_with_stable_rows(), options)
-        });
+        };
+        found.append(old.diagnostics.clone());
         found
     }
 
     /// The layout to check, with an empty path in the row of each removed one.
     fn layout_with_stable_rows(&self) -> Layout {
         let old = &*self.layout;
-        let mut paths = Paths::default();
-        let mut runs = Runs::default();
-        for row in 0..old.paths.len() {
-            if self.removed.contains(row as u32) {
-                paths.push(&NewPath::default());
-            } else {
-                push(&mut paths, &old.paths, row, &mut runs);
-            }
-        }
+        let mut paths = old.paths.clone();
+        let empty = paths.push(&NewPath::default());
+        let row = |row: usize| match self.removed.contains(row as u32) {
+            true => empty,
+            false => row,
+        };
+        let rows: Vec<usize> = (0..old.paths.len()).map(row).collect();
         Layout {
-            paths,
+            paths: paths.select(&rows, Some),
             nodes: self.moved_nodes.nodes(old),
             stations: self.moved_nodes.stations(old),
             levels: old.levels.clone(),
+            geo_origin: old.geo_origin,
             ..Layout::default()
         }
     }
@@ -103,20 +101,4 @@ impl Snapshot {
         rows.filter(|&row| !self.removed.contains(row as u32))
             .collect()
     }
-}
-
-/// Copies a path from `of` to the end of `paths`. `runs` is a reusable buffer.
-fn push(paths: &mut Paths, of: &Paths, row: usize, runs: &mut Runs) {
-    let path = of.get(row);
-    path.copy_runs(runs);
-    let types: Vec<&str> = of.vehicle_types().of(row).collect();
-    paths.push(&NewPath {
-        id: path.id(),
-        runs,
-        start_node: path.start_node(),
-        end_node: path.end_node(),
-        direction: path.direction(),
-        level: path.level(),
-        vehicle_types: &types,
-    });
 }

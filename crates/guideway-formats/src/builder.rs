@@ -2,7 +2,8 @@
 //! [`Layout`], holds them to the limits and to budgets by file size, and records diagnostics.
 
 use guideway_layout::{
-    Attributes, Code, Diagnostics, Layout, NewPath, Place, Property, TextColumn, Value,
+    Attributes, Code, Diagnostics, Layout, NewPath, Place, Property, RefusedPath, Severity,
+    TextColumn, Value, element_name,
 };
 use guideway_spline::{Point, Runs};
 
@@ -94,13 +95,21 @@ impl<'a> Builder<'a> {
         message: impl FnOnce() -> String,
         remedy: &str,
     ) {
-        let at = || {
-            let mut place = at();
-            place.element = printable(&place.element);
-            place
-        };
-        let message = || printable(&message());
-        self.layout.diagnostics.push(code, at, message, remedy);
+        self.report_as(code.severity(), code, at, message, remedy);
+    }
+
+    /// Records a diagnostic whose severity depends on the case, not only on its code.
+    pub(crate) fn report_as(
+        &mut self,
+        severity: Severity,
+        code: Code,
+        at: PlaceFn<'_>,
+        message: impl FnOnce() -> String,
+        remedy: &str,
+    ) {
+        let (at, message) = (|| printable_place(at), || printable(&message()));
+        let found = &mut self.layout.diagnostics;
+        found.push_as(severity, code, at, message, remedy);
     }
 
     /// Appends a path and returns its row.
@@ -152,12 +161,31 @@ impl<'a> Builder<'a> {
         points.all(|p| p.x.abs() <= limit && p.y.abs() <= limit)
     }
 
-    /// Records a path that cannot be drawn, with the reason.
+    /// Records a path that cannot be drawn, with the reason, and a finding at the path. For paths
+    /// whose fault has been reported at one of their fields.
     pub(crate) fn refuse(&mut self, id: &str, code: Code, detail: &str) -> Result<(), ReadError> {
+        let row = self.layout.path_count();
+        let at = || Place::element(element_name("path", row, id));
+        let remedy = "It is left out; correct it in the tool that wrote the file";
+        self.refuse_at(id, code, detail, &at, remedy)
+    }
+
+    /// Records a path that cannot be drawn, with the reason, and a finding at a place of the file.
+    pub(crate) fn refuse_at(
+        &mut self,
+        id: &str,
+        code: Code,
+        detail: &str,
+        at: PlaceFn<'_>,
+        remedy: &str,
+    ) -> Result<(), ReadError> {
         let detail = &printable(detail);
         self.charge_text(id)?;
         self.charge_text(detail)?;
         self.check_paths()?;
+        let path = RefusedPath { id, code, detail };
+        let at = || printable_place(at);
+        self.layout.diagnostics.push_refused(path, at, remedy);
         self.layout.refused.push(id, code, detail);
         Ok(())
     }
@@ -295,6 +323,15 @@ impl<'a> Builder<'a> {
             limit,
             actual,
         }))
+    }
+}
+
+/// A place without control characters of the file.
+fn printable_place(at: PlaceFn<'_>) -> Place {
+    let place = at();
+    Place {
+        element: printable(&place.element),
+        ..place
     }
 }
 

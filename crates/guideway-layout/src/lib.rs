@@ -69,7 +69,7 @@ pub use check::{
 };
 pub use code::{Code, Severity};
 pub use compare::{CompareOptions, Difference, differences};
-pub use diagnostic::{Diagnostic, Diagnostics, Place};
+pub use diagnostic::{Diagnostic, Diagnostics, FindingKind, Place};
 pub use geometry::{Geometry, Hulls, append_hulls};
 pub use groups::{Block, Member, VehicleType, Zone};
 pub use layout::{GeoOrigin, Layout, Provenance};

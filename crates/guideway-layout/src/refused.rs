@@ -1,6 +1,6 @@
 //! [`Refused`]: the paths of the input that cannot be drawn, with their reasons.
 
-use crate::{Code, TextColumn};
+use crate::{Code, Severity, TextColumn};
 
 /// Paths of the input that cannot be drawn.
 #[derive(Clone, Debug, Default)]
@@ -19,6 +19,16 @@ pub struct RefusedPath<'a> {
     pub code: Code,
     /// Reason, for people.
     pub detail: &'a str,
+}
+
+impl RefusedPath<'_> {
+    /// Severity of the refusal: an error whatever its code, unless the file itself hides the path.
+    pub fn severity(&self) -> Severity {
+        match self.code {
+            Code::NotDrawn => Severity::Info,
+            _ => Severity::Error,
+        }
+    }
 }
 
 impl Refused {

@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 use std::collections::HashMap;
 
-use guideway_layout::{Direction, Layout, Value, Values};
+use guideway_layout::{Direction, Layout, Quantity, Value, Values};
 
 use crate::color::Rgba;
 
@@ -19,10 +19,22 @@ pub struct ColorBy {
 pub struct Legend {
     /// The column that decides the colors.
     pub column: String,
+    /// Symbol of the unit of its numbers, if it is known.
+    pub unit: Option<&'static str>,
     /// Classes, or samples of a scale, in reading order.
     pub entries: Vec<LegendEntry>,
     /// True if colors between those of the entries occur too.
     pub is_continuous: bool,
+}
+
+impl Legend {
+    /// Title: the column with its unit, such as `maxSpeed (m/s)`.
+    pub fn title(&self) -> String {
+        match self.unit {
+            Some(unit) => format!("{} ({unit})", self.column),
+            None => self.column.clone(),
+        }
+    }
 }
 
 /// A row of a legend.
@@ -137,6 +149,11 @@ fn labels<'a>(layout: &'a Layout, column: &str) -> Result<Labels<'a>, UnknownCol
     }
 }
 
+fn unit(layout: &Layout, by: &ColorBy) -> Option<&'static str> {
+    let column = layout.paths.column(&by.column)?;
+    column.quantity.map(Quantity::unit)
+}
+
 fn scale(layout: &Layout, by: &ColorBy, drawn: &[u32], number: Numbers<'_>) -> (Vec<Rgba>, Legend) {
     let values = || drawn.iter().filter_map(|&path| number(path));
     let low = values().fold(f64::INFINITY, f64::min);
@@ -163,6 +180,7 @@ fn scale(layout: &Layout, by: &ColorBy, drawn: &[u32], number: Numbers<'_>) -> (
         colors,
         Legend {
             column: by.column.clone(),
+            unit: unit(layout, by),
             entries,
             is_continuous: true,
         },
@@ -219,6 +237,7 @@ fn classes(layout: &Layout, by: &ColorBy, drawn: &[u32], label: Labels<'_>) -> (
         colors,
         Legend {
             column: by.column.clone(),
+            unit: unit(layout, by),
             entries,
             is_continuous: false,
         },

@@ -28,7 +28,7 @@ const BUILT_IN: [(&str, Column); 5] = [
 impl Column {
     /// The column of this name, if the layout has it.
     pub(super) fn named(name: &str, layout: &Layout) -> Option<Self> {
-        if layout.paths.attributes.get(name).is_some() {
+        if layout.paths.has_column(name) {
             return Some(Self::Attribute(name.to_owned()));
         }
         let built_in = BUILT_IN.into_iter().find(|(known, _)| *known == name);

@@ -1,7 +1,9 @@
 //! Path identifiers of drawn and refused rows; the row number is the substitute for a missing one.
 
 use arrow_array::ArrayRef;
-use guideway_layout::{Code, Diagnostics, Limits, Place, Refused, TextColumn};
+use guideway_layout::{
+    Code, Diagnostics, Limits, Place, Refused, TextColumn, element_place,
+};
 
 use super::batch::Batch;
 use super::budget::Budget;
@@ -60,6 +62,11 @@ impl<'a> PathIds<'a> {
 
     /// Returns the identifiers of drawn paths, and the refused paths.
     pub(super) fn finish(self, diagnostics: &mut Diagnostics) -> (TextColumn, Refused) {
+        for path in self.refused.iter() {
+            let place = || element_place("path", 0, path.id);
+            let remedy = "It is left out; correct its control points";
+            diagnostics.push_refused(path, place, remedy);
+        }
         if self.unnamed > 0 {
             diagnostics.push(
                 Code::Attribute,

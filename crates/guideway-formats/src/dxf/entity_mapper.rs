@@ -247,8 +247,8 @@ impl<'a> EntityMapper<'a> {
             Code::NotDrawn => "Nothing to do if it is meant to be hidden",
             _ => "It is left out; correct it in the tool that wrote the file",
         };
-        self.builder.report(code, at, || detail.to_owned(), remedy);
-        self.builder.refuse(&path_id(entity, context), code, detail)
+        let id = path_id(entity, context);
+        self.builder.refuse_at(&id, code, detail, at, remedy)
     }
 }
 

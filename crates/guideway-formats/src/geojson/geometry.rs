@@ -110,9 +110,9 @@ impl Mapper<'_> {
         if self.is_graph && properties.get("startid").is_some() {
             return self.map_path(id, None, properties, at);
         }
-        self.builder.report_missing(at, "a geometry");
-        let detail = "the geometry is missing";
-        self.builder.refuse(id, Code::MissingField, detail)
+        let remedy = "Add a geometry, or remove the feature";
+        let (code, detail) = (Code::MissingField, "a geometry is missing");
+        self.builder.refuse_at(id, code, detail, at, remedy)
     }
 
     fn count(&mut self, kind: &str) {

@@ -229,11 +229,9 @@ impl<'a, 'd, 't> MapMapper<'a, 'd, 't> {
 
     fn refuse(&mut self, element: Node<'d, 't>, code: Code, detail: &str) -> Result<(), ReadError> {
         let remedy = "It is left out; correct it in the tool that wrote the file";
+        self.base.builder.check_text(id(element))?;
         self.base
-            .report(code, element, || detail.to_owned(), remedy);
-        let builder = &mut self.base.builder;
-        builder.check_text(id(element))?;
-        builder.refuse(id(element), code, detail)
+            .refuse(id(element), code, element, detail, remedy)
     }
 }
 

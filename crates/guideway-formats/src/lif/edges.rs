@@ -182,10 +182,10 @@ impl Mapper<'_> {
         let [start, end] = ends;
         if start.row.is_some() && end.row.is_some() && start.level != end.level {
             let detail = self.between_levels(start, end);
-            let message = || format!("`{name}` {detail}");
-            let remedy = "None needed for a lift; else move the node to the other layout";
-            self.builder.report(Code::CrossLevel, at, message, remedy);
-            return self.builder.refuse(name, Code::CrossLevel, &detail);
+            let detail = format!("`{name}` {detail}");
+            let remedy = "A lift is not drawn; else move the node to the other layout";
+            let builder = &mut self.builder;
+            return builder.refuse_at(name, Code::CrossLevel, &detail, at, remedy);
         }
         let mut runs = Runs::default();
         if let Some(trajectory) = curve.trajectory {

@@ -232,10 +232,8 @@ impl<'a, 'd, 't> RoadMapper<'a, 'd, 't> {
         };
         if let Some((code, detail)) = refused {
             let remedy = "It is left out; correct the road in the tool that wrote the file";
-            self.reader
-                .base
-                .report(code, lane.node, || detail.clone(), remedy);
-            return self.reader.base.builder.refuse(id, code, &detail);
+            let base = &mut self.reader.base;
+            return base.refuse(id, code, lane.node, &detail, remedy);
         }
         if error_m > tolerance_m {
             let message =

@@ -243,10 +243,8 @@ impl<'a, 'y> SiteMapper<'a, 'y> {
                 None => "it does not begin with the indices of two vertices",
             };
             let remedy = "It is left out; correct the vertices in the editor";
-            self.reader
-                .builder
-                .report(Code::UnknownNode, at, || detail.to_owned(), remedy);
-            return self.reader.builder.refuse(&id, Code::UnknownNode, detail);
+            let builder = &mut self.reader.builder;
+            return builder.refuse_at(&id, Code::UnknownNode, detail, at, remedy);
         };
         if let Some(odd) = edge.item(2).filter(|p| !p.is_map()) {
             self.reader.report_type(at, "an object of parameters", odd);

@@ -117,10 +117,9 @@ impl Mapper<'_> {
         let [from, to] = [from, to].map(|level| &levels[level as usize].id);
         let detail =
             format!("connects the maps `{from}` and `{to}`; paths between levels are not drawn");
-        let message = || format!("`{id}` {detail}");
-        let remedy = "None needed for a lift; else correct the mapId of the node";
-        self.builder.report(Code::CrossLevel, at, message, remedy);
-        self.builder.refuse(id, Code::CrossLevel, &detail)
+        let remedy = "A lift is not drawn; else correct the mapId of the node";
+        let builder = &mut self.builder;
+        builder.refuse_at(id, Code::CrossLevel, &detail, at, remedy)
     }
 }
 

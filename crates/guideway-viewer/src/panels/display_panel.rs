@@ -60,8 +60,7 @@ pub(super) fn show(
 
 /// Columns that can color the paths of a layout.
 fn columns(layout: &Layout) -> Vec<String> {
-    let attributes = layout.paths.attributes.iter();
-    let attributes = attributes.map(|column| column.name.clone());
+    let attributes = layout.paths.column_names().map(str::to_owned);
     let built_in = BUILT_IN_COLUMNS.map(str::to_owned);
     attributes.chain(built_in).collect()
 }

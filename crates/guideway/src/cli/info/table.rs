@@ -76,7 +76,7 @@ impl Lines {
         self.0 += &format!("columns of {table}:\n");
         let names = columns
             .iter()
-            .map(|column| single_line(&column.name, MAX_CHARS));
+            .map(|column| single_line(&column.label(), MAX_CHARS));
         let width = names.clone().map(|n| n.chars().count()).max().unwrap_or(0);
         for (column, name) in columns.iter().zip(names) {
             self.0 += &format!("  {name:<width$}  {}\n", column_text(column));
@@ -137,6 +137,9 @@ fn column_text(column: &Column) -> String {
     }
     if column.missing > 0 {
         text += &format!(", {} without", count(column.missing));
+    }
+    if column.per_type > 0 {
+        text += &format!(", {} by vehicle type", count(column.per_type));
     }
     if !column.top.is_empty() {
         text += &format!(": {}", frequent_values(&column.top));
