@@ -242,14 +242,12 @@ mod tests {
         push(&mut found, Severity::Info, 1);
         push(&mut found, Severity::Error, 1);
         let message = || "far".to_owned();
-        found.push(
-            Code::Implausible,
-            Place::default,
-            message,
-            "Check the unit",
-        );
+        found.push(Code::Implausible, Place::default, message, "Check the unit");
         let kinds = FindingKind::of([&found, &found]);
-        let kinds: Vec<_> = kinds.iter().map(|k| (k.code, k.severity, k.count)).collect();
+        let kinds: Vec<_> = kinds
+            .iter()
+            .map(|k| (k.code, k.severity, k.count))
+            .collect();
         let expected = [
             (Code::Implausible, Severity::Warning, 2),
             (Code::ZeroLength, Severity::Error, 2),
@@ -259,17 +257,22 @@ mod tests {
     }
 
     #[test]
-    fn refusals_are_errors_unless_the_file_hides_the_path() {
+    fn refusals_are_errors_unless_the_file_is_right() {
         let refused = |code| RefusedPath {
             id: "e1",
             code,
             detail: "no",
         };
         let mut found = Diagnostics::default();
-        for code in [Code::CrossLevel, Code::ZeroLength, Code::NotDrawn] {
+        for code in [
+            Code::UnusedNode,
+            Code::ZeroLength,
+            Code::NotDrawn,
+            Code::CrossLevel,
+        ] {
             found.push_refused(refused(code), Place::default, "");
         }
         assert_eq!(found.count_at_least(Severity::Error), 2);
-        assert_eq!(found.count_at_least(Severity::Info), 3);
+        assert_eq!(found.count_at_least(Severity::Info), 4);
     }
 }

@@ -22,10 +22,11 @@ pub struct RefusedPath<'a> {
 }
 
 impl RefusedPath<'_> {
-    /// Severity of the refusal: an error whatever its code, unless the file itself hides the path.
+    /// Severity of the refusal: an error whatever its code, unless the file is right. It may hide
+    /// a path, and a lift leads to another level.
     pub fn severity(&self) -> Severity {
         match self.code {
-            Code::NotDrawn => Severity::Info,
+            Code::NotDrawn | Code::CrossLevel => Severity::Info,
             _ => Severity::Error,
         }
     }

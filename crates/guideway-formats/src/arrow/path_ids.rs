@@ -1,9 +1,7 @@
 //! Path identifiers of drawn and refused rows; the row number is the substitute for a missing one.
 
 use arrow_array::ArrayRef;
-use guideway_layout::{
-    Code, Diagnostics, Limits, Place, Refused, TextColumn, element_place,
-};
+use guideway_layout::{Code, Diagnostics, Limits, Place, Refused, TextColumn, element_place};
 
 use super::batch::Batch;
 use super::budget::Budget;

@@ -230,8 +230,7 @@ impl<'a, 'd, 't> MapMapper<'a, 'd, 't> {
     fn refuse(&mut self, element: Node<'d, 't>, code: Code, detail: &str) -> Result<(), ReadError> {
         let remedy = "It is left out; correct it in the tool that wrote the file";
         self.base.builder.check_text(id(element))?;
-        self.base
-            .refuse(id(element), code, element, detail, remedy)
+        self.base.refuse(id(element), code, element, detail, remedy)
     }
 }
 

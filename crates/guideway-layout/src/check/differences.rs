@@ -54,7 +54,9 @@ impl<'a> Comparison<'a> {
         let paths = &layout.paths;
         let column = |name: &'a str| Column {
             name,
-            label: paths.column(name).map_or_else(String::new, Attribute::label),
+            label: paths
+                .column(name)
+                .map_or_else(String::new, Attribute::label),
             common: paths.attributes.get(name),
             per_type: paths.vehicle_types().attributes.get(name),
         };
@@ -114,16 +116,35 @@ impl<'a> Comparison<'a> {
                     Some(name) => format!("{} of {name}", column.name),
                     None => column.name.to_owned(),
                 };
-                found.push(described(&of, values.map(|v| Some(v?.to_string())), column.unit()));
+                found.push(described(
+                    &of,
+                    values.map(|v| Some(v?.to_string())),
+                    column.unit(),
+                ));
             } else if a.reversed != b.reversed
                 && DIRECTED.contains(&column.name)
                 && cells(&types_a).any(|entry| column.value(a.row, entry).is_some())
             {
-                found.push(format!("{}, as the curves run in opposite directions", column.label));
+                found.push(format!(
+                    "{}, as the curves run in opposite directions",
+                    column.label
+                ));
             }
         }
         self.add_style(a.row, b.row, &mut found);
         found
+    }
+
+    /// The nodes of a path: `, from node "a" to node "b"`; empty if it lacks one.
+    pub(super) fn ends_text(&self, path: Along) -> String {
+        let own = self.layout.paths.get(path.row);
+        match (own.start_node(), own.end_node()) {
+            (Some(start), Some(end)) => {
+                let [start, end] = [start, end].map(|node| self.node_name(node));
+                format!(", from {start} to {end}")
+            }
+            _ => String::new(),
+        }
     }
 
     /// The first few differences in one line: `maxSpeed: 1 and 0.5 m/s; 2 others`.
@@ -137,15 +158,18 @@ impl<'a> Comparison<'a> {
     }
 
     fn add_network(&self, a: Along, b: Along, found: &mut Vec<String>) {
-        let nodes = &self.layout.nodes;
-        let name = |node: u32| element_name("node", node as usize, nodes.id(node));
+        let name = |node: u32| self.node_name(node);
         let (ends_a, ends_b) = (self.ends(a), self.ends(b));
         for (what, end_a, end_b) in [
             ("start node", ends_a[0], ends_b[0]),
             ("end node", ends_a[1], ends_b[1]),
         ] {
             if end_a != end_b {
-                found.push(described(what, [end_a, end_b].map(|end| end.map(name)), None));
+                found.push(described(
+                    what,
+                    [end_a, end_b].map(|end| end.map(name)),
+                    None,
+                ));
             }
         }
         let both = [a, b].map(|p| self.layout.paths.get(p.row).direction() == Direction::Both);
@@ -172,6 +196,10 @@ impl<'a> Comparison<'a> {
         }
     }
 
+    fn node_name(&self, node: u32) -> String {
+        element_name("node", node as usize, self.layout.nodes.id(node))
+    }
+
     /// The nodes at the start and the end of the common curve.
     fn ends(&self, path: Along) -> [Option<u32>; 2] {
         let own = self.layout.paths.get(path.row);
@@ -184,7 +212,9 @@ impl<'a> Comparison<'a> {
     /// The vehicle types of a path in alphabetical order, with their entries.
     fn entries(&self, row: usize) -> Vec<(&'a str, usize)> {
         let types = self.layout.paths.vehicle_types();
-        let entries = types.entries(row).map(|entry| (types.type_of(entry), entry));
+        let entries = types
+            .entries(row)
+            .map(|entry| (types.type_of(entry), entry));
         let mut entries: Vec<_> = entries.collect();
         entries.sort_unstable();
         entries
@@ -201,7 +231,9 @@ impl Column<'_> {
 /// The entries of a path, or one cell for all types.
 fn cells(entries: &[(&str, usize)]) -> impl Iterator<Item = Option<usize>> {
     let for_all = entries.is_empty().then_some(None);
-    for_all.into_iter().chain(entries.iter().map(|entry| Some(entry.1)))
+    for_all
+        .into_iter()
+        .chain(entries.iter().map(|entry| Some(entry.1)))
 }
 
 /// The entries of two paths for each vehicle type that both admit.

@@ -54,29 +54,35 @@ struct Pair {
 
 impl Pair {
     fn report(&self, paths: &Paths, comparison: &Comparison<'_>, found: &mut Diagnostics) {
-        let (row, earlier) = (self.path.row, self.earlier.row);
+        let row = self.path.row;
         let remedy = match self.code {
             Code::ReversePair => "No action needed if this is a two-way road",
             Code::SameCurve => "No action needed if both paths are meant",
-            _ => "Remove one of the two",
+            _ => "Remove one of the two; if both are meant, correct the nodes or properties of one",
         };
         found.push(
             self.code,
             || element_place("path", row, paths.id(row)),
-            || {
-                let name = element_name("path", earlier, paths.id(earlier));
-                match self.code {
-                    Code::ReversePair => format!("has the curve of {name} in the opposite direction"),
-                    Code::SameCurve => {
-                        let differences = comparison.differences(self.earlier, self.path);
-                        let differences = Comparison::text(&differences);
-                        format!("has the curve of {name}; they differ in {differences}")
-                    }
-                    _ => format!("has the curve of {name} in the same direction"),
-                }
-            },
+            || self.message(paths, comparison),
             remedy,
         );
+    }
+
+    fn message(&self, paths: &Paths, comparison: &Comparison<'_>) -> String {
+        let earlier = self.earlier.row;
+        let name = element_name("path", earlier, paths.id(earlier));
+        match self.code {
+            Code::ReversePair => format!("has the curve of {name} in the opposite direction"),
+            Code::SameCurve => {
+                let differences = comparison.differences(self.earlier, self.path);
+                let differences = Comparison::text(&differences);
+                format!("has the curve of {name}; they differ in {differences}")
+            }
+            _ => {
+                let ends = comparison.ends_text(self.path);
+                format!("has the curve of {name}{ends}, and agrees in all properties")
+            }
+        }
     }
 }
 
@@ -100,7 +106,9 @@ impl CurveUse<'_> {
         let own = usize::from(path.reversed);
         let both = self.paths.get(path.row).direction() == Direction::Both;
         let used = if both { &[0, 1][..] } else { &[own][..] };
-        let pair = self.duplicate(path, used).or_else(|| self.shared(path, used));
+        let pair = self
+            .duplicate(path, used)
+            .or_else(|| self.shared(path, used));
         for &direction in used {
             self.directions[direction].add(self.paths, path);
         }
@@ -111,11 +119,15 @@ impl CurveUse<'_> {
     fn duplicate(&mut self, path: Along, used: &[usize]) -> Option<Pair> {
         // Paths in one direction that run against each other are a road of two lanes. A point has
         // no direction.
-        let direction = if used.len() == 2 || self.is_dot { 0 } else { used[0] as u64 };
+        let direction = if used.len() == 2 || self.is_dot {
+            0
+        } else {
+            used[0] as u64
+        };
         let key = self.comparison.fingerprint(path) ^ direction;
         let earlier = *self.identical.entry(key).or_insert(path);
-        let is_duplicate = earlier.row != path.row
-            && self.comparison.differences(earlier, path).is_empty();
+        let is_duplicate =
+            earlier.row != path.row && self.comparison.differences(earlier, path).is_empty();
         is_duplicate.then_some(Pair {
             code: Code::DuplicatePath,
             path,

@@ -3,7 +3,7 @@
 use guideway_spline::{Bounds, uniform};
 
 use super::options::CheckOptions;
-use crate::{Layout, PathRef, Value};
+use crate::{Code, Layout, PathRef, Value};
 
 /// A path smaller than this is a point, whatever the layout.
 const LEAST_SIZE_M: f64 = 1e-12;
@@ -33,7 +33,10 @@ pub(super) struct Scale {
     /// Median time to drive along a path with a greatest permitted speed, and that speed.
     median_time: Option<DriveTime>,
     has_nodes: bool,
+    /// True if the positions were degrees.
     is_surveyed: bool,
+    /// True if the file does not state its unit.
+    is_assumed: bool,
 }
 
 /// Time to drive along one path.
@@ -83,6 +86,7 @@ impl Scale {
             median_time: median(&mut times, |time| time.time_s),
             has_nodes,
             is_surveyed: layout.geo_origin.is_some(),
+            is_assumed: layout.diagnostics.count(Code::AssumedUnit) > 0,
         }
     }
 
@@ -91,12 +95,14 @@ impl Scale {
         self.axes[0].extent_m().max(self.axes[1].extent_m())
     }
 
-    /// A doubt about the unit. Positions in degrees have no other unit.
+    /// A doubt about the unit. Positions in degrees have no other unit, and drawings that state
+    /// their unit may be small.
     pub(super) fn doubt(&self, options: &CheckOptions) -> Option<SizeDoubt> {
         let extent_m = self.extent_m();
         let median_m = self.median_size_m.unwrap_or(f64::NAN);
+        let is_short = extent_m < SMALL_EXTENT_M && median_m < SMALL_PATH_M;
         let is_small = extent_m < options.smallest_extent_m
-            || (extent_m < SMALL_EXTENT_M && median_m < SMALL_PATH_M);
+            || (is_short && (self.has_nodes || self.is_assumed));
         if extent_m >= 0.0 && is_small {
             return Some(SizeDoubt::Small);
         }
@@ -118,7 +124,8 @@ impl Scale {
 
     /// The median time to drive along a path, if it is too long for one.
     pub(super) fn slow(&self) -> Option<DriveTime> {
-        self.median_time.filter(|median| median.time_s > LARGE_TIME_S)
+        self.median_time
+            .filter(|median| median.time_s > LARGE_TIME_S)
     }
 }
 
@@ -155,30 +162,31 @@ pub(super) struct Tolerances {
 }
 
 impl Tolerances {
-    /// Fractions of the median size m of the paths, up to a bound for layouts of ordinary size. If
-    /// the layout is so large that its millimeters were probably read as meters, the bound is that
-    /// many meters.
+    /// Fractions of the median size m of the paths, up to a bound for layouts of ordinary size.
     ///
     /// | tolerance | formula | bound |
     /// |---|---|---|
     /// | gap | m / 100 | 10 mm |
     /// | coincidence | m / 1000 | 1 mm |
     /// | path without length | m / 1,000,000 | 1 um |
+    ///
+    /// If the layout is so large that its millimeters were probably read as meters, the bound of
+    /// the gap is 10 m. That of the coincidence stays: a wrong duplicate would cost a path.
     pub(super) fn of(scale: &Scale, options: &CheckOptions) -> Self {
-        let bound = match scale.doubt(options) {
-            Some(SizeDoubt::Large) => 1e3,
-            Some(SizeDoubt::Small) | None => 1.0,
+        let is_large = scale.doubt(options) == Some(SizeDoubt::Large);
+        let largest_gap_m = match is_large {
+            true => 1e3 * CheckOptions::LARGEST_GAP_M,
+            false => CheckOptions::LARGEST_GAP_M,
         };
         let relative = |fraction: f64, largest_m: f64| {
-            let largest_m = bound * largest_m;
             let scaled = scale.median_size_m.map(|median_m| median_m * fraction);
             scaled.map_or(largest_m, |m| m.clamp(LEAST_SIZE_M, largest_m))
         };
-        let gap = options.gap_tolerance_m;
-        let coincidence = options.coincidence_tolerance_m;
+        let gap_m = options.gap_tolerance_m;
+        let coincidence_m = options.coincidence_tolerance_m;
         Self {
-            gap_m: gap.unwrap_or_else(|| relative(1e-2, CheckOptions::LARGEST_GAP_M)),
-            coincidence_m: coincidence
+            gap_m: gap_m.unwrap_or_else(|| relative(1e-2, largest_gap_m)),
+            coincidence_m: coincidence_m
                 .unwrap_or_else(|| relative(1e-3, CheckOptions::LARGEST_COINCIDENCE_M)),
             dot_m: relative(1e-6, 1e-6),
         }
@@ -245,7 +253,10 @@ mod tests {
     fn assert_near(found: Tolerances, expected: [f64; 3]) {
         let found = [found.gap_m, found.coincidence_m, found.dot_m];
         let is_near = |(a, b): (&f64, f64)| (a - b).abs() <= 1e-9 * b;
-        assert!(found.iter().zip(expected).all(|pair| is_near(pair)), "{found:?}");
+        assert!(
+            found.iter().zip(expected).all(|pair| is_near(pair)),
+            "{found:?}"
+        );
     }
 
     #[test]
@@ -256,7 +267,7 @@ mod tests {
         assert_near(tolerances(&[0.001, 5.0, 700.0]), ordinary);
         assert_near(tolerances(&[1e-4, 0.02, 900.0]), [2e-4, 2e-5, 2e-8]);
         // Millimeters that were read as meters.
-        assert_near(tolerances(&[2e4, 2e4, 3e4]), [10.0, 1.0, 1e-3]);
+        assert_near(tolerances(&[2e4, 2e4, 3e4]), [10.0, 1e-3, 1e-6]);
     }
 
     #[test]

@@ -121,7 +121,11 @@ fn columns(layout: &Layout, found: &mut Diagnostics) {
         for column in entries.attributes.iter() {
             let name = |entry| {
                 let row = element(entries, entry);
-                if table == "paths" { path(row) } else { node(row) }
+                if table == "paths" {
+                    path(row)
+                } else {
+                    node(row)
+                }
             };
             check_column(column, table, name, found);
         }
@@ -135,7 +139,10 @@ fn check_column(
     found: &mut Diagnostics,
 ) {
     let (largest, remedy) = match column.quantity {
-        Some(Quantity::Speed) => (LARGEST_SPEED_M_PER_S, "Check whether the speeds are in mm/s"),
+        Some(Quantity::Speed) => (
+            LARGEST_SPEED_M_PER_S,
+            "Check whether the speeds are in mm/s",
+        ),
         Some(Quantity::Angle) => (LARGEST_ANGLE_RAD, "Check whether the angles are in degrees"),
         _ => return,
     };

@@ -47,8 +47,15 @@ fn paths_that_agree_in_everything_are_duplicates() {
         entries.set_quantity(entry, "maxHeight", height, Quantity::Length);
     }
     let found = found(&sketch);
-    only(&found, Code::DuplicatePath);
-    assert_eq!(found.iter().next().unwrap().remedy, "Remove one of the two");
+    let (_, message) = only(&found, Code::DuplicatePath);
+    let expected = "has the curve of path \"first\", from node \"a\" to node \"b\", and agrees in all \
+                    properties";
+    assert_eq!(message, expected);
+    let remedy = &found.iter().next().unwrap().remedy;
+    assert!(
+        remedy.starts_with("Remove one of the two; if both are meant"),
+        "{remedy}"
+    );
 }
 
 #[test]
@@ -65,7 +72,10 @@ fn load_restriction_of_one_path_is_a_difference() {
     let mut sketch = pair();
     let attributes = &mut sketch.layout.paths.attributes;
     attributes.set(1, "loadRestriction.loaded", Value::Bool(false));
-    assert_eq!(difference(&found(&sketch)), "loadRestriction.loaded: none and false");
+    assert_eq!(
+        difference(&found(&sketch)),
+        "loadRestriction.loaded: none and false"
+    );
 }
 
 #[test]
@@ -75,7 +85,10 @@ fn value_of_one_vehicle_type_is_a_difference() {
     for (entry, height) in [(0, 1.0), (1, 2.0), (2, 1.0), (3, 2.5)] {
         entries.set_quantity(entry, "maxHeight", height, Quantity::Length);
     }
-    assert_eq!(difference(&found(&sketch)), "maxHeight of fork: 2 and 2.5 m");
+    assert_eq!(
+        difference(&found(&sketch)),
+        "maxHeight of fork: 2 and 2.5 m"
+    );
 }
 
 #[test]
@@ -92,7 +105,10 @@ fn end_node_is_a_difference() {
         ..NewPath::default()
     });
     let found = found(&sketch);
-    assert_eq!(codes(&found), [(Code::DuplicatePath, 1), (Code::SameCurve, 1)]);
+    assert_eq!(
+        codes(&found),
+        [(Code::DuplicatePath, 1), (Code::SameCurve, 1)]
+    );
     let message = &found.iter().last().unwrap().message;
     let expected = "they differ in end node: node \"b\" and node \"c\"";
     assert!(message.ends_with(expected), "{message}");
@@ -119,7 +135,10 @@ fn long_texts_and_lists_of_differences_are_shortened() {
     }
     let message = difference(&found(&sketch));
     assert!(message.starts_with(&format!("note 0: none and {}...; note 1", "ä".repeat(30))));
-    assert!(message.ends_with("...; and 2 other properties"), "{message}");
+    assert!(
+        message.ends_with("...; and 2 other properties"),
+        "{message}"
+    );
 }
 
 #[test]
@@ -133,10 +152,17 @@ fn a_later_path_is_compared_with_all_earlier_ones() {
         attributes.set_quantity(i as usize, "maxSpeed", 0.01 * speed, Quantity::Speed);
     }
     let found = found(&sketch);
-    assert_eq!(codes(&found), [(Code::DuplicatePath, 2_000), (Code::SameCurve, 999)]);
+    assert_eq!(
+        codes(&found),
+        [(Code::DuplicatePath, 2_000), (Code::SameCurve, 999)]
+    );
     let duplicates = found.iter().filter(|d| d.code == Code::DuplicatePath);
     let last = duplicates.last().unwrap();
-    assert!(last.message.contains("path number 1000 "), "{}", last.message);
+    assert!(
+        last.message.contains("path number 1000 "),
+        "{}",
+        last.message
+    );
 }
 
 #[test]
@@ -157,5 +183,8 @@ fn two_way_paths_against_each_other_differ_if_a_property_has_a_direction() {
     };
     only(&of("maxSpeed"), Code::DuplicatePath);
     let message = difference(&of("maxReverseSpeed"));
-    assert_eq!(message, "maxReverseSpeed (m/s), as the curves run in opposite directions");
+    assert_eq!(
+        message,
+        "maxReverseSpeed (m/s), as the curves run in opposite directions"
+    );
 }

@@ -68,14 +68,24 @@ fn change_of_orientation_between_two_nodes_is_no_finding() {
 fn several_rotations_at_one_place_are_no_pair() {
     let mut sketch = dot("c", "c turned");
     let turn = sketch.layout.paths.len() - 1;
-    sketch.path("back", &line_runs(p(5.0, 5.0), p(5.0, 5.0)), "c turned", "c");
+    sketch.path(
+        "back",
+        &line_runs(p(5.0, 5.0), p(5.0, 5.0)),
+        "c turned",
+        "c",
+    );
     for row in [turn, turn + 1] {
         let attributes = &mut sketch.layout.paths.attributes;
         attributes.set(row, "rotationAllowed", Value::Bool(true));
     }
     assert_eq!(codes(&found(&sketch)), [(Code::SameCurve, 1)]);
     // The same rotation twice is a duplicate.
-    sketch.path("again", &line_runs(p(5.0, 5.0), p(5.0, 5.0)), "c", "c turned");
+    sketch.path(
+        "again",
+        &line_runs(p(5.0, 5.0), p(5.0, 5.0)),
+        "c",
+        "c turned",
+    );
     let attributes = &mut sketch.layout.paths.attributes;
     attributes.set(turn + 2, "rotationAllowed", Value::Bool(true));
     let expected = [(Code::DuplicatePath, 1), (Code::SameCurve, 1)];

@@ -1,6 +1,8 @@
 //! Units that cannot be right are reported first and once; tolerances follow the size of a layout.
 
-use guideway_layout::{CheckOptions, Code, GeoOrigin, NewPath, Quantity, check};
+use guideway_layout::{
+    CheckOptions, Code, Diagnostics, GeoOrigin, NewPath, Place, Quantity, check,
+};
 
 use crate::findings::{codes, found, only};
 use crate::sketch::{Sketch, line_runs, p};
@@ -50,7 +52,10 @@ fn drives_of_many_minutes_suggest_another_unit() {
     let centimeters = || row(9, 500.0);
     assert!(found(&centimeters()).is_empty());
     let (_, message) = only(&found(&with_speed(centimeters(), 1.5)), Code::Implausible);
-    assert!(message.ends_with("half of its paths take more than 6 minutes at 1.5 m/s"), "{message}");
+    assert!(
+        message.ends_with("half of its paths take more than 6 minutes at 1.5 m/s"),
+        "{message}"
+    );
     // A road.
     assert!(found(&with_speed(centimeters(), 14.0)).is_empty());
 }
@@ -82,18 +87,27 @@ fn motorways_without_nodes_are_plausible() {
 fn wrong_unit_is_the_first_finding_and_the_only_one_of_its_kind() {
     // A million times too small: without tolerances by size, all paths would be duplicates.
     let mut sketch = Sketch::default();
+    let assumed = || "the file does not state its unit".to_owned();
+    let diagnostics = &mut sketch.layout.diagnostics;
+    diagnostics.push(Code::AssumedUnit, Place::default, assumed, "State it");
     for i in 0..20 {
         let x = 1e-3 * f64::from(i);
         sketch.free_path("same id", &line_runs(p(x, 0.0), p(x + 1e-4, 0.0)));
         sketch.free_path("", &line_runs(p(x, 1e-4), p(x + 1e-4, 2e-4)));
     }
     let found = found(&sketch);
-    assert_eq!(codes(&found), [(Code::DuplicateId, 1), (Code::Implausible, 1)]);
+    assert_eq!(
+        codes(&found),
+        [(Code::DuplicateId, 1), (Code::Implausible, 1)]
+    );
     let first = found.iter().next().unwrap();
     assert_eq!(first.code, Code::Implausible);
     let expected = "the layout is only 1.91e-2 m in size, and half of its paths are smaller than \
                     1.41e-4 m";
     assert_eq!(first.message, expected);
+    // A drawing that states its unit may be small.
+    sketch.layout.diagnostics = Diagnostics::default();
+    assert_eq!(codes(&self::found(&sketch)), [(Code::DuplicateId, 1)]);
 }
 
 #[test]
@@ -139,19 +153,28 @@ fn impossible_speeds_and_angles_are_reported_once_per_column() {
     let mut sketch = with_speed(row(5, 10.0), 1.0);
     let paths = &mut sketch.layout.paths;
     for row in [1, 3] {
-        paths.attributes.set_quantity(row, "maxSpeed", 1_500.0, Quantity::Speed);
+        paths
+            .attributes
+            .set_quantity(row, "maxSpeed", 1_500.0, Quantity::Speed);
     }
     for row in 0..4 {
-        paths.attributes.set_quantity(row, "length", 1e6, Quantity::Length);
+        paths
+            .attributes
+            .set_quantity(row, "length", 1e6, Quantity::Length);
         let angle = 6.28;
-        paths.attributes.set_quantity(row, "vehicleOrientation", angle, Quantity::Angle);
+        paths
+            .attributes
+            .set_quantity(row, "vehicleOrientation", angle, Quantity::Angle);
     }
     paths.vehicle_types_mut().set(2, &["tug", "fork"]);
     let entries = &mut paths.vehicle_types_mut().attributes;
     entries.set_quantity(1, "turn", -90.0, Quantity::Angle);
     let found = found(&sketch);
     assert_eq!(codes(&found), [(Code::Implausible, 2)]);
-    let texts: Vec<_> = found.iter().map(|d| format!("{}: {}", d.place, d.message)).collect();
+    let texts: Vec<_> = found
+        .iter()
+        .map(|d| format!("{}: {}", d.place, d.message))
+        .collect();
     let speed = "column maxSpeed (m/s) of paths: path \"e2\" has 1500, more than 100, and another \
                  value is too large";
     let turn = "column turn (rad) of paths: path \"e3\" has -90, more than 6.2832";

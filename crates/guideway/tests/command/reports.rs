@@ -57,7 +57,13 @@ fn info_summarizes_the_file() {
     let folder = tempfile::tempdir().unwrap();
     let file = lif(&folder, |_| {});
     let said = stdout(&on_file(&["info"], &file));
-    for part in ["LIF 1.0", "10 m", "maxSpeed (m/s)", "floor (1 path)", "took "] {
+    for part in [
+        "LIF 1.0",
+        "10 m",
+        "maxSpeed (m/s)",
+        "floor (1 path)",
+        "took ",
+    ] {
         assert!(said.contains(part), "{part} in {said}");
     }
     let report = answer(&on_file(&["info", "--json"], &file), "info");
@@ -99,7 +105,10 @@ fn info_summarizes_the_file() {
         speed,
         &["type", "values", "missing", "distinct", "min", "max", "top"],
     );
-    assert_eq!((&speed["unit"], &speed["per_type"]), (&json!("m/s"), &json!(0)));
+    assert_eq!(
+        (&speed["unit"], &speed["per_type"]),
+        (&json!("m/s"), &json!(0))
+    );
     assert_eq!(speed["top"][0], json!({ "value": "1.5", "count": 1 }));
 }
 
@@ -182,16 +191,27 @@ fn check_and_info_agree_about_refused_paths() {
                 "geometry": {{"type": "LineString", "coordinates": [{positions}]}}}}"#
         )
     };
-    let lines = [line(1, ""), line(2, "[1, 2]"), line(3, "[0, 0], [5, 5]"), line(4, "")];
+    let lines = [
+        line(1, ""),
+        line(2, "[1, 2]"),
+        line(3, "[0, 0], [5, 5]"),
+        line(4, ""),
+    ];
     let features = lines.join(",");
     let text = format!(r#"{{"type": "FeatureCollection", "features": [{features}]}}"#);
     fs::write(&file, text).unwrap();
 
     let info = answer(&on_file(&["info", "--json"], &file), "info");
     let refused = info["refused"].as_array().unwrap();
-    let of_info: u64 = refused.iter().map(|kind| kind["count"].as_u64().unwrap()).sum();
+    let of_info: u64 = refused
+        .iter()
+        .map(|kind| kind["count"].as_u64().unwrap())
+        .sum();
     assert_eq!(of_info, 3);
-    assert!(refused.iter().all(|kind| kind["severity"] == "error"), "{refused:?}");
+    assert!(
+        refused.iter().all(|kind| kind["severity"] == "error"),
+        "{refused:?}"
+    );
 
     let output = on_file(&["check", "--json"], &file);
     assert_eq!(output.status.code(), Some(2));

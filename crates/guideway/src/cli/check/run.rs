@@ -1,9 +1,7 @@
 //! Arguments of `check`; checks each file by itself and against the others, prints the report.
 
 use clap::ValueEnum;
-use guideway::layout::{
-    CheckOptions, Diagnostic, FindingKind, UserError, check, check_across,
-};
+use guideway::layout::{CheckOptions, Diagnostic, FindingKind, UserError, check, check_across};
 use serde_json::{Value, json};
 
 use super::clearance::{self, ClearanceArgs};

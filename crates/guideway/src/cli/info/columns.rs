@@ -200,7 +200,10 @@ mod tests {
         assert_eq!((speed.values, speed.missing, speed.distinct), (5, 15, 3));
         assert_eq!((speed.min, speed.max), (Some(0.0), Some(1.5)));
         assert_eq!((speed.top[0].value.as_str(), speed.top[0].count), ("0", 2));
-        assert_eq!((speed.unit, speed.label().as_str()), (Some("m/s"), "speed (m/s)"));
+        assert_eq!(
+            (speed.unit, speed.label().as_str()),
+            (Some("m/s"), "speed (m/s)")
+        );
         assert_eq!((columns[1].distinct, columns[1].unit), (20, None));
         assert!(columns[1].top.is_empty());
     }
@@ -226,7 +229,10 @@ mod tests {
         };
         assert_eq!((speed.name.as_str(), speed.unit), ("maxSpeed", Some("m/s")));
         assert_eq!((speed.values, speed.missing, speed.per_type), (2, 1, 1));
-        assert_eq!((speed.distinct, speed.min, speed.max), (3, Some(1.0), Some(3.0)));
+        assert_eq!(
+            (speed.distinct, speed.min, speed.max),
+            (3, Some(1.0), Some(3.0))
+        );
         assert_eq!((layer.values, layer.per_type, layer.distinct), (1, 1, 1));
     }
 }

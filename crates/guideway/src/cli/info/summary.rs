@@ -185,7 +185,10 @@ fn refused(layout: &Layout) -> Vec<Kind> {
 }
 
 fn kinds(found: &Diagnostics) -> Vec<Kind> {
-    FindingKind::of([found]).into_iter().map(Kind::new).collect()
+    FindingKind::of([found])
+        .into_iter()
+        .map(Kind::new)
+        .collect()
 }
 
 fn size(input: &Input) -> Option<u64> {
