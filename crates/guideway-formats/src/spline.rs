@@ -24,11 +24,16 @@ pub(crate) struct Spline {
 
 impl Builder<'_> {
     /// Appends a curve to empty `runs`, or its control polygon if the numbers define no curve. They
-    /// stay empty for fewer than two points.
-    pub(crate) fn append_spline(&mut self, spline: &Spline, at: PlaceFn<'_>, runs: &mut Runs) {
+    /// stay empty for fewer than two points. Returns whether the numbers define the curve.
+    pub(crate) fn append_spline(
+        &mut self,
+        spline: &Spline,
+        at: PlaceFn<'_>,
+        runs: &mut Runs,
+    ) -> bool {
         if let Some(curve) = self.curve(spline, at) {
             if self.convert(&curve, at, runs) {
-                return;
+                return true;
             }
             if curve.is_rational() {
                 let message = || "the weights differ too much for double precision".to_owned();
@@ -37,7 +42,7 @@ impl Builder<'_> {
                 let (degree, knots) = (curve.degree(), curve.knots().to_vec());
                 let plain = Nurbs::new(degree, knots, spline.points.clone(), None);
                 if plain.is_ok_and(|plain| self.convert(&plain, at, runs)) {
-                    return;
+                    return false;
                 }
             }
             self.report_knots(at, || {
@@ -45,6 +50,7 @@ impl Builder<'_> {
             });
         }
         polyline_to_runs(&spline.points, runs);
+        false
     }
 
     /// Converts a curve. Returns false, and leaves `runs` empty, if numbers overflow.

@@ -35,7 +35,7 @@ impl TypeEntries {
     }
 
     /// Appends an element with one entry per type.
-    pub(crate) fn push(&mut self, types: &[&str]) {
+    pub fn push(&mut self, types: &[&str]) {
         for &name in types {
             let row = self.intern(name);
             self.types.push(row);

@@ -58,6 +58,7 @@ impl<'a> Root<'a> {
                 coordinates: std::mem::take(&mut self.coordinates),
                 geometries: std::mem::take(&mut self.geometries),
                 repeated: None,
+                has_other: false,
             })),
             false => std::mem::take(&mut self.geometry),
         };
@@ -66,6 +67,7 @@ impl<'a> Root<'a> {
             properties: std::mem::take(&mut self.properties),
             geometry,
             repeated: None,
+            has_other: false,
         })]
     }
 }

@@ -68,7 +68,7 @@ impl Mapper<'_> {
         })?;
         self.set_sequence(Table::Paths, row, sequence)?;
         self.builder
-            .set_attributes(Table::Paths, row, &edge.attributes, at)
+            .set_attributes(Table::Paths, row, &edge.attributes)
     }
 
     /// Returns the node at an end: by identifier if the edge has one, else by `sequenceId`.

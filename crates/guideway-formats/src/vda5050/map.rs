@@ -91,10 +91,8 @@ impl Mapper<'_> {
         let row = row as usize;
         self.set_sequence(Table::Nodes, row, sequence)?;
         let (of_node, of_position) = (&node.attributes, &position.attributes);
-        self.builder
-            .set_attributes(Table::Nodes, row, of_node, at)?;
-        self.builder
-            .set_attributes(Table::Nodes, row, of_position, at_position)
+        self.builder.set_attributes(Table::Nodes, row, of_node)?;
+        self.builder.set_attributes(Table::Nodes, row, of_position)
     }
 
     fn level(

@@ -105,7 +105,7 @@ fn lists_losses() {
     layout.levels.push(Level {
         id: "L1".into(),
         name: Some("Ground".into()),
-        elevation_m: None,
+        ..Level::default()
     });
     let mut runs = Runs::default();
     runs.push_line(Point::new(0.0, 0.0), Point::new(0.1, 5.0));
@@ -206,15 +206,11 @@ fn layout_of(rows: &[Row]) -> Layout {
         .paths
         .attributes
         .insert(Attribute::new("serial", ints));
-    let text: TextColumn = rows
-        .iter()
-        .map(|r| r.4.as_deref().unwrap_or_default())
-        .collect();
-    let present = rows.iter().map(|r| r.4.is_some()).collect();
+    let notes = Values::Text(rows.iter().map(|r| r.4.as_deref()).collect());
     layout
         .paths
         .attributes
-        .insert(Attribute::new("note", Values::Text { text, present }));
+        .insert(Attribute::new("note", notes));
     layout
 }
 

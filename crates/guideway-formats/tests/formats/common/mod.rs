@@ -18,6 +18,12 @@ pub(crate) fn real_layouts(format: &str) -> Option<PathBuf> {
     None
 }
 
+/// Returns the folder of small cases of a format beside the repository, if it exists.
+pub(crate) fn real_cases(format: &str) -> Option<PathBuf> {
+    let folder = real_layouts(".")?.join("../cases").join(format);
+    folder.is_dir().then_some(folder)
+}
+
 /// Reads a real file; `None` without the folder of real layouts.
 pub(crate) fn real(format: &str, file: &str) -> Option<Layout> {
     let path = real_layouts(format)?.join(file);

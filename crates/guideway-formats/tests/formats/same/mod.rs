@@ -156,7 +156,7 @@ pub(crate) fn arbitrary_layout() -> impl Strategy<Value = Layout> {
             layout.levels.push(Level {
                 id: id.to_owned(),
                 name: name.map(str::to_owned),
-                elevation_m: None,
+                ..Level::default()
             });
         }
         // Five nodes on each level.

@@ -5,16 +5,16 @@ use std::borrow::Cow;
 use hashbrown::HashMap;
 
 /// Names in use, by which new names are made unique.
-pub(super) struct UniqueNames<'a> {
+pub(crate) struct UniqueNames<'a> {
     /// Number of things per name so far; zero for a name that was not taken yet.
     taken: HashMap<Cow<'a, str>, u64>,
     /// Number of things that were renamed.
-    pub(super) renamed: usize,
+    pub(crate) renamed: usize,
 }
 
 impl<'a> UniqueNames<'a> {
     /// Reserves the names of a table.
-    pub(super) fn new(all: impl Iterator<Item = &'a str>) -> Self {
+    pub(crate) fn new(all: impl Iterator<Item = &'a str>) -> Self {
         Self {
             taken: all.map(|name| (Cow::Borrowed(name), 0)).collect(),
             renamed: 0,
@@ -23,7 +23,7 @@ impl<'a> UniqueNames<'a> {
 
     /// Takes a reserved name for a thing: the name itself, or with a number if another thing has
     /// it.
-    pub(super) fn take(&mut self, name: &'a str) -> Cow<'a, str> {
+    pub(crate) fn take(&mut self, name: &'a str) -> Cow<'a, str> {
         let count = self.taken.entry(Cow::Borrowed(name)).or_insert(0);
         *count += 1;
         if *count == 1 && !name.is_empty() {
@@ -34,7 +34,7 @@ impl<'a> UniqueNames<'a> {
     }
 
     /// Takes a new name: the name itself, or with a number if it is reserved or taken.
-    pub(super) fn make_unique(&mut self, name: &str) -> String {
+    pub(crate) fn make_unique(&mut self, name: &str) -> String {
         if self.taken.contains_key(name) {
             return self.numbered(name);
         }

@@ -15,14 +15,14 @@ const SQUARE_M: f64 = 8.0 * JOIN_TOLERANCE_M;
 /// New nodes by square. No two nodes of a level are within [`JOIN_TOLERANCE_M`], so a square has
 /// few.
 #[derive(Default)]
-pub(super) struct EndNodes(HashMap<Square, Vec<(Point<f64>, u32)>>);
+pub(crate) struct EndNodes(HashMap<Square, Vec<(Point<f64>, u32)>>);
 
 /// Level, column and row of a square.
 type Square = (usize, i64, i64);
 
 impl EndNodes {
     /// Returns the first node within the join tolerance of a position.
-    pub(super) fn near(&self, level: usize, position: Point<f64>) -> Option<u32> {
+    pub(crate) fn near(&self, level: usize, position: Point<f64>) -> Option<u32> {
         let reach = Point::new(JOIN_TOLERANCE_M, JOIN_TOLERANCE_M);
         let [(_, left, low), (_, right, high)] =
             [position - reach, position + reach].map(|corner| square(level, corner));
@@ -33,7 +33,7 @@ impl EndNodes {
     }
 
     /// Adds a node.
-    pub(super) fn add(&mut self, level: usize, position: Point<f64>, node: u32) {
+    pub(crate) fn add(&mut self, level: usize, position: Point<f64>, node: u32) {
         let nodes = self.0.entry(square(level, position)).or_default();
         nodes.push((position, node));
     }

@@ -5,18 +5,14 @@ use std::borrow::Cow;
 
 use guideway_layout::{Layout, Level, PathRef};
 use guideway_spline::Point;
-use serde_json::Map;
 
-use super::end_nodes::EndNodes;
-use super::model::ANY_TYPE;
-use super::unique_names::UniqueNames;
-use super::version::Version;
-use super::write_columns::column_json;
-use super::write_objects::{NodeObject, TypeProperties};
 use crate::Losses;
+use crate::end_nodes::EndNodes;
+use crate::lif::model::ANY_TYPE;
+use crate::unique_names::UniqueNames;
 
 /// Levels, nodes and path ends as written.
-pub(super) struct Network<'a> {
+pub(in crate::lif) struct Network<'a> {
     levels: Vec<Cow<'a, Level>>,
     nodes: Vec<Node<'a>>,
     /// Start and end node per path.
@@ -42,7 +38,7 @@ struct LevelRows {
 
 impl<'a> Network<'a> {
     /// Completes the network of a layout; adds each change to the losses.
-    pub(super) fn complete(layout: &'a Layout, losses: &mut Losses) -> Self {
+    pub(in crate::lif) fn complete(layout: &'a Layout, losses: &mut Losses) -> Self {
         let mut levels: Vec<_> = layout.levels.iter().map(Cow::Borrowed).collect();
         let elevated = layout.levels.iter().filter(|l| l.elevation_m.is_some());
         losses.add("levels", elevated.count(), "elevations of levels");
@@ -53,12 +49,9 @@ impl<'a> Network<'a> {
             let detail =
                 format!("paths, nodes and stations without a level: written to the level `{id}`");
             losses.add("levels", without_level, detail);
-            let name = None;
             levels.push(Cow::Owned(Level {
                 id,
-                name,
-                elevation_m: None,
-                attributes: guideway_layout::Attributes::default(),
+                ..Level::default()
             }));
         }
         let mut network = Self {
@@ -79,7 +72,7 @@ impl<'a> Network<'a> {
     }
 
     /// Returns the index of a level as written; the last one is for rows without a level.
-    fn level(&self, level: Option<u32>) -> usize {
+    pub(in crate::lif) fn level(&self, level: Option<u32>) -> usize {
         let last = self.levels.len() - 1;
         level.map_or(last, |level| last.min(level as usize))
     }
@@ -152,64 +145,49 @@ impl<'a> Network<'a> {
         losses.add("vehicle types", for_any, detail);
     }
 
-    pub(super) fn levels(&self) -> impl Iterator<Item = &Level> {
+    pub(in crate::lif) fn levels(&self) -> impl Iterator<Item = &Level> {
         self.levels.iter().map(AsRef::as_ref)
     }
 
-    pub(super) fn nodes_on(&self, level: usize) -> impl Iterator<Item = u32> {
+    pub(in crate::lif) fn nodes_on(&self, level: usize) -> impl Iterator<Item = u32> {
         self.level_rows[level].nodes.iter().copied()
     }
 
-    pub(super) fn paths_on(&self, level: usize) -> impl Iterator<Item = u32> {
+    pub(in crate::lif) fn paths_on(&self, level: usize) -> impl Iterator<Item = u32> {
         self.level_rows[level].paths.iter().copied()
     }
 
-    pub(super) fn stations_on(&self, level: usize) -> impl Iterator<Item = u32> {
+    pub(in crate::lif) fn stations_on(&self, level: usize) -> impl Iterator<Item = u32> {
         self.level_rows[level].stations.iter().copied()
     }
 
     /// Returns the identifier of a node as written. Rows of layout nodes are the same here.
-    pub(super) fn node_id(&self, node: u32) -> &str {
+    pub(in crate::lif) fn node_id(&self, node: u32) -> &str {
         &self.nodes[node as usize].id
     }
 
     /// Returns the start and end node of a path.
-    pub(super) fn ends(&self, path: usize) -> [u32; 2] {
+    pub(in crate::lif) fn ends(&self, path: usize) -> [u32; 2] {
         self.ends[path]
     }
 
-    pub(super) fn position_m(&self, node: u32) -> Point<f64> {
+    pub(in crate::lif) fn position_m(&self, node: u32) -> Point<f64> {
         self.nodes[node as usize].position_m
     }
 
-    /// Returns a node as written.
-    pub(super) fn node(&self, layout: &'a Layout, row: u32, version: Version) -> NodeObject<'_> {
-        let node = &self.nodes[row as usize];
-        let column = |name| {
-            let column = layout.nodes.attributes.get(name)?;
-            column_json(&column.values, row as usize)
-        };
-        let map = || self.levels[node.level].id.as_str().into();
-        NodeObject {
-            id: &node.id,
-            name: column("nodeName"),
-            map: column("mapId").unwrap_or_else(map),
-            position: node.position_m.into(),
-            properties: TypeProperties {
-                version,
-                types: match node.types.as_slice() {
-                    [] => vec![ANY_TYPE],
-                    types => types.to_vec(),
-                },
-                columns: Map::new(),
-                trajectory: None,
-            },
-        }
+    /// Returns the index of the level of a node.
+    pub(in crate::lif) fn level_of_node(&self, node: u32) -> usize {
+        self.nodes[node as usize].level
+    }
+
+    /// Returns the vehicle types of the paths from and to a node.
+    pub(in crate::lif) fn types_of_node(&self, node: u32) -> &[&'a str] {
+        &self.nodes[node as usize].types
     }
 }
 
 /// Returns the vehicle types that a path is written for.
-pub(super) fn path_types(layout: &Layout, path: usize) -> Vec<&str> {
+pub(in crate::lif) fn path_types(layout: &Layout, path: usize) -> Vec<&str> {
     let types = layout.paths.vehicle_types().of(path);
     match types.len() {
         0 => vec![ANY_TYPE],
@@ -218,7 +196,7 @@ pub(super) fn path_types(layout: &Layout, path: usize) -> Vec<&str> {
 }
 
 /// Returns the level of a path, or else of its start node.
-fn level_of(layout: &Layout, path: PathRef<'_>) -> Option<u32> {
+pub(in crate::lif) fn level_of(layout: &Layout, path: PathRef<'_>) -> Option<u32> {
     let of_start = || layout.nodes.level(path.start_node()?);
     path.level().or_else(of_start)
 }

@@ -1,0 +1,192 @@
+//! Losses of the LIF writers: the parts of a layout that LIF does not hold, or holds in another
+//! form.
+
+use std::borrow::Cow;
+
+use guideway_layout::{Attribute, Attributes, Layout};
+
+use super::columns::MemberColumns;
+use super::elements::Elements;
+use crate::Losses;
+use crate::json::Tree;
+use crate::lif::members::{
+    EDGE_ID, LAYOUT, META, ORIGIN, ORIGIN_OTHER, OTHER, TRAJECTORY, TYPE_OTHER,
+};
+use crate::lif::version::Version;
+
+/// Adds what both ways to save LIF lose.
+pub(in crate::lif) fn add_lost(elements: &Elements<'_>, losses: &mut Losses) {
+    let layout = elements.layout;
+    losses.add_widths(layout);
+    losses.add_colors(layout);
+    losses.add_ranks(layout);
+    let origins = usize::from(layout.geo_origin.is_some());
+    losses.add("geo origin", origins, "place on earth of the origin");
+    losses.add("blocks", layout.blocks.len(), "blocks");
+    losses.add("zones", layout.zones.len(), "zones");
+    let is_part = |name: &str| {
+        elements.version == Version::V2 && matches!(name, "manufacturer" | "seriesName")
+            || elements.is_from_lif && name == OTHER && elements.version == Version::V2
+    };
+    let types = layout.vehicle_types.iter();
+    let lost = types.filter(|t| t.attributes.iter().any(|column| !is_part(&column.name)));
+    losses.add(
+        "vehicle types",
+        lost.count(),
+        "vehicle types with properties of their own",
+    );
+
+    let further: &[&str] = if elements.is_from_lif {
+        &[OTHER, TYPE_OTHER]
+    } else {
+        &[]
+    };
+    let (of_path, of_node) = (&elements.edge_type[0], &elements.node_type);
+    let of_curve = [EDGE_ID, TRAJECTORY];
+    let held_of_curve: &[&str] = if elements.is_from_lif {
+        &of_curve
+    } else {
+        &of_curve[..1]
+    };
+    let held = [further, held_of_curve].concat();
+    let two_way = &elements.edge_type[1];
+    let paths = [&elements.edge, of_path, two_way];
+    add_columns(losses, &layout.paths.attributes, "paths", &paths, &held);
+    let of_types = &layout.paths.vehicle_types().attributes;
+    add_columns(
+        losses,
+        of_types,
+        "vehicle types on paths",
+        &[of_path],
+        further,
+    );
+    let nodes = [&elements.node, of_node];
+    add_columns(losses, &layout.nodes.attributes, "nodes", &nodes, further);
+    let of_types = &layout.nodes.vehicle_types().attributes;
+    add_columns(
+        losses,
+        of_types,
+        "vehicle types at nodes",
+        &[of_node],
+        further,
+    );
+    let stations = [&elements.station, &elements.station_position];
+    add_columns(
+        losses,
+        &layout.stations.attributes,
+        "stations",
+        &stations,
+        further,
+    );
+    for level in &layout.levels {
+        let columns = [LAYOUT, ORIGIN].map(|names| elements.row_columns(&level.attributes, names));
+        let held = match elements.version {
+            Version::V1 => further.to_vec(),
+            Version::V2 => [further, &[ORIGIN_OTHER][..further.len().min(1)]].concat(),
+        };
+        let columns = match elements.version {
+            Version::V1 => vec![&columns[0]],
+            Version::V2 => columns.iter().collect(),
+        };
+        add_columns(losses, &level.attributes, "levels", &columns, &held);
+    }
+    let meta = elements.row_columns(&layout.attributes, META);
+    let is_held = |name: &str| further.contains(&name) || meta.has_source(name);
+    let columns = layout.attributes.iter();
+    let lost = columns.filter(|column| !is_held(&column.name)).count();
+    losses.add(
+        "layout properties",
+        lost,
+        "properties of the layout as a whole",
+    );
+}
+
+/// Adds the columns of a table that no member holds, and values that change.
+fn add_columns(
+    losses: &mut Losses,
+    table: &Attributes,
+    of: &str,
+    members: &[&MemberColumns<'_>],
+    held: &[&str],
+) {
+    for column in table
+        .iter()
+        .filter(|column| !held.contains(&column.name.as_str()))
+    {
+        let sources = members.iter().find(|m| m.has_source(&column.name));
+        let what = format!("column {}", column.name);
+        let Some(sources) = sources else {
+            losses.add(what, count(column), format!("values of {of}"));
+            continue;
+        };
+        let [unfit, other_form] = sources.count_changed(column);
+        let detail = format!("values of {of} that the format cannot hold");
+        losses.add(what.as_str(), unfit, detail);
+        let detail = format!("values of {of}: held as the opposite of another member");
+        losses.add(what, other_form, detail);
+    }
+}
+
+fn count(column: &Attribute) -> usize {
+    let rows = 0..column.values.len();
+    rows.filter(|&row| column.values.get(row).is_some()).count()
+}
+
+/// Adds what a whole new file has in another form: values that 1.0 requires, curves with other
+/// knots, meta information.
+pub(in crate::lif) fn add_required(elements: &Elements<'_>, losses: &mut Losses) {
+    let layout = elements.layout;
+    if elements.version == Version::V1 {
+        let detail = "paths without a value: written as false, because the format requires one";
+        losses.add(
+            "column rotationAllowed",
+            count_without_rotation(layout),
+            detail,
+        );
+    }
+    let scaled = (0..layout.paths.len()).filter(|&path| elements.trajectories.is_scaled(path));
+    let detail = "curves: written with knots from 0 to 1, and with weights from 1 on";
+    losses.add("curves", scaled.count(), detail);
+    let nodes = 0..layout.nodes.len() as u32;
+    let changed = nodes.filter(|&node| {
+        let own = layout.nodes.vehicle_types().entries(node as usize).len();
+        own > 0 && elements.node_types(node).len() > own
+    });
+    let detail = "nodes: written with entries for the types of their paths";
+    losses.add("vehicle types", changed.count(), detail);
+    let detail = "time of the export and version of the format: those of the new file";
+    losses.add("layout properties", count_new_meta(elements), detail);
+}
+
+/// Counts the paths without a value for `rotationAllowed`.
+fn count_without_rotation(layout: &Layout) -> usize {
+    let names = ["rotationAllowed", "reachOrientationBeforeEntering"];
+    let is_without = |path: &usize| {
+        let mut names = names.iter();
+        let has_value = |name: &&str| {
+            let types = layout.paths.vehicle_types();
+            let in_entry = |entry| types.attributes.value(entry, name).is_some();
+            let entries = types.entries(*path);
+            layout.paths.attributes.value(*path, name).is_some()
+                || !entries.is_empty() && entries.clone().all(in_entry)
+        };
+        !names.any(|name| has_value(&name))
+    };
+    let may_have = names.iter().any(|name| layout.paths.has_column(name));
+    match may_have {
+        true => (0..layout.paths.len()).filter(is_without).count(),
+        false => layout.paths.len(),
+    }
+}
+
+/// Counts the members of the meta information that the new file replaces.
+fn count_new_meta(elements: &Elements<'_>) -> usize {
+    let mut old = Vec::new();
+    let columns = elements.row_columns(&elements.layout.attributes, META);
+    columns.add_to(&mut old, 0, None);
+    let version = Tree::Text(super::lif_version(elements.version).into());
+    let is_replaced = |(name, value): &&(Cow<'_, str>, Tree<'_>)| {
+        name == "exportTimestamp" || name == "lifVersion" && *value != version
+    };
+    old.iter().filter(is_replaced).count()
+}
