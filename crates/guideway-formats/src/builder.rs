@@ -2,8 +2,8 @@
 //! [`Layout`], holds them to the limits and to budgets by file size, and records diagnostics.
 
 use guideway_layout::{
-    Attributes, Code, Diagnostics, Layout, NewPath, Place, Property, RefusedPath, Severity,
-    TextColumn, Value, element_name,
+    Attributes, Block, Code, Diagnostics, Layout, Member, NewPath, Place, Property, RefusedPath,
+    Severity, TextColumn, Value, element_name,
 };
 use guideway_spline::{Point, Runs};
 
@@ -47,6 +47,10 @@ pub(crate) enum Table {
     /// Entries of nodes per vehicle type.
     NodeTypes,
     Stations,
+    /// The block of this row, whose attributes are in row 0.
+    Block(u32),
+    /// The layout as a whole, whose attributes are in row 0.
+    Layout,
 }
 
 impl<'a> Builder<'a> {
@@ -213,6 +217,17 @@ impl<'a> Builder<'a> {
         Ok(self.layout.stations.push(id, position_m, nodes, level))
     }
 
+    /// Appends a block and returns its row.
+    pub(crate) fn push_block(&mut self, id: &str, members: Vec<Member>) -> Result<u32, ReadError> {
+        self.charge_text(id)?;
+        self.layout.blocks.push(Block {
+            id: id.to_owned(),
+            members,
+            attributes: Attributes::default(),
+        });
+        Ok((self.layout.blocks.len() - 1) as u32)
+    }
+
     /// Sets an attribute of a row. A number of a known property is in its SI unit.
     pub(crate) fn set(
         &mut self,
@@ -244,7 +259,7 @@ impl<'a> Builder<'a> {
         };
         match (quantity, number) {
             (Some(quantity), Some(number)) => {
-                let number = number * field.factor;
+                let number = field.to_si(number);
                 let attributes = self.attributes(table);
                 attributes.set_quantity(row, field.property, number, quantity);
                 Ok(())
@@ -261,6 +276,8 @@ impl<'a> Builder<'a> {
             Table::Nodes => &mut self.layout.nodes.attributes,
             Table::NodeTypes => &mut self.layout.nodes.vehicle_types_mut().attributes,
             Table::Stations => &mut self.layout.stations.attributes,
+            Table::Block(row) => &mut self.layout.blocks[row as usize].attributes,
+            Table::Layout => &mut self.layout.attributes,
         }
     }
 

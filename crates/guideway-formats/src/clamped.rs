@@ -13,7 +13,7 @@ pub(crate) const POSITION_STEP_M: f64 = 1e-6;
 ///
 /// Derived: coordinates in single precision meet no better at 1 km, and it is half the tolerance of
 /// written curves.
-const JOIN_TOLERANCE_M: f64 = 5e-5;
+pub(crate) const JOIN_TOLERANCE_M: f64 = 5e-5;
 
 /// Rounds a coordinate to [`POSITION_STEP_M`].
 pub(crate) fn rounded(meters: f64) -> f64 {

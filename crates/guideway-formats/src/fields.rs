@@ -46,6 +46,29 @@ pub(crate) fn field_of(vocabulary: Vocabulary, property: &str) -> Option<&'stati
 }
 
 impl FormatField {
+    /// A number of the file in SI units.
+    pub(crate) fn to_si(self, number: f64) -> f64 {
+        match self.units_per_si() {
+            Some(units) => number / units,
+            None => number * self.factor,
+        }
+    }
+
+    /// A number in SI units in the unit of the file.
+    pub(crate) fn of_si(self, number: f64) -> f64 {
+        match self.units_per_si() {
+            Some(units) => number * units,
+            None => number / self.factor,
+        }
+    }
+
+    /// Units of the file per SI unit, if they are a whole number: a division by it is the nearest
+    /// number, as a decimal of the file means it.
+    fn units_per_si(self) -> Option<f64> {
+        let units = self.factor.recip().round();
+        (units > 1.0 && (units * self.factor - 1.0).abs() < 1e-12).then_some(units)
+    }
+
     /// Returns the property of the field.
     pub(crate) fn property(&self) -> Option<&'static Property> {
         Property::named(self.property)
@@ -73,7 +96,8 @@ const fn scaled(
 use Vocabulary::{Lif1, Lif2, Nav2, OpenTcs, Rmf, Vda2, Vda3};
 
 /// All fields. Sources: the schemas of LIF 1.0 and 2.0, the order schemas of VDA 5050, the plant
-/// model schemas of openTCS (lengths in mm, speeds in mm/s), the navigation graphs of Open-RMF, and
+/// model schemas of openTCS (lengths in mm, speeds in mm/s, angles in
+/// degrees), the navigation graphs of Open-RMF, and
 /// the documentation of Nav2's route server.
 const FIELDS: &[FormatField] = &[
     si(Lif1, "orientationType", "orientationType"),
@@ -190,6 +214,12 @@ const FIELDS: &[FormatField] = &[
     scaled(OpenTcs, "length", "length", 1e-3),
     scaled(OpenTcs, "maxVelocity", "maxSpeed", 1e-3),
     scaled(OpenTcs, "maxReverseVelocity", "maxReverseSpeed", 1e-3),
+    scaled(
+        OpenTcs,
+        "vehicleOrientationAngle",
+        "theta",
+        std::f64::consts::PI / 180.0,
+    ),
     si(OpenTcs, "locked", "locked"),
     si(Rmf, "speed_limit", "maxSpeed"),
     si(Nav2, "abs_speed_limit", "maxSpeed"),

@@ -10,7 +10,7 @@
 //! | parse | bytes | records, elements | `text`, `json`, `xml`, `yaml` |
 //! | map | records, elements | layout, diagnostics | one folder per format; `builder`, `node_rows` |
 //! | convert | curves of a format | uniform cubic runs | `spline`, `trajectory`, `ellipse`, `wgs84` |
-//! | write | layout | file, losses | `write*` per format; `clamped`, `losses`, `common_losses` |
+//! | write | layout | file, losses | `write*` per format; `clamped`, `end_nodes`, `unique_names`, `xml_text`, `losses`, `common_losses` |
 
 pub mod arrow;
 mod builder;
@@ -30,7 +30,7 @@ pub mod lif;
 mod losses;
 mod node_rows;
 mod opendrive;
-mod opentcs;
+pub mod opentcs;
 mod read;
 mod rmf;
 mod sniff;
@@ -46,6 +46,7 @@ mod vda5050;
 mod wgs84;
 mod xml;
 mod xml_builder;
+mod xml_text;
 mod yaml;
 
 pub use arrow::{WriteError, WriteProblem};

@@ -8,7 +8,7 @@ use std::time::SystemTime;
 use guideway_layout::Layout;
 
 use crate::lif::{self, Version};
-use crate::{Format, Losses, WriteError, arrow, dxf, geojson, svg};
+use crate::{Format, Losses, WriteError, arrow, dxf, geojson, opentcs, svg};
 
 /// A format that can be written, in one of its versions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -23,6 +23,10 @@ pub enum Target {
     Lif1,
     /// VDMA LIF 2.0.
     Lif2,
+    /// openTCS plant model 6.0.0.
+    OpenTcs6,
+    /// openTCS plant model 7.0.0.
+    OpenTcs7,
     /// SVG, a drawing with exact curves.
     Svg,
 }
@@ -35,6 +39,8 @@ impl Target {
         Self::GeoJson,
         Self::Lif1,
         Self::Lif2,
+        Self::OpenTcs6,
+        Self::OpenTcs7,
         Self::Svg,
     ];
 
@@ -46,6 +52,8 @@ impl Target {
             Self::GeoJson => "geojson",
             Self::Lif1 => "lif",
             Self::Lif2 => "lif2",
+            Self::OpenTcs6 => "opentcs6",
+            Self::OpenTcs7 => "opentcs",
             Self::Svg => "svg",
         }
     }
@@ -64,6 +72,8 @@ impl Target {
             Self::GeoJson => "GeoJSON",
             Self::Lif1 => "LIF 1.0",
             Self::Lif2 => "LIF 2.0",
+            Self::OpenTcs6 => "openTCS 6.0.0",
+            Self::OpenTcs7 => "openTCS 7.0.0",
             Self::Svg => "SVG",
         }
     }
@@ -76,6 +86,8 @@ impl Target {
             Self::GeoJson => "GeoJSON, a Nav2 route graph if the layout has nodes",
             Self::Lif1 => "VDMA LIF 1.0",
             Self::Lif2 => "VDMA LIF 2.0",
+            Self::OpenTcs6 => "openTCS plant model 6.0.0",
+            Self::OpenTcs7 => "openTCS plant model 7.0.0",
             Self::Svg => "SVG, a drawing with exact curves",
         }
     }
@@ -87,7 +99,8 @@ impl Target {
             Self::Dxf => &[".dxf"],
             Self::GeoJson => &[".geojson"],
             Self::Lif1 => &[".lif.json", ".lif"],
-            Self::Lif2 => &[],
+            Self::Lif2 | Self::OpenTcs6 => &[],
+            Self::OpenTcs7 => &[".opentcs.xml", ".xml"],
             Self::Svg => &[".svg"],
         }
     }
@@ -102,6 +115,11 @@ impl Target {
     /// The target that holds everything that the file of a layout held: that of the same format and
     /// version. `None` if the format of the file has no writer.
     pub fn of_source(layout: &Layout) -> Option<Self> {
+        match opentcs::Version::of_layout(layout) {
+            Some(opentcs::Version::V6) => return Some(Self::OpenTcs6),
+            Some(opentcs::Version::V7) => return Some(Self::OpenTcs7),
+            None => {}
+        }
         match Version::of_layout(layout) {
             Some(Version::V1) => Some(Self::Lif1),
             Some(Version::V2) => Some(Self::Lif2),
@@ -154,6 +172,8 @@ impl Target {
             Self::GeoJson => geojson::write_layout(layout, out, &geojson::WriteOptions::default()),
             Self::Lif1 => lif::write_layout(layout, out, &lif_options(Version::V1)),
             Self::Lif2 => lif::write_layout(layout, out, &lif_options(Version::V2)),
+            Self::OpenTcs6 => opentcs::write_layout(layout, out, opentcs::Version::V6),
+            Self::OpenTcs7 => opentcs::write_layout(layout, out, opentcs::Version::V7),
             Self::Svg => svg::write_layout(layout, out),
         }
     }

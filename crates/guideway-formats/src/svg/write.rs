@@ -6,10 +6,10 @@ use guideway_layout::{Layout, PathRef, Value};
 use guideway_spline::{Bounds, Point};
 
 use super::svg_writer::{PathData, Stroke, SvgWriter};
-use super::xml_text::is_xml_char;
 use crate::Losses;
 use crate::clamped::POSITION_STEP_M;
 use crate::common_losses::common_losses;
+use crate::xml_text::is_xml_char;
 
 /// Name of the attribute column that holds group names.
 const GROUP_COLUMN: &str = "group";

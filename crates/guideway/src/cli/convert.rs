@@ -69,6 +69,7 @@ pub(super) fn target_to_save(layout: &Layout, output: &Path) -> Result<Target, U
     let reads_json = matches!(read, Some(Target::Lif1 | Target::Lif2 | Target::GeoJson));
     match (target_of(output), read) {
         (Ok(Target::Lif1), Some(Target::Lif2)) => Ok(Target::Lif2),
+        (Ok(Target::OpenTcs7), Some(Target::OpenTcs6)) => Ok(Target::OpenTcs6),
         (Err(_), Some(read)) if is_any_json && reads_json => Ok(read),
         (named, _) => named,
     }
@@ -81,7 +82,11 @@ pub(super) fn check_in_place(layout: &Layout, file: &Path) -> Result<(), UserErr
     let target = target_to_save(layout, file)?;
     let would_lose = match target {
         _ if target.is_drawing() => "is a drawing: saving would keep only the paths".to_owned(),
-        Target::Arrow | Target::GeoJson if refused > 0 => {
+        // Other XML formats and older versions of openTCS have the same extension.
+        Target::OpenTcs6 | Target::OpenTcs7 if Target::of_source(layout) != Some(target) => {
+            format!("is no {}", target.name())
+        }
+        Target::Arrow | Target::GeoJson | Target::OpenTcs6 | Target::OpenTcs7 if refused > 0 => {
             format!("has {refused} refused paths, which saving would drop")
         }
         _ => return Ok(()),
@@ -162,7 +167,7 @@ mod tests {
 
     #[test]
     fn saves_in_the_format_of_the_source() {
-        use Target::{Arrow, GeoJson, Lif1, Lif2};
+        use Target::{Arrow, GeoJson, Lif1, Lif2, OpenTcs6, OpenTcs7};
         for (format, version, name, target) in [
             ("LIF", "1.0", "a.lif.json", Some(Lif1)),
             ("LIF", "2.0", "a.lif.json", Some(Lif2)),
@@ -171,7 +176,8 @@ mod tests {
             ("GeoJSON", "", "roads.json", Some(GeoJson)),
             ("GeoJSON", "", "roads.lif.json", Some(Lif1)),
             ("VDA 5050", "2.0", "order.json", None),
-            ("openTCS", "6.0.0", "plant.xml", None),
+            ("openTCS", "6.0.0", "plant.xml", Some(OpenTcs6)),
+            ("openTCS", "7.0.0", "plant.xml", Some(OpenTcs7)),
             ("LIF", "1.0", "site.txt", None),
         ] {
             let layout = read_from(format, version);
@@ -179,6 +185,13 @@ mod tests {
             assert_eq!(saved.ok(), target, "{format} {version} as {name}");
             let in_place = check_in_place(&layout, Path::new(name));
             assert_eq!(in_place.is_ok(), target.is_some(), "{name}");
+        }
+        for (format, version) in [("openTCS", "0.0.2"), ("OpenDRIVE", "1.6")] {
+            let layout = read_from(format, version);
+            let saved = target_to_save(&layout, Path::new("map.xml"));
+            assert_eq!(saved.ok(), Some(OpenTcs7));
+            let rejected = check_in_place(&layout, Path::new("map.xml"));
+            assert!(rejected.unwrap_err().message.contains("no openTCS 7.0.0"));
         }
         let drawing = read_from("DXF", "AC1015");
         let rejected = check_in_place(&drawing, Path::new("plan.dxf"));

@@ -3,13 +3,13 @@
 use std::fmt::Write as _;
 
 /// Whether XML 1.0 can contain a character.
-pub(super) fn is_xml_char(c: char) -> bool {
+pub(crate) fn is_xml_char(c: char) -> bool {
     !c.is_control() && !matches!(c, '\u{FFFE}' | '\u{FFFF}')
         || matches!(c, '\t' | '\n' | '\r' | '\u{7F}'..='\u{9F}')
 }
 
 /// Escapes text for an attribute. Replaces characters that XML cannot contain with `_`.
-pub(super) fn escape(text: &str) -> String {
+pub(crate) fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for c in text.chars() {
         match c {

@@ -1,0 +1,220 @@
+//! Completes a layout to a plant of openTCS: unique names, and points at both ends of every path.
+
+use std::borrow::Cow;
+use std::collections::HashMap;
+
+use guideway_layout::Layout;
+use guideway_spline::Point;
+use serde_json::{Map, Value as Json};
+
+use super::group_mapper::{LOCATION_TYPES, VEHICLES};
+use crate::Losses;
+use crate::end_nodes::EndNodes;
+use crate::unique_names::UniqueNames;
+
+/// Name of the location type of stations without a kind.
+const DEFAULT_KIND: &str = "Station";
+
+/// A point as written.
+pub(super) struct PlantPoint<'a> {
+    pub(super) name: Cow<'a, str>,
+    /// Position in whole millimeters.
+    pub(super) position_mm: [i64; 2],
+    /// Path that a new point was made for.
+    pub(super) path: Option<usize>,
+}
+
+/// Points, path ends and names as written. Names are unique in the whole plant, as openTCS requires.
+pub(super) struct Plant<'a> {
+    /// The nodes of the layout, then new points.
+    pub(super) points: Vec<PlantPoint<'a>>,
+    /// Start and end point per path; `None` for a path without a curve, which is not written.
+    pub(super) ends: Vec<Option<[u32; 2]>>,
+    pub(super) path_names: Vec<Cow<'a, str>>,
+    pub(super) station_names: Vec<Cow<'a, str>>,
+    pub(super) block_names: Vec<Cow<'a, str>>,
+    /// Location types, as objects.
+    pub(super) types: Vec<Map<String, Json>>,
+    /// Name of the type per kind.
+    type_names: HashMap<&'a str, Cow<'a, str>>,
+    /// Vehicles, as objects.
+    pub(super) vehicles: Vec<Map<String, Json>>,
+}
+
+impl<'a> Plant<'a> {
+    /// Completes a layout; adds each change to the losses.
+    pub(super) fn complete(layout: &'a Layout, losses: &mut Losses) -> Self {
+        let (nodes, paths) = (&layout.nodes, &layout.paths);
+        let stations = 0..layout.stations.len() as u32;
+        let kinds = kinds(layout);
+        let objects = [VEHICLES, LOCATION_TYPES].map(|name| objects(layout, name));
+        let [vehicles, type_objects] = objects;
+        let node_ids = (0..nodes.len() as u32).map(|row| nodes.id(row));
+        let path_ids = (0..paths.len()).map(|row| paths.id(row));
+        let station_ids = stations.map(|row| layout.stations.id(row));
+        let block_ids = layout.blocks.iter().map(|block| block.id.as_str());
+        let all = node_ids.clone().chain(path_ids.clone());
+        let all = all.chain(station_ids.clone()).chain(block_ids.clone());
+        let mut names = UniqueNames::new(all.chain(kinds.iter().flatten().copied()));
+        let names_of = |ids: &mut dyn Iterator<Item = &'a str>, names: &mut UniqueNames<'a>| {
+            ids.map(|id| names.take(id)).collect::<Vec<_>>()
+        };
+        let node_names = names_of(&mut { node_ids }, &mut names);
+        let path_names = names_of(&mut { path_ids }, &mut names);
+        let station_names = names_of(&mut { station_ids }, &mut names);
+        let block_names = names_of(&mut { block_ids }, &mut names);
+        let mut renamed = names.renamed;
+        let points = node_names
+            .into_iter()
+            .zip(0..)
+            .map(|(name, node)| PlantPoint {
+                name,
+                position_mm: to_mm(nodes.position_m(node)),
+                path: None,
+            });
+        let mut plant = Self {
+            points: points.collect(),
+            ends: vec![None; paths.len()],
+            path_names,
+            station_names,
+            block_names,
+            types: Vec::new(),
+            type_names: HashMap::new(),
+            vehicles: Vec::new(),
+        };
+        plant.add_types(&kinds, type_objects, &mut names, losses);
+        for mut vehicle in vehicles {
+            let name = vehicle
+                .get("name")
+                .and_then(Json::as_str)
+                .unwrap_or("Vehicle");
+            let unique = names.make_unique(name);
+            renamed += usize::from(unique != name);
+            vehicle.insert("name".into(), unique.into());
+            plant.vehicles.push(vehicle);
+        }
+        let detail = "elements whose name is empty or that of another one: written with a number \
+                      at the end";
+        losses.add("identifiers", renamed, detail);
+        plant.add_ends(layout, &mut names, losses);
+        plant
+    }
+
+    /// Name of the location type of a station.
+    pub(super) fn type_name(&self, kind: Option<&str>) -> &str {
+        let name = self.type_names.get(kind.unwrap_or_default());
+        name.map_or(DEFAULT_KIND, |name| name)
+    }
+
+    /// Position of a point as written, in meters.
+    pub(super) fn position_m(&self, point: u32) -> Point<f64> {
+        let [x, y] = self.points[point as usize].position_mm;
+        Point::new(x as f64 / 1e3, y as f64 / 1e3)
+    }
+
+    /// Adds the types of the layout, then those of further kinds.
+    fn add_types(
+        &mut self,
+        kinds: &[Option<&'a str>],
+        objects: Vec<Map<String, Json>>,
+        names: &mut UniqueNames<'a>,
+        losses: &mut Losses,
+    ) {
+        let mut objects: HashMap<String, Map<String, Json>> = objects
+            .into_iter()
+            .filter_map(|object| Some((object.get("name")?.as_str()?.to_owned(), object)))
+            .collect();
+        let mut renamed = 0;
+        for &kind in kinds {
+            let text = kind.unwrap_or_default();
+            let name = match kind {
+                Some(kind) => names.take(kind),
+                None => names.make_unique(DEFAULT_KIND).into(),
+            };
+            renamed += usize::from(kind.is_some_and(|kind| kind != name));
+            let mut object = objects.remove(text).unwrap_or_default();
+            object.insert("name".into(), (*name).into());
+            self.types.push(object);
+            self.type_names.insert(text, name);
+        }
+        let mut unused: Vec<_> = objects.into_iter().collect();
+        unused.sort_by(|a, b| a.0.cmp(&b.0));
+        for (name, mut object) in unused {
+            let unique = names.make_unique(&name);
+            renamed += usize::from(unique != name);
+            object.insert("name".into(), unique.into());
+            self.types.push(object);
+        }
+        let detail = "location types with the name of another element: written with a number \
+                      at the end";
+        losses.add("column kind", renamed, detail);
+    }
+
+    /// Finds the points of all paths; adds new ones at ends without a node.
+    fn add_ends(&mut self, layout: &'a Layout, names: &mut UniqueNames<'a>, losses: &mut Losses) {
+        let mut end_nodes = EndNodes::default();
+        let mut new_points = 0;
+        for path in layout.paths.iter() {
+            let Some((start, end)) = path.ends() else {
+                continue;
+            };
+            let level = path.level().map_or(usize::MAX, |level| level as usize);
+            let mut points = [0; 2];
+            let ends = [(path.start_node(), start), (path.end_node(), end)];
+            for (point, (node, position)) in points.iter_mut().zip(ends) {
+                *point = node
+                    .or_else(|| end_nodes.near(level, position))
+                    .unwrap_or_else(|| {
+                        new_points += 1;
+                        let row = self.points.len() as u32;
+                        self.points.push(PlantPoint {
+                            name: names.make_unique(&format!("Point {new_points}")).into(),
+                            position_mm: to_mm(position),
+                            path: Some(path.row()),
+                        });
+                        end_nodes.add(level, position, row);
+                        row
+                    });
+            }
+            self.ends[path.row()] = Some(points);
+        }
+        let detail = "new points: written at path ends without a node";
+        losses.add("nodes", new_points, detail);
+    }
+}
+
+/// A position in whole millimeters.
+pub(super) fn to_mm(position: Point<f64>) -> [i64; 2] {
+    [position.x, position.y].map(|meters| (meters * 1e3).round() as i64)
+}
+
+/// The JSON objects of an attribute of the layout.
+pub(super) fn objects(layout: &Layout, name: &str) -> Vec<Map<String, Json>> {
+    let value = layout.attributes.value(0, name);
+    let text = match value {
+        Some(guideway_layout::Value::Json(text)) => text,
+        _ => return Vec::new(),
+    };
+    serde_json::from_str(text).unwrap_or_default()
+}
+
+/// The kinds of all stations, in order of first use.
+fn kinds(layout: &Layout) -> Vec<Option<&str>> {
+    let mut kinds = Vec::new();
+    let mut known = std::collections::HashSet::new();
+    for station in 0..layout.stations.len() {
+        let kind = kind_of(layout, station);
+        if known.insert(kind) {
+            kinds.push(kind);
+        }
+    }
+    kinds
+}
+
+/// The kind of a station, if it is a text.
+pub(super) fn kind_of(layout: &Layout, station: usize) -> Option<&str> {
+    match layout.stations.attributes.value(station, "kind") {
+        Some(guideway_layout::Value::Text(kind)) => Some(kind),
+        _ => None,
+    }
+}
