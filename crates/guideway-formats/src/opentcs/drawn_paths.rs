@@ -2,14 +2,14 @@
 //! points in its units.
 
 use guideway_layout::{Layout, PathRef, Value};
-use guideway_spline::{Point, Runs, nearest_on_run, uniform};
+use guideway_spline::Point;
 use rayon::prelude::*;
 use serde_json::{Map, Value as Json};
 
 use super::held::{json, speed_mm_s};
 use super::path_mapper::{CONNECTION_TYPE, REVERSED};
 use super::plant::Plant;
-use super::shape::{Bezier, CURVE_TOLERANCE_M, Connection, Shape, are_straight, beziers_of};
+use super::shape::{CURVE_TOLERANCE_M, Connection, Shape, beziers_of};
 use super::visual_layout::DEFAULT_SCALE;
 use super::write::is_two_way;
 use crate::Losses;
@@ -21,9 +21,6 @@ const SCALES_MM: [f64; 6] = [DEFAULT_SCALE, 20.0, 10.0, 5.0, 2.0, 1.0];
 
 /// Largest share of the displacement of its control points by which a cubic curve moves.
 const BEZIER_SHARE: f64 = 0.75;
-
-/// Points per segment at which the distance of two curves is measured.
-const STEPS: u32 = 8;
 
 /// A path as drawn.
 pub(super) struct DrawnPath {
@@ -102,18 +99,19 @@ impl DrawnPaths {
         self.scale_mm = candidates.find(is_near).unwrap_or(scales[scales.len() - 1]);
     }
 
+    /// Lists the curves that change, with an upper bound of the distance.
     fn add_losses(&self, layout: &Layout, plant: &Plant<'_>, losses: &mut Losses) {
-        let rows = (0..layout.paths.len()).into_par_iter();
-        let apart = rows.filter_map(|row| {
-            let ends = plant.ends[row]?.map(|point| plant.position_m(point));
-            let path = layout.paths.get(row);
-            let drawn = self.paths[row].as_ref()?.curve(self.scale_mm, ends);
-            let apart = apart_m(&beziers_of(path), &drawn);
-            (apart > POSITION_STEP_M).then_some(apart)
+        let apart = layout.paths.iter().filter_map(|path| {
+            let drawn = self.paths[path.row()].as_ref()?;
+            let (start, end) = path.ends()?;
+            let points = plant.ends[path.row()]?.map(|point| plant.position_m(point));
+            let ends_m = start.distance(points[0]).max(end.distance(points[1]));
+            let apart_m = drawn.shape.error_m + drawn.shift_m(self.scale_mm).max(ends_m);
+            (apart_m > POSITION_STEP_M).then_some(apart_m)
         });
-        let (count, most_m) = apart
-            .map(|apart| (1, apart))
-            .reduce(|| (0, 0.0), |a, b| (a.0 + b.0, a.1.max(b.1)));
+        let (count, most_m) = apart.fold((0, 0.0_f64), |(count, most_m), apart_m| {
+            (count + 1, most_m.max(apart_m))
+        });
         let detail = format!(
             "curves: drawn within {:.1} mm, as openTCS can draw them in its units",
             (most_m * 1e4).ceil() / 10.0
@@ -169,55 +167,4 @@ impl DrawnPath {
         let shifts = control.map(|p| Point::new(off(p.x, scale_mm.x), off(p.y, scale_mm.y)).norm());
         share * shifts.fold(0.0, f64::max)
     }
-
-    /// The curve in the file, in the direction of the layout. `ends` are those of the layout.
-    fn curve(&self, scale_mm: Point<f64>, ends: [Point<f64>; 2]) -> Vec<Bezier> {
-        let meters = |&[x, y]: &[i64; 2]| {
-            Point::new(x as f64 * scale_mm.x / 1e3, -(y as f64) * scale_mm.y / 1e3)
-        };
-        let mut control: Vec<_> = self.control_units.iter().map(meters).collect();
-        if self.is_reversed {
-            control.reverse();
-        }
-        let shape = Shape {
-            connection: self.shape.connection,
-            control,
-        };
-        shape.beziers(ends)
-    }
-}
-
-/// Distance of two curves: an upper bound for the same number of segments, else sampled.
-fn apart_m(a: &[Bezier], b: &[Bezier]) -> f64 {
-    let distance = |(p, q): (&Point<f64>, &Point<f64>)| p.distance(*q);
-    if a.len() == b.len() {
-        let ends = |curve: &[Bezier]| -> Vec<Point<f64>> {
-            curve.iter().flat_map(|b| [b[0], b[3]]).collect()
-        };
-        // Straight lines are equal if their ends are, whatever their parameters.
-        if are_straight(a) && are_straight(b) {
-            let (a, b) = (ends(a), ends(b));
-            return a.iter().zip(&b).map(distance).fold(0.0, f64::max);
-        }
-        let all = a.iter().flatten().zip(b.iter().flatten());
-        return all.map(distance).fold(0.0, f64::max);
-    }
-    farthest_m(a, b).max(farthest_m(b, a))
-}
-
-/// Largest distance of points of a curve from another one.
-fn farthest_m(from: &[Bezier], to: &[Bezier]) -> f64 {
-    let mut runs = Runs::default();
-    to.iter().for_each(|bezier| runs.push_bezier(bezier));
-    let off = |point: Point<f64>| {
-        let nearest = runs
-            .iter()
-            .filter_map(|run| nearest_on_run(run, point, 1e-6));
-        nearest.map(|n| n.distance).fold(f64::INFINITY, f64::min)
-    };
-    let points = from.iter().map(uniform::from_bezier).flat_map(|segment| {
-        let steps = f64::from(STEPS);
-        (0..=STEPS).map(move |i| uniform::point(&segment, f64::from(i) / steps))
-    });
-    points.map(off).fold(0.0, f64::max)
 }

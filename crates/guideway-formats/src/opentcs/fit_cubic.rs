@@ -10,8 +10,9 @@ use guideway_spline::Point;
 /// up to a right angle take at most three.
 const ROUNDS: usize = 12;
 
-/// Fits a cubic curve to points. `None` if some point is farther than `tolerance_m` from it.
-pub(super) fn fit_cubic(points: &[Point<f64>], tolerance_m: f64) -> Option<[Point<f64>; 4]> {
+/// Fits a cubic curve to points. Returns the curve and an upper bound of its distance from the
+/// points; `None` if that is above `tolerance_m`.
+pub(super) fn fit_cubic(points: &[Point<f64>], tolerance_m: f64) -> Option<([Point<f64>; 4], f64)> {
     let (&start, &end) = (points.first()?, points.last()?);
     let first = direction(start, points.iter())?;
     let last = direction(end, points.iter().rev())?;
@@ -29,7 +30,7 @@ pub(super) fn fit_cubic(points: &[Point<f64>], tolerance_m: f64) -> Option<[Poin
             .map(|(p, &t)| at(&curve, t).distance(*p))
             .fold(0.0, f64::max);
         if error <= tolerance_m {
-            return Some(curve);
+            return Some((curve, error));
         }
         for (point, t) in points.iter().zip(&mut parameters) {
             *t = nearer(&curve, *point, *t);
@@ -120,7 +121,8 @@ mod tests {
         let handles = [(0.0, 0.0), (3.0, 0.0), (4.0, 1.0), (4.0, 4.0)];
         let curve = handles.map(|(x, y)| Point::new(x, y));
         let points: Vec<_> = (0..=40).map(|i| at(&curve, f64::from(i) / 40.0)).collect();
-        let fitted = fit_cubic(&points, 1e-3).unwrap();
+        let (fitted, error) = fit_cubic(&points, 1e-3).unwrap();
+        assert!(error <= 1e-3);
         assert!(fitted[1].distance(curve[1]) < 0.05, "{fitted:?}");
         let wave = |i: i32| Point::new(f64::from(i), f64::from(i).sin());
         let wave: Vec<_> = (0..=40).map(wave).collect();

@@ -1,7 +1,7 @@
 //! Completes a layout to a plant of openTCS: unique names, and points at both ends of every path.
 
 use std::borrow::Cow;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use guideway_layout::Layout;
 use guideway_spline::Point;
@@ -56,14 +56,13 @@ impl<'a> Plant<'a> {
         let all = node_ids.clone().chain(path_ids.clone());
         let all = all.chain(station_ids.clone()).chain(block_ids.clone());
         let mut names = UniqueNames::new(all.chain(kinds.iter().flatten().copied()));
-        let names_of = |ids: &mut dyn Iterator<Item = &'a str>, names: &mut UniqueNames<'a>| {
-            ids.map(|id| names.take(id)).collect::<Vec<_>>()
-        };
-        let node_names = names_of(&mut { node_ids }, &mut names);
-        let path_names = names_of(&mut { path_ids }, &mut names);
-        let station_names = names_of(&mut { station_ids }, &mut names);
-        let block_names = names_of(&mut { block_ids }, &mut names);
-        let mut renamed = names.renamed;
+        let node_names = take_names("nodes", node_ids, &mut names, losses);
+        let path_names = take_names("paths", path_ids, &mut names, losses);
+        let station_names = take_names("stations", station_ids, &mut names, losses);
+        let block_names = take_names("blocks", block_ids, &mut names, losses);
+        let renamed_nodes = (0..nodes.len() as u32).zip(&node_names);
+        let renamed_nodes = renamed_nodes.filter(|(row, name)| **name != nodes.id(*row));
+        let renamed_nodes: HashSet<u32> = renamed_nodes.map(|(row, _)| row).collect();
         let points = node_names
             .into_iter()
             .zip(0..)
@@ -83,6 +82,7 @@ impl<'a> Plant<'a> {
             vehicles: Vec::new(),
         };
         plant.add_types(&kinds, type_objects, &mut names, losses);
+        let mut renamed = 0;
         for mut vehicle in vehicles {
             let name = vehicle
                 .get("name")
@@ -93,10 +93,9 @@ impl<'a> Plant<'a> {
             vehicle.insert("name".into(), unique.into());
             plant.vehicles.push(vehicle);
         }
-        let detail = "elements whose name is empty or that of another one: written with a number \
-                      at the end";
-        losses.add("identifiers", renamed, detail);
+        losses.add("layout properties", renamed, renamed_detail(VEHICLES));
         plant.add_ends(layout, &mut names, losses);
+        plant.add_other_ends(layout, &renamed_nodes, losses);
         plant
     }
 
@@ -145,9 +144,35 @@ impl<'a> Plant<'a> {
             object.insert("name".into(), unique.into());
             self.types.push(object);
         }
-        let detail = "location types with the name of another element: written with a number \
-                      at the end";
-        losses.add("column kind", renamed, detail);
+        losses.add("column kind", renamed, renamed_detail("location types"));
+    }
+
+    /// Lists the paths and stations whose points are new, or have another name than others of their
+    /// table.
+    fn add_other_ends(&self, layout: &Layout, renamed: &HashSet<u32>, losses: &mut Losses) {
+        let nodes = layout.nodes.len();
+        let are_all = renamed.len() == nodes && self.points.len() == nodes;
+        let is_other =
+            |point: &u32| *point as usize >= nodes || renamed.contains(point) && !are_all;
+        let paths = layout.paths.iter().zip(&self.ends);
+        let paths = paths.filter(|(path, ends)| {
+            let stated = [path.start_node(), path.end_node()];
+            let are_kept = |ends: &[u32; 2]| stated == ends.map(Some);
+            ends.is_some_and(|ends| !are_kept(&ends) || ends.iter().any(is_other))
+        });
+        losses.add(
+            "ends",
+            paths.count(),
+            "paths: written between points with other names",
+        );
+        let stations = 0..layout.stations.len() as u32;
+        let is_linked = |station: &u32| layout.stations.nodes(*station).iter().any(is_other);
+        let count = stations.filter(is_linked).count();
+        losses.add(
+            "ends",
+            count,
+            "stations: written with links to points with other names",
+        );
     }
 
     /// Finds the points of all paths; adds new ones at ends without a node.
@@ -183,6 +208,30 @@ impl<'a> Plant<'a> {
     }
 }
 
+/// Takes the names of the elements of a table; lists those that change.
+fn take_names<'a>(
+    of: &str,
+    ids: impl Iterator<Item = &'a str>,
+    names: &mut UniqueNames<'a>,
+    losses: &mut Losses,
+) -> Vec<Cow<'a, str>> {
+    let before = names.renamed;
+    let taken: Vec<_> = ids.map(|id| names.take(id)).collect();
+    let renamed = names.renamed - before;
+    // Elements that all have new names are still known by their order.
+    let what = if renamed == taken.len() {
+        "identifiers"
+    } else {
+        of
+    };
+    losses.add(what, renamed, renamed_detail(of));
+    taken
+}
+
+fn renamed_detail(of: &str) -> String {
+    format!("{of} whose name is empty or that of another element: written with a number at the end")
+}
+
 /// A position in whole millimeters.
 pub(super) fn to_mm(position: Point<f64>) -> [i64; 2] {
     [position.x, position.y].map(|meters| (meters * 1e3).round() as i64)
@@ -201,7 +250,7 @@ pub(super) fn objects(layout: &Layout, name: &str) -> Vec<Map<String, Json>> {
 /// The kinds of all stations, in order of first use.
 fn kinds(layout: &Layout) -> Vec<Option<&str>> {
     let mut kinds = Vec::new();
-    let mut known = std::collections::HashSet::new();
+    let mut known = HashSet::new();
     for station in 0..layout.stations.len() {
         let kind = kind_of(layout, station);
         if known.insert(kind) {

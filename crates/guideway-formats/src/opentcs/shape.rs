@@ -115,6 +115,8 @@ pub(super) struct Shape {
     pub(super) connection: Connection,
     /// Control points in meters, in the order of the file.
     pub(super) control: Vec<Point<f64>>,
+    /// Upper bound of the distance from the curve of the layout, in meters.
+    pub(super) error_m: f64,
 }
 
 impl Shape {
@@ -141,6 +143,7 @@ impl Shape {
         Self {
             connection,
             control,
+            error_m: 0.0,
         }
     }
 
@@ -150,14 +153,17 @@ impl Shape {
             return None;
         }
         let samples = samples(beziers);
-        if let Some(one) = fit_cubic(&samples, CURVE_TOLERANCE_M) {
-            return Some(Self::exact(Connection::Bezier, &[one]));
+        if let Some((one, error_m)) = fit_cubic(&samples, CURVE_TOLERANCE_M) {
+            let shape = Self::exact(Connection::Bezier, &[one]);
+            return Some(Self { error_m, ..shape });
         }
         SPLITS.into_iter().find_map(|share| {
             let middle = (samples.len() as f64 * share) as usize;
-            let first = fit_cubic(samples.get(..=middle)?, CURVE_TOLERANCE_M)?;
-            let second = fit_cubic(samples.get(middle..)?, CURVE_TOLERANCE_M)?;
-            Some(Self::exact(Connection::Bezier3, &[first, second]))
+            let (first, first_m) = fit_cubic(samples.get(..=middle)?, CURVE_TOLERANCE_M)?;
+            let (second, second_m) = fit_cubic(samples.get(middle..)?, CURVE_TOLERANCE_M)?;
+            let shape = Self::exact(Connection::Bezier3, &[first, second]);
+            let error_m = first_m.max(second_m);
+            Some(Self { error_m, ..shape })
         })
     }
 
@@ -176,23 +182,7 @@ impl Shape {
         Self {
             connection: Connection::Polypath,
             control: points.into_iter().skip(1).collect(),
-        }
-    }
-
-    /// The curve between two points.
-    pub(super) fn beziers(&self, [start, end]: [Point<f64>; 2]) -> Vec<Bezier> {
-        match (self.connection, self.control.as_slice()) {
-            (Connection::Bezier, &[a, b]) => vec![[start, a, b, end]],
-            (Connection::Bezier3, &[a, b, middle, c, d]) => {
-                vec![[start, a, b, middle], [middle, c, d, end]]
-            }
-            (_, control) => {
-                let corners = [start].into_iter().chain(control.iter().copied());
-                let corners: Vec<_> = corners.chain([end]).collect();
-                let line =
-                    |&[a, b]: &[Point<f64>; 2]| [a, a.lerp(b, 1.0 / 3.0), a.lerp(b, 2.0 / 3.0), b];
-                corners.array_windows().map(line).collect()
-            }
+            error_m: CURVE_TOLERANCE_M,
         }
     }
 }
@@ -284,19 +274,14 @@ mod tests {
         ] {
             let shape = shape_of(&runs, None);
             assert_eq!(shape.connection, expected);
-            let mut layout = Layout::default();
-            layout.paths.push(&NewPath {
-                runs: &runs,
-                ..NewPath::default()
-            });
-            let ends = layout.paths.get(0).ends().unwrap();
-            for bezier in shape.beziers([ends.0, ends.1]) {
-                let segment = uniform::from_bezier(&bezier);
-                for i in 0..=20 {
-                    let point = uniform::point(&segment, f64::from(i) / 20.0);
-                    let off = point.distance(Point::new(10.0, -5.0)) - 3.0;
-                    assert!(off.abs() < 1.5 * CURVE_TOLERANCE_M, "{expected:?}: {off}");
-                }
+            assert!(shape.error_m > 0.0 && shape.error_m <= CURVE_TOLERANCE_M);
+            let off = |p: &Point<f64>| p.distance(Point::new(10.0, -5.0)) - 3.0;
+            let is_on_arc = |p: &Point<f64>| off(p).abs() <= CURVE_TOLERANCE_M;
+            match expected {
+                // The middle of two curves and the corners of lines lie on the arc.
+                Connection::Bezier3 => assert!(is_on_arc(&shape.control[2])),
+                Connection::Polypath => assert!(shape.control.iter().all(is_on_arc)),
+                _ => assert!(shape.control.iter().all(|p| off(p) > 0.0)),
             }
         }
     }

@@ -123,6 +123,12 @@ fn add_general_losses(layout: &Layout, losses: &mut Losses) {
     losses.add("zones", layout.zones.len(), "zones");
     let origin = usize::from(layout.geo_origin.is_some());
     losses.add("geo origin", origin, "place on earth of the origin");
+    let written = layout.paths.written_curves().len();
+    losses.add(
+        "curves",
+        written,
+        "curves as written in the file, such as NURBS with weights",
+    );
     let types = layout.paths.vehicle_types();
     let limited = (0..layout.paths.len()).filter(|&row| types.of(row).len() > 0);
     let detail = "paths for certain vehicle types: open to all";
@@ -204,7 +210,7 @@ fn write_blocks<W: Write>(
         xml.end()?;
     }
     let detail = format!("blocks without a type: written as `{}`", BLOCK_TYPES[0]);
-    losses.add("blocks", without_type, detail);
+    losses.add("column type", without_type, detail);
     losses.add(
         "blocks",
         not_written,

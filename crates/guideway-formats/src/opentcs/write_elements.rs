@@ -167,11 +167,19 @@ impl PropertyColumns {
         held: impl Fn(usize, &str, Value<'_>) -> Held,
     ) {
         for column in attributes.iter() {
+            let what = format!("column {}", column.name);
+            let values =
+                (0..column.values.len()).filter_map(|row| Some((row, column.values.get(row)?)));
             if column.name.starts_with(PROPERTY_PREFIX) {
+                let others = values.filter(|(_, value)| !matches!(value, Value::Text(_)));
+                losses.add(
+                    what,
+                    others.count(),
+                    format!("values of {of}: written as text"),
+                );
                 continue;
             }
-            let values = (0..column.values.len())
-                .filter_map(|row| Some((row, column.values.get(row)?)))
+            let values = values
                 .filter(|(_, value)| column.name != PROPERTIES || object_of(*value).is_none());
             let (mut defaults, mut lost, mut own) = (0, 0, 0);
             for (row, value) in values {
@@ -188,7 +196,6 @@ impl PropertyColumns {
                     false => lost += own,
                 }
             }
-            let what = format!("column {}", column.name);
             losses.add(&what, lost, format!("values of {of}"));
             let detail = format!("values of {of} that openTCS implies");
             losses.add(&what, defaults, detail);

@@ -24,8 +24,8 @@ const DEFAULT_SPEED_MM_S: i32 = 1000;
 /// Precision of computed lengths, in meters.
 const LENGTH_TOLERANCE_M: f64 = 1e-4;
 
-/// Largest relative difference of equal speeds and lengths.
-const SAME_NUMBER: f64 = 1e-9;
+/// Largest relative difference of equal numbers: that of a few operations.
+pub(super) const SAME_NUMBER: f64 = 1e-12;
 
 /// Counts what changes.
 #[derive(Default)]

@@ -16,29 +16,34 @@ use super::plant_mapper::{
 };
 use super::write::{Context, Version};
 use super::write_elements::write_fields;
+use super::write_paths::SAME_NUMBER;
 use super::xml_writer::XmlWriter;
 use crate::Losses;
 use crate::clamped::POSITION_STEP_M;
 use crate::fields::{Vocabulary, field};
 
-/// Precision of written angles, in degrees. The schemas have single precision, readers may round.
+/// Step to which angles are rounded that it changes by their rounding errors only, in degrees.
 const ANGLE_STEP_DEG: f64 = 1e-9;
+
+/// Attributes of the position in the plant, by axis.
+const PLANT_POSITION: [&str; 3] = ["positionX", "positionY", "positionZ"];
 
 /// Counts what rounding changes.
 #[derive(Default)]
 pub(super) struct Rounding {
     positions: usize,
-    pub(super) heights: usize,
+    /// Positions in the plant, by axis.
+    plant: [usize; 3],
     angles: usize,
     envelopes: usize,
     unmatched_envelopes: usize,
 }
 
 impl Rounding {
-    /// Whole millimeters of a number in meters.
-    fn mm(meters: f64, rounded: &mut usize) -> i64 {
+    /// Whole millimeters of a number in meters, and whether they are another number.
+    fn mm(meters: f64, is_rounded: &mut bool) -> i64 {
         let mm = (meters * 1e3).round();
-        *rounded += usize::from((mm / 1e3 - meters).abs() > POSITION_STEP_M);
+        *is_rounded |= (mm - meters * 1e3).abs() > SAME_NUMBER * mm.abs();
         mm as i64
     }
 
@@ -49,19 +54,23 @@ impl Rounding {
 
     /// Lists the changes. `of` names the rows, such as `nodes`.
     pub(super) fn add_to(self, of: &str, losses: &mut Losses) {
-        let detail = "positions, rounded to millimeters";
-        losses.add(of, self.positions, format!("{of}: {detail}"));
+        let detail = format!("positions of {of}, rounded to millimeters");
+        losses.add("positions", self.positions, detail);
         let detail = format!("values of {of}, rounded to millimeters");
-        losses.add("column positionZ", self.heights, detail.clone());
+        for (name, count) in PLANT_POSITION.into_iter().zip(self.plant) {
+            losses.add(format!("column {name}"), count, detail.clone());
+        }
         losses.add(format!("column {AREA_COLUMN}"), self.envelopes, detail);
         let detail = format!("values of {of} beyond a full turn: written within it");
         losses.add("column theta", self.angles, detail);
         let detail = format!("values of {of} without a key per area");
-        losses.add(
-            format!("column {KEY_COLUMN}"),
-            self.unmatched_envelopes,
-            detail,
-        );
+        for name in [KEY_COLUMN, AREA_COLUMN] {
+            losses.add(
+                format!("column {name}"),
+                self.unmatched_envelopes,
+                detail.clone(),
+            );
+        }
     }
 }
 
@@ -210,7 +219,7 @@ pub(super) fn write_locations<W: Write>(
     }
     rounding.add_to("stations", losses);
     let detail = "stations without a position: written at their first node, or at the origin";
-    losses.add("stations", without_position, detail);
+    losses.add("positions", without_position, detail);
     let detail = "stations without a kind: written with a location type for them";
     losses.add("column kind", without_kind, detail);
     let detail = "values of stations with more entries than nodes";
@@ -227,14 +236,17 @@ fn write_position<W: Write>(
     drawn_mm: [i64; 2],
     rounding: &mut Rounding,
 ) -> io::Result<()> {
-    for (name, drawn_mm) in ["positionX", "positionY"].into_iter().zip(drawn_mm) {
+    let axes = PLANT_POSITION.into_iter().zip(&mut rounding.plant);
+    let drawn_mm = [drawn_mm[0], drawn_mm[1], 0];
+    for ((name, rounded), (axis, drawn_mm)) in axes.zip(drawn_mm.into_iter().enumerate()) {
         let plant = number(attributes.value(row, name));
-        let plant = plant.filter(|_| context.version == Version::V6);
-        let mm = plant.map_or(drawn_mm, |meters| (meters * 1e3).round() as i64);
+        let plant = plant.filter(|_| axis == 2 || context.version == Version::V6);
+        let mut is_rounded = false;
+        let mm = plant.map_or(drawn_mm, |meters| Rounding::mm(meters, &mut is_rounded));
+        *rounded += usize::from(is_rounded);
         xml.attribute(name, mm)?;
     }
-    let z = number(attributes.value(row, "positionZ")).unwrap_or(0.0);
-    xml.attribute("positionZ", Rounding::mm(z, &mut rounding.heights))
+    Ok(())
 }
 
 /// Writes the drawn position, where the version has one, and the offset of the label.
@@ -272,7 +284,10 @@ fn angle_deg(value: Option<Value<'_>>, rounding: &mut Rounding) -> Option<f64> {
         angle
     };
     rounding.angles += usize::from(within != angle);
-    Some((within / ANGLE_STEP_DEG).round() * ANGLE_STEP_DEG)
+    // Adding zero maps -0 to 0.
+    let round = (within / ANGLE_STEP_DEG).round() * ANGLE_STEP_DEG + 0.0;
+    let is_same = (round - within).abs() <= SAME_NUMBER * within.abs();
+    Some(if is_same { round } else { within })
 }
 
 /// Writes the envelopes of a row.
@@ -285,16 +300,16 @@ pub(super) fn write_envelopes<W: Write>(
     let keys: Vec<String> = json(attributes.value(row, KEY_COLUMN)).unwrap_or_default();
     let areas: Areas = json(attributes.value(row, AREA_COLUMN)).unwrap_or_default();
     rounding.unmatched_envelopes += usize::from(keys.len() != areas.len());
+    let mut is_rounded = false;
     for (key, [ring]) in keys.iter().zip(&areas) {
         xml.begin(KEY_COLUMN)?;
         xml.attribute("key", key)?;
-        let mut rounded = 0;
         for &[x, y] in ring {
-            let [x, y] = [x, y].map(|meters| Rounding::mm(meters, &mut rounded));
+            let [x, y] = [x, y].map(|meters| Rounding::mm(meters, &mut is_rounded));
             xml.element("vertex", &[("x", &x), ("y", &y)])?;
         }
-        rounding.envelopes += usize::from(rounded > 0);
         xml.end()?;
     }
+    rounding.envelopes += usize::from(is_rounded);
     Ok(())
 }

@@ -8,7 +8,7 @@ use guideway_formats::arrow::{
 };
 use guideway_formats::{ReadOptions, read_file};
 use guideway_layout::{
-    Attribute, Code, Direction, Layout, Level, NewPath, RunPoints, TextColumn, Value, Values,
+    Attribute, Code, Direction, Layout, Level, NewPath, RunPoints, Value, Values,
 };
 use guideway_spline::{Point, Runs};
 use proptest::prelude::*;

@@ -22,6 +22,7 @@ mod opendrive;
 mod opentcs;
 mod refusals;
 mod right_findings;
+mod opentcs_law;
 mod rmf;
 mod round_trip;
 mod same;

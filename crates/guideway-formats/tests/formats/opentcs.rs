@@ -1,7 +1,7 @@
 //! Tests of the openTCS reader: real files, units, the y axis and legacy positions.
 
 use crate::common::{assert_counts, codes, ends, read, real, real_layouts};
-use guideway_layout::{Code, Direction, Layout, Severity, Value};
+use guideway_layout::{Code, Direction, Layout, Member, Quantity, Severity, Value};
 use guideway_spline::{Point, uniform};
 
 /// Version and element counts per file from the list of sources, made by another program. For the
@@ -192,10 +192,34 @@ fn reads_every_connection_type() {
             let column = layout.paths.attributes.get(name);
             column.and_then(|c| c.values.get(path.row()))
         };
-        assert_eq!(get("block"), Some(Value::Text("Block-0001")));
+        let block = &layout.blocks[0];
+        assert_eq!(block.id, "Block-0001");
+        let members = [Member::Station(0), Member::Node(12), Member::Path(6)];
+        assert_eq!(block.members, members);
+        let of_block = |name: &str| block.attributes.value(0, name);
+        assert_eq!(of_block("color"), Some(Value::Text("#33CC00")));
+        assert_eq!(of_block("property.b-key"), Some(Value::Text("b-value")));
         assert_eq!(get("locked"), Some(Value::Bool(true)));
-        assert_eq!(get("maxVelocity"), Some(Value::Int(1500)));
-        assert_eq!(get("vehicleEnvelope"), Some(Value::Text("env-key")));
+        assert_eq!(get("maxSpeed"), Some(Value::Float(1.5)));
+        assert_eq!(get("maxReverseSpeed"), None);
+        assert_eq!(get("length"), Some(Value::Float(5.0)));
+        assert_eq!(get("vehicleEnvelope"), Some(Value::Json(r#"["env-key"]"#)));
+        let Some(Value::Json(operations)) = get("peripheralOperations") else {
+            panic!("no operations");
+        };
+        assert!(
+            operations.contains(r#""completionRequired":true"#),
+            "{operations}"
+        );
+        let station = |name: &str| layout.stations.attributes.value(0, name);
+        assert_eq!(station("kind"), Some(Value::Text("LType-0001")));
+        let operations = Value::Json(r#"[["v-operation"]]"#);
+        assert_eq!(station("linkOperations"), Some(operations));
+        let theta = layout.nodes.attributes.get("theta").unwrap();
+        let turned = (0..15).filter_map(|row| theta.values.get(row));
+        let quarter = Value::Float(std::f64::consts::FRAC_PI_2);
+        assert_eq!(turned.collect::<Vec<_>>(), [quarter]);
+        assert_eq!(theta.quantity, Some(Quantity::Angle));
         assert_eq!(get("property.p-key"), Some(Value::Text("p-value")));
         assert_eq!(layout.stations.nodes(0), [12]);
     }
@@ -268,6 +292,101 @@ fn reports_unknown_points_and_accepts_loops() {
 }
 
 #[test]
+fn speeds_tell_the_direction() {
+    let speeds = |forward: &str, reverse: &str| {
+        read(&model(&format!(
+            r#"<path name="P" sourcePoint="A" destinationPoint="B" {forward} {reverse}/>"#
+        )))
+    };
+    let forward = r#"maxVelocity="500""#;
+    let closed = r#"maxVelocity="0""#;
+    for (forward, reverse, start, direction, speed, back) in [
+        (
+            forward,
+            r#"maxReverseVelocity="0""#,
+            0,
+            Direction::Forward,
+            Some(0.5),
+            None,
+        ),
+        (
+            forward,
+            r#"maxReverseVelocity="500""#,
+            0,
+            Direction::Both,
+            Some(0.5),
+            None,
+        ),
+        (
+            forward,
+            r#"maxReverseVelocity="200""#,
+            0,
+            Direction::Both,
+            Some(0.5),
+            Some(0.2),
+        ),
+        (
+            closed,
+            r#"maxReverseVelocity="200""#,
+            1,
+            Direction::Forward,
+            Some(0.2),
+            None,
+        ),
+        (
+            closed,
+            r#"maxReverseVelocity="0""#,
+            0,
+            Direction::Forward,
+            Some(0.0),
+            None,
+        ),
+        ("", "", 0, Direction::Forward, None, None),
+    ] {
+        let layout = speeds(forward, reverse);
+        let path = layout.paths.get(0);
+        let what = format!("{forward} {reverse}");
+        assert_eq!(path.start_node(), Some(start), "{what}");
+        assert_eq!(path.direction(), direction, "{what}");
+        let start_m = layout.nodes.position_m(start);
+        assert!(path.ends().unwrap().0.distance(start_m) < 1e-9, "{what}");
+        let value = |name: &str| layout.paths.value(0, name);
+        assert_eq!(value("maxSpeed"), speed.map(Value::Float), "{what}");
+        assert_eq!(value("maxReverseSpeed"), back.map(Value::Float), "{what}");
+        let is_reversed = value("reversed") == Some(Value::Bool(true));
+        assert_eq!(is_reversed, start == 1, "{what}");
+    }
+    let negative = speeds(r#"maxVelocity="-5""#, "");
+    assert_eq!(codes(&negative), [Code::UnknownValue]);
+    let other = negative.paths.value(0, "other");
+    assert_eq!(other, Some(Value::Json(r#"{"maxVelocity":"-5"}"#)));
+}
+
+#[test]
+fn keeps_both_positions_of_a_point() {
+    let Some(layout) = real("opentcs", REAL[0].0) else {
+        return;
+    };
+    let value = |name: &str| layout.nodes.attributes.value(0, name);
+    assert_eq!(value("positionX"), Some(Value::Float(53.288)));
+    assert_eq!(value("positionY"), Some(Value::Float(-3.893)));
+    assert_eq!(value("positionZ"), None);
+}
+
+#[test]
+fn keeps_what_it_does_not_know() {
+    let layout = read(&model(
+        r#"<path name="P" sourcePoint="A" destinationPoint="B" tilt="3"><ramp grade="5"/></path>
+           <group name="G"><member name="A"/></group>"#,
+    ));
+    let other = layout.paths.value(0, "other");
+    let expected = r#"{"ramp":[{"grade":"5"}],"tilt":"3"}"#;
+    assert_eq!(other, Some(Value::Json(expected)));
+    let other = layout.attributes.value(0, "other").unwrap().to_string();
+    assert_eq!(other, r#"{"group":[{"member":[{"name":"A"}],"name":"G"}]}"#);
+}
+
+#[test]
 fn stores_envelope_keys_and_areas_in_columns() {
     let corner = |x: &str, y: &str| format!(r#"<vertex x="{x}" y="{y}"/>"#);
     let square = corner("0", "0") + &corner("1000", "0") + &corner("1000", "-2500");
@@ -278,9 +397,11 @@ fn stores_envelope_keys_and_areas_in_columns() {
     );
     let layout = path(&open);
     let text = |name: &str| layout.paths.attributes.get(name).unwrap().values.get(0);
-    assert_eq!(text("vehicleEnvelope"), Some(Value::Text("a, b")));
+    assert_eq!(text("vehicleEnvelope"), Some(Value::Json(r#"["a"]"#)));
+    let other = text("other").unwrap().to_string();
+    assert!(other.contains(r#""key":"b""#), "{other}");
     let area = "[[[[0.0,0.0],[1.0,0.0],[1.0,-2.5],[0.0,0.0]]]]";
-    assert_eq!(text("vehicleEnvelope.area"), Some(Value::Text(area)));
+    assert_eq!(text("vehicleEnvelope.area"), Some(Value::Json(area)));
     assert_eq!(layout.diagnostics.count(Code::MissingField), 1);
     let wrong = [
         corner("x", "0"),

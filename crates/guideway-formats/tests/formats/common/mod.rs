@@ -9,12 +9,17 @@ use guideway_spline::Point;
 /// Returns the folder of real layouts beside the repository, if it exists. Their licenses keep them
 /// out of the repository.
 pub(crate) fn real_layouts(format: &str) -> Option<PathBuf> {
-    let shared = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/layouts");
-    let folder = shared.join(format);
-    if folder.is_dir() {
-        return Some(folder);
+    shared(&format!("layouts/{format}"))
+}
+
+/// Returns a folder or file of the material beside the repository, if it exists.
+pub(crate) fn shared(path: &str) -> Option<PathBuf> {
+    let shared = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared");
+    let path = shared.join(path);
+    if path.exists() {
+        return Some(path);
     }
-    println!("SKIPPED: the real layouts are not at {}", folder.display());
+    println!("SKIPPED: there is no {}", path.display());
     None
 }
 
