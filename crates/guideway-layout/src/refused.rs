@@ -50,13 +50,21 @@ impl Refused {
         self.codes.is_empty()
     }
 
-    /// All refused paths, in file order.
-    pub fn iter(&self) -> impl ExactSizeIterator<Item = RefusedPath<'_>> {
-        (0..self.len()).map(|row| RefusedPath {
+    /// One refused path.
+    ///
+    /// # Panics
+    /// When `row` is not below [`Self::len`].
+    pub fn get(&self, row: usize) -> RefusedPath<'_> {
+        RefusedPath {
             id: self.ids.get(row),
             code: self.codes[row],
             detail: self.details.get(row),
-        })
+        }
+    }
+
+    /// All refused paths, in file order.
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = RefusedPath<'_>> {
+        (0..self.len()).map(|row| self.get(row))
     }
 
     /// Heap bytes in use.

@@ -35,6 +35,9 @@ impl TypeEntries {
     }
 
     /// Appends an element with one entry per type.
+    ///
+    /// # Panics
+    /// In later calls when there are 2^32 entries or more; readers refuse such files earlier.
     pub fn push(&mut self, types: &[&str]) {
         for &name in types {
             let row = self.intern(name);

@@ -264,8 +264,8 @@ impl PolygonCells {
         }
     }
 
-    pub(super) fn field(&self, name: &str) -> Field {
-        Field::new(name, DataType::List(self.point_field()), false)
+    pub(super) fn field(&self, name: &str, nullable: bool) -> Field {
+        Field::new(name, DataType::List(self.point_field()), nullable)
     }
 
     fn point_field(&self) -> FieldRef {

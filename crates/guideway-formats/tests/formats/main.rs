@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may fail by a panic")]
 
 mod arrow;
+mod arrow_network;
 mod arrow_rows;
 mod arrow_tables;
 mod arrow_write;
@@ -18,6 +19,7 @@ mod lif_save;
 mod lif_texts;
 mod lif_trajectory;
 mod lif_write;
+mod networks;
 mod opendrive;
 mod opentcs;
 mod refusals;
