@@ -13,7 +13,7 @@ use crate::{Format, Losses, WriteError, arrow, dxf, geojson, opentcs, svg};
 /// A format that can be written, in one of its versions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Target {
-    /// Apache Arrow, one row per run of a path.
+    /// Apache Arrow, a table of all elements.
     Arrow,
     /// DXF, a drawing for CAD programs.
     Dxf,
@@ -81,7 +81,7 @@ impl Target {
     /// Description for the help of the command, without extensions.
     pub fn description(self) -> &'static str {
         match self {
-            Self::Arrow => "Apache Arrow, a row per run",
+            Self::Arrow => "Apache Arrow, a table of everything",
             Self::Dxf => "DXF, a drawing for CAD programs",
             Self::GeoJson => "GeoJSON, a Nav2 route graph if the layout has nodes",
             Self::Lif1 => "VDMA LIF 1.0",

@@ -70,7 +70,8 @@ impl<'a> AttributeColumn<'a> {
     pub(super) fn add(&mut self, batch: &Batch) -> Result<(), Problem> {
         let column = &batch.columns[self.index];
         let Some(cells) = &mut self.cells else {
-            if column.null_count() == column.len() {
+            let mut rows = batch.drawn.iter().cloned().flatten();
+            if column.null_count() > 0 && rows.all(|row| column.is_null(row)) {
                 self.missing += batch.drawn_rows();
                 return Ok(());
             }
@@ -143,9 +144,8 @@ impl<'a> AttributeColumn<'a> {
                 (Values::Text(texts.into_cells()), None)
             }
         };
-        let has_number = matches!(values, Values::Int(_) | Values::Float(_));
         Ok(Some(Attribute {
-            quantity: quantity(field).filter(|_| has_number),
+            quantity: quantity(field),
             name: match self.reading.columns.version {
                 PATHS_VERSION => field.name().clone(),
                 _ => attribute_of(field.name()).to_owned(),

@@ -56,7 +56,15 @@ mod tests {
             assert!(!taken.contains(&column), "{column}");
             taken.push(column);
         }
-        assert_eq!(taken[2..6], ["speed", "attribute.level", "attribute.of", "attribute.speed"]);
+        assert_eq!(
+            taken[2..6],
+            [
+                "speed",
+                "attribute.level",
+                "attribute.of",
+                "attribute.speed"
+            ]
+        );
         assert_eq!(taken[6..8], ["attribute2.speed", "attribute"]);
     }
 }

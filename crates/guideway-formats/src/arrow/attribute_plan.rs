@@ -177,7 +177,10 @@ impl AttributeSource<'_> {
             let value = |row: &Row| {
                 let attribute = attributes_of(layout, kind, row.index)?.get(self.name)?;
                 let column = Column::from_attribute(attribute);
-                attribute.values.get(0).filter(|_| self.holds(attribute, &column))
+                attribute
+                    .values
+                    .get(0)
+                    .filter(|_| self.holds(attribute, &column))
             };
             rows.iter().for_each(|row| cells.push(value(row)));
         } else {

@@ -120,7 +120,9 @@ impl Source<'_> {
                 lists::points(rows.iter().map(outline))?
             }
             Self::RefusalCode => {
-                let codes = rows.iter().map(|row| layout.refused.get(row.index).code.name());
+                let codes = rows
+                    .iter()
+                    .map(|row| layout.refused.get(row.index).code.name());
                 Arc::new(StringArray::from_iter_values(codes))
             }
             Self::RefusalDetail => {

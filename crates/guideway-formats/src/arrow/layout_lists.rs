@@ -163,9 +163,7 @@ pub(super) fn points<'a>(
     list(Arc::new(items), point_type(), &lengths)
 }
 
-fn numbers<'a>(
-    rows: impl Iterator<Item = Option<&'a [f64]>>,
-) -> Result<ArrayRef, WriteProblem> {
+fn numbers<'a>(rows: impl Iterator<Item = Option<&'a [f64]>>) -> Result<ArrayRef, WriteProblem> {
     let (mut items, mut lengths) = (Vec::new(), Vec::new());
     for row in rows {
         items.extend_from_slice(row.unwrap_or_default());
@@ -206,9 +204,13 @@ pub(super) fn curves<'a>(
 ) -> Result<ArrayRef, WriteProblem> {
     let rows: Vec<Option<&WrittenCurve>> = rows.collect();
     let degrees = rows.iter().map(|curve| curve.map_or(0, |c| c.degree));
-    let knots = rows.iter().map(|curve| Some(curve.map_or(&[][..], |c| &c.knots)));
+    let knots = rows
+        .iter()
+        .map(|curve| Some(curve.map_or(&[][..], |c| &c.knots)));
     let weights = rows.iter().map(|curve| curve.as_ref()?.weights.as_deref());
-    let control_points = rows.iter().map(|curve| curve.map(|c| c.points_m.as_slice()));
+    let control_points = rows
+        .iter()
+        .map(|curve| curve.map(|c| c.points_m.as_slice()));
     let columns: Vec<ArrayRef> = vec![
         Arc::new(UInt32Array::from_iter_values(degrees)),
         numbers(knots)?,
@@ -233,7 +235,9 @@ fn list(
     }
     let offsets = OffsetBuffer::from_lengths(lengths.iter().map(|length| length.unwrap_or(0)));
     let present = lengths.iter().map(Option::is_some);
-    let nulls = lengths.contains(&None).then(|| NullBuffer::from_iter(present));
+    let nulls = lengths
+        .contains(&None)
+        .then(|| NullBuffer::from_iter(present));
     let list = ListArray::try_new(item(item_type), offsets, items, nulls)?;
     Ok(Arc::new(list))
 }

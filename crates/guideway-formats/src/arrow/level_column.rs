@@ -88,9 +88,10 @@ impl<'a> LevelColumn<'a> {
         let Some(interned) = &mut self.ids else {
             let numbers = indices(column)?;
             for row in batch.drawn.iter().cloned().flatten() {
-                let is_valid = numbers.is_valid(row);
-                self.invalid += usize::from(column.is_valid(row) && !is_valid);
-                self.values.push(if is_valid { numbers.value(row) } else { NONE });
+                let number = numbers.is_valid(row).then(|| numbers.value(row));
+                let number = number.unwrap_or(NONE);
+                self.invalid += usize::from(number == NONE && column.is_valid(row));
+                self.values.push(number);
             }
             return Ok(());
         };
@@ -152,5 +153,7 @@ impl<'a> LevelColumn<'a> {
 
 /// Returns the level in a finished column, if the table has one.
 pub(super) fn level_at(column: Option<&Vec<u32>>, row: usize) -> Option<u32> {
-    column.map(|column| column[row]).filter(|&level| level != NONE)
+    column
+        .map(|column| column[row])
+        .filter(|&level| level != NONE)
 }

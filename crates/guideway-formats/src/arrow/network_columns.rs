@@ -120,14 +120,14 @@ impl NodeColumn {
     fn add(&mut self, batch: &Batch) -> Result<(), Problem> {
         let column = &batch.columns[self.index];
         let numbers = indices(column)?;
-        // A number that does not fit is null after the cast.
-        let lost = numbers.null_count() > column.null_count();
-        if lost {
-            let is_lost = |&row: &usize| column.is_valid(row) && numbers.is_null(row);
-            let rows = batch.drawn.iter().cloned().flatten();
-            self.invalid += rows.filter(is_lost).count() as u64;
-        }
+        let first = self.values.len();
         batch.extend(&mut self.values, &numbers, |node| node.unwrap_or(NONE));
+        // A number that does not fit is null after the cast.
+        let rows = batch.drawn.iter().cloned().flatten();
+        let missing = rows
+            .zip(&self.values[first..])
+            .filter(|(_, node)| **node == NONE);
+        self.invalid += missing.filter(|(row, _)| column.is_valid(*row)).count() as u64;
         Ok(())
     }
 
@@ -143,7 +143,12 @@ impl NodeColumn {
             diagnostics.push(
                 Code::UnknownNode,
                 || Place::element(format!("column {}", self.name)),
-                || format!("{} paths name a node that the table does not have", self.invalid),
+                || {
+                    format!(
+                        "{} paths name a node that the table does not have",
+                        self.invalid
+                    )
+                },
                 "They are read without it; write the number of a row of the kind node, from 0",
             );
         }

@@ -41,21 +41,19 @@ impl<'a> PathColumns<'a> {
     /// # Errors
     /// The problem of the first column that has one, independent of thread timing.
     pub(super) fn add(&mut self, batch: &Batch) -> Result<(), Problem> {
+        let (ids, attributes) = (&mut self.ids, &mut self.attributes);
         let (levels, style, network) = (&mut self.levels, &mut self.style, &mut self.network);
-        let mut add_others = || {
+        let mut add_style = || {
             if let Some(levels) = levels {
                 levels.add(batch)?;
             }
-            style.add(batch)?;
-            network.add(batch)
+            style.add(batch)
         };
-        let (ids, (attributes, others)) = rayon::join(
-            || self.ids.add(batch),
-            || rayon::join(|| self.attributes.add(batch), &mut add_others),
+        let ((ids, attributes), (style, network)) = rayon::join(
+            || rayon::join(|| ids.add(batch), || attributes.add(batch)),
+            || rayon::join(&mut add_style, || network.add(batch)),
         );
-        ids?;
-        attributes?;
-        others
+        ids.and(attributes).and(style).and(network)
     }
 
     /// Returns the paths with these curves, and the refused paths.

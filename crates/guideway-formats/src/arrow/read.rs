@@ -190,9 +190,7 @@ impl<'a> TableReader<'a> {
         let (assembled, added) = rayon::join(
             || match continues {
                 None => assembler.add(polygons, &kinds, input, limits),
-                Some(continues) => {
-                    assembler.add_parts(polygons, &kinds, &continues, input, limits)
-                }
+                Some(continues) => assembler.add_parts(polygons, &kinds, &continues, input, limits),
             },
             || finished.iter().try_for_each(|batch| paths.add(batch)),
         );

@@ -12,7 +12,6 @@ use super::column_names::{
 };
 use super::column_types::{
     is_curve, is_id, is_integer, is_integers, is_members, is_number, is_points, is_text, is_texts,
-    value_type,
 };
 use super::problems::wrong_structure;
 use crate::Problem;
@@ -92,7 +91,13 @@ const RULES: [Rule; 22] = [
     rule(Role::LevelName, LEVEL_NAME, 2, is_text, "text"),
     rule(Role::Elevation, ELEVATION, 2, is_number, "float64"),
     rule(Role::Members, MEMBERS, 2, is_members, MEMBERS_TYPE),
-    rule(Role::Outline, OUTLINE, 2, is_points, "list<fixed_size_list<float64, 2>>"),
+    rule(
+        Role::Outline,
+        OUTLINE,
+        2,
+        is_points,
+        "list<fixed_size_list<float64, 2>>",
+    ),
     rule(Role::RefusalCode, REFUSAL_CODE, 2, is_text, "text"),
     rule(Role::RefusalDetail, REFUSAL_DETAIL, 2, is_text, "text"),
 ];
@@ -198,15 +203,14 @@ fn check_unit(field: &Field, diagnostics: &mut Diagnostics) {
     diagnostics.push(
         Code::Attribute,
         || Place::element(format!("column {}", field.name())),
-        || format!("the unit {} is not known for this column", printable(unit)),
+        || format!("the unit {} is not known", printable(unit)),
         "The values are read without a unit; write numbers in m, rad, m/s, rad/s, kg or s",
     );
 }
 
-/// Returns the quantity that the numbers of a column measure, by the unit in its metadata.
+/// Returns the quantity that the values of a column measure, by the unit in its metadata.
 pub(super) fn quantity(field: &Field) -> Option<Quantity> {
-    let unit = field.metadata().get(UNIT_KEY)?;
-    Quantity::of_unit(unit).filter(|_| is_number(value_type(field.data_type())))
+    Quantity::of_unit(field.metadata().get(UNIT_KEY)?)
 }
 
 /// Returns whether the texts of a column are JSON.

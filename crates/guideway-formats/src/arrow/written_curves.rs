@@ -51,7 +51,11 @@ impl<'a> CurveColumn<'a> {
             if column.is_valid(row) {
                 let curve = WrittenCurve {
                     // 0 is no degree.
-                    degree: if degrees.is_valid(row) { degrees.value(row) } else { 0 },
+                    degree: if degrees.is_valid(row) {
+                        degrees.value(row)
+                    } else {
+                        0
+                    },
                     knots: knots.get(row).unwrap_or_default(),
                     points_m: points.get(row).collect(),
                     weights: weights.get(row),

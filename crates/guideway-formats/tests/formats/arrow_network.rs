@@ -1,12 +1,13 @@
 //! Arrow tables of version 2 hold whole layouts: everything that is written is read back.
 
 use guideway_formats::arrow::{Precision, WriteOptions, write_layout};
-use guideway_formats::{ReadOptions, read_file};
+use guideway_formats::{ReadOptions, lif, read_file};
 use guideway_layout::{
     Attribute, Direction, Layout, Level, NewPath, Quantity, Value, Values, WrittenCurve,
 };
 use guideway_spline::{Point, Runs};
 
+use crate::common::{real, real_layouts};
 use crate::networks::{differences, network};
 
 /// Returns a layout after it was written and read, and the version of the table.
@@ -26,7 +27,11 @@ fn any_layout_is_read_back_equal() {
         let layout = network(seed);
         let (back, _) = through(&layout, Some(Precision::F64));
         let different = differences(&layout, &back);
-        assert!(different.is_empty(), "seed {seed}: {}", different.join("\n"));
+        assert!(
+            different.is_empty(),
+            "seed {seed}: {}",
+            different.join("\n")
+        );
         let found: Vec<_> = back.diagnostics.iter().collect();
         assert!(found.is_empty(), "seed {seed}: {found:?}");
     }
@@ -40,7 +45,11 @@ fn comparison_detects_each_change() {
     for seed in 0..40 {
         let other = network(seed);
         let different = differences(&layout, &other);
-        seen.extend(different.iter().map(|d| d.split(':').next().unwrap().to_owned()));
+        seen.extend(
+            different
+                .iter()
+                .map(|d| d.split(':').next().unwrap().to_owned()),
+        );
     }
     assert_eq!(seen.len(), 10, "{seen:?}");
 }
@@ -68,7 +77,10 @@ fn two_paths() -> Layout {
 fn paths_alone_stay_in_version_1() {
     let mut layout = two_paths();
     layout.paths.attributes.set(1, "lanes", Value::Int(2));
-    layout.paths.attributes.set(0, "direction", Value::Text("north"));
+    layout
+        .paths
+        .attributes
+        .set(0, "direction", Value::Text("north"));
     layout.paths.set_rank(vec![1, 0]);
     layout.levels.push(Level {
         id: "hall".into(),
@@ -80,7 +92,9 @@ fn paths_alone_stay_in_version_1() {
     assert!(differences(&layout, &back).is_empty());
 
     let changes: [fn(&mut Layout); 8] = [
-        |layout| drop(layout.nodes.push("N", Point::new(0.0, 0.0), None)),
+        |layout| {
+            layout.nodes.push("N", Point::new(0.0, 0.0), None);
+        },
         |layout| layout.paths.set_direction(0, Direction::Both),
         |layout| layout.paths.vehicle_types_mut().set(0, &["tug"]),
         |layout| layout.levels[0].elevation_m = Some(3.0),
@@ -112,7 +126,10 @@ fn columns_of_other_elements_take_no_memory_of_paths() {
     let (back, _) = through(&layout, None);
     assert!(back.paths.attributes.get("theta").is_none());
     assert!(back.nodes.attributes.get("lanes").is_none());
-    assert_eq!(back.nodes.attributes.value(0, "theta"), Some(Value::Float(1.0)));
+    assert_eq!(
+        back.nodes.attributes.value(0, "theta"),
+        Some(Value::Float(1.0))
+    );
 }
 
 #[test]
@@ -162,11 +179,94 @@ fn types_of_numbers_stay_narrow() {
         source_type: Some(source.into()),
         ..Attribute::new("size", values)
     };
-    let paths = narrow(Values::Int([Some(3), Some(-4)].into_iter().collect()), "Int8");
+    let paths = narrow(
+        Values::Int([Some(3), Some(-4)].into_iter().collect()),
+        "Int8",
+    );
     let nodes = narrow(Values::Float([Some(0.5)].into_iter().collect()), "Float32");
     layout.paths.attributes.insert(paths.clone());
     layout.nodes.attributes.insert(nodes.clone());
     let (back, _) = through(&layout, None);
     assert_eq!(back.paths.attributes.get("size"), Some(&paths));
     assert_eq!(back.nodes.attributes.get("size"), Some(&nodes));
+}
+
+#[test]
+fn real_layouts_are_read_back_equal() {
+    let mut compared = 0;
+    for format in [
+        "lif",
+        "opentcs",
+        "rmf_building",
+        "vda5050",
+        "nav2_geojson",
+        "dxf",
+        "svg",
+    ] {
+        let Some(folder) = real_layouts(format) else {
+            return;
+        };
+        for entry in folder.read_dir().expect("the folder") {
+            let file = entry.expect("an entry").path();
+            let layout = read_file(&file, &ReadOptions::default()).expect("a layout");
+            let (back, _) = through(&layout, Some(Precision::F64));
+            let different = differences(&layout, &back);
+            let first = different
+                .first()
+                .map(|text| text.chars().take(400).collect::<String>());
+            assert_eq!(first, None, "{}", file.display());
+            compared += 1;
+        }
+    }
+    assert!(compared > 50, "{compared}");
+}
+
+#[test]
+fn two_way_lanes_pass_through_arrow_to_lif() {
+    let Some(office) = real("rmf_building", "office.building.yaml") else {
+        return;
+    };
+    let (back, _) = through(&office, Some(Precision::F64));
+    let both = |layout: &Layout| {
+        let paths = layout.paths.iter();
+        paths
+            .filter(|path| path.direction() == Direction::Both)
+            .count()
+    };
+    assert_eq!((both(&office), both(&back)), (66, 66));
+    let lif = |layout: &Layout| {
+        let mut out = Vec::new();
+        let options = lif::WriteOptions {
+            version: lif::Version::V1,
+            exported: std::time::SystemTime::UNIX_EPOCH,
+        };
+        lif::write_layout(layout, &mut out, &options).expect("a text");
+        String::from_utf8(out).expect("a text")
+    };
+    assert_eq!(lif(&office), lif(&back));
+}
+
+#[test]
+fn vehicle_types_pass_through_arrow() {
+    let site = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../guideway/examples/site.lif.json"
+    );
+    let site = read_file(site.as_ref(), &ReadOptions::default()).expect("a layout");
+    let (back, version) = through(&site, None);
+    assert_eq!(version, "2");
+    let of = |layout: &Layout| -> Vec<Vec<String>> {
+        let types = layout.paths.vehicle_types();
+        let rows = 0..layout.paths.len();
+        rows.map(|row| types.of(row).map(str::to_owned).collect())
+            .collect()
+    };
+    let with = |name: &str| {
+        of(&back)
+            .iter()
+            .filter(|types| types.iter().any(|t| t == name))
+            .count()
+    };
+    assert_eq!((with("stacker-1200"), with("tugger-3000")), (312, 182));
+    assert_eq!(of(&site), of(&back));
 }

@@ -12,7 +12,9 @@ pub(crate) struct Random(u64);
 impl Random {
     pub(crate) fn new(seed: u64) -> Self {
         let mut random = Self(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1);
-        (0..8).for_each(|_| drop(random.below(2)));
+        for _ in 0..8 {
+            random.below(2);
+        }
         random
     }
 
@@ -57,13 +59,36 @@ impl Random {
 
 /// Texts that a file must not confuse.
 const TEXTS: [&str; 12] = [
-    "", "a", "b", "a", "level", "NaN", "null", "x\0y", "Größe \u{1F980}", "1", " ", "a.b",
+    "",
+    "a",
+    "b",
+    "a",
+    "level",
+    "NaN",
+    "null",
+    "x\0y",
+    "Größe \u{1F980}",
+    "1",
+    " ",
+    "a.b",
 ];
 
 /// Names of attributes, some of which are those of columns with a meaning.
 const NAMES: [&str; 14] = [
-    "maxSpeed", "maxSpeed", "name", "level", "id", "of", "x_m", "guideway.element", "actions",
-    "attribute.level", "attribute", "curve", "direction", "rank",
+    "maxSpeed",
+    "maxSpeed",
+    "name",
+    "level",
+    "id",
+    "of",
+    "x_m",
+    "guideway.element",
+    "actions",
+    "attribute.level",
+    "attribute",
+    "curve",
+    "direction",
+    "rank",
 ];
 
 /// A layout whose elements, properties and references are random.
@@ -82,13 +107,17 @@ pub(crate) fn network(seed: u64) -> Layout {
     for _ in 0..random.below(6) {
         let (id, level) = (random.pick(&TEXTS), random.row(levels));
         let types = types(random);
-        layout.nodes.push_for_types(id, random.point(), level, &types);
+        layout
+            .nodes
+            .push_for_types(id, random.point(), level, &types);
     }
     let nodes = layout.nodes.len();
     layout.nodes.attributes = attributes(random, nodes);
     set_entries(random, layout.nodes.vehicle_types_mut());
     for _ in 0..random.below(4) {
-        let served = (0..random.below(4)).filter_map(|_| random.row(nodes)).collect();
+        let served = (0..random.below(4))
+            .filter_map(|_| random.row(nodes))
+            .collect();
         let (id, level) = (random.pick(&TEXTS), random.row(levels));
         let position = random.maybe(Random::point);
         layout.stations.push(id, position, served, level);
@@ -106,14 +135,18 @@ pub(crate) fn network(seed: u64) -> Layout {
             level: random.row(levels),
             attributes: attributes(random, 1),
         });
-        let members = (0..random.below(5)).filter_map(|_| member(random, &layout)).collect();
+        let members = (0..random.below(5))
+            .filter_map(|_| member(random, &layout))
+            .collect();
         layout.blocks.push(Block {
             id: random.pick(&TEXTS).to_owned(),
             members,
             attributes: attributes(random, 1),
         });
         let code = random.pick(Code::ALL);
-        layout.refused.push(random.pick(&TEXTS), code, random.pick(&TEXTS));
+        layout
+            .refused
+            .push(random.pick(&TEXTS), code, random.pick(&TEXTS));
     }
     layout.attributes = attributes(random, 1);
     layout.geo_origin = random.maybe(|r| GeoOrigin {
@@ -197,8 +230,7 @@ fn attributes(random: &mut Random, rows: usize) -> Attributes {
     let mut attributes = Attributes::default();
     for _ in 0..random.pick(&[0, 1, 2, 4]) {
         let rows = 0..random.below(rows + 1);
-        let kind = random.below(6);
-        let values = match kind {
+        let values = match random.below(6) {
             0 => Values::Bool(rows.map(|_| random.maybe(|r| r.chance(2))).collect()),
             1 => {
                 let ints = [i64::MIN, i64::MAX, 0, (1 << 53) + 1, 7];
@@ -207,7 +239,11 @@ fn attributes(random: &mut Random, rows: usize) -> Attributes {
             2 | 3 => {
                 let odd = [f64::NAN, f64::INFINITY, -0.0, 1e300];
                 let number = |r: &mut Random| {
-                    if r.chance(4) { r.pick(&odd) } else { r.number() }
+                    if r.chance(4) {
+                        r.pick(&odd)
+                    } else {
+                        r.number()
+                    }
                 };
                 Values::Float(rows.map(|_| random.maybe(number)).collect())
             }
@@ -218,7 +254,7 @@ fn attributes(random: &mut Random, rows: usize) -> Attributes {
             }
         };
         let mut attribute = Attribute::new(random.pick(&NAMES), values);
-        if kind == 3 {
+        if random.chance(4) {
             attribute.quantity = Some(random.pick(Quantity::ALL));
         }
         attributes.insert(attribute);
@@ -235,7 +271,11 @@ pub(crate) fn differences(a: &Layout, b: &Layout) -> Vec<String> {
             found.push(format!("{what}: {a} / {b}"));
         }
     };
-    compare("paths", all(a.paths.iter(), |p| path(a, p)), all(b.paths.iter(), |p| path(b, p)));
+    compare(
+        "paths",
+        all(a.paths.iter(), |p| path(a, p)),
+        all(b.paths.iter(), |p| path(b, p)),
+    );
     compare("nodes", nodes(a), nodes(b));
     compare("stations", stations(a), stations(b));
     let refused = |l: &Layout| format!("{:?}", l.refused.iter().collect::<Vec<_>>());
@@ -248,7 +288,9 @@ pub(crate) fn differences(a: &Layout, b: &Layout) -> Vec<String> {
     };
     compare("levels", levels(a), levels(b));
     let types = |l: &Layout| {
-        all(l.vehicle_types.iter(), |t| format!("{:?} {}", t.id, values(&t.attributes, 0)))
+        all(l.vehicle_types.iter(), |t| {
+            format!("{:?} {}", t.id, values(&t.attributes, 0))
+        })
     };
     compare("vehicle types", types(a), types(b));
     let blocks = |l: &Layout| {
@@ -264,7 +306,11 @@ pub(crate) fn differences(a: &Layout, b: &Layout) -> Vec<String> {
         })
     };
     compare("zones", zones(a), zones(b));
-    compare("layout properties", values(&a.attributes, 0), values(&b.attributes, 0));
+    compare(
+        "layout properties",
+        values(&a.attributes, 0),
+        values(&b.attributes, 0),
+    );
     let origin = |l: &Layout| format!("{:?}", l.geo_origin);
     compare("geo origin", origin(a), origin(b));
     found
@@ -277,13 +323,21 @@ fn all<T>(items: impl Iterator<Item = T>, text: impl Fn(T) -> String) -> String 
 fn path(layout: &Layout, path: PathRef<'_>) -> String {
     let row = path.row();
     let runs: Vec<Vec<Point<f64>>> = path.runs().map(|run| run.iter().collect()).collect();
-    let refers = (path.start_node(), path.end_node(), path.direction(), path.level());
+    let refers = (
+        path.start_node(),
+        path.end_node(),
+        path.direction(),
+        path.level(),
+    );
     let paths = &layout.paths;
     let drawn = (paths.own_style(row), paths.rank().map(|ranks| ranks[row]));
     let curve = paths.written_curve(row);
     let of_path = values(&paths.attributes, row);
     let types = entries(paths.vehicle_types(), row);
-    format!("{:?} {runs:?} {refers:?} {drawn:?} {curve:?} {of_path} {types}", path.id())
+    format!(
+        "{:?} {runs:?} {refers:?} {drawn:?} {curve:?} {of_path} {types}",
+        path.id()
+    )
 }
 
 fn nodes(layout: &Layout) -> String {
@@ -291,20 +345,34 @@ fn nodes(layout: &Layout) -> String {
     all(0..nodes.len() as u32, |node| {
         let own = (nodes.id(node), nodes.position_m(node), nodes.level(node));
         let of_node = values(&nodes.attributes, node as usize);
-        format!("{own:?} {of_node} {}", entries(nodes.vehicle_types(), node as usize))
+        format!(
+            "{own:?} {of_node} {}",
+            entries(nodes.vehicle_types(), node as usize)
+        )
     })
 }
 
 fn stations(layout: &Layout) -> String {
     let stations = &layout.stations;
     all(0..stations.len() as u32, |s| {
-        let own = (stations.id(s), stations.position_m(s), stations.nodes(s), stations.level(s));
+        let own = (
+            stations.id(s),
+            stations.position_m(s),
+            stations.nodes(s),
+            stations.level(s),
+        );
         format!("{own:?} {}", values(&stations.attributes, s as usize))
     })
 }
 
 fn entries(entries: &TypeEntries, element: usize) -> String {
-    let entry = |entry| format!("{:?} {}", entries.type_of(entry), values(&entries.attributes, entry));
+    let entry = |entry| {
+        format!(
+            "{:?} {}",
+            entries.type_of(entry),
+            values(&entries.attributes, entry)
+        )
+    };
     all(entries.entries(element), entry)
 }
 

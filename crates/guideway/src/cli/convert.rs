@@ -86,7 +86,7 @@ pub(super) fn check_in_place(layout: &Layout, file: &Path) -> Result<(), UserErr
         Target::OpenTcs6 | Target::OpenTcs7 if Target::of_source(layout) != Some(target) => {
             format!("is no {}", target.name())
         }
-        Target::Arrow | Target::GeoJson | Target::OpenTcs6 | Target::OpenTcs7 if refused > 0 => {
+        Target::GeoJson | Target::OpenTcs6 | Target::OpenTcs7 if refused > 0 => {
             format!("has {refused} refused paths, which saving would drop")
         }
         _ => return Ok(()),

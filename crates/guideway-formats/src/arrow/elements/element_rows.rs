@@ -6,6 +6,7 @@ use crate::Problem;
 use crate::arrow::attribute_columns::AttributeColumn;
 use crate::arrow::attribute_table::{AttributeTable, by_name};
 use crate::arrow::batch::Batch;
+use crate::arrow::budget::Budget;
 use crate::arrow::element::Element;
 use crate::arrow::id_column::IdColumn;
 use crate::arrow::reading::Reading;
@@ -13,6 +14,8 @@ use crate::arrow::schema::Role;
 
 /// Memory per row, in bytes, that a compressed file need not have.
 const ROW_BYTES: u64 = 64;
+/// Memory per value of an element with attributes of its own, in bytes.
+const OWN_VALUE_BYTES: u64 = 128;
 
 /// Rows of one kind under construction.
 pub(super) struct ElementRows<'a> {
@@ -25,7 +28,8 @@ pub(super) struct ElementRows<'a> {
 }
 
 /// Rows of one kind.
-pub(super) struct ReadRows {
+pub(super) struct ReadRows<'a> {
+    budget: &'a Budget,
     pub(super) ids: TextColumn,
     /// Several columns may have values of one attribute.
     columns: Vec<Attribute>,
@@ -69,7 +73,7 @@ impl<'a> ElementRows<'a> {
     }
 
     /// Returns the rows.
-    pub(super) fn finish(self, diagnostics: &mut Diagnostics) -> Result<ReadRows, Problem> {
+    pub(super) fn finish(self, diagnostics: &mut Diagnostics) -> Result<ReadRows<'a>, Problem> {
         let mut roles = Vec::new();
         for (role, column) in self.roles {
             let attribute = column.finish(false, diagnostics)?;
@@ -77,6 +81,7 @@ impl<'a> ElementRows<'a> {
         }
         let elements = format!("rows of the kind {}", self.kind.name());
         Ok(ReadRows {
+            budget: self.reading.budget,
             ids: self.ids.finish(&elements, diagnostics),
             columns: self.attributes.finish(false, diagnostics)?,
             roles,
@@ -84,7 +89,7 @@ impl<'a> ElementRows<'a> {
     }
 }
 
-impl ReadRows {
+impl ReadRows<'_> {
     /// Returns the number of rows.
     pub(super) fn len(&self) -> usize {
         self.ids.len()
@@ -125,16 +130,25 @@ impl ReadRows {
     }
 
     /// Returns the attributes of one row as a table of one row.
-    pub(super) fn attributes_of(&self, row: usize, diagnostics: &mut Diagnostics) -> Attributes {
+    ///
+    /// # Errors
+    /// When the file expands to too many of them.
+    pub(super) fn attributes_of(
+        &self,
+        row: usize,
+        diagnostics: &mut Diagnostics,
+    ) -> Result<Attributes, Problem> {
         let columns = self.columns.iter();
         let of_row = columns.filter(|column| column.values.get(row).is_some());
+        self.budget
+            .charge(of_row.clone().count() as u64 * OWN_VALUE_BYTES)?;
         let of_row = of_row.map(|column| Attribute {
             name: column.name.clone(),
             values: column.values.select(&[row]),
             quantity: column.quantity,
             source_type: column.source_type.clone(),
         });
-        by_name(of_row, diagnostics)
+        Ok(by_name(of_row, diagnostics))
     }
 
     /// Returns the attributes of all rows.

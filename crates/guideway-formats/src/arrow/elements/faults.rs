@@ -16,7 +16,8 @@ impl Faults<'_> {
     /// Adds a finding about an element.
     pub(super) fn report(
         &mut self,
-        (code, kind): (Code, Element),
+        code: Code,
+        kind: Element,
         id: &str,
         message: impl FnOnce() -> String,
         remedy: &str,
@@ -35,7 +36,7 @@ impl Faults<'_> {
     ) -> Option<Point<f64>> {
         let [Some(x), Some(y)] = position else {
             let message = || "x_m or y_m is null".into();
-            self.report((Code::MissingField, kind), id, message, remedy);
+            self.report(Code::MissingField, kind, id, message, remedy);
             return None;
         };
         self.point(kind, id, Point::new(x, y), remedy)
@@ -52,12 +53,12 @@ impl Faults<'_> {
         let limit = self.limits.coordinate_m;
         if !point.is_finite() {
             let message = || "a coordinate is not finite".into();
-            self.report((Code::NonFinite, kind), id, message, remedy);
+            self.report(Code::NonFinite, kind, id, message, remedy);
             return None;
         }
         if point.x.abs().max(point.y.abs()) > limit {
             let message = || format!("a coordinate exceeds the limit of {limit} m");
-            self.report((Code::OutOfRange, kind), id, message, remedy);
+            self.report(Code::OutOfRange, kind, id, message, remedy);
             return None;
         }
         Some(point)

@@ -20,15 +20,20 @@ use crate::arrow::schema::Role;
 use crate::arrow::text_array::TextArray;
 
 /// Returns the levels in rows of that kind.
-pub(super) fn levels(rows: ElementRows<'_>, faults: &mut Faults<'_>) -> Result<Vec<Level>, Problem> {
+pub(super) fn levels(
+    rows: ElementRows<'_>,
+    faults: &mut Faults<'_>,
+) -> Result<Vec<Level>, Problem> {
     let rows = rows.finish(faults.diagnostics)?;
-    let level = |row| Level {
-        id: rows.ids.get(row).to_owned(),
-        name: rows.text(Role::LevelName, row).map(str::to_owned),
-        elevation_m: rows.number(Role::Elevation, row),
-        attributes: rows.attributes_of(row, faults.diagnostics),
+    let level = |row| {
+        Ok(Level {
+            id: rows.ids.get(row).to_owned(),
+            name: rows.text(Role::LevelName, row).map(str::to_owned),
+            elevation_m: rows.number(Role::Elevation, row),
+            attributes: rows.attributes_of(row, faults.diagnostics)?,
+        })
     };
-    Ok((0..rows.len()).map(level).collect())
+    (0..rows.len()).map(level).collect()
 }
 
 /// Returns the vehicle types in rows of that kind.
@@ -37,11 +42,13 @@ pub(super) fn vehicle_types(
     faults: &mut Faults<'_>,
 ) -> Result<Vec<VehicleType>, Problem> {
     let rows = rows.finish(faults.diagnostics)?;
-    let vehicle_type = |row| VehicleType {
-        id: rows.ids.get(row).to_owned(),
-        attributes: rows.attributes_of(row, faults.diagnostics),
+    let vehicle_type = |row| {
+        Ok(VehicleType {
+            id: rows.ids.get(row).to_owned(),
+            attributes: rows.attributes_of(row, faults.diagnostics)?,
+        })
     };
-    Ok((0..rows.len()).map(vehicle_type).collect())
+    (0..rows.len()).map(vehicle_type).collect()
 }
 
 /// Returns the properties of the layout as a whole: those of the first row of that kind.
@@ -52,7 +59,8 @@ pub(super) fn layout_attributes(
     let rows = rows.finish(faults.diagnostics)?;
     if rows.len() > 1 {
         faults.report(
-            (Code::UnknownValue, Element::Layout),
+            Code::UnknownValue,
+            Element::Layout,
             rows.ids.get(1),
             || format!("{} rows are of the kind layout", rows.len()),
             "Only the first one is read; write one row",
@@ -60,7 +68,7 @@ pub(super) fn layout_attributes(
     }
     Ok(match rows.len() {
         0 => Attributes::default(),
-        _ => rows.attributes_of(0, faults.diagnostics),
+        _ => rows.attributes_of(0, faults.diagnostics)?,
     })
 }
 
@@ -77,7 +85,8 @@ pub(super) fn refused(
         let code = codes.find(|code| Some(code.name()) == name);
         if code.is_none() {
             faults.report(
-                (Code::UnknownValue, Element::RefusedPath),
+                Code::UnknownValue,
+                Element::RefusedPath,
                 id,
                 || "column refusal_code has no known code".into(),
                 "It is read as not-drawn; write a code of the documentation",
@@ -109,7 +118,8 @@ impl<'a> BlockRows<'a> {
     pub(super) fn add(&mut self, batch: &Batch) -> Result<(), Problem> {
         self.rows.add(batch)?;
         let Some(index) = self.index else {
-            self.members.resize(self.members.len() + batch.drawn_rows(), Vec::new());
+            self.members
+                .resize(self.members.len() + batch.drawn_rows(), Vec::new());
             return Ok(());
         };
         let lists = ListArray::new(&batch.columns[index])?;
@@ -153,7 +163,8 @@ impl<'a> BlockRows<'a> {
             let unknown = numbers.len() - members.len();
             if unknown > 0 {
                 faults.report(
-                    (Code::UnknownValue, Element::Block),
+                    Code::UnknownValue,
+                    Element::Block,
                     id,
                     || format!("{unknown} of its members are not in the table"),
                     "They are left out; write the kind (path, node or station) and the number of \
@@ -163,7 +174,7 @@ impl<'a> BlockRows<'a> {
             blocks.push(Block {
                 id: id.to_owned(),
                 members,
-                attributes: rows.attributes_of(row, faults.diagnostics),
+                attributes: rows.attributes_of(row, faults.diagnostics)?,
             });
         }
         Ok(blocks)
@@ -194,12 +205,14 @@ impl<'a> ZoneRows<'a> {
             levels.add(batch)?;
         }
         let Some(index) = self.index else {
-            self.outlines.resize(self.outlines.len() + batch.drawn_rows(), Vec::new());
+            self.outlines
+                .resize(self.outlines.len() + batch.drawn_rows(), Vec::new());
             return Ok(());
         };
         let lists = PointLists::new(&batch.columns[index])?;
         let rows = batch.drawn.iter().cloned().flatten();
-        self.outlines.extend(rows.map(|row| lists.get(row).collect()));
+        self.outlines
+            .extend(rows.map(|row| lists.get(row).collect()));
         Ok(())
     }
 
@@ -224,7 +237,7 @@ impl<'a> ZoneRows<'a> {
                 id: id.to_owned(),
                 outline_m,
                 level: level_at(of_zones.as_ref(), row),
-                attributes: rows.attributes_of(row, faults.diagnostics),
+                attributes: rows.attributes_of(row, faults.diagnostics)?,
             });
         }
         Ok(zones)

@@ -38,7 +38,8 @@ impl<'a> StationRows<'a> {
             levels.add(batch)?;
         }
         let Some(index) = self.index else {
-            self.nodes.resize(self.nodes.len() + batch.drawn_rows(), Vec::new());
+            self.nodes
+                .resize(self.nodes.len() + batch.drawn_rows(), Vec::new());
             return Ok(());
         };
         let lists = IndexLists::new(&batch.columns[index])?;
@@ -73,7 +74,8 @@ impl<'a> StationRows<'a> {
             if known.len() < count {
                 let unknown = count - known.len();
                 faults.report(
-                    (Code::UnknownNode, Element::Station),
+                    Code::UnknownNode,
+                    Element::Station,
                     id,
                     || format!("{unknown} of its nodes are not in the table"),
                     "They are left out; write the number of a row of the kind node, from 0",

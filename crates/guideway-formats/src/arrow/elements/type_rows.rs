@@ -1,13 +1,12 @@
 //! Rows per vehicle type: properties of a path or node that differ between its vehicle types.
 
-use std::collections::HashSet;
-
 use guideway_layout::{Code, TypeEntries};
 
 use super::element_rows::ElementRows;
 use super::faults::Faults;
 use crate::Problem;
 use crate::arrow::batch::Batch;
+use crate::arrow::budget::Budget;
 use crate::arrow::element::Element;
 use crate::arrow::numbering::Numbering;
 use crate::arrow::reading::Reading;
@@ -19,6 +18,7 @@ const NONE: usize = usize::MAX;
 /// Properties per vehicle type under construction.
 pub(super) struct TypeRows<'a> {
     kind: Element,
+    budget: &'a Budget,
     rows: ElementRows<'a>,
 }
 
@@ -27,6 +27,7 @@ impl<'a> TypeRows<'a> {
     pub(super) fn new(kind: Element, reading: Reading<'a>) -> Self {
         Self {
             kind,
+            budget: reading.budget,
             rows: ElementRows::new(kind, reading, &[Role::Of]),
         }
     }
@@ -52,20 +53,32 @@ impl<'a> TypeRows<'a> {
             elements => entries.entries(elements - 1).end,
         };
         let mut row_of = vec![NONE; count];
-        let mut set: HashSet<usize> = HashSet::new();
+        // Rows are mostly in the order of the entries.
+        let mut next = 0;
         for row in 0..rows.len() {
             let vehicle_type = rows.ids.get(row);
             let element = rows.index(Role::Of, row).and_then(|of| elements.row(of));
-            let mut of_element = element.map_or(0..0, |e| entries.entries(e as usize));
-            let entry = of_element
-                .find(|&entry| entries.type_of(entry) == vehicle_type && !set.contains(&entry));
+            let of_element = element.map_or(0..0, |e| entries.entries(e as usize));
+            let is_free =
+                |&entry: &usize| row_of[entry] == NONE && entries.type_of(entry) == vehicle_type;
+            let expected = Some(next.max(of_element.start));
+            let expected = expected.filter(|entry| of_element.contains(entry) && is_free(entry));
+            let entry = match expected {
+                Some(entry) => Some(entry),
+                None => {
+                    // Many rows of one element with many types would else take time without end.
+                    self.budget.charge(of_element.len() as u64)?;
+                    of_element.into_iter().find(is_free)
+                }
+            };
             match entry {
                 Some(entry) => {
-                    set.insert(entry);
                     row_of[entry] = row;
+                    next = entry + 1;
                 }
                 None => faults.report(
-                    (Code::UnknownValue, self.kind),
+                    Code::UnknownValue,
+                    self.kind,
                     vehicle_type,
                     || "column of names no element that has this vehicle type".into(),
                     "The row is not read; list the vehicle type in vehicle_types of its element",
