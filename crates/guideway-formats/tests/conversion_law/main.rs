@@ -8,7 +8,6 @@ use std::path::{Path, PathBuf};
 
 use guideway_formats::{ReadOptions, Target, read_file};
 use guideway_layout::{Direction, Layout, Value};
-use guideway_spline::Point;
 use rayon::prelude::*;
 
 use law::{Breach, breaches};
