@@ -97,7 +97,7 @@ const RESTRICTED: &[(&str, &str)] = &[
     ("indicatif", "guideway"),
     (
         "png",
-        "guideway-compose guideway-bench guideway-reproduce guideway-tests",
+        "guideway-compose guideway-formats guideway-bench guideway-reproduce guideway-tests",
     ),
     ("wgpu", "guideway-gpu guideway-grid"),
     ("glow", "guideway-tessellation"),

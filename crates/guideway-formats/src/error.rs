@@ -131,6 +131,19 @@ pub enum Problem {
         /// Remedy for the user.
         remedy: String,
     },
+    /// The file is a floor plan, not a layout.
+    #[error("this is a ROS map, an image of the floor: it has no paths")]
+    FloorPlan,
+    /// A floor plan has a missing, unknown or wrong value.
+    #[error("{place}: {detail}")]
+    InvalidValue {
+        /// Place of the value.
+        place: Place,
+        /// Description of the problem, with the value and its limits.
+        detail: String,
+        /// Remedy for the user.
+        remedy: String,
+    },
     /// The caller cancelled the read.
     #[error("the read was cancelled")]
     Cancelled,
@@ -153,6 +166,8 @@ impl Problem {
             Self::NotUtf8 { .. } => "not-utf8",
             Self::Structure { .. } => "structure",
             Self::Unsupported { .. } => "unsupported",
+            Self::FloorPlan => "floor-plan",
+            Self::InvalidValue { .. } => "invalid-value",
             Self::Cancelled => "cancelled",
         }
     }
@@ -186,7 +201,12 @@ impl Problem {
             Self::Structure { .. } => {
                 format!("Check that this is a layout file; Guideway reads {FormatList}")
             }
-            Self::Unsupported { remedy, .. } => remedy.clone(),
+            Self::Unsupported { remedy, .. } | Self::InvalidValue { remedy, .. } => remedy.clone(),
+            Self::FloorPlan => {
+                "Show it below a layout with `--floor-plan`, such as `guideway render \
+                 site.lif.json -o site.png --floor-plan map.yaml`; in the window press Ctrl+L"
+                    .into()
+            }
             Self::Cancelled => "Read the file again to load the complete layout".into(),
         }
     }

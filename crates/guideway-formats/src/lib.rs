@@ -10,6 +10,7 @@
 //! | parse | bytes | records, elements | `text`, `json`, `xml`, `yaml` |
 //! | map | records, elements | layout, diagnostics | one folder per format; `builder`, `node_rows` |
 //! | convert | curves of a format | uniform cubic runs | `spline`, `trajectory`, `ellipse`, `wgs84` |
+//! | floor plans | image, ROS map | pixels and their placement, walls | `raster`, `ros_map` |
 //! | write | layout | file, losses | `write*` per format; `clamped`, `end_nodes`, `unique_names`, `xml_text`, `losses`, `common_losses` |
 
 pub mod arrow;
@@ -31,8 +32,10 @@ mod losses;
 mod node_rows;
 mod opendrive;
 pub mod opentcs;
+pub mod raster;
 mod read;
 mod rmf;
+pub mod ros_map;
 mod sniff;
 mod source;
 mod spline;

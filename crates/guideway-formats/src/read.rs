@@ -9,6 +9,7 @@ use guideway_layout::{Layout, Limits};
 use crate::input::Input;
 #[cfg(unix)]
 use crate::input::ReadAheadFile;
+use crate::ros_map::is_ros_map;
 use crate::source::{ReadOptions, Source};
 use crate::{Format, Problem, ReadError, sniff};
 
@@ -60,6 +61,7 @@ pub fn read_bytes(
         Some(Format::Lanelet2) => crate::lanelet2::read(source, bytes),
         Some(Format::GeoJson) => crate::geojson::read(source, bytes),
         Some(Format::Vda5050) => crate::vda5050::read(source, bytes),
+        None if is_ros_map(bytes) => Err(source.fail(Problem::FloorPlan)),
         None => Err(source.fail(unknown_format(bytes))),
     }
 }
@@ -74,6 +76,18 @@ fn is_arrow(file: &mut File) -> Result<bool, Problem> {
         .map_err(io_problem)?;
     io::Seek::rewind(file).map_err(io_problem)?;
     Ok(sniff(&first_bytes) == Some(Format::Arrow))
+}
+
+/// Reads the bytes of a file that is no layout, such as an image.
+///
+/// # Errors
+/// When the file cannot be read or is larger than the limit, or when the caller cancels.
+pub(crate) fn read_file_bytes(
+    path: &Path,
+    options: &ReadOptions<'_>,
+) -> Result<Vec<u8>, ReadError> {
+    let bytes = open(path).and_then(|mut file| read_whole(&mut file, options));
+    bytes.map_err(|problem| ReadError::new(path.display().to_string(), problem))
 }
 
 fn open(path: &Path) -> Result<File, Problem> {
@@ -163,7 +177,7 @@ fn unknown_format(bytes: &[u8]) -> Problem {
 }
 
 /// Formats bytes as quoted text if they are printable ASCII, else as hexadecimal numbers.
-fn quote_or_hex(bytes: &[u8]) -> String {
+pub(crate) fn quote_or_hex(bytes: &[u8]) -> String {
     let plain = |b: &u8| b.is_ascii_graphic() || matches!(b, b' ' | b'\n' | b'\r' | b'\t');
     match std::str::from_utf8(bytes) {
         Ok(text) if bytes.iter().all(plain) => format!("{text:?}"),

@@ -26,6 +26,7 @@ mod refusals;
 mod right_findings;
 mod opentcs_law;
 mod rmf;
+mod ros_map;
 mod round_trip;
 mod same;
 mod sniff;

@@ -1,0 +1,86 @@
+//! Reads an image file; its first bytes decide between PNG and PGM.
+
+use std::path::Path;
+
+use guideway_layout::{Limits, Place};
+
+use super::image::Raster;
+use super::{pgm, png};
+use crate::read::{quote_or_hex, read_file_bytes};
+use crate::{Problem, ReadError, ReadOptions};
+
+/// Largest image file, in bytes. Derived: 8 bytes for each pixel of the largest image, the most
+/// that PNG and PGM take, and as much again for texts in it.
+const MAX_FILE_BYTES: u64 = 1 << 30;
+
+/// Whether bytes begin as an image of a format that [`read_file`] reads.
+pub fn is_raster(bytes: &[u8]) -> bool {
+    png::is_png(bytes) || pgm::is_pgm(bytes)
+}
+
+/// Reads a PNG or PGM image.
+///
+/// # Errors
+/// When the file cannot be read, has another format, is damaged, or exceeds a limit: 1 GiB,
+/// [`MAX_PIXELS`](super::MAX_PIXELS) pixels.
+pub fn read_file(path: &Path, options: &ReadOptions<'_>) -> Result<Raster, ReadError> {
+    let limits = Limits {
+        file_bytes: options.limits.file_bytes.min(MAX_FILE_BYTES),
+        ..options.limits.clone()
+    };
+    let bytes = read_file_bytes(path, &ReadOptions { limits, ..*options })?;
+    read(bytes).map_err(|problem| ReadError::new(path.display().to_string(), problem))
+}
+
+fn read(bytes: Vec<u8>) -> Result<Raster, Problem> {
+    if png::is_png(&bytes) {
+        return png::read(bytes);
+    }
+    if pgm::is_pgm(&bytes) {
+        return pgm::read(&bytes);
+    }
+    if bytes.is_empty() {
+        return Err(Problem::Empty);
+    }
+    Err(Problem::Unsupported {
+        place: Place::element("first bytes"),
+        what: format!(
+            "an image that begins with {}",
+            quote_or_hex(&bytes[..bytes.len().min(8)])
+        ),
+        remedy: "Save the image as PGM (P2 or P5) or PNG".into(),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn other_formats_are_named_by_their_first_bytes() {
+        for (bytes, said) in [
+            (&b"BM\x00\x00"[..], "42 4D 00 00"),
+            (b"P6 2 2 255\n", "\"P6 2 2 2\""),
+            (b"P1 1 1 1", "P1 1"),
+        ] {
+            assert!(!is_raster(bytes));
+            let error = read(bytes.to_vec()).err().unwrap();
+            let text = format!("{error}. {}", error.remedy());
+            assert!(text.contains(said) && text.contains("P2 or P5"), "{text}");
+        }
+        assert!(matches!(read(Vec::new()), Err(Problem::Empty)));
+    }
+
+    #[test]
+    fn damaged_png_is_an_error() {
+        for bytes in [
+            &b"\x89PNG"[..],
+            b"\x89PNG\r\n\x1a\n",
+            b"\x89PNG\r\n\x1a\nrest of it",
+        ] {
+            assert!(is_raster(bytes));
+            let error = read(bytes.to_vec()).err().unwrap();
+            assert!(["truncated", "damaged"].contains(&error.code()), "{error}");
+        }
+    }
+}
