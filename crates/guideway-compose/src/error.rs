@@ -1,9 +1,7 @@
 //! Errors of composing a picture.
 
-use std::io;
-use std::path::PathBuf;
-
 use guideway_envelope::NoEnvelope;
+use guideway_formats::ReadError;
 use guideway_layout::UserError;
 use guideway_scene::{RenderError, SceneError};
 
@@ -38,42 +36,12 @@ pub enum ComposeError {
 
 /// Why an image was not read as a floor plan.
 #[derive(Debug, thiserror::Error)]
-#[error("{}: cannot read the image: {problem}", .path.display())]
-pub struct ImageError {
-    /// The image file.
-    pub path: PathBuf,
-    /// The failure.
-    pub problem: ImageProblem,
-}
-
-/// A failure to read an image.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum ImageProblem {
-    /// The file cannot be read.
-    #[error(transparent)]
-    Io(#[from] io::Error),
-    /// The content is not a valid PNG.
-    #[error(transparent)]
-    Png(#[from] png::DecodingError),
-    /// The image has more pixels than a floor plan may have.
-    #[error("{width} x {height} pixels, above the limit of {limit}")]
-    TooLarge {
-        /// Columns of pixels.
-        width: u32,
-        /// Rows of pixels.
-        height: u32,
-        /// Most pixels in total.
-        limit: u64,
-    },
-}
+#[error("{}: cannot read the image: {}", .0.file, .0.problem)]
+pub struct ImageError(#[from] pub ReadError);
 
 impl From<ImageError> for UserError {
     fn from(error: ImageError) -> Self {
-        let remedy = match &error.problem {
-            ImageProblem::Io(_) => "Check that the file exists and that you may read it",
-            _ => "Save it again as PNG with at most 67 million pixels",
-        };
+        let remedy = error.0.remedy();
         Self::new("image", error.to_string(), remedy)
     }
 }

@@ -7,7 +7,7 @@
 //! | layer, bottom first | input | module |
 //! |---|---|---|
 //! | background | [`Style`](guideway_scene::Style) | `render`, `svg` |
-//! | floor plan | a layout or a PNG image ([`FloorPlan`]) | `backdrop` |
+//! | floor plan | a layout, an image or a ROS map ([`FloorPlan`]) | `backdrop` |
 //! | grid | view, [`DecorationStyle`] | `decorations` |
 //! | swept areas | paths, vehicle ([`SweptAreas`]) | `backdrop` |
 //! | other scenes | [`Scene`](guideway_scene::Scene)s below the topmost one | `backdrop` |
@@ -58,14 +58,15 @@ mod text;
 mod vector;
 
 pub use backdrop::{
-    Backdrop, FloorPlan, Image, ImagePlacement, PreparedFloorPlan, SweptAreas, SweptReport,
+    Backdrop, FloorPlan, FloorPlanKind, Image, PreparedFloorPlan, SweptAreas, SweptReport,
     draw_swept_areas,
 };
 pub use decorations::Decorations;
-pub use error::{ComposeError, ImageError, ImageProblem};
+pub use error::{ComposeError, ImageError};
 pub use files::{SaveError, remove_unfinished, replace_file};
 pub use guideway_document::decorations::{DecorationStyle, grid, legend, scale_bar};
 pub use guideway_document::text_format;
+pub use guideway_formats::raster::ImagePlacement;
 pub use picture::{Picture, Viewport};
 pub use png_writer::{save_png, save_png_by, write_png_by};
 pub use render::{NoProgress, Rendered, StripSink};

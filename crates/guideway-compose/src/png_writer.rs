@@ -52,13 +52,7 @@ pub fn write_png_by<T, E>(
 ) -> Result<T, E> {
     let fail_png = |error| fail(as_io(error));
     let mut target = BufWriter::with_capacity(1 << 16, target);
-    let mut encoder = png::Encoder::new(&mut target, size.width(), size.height());
-    encoder.set_color(png::ColorType::Rgba);
-    encoder.set_depth(png::BitDepth::Eight);
-    // Measured on D1 at 1920 x 1080: 6 ms instead of the 47 ms of default compression, which is as
-    // long as rendering its million paths; files are 1.1 to 1.7 times as large.
-    encoder.set_compression(png::Compression::Fast);
-    encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
+    let encoder = encoder(&mut target, [size.width(), size.height()]);
     let mut writer = encoder.write_header().map_err(fail_png)?;
     let stream = writer.stream_writer_with_size(1 << 16);
     let mut stream = stream.map_err(fail_png)?;
@@ -67,6 +61,36 @@ pub fn write_png_by<T, E>(
     writer.finish().map_err(fail_png)?;
     target.flush().map_err(fail)?;
     Ok(result)
+}
+
+/// Encodes an image of this width and height, whose sides may exceed those of a frame.
+///
+/// # Errors
+/// When there are fewer pixels than the size has.
+pub(crate) fn encode_png(
+    size: [u32; 2],
+    pixels: impl Iterator<Item = [u8; 4]>,
+) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    let mut writer = encoder(&mut bytes, size).write_header().map_err(as_io)?;
+    let mut stream = writer.stream_writer_with_size(1 << 16).map_err(as_io)?;
+    for pixel in pixels {
+        stream.write_all(&pixel)?;
+    }
+    stream.finish().map_err(as_io)?;
+    writer.finish().map_err(as_io)?;
+    Ok(bytes)
+}
+
+fn encoder<'a, W: Write>(target: W, [width, height]: [u32; 2]) -> png::Encoder<'a, W> {
+    let mut encoder = png::Encoder::new(target, width, height);
+    encoder.set_color(png::ColorType::Rgba);
+    encoder.set_depth(png::BitDepth::Eight);
+    // Measured: files are half as large again as by default compression, which takes as long as
+    // rendering a million paths, or longer.
+    encoder.set_compression(png::Compression::Fast);
+    encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
+    encoder
 }
 
 fn as_io(error: png::EncodingError) -> io::Error {

@@ -4,6 +4,7 @@ use std::io::{self, Write};
 use std::sync::Arc;
 
 use guideway_cpu::Cpu;
+use guideway_formats::ros_map::OccupancyGrid;
 use guideway_formats::svg::{PathData, Stroke, SvgWriter};
 use guideway_layout::Layout;
 use guideway_scene::{
@@ -54,6 +55,11 @@ impl FloorPlan {
         layout.paths.set_width_m(vec![f32::NAN; rows]);
         let scene = Scene::new(Arc::new(layout), &SceneOptions::default())?;
         Ok(Self::Paths(Arc::new(scene)))
+    }
+
+    /// A floor plan that shows a map of ROS where the map lies.
+    pub fn from_map(grid: &OccupancyGrid) -> Self {
+        Self::from_image(Image::from_map(grid))
     }
 
     /// A floor plan that shows an image.

@@ -1,17 +1,22 @@
-//! Places a PNG image on the floor and resamples it for a strip of a view.
+//! Places an image on the floor and resamples it for a strip of a view.
 
 use std::io::{self, Write};
 use std::path::Path;
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
+use guideway_formats::ReadOptions;
+use guideway_formats::raster::{self, ImagePlacement, Raster};
+use guideway_formats::ros_map::OccupancyGrid;
 use guideway_formats::svg::SvgWriter;
 use guideway_scene::{Frame, Rgba, Strip, View};
 use guideway_spline::{Affine, Bounds, Point};
 
-use super::mip_levels::{MipLevel, read_levels, unpremultiply};
+use super::map_colors;
+use super::mip_levels::{MipLevel, levels, unpremultiply};
+use crate::ImageError;
 use crate::blend::over;
-use crate::{ImageError, ImageProblem};
+use crate::png_writer::encode_png;
 
 /// An image that lies on the floor.
 pub struct Image {
@@ -21,52 +26,34 @@ pub struct Image {
     world_from_image: Affine,
     px_per_m: f64,
     rotation_rad: f64,
-    /// The bytes of the file, for SVG.
-    png: Vec<u8>,
-}
-
-/// Scale, rotation and position of an image.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ImagePlacement {
-    /// Pixels of the image per meter.
-    pub px_per_m: f64,
-    /// Counter-clockwise rotation about the lower left corner, in degrees.
-    pub rotate_deg: f64,
-    /// Position of the lower left corner, in meters.
-    pub offset_m: Point<f64>,
+    /// The bytes of a PNG file, for SVG; `None` for an image from another source.
+    png: Option<Vec<u8>>,
 }
 
 impl Image {
-    /// Reads a PNG image of at most 67 million pixels.
+    /// Places an image.
+    pub fn new(image: Raster, placement: &ImagePlacement) -> Self {
+        Self {
+            levels: levels(&image),
+            world_from_image: placement.world_from_image(image.height),
+            px_per_m: placement.px_per_m,
+            rotation_rad: placement.rotate_deg.to_radians(),
+            png: image.png,
+        }
+    }
+
+    /// Reads a PNG or PGM image of at most 67 million pixels.
     ///
     /// # Errors
-    /// When the file cannot be read, is not a valid PNG, or has too many pixels.
+    /// When the file cannot be read, is damaged, or has too many pixels.
     pub fn read(path: &Path, placement: &ImagePlacement) -> Result<Self, ImageError> {
-        let fail = |problem: ImageProblem| ImageError {
-            path: path.to_owned(),
-            problem,
-        };
-        let levels = read_levels(path).map_err(fail)?;
-        let png = std::fs::read(path).map_err(|problem| fail(problem.into()))?;
-        let ImagePlacement {
-            px_per_m,
-            rotate_deg,
-            offset_m,
-        } = *placement;
-        let height_m = levels[0].height as f64 / px_per_m;
-        let rotation_rad = rotate_deg.to_radians();
-        let origin = Point::default();
-        let world_from_image = Affine::scale(1.0 / px_per_m, -1.0 / px_per_m, origin)
-            .then(Affine::translation(Point::new(0.0, height_m)))
-            .then(Affine::rotation(rotation_rad, origin))
-            .then(Affine::translation(offset_m));
-        Ok(Self {
-            levels,
-            world_from_image,
-            px_per_m,
-            rotation_rad,
-            png,
-        })
+        let image = raster::read_file(path, &ReadOptions::default())?;
+        Ok(Self::new(image, placement))
+    }
+
+    /// The image of a ROS map: walls dark, free cells white, unknown ones a translucent gray.
+    pub fn from_map(grid: &OccupancyGrid) -> Self {
+        Self::new(map_colors::image_of(grid), &grid.placement)
     }
 
     /// Width and height in pixels.
@@ -118,7 +105,7 @@ impl Image {
         }
     }
 
-    /// Writes the image as an SVG element that embeds the file.
+    /// Writes the image as an SVG element that embeds it as PNG.
     pub(super) fn write(
         &self,
         view: &View,
@@ -133,7 +120,15 @@ impl Image {
         };
         let corner = on_page(0.0, 0.0);
         let (right, down) = (on_page(1.0, 0.0) - corner, on_page(0.0, 1.0) - corner);
-        let data = format!("data:image/png;base64,{}", STANDARD.encode(&self.png));
+        let data = match &self.png {
+            Some(png) => STANDARD.encode(png),
+            None => {
+                let level = &self.levels[0];
+                let size = [level.width as u32, level.height as u32];
+                STANDARD.encode(encode_png(size, level.straight_pixels())?)
+            }
+        };
+        let data = format!("data:image/png;base64,{data}");
         page.image(
             [right.x, right.y, down.x, down.y, corner.x, corner.y],
             &data,
@@ -143,10 +138,20 @@ impl Image {
 
 #[cfg(test)]
 mod tests {
+    use guideway_formats::ros_map::{OCCUPIED, UNKNOWN};
+    use guideway_formats::svg::Stroke;
     use guideway_scene::FrameSize;
 
     use super::*;
     use crate::save_png;
+
+    fn placement(rotate_deg: f64) -> ImagePlacement {
+        ImagePlacement {
+            px_per_m: 1.0,
+            rotate_deg,
+            offset_m: Point::new(10.0, 20.0),
+        }
+    }
 
     /// 2 x 2 pixels of 1 m: red, green, blue, white from the upper left; lower left at (10, 20).
     fn image(rotate_deg: f64) -> Image {
@@ -161,12 +166,7 @@ mod tests {
         ];
         frame.pixels_mut().copy_from_slice(&colors);
         save_png(&frame, &path).unwrap();
-        let placement = ImagePlacement {
-            px_per_m: 1.0,
-            rotate_deg,
-            offset_m: Point::new(10.0, 20.0),
-        };
-        Image::read(&path, &placement).unwrap()
+        Image::read(&path, &placement(rotate_deg)).unwrap()
     }
 
     fn color_at(image: &Image, x: f64, y: f64, px_per_m: f64) -> [u8; 4] {
@@ -200,5 +200,35 @@ mod tests {
     fn reduced_image_is_its_mean() {
         let image = image(0.0);
         assert_eq!(color_at(&image, 11.0, 21.0, 0.5), [128, 128, 128, 255]);
+    }
+    #[test]
+    fn map_lies_at_its_origin_turned_by_its_yaw() {
+        let grid = OccupancyGrid {
+            name: "map.yaml".into(),
+            image: "map.pgm".into(),
+            width: 2,
+            height: 2,
+            // Free and unknown above wall and free.
+            cells: vec![0, UNKNOWN, OCCUPIED, 0],
+            placement: placement(90.0),
+        };
+        let image = Image::from_map(&grid);
+        let on_black = |x, y| color_at(&image, x, y, 8.0);
+        assert_eq!(on_black(9.5, 20.5), [75, 85, 99, 255]);
+        assert_eq!(on_black(9.5, 21.5), [255; 4]);
+        assert_eq!(on_black(8.5, 20.5), [255; 4]);
+        assert_eq!(on_black(8.5, 21.5), [32, 32, 32, 255]);
+        let mut svg = Vec::new();
+        let size = FrameSize::new(4, 4).unwrap();
+        let view = View::new(size, Point::new(9.0, 21.0), 1.0).unwrap();
+        let (frame, stroke) = ([0.0, 0.0, 4.0, 4.0], Stroke::new(0, 1.0));
+        let mut page = SvgWriter::begin(&mut svg, frame, "", &stroke).unwrap();
+        image.write(&view, &mut page).unwrap();
+        page.finish().unwrap();
+        assert!(
+            String::from_utf8(svg)
+                .unwrap()
+                .contains("base64,iVBORw0KGgo")
+        );
     }
 }

@@ -2,14 +2,7 @@
 //!
 //! Colors are premultiplied by their opacity, so that transparent pixels do not bleed into a mean.
 
-use std::fs::File;
-use std::io::BufReader;
-use std::path::Path;
-
-use crate::ImageProblem;
-
-/// Most pixels of an image. Derived: all levels take 4/3 of 4 bytes per pixel, 360 MB here.
-pub(super) const MAX_PIXELS: u64 = 1 << 26;
+use guideway_formats::raster::Raster;
 
 /// One level: rows of premultiplied RGBA pixels, the top row first.
 pub(super) struct MipLevel {
@@ -18,14 +11,17 @@ pub(super) struct MipLevel {
     pixels: Vec<[u8; 4]>,
 }
 
-/// Decodes a PNG file and reduces it down to one pixel; the first level is the image itself.
-pub(super) fn read_levels(path: &Path) -> Result<Vec<MipLevel>, ImageProblem> {
-    let first = decode(path)?;
-    let mut levels = vec![first];
+/// Reduces an image down to one pixel; the first level is the image itself.
+pub(super) fn levels(image: &Raster) -> Vec<MipLevel> {
+    let mut levels = vec![MipLevel {
+        width: image.width,
+        height: image.height,
+        pixels: image.pixels.iter().map(premultiply).collect(),
+    }];
     while let Some(next) = levels.last().and_then(MipLevel::half) {
         levels.push(next);
     }
-    Ok(levels)
+    levels
 }
 
 impl MipLevel {
@@ -49,6 +45,12 @@ impl MipLevel {
             height,
             pixels: pixels.map(|(x, y)| mean(x, y)).collect(),
         })
+    }
+
+    /// All pixels with straight alpha, the top row first.
+    pub(super) fn straight_pixels(&self) -> impl Iterator<Item = [u8; 4]> {
+        let pixels = self.pixels.iter();
+        pixels.map(|pixel| unpremultiply(pixel.map(f64::from)))
     }
 
     /// The pixel at a position, clamped to the border.
@@ -81,6 +83,12 @@ impl MipLevel {
     }
 }
 
+/// Converts a color of straight alpha to a premultiplied one.
+fn premultiply(&[r, g, b, a]: &[u8; 4]) -> [u8; 4] {
+    let premultiplied = |v: u8| (u32::from(v) * u32::from(a) + 127).div_euclid(255) as u8;
+    [premultiplied(r), premultiplied(g), premultiplied(b), a]
+}
+
 /// Converts a premultiplied color to straight alpha.
 pub(super) fn unpremultiply([r, g, b, alpha]: [f64; 4]) -> [u8; 4] {
     if alpha <= 0.0 {
@@ -88,43 +96,4 @@ pub(super) fn unpremultiply([r, g, b, alpha]: [f64; 4]) -> [u8; 4] {
     }
     let whole = |v: f64| (v * 255.0 / alpha).round().min(255.0) as u8;
     [whole(r), whole(g), whole(b), alpha.round() as u8]
-}
-
-fn decode(path: &Path) -> Result<MipLevel, ImageProblem> {
-    let file = File::open(path)?;
-    let limits = png::Limits {
-        bytes: 4 * MAX_PIXELS as usize,
-    };
-    let mut decoder = png::Decoder::new_with_limits(BufReader::new(file), limits);
-    decoder.set_transformations(
-        png::Transformations::normalize_to_color8() | png::Transformations::ALPHA,
-    );
-    let mut reader = decoder.read_info()?;
-    let (width, height) = (reader.info().width, reader.info().height);
-    let too_large = ImageProblem::TooLarge {
-        width,
-        height,
-        limit: MAX_PIXELS,
-    };
-    if u64::from(width) * u64::from(height) > MAX_PIXELS {
-        return Err(too_large);
-    }
-    let bytes = reader.output_buffer_size().ok_or(too_large)?;
-    let mut bytes = vec![0; bytes];
-    let info = reader.next_frame(&mut bytes)?;
-    let pixel = |p: &[u8]| {
-        let [r, g, b, a] = match *p {
-            [gray, alpha] => [gray, gray, gray, alpha],
-            [r, g, b, a] => [r, g, b, a],
-            _ => [0; 4],
-        };
-        let premultiplied = |v: u8| (u32::from(v) * u32::from(a) + 127).div_euclid(255) as u8;
-        [premultiplied(r), premultiplied(g), premultiplied(b), a]
-    };
-    let pixels = bytes[..info.buffer_size()].chunks_exact(info.color_type.samples());
-    Ok(MipLevel {
-        width: width as usize,
-        height: height as usize,
-        pixels: pixels.map(pixel).collect(),
-    })
 }
