@@ -33,6 +33,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "guideway-envelope",
             "guideway-scene",
             "guideway-document",
+            "guideway-compose",
         ],
     ),
     (

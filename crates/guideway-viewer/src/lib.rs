@@ -43,7 +43,5 @@ mod window;
 
 pub use launch_options::LaunchOptions;
 pub use measure::{Movement, measure};
-pub use services::{
-    AppServices, FloorPlan, Job, LoadStage, MethodChoice, PictureRequest, SweptAreas,
-};
+pub use services::{AppServices, Job, LoadStage, MethodChoice, PictureRequest, SweptAreas};
 pub use window::run;

@@ -10,7 +10,7 @@ use guideway_formats::ros_map::is_ros_map;
 /// Bytes that are examined: a map file takes 200, and comments may precede its fields.
 const EXAMINED: u64 = 1 << 16;
 
-/// How a file becomes a floor plan.
+/// The way in which a file becomes a floor plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FloorPlanKind {
     /// A PNG or PGM image, which needs an [`ImagePlacement`](crate::ImagePlacement).

@@ -1,4 +1,4 @@
-//! [`Raster`]: the pixels of an image; [`ImagePlacement`]: where they lie on the floor.
+//! [`Raster`]: the pixels of an image; [`ImagePlacement`]: their place on the floor.
 
 use guideway_layout::Place;
 use guideway_spline::{Affine, Point};

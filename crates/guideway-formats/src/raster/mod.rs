@@ -1,4 +1,4 @@
-//! Images of a floor: reads PNG and PGM files into RGBA pixels, and places pixels on the floor.
+//! Images of a floor: reads PNG and PGM files into RGBA pixels, and places them on the floor.
 //!
 //! | module | input | output |
 //! |---|---|---|

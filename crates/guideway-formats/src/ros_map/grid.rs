@@ -33,7 +33,7 @@ pub struct OccupancyGrid {
     pub height: usize,
     /// Occupancy from 0 (free) to [`OCCUPIED`], or [`UNKNOWN`]; the top row first.
     pub cells: Vec<u8>,
-    /// Where the cells lie: one per pixel of the image.
+    /// Place of the cells on the floor: one per pixel of the image.
     pub placement: ImagePlacement,
 }
 

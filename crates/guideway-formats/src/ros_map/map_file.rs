@@ -41,11 +41,11 @@ pub struct MapFile {
     pub occupied_thresh: f64,
     /// Occupancy below which a pixel is free, from 0 to 1.
     pub free_thresh: f64,
-    /// How the lightness of a pixel becomes an occupancy.
+    /// The rule by which the lightness of a pixel becomes an occupancy.
     pub mode: MapMode,
 }
 
-/// How the lightness of a pixel becomes an occupancy.
+/// The rule by which the lightness of a pixel becomes an occupancy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MapMode {
     /// Free, occupied, or unknown between the thresholds.

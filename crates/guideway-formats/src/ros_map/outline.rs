@@ -16,7 +16,8 @@ const INSIDE: &str = "inside of walls";
 impl OccupancyGrid {
     /// The walls: a path along each outline of occupied cells, around them or around a hole in
     /// them. One more path, `inside of walls`, has a line through each row of cells that are
-    /// occupied on all sides, so that whatever lies within a thick wall is near a line too.
+    /// occupied on all sides, so that a vehicle within a thick wall, larger than a cell, meets a
+    /// line too.
     ///
     /// Cells that touch only at a corner have outlines of their own. Cells that are unknown or
     /// partly occupied are no walls.

@@ -4,8 +4,11 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use guideway_compose::FloorPlanKind;
+
 use super::state::App;
 use crate::export::{PictureContent, png_picture};
+use crate::files::LayerContext;
 use crate::panels::dialogs::PromptKind;
 use crate::services::{Job, PictureRequest};
 
@@ -21,15 +24,21 @@ impl App {
         self.files.open(path, self.methods.name(), options);
     }
 
-    /// Opens a dropped layout. A dropped image is a floor plan, whose scale the user has to enter.
+    /// Opens a dropped layout. A dropped map of ROS becomes the floor plan, as does an image once
+    /// the user has entered its scale.
     pub(super) fn open_dropped(&mut self, file: &Path) {
-        let extension = file.extension();
-        if extension.is_some_and(|extension| extension.eq_ignore_ascii_case("png")) {
-            let text = format!("{}{IMAGE_PLACEMENT}", file.display());
-            let prompt = &mut self.dialogs.prompt;
-            prompt.ask_with_text(PromptKind::FloorPlan, text);
-        } else {
-            self.open(file.to_path_buf());
+        let name = file.display();
+        match FloorPlanKind::of_file(file) {
+            FloorPlanKind::Layout => self.open(file.to_path_buf()),
+            FloorPlanKind::RosMap => {
+                let LayerContext { services, repaint } = &self.context;
+                self.floor_plan.set(&name.to_string(), services, repaint);
+            }
+            FloorPlanKind::Image => {
+                let text = format!("{name}{IMAGE_PLACEMENT}");
+                let prompt = &mut self.dialogs.prompt;
+                prompt.ask_with_text(PromptKind::FloorPlan, text);
+            }
         }
     }
 

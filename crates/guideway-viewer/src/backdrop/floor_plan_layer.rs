@@ -1,15 +1,39 @@
 //! The floor plan: reads it once and renders it for every view.
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use eframe::egui::{Context, TextureHandle};
+use guideway_compose::{ComposeError, FloorPlan, PreparedFloorPlan};
 use guideway_layout::UserError;
-use guideway_scene::View;
+use guideway_scene::{Budget, Frame, Rgba, Strip, View};
 use guideway_spline::Bounds;
 
 use crate::background::{BackgroundTask, RepaintHandle};
 use crate::render_queue::BackgroundPicture;
-use crate::services::{AppServices, FloorPlan};
+use crate::services::AppServices;
+
+/// A floor plan that stays prepared, to be rendered at every change of the view.
+struct ReadyPlan {
+    plan: FloorPlan,
+    prepared: Mutex<PreparedFloorPlan>,
+}
+
+impl ReadyPlan {
+    fn new(plan: FloorPlan) -> Result<Self, ComposeError> {
+        Ok(Self {
+            prepared: Mutex::new(plan.prepare(&Budget::default())?),
+            plan,
+        })
+    }
+
+    /// Renders the plan on a transparent background.
+    fn draw(&self, view: &View) -> Result<Frame, UserError> {
+        let mut frame = Frame::new(view.size());
+        let mut prepared = self.prepared.lock().unwrap_or_else(PoisonError::into_inner);
+        prepared.render(&Strip::whole(view), Rgba::from_u32(0), &mut frame)?;
+        Ok(frame)
+    }
+}
 
 /// The floor plan, if there is one.
 #[derive(Default)]
@@ -17,8 +41,8 @@ pub(crate) struct FloorPlanLayer {
     /// File and placement as typed; empty without a plan.
     text: String,
     pub(crate) is_visible: bool,
-    reading: Option<BackgroundTask<Result<Arc<dyn FloorPlan>, UserError>>>,
-    plan: Option<Arc<dyn FloorPlan>>,
+    reading: Option<BackgroundTask<Result<ReadyPlan, UserError>>>,
+    ready: Option<Arc<ReadyPlan>>,
     read_error: Option<String>,
     picture: BackgroundPicture<()>,
 }
@@ -44,7 +68,7 @@ impl FloorPlanLayer {
         self.text = text.to_owned();
         self.is_visible = true;
         let (services, text) = (Arc::clone(services), self.text.clone());
-        let read = move || services.read_floor_plan(&text);
+        let read = move || Ok(ReadyPlan::new(services.read_floor_plan(&text)?)?);
         self.reading = Some(BackgroundTask::start(repaint, read));
     }
 
@@ -59,8 +83,12 @@ impl FloorPlanLayer {
     }
 
     /// The plan, if it is read and visible.
-    pub(crate) fn visible(&self) -> Option<&Arc<dyn FloorPlan>> {
-        self.plan.as_ref().filter(|_| self.is_visible)
+    pub(crate) fn visible(&self) -> Option<&FloorPlan> {
+        self.visible_ready().map(|ready| &ready.plan)
+    }
+
+    fn visible_ready(&self) -> Option<&Arc<ReadyPlan>> {
+        self.ready.as_ref().filter(|_| self.is_visible)
     }
 
     /// The last picture and its view.
@@ -74,7 +102,7 @@ impl FloorPlanLayer {
         let result = self.reading.as_ref().and_then(BackgroundTask::result)?;
         self.reading = None;
         match result.flatten() {
-            Ok(plan) => self.plan.insert(plan).bounds(),
+            Ok(ready) => self.ready.insert(Arc::new(ready)).plan.bounds(),
             Err(error) => {
                 self.read_error = Some(error.to_string());
                 None
@@ -84,13 +112,13 @@ impl FloorPlanLayer {
 
     /// Requests the picture of a view, unless it is there or in progress.
     pub(crate) fn request(&mut self, view: &View, repaint: &RepaintHandle) {
-        let Some(plan) = self.visible() else {
+        let Some(ready) = self.visible_ready() else {
             self.picture.clear();
             return;
         };
         if self.picture.needs(&(), view) {
-            let (plan, view) = (Arc::clone(plan), *view);
-            let draw = move || plan.draw(&view);
+            let (ready, view) = (Arc::clone(ready), *view);
+            let draw = move || ready.draw(&view);
             self.picture.start((), view, repaint, draw);
         }
     }

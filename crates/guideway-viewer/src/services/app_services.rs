@@ -1,13 +1,13 @@
 //! The trait that connects the window with files and render methods.
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
+use guideway_compose::FloorPlan;
 use guideway_envelope::EnvelopeSource;
 use guideway_layout::{Layout, UserError};
 use guideway_scene::{Frame, Method, View};
 
-use super::{FloorPlan, Job, PictureRequest};
+use super::{Job, PictureRequest};
 
 /// Files, pictures and render methods, as the window calls them. Calls come from several threads.
 pub trait AppServices: Send + Sync {
@@ -31,11 +31,11 @@ pub trait AppServices: Send + Sync {
     fn save_layout(&self, layout: &Layout, path: &Path) -> Result<Vec<String>, UserError>;
 
     /// Reads a floor plan. `plan` is a file name with an optional placement, such as
-    /// `hall.png@px-per-m=20`.
+    /// `hall.png@px-per-m=20` or `map.yaml`.
     ///
     /// # Errors
     /// When `plan` has another form, or the file cannot be read.
-    fn read_floor_plan(&self, plan: &str) -> Result<Arc<dyn FloorPlan>, UserError>;
+    fn read_floor_plan(&self, plan: &str) -> Result<FloorPlan, UserError>;
 
     /// Renders a picture with the named method.
     ///

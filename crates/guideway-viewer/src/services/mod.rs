@@ -10,5 +10,5 @@ mod window_error;
 
 pub use app_services::{AppServices, LoadStage, MethodChoice};
 pub use job::Job;
-pub use picture_request::{FloorPlan, PictureRequest, SweptAreas};
+pub use picture_request::{PictureRequest, SweptAreas};
 pub(crate) use window_error::WINDOW_ERROR;

@@ -1,12 +1,10 @@
 //! Everything that an exported picture shows, as typed values.
 
-use std::any::Any;
 use std::sync::Arc;
 
+use guideway_compose::FloorPlan;
 use guideway_envelope::EnvelopeSource;
-use guideway_layout::UserError;
-use guideway_scene::{DrawList, Frame, Scene, Style, View};
-use guideway_spline::Bounds;
+use guideway_scene::{DrawList, Scene, Style, View};
 
 /// The content of a picture, from the bottom: floor plan, grid, swept areas, other scenes, the
 /// scene, marks.
@@ -23,7 +21,7 @@ pub struct PictureRequest {
     /// Floor plan at the bottom, as returned by [`AppServices::read_floor_plan`].
     ///
     /// [`AppServices::read_floor_plan`]: super::AppServices::read_floor_plan
-    pub floor_plan: Option<Arc<dyn FloorPlan>>,
+    pub floor_plan: Option<FloorPlan>,
     /// Swept areas of paths of [`Self::scene`].
     pub swept: Option<SweptAreas>,
     /// The grid, below all paths.
@@ -39,19 +37,4 @@ pub struct SweptAreas {
     pub vehicle: EnvelopeSource,
     /// Rows of the paths.
     pub rows: Vec<u32>,
-}
-
-/// A floor plan, parsed and ready to render.
-///
-/// The implementation of [`AppServices`](super::AppServices) downcasts it (through [`Any`]) to the
-/// type that it returned, so that an export does not read the file again.
-pub trait FloorPlan: Any + Send + Sync {
-    /// Bounding box in meters; `None` for an empty plan.
-    fn bounds(&self) -> Option<Bounds<f64>>;
-
-    /// Renders the plan on a transparent background.
-    ///
-    /// # Errors
-    /// When the frame does not fit in memory.
-    fn draw(&self, view: &View) -> Result<Frame, UserError>;
 }

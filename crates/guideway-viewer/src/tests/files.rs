@@ -1,6 +1,9 @@
 //! Opening, reloading, saving and closing of files.
 
-use eframe::egui::{Key, Modifiers};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use eframe::egui::{DroppedFile, Key, Modifiers};
 use egui_kittest::kittest::Queryable;
 
 use super::services::{TestServices, lanes};
@@ -23,7 +26,7 @@ fn saves_a_file_and_keeps_changes_on_a_full_disk() {
     window.key(CTRL, Key::S);
     window.wait(|app| has_notice(app, "Saved"));
     assert!(!window.document().is_changed());
-    let saved = window.disk.files.lock().unwrap()[std::path::Path::new("site.arrow")].clone();
+    let saved = window.disk.files.lock().unwrap()[Path::new("site.arrow")].clone();
     let ids: Vec<&str> = saved.paths.iter().map(|path| path.id()).collect();
     assert_eq!(ids, ["lane 0", "lane 2", "lane 3"]);
 }
@@ -42,7 +45,7 @@ fn prompts_for_a_name_instead_of_overwriting_a_drawing() {
     window.key(NONE, Key::Enter);
     window.wait(|app| app.files.layers()[0].name() == "plan.lif.json");
     let files = window.disk.files.lock().unwrap();
-    assert!(files.contains_key(std::path::Path::new("plan.lif.json")));
+    assert!(files.contains_key(Path::new("plan.lif.json")));
 }
 
 #[test]
@@ -72,7 +75,7 @@ fn file_being_saved_is_neither_closed_nor_reloaded() {
     );
     *window.disk.is_blocked.lock().unwrap() = false;
     window.wait(|app| !app.files.layers()[0].is_changed());
-    let file = std::path::Path::new("site.arrow");
+    let file = Path::new("site.arrow");
     assert!(window.disk.files.lock().unwrap()[file].paths.is_empty());
     window.harness.run_steps(3);
     assert!(
@@ -97,7 +100,7 @@ fn file_being_reloaded_is_not_saved() {
     *window.disk.is_blocked.lock().unwrap() = false;
     window.wait(|app| has_notice(app, "has changed on disk"));
     assert!(window.document().is_changed());
-    let file = std::path::Path::new("site.arrow");
+    let file = Path::new("site.arrow");
     assert_eq!(
         window.disk.files.lock().unwrap()[file].paths.iter().count(),
         7
@@ -204,4 +207,46 @@ fn asks_before_discarding_unsaved_changes() {
             .query_by_label("Quit without saving")
             .is_none()
     );
+}
+
+/// A file that was dropped on the window.
+#[derive(Debug)]
+struct Dropped(PathBuf);
+
+impl DroppedFile for Dropped {
+    fn path(&self) -> &Path {
+        &self.0
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, String> {
+        std::fs::read(&self.0).map_err(|error| error.to_string())
+    }
+}
+
+#[test]
+fn dropped_maps_and_images_become_floor_plans() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut window = TestWindow::showing(lanes(1));
+    let mut drop = |name: &str, bytes: &[u8]| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, bytes).unwrap();
+        let dropped = &mut window.harness.input_mut().dropped_files;
+        dropped.push(Arc::new(Dropped(path.clone())));
+        window.harness.run_steps(2);
+        let app = window.app();
+        let prompt = app
+            .dialogs
+            .prompt
+            .open_mut()
+            .map(|prompt| prompt.text.clone());
+        let name = |text: &str| text.replace(&*folder.path().to_string_lossy(), "");
+        let (plan, prompt) = (name(app.floor_plan.text()), prompt.as_deref().map(name));
+        (plan, prompt, app.files.layers().len())
+    };
+    let map = b"image: hall.pgm\nresolution: 0.05\n";
+    assert_eq!(drop("map.yaml", map), ("/map.yaml".into(), None, 1));
+    assert_eq!(drop("site.json", b"{}"), ("/map.yaml".into(), None, 2));
+    let (plan, prompt, files) = drop("hall.pgm", b"P5 1 1 255\n\0");
+    assert_eq!((&*plan, files), ("/map.yaml", 2));
+    assert_eq!(prompt.unwrap(), "/hall.pgm@px-per-m=20,offset=0,0");
 }

@@ -6,6 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
+use guideway_compose::FloorPlan;
 use guideway_cpu::Cpu;
 use guideway_envelope::EnvelopeSource;
 use guideway_layout::{Layout, NewPath, Value};
@@ -14,9 +15,9 @@ use guideway_scene::{
     Report, Style, View,
 };
 use guideway_scene::{Edit, Scene};
-use guideway_spline::{Bounds, Point, Runs};
+use guideway_spline::{Point, Runs};
 
-use crate::services::{AppServices, FloorPlan, Job, MethodChoice, PictureRequest, WINDOW_ERROR};
+use crate::services::{AppServices, Job, MethodChoice, PictureRequest, WINDOW_ERROR};
 use guideway_layout::UserError;
 
 /// Files in memory and switches for faults.
@@ -125,20 +126,20 @@ pub(crate) fn lanes(count: u32) -> Layout {
     layout
 }
 
-/// A red floor plan of 40 m x 30 m.
-struct Hall;
-
-impl FloorPlan for Hall {
-    fn bounds(&self) -> Option<Bounds<f64>> {
-        let (min, max) = (Point::new(-20.0, -15.0), Point::new(20.0, 15.0));
-        Some(Bounds { min, max })
+/// A floor plan of two walls, 40 m x 30 m.
+fn hall() -> FloorPlan {
+    let mut layout = Layout::default();
+    for side in [-1.0, 1.0] {
+        let mut runs = Runs::default();
+        let [from, to] = [-20.0, 20.0].map(|x| Point::new(x, 15.0 * side));
+        runs.push_line(from, to);
+        layout.paths.push(&NewPath {
+            id: "wall",
+            runs: &runs,
+            ..NewPath::default()
+        });
     }
-
-    fn draw(&self, view: &View) -> Result<Frame, UserError> {
-        let mut frame = Frame::new(view.size());
-        frame.pixels_mut().fill([255, 0, 0, 255]);
-        Ok(frame)
-    }
+    FloorPlan::from_layout(layout).expect("the hall has no levels")
 }
 
 impl AppServices for TestServices {
@@ -207,9 +208,9 @@ impl AppServices for TestServices {
         Ok(())
     }
 
-    fn read_floor_plan(&self, plan: &str) -> Result<Arc<dyn FloorPlan>, UserError> {
+    fn read_floor_plan(&self, plan: &str) -> Result<FloorPlan, UserError> {
         match plan {
-            "hall.png@px-per-m=20" => Ok(Arc::new(Hall)),
+            "hall.png@px-per-m=20" => Ok(hall()),
             _ => Err(Self::error("not a floor plan")),
         }
     }

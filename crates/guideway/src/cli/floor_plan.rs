@@ -1,27 +1,78 @@
-//! Reads the file of `--floor-plan`: a layout, a drawing or a PNG image with its scale.
+//! Reads the file of `--floor-plan`: a layout, a drawing, an image with its scale, or a ROS map.
 
-use std::fs::File;
-use std::io::Read;
 use std::path::Path;
 
-use guideway::compose::{FloorPlan, Image, ImagePlacement};
-use guideway::layout::UserError;
+use guideway::compose::{FloorPlan, FloorPlanKind, Image, ImagePlacement};
+use guideway::formats::ReadOptions;
+use guideway::formats::ros_map::{self, OccupancyGrid};
+use guideway::layout::{Layout, UserError};
 
 use super::error::usage_error;
 use super::input::{self, Input};
 use super::output::Output;
 
-/// First bytes of a PNG file.
-const PNG: &[u8] = b"\x89PNG";
-
-/// Reads a floor plan. Its content decides between an image and a layout.
-pub(crate) fn read(input: &Input, out: &Output) -> Result<FloorPlan, UserError> {
-    if is_png(&input.path) {
-        let image = Image::read(&input.path, &placement(input)?)?;
-        return Ok(FloorPlan::from_image(image));
+/// Reads a floor plan. Its content decides between an image, a map and a layout. The picture in
+/// `output`, if any, must not replace the image of a map.
+pub(crate) fn read(
+    input: &Input,
+    output: Option<&Path>,
+    out: &Output,
+) -> Result<FloorPlan, UserError> {
+    match FloorPlanKind::of_file(&input.path) {
+        FloorPlanKind::Image => {
+            let image = Image::read(&input.path, &placement(input)?)?;
+            Ok(FloorPlan::from_image(image))
+        }
+        FloorPlanKind::RosMap => {
+            let grid = read_map(input, out)?;
+            if let Some(output) = output {
+                input::check_output([&*grid.image], output)?;
+            }
+            Ok(FloorPlan::from_map(&grid))
+        }
+        FloorPlanKind::Layout => Ok(FloorPlan::from_layout(read_layout(input, out)?)?),
     }
+}
+
+/// Reads the walls of a floor plan as paths: all paths of a layout or drawing, or the outlines of
+/// the occupied cells of a map.
+pub(crate) fn read_walls(input: &Input, out: &Output) -> Result<Layout, UserError> {
+    match FloorPlanKind::of_file(&input.path) {
+        FloorPlanKind::Image => Err(usage_error(
+            format!(
+                "{}: an image does not say where its walls are",
+                input.path.display()
+            ),
+            "Give a drawing, a layout, or the `map.yaml` of a ROS map",
+        )),
+        FloorPlanKind::RosMap => Ok(read_map(input, out)?.walls()?),
+        FloorPlanKind::Layout => read_layout(input, out),
+    }
+}
+
+fn read_layout(input: &Input, out: &Output) -> Result<Layout, UserError> {
     let (layout, _) = input::read_all(std::slice::from_ref(input), out)?;
-    Ok(FloorPlan::from_layout(layout)?)
+    Ok(layout)
+}
+
+/// Reads a map, which has a placement of its own. One after the file name moves the map as a whole.
+fn read_map(input: &Input, out: &Output) -> Result<OccupancyGrid, UserError> {
+    let name = input.path.display();
+    if input.px_per_m.is_some() {
+        return Err(usage_error(
+            format!("{name}: `px-per-m` does not apply to a ROS map"),
+            "Omit `px-per-m`; `resolution` in the map file sets the scale",
+        ));
+    }
+    let progress = out.progress(format!("reading {name}"));
+    let mut grid = ros_map::read_file(&input.path, &ReadOptions::default())?;
+    grid.placement = grid.placement.transformed(
+        input.scale.unwrap_or(1.0),
+        input.rotate_deg.unwrap_or(0.0),
+        input.offset_m.unwrap_or_default(),
+    );
+    progress.finish();
+    Ok(grid)
 }
 
 /// The placement of an image, which needs `px-per-m` and cannot have `scale`.
@@ -45,13 +96,4 @@ fn placement(input: &Input) -> Result<ImagePlacement, UserError> {
         rotate_deg: input.rotate_deg.unwrap_or(0.0),
         offset_m: input.offset_m.unwrap_or_default(),
     })
-}
-
-/// Returns `true` if a file begins as PNG. For a file that cannot be read, the reader reports the
-/// error.
-fn is_png(path: &Path) -> bool {
-    let mut first = [0; PNG.len()];
-    path.is_file()
-        && File::open(path).is_ok_and(|mut file| file.read_exact(&mut first).is_ok())
-        && first == PNG
 }

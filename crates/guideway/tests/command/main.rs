@@ -9,6 +9,7 @@ mod render;
 mod render_files;
 mod reports;
 mod reproduce;
+mod ros_map;
 mod sarif;
 mod several;
 mod support;

@@ -30,8 +30,8 @@ impl PromptKind {
             Self::ExportSvg => "Export SVG file",
             Self::FloorPlan => {
                 "Floor plan: an image with its scale, such as \
-                 hall.png@px-per-m=20,offset=-3,-2,rotate=90, or any layout or drawing. Empty \
-                 removes the floor plan."
+                 hall.png@px-per-m=20,offset=-3,-2,rotate=90, a map.yaml of ROS, or any layout or \
+                 drawing. Empty removes the floor plan."
             }
         }
     }

@@ -5,11 +5,12 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 
+use guideway_compose::FloorPlan;
 use guideway_envelope::EnvelopeSource;
 use guideway_layout::Layout;
 use guideway_scene::{Frame, Method, View};
 
-use crate::services::{AppServices, FloorPlan, Job, MethodChoice, PictureRequest, WINDOW_ERROR};
+use crate::services::{AppServices, Job, MethodChoice, PictureRequest, WINDOW_ERROR};
 use crate::tests::services::TestServices;
 use guideway_layout::UserError;
 
@@ -130,7 +131,7 @@ impl AppServices for FileStore {
         self.disk.export_svg(export, path)
     }
 
-    fn read_floor_plan(&self, plan: &str) -> Result<Arc<dyn FloorPlan>, UserError> {
+    fn read_floor_plan(&self, plan: &str) -> Result<FloorPlan, UserError> {
         self.disk.read_floor_plan(plan)
     }
 

@@ -8,15 +8,15 @@ use serde_json::{Value, json};
 
 use super::findings::CheckedFile;
 use crate::cli::error::usage_error;
-use crate::cli::input::{self, Input};
+use crate::cli::input::Input;
 use crate::cli::output::Output;
-use crate::cli::{envelope, text, values};
+use crate::cli::{envelope, floor_plan, text, values};
 
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "Clearance")]
 pub(super) struct ClearanceArgs {
     /// Minimum distance between vehicles on two paths, and to the floor plan; 0 finds overlaps.
-    /// NoEnvelope it, distances are not checked
+    /// Without it, distances are not checked
     #[arg(
         long,
         value_name = "METERS",
@@ -42,7 +42,8 @@ pub(super) struct ClearanceArgs {
         requires = "clearance"
     )]
     near_node: Option<f64>,
-    /// Drawing or layout with the walls
+    /// File with the walls: a drawing, a layout, or a `map.yaml` of ROS, whose occupied cells are
+    /// walls
     #[arg(long, value_name = "FILE", value_parser = Input::parser(), requires = "clearance")]
     floor_plan: Option<Input>,
     /// Layer of the floor plan with walls; can be repeated [default: all layers]
@@ -83,7 +84,7 @@ impl ClearanceArgs {
     }
 
     fn walls(&self, plan: &Input, out: &Output) -> Result<Walls, UserError> {
-        let (layout, _) = input::read_all(std::slice::from_ref(plan), out)?;
+        let layout = floor_plan::read_walls(plan, out)?;
         let layers = layout.paths.attributes.get(LAYER);
         let layer = |path: usize| layers?.values.get(path).map(|value| value.to_string());
         let is_wall = |path: usize| {

@@ -27,7 +27,12 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
         }
         false => Some(guideway::method(&args.method())?),
     };
-    let plan = args.floor_plan().map(|plan| floor_plan::read(plan, out));
+    let output = match target {
+        Target::File(path) => Some(path),
+        Target::StandardOutput => None,
+    };
+    let plan = args.floor_plan();
+    let plan = plan.map(|plan| floor_plan::read(plan, output, out));
     let plan = plan.transpose()?;
     let (layout, read_ms) = input::read_all(&args.inputs, out)?;
     let progress = out.progress("preparing the scene");

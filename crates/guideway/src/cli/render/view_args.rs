@@ -33,8 +33,9 @@ pub(super) struct ViewArgs {
     /// Draw only the level with this name or id
     #[arg(long, value_name = "NAME")]
     pub(super) level: Option<String>,
-    /// File to draw below the paths: a layout or drawing in a pale color, or a PNG image whose
-    /// lower left corner is at `offset`, such as `hall.png@px-per-m=20,offset=-3,-2`
+    /// File to draw below the paths: a layout or drawing in a pale color; a `map.yaml` of ROS; or
+    /// a PNG or PGM image whose lower left corner is at `offset`, such as
+    /// `hall.png@px-per-m=20,offset=-3,-2`
     #[arg(long, value_name = "FILE", value_parser = Input::parser())]
     pub(super) floor_plan: Option<Input>,
     /// Draw the areas that a vehicle sweeps below the paths. The vehicle is given by its length,

@@ -1,6 +1,5 @@
 //! Files, pictures and render methods for the window.
 
-use std::any::Any;
 use std::ffi::OsString;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -8,14 +7,13 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use etcetera::BaseStrategy;
-use guideway::compose::{Backdrop, Picture, SweptAreas, Viewport, draw_swept_areas};
+use guideway::compose::{Backdrop, FloorPlan, Picture, SweptAreas, Viewport, draw_swept_areas};
 use guideway::envelope::EnvelopeSource;
 use guideway::formats::{Progress, ReadOptions, read_file};
 use guideway::layout::{Layout, UserError};
 use guideway::scene::{Frame, Method, View, elapsed_ms};
 use guideway_viewer::{AppServices, Job, LoadStage, MethodChoice, PictureRequest};
 
-use super::floor_plan::WindowFloorPlan;
 use crate::cli::convert;
 use crate::cli::error::usage_error;
 use crate::cli::floor_plan;
@@ -66,18 +64,14 @@ impl AppServices for CliServices {
         Ok(losses.iter().map(|loss| loss.to_string()).collect())
     }
 
-    fn read_floor_plan(
-        &self,
-        plan: &str,
-    ) -> Result<Arc<dyn guideway_viewer::FloorPlan>, UserError> {
+    fn read_floor_plan(&self, plan: &str) -> Result<FloorPlan, UserError> {
         let input = Input::parse(OsString::from(plan)).map_err(|problem| {
             usage_error(
                 format!("`{plan}` is not a floor plan: {problem}"),
                 "Write a file name and its placement, such as `hall.png@px-per-m=20,offset=-3,-2`",
             )
         })?;
-        let plan = floor_plan::read(&input, &Output::new(false, true))?;
-        Ok(Arc::new(WindowFloorPlan::new(plan)?))
+        floor_plan::read(&input, None, &Output::new(false, true))
     }
 
     fn render(&self, request: &PictureRequest, method: &str) -> Result<Frame, UserError> {
@@ -157,17 +151,12 @@ impl AppServices for CliServices {
 
 /// The picture of a request, with a legend if its colors have one.
 fn picture(request: &PictureRequest) -> Picture {
-    // The window holds only plans that `read_floor_plan` returned.
-    let plan = request.floor_plan.as_deref().and_then(|plan| {
-        let plan: &dyn Any = plan;
-        plan.downcast_ref::<WindowFloorPlan>()
-    });
     let swept = request.swept.as_ref();
     let mut picture = Picture::new(Arc::clone(&request.scene), request.view.size());
     picture.viewport = Viewport::of(&request.view);
     picture.style = request.style;
     picture.backdrop = Backdrop {
-        floor_plan: plan.map(|plan| plan.plan().clone()),
+        floor_plan: request.floor_plan.clone(),
         lines: request.grid.clone(),
         swept: swept.map(|swept| SweptAreas {
             vehicle: swept.vehicle,
