@@ -21,7 +21,7 @@ use super::write_error::{WriteError, WriteProblem, fail};
 use super::write_file::{BATCH_POINTS, BATCH_ROWS, BATCH_TEXT_BYTES, IpcFile};
 use crate::Losses;
 
-/// Largest error of coordinates stored in `f32`, in meters; beyond it `f64` is used.
+/// Largest distance by which `f32` may move a control point, in meters; beyond it `f64` is used.
 const F32_ERROR_M: f64 = 1e-5;
 
 /// Options of [`write_layout`].
@@ -107,10 +107,7 @@ fn metadata(layout: &Layout, version: u32) -> HashMap<String, String> {
 }
 
 fn precision_for(layout: &Layout) -> Precision {
-    let exact = |p: Point<f64>| {
-        let error = p - p.to_f32().to_f64();
-        error.x.abs().max(error.y.abs()) <= F32_ERROR_M
-    };
+    let exact = |p: Point<f64>| p.distance(p.to_f32().to_f64()) <= F32_ERROR_M;
     let mut runs = layout.paths.iter().flat_map(PathRef::runs);
     if runs.all(|run| run.iter().all(exact)) {
         Precision::F32

@@ -226,7 +226,9 @@ fn two_way_lanes_pass_through_arrow_to_lif() {
     let Some(office) = real("rmf_building", "office.building.yaml") else {
         return;
     };
-    let (back, _) = through(&office, Some(Precision::F64));
+    let (mut back, _) = through(&office, Some(Precision::F64));
+    // The writer names the source.
+    back.provenance = office.provenance.clone();
     let both = |layout: &Layout| {
         let paths = layout.paths.iter();
         paths

@@ -263,7 +263,8 @@ fn attributes(random: &mut Random, rows: usize) -> Attributes {
 }
 
 /// Lists the differences of two layouts, apart from findings, provenance, the order of columns, and
-/// columns without values.
+/// columns without values. It is stricter than `guideway_layout::differences`: numbers are equal
+/// exactly, and types, units and the order of rows count.
 pub(crate) fn differences(a: &Layout, b: &Layout) -> Vec<String> {
     let mut found = Vec::new();
     let mut compare = |what: &str, a: String, b: String| {
