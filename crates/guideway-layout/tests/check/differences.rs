@@ -48,8 +48,8 @@ fn paths_that_agree_in_everything_are_duplicates() {
     }
     let found = found(&sketch);
     let (_, message) = only(&found, Code::DuplicatePath);
-    let expected = "has the curve of path \"first\", from node \"a\" to node \"b\", and agrees in all \
-                    properties";
+    let expected = "has the curve of path \"first\", from node \"a\" to node \"b\", and agrees in \
+                    all properties";
     assert_eq!(message, expected);
     let remedy = &found.iter().next().unwrap().remedy;
     assert!(
@@ -159,7 +159,7 @@ fn a_later_path_is_compared_with_all_earlier_ones() {
     let duplicates = found.iter().filter(|d| d.code == Code::DuplicatePath);
     let last = duplicates.last().unwrap();
     assert!(
-        last.message.contains("path number 1000 "),
+        last.message.contains("path number 1000,"),
         "{}",
         last.message
     );
