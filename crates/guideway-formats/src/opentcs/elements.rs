@@ -24,7 +24,7 @@ pub(super) enum Kind {
 
 impl Kind {
     /// The JSON value of an attribute; text if it is not of the kind.
-    fn json(self, text: &str) -> Value {
+    pub(super) fn json(self, text: &str) -> Value {
         let typed = match self {
             Self::Int | Self::Unsigned => text.trim().parse::<i64>().ok().map(Value::from),
             Self::Float => text.trim().parse().ok().and_then(finite),

@@ -7,7 +7,7 @@ use guideway_layout::{Code, Member};
 use roxmltree::Node;
 use serde_json::{Map, Value as Json};
 
-use super::elements::{Element, LOCATION_TYPE, VEHICLE};
+use super::elements::{BOUNDING_BOX, Element, Kind, LOCATION_TYPE, VEHICLE};
 use super::reader::{Known, PlantReader, name_or_empty};
 use super::visual_layout::VisualLayout;
 use crate::ReadError;
@@ -102,11 +102,13 @@ impl<'d, 't> GroupMapper<'_, '_, 'd, 't> {
             vehicle.entry("vehicleLayout").or_insert(layout);
         }
         // Up to version 0.0.5, a vehicle has a length but no other extents.
-        if !vehicle.contains_key("boundingBox")
-            && let Some(length) = vehicle.remove("length")
-        {
-            let extents = serde_json::json!({ "length": length });
-            vehicle.insert("boundingBox".into(), extents);
+        if !vehicle.contains_key(BOUNDING_BOX.tag) {
+            let mut extents = BOUNDING_BOX.default_json();
+            let length = vehicle.remove("length");
+            if let Some(length) = length.as_ref().and_then(Json::as_str) {
+                extents.insert("length".into(), Kind::Int.json(length));
+            }
+            vehicle.insert(BOUNDING_BOX.tag.into(), extents.into());
         }
         vehicle.into()
     }

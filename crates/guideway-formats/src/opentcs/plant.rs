@@ -11,6 +11,7 @@ use super::group_mapper::{LOCATION_TYPES, VEHICLES};
 use crate::Losses;
 use crate::end_nodes::EndNodes;
 use crate::unique_names::UniqueNames;
+use crate::xml_text::is_xml_char;
 
 /// Name of the location type of stations without a kind.
 const DEFAULT_KIND: &str = "Station";
@@ -31,12 +32,15 @@ pub(super) struct Plant<'a> {
     /// Start and end point per path; `None` for a path without a curve, which is not written.
     pub(super) ends: Vec<Option<[u32; 2]>>,
     pub(super) path_names: Vec<Cow<'a, str>>,
+    are_paths_renamed: bool,
     pub(super) station_names: Vec<Cow<'a, str>>,
     pub(super) block_names: Vec<Cow<'a, str>>,
     /// Location types, as objects.
     pub(super) types: Vec<Map<String, Json>>,
     /// Name of the type per kind.
-    type_names: HashMap<&'a str, Cow<'a, str>>,
+    type_names: HashMap<&'a str, String>,
+    /// Name of the type of stations without a kind.
+    default_kind: String,
     /// Vehicles, as objects.
     pub(super) vehicles: Vec<Map<String, Json>>,
 }
@@ -74,11 +78,15 @@ impl<'a> Plant<'a> {
         let mut plant = Self {
             points: points.collect(),
             ends: vec![None; paths.len()],
+            are_paths_renamed: (0..)
+                .zip(&path_names)
+                .all(|(row, name)| *name != paths.id(row)),
             path_names,
             station_names,
             block_names,
             types: Vec::new(),
             type_names: HashMap::new(),
+            default_kind: String::new(),
             vehicles: Vec::new(),
         };
         plant.add_types(&kinds, type_objects, &mut names, losses);
@@ -101,14 +109,25 @@ impl<'a> Plant<'a> {
 
     /// Name of the location type of a station.
     pub(super) fn type_name(&self, kind: Option<&str>) -> &str {
-        let name = self.type_names.get(kind.unwrap_or_default());
-        name.map_or(DEFAULT_KIND, |name| name)
+        let name = kind.and_then(|kind| self.type_names.get(kind));
+        name.unwrap_or(&self.default_kind)
+    }
+
+    /// Whether a path has its name, or none has: others count as lost and new.
+    pub(super) fn keeps_path(&self, layout: &Layout, row: usize) -> bool {
+        self.are_paths_renamed || self.path_names[row] == layout.paths.id(row)
     }
 
     /// Position of a point as written, in meters.
     pub(super) fn position_m(&self, point: u32) -> Point<f64> {
         let [x, y] = self.points[point as usize].position_mm;
         Point::new(x as f64 / 1e3, y as f64 / 1e3)
+    }
+
+    fn take_kind(&mut self, kind: &'a str, names: &mut UniqueNames<'a>) -> String {
+        let name = names.take(kind).into_owned();
+        self.type_names.insert(kind, name.clone());
+        name
     }
 
     /// Adds the types of the layout, then those of further kinds.
@@ -119,30 +138,34 @@ impl<'a> Plant<'a> {
         names: &mut UniqueNames<'a>,
         losses: &mut Losses,
     ) {
-        let mut objects: HashMap<String, Map<String, Json>> = objects
-            .into_iter()
-            .filter_map(|object| Some((object.get("name")?.as_str()?.to_owned(), object)))
-            .collect();
         let mut renamed = 0;
-        for &kind in kinds {
-            let text = kind.unwrap_or_default();
-            let name = match kind {
-                Some(kind) => names.take(kind),
-                None => names.make_unique(DEFAULT_KIND).into(),
+        let mut further: Vec<Option<&'a str>> = kinds.to_vec();
+        for mut object in objects {
+            let name = object
+                .get("name")
+                .and_then(Json::as_str)
+                .unwrap_or_default();
+            let used = further.iter().position(|kind| *kind == Some(name));
+            let unique = match used.and_then(|index| further.remove(index)) {
+                Some(kind) => self.take_kind(kind, names),
+                None => names.make_unique(name),
             };
-            renamed += usize::from(kind.is_some_and(|kind| kind != name));
-            let mut object = objects.remove(text).unwrap_or_default();
-            object.insert("name".into(), (*name).into());
-            self.types.push(object);
-            self.type_names.insert(text, name);
-        }
-        let mut unused: Vec<_> = objects.into_iter().collect();
-        unused.sort_by(|a, b| a.0.cmp(&b.0));
-        for (name, mut object) in unused {
-            let unique = names.make_unique(&name);
             renamed += usize::from(unique != name);
             object.insert("name".into(), unique.into());
             self.types.push(object);
+        }
+        for kind in further {
+            let unique = match kind {
+                Some(kind) => self.take_kind(kind, names),
+                None => {
+                    let unique = names.make_unique(DEFAULT_KIND);
+                    self.default_kind.clone_from(&unique);
+                    unique
+                }
+            };
+            renamed += usize::from(kind.is_some_and(|kind| kind != unique));
+            self.types
+                .push([("name".to_owned(), unique.into())].into_iter().collect());
         }
         losses.add("column kind", renamed, renamed_detail("location types"));
     }
@@ -156,6 +179,9 @@ impl<'a> Plant<'a> {
             |point: &u32| *point as usize >= nodes || renamed.contains(point) && !are_all;
         let paths = layout.paths.iter().zip(&self.ends);
         let paths = paths.filter(|(path, ends)| {
+            if !self.keeps_path(layout, path.row()) {
+                return false;
+            }
             let stated = [path.start_node(), path.end_node()];
             let are_kept = |ends: &[u32; 2]| stated == ends.map(Some);
             ends.is_some_and(|ends| !are_kept(&ends) || ends.iter().any(is_other))
@@ -216,8 +242,20 @@ fn take_names<'a>(
     losses: &mut Losses,
 ) -> Vec<Cow<'a, str>> {
     let before = names.renamed;
-    let taken: Vec<_> = ids.map(|id| names.take(id)).collect();
-    let renamed = names.renamed - before;
+    let mut replaced = 0;
+    let mut take = |id: &'a str| match id.chars().all(is_xml_char) {
+        true => names.take(id),
+        false => {
+            replaced += 1;
+            let id: String = id
+                .chars()
+                .map(|c| if is_xml_char(c) { c } else { '_' })
+                .collect();
+            names.make_unique(&id).into()
+        }
+    };
+    let taken: Vec<_> = ids.map(&mut take).collect();
+    let renamed = names.renamed - before + replaced;
     // Elements that all have new names are still known by their order.
     let what = if renamed == taken.len() {
         "identifiers"
@@ -229,7 +267,10 @@ fn take_names<'a>(
 }
 
 fn renamed_detail(of: &str) -> String {
-    format!("{of} whose name is empty or that of another element: written with a number at the end")
+    format!(
+        "{of} whose name is empty, that of another element, or has characters that XML forbids: \
+         written with a number at the end, or with `_`"
+    )
 }
 
 /// A position in whole millimeters.

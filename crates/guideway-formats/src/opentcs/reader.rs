@@ -370,12 +370,15 @@ impl<'a, 'd, 't> PlantReader<'a, 'd, 't> {
     }
 }
 
-/// Splits the label of a column, such as `maxHeight (m)`, into its name and quantity.
-fn split_label(label: &str) -> (&str, Option<Quantity>) {
-    let split = label.strip_suffix(')').and_then(|l| l.rsplit_once(" ("));
-    match split.map(|(name, unit)| (name, Quantity::of_unit(unit))) {
-        Some((name, Some(quantity))) => (name, Some(quantity)),
-        _ => (label, None),
+/// Splits the label of a column, such as `maxHeight (m)`, into its name and quantity. An empty unit
+/// means that the name itself ends in one.
+pub(super) fn split_label(label: &str) -> (&str, Option<Quantity>) {
+    let Some((name, unit)) = label.strip_suffix(')').and_then(|l| l.rsplit_once(" (")) else {
+        return (label, None);
+    };
+    match Quantity::of_unit(unit) {
+        None if !unit.is_empty() => (label, None),
+        quantity => (name, quantity),
     }
 }
 

@@ -93,6 +93,29 @@ impl Connection {
     }
 }
 
+impl Connection {
+    /// The curve of this type between two points.
+    pub(super) fn beziers(
+        self,
+        control: &[Point<f64>],
+        [start, end]: [Point<f64>; 2],
+    ) -> Vec<Bezier> {
+        match (self, control) {
+            (Self::Bezier, &[a, b]) => vec![[start, a, b, end]],
+            (Self::Bezier3, &[a, b, middle, c, d]) => {
+                vec![[start, a, b, middle], [middle, c, d, end]]
+            }
+            (_, control) => {
+                let corners = [start].into_iter().chain(control.iter().copied());
+                let corners: Vec<_> = corners.chain([end]).collect();
+                let line =
+                    |&[a, b]: &[Point<f64>; 2]| [a, a.lerp(b, 1.0 / 3.0), a.lerp(b, 2.0 / 3.0), b];
+                corners.array_windows().map(line).collect()
+            }
+        }
+    }
+}
+
 /// The cubic curves of a path.
 pub(super) fn beziers_of(path: PathRef<'_>) -> Vec<Bezier> {
     let segments = path.runs().flat_map(RunPoints::segments);

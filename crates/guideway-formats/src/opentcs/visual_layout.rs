@@ -131,6 +131,8 @@ impl<'d, 't> VisualLayout<'d, 't> {
     /// the layer [`DEFAULT_LAYER`].
     pub(super) fn layer(&self, name: &str, layout: Option<Node<'d, 't>>) -> Option<&str> {
         let label = match layout.and_then(|layout| layout.attribute("layerId")) {
+            // A drawing without layers has the first one of a new model.
+            Some("0") if self.layers.is_empty() => DEFAULT_LAYER,
             Some(id) => self.layers.get(id).map_or(id, String::as_str),
             None => self.legacy_element(name)?.layer()?,
         };

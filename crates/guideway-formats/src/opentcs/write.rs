@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use guideway_layout::{Direction, Layout, Member, Value};
+use guideway_layout::{Attributes, Direction, Layout, Member, Value};
 
 use super::drawn_paths::DrawnPaths;
 use super::elements::{
@@ -12,13 +12,16 @@ use super::group_mapper::{LOCATION_TYPES, VEHICLES};
 use super::held::{held_by_block, held_by_layout, held_by_node, held_by_path, held_by_station};
 use super::layers::Layers;
 use super::plant::{Plant, objects};
-use super::visual_layout::default_group;
+use super::visual_layout::{DEFAULT_LAYER, default_group};
 use super::write_elements::{PropertyColumns, write_children, write_fields, write_object};
 use super::write_paths::write_paths;
 use super::write_places::{write_locations, write_points};
 use super::xml_writer::XmlWriter;
 use crate::Losses;
-use crate::common_losses::common_losses;
+
+/// Largest change of a position or curve that is not listed, in meters. Derived: rounding errors of
+/// readers, and a hundredth of the resolution of a file.
+pub(super) const SAME_M: f64 = 1e-5;
 
 /// Version of a plant model that can be written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -67,7 +70,7 @@ pub(super) struct Context<'a> {
 /// # Errors
 /// When writing to `out` fails.
 pub fn write_layout(layout: &Layout, out: &mut impl Write, version: Version) -> io::Result<Losses> {
-    let mut losses = common_losses(layout);
+    let mut losses = Losses::of_paths(layout, layout.refused.len());
     add_general_losses(layout, &mut losses);
     let plant = Plant::complete(layout, &mut losses);
     let drawn = DrawnPaths::draw(layout, &plant, &mut losses);
@@ -109,8 +112,8 @@ pub fn write_layout(layout: &Layout, out: &mut impl Write, version: Version) -> 
         .write(&mut xml, attributes, 0, held_by_layout)?;
     xml.end()?;
     let replaced = xml.finish()?;
-    let detail = "names and texts with characters that XML forbids: replaced by `_`";
-    losses.add("identifiers", replaced, detail);
+    let detail = "texts with characters that XML forbids: replaced by `_`";
+    losses.add("texts", replaced, detail);
     Ok(losses)
 }
 
@@ -120,6 +123,19 @@ fn add_general_losses(layout: &Layout, losses: &mut Losses) {
     losses.add_colors(layout);
     losses.add_ranks(layout);
     losses.add("levels", layout.levels.len(), "levels: written as layers");
+    let (paths, nodes, stations) = (&layout.paths, &layout.nodes, &layout.stations);
+    let on_level = |attributes: &Attributes, row: usize, level: Option<u32>| {
+        attributes.value(row, "layer").is_none() && is_layer(layout, level)
+    };
+    let path_rows =
+        (0..paths.len()).filter(|&row| on_level(&paths.attributes, row, paths.get(row).level()));
+    let node_rows =
+        (0..nodes.len()).filter(|&row| on_level(&nodes.attributes, row, nodes.level(row as u32)));
+    let station_rows = (0..stations.len())
+        .filter(|&row| on_level(&stations.attributes, row, stations.level(row as u32)));
+    let count = path_rows.count() + node_rows.count() + station_rows.count();
+    let detail = "paths, nodes and stations on a level: written on the layer of its name";
+    losses.add("column layer", count, detail);
     losses.add("zones", layout.zones.len(), "zones");
     let origin = usize::from(layout.geo_origin.is_some());
     losses.add("geo origin", origin, "place on earth of the origin");
@@ -141,6 +157,12 @@ fn add_general_losses(layout: &Layout, losses: &mut Losses) {
     losses.add_columns(&types.attributes, "nodes per vehicle type", |_| false);
     let detail = "vehicle types with their properties";
     losses.add("vehicle types", layout.vehicle_types.len(), detail);
+}
+
+/// Whether the name of a level is that of a layer other than the default one.
+fn is_layer(layout: &Layout, level: Option<u32>) -> bool {
+    let level = level.and_then(|level| layout.levels.get(level as usize));
+    level.is_some_and(|level| level.name.as_ref().unwrap_or(&level.id) != DEFAULT_LAYER)
 }
 
 /// Adds the columns of all tables that become properties.

@@ -3,11 +3,11 @@
 use std::collections::HashSet;
 use std::io::{self, Write};
 
-use guideway_layout::{Attributes, Value};
+use guideway_layout::{Attribute, Attributes, Value};
 use serde_json::{Map, Value as Json};
 
 use super::elements::{Child, Element, OWN_PREFIX};
-use super::reader::{MAX_PROPERTIES, PROPERTIES, PROPERTY_PREFIX};
+use super::reader::{MAX_PROPERTIES, PROPERTIES, PROPERTY_PREFIX, split_label};
 use super::xml_writer::XmlWriter;
 use crate::Losses;
 
@@ -148,10 +148,10 @@ impl PropertyColumns {
                     write_property(xml, name, &plain(value))?;
                 }
             } else if held(row, &column.name, value) == Held::Not
-                && self.own.contains(&column.label())
+                && self.own.contains(&label(column))
                 && let Some(text) = json_text(value)
             {
-                write_property(xml, &format!("{OWN_PREFIX}{}", column.label()), &text)?;
+                write_property(xml, &format!("{OWN_PREFIX}{}", label(column)), &text)?;
             }
         }
         Ok(())
@@ -190,9 +190,9 @@ impl PropertyColumns {
                     Held::Not => lost += 1,
                 }
             }
-            if own > 0 && !self.own.contains(&column.label()) {
+            if own > 0 && !self.own.contains(&label(column)) {
                 match self.own.len() < MAX_PROPERTIES {
-                    true => drop(self.own.insert(column.label())),
+                    true => drop(self.own.insert(label(column))),
                     false => lost += own,
                 }
             }
@@ -219,6 +219,16 @@ impl Held {
             true => Self::Written,
             false => Self::Not,
         }
+    }
+}
+
+/// Name of a column with its unit, from which the reader knows both again. A name that looks like
+/// one with a unit gets an empty one.
+fn label(column: &Attribute) -> String {
+    let looks_like_label = split_label(&column.name).0 != column.name;
+    match column.quantity.is_none() && looks_like_label {
+        true => format!("{} ()", column.name),
+        false => column.label(),
     }
 }
 

@@ -14,12 +14,11 @@ use super::plant::{kind_of, to_mm};
 use super::plant_mapper::{
     BOX_COLUMN, DEFAULT_REPRESENTATION, LABEL_OFFSET, LINK_OPERATIONS, REPRESENTATION,
 };
-use super::write::{Context, Version};
+use super::write::{Context, SAME_M, Version};
 use super::write_elements::write_fields;
 use super::write_paths::SAME_NUMBER;
 use super::xml_writer::XmlWriter;
 use crate::Losses;
-use crate::clamped::POSITION_STEP_M;
 use crate::fields::{Vocabulary, field};
 
 /// Step to which angles are rounded that it changes by their rounding errors only, in degrees.
@@ -49,7 +48,7 @@ impl Rounding {
 
     fn check_position(&mut self, position: Point<f64>) {
         let [x, y] = to_mm(position).map(|mm| mm as f64 / 1e3);
-        self.positions += usize::from(position.distance(Point::new(x, y)) > POSITION_STEP_M);
+        self.positions += usize::from(position.distance(Point::new(x, y)) > SAME_M);
     }
 
     /// Lists the changes. `of` names the rows, such as `nodes`.
