@@ -6,12 +6,11 @@ use guideway_spline::Point;
 use rayon::prelude::*;
 use serde_json::{Map, Value as Json};
 
-use super::held::{json, speed_mm_s};
 use super::path_mapper::{CONNECTION_TYPE, REVERSED};
 use super::plant::Plant;
 use super::shape::{CURVE_TOLERANCE_M, Connection, Shape, beziers_of};
+use super::values::{SAME_M, is_two_way, json, speed_mm_s};
 use super::visual_layout::DEFAULT_SCALE;
-use super::write::{SAME_M, is_two_way};
 use crate::Losses;
 
 /// Scales of a drawing that are tried after that of the layout, in millimeters per unit. With the

@@ -12,33 +12,34 @@ use super::plant_mapper::{
     BOX_COLUMN, DEFAULT_POINT_TYPE, DEFAULT_REPRESENTATION, LABEL_OFFSET, LINK_OPERATIONS,
     REPRESENTATION,
 };
+use super::values::{is_two_way, json, number, speed_mm_s};
+use super::version::Version;
 use super::visual_layout::DEFAULT_LAYER;
-use super::write::{Version, is_two_way};
-use super::write_elements::Held;
+
+/// Whether the elements and XML attributes of a file hold a value of a column.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Held {
+    Written,
+    /// Readers take the value as implied, and have no value.
+    Default,
+    Not,
+}
+
+impl Held {
+    /// [`Self::Written`] if a condition holds.
+    pub(super) fn when(is_written: bool) -> Self {
+        match is_written {
+            true => Self::Written,
+            false => Self::Not,
+        }
+    }
+}
 
 /// Uses of a point.
 pub(super) const POINT_TYPES: &[&str] = &[DEFAULT_POINT_TYPE, "PARK_POSITION"];
 
-/// A number that is finite.
-pub(super) fn number(value: Option<Value<'_>>) -> Option<f64> {
-    let number = match value? {
-        Value::Int(number) => number as f64,
-        Value::Float(number) => number,
-        _ => return None,
-    };
-    number.is_finite().then_some(number)
-}
-
 fn is_number(value: Value<'_>) -> bool {
     number(Some(value)).is_some()
-}
-
-/// The JSON of a value, if it is of a type.
-pub(super) fn json<T: serde::de::DeserializeOwned>(value: Option<Value<'_>>) -> Option<T> {
-    match value? {
-        Value::Json(text) => serde_json::from_str(text).ok(),
-        _ => None,
-    }
 }
 
 /// The one of several texts that a value is.
@@ -63,14 +64,6 @@ fn layer(value: Value<'_>) -> Held {
         Value::Text(DEFAULT_LAYER) => Held::Default,
         value => Held::when(matches!(value, Value::Text(_))),
     }
-}
-
-/// A speed of 0 or more, up to the greatest one of openTCS.
-pub(super) fn speed_mm_s(value: Option<Value<'_>>) -> Option<i32> {
-    let mm_s = number(value)? * 1e3;
-    let is_speed = (0.0..=f64::from(i32::MAX)).contains(&mm_s);
-    // A slow path is not a closed one.
-    is_speed.then(|| (mm_s.round() as i32).max(i32::from(mm_s > 0.0)))
 }
 
 /// Rings of a MultiPolygon without holes.

@@ -16,8 +16,9 @@
 //! | map | blocks, vehicles, location types | blocks, attributes | `group_mapper`, `elements` |
 //! | complete | layout | names, points of all paths | `plant` |
 //! | draw | curves | connection types, control points | `drawn_paths`, `shape`, `fit_cubic`, `layers` |
-//! | write | layout | XML, losses | `write*`, `held`, `xml_writer` |
+//! | write | layout | XML, losses | `write*`, `context`, `held`, `values`, `version`, `xml_writer` |
 
+mod context;
 mod drawn_paths;
 mod elements;
 mod envelope;
@@ -30,6 +31,8 @@ mod plant;
 mod plant_mapper;
 mod reader;
 mod shape;
+mod values;
+mod version;
 mod visual_layout;
 mod write;
 mod write_elements;
@@ -39,7 +42,8 @@ mod xml_writer;
 
 use guideway_layout::Layout;
 
-pub use self::write::{Version, write_layout};
+pub use self::version::Version;
+pub use self::write::write_layout;
 
 use self::plant_mapper::PlantMapper;
 use crate::source::Source;

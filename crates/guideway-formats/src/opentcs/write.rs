@@ -2,8 +2,9 @@
 
 use std::io::{self, Write};
 
-use guideway_layout::{Attributes, Direction, Layout, Member, Value};
+use guideway_layout::{Attributes, Layout, Member, Value};
 
+use super::context::Context;
 use super::drawn_paths::DrawnPaths;
 use super::elements::{
     BLOCK_TYPES, Kind, LAYER, LAYER_GROUP, LOCATION_TYPE, VEHICLE, VISUAL_LAYOUT,
@@ -12,53 +13,13 @@ use super::group_mapper::{LOCATION_TYPES, VEHICLES};
 use super::held::{held_by_block, held_by_layout, held_by_node, held_by_path, held_by_station};
 use super::layers::Layers;
 use super::plant::{Plant, objects};
+use super::version::Version;
 use super::visual_layout::{DEFAULT_LAYER, default_group};
 use super::write_elements::{PropertyColumns, write_children, write_fields, write_object};
 use super::write_paths::write_paths;
 use super::write_places::{write_locations, write_points};
 use super::xml_writer::XmlWriter;
 use crate::Losses;
-
-/// Largest change of a position or curve that is not listed, in meters. Derived: rounding errors of
-/// readers, and a hundredth of the resolution of a file.
-pub(super) const SAME_M: f64 = 1e-5;
-
-/// Version of a plant model that can be written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Version {
-    /// 6.0.0: points have a position in the plant and one in the drawing.
-    V6,
-    /// 7.0.0, which openTCS reads from its version 7 on.
-    V7,
-}
-
-impl Version {
-    /// Number in a file.
-    fn number(self) -> &'static str {
-        match self {
-            Self::V6 => "6.0.0",
-            Self::V7 => "7.0.0",
-        }
-    }
-
-    /// Version of the plant model that a layout was read from, if it can be written.
-    pub(crate) fn of_layout(layout: &Layout) -> Option<Self> {
-        let provenance = &layout.provenance;
-        let is_plant = provenance.format == crate::Format::OpenTcs.name();
-        let mut versions = [Self::V6, Self::V7].into_iter();
-        let version = versions.find(|version| version.number() == provenance.format_version);
-        version.filter(|_| is_plant)
-    }
-}
-
-/// Parts of a file that all elements share.
-pub(super) struct Context<'a> {
-    pub(super) layout: &'a Layout,
-    pub(super) version: Version,
-    pub(super) plant: &'a Plant<'a>,
-    pub(super) drawn: &'a DrawnPaths,
-    pub(super) properties: PropertyColumns,
-}
 
 /// Writes a layout, and returns what a plant model cannot hold of it or holds in another form.
 ///
@@ -274,9 +235,4 @@ fn write_drawing<W: Write>(
     );
     losses.add("layout properties", layers.new_layers(), "new layers");
     Ok(())
-}
-
-/// Whether a path is driven both ways.
-pub(super) fn is_two_way(layout: &Layout, path: usize) -> bool {
-    layout.paths.get(path).direction() == Direction::Both
 }

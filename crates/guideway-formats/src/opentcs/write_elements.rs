@@ -7,6 +7,7 @@ use guideway_layout::{Attribute, Attributes, Value};
 use serde_json::{Map, Value as Json};
 
 use super::elements::{Child, Element, OWN_PREFIX};
+use super::held::Held;
 use super::reader::{MAX_PROPERTIES, PROPERTIES, PROPERTY_PREFIX, split_label};
 use super::xml_writer::XmlWriter;
 use crate::Losses;
@@ -199,25 +200,6 @@ impl PropertyColumns {
             losses.add(&what, lost, format!("values of {of}"));
             let detail = format!("values of {of} that openTCS implies");
             losses.add(&what, defaults, detail);
-        }
-    }
-}
-
-/// Whether the elements and XML attributes of a file hold a value of a column.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Held {
-    Written,
-    /// Readers take the value as implied, and have no value.
-    Default,
-    Not,
-}
-
-impl Held {
-    /// [`Self::Written`] if a condition holds.
-    pub(super) fn when(is_written: bool) -> Self {
-        match is_written {
-            true => Self::Written,
-            false => Self::Not,
         }
     }
 }

@@ -7,11 +7,12 @@ use guideway_layout::{Layout, Value};
 use guideway_spline::run_length;
 use serde_json::{Map, Value as Json};
 
+use super::context::Context;
 use super::elements::PERIPHERAL_OPERATION;
-use super::held::{held_by_path, json, number, speed_mm_s};
+use super::held::held_by_path;
 use super::layers::Layers;
 use super::path_mapper::PERIPHERAL_OPERATIONS;
-use super::write::{Context, is_two_way};
+use super::values::{SAME_NUMBER, is_two_way, json, number, speed_mm_s};
 use super::write_elements::write_fields;
 use super::write_places::{Rounding, write_envelopes};
 use super::xml_writer::XmlWriter;
@@ -23,9 +24,6 @@ const DEFAULT_SPEED_MM_S: i32 = 1000;
 
 /// Precision of computed lengths, in meters.
 const LENGTH_TOLERANCE_M: f64 = 1e-4;
-
-/// Largest relative difference of equal numbers: that of a few operations.
-pub(super) const SAME_NUMBER: f64 = 1e-12;
 
 /// Counts what changes.
 #[derive(Default)]

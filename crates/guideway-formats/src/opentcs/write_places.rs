@@ -6,17 +6,18 @@ use guideway_layout::{Attributes, Value};
 use guideway_spline::Point;
 use serde_json::{Map, Value as Json};
 
+use super::context::Context;
 use super::elements::{BOUNDING_BOX, REPRESENTATIONS};
 use super::envelope::{AREA_COLUMN, KEY_COLUMN};
-use super::held::{Areas, POINT_TYPES, held_by_node, held_by_station, json, number};
+use super::held::{Areas, POINT_TYPES, held_by_node, held_by_station};
 use super::layers::Layers;
 use super::plant::{kind_of, to_mm};
 use super::plant_mapper::{
     BOX_COLUMN, DEFAULT_REPRESENTATION, LABEL_OFFSET, LINK_OPERATIONS, REPRESENTATION,
 };
-use super::write::{Context, SAME_M, Version};
+use super::values::{SAME_M, SAME_NUMBER, json, number};
+use super::version::Version;
 use super::write_elements::write_fields;
-use super::write_paths::SAME_NUMBER;
 use super::xml_writer::XmlWriter;
 use crate::Losses;
 use crate::fields::{Vocabulary, field};

@@ -83,7 +83,9 @@ pub(crate) fn compare(a: &Layout, b: &Layout, listed: &[String], tolerance_m: f6
     // A lost element takes its values with it: they are rightly listed, but compared no more.
     let is_lost = ["paths", "nodes", "stations"].map(str::to_owned);
     let loses_elements = is_lost.iter().any(&is_found);
-    let idle = listed.iter().filter(|what| !loses_elements && !is_found(what));
+    let idle = listed
+        .iter()
+        .filter(|what| !loses_elements && !is_found(what));
     let idle = idle.map(|what| format!("{what} listed without a difference"));
     unlisted.chain(idle).collect()
 }
