@@ -201,8 +201,22 @@ impl<'a> Builder<'a> {
         position_m: Point<f64>,
         level: Option<u32>,
     ) -> Result<u32, ReadError> {
+        self.push_node_for_types(id, position_m, level, &[])
+    }
+
+    /// Appends a node with an entry per vehicle type and returns its row.
+    pub(crate) fn push_node_for_types(
+        &mut self,
+        id: &str,
+        position_m: Point<f64>,
+        level: Option<u32>,
+        types: &[&str],
+    ) -> Result<u32, ReadError> {
         self.charge_text(id)?;
-        Ok(self.layout.nodes.push(id, position_m, level))
+        Ok(self
+            .layout
+            .nodes
+            .push_for_types(id, position_m, level, types))
     }
 
     /// Appends a station and returns its row.

@@ -7,16 +7,17 @@
 //! | stage | input | output | modules |
 //! |---|---|---|---|
 //! | open | path or bytes | bytes, format | `read`, `input`, `format`, `sniff` |
-//! | parse | bytes | records, elements | `text`, `json`, `xml`, `yaml` |
+//! | parse | bytes | records, elements | `text`, `json`, `xml`, `yaml`, `yaml_json` |
 //! | map | records, elements | layout, diagnostics | one folder per format; `builder`, `node_rows` |
 //! | convert | curves of a format | uniform cubic runs | `spline`, `trajectory`, `ellipse`, `wgs84` |
 //! | floor plans | image, ROS map | pixels and their placement, walls | `raster`, `ros_map` |
-//! | write | layout | file, losses | `write*` per format; `clamped`, `end_nodes`, `unique_names`, `xml_text`, `losses`, `common_losses` |
+//! | write | layout | file, losses | `write*` per format; `clamped`, `end_nodes`, `driven`, `unique_names`, `xml_text`, `losses`, `common_losses`, `network_losses` |
 
 pub mod arrow;
 mod builder;
 mod clamped;
 mod common_losses;
+mod driven;
 pub mod dxf;
 mod ellipse;
 mod end_nodes;
@@ -29,12 +30,13 @@ mod json;
 mod lanelet2;
 pub mod lif;
 mod losses;
+mod network_losses;
 mod node_rows;
 mod opendrive;
 pub mod opentcs;
 pub mod raster;
 mod read;
-mod rmf;
+pub mod rmf;
 pub mod ros_map;
 mod sniff;
 mod source;
@@ -51,6 +53,7 @@ mod xml;
 mod xml_builder;
 mod xml_text;
 mod yaml;
+mod yaml_json;
 
 pub use arrow::{WriteError, WriteProblem};
 pub use error::{Problem, ReadError};

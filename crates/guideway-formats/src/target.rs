@@ -8,7 +8,7 @@ use std::time::SystemTime;
 use guideway_layout::Layout;
 
 use crate::lif::{self, Version};
-use crate::{Format, Losses, WriteError, arrow, dxf, geojson, opentcs, svg};
+use crate::{Format, Losses, WriteError, arrow, dxf, geojson, opentcs, rmf, svg};
 
 /// A format that can be written, in one of its versions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -17,16 +17,20 @@ pub enum Target {
     Arrow,
     /// DXF, a drawing for CAD programs.
     Dxf,
-    /// GeoJSON.
+    /// GeoJSON with the whole layout, for geographic information systems.
     GeoJson,
     /// VDMA LIF 1.0.
     Lif1,
     /// VDMA LIF 2.0.
     Lif2,
+    /// GeoJSON as a route graph of Nav2.
+    Nav2,
     /// openTCS plant model 6.0.0.
     OpenTcs6,
     /// openTCS plant model 7.0.0.
     OpenTcs7,
+    /// A navigation graph of Open-RMF.
+    Rmf,
     /// SVG, a drawing with exact curves.
     Svg,
 }
@@ -39,8 +43,10 @@ impl Target {
         Self::GeoJson,
         Self::Lif1,
         Self::Lif2,
+        Self::Nav2,
         Self::OpenTcs6,
         Self::OpenTcs7,
+        Self::Rmf,
         Self::Svg,
     ];
 
@@ -52,8 +58,10 @@ impl Target {
             Self::GeoJson => "geojson",
             Self::Lif1 => "lif",
             Self::Lif2 => "lif2",
+            Self::Nav2 => "nav2",
             Self::OpenTcs6 => "opentcs6",
             Self::OpenTcs7 => "opentcs",
+            Self::Rmf => "rmf",
             Self::Svg => "svg",
         }
     }
@@ -72,8 +80,10 @@ impl Target {
             Self::GeoJson => "GeoJSON",
             Self::Lif1 => "LIF 1.0",
             Self::Lif2 => "LIF 2.0",
+            Self::Nav2 => "Nav2 route graph",
             Self::OpenTcs6 => "openTCS 6.0.0",
             Self::OpenTcs7 => "openTCS 7.0.0",
+            Self::Rmf => "Open-RMF navigation graph",
             Self::Svg => "SVG",
         }
     }
@@ -83,11 +93,13 @@ impl Target {
         match self {
             Self::Arrow => "Apache Arrow, a table of everything",
             Self::Dxf => "DXF, a drawing for CAD programs",
-            Self::GeoJson => "GeoJSON, a Nav2 route graph if the layout has nodes",
+            Self::GeoJson => "GeoJSON with the whole layout, for QGIS and the like",
             Self::Lif1 => "VDMA LIF 1.0",
             Self::Lif2 => "VDMA LIF 2.0",
+            Self::Nav2 => "GeoJSON as a route graph of Nav2",
             Self::OpenTcs6 => "openTCS plant model 6.0.0",
             Self::OpenTcs7 => "openTCS plant model 7.0.0",
+            Self::Rmf => "Open-RMF navigation graph (YAML)",
             Self::Svg => "SVG, a drawing with exact curves",
         }
     }
@@ -100,16 +112,25 @@ impl Target {
             Self::GeoJson => &[".geojson"],
             Self::Lif1 => &[".lif.json", ".lif"],
             Self::Lif2 | Self::OpenTcs6 => &[],
+            Self::Nav2 => &[".nav2.geojson"],
             Self::OpenTcs7 => &[".opentcs.xml", ".xml"],
+            Self::Rmf => &[".nav_graph.yaml"],
             Self::Svg => &[".svg"],
         }
     }
 
-    /// The target that the extension of a file selects.
+    /// The target that the extension of a file selects; of several extensions the longest one.
     pub fn of_file_name(name: &str) -> Option<Self> {
         let name = name.to_lowercase();
-        let has = |target: &Self| target.extensions().iter().any(|end| name.ends_with(end));
-        Self::ALL.iter().copied().find(has)
+        let fitting = |target: &Self| {
+            let extensions = target.extensions().iter();
+            let fitting = extensions.filter(|extension| name.ends_with(**extension));
+            fitting.map(|extension| extension.len()).max()
+        };
+        let targets = Self::ALL.iter().copied();
+        let fitting = targets.filter_map(|target| Some((fitting(&target)?, target)));
+        let longest = fitting.max_by_key(|(length, _)| *length);
+        longest.map(|(_, target)| target)
     }
 
     /// The target that holds everything that the file of a layout held: that of the same format and
@@ -124,7 +145,13 @@ impl Target {
             Some(Version::V1) => Some(Self::Lif1),
             Some(Version::V2) => Some(Self::Lif2),
             None => {
-                let is = |format: Format| layout.provenance.format == format.name();
+                let provenance = &layout.provenance;
+                let is = |format: Format| provenance.format == format.name();
+                match provenance.format_version.as_str() {
+                    geojson::ROUTE_GRAPH if is(Format::GeoJson) => return Some(Self::Nav2),
+                    rmf::NAVIGATION_GRAPH if is(Format::Rmf) => return Some(Self::Rmf),
+                    _ => {}
+                }
                 let targets = [
                     (Format::GeoJson, Self::GeoJson),
                     (Format::Arrow, Self::Arrow),
@@ -172,8 +199,12 @@ impl Target {
             Self::GeoJson => geojson::write_layout(layout, out, &geojson::WriteOptions::default()),
             Self::Lif1 => lif::write_layout(layout, out, &lif_options(Version::V1)),
             Self::Lif2 => lif::write_layout(layout, out, &lif_options(Version::V2)),
+            Self::Nav2 => {
+                geojson::write_route_graph(layout, out, &geojson::WriteOptions::default())
+            }
             Self::OpenTcs6 => opentcs::write_layout(layout, out, opentcs::Version::V6),
             Self::OpenTcs7 => opentcs::write_layout(layout, out, opentcs::Version::V7),
+            Self::Rmf => rmf::write_navigation_graph(layout, out),
             Self::Svg => svg::write_layout(layout, out),
         }
     }
@@ -193,5 +224,6 @@ mod tests {
             }
         }
         assert_eq!(Target::of_file_name("plan.png"), None);
+        assert_eq!(Target::of_file_name("a.b.geojson"), Some(Target::GeoJson));
     }
 }

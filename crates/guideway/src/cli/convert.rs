@@ -63,14 +63,19 @@ fn target_of(output: &Path) -> Result<Target, UserError> {
 #[cfg(feature = "viewer")]
 pub(super) fn target_to_save(layout: &Layout, output: &Path) -> Result<Target, UserError> {
     let read = Target::of_source(layout);
-    let is_any_json = output
-        .extension()
-        .is_some_and(|e| e.eq_ignore_ascii_case("json"));
-    let reads_json = matches!(read, Some(Target::Lif1 | Target::Lif2 | Target::GeoJson));
+    let has_extension = |name: &str| {
+        let extension = output.extension();
+        extension.is_some_and(|e| e.eq_ignore_ascii_case(name))
+    };
     match (target_of(output), read) {
         (Ok(Target::Lif1), Some(Target::Lif2)) => Ok(Target::Lif2),
         (Ok(Target::OpenTcs7), Some(Target::OpenTcs6)) => Ok(Target::OpenTcs6),
-        (Err(_), Some(read)) if is_any_json && reads_json => Ok(read),
+        (Ok(Target::GeoJson), Some(Target::Nav2)) => Ok(Target::Nav2),
+        (
+            Err(_),
+            Some(read @ (Target::Lif1 | Target::Lif2 | Target::GeoJson | Target::Nav2)),
+        ) if has_extension("json") => Ok(read),
+        (Err(_), Some(Target::Rmf)) if has_extension("yaml") => Ok(Target::Rmf),
         (named, _) => named,
     }
 }
@@ -86,7 +91,7 @@ pub(super) fn check_in_place(layout: &Layout, file: &Path) -> Result<(), UserErr
         Target::OpenTcs6 | Target::OpenTcs7 if Target::of_source(layout) != Some(target) => {
             format!("is no {}", target.name())
         }
-        Target::GeoJson | Target::OpenTcs6 | Target::OpenTcs7 if refused > 0 => {
+        Target::GeoJson | Target::Nav2 | Target::Rmf | Target::OpenTcs6 | Target::OpenTcs7 if refused > 0 => {
             format!("has {refused} refused paths, which saving would drop")
         }
         _ => return Ok(()),
@@ -167,7 +172,7 @@ mod tests {
 
     #[test]
     fn saves_in_the_format_of_the_source() {
-        use Target::{Arrow, GeoJson, Lif1, Lif2, OpenTcs6, OpenTcs7};
+        use Target::{Arrow, GeoJson, Lif1, Lif2, Nav2, OpenTcs6, OpenTcs7, Rmf};
         for (format, version, name, target) in [
             ("LIF", "1.0", "a.lif.json", Some(Lif1)),
             ("LIF", "2.0", "a.lif.json", Some(Lif2)),
@@ -175,6 +180,10 @@ mod tests {
             ("LIF", "2.0", "a.arrow", Some(Arrow)),
             ("GeoJSON", "", "roads.json", Some(GeoJson)),
             ("GeoJSON", "", "roads.lif.json", Some(Lif1)),
+            ("GeoJSON", "Nav2 route graph", "graph.geojson", Some(Nav2)),
+            ("GeoJSON", "Nav2 route graph", "graph.json", Some(Nav2)),
+            ("Open-RMF", "navigation graph", "0.yaml", Some(Rmf)),
+            ("Open-RMF", "building", "office.building.yaml", None),
             ("VDA 5050", "2.0", "order.json", None),
             ("openTCS", "6.0.0", "plant.xml", Some(OpenTcs6)),
             ("openTCS", "7.0.0", "plant.xml", Some(OpenTcs7)),

@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use guideway_formats::{ReadOptions, read_bytes, read_file};
+use crate::law::compare;
+use guideway_formats::{Losses, ReadOptions, read_bytes, read_file};
 use guideway_layout::{Code, Layout};
 use guideway_spline::Point;
 
@@ -27,6 +28,19 @@ pub(crate) fn shared(path: &str) -> Option<PathBuf> {
 pub(crate) fn real_cases(format: &str) -> Option<PathBuf> {
     let folder = real_layouts(".")?.join("../cases").join(format);
     folder.is_dir().then_some(folder)
+}
+
+/// Reads a file that must be readable.
+pub(crate) fn read_real(path: &Path) -> Layout {
+    read_file(path, &ReadOptions::default()).unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// Checks that a layout read back differs from the written one in the listed losses only, and in
+/// all of them.
+pub(crate) fn assert_losses_are_differences(a: &Layout, b: &Layout, losses: &Losses, file: &str) {
+    let listed: Vec<String> = losses.iter().map(|loss| loss.what.clone()).collect();
+    let breaches = compare(a, b, &listed, 1e-5);
+    assert!(breaches.is_empty(), "{file}: {breaches:#?}");
 }
 
 /// Reads a real file; `None` without the folder of real layouts.
