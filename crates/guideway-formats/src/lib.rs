@@ -11,7 +11,7 @@
 //! | map | records, elements | layout, diagnostics | one folder per format; `builder`, `node_rows` |
 //! | convert | curves of a format | uniform cubic runs | `spline`, `trajectory`, `ellipse`, `wgs84` |
 //! | floor plans | image, ROS map | pixels and their placement, walls | `raster`, `ros_map` |
-//! | write | layout | file, losses | `write*` per format; `clamped`, `end_nodes`, `driven`, `unique_names`, `xml_text`, `losses`, `common_losses`, `network_losses` |
+//! | write | layout | file, losses | `write*` per format; `clamped`, `driven`, `*_nodes`, `*_losses` |
 
 pub mod arrow;
 mod builder;

@@ -4,7 +4,7 @@ use guideway_layout::{Layout, Value};
 use serde_json::{Map, Value as Json};
 
 use super::drawn_paths::DrawnPaths;
-use super::elements::{BLOCK_TYPES, BOUNDING_BOX, Kind, REPRESENTATIONS};
+use super::elements::{BLOCK_TYPES, BOUNDING_BOX, Kind, PERIPHERAL_OPERATION, REPRESENTATIONS};
 use super::envelope::{AREA_COLUMN, KEY_COLUMN};
 use super::group_mapper::{LOCATION_TYPES, VEHICLES};
 use super::path_mapper::{CONNECTION_TYPE, PERIPHERAL_OPERATIONS, REVERSED};
@@ -115,7 +115,11 @@ pub(super) fn held_by_path(
             },
             _ => Held::Not,
         },
-        PERIPHERAL_OPERATIONS => Held::when(json::<Vec<Map<String, Json>>>(Some(value)).is_some()),
+        PERIPHERAL_OPERATIONS => {
+            let operations = json::<Vec<Map<String, Json>>>(Some(value));
+            let are_whole = |all: Vec<_>| all.iter().all(|o| PERIPHERAL_OPERATION.is_whole(o));
+            Held::when(operations.is_some_and(are_whole))
+        }
         "layer" => layer(value),
         KEY_COLUMN | AREA_COLUMN => envelope(name, value),
         _ => Held::Not,
@@ -150,16 +154,10 @@ pub(super) fn held_by_node(version: Version, name: &str, value: Value<'_>) -> He
     match name {
         "type" => choice(value, POINT_TYPES, DEFAULT_POINT_TYPE),
         "theta" => Held::when(is_number(value)),
-        BOX_COLUMN => Held::when(
-            json::<Map<String, Json>>(Some(value)).is_some_and(|object| {
-                let fields = BOUNDING_BOX.fields.iter();
-                fields.count() >= object.len()
-                    && BOUNDING_BOX.fields.iter().all(|field| {
-                        let value = object.get(field.name);
-                        value.is_none_or(|value| field.kind.text(value).is_some())
-                    })
-            }),
-        ),
+        BOX_COLUMN => {
+            let extents = json::<Map<String, Json>>(Some(value));
+            Held::when(extents.is_some_and(|extents| BOUNDING_BOX.is_whole(&extents)))
+        }
         KEY_COLUMN | AREA_COLUMN => envelope(name, value),
         _ => held_by_place(version, name, value),
     }

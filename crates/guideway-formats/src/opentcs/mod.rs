@@ -1,4 +1,5 @@
-//! Reads and writes plant models of openTCS: XML, millimeters, y up; control points in layout units, y down.
+//! Reads and writes plant models of openTCS: XML, millimeters, y up; control points in layout units,
+//! y down.
 //!
 //! Up to version 0.0.3, drawing data is in the properties of `modelLayoutElement`; later versions
 //! have elements for it. Up to 6.0.0, a point has a position in the plant and another one in the
@@ -15,8 +16,8 @@
 //! | map | paths | paths with curves | `path_mapper` |
 //! | map | blocks, vehicles, location types | blocks, attributes | `group_mapper`, `elements` |
 //! | complete | layout | names, points of all paths | `plant` |
-//! | draw | curves | connection types, control points | `drawn_paths`, `shape`, `fit_cubic`, `layers` |
-//! | write | layout | XML, losses | `write*`, `context`, `held`, `values`, `version`, `xml_writer` |
+//! | draw | curves | connection types, control points | `drawn_paths`, `shape`, `fit_cubic` |
+//! | write | layout | XML, losses | `write*`, `layers`, `held`, `xml_writer` |
 
 mod context;
 mod drawn_paths;

@@ -25,7 +25,8 @@ pub(super) struct PlantPoint<'a> {
     pub(super) path: Option<usize>,
 }
 
-/// Points, path ends and names as written. Names are unique in the whole plant, as openTCS requires.
+/// Points, path ends and names as written. Names are unique in the whole plant, as openTCS
+/// requires.
 pub(super) struct Plant<'a> {
     /// The nodes of the layout, then new points.
     pub(super) points: Vec<PlantPoint<'a>>,

@@ -124,7 +124,7 @@ fn write_path<'n, W: Write>(
         };
         operation.insert("locationName".into(), name.into());
         xml.begin(PERIPHERAL_OPERATION.tag)?;
-        lost += write_fields(xml, &PERIPHERAL_OPERATION, &operation)?;
+        write_fields(xml, &PERIPHERAL_OPERATION, &operation)?;
         xml.end()?;
     }
     changes.operations += usize::from(lost > 0);

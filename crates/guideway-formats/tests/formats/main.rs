@@ -25,6 +25,7 @@ mod networks;
 mod nav2_write;
 mod opendrive;
 mod opentcs;
+mod opentcs_columns;
 mod opentcs_files;
 mod opentcs_write;
 mod refusals;
