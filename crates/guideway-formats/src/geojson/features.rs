@@ -38,10 +38,14 @@ impl Mapper<'_> {
         let features = root.take_features();
         // Other programs may use the same name for a member of their own.
         let member = std::mem::take(&mut root.guideway);
-        let member = member.get().filter(|member| !member.version.is_absent());
+        let member = member.get();
+        // A graph without edges does not show that it is one.
+        let format = member.and_then(|member| member.format.get());
+        let is_named_graph = format.is_some_and(|format| format == names::ROUTE_GRAPH);
+        let member = member.filter(|member| !member.version.is_absent());
         let mut all = features.iter().filter_map(|f| f.get()?.properties.get());
-        self.is_graph =
-            member.is_none() && all.any(|p| p.get("startid").is_some() && p.get("endid").is_some());
+        let mut has_edge = || all.any(|p| p.get("startid").is_some() && p.get("endid").is_some());
+        self.is_graph = member.is_none() && (is_named_graph || has_edge());
         let provenance = &mut self.builder.layout.provenance;
         crate::Format::GeoJson
             .name()

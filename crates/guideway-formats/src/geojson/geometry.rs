@@ -105,8 +105,8 @@ impl Mapper<'_> {
         Ok(known)
     }
 
-    /// Maps an edge of a route graph to the straight line between its nodes. Reports other features:
-    /// one without a place is legal, one with something else for a geometry is refused.
+    /// Maps an edge of a route graph to the straight line between its nodes. Reports other
+    /// features: one without a place is legal, one with something else for a geometry is refused.
     pub(super) fn map_without_geometry(
         &mut self,
         source: &Source<'_, '_>,

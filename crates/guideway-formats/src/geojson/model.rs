@@ -49,6 +49,7 @@ record! { Geometry<'a> {
 record! {
     /// The member `guideway` of a collection: the parts of a layout that are no features.
     Member<'a> {
+        format: Text<'a> = "format",
         version: f64 = "version",
         unit: Text<'a> = "unit",
         origin: Origin = "origin",

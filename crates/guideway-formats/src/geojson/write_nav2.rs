@@ -33,6 +33,10 @@ pub fn write_route_graph(
     let mut json = JsonWriter::new(out, None);
     json.begin('{')?;
     json.field("type", "FeatureCollection")?;
+    json.key("guideway")?;
+    json.begin('{')?;
+    json.field("format", names::ROUTE_GRAPH)?;
+    json.end('}')?;
     json.key("crs")?;
     let crs = r#"{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::3857"}}"#;
     json.value(Value::Json(crs))?;

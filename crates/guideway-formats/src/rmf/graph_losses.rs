@@ -179,8 +179,11 @@ fn is_bent(layout: &Layout, plan: &GraphPlan<'_>, path: PathRef<'_>) -> bool {
 
 /// Returns whether all of a path lies on a line.
 fn is_straight(path: PathRef<'_>, start: Point<f64>, end: Point<f64>) -> bool {
-    let length = start.distance(end).max(STRAIGHT_M);
+    let length = start.distance(end);
     let is_on = |p: Point<f64>| {
+        if length <= STRAIGHT_M {
+            return p.distance(start) <= STRAIGHT_M;
+        }
         let along = (p - start).dot(end - start) / length;
         let aside = (p - start).cross(end - start).abs() / length;
         aside <= STRAIGHT_M && along >= -STRAIGHT_M && along <= length + STRAIGHT_M

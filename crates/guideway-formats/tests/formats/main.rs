@@ -10,6 +10,7 @@ mod common;
 mod dxf;
 mod dxf_write;
 mod geojson;
+mod geojson_properties;
 mod geojson_write;
 mod lanelet2;
 #[path = "../conversion_law/law.rs"]

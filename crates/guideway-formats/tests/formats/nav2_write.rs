@@ -191,3 +191,15 @@ fn columns_are_metadata_that_the_route_server_reads() {
     assert_eq!(whats, expected.into());
     assert_losses_are_differences(&layout, &read(&text), &losses, "columns");
 }
+
+#[test]
+fn a_graph_without_edges_keeps_its_identifiers() {
+    let mut layout = Layout::default();
+    layout.nodes.push("dock", Point::new(1.0, 2.0), None);
+    layout
+        .nodes
+        .attributes
+        .set(0, "name", Value::Text("Dock 1"));
+    let (text, losses) = write(&layout);
+    assert_losses_are_differences(&layout, &read(&text), &losses, "no edges");
+}
