@@ -1,11 +1,11 @@
 //! The `record!` macro: defines a struct of the needed fields of a JSON object and its
 //! deserialization, which skips all other fields.
 
-/// Defines a record. Its field `repeated` holds the last key that occurred twice; `has_other` states
-/// that the object has members that the record does not know.
+/// Defines a record. Its field `repeated` holds the last key that occurred twice;
+/// `has_other` states that the object has members that the record does not know.
 ///
-/// `with &[names]` at the end adds a field `attributes` with the attributes of these names, and with
-/// all members that the record does not know.
+/// `with &[names]` at the end adds a field `attributes` with the attributes of these names, and
+/// with all members that the record does not know.
 macro_rules! record {
     ($(#[doc = $doc:literal])* $name:ident $(<$life:lifetime>)? {
         $($field:ident: $type:ty = $key:literal,)*

@@ -18,6 +18,8 @@ pub(crate) struct Style {
 struct Spaces {
     colon: &'static str,
     comma: &'static str,
+    /// Space after an opening brace and before a closing one.
+    brace: &'static str,
 }
 
 impl Style {
@@ -104,6 +106,12 @@ impl Style {
             self.newline
         };
         out.push(open);
+        let brace = if is_on_one_line && open == '{' && count > 0 {
+            spaces.brace
+        } else {
+            ""
+        };
+        out.push_str(brace);
         for i in 0..count {
             if i > 0 {
                 out.push_str(if is_on_one_line { spaces.comma } else { "," });
@@ -127,6 +135,7 @@ impl Style {
                 _ => {}
             }
         }
+        out.push_str(brace);
         if !is_on_one_line && count > 0 {
             out.push_str(newline);
             out.push_str(indent);
@@ -163,9 +172,10 @@ fn first_item(text: &str) -> Option<&str> {
 const DEFAULT_SPACES: Spaces = Spaces {
     colon: ": ",
     comma: ", ",
+    brace: "",
 };
 
-/// Detects the spaces of a text: those after its first colon and comma.
+/// Detects the spaces of a text: those after its colons, commas and braces.
 fn spaces(text: &str) -> Spaces {
     let colon = match text.find("\":") {
         Some(at) if !text[at + 2..].starts_with([' ', '\n', '\r']) => ":",
@@ -175,6 +185,7 @@ fn spaces(text: &str) -> Spaces {
     Spaces {
         colon,
         comma: if is_tight { "," } else { ", " },
+        brace: if text.contains("{ \"") { " " } else { "" },
     }
 }
 
@@ -201,8 +212,8 @@ mod tests {
         let text = style.render(&tree(), "  ", Some(neighbor));
         assert_eq!(
             text,
-            "{\r\n    \"id\": \"a\",\r\n    \"at\": {\"x\": 1, \"y\": 2},\r\n    \"list\": [\r\n      \
-             [\r\n        1\r\n      ],\r\n      []\r\n    ]\r\n  }"
+            "{\r\n    \"id\": \"a\",\r\n    \"at\": {\"x\": 1, \"y\": 2},\r\n    \
+             \"list\": [\r\n      [\r\n        1\r\n      ],\r\n      []\r\n    ]\r\n  }"
         );
         assert_eq!(
             style.render(&tree(), "", Some(r#"{"id":0,"b":1}"#)),

@@ -146,6 +146,11 @@ impl Mapper<'_> {
                 self.builder.check_repeated(entry.repeated, at_entry);
                 let types =
                     self.vehicle_types(&entry.vehicle_type, &entry.robot_types, at_entry)?;
+                for name in &types {
+                    if !self.vehicle_types.contains(name) {
+                        self.vehicle_types.insert(name.clone());
+                    }
+                }
                 let at_curve: PlaceFn<'_> = &|| field_place(at_entry, "trajectory");
                 self.builder
                     .check_type(&entry.trajectory, at_curve, "an object");

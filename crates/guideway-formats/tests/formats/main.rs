@@ -19,6 +19,7 @@ mod law;
 mod lif;
 mod lif_real;
 mod lif_save;
+mod lif_schema;
 mod lif_texts;
 mod lif_trajectory;
 mod lif_write;

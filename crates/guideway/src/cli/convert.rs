@@ -18,7 +18,8 @@ pub(crate) struct Args {
     /// Layout files; the content decides the format
     #[arg(required = true, value_name = "FILE", value_parser = Input::parser())]
     inputs: Vec<Input>,
-    /// File to write; its extension selects the format unless --to is given
+    /// File to write; its extension selects the format unless --to is given. LIF stays in the
+    /// version that was read
     output: PathBuf,
     /// Format of the output
     #[arg(long, value_name = "FORMAT", value_parser = target_parser())]
@@ -60,7 +61,6 @@ fn target_of(output: &Path) -> Result<Target, UserError> {
 
 /// The format to save a layout in: by the extension of the file, or by the source of the layout
 /// where the extension fits several formats.
-#[cfg(feature = "viewer")]
 pub(super) fn target_to_save(layout: &Layout, output: &Path) -> Result<Target, UserError> {
     let read = Target::of_source(layout);
     let has_extension = |name: &str| {
@@ -113,9 +113,12 @@ pub(super) fn write(
 }
 
 pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
-    let target = args.to.map_or_else(|| target_of(&args.output), Ok)?;
+    // An unknown extension must not wait for the read.
+    args.to.map_or_else(|| target_of(&args.output), Ok)?;
     input::check_output(args.inputs.iter().map(|i| i.path.as_path()), &args.output)?;
     let (layout, read_ms) = input::read_all(&args.inputs, out)?;
+    let of_source = || target_to_save(&layout, &args.output);
+    let target = args.to.map_or_else(of_source, Ok)?;
     let progress = out.progress(format!("writing {}", args.output.display()));
     let (losses, bytes) = write(target, &layout, &args.output)?;
     let write_ms = progress.finish();

@@ -29,7 +29,7 @@ impl<'s> Changes<'s, '_> {
     /// Returns whether a level, an origin, the root or an array changes, whose places in the text
     /// take a scan to find.
     pub(super) fn needs_places(&self) -> bool {
-        let (old, new) = (self.old().layout, self.new_state().layout);
+        let (old, new) = (self.old.layout, self.new.layout);
         old.attributes != new.attributes
             || old.levels != new.levels
             || !self.arrays.iter().flatten().all(ArrayChanges::is_empty)
@@ -37,7 +37,7 @@ impl<'s> Changes<'s, '_> {
 
     /// Splices the changes of levels and their arrays.
     pub(super) fn change_levels(&mut self, places: &Places) {
-        let (old, new) = (self.old(), self.new_state());
+        let (old, new) = (self.old, self.new);
         let roots = (Self::root(old), Self::root(new));
         self.splices.change(places.root, &roots.0, &roots.1);
         for &(at, level) in &places.origins {

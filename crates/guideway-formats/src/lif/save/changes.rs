@@ -3,35 +3,33 @@
 
 use std::collections::HashMap;
 
-use guideway_layout::Direction;
-use rayon::prelude::*;
-
 use super::State;
 use super::arrays::ArrayChanges;
-use super::compare::{SameObject, pair, same_curve, same_types, same_values};
+use super::compare::{pair, same_types, same_values};
 use super::entries::{self, Types};
 use crate::Losses;
 use crate::json::{Members, Splices, Tree};
-use crate::lif::model::{EDGE_PROPERTIES, NODE_PROPERTIES};
+use crate::lif::members::{META, OTHER};
+use crate::lif::model::NODE_PROPERTIES;
 use crate::lif::version::Version;
-use crate::lif::write::{EdgeRef, Edges, level_of, path_types};
+use crate::lif::write::Edges;
 
 /// The changes, as splices and as rows to add and remove.
 pub(super) struct Changes<'s, 't> {
-    old: &'s State<'s>,
-    new: &'s State<'s>,
-    edges: &'s Edges<'s>,
-    version: Version,
+    pub(super) old: &'s State<'s>,
+    pub(super) new: &'s State<'s>,
+    pub(super) edges: &'s Edges<'s>,
+    pub(super) version: Version,
     pub(super) splices: Splices<'t>,
     /// Objects to remove and to add, per level: nodes, edges, stations.
     pub(super) arrays: Vec<[ArrayChanges<'s>; 3]>,
     /// Vehicle types that nodes need for new or changed paths.
-    needed_types: HashMap<u32, Vec<&'s str>>,
+    pub(super) needed_types: HashMap<u32, Vec<&'s str>>,
     /// Straight edges whose nodes were moved without them.
-    following: usize,
+    pub(super) following: usize,
     new_nodes: usize,
     without_level: usize,
-    for_any: usize,
+    pub(super) for_any: usize,
 }
 
 /// Kinds of arrays of a layout.
@@ -70,14 +68,6 @@ impl<'s, 't> Changes<'s, 't> {
         }
     }
 
-    pub(super) fn old(&self) -> &'s State<'s> {
-        self.old
-    }
-
-    pub(super) fn new_state(&self) -> &'s State<'s> {
-        self.new
-    }
-
     pub(super) fn into_splices(self) -> Splices<'t> {
         self.splices
     }
@@ -108,12 +98,12 @@ impl<'s, 't> Changes<'s, 't> {
         &mut self.arrays[level][kind as usize]
     }
 
-    fn remove(&mut self, level: Option<u32>, kind: Kind, start: usize) {
+    pub(super) fn remove(&mut self, level: Option<u32>, kind: Kind, start: usize) {
         let level = level.unwrap_or(0) as usize;
         self.arrays[level][kind as usize].removed.push(start);
     }
 
-    fn add(&mut self, level: Option<u32>, kind: Kind, object: Tree<'s>) {
+    pub(super) fn add(&mut self, level: Option<u32>, kind: Kind, object: Tree<'s>) {
         self.arrays_of(level, kind).added.push(object);
     }
 
@@ -178,11 +168,8 @@ impl<'s, 't> Changes<'s, 't> {
         let of_new = own(self.new.layout.nodes.vehicle_types(), b);
         let mut of_old: Vec<(&str, Option<usize>)> = of_old.collect();
         let mut of_new: Vec<(&str, Option<usize>)> = of_new.collect();
-        for (types, network, node) in [
-            (&mut of_old, self.old.network, a),
-            (&mut of_new, self.old.network, a),
-        ] {
-            for &name in network.types_of_node(node) {
+        for types in [&mut of_old, &mut of_new] {
+            for &name in self.old.network.types_of_node(a) {
                 if types.iter().all(|(known, _)| *known != name) {
                     types.push((name, None));
                 }
@@ -210,193 +197,6 @@ impl<'s, 't> Changes<'s, 't> {
             &of_old,
             &of_new,
         );
-    }
-
-    fn collect_edges(&mut self) {
-        let (old, new) = (self.old, self.new);
-        let (of_old, of_new) = (&old.layout.paths, &new.layout.paths);
-        let (pairs, added) = pair(&of_old.source, of_old.len(), &of_new.source, of_new.len());
-        let is_changed: Vec<bool> = pairs
-            .par_iter()
-            .map(|object| self.is_edge_changed(object))
-            .collect();
-        for (object, is_changed) in pairs.iter().zip(is_changed) {
-            if is_changed {
-                self.change_edge(object);
-            }
-        }
-        for path in added {
-            self.add_edge(path);
-        }
-        for path in new.layout.paths.iter() {
-            if path.direction() == Direction::Both
-                && let Some(edge) = self.edges.reverse_of(path.row() as u32)
-            {
-                let level = level_of(new.layout, path);
-                self.need_types(path.row() as u32);
-                self.add(level, Kind::Edges, new.elements.whole_edge(&edge));
-            }
-        }
-        self.count_following(&pairs);
-    }
-
-    fn is_edge_changed(&self, object: &SameObject) -> bool {
-        let (old, new) = (self.old, self.new);
-        let same = |(&a, &b): (&u32, &u32)| {
-            let (row_a, row_b) = (a as usize, b as usize);
-            let (of_old, of_new) = (&old.layout.paths, &new.layout.paths);
-            let (path_a, path_b) = (of_old.get(row_a), of_new.get(row_b));
-            let is_id_same =
-                path_a.id() == path_b.id() || old.groups.id(path_a) == new.groups.id(path_b);
-            let ids = |state: &'s State<'s>, row| {
-                let ends = state.network.ends(row);
-                ends.map(|node| state.network.node_id(node))
-            };
-            let level = |state: &State<'_>, path| level_of(state.layout, path);
-            is_id_same
-                && (ids(old, row_a) == ids(new, row_b))
-                && level(old, path_a) == level(new, path_b)
-                && same_curve(old.layout, row_a, new.layout, row_b)
-                && same_values(&of_old.attributes, row_a, &of_new.attributes, row_b)
-                && same_types(of_old.vehicle_types(), row_a, of_new.vehicle_types(), row_b)
-        };
-        object.old.len() != object.new.len() || !object.old.iter().zip(&object.new).all(same)
-    }
-
-    fn change_edge(&mut self, object: &SameObject) {
-        let (old, new) = (self.old, self.new);
-        let first_old = old.layout.paths.get(object.old[0] as usize);
-        let old_level = level_of(old.layout, first_old);
-        let Some(&first) = object.new.first() else {
-            return self.remove(old_level, Kind::Edges, object.start);
-        };
-        let key = |row: u32| {
-            let path = new.layout.paths.get(row as usize);
-            let ends = (path.start_node(), path.end_node());
-            (new.groups.id(path), ends, level_of(new.layout, path))
-        };
-        let is_part = |row: &&u32| {
-            let is_copy = object.new.len() > object.old.len() && object.old.len() == 1;
-            key(**row) == key(first) && (!is_copy || **row == first)
-        };
-        let (parts, others): (Vec<&u32>, Vec<&u32>) = object.new.iter().partition(is_part);
-        others.into_iter().for_each(|&row| self.add_edge(row));
-        let level = key(first).2;
-        let edge = |state: &State<'s>, row: u32| EdgeRef {
-            id: state.groups.id(state.layout.paths.get(row as usize)).into(),
-            path: row,
-            others: &[],
-            is_reverse: false,
-        };
-        if level != old_level {
-            self.remove(old_level, Kind::Edges, object.start);
-            parts.into_iter().for_each(|&row| self.add_edge(row));
-            return;
-        }
-        let old_head = old.elements.edge(&edge(old, object.old[0]));
-        let new_head = new.elements.edge(&edge(new, first));
-        self.splices.change(object.start, &old_head, &new_head);
-        let mut of_old: Types<'s> = Vec::new();
-        for &row in &object.old {
-            let curve = old.elements.trajectory(row, false);
-            self.add_types(old, row, curve, &mut of_old);
-        }
-        let mut of_new: Types<'s> = Vec::new();
-        for &row in parts {
-            let before = object.old.iter().find(|&&before| {
-                let is_alone = object.old.len() == 1;
-                is_alone
-                    || old.layout.paths.id(before as usize) == new.layout.paths.id(row as usize)
-            });
-            let is_same =
-                |&&before: &&u32| same_curve(old.layout, before as usize, new.layout, row as usize);
-            let curve = match before.filter(is_same) {
-                Some(&before) => old.elements.trajectory(before, false),
-                None => new.elements.trajectory(row, false),
-            };
-            self.need_types(row);
-            self.add_types(new, row, curve, &mut of_new);
-        }
-        let place = (object.start, self.version.select(EDGE_PROPERTIES));
-        let elements = &new.elements;
-        entries::change(
-            &mut self.splices,
-            elements,
-            self.version,
-            place,
-            &of_old,
-            &of_new,
-        );
-    }
-
-    /// Adds the vehicle types of a path, with its properties and curve.
-    fn add_types(
-        &self,
-        state: &'s State<'s>,
-        path: u32,
-        curve: Option<Tree<'s>>,
-        types: &mut Types<'s>,
-    ) {
-        let own = state.layout.paths.vehicle_types();
-        let rows = own.entries(path as usize);
-        let is_open = rows.is_empty();
-        let names = rows.map(|row| (own.type_of(row), Some(row)));
-        for (name, entry) in names.chain(is_open.then_some(("", None))) {
-            let mut tree = state.elements.edge_type(path, entry, false);
-            if let (Tree::Object(members), Some(curve)) = (&mut tree, &curve) {
-                members.push(("trajectory".into(), curve.clone()));
-            }
-            types.push((name, tree));
-        }
-    }
-
-    fn add_edge(&mut self, path: u32) {
-        let row = self.new.layout.paths.get(path as usize);
-        if row.ends().is_none() {
-            return;
-        }
-        let edge = EdgeRef {
-            id: row.id().into(),
-            path,
-            others: &[],
-            is_reverse: false,
-        };
-        self.need_types(path);
-        let types = self.new.layout.paths.vehicle_types().of(path as usize);
-        self.for_any += usize::from(types.len() == 0);
-        let level = level_of(self.new.layout, row);
-        self.add(level, Kind::Edges, self.new.elements.whole_edge(&edge));
-    }
-
-    /// Notes that the nodes of a path need entries for its vehicle types.
-    fn need_types(&mut self, path: u32) {
-        for node in self.new.network.ends(path as usize) {
-            let types = self.needed_types.entry(node).or_default();
-            types.extend(path_types(self.new.layout, path as usize));
-        }
-    }
-
-    /// Counts straight edges that were not edited while their nodes were moved.
-    fn count_following(&mut self, pairs: &[SameObject]) {
-        let (old, new) = (self.old, self.new);
-        let is_moved = |node: u32| {
-            let was = old.layout.nodes.len() > node as usize;
-            was && old.network.position_m(node) != new.network.position_m(node)
-        };
-        let may_follow = (0..new.layout.nodes.len() as u32).any(is_moved);
-        if !may_follow {
-            return;
-        }
-        let follows = |(&a, &b): (&u32, &u32)| {
-            same_curve(old.layout, a as usize, new.layout, b as usize)
-                && old.elements.trajectory(a, false).is_none()
-                && new.elements.trajectory(b, false).is_some()
-        };
-        let count = |object: &SameObject| {
-            let pairs = object.old.iter().zip(&object.new);
-            pairs.filter(|&pair| follows(pair)).count()
-        };
-        self.following = pairs.par_iter().map(count).sum();
     }
 
     fn collect_stations(&mut self) {
@@ -437,13 +237,10 @@ impl<'s, 't> Changes<'s, 't> {
     pub(super) fn root(state: &'s State<'s>) -> Tree<'s> {
         let mut meta: Members<'s> = Vec::new();
         let attributes = &state.layout.attributes;
-        let columns = state
-            .elements
-            .row_columns(attributes, crate::lif::members::META);
+        let columns = state.elements.row_columns(attributes, META);
         columns.add_to(&mut meta, 0, None);
         let mut root = Tree::Object(vec![("metaInformation".into(), Tree::Object(meta))]);
-        let other = crate::lif::members::OTHER;
-        state.elements.merge_other(&mut root, attributes, 0, other);
+        state.elements.merge_other(&mut root, attributes, 0, OTHER);
         root
     }
 }

@@ -8,12 +8,13 @@
 //! | stage | input | output | file |
 //! |---|---|---|---|
 //! | pair | both layouts | rows of the same object | `compare` |
-//! | change | rows that differ | splices | `changes`, `entries` |
+//! | change | rows that differ | splices | `changes`, `edges`, `entries` |
 //! | add, remove | rows without a partner | splices of arrays | `arrays`, `places` |
 
 mod arrays;
 mod changes;
 mod compare;
+mod edges;
 mod entries;
 mod places;
 

@@ -12,6 +12,8 @@ use crate::lif::version::Version;
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Form {
     Same,
+    /// The value of another member.
+    Renamed,
     /// A boolean that the other version negates.
     Negated,
     /// A list with the number of the column.
@@ -142,10 +144,14 @@ impl<'a> MemberColumns<'a> {
     }
 
     /// Returns the number of values of a column that the version cannot hold, and of those that it
-    /// holds in another form. `rows` are the rows of the table or of its entries.
-    pub(super) fn count_changed(&self, column: &Attribute) -> [usize; 2] {
+    /// holds in another form, in the rows that count.
+    pub(super) fn count_changed(
+        &self,
+        column: &Attribute,
+        is_counted: impl Fn(usize) -> bool,
+    ) -> [usize; 2] {
         let (mut unfit, mut other_form) = (0, 0);
-        for row in 0..column.values.len() {
+        for row in (0..column.values.len()).filter(|&row| is_counted(row)) {
             let Some(value) = column.values.get(row) else {
                 continue;
             };
@@ -181,7 +187,7 @@ impl<'a> MemberColumns<'a> {
                 let list = text.trim_start_matches('[').trim_end_matches(']');
                 return Tree::number(list.trim().parse().ok()?);
             }
-            Form::Same => match member.column.kind {
+            Form::Same | Form::Renamed => match member.column.kind {
                 CellKind::Number => number(value)?,
                 CellKind::Integer => Tree::Raw(value.to_string().into()),
                 CellKind::Flag => Tree::Bool(boolean(value)?),
@@ -212,7 +218,7 @@ impl<'a> Source<'a> {
 
 /// Returns the columns that may have the value of a member, and their forms.
 fn sources(version: Version, column: Column, is_reverse: bool) -> Vec<(&'static str, Form)> {
-    use Form::{InList, Negated, OnlyItem, Same};
+    use Form::{InList, Negated, OnlyItem, Renamed, Same};
     let (one, list) = ("vehicleOrientation", "vehicleOrientations");
     let (rotation, reach) = ("rotationAllowed", "reachOrientationBeforeEntering");
     let (start, end) = ("rotationAtStartNodeAllowed", "rotationAtEndNodeAllowed");
@@ -222,7 +228,7 @@ fn sources(version: Version, column: Column, is_reverse: bool) -> Vec<(&'static 
         ("mobileRobotOrientations", _) => vec![(list, Same), (one, InList)],
         ("rotationAllowed", _) => vec![(rotation, Same), (reach, Negated)],
         ("reachOrientationBeforeEntering", _) => vec![(reach, Same), (rotation, Negated)],
-        ("nodeDescriptor", name) if version == Version::V2 => vec![(name, Same), ("name", Same)],
+        ("nodeDescriptor", name) if version == Version::V2 => vec![(name, Same), ("name", Renamed)],
         (_, "maxSpeed") if is_reverse => vec![("maxReverseSpeed", Same), ("maxSpeed", Same)],
         (_, name) if is_reverse && name == start => vec![(end, Same)],
         (_, name) if is_reverse && name == end => vec![(start, Same)],

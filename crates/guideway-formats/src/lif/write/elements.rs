@@ -1,4 +1,4 @@
-//! Objects of LIF: the levels, nodes, edges and stations of a layout as JSON.
+//! Objects of LIF: the nodes, edges and stations of a layout as JSON.
 
 use std::borrow::Cow;
 
@@ -12,8 +12,7 @@ use super::trajectory::TrajectoryWriter;
 use crate::clamped::rounded;
 use crate::json::{Members, Tree};
 use crate::lif::members::{
-    EDGE, EDGE_TYPE, LAYOUT, NODE, NODE_TYPE, ORIGIN, ORIGIN_OTHER, OTHER, STATION,
-    STATION_POSITION, TYPE_OTHER,
+    EDGE, EDGE_TYPE, NODE, NODE_TYPE, OTHER, STATION, STATION_POSITION, TYPE_OTHER,
 };
 use crate::lif::model::{ANY_TYPE, EDGE_PROPERTIES, NODE_PROPERTIES};
 use crate::lif::version::Version;
@@ -120,13 +119,12 @@ impl<'a> Elements<'a> {
         types
     }
 
-    /// The properties of a node for a vehicle type, without its name. A value of the node is for
-    /// the types of its entries, or for all types if it has no entries.
+    /// The properties of a node for a vehicle type, without its name.
     pub(in crate::lif) fn node_type(&self, node: u32, entry: Option<usize>) -> Tree<'a> {
         let own = self.layout.nodes.vehicle_types();
         let mut members = Vec::new();
         let row = node as usize;
-        if row >= own.len() || entry.is_none() && !own.entries(row).is_empty() {
+        if row >= own.len() {
             return Tree::Object(members);
         }
         self.node_type.add_to(&mut members, row, entry);
@@ -306,55 +304,6 @@ impl<'a> Elements<'a> {
         tree
     }
 
-    /// A level without its arrays.
-    pub(in crate::lif) fn level(&self, index: usize) -> Tree<'a> {
-        let Some(level) = self.network.levels().nth(index) else {
-            return Tree::Object(Vec::new());
-        };
-        let mut members: Members<'a> = vec![text("layoutId", level.id.as_str())];
-        members.extend(level.name.as_deref().map(|name| text("layoutName", name)));
-        self.row_columns(&level.attributes, LAYOUT)
-            .add_to(&mut members, 0, None);
-        if members.iter().all(|(name, _)| name != "layoutVersion") {
-            members.push(text("layoutVersion", "1"));
-        }
-        let mut tree = Tree::Object(members);
-        self.merge_other(&mut tree, &level.attributes, 0, OTHER);
-        tree
-    }
-
-    /// The origin of a level of 2.0, without its layouts.
-    pub(in crate::lif) fn origin(&self, index: usize) -> Tree<'a> {
-        let mut members: Members<'a> = Vec::new();
-        let level = self.network.levels().nth(index);
-        let attributes = level.map(|level| &level.attributes);
-        if let Some(attributes) = attributes {
-            self.row_columns(attributes, ORIGIN)
-                .add_to(&mut members, 0, None);
-        }
-        if members.iter().all(|(name, _)| name != "originId") {
-            members.insert(0, text("originId", "origin"));
-        }
-        let mut tree = Tree::Object(members);
-        if let Some(attributes) = attributes {
-            self.merge_other(&mut tree, attributes, 0, ORIGIN_OTHER);
-        }
-        tree
-    }
-
-    /// Columns of a table of one row.
-    pub(in crate::lif) fn row_columns(
-        &self,
-        of_element: &'a Attributes,
-        names: &[&'static str],
-    ) -> MemberColumns<'a> {
-        let tables = Tables {
-            of_element,
-            of_entry: None,
-        };
-        MemberColumns::select(self.version, names, tables, false, self.is_from_lif)
-    }
-
     /// Merges members of the file that the format does not define.
     pub(in crate::lif) fn merge_other(
         &self,
@@ -383,7 +332,10 @@ impl<'a> Elements<'a> {
     }
 }
 
-fn text<'a>(key: &'static str, text: impl Into<Cow<'a, str>>) -> (Cow<'a, str>, Tree<'a>) {
+pub(super) fn text<'a>(
+    key: &'static str,
+    text: impl Into<Cow<'a, str>>,
+) -> (Cow<'a, str>, Tree<'a>) {
     (key.into(), Tree::Text(text.into()))
 }
 

@@ -3,7 +3,7 @@
 
 use std::borrow::Cow;
 
-use guideway_layout::{Attribute, Attributes, Layout};
+use guideway_layout::{Attributes, Layout};
 
 use super::columns::MemberColumns;
 use super::elements::Elements;
@@ -51,7 +51,12 @@ pub(in crate::lif) fn add_lost(elements: &Elements<'_>, losses: &mut Losses) {
     let held = [further, held_of_curve].concat();
     let two_way = &elements.edge_type[1];
     let paths = [&elements.edge, of_path, two_way];
-    add_columns(losses, &layout.paths.attributes, "paths", &paths, &held);
+    let table = Table {
+        columns: &layout.paths.attributes,
+        of: "paths",
+    };
+    let is_drawn = |path: usize| !elements.network.is_between_levels(path);
+    add_columns_of(losses, table, &paths, &held, is_drawn);
     let of_types = &layout.paths.vehicle_types().attributes;
     add_columns(
         losses,
@@ -101,35 +106,48 @@ pub(in crate::lif) fn add_lost(elements: &Elements<'_>, losses: &mut Losses) {
     );
 }
 
-/// Adds the columns of a table that no member holds, and values that change.
+/// Columns of a table; `of` names its rows.
+#[derive(Clone, Copy)]
+struct Table<'a> {
+    columns: &'a Attributes,
+    of: &'a str,
+}
+
 fn add_columns(
     losses: &mut Losses,
-    table: &Attributes,
+    columns: &Attributes,
     of: &str,
     members: &[&MemberColumns<'_>],
     held: &[&str],
 ) {
-    for column in table
-        .iter()
-        .filter(|column| !held.contains(&column.name.as_str()))
-    {
+    add_columns_of(losses, Table { columns, of }, members, held, |_| true);
+}
+
+/// Adds the columns of a table that no member holds, and values that change, in the rows that
+/// count.
+fn add_columns_of(
+    losses: &mut Losses,
+    Table { columns, of }: Table<'_>,
+    members: &[&MemberColumns<'_>],
+    held: &[&str],
+    is_counted: impl Fn(usize) -> bool,
+) {
+    let columns = columns.iter();
+    for column in columns.filter(|column| !held.contains(&column.name.as_str())) {
         let sources = members.iter().find(|m| m.has_source(&column.name));
         let what = format!("column {}", column.name);
         let Some(sources) = sources else {
-            losses.add(what, count(column), format!("values of {of}"));
+            let rows = (0..column.values.len()).filter(|&row| is_counted(row));
+            let count = rows.filter(|&row| column.values.get(row).is_some()).count();
+            losses.add(what, count, format!("values of {of}"));
             continue;
         };
-        let [unfit, other_form] = sources.count_changed(column);
+        let [unfit, other_form] = sources.count_changed(column, &is_counted);
         let detail = format!("values of {of} that the format cannot hold");
         losses.add(what.as_str(), unfit, detail);
-        let detail = format!("values of {of}: held as the opposite of another member");
+        let detail = format!("values of {of}: held as another member");
         losses.add(what, other_form, detail);
     }
-}
-
-fn count(column: &Attribute) -> usize {
-    let rows = 0..column.values.len();
-    rows.filter(|&row| column.values.get(row).is_some()).count()
 }
 
 /// Adds what a whole new file has in another form: values that 1.0 requires, curves with other

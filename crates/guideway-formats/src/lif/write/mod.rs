@@ -4,7 +4,7 @@
 //! | stage | input | output | file |
 //! |---|---|---|---|
 //! | prepare | layout | levels, nodes, path ends, edges | `network`, `edges` |
-//! | convert | rows of the layout | JSON objects | `elements`, `columns`, `actions`, `trajectory` |
+//! | convert | rows of the layout | JSON objects | `elements`, `levels`, `columns`, `actions`, `trajectory` |
 //! | write | objects | text | `file` |
 //! | account | layout | losses | `losses` |
 
@@ -13,6 +13,7 @@ mod columns;
 mod edges;
 mod elements;
 mod file;
+mod levels;
 mod losses;
 mod network;
 mod trajectory;

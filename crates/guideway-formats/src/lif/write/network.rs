@@ -54,6 +54,10 @@ impl<'a> Network<'a> {
                 ..Level::default()
             }));
         }
+        let on_node_level = layout.paths.iter().filter(|p| p.level().is_none());
+        let on_node_level = on_node_level.filter(|p| level_of(layout, *p).is_some());
+        let detail = "paths without a level: written to the level of their first node";
+        losses.add("levels", on_node_level.count(), detail);
         let mut network = Self {
             level_rows: vec![LevelRows::default(); levels.len()],
             levels,
@@ -140,7 +144,9 @@ impl<'a> Network<'a> {
             "new nodes: written at path ends without a node",
         );
         let detail = "paths between levels: readers treat them as lifts and do not draw them";
-        losses.add("paths between levels", between_levels, detail);
+        losses.add("paths", between_levels, detail);
+        let detail = "paths between levels: readers refuse to draw them";
+        losses.add("refused paths", between_levels, detail);
         let detail = format!("paths for all vehicle types: written for the type `{ANY_TYPE}`");
         losses.add("vehicle types", for_any, detail);
     }
@@ -164,6 +170,12 @@ impl<'a> Network<'a> {
     /// Returns the identifier of a node as written. Rows of layout nodes are the same here.
     pub(in crate::lif) fn node_id(&self, node: u32) -> &str {
         &self.nodes[node as usize].id
+    }
+
+    /// Returns whether a path connects two levels, so that readers do not draw it.
+    pub(super) fn is_between_levels(&self, path: usize) -> bool {
+        let [start, end] = self.ends[path].map(|node| self.nodes[node as usize].level);
+        start != end
     }
 
     /// Returns the start and end node of a path.
