@@ -5,6 +5,9 @@ use super::difference::{CompareOptions, Differences};
 use super::row_pairs::RowPairs;
 use crate::{Attributes, Block, Layout, Level, Member, VehicleType, Zone};
 
+/// Greatest difference of origins that count as equal, in degrees: a tenth of a millimeter.
+const ORIGIN_TOLERANCE_DEG: f64 = 1e-9;
+
 /// Pairs of the elements that blocks refer to.
 pub(super) struct MemberPairs<'a> {
     pub(super) paths: &'a RowPairs,
@@ -78,6 +81,13 @@ pub(super) fn compare(
         let are_near = corners
             .into_iter()
             .all(|(p, q)| p.distance(*q) <= options.tolerance_m);
+        let level = |layout: &Layout, zone: &Zone| {
+            let level = layout.levels.get(zone.level? as usize)?;
+            Some(level.id.clone())
+        };
+        if level(a, p) != level(b, q) {
+            found.add("zones", || format!("{} is on another level", name()));
+        }
         if p.outline_m.len() != q.outline_m.len() || !are_near {
             found.add("zones", || format!("{} has another outline", name()));
         }
@@ -109,7 +119,15 @@ fn compare_levels(levels: [&[Level]; 2], options: &CompareOptions, found: &mut D
 }
 
 fn compare_layouts([a, b]: [&Layout; 2], options: &CompareOptions, found: &mut Differences) {
-    if a.geo_origin.is_some() != b.geo_origin.is_some() {
+    let degrees = |layout: &Layout| {
+        let origin = layout.geo_origin?;
+        Some([origin.longitude_deg, origin.latitude_deg])
+    };
+    let are_equal = match [a, b].map(degrees) {
+        [Some(p), Some(q)] => (0..2).all(|i| (p[i] - q[i]).abs() <= ORIGIN_TOLERANCE_DEG),
+        [p, q] => p.is_none() && q.is_none(),
+    };
+    if !are_equal {
         found.add("geo origin", || {
             format!("{:?} instead of {:?}", b.geo_origin, a.geo_origin)
         });

@@ -71,10 +71,11 @@ pub(super) fn target_to_save(layout: &Layout, output: &Path) -> Result<Target, U
         (Ok(Target::Lif1), Some(Target::Lif2)) => Ok(Target::Lif2),
         (Ok(Target::OpenTcs7), Some(Target::OpenTcs6)) => Ok(Target::OpenTcs6),
         (Ok(Target::GeoJson), Some(Target::Nav2)) => Ok(Target::Nav2),
-        (
-            Err(_),
-            Some(read @ (Target::Lif1 | Target::Lif2 | Target::GeoJson | Target::Nav2)),
-        ) if has_extension("json") => Ok(read),
+        (Err(_), Some(read @ (Target::Lif1 | Target::Lif2 | Target::GeoJson | Target::Nav2)))
+            if has_extension("json") =>
+        {
+            Ok(read)
+        }
         (Err(_), Some(Target::Rmf)) if has_extension("yaml") => Ok(Target::Rmf),
         (named, _) => named,
     }
@@ -91,7 +92,9 @@ pub(super) fn check_in_place(layout: &Layout, file: &Path) -> Result<(), UserErr
         Target::OpenTcs6 | Target::OpenTcs7 if Target::of_source(layout) != Some(target) => {
             format!("is no {}", target.name())
         }
-        Target::GeoJson | Target::Nav2 | Target::Rmf | Target::OpenTcs6 | Target::OpenTcs7 if refused > 0 => {
+        Target::GeoJson | Target::Nav2 | Target::Rmf | Target::OpenTcs6 | Target::OpenTcs7
+            if refused > 0 =>
+        {
             format!("has {refused} refused paths, which saving would drop")
         }
         _ => return Ok(()),
