@@ -94,8 +94,8 @@ pub(crate) fn rust_components() -> Result<()> {
     Ok(())
 }
 
-/// A Python with pyarrow, polars, jsonschema and lxml, in a virtual environment under `target/`, for
-/// tests that read Guideway's files with other programs.
+/// A Python with pyarrow, polars, jsonschema and lxml, in a virtual environment under `target/`,
+/// for tests that read Guideway's files with other programs.
 pub(crate) fn python() -> Result<PathBuf> {
     let workspace = Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("..")

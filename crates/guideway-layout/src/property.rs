@@ -113,7 +113,7 @@ pub const PROPERTIES: &[Property] = &[
         "maxReverseSpeed",
         SPEED,
         DRIVEN,
-        "Greatest permitted speed against the direction of a two-way path, if it is not `maxSpeed`.",
+        "Greatest permitted speed against the direction, if it is not `maxSpeed`.",
     ),
     property(
         "maxRotationSpeed",

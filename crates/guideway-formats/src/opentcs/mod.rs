@@ -1,5 +1,5 @@
-//! Reads and writes plant models of openTCS: XML, millimeters, y up; control points in layout units,
-//! y down.
+//! Reads and writes plant models of openTCS: XML, millimeters, y up; control points in layout
+//! units, y down.
 //!
 //! Up to version 0.0.3, drawing data is in the properties of `modelLayoutElement`; later versions
 //! have elements for it. Up to 6.0.0, a point has a position in the plant and another one in the
