@@ -9,9 +9,9 @@
 //! | open | path or bytes | bytes, format | `read`, `input`, `format`, `sniff` |
 //! | parse | bytes | records, elements | `text`, `json`, `xml`, `yaml`, `yaml_json` |
 //! | map | records, elements | layout, diagnostics | one folder per format; `builder`, `node_rows` |
-//! | convert | curves of a format | uniform cubic runs | `spline`, `trajectory`, `ellipse`, `wgs84` |
+//! | convert | curves and units of a format | uniform cubic runs, SI units | `spline`, `trajectory`, `ellipse`, `wgs84`, `speed_unit` |
 //! | floor plans | image, ROS map | pixels and their placement, walls | `raster`, `ros_map` |
-//! | write | layout | file, losses | `write*` per format; `clamped`, `driven`, `*_nodes`, `*_losses` |
+//! | write | layout | file, losses | `write*` per format; `clamped`, `driven`, `trajectory_writer`, `*_nodes`, `*_losses` |
 
 pub mod arrow;
 mod builder;
@@ -40,14 +40,16 @@ pub mod rmf;
 pub mod ros_map;
 mod sniff;
 mod source;
+mod speed_unit;
 mod spline;
 pub mod svg;
 mod target;
 mod text;
 mod trajectory;
+mod trajectory_writer;
 mod unique_names;
 mod user_error;
-mod vda5050;
+pub mod vda5050;
 mod wgs84;
 mod xml;
 mod xml_builder;

@@ -1,7 +1,7 @@
 //! Spline conversion: converts degree, knots, control points and weights of a file to uniform cubic
 //! runs, or to the control polygon if the numbers define no curve.
 
-use guideway_layout::Code;
+use guideway_layout::{Code, WrittenCurve};
 use guideway_spline::{Nurbs, Point, Runs, knots, nurbs_to_runs, polyline_to_runs};
 
 use crate::builder::{Builder, PlaceFn};
@@ -20,6 +20,19 @@ pub(crate) struct Spline {
     pub(crate) points: Vec<Point<f64>>,
     /// Empty if all are 1; otherwise one per point, all finite and above zero.
     pub(crate) weights: Vec<f64>,
+}
+
+impl Spline {
+    /// The curve as its file wrote it; weights of 1 are the same as none.
+    pub(crate) fn into_written(self) -> WrittenCurve {
+        let is_weighted = self.weights.iter().any(|&weight| weight != 1.0);
+        WrittenCurve {
+            degree: self.degree as u32,
+            knots: self.knots,
+            points_m: self.points,
+            weights: is_weighted.then_some(self.weights),
+        }
+    }
 }
 
 impl Builder<'_> {

@@ -8,7 +8,9 @@ use std::time::SystemTime;
 use guideway_layout::Layout;
 
 use crate::lif::{self, Version};
-use crate::{Format, Losses, WriteError, arrow, dxf, geojson, opentcs, rmf, svg};
+use crate::{
+    Format, Losses, WriteError, WriteProblem, arrow, dxf, geojson, opentcs, rmf, svg, vda5050,
+};
 
 /// A format that can be written, in one of its versions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -33,6 +35,10 @@ pub enum Target {
     Rmf,
     /// SVG, a drawing with exact curves.
     Svg,
+    /// VDA 5050 2.1, the order of a route.
+    Vda2,
+    /// VDA 5050 3.0, the order of a route.
+    Vda3,
 }
 
 impl Target {
@@ -48,6 +54,8 @@ impl Target {
         Self::OpenTcs7,
         Self::Rmf,
         Self::Svg,
+        Self::Vda2,
+        Self::Vda3,
     ];
 
     /// Identifier on the command line.
@@ -63,6 +71,8 @@ impl Target {
             Self::OpenTcs7 => "opentcs",
             Self::Rmf => "rmf",
             Self::Svg => "svg",
+            Self::Vda2 => "vda5050",
+            Self::Vda3 => "vda5050-3",
         }
     }
 
@@ -85,6 +95,8 @@ impl Target {
             Self::OpenTcs7 => "openTCS 7.0.0",
             Self::Rmf => "Open-RMF navigation graph",
             Self::Svg => "SVG",
+            Self::Vda2 => "VDA 5050 2.1",
+            Self::Vda3 => "VDA 5050 3.0",
         }
     }
 
@@ -101,6 +113,8 @@ impl Target {
             Self::OpenTcs7 => "openTCS plant model 7.0.0",
             Self::Rmf => "Open-RMF navigation graph (YAML)",
             Self::Svg => "SVG, a drawing with exact curves",
+            Self::Vda2 => "VDA 5050 2.1, the order of one route",
+            Self::Vda3 => "VDA 5050 3.0, the order of one route",
         }
     }
 
@@ -111,11 +125,12 @@ impl Target {
             Self::Dxf => &[".dxf"],
             Self::GeoJson => &[".geojson"],
             Self::Lif1 => &[".lif.json", ".lif"],
-            Self::Lif2 | Self::OpenTcs6 => &[],
+            Self::Lif2 | Self::OpenTcs6 | Self::Vda3 => &[],
             Self::Nav2 => &[".nav2.geojson"],
             Self::OpenTcs7 => &[".opentcs.xml", ".xml"],
             Self::Rmf => &[".nav_graph.yaml"],
             Self::Svg => &[".svg"],
+            Self::Vda2 => &[".vda5050.json"],
         }
     }
 
@@ -139,6 +154,11 @@ impl Target {
         match opentcs::Version::of_layout(layout) {
             Some(opentcs::Version::V6) => return Some(Self::OpenTcs6),
             Some(opentcs::Version::V7) => return Some(Self::OpenTcs7),
+            None => {}
+        }
+        match vda5050::Version::of_layout(layout) {
+            Some(vda5050::Version::V2) => return Some(Self::Vda2),
+            Some(vda5050::Version::V3) => return Some(Self::Vda3),
             None => {}
         }
         match Version::of_layout(layout) {
@@ -172,20 +192,39 @@ impl Target {
     /// Writes a layout to a file. Returns the losses.
     ///
     /// # Errors
-    /// When the file cannot be written.
+    /// When the file cannot be written, or when the target is an order and the paths do not form one
+    /// route; the file is not touched then.
     pub fn write_file(self, layout: &Layout, path: &Path) -> Result<Losses, WriteError> {
         if self == Self::Arrow {
             return arrow::write_layout(layout, path, &arrow::WriteOptions::default());
         }
-        let fail = |problem: std::io::Error| WriteError {
+        let fail = |problem: WriteProblem| WriteError {
             path: path.to_owned(),
-            problem: problem.into(),
+            problem,
         };
+        if let Some(version) = self.order_version() {
+            let mut text = Vec::new();
+            let exported = SystemTime::now();
+            let options = vda5050::WriteOptions { version, exported };
+            let losses = vda5050::write_layout(layout, &mut text, &options).map_err(fail)?;
+            std::fs::write(path, text).map_err(|error| fail(error.into()))?;
+            return Ok(losses);
+        }
+        let fail = |error: std::io::Error| fail(error.into());
         let file = File::create(path).map_err(fail)?;
         let mut out = BufWriter::with_capacity(1 << 16, file);
         let losses = self.write_text(layout, &mut out).map_err(fail)?;
         out.flush().map_err(fail)?;
         Ok(losses)
+    }
+
+    /// The version of VDA 5050, if the target is an order.
+    fn order_version(self) -> Option<vda5050::Version> {
+        match self {
+            Self::Vda2 => Some(vda5050::Version::V2),
+            Self::Vda3 => Some(vda5050::Version::V3),
+            _ => None,
+        }
     }
 
     fn write_text(self, layout: &Layout, out: &mut impl Write) -> std::io::Result<Losses> {
@@ -206,6 +245,7 @@ impl Target {
             Self::OpenTcs7 => opentcs::write_layout(layout, out, opentcs::Version::V7),
             Self::Rmf => rmf::write_navigation_graph(layout, out),
             Self::Svg => svg::write_layout(layout, out),
+            Self::Vda2 | Self::Vda3 => unreachable!("orders are written before"),
         }
     }
 }

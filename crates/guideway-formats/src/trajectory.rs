@@ -1,16 +1,20 @@
 //! Trajectories of edges in LIF and VDA 5050: converts the NURBS record of either format to runs,
 //! or to the control polygon if it defines no curve.
 
-use guideway_layout::{Code, Place, WrittenCurve};
+use guideway_layout::{Code, Place, Value, WrittenCurve};
 use guideway_spline::{MAX_DEGREE, Point, Runs, polyline_to_runs};
 
 use serde::de::{IgnoredAny, MapAccess};
 
 use crate::ReadError;
-use crate::builder::{Builder, PlaceFn};
-use crate::json::{Field, FromJson, Key, field_place, items, record};
+use crate::builder::{Builder, PlaceFn, Table};
+use crate::clamped::is_rewritten_as;
+use crate::json::{Field, FromJson, Key, field_place, items, push_compact, record};
 use crate::source::{ReadOptions, Source};
 use crate::spline::Spline;
+
+/// Column of a trajectory that defines no curve, or that holds more than a curve, as written.
+pub(crate) const TRAJECTORY_COLUMN: &str = "trajectory";
 
 record! { Trajectory {
     degree: f64 = "degree",
@@ -78,17 +82,6 @@ pub(crate) fn runs_of(trajectory: &Trajectory) -> Runs {
     runs
 }
 
-/// Returns the curve of a file; weights of 1 are the same as none.
-fn written(spline: Spline) -> WrittenCurve {
-    let is_weighted = spline.weights.iter().any(|&weight| weight != 1.0);
-    WrittenCurve {
-        degree: spline.degree as u32,
-        knots: spline.knots,
-        points_m: spline.points,
-        weights: is_weighted.then_some(spline.weights),
-    }
-}
-
 impl Builder<'_> {
     /// Appends a trajectory to empty `runs`. They stay empty for fewer than two points.
     pub(crate) fn append_trajectory(
@@ -114,7 +107,7 @@ impl Builder<'_> {
                     weights: control.weights,
                 };
                 if self.append_spline(&spline, at, runs) {
-                    curve.written = Some(written(spline));
+                    curve.written = Some(spline.into_written());
                 }
             }
             // A diagnostic reports the invalid part; without it there is no curve.
@@ -124,6 +117,31 @@ impl Builder<'_> {
         }
         curve.is_odd |= curve.written.is_none();
         Ok(curve)
+    }
+
+    /// Keeps the curve of the file where the writer would write another one, and the text of a
+    /// trajectory that is more or less than a curve. `ends` are the positions of the nodes.
+    pub(crate) fn keep_written_curve<'t>(
+        &mut self,
+        row: usize,
+        read: ReadCurve,
+        ends: Option<[Point<f64>; 2]>,
+        text: impl FnOnce() -> Option<&'t str>,
+    ) -> Result<(), ReadError> {
+        if let Some(written) = read.written {
+            let paths = &mut self.layout.paths;
+            if !is_rewritten_as(paths.get(row), ends, &written) {
+                paths.set_written_curve(row, written);
+            }
+        }
+        let Some(text) = text().filter(|_| read.is_odd) else {
+            return Ok(());
+        };
+        let mut compact = String::new();
+        push_compact(text, &mut compact);
+        self.check_text(&compact)?;
+        let value = Value::Json(&compact);
+        self.set(Table::Paths, row, TRAJECTORY_COLUMN, value)
     }
 
     fn control_polygon(

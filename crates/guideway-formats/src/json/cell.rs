@@ -4,11 +4,11 @@ use std::borrow::Cow;
 
 use guideway_layout::{Code, Property, PropertyKind, Value};
 
-use super::attributes::{AttributeField, Attributes, Scalar};
+use super::attributes::{AttributeField, Scalar};
 use super::check::field_place;
 use super::scan::push_compact;
 use crate::ReadError;
-use crate::builder::{Builder, PlaceFn, Table};
+use crate::builder::{Builder, PlaceFn};
 
 /// Kind of the values of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -157,28 +157,6 @@ impl Builder<'_> {
             format!("expected {}, found {found}", kind.expected())
         };
         self.report(Code::WrongType, at, message, remedy);
-    }
-
-    /// Sets all attributes of a row, each in the column of its name, in the type of its value.
-    pub(crate) fn set_attributes(
-        &mut self,
-        table: Table,
-        row: usize,
-        attributes: &Attributes<'_>,
-    ) -> Result<(), ReadError> {
-        for field in attributes.iter() {
-            self.check_text(field.text)?;
-            let cell = match &field.value {
-                Scalar::Null => continue,
-                Scalar::Bool(value) => Cell::Bool(*value),
-                Scalar::Integer(value) => Cell::Integer(*value),
-                Scalar::Number(value) => Cell::Number(*value),
-                Scalar::Text(text) => Cell::Text(text.clone()),
-                Scalar::Json(text) => Cell::Json(compact(text)),
-            };
-            self.set(table, row, field.name, cell.value())?;
-        }
-        Ok(())
     }
 }
 

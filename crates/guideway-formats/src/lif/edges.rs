@@ -8,14 +8,13 @@ use guideway_layout::{Code, NewPath};
 use guideway_spline::{Point, Runs};
 
 use super::mapper::Mapper;
-use super::members::{EDGE_ID, OTHER, TRAJECTORY};
+use super::members::{EDGE_ID, OTHER};
 use super::model::{EDGE_PROPERTIES, Edge, PHYSICAL_LINE};
 use super::type_entries::{ColumnCell, TypeOfEntry, other_cell};
 use crate::ReadError;
 use crate::builder::{PlaceFn, Table};
-use crate::clamped::is_rewritten_as;
-use crate::json::{Cell, Field, LazyItem, OtherMembers, field_place, items, member, push_compact};
-use crate::trajectory::{ReadCurve, Trajectory};
+use crate::json::{Cell, Field, LazyItem, OtherMembers, field_place, items, member};
+use crate::trajectory::Trajectory;
 
 /// A curve of an edge, with the vehicle types that follow it.
 struct Curve<'r> {
@@ -266,42 +265,15 @@ impl Mapper<'_> {
                 .set(row, before + item.start);
         }
         if let Some(read) = read {
-            self.keep_written_curve(row, read, positions.map(Into::into), item, curve)?;
+            let text = || {
+                let (key, i) = curve.entry?;
+                let entry = item.array_item(key, i);
+                member(entry, 0, "trajectory").map(|range| &entry[range])
+            };
+            let ends = positions.map(Into::into);
+            self.builder.keep_written_curve(row, read, ends, text)?;
         }
         Ok(Some(row))
-    }
-
-    /// Keeps the curve of the file where the writer would write another one, and a trajectory that
-    /// is more or less than a curve as text.
-    fn keep_written_curve(
-        &mut self,
-        row: usize,
-        read: ReadCurve,
-        ends: Option<[Point<f64>; 2]>,
-        item: &LazyItem<'_, Edge<'_>>,
-        curve: &Curve<'_>,
-    ) -> Result<(), ReadError> {
-        if let Some(written) = read.written {
-            let paths = &mut self.builder.layout.paths;
-            if !is_rewritten_as(paths.get(row), ends, &written) {
-                paths.set_written_curve(row, written);
-            }
-        }
-        let (true, Some((key, i))) = (read.is_odd, curve.entry) else {
-            return Ok(());
-        };
-        let entry = item.array_item(key, i);
-        let Some(trajectory) = member(entry, 0, "trajectory") else {
-            return Ok(());
-        };
-        let mut text = String::new();
-        push_compact(&entry[trajectory], &mut text);
-        let cell = ColumnCell {
-            column: TRAJECTORY,
-            quantity: None,
-            cell: Cell::Json(text),
-        };
-        cell.set(self, Table::Paths, row)
     }
 
     fn between_levels(&self, start: &End<'_>, end: &End<'_>) -> String {

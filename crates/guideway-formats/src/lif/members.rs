@@ -15,8 +15,6 @@ pub(super) const OTHER: &str = "other";
 pub(super) const TYPE_OTHER: &str = "vehicleTypeOther";
 /// Column of the members of the origin of a level that LIF does not define.
 pub(super) const ORIGIN_OTHER: &str = "originOther";
-/// Column of a trajectory that defines no curve, or that holds more than a curve, as written.
-pub(super) const TRAJECTORY: &str = "trajectory";
 /// Column of the identifier of an edge whose vehicle types have different curves, so that it is
 /// several paths.
 pub(super) const EDGE_ID: &str = "edgeId";

@@ -7,7 +7,7 @@ mod random_layout;
 use std::path::{Path, PathBuf};
 
 use guideway_formats::{ReadOptions, Target, read_file};
-use guideway_layout::{Direction, Layout};
+use guideway_layout::{Direction, Layout, PathRef};
 use guideway_spline::Point;
 use rayon::prelude::*;
 
@@ -62,6 +62,29 @@ fn random_layouts_lose_what_is_listed() {
         targets
             .flat_map(move |&target| breaches(&name, &layout, target))
             .collect::<Vec<_>>()
+    });
+    assert_none(found.collect());
+}
+
+/// An order holds one route, which random layouts rarely are: a single path is one.
+#[test]
+fn random_routes_lose_what_is_listed() {
+    let found = (0..400).into_par_iter().flat_map_iter(|seed: u64| {
+        let mut layout = random_layout(seed);
+        let has_node = |path: &PathRef<'_>| path.start_node().or(path.end_node()).is_some();
+        let row = layout.paths.iter().find(has_node).map(|path| path.row());
+        let targets: &[Target] = match row {
+            Some(row) => {
+                layout.retain_paths(&[row]);
+                &[Target::Vda2, Target::Vda3]
+            }
+            None => &[],
+        };
+        let name = format!("random route {seed}");
+        let found = targets
+            .iter()
+            .map(|&target| breaches(&name, &layout, target));
+        found.flatten().collect::<Vec<_>>()
     });
     assert_none(found.collect());
 }

@@ -41,3 +41,4 @@ mod sniff;
 mod svg;
 mod svg_write;
 mod vda5050;
+mod vda5050_write;

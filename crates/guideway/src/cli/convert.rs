@@ -67,11 +67,13 @@ pub(super) fn target_to_save(layout: &Layout, output: &Path) -> Result<Target, U
         let extension = output.extension();
         extension.is_some_and(|e| e.eq_ignore_ascii_case(name))
     };
+    use Target::{Lif1, Lif2, Vda2, Vda3};
     match (target_of(output), read) {
-        (Ok(Target::Lif1), Some(Target::Lif2)) => Ok(Target::Lif2),
+        (Ok(Lif1), Some(Lif2)) => Ok(Lif2),
+        (Ok(Vda2), Some(Vda3)) => Ok(Vda3),
         (Ok(Target::OpenTcs7), Some(Target::OpenTcs6)) => Ok(Target::OpenTcs6),
         (Ok(Target::GeoJson), Some(Target::Nav2)) => Ok(Target::Nav2),
-        (Err(_), Some(read @ (Target::Lif1 | Target::Lif2 | Target::GeoJson | Target::Nav2)))
+        (Err(_), Some(read @ (Lif1 | Lif2 | Target::GeoJson | Target::Nav2 | Vda2 | Vda3)))
             if has_extension("json") =>
         {
             Ok(read)
@@ -92,7 +94,13 @@ pub(super) fn check_in_place(layout: &Layout, file: &Path) -> Result<(), UserErr
         Target::OpenTcs6 | Target::OpenTcs7 if Target::of_source(layout) != Some(target) => {
             format!("is no {}", target.name())
         }
-        Target::GeoJson | Target::Nav2 | Target::Rmf | Target::OpenTcs6 | Target::OpenTcs7
+        Target::GeoJson
+        | Target::Nav2
+        | Target::Rmf
+        | Target::OpenTcs6
+        | Target::OpenTcs7
+        | Target::Vda2
+        | Target::Vda3
             if refused > 0 =>
         {
             format!("has {refused} refused paths, which saving would drop")
@@ -178,7 +186,7 @@ mod tests {
 
     #[test]
     fn saves_in_the_format_of_the_source() {
-        use Target::{Arrow, GeoJson, Lif1, Lif2, Nav2, OpenTcs6, OpenTcs7, Rmf};
+        use Target::{Arrow, GeoJson, Lif1, Lif2, Nav2, OpenTcs6, OpenTcs7, Rmf, Vda2, Vda3};
         for (format, version, name, target) in [
             ("LIF", "1.0", "a.lif.json", Some(Lif1)),
             ("LIF", "2.0", "a.lif.json", Some(Lif2)),
@@ -190,7 +198,9 @@ mod tests {
             ("GeoJSON", "Nav2 route graph", "graph.json", Some(Nav2)),
             ("Open-RMF", "navigation graph", "0.yaml", Some(Rmf)),
             ("Open-RMF", "building", "office.building.yaml", None),
-            ("VDA 5050", "2.0", "order.json", None),
+            ("VDA 5050", "2.0", "order.json", Some(Vda2)),
+            ("VDA 5050", "3.0", "order.json", Some(Vda3)),
+            ("VDA 5050", "3.0", "a.vda5050.json", Some(Vda3)),
             ("openTCS", "6.0.0", "plant.xml", Some(OpenTcs6)),
             ("openTCS", "7.0.0", "plant.xml", Some(OpenTcs7)),
             ("LIF", "1.0", "site.txt", None),

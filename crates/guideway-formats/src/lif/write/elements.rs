@@ -8,7 +8,6 @@ use guideway_spline::Point;
 use super::columns::{MemberColumns, Tables};
 use super::edges::EdgeRef;
 use super::network::{Network, path_types};
-use super::trajectory::TrajectoryWriter;
 use crate::clamped::rounded;
 use crate::json::{Members, Tree};
 use crate::lif::members::{
@@ -16,6 +15,7 @@ use crate::lif::members::{
 };
 use crate::lif::model::{ANY_TYPE, EDGE_PROPERTIES, NODE_PROPERTIES};
 use crate::lif::version::Version;
+use crate::trajectory_writer::TrajectoryWriter;
 
 /// Makes the objects of a layout in a version.
 pub(in crate::lif) struct Elements<'a> {
@@ -67,8 +67,8 @@ impl<'a> Elements<'a> {
             station_position: select(STATION_POSITION, stations, None, false),
             trajectories: TrajectoryWriter {
                 layout,
-                version,
-                is_from_lif,
+                has_weights_from_1: version == Version::V1,
+                is_as_written: is_from_lif,
             },
         }
     }

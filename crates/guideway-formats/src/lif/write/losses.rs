@@ -9,10 +9,9 @@ use super::columns::MemberColumns;
 use super::elements::Elements;
 use crate::Losses;
 use crate::json::Tree;
-use crate::lif::members::{
-    EDGE_ID, LAYOUT, META, ORIGIN, ORIGIN_OTHER, OTHER, TRAJECTORY, TYPE_OTHER,
-};
+use crate::lif::members::{EDGE_ID, LAYOUT, META, ORIGIN, ORIGIN_OTHER, OTHER, TYPE_OTHER};
 use crate::lif::version::Version;
+use crate::trajectory::TRAJECTORY_COLUMN;
 
 /// Adds what both ways to save LIF lose.
 pub(in crate::lif) fn add_lost(elements: &Elements<'_>, losses: &mut Losses) {
@@ -42,7 +41,7 @@ pub(in crate::lif) fn add_lost(elements: &Elements<'_>, losses: &mut Losses) {
         &[]
     };
     let (of_path, of_node) = (&elements.edge_type[0], &elements.node_type);
-    let of_curve = [EDGE_ID, TRAJECTORY];
+    let of_curve = [EDGE_ID, TRAJECTORY_COLUMN];
     let held_of_curve: &[&str] = if elements.is_from_lif {
         &of_curve
     } else {

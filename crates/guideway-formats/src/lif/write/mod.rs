@@ -4,7 +4,7 @@
 //! | stage | input | output | file |
 //! |---|---|---|---|
 //! | prepare | layout | levels, nodes, path ends, edges | `network`, `edges` |
-//! | convert | rows of the layout | JSON objects | `elements`, `levels`, `columns`, `actions`, `trajectory` |
+//! | convert | rows of the layout | JSON objects | `elements`, `levels`, `columns`, `actions` |
 //! | write | objects | text | `file` |
 //! | account | layout | losses | `losses` |
 
@@ -16,7 +16,6 @@ mod file;
 mod levels;
 mod losses;
 mod network;
-mod trajectory;
 
 use std::io::{self, Write};
 use std::time::SystemTime;

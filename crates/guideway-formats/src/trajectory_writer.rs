@@ -1,29 +1,28 @@
-//! Trajectories of LIF edges as text: the curve of the file where it is still that of the path,
-//! else a clamped B-spline.
+//! Trajectories of edges in LIF and VDA 5050 as text: the curve of the file where it is still that
+//! of the path, else a clamped B-spline.
 
 use guideway_layout::{Layout, PathRef, Value, WrittenCurve};
 use guideway_spline::{Point, Runs, knots};
 
 use crate::clamped::ClampedCurve;
 use crate::json::{Field, Tree, push_number};
-use crate::lif::members::TRAJECTORY;
-use crate::lif::version::Version;
-use crate::trajectory::{Trajectory, runs_of};
+use crate::trajectory::{TRAJECTORY_COLUMN, Trajectory, runs_of};
 
 /// Writes the trajectories of the paths of a layout.
 #[derive(Clone, Copy)]
-pub(super) struct TrajectoryWriter<'a> {
-    pub(super) layout: &'a Layout,
-    pub(super) version: Version,
-    /// True for a layout read from LIF: its curves are written as they are, even where the schema
-    /// forbids their knots or weights.
-    pub(super) is_from_lif: bool,
+pub(crate) struct TrajectoryWriter<'a> {
+    pub(crate) layout: &'a Layout,
+    /// Whether the format requires weights from 1 on.
+    pub(crate) has_weights_from_1: bool,
+    /// True for a layout read from the same format: its curves are written as they are, even where
+    /// the schema forbids their knots or weights.
+    pub(crate) is_as_written: bool,
 }
 
 impl<'a> TrajectoryWriter<'a> {
     /// Returns the trajectory of a path between two positions, or `None` for the straight line,
     /// which LIF implies.
-    pub(super) fn trajectory(
+    pub(crate) fn trajectory(
         self,
         path: PathRef<'a>,
         ends: [Point<f64>; 2],
@@ -33,7 +32,7 @@ impl<'a> TrajectoryWriter<'a> {
             return Some(Tree::Raw(text.into()));
         }
         let mut curve = match self.layout.paths.written_curve(path.row()) {
-            Some(written) => self.for_version(written.clone()),
+            Some(written) => self.for_format(written.clone()),
             None => {
                 let curve = ClampedCurve::from_path(path)?;
                 let mut line = ends;
@@ -55,8 +54,8 @@ impl<'a> TrajectoryWriter<'a> {
     /// Returns the trajectory of the file that is more or less than a curve, if the path was not
     /// edited since.
     fn unchanged_text(self, path: PathRef<'a>, ends: [Point<f64>; 2]) -> Option<&'a str> {
-        let column = self.layout.paths.attributes.get(TRAJECTORY)?;
-        let (Value::Json(text), true) = (column.values.get(path.row())?, self.is_from_lif) else {
+        let column = self.layout.paths.attributes.get(TRAJECTORY_COLUMN)?;
+        let (Value::Json(text), true) = (column.values.get(path.row())?, self.is_as_written) else {
             return None;
         };
         let Ok(Field::Value(trajectory)) = serde_json::from_str::<Field<Trajectory>>(text) else {
@@ -71,10 +70,10 @@ impl<'a> TrajectoryWriter<'a> {
         (own == runs).then_some(text)
     }
 
-    /// Returns a curve that the version can hold, with knots from 0 to 1 and, in 1.0, weights from
-    /// 1 on. Scaled knots and weights define the same curve.
-    fn for_version(self, mut curve: WrittenCurve) -> WrittenCurve {
-        if self.is_from_lif {
+    /// Returns a curve that the format can hold, with knots from 0 to 1 and, where it requires
+    /// them, weights from 1 on. Scaled knots and weights define the same curve.
+    fn for_format(self, mut curve: WrittenCurve) -> WrittenCurve {
+        if self.is_as_written {
             return curve;
         }
         if curve.knots.is_empty() {
@@ -87,7 +86,7 @@ impl<'a> TrajectoryWriter<'a> {
             let knots = curve.knots.iter_mut();
             knots.for_each(|knot| *knot = (*knot - first) / (last - first));
         }
-        if let (Version::V1, Some(weights)) = (self.version, &mut curve.weights) {
+        if let (true, Some(weights)) = (self.has_weights_from_1, &mut curve.weights) {
             let least = weights.iter().copied().fold(f64::INFINITY, f64::min);
             if least < 1.0 && least > 0.0 {
                 let weights = weights.iter_mut();
@@ -97,10 +96,10 @@ impl<'a> TrajectoryWriter<'a> {
         curve
     }
 
-    /// Returns whether the version holds the curve of a path with scaled knots or weights.
-    pub(super) fn is_scaled(self, path: usize) -> bool {
+    /// Returns whether the format holds the curve of a path with scaled knots or weights.
+    pub(crate) fn is_scaled(self, path: usize) -> bool {
         let curve = self.layout.paths.written_curve(path);
-        curve.is_some_and(|curve| self.for_version(curve.clone()) != *curve)
+        curve.is_some_and(|curve| self.for_format(curve.clone()) != *curve)
     }
 }
 
