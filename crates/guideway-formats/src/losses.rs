@@ -78,13 +78,6 @@ impl Losses {
         self.add("draw ranks", count, "draw ranks of paths");
     }
 
-    /// Adds widths, colors and draw ranks, for a format without styles.
-    pub(crate) fn add_styles(&mut self, layout: &Layout) {
-        self.add_widths(layout);
-        self.add_colors(layout);
-        self.add_ranks(layout);
-    }
-
     /// Adds everything but the paths and their own columns, for a drawing: nodes, stations,
     /// directions, vehicle types with their properties, levels, groups. A reader gives all paths
     /// the direction `read_as`.
@@ -108,6 +101,7 @@ impl Losses {
             layout.levels.len(),
             "levels: written as groups of paths",
         );
+        self.add_blocks(layout);
         self.add_groups(layout);
         let columns = layout.attributes.iter();
         let properties = columns.filter(|column| column.values.get(0).is_some());
@@ -115,14 +109,9 @@ impl Losses {
         self.add("layout properties", properties.count(), detail);
     }
 
-    /// Adds vehicle types with properties of their own, blocks, zones and the place on earth.
-    pub(crate) fn add_groups(&mut self, layout: &Layout) {
-        let detail = "vehicle types with properties of their own";
-        self.add("vehicle types", layout.vehicle_types.len(), detail);
+    /// Adds the blocks, for a format without blocks.
+    pub(crate) fn add_blocks(&mut self, layout: &Layout) {
         self.add("blocks", layout.blocks.len(), "blocks");
-        self.add("zones", layout.zones.len(), "zones");
-        let origins = usize::from(layout.geo_origin.is_some());
-        self.add("geo origin", origins, "place on earth of the origin");
     }
 
     /// Adds the stations, for a format without stations.

@@ -177,7 +177,7 @@ fn list_losses(layout: &Layout, ids: &Nav2Ids, tolerance_m: f64) -> Losses {
         layout.levels.len(),
         "levels: all nodes are on one map",
     );
-    losses.add("blocks", layout.blocks.len(), "blocks");
+    losses.add_blocks(layout);
     losses.add_groups(layout);
     let values = layout.attributes.iter().count();
     losses.add("layout properties", values, "properties of the layout");

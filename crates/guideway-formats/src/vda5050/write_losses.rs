@@ -18,8 +18,9 @@ pub(super) fn losses(objects: &Objects<'_, '_>) -> Losses {
     let detail = "paths between maps: readers treat them as lifts and do not draw them";
     losses.add("paths", between.len(), detail);
     losses.add("refused paths", between.len(), detail);
-    losses.add_styles(layout);
+    losses.add_styles(layout, |_| true);
     losses.add_stations(layout);
+    losses.add_blocks(layout);
     losses.add_groups(layout);
     let rows = route.edges.iter().map(|edge| edge.row);
     let rows: Vec<usize> = rows.filter(|row| !between.contains(row)).collect();

@@ -171,7 +171,8 @@ impl Tolerances {
     /// | path without length | m / 1,000,000 | 1 um |
     ///
     /// If the layout is so large that its millimeters were probably read as meters, the bound of
-    /// the gap is 10 m. That of the coincidence stays: a wrong duplicate would cost a path.
+    /// the gap is 10 m. That of the coincidence stays: a wrong duplicate would cost a path. The gap
+    /// is its bound in a drawing without nodes, whose shapes may have several parts.
     pub(super) fn of(scale: &Scale, options: &CheckOptions) -> Self {
         let is_large = scale.doubt(options) == Some(SizeDoubt::Large);
         let largest_gap_m = match is_large {
@@ -185,7 +186,10 @@ impl Tolerances {
         let gap_m = options.gap_tolerance_m;
         let coincidence_m = options.coincidence_tolerance_m;
         Self {
-            gap_m: gap_m.unwrap_or_else(|| relative(1e-2, largest_gap_m)),
+            gap_m: gap_m.unwrap_or_else(|| match scale.has_nodes {
+                true => relative(1e-2, largest_gap_m),
+                false => largest_gap_m,
+            }),
             coincidence_m: coincidence_m
                 .unwrap_or_else(|| relative(1e-3, CheckOptions::LARGEST_COINCIDENCE_M)),
             dot_m: relative(1e-6, 1e-6),
@@ -246,8 +250,11 @@ mod tests {
     }
 
     fn tolerances(lengths_m: &[f64]) -> Tolerances {
-        let options = CheckOptions::default();
-        Tolerances::of(&Scale::of(&layout(lengths_m)), &options)
+        let scale = Scale {
+            has_nodes: true,
+            ..Scale::of(&layout(lengths_m))
+        };
+        Tolerances::of(&scale, &CheckOptions::default())
     }
 
     fn assert_near(found: Tolerances, expected: [f64; 3]) {
@@ -268,6 +275,13 @@ mod tests {
         assert_near(tolerances(&[1e-4, 0.02, 900.0]), [2e-4, 2e-5, 2e-8]);
         // Millimeters that were read as meters.
         assert_near(tolerances(&[2e4, 2e4, 3e4]), [10.0, 1e-3, 1e-6]);
+    }
+
+    #[test]
+    fn gap_of_a_drawing_without_nodes_is_its_bound() {
+        let options = CheckOptions::default();
+        let tolerances = Tolerances::of(&Scale::of(&layout(&[0.02])), &options);
+        assert_near(tolerances, [0.01, 2e-5, 2e-8]);
     }
 
     #[test]

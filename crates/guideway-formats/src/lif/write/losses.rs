@@ -21,7 +21,7 @@ pub(in crate::lif) fn add_lost(elements: &Elements<'_>, losses: &mut Losses) {
     losses.add_ranks(layout);
     let origins = usize::from(layout.geo_origin.is_some());
     losses.add("geo origin", origins, "place on earth of the origin");
-    losses.add("blocks", layout.blocks.len(), "blocks");
+    losses.add_blocks(layout);
     losses.add("zones", layout.zones.len(), "zones");
     let is_part = |name: &str| {
         elements.version == Version::V2 && matches!(name, "manufacturer" | "seriesName")
