@@ -8,7 +8,7 @@ use super::coordinates::Coordinates;
 use super::curve_check::is_along;
 use super::declared::{NODE_TYPES, NODES, Owner, PATH_TYPES, PATHS, STATIONS};
 use super::extension::Reference;
-use super::features::Source;
+use super::feature_source::Source;
 use super::mapper::Mapper;
 use super::model::Geometry;
 use super::properties::Property;

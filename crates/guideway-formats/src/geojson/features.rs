@@ -7,6 +7,7 @@ use guideway_spline::Point;
 
 use super::columns::Named;
 use super::extension::Extension;
+use super::feature_source::Source;
 use super::mapper::Mapper;
 use super::model::{Feature, Geometry, Member, Root};
 use super::names;
@@ -15,15 +16,6 @@ use super::unit::{Unit, is_degrees};
 use crate::ReadError;
 use crate::builder::PlaceFn;
 use crate::json::{Field, field_place};
-
-/// A feature on its way to an element.
-pub(super) struct Source<'f, 'a> {
-    pub(super) id: String,
-    /// Properties that become columns.
-    pub(super) columns: Vec<Named<'f>>,
-    pub(super) properties: &'f Properties<'a>,
-    pub(super) extension: Extension<'a>,
-}
 
 impl Mapper<'_> {
     /// Maps the root object to a layout.

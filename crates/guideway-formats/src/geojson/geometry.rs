@@ -4,7 +4,7 @@ use guideway_layout::Code;
 
 use super::coordinates::Coordinates;
 use super::extension::Extension;
-use super::features::Source;
+use super::feature_source::Source;
 use super::mapper::Mapper;
 use super::model::Geometry;
 use crate::ReadError;

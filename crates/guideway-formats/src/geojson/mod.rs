@@ -6,7 +6,7 @@
 //! | stage | input | output | file |
 //! |---|---|---|---|
 //! | read | text | records | `read`, `model`, `coordinates`, `properties`, `extension` |
-//! | map | records | layout | `features`, `geometry`, `elements`, `columns`, `member`; `mapper` |
+//! | map | records | layout | `features`, `geometry`, `elements`, `columns`, `member`; `feature_source`, `mapper` |
 //! | interpret | names, curves | units, types, lines | `unit`, `declared`, `curve_check`, `names` |
 //! | write | layout | text, losses | `write*`, `references`, `nav2_ids`, `lines`, `json_writer` |
 
@@ -16,6 +16,7 @@ mod curve_check;
 mod declared;
 mod elements;
 mod extension;
+mod feature_source;
 mod features;
 mod geometry;
 mod json_writer;

@@ -7,7 +7,7 @@ use super::frame::Frame;
 use super::level::{Level, ends};
 use super::parameters::{parameter, set_parameters};
 use super::reader::place;
-use super::site::SiteMapper;
+use super::site_mapper::SiteMapper;
 use crate::ReadError;
 use crate::builder::{PlaceFn, Table};
 use crate::yaml::YamlNode;

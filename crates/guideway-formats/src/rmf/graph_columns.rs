@@ -1,4 +1,5 @@
-//! Columns of navigation graphs: decides how values are written as parameters of lanes and vertices.
+//! Columns of navigation graphs: decides how values are written as parameters of lanes and
+//! vertices.
 
 use guideway_layout::{Layout, Value};
 

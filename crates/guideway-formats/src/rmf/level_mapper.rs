@@ -9,7 +9,7 @@ use super::frame::Frame;
 use super::level::Level;
 use super::parameters::json;
 use super::reader::place;
-use super::site::SiteMapper;
+use super::site_mapper::SiteMapper;
 use crate::ReadError;
 use crate::builder::PlaceFn;
 use crate::yaml::YamlNode;

@@ -9,7 +9,7 @@
 //! | parse | text | YAML tree, levels | `level` |
 //! | scale | measurements, fiducials | a frame per level: file units to meters | `frame` |
 //! | map | vertices, lanes, walls, doors | nodes, paths, blocks | `site`, `level_mapper`, `edges` |
-//! | map | parameters, lifts | columns, stations | `parameters`, `lifts`, `reader` |
+//! | map | parameters, lifts | columns, stations | `parameters`, `lifts`; `reader`, `site_mapper` |
 //! | write | layout | navigation graph, losses | `write`, `graph_*`, `yaml_text` |
 
 mod edges;
@@ -23,6 +23,7 @@ mod lifts;
 mod parameters;
 mod reader;
 mod site;
+mod site_mapper;
 mod write;
 mod yaml_text;
 
@@ -31,7 +32,7 @@ use guideway_layout::{Layout, Place};
 pub(crate) use self::site::NAVIGATION_GRAPH;
 pub use self::write::write_navigation_graph;
 
-use self::site::SiteMapper;
+use self::site_mapper::SiteMapper;
 use crate::source::Source;
 use crate::yaml::Yaml;
 use crate::{Problem, ReadError, text};

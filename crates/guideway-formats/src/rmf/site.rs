@@ -1,44 +1,20 @@
 //! Maps a site to a layout: decides kind and coordinates of the file, and maps its parts in order.
 
-use std::collections::{BTreeMap, HashSet};
-
 use guideway_layout::{Code, Layout, Place};
 
 use super::frame::{Coordinates, frames};
 use super::level::Level;
 use super::lifts::map_lifts;
-use super::reader::{SiteReader, place};
+use super::reader::place;
+use super::site_mapper::SiteMapper;
 use crate::ReadError;
 use crate::builder::PlaceFn;
-use crate::source::Source;
 use crate::yaml::{Yaml, YamlNode};
-
-/// Graphs counted by number; the editor has nine.
-const MAX_GRAPHS: usize = 64;
 
 /// Version of the format of a navigation graph, as the provenance of its layout states it.
 pub(crate) const NAVIGATION_GRAPH: &str = "navigation graph";
 
-/// Fills a layout from a file.
-pub(super) struct SiteMapper<'a, 'y> {
-    pub(super) reader: SiteReader<'a, 'y>,
-    pub(super) lift_names: HashSet<&'y str>,
-    /// Number of bidirectional lanes.
-    pub(super) bidirectional: u64,
-    /// Number of lanes per graph.
-    graphs: BTreeMap<i64, u64>,
-}
-
 impl<'a, 'y> SiteMapper<'a, 'y> {
-    pub(super) fn new(source: Source<'a>, file_bytes: usize) -> Self {
-        Self {
-            reader: SiteReader::new(source, file_bytes),
-            lift_names: HashSet::new(),
-            bidirectional: 0,
-            graphs: BTreeMap::new(),
-        }
-    }
-
     /// Maps the whole file and returns the layout.
     ///
     /// # Errors
@@ -131,13 +107,6 @@ impl<'a, 'y> SiteMapper<'a, 'y> {
                     .report(Code::UnknownValue, at, message, remedy);
                 Coordinates::Image
             }
-        }
-    }
-
-    /// Counts a lane of a graph.
-    pub(super) fn count_graph(&mut self, graph: i64) {
-        if self.graphs.len() < MAX_GRAPHS || self.graphs.contains_key(&graph) {
-            *self.graphs.entry(graph).or_insert(0) += 1;
         }
     }
 

@@ -6,6 +6,7 @@ mod arrow;
 mod arrow_network;
 mod arrow_rows;
 mod arrow_tables;
+mod arrow_write;
 mod common;
 mod dxf;
 mod dxf_write;

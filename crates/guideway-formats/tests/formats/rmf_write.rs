@@ -63,7 +63,7 @@ fn buildings_become_navigation_graphs() {
         let expected = OF_BUILDINGS.iter().chain(*more).copied().collect();
         assert_eq!(whats(&losses), expected, "{file}");
         assert_eq!(Target::of_source(&again), Some(Target::Rmf), "{file}");
-        // What a graph holds stays.
+        // A graph keeps all its parts.
         let (text, losses) = write(&again);
         assert!(losses.is_empty(), "{file}: {losses:?}");
         let third = read(&text);
