@@ -14,8 +14,9 @@ const ROUNDS: usize = 12;
 /// points; `None` if that is above `tolerance_m`.
 pub(super) fn fit_cubic(points: &[Point<f64>], tolerance_m: f64) -> Option<([Point<f64>; 4], f64)> {
     let (&start, &end) = (points.first()?, points.last()?);
-    let first = direction(start, points.iter())?;
-    let last = direction(end, points.iter().rev())?;
+    let count = points.len();
+    let first = direction([0, 1, 2, 3].map(|i| points.get(i)))?;
+    let last = direction([1, 2, 3, 4].map(|i| points.get(count.wrapping_sub(i))))?;
     let mut parameters = chord_parameters(points)?;
     for _ in 0..ROUNDS {
         let handles = handle_lengths(points, &parameters, [first, last])?;
@@ -39,14 +40,18 @@ pub(super) fn fit_cubic(points: &[Point<f64>], tolerance_m: f64) -> Option<([Poi
     None
 }
 
-/// Unit vector from a point to the first other point.
-fn direction<'p>(
-    from: Point<f64>,
-    mut points: impl Iterator<Item = &'p Point<f64>>,
-) -> Option<Point<f64>> {
-    let other = points.find(|p| **p != from)?;
-    let vector = *other - from;
-    Some(vector * (1.0 / vector.norm()))
+/// Direction of a curve at the first of several points on it. Exact for four points at equal steps
+/// of the parameter of one cubic curve.
+fn direction(points: [Option<&Point<f64>>; 4]) -> Option<Point<f64>> {
+    let [Some(&a), Some(&b), c, d] = points else {
+        return None;
+    };
+    let tangent = match (c, d) {
+        (Some(&c), Some(&d)) => (b - a) * 18.0 - (c - a) * 9.0 + (d - a) * 2.0,
+        _ => b - a,
+    };
+    let length = tangent.norm();
+    (length > 0.0).then(|| tangent * (1.0 / length))
 }
 
 /// The share of the length of the polygon up to each point.

@@ -287,7 +287,7 @@ mod tests {
         let arc = |angle: f64| {
             let mut runs = Runs::default();
             let center = Point::new(10.0, -5.0);
-            arc_to_runs(center, 3.0, 0.0, angle, 1e-4, &mut runs);
+            arc_to_runs(center, 3.0, 0.0, angle, 1e-7, &mut runs);
             runs
         };
         for (runs, expected) in [
