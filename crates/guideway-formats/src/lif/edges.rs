@@ -178,9 +178,7 @@ impl Mapper<'_> {
                 let (is_open, before) = (types.is_empty(), curve.types.len());
                 let first_name = types.first().cloned();
                 for name in types {
-                    if count == 1 && curve.types.iter().all(|of| of.name != name)
-                        || count > 1 && curve.names.insert(name.clone())
-                    {
+                    if curve.names.insert(name.clone()) {
                         let entry = entries.cells.len();
                         curve.types.push(TypeOfEntry { name, entry });
                     }

@@ -28,6 +28,8 @@ pub(super) struct Mapper<'a> {
     pub(super) levels: HashSet<String>,
     /// Vehicle types of edges; nodes may name types without a path.
     pub(super) vehicle_types: HashSet<String>,
+    /// Rows of the vehicle types with properties.
+    type_rows: HashMap<String, usize>,
     pub(super) counts: Counts,
     /// Bytes before the text in the file, if the layout keeps the places of its rows.
     pub(super) text_start: Option<usize>,
@@ -92,6 +94,7 @@ impl<'a> Mapper<'a> {
             node_types: TypeEntries::default(),
             levels: HashSet::new(),
             vehicle_types: HashSet::new(),
+            type_rows: HashMap::new(),
             counts: Counts::default(),
             text_start,
         }
@@ -128,8 +131,7 @@ impl<'a> Mapper<'a> {
     /// Attributes of a vehicle type, which is added if it is new.
     pub(super) fn vehicle_type_attributes(&mut self, name: &str) -> &mut Attributes {
         let types = &mut self.builder.layout.vehicle_types;
-        let known = types.iter().position(|known| known.id == name);
-        let index = known.unwrap_or_else(|| {
+        let index = *self.type_rows.entry(name.to_owned()).or_insert_with(|| {
             types.push(VehicleType {
                 id: name.to_owned(),
                 attributes: Attributes::default(),

@@ -1,5 +1,7 @@
 //! LIF nodes: maps a node with its properties per vehicle type.
 
+use std::collections::HashSet;
+
 use super::mapper::Mapper;
 use super::members::OTHER;
 use super::model::{NODE_PROPERTIES, Node, Position};
@@ -70,6 +72,7 @@ impl Mapper<'_> {
         at: PlaceFn<'_>,
     ) -> Result<(), ReadError> {
         let mut types: Vec<TypeOfEntry> = Vec::new();
+        let mut seen = HashSet::new();
         let mut cells = Vec::new();
         for (v, list) in [&node.types_1, &node.types_2].into_iter().enumerate() {
             let key = NODE_PROPERTIES[v];
@@ -84,7 +87,7 @@ impl Mapper<'_> {
                 let index = cells.len();
                 let before = types.len();
                 for name in names {
-                    if types.iter().all(|known| known.name != name) {
+                    if seen.insert(name.clone()) {
                         types.push(TypeOfEntry { name, entry: index });
                     }
                 }

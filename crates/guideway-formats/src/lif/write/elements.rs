@@ -1,6 +1,7 @@
 //! Objects of LIF: the nodes, edges and stations of a layout as JSON.
 
 use std::borrow::Cow;
+use std::collections::HashMap;
 
 use guideway_layout::{Attributes, Layout, TypeEntries, Value};
 use guideway_spline::Point;
@@ -32,6 +33,8 @@ pub(in crate::lif) struct Elements<'a> {
     pub(super) station: MemberColumns<'a>,
     pub(super) station_position: MemberColumns<'a>,
     pub(super) trajectories: TrajectoryWriter<'a>,
+    /// Properties of the vehicle types.
+    types: HashMap<&'a str, &'a Attributes>,
 }
 
 impl<'a> Elements<'a> {
@@ -54,7 +57,9 @@ impl<'a> Elements<'a> {
         let path_types = Some(&layout.paths.vehicle_types().attributes);
         let stations = &layout.stations.attributes;
         let edge_type = |is_reverse| select(EDGE_TYPE, paths, path_types, is_reverse);
+        let types = layout.vehicle_types.iter();
         Self {
+            types: types.map(|t| (t.id.as_str(), &t.attributes)).collect(),
             layout,
             network,
             version,
@@ -245,8 +250,7 @@ impl<'a> Elements<'a> {
 
     /// A vehicle type of 2.0.
     fn robot(&self, name: &'a str) -> Tree<'a> {
-        let mut types = self.layout.vehicle_types.iter();
-        let attributes = types.find(|known| known.id == name).map(|t| &t.attributes);
+        let attributes = self.types.get(name).copied();
         let part = |key| match attributes?.value(0, key)? {
             Value::Text(text) => Some(text),
             _ => None,
