@@ -18,12 +18,12 @@ pub(super) fn losses(objects: &Objects<'_, '_>) -> Losses {
     let detail = "paths between maps: readers treat them as lifts and do not draw them";
     losses.add("paths", between.len(), detail);
     losses.add("refused paths", between.len(), detail);
-    losses.add_styles(layout, |_| true);
     losses.add_stations(layout);
     losses.add_blocks(layout);
     losses.add_groups(layout);
     let rows = route.edges.iter().map(|edge| edge.row);
     let rows: Vec<usize> = rows.filter(|row| !between.contains(row)).collect();
+    add_styles(objects, &rows, &mut losses);
     add_network(objects, &rows, &mut losses);
     let scaled = rows
         .iter()
@@ -56,6 +56,21 @@ pub(super) fn losses(objects: &Objects<'_, '_>) -> Losses {
     let detail = "properties of the layout as a whole";
     losses.add("layout properties", all - held.count(), detail);
     losses
+}
+
+/// Adds widths, colors and draw ranks.
+fn add_styles(objects: &Objects<'_, '_>, rows: &[usize], losses: &mut Losses) {
+    let paths = &objects.layout.paths;
+    let styles = || rows.iter().map(|&row| paths.own_style(row));
+    let widths = styles().filter(|style| style.width_m.is_some());
+    losses.add("widths", widths.count(), "widths of paths");
+    let colors = styles().filter(|style| style.color_rgba.is_some());
+    losses.add("colors", colors.count(), "colors of paths");
+    let ranks = paths.rank().unwrap_or_default();
+    let ranks = rows
+        .iter()
+        .filter(|&&row| ranks.get(row).is_some_and(|&rank| rank != 0));
+    losses.add("draw ranks", ranks.count(), "draw ranks of paths");
 }
 
 /// Adds nodes, path ends, directions and vehicle types.

@@ -82,7 +82,6 @@ fn keeps_nurbs_as_they_were_written() {
     assert_eq!(lost(&losses), []);
     let again = read(&text);
     assert_eq!(again.paths.written_curve(0), Some(&written_curve));
-    assert_eq!(written(&again).0, text);
 }
 
 #[test]

@@ -173,7 +173,12 @@ fn other_layouts_follow_the_schema() {
     for (version, speed) in [(Version::V2, "maxSpeed"), (Version::V3, "maximumSpeed")] {
         let (text, losses) = try_write(&layout, version).unwrap();
         assert_valid(&text, version);
-        let expected = ["levels", "column vehicleOrientation", "column actions"];
+        let expected = [
+            "levels",
+            "levels",
+            "column vehicleOrientation",
+            "column actions",
+        ];
         assert_eq!(whats(&losses), expected);
         let order: Json = serde_json::from_str(&text).unwrap();
         assert_eq!(order["edges"][0][speed], 1.5);
@@ -205,5 +210,5 @@ fn two_way_paths_lose_a_direction() {
     let mut layout = route();
     layout.paths.set_direction(1, Direction::Both);
     let (_, losses) = try_write(&layout, Version::V3).unwrap();
-    assert_eq!(whats(&losses), ["directions", "levels"]);
+    assert_eq!(whats(&losses), ["directions", "levels", "levels"]);
 }
