@@ -28,8 +28,8 @@ const ORIENTATION: [&str; 2] = ["vehicleOrientation", "vehicleOrientations"];
 const ORIENTATION_TYPE: &str = "orientationType";
 
 /// The headings of a path in a file, from `orientationType` and the orientation of LIF and VDA
-/// 5050; forwards by default. Of vehicle types that differ, the first one counts. A two-way path has each heading in both directions, unless `body` is
-/// symmetric.
+/// 5050; forwards by default. Of vehicle types that differ, the first one counts. A two-way path
+/// has each heading in both directions, unless `body` is symmetric.
 pub fn headings(layout: &Layout, path: usize, body: &Body) -> Vec<Heading> {
     let value = |name: &str| layout.paths.value(path, name);
     let angles = ORIENTATION.into_iter().find_map(value).map(angles);

@@ -3,7 +3,7 @@
 
 use std::fmt;
 
-use guideway_layout::{Attributes, Direction, Layout, Value};
+use guideway_layout::{Attributes, Layout, Value};
 
 /// A part of a layout that a written file lacks or represents differently.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -76,37 +76,6 @@ impl Losses {
         let ranks = layout.paths.rank().unwrap_or_default();
         let count = ranks.iter().filter(|&&rank| rank != 0).count();
         self.add("draw ranks", count, "draw ranks of paths");
-    }
-
-    /// Adds everything but the paths and their own columns, for a drawing: nodes, stations,
-    /// directions, vehicle types with their properties, levels, groups. A reader gives all paths
-    /// the direction `read_as`.
-    pub(crate) fn add_network_and_groups(&mut self, layout: &Layout, read_as: Direction) {
-        self.add("nodes", layout.nodes.len(), "nodes");
-        self.add_stations(layout);
-        let drawn = || layout.paths.iter().filter(|path| path.runs().len() > 0);
-        let changed = drawn().filter(|path| path.direction() != read_as);
-        let detail = match read_as {
-            Direction::Both => "one-way paths: a drawing has no directions",
-            _ => "two-way paths: a drawing has no directions",
-        };
-        self.add("directions", changed.count(), detail);
-        let types = layout.paths.vehicle_types();
-        let limited = drawn().filter(|path| types.of(path.row()).len() > 0);
-        let detail = "paths for certain vehicle types: the types";
-        self.add("vehicle types", limited.count(), detail);
-        self.add_columns(&types.attributes, "vehicle types on paths", |_| false);
-        self.add(
-            "levels",
-            layout.levels.len(),
-            "levels: written as groups of paths",
-        );
-        self.add_blocks(layout);
-        self.add_groups(layout);
-        let columns = layout.attributes.iter();
-        let properties = columns.filter(|column| column.values.get(0).is_some());
-        let detail = "properties of the layout as a whole";
-        self.add("layout properties", properties.count(), detail);
     }
 
     /// Adds the blocks, for a format without blocks.

@@ -192,8 +192,8 @@ impl Target {
     /// Writes a layout to a file. Returns the losses.
     ///
     /// # Errors
-    /// When the file cannot be written, or when the target is an order and the paths do not form one
-    /// route; the file is not touched then.
+    /// When the file cannot be written, or when the target is an order and the paths do not form
+    /// one route; the file is not touched then.
     pub fn write_file(self, layout: &Layout, path: &Path) -> Result<Losses, WriteError> {
         if self == Self::Arrow {
             return arrow::write_layout(layout, path, &arrow::WriteOptions::default());

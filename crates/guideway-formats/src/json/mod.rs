@@ -17,6 +17,7 @@
 mod array_splice;
 mod attributes;
 mod cell;
+mod change;
 mod check;
 mod field;
 mod lazy_array;

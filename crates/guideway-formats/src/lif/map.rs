@@ -55,6 +55,7 @@ impl Mapper<'_> {
                 }
             }
         }
+        self.set_node_types();
         Ok(self.finish(layouts.len()))
     }
 

@@ -102,7 +102,6 @@ impl<'a> Mapper<'a> {
 
     /// Returns the layout, with the record counts in its provenance.
     pub(super) fn finish(mut self, layouts: usize) -> Layout {
-        self.set_node_types();
         let counts = [
             ("layouts", layouts),
             ("nodes", self.counts.nodes),

@@ -75,7 +75,7 @@ pub(crate) fn compare(a: &Layout, b: &Layout, listed: &[String], tolerance_m: f6
         let mut causes = IMPLIED.iter().filter(|(effect, _)| *effect == what);
         causes.any(|(_, cause)| is_listed(cause))
     };
-    // What the file holds in addition, such as the nodes that its format requires, is no loss.
+    // An addition, such as a node that the format requires, is no loss.
     let lost = found.iter().filter(|d| !d.what.starts_with("new "));
     let unlisted = lost.filter(|d| !is_listed(&d.what) && !is_implied(&d.what));
     let unlisted =

@@ -1,23 +1,9 @@
 //! Arrays and heads of levels: splices removed and new objects, and changed members of the root,
 //! the origins and the levels.
 
-use super::changes::{Changes, Kind};
+use super::changes::{ArrayChanges, Changes, Kind};
 use super::places::Places;
 use crate::json::{ArrayEdit, Tree, member};
-
-/// Objects to remove from an array and to add to it.
-#[derive(Default)]
-pub(super) struct ArrayChanges<'a> {
-    /// First bytes of the objects.
-    pub(super) removed: Vec<usize>,
-    pub(super) added: Vec<Tree<'a>>,
-}
-
-impl ArrayChanges<'_> {
-    fn is_empty(&self) -> bool {
-        self.removed.is_empty() && self.added.is_empty()
-    }
-}
 
 const ARRAYS: [(Kind, &str); 3] = [
     (Kind::Nodes, "nodes"),

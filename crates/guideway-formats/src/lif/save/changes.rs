@@ -3,10 +3,9 @@
 
 use std::collections::HashMap;
 
-use super::State;
-use super::arrays::ArrayChanges;
 use super::compare::{pair, same_types, same_values};
 use super::entries::{self, Types};
+use super::state::State;
 use crate::Losses;
 use crate::json::{Members, Splices, Tree};
 use crate::lif::members::{META, OTHER};
@@ -30,6 +29,20 @@ pub(super) struct Changes<'s, 't> {
     new_nodes: usize,
     without_level: usize,
     pub(super) for_any: usize,
+}
+
+/// Objects to remove from an array and to add to it.
+#[derive(Default)]
+pub(super) struct ArrayChanges<'a> {
+    /// First bytes of the objects.
+    pub(super) removed: Vec<usize>,
+    pub(super) added: Vec<Tree<'a>>,
+}
+
+impl ArrayChanges<'_> {
+    pub(super) fn is_empty(&self) -> bool {
+        self.removed.is_empty() && self.added.is_empty()
+    }
 }
 
 /// Kinds of arrays of a layout.
@@ -72,13 +85,6 @@ impl<'s, 't> Changes<'s, 't> {
         self.splices
     }
 
-    /// Collects all changes but those of levels.
-    pub(super) fn collect(&mut self) {
-        self.collect_edges();
-        self.collect_nodes();
-        self.collect_stations();
-    }
-
     /// Adds what a new reading of the text has in another form than the layout.
     pub(super) fn add_losses(&self, losses: &mut Losses) {
         let detail = "straight edges: they follow their moved nodes";
@@ -107,7 +113,7 @@ impl<'s, 't> Changes<'s, 't> {
         self.arrays_of(level, kind).added.push(object);
     }
 
-    fn collect_nodes(&mut self) {
+    pub(super) fn collect_nodes(&mut self) {
         let (old, new) = (self.old, self.new);
         let (of_old, of_new) = (&old.layout.nodes, &new.layout.nodes);
         let (pairs, added) = pair(&of_old.source, of_old.len(), &of_new.source, of_new.len());
@@ -199,7 +205,7 @@ impl<'s, 't> Changes<'s, 't> {
         );
     }
 
-    fn collect_stations(&mut self) {
+    pub(super) fn collect_stations(&mut self) {
         let (old, new) = (self.old, self.new);
         let (of_old, of_new) = (&old.layout.stations, &new.layout.stations);
         let (pairs, added) = pair(&of_old.source, of_old.len(), &of_new.source, of_new.len());

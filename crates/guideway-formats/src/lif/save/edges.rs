@@ -3,10 +3,10 @@
 use guideway_layout::Direction;
 use rayon::prelude::*;
 
-use super::State;
 use super::changes::{Changes, Kind};
 use super::compare::{SameObject, pair, same_curve, same_types, same_values};
 use super::entries::{self, Types};
+use super::state::State;
 use crate::json::Tree;
 use crate::lif::model::EDGE_PROPERTIES;
 use crate::lif::write::{EdgeRef, level_of, path_types};

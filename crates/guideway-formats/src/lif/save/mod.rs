@@ -7,7 +7,7 @@
 //!
 //! | stage | input | output | file |
 //! |---|---|---|---|
-//! | pair | both layouts | rows of the same object | `compare` |
+//! | pair | both layouts | rows of the same object | `state`, `compare` |
 //! | change | rows that differ | splices | `changes`, `edges`, `entries` |
 //! | add, remove | rows without a partner | splices of arrays | `arrays`, `places` |
 
@@ -17,6 +17,7 @@ mod compare;
 mod edges;
 mod entries;
 mod places;
+mod state;
 
 use std::io::{self, Write};
 
@@ -24,31 +25,13 @@ use guideway_layout::Layout;
 
 use self::changes::Changes;
 use self::places::Places;
+use self::state::State;
 use super::members::ALIASES;
 use super::read::read_again;
 use super::version::Version;
-use super::write::{EdgeGroups, Edges, Elements, Network, add_lost};
+use super::write::{Edges, Network, add_lost};
 use crate::Losses;
 use crate::json::Splices;
-
-/// A layout prepared for writing.
-struct State<'a> {
-    layout: &'a Layout,
-    network: &'a Network<'a>,
-    elements: Elements<'a>,
-    groups: EdgeGroups<'a>,
-}
-
-impl<'a> State<'a> {
-    fn new(layout: &'a Layout, network: &'a Network<'a>, version: Version) -> Self {
-        Self {
-            layout,
-            network,
-            elements: Elements::new(layout, network, version),
-            groups: EdgeGroups::of(layout),
-        }
-    }
-}
 
 /// Saves a layout into the text of its file. Returns the losses; `None`, and nothing is written, if
 /// the layout does not keep the text, or has other levels.
@@ -83,7 +66,9 @@ pub(super) fn save(
     add_lost(&new.elements, &mut losses);
     let edges = Edges::collect(layout, &mut losses);
     let mut changes = Changes::new(&old, &new, &edges, version, Splices::new(text, ALIASES));
-    changes.collect();
+    changes.collect_edges();
+    changes.collect_nodes();
+    changes.collect_stations();
     changes.add_losses(&mut losses);
     if changes.needs_places() {
         let Some(places) = Places::find(text, layout.levels.len()) else {

@@ -6,7 +6,7 @@ use std::iter;
 use guideway_layout::Layout;
 use rayon::prelude::*;
 
-use super::{Edges, Elements, Network, WriteOptions, add_lost, add_required, lif_version};
+use super::{Edges, Elements, Network, WriteOptions, add_lost, add_required};
 use crate::Losses;
 use crate::json::{Members, Tree};
 use crate::lif::members::{META, OTHER};
@@ -87,7 +87,7 @@ impl<'a> File<'a> {
             }
         }
         let exported = humantime::format_rfc3339_millis(options.exported).to_string();
-        let version = lif_version(options.version);
+        let version = options.version.stated();
         meta.push(("exportTimestamp".into(), Tree::Text(exported.into())));
         meta.push(("lifVersion".into(), Tree::Text(version.into())));
         let mut root = Tree::Object(vec![("metaInformation".into(), Tree::Object(meta))]);

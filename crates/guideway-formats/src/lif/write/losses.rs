@@ -201,7 +201,7 @@ fn count_new_meta(elements: &Elements<'_>) -> usize {
     let mut old = Vec::new();
     let columns = elements.row_columns(&elements.layout.attributes, META);
     columns.add_to(&mut old, 0, None);
-    let version = Tree::Text(super::lif_version(elements.version).into());
+    let version = Tree::Text(elements.version.stated().into());
     let is_replaced = |(name, value): &&(Cow<'_, str>, Tree<'_>)| {
         name == "exportTimestamp" || name == "lifVersion" && *value != version
     };
