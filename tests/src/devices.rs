@@ -24,7 +24,7 @@ pub struct DeviceCandidate {
 }
 
 /// For `grid` with coverage by the distance to the nearest line. Pictures of edges only and of
-/// crowds differ most (measured):
+/// crowds differ most (measured over the scene suite):
 ///
 /// - An edge is a smoothstep over 1.5 px instead of the covered area, which changes adjacent pixels
 ///   by up to 40 levels; in a picture three pixels high, nearly all are adjacent (mean 10, 91 %

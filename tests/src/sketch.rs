@@ -216,7 +216,7 @@ impl Sketch {
         self.strokes.len()
     }
 
-    /// Whether no path was added.
+    /// Returns `true` if no path was added.
     pub fn is_empty(&self) -> bool {
         self.strokes.is_empty()
     }

@@ -162,7 +162,7 @@ fn sketch(moved: (f64, f64)) -> Sketch {
         .line(at(60.0, 58.3), at(92.0, 58.3))
 }
 
-/// Whether the device's picture of `actual` matches `expected`, per variant.
+/// Returns `true` if the device's picture of `actual` matches `expected`, per variant.
 fn passes(device: &Arc<GlDevice>, expected: &Sketch, actual: &Sketch) -> [bool; 2] {
     let (expected, _) = draw_reference(&drawing(expected.clone()));
     let actual = drawing(actual.clone());

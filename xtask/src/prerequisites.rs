@@ -94,8 +94,8 @@ pub(crate) fn rust_components() -> Result<()> {
     Ok(())
 }
 
-/// A Python with pyarrow, polars and jsonschema, in a virtual environment under `target/`, for
-/// tests that read Guideway's files with other programs.
+/// A Python with pyarrow, polars, jsonschema and lxml, in a virtual environment under `target/`,
+/// for tests that read Guideway's files with other programs.
 pub(crate) fn python() -> Result<PathBuf> {
     let workspace = Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("..")
@@ -112,11 +112,11 @@ pub(crate) fn python() -> Result<PathBuf> {
     }
     command(&python)
         .args(["-m", "pip", "install", "--quiet"])
-        .args(["pyarrow", "polars", "jsonschema"])
+        .args(["pyarrow", "polars", "jsonschema", "lxml"])
         .run()?;
     if !imports_all(&python) {
         bail!(
-            "pyarrow, polars and jsonschema were installed into {} but cannot be imported",
+            "pyarrow, polars, jsonschema and lxml were installed into {} but cannot be imported",
             folder.display()
         );
     }
@@ -140,7 +140,7 @@ pub(crate) fn software_devices() -> Result<()> {
 
 fn imports_all(python: &Path) -> bool {
     command(python)
-        .args(["-c", "import pyarrow, polars, jsonschema"])
+        .args(["-c", "import pyarrow, polars, jsonschema, lxml"])
         .succeeds()
 }
 

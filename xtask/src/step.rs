@@ -78,7 +78,7 @@ impl Step {
         })
     }
 
-    /// Whether the command starts and succeeds; its output is discarded.
+    /// Returns `true` if the command starts and succeeds; its output is discarded.
     pub(crate) fn succeeds(self) -> bool {
         self.capture().is_ok_and(|c| c.succeeded)
     }

@@ -86,8 +86,8 @@ fn encoder<'a, W: Write>(target: W, [width, height]: [u32; 2]) -> png::Encoder<'
     let mut encoder = png::Encoder::new(target, width, height);
     encoder.set_color(png::ColorType::Rgba);
     encoder.set_depth(png::BitDepth::Eight);
-    // Measured: files are half as large again as by default compression, which takes as long as
-    // rendering a million paths, or longer.
+    // Measured on D1 at 1920 x 1080: 6 ms instead of the 47 ms of default compression, which is as
+    // long as rendering its million paths; files are 1.1 to 1.7 times as large.
     encoder.set_compression(png::Compression::Fast);
     encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
     encoder

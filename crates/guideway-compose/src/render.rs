@@ -33,7 +33,7 @@ pub struct Rendered {
     pub write_ms: f64,
 }
 
-/// Progress that nobody follows and nobody cancels.
+/// Progress that is neither shown nor cancelled.
 pub struct NoProgress;
 
 impl Progress for NoProgress {}

@@ -55,7 +55,7 @@ impl History {
         self.done.last().map_or(0, |step| step.number)
     }
 
-    /// True if the present state differs from the saved one.
+    /// Returns `true` if the present state differs from the saved one.
     pub(crate) fn is_changed(&self) -> bool {
         self.state() != self.saved
     }

@@ -10,7 +10,7 @@ use guideway_spline::Point;
 pub(crate) struct MovedNodes(BTreeMap<u32, Point<f64>>);
 
 impl MovedNodes {
-    /// True if no node was ever moved.
+    /// Returns `true` if no node was ever moved.
     pub(crate) fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
@@ -59,12 +59,10 @@ impl MovedNodes {
         if self.0.is_empty() {
             return old.clone();
         }
-        let mut nodes = Nodes::default();
-        for node in 0..old.len() as u32 {
-            let at_m = self.node_position_m(layout, node);
-            nodes.push(old.id(node), at_m, old.level(node));
+        let mut nodes = old.clone();
+        for (&node, &at_m) in &self.0 {
+            nodes.set_position_m(node, at_m);
         }
-        nodes.attributes = old.attributes.clone();
         nodes
     }
 
@@ -74,13 +72,10 @@ impl MovedNodes {
         if self.0.is_empty() {
             return old.clone();
         }
-        let mut stations = Stations::default();
+        let mut stations = old.clone();
         for station in 0..old.len() as u32 {
-            let at_m = self.placed_station_m(layout, station);
-            let nodes = old.nodes(station).to_vec();
-            stations.push(old.id(station), at_m, nodes, old.level(station));
+            stations.set_position_m(station, self.placed_station_m(layout, station));
         }
-        stations.attributes = old.attributes.clone();
         stations
     }
 }

@@ -74,7 +74,7 @@ fn end_key(start: Point<f64>, end: Point<f64>) -> [i64; 4] {
     [start.x, start.y, end.x, end.y].map(|v| (v / TOLERANCE_M).round() as i64)
 }
 
-/// True if samples along one path lie on the other.
+/// Returns `true` if samples along one path lie on the other.
 fn lies_on(document: &Document, path: u32, other: u32) -> bool {
     let layout = document.layout();
     let [path, back] = [path, other].map(|row| -> PathRef<'_> { layout.paths.get(row as usize) });

@@ -128,8 +128,8 @@ impl Document {
     }
 }
 
-/// True if a curve intersects a box. Halves segments until the box of a part lies inside the
-/// selection box, or is small against it.
+/// Returns `true` if a curve intersects a box. Halves segments until the box of a part lies inside
+/// the selection box, or is small against it.
 fn intersects(path: PathRef<'_>, bounds: Bounds<f64>) -> bool {
     /// Bisection depth at which a part counts as a point: below the resolution of `f64`.
     const MAX_HALVINGS: u32 = 40;

@@ -1,5 +1,5 @@
-//! A vehicle body: a rectangle around a reference point in; convex polygons that hold it at one or
-//! at a range of headings out.
+//! A vehicle body: a rectangle around a reference point. Computes convex polygons that contain it
+//! at one heading or at a range of headings.
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_8};
 
@@ -58,7 +58,7 @@ impl Body {
         x.hypot(y)
     }
 
-    /// Whether a rotation by 180 degrees maps it to itself.
+    /// Returns `true` if a rotation by 180 degrees maps it to itself.
     pub fn is_symmetric(&self) -> bool {
         self.front_m == self.rear_m && self.left_m == self.right_m
     }

@@ -108,7 +108,7 @@ impl ConvexPolygon {
         halves.map(|half| Self::hull(half).unwrap_or_else(|| self.clone()))
     }
 
-    /// Whether a point is inside or on the boundary.
+    /// Returns `true` if a point is inside or on the boundary.
     pub fn contains(&self, point: P) -> bool {
         let mut nearest = OriginDistance::default();
         self.points.iter().for_each(|&p| nearest.add(p - point));

@@ -17,7 +17,7 @@ pub(crate) struct CurvePiece {
     /// Smallest and largest heading, in radians.
     pub(crate) headings: [f64; 2],
     pub(crate) mode: HeadingMode,
-    /// Whether there is a gap between the piece before it and this one.
+    /// True if there is a gap between the piece before it and this one.
     pub(crate) starts_part: bool,
 }
 

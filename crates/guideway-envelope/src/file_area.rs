@@ -1,4 +1,4 @@
-//! Reads the area of a path from a file: polygons with holes in, convex parts out.
+//! Reads the area of a path from a file: splits polygons with holes into convex parts.
 
 use earcut::{Earcut, deviation};
 use guideway_layout::{Layout, PathRef, Value};
@@ -17,7 +17,8 @@ type Ring = Vec<[f64; 2]>;
 /// The swept area in the file for a path.
 pub(crate) fn file_area(layout: &Layout, path: usize) -> Result<Sweep, NoEnvelope> {
     let column = layout.paths.attributes.get(AREA_COLUMN);
-    let Some(Value::Text(text)) = column.and_then(|column| column.values.get(path)) else {
+    let value = column.and_then(|column| column.values.get(path));
+    let Some(Value::Json(text) | Value::Text(text)) = value else {
         return Err(NoEnvelope::NotInFile);
     };
     let polygons: Vec<Vec<Ring>> =

@@ -23,19 +23,15 @@ impl Heading {
     }
 }
 
-/// Columns with headings, in radians: VDA 5050 up to 3.1, LIF 1.0, LIF 2.0 (a list).
-const ORIENTATION: [&str; 3] = [
-    "orientation",
-    "vehicleOrientation",
-    "mobileRobotOrientations",
-];
+/// Columns with headings, in radians: one, or a list.
+const ORIENTATION: [&str; 2] = ["vehicleOrientation", "vehicleOrientations"];
 const ORIENTATION_TYPE: &str = "orientationType";
 
 /// The headings of a path in a file, from `orientationType` and the orientation of LIF and VDA
-/// 5050; forwards by default. A two-way path has each heading in both directions, unless `body` is
-/// symmetric.
+/// 5050; forwards by default. Of vehicle types that differ, the first one counts. A two-way path
+/// has each heading in both directions, unless `body` is symmetric.
 pub fn headings(layout: &Layout, path: usize, body: &Body) -> Vec<Heading> {
-    let value = |name: &str| layout.paths.attributes.get(name)?.values.get(path);
+    let value = |name: &str| layout.paths.value(path, name);
     let angles = ORIENTATION.into_iter().find_map(value).map(angles);
     let mut angles = angles
         .filter(|a| !a.is_empty())
@@ -71,9 +67,10 @@ pub fn headings(layout: &Layout, path: usize, body: &Body) -> Vec<Heading> {
     headings
 }
 
-/// Parses a number, or a comma-separated list of numbers.
+/// Parses a number, or a list of numbers: JSON, or a text with commas.
 fn angles(value: Value<'_>) -> Vec<f64> {
     let text = value.to_string();
-    let numbers = text.split(',').filter_map(|part| part.trim().parse().ok());
+    let list = text.trim_start_matches('[').trim_end_matches(']');
+    let numbers = list.split(',').filter_map(|part| part.trim().parse().ok());
     numbers.filter(|angle: &f64| angle.is_finite()).collect()
 }

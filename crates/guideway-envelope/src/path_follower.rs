@@ -1,5 +1,5 @@
-//! Follows a path with a vehicle: Bezier segments and a heading in, curve pieces with heading
-//! ranges out. Detects kinks (the vehicle pivots) and cusps (it reverses).
+//! Follows a path with a vehicle: converts Bezier segments and a heading into curve pieces with
+//! heading ranges. Detects kinks (the vehicle pivots) and cusps (it reverses).
 
 use std::f64::consts::{PI, TAU};
 
@@ -91,7 +91,7 @@ impl<'s> PathFollower<'s> {
     /// Ends a connected part of the path.
     pub(crate) fn end(&mut self) {
         match self.last_heading {
-            Some(heading) => self.turn_pending([heading; 2]),
+            Some(heading) => self.set_pending_headings([heading; 2]),
             // The part has no direction, so a tangential vehicle has no heading.
             None if self.heading.is_tangential() => self.pieces.truncate(self.pending),
             None => {}
@@ -106,7 +106,7 @@ impl<'s> PathFollower<'s> {
             return self.push_pending(points);
         }
         match Directions::of(points) {
-            Some(directions) => self.along(points, directions),
+            Some(directions) => self.push_directed(points, directions),
             None if halvings_left > 0 => {
                 for half in halves(points) {
                     self.piece(&half, point_length_m, halvings_left - 1);
@@ -117,7 +117,7 @@ impl<'s> PathFollower<'s> {
     }
 
     /// Appends a piece with a direction, after a pivot to it.
-    fn along(&mut self, points: &[P; 4], directions: Directions) {
+    fn push_directed(&mut self, points: &[P; 4], directions: Directions) {
         let Heading::Tangential(own) = self.heading else {
             return;
         };
@@ -139,7 +139,7 @@ impl<'s> PathFollower<'s> {
         if (last - first).abs() > HEADING_ERROR_RAD && self.pending == self.pieces.len() {
             self.push_pending(&[points[0]; 4]);
         }
-        self.turn_pending([last.min(first), last.max(first)]);
+        self.set_pending_headings([last.min(first), last.max(first)]);
         let shift = first - directions.first;
         let headings = directions.range.map(|angle| angle + shift);
         self.push(*points, headings, HeadingMode::FollowsTangent(self.offset));
@@ -157,7 +157,7 @@ impl<'s> PathFollower<'s> {
     }
 
     /// Sets the headings of the trailing pieces of point size.
-    fn turn_pending(&mut self, headings: [f64; 2]) {
+    fn set_pending_headings(&mut self, headings: [f64; 2]) {
         let pending = self.pieces[self.pending..].iter_mut();
         pending
             .filter(|step| step.mode == HeadingMode::Pivots)

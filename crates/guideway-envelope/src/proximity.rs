@@ -95,7 +95,7 @@ impl SweepTree {
         while let Some(pair) = search.open.pop() {
             match search.side_to_halve(&pair) {
                 Some(side) => search.halve(pair.nodes, side),
-                None => return Some(search.answer(pair)),
+                None => return Some(search.closest_approach(pair)),
             }
         }
         None
@@ -156,7 +156,7 @@ impl Search<'_, '_> {
                 .copied()
                 .any(|m| m.coverage(parts) == Coverage::All)
         };
-        if apart_m(a.bounds, b.bounds) > threshold_m || is_exempt(&self.parts(nodes)) {
+        if box_distance_m(a.bounds, b.bounds) > threshold_m || is_exempt(&self.parts(nodes)) {
             return None;
         }
         let distance_m = a.outer.distance(&b.outer);
@@ -197,7 +197,7 @@ impl Search<'_, '_> {
 
     /// The closest approach of a pair. Refines the pair until its positions are within the reach of
     /// the bodies.
-    fn answer(&mut self, pair: Pair) -> ClosestApproach {
+    fn closest_approach(&mut self, pair: Pair) -> ClosestApproach {
         let reach_m = self
             .trees
             .each_ref()
@@ -255,7 +255,7 @@ impl ExemptZone {
 }
 
 /// Distance of two boxes; 0 if they overlap.
-fn apart_m(a: Bounds<f64>, b: Bounds<f64>) -> f64 {
+fn box_distance_m(a: Bounds<f64>, b: Bounds<f64>) -> f64 {
     let gap = |low: f64, high: f64| (low - high).max(0.0);
     let x = gap(a.min.x, b.max.x).max(gap(b.min.x, a.max.x));
     let y = gap(a.min.y, b.max.y).max(gap(b.min.y, a.max.y));
@@ -263,7 +263,7 @@ fn apart_m(a: Bounds<f64>, b: Bounds<f64>) -> f64 {
 }
 
 fn nearest_m(p: Point<f64>, of: Bounds<f64>) -> f64 {
-    apart_m(Bounds { min: p, max: p }, of)
+    box_distance_m(Bounds { min: p, max: p }, of)
 }
 
 fn farthest_m(p: Point<f64>, of: Bounds<f64>) -> f64 {

@@ -14,16 +14,10 @@ pub enum EnvelopeSource {
     File,
 }
 
-/// Columns with the left and the right width of corridors: VDA 5050, then LIF 2.0.
-const CORRIDOR: [[&str; 2]; 2] = [
-    ["corridor.leftWidth", "corridor.rightWidth"],
-    ["corridor.maximumLeftWidth", "corridor.maximumRightWidth"],
-];
-/// Columns with the reference of corridors, the contour or the center: VDA 5050, then LIF 2.0.
-const CORRIDOR_REFERENCE: [&str; 2] = [
-    "corridor.corridorRefPoint",
-    "corridor.corridorReferencePoint",
-];
+/// Columns with the left and the right width of corridors.
+const CORRIDOR: [&str; 2] = ["corridor.leftWidth", "corridor.rightWidth"];
+/// Column with the reference of corridors, the contour or the center.
+const CORRIDOR_REFERENCE: &str = "corridor.referencePoint";
 
 impl EnvelopeSource {
     /// The area swept along a path.
@@ -49,22 +43,17 @@ impl EnvelopeSource {
 
 /// The corridor of a path, as a body of length 0.
 fn corridor(layout: &Layout, path: usize) -> Result<Body, NoEnvelope> {
-    let value = |name: &str| layout.paths.attributes.get(name)?.values.get(path);
+    let value = |name: &str| layout.paths.value(path, name);
     let width_m = |name: &str| match value(name)? {
         Value::Float(width_m) => Some(width_m),
         Value::Int(width_m) => Some(width_m as f64),
         _ => None,
     };
     let is_width = |width_m: &f64| width_m.is_finite() && *width_m >= 0.0;
-    let widths = CORRIDOR.into_iter().find_map(|[left, right]| {
-        let (left, right) = (width_m(left)?, width_m(right)?);
-        (is_width(&left) && is_width(&right)).then_some((left, right))
-    });
-    let (left_m, right_m) = widths.ok_or(NoEnvelope::NotInFile)?;
+    let [left, right] = CORRIDOR.map(|name| width_m(name).filter(is_width));
+    let (left_m, right_m) = left.zip(right).ok_or(NoEnvelope::NotInFile)?;
     // In both formats, a corridor without a reference is for the center of the vehicle.
-    let is_of_contour = CORRIDOR_REFERENCE
-        .into_iter()
-        .find_map(value)
+    let is_of_contour = value(CORRIDOR_REFERENCE)
         .is_some_and(|of| matches!(of, Value::Text(text) if text.eq_ignore_ascii_case("CONTOUR")));
     if !is_of_contour {
         return Err(NoEnvelope::CenterOnly);

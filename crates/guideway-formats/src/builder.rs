@@ -1,9 +1,13 @@
 //! Layout builder: collects the paths, nodes and stations that a text reader finds into a
 //! [`Layout`], holds them to the limits and to budgets by file size, and records diagnostics.
 
-use guideway_layout::{Attributes, Code, Diagnostics, Layout, NewPath, Place, TextColumn, Value};
+use guideway_layout::{
+    Attributes, Block, Code, Diagnostics, Layout, Member, NewPath, Place, Property, RefusedPath,
+    Severity, TextColumn, Value, element_name,
+};
 use guideway_spline::{Point, Runs};
 
+use crate::fields::FormatField;
 use crate::{Problem, ReadError, source::Source, text::printable};
 
 /// Makes the place of an element in the file. The builder calls it only for diagnostics it stores:
@@ -37,8 +41,16 @@ pub(crate) struct Builder<'a> {
 #[derive(Clone, Copy)]
 pub(crate) enum Table {
     Paths,
+    /// Entries of paths per vehicle type.
+    PathTypes,
     Nodes,
+    /// Entries of nodes per vehicle type.
+    NodeTypes,
     Stations,
+    /// The block of this row, whose attributes are in row 0.
+    Block(u32),
+    /// The layout as a whole, whose attributes are in row 0.
+    Layout,
 }
 
 impl<'a> Builder<'a> {
@@ -87,13 +99,21 @@ impl<'a> Builder<'a> {
         message: impl FnOnce() -> String,
         remedy: &str,
     ) {
-        let at = || {
-            let mut place = at();
-            place.element = printable(&place.element);
-            place
-        };
-        let message = || printable(&message());
-        self.layout.diagnostics.push(code, at, message, remedy);
+        self.report_as(code.severity(), code, at, message, remedy);
+    }
+
+    /// Records a diagnostic whose severity depends on the case, not only on its code.
+    pub(crate) fn report_as(
+        &mut self,
+        severity: Severity,
+        code: Code,
+        at: PlaceFn<'_>,
+        message: impl FnOnce() -> String,
+        remedy: &str,
+    ) {
+        let (at, message) = (|| printable_place(at), || printable(&message()));
+        let found = &mut self.layout.diagnostics;
+        found.push_as(severity, code, at, message, remedy);
     }
 
     /// Appends a path and returns its row.
@@ -145,12 +165,31 @@ impl<'a> Builder<'a> {
         points.all(|p| p.x.abs() <= limit && p.y.abs() <= limit)
     }
 
-    /// Records a path that cannot be drawn, with the reason.
+    /// Records a path that cannot be drawn, with the reason, and a finding at the path. For paths
+    /// whose fault has been reported at one of their fields.
     pub(crate) fn refuse(&mut self, id: &str, code: Code, detail: &str) -> Result<(), ReadError> {
+        let row = self.layout.path_count();
+        let at = || Place::element(element_name("path", row, id));
+        let remedy = "It is left out; correct it in the tool that wrote the file";
+        self.refuse_at(id, code, detail, &at, remedy)
+    }
+
+    /// Records a path that cannot be drawn, with the reason, and a finding at a place of the file.
+    pub(crate) fn refuse_at(
+        &mut self,
+        id: &str,
+        code: Code,
+        detail: &str,
+        at: PlaceFn<'_>,
+        remedy: &str,
+    ) -> Result<(), ReadError> {
         let detail = &printable(detail);
         self.charge_text(id)?;
         self.charge_text(detail)?;
         self.check_paths()?;
+        let path = RefusedPath { id, code, detail };
+        let at = || printable_place(at);
+        self.layout.diagnostics.push_refused(path, at, remedy);
         self.layout.refused.push(id, code, detail);
         Ok(())
     }
@@ -162,8 +201,22 @@ impl<'a> Builder<'a> {
         position_m: Point<f64>,
         level: Option<u32>,
     ) -> Result<u32, ReadError> {
+        self.push_node_for_types(id, position_m, level, &[])
+    }
+
+    /// Appends a node with an entry per vehicle type and returns its row.
+    pub(crate) fn push_node_for_types(
+        &mut self,
+        id: &str,
+        position_m: Point<f64>,
+        level: Option<u32>,
+        types: &[&str],
+    ) -> Result<u32, ReadError> {
         self.charge_text(id)?;
-        Ok(self.layout.nodes.push(id, position_m, level))
+        Ok(self
+            .layout
+            .nodes
+            .push_for_types(id, position_m, level, types))
     }
 
     /// Appends a station and returns its row.
@@ -178,7 +231,18 @@ impl<'a> Builder<'a> {
         Ok(self.layout.stations.push(id, position_m, nodes, level))
     }
 
-    /// Sets an attribute of a row.
+    /// Appends a block and returns its row.
+    pub(crate) fn push_block(&mut self, id: &str, members: Vec<Member>) -> Result<u32, ReadError> {
+        self.charge_text(id)?;
+        self.layout.blocks.push(Block {
+            id: id.to_owned(),
+            members,
+            attributes: Attributes::default(),
+        });
+        Ok((self.layout.blocks.len() - 1) as u32)
+    }
+
+    /// Sets an attribute of a row. A number of a known property is in its SI unit.
     pub(crate) fn set(
         &mut self,
         table: Table,
@@ -186,19 +250,48 @@ impl<'a> Builder<'a> {
         name: &str,
         value: Value<'_>,
     ) -> Result<(), ReadError> {
-        if let Value::Text(text) = value {
+        if let Value::Text(text) | Value::Json(text) = value {
             self.charge_text(text)?;
         }
         self.attributes(table).set(row, name, value);
         Ok(())
     }
 
+    /// Sets the property of a row that a field of the file holds, in SI units.
+    pub(crate) fn set_field(
+        &mut self,
+        table: Table,
+        row: usize,
+        field: &FormatField,
+        value: Value<'_>,
+    ) -> Result<(), ReadError> {
+        let quantity = field.property().and_then(Property::quantity);
+        let number = match value {
+            Value::Int(number) => Some(number as f64),
+            Value::Float(number) => Some(number),
+            Value::Bool(_) | Value::Text(_) | Value::Json(_) => None,
+        };
+        match (quantity, number) {
+            (Some(quantity), Some(number)) => {
+                let number = field.to_si(number);
+                let attributes = self.attributes(table);
+                attributes.set_quantity(row, field.property, number, quantity);
+                Ok(())
+            }
+            _ => self.set(table, row, field.property, value),
+        }
+    }
+
     /// The attributes of a table.
     pub(crate) fn attributes(&mut self, table: Table) -> &mut Attributes {
         match table {
             Table::Paths => &mut self.layout.paths.attributes,
+            Table::PathTypes => &mut self.layout.paths.vehicle_types_mut().attributes,
             Table::Nodes => &mut self.layout.nodes.attributes,
+            Table::NodeTypes => &mut self.layout.nodes.vehicle_types_mut().attributes,
             Table::Stations => &mut self.layout.stations.attributes,
+            Table::Block(row) => &mut self.layout.blocks[row as usize].attributes,
+            Table::Layout => &mut self.layout.attributes,
         }
     }
 
@@ -261,6 +354,15 @@ impl<'a> Builder<'a> {
             limit,
             actual,
         }))
+    }
+}
+
+/// A place without control characters of the file.
+fn printable_place(at: PlaceFn<'_>) -> Place {
+    let place = at();
+    Place {
+        element: printable(&place.element),
+        ..place
     }
 }
 

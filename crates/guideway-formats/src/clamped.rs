@@ -1,7 +1,7 @@
 //! Clamped B-splines: converts the uniform B-spline runs of a path to the clamped curves that other
 //! programs use, which begin and end at their outer control points.
 
-use guideway_layout::{PathRef, RunPoints};
+use guideway_layout::{PathRef, RunPoints, WrittenCurve};
 use guideway_spline::{Point, uniform};
 
 /// Step to which written positions are rounded, in meters; positions this near are equal.
@@ -13,7 +13,7 @@ pub(crate) const POSITION_STEP_M: f64 = 1e-6;
 ///
 /// Derived: coordinates in single precision meet no better at 1 km, and it is half the tolerance of
 /// written curves.
-const JOIN_TOLERANCE_M: f64 = 5e-5;
+pub(crate) const JOIN_TOLERANCE_M: f64 = 5e-5;
 
 /// Rounds a coordinate to [`POSITION_STEP_M`].
 pub(crate) fn rounded(meters: f64) -> f64 {
@@ -54,6 +54,27 @@ impl ClampedCurve {
         }
     }
 
+    /// Returns whether the curve is the straight line between two positions, which a format
+    /// implies where an edge has no curve.
+    pub(crate) fn is_line_between(&self, ends: [Point<f64>; 2]) -> bool {
+        self.as_line().is_some_and(|line| {
+            let apart = line[0].distance(ends[0]).max(line[1].distance(ends[1]));
+            apart <= POSITION_STEP_M
+        })
+    }
+
+    /// Returns the curve as a writer writes it: knots from 0 to 1, rounded positions.
+    pub(crate) fn into_written(self) -> WrittenCurve {
+        let last = self.knots.last().copied().unwrap_or(1.0);
+        let round = |p: Point<f64>| Point::new(rounded(p.x), rounded(p.y));
+        WrittenCurve {
+            degree: self.degree as u32,
+            knots: self.knots.iter().map(|knot| knot / last).collect(),
+            points_m: self.points.into_iter().map(round).collect(),
+            weights: None,
+        }
+    }
+
     fn from_runs(runs: &[RunPoints<'_>]) -> Self {
         let mut segments = runs.iter().flat_map(|run| run.segments());
         let is_straight = segments.all(|s| is_straight(&uniform::to_bezier(&s), POSITION_STEP_M));
@@ -91,6 +112,21 @@ impl ClampedCurve {
             .extend(std::iter::repeat_n(f64::from(passed), degree + 1));
         curve
     }
+}
+
+/// Returns whether a writer writes a path with the numbers of its file, so that its runs are all
+/// that the layout needs. `ends` are the positions of its nodes.
+pub(crate) fn is_rewritten_as(
+    path: PathRef<'_>,
+    ends: Option<[Point<f64>; 2]>,
+    written: &WrittenCurve,
+) -> bool {
+    let may_be_same = written.weights.is_none() && matches!(written.degree, 1 | 3);
+    may_be_same
+        && ClampedCurve::from_path(path).is_some_and(|curve| {
+            let is_omitted = ends.is_some_and(|ends| curve.is_line_between(ends));
+            !is_omitted && curve.into_written() == *written
+        })
 }
 
 fn is_joined(a: Point<f64>, b: Point<f64>) -> bool {

@@ -7,19 +7,22 @@
 //! | stage | input | output | modules |
 //! |---|---|---|---|
 //! | open | path or bytes | bytes, format | `read`, `input`, `format`, `sniff` |
-//! | parse | bytes | records, elements | `text`, `json`, `xml`, `yaml` |
+//! | parse | bytes | records, elements | `text`, `json`, `xml`, `yaml`, `yaml_json` |
 //! | map | records, elements | layout, diagnostics | one folder per format; `builder`, `node_rows` |
-//! | convert | curves of a format | uniform cubic runs | `spline`, `trajectory`, `ellipse`, `wgs84` |
+//! | convert | curves and units of a format | uniform cubic runs, SI units | `spline`, `trajectory`, `ellipse`, `wgs84`, `speed_unit` |
 //! | floor plans | image, ROS map | pixels and their placement, walls | `raster`, `ros_map` |
-//! | write | layout | file, losses | `write*` per format; `clamped`, `losses`, `common_losses` |
+//! | write | layout | file, losses | `write*` per format; `clamped`, `driven`, `trajectory_writer`, `*_nodes`, `*_losses` |
 
 pub mod arrow;
 mod builder;
 mod clamped;
 mod common_losses;
+mod driven;
 pub mod dxf;
 mod ellipse;
+mod end_nodes;
 mod error;
+mod fields;
 mod format;
 pub mod geojson;
 mod input;
@@ -27,29 +30,38 @@ mod json;
 mod lanelet2;
 pub mod lif;
 mod losses;
+mod network_losses;
 mod node_rows;
 mod opendrive;
-mod opentcs;
+pub mod opentcs;
 pub mod raster;
 mod read;
-mod rmf;
+pub mod rmf;
 pub mod ros_map;
 mod sniff;
 mod source;
+mod speed_unit;
 mod spline;
 pub mod svg;
+mod target;
 mod text;
 mod trajectory;
+mod trajectory_writer;
+mod unique_names;
 mod user_error;
-mod vda5050;
+pub mod vda5050;
 mod wgs84;
 mod xml;
 mod xml_builder;
+mod xml_text;
 mod yaml;
+mod yaml_json;
 
+pub use arrow::{WriteError, WriteProblem};
 pub use error::{Problem, ReadError};
 pub use format::Format;
 pub use losses::{Loss, Losses};
 pub use read::{read_bytes, read_file};
 pub use sniff::sniff;
 pub use source::{Progress, ReadOptions};
+pub use target::Target;

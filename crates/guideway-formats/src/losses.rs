@@ -3,7 +3,7 @@
 
 use std::fmt;
 
-use guideway_layout::{Attributes, Direction, Layout, PathRef};
+use guideway_layout::{Attributes, Layout, Value};
 
 /// A part of a layout that a written file lacks or represents differently.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -73,26 +73,36 @@ impl Losses {
 
     /// Adds the draw ranks, for a format without draw ranks.
     pub(crate) fn add_ranks(&mut self, layout: &Layout) {
-        let count = layout.paths.rank().map_or(0, <[i32]>::len);
+        let ranks = layout.paths.rank().unwrap_or_default();
+        let count = ranks.iter().filter(|&&rank| rank != 0).count();
         self.add("draw ranks", count, "draw ranks of paths");
     }
 
-    /// Adds the network (nodes, stations, directions, vehicle types), for a format of curves only.
-    pub(crate) fn add_network(&mut self, layout: &Layout) {
-        self.add("nodes", layout.nodes.len(), "nodes");
-        self.add_stations(layout);
-        let is_both = |p: &PathRef<'_>| p.direction() == Direction::Both;
-        let both = layout.paths.iter().filter(is_both).count();
-        self.add("directions", both, "two-way paths: their directions");
-        let types = layout.paths.vehicle_types();
-        let limited = (0..layout.paths.len()).filter(|&row| types.of(row).len() > 0);
-        let detail = "paths for certain vehicle types: the types";
-        self.add("vehicle types", limited.count(), detail);
+    /// Adds the blocks, for a format without blocks.
+    pub(crate) fn add_blocks(&mut self, layout: &Layout) {
+        self.add("blocks", layout.blocks.len(), "blocks");
     }
 
     /// Adds the stations, for a format without stations.
     pub(crate) fn add_stations(&mut self, layout: &Layout) {
         self.add("stations", layout.stations.len(), "stations");
+    }
+
+    /// Adds the values of a column of paths that a reader of the file replaces. `written` is the
+    /// value that it gets for a row.
+    pub(crate) fn add_replaced<'a>(
+        &mut self,
+        layout: &Layout,
+        name: &str,
+        written: impl Fn(usize) -> Option<&'a str>,
+    ) {
+        let rows = 0..layout.paths.len();
+        let changed = rows.filter(|&row| {
+            let value = layout.paths.attributes.value(row, name);
+            value.is_some() && value != written(row).map(Value::Text)
+        });
+        let detail = "values of paths: written in another form";
+        self.add(format!("column {name}"), changed.count(), detail);
     }
 
     /// Adds the columns of a table that a format does not hold. `of` names the rows, such as

@@ -1,7 +1,7 @@
 //! Spline conversion: converts degree, knots, control points and weights of a file to uniform cubic
 //! runs, or to the control polygon if the numbers define no curve.
 
-use guideway_layout::Code;
+use guideway_layout::{Code, WrittenCurve};
 use guideway_spline::{Nurbs, Point, Runs, knots, nurbs_to_runs, polyline_to_runs};
 
 use crate::builder::{Builder, PlaceFn};
@@ -22,13 +22,31 @@ pub(crate) struct Spline {
     pub(crate) weights: Vec<f64>,
 }
 
+impl Spline {
+    /// The curve as its file wrote it; weights of 1 are the same as none.
+    pub(crate) fn into_written(self) -> WrittenCurve {
+        let is_weighted = self.weights.iter().any(|&weight| weight != 1.0);
+        WrittenCurve {
+            degree: self.degree as u32,
+            knots: self.knots,
+            points_m: self.points,
+            weights: is_weighted.then_some(self.weights),
+        }
+    }
+}
+
 impl Builder<'_> {
     /// Appends a curve to empty `runs`, or its control polygon if the numbers define no curve. They
-    /// stay empty for fewer than two points.
-    pub(crate) fn append_spline(&mut self, spline: &Spline, at: PlaceFn<'_>, runs: &mut Runs) {
+    /// stay empty for fewer than two points. Returns whether the numbers define the curve.
+    pub(crate) fn append_spline(
+        &mut self,
+        spline: &Spline,
+        at: PlaceFn<'_>,
+        runs: &mut Runs,
+    ) -> bool {
         if let Some(curve) = self.curve(spline, at) {
             if self.convert(&curve, at, runs) {
-                return;
+                return true;
             }
             if curve.is_rational() {
                 let message = || "the weights differ too much for double precision".to_owned();
@@ -37,7 +55,7 @@ impl Builder<'_> {
                 let (degree, knots) = (curve.degree(), curve.knots().to_vec());
                 let plain = Nurbs::new(degree, knots, spline.points.clone(), None);
                 if plain.is_ok_and(|plain| self.convert(&plain, at, runs)) {
-                    return;
+                    return false;
                 }
             }
             self.report_knots(at, || {
@@ -45,6 +63,7 @@ impl Builder<'_> {
             });
         }
         polyline_to_runs(&spline.points, runs);
+        false
     }
 
     /// Converts a curve. Returns false, and leaves `runs` empty, if numbers overflow.

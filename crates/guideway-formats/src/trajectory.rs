@@ -1,15 +1,20 @@
 //! Trajectories of edges in LIF and VDA 5050: converts the NURBS record of either format to runs,
 //! or to the control polygon if it defines no curve.
 
-use guideway_layout::Code;
+use guideway_layout::{Code, Place, Value, WrittenCurve};
 use guideway_spline::{MAX_DEGREE, Point, Runs, polyline_to_runs};
 
 use serde::de::{IgnoredAny, MapAccess};
 
 use crate::ReadError;
-use crate::builder::{Builder, PlaceFn};
-use crate::json::{Field, FromJson, Key, field_place, items, record};
+use crate::builder::{Builder, PlaceFn, Table};
+use crate::clamped::is_rewritten_as;
+use crate::json::{Field, FromJson, Key, field_place, items, push_compact, record};
+use crate::source::{ReadOptions, Source};
 use crate::spline::Spline;
+
+/// Column of a trajectory that defines no curve, or that holds more than a curve, as written.
+pub(crate) const TRAJECTORY_COLUMN: &str = "trajectory";
 
 record! { Trajectory {
     degree: f64 = "degree",
@@ -23,12 +28,58 @@ record! { ControlPoint {
     weight: f64 = "weight",
 } }
 
+/// A trajectory as read, beside the runs that draw it.
+pub(crate) struct ReadCurve {
+    /// The curve that the file states; `None` if its numbers define none.
+    pub(crate) written: Option<WrittenCurve>,
+    /// True if the trajectory has more than the numbers of a curve, or wrong ones.
+    pub(crate) is_odd: bool,
+}
+
 /// Checked control points and weights of a trajectory.
 struct ControlPolygon {
     points: Vec<Point<f64>>,
     weights: Vec<f64>,
     /// True if all points of the file are valid.
     is_complete: bool,
+}
+
+impl Trajectory {
+    /// Returns whether it has members or types that the format does not define, or a weight that
+    /// is none.
+    pub(crate) fn is_odd(&self) -> bool {
+        let is_plain = |field: &Field<f64>| field.wrong_type().is_none();
+        let is_weight = |field: &Field<f64>| field.get().is_none_or(|&w| w.is_finite() && w > 0.0);
+        let mut knots = items(&self.knots).map(|(_, knot)| knot);
+        let mut points = items(&self.points).filter_map(|(_, point)| point.get());
+        self.has_other
+            || self.repeated.is_some()
+            || self.knots.wrong_type().is_some()
+            || !is_plain(&self.degree)
+            || !knots.all(is_plain)
+            || !points.all(|p| {
+                let is_known = !p.has_other && p.repeated.is_none();
+                is_known
+                    && [&p.x, &p.y, &p.weight].into_iter().all(is_plain)
+                    && is_weight(&p.weight)
+            })
+    }
+}
+
+/// Returns the runs that draw a trajectory, as a read of it does.
+pub(crate) fn runs_of(trajectory: &Trajectory) -> Runs {
+    let options = ReadOptions::default();
+    let source = Source {
+        name: "",
+        options: &options,
+    };
+    let mut runs = Runs::default();
+    let at: PlaceFn<'_> = &|| Place::element("trajectory");
+    let read = Builder::new(source, usize::MAX >> 8).append_trajectory(trajectory, at, &mut runs);
+    if read.is_err() {
+        runs.clear();
+    }
+    runs
 }
 
 impl Builder<'_> {
@@ -38,11 +89,15 @@ impl Builder<'_> {
         trajectory: &Trajectory,
         at: PlaceFn<'_>,
         runs: &mut Runs,
-    ) -> Result<(), ReadError> {
+    ) -> Result<ReadCurve, ReadError> {
         self.check_repeated(trajectory.repeated, at);
         let control = self.control_polygon(trajectory, at)?;
         let degree = self.degree(&trajectory.degree, at);
         let knots = self.knots(trajectory, at);
+        let mut curve = ReadCurve {
+            written: None,
+            is_odd: trajectory.is_odd(),
+        };
         match (degree, knots) {
             (Some(degree), Some(knots)) if control.is_complete => {
                 let spline = Spline {
@@ -51,14 +106,42 @@ impl Builder<'_> {
                     points: control.points,
                     weights: control.weights,
                 };
-                self.append_spline(&spline, at, runs);
+                if self.append_spline(&spline, at, runs) {
+                    curve.written = Some(spline.into_written());
+                }
             }
             // A diagnostic reports the invalid part; without it there is no curve.
             _ => {
                 polyline_to_runs(&control.points, runs);
             }
         }
-        Ok(())
+        curve.is_odd |= curve.written.is_none();
+        Ok(curve)
+    }
+
+    /// Keeps the curve of the file where the writer would write another one, and the text of a
+    /// trajectory that is more or less than a curve. `ends` are the positions of the nodes.
+    pub(crate) fn keep_written_curve<'t>(
+        &mut self,
+        row: usize,
+        read: ReadCurve,
+        ends: Option<[Point<f64>; 2]>,
+        text: impl FnOnce() -> Option<&'t str>,
+    ) -> Result<(), ReadError> {
+        if let Some(written) = read.written {
+            let paths = &mut self.layout.paths;
+            if !is_rewritten_as(paths.get(row), ends, &written) {
+                paths.set_written_curve(row, written);
+            }
+        }
+        let text = if read.is_odd { text() } else { None };
+        let Some(text) = text else {
+            return Ok(());
+        };
+        let mut compact = String::new();
+        push_compact(text, &mut compact);
+        let value = Value::Json(&compact);
+        self.set(Table::Paths, row, TRAJECTORY_COLUMN, value)
     }
 
     fn control_polygon(

@@ -1,5 +1,7 @@
-//! Map projection: converts longitude and latitude (WGS 84, degrees) to meters on a local plane.
+//! Map projection: converts longitude and latitude (WGS 84, degrees) to meters on a local plane,
+//! and back.
 
+use guideway_layout::GeoOrigin;
 use guideway_spline::{Bounds, Point};
 
 /// Equirectangular projection about a center, which maps to the origin. It is true to scale near
@@ -12,32 +14,95 @@ pub(crate) struct LocalProjection {
 
 impl LocalProjection {
     /// Makes the projection about the center of a box of degrees.
+    pub(crate) fn centered_on(bounds: Bounds<f64>) -> Self {
+        let center = bounds.min.lerp(bounds.max, 0.5);
+        Self::about(GeoOrigin {
+            longitude_deg: center.x,
+            latitude_deg: center.y,
+        })
+    }
+
+    /// Makes the projection about a point on earth.
     ///
     /// The scale is that of the WGS 84 ellipsoid at the center, from its radii of curvature: along
     /// the meridian a (1 - e^2) / (1 - e^2 sin^2)^(3/2), across it a / (1 - e^2 sin^2)^(1/2).
-    pub(crate) fn centered_on(bounds: Bounds<f64>) -> Self {
+    pub(crate) fn about(center: GeoOrigin) -> Self {
         const SEMI_MAJOR_M: f64 = 6_378_137.0;
         const ECCENTRICITY_SQUARED: f64 = 6.694_379_990_141_32e-3;
-        let center = bounds.min.lerp(bounds.max, 0.5);
-        let (sin, cos) = center.y.to_radians().sin_cos();
+        let (sin, cos) = center.latitude_deg.to_radians().sin_cos();
         let root = (1.0 - ECCENTRICITY_SQUARED * sin * sin).sqrt();
         let meridian_m = SEMI_MAJOR_M * (1.0 - ECCENTRICITY_SQUARED) / root.powi(3);
         let across_m = SEMI_MAJOR_M / root;
         Self {
-            center,
+            center: Point::new(wrapped(center.longitude_deg), center.latitude_deg),
             meters_per_degree: Point::new(across_m * cos, meridian_m) * 1_f64.to_radians(),
         }
     }
 
-    /// Projects longitude and latitude (degrees) to meters.
+    /// Returns the point on earth that maps to the origin.
+    pub(crate) fn origin(self) -> GeoOrigin {
+        GeoOrigin {
+            longitude_deg: self.center.x,
+            latitude_deg: self.center.y,
+        }
+    }
+
+    /// Projects longitude and latitude (degrees) to meters. Of the two ways around the earth it
+    /// takes the shorter one, so a site may lie on the antimeridian.
     pub(crate) fn to_meters(self, position: Point<f64>) -> Point<f64> {
         let offset = position - self.center;
         let scale = self.meters_per_degree;
-        Point::new(offset.x * scale.x, offset.y * scale.y)
+        Point::new(wrapped(offset.x) * scale.x, offset.y * scale.y)
     }
+
+    /// Returns the longitude and latitude (degrees) of a position in meters. The longitude exceeds
+    /// 180 beyond the antimeridian, so that lines stay connected.
+    pub(crate) fn to_degrees(self, position: Point<f64>) -> Point<f64> {
+        let scale = self.meters_per_degree;
+        self.center + Point::new(position.x / scale.x, position.y / scale.y)
+    }
+}
+
+/// Returns a longitude in the range from -180 to 180.
+fn wrapped(longitude_deg: f64) -> f64 {
+    if longitude_deg.abs() <= 180.0 {
+        return longitude_deg;
+    }
+    longitude_deg - 360.0 * (longitude_deg / 360.0).round()
 }
 
 /// Returns whether a position is in the range of longitude and latitude.
 pub(crate) fn is_lon_lat(position: Point<f64>) -> bool {
     position.x.abs() <= 180.0 && position.y.abs() <= 90.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn degrees_return_from_meters() {
+        let origin = GeoOrigin {
+            longitude_deg: 11.58,
+            latitude_deg: 49.95,
+        };
+        let local = LocalProjection::about(origin);
+        assert_eq!(local.origin(), origin);
+        for (x, y) in [(0.0, 0.0), (1234.5, -876.25), (-1e5, 1e5)] {
+            let meters = Point::new(x, y);
+            assert!(local.to_meters(local.to_degrees(meters)).distance(meters) < 1e-8);
+        }
+    }
+
+    #[test]
+    fn a_site_may_lie_on_the_antimeridian() {
+        let origin = GeoOrigin {
+            longitude_deg: 180.0,
+            latitude_deg: -17.0,
+        };
+        let local = LocalProjection::about(origin);
+        let [west, east] = [179.999, -179.999].map(|x| local.to_meters(Point::new(x, -17.0)));
+        assert!((west.x + east.x).abs() < 1e-6, "{west:?} {east:?}");
+        assert!(west.distance(east) < 220.0);
+    }
 }

@@ -4,6 +4,7 @@ use guideway_layout::Code;
 use guideway_spline::Point;
 use roxmltree::Node;
 
+use crate::ReadError;
 use crate::builder::Builder;
 use crate::source::Source;
 use crate::xml::Xml;
@@ -33,6 +34,20 @@ impl<'a, 'd, 't> XmlBuilder<'a, 'd, 't> {
         let xml = self.xml;
         self.builder
             .report(code, &|| xml.place(node), message, remedy);
+    }
+
+    /// Records an element that cannot be drawn, with a finding.
+    pub(crate) fn refuse(
+        &mut self,
+        id: &str,
+        code: Code,
+        node: Node<'d, 't>,
+        detail: &str,
+        remedy: &str,
+    ) -> Result<(), ReadError> {
+        let xml = self.xml;
+        let at = || xml.place(node);
+        self.builder.refuse_at(id, code, detail, &at, remedy)
     }
 
     /// Whether a point can be drawn. Records a finding at an element if not.

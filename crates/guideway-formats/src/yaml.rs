@@ -332,6 +332,8 @@ impl<'y> YamlNode<'y> {
             ".nan" | ".NaN" | ".NAN" => Some(Value::Float(f64::NAN)),
             _ => match text.trim_start_matches(['+', '-']) {
                 ".inf" | ".Inf" | ".INF" => Some(Value::Float(f64::INFINITY)),
+                // Too long for `Int`; a float would round it.
+                digits if is_whole(digits) => Some(Value::Text(text)),
                 // Excludes spellings that only Rust accepts, such as `nan`.
                 digits if digits.starts_with(|c: char| c.is_ascii_digit() || c == '.') => {
                     let number = text.parse().map(Value::Float);
@@ -347,9 +349,18 @@ impl<'y> YamlNode<'y> {
         match self.value()? {
             Value::Int(whole) => Some(whole as f64),
             Value::Float(number) => Some(number),
+            Value::Text(digits) if is_whole(digits) && self.is_plain() => digits.parse().ok(),
             _ => None,
         }
     }
+
+    fn is_plain(self) -> bool {
+        matches!(self.content(), Content::Scalar { is_plain: true, .. })
+    }
+}
+
+fn is_whole(digits: &str) -> bool {
+    !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit())
 }
 
 fn syntax(line: u32, message: &str) -> Problem {

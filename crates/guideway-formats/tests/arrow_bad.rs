@@ -6,7 +6,7 @@ use std::path::Path;
 use guideway_bad_files::folder;
 use guideway_formats::arrow::{ArrowWriter, Column, ColumnType, Precision};
 use guideway_formats::{ReadOptions, read_bytes, read_file};
-use guideway_layout::{Layout, Value};
+use guideway_layout::{Layout, Member, Value};
 use guideway_spline::Point;
 
 /// Describes the outcome of a file in the format of `expect.tsv`.
@@ -19,6 +19,13 @@ fn outcome(path: &Path) -> String {
         }
         Ok(layout) => {
             let mut words = vec![format!("drawn {}", layout.paths.len())];
+            let elements = [
+                ("nodes", layout.nodes.len()),
+                ("stations", layout.stations.len()),
+                ("blocks", layout.blocks.len()),
+            ];
+            let elements = elements.iter().filter(|(_, count)| *count > 0);
+            words.extend(elements.map(|(name, count)| format!("{name} {count}")));
             let refused = layout
                 .refused
                 .iter()
@@ -97,14 +104,34 @@ fn valid_file() -> Vec<u8> {
 /// Reads any bytes, and checks the invariants of a layout that they give.
 fn read_any(bytes: &[u8]) -> Option<Layout> {
     let layout = read_bytes("damaged", bytes, &ReadOptions::default()).ok()?;
+    let (nodes, levels) = (layout.nodes.len(), layout.levels.len());
+    let is_below = |index: Option<u32>, count: usize| index.is_none_or(|i| (i as usize) < count);
     for path in layout.paths.iter() {
         assert!(path.runs().all(|run| run.len() >= 4));
         assert!(path.runs().all(|run| run.iter().all(Point::is_finite)));
-        assert!(
-            path.level()
-                .is_none_or(|l| (l as usize) < layout.levels.len())
-        );
+        assert!(is_below(path.level(), levels));
+        assert!(is_below(path.start_node(), nodes) && is_below(path.end_node(), nodes));
     }
+    assert_eq!(layout.paths.vehicle_types().len(), layout.paths.len());
+    assert_eq!(layout.nodes.vehicle_types().len(), nodes);
+    for node in 0..nodes as u32 {
+        assert!(layout.nodes.position_m(node).is_finite());
+        assert!(is_below(layout.nodes.level(node), levels));
+    }
+    let stations = layout.stations.len();
+    for station in 0..stations as u32 {
+        let served = layout.stations.nodes(station);
+        assert!(served.iter().all(|&node| is_below(Some(node), nodes)));
+        assert!(is_below(layout.stations.level(station), levels));
+    }
+    for member in layout.blocks.iter().flat_map(|block| &block.members) {
+        assert!(match *member {
+            Member::Path(row) => is_below(Some(row), layout.paths.len()),
+            Member::Node(row) => is_below(Some(row), nodes),
+            Member::Station(row) => is_below(Some(row), stations),
+        });
+    }
+    assert!(layout.zones.iter().all(|zone| is_below(zone.level, levels)));
     Some(layout)
 }
 
@@ -137,6 +164,8 @@ fn changed_bytes_do_not_panic() {
         "laughs",
         "lz4-garbled",
         "dictionary-key-beyond",
+        "network",
+        "network-interleaved",
     ] {
         files.push(fs::read(folder("arrow").join(format!("{name}.arrow"))).expect("a file"));
     }

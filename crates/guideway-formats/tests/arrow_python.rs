@@ -7,10 +7,12 @@
 use std::path::Path;
 use std::process::Command;
 
-use guideway_formats::arrow::{ArrowWriter, Column, ColumnType, Precision};
+use guideway_formats::arrow::{
+    ArrowWriter, Column, ColumnType, Precision, WriteOptions, write_layout,
+};
 use guideway_formats::{ReadOptions, read_file};
-use guideway_layout::{Layout, Value};
-use guideway_spline::Point;
+use guideway_layout::{Code, Direction, Layout, NewPath, Quantity, Value};
+use guideway_spline::{Point, Runs};
 
 const DOCUMENT: &str = include_str!("../../../docs/arrow-format.md");
 
@@ -60,6 +62,40 @@ fn read(folder: &Path, name: &str) -> Layout {
     layout.unwrap_or_else(|e| panic!("{e}"))
 }
 
+/// A layout of two nodes, a path between them and a station.
+fn network() -> Layout {
+    let mut layout = Layout::default();
+    let points = [Point::new(0.0, 0.0), Point::new(4.0, 0.0)];
+    let nodes = &mut layout.nodes;
+    let (start, end) = (
+        nodes.push("A", points[0], None),
+        nodes.push("B", points[1], None),
+    );
+    layout.nodes.attributes.set(1, "name", Value::Text("dock"));
+    let mut runs = Runs::default();
+    runs.push_line(points[0], points[1]);
+    layout.paths.push(&NewPath {
+        id: "aisle-1",
+        runs: &runs,
+        start_node: Some(start),
+        end_node: Some(end),
+        direction: Direction::Both,
+        vehicle_types: &["tug", "fork"],
+        ..NewPath::default()
+    });
+    let attributes = &mut layout.paths.attributes;
+    attributes.set_quantity(0, "maxSpeed", 1.5, Quantity::Speed);
+    attributes.set(0, "actions", Value::Json("[{\"a\": 1}]"));
+    let at = Point::new(4.0, 1.0);
+    layout.stations.push("S", Some(at), vec![end], None);
+    layout
+}
+
+fn write_network(folder: &Path) {
+    let path = folder.join("network.arrow");
+    write_layout(&network(), &path, &WriteOptions::default()).expect("a file");
+}
+
 #[test]
 fn documented_python_runs() {
     if !has("pyarrow") {
@@ -67,16 +103,27 @@ fn documented_python_runs() {
     }
     let folder = tempfile::tempdir().expect("a folder");
     let folder = folder.path();
+    write_network(folder);
+    let mut checked = 0;
     for block in blocks() {
-        if block.contains("polars") && !has("polars") || block.contains("numpy") && !has("numpy") {
+        let packages = ["polars", "numpy", "duckdb"];
+        if packages.iter().any(|p| block.contains(p) && !has(p)) {
             continue;
         }
         let text = run(folder, block);
-        if block.contains("read_table") {
-            let expected = "aisle-1 1 segments from control point [-2.0, 0.0]";
-            assert_eq!(text.trim(), expected);
-        }
+        let expected = match block {
+            _ if block.contains("read_table(\"paths.arrow\")") => {
+                "aisle-1 1 segments from control point [-2.0, 0.0]\n"
+            }
+            _ if block.contains("pyarrow.compute") => {
+                "['aisle-1'] from ['A']\n[{'id': 'S', 'x_m': 4.0, 'y_m': 1.0, 'nodes': [1]}]\n"
+            }
+            _ => continue,
+        };
+        assert_eq!(text, expected);
+        checked += 1;
     }
+    assert_eq!(checked, 2);
     let written = read(folder, "paths.arrow");
     assert!(written.diagnostics.is_empty());
     assert_eq!(written.paths.id(0), "aisle-1");
@@ -131,4 +178,59 @@ for chunk in t["control_points"].chunks:
     assert all(b is None or b.address % 64 == 0 for b in chunk.buffers()), "aligned"
 "#;
     run(folder.path(), code);
+}
+
+#[test]
+fn pyarrow_and_polars_keep_the_network() {
+    if !has("pyarrow") {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    write_network(folder.path());
+    let code = r#"
+import pyarrow as pa, pyarrow.feather
+t = pyarrow.feather.read_table("network.arrow")
+t.validate(full=True)
+assert t.schema.metadata == {b"guideway.version": b"2"}, t.schema.metadata
+assert t.schema.field("maxSpeed").metadata == {b"unit": b"m/s"}, t.schema
+assert t.schema.field("actions").type == pa.json_(), t.schema
+assert [len(chunk) for chunk in t["id"].chunks] == [1, 2, 1], t
+pyarrow.feather.write_feather(t, "pyarrow.arrow")
+"#;
+    run(folder.path(), code);
+    let mut written = vec!["pyarrow.arrow"];
+    if has("polars") {
+        run(
+            folder.path(),
+            "import polars as pl; pl.read_ipc('network.arrow').write_ipc('polars.arrow')",
+        );
+        written.push("polars.arrow");
+    }
+    let network = network();
+    for name in written {
+        let layout = read(folder.path(), name);
+        let path = layout.paths.get(0);
+        assert_eq!(
+            (path.start_node(), path.end_node()),
+            (Some(0), Some(1)),
+            "{name}"
+        );
+        assert_eq!(path.direction(), Direction::Both);
+        assert!(layout.paths.vehicle_types().of(0).eq(["tug", "fork"]));
+        assert_eq!(layout.nodes.position_m(1), network.nodes.position_m(1));
+        assert_eq!(layout.nodes.attributes, network.nodes.attributes);
+        assert_eq!(layout.stations.nodes(0), [1]);
+        assert_eq!(
+            layout.paths.value(0, "actions"),
+            network.paths.value(0, "actions")
+        );
+        // polars drops the version and the unit.
+        let is_polars = name == "polars.arrow";
+        let quantity = layout.paths.column("maxSpeed").and_then(|c| c.quantity);
+        assert_eq!(quantity.is_none(), is_polars);
+        assert_eq!(
+            layout.diagnostics.count(Code::Version),
+            u64::from(is_polars)
+        );
+    }
 }

@@ -1,9 +1,11 @@
 //! [`Attributes`]: the further columns of a table, each with a name and one type.
 
-use crate::{Cells, TextColumn};
+use crate::{Cells, Quantity, TextCells};
 
 /// Further columns of a table, in the order of the file.
-#[derive(Clone, Debug, Default)]
+///
+/// A column may be shorter than its table: rows past its end have no value.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Attributes {
     columns: Vec<Attribute>,
 }
@@ -20,44 +22,64 @@ impl Attributes {
     /// Sets the value of a row; appends empty rows before it as needed. A value of another type
     /// widens the column: whole numbers to numbers, any other mix to text.
     pub fn set(&mut self, row: usize, name: &str, value: Value<'_>) {
-        let index = self
-            .columns
-            .iter()
-            .position(|c| c.name == name)
-            .unwrap_or_else(|| {
-                self.columns
-                    .push(Attribute::new(name, Values::empty_for(value)));
-                self.columns.len() - 1
-            });
-        let values = &mut self.columns[index].values;
+        let values = &mut self.column_mut(name, value).values;
         values.widen_for(value);
         values.set(row, value);
+    }
+
+    /// Sets a number of a physical quantity, in its SI unit.
+    pub fn set_quantity(&mut self, row: usize, name: &str, value: f64, quantity: Quantity) {
+        let value = Value::Float(value);
+        let column = self.column_mut(name, value);
+        column.quantity = Some(quantity);
+        column.values.widen_for(value);
+        column.values.set(row, value);
+    }
+
+    /// Removes the value of a row.
+    pub fn clear(&mut self, row: usize, name: &str) {
+        let column = self.columns.iter_mut().find(|c| c.name == name);
+        if let Some(column) = column.filter(|c| row < c.values.len()) {
+            column.values.clear(row);
+        }
+    }
+
+    /// Removes a column and returns it.
+    pub fn remove(&mut self, name: &str) -> Option<Attribute> {
+        let index = self.columns.iter().position(|c| c.name == name)?;
+        Some(self.columns.remove(index))
     }
 
     /// Copies the values of row `from` to row `to`.
     pub fn copy_row(&mut self, from: usize, to: usize) {
         for Attribute { values, .. } in &mut self.columns {
-            match values.get(from) {
-                None => {}
-                Some(Value::Bool(value)) => values.set(to, Value::Bool(value)),
-                Some(Value::Int(value)) => values.set(to, Value::Int(value)),
-                Some(Value::Float(value)) => values.set(to, Value::Float(value)),
-                Some(Value::Text(text)) => {
-                    let text = text.to_owned();
-                    values.set(to, Value::Text(&text));
-                }
-            }
+            values.copy_row(from, to);
         }
     }
 
     /// Appends the values of another table, whose row 0 becomes row `first_row`.
-    pub(crate) fn extend(&mut self, first_row: usize, other: &Self) {
+    pub fn extend(&mut self, first_row: usize, other: &Self) {
         for column in other.iter() {
             for row in 0..column.values.len() {
                 if let Some(value) = column.values.get(row) {
                     self.set(first_row + row, &column.name, value);
                 }
             }
+            if let Some(own) = self.columns.iter_mut().find(|c| c.name == column.name) {
+                own.quantity = own.quantity.or(column.quantity);
+            }
+        }
+    }
+
+    /// The given rows, in this order.
+    #[must_use]
+    pub fn select(&self, rows: &[usize]) -> Self {
+        let select = |column: &Attribute| Attribute {
+            values: column.values.select(rows),
+            ..column.clone()
+        };
+        Self {
+            columns: self.columns.iter().map(select).collect(),
         }
     }
 
@@ -66,35 +88,67 @@ impl Attributes {
         self.columns.iter().find(|c| c.name == name)
     }
 
+    /// The value of a row, if it has one.
+    pub fn value(&self, row: usize, name: &str) -> Option<Value<'_>> {
+        self.get(name)?.values.get(row)
+    }
+
     /// All columns, in the order of the file.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = &Attribute> {
         self.columns.iter()
+    }
+
+    /// Returns `true` if there are no columns.
+    pub fn is_empty(&self) -> bool {
+        self.columns.is_empty()
     }
 
     /// Heap bytes in use.
     pub fn heap_bytes(&self) -> usize {
         self.columns.iter().map(|c| c.values.heap_bytes()).sum()
     }
+
+    /// The column with this name; a new one has the type of `value`.
+    fn column_mut(&mut self, name: &str, value: Value<'_>) -> &mut Attribute {
+        let known = self.columns.iter().position(|c| c.name == name);
+        let index = known.unwrap_or_else(|| {
+            let column = Attribute::new(name, Values::empty_for(value));
+            self.columns.push(column);
+            self.columns.len() - 1
+        });
+        &mut self.columns[index]
+    }
 }
 
 /// One typed column. A row may lack a value; rows past the end lack one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Attribute {
-    /// Name in the file.
+    /// Name, which is unique in its table.
     pub name: String,
     /// One value per row.
     pub values: Values,
+    /// Quantity that the numbers measure, in its SI unit; `None` if the unit is unknown.
+    pub quantity: Option<Quantity>,
     /// Type in the file if it is narrower than the one in memory, such as `Int16`.
     pub source_type: Option<String>,
 }
 
 impl Attribute {
-    /// A column with the same type in the file and in memory.
+    /// A column without a known unit, with the same type in the file and in memory.
     pub fn new(name: impl Into<String>, values: Values) -> Self {
         Self {
             name: name.into(),
             values,
+            quantity: None,
             source_type: None,
+        }
+    }
+
+    /// Name for people, with the unit: `maxSpeed (m/s)`.
+    pub fn label(&self) -> String {
+        match self.quantity {
+            Some(quantity) => format!("{} ({})", self.name, quantity.unit()),
+            None => self.name.clone(),
         }
     }
 }
@@ -108,13 +162,10 @@ pub enum Values {
     Int(Cells<i64>),
     /// Numbers.
     Float(Cells<f64>),
-    /// Text; `present[row]` distinguishes an empty text from a missing one.
-    Text {
-        /// The text of each row.
-        text: TextColumn,
-        /// One flag per row, true if it has a value.
-        present: Vec<bool>,
-    },
+    /// Text.
+    Text(TextCells),
+    /// JSON texts: lists and objects that have no type of their own.
+    Json(TextCells),
 }
 
 impl Values {
@@ -123,10 +174,8 @@ impl Values {
             Value::Bool(_) => Self::Bool(Cells::default()),
             Value::Int(_) => Self::Int(Cells::default()),
             Value::Float(_) => Self::Float(Cells::default()),
-            Value::Text(_) => Self::Text {
-                text: TextColumn::default(),
-                present: Vec::new(),
-            },
+            Value::Text(_) => Self::Text(TextCells::default()),
+            Value::Json(_) => Self::Json(TextCells::default()),
         }
     }
 
@@ -136,7 +185,7 @@ impl Values {
             Self::Bool(v) => v.len(),
             Self::Int(v) => v.len(),
             Self::Float(v) => v.len(),
-            Self::Text { present, .. } => present.len(),
+            Self::Text(v) | Self::Json(v) => v.len(),
         }
     }
 
@@ -151,10 +200,20 @@ impl Values {
             Self::Bool(v) => v.get(row).map(Value::Bool),
             Self::Int(v) => v.get(row).map(Value::Int),
             Self::Float(v) => v.get(row).map(Value::Float),
-            Self::Text { text, present } => {
-                let is_present = present.get(row).copied().unwrap_or(false);
-                is_present.then(|| Value::Text(text.get(row)))
-            }
+            Self::Text(v) => v.get(row).map(Value::Text),
+            Self::Json(v) => v.get(row).map(Value::Json),
+        }
+    }
+
+    /// The given rows, in this order.
+    #[must_use]
+    pub fn select(&self, rows: &[usize]) -> Self {
+        match self {
+            Self::Bool(v) => Self::Bool(v.select(rows)),
+            Self::Int(v) => Self::Int(v.select(rows)),
+            Self::Float(v) => Self::Float(v.select(rows)),
+            Self::Text(v) => Self::Text(v.select(rows)),
+            Self::Json(v) => Self::Json(v.select(rows)),
         }
     }
 
@@ -163,29 +222,26 @@ impl Values {
             (Self::Bool(_), Value::Bool(_))
             | (Self::Int(_), Value::Int(_))
             | (Self::Float(_), Value::Float(_) | Value::Int(_))
-            | (Self::Text { .. }, _) => return,
+            | (Self::Json(_), Value::Json(_))
+            | (Self::Text(_), _) => return,
             (Self::Int(v), Value::Float(_)) => {
                 Self::Float(v.iter().map(|v| v.map(|v| v as f64)).collect())
             }
             (narrow, _) => {
-                let mut wide = Self::empty_for(Value::Text(""));
-                for row in 0..narrow.len() {
-                    match narrow.get(row) {
-                        Some(value) => wide.set(row, Value::Text(&value.to_string())),
-                        None => wide.pad_to(row + 1),
-                    }
-                }
-                wide
+                let text = |row| narrow.get(row).map(|value| value.to_string());
+                let mut wide = TextCells::default();
+                (0..narrow.len()).for_each(|row| wide.push(text(row).as_deref()));
+                Self::Text(wide)
             }
         };
     }
 
     fn set(&mut self, row: usize, value: Value<'_>) {
-        if let Self::Text { text, present } = self {
-            Self::set_text(text, present, row, &value.to_string());
-            return;
-        }
         match (self, value) {
+            (Self::Text(v), Value::Text(x)) | (Self::Json(v), Value::Json(x)) => {
+                v.set(row, Some(x));
+            }
+            (Self::Text(v), _) => v.set(row, Some(&value.to_string())),
             (Self::Bool(v), Value::Bool(x)) => v.set(row, x),
             (Self::Int(v), Value::Int(x)) => v.set(row, x),
             (Self::Float(v), Value::Float(x)) => v.set(row, x),
@@ -194,35 +250,23 @@ impl Values {
         }
     }
 
-    fn set_text(text: &mut TextColumn, present: &mut Vec<bool>, row: usize, value: &str) {
-        if row < present.len() {
-            // The buffer is flat, so replacing a text rebuilds it; setting a row twice is rare.
-            let rows: Vec<String> = text.iter().map(str::to_owned).collect();
-            let replaced = rows
-                .iter()
-                .enumerate()
-                .map(|(i, old)| if i == row { value } else { old });
-            *text = replaced.collect();
-        } else {
-            while text.len() < row {
-                text.push("");
-                present.push(false);
-            }
-            text.push(value);
-            present.push(true);
+    fn clear(&mut self, row: usize) {
+        match self {
+            Self::Bool(v) => v.clear(row),
+            Self::Int(v) => v.clear(row),
+            Self::Float(v) => v.clear(row),
+            Self::Text(v) | Self::Json(v) => v.set(row, None),
         }
-        present[row] = true;
     }
 
-    fn pad_to(&mut self, rows: usize) {
+    fn copy_row(&mut self, from: usize, to: usize) {
         match self {
-            Self::Bool(v) => v.pad_to(rows),
-            Self::Int(v) => v.pad_to(rows),
-            Self::Float(v) => v.pad_to(rows),
-            Self::Text { text, present } => {
-                while present.len() < rows {
-                    text.push("");
-                    present.push(false);
+            Self::Bool(v) => v.get(from).into_iter().for_each(|x| v.set(to, x)),
+            Self::Int(v) => v.get(from).into_iter().for_each(|x| v.set(to, x)),
+            Self::Float(v) => v.get(from).into_iter().for_each(|x| v.set(to, x)),
+            Self::Text(v) | Self::Json(v) => {
+                if let Some(text) = v.get(from).map(str::to_owned) {
+                    v.set(to, Some(&text));
                 }
             }
         }
@@ -233,7 +277,7 @@ impl Values {
             Self::Bool(v) => v.heap_bytes(),
             Self::Int(v) => v.heap_bytes(),
             Self::Float(v) => v.heap_bytes(),
-            Self::Text { text, present } => text.heap_bytes() + present.capacity(),
+            Self::Text(v) | Self::Json(v) => v.heap_bytes(),
         }
     }
 }
@@ -249,6 +293,8 @@ pub enum Value<'a> {
     Float(f64),
     /// Text.
     Text(&'a str),
+    /// JSON: a list or an object.
+    Json(&'a str),
 }
 
 impl std::fmt::Display for Value<'_> {
@@ -259,7 +305,7 @@ impl std::fmt::Display for Value<'_> {
             // Files often store `f32`: 0.3 must not print as 0.30000001192092896.
             Self::Float(v) if f64::from(*v as f32) == *v => (*v as f32).fmt(f),
             Self::Float(v) => v.fmt(f),
-            Self::Text(v) => f.write_str(v),
+            Self::Text(v) | Self::Json(v) => f.write_str(v),
         }
     }
 }

@@ -78,6 +78,18 @@ impl<T: Copy + Default> Cells<T> {
         }
     }
 
+    /// Removes the value of a row that exists.
+    pub(crate) fn clear(&mut self, row: usize) {
+        let rows = self.values.len();
+        self.present.get_or_insert_with(|| vec![true; rows])[row] = false;
+    }
+
+    /// The given rows, in this order; rows past the end have no value.
+    #[must_use]
+    pub fn select(&self, rows: &[usize]) -> Self {
+        rows.iter().map(|&row| self.get(row)).collect()
+    }
+
     /// Appends empty rows until the column has `rows` rows.
     pub(crate) fn pad_to(&mut self, rows: usize) {
         while self.len() < rows {

@@ -38,7 +38,7 @@ macro_rules! codes {
                 match self { $(Self::$variant => $name,)* }
             }
 
-            /// Severity of findings of this kind.
+            /// Severity of findings of this kind, where the case does not decide it.
             pub fn severity(self) -> Severity {
                 match self { $(Self::$variant => Severity::$severity,)* }
             }
@@ -78,7 +78,10 @@ codes! {
         "A path has a gap: one part does not begin where the previous one ends.";
     ZeroLength "zero-length" Warning "A path has no length; it is drawn as a dot.";
     DuplicateId "duplicate-id" Warning "An identifier is used more than once.";
-    DuplicatePath "duplicate-path" Warning "Two paths have the same curve in the same direction.";
+    DuplicatePath "duplicate-path" Warning
+        "Two paths have the same curve in the same direction and agree in all properties.";
+    SameCurve "same-curve" Info
+        "Two paths have the same curve in the same direction, but differ in their properties.";
     ReversePair "reverse-pair" Info
         "Two paths have the same curve in opposite directions: a two-way road.";
     DuplicateKey "duplicate-key" Warning

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
-use crate::{Code, Limits, Severity};
+use crate::{Code, Limits, RefusedPath, Severity};
 
 /// Position of a finding in its source.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -39,6 +39,8 @@ impl fmt::Display for Place {
 pub struct Diagnostic {
     /// Kind of the finding.
     pub code: Code,
+    /// Severity in this case; mostly [`Code::severity`].
+    pub severity: Severity,
     /// Position in the source.
     pub place: Place,
     /// Description of the finding, with the values.
@@ -47,19 +49,50 @@ pub struct Diagnostic {
     pub remedy: String,
 }
 
-impl Diagnostic {
-    /// Severity, which follows from the code.
-    pub fn severity(&self) -> Severity {
-        self.code.severity()
+/// Findings of one code and severity, with their exact number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FindingKind {
+    /// Their code.
+    pub code: Code,
+    /// Their severity.
+    pub severity: Severity,
+    /// Their number, stored or not.
+    pub count: u64,
+}
+
+impl FindingKind {
+    /// The kinds in several lists, in reading order: implausible values first, because other
+    /// findings may follow from them, then by falling severity, then in the order of the codes.
+    pub fn of<'a>(lists: impl IntoIterator<Item = &'a Diagnostics>) -> Vec<Self> {
+        let mut counts: BTreeMap<_, u64> = BTreeMap::new();
+        for (&kind, count) in lists.into_iter().flat_map(|list| &list.counts) {
+            *counts.entry(kind).or_insert(0) += count;
+        }
+        let kind = |((code, severity), count)| Self {
+            code,
+            severity,
+            count,
+        };
+        let mut kinds: Vec<Self> = counts.into_iter().map(kind).collect();
+        kinds.sort_by_key(|kind| {
+            let is_first = kind.code == Code::Implausible;
+            (!is_first, std::cmp::Reverse(kind.severity), kind.code)
+        });
+        kinds
+    }
+
+    /// Returns `true` if a finding is one of these.
+    pub fn has(&self, finding: &Diagnostic) -> bool {
+        (finding.code, finding.severity) == (self.code, self.severity)
     }
 }
 
-/// Findings: stored up to a limit per code, and counted exactly beyond it.
+/// Findings: stored up to a limit per code and severity, and counted exactly beyond it.
 #[derive(Clone, Debug)]
 pub struct Diagnostics {
     stored: Vec<Diagnostic>,
-    counts: BTreeMap<Code, u64>,
-    limit_per_code: usize,
+    counts: BTreeMap<(Code, Severity), u64>,
+    limit_per_kind: usize,
 }
 
 impl Default for Diagnostics {
@@ -69,16 +102,17 @@ impl Default for Diagnostics {
 }
 
 impl Diagnostics {
-    /// An empty list that stores at most `per_code` findings of each kind.
-    pub fn with_limit(per_code: usize) -> Self {
+    /// An empty list that stores at most `per_kind` findings of each code and severity.
+    pub fn with_limit(per_kind: usize) -> Self {
         Self {
             stored: Vec::new(),
             counts: BTreeMap::new(),
-            limit_per_code: per_code,
+            limit_per_kind: per_kind,
         }
     }
 
-    /// Adds a finding. Calls `place` and `message` only if the list stores it.
+    /// Adds a finding of the severity of its code. Calls `place` and `message` only if the list
+    /// stores it.
     pub fn push(
         &mut self,
         code: Code,
@@ -86,11 +120,24 @@ impl Diagnostics {
         message: impl FnOnce() -> String,
         remedy: impl Into<String>,
     ) {
-        let count = self.counts.entry(code).or_insert(0);
+        self.push_as(code.severity(), code, place, message, remedy);
+    }
+
+    /// Adds a finding whose severity depends on the case, not only on its code.
+    pub fn push_as(
+        &mut self,
+        severity: Severity,
+        code: Code,
+        place: impl FnOnce() -> Place,
+        message: impl FnOnce() -> String,
+        remedy: impl Into<String>,
+    ) {
+        let count = self.counts.entry((code, severity)).or_insert(0);
         *count += 1;
-        if *count <= self.limit_per_code as u64 {
+        if *count <= self.limit_per_kind as u64 {
             self.stored.push(Diagnostic {
                 code,
+                severity,
                 place: place(),
                 message: message(),
                 remedy: remedy.into(),
@@ -98,15 +145,26 @@ impl Diagnostics {
         }
     }
 
+    /// Adds the finding of a refused path, with the severity of the refusal.
+    pub fn push_refused(
+        &mut self,
+        path: RefusedPath<'_>,
+        place: impl FnOnce() -> Place,
+        remedy: impl Into<String>,
+    ) {
+        let message = || path.detail.to_owned();
+        self.push_as(path.severity(), path.code, place, message, remedy);
+    }
+
     /// Adds all findings of another list.
     pub fn append(&mut self, other: Self) {
         let mut other_stored = other.stored;
-        for (code, count) in other.counts {
-            let own = self.counts.entry(code).or_insert(0);
-            let capacity = (self.limit_per_code as u64).saturating_sub(*own) as usize;
+        for (kind, count) in other.counts {
+            let own = self.counts.entry(kind).or_insert(0);
+            let capacity = (self.limit_per_kind as u64).saturating_sub(*own) as usize;
             *own += count;
-            let of_code = other_stored.extract_if(.., |d| d.code == code);
-            self.stored.extend(of_code.take(capacity));
+            let of_kind = other_stored.extract_if(.., |d| (d.code, d.severity) == kind);
+            self.stored.extend(of_kind.take(capacity));
         }
     }
 
@@ -120,26 +178,101 @@ impl Diagnostics {
         self.stored.iter_mut()
     }
 
-    /// Exact number of findings of each kind.
+    /// Exact number of findings of each code, whatever their severity.
     pub fn counts(&self) -> impl Iterator<Item = (Code, u64)> {
-        self.counts.iter().map(|(&code, &count)| (code, count))
+        let mut counts = BTreeMap::new();
+        for (&(code, _), count) in &self.counts {
+            *counts.entry(code).or_insert(0) += count;
+        }
+        counts.into_iter()
     }
 
-    /// Exact number of findings of one kind.
+    /// Exact number of findings of one code, whatever their severity.
     pub fn count(&self, code: Code) -> u64 {
-        self.counts.get(&code).copied().unwrap_or(0)
+        let of_code = self.counts.iter().filter(|((c, _), _)| *c == code);
+        of_code.map(|(_, count)| count).sum()
     }
 
     /// Exact number of findings of this severity or a higher one.
     pub fn count_at_least(&self, severity: Severity) -> u64 {
-        self.counts()
-            .filter(|(c, _)| c.severity() >= severity)
-            .map(|(_, n)| n)
-            .sum()
+        let severe = self.counts.iter().filter(|((_, s), _)| *s >= severity);
+        severe.map(|(_, count)| count).sum()
     }
 
     /// Returns `true` if there are no findings.
     pub fn is_empty(&self) -> bool {
         self.counts.is_empty()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn push(found: &mut Diagnostics, severity: Severity, times: usize) {
+        for _ in 0..times {
+            let (place, message) = (|| Place::element("path"), || "odd".to_owned());
+            found.push_as(severity, Code::ZeroLength, place, message, "Correct it");
+        }
+    }
+
+    #[test]
+    fn counts_by_severity_are_exact_beyond_the_limit() {
+        let mut found = Diagnostics::with_limit(2);
+        push(&mut found, Severity::Info, 5);
+        push(&mut found, Severity::Error, 3);
+        let mut other = Diagnostics::with_limit(2);
+        push(&mut other, Severity::Error, 4);
+        push(&mut other, Severity::Warning, 1);
+        found.append(other);
+        let at_least =
+            [Severity::Info, Severity::Warning, Severity::Error].map(|s| found.count_at_least(s));
+        assert_eq!(at_least, [13, 8, 7]);
+        assert_eq!(found.count(Code::ZeroLength), 13);
+        assert!(found.counts().eq([(Code::ZeroLength, 13)]));
+        // Frequent findings of one severity leave space for those of another.
+        let stored = |severity| found.iter().filter(|d| d.severity == severity).count();
+        let stored = [Severity::Info, Severity::Warning, Severity::Error].map(stored);
+        assert_eq!(stored, [2, 1, 2]);
+    }
+
+    #[test]
+    fn kinds_begin_with_implausible_values() {
+        let mut found = Diagnostics::default();
+        push(&mut found, Severity::Info, 1);
+        push(&mut found, Severity::Error, 1);
+        let message = || "far".to_owned();
+        found.push(Code::Implausible, Place::default, message, "Check the unit");
+        let kinds = FindingKind::of([&found, &found]);
+        let kinds: Vec<_> = kinds
+            .iter()
+            .map(|k| (k.code, k.severity, k.count))
+            .collect();
+        let expected = [
+            (Code::Implausible, Severity::Warning, 2),
+            (Code::ZeroLength, Severity::Error, 2),
+            (Code::ZeroLength, Severity::Info, 2),
+        ];
+        assert_eq!(kinds, expected);
+    }
+
+    #[test]
+    fn refusals_are_errors_unless_the_file_is_right() {
+        let refused = |code| RefusedPath {
+            id: "e1",
+            code,
+            detail: "no",
+        };
+        let mut found = Diagnostics::default();
+        for code in [
+            Code::UnusedNode,
+            Code::ZeroLength,
+            Code::NotDrawn,
+            Code::CrossLevel,
+        ] {
+            found.push_refused(refused(code), Place::default, "");
+        }
+        assert_eq!(found.count_at_least(Severity::Error), 2);
+        assert_eq!(found.count_at_least(Severity::Info), 4);
     }
 }

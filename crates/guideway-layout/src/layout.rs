@@ -4,7 +4,9 @@ use std::sync::Arc;
 
 use guideway_spline::Affine;
 
-use crate::{Diagnostics, Level, Nodes, Paths, Refused, Stations};
+use crate::{
+    Attributes, Block, Diagnostics, Level, Nodes, Paths, Refused, Stations, VehicleType, Zone,
+};
 
 /// A layout, as read from one file or merged from several.
 #[derive(Clone, Debug, Default)]
@@ -21,6 +23,17 @@ pub struct Layout {
     pub stations: Stations,
     /// Floors of the building, or the layouts of a file that has several.
     pub levels: Vec<Level>,
+    /// Properties of vehicle types. A type without properties may be missing: the entries of paths
+    /// and nodes name types by their identifier.
+    pub vehicle_types: Vec<VehicleType>,
+    /// Sets of elements with a common rule.
+    pub blocks: Vec<Block>,
+    /// Areas with a rule.
+    pub zones: Vec<Zone>,
+    /// Properties of the layout as a whole, in one row.
+    pub attributes: Attributes,
+    /// Place on earth of the origin, if the positions of the file were degrees.
+    pub geo_origin: Option<GeoOrigin>,
     /// Findings about the file, made by its reader.
     pub diagnostics: Diagnostics,
 }
@@ -40,6 +53,24 @@ impl Layout {
         found.map(|i| i as u32)
     }
 
+    /// Keeps the paths of the given rows, in this order, and removes all others.
+    ///
+    /// # Panics
+    /// When a row is not below the number of paths.
+    pub fn retain_paths(&mut self, rows: &[usize]) {
+        let mut new_rows = vec![None; self.paths.len()];
+        for (new, &old) in rows.iter().enumerate() {
+            new_rows[old] = Some(new as u32);
+        }
+        self.paths = self.paths.select(rows, Some);
+        for block in &mut self.blocks {
+            let members = block.members.drain(..);
+            let kept = members
+                .filter_map(|member| member.renumbered(|path| new_rows[path as usize], Some, Some));
+            block.members = kept.collect();
+        }
+    }
+
     /// Heap bytes in use, approximately: it omits levels, diagnostics and provenance.
     pub fn heap_bytes(&self) -> usize {
         self.paths.heap_bytes()
@@ -54,12 +85,22 @@ impl Layout {
         self.paths.transform(0..self.paths.len(), by);
         self.nodes.transform(by);
         self.stations.transform(by);
+        self.zones.iter_mut().for_each(|zone| zone.transform(by));
         if let Some(widths_m) = self.paths.width_m() {
             let scale = by.x.cross(by.y).abs().sqrt() as f32;
             self.paths
                 .set_width_m(widths_m.iter().map(|w| w * scale).collect());
         }
     }
+}
+
+/// The point on earth where a layout has its origin; x points east, y north (WGS 84).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GeoOrigin {
+    /// Longitude in degrees, east positive.
+    pub longitude_deg: f64,
+    /// Latitude in degrees, north positive.
+    pub latitude_deg: f64,
 }
 
 /// Origin of a layout.
@@ -73,6 +114,6 @@ pub struct Provenance {
     pub format_version: String,
     /// Numbers of elements in the source, under the names of the format, such as `("edges", 12)`.
     pub counts: Vec<(String, u64)>,
-    /// Text of the file, for formats whose writer copies the fields that the layout does not model.
+    /// Text of the file, for formats whose writer copies what did not change.
     pub text: Option<Arc<str>>,
 }

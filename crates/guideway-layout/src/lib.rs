@@ -7,12 +7,19 @@
 //! | module | defines |
 //! |---|---|
 //! | `layout` | the model as a whole: tables, levels, provenance |
-//! | `path`, `paths`, `nodes`, `vehicle_types`, `refused` | its tables |
+//! | `path`, `paths`, `nodes`, `stations`, `level`, `refused` | its tables |
+//! | `type_entries` | vehicle types of paths and nodes, with properties per type |
+//! | `groups` | vehicle types, blocks, zones |
 //! | `geometry`, `run_points` | the curves of all paths in flat buffers |
-//! | `text`, `cells`, `attribute` | columns of texts, optional values and attributes |
+//! | `written_curve` | NURBS curves as their file wrote them |
+//! | `source_text` | place of each row in the text of its file |
+//! | `text`, `cells`, `text_cells`, `optional_column` | columns |
+//! | `attribute`, `quantity` | further columns, with units |
+//! | `property` | names, kinds and units of the columns that several formats share |
 //! | `code`, `diagnostic`, `limits` | findings and limits of readers |
 //! | `user_error` | the error that the command and the window show |
 //! | `merge` | joins layouts |
+//! | `compare` | differences between two layouts |
 //! | `check` | finds defects of geometry and topology |
 //!
 //! ```
@@ -31,19 +38,29 @@ mod attribute;
 mod cells;
 mod check;
 mod code;
+mod compare;
 mod diagnostic;
 mod geometry;
+mod groups;
 mod layout;
+mod level;
 mod limits;
 mod merge;
 mod nodes;
+mod optional_column;
 mod path;
 mod paths;
+mod property;
+mod quantity;
 mod refused;
 mod run_points;
+mod source_text;
+mod stations;
 mod text;
+mod text_cells;
+mod type_entries;
 mod user_error;
-mod vehicle_types;
+mod written_curve;
 
 pub use attribute::{Attribute, Attributes, Value, Values};
 pub use cells::Cells;
@@ -51,16 +68,25 @@ pub use check::{
     CheckOptions, DisplayPosition, check, check_across, element_name, element_place, same_curves,
 };
 pub use code::{Code, Severity};
-pub use diagnostic::{Diagnostic, Diagnostics, Place};
+pub use compare::{CompareOptions, Difference, differences};
+pub use diagnostic::{Diagnostic, Diagnostics, FindingKind, Place};
 pub use geometry::{Geometry, Hulls, append_hulls};
-pub use layout::{Layout, Provenance};
+pub use groups::{Block, Member, VehicleType, Zone};
+pub use layout::{GeoOrigin, Layout, Provenance};
+pub use level::Level;
 pub use limits::Limits;
 pub use merge::merge;
-pub use nodes::{Level, Nodes, Stations};
+pub use nodes::Nodes;
 pub use path::{Direction, NewPath, OwnStyle};
 pub use paths::{PathRef, Paths};
+pub use property::{ElementKind, PROPERTIES, Property, PropertyKind};
+pub use quantity::Quantity;
 pub use refused::{Refused, RefusedPath};
 pub use run_points::RunPoints;
+pub use source_text::SourceSpans;
+pub use stations::Stations;
 pub use text::TextColumn;
+pub use text_cells::TextCells;
+pub use type_entries::TypeEntries;
 pub use user_error::UserError;
-pub use vehicle_types::VehicleTypes;
+pub use written_curve::{WrittenCurve, WrittenCurves};

@@ -1,10 +1,6 @@
 //! Merge: joins several layouts into one.
 
-use guideway_spline::Runs;
-
-use crate::{
-    Attributes, Diagnostics, Layout, Level, NewPath, Nodes, Paths, Provenance, Stations, Value,
-};
+use crate::{Attributes, Block, Diagnostics, Layout, Level, Provenance, Stations, Value, Zone};
 
 /// Names for the column with the source of each row; the first one that no input uses applies.
 const SOURCE: [&str; 2] = ["source", "source_file"];
@@ -31,45 +27,76 @@ pub fn merge(layouts: Vec<Layout>) -> Layout {
             ..Layout::default()
         },
         source: source.unwrap_or(SOURCE[0]),
-        styles: Styles::default(),
     };
     for layout in layouts {
         merged.add(layout);
     }
-    merged.finish()
+    merged.layout
 }
 
 /// The merge of the layouts so far.
 struct Merged {
     layout: Layout,
     source: &'static str,
-    styles: Styles,
-}
-
-/// The optional columns of paths.
-#[derive(Default)]
-struct Styles {
-    width_m: Vec<f32>,
-    color_rgba: Vec<u32>,
-    rank: Vec<i32>,
 }
 
 impl Merged {
     /// Appends all elements of a layout; their references keep pointing to their own elements.
     fn add(&mut self, mut other: Layout) {
-        let offsets = Offsets {
-            levels: self.add_levels(&other.levels),
-            first_node: self.layout.nodes.len() as u32,
-        };
-        let source = (self.source, other.provenance.source.as_str());
+        let levels = self.add_levels(&other.levels);
+        let level = |level: u32| levels[level as usize];
         let all = &mut self.layout;
-        add_nodes(&mut all.nodes, &other.nodes, &offsets, source);
-        add_stations(&mut all.stations, &other.stations, &offsets, source);
-        add_paths(&mut all.paths, &other.paths, &offsets, source);
-        self.styles.add(&other);
+        let firsts = Firsts {
+            path: all.paths.len() as u32,
+            node: all.nodes.len() as u32,
+            station: all.stations.len() as u32,
+        };
+        all.nodes.append(&other.nodes, |row| row.map(level));
+        add_stations(&mut all.stations, &other.stations, firsts, level);
+        all.paths
+            .append(&other.paths, |node| firsts.node + node, level);
+        let source = (self.source, other.provenance.source.as_str());
+        set_source(
+            &mut all.paths.attributes,
+            firsts.path,
+            other.paths.len(),
+            source,
+        );
+        set_source(
+            &mut all.nodes.attributes,
+            firsts.node,
+            other.nodes.len(),
+            source,
+        );
+        let stations = other.stations.len();
+        set_source(
+            &mut all.stations.attributes,
+            firsts.station,
+            stations,
+            source,
+        );
         for refused in other.refused.iter() {
             all.refused.push(refused.id, refused.code, refused.detail);
         }
+        for vehicle_type in std::mem::take(&mut other.vehicle_types) {
+            match all
+                .vehicle_types
+                .iter_mut()
+                .find(|t| t.id == vehicle_type.id)
+            {
+                Some(known) => fill(&mut known.attributes, &vehicle_type.attributes),
+                None => all.vehicle_types.push(vehicle_type),
+            }
+        }
+        let blocks = other.blocks.drain(..);
+        all.blocks
+            .extend(blocks.map(|block| firsts.renumber(block)));
+        all.zones.extend(other.zones.drain(..).map(|zone| Zone {
+            level: zone.level.map(level),
+            ..zone
+        }));
+        fill(&mut all.attributes, &other.attributes);
+        all.geo_origin = all.geo_origin.or(other.geo_origin);
         all.diagnostics
             .append(std::mem::take(&mut other.diagnostics));
     }
@@ -87,114 +114,59 @@ impl Merged {
             });
             let elevation_m = &mut levels[row].elevation_m;
             *elevation_m = elevation_m.or(level.elevation_m);
+            fill(&mut levels[row].attributes, &level.attributes);
             row as u32
         };
         others.iter().map(row).collect()
     }
+}
 
-    fn finish(self) -> Layout {
-        let (mut layout, styles) = (self.layout, self.styles);
-        let paths = &mut layout.paths;
-        if styles.width_m.iter().any(|w| !w.is_nan()) {
-            paths.set_width_m(styles.width_m);
-        }
-        if styles.color_rgba.iter().any(|&c| c != 0) {
-            paths.set_color_rgba(styles.color_rgba);
-        }
-        if styles.rank.iter().any(|&r| r != 0) {
-            paths.set_rank(styles.rank);
-        }
-        layout
+/// Merged rows of the first path, node and station of one layout.
+#[derive(Clone, Copy)]
+struct Firsts {
+    path: u32,
+    node: u32,
+    station: u32,
+}
+
+impl Firsts {
+    fn renumber(self, mut block: Block) -> Block {
+        let member = |member: crate::Member| {
+            member.renumbered(
+                |row| Some(self.path + row),
+                |row| Some(self.node + row),
+                |row| Some(self.station + row),
+            )
+        };
+        block.members = block.members.into_iter().filter_map(member).collect();
+        block
     }
 }
 
-/// Maps the rows of one layout to those of the merge.
-struct Offsets {
-    /// Merged row of each level.
-    levels: Vec<u32>,
-    /// Merged row of the first node.
-    first_node: u32,
-}
-
-impl Offsets {
-    fn level(&self, level: Option<u32>) -> Option<u32> {
-        level.map(|level| self.levels[level as usize])
-    }
-
-    fn node(&self, node: u32) -> u32 {
-        self.first_node + node
-    }
-}
-
-fn add_nodes(all: &mut Nodes, other: &Nodes, offsets: &Offsets, source: (&str, &str)) {
-    let first = all.len();
-    for node in 0..other.len() as u32 {
-        let level = offsets.level(other.level(node));
-        all.push(other.id(node), other.position_m(node), level);
-    }
-    let attributes = &mut all.attributes;
-    add_attributes(attributes, first, &other.attributes, other.len(), source);
-}
-
-fn add_stations(all: &mut Stations, other: &Stations, offsets: &Offsets, source: (&str, &str)) {
-    let first = all.len();
+fn add_stations(all: &mut Stations, other: &Stations, firsts: Firsts, level: impl Fn(u32) -> u32) {
     for station in 0..other.len() as u32 {
         let nodes = other.nodes(station).iter();
-        let nodes = nodes.map(|&node| offsets.node(node)).collect();
-        let level = offsets.level(other.level(station));
+        let nodes = nodes.map(|&node| firsts.node + node).collect();
+        let level = other.level(station).map(&level);
         all.push(other.id(station), other.position_m(station), nodes, level);
     }
-    let attributes = &mut all.attributes;
-    add_attributes(attributes, first, &other.attributes, other.len(), source);
+    all.attributes
+        .extend(firsts.station as usize, &other.attributes);
 }
 
-fn add_paths(all: &mut Paths, other: &Paths, offsets: &Offsets, source: (&str, &str)) {
-    let first = all.len();
-    let node = |node: Option<u32>| node.map(|node| offsets.node(node));
-    let mut runs = Runs::default();
-    for path in other.iter() {
-        path.copy_runs(&mut runs);
-        let types: Vec<&str> = other.vehicle_types().of(path.row()).collect();
-        all.push(&NewPath {
-            id: path.id(),
-            runs: &runs,
-            start_node: node(path.start_node()),
-            end_node: node(path.end_node()),
-            direction: path.direction(),
-            level: offsets.level(path.level()),
-            vehicle_types: &types,
-        });
-    }
-    let attributes = &mut all.attributes;
-    add_attributes(attributes, first, &other.attributes, other.len(), source);
-}
-
-/// Appends the attributes of `rows` rows, and sets the column of the source for them.
-fn add_attributes(
-    all: &mut Attributes,
-    first: usize,
-    other: &Attributes,
-    rows: usize,
-    (column, source): (&str, &str),
-) {
-    all.extend(first, other);
-    for row in first..first + rows {
+/// Sets the column of the source for `rows` rows.
+fn set_source(all: &mut Attributes, first: u32, rows: usize, (column, source): (&str, &str)) {
+    for row in first as usize..first as usize + rows {
         all.set(row, column, Value::Text(source));
     }
 }
 
-impl Styles {
-    fn add(&mut self, layout: &Layout) {
-        fn extend<T: Copy>(all: &mut Vec<T>, own: Option<&[T]>, none: T, rows: usize) {
-            match own {
-                Some(own) => all.extend_from_slice(own),
-                None => all.extend(std::iter::repeat_n(none, rows)),
-            }
+/// Adds the values of a single row that `to` lacks.
+fn fill(to: &mut Attributes, from: &Attributes) {
+    for column in from.iter() {
+        if to.value(0, &column.name).is_none() {
+            to.insert(column.clone());
         }
-        let (paths, rows) = (&layout.paths, layout.paths.len());
-        extend(&mut self.width_m, paths.width_m(), f32::NAN, rows);
-        extend(&mut self.color_rgba, paths.color_rgba(), 0, rows);
-        extend(&mut self.rank, paths.rank(), 0, rows);
     }
 }
 

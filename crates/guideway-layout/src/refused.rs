@@ -1,6 +1,6 @@
 //! [`Refused`]: the paths of the input that cannot be drawn, with their reasons.
 
-use crate::{Code, TextColumn};
+use crate::{Code, Severity, TextColumn};
 
 /// Paths of the input that cannot be drawn.
 #[derive(Clone, Debug, Default)]
@@ -21,6 +21,17 @@ pub struct RefusedPath<'a> {
     pub detail: &'a str,
 }
 
+impl RefusedPath<'_> {
+    /// Severity of the refusal: an error whatever its code, unless the file is right. It may hide
+    /// a path, and a lift leads to another level.
+    pub fn severity(&self) -> Severity {
+        match self.code {
+            Code::NotDrawn | Code::CrossLevel => Severity::Info,
+            _ => Severity::Error,
+        }
+    }
+}
+
 impl Refused {
     /// Records a path that cannot be drawn.
     pub fn push(&mut self, id: &str, code: Code, detail: &str) {
@@ -39,13 +50,21 @@ impl Refused {
         self.codes.is_empty()
     }
 
-    /// All refused paths, in file order.
-    pub fn iter(&self) -> impl ExactSizeIterator<Item = RefusedPath<'_>> {
-        (0..self.len()).map(|row| RefusedPath {
+    /// One refused path.
+    ///
+    /// # Panics
+    /// When `row` is not below [`Self::len`].
+    pub fn get(&self, row: usize) -> RefusedPath<'_> {
+        RefusedPath {
             id: self.ids.get(row),
             code: self.codes[row],
             detail: self.details.get(row),
-        })
+        }
+    }
+
+    /// All refused paths, in file order.
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = RefusedPath<'_>> {
+        (0..self.len()).map(|row| self.get(row))
     }
 
     /// Heap bytes in use.

@@ -1,5 +1,7 @@
 //! [`TextColumn`]: a column of strings in one buffer.
 
+use std::ops::Range;
+
 /// A column of strings in one buffer: 4 bytes per row in addition to the text.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct TextColumn {
@@ -48,6 +50,34 @@ impl TextColumn {
             (before + end) as u32
         }));
         assert!(last == text.len(), "the last row must end with the text");
+    }
+
+    /// Replaces the texts of some rows, which are in increasing order. Cost: O(whole column).
+    ///
+    /// # Panics
+    /// As [`Self::push`]; when a row is not below [`Self::len`].
+    pub fn replace(&mut self, rows: &[(usize, &str)]) {
+        let mut replaced = Self::with_capacity(self.len(), self.bytes.len());
+        let mut next = 0;
+        for &(row, text) in rows {
+            replaced.append(self, next..row);
+            replaced.push(text);
+            next = row + 1;
+        }
+        replaced.append(self, next..self.len());
+        *self = replaced;
+    }
+
+    /// Appends adjacent rows of another column.
+    fn append(&mut self, other: &Self, rows: Range<usize>) {
+        let first = match rows.start {
+            0 => 0,
+            row => other.ends[row - 1] as usize,
+        };
+        let ends = &other.ends[rows];
+        let last = ends.last().map_or(first, |&end| end as usize);
+        let ends = ends.iter().map(|&end| end as usize - first);
+        self.push_all(&other.bytes[first..last], ends);
     }
 
     /// Number of rows.
@@ -104,6 +134,15 @@ mod tests {
         assert_eq!(column, rows.into_iter().collect());
         column.push_all("", []);
         assert_eq!(column.len(), rows.len());
+    }
+
+    #[test]
+    fn replace_changes_the_given_rows_only() {
+        let mut column: TextColumn = ["a", "", "añb", "d"].into_iter().collect();
+        column.replace(&[(1, "long"), (3, "")]);
+        assert_eq!(column, ["a", "long", "añb", ""].into_iter().collect());
+        column.replace(&[(0, "")]);
+        assert_eq!(column, ["", "long", "añb", ""].into_iter().collect());
     }
 
     #[test]

@@ -15,6 +15,7 @@ fn layout(source: &str, path: &str, level: (&str, Option<&str>)) -> Layout {
         id: level.0.into(),
         name: level.1.map(str::to_owned),
         elevation_m: None,
+        ..Level::default()
     });
     let start = layout.nodes.push("N1", Point::new(0.0, 0.0), Some(0));
     let end = layout.nodes.push("N2", Point::new(4.0, 0.0), Some(0));

@@ -38,7 +38,7 @@ impl Rgba {
         u32::from_be_bytes([self.r, self.g, self.b, self.a])
     }
 
-    /// True if alpha is 255.
+    /// Returns `true` if alpha is 255.
     pub const fn is_opaque(self) -> bool {
         self.a == 255
     }

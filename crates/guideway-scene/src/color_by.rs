@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 use std::collections::HashMap;
 
-use guideway_layout::{Direction, Layout, Values};
+use guideway_layout::{Direction, Layout, Quantity, Value, Values};
 
 use crate::color::Rgba;
 
@@ -19,10 +19,22 @@ pub struct ColorBy {
 pub struct Legend {
     /// The column that decides the colors.
     pub column: String,
+    /// Symbol of the unit of its numbers, if it is known.
+    pub unit: Option<&'static str>,
     /// Classes, or samples of a scale, in reading order.
     pub entries: Vec<LegendEntry>,
     /// True if colors between those of the entries occur too.
     pub is_continuous: bool,
+}
+
+impl Legend {
+    /// Title: the column with its unit, such as `maxSpeed (m/s)`.
+    pub fn title(&self) -> String {
+        match self.unit {
+            Some(unit) => format!("{} ({unit})", self.column),
+            None => self.column.clone(),
+        }
+    }
 }
 
 /// A row of a legend.
@@ -94,20 +106,24 @@ type Labels<'a> = Box<dyn Fn(u32) -> Option<String> + 'a>;
 
 /// Access to the numbers of a column by row; `None` if it is not numeric.
 fn numbers<'a>(layout: &'a Layout, column: &str) -> Option<Numbers<'a>> {
-    let finite = |v: f64| v.is_finite().then_some(v);
-    match &layout.paths.attributes.get(column)?.values {
-        Values::Int(v) => Some(Box::new(|path| Some(v.get(path as usize)? as f64))),
-        Values::Float(v) => Some(Box::new(move |path| finite(v.get(path as usize)?))),
-        Values::Bool(_) | Values::Text { .. } => None,
-    }
+    let paths = &layout.paths;
+    let column = paths.column(column)?;
+    let is_number = matches!(column.values, Values::Int(_) | Values::Float(_));
+    let number = |path: u32| match paths.value(path as usize, &column.name)? {
+        Value::Int(value) => Some(value as f64),
+        Value::Float(value) => value.is_finite().then_some(value),
+        Value::Bool(_) | Value::Text(_) | Value::Json(_) => None,
+    };
+    is_number.then(|| Box::new(number) as Numbers<'_>)
 }
 
 /// Access to the values of a column as text, by row.
 fn labels<'a>(layout: &'a Layout, column: &str) -> Result<Labels<'a>, UnknownColumn> {
     let paths = &layout.paths;
-    if let Some(attribute) = paths.attributes.get(column) {
+    if let Some(attribute) = paths.column(column) {
         return Ok(Box::new(|path| {
-            attribute.values.get(path as usize).map(|v| v.to_string())
+            let value = paths.value(path as usize, &attribute.name)?;
+            Some(value.to_string())
         }));
     }
     match column {
@@ -124,13 +140,18 @@ fn labels<'a>(layout: &'a Layout, column: &str) -> Result<Labels<'a>, UnknownCol
             (!types.is_empty()).then(|| types.join(", "))
         })),
         _ => {
-            let own = paths.attributes.iter().map(|a| a.name.clone());
+            let own = paths.column_names().map(str::to_owned);
             let built_in = ["level", "direction", "vehicle_type"].map(str::to_owned);
             Err(UnknownColumn {
                 known: own.chain(built_in).collect(),
             })
         }
     }
+}
+
+fn unit(layout: &Layout, by: &ColorBy) -> Option<&'static str> {
+    let column = layout.paths.column(&by.column)?;
+    column.quantity.map(Quantity::unit)
 }
 
 fn scale(layout: &Layout, by: &ColorBy, drawn: &[u32], number: Numbers<'_>) -> (Vec<Rgba>, Legend) {
@@ -159,6 +180,7 @@ fn scale(layout: &Layout, by: &ColorBy, drawn: &[u32], number: Numbers<'_>) -> (
         colors,
         Legend {
             column: by.column.clone(),
+            unit: unit(layout, by),
             entries,
             is_continuous: true,
         },
@@ -215,6 +237,7 @@ fn classes(layout: &Layout, by: &ColorBy, drawn: &[u32], label: Labels<'_>) -> (
         colors,
         Legend {
             column: by.column.clone(),
+            unit: unit(layout, by),
             entries,
             is_continuous: false,
         },

@@ -57,7 +57,7 @@ impl TextLine {
 }
 
 impl DrawList {
-    /// True if it draws nothing.
+    /// Returns `true` if it draws nothing.
     pub fn is_empty(&self) -> bool {
         self.fills.is_empty() && self.texts.is_empty()
     }

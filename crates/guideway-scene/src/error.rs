@@ -81,3 +81,15 @@ pub enum RenderError {
     #[error("cancelled")]
     Cancelled,
 }
+
+impl RenderError {
+    /// [`RenderError::Unsupported`] of a method: the feature that it cannot draw, and a sentence
+    /// with an alternative that works.
+    pub fn unsupported(method: &'static str, what: impl Into<String>, remedy: &str) -> Self {
+        Self::Unsupported {
+            method,
+            what: what.into(),
+            remedy: remedy.to_owned(),
+        }
+    }
+}

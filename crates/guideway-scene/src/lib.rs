@@ -48,7 +48,7 @@ pub use error::RenderError;
 pub use frame::{Frame, FrameSize};
 pub use method::{Budget, Cancel, EditOutcome, Method, MethodInfo, Prepared};
 pub use report::{Clock, Preparation, Report, Stage, Work, elapsed_ms};
-pub use scene::{LayoutCopy, PathState, Scene, SceneError, SceneOptions};
+pub use scene::{LayoutCopy, NoOpaqueColor, PathState, Scene, SceneError, SceneOptions};
 pub use strip::Strip;
 pub use style::{Shading, Style};
 pub use view::View;

@@ -152,7 +152,7 @@ impl Report {
         self.bands += other.bands;
     }
 
-    /// True if drawn + culled + hidden + refused = total.
+    /// Returns `true` if drawn + culled + hidden + refused = total.
     pub fn accounts_for_all(&self) -> bool {
         self.drawn + self.culled + self.hidden + self.refused == self.total
     }

@@ -40,7 +40,7 @@ impl Strip {
         self.size
     }
 
-    /// True if it covers the whole view.
+    /// Returns `true` if it covers the whole view.
     pub fn is_whole(&self) -> bool {
         self.size == self.view.size()
     }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use guideway_layout::{Layout, Level, NewPath, Value};
+use guideway_layout::{Layout, Level, NewPath, Quantity, Value};
 use guideway_scene::{ColorBy, Rgba, Scene, SceneError, SceneOptions};
 use guideway_spline::{Point, Runs};
 
@@ -136,6 +136,25 @@ fn few_distinct_numbers_form_classes_in_ascending_order() {
         .collect();
     assert_eq!(read, [("0.5", Some(1)), ("2", Some(2)), ("10", Some(3))]);
     assert_eq!(scene.color(3), entries[0].color);
+}
+
+#[test]
+fn legend_names_the_unit_of_values_per_vehicle_type() {
+    let mut layout = Layout::default();
+    layout.paths.push(&NewPath {
+        vehicle_types: &["tug", "fork"],
+        ..NewPath::default()
+    });
+    let entries = &mut layout.paths.vehicle_types_mut().attributes;
+    entries.set_quantity(1, "maxSpeed", 1.5, Quantity::Speed);
+    let scene = scene(layout, &by("maxSpeed"));
+    let legend = scene.legend().unwrap();
+    assert_eq!(legend.title(), "maxSpeed (m/s)");
+    assert_eq!(legend.entries[0].label, "1.5");
+    let mut levels = Layout::default();
+    levels.paths.push(&NewPath::default());
+    let levels = self::scene(levels, &by("direction"));
+    assert_eq!(levels.legend().unwrap().title(), "direction");
 }
 
 #[test]

@@ -63,8 +63,8 @@ fn refine(part: &[Point<f64>; 4], tolerance: f64, halvings_left: u32) -> f64 {
     lengths[0] + lengths[1]
 }
 
-/// Length of a vector whose square neither overflows nor underflows. Measured: [`Point::norm`],
-/// which has no such limits, took half of the time of measuring a layout.
+/// Length of a vector whose square neither overflows nor underflows. Measured by `guideway info` of
+/// D1: 400 ms, and 710 to 770 ms with [`Point::norm`], which has no such limits.
 fn norm(vector: Point<f64>) -> f64 {
     vector.dot(vector).sqrt()
 }

@@ -91,7 +91,7 @@ impl DisplaySettings {
         }
     }
 
-    /// True if the scenes of the two settings differ.
+    /// Returns `true` if the scenes of the two settings differ.
     pub(crate) fn needs_other_scene(&self, other: &Self) -> bool {
         self.is_dark != other.is_dark || self.color_by != other.color_by
     }
@@ -124,7 +124,7 @@ impl DisplaySettings {
         }
     }
 
-    /// True if arrows, symbols or labels are shown.
+    /// Returns `true` if arrows, symbols or labels are shown.
     pub(crate) fn has_marks(&self) -> bool {
         self.has_arrows || self.has_symbols || self.has_labels
     }

@@ -162,7 +162,6 @@ pub use guideway_document as document;
 pub use guideway_envelope as envelope;
 pub use guideway_formats as formats;
 pub use guideway_layout as layout;
-pub use guideway_scene as render;
 pub use guideway_scene as scene;
 pub use guideway_spline as spline;
 

@@ -188,6 +188,152 @@ def sloppy():
     return pa.array(polygons, POLYGON)
 
 
+NETWORK_FIELDS = [
+    ("id", pa.string()),
+    ("control_points", POLYGON),
+    ("guideway.element", pa.string()),
+    ("guideway.part", pa.uint32()),
+    ("start_node", pa.uint32()),
+    ("end_node", pa.uint32()),
+    ("direction", pa.string()),
+    ("vehicle_types", pa.list_(pa.dictionary(pa.int32(), pa.string()))),
+    ("level", pa.string()),
+    ("x_m", pa.float64()),
+    ("y_m", pa.float64()),
+    ("nodes", pa.list_(pa.uint32())),
+    ("of", pa.uint32()),
+    ("level_name", pa.string()),
+    ("elevation_m", pa.float64()),
+    ("members", pa.list_(pa.struct([("element", pa.string()), ("index", pa.uint32())]))),
+    ("outline_m", pa.list_(pa.list_(pa.float64(), 2))),
+    (
+        "curve",
+        pa.struct(
+            [
+                ("degree", pa.uint32()),
+                ("knots", pa.list_(pa.float64())),
+                ("weights", pa.list_(pa.float64())),
+                ("points", pa.list_(pa.list_(pa.float64(), 2))),
+            ]
+        ),
+    ),
+    ("refusal_code", pa.string()),
+    ("refusal_detail", pa.string()),
+    ("maxSpeed", pa.field("maxSpeed", pa.float64(), metadata={"unit": "m/s"})),
+    ("attribute.level", pa.string()),
+]
+VERSION_2 = {"guideway.version": "2"}
+
+
+def rows(kind, *elements):
+    return [{"guideway.element": kind, **element} for element in elements]
+
+
+def network(*parts, types=None, metadata=VERSION_2):
+    """A table of rows of all kinds; `types` replaces the types of columns."""
+    data = [row for part in parts for row in part]
+    fields = [f if isinstance(f, pa.Field) else pa.field(name, f) for name, f in NETWORK_FIELDS]
+    fields = [pa.field(f.name, (types or {}).get(f.name, f.type), metadata=f.metadata) for f in fields]
+    columns = []
+    for field in fields:
+        values = [row.get(field.name) for row in data]
+        kinds = field.type == pa.list_(pa.dictionary(pa.int32(), pa.string()))
+        columns.append(dictionary_lists(values) if kinds else pa.array(values, field.type))
+    return pa.Table.from_arrays(columns, schema=pa.schema(fields, metadata=metadata))
+
+
+def dictionary_lists(values):
+    """pyarrow makes no dictionaries in lists from Python values."""
+    items = [text for value in values for text in value or []]
+    texts = sorted(set(items) - {None})
+    keys = [None if text is None else texts.index(text) for text in items]
+    items = pa.DictionaryArray.from_arrays(pa.array(keys, pa.int32()), pa.array(texts, pa.string()))
+    offsets, end = [], 0
+    for value in values:
+        offsets.append(None if value is None else end)
+        end += len(value or [])
+    return pa.ListArray.from_arrays(pa.array([*offsets, end], pa.int32()), items)
+
+
+def path(y, **columns):
+    return {"id": f"path-{y}", "control_points": line(y), **columns}
+
+
+NODES = rows("node", *({"id": f"N{x}", "x_m": float(x), "y_m": 0.0} for x in range(3)))
+PATHS = rows(
+    "path",
+    path(0, start_node=0, end_node=1, direction="both", vehicle_types=["tug", "fork"], level="L"),
+    path(1, start_node=1, end_node=2, **{"attribute.level": "own"}),
+    path(2, curve={"degree": 1, "knots": [], "weights": None, "points": [[0.0, 2.0], [3.0, 2.0]]}),
+    {"id": "path-3", "control_points": []},
+)
+OTHERS = (
+    rows("path for type", {"id": "tug", "of": 0, "maxSpeed": 0.5}, {"id": "fork", "of": 0, "maxSpeed": 1.5})
+    + rows("station", {"id": "S", "nodes": [2], "x_m": 2.0, "y_m": 1.0}, {"id": "T", "nodes": []})
+    + rows("level", {"id": "L", "level_name": "Ground", "elevation_m": 0.0})
+    + rows("vehicle type", {"id": "tug", "maxSpeed": 2.0})
+    + rows("block", {"id": "B", "members": [{"element": "path", "index": 2}, {"element": "node", "index": 0}]})
+    + rows("zone", {"id": "Z", "outline_m": [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]], "level": "L"})
+    + rows("layout", {"id": "", "maxSpeed": 3.0})
+    + rows("refused path", {"id": "R", "refusal_code": "non-finite", "refusal_detail": "NaN"})
+)
+
+
+def references():
+    """Every reference of a table, to elements that it does not have."""
+    far = (1 << 32) - 1
+    paths = rows(
+        "path",
+        path(0, start_node=3, end_node=far, direction="sideways", vehicle_types=[None, "tug"]),
+        path(1, curve={"degree": 0, "knots": [], "weights": None, "points": [[0.0, 0.0]]}),
+        path(2, curve={"degree": 1, "knots": [], "weights": [1.0], "points": [[0.0, 0.0], [1.0, 0.0]]}),
+        path(3, curve={"degree": 1, "knots": [float("nan")], "weights": None, "points": []}),
+    )
+    types = rows("path for type", {"id": "tug", "of": far}, {"id": "crane", "of": 0}, {"id": "tug"})
+    types += rows("node for type", {"id": "tug", "of": 1})
+    stations = rows("station", {"id": "S", "nodes": [0, 3, None, far]})
+    members = [{"element": "path", "index": 4}, {"element": "level", "index": 0}, None]
+    blocks = rows("block", {"id": "B", "members": members})
+    others = rows("refused path", {"id": "R", "refusal_code": "tired"}, {"id": "Q"})
+    others += rows("layout", {"id": ""}, {"id": "again"}) + rows("robot", {"id": "X"}, {"id": "Y"})
+    return [paths, NODES, types, stations, blocks, others]
+
+
+def positions():
+    """Positions that are none, of nodes to which a path refers."""
+    nan = float("nan")
+    bad = [(None, 0.0), (nan, 0.0), (0.0, 3e9), (1.0, 2.0)]
+    nodes = rows("node", *({"id": f"N{n}", "x_m": x, "y_m": y} for n, (x, y) in enumerate(bad)))
+    stations = rows("station", *({"id": "S", "x_m": x, "y_m": y, "nodes": [3]} for x, y in bad))
+    zones = rows("zone", {"id": "Z", "outline_m": [[0.0, 0.0], [nan, 1.0]]}, {"id": "Y", "outline_m": None})
+    return [rows("path", path(0, start_node=3, end_node=1)), nodes, stations, zones]
+
+
+def interleaved():
+    """Kinds that change with every row, and a path of two rows."""
+    paths = [*PATHS, *rows("path", {"id": "p", "control_points": line(7), "guideway.part": 0})]
+    mixed = [row for pair in zip(paths, [*NODES, *OTHERS]) for row in pair]
+    rest = [*NODES, *OTHERS][len(paths) :]
+    parts = [{"id": "p", "control_points": line(8), "guideway.part": part} for part in (0, 1)]
+    bad = rows("path", {"id": "bad", "control_points": None}, *parts)
+    odd = rows("node", {"id": "N9", "x_m": 1.0, "y_m": 1.0, "control_points": line(9)})
+    return [mixed, bad, odd, rest]
+
+
+def many(count):
+    """Rows of nulls, which compress to next to nothing."""
+    nulls = {"control_points": pa.nulls(count, POLYGON), "x_m": pa.nulls(count, pa.float64())}
+    kinds = pa.DictionaryArray.from_arrays(pa.array([0] * count, pa.int8()), pa.array(["station"]))
+    data = {"id": pa.array([""] * count), **nulls, "guideway.element": kinds}
+    return pa.table(data).replace_schema_metadata(VERSION_2)
+
+
+def kinds_out_of_range():
+    keys = pa.array([7] * ROWS, pa.int8())
+    column = pa.DictionaryArray.from_arrays(keys, pa.array(["path"]), safe=False)
+    return file(table({"guideway.element": column}, VERSION_2))
+
+
 sound = file(table())
 FILES = {
     "magic-only.arrow": b"ARROW1\0\0",
@@ -238,7 +384,8 @@ FILES = {
     "two-ids.arrow": file(
         pa.Table.from_arrays([*table().columns, table()["id"]], names=["id", "control_points", "id"])
     ),
-    "version-2.arrow": file(table(metadata={"guideway.version": "2"})),
+    "version-2.arrow": file(table(metadata=VERSION_2)),
+    "version-3.arrow": file(table(metadata={"guideway.version": "3"})),
     "version-words.arrow": file(table(metadata={"guideway.version": "latest"})),
     "no-version.arrow": file(table(metadata=None)),
     "refused-rows.arrow": file(table(polygons=sloppy())),
@@ -263,6 +410,54 @@ FILES = {
     "nothing-but-refused.arrow": file(table(polygons=pa.array([None] * ROWS, POLYGON))),
     "no-rows.arrow": file(table(polygons=pa.array([], POLYGON))),
     "null-ids.arrow": file(table({"id": pa.array([None] * ROWS, pa.string())})),
+    "network.arrow": file(network(PATHS, NODES, OTHERS)),
+    "network-without-version.arrow": file(network(PATHS, NODES, OTHERS, metadata=None)),
+    "network-as-version-1.arrow": file(network(PATHS, NODES, OTHERS, metadata=VERSION)),
+    "network-interleaved.arrow": file(network(*interleaved())),
+    "network-references.arrow": file(network(*references())),
+    "network-positions.arrow": file(network(*positions())),
+    "network-levels.arrow": file(
+        network(
+            rows("path", path(0, level=1), path(1, level=7), path(2, level=-1)),
+            rows("level", {"id": "L"}, {"id": "L"}),
+            types={"level": pa.int64()},
+        )
+    ),
+    "network-wrong-types.arrow": file(
+        network(
+            rows("path", *(path(y) for y in range(3))),
+            rows("node", {"id": "N"}),
+            types={
+                name: pa.string()
+                for name, _ in NETWORK_FIELDS
+                if name in ("start_node", "end_node", "vehicle_types", "x_m", "y_m", "nodes", "of")
+                or name in ("elevation_m", "members", "outline_m", "curve")
+            }
+            | {name: pa.int32() for name in ("direction", "level_name", "refusal_code")},
+        )
+    ),
+    "network-origin.arrow": file(
+        network(PATHS, metadata=VERSION_2 | {"guideway.longitude_deg": "east"})
+    ),
+    "network-one-attribute-twice.arrow": file(
+        table({"lanes": pa.array([1] * ROWS), "attribute.lanes": pa.array([2] * ROWS)}, VERSION_2)
+    ),
+    "network-units.arrow": file(
+        pa.table(
+            table({"speed": pa.array([1.0] * ROWS), "word": pa.array(["x"] * ROWS)}).columns,
+            schema=pa.schema(
+                [
+                    pa.field("id", pa.string()),
+                    pa.field("control_points", POLYGON),
+                    pa.field("speed", pa.float64(), metadata={"unit": "mm/s"}),
+                    pa.field("word", pa.string(), metadata={"unit": "m"}),
+                ],
+                metadata=VERSION_2,
+            ),
+        )
+    ),
+    "network-millions-of-nulls.arrow": file(many(6_000_000), "zstd"),
+    "network-kinds-beyond.arrow": kinds_out_of_range(),
 }
 
 for name, data in FILES.items():

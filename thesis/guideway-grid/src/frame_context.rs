@@ -10,7 +10,7 @@ use crate::local::LocalScene;
 use crate::options::{Binning, GridOptions};
 use crate::params::{GridParams, ViewParams};
 use crate::pass::Pass;
-use crate::variant::unsupported;
+use crate::variant::NAME;
 
 /// Largest displacement of a line by rounding, in pixels, before a view is refused.
 const MAX_ROUNDING_PX: f64 = 0.1;
@@ -49,7 +49,8 @@ impl FrameContext {
         options: &GridOptions,
     ) -> Result<Self, RenderError> {
         if style.shading != Shading::Color {
-            return Err(unsupported(
+            return Err(RenderError::unsupported(
+                NAME,
                 "shading by density",
                 "Use color shading, or `--method cpu`.",
             ));
@@ -60,7 +61,8 @@ impl FrameContext {
             // This rule gives all paths the same width and ignores their own.
             Widths::Several if style.line_rule == LineRule::Thesis => None,
             Widths::Several => {
-                return Err(unsupported(
+                return Err(RenderError::unsupported(
+                    NAME,
                     "paths of several widths",
                     "Use the line rule of the thesis, or `--method cpu`.",
                 ));
@@ -68,7 +70,8 @@ impl FrameContext {
         };
         let rounding_px = local.rounding_px(px_per_m);
         if rounding_px > MAX_ROUNDING_PX {
-            return Err(unsupported(
+            return Err(RenderError::unsupported(
+                NAME,
                 format!(
                     "this view: at {px_per_m} pixels per meter the single precision of the device \
                      may draw lines {rounding_px:.2} pixels off; the limit is {MAX_ROUNDING_PX}"

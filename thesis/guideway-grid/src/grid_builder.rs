@@ -22,7 +22,7 @@ use crate::options::GridOptions;
 use crate::pack::{Cursor, Packed, Packer};
 use crate::params::{Items, LINE_BYTES, SCAN_THREADS, WORKGROUP};
 use crate::split::{WorkSplitter, equal_ranges};
-use crate::variant::unsupported;
+use crate::variant::NAME;
 
 /// The grid of a scene: all lines, sorted by cell.
 #[derive(Default)]
@@ -136,7 +136,8 @@ impl GridBuilder<'_> {
 
     fn exceeds_binding(&self, what: String) -> RenderError {
         let limit = self.gpu.max_binding_bytes();
-        unsupported(
+        RenderError::unsupported(
+            NAME,
             format!("{what}: a shader of this device can bind at most {limit} bytes"),
             "Use fewer cells or samples.",
         )

@@ -9,7 +9,7 @@ use wgpu::BufferUsages;
 use crate::chunk::Chunk;
 use crate::kernels::Kernels;
 use crate::params::ViewParams;
-use crate::variant::unsupported;
+use crate::variant::NAME;
 
 /// Bytes of a pixel: its state between passes, or its color.
 pub(super) const PIXEL_BYTES: u64 = size_of::<u32>() as u64;
@@ -75,7 +75,8 @@ impl PictureBuffers {
         let fit_binding = gpu.max_binding_bytes() / (width * fetched_bytes);
         let fit_budget = memory.spare_bytes().saturating_sub(WORK_BYTES) / (width * pixel_bytes);
         if fit_binding == 0 {
-            return Err(unsupported(
+            return Err(RenderError::unsupported(
+                NAME,
                 format!(
                     "rows of {width} pixels: a shader of this device can bind at most {} bytes",
                     gpu.max_binding_bytes()

@@ -8,8 +8,8 @@ use std::time::Instant;
 
 use guideway_gpu::device::{DeviceBuffer, Dispatch, Memory, Runner};
 use guideway_scene::{
-    Budget, Cancel, Frame, FrameSize, Preparation, Prepared, RenderError, Report, Rgba, Scene,
-    Stage, Style, View, Work, elapsed_ms,
+    Budget, Cancel, Frame, FrameSize, NoOpaqueColor, Preparation, Prepared, RenderError, Report,
+    Rgba, Scene, Stage, Style, View, Work, elapsed_ms,
 };
 use wgpu::BufferUsages;
 
@@ -24,7 +24,7 @@ use crate::pass::Pass;
 use crate::pass_plan;
 use crate::picture_buffers::{PIXEL_BYTES, PictureBuffers, Purpose};
 use crate::split::WorkSplitter;
-use crate::variant::{NAME, Variant, unsupported};
+use crate::variant::{NAME, Variant};
 
 const BORDERS_NOTE: &str = "Cells list lines without their width, as in the thesis, so strokes are \
      cut at cell borders. Add option `radius` for whole strokes.";
@@ -43,21 +43,6 @@ pub(super) struct PreparedGrid {
     chunks: Vec<Chunk>,
     buffers: Option<PictureBuffers>,
     preparation: Preparation,
-}
-
-/// The color that all paths share.
-fn one_color(scene: &Scene) -> Result<Rgba, RenderError> {
-    match scene.common_color() {
-        None => Err(unsupported(
-            "paths of several colors",
-            "Remove --color-by, or use `--method cpu`.",
-        )),
-        Some(color) if !color.is_opaque() => Err(unsupported(
-            "translucent paths",
-            "Use an opaque color, or `--method cpu`.",
-        )),
-        Some(color) => Ok(color),
-    }
 }
 
 fn widths(scene: &Scene) -> Widths {
@@ -80,7 +65,13 @@ impl PreparedGrid {
         scene: Arc<Scene>,
         budget: &Budget,
     ) -> Result<Self, RenderError> {
-        let color = one_color(&scene)?;
+        let color = scene.opaque_color().map_err(|error| {
+            let remedy = match error {
+                NoOpaqueColor::Several => "Remove --color-by, or use `--method cpu`.",
+                NoOpaqueColor::Translucent => "Use an opaque color, or `--method cpu`.",
+            };
+            RenderError::unsupported(NAME, error.to_string(), remedy)
+        })?;
         let start = Instant::now();
         let local = LocalScene::of(&scene);
         let grid = local.grid(&variant.options);

@@ -69,7 +69,7 @@ impl GlDevice {
         &self.description
     }
 
-    /// Whether the device is a software rasterizer.
+    /// Returns `true` if the device is a software rasterizer.
     pub fn is_software(&self) -> bool {
         self.is_software
     }

@@ -35,7 +35,7 @@ pub struct Import {
     pub name: String,
     /// The path as written.
     pub path: Vec<String>,
-    /// Whether other modules can import it from here.
+    /// True if other modules can import it from here.
     pub is_reexport: bool,
 }
 
@@ -284,7 +284,7 @@ fn attributes(item: &syn::Item) -> &[syn::Attribute] {
     }
 }
 
-/// Whether an item is compiled for tests alone.
+/// Returns `true` if an item is compiled for tests alone.
 fn is_test(attributes: &[syn::Attribute]) -> bool {
     attributes.iter().any(|attribute| match &attribute.meta {
         syn::Meta::List(list) if list.path.is_ident("cfg") => {

@@ -12,7 +12,7 @@ const MAX_SHADER_LINES: usize = 200;
 /// First words of headings and of comment paragraphs that make a riddle of the subject.
 const QUESTION_WORDS: &[&str] = &["What", "Which", "Who", "Where", "How", "Whether"];
 
-/// What a file is, as far as the rules differ.
+/// Kind of a file: the rules differ by it.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Kind {
     Rust,
@@ -95,7 +95,8 @@ fn kind(name: &str) -> Option<Kind> {
     }
 }
 
-/// Whether a file is a module of a crate: tests and build scripts describe themselves by their names.
+/// Returns `true` if a file is a module of a crate: tests and build scripts describe themselves by
+/// their names.
 fn needs_header(name: &str) -> bool {
     name.contains("/src/") && !name.contains("tests")
 }
@@ -141,7 +142,7 @@ fn question_subject(prose: &str) -> Option<&'static str> {
         .copied()
 }
 
-/// Whether a text has a word or a phrase, not as part of a longer word.
+/// Returns `true` if a text has a word or a phrase, not as part of a longer word.
 fn has_word(text: &str, word: &str) -> bool {
     let is_part = |c: char| c.is_alphanumeric() || c == '_';
     text.match_indices(word).any(|(at, _)| {

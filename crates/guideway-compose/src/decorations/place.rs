@@ -2,10 +2,9 @@
 
 use guideway_document::Document;
 use guideway_document::decorations::{
-    DecorationStyle, Label, LabelSize, MarkOptions, Marks, grid, legend, marks, scale_bar,
-    scale_bar_box,
+    DecorationStyle, Label, MarkOptions, Marks, grid, legend, marks, scale_bar, scale_bar_box,
 };
-use guideway_scene::{DrawList, Scene, Style, TextLine, View};
+use guideway_scene::{DrawList, Scene, Style, View};
 use guideway_spline::{Bounds, Point};
 
 use super::options::Decorations;
@@ -112,20 +111,11 @@ fn visible_marks(
     marks.nodes.retain(|&at| is_free(at));
     marks.stations.retain(|&at| is_free(at));
     let is_clear = |label: &Label| {
-        let label = label_box(label, size);
+        let label = size.label_box(label);
         !occupied.iter().any(|bounds| bounds.intersects(label))
     };
     marks.labels.retain(is_clear);
     marks
-}
-
-fn label_box(label: &Label, size: LabelSize) -> Bounds<f64> {
-    let width_px = TextLine::columns(&label.text) as f64 * size.char_px;
-    let half = Point::new(0.0, size.line_px / 2.0);
-    Bounds {
-        min: label.at_px - half,
-        max: label.at_px + half + Point::new(width_px, 0.0),
-    }
 }
 
 #[cfg(test)]

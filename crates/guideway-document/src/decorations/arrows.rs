@@ -82,9 +82,14 @@ fn position(segment: &[Point<f64>; 4], t: f64, view: &View) -> Option<(Point<f64
     })
 }
 
-/// Anchor of a path's label, on its middle segment, in pixels. `None` if the path is too short for
-/// a label or the anchor is outside the view.
-pub(super) fn middle(path: PathRef<'_>, view: &View, px_per_point: f64) -> Option<Point<f64>> {
+/// Anchor of a path's label, on its middle segment: its position in pixels, and whether the path is
+/// rather level than upright there. `None` if the path is too short for a label or the anchor is
+/// outside the view.
+pub(super) fn middle(
+    path: PathRef<'_>,
+    view: &View,
+    px_per_point: f64,
+) -> Option<(Point<f64>, bool)> {
     let size_px = path.hull_bounds()?.size() * view.px_per_m();
     let count: usize = path.runs().map(|run| run.segments().len()).sum();
     let segment = path.runs().flat_map(|run| run.segments()).nth(count / 2)?;
@@ -92,5 +97,7 @@ pub(super) fn middle(path: PathRef<'_>, view: &View, px_per_point: f64) -> Optio
     let at = uniform::point(&segment, t);
     let fits = size_px.norm() >= 2.0 * MIN_LENGTH_POINTS * px_per_point
         && view.world_bounds().contains(at);
-    fits.then(|| view.pixel_from_world(at))
+    let velocity = uniform::derivative(&segment, t);
+    let is_level = velocity.x.abs() > velocity.y.abs();
+    fits.then(|| (view.pixel_from_world(at), is_level))
 }

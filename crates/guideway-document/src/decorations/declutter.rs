@@ -34,7 +34,7 @@ impl Declutter {
     }
 }
 
-/// True if symbols at these positions would hide the paths between them.
+/// Returns `true` if symbols at these positions would hide the paths between them.
 ///
 /// Of the positions at least `min_px` apart, fewer than 2/3 are also at least twice as far apart.
 /// Coinciding positions, such as nodes of several levels, count once.

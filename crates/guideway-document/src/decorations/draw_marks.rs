@@ -1,7 +1,7 @@
 //! Draws marks: arrows, node and station symbols as polygons, labels as text.
 
 use guideway_scene::{DrawList, TextLine};
-use guideway_spline::Point;
+use guideway_spline::{Bounds, Point};
 
 use super::marks::{Arrow, Marks};
 use super::style::{DecorationStyle, MarkKind};
@@ -75,24 +75,35 @@ fn draw_arrow(
     style: &DecorationStyle,
     map: impl Fn(Point<f64>) -> Point<f64>,
 ) {
-    let point_px = style.px_per_point;
+    let color = style.mark_color(MarkKind::Arrow);
+    for head in arrow_heads(arrow, style.px_per_point, map) {
+        list.fill_polygon(color, &head);
+    }
+}
+
+/// Bounding box of the heads of an arrow, in pixels of the view that it was placed for.
+pub(super) fn arrow_box(arrow: &Arrow, px_per_point: f64) -> Option<Bounds<f64>> {
+    Bounds::of_points(arrow_heads(arrow, px_per_point, |at_px| at_px).flatten())
+}
+
+/// The triangles of an arrow, tip first: one, or two in opposite directions.
+fn arrow_heads(
+    arrow: &Arrow,
+    px_per_point: f64,
+    map: impl Fn(Point<f64>) -> Point<f64>,
+) -> impl Iterator<Item = [Point<f64>; 3]> {
     let at = map(arrow.at_px);
     let scale = map(arrow.at_px + arrow.direction).distance(at);
     let line_radius = arrow.line_radius_px * scale;
-    let radius = (HEAD_WIDTH * line_radius).max(MIN_HEAD_RADIUS_POINTS * point_px);
-    let signs = if arrow.is_two_way {
-        &[1.0, -1.0][..]
-    } else {
-        &[1.0]
-    };
-    for sign in signs {
-        let forward = arrow.direction * *sign;
+    let radius = (HEAD_WIDTH * line_radius).max(MIN_HEAD_RADIUS_POINTS * px_per_point);
+    let forward = arrow.direction;
+    let directions = [Some(forward), arrow.is_two_way.then_some(forward * -1.0)];
+    directions.into_iter().flatten().map(move |forward| {
         let side = Point::new(-forward.y, forward.x) * radius;
-        let base = at + forward * (HEAD_OFFSET_POINTS * point_px);
+        let base = at + forward * (HEAD_OFFSET_POINTS * px_per_point);
         let tip = base + forward * (HEAD_LENGTH * radius);
-        let color = style.mark_color(MarkKind::Arrow);
-        list.fill_polygon(color, &[tip, base + side, base - side]);
-    }
+        [tip, base + side, base - side]
+    })
 }
 
 #[cfg(test)]

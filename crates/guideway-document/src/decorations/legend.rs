@@ -36,7 +36,7 @@ pub fn legend(
         color: style.ink,
         background: style.paper.with_opacity(0.0),
     };
-    let column = text_line(single_line(&legend.column, MAX_LABEL_CHARS));
+    let column = text_line(single_line(&legend.title(), MAX_LABEL_CHARS));
     let labels: Vec<TextLine> = legend.entries.iter().map(label).map(text_line).collect();
     let widest_px = labels
         .iter()
@@ -93,6 +93,7 @@ mod tests {
     fn speeds() -> Legend {
         Legend {
             column: "maxSpeed".into(),
+            unit: Some("m/s"),
             entries: vec![LegendEntry {
                 label: "fast".into(),
                 color: Rgba::opaque(200, 0, 0),
@@ -108,7 +109,7 @@ mod tests {
         let style = DecorationStyle::new(Rgba::WHITE, 1.0);
         let (list, _) = legend(&speeds(), size, 0.0, &style).unwrap();
         let texts: Vec<_> = list.texts.iter().map(|text| text.text.as_str()).collect();
-        assert_eq!(texts, ["maxSpeed", "fast (1,234)"]);
+        assert_eq!(texts, ["maxSpeed (m/s)", "fast (1,234)"]);
         let swatch = &list.fills[1].polygons[0];
         let middle = (swatch[0].y + swatch[2].y) / 2.0;
         assert_eq!(middle, list.texts[1].left_middle_px.y);

@@ -1,8 +1,9 @@
 //! Decorations: everything drawn over or under the paths of a picture, as pure functions.
 //!
 //! The window, PNG and SVG show the same decorations, because all of them consume the draw lists
-//! that these functions return. What a screen can show bounds every result: a view with more paths,
-//! nodes or stations than [`MAX_MARKED`] has no marks for them, and [`Marks::left_out`] is set.
+//! that these functions return. Every result is bounded by what a screen can show: a view with more
+//! paths, nodes or stations than [`MAX_MARKED`] has no marks for them, and [`Marks::left_out`] is
+//! set.
 //!
 //! | file | input | output |
 //! |---|---|---|

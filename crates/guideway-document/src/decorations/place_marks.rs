@@ -1,11 +1,12 @@
 //! Places the marks of a view: collects what is visible, thins it out, and positions it.
 
 use guideway_scene::{LineRule, PathState, View};
-use guideway_spline::Point;
+use guideway_spline::{Bounds, Point};
 
 use super::arrows;
 use super::declutter::{Declutter, is_crowded};
-use super::labels::{self, LabelSize};
+use super::draw_marks::arrow_box;
+use super::labels::{self, Label, LabelSize, Name, Side};
 use super::marks::{Arrow, MAX_MARKED, MarkOptions, Marks};
 use crate::document::Document;
 use crate::reverse_pairs::ReversePairs;
@@ -29,7 +30,14 @@ pub fn marks(document: &Document, view: &View, options: &MarkOptions) -> Marks {
         marks.stations = visible.stations.iter().map(|(_, at_px)| *at_px).collect();
     }
     if let Some(size) = options.labels {
-        marks.labels = visible.labels(&marks.stations, size, options.px_per_point);
+        let arrow_box = |arrow: &Arrow| arrow_box(arrow, options.px_per_point);
+        let boxes: Vec<_> = marks.arrows.iter().filter_map(arrow_box).collect();
+        marks.labels = visible.labels(&marks.stations, &boxes, size, options.px_per_point);
+        // An arrow that a label hides in part would look like another symbol.
+        let labels: Vec<_> = marks.labels.iter().map(|l| size.label_box(l)).collect();
+        let is_hidden = |bounds| labels.iter().any(|label| label.intersects(bounds));
+        let is_visible = |arrow: &Arrow| !arrow_box(arrow).is_some_and(is_hidden);
+        marks.arrows.retain(is_visible);
     }
     marks
 }
@@ -112,24 +120,42 @@ impl<'d> Visible<'d> {
         arrows.take(2 * MAX_MARKED).collect()
     }
 
-    /// Labels of stations, nodes and paths, in order of priority.
+    /// Labels of stations, nodes and paths, in order of priority, clear of `symbols`, and those of
+    /// paths clear of `arrows`. A path has its label above it if it is level, else to its right.
     fn labels(
         &self,
         symbols: &[Point<f64>],
+        arrows: &[Bounds<f64>],
         size: LabelSize,
         px_per_point: f64,
-    ) -> Vec<labels::Label> {
+    ) -> Vec<Label> {
+        const RIGHT: &[Side] = &[Side::Right];
+        const BESIDE_UPRIGHT: &[Side] = &[Side::Right, Side::Above, Side::Below];
+        const BESIDE_LEVEL: &[Side] = &[Side::Above, Side::Below, Side::Right];
+        let name = |text, at_px, sides, spares_arrows| Name {
+            text,
+            at_px,
+            sides,
+            spares_arrows,
+        };
         let layout = self.document.layout();
         let stations = self.stations.iter();
-        let stations = stations.map(|&(row, at_px)| (layout.stations.id(row), at_px));
+        let stations =
+            stations.map(|&(row, at_px)| name(layout.stations.id(row), at_px, RIGHT, false));
         let nodes = self.nodes.iter();
-        let nodes = nodes.map(|&(row, at_px)| (layout.nodes.id(row), at_px));
+        let nodes = nodes.map(|&(row, at_px)| name(layout.nodes.id(row), at_px, RIGHT, false));
         let paths = self.paths.iter().filter_map(|&path| {
             let path = layout.paths.get(path as usize);
-            let middle = arrows::middle(path, self.view, px_per_point)?;
-            Some((path.id(), middle))
+            let (at_px, is_level) = arrows::middle(path, self.view, px_per_point)?;
+            let sides = if is_level {
+                BESIDE_LEVEL
+            } else {
+                BESIDE_UPRIGHT
+            };
+            Some(name(path.id(), at_px, sides, true))
         });
         let names = stations.chain(nodes).chain(paths);
-        labels::place(names, symbols.iter().copied(), size, self.view.size())
+        let symbols = symbols.iter().copied();
+        labels::place(names, symbols, arrows, size, self.view.size())
     }
 }

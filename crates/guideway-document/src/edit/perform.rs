@@ -54,7 +54,7 @@ impl Document {
         self.history.bytes()
     }
 
-    /// True if the document differs from the saved state.
+    /// Returns `true` if the document differs from the saved state.
     pub fn is_changed(&self) -> bool {
         self.history.is_changed()
     }

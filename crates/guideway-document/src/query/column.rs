@@ -28,7 +28,7 @@ const BUILT_IN: [(&str, Column); 5] = [
 impl Column {
     /// The column of this name, if the layout has it.
     pub(super) fn named(name: &str, layout: &Layout) -> Option<Self> {
-        if layout.paths.attributes.get(name).is_some() {
+        if layout.paths.has_column(name) {
             return Some(Self::Attribute(name.to_owned()));
         }
         let built_in = BUILT_IN.into_iter().find(|(known, _)| *known == name);
@@ -38,7 +38,7 @@ impl Column {
     /// Names of all columns of a layout, for error texts.
     pub(super) fn names(layout: &Layout) -> Vec<String> {
         let built_in = BUILT_IN.iter().map(|(name, _)| (*name).to_owned());
-        let own = layout.paths.attributes.iter().map(|a| a.name.clone());
+        let own = layout.paths.column_names().map(str::to_owned);
         built_in.chain(own).collect()
     }
 
@@ -64,7 +64,7 @@ impl Column {
             }
             Self::Length => Some(read(Value::Float(length_m(path)))),
             Self::Attribute(name) => {
-                let value = layout.paths.attributes.get(name)?.values.get(row)?;
+                let value = layout.paths.value(row, name)?;
                 Some(read(value))
             }
         }

@@ -37,7 +37,7 @@ pub(super) enum Operator {
 }
 
 impl Condition {
-    /// True if a path fulfills the condition.
+    /// Returns `true` if a path fulfills the condition.
     pub(super) fn holds(&self, layout: &Layout, path: u32) -> bool {
         match self {
             Self::All(parts) => parts.iter().all(|part| part.holds(layout, path)),
@@ -72,7 +72,7 @@ impl Comparison {
             let number = match value {
                 Value::Int(v) => Some(v as f64),
                 Value::Float(v) => Some(v),
-                Value::Bool(_) | Value::Text(_) => None,
+                Value::Bool(_) | Value::Text(_) | Value::Json(_) => None,
             };
             match (number, self.number, value) {
                 (Some(left), Some(right), _) => left.partial_cmp(&right),

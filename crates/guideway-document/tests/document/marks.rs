@@ -52,6 +52,7 @@ fn marks_of_other_levels_are_hidden() {
             id: id.into(),
             name: None,
             elevation_m: None,
+            ..Level::default()
         });
         let node = layout
             .nodes
@@ -132,7 +133,12 @@ fn reverse_pairs_share_two_way_arrows() {
 
 #[test]
 fn labels_do_not_overlap() {
-    let marks = marks_of(lanes(100), &view(p(5.0, 50.0), 5.0));
+    let without_arrows = MarkOptions {
+        arrows: None,
+        ..ALL
+    };
+    let view = view(p(5.0, 50.0), 5.0);
+    let marks = marks(&document_of(lanes(100)), &view, &without_arrows);
     assert!(marks.labels.len() > 10);
     for (i, a) in marks.labels.iter().enumerate() {
         for b in &marks.labels[..i] {
@@ -141,6 +147,18 @@ fn labels_do_not_overlap() {
             assert!(apart, "{a:?} {b:?}");
         }
     }
+}
+
+#[test]
+fn labels_of_level_paths_are_above_them_and_hide_no_arrow() {
+    let view = view(p(5.0, 1.0), 40.0);
+    let marks = marks_of(lanes(3), &view);
+    let at = |text: &str| marks.labels.iter().find(|label| label.text == text);
+    let label = at("path-1").unwrap_or_else(|| panic!("{:?}", marks.labels));
+    let path_px = view.pixel_from_world(p(5.0, 1.0));
+    assert_eq!(label.at_px.y, path_px.y - 14.0);
+    // The arrow in the middle of the path stays.
+    assert!(marks.arrows.iter().any(|arrow| arrow.at_px == path_px));
 }
 
 #[test]

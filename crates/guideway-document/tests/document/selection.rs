@@ -1,6 +1,7 @@
 //! Selection, visibility and colors.
 
 use guideway_document::{Document, Query, SelectMode};
+use guideway_layout::Quantity;
 use guideway_scene::{ColorBy, PathState, Scene, SceneOptions};
 use guideway_spline::{Affine, Bounds};
 
@@ -23,6 +24,16 @@ fn a_box_selects_paths_inside_or_crossing() {
     assert_eq!(rows(&document), [1, 2, 3]);
     document.select_in(bounds.inflated(1.1), false, SelectMode::Remove);
     assert_eq!(rows(&document), []);
+}
+
+#[test]
+fn queries_find_values_per_vehicle_type() {
+    let mut layout = lanes(2);
+    layout.paths.vehicle_types_mut().set(1, &["tug", "fork"]);
+    let entries = &mut layout.paths.vehicle_types_mut().attributes;
+    entries.set_quantity(0, "maxHeight", 2.5, Quantity::Length);
+    let query = Query::parse("maxHeight > 2", &layout).unwrap();
+    assert!(query.rows(&layout).iter().eq([1]));
 }
 
 #[test]

@@ -71,7 +71,7 @@ pub(crate) fn ends(document: &Document, path: usize) -> (Point<f64>, Point<f64>)
         .expect("a path with a curve")
 }
 
-/// Whether two points coincide up to rounding.
+/// Returns `true` if two points coincide up to rounding.
 pub(crate) fn is_near(a: Point<f64>, b: Point<f64>) -> bool {
     a.distance(b) < 1e-9
 }

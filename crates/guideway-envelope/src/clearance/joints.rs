@@ -25,7 +25,7 @@ struct End {
 
 /// A joint that is reachable from an end of a path.
 #[derive(Clone, Copy)]
-pub(super) struct Reached {
+pub(super) struct ReachableJoint {
     from: P,
     joint: u32,
     way_m: f64,
@@ -34,7 +34,7 @@ pub(super) struct Reached {
 impl Joints {
     /// Joins all path ends within a tolerance, in meters.
     pub(super) fn new(layout: &Layout, tolerance_m: f64) -> Self {
-        let mut places = Places::new(tolerance_m);
+        let mut places = JointGrid::new(tolerance_m);
         let mut joints = Self {
             ends: Vec::with_capacity(layout.paths.len()),
             ways: Vec::new(),
@@ -63,25 +63,25 @@ impl Joints {
     }
 
     /// The joints within a path length of the ends of a path, the ends themselves first.
-    pub(super) fn reached(&self, path: usize, most_m: f64) -> Vec<Reached> {
+    pub(super) fn reached(&self, path: usize, most_m: f64) -> Vec<ReachableJoint> {
         let mut all = Vec::new();
         for end in self.ends[path].iter().flatten() {
             let first = all.len();
-            all.push(Reached {
+            all.push(ReachableJoint {
                 from: end.at,
                 joint: end.joint,
                 way_m: 0.0,
             });
             // Few joints are in reach, so a linear search is fastest.
             let mut next = first;
-            while let Some(&Reached { joint, way_m, .. }) = all.get(next) {
+            while let Some(&ReachableJoint { joint, way_m, .. }) = all.get(next) {
                 next += 1;
                 for &(joint, length_m) in &self.ways[joint as usize] {
                     let way_m = way_m + length_m;
                     let known = all[first..].iter().position(|r| r.joint == joint);
                     let is_nearer = known.is_none_or(|known| way_m < all[first + known].way_m);
                     if way_m <= most_m && is_nearer && all.len() < MOST_REACHED {
-                        all.push(Reached {
+                        all.push(ReachableJoint {
                             from: end.at,
                             joint,
                             way_m,
@@ -96,7 +96,7 @@ impl Joints {
     /// The exempt zones of two paths, from the joints in reach of the first one.
     pub(super) fn exempt_zones(
         &self,
-        reached: &[Reached],
+        reached: &[ReachableJoint],
         other: usize,
         near_joint_m: f64,
         most_way_m: f64,
@@ -106,7 +106,7 @@ impl Joints {
             let here = reached.iter().filter(|r| r.joint == end.joint);
             here.map(move |r| (r, end.at))
         });
-        let meeting = |(reached, at): (&Reached, P)| ExemptZone {
+        let meeting = |(reached, at): (&ReachableJoint, P)| ExemptZone {
             centers_m: [reached.from, at],
             radius_m: match reached.way_m {
                 0.0 => near_joint_m,
@@ -135,13 +135,13 @@ fn polygon_m(path: PathRef<'_>) -> f64 {
 type Cell = (i64, i64, Option<u32>);
 
 /// Joints in the cells of a grid.
-struct Places {
+struct JointGrid {
     tolerance_m: f64,
     cells: HashMap<Cell, Vec<(P, u32)>>,
     count: u32,
 }
 
-impl Places {
+impl JointGrid {
     fn new(tolerance_m: f64) -> Self {
         Self {
             tolerance_m,

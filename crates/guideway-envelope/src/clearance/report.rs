@@ -26,13 +26,12 @@ pub struct ClearanceOptions {
 
 impl Default for ClearanceOptions {
     fn default() -> Self {
-        let check = CheckOptions::default();
         Self {
             clearance_m: 0.0,
             tolerance_m: 0.01,
             near_joint_m: None,
-            gap_tolerance_m: check.gap_tolerance_m,
-            coincidence_tolerance_m: check.coincidence_tolerance_m,
+            gap_tolerance_m: CheckOptions::LARGEST_GAP_M,
+            coincidence_tolerance_m: CheckOptions::LARGEST_COINCIDENCE_M,
             diagnostics_per_code: Limits::default().diagnostics_per_code,
         }
     }

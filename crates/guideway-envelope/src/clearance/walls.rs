@@ -79,7 +79,7 @@ impl Walls {
         self.lines.len()
     }
 
-    /// Whether there are no lines.
+    /// Returns `true` if there are no lines.
     pub fn is_empty(&self) -> bool {
         self.lines.is_empty()
     }

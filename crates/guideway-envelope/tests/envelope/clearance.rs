@@ -265,10 +265,11 @@ fn reads_headings_and_corridors_from_the_file() {
     );
     assert!(is_near(top(&layout, long).unwrap(), 3.0));
     // Two alternative headings.
+    layout.paths.attributes.remove("vehicleOrientation");
     set(
         &mut layout,
-        "vehicleOrientation",
-        Value::Text("0, -1.5707963267948966"),
+        "vehicleOrientations",
+        Value::Json("[0, -1.5707963267948966]"),
     );
     assert!(is_near(top(&layout, long).unwrap(), 1.0));
 
@@ -284,7 +285,7 @@ fn reads_headings_and_corridors_from_the_file() {
     );
     set(
         &mut layout,
-        "corridor.corridorRefPoint",
+        "corridor.referencePoint",
         Value::Text("CONTOUR"),
     );
     let bounds = EnvelopeSource::File.sweep(&layout, 0).unwrap().bounds();

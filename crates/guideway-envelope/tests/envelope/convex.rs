@@ -22,7 +22,7 @@ fn from_line(a: P, b: P, q: P) -> f64 {
     q.distance(a + way * t)
 }
 
-/// Whether a point is inside a triangle of three of the points.
+/// Returns `true` if a point is inside a triangle of three of the points.
 fn is_within(points: &[P], q: P) -> bool {
     let side = |a: P, b: P| (b - a).cross(q - a);
     points.iter().any(|&a| {

@@ -41,7 +41,8 @@ fn brute(a: &Case, b: &Case, counts: impl Fn(Pose, Pose) -> bool) -> f64 {
     each.fold(f64::INFINITY, f64::min)
 }
 
-/// Whether an answer agrees with the distance by brute force, whose poses are `STEP_M` apart.
+/// Returns `true` if an answer agrees with the distance by brute force, whose poses are `STEP_M`
+/// apart.
 fn agrees(answer: Option<ClosestApproach>, brute_m: f64, threshold_m: f64) -> bool {
     match answer {
         // Polygons contain the vehicles, so their distance is never larger.

@@ -1,20 +1,26 @@
 //! Path assembly: joins the rows of all batches to paths, and decides which rows are drawn or
-//! refused.
+//! refused. It skips the rows of other elements.
 
 use std::ops::Range;
 
 use guideway_layout::{Geometry, Hulls, Limits};
 
 use super::batch::Batch;
+use super::column_names::PATHS_VERSION;
 use super::control_polygons::ControlPolygons;
+use super::element::Element;
 use super::fault::Fault;
+use super::numbering::Numbering;
 use super::point_store::PointStore;
+use super::row_kinds::RowKinds;
 use crate::Problem;
 use crate::input::Input;
 
 /// Curves of all drawn rows, joined to paths.
 #[derive(Debug, Default)]
 pub(super) struct PathAssembler {
+    /// An empty list of control points is a path without a curve, not a fault.
+    allows_empty: bool,
     points: PointStore,
     run_ends: Vec<u32>,
     /// Last run of each path, once a row continues another; until then every run is a path.
@@ -23,6 +29,8 @@ pub(super) struct PathAssembler {
     drawn: Vec<Range<usize>>,
     /// Rows that begin a refused path, with the reason, likewise.
     refused: Vec<(usize, Fault)>,
+    /// Numbers of the refused paths among all paths.
+    refused_numbers: Vec<u32>,
     rows: usize,
     last: LastPath,
 }
@@ -40,6 +48,14 @@ enum LastPath {
 }
 
 impl PathAssembler {
+    /// Makes an assembler for a version of the table.
+    pub(super) fn new(version: u32) -> Self {
+        Self {
+            allows_empty: version > PATHS_VERSION,
+            ..Self::default()
+        }
+    }
+
     /// Reserves memory for an estimated number of points and rows.
     pub(super) fn reserve(&mut self, polygons: &ControlPolygons, points: usize, rows: usize) {
         self.points = PointStore::with_capacity(&polygons.coordinates, points, rows);
@@ -49,18 +65,23 @@ impl PathAssembler {
     pub(super) fn add(
         &mut self,
         polygons: &ControlPolygons,
+        kinds: &RowKinds,
         input: &Input<'_>,
         limits: &Limits,
     ) -> Result<(), Problem> {
         self.check_limits(polygons, limits)?;
-        let mut from = 0;
-        for (row, fault) in self.points.load(polygons, input, limits)? {
-            self.add_rows(polygons, from..row);
-            self.refused.push((self.rows + row, fault));
-            self.last = LastPath::Refused;
-            from = row + 1;
+        let faults = self.points.load(polygons, input, limits)?;
+        let mut faults = faults.into_iter().peekable();
+        for rows in kinds.rows(Element::Path) {
+            while faults.next_if(|fault| fault.0 < rows.start).is_some() {}
+            let mut from = rows.start;
+            while let Some((row, fault)) = faults.next_if(|fault| fault.0 < rows.end) {
+                self.add_rows(polygons, from..row);
+                self.add_fault(row, fault);
+                from = row + 1;
+            }
+            self.add_rows(polygons, from..rows.end);
         }
-        self.add_rows(polygons, from..polygons.len());
         self.rows += polygons.len();
         // Here, while the points are in the processor cache.
         self.points.append_hulls(&self.run_ends);
@@ -73,48 +94,66 @@ impl PathAssembler {
     pub(super) fn add_parts(
         &mut self,
         polygons: &ControlPolygons,
+        kinds: &RowKinds,
         continues: &[bool],
         input: &Input<'_>,
         limits: &Limits,
     ) -> Result<(), Problem> {
         self.check_limits(polygons, limits)?;
-        if self.path_ends.is_none() {
-            self.path_ends = Some((1..=self.run_ends.len() as u32).collect());
-        }
+        self.ensure_path_ends();
         let faults = self.points.load(polygons, input, limits)?;
         let mut faults = faults.into_iter().peekable();
-        for (row, &continues) in continues.iter().enumerate() {
-            let fault = faults.next_if(|f| f.0 == row).map(|f| f.1);
-            match (continues, self.last, fault) {
-                (true, LastPath::Refused, _) => {}
-                (
-                    true,
-                    LastPath::Drawn {
-                        row: first,
-                        first_run,
-                    },
-                    Some(fault),
-                ) => {
-                    self.remove_path(first_run);
-                    self.refused.push((first, fault));
-                    self.last = LastPath::Refused;
-                }
-                (_, _, Some(fault)) => {
-                    self.refused.push((self.rows + row, fault));
-                    self.last = LastPath::Refused;
-                }
-                (true, LastPath::Drawn { .. }, None) => {
-                    self.points.accept(polygons.range(row));
-                    self.run_ends.push(self.points.len() as u32);
-                    if let Some(end) = self.path_ends.as_mut().and_then(|ends| ends.last_mut()) {
-                        *end += 1;
-                    }
-                }
-                (_, _, None) => self.add_rows(polygons, row..row + 1),
+        for (kind, rows) in kinds.runs() {
+            if kind != Some(Element::Path) {
+                while faults.next_if(|fault| fault.0 < rows.end).is_some() {}
+                self.last = LastPath::None;
+                continue;
+            }
+            for row in rows {
+                let fault = faults.next_if(|f| f.0 == row).map(|f| f.1);
+                self.add_part(polygons, row, continues[row], fault);
             }
         }
         self.rows += polygons.len();
         Ok(())
+    }
+
+    fn add_part(
+        &mut self,
+        polygons: &ControlPolygons,
+        row: usize,
+        continues: bool,
+        fault: Option<Fault>,
+    ) {
+        match (continues, self.last, fault) {
+            (true, LastPath::Refused, _) => {}
+            (
+                true,
+                LastPath::Drawn {
+                    row: first,
+                    first_run,
+                },
+                Some(fault),
+            ) => {
+                self.remove_path(first_run);
+                self.refuse(first, fault);
+            }
+            (true, LastPath::Drawn { .. }, None) => {
+                self.points.accept(polygons.range(row));
+                self.run_ends.push(self.points.len() as u32);
+                if let Some(end) = self.path_ends.as_mut().and_then(|ends| ends.last_mut()) {
+                    *end += 1;
+                }
+            }
+            (_, _, Some(fault)) => self.add_fault(row, fault),
+            (_, _, None) => self.add_rows(polygons, row..row + 1),
+        }
+    }
+
+    /// Skips a batch without paths.
+    pub(super) fn skip(&mut self, rows: usize) {
+        self.rows += rows;
+        self.last = LastPath::None;
     }
 
     /// Returns the number of rows so far.
@@ -155,13 +194,15 @@ impl PathAssembler {
             .extend(refused.map(|(row, fault)| (row - start, fault)));
     }
 
-    /// Returns the geometry of all paths.
-    pub(super) fn into_geometry(self) -> Geometry {
+    /// Returns the geometry of all paths, and their rows by their numbers in the table.
+    pub(super) fn into_geometry(self) -> (Geometry, Numbering) {
+        let numbering = Numbering::new(self.refused_numbers.clone(), self.drawn_paths());
         let (geometry, hulls): (Geometry, Hulls) = self.points.into_geometry(self.run_ends);
-        match self.path_ends {
+        let geometry = match self.path_ends {
             Some(path_ends) => geometry.with_path_ends(path_ends),
             None => geometry.with_hulls(hulls),
-        }
+        };
+        (geometry, numbering)
     }
 
     fn check_limits(&self, polygons: &ControlPolygons, limits: &Limits) -> Result<(), Problem> {
@@ -183,6 +224,40 @@ impl PathAssembler {
         Ok(())
     }
 
+    /// Allows paths with any number of runs.
+    fn ensure_path_ends(&mut self) {
+        let runs = self.run_ends.len() as u32;
+        self.path_ends.get_or_insert_with(|| (1..=runs).collect());
+    }
+
+    /// Returns the number of paths that are drawn so far.
+    fn drawn_paths(&self) -> usize {
+        let ends = self.path_ends.as_ref();
+        ends.map_or(self.run_ends.len(), Vec::len)
+    }
+
+    /// Appends a path whose curve has a fault: one without a curve, or a refused one.
+    fn add_fault(&mut self, row: usize, fault: Fault) {
+        if !self.allows_empty || fault != Fault::TooFew(0) {
+            self.refuse(self.rows + row, fault);
+            return;
+        }
+        self.ensure_path_ends();
+        let runs = self.run_ends.len();
+        if let Some(path_ends) = &mut self.path_ends {
+            path_ends.push(runs as u32);
+        }
+        self.add_drawn(self.rows + row..self.rows + row + 1, runs);
+    }
+
+    /// Refuses the path that begins with a row of the table.
+    fn refuse(&mut self, row: usize, fault: Fault) {
+        let number = self.drawn_paths() + self.refused_numbers.len();
+        self.refused_numbers.push(number as u32);
+        self.refused.push((row, fault));
+        self.last = LastPath::Refused;
+    }
+
     /// Appends valid rows with one path each.
     fn add_rows(&mut self, polygons: &ControlPolygons, rows: Range<usize>) {
         if rows.is_empty() {
@@ -195,10 +270,15 @@ impl PathAssembler {
         if let Some(path_ends) = &mut self.path_ends {
             path_ends.extend(first_run as u32 + 1..=self.run_ends.len() as u32);
         }
-        let table_rows = self.rows + rows.start..self.rows + rows.end;
+        let last_run = self.run_ends.len() - 1;
+        self.add_drawn(self.rows + rows.start..self.rows + rows.end, last_run);
+    }
+
+    /// Records rows of the table that begin drawn paths; the last one begins with run `last_run`.
+    fn add_drawn(&mut self, table_rows: Range<usize>, last_run: usize) {
         self.last = LastPath::Drawn {
             row: table_rows.end - 1,
-            first_run: self.run_ends.len() - 1,
+            first_run: last_run,
         };
         match self.drawn.last_mut() {
             Some(last) if last.end == table_rows.start => last.end = table_rows.end,

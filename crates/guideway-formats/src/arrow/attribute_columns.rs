@@ -7,25 +7,32 @@ use arrow_array::cast::AsArray;
 use arrow_array::types::{Float32Type, Float64Type, Int64Type};
 use arrow_cast::display::{ArrayFormatter, FormatOptions};
 use arrow_schema::{DataType, Field};
-use guideway_layout::{Attribute, Cells, Code, Diagnostics, Limits, Place, Values};
+use guideway_layout::{Attribute, Cells, Code, Diagnostics, Place, Values};
 
+use super::attribute_names::attribute_of;
 use super::batch::Batch;
-use super::budget::Budget;
 use super::cast::{cast, count_lost};
 use super::catch_decode_panic::catch_decode_panic;
+use super::column_names::PATHS_VERSION;
+use super::column_types::{is_text, value_type};
 use super::problems::damaged;
-use super::schema::is_text;
+use super::reading::Reading;
+use super::schema::{is_json, quantity};
 use super::text_array::TextArray;
 use super::text_sink::TextSink;
 use crate::Problem;
 
-/// An attribute under construction from a column.
+/// An attribute of a table under construction from a column.
 pub(super) struct AttributeColumn<'a> {
     index: usize,
     field: &'a Field,
-    limits: &'a Limits,
-    budget: &'a Budget,
-    cells: AttributeCells<'a>,
+    reading: Reading<'a>,
+    /// Estimated number of rows.
+    rows: usize,
+    /// Number of rows before the first value.
+    missing: usize,
+    /// `None` before the first value: a column of another table takes no memory.
+    cells: Option<AttributeCells<'a>>,
 }
 
 /// Values of an attribute, by type.
@@ -48,35 +55,30 @@ struct TextCells<'a> {
 
 impl<'a> AttributeColumn<'a> {
     /// Makes an attribute of column `index`, with capacity for an estimated number of rows.
-    pub(super) fn new(
-        index: usize,
-        field: &'a Field,
-        rows: usize,
-        limits: &'a Limits,
-        budget: &'a Budget,
-    ) -> Self {
-        let texts = || TextCells::new(rows, limits, budget);
-        let cells = match value_type(field) {
-            DataType::Null => AttributeCells::Null,
-            DataType::Boolean => AttributeCells::Bool(Cells::with_capacity(rows)),
-            t if t.is_integer() => AttributeCells::Int(Cells::with_capacity(rows)),
-            t if t.is_floating() => AttributeCells::Float(Cells::with_capacity(rows)),
-            _ if is_text(field.data_type()) => AttributeCells::Text(texts()),
-            _ => AttributeCells::Formatted(texts()),
-        };
+    pub(super) fn new(reading: Reading<'a>, index: usize, rows: usize) -> Self {
         Self {
             index,
-            field,
-            limits,
-            budget,
-            cells,
+            field: reading.schema.field(index),
+            reading,
+            rows,
+            missing: 0,
+            cells: None,
         }
     }
 
     /// Appends the drawn rows of a batch.
     pub(super) fn add(&mut self, batch: &Batch) -> Result<(), Problem> {
         let column = &batch.columns[self.index];
-        match &mut self.cells {
+        let Some(cells) = &mut self.cells else {
+            let mut rows = batch.drawn.iter().cloned().flatten();
+            if column.null_count() > 0 && rows.all(|row| column.is_null(row)) {
+                self.missing += batch.drawn_rows();
+                return Ok(());
+            }
+            self.cells = Some(self.first_cells()?);
+            return self.add(batch);
+        };
+        match cells {
             AttributeCells::Null => {}
             AttributeCells::Bool(out) => {
                 let column = cast(column, &DataType::Boolean)?;
@@ -89,8 +91,8 @@ impl<'a> AttributeColumn<'a> {
                 let numbers = cast(column, &DataType::Int64)?;
                 if count_lost(column, &numbers) > 0 {
                     // An unsigned number beyond the range of i64: all values are converted to text.
-                    let texts = TextCells::from_numbers(out, self.limits, self.budget)?;
-                    self.cells = AttributeCells::Formatted(texts);
+                    let texts = TextCells::from_numbers(out, self.reading)?;
+                    self.cells = Some(AttributeCells::Formatted(texts));
                     return self.add(batch);
                 }
                 batch.add_cells(out, numbers.as_primitive::<Int64Type>(), |v| v);
@@ -108,50 +110,90 @@ impl<'a> AttributeColumn<'a> {
         Ok(())
     }
 
-    /// Returns the attribute, if the column has values.
-    pub(super) fn finish(self, diagnostics: &mut Diagnostics) -> Option<Attribute> {
+    /// Returns the attribute; `None` if it has no values, unless it `keeps_empty` columns.
+    pub(super) fn finish(
+        mut self,
+        keeps_empty: bool,
+        diagnostics: &mut Diagnostics,
+    ) -> Result<Option<Attribute>, Problem> {
         let field = self.field;
-        let value_type = value_type(field);
+        let value_type = value_type(field.data_type());
         let source_unless =
             |stored: DataType| (*value_type != stored).then(|| value_type.to_string());
-        let (values, source_type) = match self.cells {
+        let cells = match self.cells.take() {
+            None if keeps_empty => self.first_cells()?,
+            None => return Ok(None),
+            Some(cells) => cells,
+        };
+        let (values, source_type) = match cells {
             AttributeCells::Null => {
                 report(field, "has no values and is ignored", diagnostics);
-                return None;
+                return Ok(None);
             }
             AttributeCells::Bool(values) => (Values::Bool(values), None),
             AttributeCells::Int(values) => (Values::Int(values), source_unless(DataType::Int64)),
             AttributeCells::Float(values) => {
                 (Values::Float(values), source_unless(DataType::Float64))
             }
-            AttributeCells::Text(texts) => (texts.into_values(), None),
+            AttributeCells::Text(texts) if is_json(field) => {
+                (Values::Json(texts.into_cells()), None)
+            }
+            AttributeCells::Text(texts) => (Values::Text(texts.into_cells()), None),
             AttributeCells::Formatted(texts) => {
                 report(field, "is stored as text", diagnostics);
-                (texts.into_values(), None)
+                (Values::Text(texts.into_cells()), None)
             }
         };
-        Some(Attribute {
-            name: field.name().clone(),
+        Ok(Some(Attribute {
+            quantity: quantity(field),
+            name: match self.reading.columns.version {
+                PATHS_VERSION => field.name().clone(),
+                _ => attribute_of(field.name()).to_owned(),
+            },
             values,
             source_type,
+        }))
+    }
+
+    /// Makes the cells of the rows so far, which have no values.
+    fn first_cells(&self) -> Result<AttributeCells<'a>, Problem> {
+        let (rows, missing) = (self.rows, self.missing);
+        Ok(match value_type(self.field.data_type()) {
+            DataType::Null => AttributeCells::Null,
+            DataType::Boolean => AttributeCells::Bool(without_values(rows, missing)),
+            t if t.is_integer() => AttributeCells::Int(without_values(rows, missing)),
+            t if t.is_floating() => AttributeCells::Float(without_values(rows, missing)),
+            _ => {
+                let mut texts = TextCells::new(self.reading, rows);
+                for _ in 0..missing {
+                    texts.push(None::<&str>)?;
+                }
+                match is_text(self.field.data_type()) {
+                    true => AttributeCells::Text(texts),
+                    false => AttributeCells::Formatted(texts),
+                }
+            }
         })
     }
 }
 
+/// Makes cells with capacity for `rows` rows, of which the first ones have no value.
+fn without_values<T: Copy + Default>(rows: usize, missing: usize) -> Cells<T> {
+    let mut cells = Cells::with_capacity(rows);
+    (0..missing).for_each(|_| cells.push(None));
+    cells
+}
+
 impl<'a> TextCells<'a> {
-    fn new(rows: usize, limits: &'a Limits, budget: &'a Budget) -> Self {
+    fn new(reading: Reading<'a>, rows: usize) -> Self {
         Self {
-            sink: TextSink::new(limits, budget, rows),
+            sink: TextSink::new(reading.limits, reading.budget, rows),
             present: Vec::with_capacity(rows),
         }
     }
 
-    fn from_numbers(
-        numbers: &Cells<i64>,
-        limits: &'a Limits,
-        budget: &'a Budget,
-    ) -> Result<Self, Problem> {
-        let mut texts = Self::new(numbers.len(), limits, budget);
+    fn from_numbers(numbers: &Cells<i64>, reading: Reading<'a>) -> Result<Self, Problem> {
+        let mut texts = Self::new(reading, numbers.len());
         for number in numbers.iter() {
             texts.push(number)?;
         }
@@ -197,18 +239,9 @@ impl<'a> TextCells<'a> {
         })
     }
 
-    fn into_values(self) -> Values {
-        Values::Text {
-            text: self.sink.into_column(),
-            present: self.present,
-        }
-    }
-}
-
-fn value_type(field: &Field) -> &DataType {
-    match field.data_type() {
-        DataType::Dictionary(_, values) => values,
-        plain => plain,
+    fn into_cells(self) -> guideway_layout::TextCells {
+        let text = self.sink.into_column();
+        guideway_layout::TextCells::from_column(&text, &self.present)
     }
 }
 

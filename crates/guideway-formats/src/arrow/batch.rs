@@ -1,4 +1,5 @@
-//! Record batch during assembly: its columns, and its rows that begin drawn and refused paths.
+//! Record batch during assembly: its columns, and its rows that begin drawn and refused paths, or
+//! hold other elements.
 
 use std::ops::Range;
 
@@ -12,13 +13,24 @@ pub(super) struct Batch {
     /// Rows of the table.
     pub(super) rows: Range<usize>,
     pub(super) columns: Vec<ArrayRef>,
-    /// Rows of the batch that begin a drawn path: ascending, disjoint ranges.
+    /// Rows of the batch that begin a drawn path, or hold an element of another kind: ascending,
+    /// disjoint ranges.
     pub(super) drawn: Vec<Range<usize>>,
     /// Rows of the batch that begin a refused path, with the reason.
     pub(super) refused: Vec<(usize, Fault)>,
 }
 
 impl Batch {
+    /// Returns the number of drawn rows.
+    pub(super) fn drawn_rows(&self) -> usize {
+        self.drawn.iter().map(Range::len).sum()
+    }
+
+    /// Returns the number in the table of a row of the batch, as text.
+    pub(super) fn number(&self, row: usize) -> String {
+        (self.rows.start + row).to_string()
+    }
+
     /// Appends the values of the drawn rows.
     pub(super) fn extend<T: ArrowPrimitiveType, V>(
         &self,

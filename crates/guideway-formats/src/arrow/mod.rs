@@ -1,4 +1,5 @@
-//! Apache Arrow IPC files (also called Feather V2) and streams with tables of paths.
+//! Apache Arrow IPC files (also called Feather V2) and streams: tables of paths, or of all elements
+//! of a layout.
 //!
 //! `docs/arrow-format.md` describes the columns. The bytes are not trusted: declared lengths and
 //! positions are compared with the size of the file before anything is decoded, and a budget limits
@@ -6,39 +7,62 @@
 //!
 //! | stage | input | output | file |
 //! |---|---|---|---|
-//! | open | file | schema, ranges of messages | `container`, `schema`, `column_names` |
+//! | open | file | schema, ranges of messages | `container`, `schema`, `column_names`, `column_types` |
 //! | decode | messages | record batches, control polygons | `decode`, `message_body`, `control_polygons`, `fault` |
-//! | assemble | control polygons | geometry, drawn and refused rows | `assemble`, `point_store`, `batch` |
-//! | columns | record batches, drawn rows | identifiers, attributes, style | `path_columns`, `path_ids`, `attribute_columns`, `style_columns`, `text_array`, `text_sink` |
-//! | read | all of these, batch by batch on several threads | layout | `read` |
+//! | sort | record batches | kinds of their rows | `element`, `row_kinds` |
+//! | assemble | control polygons of paths | geometry, drawn and refused rows | `assemble`, `point_store`, `batch`, `numbering` |
+//! | columns | record batches, drawn rows | identifiers, attributes, levels | `id_column`, `attribute_table`, `attribute_columns`, `attribute_names`, `level_column`, `type_lists`, `text_array`, `text_sink`, `list_array` |
+//! | paths | columns of paths | style and network | `path_columns`, `path_ids`, `style_columns`, `network_columns`, `written_curves` |
+//! | elements | rows of other kinds | their tables | `elements` |
+//! | read | all of these, batch by batch on several threads | layout | `read`, `reading` |
 //! | guards | | problems | `budget`, `catch_decode_panic`, `cast`, `problems` |
-//! | write | layout, or rows | file, losses | `write_layout`, `write`, `write_column`, `write_error` |
+//! | write | layout, or rows | file, losses | `write_layout`, `layout_rows`, `layout_columns`, `layout_arrays`, `layout_lists`, `attribute_plan`, `write`, `write_column`, `write_file`, `write_error` |
 
 mod assemble;
 mod attribute_columns;
+mod attribute_names;
+mod attribute_plan;
+mod attribute_table;
 mod batch;
 mod budget;
 mod cast;
 mod catch_decode_panic;
 mod column_names;
+mod column_types;
 mod container;
 mod control_polygons;
 mod decode;
+mod element;
+mod elements;
 mod fault;
+mod id_column;
+mod layout_arrays;
+mod layout_columns;
+mod layout_lists;
+mod layout_rows;
+mod level_column;
+mod list_array;
 mod message_body;
+mod network_columns;
+mod numbering;
 mod path_columns;
 mod path_ids;
 mod point_store;
 mod problems;
 mod read;
+mod reading;
+mod row_kinds;
 mod schema;
 mod style_columns;
 mod text_array;
 mod text_sink;
+mod type_lists;
 mod write;
 mod write_column;
 mod write_error;
+mod write_file;
 mod write_layout;
+mod written_curves;
 
 pub(crate) use self::read::read;
 pub use self::write::ArrowWriter;

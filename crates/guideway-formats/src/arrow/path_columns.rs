@@ -1,40 +1,38 @@
 //! Path columns: collects all columns except the curves, batch by batch, on several threads.
 
-use arrow_schema::Schema;
-use guideway_layout::{Diagnostics, Geometry, Level, Limits, Paths, Refused};
-use rayon::prelude::*;
+use guideway_layout::{Diagnostics, Geometry, Paths, Refused};
 
-use super::attribute_columns::AttributeColumn;
+use super::attribute_table::{AttributeTable, by_name};
 use super::batch::Batch;
-use super::budget::Budget;
+use super::column_names::PATHS_VERSION;
+use super::level_column::{LevelColumn, Levels};
+use super::network_columns::NetworkColumns;
+use super::numbering::Numbering;
 use super::path_ids::PathIds;
-use super::schema::ColumnRoles;
+use super::reading::Reading;
 use super::style_columns::StyleColumns;
 use crate::Problem;
 
-/// Identifiers, attributes and style of the paths under construction.
+/// Identifiers, attributes, style and network of the paths under construction.
 pub(super) struct PathColumns<'a> {
+    version: u32,
     ids: PathIds<'a>,
-    attributes: Vec<AttributeColumn<'a>>,
-    style: StyleColumns<'a>,
+    attributes: AttributeTable<'a>,
+    levels: Option<LevelColumn<'a>>,
+    style: StyleColumns,
+    network: NetworkColumns<'a>,
 }
 
 impl<'a> PathColumns<'a> {
     /// Makes the columns with capacity for an estimated number of rows.
-    pub(super) fn new(
-        schema: &'a Schema,
-        columns: &ColumnRoles,
-        rows: usize,
-        limits: &'a Limits,
-        budget: &'a Budget,
-    ) -> Self {
-        let attributes = columns.attributes.iter();
-        let attribute =
-            |&index| AttributeColumn::new(index, schema.field(index), rows, limits, budget);
+    pub(super) fn new(reading: Reading<'a>, rows: usize) -> Self {
         Self {
-            ids: PathIds::new(columns.id, rows, limits, budget),
-            attributes: attributes.map(attribute).collect(),
-            style: StyleColumns::new(columns, rows, budget),
+            version: reading.columns.version,
+            ids: PathIds::new(reading, rows),
+            attributes: AttributeTable::new(reading, rows),
+            levels: LevelColumn::new(reading, rows),
+            style: StyleColumns::new(reading.columns, rows),
+            network: NetworkColumns::new(reading, rows),
         }
     }
 
@@ -43,37 +41,39 @@ impl<'a> PathColumns<'a> {
     /// # Errors
     /// The problem of the first column that has one, independent of thread timing.
     pub(super) fn add(&mut self, batch: &Batch) -> Result<(), Problem> {
-        let (ids, (attributes, style)) = rayon::join(
-            || self.ids.add(batch),
-            || {
-                rayon::join(
-                    || -> Vec<Result<(), Problem>> {
-                        let columns = self.attributes.par_iter_mut();
-                        columns.map(|column| column.add(batch)).collect()
-                    },
-                    || self.style.add(batch),
-                )
-            },
+        let (ids, attributes) = (&mut self.ids, &mut self.attributes);
+        let (levels, style, network) = (&mut self.levels, &mut self.style, &mut self.network);
+        let mut add_style = || {
+            if let Some(levels) = levels {
+                levels.add(batch)?;
+            }
+            style.add(batch)
+        };
+        let ((ids, attributes), (style, network)) = rayon::join(
+            || rayon::join(|| ids.add(batch), || attributes.add(batch)),
+            || rayon::join(&mut add_style, || network.add(batch)),
         );
-        ids?;
-        attributes.into_iter().collect::<Result<(), Problem>>()?;
-        style
+        ids.and(attributes).and(style).and(network)
     }
 
-    /// Returns the paths with these curves, the refused paths, and the levels.
+    /// Returns the paths with these curves, and the refused paths.
     pub(super) fn finish(
         self,
         geometry: Geometry,
+        levels: &mut Levels,
+        nodes: &Numbering,
         diagnostics: &mut Diagnostics,
-    ) -> (Paths, Refused, Vec<Level>) {
-        let attributes = self.attributes.into_iter();
-        let attributes: Vec<_> = attributes.filter_map(|a| a.finish(diagnostics)).collect();
+    ) -> Result<(Paths, Refused), Problem> {
+        let keeps_empty = self.version == PATHS_VERSION;
+        let attributes = self.attributes.finish(keeps_empty, diagnostics)?;
         let (ids, refused) = self.ids.finish(diagnostics);
         let mut paths = Paths::from_columns(ids, geometry);
-        for attribute in attributes {
-            paths.attributes.insert(attribute);
+        paths.attributes = by_name(attributes, diagnostics);
+        if let Some(column) = self.levels {
+            paths.set_levels(column.finish(levels, "paths", diagnostics));
         }
-        let levels = self.style.finish(&mut paths, diagnostics);
-        (paths, refused, levels)
+        self.style.finish(&mut paths, diagnostics);
+        self.network.finish(&mut paths, nodes, diagnostics);
+        Ok((paths, refused))
     }
 }

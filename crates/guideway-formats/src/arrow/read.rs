@@ -1,5 +1,5 @@
 //! Arrow reader: decodes batches on one thread while others assemble paths and columns of the
-//! previous ones.
+//! previous ones. The rows of other elements go to their tables at once.
 
 use std::slice;
 use std::sync::Arc;
@@ -8,22 +8,27 @@ use arrow_array::cast::AsArray;
 use arrow_array::types::Int64Type;
 use arrow_array::{Array, NullArray, RecordBatch};
 use arrow_schema::{DataType, Schema};
-use guideway_layout::{Code, Diagnostics, Layout, Limits, Place, Provenance};
+use guideway_layout::{Code, Diagnostics, GeoOrigin, Layout, Place, Provenance};
 
 use super::assemble::PathAssembler;
 use super::batch::Batch;
 use super::budget::Budget;
 use super::cast::cast;
+use super::column_names::{ELEMENT, LATITUDE_KEY, LONGITUDE_KEY, PATHS_VERSION};
 use super::container::{self, Message};
 use super::decode::{Decoded, Decoder};
+use super::element::Element;
+use super::elements::ElementTables;
+use super::id_column;
 use super::path_columns::PathColumns;
-use super::path_ids;
-use super::schema::{self, ColumnRoles};
+use super::reading::Reading;
+use super::row_kinds::RowKinds;
+use super::schema::{self, ColumnRoles, Role};
 use crate::input::Input;
 use crate::source::Source;
 use crate::{Format, Problem, ReadError};
 
-/// Reads a table of paths from an Arrow IPC file or stream.
+/// Reads a layout from an Arrow IPC file or stream.
 ///
 /// # Errors
 /// When the input is damaged, has another structure or exceeds a limit, or the caller cancels the
@@ -40,8 +45,14 @@ fn read_table(source: Source<'_>, input: &Input<'_>) -> Result<Layout, Problem> 
     let container = container::open(input)?;
     let schema = &container.schema;
     let version = schema::version(schema, &mut diagnostics)?;
-    let columns = ColumnRoles::find(schema, &mut diagnostics)?;
+    let columns = ColumnRoles::find(schema, version, &mut diagnostics)?;
     let budget = Budget::for_file(input.len());
+    let reading = Reading {
+        schema,
+        columns: &columns,
+        limits,
+        budget: &budget,
+    };
     let mut batches = BatchStream {
         source,
         input,
@@ -51,13 +62,13 @@ fn read_table(source: Source<'_>, input: &Input<'_>) -> Result<Layout, Problem> 
         budget: &budget,
     };
     let mut next = batches.next()?;
-    let mut reader = TableReader::new(next.as_ref(), &batches, schema, &columns, diagnostics)?;
+    let mut reader = TableReader::new(next.as_ref(), &batches, reading, diagnostics);
     while let Some(batch) = next {
         let (added, decoded) = rayon::join(|| reader.add(&batch), || batches.next());
         added?;
         next = decoded?;
     }
-    reader.into_layout(source.name, version)
+    reader.into_layout(source.name)
 }
 
 /// Decoded batches of a file, in order.
@@ -91,14 +102,16 @@ impl BatchStream<'_> {
 /// Layout under construction from the batches of a table.
 struct TableReader<'a> {
     input: &'a Input<'a>,
-    limits: &'a Limits,
-    columns: &'a ColumnRoles,
+    reading: Reading<'a>,
     diagnostics: Diagnostics,
     assembler: PathAssembler,
-    table: PathColumns<'a>,
-    /// Batches with rows whose fate is not final.
+    paths: PathColumns<'a>,
+    elements: ElementTables<'a>,
+    /// Batches with rows of paths whose fate is not final.
     pending: Vec<Batch>,
     batch_count: u64,
+    /// Number of rows of unknown kinds.
+    unknown_rows: u64,
     /// Identifier of the last row of the previous batch, if rows may continue paths.
     last_id: Option<String>,
 }
@@ -108,12 +121,10 @@ impl<'a> TableReader<'a> {
     fn new(
         first: Option<&Decoded>,
         batches: &BatchStream<'a>,
-        schema: &'a Schema,
-        columns: &'a ColumnRoles,
+        reading: Reading<'a>,
         diagnostics: Diagnostics,
-    ) -> Result<Self, Problem> {
-        let limits = &batches.source.options.limits;
-        let mut assembler = PathAssembler::default();
+    ) -> Self {
+        let mut assembler = PathAssembler::new(reading.columns.version);
         let mut rows = 0;
         if let Some(first) = first {
             let file_bytes = batches.decoder.file_bytes();
@@ -128,48 +139,64 @@ impl<'a> TableReader<'a> {
             rows = rows.min(file_bytes / row_bytes);
             assembler.reserve(polygons, points.min(file_bytes / point_bytes), rows);
         }
-        Ok(Self {
+        Self {
             input: batches.input,
-            limits,
-            columns,
+            reading,
             diagnostics,
             assembler,
-            table: PathColumns::new(schema, columns, rows, limits, batches.budget),
+            paths: PathColumns::new(reading, rows),
+            elements: ElementTables::new(reading),
             pending: Vec::new(),
             batch_count: 0,
+            unknown_rows: 0,
             last_id: None,
-        })
+        }
     }
 
     /// Assembles the curves of a batch, which frees their buffers, while the columns take previous
     /// batches.
     fn add(&mut self, Decoded { batch, polygons }: &Decoded) -> Result<(), Problem> {
+        let columns = self.reading.columns;
         let first_row = self.assembler.rows();
-        let continues = match self.columns.part {
+        let kinds = RowKinds::of(batch, columns)?;
+        self.batch_count += 1;
+        self.unknown_rows += kinds.unknown() as u64;
+        let mut arrays = batch.columns().to_vec();
+        arrays[columns.control_points] = Arc::new(NullArray::new(0));
+        let mut rows = Batch {
+            rows: first_row..first_row + batch.num_rows(),
+            columns: arrays,
+            drawn: Vec::new(),
+            refused: Vec::new(),
+        };
+        for kind in Element::ALL {
+            if kind != Element::Path && kinds.has(kind) {
+                rows.drawn = kinds.rows(kind).collect();
+                self.elements.add(kind, &rows)?;
+            }
+        }
+        if !kinds.has(Element::Path) {
+            self.assembler.skip(batch.num_rows());
+            return Ok(());
+        }
+        rows.drawn = Vec::new();
+        let continues = match columns.get(Role::Part) {
             None => None,
             Some(part) => Some(self.continues(batch, part, first_row)?),
         };
         let finished = self.finished_batches();
-        let (assembler, table) = (&mut self.assembler, &mut self.table);
-        let (input, limits) = (self.input, self.limits);
+        let (assembler, paths) = (&mut self.assembler, &mut self.paths);
+        let (input, limits) = (self.input, self.reading.limits);
         let (assembled, added) = rayon::join(
             || match continues {
-                None => assembler.add(polygons, input, limits),
-                Some(continues) => assembler.add_parts(polygons, &continues, input, limits),
+                None => assembler.add(polygons, &kinds, input, limits),
+                Some(continues) => assembler.add_parts(polygons, &kinds, &continues, input, limits),
             },
-            || finished.iter().try_for_each(|batch| table.add(batch)),
+            || finished.iter().try_for_each(|batch| paths.add(batch)),
         );
         added?;
         assembled?;
-        let mut columns = batch.columns().to_vec();
-        columns[self.columns.control_points] = Arc::new(NullArray::new(0));
-        self.pending.push(Batch {
-            rows: first_row..self.assembler.rows(),
-            columns,
-            drawn: Vec::new(),
-            refused: Vec::new(),
-        });
-        self.batch_count += 1;
+        self.pending.push(rows);
         Ok(())
     }
 
@@ -193,7 +220,8 @@ impl<'a> TableReader<'a> {
     ) -> Result<Vec<bool>, Problem> {
         let parts = cast(batch.column(part), &DataType::Int64)?;
         let parts = parts.as_primitive::<Int64Type>();
-        let ids = path_ids::id_texts(self.columns.id, batch.columns())?;
+        let id_index = self.reading.columns.get(Role::Id);
+        let ids = id_column::id_texts(id_index, batch.columns())?;
         let id = |row: usize| ids.as_ref().and_then(|ids| ids.get(row));
         let mut continues = Vec::with_capacity(batch.num_rows());
         for row in 0..batch.num_rows() {
@@ -219,30 +247,62 @@ impl<'a> TableReader<'a> {
         Ok(continues)
     }
 
-    fn into_layout(mut self, name: &str, version: u32) -> Result<Layout, Problem> {
+    fn into_layout(mut self, name: &str) -> Result<Layout, Problem> {
         self.assembler.end_rows();
         for batch in self.finished_batches() {
-            self.table.add(&batch)?;
+            self.paths.add(&batch)?;
         }
         let rows = self.assembler.rows() as u64;
-        let geometry = self.assembler.into_geometry();
-        let (paths, refused, levels) = self.table.finish(geometry, &mut self.diagnostics);
-        Ok(Layout {
-            provenance: Provenance {
-                source: name.to_owned(),
-                format: Format::Arrow.name().to_owned(),
-                format_version: version.to_string(),
-                counts: vec![
-                    ("rows".into(), rows),
-                    ("record batches".into(), self.batch_count),
-                ],
-                text: None,
-            },
-            paths,
-            refused,
-            levels,
-            diagnostics: self.diagnostics,
-            ..Layout::default()
-        })
+        let mut diagnostics = self.diagnostics;
+        if self.unknown_rows > 0 {
+            diagnostics.push(
+                Code::UnknownValue,
+                || Place::element(format!("column {ELEMENT}")),
+                || format!("{} rows are of a kind that is not known", self.unknown_rows),
+                "They are not read; write the name of a kind of element",
+            );
+        }
+        let assembled = self.assembler.into_geometry();
+        let mut layout = self
+            .elements
+            .into_layout(self.paths, assembled, &mut diagnostics)?;
+        let version = self.reading.columns.version;
+        if version > PATHS_VERSION {
+            layout.geo_origin = geo_origin(self.reading.schema, &mut diagnostics);
+        }
+        layout.provenance = Provenance {
+            source: name.to_owned(),
+            format: Format::Arrow.name().to_owned(),
+            format_version: version.to_string(),
+            counts: vec![
+                ("rows".into(), rows),
+                ("record batches".into(), self.batch_count),
+            ],
+            text: None,
+        };
+        layout.diagnostics = diagnostics;
+        Ok(layout)
     }
+}
+
+/// Returns the place on earth of the origin that the metadata of the schema states.
+fn geo_origin(schema: &Schema, diagnostics: &mut Diagnostics) -> Option<GeoOrigin> {
+    let stated = [LONGITUDE_KEY, LATITUDE_KEY].map(|key| schema.metadata().get(key));
+    if stated == [None, None] {
+        return None;
+    }
+    let degrees = stated.map(|text| text?.trim().parse::<f64>().ok().filter(|d| d.is_finite()));
+    let [Some(longitude_deg), Some(latitude_deg)] = degrees else {
+        diagnostics.push(
+            Code::UnknownValue,
+            || Place::element(format!("schema, {LONGITUDE_KEY} and {LATITUDE_KEY}")),
+            || "one of them is no number of degrees".into(),
+            "The layout is read without a place on earth; write both numbers",
+        );
+        return None;
+    };
+    Some(GeoOrigin {
+        longitude_deg,
+        latitude_deg,
+    })
 }

@@ -1,25 +1,17 @@
-//! Style columns: level, stroke width, color and draw rank of the paths.
-
-use std::collections::HashMap;
+//! Style columns: stroke width, color and draw rank of the paths.
 
 use arrow_array::cast::AsArray;
 use arrow_array::types::{Float32Type, Int32Type, UInt32Type};
 use arrow_schema::DataType;
-use guideway_layout::{Code, Diagnostics, Level, Paths, Place};
+use guideway_layout::{Code, Diagnostics, Paths, Place};
 
 use super::batch::Batch;
-use super::budget::Budget;
 use super::cast::{cast, count_lost};
-use super::schema::ColumnRoles;
-use super::text_array::TextArray;
+use super::schema::{ColumnRoles, Role};
 use crate::Problem;
 
-/// Levels and style of the paths under construction.
-pub(super) struct StyleColumns<'a> {
-    budget: &'a Budget,
-    level_rows: HashMap<String, u32>,
-    levels: Vec<Level>,
-    path_levels: Option<Column<u32>>,
+/// Style of the paths under construction.
+pub(super) struct StyleColumns {
     widths: Option<Column<f32>>,
     colors: Option<Column<u32>>,
     ranks: Option<Column<i32>>,
@@ -54,23 +46,18 @@ impl<T> Column<T> {
     }
 }
 
-impl<'a> StyleColumns<'a> {
+impl StyleColumns {
     /// Makes the columns with capacity for an estimated number of rows.
-    pub(super) fn new(columns: &ColumnRoles, rows: usize, budget: &'a Budget) -> Self {
+    pub(super) fn new(columns: &ColumnRoles, rows: usize) -> Self {
         Self {
-            budget,
-            level_rows: HashMap::new(),
-            levels: Vec::new(),
-            path_levels: Column::new(columns.level, rows),
-            widths: Column::new(columns.width, rows),
-            colors: Column::new(columns.color, rows),
-            ranks: Column::new(columns.rank, rows),
+            widths: Column::new(columns.get(Role::Width), rows),
+            colors: Column::new(columns.get(Role::Color), rows),
+            ranks: Column::new(columns.get(Role::Rank), rows),
         }
     }
 
     /// Appends the drawn rows of a batch.
     pub(super) fn add(&mut self, batch: &Batch) -> Result<(), Problem> {
-        self.add_levels(batch)?;
         if let Some(widths) = &mut self.widths {
             let column = cast(&batch.columns[widths.index], &DataType::Float32)?;
             let is_valid = |width: &f32| width.is_finite() && *width >= 0.0;
@@ -108,37 +95,8 @@ impl<'a> StyleColumns<'a> {
         Ok(())
     }
 
-    fn add_levels(&mut self, batch: &Batch) -> Result<(), Problem> {
-        let Some(levels) = &mut self.path_levels else {
-            return Ok(());
-        };
-        let texts = TextArray::new(&batch.columns[levels.index])?;
-        for row in batch.drawn.iter().cloned().flatten() {
-            let Some(id) = texts.get(row) else {
-                levels.values.push(u32::MAX);
-                continue;
-            };
-            if let Some(&level) = self.level_rows.get(id) {
-                levels.values.push(level);
-                continue;
-            }
-            self.budget.charge(2 * id.len() as u64)?;
-            let level = self.levels.len() as u32;
-            self.level_rows.insert(id.to_owned(), level);
-            self.levels.push(Level {
-                id: id.to_owned(),
-                ..Level::default()
-            });
-            levels.values.push(level);
-        }
-        Ok(())
-    }
-
-    /// Sets the columns of the paths; returns the levels.
-    pub(super) fn finish(self, paths: &mut Paths, diagnostics: &mut Diagnostics) -> Vec<Level> {
-        if let Some(levels) = self.path_levels {
-            paths.set_levels(levels.values);
-        }
+    /// Sets the columns of the paths.
+    pub(super) fn finish(self, paths: &mut Paths, diagnostics: &mut Diagnostics) {
         if let Some(widths) = self.widths {
             widths.report_invalid("width_m", "a number of meters from 0", diagnostics);
             paths.set_width_m(widths.values);
@@ -151,6 +109,5 @@ impl<'a> StyleColumns<'a> {
             ranks.report_invalid("rank", "a 32-bit integer", diagnostics);
             paths.set_rank(ranks.values);
         }
-        self.levels
     }
 }

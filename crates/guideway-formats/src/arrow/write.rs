@@ -1,29 +1,17 @@
-//! Arrow table writer: writes runs row by row into record batches of a temporary file, which
-//! replaces the target at the end.
+//! Arrow table writer: writes runs row by row into record batches.
 
 use std::collections::HashMap;
-use std::fs::{self, File};
-use std::io;
-use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::path::Path;
 
-use arrow_array::{ArrayRef, RecordBatch};
-use arrow_ipc::writer::{FileWriter, IpcWriteOptions};
-use arrow_schema::{Schema, SchemaRef};
+use arrow_array::ArrayRef;
+use arrow_schema::Schema;
 use guideway_layout::Value;
 use guideway_spline::{Point, Real};
-use tempfile::NamedTempFile;
 
-use super::column_names::{CONTROL_POINTS, ID, VERSION, VERSION_KEY};
+use super::column_names::{CONTROL_POINTS, ID, PATHS_VERSION, VERSION_KEY};
 use super::write_column::{Cells, Column, IdCells, PolygonCells, Precision};
 use super::write_error::{WriteError, WriteProblem, fail};
-
-/// Rows per record batch.
-const BATCH_ROWS: usize = 16_384;
-/// Control points that end a batch early, so that long curves take no more memory.
-const BATCH_POINTS: usize = 4 << 20;
-/// Bytes of text that end a batch early.
-const BATCH_TEXT_BYTES: usize = 64 << 20;
+use super::write_file::{BATCH_POINTS, BATCH_ROWS, BATCH_TEXT_BYTES, IpcFile};
 
 /// Writes a table of paths row by row, in memory independent of the number of rows.
 ///
@@ -43,9 +31,7 @@ const BATCH_TEXT_BYTES: usize = 64 << 20;
 /// # Ok::<(), guideway_formats::arrow::WriteError>(())
 /// ```
 pub struct ArrowWriter {
-    target: PathBuf,
-    writer: FileWriter<io::BufWriter<NamedTempFile>>,
-    schema: SchemaRef,
+    file: IpcFile,
     ids: IdCells,
     polygons: PolygonCells,
     columns: Vec<Column>,
@@ -71,7 +57,7 @@ impl ArrowWriter {
         columns: Vec<Column>,
     ) -> Result<Self, WriteProblem> {
         let (ids, polygons) = (IdCells::default(), PolygonCells::new(precision));
-        let mut fields = vec![IdCells::field(ID), polygons.field(CONTROL_POINTS)];
+        let mut fields = vec![IdCells::field(ID), polygons.field(CONTROL_POINTS, false)];
         for column in &columns {
             if fields.iter().any(|f| *f.name() == column.name) {
                 return Err(WriteProblem::Value {
@@ -81,15 +67,10 @@ impl ArrowWriter {
             }
             fields.push(column.field());
         }
-        let metadata = HashMap::from([(VERSION_KEY.to_owned(), VERSION.to_string())]);
-        let schema = Arc::new(Schema::new_with_metadata(fields, metadata));
-        // 64 bytes: buffers of a mapped file are then aligned for AVX-512 loads.
-        let options = IpcWriteOptions::try_new(64, false, arrow_ipc::MetadataVersion::V5)?;
-        let file = io::BufWriter::with_capacity(1 << 20, temporary_beside(path)?);
+        let metadata = HashMap::from([(VERSION_KEY.to_owned(), PATHS_VERSION.to_string())]);
+        let schema = Schema::new_with_metadata(fields, metadata);
         Ok(Self {
-            target: path.to_owned(),
-            writer: FileWriter::try_new_with_options(file, &schema, options)?,
-            schema,
+            file: IpcFile::create(path, schema)?,
             ids,
             polygons,
             cells: columns.iter().map(Column::cells).collect(),
@@ -109,7 +90,7 @@ impl ArrowWriter {
         values: &[Option<Value<'_>>],
     ) -> Result<(), WriteError> {
         self.push_inner(id, run, values)
-            .map_err(|p| fail(&self.target, p))
+            .map_err(|p| fail(self.file.target(), p))
     }
 
     fn push_inner<T: Real>(
@@ -161,8 +142,7 @@ impl ArrowWriter {
         for (cells, column) in self.cells.iter_mut().zip(&self.columns) {
             arrays.push(cells.take(column)?);
         }
-        let batch = RecordBatch::try_new(self.schema.clone(), arrays)?;
-        Ok(self.writer.write(&batch)?)
+        self.file.write(arrays)
     }
 
     /// Writes the last batch and replaces the target.
@@ -170,7 +150,7 @@ impl ArrowWriter {
     /// # Errors
     /// When the disk is full, or the target cannot be replaced; the target is then unchanged.
     pub fn finish(self) -> Result<(), WriteError> {
-        let target = self.target.clone();
+        let target = self.file.target().to_owned();
         self.finish_inner().map_err(|p| fail(&target, p))
     }
 
@@ -178,31 +158,6 @@ impl ArrowWriter {
         if self.polygons.rows() > 0 {
             self.write_batch()?;
         }
-        let file = self.writer.into_inner()?;
-        let file = file.into_inner().map_err(io::IntoInnerError::into_error)?;
-        file.persist(&self.target).map_err(|e| e.error)?;
-        Ok(())
+        self.file.finish()
     }
-}
-
-/// Creates a temporary file in the folder of `path`: a rename is atomic only within one file
-/// system.
-fn temporary_beside(path: &Path) -> io::Result<NamedTempFile<File>> {
-    // A rename would replace a device by a file.
-    if fs::metadata(path).is_ok_and(|target| !target.is_file()) {
-        return Err(io::Error::other("the target exists and is not a file"));
-    }
-    let folder = match path.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
-    };
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".guideway-").suffix(".tmp");
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        // The mode of any new file, before the umask.
-        builder.permissions(fs::Permissions::from_mode(0o666));
-    }
-    builder.tempfile_in(folder)
 }

@@ -109,7 +109,7 @@ impl Column {
         let source = attribute.source_type.as_deref();
         let column_type = match &attribute.values {
             Values::Bool(_) => ColumnType::Bool,
-            Values::Text { .. } => ColumnType::Text,
+            Values::Text(_) | Values::Json(_) => ColumnType::Text,
             Values::Float(values) => {
                 let exact = |v: f64| f64::from(v as f32).to_bits() == v.to_bits() || v.is_nan();
                 match source {
@@ -135,7 +135,8 @@ impl Column {
     /// Returns whether a value fits the type of the column.
     pub(super) fn fits(&self, value: Value<'_>) -> bool {
         match (self.column_type, value) {
-            (ColumnType::Bool, Value::Bool(_)) | (ColumnType::Text, Value::Text(_)) => true,
+            (ColumnType::Bool, Value::Bool(_))
+            | (ColumnType::Text, Value::Text(_) | Value::Json(_)) => true,
             (ColumnType::Float32 | ColumnType::Float64, Value::Float(_) | Value::Int(_)) => true,
             (ints, Value::Int(v)) => ints
                 .int_range()
@@ -176,7 +177,7 @@ impl Cells {
             (Self::Int(b), Some(Value::Int(v))) => b.append_value(v),
             (Self::Float(b), Some(Value::Float(v))) => b.append_value(v),
             (Self::Float(b), Some(Value::Int(v))) => b.append_value(v as f64),
-            (Self::Text(b), Some(Value::Text(v))) => b.append_value(v),
+            (Self::Text(b), Some(Value::Text(v) | Value::Json(v))) => b.append_value(v),
             (Self::Bool(b), _) => b.append_null(),
             (Self::Int(b), _) => b.append_null(),
             (Self::Float(b), _) => b.append_null(),
@@ -263,8 +264,8 @@ impl PolygonCells {
         }
     }
 
-    pub(super) fn field(&self, name: &str) -> Field {
-        Field::new(name, DataType::List(self.point_field()), false)
+    pub(super) fn field(&self, name: &str, nullable: bool) -> Field {
+        Field::new(name, DataType::List(self.point_field()), nullable)
     }
 
     fn point_field(&self) -> FieldRef {

@@ -1,11 +1,11 @@
-//! Errors of the Arrow writer.
+//! Errors of the writers.
 
 use std::io;
 use std::path::{Path, PathBuf};
 
 use arrow_schema::ArrowError;
 
-/// Reason why a table cannot be written.
+/// Reason why a file cannot be written.
 #[derive(Debug, thiserror::Error)]
 #[error("{}: {problem}", .path.display())]
 pub struct WriteError {
@@ -15,7 +15,7 @@ pub struct WriteError {
     pub problem: WriteProblem,
 }
 
-/// Problem of a table that cannot be written.
+/// Problem of a file that cannot be written.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum WriteProblem {
@@ -38,6 +38,12 @@ pub enum WriteProblem {
         /// Description of the mismatch.
         detail: String,
     },
+    /// An order holds one route, but the paths form none.
+    #[error("an order holds one route, but {detail}")]
+    NotARoute {
+        /// Description of the place where the paths do not connect.
+        detail: String,
+    },
     /// The Arrow library reported an error.
     #[error("cannot encode the table: {0}")]
     Arrow(#[source] ArrowError),
@@ -53,6 +59,9 @@ impl WriteError {
             WriteProblem::TooFewPoints { .. } => "Give the run four or more control points",
             WriteProblem::Value { .. } => {
                 "Give each row one value per column, of the type of the column"
+            }
+            WriteProblem::NotARoute { .. } => {
+                "Keep the paths of one route only, in the order in which a vehicle drives them"
             }
             WriteProblem::Arrow(_) => "Please report this",
         }

@@ -1,28 +1,39 @@
-//! Arrow layout writer: writes the paths of a layout as a table with the columns that they need.
+//! Arrow layout writer: writes the elements of a layout, kind by kind, in a table with the columns
+//! that they need.
 
+use std::collections::HashMap;
 use std::path::Path;
 
-use guideway_layout::{Attribute, Direction, Layout, PathRef, Value};
+use arrow_schema::Schema;
+use guideway_layout::{Direction, Layout, PathRef, Values};
 use guideway_spline::Point;
 
-use super::column_names::{COLOR, CONTROL_POINTS, ID, LEVEL, PART, RANK, WIDTH};
-use super::write::ArrowWriter;
-use super::write_column::{Column, ColumnType, Precision};
-use super::write_error::WriteError;
+use super::attribute_plan::has_values;
+use super::column_names::{
+    LATITUDE_KEY, LONGITUDE_KEY, NETWORK_VERSION, PATHS_VERSION, VERSION_KEY,
+};
+use super::element::Element;
+use super::layout_columns::{has_unique_level_ids, sources};
+use super::layout_rows::{Row, rows};
+use super::schema::is_reserved;
+use super::write_column::Precision;
+use super::write_error::{WriteError, WriteProblem, fail};
+use super::write_file::{BATCH_POINTS, BATCH_ROWS, BATCH_TEXT_BYTES, IpcFile};
 use crate::Losses;
-use crate::common_losses::common_losses;
 
-/// Largest error of coordinates stored in `f32`, in meters; beyond it `f64` is used.
+/// Largest distance by which `f32` may move a control point, in meters; beyond it `f64` is used.
 const F32_ERROR_M: f64 = 1e-5;
 
 /// Options of [`write_layout`].
 #[derive(Clone, Debug, Default)]
 pub struct WriteOptions {
-    /// Storage type of coordinates; `None` for `f32` if its error is at most 0.01 mm, else `f64`.
+    /// Storage type of control points; `None` for `f32` if its error is at most 0.01 mm, else
+    /// `f64`.
     pub precision: Option<Precision>,
 }
 
-/// Writes a layout as a table of its paths. Returns the losses.
+/// Writes a layout as a table: of version 1 if it has nothing but paths, else of version 2, which
+/// holds all elements. Returns the losses, of which there are none.
 ///
 /// # Errors
 /// When the file cannot be written.
@@ -31,33 +42,72 @@ pub fn write_layout(
     path: &Path,
     options: &WriteOptions,
 ) -> Result<Losses, WriteError> {
-    let sources = sources(layout);
-    let losses = list_losses(layout, &sources);
     let precision = options.precision.unwrap_or_else(|| precision_for(layout));
-    let columns = sources.iter().map(Source::column).collect();
-    let mut writer = ArrowWriter::create(path, precision, columns)?;
-    let mut points: Vec<Point<f64>> = Vec::new();
-    for path in layout.paths.iter() {
-        for (part, run) in path.runs().enumerate() {
-            points.clear();
-            points.extend(run.iter());
-            let texts: Vec<_> = sources
-                .iter()
-                .map(|s| s.value(layout, path, part))
-                .collect();
-            let values: Vec<_> = texts.iter().map(|v| v.as_ref().map(Cell::value)).collect();
-            writer.push_run(path.id(), &points, &values)?;
+    write_table(layout, path, precision).map_err(|problem| fail(path, problem))?;
+    Ok(Losses::default())
+}
+
+fn write_table(layout: &Layout, path: &Path, precision: Precision) -> Result<(), WriteProblem> {
+    let version = version_for(layout);
+    let sources = sources(layout, version, precision);
+    let fields: Vec<_> = sources.iter().map(|s| s.field(version)).collect();
+    let schema = Schema::new_with_metadata(fields, metadata(layout, version));
+    let mut file = IpcFile::create(path, schema)?;
+    let kinds = match version {
+        PATHS_VERSION => &[Element::Path][..],
+        _ => &Element::ALL,
+    };
+    for &kind in kinds {
+        let mut batch: Vec<Row> = Vec::new();
+        let (mut points, mut text_bytes) = (0, 0);
+        let mut all = rows(layout, kind).peekable();
+        while let Some(row) = all.next() {
+            batch.push(row);
+            points += points_of(layout, kind, row);
+            let text = sources.iter().map(|s| s.text_bytes(layout, kind, row));
+            text_bytes += text.sum::<usize>();
+            let is_full = batch.len() >= BATCH_ROWS
+                || points >= BATCH_POINTS
+                || text_bytes >= BATCH_TEXT_BYTES;
+            if is_full || all.peek().is_none() {
+                let arrays = sources.iter().map(|s| s.array(layout, kind, &batch));
+                file.write(arrays.collect::<Result<_, _>>()?)?;
+                batch.clear();
+                (points, text_bytes) = (0, 0);
+            }
         }
     }
-    writer.finish()?;
-    Ok(losses)
+    file.finish()
+}
+
+/// Returns the number of points, or of other items of lists, of a row.
+fn points_of(layout: &Layout, kind: Element, row: Row) -> usize {
+    match kind {
+        Element::Path => {
+            let path = layout.paths.get(row.index);
+            let written = layout.paths.written_curve(row.index);
+            let written = written.filter(|_| row.part == 0);
+            let run = path.runs().nth(row.part).map_or(0, |run| run.len());
+            run + written.map_or(0, |curve| curve.points_m.len() + curve.knots.len())
+        }
+        Element::Station => layout.stations.nodes(row.index as u32).len(),
+        Element::Block => layout.blocks[row.index].members.len(),
+        Element::Zone => layout.zones[row.index].outline_m.len(),
+        _ => 0,
+    }
+}
+
+fn metadata(layout: &Layout, version: u32) -> HashMap<String, String> {
+    let mut metadata = HashMap::from([(VERSION_KEY.to_owned(), version.to_string())]);
+    if let Some(origin) = layout.geo_origin {
+        metadata.insert(LONGITUDE_KEY.to_owned(), origin.longitude_deg.to_string());
+        metadata.insert(LATITUDE_KEY.to_owned(), origin.latitude_deg.to_string());
+    }
+    metadata
 }
 
 fn precision_for(layout: &Layout) -> Precision {
-    let exact = |p: Point<f64>| {
-        let error = p - p.to_f32().to_f64();
-        error.x.abs().max(error.y.abs()) <= F32_ERROR_M
-    };
+    let exact = |p: Point<f64>| p.distance(p.to_f32().to_f64()) <= F32_ERROR_M;
     let mut runs = layout.paths.iter().flat_map(PathRef::runs);
     if runs.all(|run| run.iter().all(exact)) {
         Precision::F32
@@ -66,162 +116,56 @@ fn precision_for(layout: &Layout) -> Precision {
     }
 }
 
-/// Source of the values of a column.
-enum Source<'a> {
-    Part,
-    Level,
-    Width(&'a [f32]),
-    Color(&'a [u32]),
-    Rank(&'a [i32]),
-    StartNode,
-    EndNode,
-    Direction,
-    VehicleTypes,
-    Attribute(&'a Attribute),
-}
-
-/// A value, or a text composed for one.
-enum Cell<'a> {
-    Plain(Value<'a>),
-    Text(String),
-}
-
-impl Cell<'_> {
-    fn value(&self) -> Value<'_> {
-        match self {
-            Self::Plain(value) => *value,
-            Self::Text(text) => Value::Text(text),
-        }
-    }
-}
-
-/// Returns the sources of the columns that are not empty.
-fn sources(layout: &Layout) -> Vec<Source<'_>> {
+/// Returns the oldest version that holds the whole layout.
+fn version_for(layout: &Layout) -> u32 {
+    let has_elements = !layout.nodes.is_empty()
+        || !layout.stations.is_empty()
+        || !layout.vehicle_types.is_empty()
+        || !layout.blocks.is_empty()
+        || !layout.zones.is_empty()
+        || !layout.refused.is_empty()
+        || layout.attributes.iter().any(has_values)
+        || layout.geo_origin.is_some();
     let paths = &layout.paths;
-    let any = |test: &dyn Fn(PathRef<'_>) -> bool| paths.iter().any(test);
-    let mut sources = Vec::new();
-    let mut add = |needed: bool, source| {
-        if needed {
-            sources.push(source);
-        }
+    let types = paths.vehicle_types();
+    let is_plain = |path: PathRef<'_>| {
+        path.runs().len() > 0
+            && path.start_node().is_none()
+            && path.end_node().is_none()
+            && path.direction() == Direction::Forward
+            && types.of(path.row()).len() == 0
     };
-    add(any(&|p| p.runs().len() > 1), Source::Part);
-    add(any(&|p| p.level().is_some()), Source::Level);
-    let styles = [
-        paths.width_m().map(Source::Width),
-        paths.color_rgba().map(Source::Color),
-        paths.rank().map(Source::Rank),
-    ];
-    for style in styles.into_iter().flatten() {
-        add(true, style);
-    }
-    add(any(&|p| p.start_node().is_some()), Source::StartNode);
-    add(any(&|p| p.end_node().is_some()), Source::EndNode);
-    add(
-        any(&|p| p.direction() != Direction::Forward),
-        Source::Direction,
-    );
-    add(
-        any(&|p| paths.vehicle_types().of(p.row()).len() > 0),
-        Source::VehicleTypes,
-    );
-    for attribute in paths.attributes.iter() {
-        let reserved = [ID, CONTROL_POINTS, PART, LEVEL, WIDTH, COLOR, RANK];
-        let name = attribute.name.as_str();
-        if !reserved.contains(&name) && sources.iter().all(|s| s.name() != name) {
-            sources.push(Source::Attribute(attribute));
-        }
-    }
-    sources
-}
-
-impl<'a> Source<'a> {
-    fn name(&self) -> &'a str {
-        match self {
-            Self::Part => PART,
-            Self::Level => LEVEL,
-            Self::Width(_) => WIDTH,
-            Self::Color(_) => COLOR,
-            Self::Rank(_) => RANK,
-            Self::StartNode => "start_node",
-            Self::EndNode => "end_node",
-            Self::Direction => "direction",
-            Self::VehicleTypes => "vehicle_types",
-            Self::Attribute(attribute) => &attribute.name,
-        }
-    }
-
-    fn column(&self) -> Column {
-        let column_type = match self {
-            Self::Part | Self::Color(_) => ColumnType::UInt32,
-            Self::Rank(_) => ColumnType::Int32,
-            Self::Width(_) => ColumnType::Float32,
-            Self::Attribute(attribute) => return Column::from_attribute(attribute),
-            _ => ColumnType::Text,
-        };
-        Column::new(self.name(), column_type)
-    }
-
-    /// Returns the value of a path; rows that continue a path have only their part.
-    fn value(&self, layout: &'a Layout, path: PathRef<'a>, part: usize) -> Option<Cell<'a>> {
-        if let Self::Part = self {
-            return Some(Cell::Plain(Value::Int(part as i64)));
-        }
-        if part > 0 {
-            return None;
-        }
-        let row = path.row();
-        let node = |node: Option<u32>| Some(Cell::Plain(Value::Text(layout.nodes.id(node?))));
-        match self {
-            Self::Part => None,
-            Self::Level => {
-                let level = layout.levels.get(path.level()? as usize)?;
-                Some(Cell::Plain(Value::Text(&level.id)))
-            }
-            Self::Width(column) => {
-                let width = column[row];
-                (!width.is_nan()).then(|| Cell::Plain(Value::Float(width.into())))
-            }
-            Self::Color(column) => {
-                (column[row] != 0).then(|| Cell::Plain(Value::Int(column[row].into())))
-            }
-            Self::Rank(column) => Some(Cell::Plain(Value::Int(column[row].into()))),
-            Self::StartNode => node(path.start_node()),
-            Self::EndNode => node(path.end_node()),
-            Self::Direction => Some(Cell::Plain(Value::Text(match path.direction() {
-                Direction::Forward => "forward",
-                Direction::Both => "both",
-            }))),
-            Self::VehicleTypes => {
-                let types: Vec<&str> = layout.paths.vehicle_types().of(row).collect();
-                (!types.is_empty()).then(|| Cell::Text(types.join(", ")))
-            }
-            Self::Attribute(attribute) => attribute.values.get(row).map(Cell::Plain),
-        }
+    let mut columns = paths.attributes.iter();
+    let has_typed = columns.any(|column| {
+        is_reserved(&column.name, PATHS_VERSION)
+            || column.quantity.is_some()
+            || matches!(column.values, Values::Json(_))
+    });
+    let is_paths_only = !has_elements
+        && !has_typed
+        && paths.written_curves().is_empty()
+        && paths.iter().all(is_plain)
+        && has_levels_of_paths(layout);
+    if is_paths_only {
+        PATHS_VERSION
+    } else {
+        NETWORK_VERSION
     }
 }
 
-/// Lists the parts of a layout that a table of paths does not hold.
-fn list_losses(layout: &Layout, sources: &[Source<'_>]) -> Losses {
-    let mut losses = common_losses(layout);
-    let detail = "nodes: only identifiers of start and end nodes are written";
-    losses.add("nodes", layout.nodes.len(), detail);
-    losses.add_stations(layout);
-    let described = layout.levels.iter();
-    let described = described.filter(|l| l.name.is_some() || l.elevation_m.is_some());
-    let detail = "names or elevations of levels: only identifiers are written";
-    losses.add("levels", described.count(), detail);
-    // An attribute with the name of a column with a meaning is not a source.
-    let is_held = |name: &str| {
-        let is_source = |s: &Source<'_>| matches!(s, Source::Attribute(a) if a.name == name);
-        sources.iter().any(is_source)
+/// Returns whether the levels are those that the identifiers of the paths' levels give.
+fn has_levels_of_paths(layout: &Layout) -> bool {
+    let mut seen = 0;
+    for level in layout.paths.iter().filter_map(PathRef::level) {
+        if level > seen {
+            return false;
+        }
+        seen = seen.max(level + 1);
+    }
+    let is_plain = |level: &guideway_layout::Level| {
+        level.name.is_none() && level.elevation_m.is_none() && level.attributes.is_empty()
     };
-    losses.add_columns(&layout.paths.attributes, "paths", is_held);
-    let findings: u64 = layout.diagnostics.counts().map(|(_, n)| n).sum();
-    losses.add(
-        "diagnostics",
-        findings as usize,
-        "diagnostics of the reader",
-    );
-    losses
+    seen as usize == layout.levels.len()
+        && has_unique_level_ids(layout)
+        && layout.levels.iter().all(is_plain)
 }

@@ -1,6 +1,6 @@
 //! Maps entities to paths: expands INSERTs recursively and resolves inherited layers and colors.
 
-use guideway_layout::{Code, NewPath, Place, Value};
+use guideway_layout::{Code, NewPath, Place, Value, WrittenCurve};
 use guideway_spline::Runs;
 
 use super::affine3::{Affine3, Vector3};
@@ -11,6 +11,7 @@ use super::style::{Color, path_color};
 use super::text::decode_text;
 use crate::ReadError;
 use crate::builder::{Builder, POINTS_PER_BYTE, PlaceFn, Table};
+use crate::clamped::is_rewritten_as;
 
 /// Entities that INSERTs may expand to in any file. Without this bound, nested INSERTs in a file of
 /// a kilobyte expand to more entities than a machine can hold.
@@ -105,8 +106,10 @@ impl<'a> EntityMapper<'a> {
         if let Shape::Broken(code, detail) = &entity.shape {
             return self.refuse(entity, context, *code, detail, at);
         }
-        let mut runs = Runs::default();
-        if let Err(limit) = self.append_shape(&entity.shape, &context.transform, at, &mut runs)? {
+        let (mut runs, mut written) = (Runs::default(), None);
+        let transform = &context.transform;
+        let appended = self.append_shape(&entity.shape, transform, at, &mut runs, &mut written)?;
+        if let Err(limit) = appended {
             let (code, detail) = match limit {
                 ExceededLimit::Coordinate => (
                     Code::OutOfRange,
@@ -128,6 +131,12 @@ impl<'a> EntityMapper<'a> {
             runs: &runs,
             ..NewPath::default()
         })?;
+        if let Some(written) = written {
+            let paths = &mut self.builder.layout.paths;
+            if !is_rewritten_as(paths.get(row), None, &written) {
+                paths.set_written_curve(row, written);
+            }
+        }
         self.colors.push(path_color(color));
         let layer = Value::Text(&layer.name);
         self.builder.set(Table::Paths, row, "layer", layer)?;
@@ -135,13 +144,15 @@ impl<'a> EntityMapper<'a> {
         self.builder.set(Table::Paths, row, "entity", kind)
     }
 
-    /// Appends a shape to empty `runs`. The inner error means that only this shape is left out.
+    /// Appends a shape to empty `runs`, and sets the NURBS curve of a spline. The inner error means
+    /// that only this shape is left out.
     fn append_shape(
         &mut self,
         shape: &Shape,
         transform: &Affine3,
         at: PlaceFn<'_>,
         runs: &mut Runs,
+        written: &mut Option<WrittenCurve>,
     ) -> Result<Result<(), ExceededLimit>, ReadError> {
         let limits = &self.builder.source.options.limits;
         let limits = ShapeLimits {
@@ -164,7 +175,7 @@ impl<'a> EntityMapper<'a> {
                 append_polyline(polyline, transform, &limits, runs)
             }
             Shape::Spline(spline) => {
-                append_spline(&mut self.builder, spline, transform, at, runs)?;
+                *written = append_spline(&mut self.builder, spline, transform, at, runs)?;
                 Ok(())
             }
             Shape::Insert(_) | Shape::Broken(..) => Ok(()),
@@ -247,8 +258,8 @@ impl<'a> EntityMapper<'a> {
             Code::NotDrawn => "Nothing to do if it is meant to be hidden",
             _ => "It is left out; correct it in the tool that wrote the file",
         };
-        self.builder.report(code, at, || detail.to_owned(), remedy);
-        self.builder.refuse(&path_id(entity, context), code, detail)
+        let id = path_id(entity, context);
+        self.builder.refuse_at(&id, code, detail, at, remedy)
     }
 }
 

@@ -1,7 +1,7 @@
 //! Converts shapes to runs: applies a 3D transform, projects to x and y, and outputs control points
 //! in meters.
 
-use guideway_layout::Code;
+use guideway_layout::{Code, WrittenCurve};
 use guideway_spline::{Affine as Affine2, MAX_DEGREE, Runs};
 
 use super::affine3::{Affine3, Vector3};
@@ -121,7 +121,7 @@ fn bulge_arc(from: &Vertex, to: &Vertex) -> Option<Arc> {
 }
 
 /// Appends a transformed spline: as a NURBS curve if it has control points, else through its fit
-/// points. Reports findings for a degree or weights that are invalid.
+/// points. Reports findings for a degree or weights that are invalid. Returns the NURBS curve.
 ///
 /// # Errors
 /// When the spline has more points or knots than the limit.
@@ -131,7 +131,7 @@ pub(super) fn append_spline(
     transform: &Affine3,
     at: PlaceFn<'_>,
     runs: &mut Runs,
-) -> Result<(), ReadError> {
+) -> Result<Option<WrittenCurve>, ReadError> {
     let count = shape
         .points
         .len()
@@ -153,7 +153,7 @@ pub(super) fn append_spline(
         builder.report(Code::ApproximateShape, at, message, remedy);
         let tangents = shape.tangents.map(|t| Some(transform.direction(t?).xy()));
         append_fit_spline(&project(&shape.fit_points), tangents, shape.is_closed, runs);
-        return Ok(());
+        return Ok(None);
     }
     let max = MAX_DEGREE.min(builder.source.options.limits.degree);
     let points = project(&shape.points);
@@ -165,7 +165,7 @@ pub(super) fn append_spline(
         let remedy = "The control polygon is drawn; correct the degree";
         builder.report(Code::BadDegree, at, message, remedy);
         guideway_spline::polyline_to_runs(&points, runs);
-        return Ok(());
+        return Ok(None);
     };
     let spline = spline::Spline {
         degree,
@@ -173,8 +173,8 @@ pub(super) fn append_spline(
         weights: valid_weights(builder, shape, at),
         points,
     };
-    builder.append_spline(&spline, at, runs);
-    Ok(())
+    let is_drawn = builder.append_spline(&spline, at, runs);
+    Ok(is_drawn.then(|| spline.into_written()))
 }
 
 /// The weights; empty (1 for each point) if absent or invalid, the latter with a finding.

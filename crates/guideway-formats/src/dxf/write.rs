@@ -4,7 +4,8 @@ use std::borrow::Cow;
 use std::collections::HashMap;
 use std::io::{self, Write};
 
-use guideway_layout::{Layout, PathRef, Value};
+use guideway_layout::{Direction, Layout, PathRef, Value, WrittenCurve};
+use guideway_spline::knots;
 
 use super::pair_writer::PairWriter;
 use super::write_sections::{write_after_entities, write_before_entities};
@@ -16,10 +17,14 @@ use crate::common_losses::common_losses;
 /// Name of the attribute column that holds layer names.
 const LAYER_COLUMN: &str = "layer";
 
+/// Name of the attribute column that holds kinds of entities.
+const ENTITY_COLUMN: &str = "entity";
+
 /// Writes a layout, and returns what DXF cannot hold of it.
 ///
 /// A straight path becomes a LINE, a path of several straight lines an LWPOLYLINE, and any other
-/// path a SPLINE of degree 3 with clamped knots, which is the same curve. The layer is the value of
+/// path a SPLINE: the NURBS of its file, else one of degree 3 with clamped knots, which is the same
+/// curve. The layer is the value of
 /// the column `layer`, or else the level. Coordinates are rounded to a micrometer.
 ///
 /// # Errors
@@ -30,27 +35,47 @@ pub fn write_layout(layout: &Layout, out: &mut impl Write) -> io::Result<Losses>
     let max_entities = layout.paths.geometry().run_count() as u64;
     let mut pairs = PairWriter::new(out);
     write_before_entities(&mut pairs, &layers.names, max_entities)?;
-    let mut broken = 0;
+    let (mut broken, mut without_knots) = (0, 0);
+    let mut kinds = vec![None; layout.paths.len()];
     for path in layout.paths.iter() {
+        let layer = &layers.names[layers.rows[path.row()] as usize];
+        if let Some(written) = layout.paths.written_curve(path.row()) {
+            without_knots += usize::from(written.knots.is_empty());
+            kinds[path.row()] = Some("SPLINE");
+            pairs.entity("SPLINE", layer)?;
+            write_color(&mut pairs, true_color(layout, path))?;
+            write_spline(&mut pairs, written)?;
+            write_path_id(&mut pairs, path.id())?;
+            continue;
+        }
         let parts = ClampedCurve::connected_parts(path);
         broken += usize::from(parts.len() > 1);
+        kinds[path.row()] = parts.first().map(entity_kind);
         for (i, part) in parts.iter().enumerate() {
             let id = match i {
                 0 => Cow::Borrowed(path.id()),
                 _ => Cow::Owned(format!("{}~{}", path.id(), i + 1)),
             };
-            let layer = &layers.names[layers.rows[path.row()] as usize];
             write_entity(&mut pairs, part, layer, true_color(layout, path))?;
             write_path_id(&mut pairs, &id)?;
         }
     }
     write_after_entities(&mut pairs)?;
-    losses.add(
-        "broken paths",
-        broken,
-        "paths with gaps: each part is a separate entity",
-    );
+    let detail = "paths with gaps: each part is a separate entity";
+    losses.add("curves", broken, detail);
+    let detail = "curves without knots: written with uniform ones";
+    losses.add("curves", without_knots, detail);
+    losses.add_replaced(layout, ENTITY_COLUMN, |row| kinds[row]);
     Ok(losses)
+}
+
+/// The entity that holds a curve.
+fn entity_kind(curve: &ClampedCurve) -> &'static str {
+    match (curve.as_line(), curve.degree) {
+        (Some(_), _) => "LINE",
+        (None, 1) => "LWPOLYLINE",
+        _ => "SPLINE",
+    }
 }
 
 fn write_entity<W: Write>(
@@ -59,42 +84,56 @@ fn write_entity<W: Write>(
     layer: &str,
     rgb: Option<u32>,
 ) -> io::Result<()> {
-    let line = curve.as_line();
-    let (kind, class) = match (line, curve.degree) {
-        (Some(_), _) => ("LINE", "AcDbLine"),
-        (None, 1) => ("LWPOLYLINE", "AcDbPolyline"),
-        _ => ("SPLINE", "AcDbSpline"),
-    };
+    let kind = entity_kind(curve);
     pairs.entity(kind, layer)?;
-    if let Some(rgb) = rgb {
-        pairs.int(420, rgb.into())?;
-    }
-    pairs.text(100, class)?;
+    write_color(pairs, rgb)?;
     let points = curve.points.iter().map(|p| [p.x, p.y].map(rounded));
-    if let Some([start, end]) = line {
+    if let Some([start, end]) = curve.as_line() {
+        pairs.text(100, "AcDbLine")?;
         pairs.point(10, [start.x, start.y].map(rounded), true)?;
         pairs.point(11, [end.x, end.y].map(rounded), true)
     } else if curve.degree == 1 {
+        pairs.text(100, "AcDbPolyline")?;
         pairs.int(90, curve.points.len() as u64)?;
         pairs.int(70, 0)?;
         points
             .into_iter()
             .try_for_each(|p| pairs.point(10, p, false))
     } else {
-        // Flags: 8 is planar.
-        pairs.int(70, 8)?;
-        pairs.int(71, curve.degree as u64)?;
-        pairs.int(72, curve.knots.len() as u64)?;
-        pairs.int(73, curve.points.len() as u64)?;
-        pairs.int(74, 0)?;
-        curve
-            .knots
-            .iter()
-            .try_for_each(|&knot| pairs.real(40, knot))?;
-        points
-            .into_iter()
-            .try_for_each(|p| pairs.point(10, p, true))
+        write_spline(pairs, &curve.clone().into_written())
     }
+}
+
+fn write_color<W: Write>(pairs: &mut PairWriter<'_, W>, rgb: Option<u32>) -> io::Result<()> {
+    match rgb {
+        Some(rgb) => pairs.int(420, rgb.into()),
+        None => Ok(()),
+    }
+}
+
+/// Writes a NURBS with its own numbers.
+fn write_spline<W: Write>(pairs: &mut PairWriter<'_, W>, curve: &WrittenCurve) -> io::Result<()> {
+    /// Flags of a planar curve, and of one with weights.
+    const PLANAR: u64 = 8;
+    const RATIONAL: u64 = 4;
+    let degree = curve.degree as usize;
+    let knots = match curve.knots.is_empty() {
+        true => Cow::Owned(knots::uniform_clamped(degree, curve.points_m.len())),
+        false => Cow::Borrowed(&curve.knots[..]),
+    };
+    let weights = curve.weights.as_deref().unwrap_or_default();
+    let rational = if weights.is_empty() { 0 } else { RATIONAL };
+    pairs.text(100, "AcDbSpline")?;
+    pairs.int(70, PLANAR + rational)?;
+    pairs.int(71, curve.degree.into())?;
+    pairs.int(72, knots.len() as u64)?;
+    pairs.int(73, curve.points_m.len() as u64)?;
+    pairs.int(74, 0)?;
+    knots.iter().try_for_each(|&knot| pairs.real(40, knot))?;
+    let mut weights = weights.iter();
+    weights.try_for_each(|&weight| pairs.real(41, weight))?;
+    let mut points = curve.points_m.iter();
+    points.try_for_each(|p| pairs.point(10, [p.x, p.y], true))
 }
 
 /// The color of a path as 0xRRGGBB; `None` if the path has no color.
@@ -117,9 +156,9 @@ fn losses(layout: &Layout) -> Losses {
     let detail = "white paths: CAD programs draw them in black on paper";
     losses.add("colors", white, detail);
     losses.add_ranks(layout);
-    losses.add_network(layout);
+    losses.add_network_and_groups(layout, Direction::Forward);
     losses.add_columns(&layout.paths.attributes, "paths", |name| {
-        name == LAYER_COLUMN
+        [LAYER_COLUMN, ENTITY_COLUMN].contains(&name)
     });
     losses
 }
@@ -156,16 +195,15 @@ impl LayerTable {
                 layers.names.push(valid.clone());
                 layers.names.len() as u32 - 1
             });
-            changed += usize::from(layers.names[row as usize] != name);
+            let is_same = match own {
+                Some(own) => own == Value::Text(&layers.names[row as usize]),
+                None => true,
+            };
+            changed += usize::from(!is_same);
             layers.rows.push(row);
         }
         let detail = "paths on layers whose names are invalid in DXF: the names are changed";
-        losses.add("layers", changed, detail);
-        let detail = match column {
-            Some(_) => "levels",
-            None => "levels: written as layers",
-        };
-        losses.add("levels", layout.levels.len(), detail);
+        losses.add(format!("column {LAYER_COLUMN}"), changed, detail);
         layers
     }
 }

@@ -1,14 +1,14 @@
-//! GeoJSON geometries: maps a geometry to nodes or to a path.
+//! GeoJSON geometries: finds the kind of a geometry and checks its positions.
 
-use guideway_layout::{Code, NewPath};
-use guideway_spline::{Point, Runs, polyline_to_runs};
+use guideway_layout::Code;
 
 use super::coordinates::Coordinates;
+use super::extension::Extension;
+use super::feature_source::Source;
 use super::mapper::Mapper;
 use super::model::Geometry;
-use super::properties::{Properties, Property};
 use crate::ReadError;
-use crate::builder::{PlaceFn, Table};
+use crate::builder::PlaceFn;
 use crate::json::{field_place, items};
 
 /// Type name, kind, and nesting depth of the positions of each geometry.
@@ -35,13 +35,13 @@ impl Mapper<'_> {
     /// Maps a geometry, with nested ones, to nodes, paths or refused paths.
     pub(super) fn map_geometry(
         &mut self,
-        id: &str,
+        source: &Source<'_, '_>,
         geometry: Option<&Geometry<'_>>,
-        properties: &Properties<'_>,
         at: PlaceFn<'_>,
     ) -> Result<(), ReadError> {
+        let id = &source.id;
         let Some(geometry) = geometry else {
-            return self.map_without_geometry(id, properties, at);
+            return self.map_without_geometry(source, true, at);
         };
         self.builder.check_repeated(geometry.repeated, at);
         let Some((name, kind, depth)) = self.kind(geometry, &|| field_place(at, "type"))? else {
@@ -55,7 +55,13 @@ impl Mapper<'_> {
             for (i, inner) in items(&geometry.geometries) {
                 let at_inner: PlaceFn<'_> = &|| field_place(at, &format!("geometries[{i}]"));
                 let inner = self.builder.record(inner, at_inner);
-                self.map_geometry(&format!("{id} [{}]", i + 1), inner, properties, at_inner)?;
+                let part = Source {
+                    id: format!("{id} [{}]", i + 1),
+                    columns: source.columns.clone(),
+                    properties: source.properties,
+                    extension: Extension::default(),
+                };
+                self.map_geometry(&part, inner, at_inner)?;
             }
             return Ok(());
         }
@@ -74,8 +80,8 @@ impl Mapper<'_> {
             }
         }
         match kind {
-            Kind::Points => self.map_points(id, coordinates, properties, at_list),
-            _ => self.map_path(id, coordinates, properties, at_list),
+            Kind::Points => self.map_points(source, coordinates, at_list),
+            _ => self.map_path(source, coordinates, at_list),
         }
     }
 
@@ -99,20 +105,27 @@ impl Mapper<'_> {
         Ok(known)
     }
 
-    /// Maps an edge of a route graph to the straight line between its nodes, and refuses other
-    /// features.
-    fn map_without_geometry(
+    /// Maps an edge of a route graph to the straight line between its nodes. Reports other
+    /// features: one without a place is legal, one with something else for a geometry is refused.
+    pub(super) fn map_without_geometry(
         &mut self,
-        id: &str,
-        properties: &Properties<'_>,
+        source: &Source<'_, '_>,
+        is_wrong: bool,
         at: PlaceFn<'_>,
     ) -> Result<(), ReadError> {
-        if self.is_graph && properties.get("startid").is_some() {
-            return self.map_path(id, None, properties, at);
+        if self.is_graph && source.properties.get("startid").is_some() {
+            return self.map_path(source, None, at);
         }
-        self.builder.report_missing(at, "a geometry");
-        let detail = "the geometry is missing";
-        self.builder.refuse(id, Code::MissingField, detail)
+        if is_wrong {
+            let remedy = "Add a geometry, or remove the feature";
+            let (code, detail) = (Code::MissingField, "a geometry is missing");
+            let builder = &mut self.builder;
+            return builder.refuse_at(&source.id, code, detail, at, remedy);
+        }
+        let message = || format!("`{}` has no geometry, so it has no place", source.id);
+        let remedy = "It is left out; add a geometry if it has a place";
+        self.builder.report(Code::NotDrawn, at, message, remedy);
+        Ok(())
     }
 
     fn count(&mut self, kind: &str) {
@@ -122,7 +135,7 @@ impl Mapper<'_> {
         }
     }
 
-    fn check(
+    pub(super) fn check(
         &mut self,
         found: &Coordinates,
         depth: usize,
@@ -144,100 +157,5 @@ impl Mapper<'_> {
             self.builder.report(Code::WrongType, at, message, remedy);
         }
         Ok(())
-    }
-
-    fn map_points(
-        &mut self,
-        id: &str,
-        coordinates: Option<&Coordinates>,
-        properties: &Properties<'_>,
-        at: PlaceFn<'_>,
-    ) -> Result<(), ReadError> {
-        let points = coordinates.map_or(&[][..], |c| &c.points);
-        for (i, &point) in points.iter().enumerate() {
-            let position = self.unit.to_meters(point);
-            if !self.builder.check_point(position, at) {
-                continue;
-            }
-            let row = match points.len() {
-                1 => self.builder.push_node(id, position, None)?,
-                _ => self
-                    .builder
-                    .push_node(&format!("{id} [{}]", i + 1), position, None)?,
-            };
-            if self.is_graph {
-                self.nodes.insert(&self.builder.layout.nodes, row);
-            }
-            self.set_properties(Table::Nodes, row as usize, properties, at)?;
-        }
-        if points.is_empty() {
-            let message = || format!("`{id}` has no position");
-            let remedy = "The feature is ignored; add a position";
-            self.builder.report(Code::MissingField, at, message, remedy);
-        }
-        Ok(())
-    }
-
-    fn map_path(
-        &mut self,
-        id: &str,
-        coordinates: Option<&Coordinates>,
-        properties: &Properties<'_>,
-        at: PlaceFn<'_>,
-    ) -> Result<(), ReadError> {
-        let start = self.node("startid", properties, at)?;
-        let end = self.node("endid", properties, at)?;
-        let mut runs = Runs::default();
-        for line in coordinates.into_iter().flat_map(Coordinates::lines) {
-            let meters: Vec<Point<f64>> = line.iter().map(|&p| self.unit.to_meters(p)).collect();
-            let mut drawn = meters;
-            drawn.retain(|&point| self.builder.check_point(point, at));
-            if drawn.len() < 2 {
-                let message = || format!("{} positions; a line needs 2", drawn.len());
-                let remedy = "The line is not drawn; add positions";
-                self.builder.report(Code::TooFewPoints, at, message, remedy);
-            }
-            polyline_to_runs(&drawn, &mut runs);
-        }
-        if runs.is_empty() {
-            let (Some(from), Some(to)) = (start, end) else {
-                let detail = "there is no line of two positions, and no start and end node";
-                return self.builder.refuse(id, Code::TooFewPoints, detail);
-            };
-            let nodes = &self.builder.layout.nodes;
-            runs.push_line(nodes.position_m(from), nodes.position_m(to));
-        }
-        let row = self.builder.push_path(&NewPath {
-            id,
-            runs: &runs,
-            start_node: start,
-            end_node: end,
-            ..NewPath::default()
-        })?;
-        self.set_properties(Table::Paths, row, properties, at)
-    }
-
-    /// Returns the node of a route graph that a property refers to.
-    fn node(
-        &mut self,
-        key: &str,
-        properties: &Properties<'_>,
-        at: PlaceFn<'_>,
-    ) -> Result<Option<u32>, ReadError> {
-        if !self.is_graph {
-            return Ok(None);
-        }
-        let Some(value) = properties.get(key).and_then(Property::value) else {
-            self.builder
-                .report_missing(at, &format!("the property `{key}`"));
-            return Ok(None);
-        };
-        let name = value.to_string();
-        self.builder.check_text(&name)?;
-        let row = self.nodes.get(&self.builder.layout.nodes, &name);
-        if row.is_none() {
-            self.builder.report_unknown_node(&name, key, at);
-        }
-        Ok(row)
     }
 }

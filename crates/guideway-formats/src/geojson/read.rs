@@ -35,7 +35,7 @@ pub(crate) fn read(source: Source<'_>, bytes: &[u8]) -> Result<Layout, ReadError
         let expected = "`features`, `geometry` or `coordinates` of GeoJSON";
         return Err(fail("the root", expected, "an object without them".into()));
     }
-    let mut layout = Mapper::new(source, bytes.len()).map(root)?;
+    let mut layout = Mapper::new(source, bytes.len()).map(root, bytes.len())?;
     json::add_line_numbers(&mut layout, text);
     Ok(layout)
 }

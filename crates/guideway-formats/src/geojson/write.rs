@@ -1,15 +1,19 @@
-//! GeoJSON writer: writes nodes as points and paths as lines, with columns as properties.
+//! GeoJSON writer: writes a layout as features with properties, and the rest of it as a member of
+//! the collection.
 
-use std::collections::HashSet;
 use std::io::{self, Write};
 
-use guideway_layout::{Layout, PathRef, RunPoints};
-use guideway_spline::{Point, flatten_run};
+use guideway_layout::{Direction, Layout, PathRef, TypeEntries, WrittenCurve};
+use guideway_spline::Point;
 
-use super::write_feature::{FeatureWriter, RESERVED};
+use super::json_writer::JsonWriter;
+use super::lines::{is_of_lines, lines};
+use super::names::{self, is_reserved};
+use super::references::References;
+use super::write_losses::list_losses;
+use super::write_member::write_member;
 use crate::Losses;
-use crate::clamped::POSITION_STEP_M;
-use crate::common_losses::common_losses;
+use crate::wgs84::LocalProjection;
 
 /// Options of [`write_layout`].
 #[derive(Clone, Debug)]
@@ -24,11 +28,13 @@ impl Default for WriteOptions {
     }
 }
 
-/// Writes a layout as GeoJSON: nodes as points, paths as lines, columns as properties. Returns the
-/// losses.
+/// Writes a whole layout as GeoJSON: nodes and stations as points, paths as lines, zones as
+/// polygons, columns as properties. Returns the losses.
 ///
-/// Positions are in meters, with a resolution of one micrometer. Paths with nodes make the file a
-/// route graph of Nav2.
+/// Positions are longitude and latitude if the layout has a place on earth, as RFC 7946 requires,
+/// and else meters; both with a resolution of one micrometer. Properties with the prefix
+/// `guideway:` and the member `guideway` of the collection hold the parts that GeoJSON has no word
+/// for, among them the exact curve of a path, so that the file reads back as the same layout.
 ///
 /// # Errors
 /// When `out` fails.
@@ -37,91 +43,241 @@ pub fn write_layout(
     out: &mut impl Write,
     options: &WriteOptions,
 ) -> io::Result<Losses> {
-    let mut losses = list_losses(layout);
-    let mut curves = 0;
-    // The projected system that Nav2 and its graph editors in QGIS write: a plane in meters.
-    out.write_all(
-        concat!(
-            r#"{"type":"FeatureCollection","crs":{"type":"name","#,
-            r#""properties":{"name":"urn:ogc:def:crs:EPSG::3857"}},"features":["#
-        )
-        .as_bytes(),
-    )?;
-    let mut feature = FeatureWriter::new(out);
-    for node in 0..layout.nodes.len() as u32 {
-        feature.begin(layout.nodes.id(node))?;
-        feature.attributes(&layout.nodes.attributes, node as usize)?;
-        feature.point(layout.nodes.position_m(node))?;
+    let references = References::new(layout);
+    let degrees = degrees(layout);
+    let mut json = JsonWriter::new(out, degrees);
+    json.begin('{')?;
+    json.field("type", "FeatureCollection")?;
+    json.key("guideway")?;
+    write_member(&mut json, layout, &references, degrees.is_some())?;
+    if degrees.is_none() {
+        // The projected system that Nav2 and its graph editors in QGIS write: a plane in meters.
+        let crs = r#"{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::3857"}}"#;
+        json.key("crs")?;
+        json.value(guideway_layout::Value::Json(crs))?;
     }
-    for path in layout.paths.iter() {
-        if path.runs().len() == 0 {
-            continue;
+    json.key("features")?;
+    json.begin('[')?;
+    let mut features = Features {
+        json,
+        layout,
+        references,
+        tolerance_m: options.tolerance_m,
+    };
+    (0..layout.nodes.len() as u32).try_for_each(|node| features.node(node))?;
+    for path in layout.paths.iter().filter(|path| path.runs().len() > 0) {
+        features.path(path)?;
+    }
+    (0..layout.stations.len() as u32).try_for_each(|station| features.station(station))?;
+    features.zones()?;
+    let mut json = features.json;
+    json.end(']')?;
+    json.end('}')?;
+    out.write_all(b"\n")?;
+    Ok(list_losses(layout))
+}
+
+/// Returns the projection to degrees, if the layout has a place on earth and lies on it.
+fn degrees(layout: &Layout) -> Option<LocalProjection> {
+    let projection = LocalProjection::about(layout.geo_origin?);
+    let nodes = (0..layout.nodes.len() as u32).map(|node| layout.nodes.position_m(node));
+    let stations = (0..layout.stations.len() as u32).filter_map(|s| layout.stations.position_m(s));
+    let zones = layout
+        .zones
+        .iter()
+        .flat_map(|zone| zone.outline_m.iter().copied());
+    let bounds = layout.paths.hull_bounds();
+    let corners = bounds
+        .into_iter()
+        .flat_map(|bounds| [bounds.min, bounds.max]);
+    let mut all = nodes.chain(stations).chain(zones).chain(corners);
+    let is_on_earth = |point: Point<f64>| {
+        let degrees = projection.to_degrees(point);
+        degrees.x.abs() <= 360.0 && degrees.y.abs() <= 90.0
+    };
+    all.all(is_on_earth).then_some(projection)
+}
+
+/// Writer of the features of a layout.
+struct Features<'w, 'l, W> {
+    json: JsonWriter<'w, W>,
+    layout: &'l Layout,
+    references: References,
+    tolerance_m: f64,
+}
+
+impl<W: Write> Features<'_, '_, W> {
+    fn begin(&mut self, id: &str, element: &str, level: Option<u32>) -> io::Result<()> {
+        let json = &mut self.json;
+        json.begin_line()?;
+        json.field("type", "Feature")?;
+        json.field("id", id)?;
+        json.key("properties")?;
+        json.begin('{')?;
+        json.field(names::ELEMENT, element)?;
+        match level {
+            Some(level) => {
+                json.key(names::LEVEL)?;
+                self.references.write_level(json, self.layout, level)
+            }
+            None => Ok(()),
         }
-        curves += usize::from(!path.runs().all(is_line));
-        feature.begin(path.id())?;
-        for (name, node) in [("startid", path.start_node()), ("endid", path.end_node())] {
+    }
+
+    fn node(&mut self, node: u32) -> io::Result<()> {
+        let nodes = &self.layout.nodes;
+        self.begin(nodes.id(node), "node", nodes.level(node))?;
+        self.types(nodes.vehicle_types(), node as usize)?;
+        self.json
+            .row(&nodes.attributes, node as usize, is_reserved)?;
+        self.json.end('}')?;
+        self.json.point(nodes.position_m(node))
+    }
+
+    fn path(&mut self, path: PathRef<'_>) -> io::Result<()> {
+        let paths = &self.layout.paths;
+        let row = path.row();
+        self.begin(path.id(), "path", path.level())?;
+        for (name, node) in [
+            (names::START, path.start_node()),
+            (names::END, path.end_node()),
+        ] {
             if let Some(node) = node {
-                feature.id(name, layout.nodes.id(node))?;
+                self.json.key(name)?;
+                self.references
+                    .write_node(&mut self.json, self.layout, node)?;
             }
         }
-        feature.path_properties(layout, path)?;
-        feature.attributes(&layout.paths.attributes, path.row())?;
-        feature.lines(&lines(path, options.tolerance_m))?;
-    }
-    out.write_all(b"\n]}\n")?;
-    let tolerance_m = options.tolerance_m;
-    let detail = format!("curved paths: written as lines within {tolerance_m} m");
-    losses.add("curves", curves, detail);
-    Ok(losses)
-}
-
-/// Flattens a path to lines, one per connected part.
-fn lines(path: PathRef<'_>, tolerance_m: f64) -> Vec<Vec<Point<f64>>> {
-    let mut lines: Vec<Vec<Point<f64>>> = Vec::new();
-    for run in path.runs() {
-        let mut line = Vec::new();
-        if is_line(run) {
-            // The inner control points of a straight run are the ends of its segments.
-            line.extend(run.iter().skip(1).take(run.len() - 2));
-        } else {
-            let points: Vec<_> = run.iter().collect();
-            flatten_run(&points, tolerance_m, &mut |point| line.push(point));
+        if path.direction() == Direction::Both {
+            self.json.field(names::DIRECTION, "both")?;
         }
-        let end = lines.last().and_then(|line| line.last());
-        match end {
-            Some(end) if end.distance(line[0]) <= POSITION_STEP_M => {
-                let last = lines.len() - 1;
-                lines[last].extend_from_slice(&line[1..]);
+        self.types(paths.vehicle_types(), row)?;
+        self.json.row(&paths.attributes, row, is_reserved)?;
+        self.style(row)?;
+        let written = paths.written_curve(row);
+        if written.is_some() || !is_of_lines(path) {
+            self.curve(path)?;
+        }
+        if let Some(written) = written {
+            self.nurbs(written)?;
+        }
+        self.json.end('}')?;
+        self.json.lines(&lines(path, self.tolerance_m))
+    }
+
+    fn style(&mut self, row: usize) -> io::Result<()> {
+        let paths = &self.layout.paths;
+        let style = paths.own_style(row);
+        if let Some(width_m) = style.width_m {
+            self.json.field(names::WIDTH, &width_m)?;
+        }
+        if let Some(color) = style.color_rgba {
+            self.json.field(names::COLOR, &format!("#{color:08x}"))?;
+        }
+        match paths.rank().map(|ranks| ranks[row]) {
+            Some(rank) if rank != 0 => self.json.field(names::RANK, &rank),
+            _ => Ok(()),
+        }
+    }
+
+    /// Writes the control points of a path, in meters and to the last bit.
+    fn curve(&mut self, path: PathRef<'_>) -> io::Result<()> {
+        let json = &mut self.json;
+        json.key(names::CURVE)?;
+        json.begin('[')?;
+        for run in path.runs() {
+            json.begin('[')?;
+            run.iter()
+                .try_for_each(|point| json.any(&[point.x, point.y]))?;
+            json.end(']')?;
+        }
+        json.end(']')
+    }
+
+    fn nurbs(&mut self, curve: &WrittenCurve) -> io::Result<()> {
+        let json = &mut self.json;
+        json.key(names::NURBS)?;
+        json.begin('{')?;
+        json.field("degree", &curve.degree)?;
+        json.field("knots", &curve.knots)?;
+        let points: Vec<_> = curve.points_m.iter().map(|p| [p.x, p.y]).collect();
+        json.field("points", &points)?;
+        if let Some(weights) = &curve.weights {
+            json.field("weights", weights)?;
+        }
+        json.end('}')
+    }
+
+    /// Writes the vehicle types of an element, and their properties in the same order.
+    fn types(&mut self, types: &TypeEntries, element: usize) -> io::Result<()> {
+        let entries = types.entries(element);
+        if entries.is_empty() {
+            return Ok(());
+        }
+        let json = &mut self.json;
+        let names: Vec<&str> = types.of(element).collect();
+        json.field(names::VEHICLE_TYPES, &names)?;
+        let has_value = |entry: usize| {
+            let mut columns = types.attributes.iter();
+            columns.any(|column| column.values.get(entry).is_some())
+        };
+        if !entries.clone().any(has_value) {
+            return Ok(());
+        }
+        json.key(names::TYPE_PROPERTIES)?;
+        json.begin('[')?;
+        for entry in entries {
+            json.begin('{')?;
+            json.row(&types.attributes, entry, |_| false)?;
+            json.end('}')?;
+        }
+        json.end(']')
+    }
+
+    fn station(&mut self, station: u32) -> io::Result<()> {
+        let stations = &self.layout.stations;
+        self.begin(stations.id(station), "station", stations.level(station))?;
+        let nodes = stations.nodes(station);
+        if !nodes.is_empty() {
+            self.json.key(names::NODES)?;
+            self.json.begin('[')?;
+            for &node in nodes {
+                self.references
+                    .write_node(&mut self.json, self.layout, node)?;
             }
-            _ => lines.push(line),
+            self.json.end(']')?;
+        }
+        self.json
+            .row(&stations.attributes, station as usize, is_reserved)?;
+        self.json.end('}')?;
+        match stations.position_m(station) {
+            Some(position_m) => self.json.point(position_m),
+            None => self.without_geometry(),
         }
     }
-    lines
-}
 
-/// Returns whether a run is a straight line of uniform speed: all second differences vanish.
-fn is_line(run: RunPoints<'_>) -> bool {
-    let second = |i: usize| run.get(i) + run.get(i + 2) - run.get(i + 1) * 2.0;
-    (0..run.len() - 2).all(|i| second(i).norm() <= POSITION_STEP_M)
-}
+    fn zones(&mut self) -> io::Result<()> {
+        for zone in &self.layout.zones {
+            self.begin(&zone.id, "zone", zone.level)?;
+            self.json.row(&zone.attributes, 0, is_reserved)?;
+            self.json.end('}')?;
+            let Some(&first) = zone.outline_m.first() else {
+                self.without_geometry()?;
+                continue;
+            };
+            // A ring ends where it begins.
+            let ring: Vec<_> = zone.outline_m.iter().copied().chain([first]).collect();
+            self.json.geometry("Polygon", |json| {
+                json.begin('[')?;
+                json.line(&ring)?;
+                json.end(']')
+            })?;
+        }
+        Ok(())
+    }
 
-/// Lists the parts of a layout that GeoJSON does not hold.
-fn list_losses(layout: &Layout) -> Losses {
-    let mut losses = common_losses(layout);
-    losses.add_widths(layout);
-    losses.add_colors(layout);
-    losses.add_ranks(layout);
-    let is_held = |name: &str| !RESERVED.contains(&name);
-    losses.add_columns(&layout.paths.attributes, "paths", is_held);
-    losses.add_columns(&layout.nodes.attributes, "nodes", is_held);
-    let ids: HashSet<&str> = (0..layout.nodes.len() as u32)
-        .map(|node| layout.nodes.id(node))
-        .collect();
-    let repeated = layout.nodes.len() - ids.len();
-    let detail = "nodes with a repeated name: paths will refer to the first";
-    losses.add("nodes", repeated, detail);
-    losses.add_stations(layout);
-    let detail = "levels: written as a property of paths only";
-    losses.add("levels", layout.levels.len(), detail);
-    losses
+    fn without_geometry(&mut self) -> io::Result<()> {
+        self.json.field("geometry", &())?;
+        self.json.end('}')
+    }
 }

@@ -3,13 +3,12 @@
 
 use std::borrow::Cow;
 
-use guideway_layout::{Code, Place, Value};
+use guideway_layout::{Code, Place};
 use guideway_spline::Point;
 
-use super::attributes::{Attributes, Scalar};
 use super::field::Field;
 use crate::ReadError;
-use crate::builder::{Builder, PlaceFn, Table};
+use crate::builder::{Builder, PlaceFn};
 
 impl Builder<'_> {
     /// Returns a record; reports it if it is missing or of another type.
@@ -110,66 +109,6 @@ impl Builder<'_> {
         let y = self.number(y, &|| field_place(at, "y"));
         let point = Point::new(x?, y?);
         self.check_point(point, at).then_some(point)
-    }
-
-    /// Sets an attribute of a row to a string, if the field has one.
-    pub(crate) fn set_text(
-        &mut self,
-        table: Table,
-        row: usize,
-        name: &str,
-        field: &Field<Cow<'_, str>>,
-        at: PlaceFn<'_>,
-    ) -> Result<(), ReadError> {
-        match self.text(field, &|| field_place(at, name))? {
-            Some(text) => self.set(table, row, name, Value::Text(text)),
-            None => Ok(()),
-        }
-    }
-
-    /// Sets an attribute of a row to a number, if the field has one.
-    pub(crate) fn set_number(
-        &mut self,
-        table: Table,
-        row: usize,
-        name: &str,
-        field: &Field<f64>,
-        at: PlaceFn<'_>,
-    ) -> Result<(), ReadError> {
-        self.check_type(field, &|| field_place(at, name), "a number");
-        match field.get() {
-            Some(&number) => self.set(table, row, name, Value::Float(number)),
-            None => Ok(()),
-        }
-    }
-
-    /// Sets all attributes of a row.
-    pub(crate) fn set_attributes(
-        &mut self,
-        table: Table,
-        row: usize,
-        attributes: &Attributes<'_>,
-        at: PlaceFn<'_>,
-    ) -> Result<(), ReadError> {
-        for (name, field) in attributes.iter() {
-            if let Some(kind) = field.wrong_type() {
-                let message = || format!("the attribute is {kind}, which a column cannot hold");
-                let remedy = "The attribute is ignored; write it as a string, number or boolean";
-                self.report(Code::Attribute, &|| field_place(at, name), message, remedy);
-            }
-            let value = match field.get() {
-                Some(Scalar::Bool(value)) => Value::Bool(*value),
-                Some(Scalar::Number(value)) => Value::Float(*value),
-                Some(Scalar::Count(value)) => Value::Int(*value),
-                Some(Scalar::Text(value)) => {
-                    self.check_text(value)?;
-                    Value::Text(value)
-                }
-                None => continue,
-            };
-            self.set(table, row, name, value)?;
-        }
-        Ok(())
     }
 
     /// Reports a missing element.

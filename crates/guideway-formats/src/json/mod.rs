@@ -9,10 +9,15 @@
 //! | limits | text | nesting and element count within limits | `limits` |
 //! | parse | text | a record of [`Field`]s, or a problem | `parse`, `record`, `field`, `attributes` |
 //! | items | text of a long array | one record at a time | `lazy_array` |
-//! | check | fields | values, diagnostics | `check` |
+//! | check | fields | values, diagnostics | `check`, `cell` |
 //! | lines | diagnostics, text | line numbers | `lines` |
+//! | write | values of a layout | text | `tree` |
+//! | splice | text of the file, old and new values | changed parts of the text | `scan`, `splice`, `array_splice`, `style` |
 
+mod array_splice;
 mod attributes;
+mod cell;
+mod change;
 mod check;
 mod field;
 mod lazy_array;
@@ -20,11 +25,20 @@ mod limits;
 mod lines;
 mod parse;
 mod record;
+mod scan;
+mod splice;
+mod style;
+mod tree;
 
-pub(crate) use self::attributes::{AttributeKey, Attributes, HasAttributes};
+pub(crate) use self::array_splice::ArrayEdit;
+pub(crate) use self::attributes::{AttributeKey, Attributes, HasAttributes, OtherMembers};
+pub(crate) use self::cell::{Cell, CellKind, CellResult};
 pub(crate) use self::check::{field_place, items};
 pub(crate) use self::field::{Field, FromJson, Key};
-pub(crate) use self::lazy_array::LazyArray;
+pub(crate) use self::lazy_array::{LazyArray, LazyItem};
 pub(crate) use self::lines::add_line_numbers;
 pub(crate) use self::parse::parse;
 pub(crate) use self::record::record;
+pub(crate) use self::scan::{items_at, member, push_compact};
+pub(crate) use self::splice::Splices;
+pub(crate) use self::tree::{Members, Tree, push_number};

@@ -36,14 +36,14 @@ pub(super) fn problem(error: &serde_json::Error, text: &str, at: usize) -> Probl
         ((line, column), 0 | 1, within) => (line, (column + within).saturating_sub(1)),
         ((line, _), lines, within) => (line + lines - 1, within),
     };
-    if error.is_eof() {
+    let message = error.to_string();
+    if error.is_eof() || message.starts_with("invalid number") && ends_in_number(text) {
         let (line, column) = line_column(text, text.len());
         return Problem::Truncated {
             at: text.len() as u64,
             detail: format!("the JSON text is cut at line {line}, column {column}"),
         };
     }
-    let message = error.to_string();
     if message.starts_with("recursion limit exceeded") {
         return Problem::TooDeep {
             limit: 128,
@@ -60,6 +60,12 @@ pub(super) fn problem(error: &serde_json::Error, text: &str, at: usize) -> Probl
             word_at(&text[at..], error.line(), error.column()),
         )),
     }
+}
+
+/// Returns true if a text is cut within a number: its last character asks for a digit. The parser
+/// reports such a number as invalid, not as the end of the text.
+fn ends_in_number(text: &str) -> bool {
+    text.ends_with(['-', '+', '.', 'e', 'E'])
 }
 
 /// Returns the word at a place.

@@ -1,9 +1,11 @@
 //! The `record!` macro: defines a struct of the needed fields of a JSON object and its
 //! deserialization, which skips all other fields.
 
-/// Defines a record. Its field `repeated` holds the last key that occurred twice.
+/// Defines a record. Its field `repeated` holds the last key that occurred twice;
+/// `has_other` states that the object has members that the record does not know.
 ///
-/// `with &[names]` at the end adds a field `attributes` with the attributes of these names.
+/// `with &[names]` at the end adds a field `attributes` with the attributes of these names, and
+/// with all members that the record does not know.
 macro_rules! record {
     ($(#[doc = $doc:literal])* $name:ident $(<$life:lifetime>)? {
         $($field:ident: $type:ty = $key:literal,)*
@@ -13,6 +15,7 @@ macro_rules! record {
         pub(crate) struct $name $(<$life>)? {
             $(pub(crate) $field: Field<$type>,)*
             pub(crate) repeated: Option<&'static str>,
+            pub(crate) has_other: bool,
         }
 
         record!(@impl $name $(<$life>)? { $($field = $key,)* });
@@ -26,6 +29,7 @@ macro_rules! record {
             $(pub(crate) $field: Field<$type>,)*
             pub(crate) attributes: crate::json::Attributes<$life>,
             pub(crate) repeated: Option<&'static str>,
+            pub(crate) has_other: bool,
         }
 
         impl crate::json::HasAttributes for $name<'_> {
@@ -79,6 +83,7 @@ macro_rules! record {
                     })*
                     Name::Other(Some(key)) => read_other(&mut record, key, &mut object)?,
                     Name::Other(None) => {
+                        record.has_other = true;
                         object.next_value::<IgnoredAny>()?;
                     }
                 }

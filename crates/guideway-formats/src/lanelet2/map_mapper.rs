@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 
-use guideway_layout::{Code, Direction, Layout, NewPath, Place, Value};
+use guideway_layout::{Code, Direction, Layout, NewPath, Place, Quantity, Value};
 use guideway_spline::{Point, Runs, polyline_to_runs};
 use roxmltree::Node;
 
@@ -11,12 +11,19 @@ use super::osm::{is_deleted, positions, tag};
 use crate::ReadError;
 use crate::builder::{PlaceFn, Table};
 use crate::source::Source;
+use crate::speed_unit;
 use crate::xml::{Xml, children};
 use crate::xml_builder::XmlBuilder;
 
 /// Tags that become columns, and types of relations that are counted; bounds both for a hostile
 /// file.
 const MAX_COLUMNS: usize = 64;
+
+/// Tag of the speed limit.
+const SPEED_LIMIT: &str = "speed_limit";
+
+/// Unit of a speed limit without one, by the specification of the format.
+const SPEED_UNIT: &str = "km/h";
 
 /// The reason for a deleted element.
 const DELETED: &str = "it is marked as deleted";
@@ -208,6 +215,9 @@ impl<'a, 'd, 't> MapMapper<'a, 'd, 't> {
             let (Some(key), Some(value)) = (tag.attribute("k"), tag.attribute("v")) else {
                 continue;
             };
+            if key == SPEED_LIMIT && self.set_speed(element, row, value) {
+                continue;
+            }
             if !self.columns.contains(key) {
                 if self.columns.len() == MAX_COLUMNS {
                     let message = || format!("more than {MAX_COLUMNS} different tags");
@@ -227,13 +237,25 @@ impl<'a, 'd, 't> MapMapper<'a, 'd, 't> {
         Ok(())
     }
 
+    /// Sets the speed limit of a path, in meters per second; reports one that is no speed.
+    fn set_speed(&mut self, element: Node<'d, 't>, row: usize, text: &str) -> bool {
+        let Some(speed) = speed_unit::parse(text, SPEED_UNIT) else {
+            let start: String = text.chars().take(40).collect();
+            let message = || format!("the speed limit `{start}` is no speed");
+            let remedy = "It is kept as text; give a number, and the unit km/h, mph or m/s";
+            self.base
+                .report(Code::UnknownValue, element, message, remedy);
+            return false;
+        };
+        let attributes = self.base.builder.attributes(Table::Paths);
+        attributes.set_quantity(row, "maxSpeed", speed, Quantity::Speed);
+        true
+    }
+
     fn refuse(&mut self, element: Node<'d, 't>, code: Code, detail: &str) -> Result<(), ReadError> {
         let remedy = "It is left out; correct it in the tool that wrote the file";
-        self.base
-            .report(code, element, || detail.to_owned(), remedy);
-        let builder = &mut self.base.builder;
-        builder.check_text(id(element))?;
-        builder.refuse(id(element), code, detail)
+        self.base.builder.check_text(id(element))?;
+        self.base.refuse(id(element), code, element, detail, remedy)
     }
 }
 

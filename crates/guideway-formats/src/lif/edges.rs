@@ -8,20 +8,30 @@ use guideway_layout::{Code, NewPath};
 use guideway_spline::{Point, Runs};
 
 use super::mapper::Mapper;
-use super::model::{EDGE_PROPERTIES, Edge, EdgeProperties, PHYSICAL_LINE};
+use super::members::{EDGE_ID, OTHER};
+use super::model::{EDGE_PROPERTIES, Edge, PHYSICAL_LINE};
+use super::type_entries::{ColumnCell, TypeOfEntry, other_cell};
 use crate::ReadError;
 use crate::builder::{PlaceFn, Table};
-use crate::json::{Field, field_place, items};
+use crate::json::{Cell, Field, LazyItem, OtherMembers, field_place, items, member};
 use crate::trajectory::Trajectory;
 
 /// A curve of an edge, with the vehicle types that follow it.
-struct Curve<'r, 'a> {
+struct Curve<'r> {
     /// `None` for the straight line between the nodes.
     trajectory: Option<&'r Trajectory>,
     /// Key and index of its first entry; `None` if the edge has no entry.
     entry: Option<(&'static str, usize)>,
-    types: Vec<String>,
-    properties: Vec<&'r EdgeProperties<'a>>,
+    types: Vec<TypeOfEntry>,
+    names: HashSet<String>,
+    /// Index of the properties of its first entry.
+    first_cells: usize,
+}
+
+/// The curves of an edge, and the properties of its entries.
+struct EdgeEntries<'r, 'a> {
+    curves: Vec<Curve<'r>>,
+    cells: Vec<Vec<ColumnCell<'a>>>,
 }
 
 /// A node that an edge refers to.
@@ -32,26 +42,15 @@ struct End<'r> {
     level: Option<u32>,
 }
 
-impl Curve<'_, '_> {
-    /// Removes repeated types: a vehicle type may have several entries.
-    fn deduplicate_types(&mut self) {
-        if self.types.len() < 2 {
-            return;
-        }
-        let mut seen = HashSet::new();
-        self.types.retain(|name| seen.insert(name.clone()));
-    }
-}
-
 impl Mapper<'_> {
     /// Maps an edge to paths, or to refused paths.
     pub(super) fn map_edge(
         &mut self,
-        edge: &Field<Edge<'_>>,
+        item: &LazyItem<'_, Edge<'_>>,
         level: u32,
         at: PlaceFn<'_>,
     ) -> Result<(), ReadError> {
-        let Some(edge) = self.builder.record(edge, at) else {
+        let Some(edge) = self.builder.record(&item.record, at) else {
             self.counts.edges += 1;
             let detail = "the edge is not an object";
             return self.builder.refuse(&at().element, Code::WrongType, detail);
@@ -61,19 +60,35 @@ impl Mapper<'_> {
         self.counts.edges += 1;
         let start = self.end(&edge.start, &id, level, &|| field_place(at, "startNodeId"))?;
         let end = self.end(&edge.end, &id, level, &|| field_place(at, "endNodeId"))?;
-        let curves = self.curves(edge, at)?;
-        let is_single = curves.len() == 1;
-        for (i, curve) in curves.iter().enumerate() {
+        let mut other = OtherMembers::default();
+        let entries = self.entries(item, edge, &mut other, at)?;
+        let mut cells = self.cells(&edge.attributes, &self.columns.edge, &mut other, at)?;
+        cells.extend(other_cell(other, OTHER));
+        let is_single = entries.curves.len() == 1;
+        if !is_single {
+            cells.push(ColumnCell {
+                column: EDGE_ID,
+                quantity: None,
+                cell: Cell::Text(Cow::Borrowed(&id)),
+            });
+        }
+        for (i, curve) in entries.curves.iter().enumerate() {
             let name = match (is_single, curve.types.as_slice()) {
                 (true, _) => Cow::Borrowed(id.as_ref()),
                 (false, []) => format!("{id} [{}]", i + 1).into(),
-                (false, types) => format!("{id} [{}]", types.join(", ")).into(),
+                (false, types) => {
+                    let names: Vec<&str> = types.iter().map(|of| of.name.as_str()).collect();
+                    format!("{id} [{}]", names.join(", ")).into()
+                }
             };
             let at_curve: PlaceFn<'_> = &|| match curve.entry {
                 Some((key, i)) => field_place(at, &format!("{key}[{i}]")),
                 None => at(),
             };
-            self.map_curve(&name, curve, [&start, &end], level, at_curve)?;
+            let row = self.map_curve(item, &name, curve, [&start, &end], level, at_curve)?;
+            if let Some(row) = row {
+                self.set_properties(row, &cells, curve, &entries.cells, at_curve)?;
+            }
         }
         Ok(())
     }
@@ -103,24 +118,24 @@ impl Mapper<'_> {
     }
 
     /// Groups the entries of an edge by curve. Vehicle types without a trajectory share the
-    /// straight line.
-    fn curves<'r, 'a>(
+    /// straight line. Surplus entries are added to `other`.
+    fn entries<'r, 'a>(
         &mut self,
+        item: &LazyItem<'_, Edge<'a>>,
         edge: &'r Edge<'a>,
+        other: &mut OtherMembers,
         at: PlaceFn<'_>,
-    ) -> Result<Vec<Curve<'r, 'a>>, ReadError> {
-        let mut curves: Vec<Curve<'r, 'a>> = Vec::new();
+    ) -> Result<EdgeEntries<'r, 'a>, ReadError> {
+        let mut entries = EdgeEntries {
+            curves: Vec::new(),
+            cells: Vec::new(),
+        };
+        let curves = &mut entries.curves;
         let mut index_by_curve: HashMap<Vec<u64>, usize> = HashMap::new();
-        let lists = [
-            (EDGE_PROPERTIES[0], &edge.types_1),
-            (EDGE_PROPERTIES[1], &edge.types_2),
-        ];
-        let is_alone = lists
-            .iter()
-            .map(|(_, list)| items(list).len())
-            .sum::<usize>()
-            < 2;
-        for (key, list) in lists {
+        let lists = [&edge.types_1, &edge.types_2];
+        let count: usize = lists.iter().map(|list| items(list).len()).sum();
+        for (v, list) in lists.into_iter().enumerate() {
+            let key = EDGE_PROPERTIES[v];
             self.builder.check_array(list, at, key);
             for (i, field) in items(list) {
                 let at_entry: PlaceFn<'_> = &|| field_place(at, &format!("{key}[{i}]"));
@@ -130,6 +145,11 @@ impl Mapper<'_> {
                 self.builder.check_repeated(entry.repeated, at_entry);
                 let types =
                     self.vehicle_types(&entry.vehicle_type, &entry.robot_types, at_entry)?;
+                for name in &types {
+                    if !self.vehicle_types.contains(name) {
+                        self.vehicle_types.insert(name.clone());
+                    }
+                }
                 let at_curve: PlaceFn<'_> = &|| field_place(at_entry, "trajectory");
                 self.builder
                     .check_type(&entry.trajectory, at_curve, "an object");
@@ -137,70 +157,95 @@ impl Mapper<'_> {
                 if trajectory.is_some() {
                     self.counts.trajectories += 1;
                 }
-                let index = match is_alone {
-                    true => 0,
-                    false => *index_by_curve
-                        .entry(curve_key(trajectory))
-                        .or_insert(curves.len()),
+                let index = match count {
+                    1 => 0,
+                    _ => {
+                        let known = curve_key(trajectory, || item.array_item(key, i));
+                        *index_by_curve.entry(known).or_insert(curves.len())
+                    }
                 };
-                if index == curves.len() {
+                let is_new = index == curves.len();
+                if is_new {
                     curves.push(Curve {
                         trajectory,
                         entry: Some((key, i)),
                         types: Vec::new(),
-                        properties: Vec::new(),
+                        names: HashSet::new(),
+                        first_cells: entries.cells.len(),
                     });
                 }
-                curves[index].types.extend(types);
-                curves[index].properties.push(entry);
+                let curve = &mut curves[index];
+                let (is_open, before) = (types.is_empty(), curve.types.len());
+                let first_name = types.first().cloned();
+                for name in types {
+                    if curve.names.insert(name.clone()) {
+                        let entry = entries.cells.len();
+                        curve.types.push(TypeOfEntry { name, entry });
+                    }
+                }
+                if curve.types.len() == before && !(is_open && is_new) {
+                    self.report_surplus_entry(first_name.as_deref(), at_entry);
+                    other.add_item(key, item.array_item(key, i));
+                }
+                let columns = &self.columns.edge_type[v];
+                let cells = self.type_cells(&entry.attributes, columns, at_entry)?;
+                entries.cells.push(cells);
             }
         }
-        curves.iter_mut().for_each(Curve::deduplicate_types);
-        if curves.is_empty() {
+        if entries.curves.is_empty() {
             self.builder.report_missing(
-                &|| field_place(at, lists[0].0),
+                &|| field_place(at, EDGE_PROPERTIES[0]),
                 "an entry for a vehicle type",
             );
-            curves.push(Curve {
+            entries.curves.push(Curve {
                 trajectory: None,
                 entry: None,
                 types: Vec::new(),
-                properties: Vec::new(),
+                names: HashSet::new(),
+                first_cells: 0,
             });
         }
-        Ok(curves)
+        Ok(entries)
     }
 
+    /// Maps a curve to a path, and returns its row; or to a refused path.
     fn map_curve(
         &mut self,
+        item: &LazyItem<'_, Edge<'_>>,
         name: &str,
-        curve: &Curve<'_, '_>,
+        curve: &Curve<'_>,
         ends: [&End<'_>; 2],
         level: u32,
         at: PlaceFn<'_>,
-    ) -> Result<(), ReadError> {
+    ) -> Result<Option<usize>, ReadError> {
         let [start, end] = ends;
         if start.row.is_some() && end.row.is_some() && start.level != end.level {
             let detail = self.between_levels(start, end);
-            let message = || format!("`{name}` {detail}");
-            let remedy = "None needed for a lift; else move the node to the other layout";
-            self.builder.report(Code::CrossLevel, at, message, remedy);
-            return self.builder.refuse(name, Code::CrossLevel, &detail);
+            let detail = format!("`{name}` {detail}");
+            let remedy = "A lift is not drawn; else move the node to the other layout";
+            let builder = &mut self.builder;
+            builder.refuse_at(name, Code::CrossLevel, &detail, at, remedy)?;
+            return Ok(None);
         }
         let mut runs = Runs::default();
+        let mut read = None;
         if let Some(trajectory) = curve.trajectory {
             let at_curve: PlaceFn<'_> = &|| field_place(at, "trajectory");
-            self.builder
-                .append_trajectory(trajectory, at_curve, &mut runs)?;
+            read = Some(
+                self.builder
+                    .append_trajectory(trajectory, at_curve, &mut runs)?,
+            );
         }
+        let positions = start.position.zip(end.position);
         if runs.is_empty() {
-            let (Some(from), Some(to)) = (start.position, end.position) else {
+            let Some((from, to)) = positions else {
                 let detail = missing_ends(ends);
-                return self.builder.refuse(name, Code::UnknownNode, &detail);
+                self.builder.refuse(name, Code::UnknownNode, &detail)?;
+                return Ok(None);
             };
             runs.push_line(from, to);
         }
-        let vehicle_types: Vec<&str> = curve.types.iter().map(String::as_str).collect();
+        let vehicle_types: Vec<&str> = curve.types.iter().map(|of| of.name.as_str()).collect();
         let row = self.builder.push_path(&NewPath {
             id: name,
             runs: &runs,
@@ -210,7 +255,23 @@ impl Mapper<'_> {
             vehicle_types: &vehicle_types,
             ..NewPath::default()
         })?;
-        self.set_attributes(row, curve, at)
+        if let Some(before) = self.text_start {
+            self.builder
+                .layout
+                .paths
+                .source
+                .set(row, before + item.start);
+        }
+        if let Some(read) = read {
+            let text = || {
+                let (key, i) = curve.entry?;
+                let entry = item.array_item(key, i);
+                member(entry, 0, "trajectory").map(|range| &entry[range])
+            };
+            let ends = positions.map(Into::into);
+            self.builder.keep_written_curve(row, read, ends, text)?;
+        }
+        Ok(Some(row))
     }
 
     fn between_levels(&self, start: &End<'_>, end: &End<'_>) -> String {
@@ -227,28 +288,29 @@ impl Mapper<'_> {
         )
     }
 
-    fn set_attributes(
+    fn set_properties(
         &mut self,
         row: usize,
-        curve: &Curve<'_, '_>,
+        of_edge: &[ColumnCell<'_>],
+        curve: &Curve<'_>,
+        cells: &[Vec<ColumnCell<'_>>],
         at: PlaceFn<'_>,
     ) -> Result<(), ReadError> {
-        let Some((first, others)) = curve.properties.split_first() else {
-            return Ok(());
-        };
-        self.builder
-            .set_attributes(Table::Paths, row, &first.attributes, at)?;
-        let differs = others.iter().any(|p| p.attributes != first.attributes);
-        if differs {
-            let message = || "vehicle types share this curve but differ in attributes".to_owned();
-            let remedy = "The attributes of the first vehicle type are used";
-            self.builder.report(Code::Attribute, at, message, remedy);
+        for cell in of_edge {
+            cell.set(self, Table::Paths, row)?;
         }
-        let line_guided = first
-            .attributes
-            .iter()
-            .any(|(n, _)| n.starts_with(PHYSICAL_LINE));
-        if line_guided && curve.trajectory.is_none() {
+        let tables = [Table::Paths, Table::PathTypes];
+        let first_entry = self.builder.layout.paths.vehicle_types().entries(row).start;
+        let first_cells = cells.get(curve.first_cells).map_or(&[][..], Vec::as_slice);
+        if curve.types.is_empty() {
+            for cell in first_cells {
+                cell.set(self, Table::Paths, row)?;
+            }
+        }
+        self.set_type_cells(tables, row, first_entry, &curve.types, cells)?;
+        let mut used = first_cells.iter();
+        let is_line_guided = used.any(|cell| cell.column.starts_with(PHYSICAL_LINE));
+        if is_line_guided && curve.trajectory.is_none() {
             let message =
                 || "vehicles follow a physical line, whose shape the file does not contain".into();
             let remedy = "A straight line is drawn";
@@ -273,13 +335,18 @@ fn missing_ends(ends: [&End<'_>; 2]) -> String {
 }
 
 /// Returns the bits of all numbers of a trajectory, equal for equal curves; empty for the straight
-/// line.
-fn curve_key(trajectory: Option<&Trajectory>) -> Vec<u64> {
+/// line. Trajectories with other members are equal if their texts are.
+fn curve_key<'t>(trajectory: Option<&Trajectory>, entry: impl Fn() -> &'t str) -> Vec<u64> {
     let Some(trajectory) = trajectory else {
         return Vec::new();
     };
     let number = |field: &Field<f64>| field.get().map_or(u64::MAX, |n| n.to_bits());
     let mut bits = vec![number(&trajectory.degree)];
+    if trajectory.is_odd() {
+        let entry = entry();
+        let text = member(entry, 0, "trajectory").map(|range| &entry[range]);
+        bits.extend(text.unwrap_or_default().bytes().map(u64::from));
+    }
     bits.extend(items(&trajectory.knots).map(|(_, knot)| number(knot)));
     for (_, point) in items(&trajectory.points) {
         match point.get() {

@@ -1,18 +1,20 @@
-//! LIF mapping: adds the levels, nodes, edges and stations of a file to the layout.
+//! LIF mapping: adds the levels of a file, with their nodes, edges and stations, to the layout.
 
-use guideway_layout::{Code, Layout, Level, Place};
-use guideway_spline::Point;
+use guideway_layout::{Attributes, Code, Layout, Level, Place, Value};
 
 use super::mapper::Mapper;
-use super::model::{self, Node, Position, Root, Station};
+use super::members::{ORIGIN_OTHER, OTHER};
+use super::model::{self, Origin, Root};
+use super::type_entries::{ColumnCell, other_cell};
 use crate::ReadError;
-use crate::builder::{PlaceFn, Table};
-use crate::json::{Field, field_place, items};
+use crate::builder::PlaceFn;
+use crate::json::{Field, OtherMembers, field_place, items};
 
 /// A layout record with its place in the file. Each maps to a level.
 struct LayoutEntry<'r, 'a> {
     place: String,
     record: &'r model::Layout<'a>,
+    origin: Option<&'r Origin<'a>>,
 }
 
 impl Mapper<'_> {
@@ -21,28 +23,39 @@ impl Mapper<'_> {
         let at_root: PlaceFn<'_> = &|| Place::element("the root");
         self.builder.check_repeated(root.repeated, at_root);
         self.map_version(root)?;
+        self.map_root(root)?;
         let layouts = self.layouts(root)?;
         // All nodes come first: an edge may lead to a node of a later layout.
         for (level, entry) in layouts.iter().enumerate() {
             self.map_level(entry)?;
             let mut nodes = entry.record.nodes.items(file);
-            while let Some((i, node)) = nodes.next(&mut self.builder)? {
-                let at = || Place::element(format!("{}.nodes[{i}]", entry.place));
-                self.map_node(&node, level as u32, &at)?;
+            while let Some(batch) = nodes.next(&mut self.builder)? {
+                for node in &batch {
+                    let i = node.index;
+                    let at = || Place::element(format!("{}.nodes[{i}]", entry.place));
+                    self.map_node(node, level as u32, &at)?;
+                }
             }
         }
         for (level, entry) in layouts.iter().enumerate() {
             let mut edges = entry.record.edges.items(file);
-            while let Some((i, edge)) = edges.next(&mut self.builder)? {
-                let at = || Place::element(format!("{}.edges[{i}]", entry.place));
-                self.map_edge(&edge, level as u32, &at)?;
+            while let Some(batch) = edges.next(&mut self.builder)? {
+                for edge in &batch {
+                    let i = edge.index;
+                    let at = || Place::element(format!("{}.edges[{i}]", entry.place));
+                    self.map_edge(edge, level as u32, &at)?;
+                }
             }
             let mut stations = entry.record.stations.items(file);
-            while let Some((i, station)) = stations.next(&mut self.builder)? {
-                let at = || Place::element(format!("{}.stations[{i}]", entry.place));
-                self.map_station(&station, level as u32, &at)?;
+            while let Some(batch) = stations.next(&mut self.builder)? {
+                for station in &batch {
+                    let i = station.index;
+                    let at = || Place::element(format!("{}.stations[{i}]", entry.place));
+                    self.map_station(station, level as u32, &at)?;
+                }
             }
         }
+        self.set_node_types();
         Ok(self.finish(layouts.len()))
     }
 
@@ -55,21 +68,54 @@ impl Mapper<'_> {
         let provenance = &mut self.builder.layout.provenance;
         crate::Format::Lif.name().clone_into(&mut provenance.format);
         version.clone_into(&mut provenance.format_version);
-        self.builder.check_type(
-            &root.meta,
-            &|| Place::element("metaInformation"),
-            "an object",
-        );
+        let at: PlaceFn<'_> = &|| Place::element("metaInformation");
+        self.builder.check_type(&root.meta, at, "an object");
         let Some(meta) = root.meta.get() else {
             return Ok(());
         };
-        let at: PlaceFn<'_> = &|| Place::element("metaInformation.lifVersion");
-        let stated = self.builder.text(&meta.lif_version, at)?;
+        let stated = meta.attributes.text("lifVersion");
         if let Some(stated) = stated.filter(|s| s.split('.').next() != version.split('.').next()) {
+            let at: PlaceFn<'_> = &|| field_place(at, "lifVersion");
             let message =
                 || format!("the file states version {stated}, but its structure is {version}");
             let remedy = "None needed: the structure decides the version";
             self.builder.report(Code::Version, at, message, remedy);
+        }
+        Ok(())
+    }
+
+    /// Keeps the meta information and further members of the file on the layout.
+    fn map_root(&mut self, root: &Root<'_>) -> Result<(), ReadError> {
+        let mut other = OtherMembers::default();
+        let mut cells = Vec::new();
+        if let Some(meta) = root.meta.get() {
+            let at: PlaceFn<'_> = &|| Place::element("metaInformation");
+            let mut of_meta = OtherMembers::default();
+            cells = self.cells(&meta.attributes, &self.columns.meta, &mut of_meta, at)?;
+            if let Some(text) = of_meta.into_text() {
+                other.add(None, "metaInformation", &text);
+            }
+        }
+        root.attributes.add_other(&mut other);
+        cells.extend(other_cell(other, OTHER));
+        let mut attributes = Attributes::default();
+        self.set_cells(&mut attributes, &cells)?;
+        self.builder.layout.attributes = attributes;
+        Ok(())
+    }
+
+    /// Sets the values of a table of one row.
+    fn set_cells(
+        &mut self,
+        attributes: &mut Attributes,
+        cells: &[ColumnCell<'_>],
+    ) -> Result<(), ReadError> {
+        for cell in cells {
+            let value = cell.cell.value();
+            if let Value::Text(text) | Value::Json(text) = value {
+                self.builder.check_text(text)?;
+            }
+            attributes.set(0, cell.column, value);
         }
         Ok(())
     }
@@ -79,14 +125,15 @@ impl Mapper<'_> {
         root: &'r Root<'t>,
     ) -> Result<Vec<LayoutEntry<'r, 't>>, ReadError> {
         let mut layouts = Vec::new();
-        self.collect(&root.layouts, "layouts", &mut layouts);
+        self.collect(&root.layouts, "layouts", None, &mut layouts);
         for (i, origin) in items(&root.origins) {
             let place = format!("origins[{i}]");
             let at: PlaceFn<'_> = &|| Place::element(place.as_str());
             if let Some(origin) = self.builder.record(origin, at) {
                 self.builder.check_repeated(origin.repeated, at);
                 self.builder.check_array(&origin.layouts, at, "layouts");
-                self.collect(&origin.layouts, &format!("{place}.layouts"), &mut layouts);
+                let name = format!("{place}.layouts");
+                self.collect(&origin.layouts, &name, Some(origin), &mut layouts);
             }
         }
         for entry in &layouts {
@@ -104,6 +151,7 @@ impl Mapper<'_> {
         &mut self,
         list: &'r Field<Vec<Field<model::Layout<'t>>>>,
         name: &str,
+        origin: Option<&'r Origin<'t>>,
         layouts: &mut Vec<LayoutEntry<'r, 't>>,
     ) {
         for (i, layout) in items(list) {
@@ -112,7 +160,11 @@ impl Mapper<'_> {
                 .builder
                 .record(layout, &|| Place::element(place.as_str()))
             {
-                layouts.push(LayoutEntry { place, record });
+                layouts.push(LayoutEntry {
+                    place,
+                    record,
+                    origin,
+                });
             }
         }
     }
@@ -129,99 +181,27 @@ impl Mapper<'_> {
             let remedy = "Both levels are read and `--level` shows the first; rename one";
             self.builder.report(Code::DuplicateId, at, message, remedy);
         }
+        let mut other = OtherMembers::default();
+        let mut cells = self.cells(
+            &entry.record.attributes,
+            &self.columns.layout,
+            &mut other,
+            at,
+        )?;
+        cells.extend(other_cell(other, OTHER));
+        if let Some(origin) = entry.origin {
+            let mut other = OtherMembers::default();
+            cells.extend(self.cells(&origin.attributes, &self.columns.origin, &mut other, at)?);
+            cells.extend(other_cell(other, ORIGIN_OTHER));
+        }
+        let mut attributes = Attributes::default();
+        self.set_cells(&mut attributes, &cells)?;
         self.builder.layout.levels.push(Level {
             id: id.into_owned(),
             name: name.map(str::to_owned),
             elevation_m: None,
+            attributes,
         });
         Ok(())
-    }
-
-    fn map_node(
-        &mut self,
-        node: &Field<Node<'_>>,
-        level: u32,
-        at: PlaceFn<'_>,
-    ) -> Result<(), ReadError> {
-        self.counts.nodes += 1;
-        let Some(node) = self.builder.record(node, at) else {
-            return Ok(());
-        };
-        self.builder.check_repeated(node.repeated, at);
-        let id = self.builder.id(&node.id, at, "nodeId")?;
-        let Some(position) =
-            self.position(&node.position, &|| field_place(at, "nodePosition"), true)
-        else {
-            return Ok(());
-        };
-        let row = self.builder.push_node(&id, position, Some(level))?;
-        let nodes = &self.builder.layout.nodes;
-        let first = self.nodes.get(nodes, &id);
-        match first.map(|row| nodes.level(row)) {
-            None => self.nodes.insert(nodes, row),
-            Some(Some(other)) if other != level => {
-                let key = (level, id.into_owned());
-                self.repeated_nodes.entry(key).or_insert(row);
-            }
-            Some(_) => {}
-        }
-        let (name, map) = (&node.name, &node.map_id);
-        self.builder
-            .set_text(Table::Nodes, row as usize, "nodeName", name, at)?;
-        self.builder
-            .set_text(Table::Nodes, row as usize, "mapId", map, at)
-    }
-
-    fn map_station(
-        &mut self,
-        station: &Field<Station<'_>>,
-        level: u32,
-        at: PlaceFn<'_>,
-    ) -> Result<(), ReadError> {
-        self.counts.stations += 1;
-        let Some(station) = self.builder.record(station, at) else {
-            return Ok(());
-        };
-        self.builder.check_repeated(station.repeated, at);
-        self.builder
-            .check_array(&station.nodes, at, "interactionNodeIds");
-        let id = self.builder.id(&station.id, at, "stationId")?;
-        let mut nodes = Vec::new();
-        for (i, name) in items(&station.nodes) {
-            let at_name: PlaceFn<'_> = &|| field_place(at, &format!("interactionNodeIds[{i}]"));
-            let Some(name) = self.builder.text(name, at_name)? else {
-                continue;
-            };
-            match self.node(name, level) {
-                Some(row) => nodes.push(row),
-                None => self.builder.report_unknown_node(name, &id, at_name),
-            }
-        }
-        let at_position: PlaceFn<'_> = &|| field_place(at, "stationPosition");
-        let position = self.position(&station.position, at_position, false);
-        let row = self
-            .builder
-            .push_station(&id, position, nodes, Some(level))? as usize;
-        self.builder
-            .set_text(Table::Stations, row, "stationName", &station.name, at)?;
-        self.builder
-            .set_text(Table::Stations, row, "stationType", &station.kind, at)?;
-        let height = &station.height;
-        self.builder
-            .set_number(Table::Stations, row, "stationHeight", height, at)
-    }
-
-    fn position(
-        &mut self,
-        field: &Field<Position>,
-        at: PlaceFn<'_>,
-        needed: bool,
-    ) -> Option<Point<f64>> {
-        if field.is_absent() && !needed {
-            return None;
-        }
-        let position = self.builder.record(field, at)?;
-        self.builder.check_repeated(position.repeated, at);
-        self.builder.point(&position.x, &position.y, at)
     }
 }

@@ -1,29 +1,76 @@
 //! LIF mapper state: the layout under construction, and the lookups that nodes and edges share.
 
-use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};
+use std::sync::OnceLock;
 
-use guideway_layout::Layout;
+use guideway_layout::{Attributes, Layout, TypeEntries, VehicleType};
 
-use super::model::{RobotType, robot_name};
-use crate::ReadError;
-use crate::builder::{Builder, PlaceFn};
-use crate::json::{Field, field_place, items};
+use super::members::{
+    Column, EDGE, EDGE_TYPE, LAYOUT, META, NODE, NODE_TYPE, ORIGIN, STATION, STATION_POSITION,
+    columns_of_any_version,
+};
+use super::version::Version;
+use crate::builder::Builder;
 use crate::node_rows::NodeRows;
 use crate::source::Source;
 
 /// Layout under construction from the records of a file.
 pub(super) struct Mapper<'a> {
     pub(super) builder: Builder<'a>,
+    pub(super) columns: &'static Columns,
     /// First node of each id.
     pub(super) nodes: NodeRows,
     /// Nodes of later layouts with an id used before, by level and id.
     pub(super) repeated_nodes: HashMap<(u32, String), u32>,
+    /// Entries of the nodes, until the types of their paths are known.
+    pub(super) node_types: TypeEntries,
     /// Identifiers of the levels.
     pub(super) levels: HashSet<String>,
     /// Vehicle types of edges; nodes may name types without a path.
-    vehicle_types: HashSet<String>,
+    pub(super) vehicle_types: HashSet<String>,
+    /// Rows of the vehicle types with properties.
+    type_rows: HashMap<String, usize>,
     pub(super) counts: Counts,
+    /// Bytes before the text in the file, if the layout keeps the places of its rows.
+    pub(super) text_start: Option<usize>,
+}
+
+/// Columns of the members of each object; `None` for a member that a version lacks.
+pub(super) struct Columns {
+    pub(super) node: Vec<Option<Column>>,
+    /// For entries of 1.0 and of 2.0.
+    pub(super) node_type: [Vec<Option<Column>>; 2],
+    pub(super) edge: Vec<Option<Column>>,
+    /// For entries of 1.0 and of 2.0.
+    pub(super) edge_type: [Vec<Option<Column>>; 2],
+    pub(super) station: Vec<Option<Column>>,
+    pub(super) station_position: Vec<Option<Column>>,
+    pub(super) layout: Vec<Option<Column>>,
+    pub(super) origin: Vec<Option<Column>>,
+    pub(super) meta: Vec<Option<Column>>,
+}
+
+impl Columns {
+    /// The columns, which are the same for all files.
+    fn all() -> &'static Self {
+        static ALL: OnceLock<Columns> = OnceLock::new();
+        ALL.get_or_init(Self::new)
+    }
+
+    fn new() -> Self {
+        let versions = [Version::V1, Version::V2];
+        Self {
+            node: columns_of_any_version(NODE),
+            node_type: versions.map(|version| version.columns(NODE_TYPE)),
+            edge: columns_of_any_version(EDGE),
+            edge_type: versions.map(|version| version.columns(EDGE_TYPE)),
+            station: columns_of_any_version(STATION),
+            station_position: columns_of_any_version(STATION_POSITION),
+            layout: columns_of_any_version(LAYOUT),
+            origin: columns_of_any_version(ORIGIN),
+            meta: columns_of_any_version(META),
+        }
+    }
 }
 
 /// Numbers of records, for the provenance of the layout.
@@ -36,15 +83,20 @@ pub(super) struct Counts {
 }
 
 impl<'a> Mapper<'a> {
-    /// Makes an empty layout for a file of `file_bytes` bytes.
-    pub(super) fn new(source: Source<'a>, file_bytes: usize) -> Self {
+    /// Makes an empty layout for a file of `file_bytes` bytes. `text_start` is the place of the
+    /// text in the file, if the layout keeps the places of its rows.
+    pub(super) fn new(source: Source<'a>, file_bytes: usize, text_start: Option<usize>) -> Self {
         Self {
             builder: Builder::new(source, file_bytes),
+            columns: Columns::all(),
             nodes: NodeRows::default(),
             repeated_nodes: HashMap::new(),
+            node_types: TypeEntries::default(),
             levels: HashSet::new(),
             vehicle_types: HashSet::new(),
+            type_rows: HashMap::new(),
             counts: Counts::default(),
+            text_start,
         }
     }
 
@@ -75,40 +127,16 @@ impl<'a> Mapper<'a> {
             .or_else(|| self.nodes.get(&self.builder.layout.nodes, id))
     }
 
-    /// Returns the names of the vehicle types of an entry.
-    pub(super) fn vehicle_types(
-        &mut self,
-        vehicle_type: &Field<Cow<'_, str>>,
-        robot_types: &Field<Vec<Field<RobotType<'_>>>>,
-        at: PlaceFn<'_>,
-    ) -> Result<Vec<String>, ReadError> {
-        let mut names = Vec::new();
-        if let Some(name) = self
-            .builder
-            .text(vehicle_type, &|| field_place(at, "vehicleTypeId"))?
-        {
-            names.push(name.to_owned());
-        }
-        for (_, robot) in items(robot_types) {
-            let Some(robot) = self
-                .builder
-                .record(robot, &|| field_place(at, "mobileRobotTypes"))
-            else {
-                continue;
-            };
-            let manufacturer = self
-                .builder
-                .text(&robot.manufacturer, &|| field_place(at, "manufacturer"))?;
-            let series = self
-                .builder
-                .text(&robot.series, &|| field_place(at, "seriesName"))?;
-            names.extend(robot_name(manufacturer, series));
-        }
-        for name in &names {
-            if !self.vehicle_types.contains(name) {
-                self.vehicle_types.insert(name.clone());
-            }
-        }
-        Ok(names)
+    /// Attributes of a vehicle type, which is added if it is new.
+    pub(super) fn vehicle_type_attributes(&mut self, name: &str) -> &mut Attributes {
+        let types = &mut self.builder.layout.vehicle_types;
+        let index = *self.type_rows.entry(name.to_owned()).or_insert_with(|| {
+            types.push(VehicleType {
+                id: name.to_owned(),
+                attributes: Attributes::default(),
+            });
+            types.len() - 1
+        });
+        &mut types[index].attributes
     }
 }

@@ -6,27 +6,23 @@
 //! | stage | input | output | file |
 //! |---|---|---|---|
 //! | read | text | records | `read`, `model` |
-//! | map | records | layout | `mapper`, `map`, `edges` |
-//! | passthrough | text of the file read | members that the model does not hold | `passthrough/` |
-//! | prepare | layout | levels, nodes, edges, columns of the format | `write_network`, `write_edges`, `write_columns`, `end_nodes`, `unique_names` |
-//! | write | all of these | text, losses | `write`, `write_objects` |
+//! | map | records | layout | `mapper`, `map`, `nodes`, `edges`, `stations`, `type_entries`, `members` |
+//! | write | layout | text of a new file, losses | `write/` |
+//! | save | layout, text of its file | text with the edited parts, losses | `save/` |
 
 mod edges;
-mod end_nodes;
 mod map;
 mod mapper;
+mod members;
 mod model;
-mod passthrough;
+mod nodes;
 mod read;
-mod unique_names;
+mod save;
+mod stations;
+mod type_entries;
 mod version;
 mod write;
-mod write_columns;
-mod write_edges;
-mod write_network;
-mod write_objects;
 
-pub(crate) use self::passthrough::count_unmodeled;
 pub(crate) use self::read::read;
 pub use self::version::Version;
 pub use self::write::{WriteOptions, write_layout};

@@ -1,16 +1,19 @@
-//! LIF reader: parses the root object, maps it to a layout, and keeps the text for a later write.
+//! LIF reader: parses the root object, maps it to a layout, and keeps the text, so that a save
+//! changes the edited parts only.
 
-use guideway_layout::{Layout, Place};
+use guideway_layout::{Layout, Limits, Place};
 
 use super::mapper::Mapper;
 use super::model::Root;
 use crate::json::{self, Field};
 use crate::source::Source;
-use crate::{Problem, ReadError, text};
+use crate::{Problem, ReadError, ReadOptions, text};
 
-/// Largest text that a layout keeps, so that a write can pass through the members that the model
-/// does not hold.
+/// Largest text that a layout keeps.
 const MAX_KEPT_BYTES: usize = 256 << 20;
+
+/// Keys that the error of a file that is not LIF names.
+const MAX_KEYS: usize = 5;
 
 /// Reads a LIF file.
 ///
@@ -36,19 +39,44 @@ pub(crate) fn read(source: Source<'_>, bytes: &[u8]) -> Result<Layout, ReadError
         }
     }
     if root.layouts.is_absent() && root.origins.is_absent() {
-        let found = match root.other_keys.as_slice() {
+        let keys = root.attributes.other_keys().take(MAX_KEYS);
+        let keys: Vec<String> = keys.map(|key| key.chars().take(40).collect()).collect();
+        let found = match keys.as_slice() {
             [] => "an object with neither".to_owned(),
             keys => format!("an object with {}", text::printable(&keys.join(", "))),
         };
         let expected = "`layouts` (LIF 1.0), `origins` (LIF 2.0) or the keys of another format";
         return Err(source.fail(not_lif("the root", expected, found)));
     }
-    let mut layout = Mapper::new(source, bytes.len()).map(&root, text)?;
-    if text.len() <= MAX_KEPT_BYTES {
-        layout.provenance.text = Some(text.into());
+    // Without the byte order mark, which the kept text begins with.
+    let before = bytes.len() - text.len();
+    let text_start = (bytes.len() <= MAX_KEPT_BYTES).then_some(before);
+    let mut layout = Mapper::new(source, bytes.len(), text_start).map(&root, text)?;
+    if text_start.is_some() {
+        layout.provenance.text = std::str::from_utf8(bytes).ok().map(Into::into);
     }
     json::add_line_numbers(&mut layout, text);
     Ok(layout)
+}
+
+/// Reads the kept text of a layout again, without limits.
+pub(super) fn read_again(layout: &Layout) -> Option<Layout> {
+    let options = ReadOptions {
+        limits: Limits {
+            file_bytes: u64::MAX,
+            paths: u64::MAX,
+            elements: u64::MAX,
+            text_bytes: usize::MAX,
+            diagnostics_per_code: 0,
+            ..Limits::default()
+        },
+        progress: None,
+    };
+    let source = Source {
+        name: &layout.provenance.source,
+        options: &options,
+    };
+    read(source, layout.provenance.text.as_deref()?.as_bytes()).ok()
 }
 
 fn not_lif(element: &str, expected: &str, found: String) -> Problem {

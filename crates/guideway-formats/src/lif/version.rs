@@ -20,6 +20,11 @@ impl Version {
         is_lif.then_some(if is_2 { Self::V2 } else { Self::V1 })
     }
 
+    /// Returns the version as a file states it.
+    pub(super) fn stated(self) -> &'static str {
+        self.pick("1.0.0", "2.0.0")
+    }
+
     /// Selects from a pair of alternatives for 1.0 and 2.0.
     pub(super) fn select<T>(self, [in_1, in_2]: [T; 2]) -> T {
         self.pick(in_1, in_2)

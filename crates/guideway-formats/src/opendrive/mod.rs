@@ -18,6 +18,7 @@ mod plan_view;
 mod polynomial;
 mod reader;
 mod road;
+mod speed;
 
 use guideway_layout::Layout;
 

@@ -56,9 +56,8 @@ impl<'a, 'd, 't> DocumentReader<'a, 'd, 't> {
         self.lane_count += 1;
         let detail = "its `id` is not an integer";
         let remedy = "It is left out; correct the file";
-        self.base
-            .report(Code::MissingField, lane, || detail.to_owned(), remedy);
         let id = self.base.xml.place(lane).to_string();
-        self.base.builder.refuse(&id, Code::MissingField, detail)
+        self.base
+            .refuse(&id, Code::MissingField, lane, detail, remedy)
     }
 }

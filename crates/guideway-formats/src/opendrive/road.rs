@@ -1,7 +1,7 @@
 //! Maps roads to a layout: cuts every lane section into offset segments, fits them, and appends a
 //! path per lane.
 
-use guideway_layout::{Code, Direction, Layout, NewPath, Place, Value};
+use guideway_layout::{Code, Direction, Layout, NewPath, Place, Quantity, Value};
 use guideway_spline::{Point, Runs};
 use roxmltree::Node;
 
@@ -11,6 +11,7 @@ use super::offset_fit::OffsetSegment;
 use super::plan_view::read_geometry;
 use super::polynomial::Piecewise;
 use super::reader::DocumentReader;
+use super::speed::{SpeedLimit, speed_limit};
 use crate::ReadError;
 use crate::builder::{PlaceFn, Table};
 use crate::source::Source;
@@ -178,7 +179,7 @@ impl<'a, 'd, 't> RoadMapper<'a, 'd, 't> {
             self.reader.lane_count += 1;
             if section.draws(lane) {
                 let id = format!("{}.{index}.{}", road.id, lane.id);
-                self.map_lane(road, &id, lane, segments)?;
+                self.map_lane(road, &id, lane, segments, [section.start_m, end_m])?;
             }
         }
         Ok(())
@@ -190,6 +191,7 @@ impl<'a, 'd, 't> RoadMapper<'a, 'd, 't> {
         id: &str,
         lane: &Lane<'d, 't>,
         segments: &[OffsetSegment<'_>],
+        range_m: [f64; 2],
     ) -> Result<(), ReadError> {
         let mut runs = Runs::default();
         let tolerance_m = self
@@ -232,10 +234,8 @@ impl<'a, 'd, 't> RoadMapper<'a, 'd, 't> {
         };
         if let Some((code, detail)) = refused {
             let remedy = "It is left out; correct the road in the tool that wrote the file";
-            self.reader
-                .base
-                .report(code, lane.node, || detail.clone(), remedy);
-            return self.reader.base.builder.refuse(id, code, &detail);
+            let base = &mut self.reader.base;
+            return base.refuse(id, code, lane.node, &detail, remedy);
         }
         if error_m > tolerance_m {
             let message =
@@ -276,7 +276,19 @@ impl<'a, 'd, 't> RoadMapper<'a, 'd, 't> {
                     .set(Table::Paths, row, name, Value::Text(value))?;
             }
         }
-        Ok(())
+        let limit = speed_limit(&mut self.reader, road.node, lane.node, range_m);
+        let builder = &mut self.reader.base.builder;
+        match limit {
+            SpeedLimit::Unlimited => Ok(()),
+            SpeedLimit::MetersPerSecond(speed) => {
+                let attributes = builder.attributes(Table::Paths);
+                attributes.set_quantity(row, "maxSpeed", speed, Quantity::Speed);
+                Ok(())
+            }
+            SpeedLimit::Unknown(text) => {
+                builder.set(Table::Paths, row, "speed", Value::Text(&text))
+            }
+        }
     }
 }
 

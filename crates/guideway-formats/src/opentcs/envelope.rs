@@ -1,19 +1,28 @@
 //! Reads vehicle envelopes: the areas that vehicles occupy on a path or point, one polygon per key.
 
-use guideway_layout::{Code, Value};
+use guideway_layout::Code;
 use guideway_spline::Point;
 use roxmltree::Node;
+use serde_json::Value;
 
+use super::elements::ANY;
 use super::reader::PlantReader;
 use crate::ReadError;
 use crate::builder::Table;
 use crate::xml::children;
 
+/// Column of the keys of envelopes: a JSON array of texts, one per polygon of [`AREA_COLUMN`].
+pub(super) const KEY_COLUMN: &str = "vehicleEnvelope";
+
+/// Column of the areas: the coordinates of a GeoJSON MultiPolygon, in meters.
+pub(super) const AREA_COLUMN: &str = "vehicleEnvelope.area";
+
 /// Stores the envelopes of an element as two columns: their keys, and their areas as the
-/// coordinates of a GeoJSON MultiPolygon (RFC 7946, 3.1.7), in meters.
+/// coordinates of a GeoJSON MultiPolygon (RFC 7946, 3.1.7), in meters. Keeps an envelope that is no
+/// area as it is.
 ///
 /// # Errors
-/// When a text exceeds its limit.
+/// When the layout exceeds a limit.
 pub(super) fn set_envelopes<'d, 't>(
     reader: &mut PlantReader<'_, 'd, 't>,
     table: Table,
@@ -21,20 +30,20 @@ pub(super) fn set_envelopes<'d, 't>(
     element: Node<'d, 't>,
 ) -> Result<(), ReadError> {
     let (mut keys, mut areas) = (Vec::new(), Vec::new());
-    for envelope in children(element, "vehicleEnvelope") {
-        keys.extend(envelope.attribute("key"));
-        areas.extend(read_ring(reader, envelope).map(|ring| [ring]));
+    for envelope in children(element, KEY_COLUMN) {
+        match read_ring(reader, envelope) {
+            Some(ring) => {
+                keys.push(envelope.attribute("key").unwrap_or_default());
+                areas.push([ring]);
+            }
+            None => reader.keep(KEY_COLUMN, ANY.to_json(envelope).into()),
+        }
     }
-    if !keys.is_empty() {
-        reader.set_text(table, row, "vehicleEnvelope", Some(&keys.join(", ")))?;
-    }
-    if areas.is_empty() {
+    if keys.is_empty() {
         return Ok(());
     }
-    let area = serde_json::Value::from(areas).to_string();
-    let area = Value::Text(&area);
-    let builder = &mut reader.base.builder;
-    builder.set(table, row, "vehicleEnvelope.area", area)
+    reader.set_json(table, row, KEY_COLUMN, Some(keys.into()))?;
+    reader.set_json(table, row, AREA_COLUMN, Some(Value::from(areas)))
 }
 
 /// The corners of an envelope in meters, closed by the first one. `None`, with a finding, if a
@@ -78,7 +87,7 @@ fn read_corner<'d, 't>(
     }
     let x_mm = reader.number(vertex, &["x"])?;
     let y_mm = reader.number(vertex, &["y"])?;
-    let corner = Point::new(x_mm, y_mm) * 1e-3;
+    let corner = Point::new(x_mm / 1e3, y_mm / 1e3);
     let is_valid = reader.base.check_point(corner, vertex);
     is_valid.then_some([corner.x, corner.y])
 }

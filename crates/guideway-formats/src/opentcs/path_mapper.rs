@@ -5,9 +5,12 @@ use std::collections::HashMap;
 use guideway_layout::{Code, Direction, NewPath, Value};
 use guideway_spline::{Point, Runs, polyline_to_runs};
 use roxmltree::Node;
+use serde_json::Value as Json;
 
-use super::envelope::set_envelopes;
-use super::reader::{PlantReader, name_or_empty, quoted};
+use super::elements::PERIPHERAL_OPERATION;
+use super::envelope::{KEY_COLUMN, set_envelopes};
+use super::reader::{Known, PlantReader, name_or_empty, quoted};
+use super::shape::{Connection, beziers_of};
 use super::visual_layout::VisualLayout;
 use crate::ReadError;
 use crate::builder::Table;
@@ -16,8 +19,30 @@ use crate::xml::{child, children};
 /// Connection types counted by name; openTCS knows seven.
 const MAX_CONNECTION_TYPES: usize = 16;
 
-/// Blocks named per path; bounds the text of a hostile file.
-const MAX_BLOCKS: usize = 16;
+/// Column of paths that lead from their end to their start in the file, because they are driven
+/// against its direction only.
+pub(super) const REVERSED: &str = "reversed";
+
+/// Columns of paths that only openTCS has.
+pub(super) const CONNECTION_TYPE: &str = "connectionType";
+pub(super) const PERIPHERAL_OPERATIONS: &str = "peripheralOperations";
+
+/// Cost of a path in files of version 0.0.2.
+const ROUTING_COST: &str = "routingCost";
+
+const PATH: Known = Known {
+    attributes: &[
+        "name",
+        "sourcePoint",
+        "destinationPoint",
+        "length",
+        "maxVelocity",
+        "maxReverseVelocity",
+        "locked",
+        ROUTING_COST,
+    ],
+    children: &["peripheralOperation", KEY_COLUMN, "property", "pathLayout"],
+};
 
 /// The drawn shape of a path.
 struct Shape {
@@ -35,36 +60,56 @@ pub(super) struct PathCounts {
     pub(super) control_points: u64,
 }
 
+/// The speeds of a path in the file, in mm/s.
+#[derive(Clone, Copy)]
+struct Speeds {
+    forward: Option<f64>,
+    reverse: Option<f64>,
+}
+
+impl Speeds {
+    /// Whether the path is driven from its end to its start only.
+    fn is_reversed(self) -> bool {
+        self.forward == Some(0.0) && self.reverse.is_some_and(|speed| speed > 0.0)
+    }
+
+    fn direction(self) -> Direction {
+        match self.reverse {
+            Some(reverse) if reverse > 0.0 && !self.is_reversed() => Direction::Both,
+            _ => Direction::Forward,
+        }
+    }
+}
+
 /// Maps paths between known points.
 pub(super) struct PathMapper<'m, 'a, 'd, 't> {
     reader: &'m mut PlantReader<'a, 'd, 't>,
-    visual: &'m VisualLayout<'d>,
+    visual: &'m VisualLayout<'d, 't>,
     /// Row per point name.
     nodes: &'m HashMap<&'d str, u32>,
-    /// Block names per path name.
-    blocks: &'m HashMap<&'d str, Vec<&'d str>>,
+    /// Row per path name.
+    rows: HashMap<&'d str, u32>,
     counts: PathCounts,
 }
 
 impl<'m, 'a, 'd, 't> PathMapper<'m, 'a, 'd, 't> {
     pub(super) fn new(
         reader: &'m mut PlantReader<'a, 'd, 't>,
-        visual: &'m VisualLayout<'d>,
+        visual: &'m VisualLayout<'d, 't>,
         nodes: &'m HashMap<&'d str, u32>,
-        blocks: &'m HashMap<&'d str, Vec<&'d str>>,
     ) -> Self {
         Self {
             reader,
             visual,
             nodes,
-            blocks,
+            rows: HashMap::new(),
             counts: PathCounts::default(),
         }
     }
 
-    /// The counts of all mapped paths.
-    pub(super) fn into_counts(self) -> PathCounts {
-        self.counts
+    /// The rows of all mapped paths by name, and their counts.
+    pub(super) fn finish(self) -> (HashMap<&'d str, u32>, PathCounts) {
+        (self.rows, self.counts)
     }
 
     /// Appends a path, or records it as refused, with a finding.
@@ -72,6 +117,7 @@ impl<'m, 'a, 'd, 't> PathMapper<'m, 'a, 'd, 't> {
     /// # Errors
     /// When the layout exceeds a limit, or when the caller cancels.
     pub(super) fn map_path(&mut self, path: Node<'d, 't>) -> Result<(), ReadError> {
+        self.reader.begin();
         let name = self.reader.name(path)?;
         let shape = self.read_shape(path)?;
         self.count_shape(&shape);
@@ -99,18 +145,27 @@ impl<'m, 'a, 'd, 't> PathMapper<'m, 'a, 'd, 't> {
         let (from, to) = (nodes.position_m(start), nodes.position_m(end));
         let mut runs = Runs::default();
         self.append_curve(path, &shape, [from, to], &mut runs);
-        let reverse = self.reader.number(path, &["maxReverseVelocity"]);
+        let speeds = Speeds {
+            forward: self.reader.magnitude(path, "maxVelocity"),
+            reverse: self.reader.magnitude(path, "maxReverseVelocity"),
+        };
+        let mut ends = [Some(start), Some(end)];
+        if speeds.is_reversed() {
+            ends.reverse();
+            runs = reversed(&runs);
+        }
         let row = self.reader.base.builder.push_path(&NewPath {
             id: &name,
             runs: &runs,
-            start_node: Some(start),
-            end_node: Some(end),
-            direction: match reverse {
-                Some(speed) if speed > 0.0 => Direction::Both,
-                _ => Direction::Forward,
-            },
+            start_node: ends[0],
+            end_node: ends[1],
+            direction: speeds.direction(),
             ..NewPath::default()
         })?;
+        if let Some(name) = path.attribute("name") {
+            self.rows.entry(name).or_insert(row as u32);
+        }
+        self.set_speeds(row, speeds)?;
         self.set_path_attributes(row, path, &shape)
     }
 
@@ -233,38 +288,73 @@ impl<'m, 'a, 'd, 't> PathMapper<'m, 'a, 'd, 't> {
             .report(Code::UnknownValue, path, message, remedy);
     }
 
+    /// Stores the speeds: that of the driven direction, and for the other one a different speed.
+    fn set_speeds(&mut self, row: usize, speeds: Speeds) -> Result<(), ReadError> {
+        let reader = &mut *self.reader;
+        if speeds.is_reversed() {
+            let builder = &mut reader.base.builder;
+            builder.set(Table::Paths, row, REVERSED, Value::Bool(true))?;
+            return reader.set_field(Table::Paths, row, "maxVelocity", speeds.reverse);
+        }
+        reader.set_field(Table::Paths, row, "maxVelocity", speeds.forward)?;
+        let is_other = speeds.direction() == Direction::Both && speeds.reverse != speeds.forward;
+        let reverse = speeds.reverse.filter(|_| is_other);
+        reader.set_field(Table::Paths, row, "maxReverseVelocity", reverse)
+    }
+
     fn set_path_attributes(
         &mut self,
         row: usize,
         path: Node<'d, 't>,
         shape: &Shape,
     ) -> Result<(), ReadError> {
-        for key in ["length", "maxVelocity", "maxReverseVelocity"] {
-            let Some(text) = path.attribute(key) else {
-                continue;
-            };
-            // Usually integers; early versions may contain fractions.
-            let value = match text.trim().parse() {
-                Ok(int) => Some(Value::Int(int)),
-                Err(_) => self.reader.parse_number(path, key, text).map(Value::Float),
-            };
-            if let Some(value) = value {
-                self.reader
-                    .base
-                    .builder
-                    .set(Table::Paths, row, key, value)?;
+        let reader = &mut *self.reader;
+        let table = Table::Paths;
+        let length = reader.magnitude(path, "length");
+        reader.set_field(table, row, "length", length)?;
+        reader.set_locked(table, row, path)?;
+        let curve = beziers_of(reader.base.builder.layout.paths.get(row));
+        let of_curve = Connection::of_curve(&curve).map(Connection::name);
+        let stated = Some(shape.kind.as_str()).filter(|kind| Some(*kind) != of_curve);
+        reader.set_text(table, row, CONNECTION_TYPE, stated)?;
+        if matches!(shape.kind.as_str(), "DIRECT" | "ELBOW" | "SLANTED") {
+            for point in child(path, "pathLayout")
+                .into_iter()
+                .flat_map(|l| l.children())
+            {
+                if point.is_element() {
+                    reader.keep("controlPoint", super::elements::ANY.to_json(point).into());
+                }
             }
         }
-        let reader = &mut *self.reader;
-        reader.set_bool(Table::Paths, row, "locked", path)?;
-        reader.set_text(Table::Paths, row, "connectionType", Some(&shape.kind))?;
-        let layer = child(path, "pathLayout").and_then(|l| l.attribute("layerId"));
-        let layer = layer.map(|id| self.visual.layer_name(id));
-        reader.set_text(Table::Paths, row, "layer", layer)?;
-        let blocks = self.blocks.get(name_or_empty(path));
-        let blocks = blocks.map(|names| names[..names.len().min(MAX_BLOCKS)].join(", "));
-        reader.set_text(Table::Paths, row, "block", blocks.as_deref())?;
-        set_envelopes(reader, Table::Paths, row, path)?;
-        reader.set_properties(Table::Paths, row, path)
+        reader.set_int(table, row, ROUTING_COST, (path.attribute(ROUTING_COST), 1))?;
+        let operations = children(path, "peripheralOperation");
+        let operations: Vec<Json> = operations
+            .map(|operation| PERIPHERAL_OPERATION.to_json(operation).into())
+            .collect();
+        let operations = (!operations.is_empty()).then(|| operations.into());
+        reader.set_json(table, row, PERIPHERAL_OPERATIONS, operations)?;
+        let (name, layout) = (name_or_empty(path), child(path, "pathLayout"));
+        reader.set_text(table, row, "layer", self.visual.layer(name, layout))?;
+        if let Some(layout) = layout {
+            reader.keep_unknown(layout, &[CONNECTION_TYPE, "layerId"]);
+        }
+        let unread = self.visual.legacy_element(name).and_then(|l| l.unread());
+        unread
+            .into_iter()
+            .for_each(|unread| reader.keep("modelLayoutElement", unread));
+        set_envelopes(reader, table, row, path)?;
+        reader.finish(table, row, path, &PATH)
     }
+}
+
+/// The same curve from its end to its start.
+pub(super) fn reversed(runs: &Runs) -> Runs {
+    let mut reversed = Runs::default();
+    let all: Vec<_> = runs.iter().collect();
+    for run in all.into_iter().rev() {
+        let points: Vec<_> = run.iter().rev().copied().collect();
+        reversed.push(&points);
+    }
+    reversed
 }

@@ -1,14 +1,16 @@
-//! Maps a plant model to a layout: points to nodes, locations to stations, blocks to a column.
+//! Maps a plant model to a layout: points to nodes, locations to stations.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use guideway_layout::{Code, Layout, Place};
 use guideway_spline::Point;
 use roxmltree::Node;
 
-use super::envelope::set_envelopes;
+use super::elements::BOUNDING_BOX;
+use super::envelope::{KEY_COLUMN, set_envelopes};
+use super::group_mapper::GroupMapper;
 use super::path_mapper::{PathCounts, PathMapper};
-use super::reader::{PlantReader, name_or_empty};
+use super::reader::{Known, PlantReader, name_or_empty};
 use super::visual_layout::VisualLayout;
 use crate::ReadError;
 use crate::builder::Table;
@@ -16,13 +18,89 @@ use crate::source::Source;
 use crate::xml::{Xml, child, children};
 
 /// Positions nearer than this are equal. Derived: half of the file's resolution of 1 mm.
-const SAME_POSITION_M: f64 = 5e-4;
+pub(super) const SAME_POSITION_M: f64 = 5e-4;
+
+/// Offset of a label in a new model, in layout units.
+pub(super) const LABEL_OFFSET: [i64; 2] = [-10, -20];
+
+/// Use of a point in a new model.
+pub(super) const DEFAULT_POINT_TYPE: &str = "HALT_POSITION";
+
+/// Symbol of a location in a new model.
+pub(super) const DEFAULT_REPRESENTATION: &str = "DEFAULT";
+
+/// Column of the operations per node of a station: a JSON array of arrays of names.
+pub(super) const LINK_OPERATIONS: &str = "linkOperations";
+
+/// Columns of nodes and stations.
+pub(super) const BOX_COLUMN: &str = "maxVehicleBoundingBox";
+pub(super) const REPRESENTATION: &str = "locationRepresentation";
+
+const POINT: Known = Known {
+    attributes: &[
+        "name",
+        "positionX",
+        "positionY",
+        "positionZ",
+        "xPosition",
+        "yPosition",
+        "zPosition",
+        "vehicleOrientationAngle",
+        "type",
+    ],
+    children: &[
+        BOX_COLUMN,
+        KEY_COLUMN,
+        "outgoingPath",
+        "property",
+        "pointLayout",
+    ],
+};
+
+const LOCATION: Known = Known {
+    attributes: &[
+        "name",
+        "positionX",
+        "positionY",
+        "positionZ",
+        "xPosition",
+        "yPosition",
+        "zPosition",
+        "type",
+        "locked",
+    ],
+    children: &["link", "property", "locationLayout"],
+};
+
+/// Attributes of `pointLayout` and `locationLayout`.
+const ELEMENT_LAYOUT: &[&str] = &[
+    "positionX",
+    "positionY",
+    "xPosition",
+    "yPosition",
+    "labelOffsetX",
+    "labelOffsetY",
+    "xLabelOffset",
+    "yLabelOffset",
+    "layerId",
+    REPRESENTATION,
+];
+
+/// The two positions of an element, in meters.
+struct Position {
+    drawn: Point<f64>,
+    /// Position in the plant, if it is another one.
+    plant: Option<Point<f64>>,
+}
 
 /// Fills a layout from a model.
 pub(super) struct PlantMapper<'a, 'd, 't> {
     reader: PlantReader<'a, 'd, 't>,
+    visual: VisualLayout<'d, 't>,
     /// Row per point name.
     nodes: HashMap<&'d str, u32>,
+    /// Row per location name.
+    stations: HashMap<&'d str, u32>,
     /// Number of points and locations whose drawn position differs from that in the plant.
     moved: u64,
     /// Largest distance between the two positions, in meters.
@@ -30,10 +108,18 @@ pub(super) struct PlantMapper<'a, 'd, 't> {
 }
 
 impl<'a, 'd, 't> PlantMapper<'a, 'd, 't> {
-    pub(super) fn new(source: Source<'a>, xml: &'d Xml<'t>, file_bytes: usize) -> Self {
+    pub(super) fn new(
+        source: Source<'a>,
+        xml: &'d Xml<'t>,
+        file_bytes: usize,
+        model: Node<'d, 't>,
+    ) -> Self {
+        let mut reader = PlantReader::new(source, xml, file_bytes);
         Self {
-            reader: PlantReader::new(source, xml, file_bytes),
+            visual: VisualLayout::read(&mut reader, model),
+            reader,
             nodes: HashMap::new(),
+            stations: HashMap::new(),
             moved: 0,
             max_shift_m: 0.0,
         }
@@ -44,21 +130,30 @@ impl<'a, 'd, 't> PlantMapper<'a, 'd, 't> {
     /// # Errors
     /// When the layout exceeds a limit, or when the caller cancels.
     pub(super) fn read(mut self, model: Node<'d, 't>) -> Result<Layout, ReadError> {
-        let visual = VisualLayout::read(&mut self.reader, model);
         self.map_version(model)?;
+        let leaving =
+            children(model, "path").map(|p| (p.attribute("sourcePoint"), name_or_empty(p)));
+        let leaving: HashSet<_> = leaving.collect();
         for point in children(model, "point") {
-            self.map_point(point, &visual)?;
+            self.map_point(point, &leaving)?;
         }
-        let blocks = blocks_by_member(model);
-        let mut paths = PathMapper::new(&mut self.reader, &visual, &self.nodes, &blocks);
+        let mut paths = PathMapper::new(&mut self.reader, &self.visual, &self.nodes);
         for path in children(model, "path") {
             paths.map_path(path)?;
         }
-        let counts = paths.into_counts();
+        let (paths, counts) = paths.finish();
         for location in children(model, "location") {
-            self.map_location(location, &visual)?;
+            self.map_location(location)?;
         }
         self.report_moved();
+        let mut groups = GroupMapper {
+            reader: &mut self.reader,
+            visual: &self.visual,
+            paths: &paths,
+            nodes: &self.nodes,
+            stations: &self.stations,
+        };
+        groups.map_groups(model)?;
         let mut layout = self.reader.base.builder.layout;
         layout.provenance.counts = element_counts(model, counts);
         Ok(layout)
@@ -90,62 +185,138 @@ impl<'a, 'd, 't> PlantMapper<'a, 'd, 't> {
     fn map_point(
         &mut self,
         point: Node<'d, 't>,
-        visual: &VisualLayout<'d>,
+        leaving: &HashSet<(Option<&str>, &str)>,
     ) -> Result<(), ReadError> {
+        self.reader.begin();
         let name = self.reader.name(point)?;
-        let Some(position_m) = self.position_m(point, "pointLayout", visual) else {
+        let Some(position) = self.position(point, "pointLayout") else {
             return Ok(());
         };
         let reader = &mut self.reader;
-        let row = reader.base.builder.push_node(&name, position_m, None)?;
+        let row = reader.base.builder.push_node(&name, position.drawn, None)?;
         if let Some(name) = point.attribute("name") {
             self.nodes.entry(name).or_insert(row);
         }
         let (table, row) = (Table::Nodes, row as usize);
-        reader.set_text(table, row, "type", point.attribute("type"))?;
-        let layer = child(point, "pointLayout").and_then(|l| l.attribute("layerId"));
-        let layer = layer.map(|id| visual.layer_name(id));
-        reader.set_text(table, row, "layer", layer)?;
+        let kind = point.attribute("type");
+        let kind = kind.filter(|kind| *kind != DEFAULT_POINT_TYPE);
+        reader.set_text(table, row, "type", kind)?;
+        let angle = reader.number(point, &["vehicleOrientationAngle"]);
+        let angle = angle.filter(|angle| !angle.is_nan());
+        reader.set_field(table, row, "vehicleOrientationAngle", angle)?;
+        self.set_placement(table, row, point, "pointLayout", position)?;
+        let reader = &mut self.reader;
+        let mut boxes = children(point, BOX_COLUMN).map(|n| BOUNDING_BOX.to_json(n));
+        let default = BOUNDING_BOX.default_json();
+        let bounding_box = boxes.next().filter(|b| *b != default).map(Into::into);
+        reader.set_json(table, row, BOX_COLUMN, bounding_box)?;
+        for path in children(point, "outgoingPath").map(name_or_empty) {
+            if !leaving.contains(&(point.attribute("name"), path)) {
+                let message = || format!("no path \"{path}\" begins here");
+                let remedy = "The entry `outgoingPath` is left out; remove it or add the path";
+                reader.base.report(Code::Attribute, point, message, remedy);
+            }
+        }
         set_envelopes(reader, table, row, point)?;
-        reader.set_properties(table, row, point)
+        reader.finish(table, row, point, &POINT)
     }
 
-    fn map_location(
-        &mut self,
-        location: Node<'d, 't>,
-        visual: &VisualLayout<'d>,
-    ) -> Result<(), ReadError> {
+    fn map_location(&mut self, location: Node<'d, 't>) -> Result<(), ReadError> {
+        self.reader.begin();
         let name = self.reader.name(location)?;
-        let position_m = self.position_m(location, "locationLayout", visual);
+        let position = self.position(location, "locationLayout");
         let reader = &mut self.reader;
-        let mut nodes = Vec::new();
+        let (mut nodes, mut operations) = (Vec::new(), Vec::new());
         for link in children(location, "link") {
             let point = link.attribute("point").unwrap_or_default();
             match self.nodes.get(point) {
-                Some(&row) => nodes.push(row),
-                None => reader.report_unknown_point(location, point),
+                Some(&row) => {
+                    nodes.push(row);
+                    let names = children(link, "allowedOperation").map(name_or_empty);
+                    operations.push(names.collect::<Vec<_>>());
+                }
+                None => {
+                    reader.report_unknown_point(location, point);
+                    reader.keep("link", super::elements::ANY.to_json(link).into());
+                }
             }
         }
+        let drawn = position.as_ref().map(|position| position.drawn);
         let builder = &mut reader.base.builder;
-        let row = builder.push_station(&name, position_m, nodes, None)? as usize;
-        reader.set_text(Table::Stations, row, "type", location.attribute("type"))?;
-        reader.set_bool(Table::Stations, row, "locked", location)?;
-        reader.set_properties(Table::Stations, row, location)
+        let row = builder.push_station(&name, drawn, nodes, None)?;
+        if let Some(name) = location.attribute("name") {
+            self.stations.entry(name).or_insert(row);
+        }
+        let (table, row) = (Table::Stations, row as usize);
+        reader.set_text(table, row, "kind", location.attribute("type"))?;
+        reader.set_locked(table, row, location)?;
+        let has_operations = operations.iter().any(|names| !names.is_empty());
+        let operations = has_operations.then(|| operations.into());
+        reader.set_json(table, row, LINK_OPERATIONS, operations)?;
+        let layout = child(location, "locationLayout");
+        let symbol = layout.and_then(|layout| layout.attribute(REPRESENTATION));
+        let symbol = symbol.filter(|symbol| *symbol != DEFAULT_REPRESENTATION);
+        reader.set_text(table, row, REPRESENTATION, symbol)?;
+        if let Some(position) = position {
+            self.set_placement(table, row, location, "locationLayout", position)?;
+        }
+        self.reader.finish(table, row, location, &LOCATION)
+    }
+
+    /// Stores the position in the plant, the layer and the offset of the label.
+    fn set_placement(
+        &mut self,
+        table: Table,
+        row: usize,
+        node: Node<'d, 't>,
+        layout_tag: &'static str,
+        position: Position,
+    ) -> Result<(), ReadError> {
+        let reader = &mut self.reader;
+        if let Some(plant) = position.plant {
+            for (name, meters) in [("positionX", plant.x), ("positionY", plant.y)] {
+                let attributes = reader.base.builder.attributes(table);
+                let quantity = guideway_layout::Quantity::Length;
+                attributes.set_quantity(row, name, meters, quantity);
+            }
+        }
+        if let Some(z_mm) = reader.number(node, &["positionZ", "zPosition"]) {
+            reader.set_length_mm(table, row, "positionZ", z_mm);
+        }
+        let (name, layout) = (name_or_empty(node), child(node, layout_tag));
+        reader.set_text(table, row, "layer", self.visual.layer(name, layout))?;
+        let legacy = self.visual.legacy_element(name);
+        let attribute = |names: [&'static str; 2]| {
+            let layout = layout?;
+            names.into_iter().find_map(|name| layout.attribute(name))
+        };
+        let offsets = [
+            ("labelOffsetX", "xLabelOffset"),
+            ("labelOffsetY", "yLabelOffset"),
+        ];
+        for (axis, (name, old_name)) in offsets.into_iter().enumerate() {
+            let text = attribute([name, old_name]);
+            let text = text.or_else(|| legacy?.label_offset[axis]);
+            reader.set_int(table, row, name, (text, LABEL_OFFSET[axis]))?;
+        }
+        if let Some(layout) = layout {
+            reader.keep_unknown(layout, ELEMENT_LAYOUT);
+        }
+        let unread = legacy.and_then(|legacy| legacy.unread());
+        unread
+            .into_iter()
+            .for_each(|unread| reader.keep("modelLayoutElement", unread));
+        Ok(())
     }
 
     /// The drawn position of an element, or else its position in the plant.
-    fn position_m(
-        &mut self,
-        node: Node<'d, 't>,
-        layout_tag: &'static str,
-        visual: &VisualLayout<'d>,
-    ) -> Option<Point<f64>> {
-        let plant_mm = self.position_mm(node);
-        let drawn_mm = match child(node, layout_tag) {
-            Some(layout) => self.position_mm(layout),
-            None => self.legacy_position_mm(node, visual),
+    fn position(&mut self, node: Node<'d, 't>, layout_tag: &'static str) -> Option<Position> {
+        let plant = self.position_m(node);
+        let drawn = match child(node, layout_tag) {
+            Some(layout) => self.position_m(layout),
+            None => self.legacy_position_m(node),
         };
-        let Some(position_mm) = drawn_mm.or(plant_mm) else {
+        let Some(position) = drawn.or(plant) else {
             let message = || "it has no position".to_owned();
             let remedy = "Give it one in the tool that wrote the file";
             self.reader
@@ -153,36 +324,33 @@ impl<'a, 'd, 't> PlantMapper<'a, 'd, 't> {
                 .report(Code::MissingField, node, message, remedy);
             return None;
         };
-        let position_m = position_mm * 1e-3;
-        if !self.reader.base.check_point(position_m, node) {
+        if !self.reader.base.check_point(position, node) {
             return None;
         }
-        if let (Some(plant_mm), Some(drawn_mm)) = (plant_mm, drawn_mm) {
-            let shift_m = plant_mm.distance(drawn_mm) * 1e-3;
-            if shift_m > SAME_POSITION_M {
-                self.moved += 1;
-                self.max_shift_m = self.max_shift_m.max(shift_m);
-            }
+        let is_other = |plant: &Point<f64>| plant.distance(position) > SAME_POSITION_M;
+        let plant = plant.filter(|plant| plant.is_finite() && is_other(plant));
+        if let Some(plant) = plant {
+            self.moved += 1;
+            self.max_shift_m = self.max_shift_m.max(plant.distance(position));
         }
-        Some(position_m)
+        Some(Position {
+            drawn: position,
+            plant,
+        })
     }
 
-    fn position_mm(&mut self, node: Node<'d, 't>) -> Option<Point<f64>> {
-        let x = self.reader.number(node, &["positionX", "xPosition"]);
-        let y = self.reader.number(node, &["positionY", "yPosition"]);
-        Some(Point::new(x?, y?))
+    fn position_m(&mut self, node: Node<'d, 't>) -> Option<Point<f64>> {
+        let x_mm = self.reader.number(node, &["positionX", "xPosition"]);
+        let y_mm = self.reader.number(node, &["positionY", "yPosition"]);
+        Some(Point::new(x_mm? / 1e3, y_mm? / 1e3))
     }
 
     /// The drawn position in a file up to version 0.0.3.
-    fn legacy_position_mm(
-        &mut self,
-        node: Node<'d, 't>,
-        visual: &VisualLayout<'d>,
-    ) -> Option<Point<f64>> {
-        let element = visual.legacy_element(node.attribute("name")?)?;
-        let x = self.reader.parse_number(node, "POSITION_X", element.x?);
-        let y = self.reader.parse_number(node, "POSITION_Y", element.y?);
-        Some(Point::new(x?, y?))
+    fn legacy_position_m(&mut self, node: Node<'d, 't>) -> Option<Point<f64>> {
+        let element = self.visual.legacy_element(node.attribute("name")?)?;
+        let x_mm = self.reader.parse_number(node, "POSITION_X", element.x?);
+        let y_mm = self.reader.parse_number(node, "POSITION_Y", element.y?);
+        Some(Point::new(x_mm? / 1e3, y_mm? / 1e3))
     }
 
     fn report_moved(&mut self) {
@@ -199,17 +367,6 @@ impl<'a, 'd, 't> PlantMapper<'a, 'd, 't> {
                 .report(Code::LegacyPosition, &at, message, remedy);
         }
     }
-}
-
-/// The names of the blocks per member.
-fn blocks_by_member<'d>(model: Node<'d, '_>) -> HashMap<&'d str, Vec<&'d str>> {
-    let mut blocks: HashMap<&str, Vec<&str>> = HashMap::new();
-    for block in children(model, "block") {
-        for member in children(block, "member").filter_map(|m| m.attribute("name")) {
-            blocks.entry(member).or_default().push(name_or_empty(block));
-        }
-    }
-    blocks
 }
 
 fn element_counts(model: Node<'_, '_>, paths: PathCounts) -> Vec<(String, u64)> {

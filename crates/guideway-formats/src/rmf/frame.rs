@@ -4,7 +4,7 @@
 //! Source: `building.py`, `level.py` and `transform.py` of
 //! [`rmf_building_map_tools`](https://github.com/open-rmf/rmf_traffic_editor).
 
-use guideway_layout::{Code, Place};
+use guideway_layout::{Code, GeoOrigin, Place};
 use guideway_spline::{Affine, Bounds, Point};
 
 use super::level::Level;
@@ -62,7 +62,9 @@ pub(super) fn frames(
             let sound = positions.copied().filter(|&p| is_lon_lat(p));
             let bounds = Bounds::of_points(sound);
             bounds.map_or(Frame::Plane(Affine::IDENTITY), |bounds| {
-                Frame::Degrees(LocalProjection::centered_on(bounds))
+                let projection = LocalProjection::centered_on(bounds);
+                builder.layout.geo_origin = Some(projection.origin());
+                Frame::Degrees(projection)
             })
         }
         Coordinates::Mercator => {
@@ -70,11 +72,22 @@ pub(super) fn frames(
             let middle = bounds.map_or(Point::new(0.0, 0.0), |b| b.min.lerp(b.max, 0.5));
             // A meter at the latitude p has the length 1 / cos p = cosh(y / R) in the projection.
             let scale = 1.0 / (middle.y / MERCATOR_RADIUS_M).cosh();
+            builder.layout.geo_origin = bounds.and_then(|_| mercator_origin(middle));
             let to_origin = Affine::translation(-middle);
             Frame::Plane(to_origin.then(Affine::scale(scale, scale, Point::new(0.0, 0.0))))
         }
     };
     vec![same; levels.len()]
+}
+
+/// The place on earth of a position in web Mercator, if it is on earth.
+fn mercator_origin(position: Point<f64>) -> Option<GeoOrigin> {
+    let [longitude, latitude] = [position.x, position.y].map(|m| m / MERCATOR_RADIUS_M);
+    let degrees = Point::new(longitude.to_degrees(), latitude.sinh().atan().to_degrees());
+    is_lon_lat(degrees).then_some(GeoOrigin {
+        longitude_deg: degrees.x,
+        latitude_deg: degrees.y,
+    })
 }
 
 fn image_frames(builder: &mut Builder<'_>, levels: &[Level<'_>], reference: usize) -> Vec<Frame> {

@@ -2,15 +2,19 @@
 
 use std::collections::HashMap;
 
-use guideway_layout::{Code, Value};
+use guideway_layout::{Code, Quantity, Value};
 use guideway_spline::Point;
 
 use super::frame::Frame;
 use super::level::Level;
+use super::parameters::{set_json, set_parameters};
 use super::reader::{SiteReader, place};
 use crate::ReadError;
 use crate::builder::{PlaceFn, Table};
 use crate::yaml::YamlNode;
+
+/// Lists and objects of a lift that become columns.
+const NESTED: [&str; 2] = ["level_doors", "doors"];
 
 /// Appends a station per lift of `root`. A lift is placed in the frame of its reference floor, or
 /// else of the level `reference`.
@@ -37,13 +41,13 @@ pub(super) fn map_lifts<'y>(
         reader.builder.check_text(name)?;
         let floor = lift.get("reference_floor_name").and_then(YamlNode::text);
         let floor = floor.and_then(|name| rows.get(name).copied());
-        // A building has `x` and `y`, a navigation graph has `position`.
-        let position = lift.get("position");
-        let x = lift.get("x").or_else(|| position?.item(0));
-        let y = lift.get("y").or_else(|| position?.item(1));
-        let position = x
-            .and_then(YamlNode::number)
-            .zip(y.and_then(YamlNode::number));
+        // A building has `x`, `y`, `yaw`, `width` and `depth`; a navigation graph has `position`
+        // and `dims`.
+        let number = |key: &str, (list, index): (&str, usize)| {
+            let of_list = || lift.get(list)?.item(index);
+            lift.get(key).or_else(of_list).and_then(YamlNode::number)
+        };
+        let position = number("x", ("position", 0)).zip(number("y", ("position", 1)));
         let frame = frames.get(floor.unwrap_or(reference));
         let position_m = position
             .zip(frame)
@@ -57,14 +61,30 @@ pub(super) fn map_lifts<'y>(
                 .report(Code::MissingField, at, message, remedy);
         }
         let position_m = position_m.filter(|&p| reader.builder.check_point(p, at));
+        let nodes = reader.lifts.remove(name).unwrap_or_default();
         let builder = &mut reader.builder;
-        let row = builder.push_station(name, position_m, Vec::new(), None)? as usize;
-        builder.set(Table::Stations, row, "element", Value::Text("lift"))?;
-        for key in ["width", "depth"] {
-            if let Some(meters) = lift.get(key).and_then(YamlNode::number) {
-                builder.set(Table::Stations, row, key, Value::Float(meters))?;
+        let row = builder.push_station(name, position_m, nodes, None)? as usize;
+        builder.set(Table::Stations, row, "kind", Value::Text("lift"))?;
+        for (key, entry, quantity) in [
+            ("theta", number("yaw", ("position", 2)), Quantity::Angle),
+            ("width", number("width", ("dims", 0)), Quantity::Length),
+            ("depth", number("depth", ("dims", 1)), Quantity::Length),
+        ] {
+            if let Some(value) = entry {
+                let attributes = builder.attributes(Table::Stations);
+                attributes.set_quantity(row, key, value, quantity);
             }
         }
+        let is_elsewhere = |key: &str| {
+            let known = ["x", "y", "yaw", "width", "depth", "position", "dims"];
+            known.contains(&key) || NESTED.contains(&key)
+        };
+        for key in NESTED {
+            if let Some(node) = lift.get(key).filter(|node| node.is_map() || node.is_list()) {
+                set_json(reader, (Table::Stations, row), key, node, at)?;
+            }
+        }
+        set_parameters(reader, (Table::Stations, row), lift, is_elsewhere, at)?;
     }
     Ok(())
 }

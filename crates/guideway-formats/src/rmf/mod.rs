@@ -1,26 +1,38 @@
-//! Reads buildings and navigation graphs of Open-RMF: YAML; pixels of a floor plan with y down,
+//! Buildings and navigation graphs of Open-RMF: YAML; pixels of a floor plan with y down,
 //! meters, or degrees.
 //!
 //! Both have levels with vertices, and lanes between them. People draw a building over floor plans;
 //! Open-RMF generates a navigation graph from it, in meters.
 //!
-//! | Stage | Input | Output | File |
+//! | stage | input | output | file |
 //! |---|---|---|---|
 //! | parse | text | YAML tree, levels | `level` |
 //! | scale | measurements, fiducials | a frame per level: file units to meters | `frame` |
-//! | map | vertices, lanes, walls, doors | nodes and paths | `site`, `parameters` |
-//! | map | lifts | stations | `lifts` |
+//! | map | vertices, lanes, walls, doors | nodes, paths, blocks | `site`, `level_mapper`, `edges` |
+//! | map | parameters, lifts | columns, stations | `parameters`, `lifts`; `reader`, `site_mapper` |
+//! | write | layout | navigation graph, losses | `write`, `graph_*`, `yaml_text` |
 
+mod edges;
 mod frame;
+mod graph_columns;
+mod graph_losses;
+mod graph_plan;
 mod level;
+mod level_mapper;
 mod lifts;
 mod parameters;
 mod reader;
 mod site;
+mod site_mapper;
+mod write;
+mod yaml_text;
 
 use guideway_layout::{Layout, Place};
 
-use self::site::SiteMapper;
+pub(crate) use self::site::NAVIGATION_GRAPH;
+pub use self::write::write_navigation_graph;
+
+use self::site_mapper::SiteMapper;
 use crate::source::Source;
 use crate::yaml::Yaml;
 use crate::{Problem, ReadError, text};

@@ -6,7 +6,7 @@
 //! | walk | tree | shapes with transform, viewport and style | `tree_walker`, `viewport`, `style` |
 //! | convert | shape | runs in meters | `shapes`, `path_builder` |
 //! | map | runs and style | paths, colors, widths | `shape_mapper`, `element_counts` |
-//! | write | layout | SVG elements | `write`, `svg_writer`, `xml_text` |
+//! | write | layout | SVG elements | `write`, `svg_writer`; `xml_text` |
 //!
 //! The reader uses `svgtypes`, the parser below `usvg`, and not `usvg` itself: `usvg` computes in
 //! single precision, converts arcs with an error of up to 0.1 units, drops unpainted shapes without
@@ -24,7 +24,6 @@ mod svg_writer;
 mod tree_walker;
 mod viewport;
 mod write;
-mod xml_text;
 
 pub(crate) use self::read::read;
 pub use self::svg_writer::{PathData, Stroke, SvgWriter};

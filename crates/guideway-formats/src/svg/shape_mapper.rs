@@ -54,9 +54,7 @@ impl<'a, 'd, 't> ShapeMapper<'a, 'd, 't> {
             Ok(color) => color,
             Err(detail) => {
                 let remedy = "Nothing to do if it is meant to be hidden";
-                self.base
-                    .report(Code::NotDrawn, node, || detail.to_owned(), remedy);
-                return self.refuse(node, context, Code::NotDrawn, detail);
+                return self.refuse(node, context, Code::NotDrawn, detail, remedy);
             }
         };
         let builder = &mut self.base.builder;
@@ -85,8 +83,7 @@ impl<'a, 'd, 't> ShapeMapper<'a, 'd, 't> {
         if let Some((code, detail)) = refused {
             let remedy = "It is left out; correct it in the tool that wrote the file";
             let detail = error.map_or(detail, |error| error.to_string());
-            self.base.report(code, node, || detail.clone(), remedy);
-            return self.refuse(node, context, code, &detail);
+            return self.refuse(node, context, code, &detail, remedy);
         }
         if let Some(error) = error {
             let remedy = "It is drawn up to the error; correct it";
@@ -134,7 +131,7 @@ impl<'a, 'd, 't> ShapeMapper<'a, 'd, 't> {
         None
     }
 
-    /// Records a shape as refused.
+    /// Records a shape as refused, with a finding.
     ///
     /// # Errors
     /// When the layout exceeds a limit, or when the caller cancels.
@@ -144,10 +141,11 @@ impl<'a, 'd, 't> ShapeMapper<'a, 'd, 't> {
         context: &ElementContext<'_>,
         code: Code,
         detail: &str,
+        remedy: &str,
     ) -> Result<(), ReadError> {
         let id = self.path_id(node, context);
         self.base.builder.check_text(&id)?;
-        self.base.builder.refuse(&id, code, detail)
+        self.base.refuse(&id, code, node, detail, remedy)
     }
 
     fn path_id(&self, node: Node<'d, 't>, context: &ElementContext<'_>) -> String {

@@ -6,8 +6,8 @@ use std::io::{self, Write};
 use guideway_layout::Value;
 use guideway_spline::{Point, uniform};
 
-use super::xml_text::escape;
 use crate::clamped::is_straight;
+use crate::xml_text::escape;
 
 /// Path data: the value of the `d` attribute of a `path` element.
 #[derive(Clone, Debug)]

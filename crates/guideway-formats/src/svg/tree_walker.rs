@@ -196,13 +196,13 @@ impl<'a, 'd, 't> TreeWalker<'a, 'd, 't> {
         let Some(own) = transform(node) else {
             let detail = "its `transform` is malformed";
             let remedy = "It is left out with all its children; correct the `transform`";
-            self.mapper
-                .base
-                .report(Code::WrongType, node, || detail.to_owned(), remedy);
-            return match is_shape {
-                true => self.mapper.refuse(node, context, Code::WrongType, detail),
-                false => Ok(()),
-            };
+            let code = Code::WrongType;
+            if is_shape {
+                return self.mapper.refuse(node, context, code, detail, remedy);
+            }
+            let base = &mut self.mapper.base;
+            base.report(code, node, || detail.to_owned(), remedy);
+            return Ok(());
         };
         let inner = ElementContext {
             meters_from_user: own.then(context.meters_from_user),

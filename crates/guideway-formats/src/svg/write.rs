@@ -2,17 +2,20 @@
 
 use std::io::{self, Write};
 
-use guideway_layout::{Layout, PathRef, Value};
+use guideway_layout::{Direction, Layout, PathRef, Value};
 use guideway_spline::{Bounds, Point};
 
 use super::svg_writer::{PathData, Stroke, SvgWriter};
-use super::xml_text::is_xml_char;
 use crate::Losses;
 use crate::clamped::POSITION_STEP_M;
 use crate::common_losses::common_losses;
+use crate::xml_text::is_xml_char;
 
 /// Name of the attribute column that holds group names.
 const GROUP_COLUMN: &str = "group";
+
+/// Name of the attribute column that holds names of elements.
+const ELEMENT_COLUMN: &str = "element";
 
 /// Width of paths without a width, in meters.
 const DEFAULT_WIDTH_M: f64 = 0.1;
@@ -90,21 +93,28 @@ fn stroke(layout: &Layout, path: PathRef<'_>) -> Stroke {
 
 fn losses(layout: &Layout) -> Losses {
     let mut losses = common_losses(layout);
-    let ranks = layout.paths.rank().map_or(0, <[i32]>::len);
-    losses.add(
-        "draw ranks",
-        ranks,
-        "draw ranks: written as the order of paths",
-    );
-    losses.add_network(layout);
+    let ranks = layout.paths.rank().unwrap_or_default();
+    let ranks = ranks.iter().filter(|&&rank| rank != 0).count();
+    let detail = "draw ranks: written as the order of paths";
+    losses.add("draw ranks", ranks, detail);
+    let curves = layout.paths.written_curves().len();
+    let detail = "curves: drawn as they are, without the numbers of their files";
+    losses.add("curves", curves, detail);
+    let widths = layout.paths.width_m().unwrap_or_default();
+    let zero = widths.iter().filter(|&&width| width == 0.0).count();
+    let detail = "paths of width 0: written with the default width";
+    losses.add("widths", zero, detail);
+    losses.add_network_and_groups(layout, Direction::Both);
     losses.add_columns(&layout.paths.attributes, "paths", |name| {
-        name == GROUP_COLUMN
+        [GROUP_COLUMN, ELEMENT_COLUMN].contains(&name)
     });
-    let detail = match layout.paths.attributes.get(GROUP_COLUMN) {
-        Some(_) => "levels",
-        None => "levels: written as groups",
-    };
-    losses.add("levels", layout.levels.len(), detail);
+    losses.add_replaced(layout, ELEMENT_COLUMN, |_| Some("path"));
+    losses.add_replaced(layout, GROUP_COLUMN, |row| {
+        match layout.paths.attributes.value(row, GROUP_COLUMN)? {
+            Value::Text(group) => Some(group),
+            _ => None,
+        }
+    });
     let is_valid = |id: &str| !id.is_empty() && id.chars().all(is_xml_char);
     let invalid = layout.paths.iter().filter(|p| !is_valid(p.id()));
     let detail = "identifiers that are empty or contain characters that XML forbids";

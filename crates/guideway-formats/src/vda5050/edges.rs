@@ -2,14 +2,14 @@
 
 use std::borrow::Cow;
 
-use guideway_layout::{Code, NewPath};
+use guideway_layout::{Code, NewPath, Severity};
 use guideway_spline::Runs;
 
 use super::mapper::Mapper;
 use super::model::Edge;
 use crate::ReadError;
 use crate::builder::{PlaceFn, Table};
-use crate::json::{Field, field_place};
+use crate::json::{Field, OtherMembers, field_place};
 
 /// A node at an end of an edge.
 struct End {
@@ -17,6 +17,8 @@ struct End {
     name: String,
     row: Option<u32>,
     level: Option<u32>,
+    /// True for a node of the order that has no position.
+    is_unplaced: bool,
 }
 
 impl Mapper<'_> {
@@ -43,20 +45,23 @@ impl Mapper<'_> {
             return self.refuse_between_levels(&id, from, to, at);
         }
         let mut runs = Runs::default();
+        let mut read = None;
         let at_curve: PlaceFn<'_> = &|| field_place(at, "trajectory");
         self.builder
             .check_type(&edge.trajectory, at_curve, "an object");
         if let Some(trajectory) = edge.trajectory.get() {
-            self.builder
-                .append_trajectory(trajectory, at_curve, &mut runs)?;
+            let builder = &mut self.builder;
+            let curve = builder.append_trajectory(&trajectory.record, at_curve, &mut runs)?;
+            read = Some((curve, trajectory.text));
         }
+        let nodes = &self.builder.layout.nodes;
+        let positions = start.row.zip(end.row);
+        let positions = positions.map(|(from, to)| [from, to].map(|row| nodes.position_m(row)));
         if runs.is_empty() {
-            let (Some(from), Some(to)) = (start.row, end.row) else {
-                let detail = missing_ends([&start, &end]);
-                return self.builder.refuse(&id, Code::UnknownNode, &detail);
+            let Some([from, to]) = positions else {
+                return self.refuse_without_ends(&id, [&start, &end], at);
             };
-            let nodes = &self.builder.layout.nodes;
-            runs.push_line(nodes.position_m(from), nodes.position_m(to));
+            runs.push_line(from, to);
         }
         let row = self.builder.push_path(&NewPath {
             id: &id,
@@ -66,12 +71,21 @@ impl Mapper<'_> {
             level: start.level.or(end.level),
             ..NewPath::default()
         })?;
+        if let Some((curve, text)) = read {
+            let mut rows = [start.row, end.row].into_iter().flatten();
+            let is_derived = rows.any(|row| self.derived.contains(&row));
+            let ends = positions.filter(|_| !is_derived);
+            let builder = &mut self.builder;
+            builder.keep_written_curve(row, curve, ends, || Some(text))?;
+        }
         self.set_sequence(Table::Paths, row, sequence)?;
-        self.builder
-            .set_attributes(Table::Paths, row, &edge.attributes, at)
+        let mut other = OtherMembers::default();
+        self.set_members(Table::Paths, row, &edge.attributes, &mut other, at)?;
+        self.set_other(Table::Paths, row, other)
     }
 
-    /// Returns the node at an end: by identifier if the edge has one, else by `sequenceId`.
+    /// Returns the node at an end: by `sequenceId`, else by identifier. An identifier beside a
+    /// `sequenceId` only confirms it, because an identifier may have several positions.
     fn end(
         &mut self,
         field: &Field<Cow<'_, str>>,
@@ -80,30 +94,75 @@ impl Mapper<'_> {
         at: PlaceFn<'_>,
     ) -> Result<End, ReadError> {
         let name = self.builder.text(field, at)?;
-        let row_of = |name| self.nodes.get(&self.builder.layout.nodes, name);
-        let (name, row) = match (name, sequence) {
-            (Some(name), _) => (format!("`{name}`"), row_of(name)),
-            (None, Some(number)) => {
-                let row = self.sequence.get(&number).copied();
-                (format!("with sequenceId {number}"), row)
+        let by_sequence = sequence.and_then(|number| self.sequence.get(&number).copied());
+        let by_name = name.and_then(|name| self.nodes.get(&self.builder.layout.nodes, name));
+        match (by_sequence, by_name, name) {
+            (Some(row), _, Some(name)) => self.check_name(row, name, edge, at),
+            (None, Some(_), Some(name)) if self.ambiguous.contains(name) => {
+                let message =
+                    || format!("`{edge}` needs the node `{name}`, which has several positions");
+                let remedy = "The first one is used; give nodes and edges a sequenceId";
+                let (severity, code) = (Severity::Error, Code::DuplicateId);
+                self.builder.report_as(severity, code, at, message, remedy);
             }
-            (None, None) => (String::new(), None),
+            _ => {}
+        }
+        let row = by_sequence.or(by_name);
+        let is_unplaced = row.is_none()
+            && (sequence.is_some_and(|number| self.unplaced.sequence.contains(&number))
+                || name.is_some_and(|name| self.unplaced.ids.contains(name)));
+        let name = match (name, sequence) {
+            (Some(name), _) => format!("`{name}`"),
+            (None, Some(number)) => format!("with sequenceId {number}"),
+            (None, None) => String::new(),
         };
         match (row, name.is_empty()) {
             (Some(_), _) => {}
+            _ if is_unplaced => {}
             (None, true) => self.builder.report_missing(at, "the identifier of a node"),
             (None, false) => {
-                let message = || {
-                    format!(
-                        "`{edge}` needs the node {name}, which does not exist or has no position"
-                    )
-                };
+                let message = || format!("`{edge}` needs the node {name}, which does not exist");
                 let remedy = "Add the node with its position, or correct the name";
                 self.builder.report(Code::UnknownNode, at, message, remedy);
             }
         }
         let level = row.and_then(|row| self.builder.layout.nodes.level(row));
-        Ok(End { name, row, level })
+        Ok(End {
+            name,
+            row,
+            level,
+            is_unplaced,
+        })
+    }
+
+    /// Reports an identifier that is not that of the node at the place in the order.
+    fn check_name(&mut self, row: u32, name: &str, edge: &str, at: PlaceFn<'_>) {
+        let id = self.builder.layout.nodes.id(row);
+        if id == name {
+            return;
+        }
+        let id = id.to_owned();
+        let message =
+            || format!("`{edge}` names the node `{name}`, but by sequenceId the node is `{id}`");
+        let remedy = "The sequenceId decides; correct the application that wrote the order";
+        self.builder.report(Code::UnknownValue, at, message, remedy);
+    }
+
+    /// Refuses a straight line of which an end is unknown.
+    fn refuse_without_ends(
+        &mut self,
+        id: &str,
+        ends: [&End; 2],
+        at: PlaceFn<'_>,
+    ) -> Result<(), ReadError> {
+        let detail = missing_ends(ends);
+        let mut missing = ends.into_iter().filter(|end| end.row.is_none());
+        if missing.all(|end| end.is_unplaced) {
+            let remedy = "The format allows it; give the nodes positions or the edge a trajectory";
+            let builder = &mut self.builder;
+            return builder.refuse_at(id, Code::NotDrawn, &detail, at, remedy);
+        }
+        self.builder.refuse(id, Code::UnknownNode, &detail)
     }
 
     fn refuse_between_levels(
@@ -117,10 +176,9 @@ impl Mapper<'_> {
         let [from, to] = [from, to].map(|level| &levels[level as usize].id);
         let detail =
             format!("connects the maps `{from}` and `{to}`; paths between levels are not drawn");
-        let message = || format!("`{id}` {detail}");
-        let remedy = "None needed for a lift; else correct the mapId of the node";
-        self.builder.report(Code::CrossLevel, at, message, remedy);
-        self.builder.refuse(id, Code::CrossLevel, &detail)
+        let remedy = "A lift is not drawn; else correct the mapId of the node";
+        let builder = &mut self.builder;
+        builder.refuse_at(id, Code::CrossLevel, &detail, at, remedy)
     }
 }
 
@@ -129,9 +187,10 @@ fn missing_ends(ends: [&End; 2]) -> String {
     let missing = ends.into_iter().zip(["start", "end"]);
     let missing = missing.filter(|(end, _)| end.row.is_none());
     let texts: Vec<String> = missing
-        .map(|(end, which)| match end.name.as_str() {
-            "" => format!("the {which} node is missing"),
-            name => format!("the {which} node {name} is unknown or has no position"),
+        .map(|(end, which)| match (end.name.as_str(), end.is_unplaced) {
+            ("", _) => format!("the {which} node is missing"),
+            (name, true) => format!("the {which} node {name} has no position"),
+            (name, false) => format!("the {which} node {name} is unknown"),
         })
         .collect();
     texts.join(", and ")

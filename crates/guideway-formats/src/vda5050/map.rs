@@ -1,22 +1,57 @@
-//! VDA 5050 mapping: adds the levels, nodes and edges of an order to the layout.
+//! VDA 5050 mapping: adds the header, levels, nodes and edges of an order to the layout.
 
-use guideway_layout::{Code, Layout, Level, Place};
+use guideway_layout::{Code, Layout, Level, Place, Severity, Value};
+use guideway_spline::Point;
 
-use super::mapper::Mapper;
-use super::model::{Node, Position, Root};
+use super::mapper::{Mapper, TrajectoryEnds, whole};
+use super::members::{DERIVED, PASSES};
+use super::model::{Node, Position, Root, WithText};
+use super::version::Version;
 use crate::ReadError;
 use crate::builder::{PlaceFn, Table};
-use crate::json::{Field, field_place, items};
+use crate::json::{Field, OtherMembers, Tree, field_place, items};
+
+/// Place of a node in the layout.
+struct NodePlace {
+    point: Point<f64>,
+    level: Option<u32>,
+    is_derived: bool,
+}
+
+/// Version by the keys of the edges, or by the stated version if there are no edges.
+pub(super) fn version_of(root: &Root<'_>) -> Version {
+    let stated = root.attributes.text("version").unwrap_or_default();
+    match names_nodes(root) {
+        Some(true) => Version::V2,
+        Some(false) => Version::V3,
+        None if stated.starts_with('3') => Version::V3,
+        None => Version::V2,
+    }
+}
+
+/// Whether edges name their nodes; `None` without edges.
+fn names_nodes(root: &Root<'_>) -> Option<bool> {
+    let mut edges = items(&root.edges)
+        .filter_map(|(_, edge)| edge.get())
+        .peekable();
+    edges.peek()?;
+    Some(edges.any(|e| !e.start.is_absent() || !e.end.is_absent()))
+}
 
 impl Mapper<'_> {
     /// Maps the root object to a layout.
     pub(super) fn map(mut self, root: &Root<'_>) -> Result<Layout, ReadError> {
         let at_root: PlaceFn<'_> = &|| Place::element("the root");
         self.builder.check_repeated(root.repeated, at_root);
-        self.map_version(root)?;
+        self.map_version(root);
+        let mut other = OtherMembers::default();
+        self.set_members(Table::Layout, 0, &root.attributes, &mut other, at_root)?;
+        self.set_other(Table::Layout, 0, other)?;
+        let ends = trajectory_ends(root);
         for (i, node) in items(&root.nodes) {
-            self.map_node(node, &|| Place::element(format!("nodes[{i}]")))?;
+            self.map_node(node, &ends, &|| Place::element(format!("nodes[{i}]")))?;
         }
+        self.set_passes()?;
         for (i, edge) in items(&root.edges) {
             self.map_edge(edge, &|| Place::element(format!("edges[{i}]")))?;
         }
@@ -35,16 +70,13 @@ impl Mapper<'_> {
     }
 
     /// Sets the version: the stated one, unless the keys of the edges contradict it.
-    fn map_version(&mut self, root: &Root<'_>) -> Result<(), ReadError> {
+    fn map_version(&mut self, root: &Root<'_>) {
         let at: PlaceFn<'_> = &|| Place::element("version");
-        let stated = self.builder.text(&root.version, at)?.unwrap_or_default();
-        let edges = || items(&root.edges).filter_map(|(_, edge)| edge.get());
-        let names_nodes = edges().any(|e| !e.start.is_absent() || !e.end.is_absent());
-        let has_edges = edges().next().is_some();
-        let (majors, found): (&[&str], _) = match (names_nodes, has_edges) {
-            (true, _) => (&["1", "2"], "1.1 to 2.1"),
-            (false, true) => (&["3"], "3.0"),
-            (false, false) => (&["1", "2", "3"], "1.1 to 3.0"),
+        let stated = root.attributes.text("version").unwrap_or_default();
+        let (majors, found): (&[&str], _) = match names_nodes(root) {
+            Some(true) => (&["1", "2"], "1.1 to 2.1"),
+            Some(false) => (&["3"], "3.0"),
+            None => (&["1", "2", "3"], "1.1 to 3.0"),
         };
         let fits = majors.contains(&stated.split('.').next().unwrap_or_default());
         if !fits && !stated.is_empty() {
@@ -59,42 +91,131 @@ impl Mapper<'_> {
             .clone_into(&mut provenance.format);
         let version = if fits { stated } else { found };
         version.clone_into(&mut provenance.format_version);
-        Ok(())
     }
 
-    fn map_node(&mut self, node: &Field<Node<'_>>, at: PlaceFn<'_>) -> Result<(), ReadError> {
-        let Some(node) = self.builder.record(node, at) else {
+    fn map_node(
+        &mut self,
+        field: &Field<WithText<'_, Node<'_>>>,
+        ends: &TrajectoryEnds<'_>,
+        at: PlaceFn<'_>,
+    ) -> Result<(), ReadError> {
+        let Some(WithText { record: node, text }) = self.builder.record(field, at) else {
             return Ok(());
         };
         self.builder.check_repeated(node.repeated, at);
         let id = self.builder.id(&node.id, at, "nodeId")?;
-        let at_position: PlaceFn<'_> = &|| field_place(at, "nodePosition");
-        let Some(position) = self.builder.record(&node.position, at_position) else {
+        let sequence = self.sequence(&node.sequence, at);
+        let known = self.nodes.get(&self.builder.layout.nodes, &id);
+        if let (Some(row), true) = (known, node.position.is_absent()) {
+            return self.pass_again(row, sequence, text);
+        }
+        let Some(place) = self.place(node, &id, sequence, ends, at)? else {
+            self.unplaced.sequence.extend(sequence);
+            self.unplaced.ids.insert(id.into_owned());
             return Ok(());
+        };
+        let nodes = &self.builder.layout.nodes;
+        if let Some(row) = known {
+            if (nodes.position_m(row), nodes.level(row)) == (place.point, place.level) {
+                return self.pass_again(row, sequence, text);
+            }
+            self.ambiguous.insert(id.as_ref().to_owned());
+        }
+        let row = self.builder.push_node(&id, place.point, place.level)?;
+        self.nodes.insert(&self.builder.layout.nodes, row);
+        if let Some(sequence) = sequence {
+            self.sequence.entry(sequence).or_insert(row);
+        }
+        let table_row = row as usize;
+        self.set_sequence(Table::Nodes, table_row, sequence)?;
+        if place.is_derived {
+            self.derived.insert(row);
+            let value = Value::Bool(true);
+            self.builder.set(Table::Nodes, table_row, DERIVED, value)?;
+        }
+        let mut other = OtherMembers::default();
+        self.set_members(Table::Nodes, table_row, &node.attributes, &mut other, at)?;
+        if let Some(position) = node.position.get() {
+            let at: PlaceFn<'_> = &|| field_place(at, "nodePosition");
+            let mut nested = OtherMembers::default();
+            let attributes = &position.attributes;
+            self.set_members(Table::Nodes, table_row, attributes, &mut nested, at)?;
+            if let Some(text) = nested.into_text() {
+                other.add(None, "nodePosition", &text);
+            }
+        }
+        self.set_other(Table::Nodes, table_row, other)
+    }
+
+    /// Returns the place of a node: its position, else the end of a trajectory.
+    fn place(
+        &mut self,
+        node: &Node<'_>,
+        id: &str,
+        sequence: Option<u64>,
+        ends: &TrajectoryEnds<'_>,
+        at: PlaceFn<'_>,
+    ) -> Result<Option<NodePlace>, ReadError> {
+        let at_position: PlaceFn<'_> = &|| field_place(at, "nodePosition");
+        if node.position.is_absent() {
+            let by_sequence = sequence.and_then(|number| ends.by_sequence.get(&number));
+            let end = by_sequence.or_else(|| ends.by_id.get(id)).copied();
+            let end = end.filter(|&end| self.builder.check_point(end, at));
+            let (message, remedy) = match end {
+                Some(_) => (
+                    "the node has no position: it is drawn at the end of a trajectory",
+                    "None needed: the format allows it",
+                ),
+                None => (
+                    "the node has no position, and no trajectory leads to it: it is not drawn",
+                    "The format allows it; give the node a position to draw it",
+                ),
+            };
+            let message = || message.to_owned();
+            let builder = &mut self.builder;
+            builder.report_as(Severity::Info, Code::NotDrawn, at, message, remedy);
+            return Ok(end.map(|point| NodePlace {
+                point,
+                level: None,
+                is_derived: true,
+            }));
+        }
+        let Some(position) = self.builder.record(&node.position, at_position) else {
+            return Ok(None);
         };
         self.builder.check_repeated(position.repeated, at_position);
         let Some(point) = self.builder.point(&position.x, &position.y, at_position) else {
-            return Ok(());
+            return Ok(None);
         };
         let level = self.level(position, at_position)?;
-        let sequence = self.sequence(&node.sequence, at);
-        let nodes = &self.builder.layout.nodes;
-        let known = self.nodes.get(nodes, &id);
-        if let Some(row) = known.filter(|&row| nodes.position_m(row) == point) {
-            // The order passes the node again.
-            self.sequence.extend(sequence.map(|number| (number, row)));
-            return Ok(());
+        Ok(Some(NodePlace {
+            point,
+            level,
+            is_derived: false,
+        }))
+    }
+
+    /// Adds a pass of a node that the order passed before.
+    fn pass_again(&mut self, row: u32, sequence: Option<u64>, text: &str) -> Result<(), ReadError> {
+        self.builder.check_text(text)?;
+        if let Some(sequence) = sequence {
+            self.sequence.entry(sequence).or_insert(row);
         }
-        let row = self.builder.push_node(&id, point, level)?;
-        self.nodes.insert(&self.builder.layout.nodes, row);
-        self.sequence.extend(sequence.map(|number| (number, row)));
-        let row = row as usize;
-        self.set_sequence(Table::Nodes, row, sequence)?;
-        let (of_node, of_position) = (&node.attributes, &position.attributes);
-        self.builder
-            .set_attributes(Table::Nodes, row, of_node, at)?;
-        self.builder
-            .set_attributes(Table::Nodes, row, of_position, at_position)
+        self.passes.entry(row).or_default().push(pass_text(text));
+        Ok(())
+    }
+
+    /// Sets the column of the further passes of nodes.
+    fn set_passes(&mut self) -> Result<(), ReadError> {
+        let mut passes: Vec<_> = std::mem::take(&mut self.passes).into_iter().collect();
+        passes.sort_unstable();
+        for (row, passes) in passes {
+            let text = format!("[{}]", passes.join(","));
+            let value = Value::Json(&text);
+            self.builder
+                .set(Table::Nodes, row as usize, PASSES, value)?;
+        }
+        Ok(())
     }
 
     fn level(
@@ -118,4 +239,68 @@ impl Mapper<'_> {
         self.maps.insert(id.to_owned(), level);
         Ok(Some(level))
     }
+}
+
+/// Returns a node without its identifier and place.
+fn pass_text(text: &str) -> String {
+    let is_place = |key: &str| matches!(key, "x" | "y" | "mapId");
+    let Tree::Object(members) = Tree::opened(text) else {
+        return "{}".to_owned();
+    };
+    let members = members.into_iter().filter_map(|(key, value)| {
+        let value = match (key.as_ref(), value) {
+            ("nodeId", _) => return None,
+            ("nodePosition", Tree::Raw(text)) if text.starts_with('{') => {
+                let Tree::Object(members) = Tree::opened(&text) else {
+                    return None;
+                };
+                let rest = members.into_iter().filter(|(key, _)| !is_place(key));
+                let rest: Vec<_> = rest.collect();
+                if rest.is_empty() {
+                    return None;
+                }
+                Tree::Raw(Tree::Object(rest).to_text().into())
+            }
+            ("nodePosition", _) => return None,
+            (_, value) => value,
+        };
+        Some((key, value))
+    });
+    Tree::Object(members.collect()).to_text()
+}
+
+/// Collects the outer control points of all trajectories, if a node has no position.
+fn trajectory_ends<'r>(root: &'r Root<'_>) -> TrajectoryEnds<'r> {
+    let mut ends = TrajectoryEnds::default();
+    let mut nodes = items(&root.nodes).filter_map(|(_, node)| node.get());
+    if nodes.all(|node| !node.record.position.is_absent()) {
+        return ends;
+    }
+    for (_, edge) in items(&root.edges) {
+        let Some(edge) = edge.get() else { continue };
+        let Some(trajectory) = edge.trajectory.get() else {
+            continue;
+        };
+        let points = &trajectory.record.points;
+        let points = items(points).filter_map(|(_, point)| {
+            let point = point.get()?;
+            Some(Point::new(*point.x.get()?, *point.y.get()?))
+        });
+        let points: Vec<Point<f64>> = points.collect();
+        let [first, .., last] = points[..] else {
+            continue;
+        };
+        let sequence = edge.sequence.get().and_then(|&number| whole(number));
+        let before = sequence.and_then(|number| number.checked_sub(1));
+        let after = sequence.map(|number| number + 1);
+        for (number, name, point) in [(before, &edge.start, first), (after, &edge.end, last)] {
+            if let Some(number) = number {
+                ends.by_sequence.entry(number).or_insert(point);
+            }
+            if let Some(name) = name.get() {
+                ends.by_id.entry(name.as_ref()).or_insert(point);
+            }
+        }
+    }
+    ends
 }

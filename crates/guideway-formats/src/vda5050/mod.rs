@@ -5,13 +5,26 @@
 //!
 //! | stage | input | output | file |
 //! |---|---|---|---|
-//! | read | text | records | `read`, `model` |
-//! | map | records | levels, nodes, paths | `mapper`, `map`, `edges` |
+//! | read | text | records | `read`, `model`, `version` |
+//! | map | records | levels, nodes, paths, columns | `mapper`, `map`, `edges`, `members` |
+//! | order | layout | paths and nodes as one route | `route` |
+//! | write | route | text | `write`, `objects`, `held`, `actions` |
+//! | account | layout, route | losses | `write_losses` |
 
+mod actions;
 mod edges;
+mod held;
 mod map;
 mod mapper;
+mod members;
 mod model;
+mod objects;
 mod read;
+mod route;
+mod version;
+mod write;
+mod write_losses;
 
 pub(crate) use self::read::read;
+pub use self::version::Version;
+pub use self::write::{WriteOptions, write_layout};

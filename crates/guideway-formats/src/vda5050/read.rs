@@ -2,6 +2,7 @@
 
 use guideway_layout::{Layout, Place};
 
+use super::map::version_of;
 use super::mapper::Mapper;
 use super::model::Root;
 use crate::json::{self, Field};
@@ -30,7 +31,8 @@ pub(crate) fn read(source: Source<'_>, bytes: &[u8]) -> Result<Layout, ReadError
         let expected = "`nodes` and `edges` of a VDA 5050 order";
         return Err(source.fail(not_an_order("the root", expected, "an object with neither")));
     }
-    let mut layout = Mapper::new(source, bytes.len()).map(&root)?;
+    let version = version_of(&root);
+    let mut layout = Mapper::new(source, bytes.len(), version).map(&root)?;
     json::add_line_numbers(&mut layout, text);
     Ok(layout)
 }

@@ -52,7 +52,10 @@ fn joins_parts_across_batches_and_refuses_whole_paths() {
         attribute(&layout, "row").values.get(1),
         Some(Value::Text("C"))
     );
-    assert!(layout.diagnostics.is_empty());
+    let found = layout.diagnostics.iter();
+    let found: Vec<_> = found.map(|d| (d.code, d.place.element.as_str())).collect();
+    let missing = |place| (Code::MissingField, place);
+    assert_eq!(found, [missing("path \"b\""), missing("path \"d\"")]);
 }
 
 #[test]

@@ -6,7 +6,7 @@ use crate::same::{
 };
 use guideway_formats::Losses;
 use guideway_formats::dxf::write_layout;
-use guideway_layout::{Direction, Layout, NewPath, Value};
+use guideway_layout::{Direction, Layout, NewPath, Value, WrittenCurve};
 use guideway_spline::{Point, Runs};
 use proptest::prelude::*;
 
@@ -32,7 +32,7 @@ proptest! {
         let color = |i: usize| (colors[i] & 0x7FFF_FF00) | 0xFF;
         layout.paths.set_color_rgba((0..layout.paths.len()).map(color).collect());
         let (text, losses) = written(&layout);
-        let what = ["nodes", "vehicle types", "column maxSpeed", "levels"];
+        let what = ["nodes", "vehicle types", "levels", "column maxSpeed"];
         prop_assert_eq!(losses.iter().map(|l| &l.what).collect::<Vec<_>>(), what);
         let again = read(&text);
         assert_same_curves(&layout, &again, "DXF");
@@ -66,6 +66,25 @@ fn writes_lines_polylines_and_splines() {
 }
 
 #[test]
+fn keeps_nurbs_as_they_were_written() {
+    let mut layout = Layout::default();
+    push_lines(&mut layout, "bend", &[(0.0, 0.0), (4.0, 4.0)]);
+    let written_curve = WrittenCurve {
+        degree: 2,
+        knots: vec![0.0, 0.0, 0.0, 1.0, 1.0, 1.0],
+        points_m: [(0.0, 0.0), (4.0, 0.0), (4.0, 4.0)]
+            .map(|(x, y)| Point::new(x, y))
+            .to_vec(),
+        weights: Some(vec![1.0, 0.5_f64.sqrt(), 1.0]),
+    };
+    layout.paths.set_written_curve(0, written_curve.clone());
+    let (text, losses) = written(&layout);
+    assert_eq!(lost(&losses), []);
+    let again = read(&text);
+    assert_eq!(again.paths.written_curve(0), Some(&written_curve));
+}
+
+#[test]
 fn preserves_any_identifier() {
     let long = "ä".repeat(600);
     let names = [
@@ -94,7 +113,7 @@ fn changes_and_reports_invalid_layer_names() {
         layout.paths.attributes.set(row, "layer", Value::Text(name));
     }
     let (text, losses) = written(&layout);
-    assert_eq!(lost(&losses), [("layers", 3)]);
+    assert_eq!(lost(&losses), [("column layer", 3)]);
     let again = read(&text);
     let layers: Vec<String> = (0..5).map(|p| layer(&again, p).to_string()).collect();
     assert_eq!(layers, ["Wände", "Wände", "a_b", "0", "0"]);
@@ -111,7 +130,7 @@ fn reports_losses() {
         ("colors", 1),
         ("draw ranks", 1),
         ("directions", 1),
-        ("broken paths", 1),
+        ("curves", 1),
     ];
     assert_eq!(lost(&losses), expected);
     let again = read(&text);

@@ -1,7 +1,9 @@
 //! GeoJSON and route graphs of Nav2: real files, geometry types, units and invalid positions.
 
-use crate::common::{assert_counts, codes, count, ends, read, real, real_layouts};
-use guideway_layout::{CheckOptions, Code, Layout, Severity, Value, check};
+use crate::common::{
+    assert_counts, codes, count, ends, read, read_real, real, real_layouts, shared,
+};
+use guideway_layout::{CheckOptions, Code, GeoOrigin, Layout, Severity, check};
 use guideway_spline::Point;
 
 /// Reference counts of another program, from the list of sources of the real layouts.
@@ -78,7 +80,7 @@ const COUNTED: &[&str] = &[
 ];
 
 /// A collection of features, in meters.
-fn collection(features: &str) -> Layout {
+pub(crate) fn collection(features: &str) -> Layout {
     read(&format!(
         r#"{{"type": "FeatureCollection",
             "crs": {{"type": "name", "properties": {{"name": "EPSG:3857"}}}},
@@ -86,7 +88,7 @@ fn collection(features: &str) -> Layout {
     ))
 }
 
-fn feature(properties: &str, kind: &str, coordinates: &str) -> String {
+pub(crate) fn feature(properties: &str, kind: &str, coordinates: &str) -> String {
     format!(
         r#"{{"type": "Feature", "properties": {{{properties}}},
             "geometry": {{"type": "{kind}", "coordinates": {coordinates}}}}}"#
@@ -144,27 +146,6 @@ fn real_roads_have_the_reference_counts() {
         let bounds = layout.paths.hull_bounds().unwrap();
         assert!(bounds.max.x - bounds.min.x > 5_000.0, "{bounds:?}");
     }
-}
-
-#[test]
-fn reads_edge_properties_as_columns() {
-    let Some(layout) = real("nav2_geojson", "sample_graph.geojson") else {
-        return;
-    };
-    let row = layout.paths.iter().position(|p| p.id() == "9").unwrap();
-    let value = |name: &str| {
-        let column = layout.paths.attributes.get(name);
-        column.and_then(|c| c.values.get(row))
-    };
-    assert_eq!(value("cost"), Some(Value::Float(10.0)));
-    assert_eq!(value("overridable"), Some(Value::Bool(false)));
-    assert_eq!(value("metadata.speed_limit"), Some(Value::Float(0.85)));
-    assert_eq!(value("metadata.aisle_number"), Some(Value::Int(14)));
-    let trigger = value("operations.open_door.trigger");
-    assert_eq!(trigger, Some(Value::Text("ON_ENTER")));
-    let resolution = value("operations.take_picture.metadata.resolution");
-    assert_eq!(resolution, Some(Value::Text("1080, 720")));
-    assert!(layout.paths.attributes.get("startid").is_none());
 }
 
 #[test]
@@ -269,6 +250,21 @@ fn reads_a_single_feature_or_geometry() {
 }
 
 #[test]
+fn a_site_on_the_antimeridian_is_small() {
+    let Some(folder) = shared("cases/geojson") else {
+        return;
+    };
+    let layout = read_real(&folder.join("g03_antimeridian.geojson"));
+    let size = layout.paths.hull_bounds().unwrap().size();
+    assert!(size.x < 700.0 && size.y < 150.0, "{size:?}");
+    let origin = layout.geo_origin.unwrap();
+    assert!(
+        (origin.longitude_deg.abs() - 180.0).abs() < 1e-9,
+        "{origin:?}"
+    );
+}
+
+#[test]
 fn projects_degrees_to_meters() {
     // A degree of latitude at 45 degrees north is 111,131.8 m, and of longitude 78,846.8 m (WGS
     // 84).
@@ -286,6 +282,11 @@ fn projects_degrees_to_meters() {
         let (from, to) = layout.paths.get(0).ends().unwrap();
         assert!(to.y > from.y && (from + to).norm() < 1e-6, "north is up");
         assert_eq!(codes(&layout).is_empty(), !crs.is_empty());
+        let origin = GeoOrigin {
+            longitude_deg: 10.0,
+            latitude_deg: 45.0,
+        };
+        assert_eq!(layout.geo_origin, Some(origin));
     }
 }
 

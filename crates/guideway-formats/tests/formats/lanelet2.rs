@@ -89,6 +89,24 @@ fn center_line_in_the_file_takes_precedence() {
 }
 
 #[test]
+fn speed_limits_are_in_meters_per_second() {
+    let nodes = [(0.0, 4.0), (9.0, 4.0), (0.0, 0.0), (9.0, 0.0)];
+    let value = |limit: &str, column: &str| {
+        let tags = format!("<tag k='speed_limit' v='{limit}'/>");
+        let layout = map(&nodes, &[&[0, 1], &[2, 3]], BOUNDS, &tags);
+        let lanelet = layout.paths.iter().find(|path| path.id() == "L").unwrap();
+        let value = layout.paths.attributes.value(lanelet.row(), column);
+        value.map(|value| value.to_string())
+    };
+    for (limit, speed) in [("36", "10"), ("36 km/h", "10"), ("100mph", "44.704")] {
+        assert_eq!(value(limit, "maxSpeed").as_deref(), Some(speed), "{limit}");
+        assert_eq!(value(limit, "speed_limit"), None);
+    }
+    assert_eq!(value("walking", "maxSpeed"), None);
+    assert_eq!(value("walking", "speed_limit").as_deref(), Some("walking"));
+}
+
+#[test]
 fn reads_tags_as_columns_and_directions() {
     let nodes = [(0.0, 4.0), (9.0, 4.0), (0.0, 0.0), (9.0, 0.0)];
     let tags = "<tag k='one_way' v='no'/><tag k='subtype' v='road'/>";

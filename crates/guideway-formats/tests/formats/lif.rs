@@ -17,13 +17,12 @@ fn splits_an_edge_by_the_curves_of_vehicle_types() {
     assert_eq!(ids, ["E [V1, V3]", "E [V2, V4]"]);
     let types: Vec<&str> = layout.paths.vehicle_types().of(1).collect();
     assert_eq!(types, ["V2", "V4"]);
-    let speed = layout.paths.attributes.get("maxSpeed").unwrap();
-    assert_eq!(speed.values.get(0), Some(Value::Float(1.5)));
-    assert_eq!(speed.values.get(1), None);
-    assert!(
-        codes(&layout).contains(&Code::Attribute),
-        "the speeds of V1 and V3 differ"
-    );
+    let speed = |path, name| layout.paths.value_for(path, name, "maxSpeed");
+    assert_eq!(speed(0, "V1"), Some(Value::Float(1.5)));
+    assert_eq!(speed(0, "V3"), Some(Value::Float(2.0)));
+    assert_eq!(layout.paths.value(1, "maxSpeed"), None);
+    assert_eq!(layout.paths.value(1, "edgeId"), Some(Value::Text("E")));
+    assert!(!codes(&layout).contains(&Code::Attribute));
 }
 
 #[test]
@@ -40,10 +39,13 @@ fn reads_attributes_as_columns() {
     };
     assert_eq!(get("maxSpeed").as_deref(), Some("1.5"));
     assert_eq!(get("rotationAllowed").as_deref(), Some("true"));
-    assert_eq!(get("actions").as_deref(), Some("2"));
+    assert_eq!(get("actions").as_deref(), Some("[{},{}]"));
     assert_eq!(get("orientationType").as_deref(), Some("GLOBAL"));
     assert_eq!(get("loadRestriction.loaded").as_deref(), Some("false"));
-    assert_eq!(get("loadRestriction.loadSetNames").as_deref(), Some("a, b"));
+    assert_eq!(
+        get("loadRestriction.loadSetNames").as_deref(),
+        Some(r#"["a","b"]"#)
+    );
     assert_eq!(get("maxHeight"), None);
 }
 
@@ -98,7 +100,11 @@ fn wrong_types_lose_only_their_field() {
         .replace(r#""nodeId": "A""#, r#""nodeId": "A", "nodeName": [1]"#);
     let layout = read(&text);
     assert_eq!(codes(&layout), [Code::WrongType]);
-    assert_eq!(layout.diagnostics.count(Code::WrongType), 3);
+    assert_eq!(layout.diagnostics.count(Code::WrongType), 4);
+    let kept = layout.paths.value(0, "vehicleTypeOther");
+    assert_eq!(kept, Some(Value::Json(r#"{"maxSpeed":"fast"}"#)));
+    let kept = layout.nodes.attributes.value(0, "other");
+    assert_eq!(kept, Some(Value::Json(r#"{"nodeName":[1]}"#)));
     assert_eq!(ends(&layout, "E").1, Point::new(10.0, 0.0));
     assert_eq!(layout.paths.vehicle_types().of(0).next(), Some("7"));
 }

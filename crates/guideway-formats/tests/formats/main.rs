@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may fail by a panic")]
 
 mod arrow;
+mod arrow_network;
 mod arrow_rows;
 mod arrow_tables;
 mod arrow_write;
@@ -10,17 +11,30 @@ mod common;
 mod dxf;
 mod dxf_write;
 mod geojson;
+mod geojson_properties;
 mod geojson_write;
 mod lanelet2;
+#[path = "../conversion_law/law.rs"]
+#[allow(dead_code, reason = "the law test uses more of it")]
+mod law;
 mod lif;
-mod lif_passthrough;
 mod lif_real;
+mod lif_save;
+mod lif_schema;
 mod lif_texts;
 mod lif_trajectory;
 mod lif_write;
+mod nav2_write;
+mod networks;
 mod opendrive;
 mod opentcs;
+mod opentcs_columns;
+mod opentcs_files;
+mod opentcs_write;
+mod refusals;
+mod right_findings;
 mod rmf;
+mod rmf_write;
 mod ros_map;
 mod round_trip;
 mod same;
@@ -28,3 +42,4 @@ mod sniff;
 mod svg;
 mod svg_write;
 mod vda5050;
+mod vda5050_write;

@@ -110,6 +110,37 @@ fn offsets_lanes_from_a_line_and_reverses_left_ones() {
 }
 
 #[test]
+fn speed_limits_are_in_meters_per_second() {
+    let speed = |of_road: &str, of_lane: &str| {
+        let text = road(&geometry(50.0, "<line/>"), "", &format!("{WIDTH}{of_lane}"));
+        let kind = format!("<type s=\"0\" type=\"town\">{of_road}</type><planView>");
+        let layout = read(&text.replacen("<planView>", &kind, 1));
+        let value = |name| {
+            layout
+                .paths
+                .attributes
+                .value(0, name)
+                .map(|v| v.to_string())
+        };
+        (value("maxSpeed"), value("speed"), codes(&layout))
+    };
+    let some = |text: &str| Some(text.to_owned());
+    let kmh = r#"<speed max="36" unit="km/h"/>"#;
+    assert_eq!(speed(kmh, ""), (some("10"), None, vec![]));
+    let si = r#"<speed sOffset="0" max="2"/>"#;
+    assert_eq!(speed(kmh, si), (some("2"), None, vec![]));
+    let none = r#"<speed max="no limit" unit="mph"/>"#;
+    assert_eq!(speed(none, ""), (None, None, vec![]));
+    let two = r#"<speed sOffset="0" max="2"/><speed sOffset="9" max="1"/>"#;
+    let (least, _, found) = speed(none, two);
+    assert_eq!(least, some("1"));
+    assert!(found.contains(&Code::Attribute), "{found:?}");
+    let (speed, text, found) = speed(r#"<speed max="9" unit="knots"/>"#, "");
+    assert_eq!((speed, text), (None, some("9 knots")));
+    assert!(found.contains(&Code::UnknownValue), "{found:?}");
+}
+
+#[test]
 fn lane_beside_an_arc_is_an_arc() {
     let quarter = 50.0 * std::f64::consts::FRAC_PI_2;
     let layout = read(&road(

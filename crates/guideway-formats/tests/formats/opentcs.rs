@@ -1,12 +1,12 @@
 //! Tests of the openTCS reader: real files, units, the y axis and legacy positions.
 
 use crate::common::{assert_counts, codes, ends, read, real, real_layouts};
-use guideway_layout::{Code, Direction, Layout, Severity, Value};
+use guideway_layout::{Code, Direction, Layout, Member, Quantity, Severity, Value};
 use guideway_spline::{Point, uniform};
 
 /// Version and element counts per file from the list of sources, made by another program. For the
 /// first file, the list omits the control points, which are in a property: two per curve.
-const REAL: &[(&str, &str, &str)] = &[
+pub(crate) const REAL: &[(&str, &str, &str)] = &[
     (
         "Demo-01_openTCS4.12_v0.0.2.xml",
         "0.0.2",
@@ -57,7 +57,7 @@ const COUNTED: &[&str] = &[
 ];
 
 /// A model of two points, 10 m apart, and paths.
-fn model(paths: &str) -> String {
+pub(crate) fn model(paths: &str) -> String {
     format!(
         r#"<model version="7.0.0"><point name="A" positionX="0" positionY="0"/>
            <point name="B" positionX="10000" positionY="0"/>{paths}
@@ -65,7 +65,7 @@ fn model(paths: &str) -> String {
     )
 }
 
-fn path(layout: &str) -> Layout {
+pub(crate) fn path(layout: &str) -> Layout {
     read(&model(&format!(
         r#"<path name="P" sourcePoint="A" destinationPoint="B">{layout}</path>"#
     )))
@@ -192,10 +192,34 @@ fn reads_every_connection_type() {
             let column = layout.paths.attributes.get(name);
             column.and_then(|c| c.values.get(path.row()))
         };
-        assert_eq!(get("block"), Some(Value::Text("Block-0001")));
+        let block = &layout.blocks[0];
+        assert_eq!(block.id, "Block-0001");
+        let members = [Member::Station(0), Member::Node(12), Member::Path(6)];
+        assert_eq!(block.members, members);
+        let of_block = |name: &str| block.attributes.value(0, name);
+        assert_eq!(of_block("color"), Some(Value::Text("#33CC00")));
+        assert_eq!(of_block("property.b-key"), Some(Value::Text("b-value")));
         assert_eq!(get("locked"), Some(Value::Bool(true)));
-        assert_eq!(get("maxVelocity"), Some(Value::Int(1500)));
-        assert_eq!(get("vehicleEnvelope"), Some(Value::Text("env-key")));
+        assert_eq!(get("maxSpeed"), Some(Value::Float(1.5)));
+        assert_eq!(get("maxReverseSpeed"), None);
+        assert_eq!(get("length"), Some(Value::Float(5.0)));
+        assert_eq!(get("vehicleEnvelope"), Some(Value::Json(r#"["env-key"]"#)));
+        let Some(Value::Json(operations)) = get("peripheralOperations") else {
+            panic!("no operations");
+        };
+        assert!(
+            operations.contains(r#""completionRequired":true"#),
+            "{operations}"
+        );
+        let station = |name: &str| layout.stations.attributes.value(0, name);
+        assert_eq!(station("kind"), Some(Value::Text("LType-0001")));
+        let operations = Value::Json(r#"[["v-operation"]]"#);
+        assert_eq!(station("linkOperations"), Some(operations));
+        let theta = layout.nodes.attributes.get("theta").unwrap();
+        let turned = (0..15).filter_map(|row| theta.values.get(row));
+        let quarter = Value::Float(std::f64::consts::FRAC_PI_2);
+        assert_eq!(turned.collect::<Vec<_>>(), [quarter]);
+        assert_eq!(theta.quantity, Some(Quantity::Angle));
         assert_eq!(get("property.p-key"), Some(Value::Text("p-value")));
         assert_eq!(layout.stations.nodes(0), [12]);
     }
@@ -265,55 +289,4 @@ fn reports_unknown_points_and_accepts_loops() {
         (place.element.as_str(), place.line),
         ("path \"P\"", Some(2))
     );
-}
-
-#[test]
-fn stores_envelope_keys_and_areas_in_columns() {
-    let corner = |x: &str, y: &str| format!(r#"<vertex x="{x}" y="{y}"/>"#);
-    let square = corner("0", "0") + &corner("1000", "0") + &corner("1000", "-2500");
-    let line = corner("0", "0") + &corner("1", "0");
-    let open = format!(
-        r#"<vehicleEnvelope key="a">{square}</vehicleEnvelope>
-        <vehicleEnvelope key="b">{line}</vehicleEnvelope>"#
-    );
-    let layout = path(&open);
-    let text = |name: &str| layout.paths.attributes.get(name).unwrap().values.get(0);
-    assert_eq!(text("vehicleEnvelope"), Some(Value::Text("a, b")));
-    let area = "[[[[0.0,0.0],[1.0,0.0],[1.0,-2.5],[0.0,0.0]]]]";
-    assert_eq!(text("vehicleEnvelope.area"), Some(Value::Text(area)));
-    assert_eq!(layout.diagnostics.count(Code::MissingField), 1);
-    let wrong = [
-        corner("x", "0"),
-        corner("1e300", "0"),
-        r#"<vertex x="4"/>"#.into(),
-    ];
-    for (corner, code) in wrong
-        .iter()
-        .zip([Code::WrongType, Code::OutOfRange, Code::MissingField])
-    {
-        let layout = path(&format!(
-            "<vehicleEnvelope>{square}{corner}</vehicleEnvelope>"
-        ));
-        assert_eq!(layout.diagnostics.count(code), 1, "{corner}");
-        assert!(
-            layout
-                .paths
-                .attributes
-                .get("vehicleEnvelope.area")
-                .is_none()
-        );
-    }
-}
-
-#[test]
-fn reads_the_areas_of_a_real_file() {
-    let Some(layout) = real("opentcs", "Demo-01_v7.0.0.xml") else {
-        return;
-    };
-    let tables = [(&layout.paths.attributes, 4), (&layout.nodes.attributes, 8)];
-    for (attributes, expected) in tables {
-        let areas = &attributes.get("vehicleEnvelope.area").unwrap().values;
-        let present = (0..areas.len()).filter(|&row| areas.get(row).is_some());
-        assert_eq!(present.count(), expected);
-    }
 }

@@ -1,7 +1,8 @@
 //! Tests of the Open-RMF reader: real files, pixels, scale, levels and types of parameters.
 
-use crate::common::{assert_counts, codes, ends, read, real};
-use guideway_layout::{Code, Direction, Layout, Value};
+use crate::common::{assert_counts, codes, ends, read, read_real, real, shared};
+use guideway_formats::{ReadOptions, read_file};
+use guideway_layout::{Code, Direction, Layout, Member, Quantity, Value};
 use guideway_spline::Point;
 
 /// Element counts per file from the list of sources, made by another program.
@@ -229,10 +230,11 @@ fn stores_parameters_in_typed_columns() {
             .get(name)
             .and_then(|a| a.values.get(0))
     };
-    assert_eq!(value("graph_idx"), Some(Value::Int(3)));
-    assert_eq!(value("speed_limit"), Some(Value::Float(0.5)));
+    assert_eq!(value("maxSpeed"), Some(Value::Float(0.5)));
     assert_eq!(value("element"), Some(Value::Text("lane")));
-    assert_eq!(value("orientation"), None, "an empty parameter");
+    for name in ["graph_idx", "bidirectional", "speed_limit", "orientation"] {
+        assert_eq!(value(name), None, "{name} is elsewhere, or empty");
+    }
     assert!(layout.paths.vehicle_types().of(0).eq(["graph 3"]));
     assert_eq!(layout.nodes.id(2), "L1.vertices[2]", "an unnamed vertex");
     let docks = layout.nodes.attributes.get("dock_name").unwrap();
@@ -255,7 +257,132 @@ fn reads_bare_parameters_and_meters_of_navigation_graphs() {
     let charger = layout.nodes.attributes.get("is_charger").unwrap();
     assert_eq!(charger.values.get(0), Some(Value::Bool(true)));
     assert_near(layout.stations.position_m(0).unwrap(), 1.0, 2.0);
+    let speed = layout.paths.attributes.get("maxSpeed").unwrap();
+    assert_eq!(speed.quantity, Some(Quantity::Speed));
+    assert_eq!(speed.values.get(0), Some(Value::Float(1.5)));
     assert!(codes(&layout).is_empty());
+}
+
+#[test]
+fn keeps_all_parameters_of_lanes_and_vertices() {
+    let layout = building(
+        "",
+        "[9, 9, 0.5, c, {mutex: [1, m], lift_cabin: [1, Lift1], n: [3, 2]}]",
+        "[0, 1, {orientation: [1, forward], mutex: [1, m], speed_limit: [3, 0]}], \
+         [1, 2, {speed_limit: [3, -1], nested: {a: [1, x]}}]",
+    );
+    assert_eq!(codes(&layout), [Code::WrongType, Code::Implausible]);
+    let value = |row, name| layout.paths.attributes.value(row, name);
+    assert_eq!(
+        value(0, "orientation_constraint"),
+        Some(Value::Text("forward"))
+    );
+    assert_eq!(value(0, "maxSpeed"), None, "zero is no limit");
+    assert_eq!(value(1, "speed_limit"), Some(Value::Float(-1.0)));
+    assert_eq!(value(1, "nested"), Some(Value::Json(r#"{"a":[1,"x"]}"#)));
+    let value = |name| layout.nodes.attributes.value(2, name);
+    assert_eq!(value("z"), Some(Value::Float(0.5)));
+    assert_eq!(value("n"), Some(Value::Float(2.0)));
+    assert_eq!(
+        value("lift_cabin"),
+        Some(Value::Text("Lift1")),
+        "no such lift"
+    );
+    assert_eq!(layout.blocks.len(), 1);
+    assert_eq!(layout.blocks[0].id, "m");
+    assert_eq!(layout.blocks[0].members, [Member::Node(2), Member::Path(0)]);
+}
+
+#[test]
+fn keeps_properties_of_the_building_and_its_levels() {
+    let Some(layout) = real("rmf_building", "hotel.building.yaml") else {
+        return;
+    };
+    let site = |name| layout.attributes.value(0, name);
+    assert_eq!(site("name"), Some(Value::Text("hotel")));
+    assert_eq!(
+        site("coordinate_system"),
+        Some(Value::Text("reference_image"))
+    );
+    assert!(matches!(site("crowd_sim"), Some(Value::Json(json)) if json.contains("ORCA_tau")));
+    let level = &layout.levels[2].attributes;
+    assert_eq!(level.value(0, "drawing"), Some(Value::Text("hotel_L3.png")));
+    assert_eq!(layout.stations.len(), 2);
+    let lift = |name| layout.stations.attributes.value(0, name);
+    assert_eq!(lift("kind"), Some(Value::Text("lift")));
+    assert_eq!(lift("theta"), Some(Value::Float(0.0)));
+    assert_eq!(lift("width"), Some(Value::Float(2.7)));
+    assert_eq!(lift("reference_floor_name"), Some(Value::Text("L1")));
+    let doors = r#"{"L1":["lift1_door"],"L2":["lift1_door"],"L3":["lift1_door"]}"#;
+    assert_eq!(lift("level_doors"), Some(Value::Json(doors)));
+    assert_eq!(layout.stations.nodes(0).len(), 3, "one vertex per level");
+    // Doors have names.
+    let doors = layout.paths.iter().filter(|path| path.id() == "L3_door15");
+    assert_eq!(doors.count(), 1);
+}
+
+#[test]
+fn counts_every_list_that_is_not_drawn() {
+    let Some(folder) = shared("conformance/real") else {
+        return;
+    };
+    let layout = read_real(&folder.join("rmfsite_office.building.yaml"));
+    let found: Vec<_> = layout
+        .diagnostics
+        .iter()
+        .map(|d| d.message.as_str())
+        .collect();
+    for counted in [
+        "floors: 1",
+        "models: 61",
+        "lights: 3",
+        "physical_cameras: 2",
+    ] {
+        assert!(found.contains(&counted), "{counted}: {found:?}");
+    }
+}
+
+#[test]
+fn a_place_on_earth_is_kept() {
+    let Some(layout) = real("rmf_building", "campus.building.yaml") else {
+        return;
+    };
+    let origin = layout.geo_origin.unwrap();
+    assert!((origin.longitude_deg - 103.78).abs() < 0.01, "{origin:?}");
+    assert!((origin.latitude_deg - 1.3).abs() < 0.01, "{origin:?}");
+    let y = 6_378_137.0 * (75_f64.to_radians()).tan().ln();
+    let x = 6_378_137.0 * 10_f64.to_radians();
+    let layout = read(&format!(
+        "coordinate_system: web_mercator\nlevels:\n  L1:\n    vertices: [[{x}, {y}, 0, a]]\n"
+    ));
+    let origin = layout.geo_origin.unwrap();
+    assert!((origin.longitude_deg - 10.0).abs() < 1e-9, "{origin:?}");
+    assert!((origin.latitude_deg - 60.0).abs() < 1e-9, "{origin:?}");
+}
+
+#[test]
+fn reads_the_doors_of_a_navigation_graph() {
+    let Some(folder) = shared("conformance/real") else {
+        return;
+    };
+    let layout = read_real(&folder.join("eiu_nav_graph.yaml"));
+    let door = layout
+        .paths
+        .iter()
+        .find(|path| path.id() == "null")
+        .unwrap();
+    assert_eq!((door.level(), door.direction()), (Some(0), Direction::Both));
+    assert_near(
+        door.ends().unwrap().0,
+        29.398886389912644,
+        -13.01007185023283,
+    );
+    assert_eq!(layout.paths.len(), 15);
+    let lost = read("levels: {L1: {vertices: [[0, 0, {}]]}}\ndoors: {d: {endpoints: [[1, 2]]}}\n");
+    assert_eq!(lost.refused.len(), 1);
+    let building = folder.join("eiu_tb3_world.building.yaml");
+    assert_eq!(read_real(&building).paths.len(), 13);
+    assert!(read_file(&folder.join("eiu_nav_graph2.yaml"), &ReadOptions::default()).is_err());
 }
 
 #[test]

@@ -34,7 +34,7 @@ proptest! {
         layout.paths.set_color_rgba(colors[..count].iter().map(|c| c | 1).collect());
         layout.paths.set_width_m(widths[..count].to_vec());
         let (text, losses) = written(&layout);
-        let what = ["nodes", "vehicle types", "column maxSpeed", "levels"];
+        let what = ["nodes", "directions", "vehicle types", "levels", "column maxSpeed"];
         prop_assert_eq!(losses.iter().map(|l| &l.what).collect::<Vec<_>>(), what);
         let again = read(&text);
         assert_same_curves(&layout, &again, "SVG");
@@ -73,7 +73,7 @@ fn preserves_identifiers_that_xml_allows() {
         push_lines(&mut layout, id, &[(0.0, 0.0), (1.0, 1.0)]);
     }
     let (text, losses) = written(&layout);
-    assert_eq!(lost(&losses), [("identifiers", 2)]);
+    assert_eq!(lost(&losses), [("directions", 6), ("identifiers", 2)]);
     let again = read(&text);
     let ids: Vec<&str> = again.paths.iter().map(|p| p.id()).collect();
     assert_eq!(
@@ -111,7 +111,12 @@ fn reports_losses_and_orders_paths_by_rank() {
     let (text, losses) = written(&layout);
     assert_eq!(
         lost(&losses),
-        [("refused paths", 1), ("draw ranks", 2), ("stations", 1)]
+        [
+            ("refused paths", 1),
+            ("draw ranks", 2),
+            ("stations", 1),
+            ("directions", 2)
+        ]
     );
     assert!(text.find("high").unwrap() < text.find("low").unwrap());
     assert_eq!(read(&text).paths.get(0).direction(), Direction::Both);

@@ -1,7 +1,8 @@
 //! VDA 5050 orders: real files, and the differences between versions.
 
-use crate::common::{assert_counts, codes, count, ends, read, real, real_layouts};
-use guideway_layout::{Code, Layout};
+use crate::common::{assert_counts, codes, count, ends, read, real, real_layouts, shared};
+use guideway_formats::{ReadOptions, read_file};
+use guideway_layout::{Code, Layout, Quantity, Severity};
 use guideway_spline::Point;
 
 /// Reference counts of another program, from the list of sources of the real layouts.
@@ -28,6 +29,12 @@ fn order(edges: &str) -> Layout {
              "nodePosition": {{"x": 20, "y": 0, "mapId": "roof"}}}}],
           "edges": [{edges}]}}"#
     ))
+}
+
+/// Reads a shared case, if it is there.
+fn case(file: &str) -> Option<Layout> {
+    let path = shared("cases/vda")?.join(file);
+    Some(read_file(&path, &ReadOptions::default()).unwrap())
 }
 
 #[test]
@@ -60,11 +67,20 @@ fn one_point_trajectory_draws_the_straight_line() {
 }
 
 #[test]
-fn refuses_edges_of_nodes_without_a_position() {
+fn nodes_without_a_position_are_no_errors() {
     if let Some(layout) = real("vda5050", "order_v1_1_nullOptionalFields.json") {
         assert_eq!((layout.nodes.len(), layout.paths.len()), (1, 0));
+        // Its edges name nodes that do not exist.
         assert!(layout.refused.iter().all(|r| r.code == Code::UnknownNode));
         assert_eq!(layout.diagnostics.count(Code::BadWeight), 1);
+    }
+    if let Some(layout) = case("v12_nopos.json") {
+        assert_eq!((layout.nodes.len(), layout.paths.len()), (2, 1));
+        let found = &layout.diagnostics;
+        assert_eq!(found.count_at_least(Severity::Warning), 0);
+        assert_eq!(found.count(Code::NotDrawn), 2);
+        assert_eq!(ends(&layout, "e").1, Point::new(10.0, 0.0));
+        assert_eq!(layout.nodes.position_m(1), Point::new(10.0, 0.0));
     }
 }
 
@@ -80,12 +96,42 @@ fn version_3_0_connects_edges_by_sequence_id() {
 }
 
 #[test]
-fn version_2_1_connects_edges_by_node_id() {
-    let edge = r#"{"edgeId": "E", "sequenceId": 1, "startNodeId": "B", "endNodeId": "A"}"#;
+fn sequence_ids_connect_edges_and_names_confirm_them() {
+    let edge = r#"{"edgeId": "E", "sequenceId": 1, "startNodeId": "B", "endNodeId": "B"}"#;
     let layout = order(edge);
+    assert_eq!(codes(&layout), [Code::UnknownValue, Code::Version]);
+    let expected = (Point::new(0.0, 0.0), Point::new(10.0, 0.0));
+    assert_eq!(ends(&layout, "E"), expected);
+}
+
+#[test]
+fn names_connect_edges_without_a_sequence_id() {
+    let layout = order(r#"{"edgeId": "E", "startNodeId": "B", "endNodeId": "A"}"#);
     assert_eq!(codes(&layout), [Code::Version]);
     let expected = (Point::new(10.0, 0.0), Point::new(0.0, 0.0));
     assert_eq!(ends(&layout, "E"), expected);
+}
+
+#[test]
+fn a_node_with_two_positions_is_found_by_its_sequence_id() {
+    let Some(layout) = case("v05_same_node.json") else {
+        return;
+    };
+    assert_eq!((layout.nodes.len(), layout.paths.len()), (3, 2));
+    let nodes = |path: usize| {
+        let path = layout.paths.get(path);
+        (path.start_node(), path.end_node())
+    };
+    assert_eq!(nodes(0), (Some(0), Some(1)));
+    assert_eq!(nodes(1), (Some(1), Some(2)));
+    let without_sequence = read(
+        r#"{"nodes": [
+            {"nodeId": "1", "nodePosition": {"x": 0, "y": 0}},
+            {"nodeId": "1", "nodePosition": {"x": 9, "y": 0}},
+            {"nodeId": "2", "nodePosition": {"x": 9, "y": 9}}],
+          "edges": [{"edgeId": "e", "startNodeId": "1", "endNodeId": "2"}]}"#,
+    );
+    assert_eq!(codes(&without_sequence), [Code::DuplicateId]);
 }
 
 #[test]
@@ -108,28 +154,34 @@ fn draws_a_trajectory_without_nodes_and_knots() {
 }
 
 #[test]
-fn reads_attributes_of_all_versions_as_columns() {
+fn members_of_all_versions_have_the_same_columns() {
     let layout = order(
         r#"{"edgeId": "E", "sequenceId": 1, "released": true, "maximumSpeed": 1.5,
-            "orientationType": "GLOBAL", "actions": [{}, {}], "direction": null,
-            "corridor": {"leftWidth": 0.4, "corridorReferencePoint": "CONTOUR"}}"#,
+            "orientationType": "GLOBAL", "orientation": 0.5, "actions": [{}, {}], "direction": null,
+            "corridor": {"leftWidth": 0.4, "corridorReferencePoint": "KINEMATIC_CENTER"},
+            "lenght": 9, "vendor": {"a": [1]}}"#,
     );
     let get = |name: &str| {
-        let column = layout.paths.attributes.get(name);
-        column.and_then(|c| c.values.get(0)).map(|v| v.to_string())
+        let value = layout.paths.attributes.value(0, name);
+        value.map(|v| v.to_string())
     };
     for (name, expected) in [
         ("sequenceId", "1"),
         ("released", "true"),
-        ("maximumSpeed", "1.5"),
+        ("maxSpeed", "1.5"),
+        ("vehicleOrientation", "0.5"),
         ("orientationType", "GLOBAL"),
-        ("actions", "2"),
+        ("actions", "[{},{}]"),
+        ("length", "9"),
         ("corridor.leftWidth", "0.4"),
-        ("corridor.corridorReferencePoint", "CONTOUR"),
+        ("corridor.referencePoint", "KINEMATICCENTER"),
+        ("other", r#"{"vendor":{"a":[1]}}"#),
     ] {
         assert_eq!(get(name).as_deref(), Some(expected), "{name}");
     }
     assert_eq!(get("direction"), None);
+    let speed = layout.paths.attributes.get("maxSpeed").unwrap();
+    assert_eq!(speed.quantity, Some(Quantity::Speed));
 }
 
 #[test]

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use guideway_formats::{ReadError, ReadOptions, read_bytes};
-use guideway_layout::{CheckOptions, Code, Layout, Severity};
+use guideway_layout::{CheckOptions, Code, FindingKind, Layout, Severity};
 
 /// Reason why the outcome of a file is wrong.
 #[derive(Debug, PartialEq, thiserror::Error)]
@@ -76,10 +76,9 @@ pub(crate) fn check_any(file: &str, bytes: &[u8]) {
 /// Returns the codes of the reader, and the warnings of a check of the layout.
 fn codes(layout: &Layout) -> Vec<&'static str> {
     let checked = guideway_layout::check(layout, &CheckOptions::default());
-    let warned = checked
-        .counts()
-        .map(|(code, _)| code)
-        .filter(|c| c.severity() > Severity::Info);
+    let kinds = FindingKind::of([&checked]).into_iter();
+    let warned = kinds.filter(|kind| kind.severity > Severity::Info);
+    let warned = warned.map(|kind| kind.code);
     let found = layout.diagnostics.counts().map(|(code, _)| code);
     let all: BTreeSet<Code> = found.chain(warned).collect();
     all.into_iter().map(Code::name).collect()

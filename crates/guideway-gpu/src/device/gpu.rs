@@ -75,7 +75,7 @@ impl Gpu {
         format!("{} ({})", self.info.name, driver.trim())
     }
 
-    /// Returns whether the device is a program on the processor.
+    /// Returns `true` if the device is a program on the processor.
     pub fn is_software(&self) -> bool {
         self.info.device_type == DeviceType::Cpu
     }

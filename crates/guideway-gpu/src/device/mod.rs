@@ -1,6 +1,6 @@
 //! The graphics device: opened once, shared by methods, with typed errors for every operation.
 //!
-//! | file | what it has |
+//! | file | content |
 //! |---|---|
 //! | `adapter`, `options` | selects and opens the adapter, with artificial limits for tests |
 //! | `gpu` | [`Gpu`]: the open device, its limits and its error scopes |

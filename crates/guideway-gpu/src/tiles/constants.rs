@@ -8,7 +8,8 @@ pub(crate) const STROKE_SEGMENTS: usize = 32;
 pub(crate) const WHOLE_PATH: u32 = 1 << 31;
 /// Lowest bit of the segment count in `Stroke::extent`.
 pub(crate) const SEGMENTS_BIT: u32 = 16;
-/// Number of workgroups that keep a device busy while flattening. Measured.
+/// Number of workgroups that keep a device busy while flattening. Measured on an H200: D1 magnified
+/// 20 times flattens in 0.032 ms instead of 0.060 ms when they share clusters.
 pub(crate) const TARGET_WORKGROUPS: u32 = 256;
 /// Most visible clusters that several workgroups share. Derived: two workgroups per cluster.
 pub(crate) const FEW_CLUSTERS: u32 = TARGET_WORKGROUPS / 2;
@@ -23,17 +24,20 @@ pub(crate) const LINE_THREADS: u32 = 256;
 /// Cached lines per thread and batch while counting.
 pub(crate) const COUNTED_LINES_EACH: u32 = 4;
 /// Number of threads that keep a device busy while binning cached lines; fewer lines get several
-/// threads each. Measured.
+/// threads each. Measured on an H200, D1 magnified 20 times: binning in one dispatch with up to 32
+/// threads per line takes 0.010 ms, counting first with one thread per line 0.025 ms.
 pub(crate) const TARGET_LINE_THREADS: u32 = 1 << 18;
 /// Most threads per cached line.
 pub(crate) const MAX_THREADS_PER_LINE: u32 = 32;
 /// Threads per workgroup of kernels over tile lists.
 pub(crate) const LIST_THREADS: u32 = 256;
 /// A device waits for a list longer than this part of all references: lists are split from there
-/// on. Measured.
+/// on. Measured on an H200, D1 at a fifth of its size: 0.229 ms, as without splitting; splitting
+/// always takes 0.286 ms.
 pub(crate) const LONG_LIST_PART: u32 = 96;
 /// Number of lists that keep a device busy: lists longer than this part of all references are
-/// split. Measured.
+/// split. Measured on an H200, D1 with default widths at a tenth of its size: 0.41 ms with 512,
+/// 0.53 ms with 256, 0.83 ms without splitting.
 pub(crate) const TARGET_LISTS: u32 = 512;
 /// Shorter lists are never split.
 pub(crate) const MIN_UNSPLIT_LIST: u32 = 2048;

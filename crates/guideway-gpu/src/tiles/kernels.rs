@@ -54,7 +54,11 @@ impl Kernels {
         ] = bin_kernels(gpu, &[])?;
         Ok(Self {
             cull,
-            invalidate_lines: Kernel::new(gpu, &shaders::invalidate_lines(), &[tile_px, threads])?,
+            invalidate_lines: Kernel::new(
+                gpu,
+                &shaders::INVALIDATE_LINES.source(),
+                &[tile_px, threads],
+            )?,
             flatten: flatten(gpu, &[])?,
             count_cached,
             bin_cached,
@@ -62,7 +66,7 @@ impl Kernels {
             split_tiles,
             bin_lines,
             sort_lists: sort_lists(gpu, &[])?,
-            scroll: Kernel::new(gpu, &shaders::scroll(), &[threads])?,
+            scroll: Kernel::new(gpu, &shaders::SCROLL.source(), &[threads])?,
             tile_kernels: [
                 TileKernels::new(gpu, Samples::Coarse)?,
                 TileKernels::new(gpu, Samples::Fine)?,
@@ -157,12 +161,15 @@ fn bin_kernels(gpu: &Gpu, more: &[Constant]) -> Result<[Kernel; 6], DeviceError>
     ];
     let counted = [line_threads, constant("LINES_EACH", COUNTED_LINES_EACH)];
     Ok([
-        kernel(shaders::cull(), &[constant("THREADS", CLUSTER_THREADS)])?,
-        kernel(shaders::count_cached(), &counted)?,
-        kernel(shaders::bin_cached(), &[line_threads])?,
-        kernel(shaders::tile_offsets(), &[list_threads])?,
-        kernel(shaders::split_tiles(), &split)?,
-        kernel(shaders::bin_lines(), &[line_threads])?,
+        kernel(
+            shaders::CULL.source(),
+            &[constant("THREADS", CLUSTER_THREADS)],
+        )?,
+        kernel(shaders::COUNT_CACHED.source(), &counted)?,
+        kernel(shaders::BIN_CACHED.source(), &[line_threads])?,
+        kernel(shaders::TILE_OFFSETS.source(), &[list_threads])?,
+        kernel(shaders::SPLIT_TILES.source(), &split)?,
+        kernel(shaders::BIN_LINES.source(), &[line_threads])?,
     ])
 }
 
@@ -206,7 +213,8 @@ fn sort_lists(gpu: &Gpu, more: &[Constant]) -> Result<[Kernel; 2], DeviceError> 
 
 /// The kernel for tiles of opaque paths in many colors.
 fn opaque(gpu: &Gpu, samples: Samples, more: &[Constant]) -> Result<Kernel, DeviceError> {
-    // Measured: with 256 samples per pixel subgroups take longer than workgroups.
+    // Measured on an H200 with D1 in many colors and 256 samples per pixel: subgroups take 1.27 to
+    // 1.29 ms, workgroups 1.18 ms.
     let lanes = gpu.max_subgroup_size();
     match lanes.filter(|_| samples == Samples::Coarse) {
         Some(lanes) => {

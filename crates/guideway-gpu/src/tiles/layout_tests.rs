@@ -9,16 +9,16 @@ use crate::testing::reflection::{assert_bindings, assert_layout, members};
 /// Every variant of every entry point.
 fn sources() -> Vec<Source> {
     let mut sources = vec![
-        shaders::cull(),
+        shaders::CULL.source(),
         shaders::flatten(PointFormat::Rounded),
         shaders::flatten(PointFormat::Exact),
-        shaders::invalidate_lines(),
-        shaders::count_cached(),
-        shaders::bin_cached(),
-        shaders::scroll(),
-        shaders::tile_offsets(),
-        shaders::split_tiles(),
-        shaders::bin_lines(),
+        shaders::INVALIDATE_LINES.source(),
+        shaders::COUNT_CACHED.source(),
+        shaders::BIN_CACHED.source(),
+        shaders::SCROLL.source(),
+        shaders::TILE_OFFSETS.source(),
+        shaders::SPLIT_TILES.source(),
+        shaders::BIN_LINES.source(),
         shaders::sort_lists(SortedLists::Short),
         shaders::sort_lists(SortedLists::Long),
     ];
@@ -129,9 +129,25 @@ fn shaders_declare_the_constants_of_this_side() {
             TILE_THREADS,
         );
     }
-    assert_constant(&shaders::bin_lines(), "LINE_WORDS", LINE_WORDS as u32);
-    assert_constant(&shaders::split_tiles(), "MAX_SPLIT_TILES", MAX_SPLIT_TILES);
-    assert_constant(&shaders::split_tiles(), "MAX_SPLIT_PARTS", MAX_SPLIT_PARTS);
+    assert_constant(
+        &shaders::BIN_LINES.source(),
+        "LINE_WORDS",
+        LINE_WORDS as u32,
+    );
+    assert_constant(
+        &shaders::SPLIT_TILES.source(),
+        "MAX_SPLIT_TILES",
+        MAX_SPLIT_TILES,
+    );
+    assert_constant(
+        &shaders::SPLIT_TILES.source(),
+        "MAX_SPLIT_PARTS",
+        MAX_SPLIT_PARTS,
+    );
     let cluster_words = size_of::<Cluster>() / size_of::<u32>();
-    assert_constant(&shaders::cull(), "CLUSTER_WORDS", cluster_words as u32);
+    assert_constant(
+        &shaders::CULL.source(),
+        "CLUSTER_WORDS",
+        cluster_words as u32,
+    );
 }

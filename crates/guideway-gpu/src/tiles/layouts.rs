@@ -124,12 +124,12 @@ impl Stroke {
         self.extent & 0xffff
     }
 
-    /// Returns whether the stroke has segments.
+    /// Returns `true` if the stroke has segments.
     pub(crate) fn is_drawn(self) -> bool {
         (self.extent & !WHOLE_PATH) >> SEGMENTS_BIT > 0
     }
 
-    /// Returns whether the stroke is a whole path.
+    /// Returns `true` if the stroke is a whole path.
     pub(crate) fn is_whole_path(self) -> bool {
         self.extent & WHOLE_PATH != 0
     }

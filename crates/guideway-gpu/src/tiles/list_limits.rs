@@ -1,4 +1,4 @@
-//! Decides from which length on tile lists are split among workgroups.
+//! Decides the length from which tile lists are split among workgroups.
 
 use super::constants::{LONG_LIST_PART, LOOPS_PER_LINE, MIN_UNSPLIT_LIST};
 use super::layouts::FrameCounters;
@@ -13,7 +13,7 @@ pub(crate) fn unsplit_limits(gpu: &Gpu) -> [u32; 2] {
     }
 }
 
-/// Returns whether one list takes a workgroup longer than all lists take the device.
+/// Returns `true` if one list takes a workgroup longer than all lists take the device.
 pub(crate) fn has_long_list(gpu: &Gpu, counters: &FrameCounters) -> bool {
     let [min, max] = unsplit_limits(gpu);
     counters.longest_list > (counters.references / LONG_LIST_PART).clamp(min, max)

@@ -1,4 +1,4 @@
-//! The way in which the tiles of a scene are drawn.
+//! Paint mode: the kernel that draws the tiles of a scene, by its colors and shading.
 
 use guideway_scene::Scene;
 
@@ -44,7 +44,7 @@ impl PaintMode {
         }
     }
 
-    /// Returns whether whole lists are sorted before tiles are drawn.
+    /// Returns `true` if whole lists are sorted before tiles are drawn.
     pub(crate) fn sorts_lists(self) -> bool {
         matches!(self, Self::Translucent | Self::Density)
     }

@@ -3,18 +3,18 @@
 use guideway_spline::Point;
 
 use super::element::{DisplayPosition, element_name, element_place};
-use super::options::CheckOptions;
+use super::scale::Tolerances;
 use crate::{Code, Diagnostics, Layout, PathRef};
 
 /// Reports gaps between paths and their nodes, unused nodes, and paths between levels.
-pub(super) fn check(layout: &Layout, options: &CheckOptions, found: &mut Diagnostics) {
+pub(super) fn check(layout: &Layout, tolerances: &Tolerances, found: &mut Diagnostics) {
     let mut used = vec![false; layout.nodes.len()];
     for path in layout.paths.iter() {
         for node in [path.start_node(), path.end_node()].into_iter().flatten() {
             used[node as usize] = true;
         }
         if let Some((start, end)) = path.ends() {
-            let tolerance_m = options.gap_tolerance_m;
+            let tolerance_m = tolerances.gap_m;
             let mut gap = |verb, node, at| {
                 node_gap(layout, path, (verb, node, at), tolerance_m, found);
             };
@@ -23,12 +23,22 @@ pub(super) fn check(layout: &Layout, options: &CheckOptions, found: &mut Diagnos
         }
         cross_level(layout, path, found);
     }
+    let mut served = vec![false; layout.nodes.len()];
+    for station in 0..layout.stations.len() as u32 {
+        for &node in layout.stations.nodes(station) {
+            served[node as usize] = true;
+        }
+    }
     for node in (0..used.len()).filter(|&node| !used[node]) {
+        let remedy = match served[node] {
+            true => "Connect the node: a station uses it",
+            false => "Connect the node, or remove it",
+        };
         found.push(
             Code::UnusedNode,
             || element_place("node", node, layout.nodes.id(node as u32)),
             || "no drawn path begins or ends here".to_owned(),
-            "Connect the node, or remove it",
+            remedy,
         );
     }
 }

@@ -4,22 +4,26 @@
 //! |---|---|
 //! | `ids` | identifiers that occur more than once |
 //! | `endpoints` | paths that miss their nodes, nodes without paths, paths between levels |
-//! | `shape` | gaps, kinks, tight bends, paths without length; by `cubic`, the worst per path |
-//! | `pairs` | paths on the same curve; by `same_curve` and `curve` |
-//! | `extent` | sizes that suggest a wrong unit |
+//! | `shape` | gaps, kinks, tight bends, paths without length; by `cubic`, `turns_in_place` |
+//! | `pairs` | paths on the same curve; by `same_curve` and `curve`, and by `differences` |
+//! | `units` | sizes, speeds and angles that suggest a wrong unit |
 //!
-//! `options` holds the thresholds, `element` formats places and positions for the messages.
+//! `options` holds the thresholds, `scale` derives tolerances from the size of the layout,
+//! `element` formats places and positions for the messages.
 
 mod cubic;
 mod curve;
+mod differences;
 mod element;
 mod endpoints;
-mod extent;
 mod ids;
 mod options;
 mod pairs;
 mod same_curve;
+mod scale;
 mod shape;
+mod turns_in_place;
+mod units;
 mod worst;
 
 pub use element::{DisplayPosition, element_name, element_place};
@@ -27,12 +31,14 @@ pub use ids::check_across;
 pub use options::CheckOptions;
 pub use same_curve::same_curves;
 
+use self::scale::{Scale, Tolerances};
 use crate::{Diagnostics, Layout};
 
 /// Checks the geometry and the topology of a layout.
 ///
 /// Findings about the file, such as a bad knot vector, are in [`Layout::diagnostics`]; this
-/// function does not repeat them. Findings of one kind come in the order of the paths.
+/// function does not repeat them. A doubt about the unit comes first; findings of one kind come in
+/// the order of the paths.
 ///
 /// Cost: linear in the size of the layout. Of the curves between the same two ends, it compares a
 /// path with the first few dozen distinct ones only.
@@ -56,10 +62,12 @@ use crate::{Diagnostics, Layout};
 /// ```
 pub fn check(layout: &Layout, options: &CheckOptions) -> Diagnostics {
     let mut found = Diagnostics::with_limit(options.diagnostics_per_code);
+    let scale = Scale::of(layout);
+    let tolerances = Tolerances::of(&scale, options);
+    units::check(layout, options, &scale, &mut found);
     ids::check(layout, &mut found);
-    endpoints::check(layout, options, &mut found);
-    shape::check(layout, options, &mut found);
-    pairs::check(layout, options, &mut found);
-    extent::check(layout, options, &mut found);
+    endpoints::check(layout, &tolerances, &mut found);
+    shape::check(layout, options, &tolerances, &mut found);
+    pairs::check(layout, &tolerances, &mut found);
     found
 }

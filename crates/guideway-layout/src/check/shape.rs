@@ -5,22 +5,28 @@ use guideway_spline::{Point, uniform};
 use super::cubic::{Cubic, greatest_curvature};
 use super::element::{DisplayPosition, element_place};
 use super::options::CheckOptions;
+use super::scale::Tolerances;
+use super::turns_in_place::turns_in_place;
 use super::worst::Worst;
 use crate::{Code, Diagnostics, Layout, PathRef, RunPoints};
-
-/// A path whose control points lie in a box of this size has no length.
-const DOT_M: f64 = 1e-9;
 
 /// Relative tolerance of the radius: rounding may push an arc of exactly the limit below it.
 const RADIUS_SLACK: f64 = 1e-6;
 
 /// Reports the worst gap, kink and bend of each path, and paths without length.
-pub(super) fn check(layout: &Layout, options: &CheckOptions, found: &mut Diagnostics) {
+pub(super) fn check(
+    layout: &Layout,
+    options: &CheckOptions,
+    tolerances: &Tolerances,
+    found: &mut Diagnostics,
+) {
     for path in layout.paths.iter() {
         match path.hull_bounds() {
             None => {}
-            Some(hull) if hull.size().x.max(hull.size().y) <= DOT_M => zero_length(path, found),
-            Some(_) => Shape::of(path, options).report(path, found),
+            Some(hull) if hull.size().x.max(hull.size().y) <= tolerances.dot_m => {
+                zero_length(layout, path, found);
+            }
+            Some(_) => Shape::of(path, options, tolerances.gap_m).report(path, found),
         }
     }
 }
@@ -34,14 +40,14 @@ struct Shape {
 }
 
 impl Shape {
-    fn of(path: PathRef<'_>, options: &CheckOptions) -> Self {
+    fn of(path: PathRef<'_>, options: &CheckOptions, gap_m: f64) -> Self {
         let mut shape = Self::default();
         let mut previous = Previous::default();
         for run in path.runs() {
             let rounding = rounding(run);
             for segment in run.segments() {
                 let cubic = Cubic::new(&segment, rounding);
-                shape.add_join(&mut previous, &cubic, options);
+                shape.add_join(&mut previous, &cubic, options, gap_m);
                 for parts in cubic.parts_at_stops(rounding) {
                     shape.add_turn(
                         (parts[0].end_direction(), parts[1].start_direction()),
@@ -58,11 +64,17 @@ impl Shape {
     }
 
     /// Compares the start of a segment with the end of the previous one.
-    fn add_join(&mut self, previous: &mut Previous, cubic: &Cubic, options: &CheckOptions) {
+    fn add_join(
+        &mut self,
+        previous: &mut Previous,
+        cubic: &Cubic,
+        options: &CheckOptions,
+        tolerance_m: f64,
+    ) {
         let start = cubic.points[0];
         if let Some(end) = previous.end {
             let gap_m = end.distance(start);
-            if gap_m > options.gap_tolerance_m {
+            if gap_m > tolerance_m {
                 Worst::add(&mut self.gap_m, gap_m, end);
                 previous.direction = None;
             }
@@ -142,7 +154,16 @@ struct Previous {
     direction: Option<Point<f64>>,
 }
 
-fn zero_length(path: PathRef<'_>, found: &mut Diagnostics) {
+fn zero_length(layout: &Layout, path: PathRef<'_>, found: &mut Diagnostics) {
+    if turns_in_place(layout, path) {
+        return;
+    }
+    let remedy = match (path.start_node(), path.end_node()) {
+        (Some(_), Some(_)) => {
+            "Give its nodes different positions; if the vehicle turns there, state its orientations"
+        }
+        _ => "Remove the path, or give its ends different positions",
+    };
     found.push(
         Code::ZeroLength,
         || element_place("path", path.row(), path.id()),
@@ -151,7 +172,7 @@ fn zero_length(path: PathRef<'_>, found: &mut Diagnostics) {
             let at = at.map_or_else(Point::default, |segment| uniform::start(&segment));
             format!("the whole path is at {}", DisplayPosition(at))
         },
-        "Remove the path, or give its ends different positions",
+        remedy,
     );
 }
 

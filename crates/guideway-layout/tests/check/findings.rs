@@ -42,7 +42,7 @@ fn accepts_a_gap_within_the_tolerance() {
     sketch.path("off", &line_runs(p(0.0, 0.009), p(10.0, 0.0)), "a", "b");
     assert!(found(&sketch).is_empty());
     let strict = CheckOptions {
-        gap_tolerance_m: 0.005,
+        gap_tolerance_m: Some(0.005),
         ..CheckOptions::default()
     };
     assert_eq!(check(&sketch.layout, &strict).count(Code::NodeGap), 1);

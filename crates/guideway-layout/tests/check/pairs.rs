@@ -48,7 +48,7 @@ fn line_of_two_runs_duplicates_a_line_of_one() {
     assert_eq!(place, "path \"second\"");
     assert_eq!(
         message,
-        "has the curve of path \"first\" in the same direction"
+        "has the curve of path \"first\", and agrees in all properties"
     );
     let (_, message) = only(&found(&pair(&whole, &reversed(&parts))), Code::ReversePair);
     assert_eq!(
@@ -100,11 +100,15 @@ fn paths_without_common_vehicle_type_are_no_pair() {
             };
             sketch.layout.paths.push(&path);
         }
-        found(&sketch).count(Code::DuplicatePath)
+        codes(&found(&sketch))
     };
-    assert_eq!(of(&[&["tug"], &["lift"]]), 0);
-    assert_eq!(of(&[&["tug"], &["lift", "tug"]]), 1);
-    assert_eq!(of(&[&["tug"], &[], &["lift"]]), 2);
+    assert_eq!(of(&[&["tug"], &["lift"]]), []);
+    assert_eq!(of(&[&["tug"], &["lift", "tug"]]), [(Code::SameCurve, 1)]);
+    assert_eq!(of(&[&["tug"], &[], &["lift"]]), [(Code::SameCurve, 2)]);
+    assert_eq!(
+        of(&[&["tug", "lift"], &["lift", "tug"]]),
+        [(Code::DuplicatePath, 1)]
+    );
 }
 
 #[test]
@@ -138,7 +142,7 @@ fn cost_stays_linear_for_many_curves_between_the_same_ends() {
 }
 
 #[test]
-fn two_way_path_duplicates_both_directions() {
+fn two_way_path_shares_its_curve_in_both_directions() {
     let (there, back) = (
         line_runs(p(0.0, 20.0), p(9.0, 20.0)),
         line_runs(p(9.0, 20.0), p(0.0, 20.0)),
@@ -158,11 +162,18 @@ fn two_way_path_duplicates_both_directions() {
             direction,
             ..NewPath::default()
         });
-        only(&found(&sketch), Code::DuplicatePath).0
+        let found = found(&sketch);
+        let finding = found.iter().next().unwrap();
+        (finding.code, finding.message.clone())
     };
-    assert_eq!(of(Direction::Forward, &back), "path \"2\"");
-    assert_eq!(of(Direction::Both, &back), "path \"2\"");
-    assert_eq!(of(Direction::Forward, &there), "path \"2\"");
+    let differs = "has the curve of path \"1\"; they differ in direction: both ways and one way";
+    for runs in [&back, &there] {
+        assert_eq!(
+            of(Direction::Forward, runs),
+            (Code::SameCurve, differs.to_owned())
+        );
+        assert_eq!(of(Direction::Both, runs).0, Code::DuplicatePath);
+    }
 }
 
 fn points() -> impl Strategy<Value = Vec<Point<f64>>> {

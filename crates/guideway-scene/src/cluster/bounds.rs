@@ -7,16 +7,15 @@ pub type MemberHull = Option<Bounds<f64>>;
 
 /// Bounding box of a cluster, in meters, and the origin of its local coordinates.
 ///
-/// The box may exceed the tight one: when a member leaves a side of the box, the tight box is known
-/// only after a look at all members. The box tolerates a slack instead, up to a quarter of its
-/// size.
+/// The box may exceed the tight one: when a member leaves a side of the box, only a pass over all
+/// members finds the tight box. The box tolerates a slack instead, up to a quarter of its size.
 #[derive(Clone, Copy, Debug)]
 pub struct ClusterBounds {
     /// Holds all control points of the cluster.
     pub bounds: Bounds<f64>,
-    /// Origin of what is stored relative to the cluster, such as polylines. It stays in place while
-    /// some members move a little, so that what is stored of the others stays valid, and moves with
-    /// all members.
+    /// Origin of data that is stored relative to the cluster, such as polylines. It stays in place
+    /// while some members move a little, so that the data of the others stays valid, and moves when
+    /// all members move.
     pub origin: Point<f64>,
     /// Most that a side of the tight box may lie inside of `bounds`.
     slack_m: f64,
@@ -49,8 +48,8 @@ impl ClusterBounds {
         }
     }
 
-    /// Updates the box after some members changed their hull from `from` to `to`. None if the slack
-    /// would become too large: then all members have to be looked at.
+    /// Updates the box after some members changed their hull from `from` to `to`. `None` if the
+    /// slack would become too large: the caller then recomputes the box from all members.
     pub fn after_change(&self, from: MemberHull, to: MemberHull) -> Option<Self> {
         let slack_m = self.slack_m + self.retreat_m(from, to);
         let bounds = to.map_or(self.bounds, |to| self.bounds.union(to));
@@ -58,7 +57,7 @@ impl ClusterBounds {
     }
 
     /// Updates the box after all members were mapped `by`, which maps the old box into `bounds`.
-    /// None if the slack would become too large. A translation moves the origin, too.
+    /// `None` if the slack would become too large. A translation moves the origin, too.
     pub fn after_map(&self, by: Affine, bounds: Bounds<f64>) -> Option<Self> {
         if let Some(by) = by.as_translation() {
             return Some(Self {
@@ -81,7 +80,7 @@ impl ClusterBounds {
     /// Replaces the box, unless the slack is too large.
     fn with_slack(&self, bounds: Bounds<f64>, slack_m: f64) -> Option<Self> {
         /// Largest slack, in parts of the larger side: a box that is larger costs more in culling
-        /// than a look at its members.
+        /// than recomputing it from its members.
         const MAX_SLACK: f64 = 1.0 / 4.0;
         let size = bounds.size();
         let is_small = slack_m <= size.x.max(size.y) * MAX_SLACK;

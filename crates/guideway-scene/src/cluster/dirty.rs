@@ -22,7 +22,7 @@ impl DirtyClusters {
         self.len
     }
 
-    /// Whether the set is empty.
+    /// Returns `true` if the set is empty.
     pub fn is_empty(&self) -> bool {
         self.len == 0
     }

@@ -43,7 +43,7 @@ pub struct PendingEdit {
 pub struct AppliedEdit {
     /// Its number.
     pub cluster: u32,
-    /// Whether all of its members were named by the edit.
+    /// True if all of its members were named by the edit.
     pub is_whole: bool,
     /// Bounds before the edit.
     pub before: Option<ClusterBounds>,

@@ -1,4 +1,4 @@
-//! Clusters of rows with the bounds of each: what a renderer culls by.
+//! Cluster index: clusters of rows with the bounds of each, by which a renderer culls.
 
 use rayon::prelude::*;
 

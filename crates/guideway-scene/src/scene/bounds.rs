@@ -1,4 +1,4 @@
-//! Tight bounding box of all drawn curves, found without a look at most of them.
+//! Tight bounding box of all drawn curves, computed from the few that can reach its sides.
 
 use guideway_layout::{Hulls, Layout};
 use guideway_spline::Bounds;
@@ -57,7 +57,7 @@ struct Group<'p> {
     paths: &'p [u32],
 }
 
-/// True if a hull is not inside the box found so far.
+/// Returns `true` if a hull is not inside the box found so far.
 fn reaches_out(hull: Option<Bounds<f64>>, all: Option<Bounds<f64>>) -> bool {
     match (hull, all) {
         (Some(hull), Some(all)) => !(all.contains(hull.min) && all.contains(hull.max)),

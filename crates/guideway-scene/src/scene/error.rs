@@ -1,4 +1,4 @@
-//! Errors of building a scene from a layout.
+//! Errors of building a scene from a layout, and of queries about it.
 
 use std::fmt;
 
@@ -37,3 +37,14 @@ impl fmt::Display for SceneError {
 }
 
 impl std::error::Error for SceneError {}
+
+/// The reason why the paths of a scene share no opaque color.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum NoOpaqueColor {
+    /// Paths have different colors.
+    #[error("paths of several colors")]
+    Several,
+    /// All paths have the same translucent color.
+    #[error("translucent paths")]
+    Translucent,
+}

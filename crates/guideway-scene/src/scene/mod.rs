@@ -10,6 +10,6 @@ mod bounds;
 mod error;
 mod model;
 
-pub use error::SceneError;
+pub use error::{NoOpaqueColor, SceneError};
 pub(crate) use model::Colors;
 pub use model::{LayoutCopy, PathState, Scene, SceneOptions};

@@ -7,7 +7,7 @@ use guideway_spline::Bounds;
 use rayon::prelude::*;
 
 use super::bounds::curve_bounds;
-use super::error::SceneError;
+use super::error::{NoOpaqueColor, SceneError};
 use crate::color::Rgba;
 use crate::color_by::{self, ColorBy, Legend};
 
@@ -123,7 +123,7 @@ impl Scene {
         Arc::clone(&self.layout)
     }
 
-    /// True if other owners share the layout, so that the next edit copies it.
+    /// Returns `true` if other owners share the layout, so that the next edit copies it.
     pub fn is_layout_shared(&self) -> bool {
         Arc::strong_count(&self.layout) > 1
     }
@@ -177,7 +177,19 @@ impl Scene {
         is_common.then_some(first)
     }
 
-    /// True if all paths are opaque.
+    /// The opaque color shared by all shown paths; black without paths.
+    ///
+    /// # Errors
+    /// When paths differ in color or are translucent.
+    pub fn opaque_color(&self) -> Result<Rgba, NoOpaqueColor> {
+        match self.common_color() {
+            None => Err(NoOpaqueColor::Several),
+            Some(color) if !color.is_opaque() => Err(NoOpaqueColor::Translucent),
+            Some(color) => Ok(color),
+        }
+    }
+
+    /// Returns `true` if all paths are opaque.
     pub fn is_opaque(&self) -> bool {
         match &self.colors {
             Colors::One(color) => color.is_opaque(),

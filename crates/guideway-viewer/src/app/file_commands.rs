@@ -176,7 +176,7 @@ impl App {
         self.methods.name().to_owned()
     }
 
-    /// True if a file is being written; adds a notice if so.
+    /// Returns `true` if a file is being written; adds a notice if so.
     fn is_writer_busy(&mut self) -> bool {
         let is_busy = self.writer.is_busy();
         if is_busy {

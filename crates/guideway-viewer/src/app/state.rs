@@ -83,7 +83,7 @@ impl App {
         app
     }
 
-    /// True if everything shows the last state.
+    /// Returns `true` if everything shows the last state.
     pub(crate) fn is_settled(&self) -> bool {
         self.files.is_settled()
     }

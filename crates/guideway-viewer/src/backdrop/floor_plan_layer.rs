@@ -72,7 +72,7 @@ impl FloorPlanLayer {
         self.reading = Some(BackgroundTask::start(repaint, read));
     }
 
-    /// True if the plan is being read.
+    /// Returns `true` if the plan is being read.
     pub(crate) fn is_reading(&self) -> bool {
         self.reading.is_some()
     }

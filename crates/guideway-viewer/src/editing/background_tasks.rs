@@ -1,4 +1,4 @@
-//! Questions to one document that run in the background: recoloring, selection by query, check.
+//! Background tasks of one document: recoloring, selection by query, check.
 
 use std::path::Path;
 
@@ -61,12 +61,12 @@ impl BackgroundTasks {
         self.findings = Some(findings);
     }
 
-    /// True if a recoloring or a query is in progress.
+    /// Returns `true` if a recoloring or a query is in progress.
     pub(crate) fn is_busy(&self) -> bool {
         self.recoloring.is_some() || self.selecting.is_some()
     }
 
-    /// True if a check is in progress, or the first one is not complete.
+    /// Returns `true` if a check is in progress, or the first one is not complete.
     pub(crate) fn is_checking(&self) -> bool {
         self.checking.is_some() || self.findings.is_none()
     }

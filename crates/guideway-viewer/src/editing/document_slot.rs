@@ -1,4 +1,4 @@
-//! The place of one document in the window. Edits that outlast a frame take the document to another
+//! Document slot: holds the document of an open file. A long edit moves the document to another
 //! thread; the slot is empty until it returns.
 
 use std::path::Path;
@@ -65,12 +65,12 @@ impl DocumentSlot {
         Arc::get_mut(self.document.as_mut()?)
     }
 
-    /// True if an edit has the document.
+    /// Returns `true` if an edit has the document.
     pub(crate) fn is_editing(&self) -> bool {
         self.edit.task.is_some()
     }
 
-    /// True if the overlay's task reads the document.
+    /// Returns `true` if the overlay's task reads the document.
     pub(crate) fn is_overlay_busy(&self) -> bool {
         self.overlay.is_busy()
     }

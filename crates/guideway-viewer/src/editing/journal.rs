@@ -38,7 +38,7 @@ impl Journal {
         ))
     }
 
-    /// True if unsaved work of an earlier run awaits a decision.
+    /// Returns `true` if unsaved work of an earlier run awaits a decision.
     pub(crate) fn has_unsaved_work(&self) -> bool {
         self.file
             .as_ref()

@@ -71,7 +71,7 @@ impl JournalFile {
         self.mismatched_copy.as_deref()
     }
 
-    /// True if unsaved work of an earlier run awaits a decision.
+    /// Returns `true` if unsaved work of an earlier run awaits a decision.
     pub(crate) fn has_unsaved_work(&self) -> bool {
         self.has_unsaved_work
     }

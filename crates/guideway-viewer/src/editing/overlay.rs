@@ -105,7 +105,7 @@ impl Overlay {
         self.last.as_ref()
     }
 
-    /// True if a task reads the document.
+    /// Returns `true` if a task reads the document.
     pub(super) fn is_busy(&self) -> bool {
         self.task.is_some()
     }

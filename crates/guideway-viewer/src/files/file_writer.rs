@@ -32,7 +32,7 @@ pub(crate) struct Written {
 }
 
 impl FileWriter {
-    /// True if a file is being written.
+    /// Returns `true` if a file is being written.
     pub(crate) fn is_busy(&self) -> bool {
         self.current.is_some()
     }

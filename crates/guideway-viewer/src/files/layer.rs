@@ -87,29 +87,30 @@ impl Layer {
         self.error.as_deref()
     }
 
-    /// True if the document differs from its file, or may after the edit or save in progress.
+    /// Returns `true` if the document differs from its file, or may after the edit or save in
+    /// progress.
     pub(crate) fn is_changed(&self) -> bool {
         let is_pending = self.slot.is_editing() || self.save.is_saving();
         self.document().is_some_and(Document::is_changed) || is_pending
     }
 
-    /// True if an edit, a recoloring or a query is in progress.
+    /// Returns `true` if an edit, a recoloring or a query is in progress.
     pub(crate) fn is_busy(&self) -> bool {
         self.tasks.is_busy() || self.slot.is_editing()
     }
 
-    /// True if nothing is in progress and the last requested picture is on screen.
+    /// Returns `true` if nothing is in progress and the last requested picture is on screen.
     pub(crate) fn is_settled(&self) -> bool {
         let is_drawn = self.picture.is_settled() && !self.slot.is_overlay_busy();
         !self.is_busy() && self.document().is_some() && is_drawn
     }
 
-    /// True if the file has a picture, or an error in its place.
+    /// Returns `true` if the file has a picture, or an error in its place.
     pub(crate) fn has_picture_or_error(&self) -> bool {
         self.picture.shown().is_some() || self.error.is_some()
     }
 
-    /// True if the loader has more to send.
+    /// Returns `true` if the loader has more to send.
     #[cfg(test)]
     pub(crate) fn is_loading(&self) -> bool {
         self.loader.is_some()
@@ -122,12 +123,12 @@ impl Layer {
         (is_first || self.is_recovering()).then(|| loader.job())
     }
 
-    /// True if unsaved work of an earlier run awaits a decision.
+    /// Returns `true` if unsaved work of an earlier run awaits a decision.
     pub(crate) fn has_unsaved_work(&self) -> bool {
         self.slot.journal().has_unsaved_work()
     }
 
-    /// True if unsaved work is being replayed.
+    /// Returns `true` if unsaved work is being replayed.
     pub(crate) fn is_recovering(&self) -> bool {
         let loader = self.loader.as_ref();
         self.has_unsaved_work() && loader.is_some_and(Loader::is_recovering)
@@ -359,7 +360,7 @@ impl Layer {
         events.push(LayerEvent::Reached(LoadStage::Editable));
     }
 
-    /// True if this is the file at `path`.
+    /// Returns `true` if this is the file at `path`.
     pub(crate) fn is_at(&self, path: &Path) -> bool {
         self.path == path
     }

@@ -93,7 +93,7 @@ impl Loader {
         }
     }
 
-    /// True if it replays unsaved work.
+    /// Returns `true` if it replays unsaved work.
     pub(crate) fn is_recovering(&self) -> bool {
         self.is_recovering
     }

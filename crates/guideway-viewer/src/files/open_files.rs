@@ -1,4 +1,4 @@
-//! The open files, the active one among them, and what is remembered and watched of them.
+//! The open files and the active one among them; updates the watcher and the recent files.
 
 use std::path::{Path, PathBuf};
 
@@ -86,7 +86,7 @@ impl OpenFiles {
         self.layers.iter().any(Layer::is_changed)
     }
 
-    /// True if nothing is in progress in any file.
+    /// Returns `true` if nothing is in progress in any file.
     pub(crate) fn is_settled(&self) -> bool {
         self.layers.iter().all(Layer::is_settled)
     }

@@ -23,12 +23,12 @@ impl SaveState {
         self.is_saving
     }
 
-    /// True if this window saved the file since it was read.
+    /// Returns `true` if this window saved the file since it was read.
     pub(crate) fn is_written(&self) -> bool {
         self.written.is_some()
     }
 
-    /// True if this window wrote the file into this state.
+    /// Returns `true` if this window wrote the file into this state.
     pub(crate) fn has_written(&self, state: Stamp) -> bool {
         state.is_some() && self.written == state
     }

@@ -1,7 +1,7 @@
 //! The Display section: colors, line widths, decorations, swept areas.
 
 use eframe::egui::{ComboBox, Slider, TextEdit, Ui};
-use guideway_layout::Layout;
+use guideway_layout::{Attribute, Layout};
 
 use crate::action::Action;
 use crate::backdrop::SweptAreasLayer;
@@ -22,12 +22,15 @@ pub(super) fn show(
 ) {
     let before = settings.clone();
     let columns = files.document().map_or(Vec::new(), |d| columns(d.layout()));
+    let color_by = settings.color_by.as_deref().unwrap_or(FILE_COLORS);
+    let selected = columns.iter().find(|(name, _)| name == color_by);
+    let selected = selected.map_or(color_by, |(_, label)| label).to_owned();
     ComboBox::from_label("Color")
-        .selected_text(settings.color_by.as_deref().unwrap_or(FILE_COLORS))
+        .selected_text(selected)
         .show_ui(ui, |ui| {
             ui.selectable_value(&mut settings.color_by, None, FILE_COLORS);
-            for column in columns {
-                ui.selectable_value(&mut settings.color_by, Some(column.clone()), column);
+            for (name, label) in columns {
+                ui.selectable_value(&mut settings.color_by, Some(name), label);
             }
         });
     ui.checkbox(&mut settings.is_thesis_rule, "Line widths of the thesis");
@@ -58,10 +61,17 @@ pub(super) fn show(
     }
 }
 
-/// Columns that can color the paths of a layout.
-fn columns(layout: &Layout) -> Vec<String> {
-    let attributes = layout.paths.attributes.iter();
-    let attributes = attributes.map(|column| column.name.clone());
-    let built_in = BUILT_IN_COLUMNS.map(str::to_owned);
+/// Names of the columns that can color the paths of a layout, and labels with their units.
+fn columns(layout: &Layout) -> Vec<(String, String)> {
+    let paths = &layout.paths;
+    let label = |name: &str| {
+        paths
+            .column(name)
+            .map_or_else(String::new, Attribute::label)
+    };
+    let attributes = paths
+        .column_names()
+        .map(|name| (name.to_owned(), label(name)));
+    let built_in = BUILT_IN_COLUMNS.map(|name| (name.to_owned(), name.to_owned()));
     attributes.chain(built_in).collect()
 }

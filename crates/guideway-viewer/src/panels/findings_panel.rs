@@ -2,7 +2,7 @@
 
 use eframe::egui::{CollapsingHeader, DragValue, Ui};
 use guideway_document::locate;
-use guideway_layout::{CheckOptions, Diagnostics, Place};
+use guideway_layout::{CheckOptions, Diagnostics, FindingKind, Place};
 
 use crate::action::Action;
 use crate::files::{Layer, OpenFiles};
@@ -73,12 +73,17 @@ fn list(ui: &mut Ui, findings: &Diagnostics) -> Option<Place> {
         ui.label("No findings");
     }
     let mut clicked = None;
-    for (code, count) in findings.counts() {
-        let title = format!("{}: {code} ({count})", code.severity());
+    for kind in FindingKind::of([findings]) {
+        let FindingKind {
+            code,
+            severity,
+            count,
+        } = kind;
+        let title = format!("{severity}: {code} ({count})");
         CollapsingHeader::new(title).show(ui, |ui| {
             ui.small(code.meaning());
-            let of_code = findings.iter().filter(|f| f.code == code);
-            let listed: Vec<_> = of_code.take(MAX_LISTED).collect();
+            let of_kind = findings.iter().filter(|finding| kind.has(finding));
+            let listed: Vec<_> = of_kind.take(MAX_LISTED).collect();
             for finding in &listed {
                 let text = format!("{}: {}", finding.place, finding.message);
                 if ui.link(text).on_hover_text(&finding.remedy).clicked() {

@@ -28,7 +28,7 @@ pub(crate) fn pressed_commands(ctx: &Context) -> Vec<Command> {
     pressed.map(|entry| entry.command).collect()
 }
 
-/// True if a text field handles the shortcut itself.
+/// Returns `true` if a text field handles the shortcut itself.
 fn is_text_command(command: Command) -> bool {
     matches!(
         command,

@@ -3,6 +3,7 @@
 use eframe::egui::{Grid, Label, Pos2, Sense, Shape, Stroke, Ui, Vec2};
 use guideway_document::Document;
 use guideway_document::measure::{Bend, bends};
+use guideway_layout::Paths;
 
 use crate::canvas::shape_text;
 use crate::files::OpenFiles;
@@ -47,10 +48,8 @@ fn show_attributes(ui: &mut Ui, document: &Document, row: u32) {
         ("to node", node(path.end_node())),
         ("vehicle types", types.join(", ")),
     ];
-    let columns = layout.paths.attributes.iter().filter_map(|column| {
-        let value = column.values.get(row as usize)?;
-        Some((column.name.as_str(), value.to_string()))
-    });
+    let built_in = built_in.map(|(name, value)| (name.to_owned(), value));
+    let columns = attributes(&layout.paths, row as usize);
     let grid = Grid::new("attributes").num_columns(2);
     grid.min_col_width(120.0)
         .max_col_width(150.0)
@@ -58,8 +57,8 @@ fn show_attributes(ui: &mut Ui, document: &Document, row: u32) {
             let all = built_in.into_iter().chain(columns);
             let mut all = all.filter(|(_, value)| !value.is_empty());
             for (name, value) in all.by_ref().take(MAX_ATTRIBUTES) {
-                ui.add(Label::new(name).truncate());
-                ui.add(Label::new(value).truncate());
+                ui.add(Label::new(&name).truncate()).on_hover_text(name);
+                ui.add(Label::new(&value).truncate()).on_hover_text(value);
                 ui.end_row();
             }
             let more = all.count();
@@ -67,6 +66,24 @@ fn show_attributes(ui: &mut Ui, document: &Document, row: u32) {
                 ui.small(format!("and {more} more"));
             }
         });
+}
+
+/// The attributes of a path with their units; those per vehicle type name their types.
+fn attributes(paths: &Paths, row: usize) -> Vec<(String, String)> {
+    let types = paths.vehicle_types();
+    let common = paths.attributes.iter().filter_map(|column| {
+        let value = column.values.get(row)?;
+        Some((column.label(), value.to_string()))
+    });
+    let per_type = types.attributes.iter().filter_map(|column| {
+        let of_type = |entry: usize| {
+            let value = column.values.get(entry)?;
+            Some(format!("{}: {value}", types.type_of(entry)))
+        };
+        let values: Vec<String> = types.entries(row).filter_map(of_type).collect();
+        (!values.is_empty()).then(|| (column.label(), values.join(", ")))
+    });
+    common.chain(per_type).collect()
 }
 
 /// Plots curvature over arc length.
@@ -94,4 +111,31 @@ fn plot_curvature(ui: &mut Ui, bends: &[Bend]) {
     let curve = bends.iter().map(point).collect();
     painter.add(Shape::line(curve, Stroke::new(1.5, color)));
     response.on_hover_text("Curvature along the path; up is a left turn");
+}
+
+#[cfg(test)]
+mod tests {
+    use guideway_layout::{NewPath, Quantity};
+
+    use super::*;
+
+    #[test]
+    fn attributes_show_units_and_values_per_vehicle_type() {
+        let mut paths = Paths::default();
+        paths.push(&NewPath {
+            vehicle_types: &["tug", "fork"],
+            ..NewPath::default()
+        });
+        let height = Quantity::Length;
+        paths.attributes.set_quantity(0, "maxHeight", 2.5, height);
+        let per_type = &mut paths.vehicle_types_mut().attributes;
+        per_type.set_quantity(0, "maxSpeed", 1.5, Quantity::Speed);
+        per_type.set_quantity(1, "maxSpeed", 2.0, Quantity::Speed);
+        let expected = [
+            ("maxHeight (m)", "2.5"),
+            ("maxSpeed (m/s)", "tug: 1.5, fork: 2"),
+        ];
+        let expected = expected.map(|(name, value)| (name.to_owned(), value.to_owned()));
+        assert_eq!(attributes(&paths, 0), expected);
+    }
 }

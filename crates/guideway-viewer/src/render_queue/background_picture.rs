@@ -44,7 +44,8 @@ impl<K: PartialEq> BackgroundPicture<K> {
         (self.shown, self.requested, self.error) = (None, None, None);
     }
 
-    /// True if to start a task: none is in progress, and the last one had other content or view.
+    /// Returns `true` if to start a task: none is in progress, and the last one had other content
+    /// or view.
     pub(crate) fn needs(&self, content: &K, view: &View) -> bool {
         let is_requested = |(k, v): &(K, View)| k == content && v == view;
         self.task.is_none() && !self.requested.as_ref().is_some_and(is_requested)

@@ -86,7 +86,7 @@ impl LayerPicture {
         }
     }
 
-    /// True if the last request is on screen and no other is in progress.
+    /// Returns `true` if the last request is on screen and no other is in progress.
     pub(crate) fn is_settled(&self) -> bool {
         let is_shown = |request: &RenderRequest| {
             let shown = self.shown.as_ref();

@@ -75,7 +75,7 @@ impl RenderQueue {
         self.0.condvar.notify_one();
     }
 
-    /// True if updates or requests are pending or in progress.
+    /// Returns `true` if updates or requests are pending or in progress.
     pub(super) fn is_busy(&self) -> bool {
         let mailbox = self.lock();
         mailbox.next.is_some() || mailbox.current.is_some() || !mailbox.updates.is_empty()

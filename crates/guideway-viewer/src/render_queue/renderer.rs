@@ -67,7 +67,7 @@ impl Renderer {
         self.queue.request(request);
     }
 
-    /// True if updates or requests are pending or in progress.
+    /// Returns `true` if updates or requests are pending or in progress.
     pub(super) fn is_busy(&self) -> bool {
         self.queue.is_busy()
     }

@@ -10,8 +10,9 @@ pub(crate) struct RenderRequest {
 }
 
 impl RenderRequest {
-    /// True if the picture of `self` covers at least half of the area of `other`, in the same
-    /// style. Such a picture is worth completing: the window shows it until `other` is rendered.
+    /// Returns `true` if the picture of `self` covers at least half of the area of `other`, in the
+    /// same style. Such a picture is worth completing: the window shows it until `other` is
+    /// rendered.
     pub(super) fn covers_half_of(&self, other: &Self) -> bool {
         let (a, b) = (self.view.world_bounds(), other.view.world_bounds());
         let overlap = |a: (f64, f64), b: (f64, f64)| (a.1.min(b.1) - a.0.max(b.0)).max(0.0);

@@ -187,7 +187,7 @@ impl Worker {
     }
 }
 
-/// Why there is no picture.
+/// The reason for a request without a picture.
 enum Stop {
     NoScene,
     Method(UserError),

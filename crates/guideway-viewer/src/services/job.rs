@@ -29,7 +29,7 @@ impl Job {
         self.is_cancelled.store(true, Ordering::Relaxed);
     }
 
-    /// True if [`Self::cancel`] was called.
+    /// Returns `true` if [`Self::cancel`] was called.
     pub fn is_cancelled(&self) -> bool {
         self.is_cancelled.load(Ordering::Relaxed)
     }

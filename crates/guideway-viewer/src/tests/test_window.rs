@@ -215,7 +215,7 @@ impl TestWindow {
     }
 }
 
-/// True if a notice contains this text.
+/// Returns `true` if a notice contains this text.
 pub(super) fn has_notice(app: &App, text: &str) -> bool {
     let notices = app.dialogs.notices.texts();
     notices.iter().any(|notice| notice.contains(text))

@@ -15,7 +15,7 @@ pub(crate) enum Tool {
 }
 
 impl Tool {
-    /// True if clicks add points. Such a tool pans by the primary button.
+    /// Returns `true` if clicks add points. Such a tool pans by the primary button.
     pub(crate) fn adds_points(self) -> bool {
         matches!(self, Self::Draw | Self::Measure)
     }

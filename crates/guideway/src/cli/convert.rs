@@ -1,17 +1,10 @@
 //! `guideway convert`: writes a layout in another format.
 
-use std::fs::File;
-use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
-use std::time::SystemTime;
 
-use clap::ValueEnum;
-#[cfg(feature = "viewer")]
-use guideway::formats::Format;
-use guideway::formats::lif::{self, Version};
-use guideway::formats::{Losses, arrow as arrow_format, dxf, geojson, svg};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use guideway::formats::{Losses, Target};
 use guideway::layout::{Layout, UserError};
-use guideway::{SaveError, replace_file};
 use serde_json::{Value, json};
 
 use super::exit::Exit;
@@ -25,157 +18,120 @@ pub(crate) struct Args {
     /// Layout files; the content decides the format
     #[arg(required = true, value_name = "FILE", value_parser = Input::parser())]
     inputs: Vec<Input>,
-    /// File to write; its extension selects the format unless --to is given
+    /// File to write; its extension selects the format unless --to is given. LIF stays in the
+    /// version that was read
     output: PathBuf,
     /// Format of the output
-    #[arg(long, value_name = "FORMAT")]
+    #[arg(long, value_name = "FORMAT", value_parser = target_parser())]
     to: Option<Target>,
 }
 
-/// The formats with a writer.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum Target {
-    /// Apache Arrow, a row per run: .arrow, .feather
-    Arrow,
-    /// DXF, a drawing for CAD programs: .dxf
-    Dxf,
-    /// GeoJSON, a Nav2 route graph if the layout has nodes: .geojson
-    Geojson,
-    /// VDMA LIF 1.0: .lif.json, .lif
-    Lif,
-    /// VDMA LIF 2.0
-    Lif2,
-    /// SVG, a drawing with exact curves: .svg
-    Svg,
+/// Parses the identifier of a target, with its extensions in the help.
+fn target_parser() -> impl TypedValueParser<Value = Target> {
+    let values = Target::ALL.iter().map(|target| {
+        let extensions = target.extensions().join(", ");
+        let help = match extensions.as_str() {
+            "" => target.description().to_owned(),
+            extensions => format!("{}: {extensions}", target.description()),
+        };
+        PossibleValue::new(target.id()).help(help)
+    });
+    PossibleValuesParser::new(values)
+        .try_map(|id| Target::from_id(&id).ok_or("the list of formats has this identifier"))
 }
 
-impl Target {
-    /// The format that the extension of a file selects.
-    pub(super) fn of(output: &Path) -> Result<Self, UserError> {
-        let name = output.file_name().unwrap_or_default().to_string_lossy();
-        let name = name.to_lowercase();
-        let extensions = [
-            (".arrow", Self::Arrow),
-            (".feather", Self::Arrow),
-            (".geojson", Self::Geojson),
-            (".lif.json", Self::Lif),
-            (".lif", Self::Lif),
-            (".dxf", Self::Dxf),
-            (".svg", Self::Svg),
-        ];
-        let known = extensions
-            .iter()
-            .find(|(extension, _)| name.ends_with(extension));
-        known.map(|(_, target)| *target).ok_or_else(|| {
-            let extensions = extensions.map(|(extension, _)| extension).join(", ");
-            UserError::new(
-                "target-format",
-                format!(
-                    "{}: no format has this extension; known are {extensions}",
-                    output.display()
-                ),
-                "Rename the output or name its format, such as `--to lif2`; `guideway render` \
-                 writes pictures",
-            )
-        })
-    }
-
-    /// The format to save a layout in: by the extension of the file, or by the source of the layout
-    /// where the extension fits several formats.
-    #[cfg(feature = "viewer")]
-    pub(super) fn to_save(layout: &Layout, output: &Path) -> Result<Self, UserError> {
-        let is_geojson = layout.provenance.format == Format::GeoJson.name();
-        let read = match Version::of_layout(layout) {
-            Some(Version::V1) => Some(Self::Lif),
-            Some(Version::V2) => Some(Self::Lif2),
-            None => is_geojson.then_some(Self::Geojson),
-        };
-        let is_any_json = output
-            .extension()
-            .is_some_and(|e| e.eq_ignore_ascii_case("json"));
-        match (Self::of(output), read) {
-            (Ok(Self::Lif), Some(Self::Lif2)) => Ok(Self::Lif2),
-            (Err(_), Some(read)) if is_any_json => Ok(read),
-            (named, _) => named,
-        }
-    }
-
-    /// Rejects saving a layout over its source if the source may hold more than the layout.
-    #[cfg(feature = "viewer")]
-    pub(super) fn check_in_place(layout: &Layout, file: &Path) -> Result<(), UserError> {
-        let refused = layout.refused.len();
-        let would_lose = match Self::to_save(layout, file)? {
-            Self::Dxf | Self::Svg => "is a drawing: saving would keep only the paths".to_owned(),
-            Self::Arrow | Self::Geojson if refused > 0 => {
-                format!("has {refused} refused paths, which saving would drop")
-            }
-            Self::Arrow | Self::Geojson | Self::Lif | Self::Lif2 => return Ok(()),
-        };
-        Err(UserError::new(
+/// The format that the extension of a file selects.
+fn target_of(output: &Path) -> Result<Target, UserError> {
+    let name = output.file_name().unwrap_or_default().to_string_lossy();
+    Target::of_file_name(&name).ok_or_else(|| {
+        let extensions = Target::ALL.iter().flat_map(|target| target.extensions());
+        let extensions: Vec<&str> = extensions.copied().collect();
+        UserError::new(
             "target-format",
-            format!("{} {would_lose}", file.display()),
-            "Save the layout under another name",
-        ))
-    }
+            format!(
+                "{}: no format has this extension; known are {}",
+                output.display(),
+                extensions.join(", ")
+            ),
+            "Rename the output or name its format, such as `--to lif2`; `guideway render` writes \
+             pictures",
+        )
+    })
+}
 
-    fn name(self) -> &'static str {
-        match self {
-            Self::Arrow => "Arrow",
-            Self::Dxf => "DXF",
-            Self::Geojson => "GeoJSON",
-            Self::Lif => "LIF 1.0",
-            Self::Lif2 => "LIF 2.0",
-            Self::Svg => "SVG",
+/// The format to save a layout in: by the extension of the file, or by the source of the layout
+/// where the extension fits several formats.
+pub(super) fn target_to_save(layout: &Layout, output: &Path) -> Result<Target, UserError> {
+    let read = Target::of_source(layout);
+    let has_extension = |name: &str| {
+        let extension = output.extension();
+        extension.is_some_and(|e| e.eq_ignore_ascii_case(name))
+    };
+    use Target::{Lif1, Lif2, Vda2, Vda3};
+    match (target_of(output), read) {
+        (Ok(Lif1), Some(Lif2)) => Ok(Lif2),
+        (Ok(Vda2), Some(Vda3)) => Ok(Vda3),
+        (Ok(Target::OpenTcs7), Some(Target::OpenTcs6)) => Ok(Target::OpenTcs6),
+        (Ok(Target::GeoJson), Some(Target::Nav2)) => Ok(Target::Nav2),
+        (Err(_), Some(read @ (Lif1 | Lif2 | Target::GeoJson | Target::Nav2 | Vda2 | Vda3)))
+            if has_extension("json") =>
+        {
+            Ok(read)
         }
-    }
-
-    /// Writes the file atomically. Returns the losses of the format and the size of the file.
-    pub(super) fn write(self, layout: &Layout, output: &Path) -> Result<(Losses, u64), UserError> {
-        let write: TextWriter = match self {
-            Self::Arrow => {
-                return arrow::replace(output, |file| {
-                    arrow_format::write_layout(layout, file, &arrow_format::WriteOptions::default())
-                });
-            }
-            Self::Dxf => |layout, out| dxf::write_layout(layout, out),
-            Self::Geojson => {
-                |layout, out| geojson::write_layout(layout, out, &geojson::WriteOptions::default())
-            }
-            Self::Lif => |layout, out| lif::write_layout(layout, out, &lif_options(Version::V1)),
-            Self::Lif2 => |layout, out| lif::write_layout(layout, out, &lif_options(Version::V2)),
-            Self::Svg => |layout, out| svg::write_layout(layout, out),
-        };
-        let write = |file: &Path| {
-            let mut out = BufWriter::with_capacity(1 << 16, File::create(file)?);
-            let losses = write(layout, &mut out)?;
-            out.flush()?;
-            Ok((losses, out.get_ref().metadata()?.len()))
-        };
-        Ok(replace_file(output, |file| {
-            write(file).map_err(|problem| SaveError {
-                path: output.to_owned(),
-                problem,
-            })
-        })?)
+        (Err(_), Some(Target::Rmf)) if has_extension("yaml") => Ok(Target::Rmf),
+        (named, _) => named,
     }
 }
 
-/// Writes a layout in a text format.
-type TextWriter = fn(&Layout, &mut BufWriter<File>) -> io::Result<Losses>;
+/// Rejects saving a layout over its source if the source may hold more than the layout.
+#[cfg(feature = "viewer")]
+pub(super) fn check_in_place(layout: &Layout, file: &Path) -> Result<(), UserError> {
+    let refused = layout.refused.len();
+    let target = target_to_save(layout, file)?;
+    let would_lose = match target {
+        _ if target.is_drawing() => "is a drawing: saving would keep only the paths".to_owned(),
+        // Other XML formats and older versions of openTCS have the same extension.
+        Target::OpenTcs6 | Target::OpenTcs7 if Target::of_source(layout) != Some(target) => {
+            format!("is no {}", target.name())
+        }
+        Target::GeoJson
+        | Target::Nav2
+        | Target::Rmf
+        | Target::OpenTcs6
+        | Target::OpenTcs7
+        | Target::Vda2
+        | Target::Vda3
+            if refused > 0 =>
+        {
+            format!("has {refused} refused paths, which saving would drop")
+        }
+        _ => return Ok(()),
+    };
+    Err(UserError::new(
+        "target-format",
+        format!("{} {would_lose}", file.display()),
+        "Save the layout under another name",
+    ))
+}
 
-fn lif_options(version: Version) -> lif::WriteOptions {
-    lif::WriteOptions {
-        version,
-        exported: SystemTime::now(),
-    }
+/// Writes the file atomically. Returns the losses of the format and the size of the file.
+pub(super) fn write(
+    target: Target,
+    layout: &Layout,
+    output: &Path,
+) -> Result<(Losses, u64), UserError> {
+    arrow::replace(output, |file| target.write_file(layout, file))
 }
 
 pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
-    let target = args.to.map_or_else(|| Target::of(&args.output), Ok)?;
+    // An unknown extension must not wait for the read.
+    args.to.map_or_else(|| target_of(&args.output), Ok)?;
     input::check_output(args.inputs.iter().map(|i| i.path.as_path()), &args.output)?;
     let (layout, read_ms) = input::read_all(&args.inputs, out)?;
+    let of_source = || target_to_save(&layout, &args.output);
+    let target = args.to.map_or_else(of_source, Ok)?;
     let progress = out.progress(format!("writing {}", args.output.display()));
-    let (losses, bytes) = target.write(&layout, &args.output)?;
+    let (losses, bytes) = write(target, &layout, &args.output)?;
     let write_ms = progress.finish();
 
     let lost = losses.iter().map(
@@ -230,29 +186,43 @@ mod tests {
 
     #[test]
     fn saves_in_the_format_of_the_source() {
-        use Target::{Arrow, Geojson, Lif, Lif2};
+        use Target::{Arrow, GeoJson, Lif1, Lif2, Nav2, OpenTcs6, OpenTcs7, Rmf, Vda2, Vda3};
         for (format, version, name, target) in [
-            ("LIF", "1.0", "a.lif.json", Some(Lif)),
+            ("LIF", "1.0", "a.lif.json", Some(Lif1)),
             ("LIF", "2.0", "a.lif.json", Some(Lif2)),
             ("LIF", "2.0", "site.json", Some(Lif2)),
             ("LIF", "2.0", "a.arrow", Some(Arrow)),
-            ("GeoJSON", "", "roads.json", Some(Geojson)),
-            ("GeoJSON", "", "roads.lif.json", Some(Lif)),
-            ("VDA 5050", "2.0", "order.json", None),
-            ("openTCS", "6.0.0", "plant.xml", None),
+            ("GeoJSON", "", "roads.json", Some(GeoJson)),
+            ("GeoJSON", "", "roads.lif.json", Some(Lif1)),
+            ("GeoJSON", "Nav2 route graph", "graph.geojson", Some(Nav2)),
+            ("GeoJSON", "Nav2 route graph", "graph.json", Some(Nav2)),
+            ("Open-RMF", "navigation graph", "0.yaml", Some(Rmf)),
+            ("Open-RMF", "building", "office.building.yaml", None),
+            ("VDA 5050", "2.0", "order.json", Some(Vda2)),
+            ("VDA 5050", "3.0", "order.json", Some(Vda3)),
+            ("VDA 5050", "3.0", "a.vda5050.json", Some(Vda3)),
+            ("openTCS", "6.0.0", "plant.xml", Some(OpenTcs6)),
+            ("openTCS", "7.0.0", "plant.xml", Some(OpenTcs7)),
             ("LIF", "1.0", "site.txt", None),
         ] {
             let layout = read_from(format, version);
-            let saved = Target::to_save(&layout, Path::new(name));
+            let saved = target_to_save(&layout, Path::new(name));
             assert_eq!(saved.ok(), target, "{format} {version} as {name}");
-            let in_place = Target::check_in_place(&layout, Path::new(name));
+            let in_place = check_in_place(&layout, Path::new(name));
             assert_eq!(in_place.is_ok(), target.is_some(), "{name}");
         }
+        for (format, version) in [("openTCS", "0.0.2"), ("OpenDRIVE", "1.6")] {
+            let layout = read_from(format, version);
+            let saved = target_to_save(&layout, Path::new("map.xml"));
+            assert_eq!(saved.ok(), Some(OpenTcs7));
+            let rejected = check_in_place(&layout, Path::new("map.xml"));
+            assert!(rejected.unwrap_err().message.contains("no openTCS 7.0.0"));
+        }
         let drawing = read_from("DXF", "AC1015");
-        let rejected = Target::check_in_place(&drawing, Path::new("plan.dxf"));
+        let rejected = check_in_place(&drawing, Path::new("plan.dxf"));
         assert!(rejected.unwrap_err().message.contains("only the paths"));
         assert_eq!(
-            Target::to_save(&drawing, Path::new("b.dxf")).ok(),
+            target_to_save(&drawing, Path::new("b.dxf")).ok(),
             Some(Target::Dxf)
         );
     }

@@ -6,8 +6,7 @@ use std::sync::Arc;
 use guideway::compose::{Decorations, Picture, Rendered};
 use guideway::formats::{ReadOptions, read_bytes};
 use guideway::layout::UserError;
-use guideway::render::FrameSize;
-use guideway::scene::{ColorBy, Legend, LineRule, Scene, SceneOptions};
+use guideway::scene::{ColorBy, FrameSize, Legend, LineRule, Scene, SceneOptions};
 use serde_json::json;
 
 use super::exit::Exit;
@@ -76,12 +75,10 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
 fn speeds(legend: &Legend) -> String {
     let entries = legend.entries.iter().filter_map(|entry| {
         let paths = text::counted(entry.paths?, "path");
-        Some(format!(
-            "  {}  {} m/s ({paths})\n",
-            entry.color, entry.label
-        ))
+        Some(format!("  {}  {} ({paths})\n", entry.color, entry.label))
     });
-    format!("colored by maximum speed:\n{}", entries.collect::<String>())
+    let title = legend.title();
+    format!("colored by {title}:\n{}", entries.collect::<String>())
 }
 
 /// Commands to try on other files.

@@ -4,7 +4,7 @@ use std::process;
 use std::sync::OnceLock;
 
 use guideway::layout::UserError;
-use guideway::render::Cancel;
+use guideway::scene::Cancel;
 
 use super::exit::INTERRUPTED;
 

@@ -41,7 +41,7 @@ impl Output {
         Self { json, quiet }
     }
 
-    /// Whether reports are JSON.
+    /// Returns `true` if reports are JSON.
     pub(crate) fn is_json(self) -> bool {
         self.json
     }

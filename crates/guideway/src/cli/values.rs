@@ -5,7 +5,7 @@ use std::ffi::OsStr;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use guideway::AUTO;
 use guideway::layout::Limits;
-use guideway::render::{Frame, FrameSize};
+use guideway::scene::{Frame, FrameSize};
 use guideway::spline::Point;
 
 /// The size of a picture that fits one frame, such as `1920x1080`.

@@ -28,7 +28,7 @@ pub(super) struct Entry {
     pub(super) name: &'static str,
     pub(super) summary: &'static str,
     pub(super) options: &'static [MethodOption],
-    /// Whether it draws every scene completely, so that `auto` may select it.
+    /// True if it draws every scene completely, so that `auto` may select it.
     pub(super) is_general: bool,
     /// Starts the method with the options after its name.
     pub(super) start: fn(&str) -> Result<Box<dyn Method>, StartError>,

@@ -76,7 +76,7 @@ pub(super) const GRID: Entry = Entry {
     start,
 };
 
-/// Whether the graphics device is hardware, not a software implementation.
+/// Returns `true` if the graphics device is hardware, not a software implementation.
 pub(super) fn is_in_hardware() -> bool {
     DEVICE.as_ref().is_ok_and(|device| !device.is_software())
 }

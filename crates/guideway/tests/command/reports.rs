@@ -57,7 +57,13 @@ fn info_summarizes_the_file() {
     let folder = tempfile::tempdir().unwrap();
     let file = lif(&folder, |_| {});
     let said = stdout(&on_file(&["info"], &file));
-    for part in ["LIF 1.0", "10 m", "maxSpeed", "floor (1 path)", "took "] {
+    for part in [
+        "LIF 1.0",
+        "10 m",
+        "maxSpeed (m/s)",
+        "floor (1 path)",
+        "took ",
+    ] {
         assert!(said.contains(part), "{part} in {said}");
     }
     let report = answer(&on_file(&["info", "--json"], &file), "info");
@@ -98,6 +104,10 @@ fn info_summarizes_the_file() {
     has_keys(
         speed,
         &["type", "values", "missing", "distinct", "min", "max", "top"],
+    );
+    assert_eq!(
+        (&speed["unit"], &speed["per_type"]),
+        (&json!("m/s"), &json!(0))
     );
     assert_eq!(speed["top"][0], json!({ "value": "1.5", "count": 1 }));
 }
@@ -153,6 +163,7 @@ fn check_exits_with_2_on_errors_and_prints_remedies() {
     let keys = [
         "file",
         "paths",
+        "refused",
         "errors",
         "warnings",
         "notes",
@@ -168,6 +179,65 @@ fn check_exits_with_2_on_errors_and_prints_remedies() {
     let keys = ["code", "severity", "place", "line", "message", "remedy"];
     has_keys(&report["findings"][0], &keys);
     assert_eq!(report["exit_code"], 2);
+}
+
+#[test]
+fn check_and_info_agree_about_refused_paths() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("roads.geojson");
+    let line = |id: usize, positions: &str| {
+        format!(
+            r#"{{"type": "Feature", "properties": {{}}, "id": {id},
+                "geometry": {{"type": "LineString", "coordinates": [{positions}]}}}}"#
+        )
+    };
+    let lines = [
+        line(1, ""),
+        line(2, "[1, 2]"),
+        line(3, "[0, 0], [5, 5]"),
+        line(4, ""),
+    ];
+    let features = lines.join(",");
+    let text = format!(r#"{{"type": "FeatureCollection", "features": [{features}]}}"#);
+    fs::write(&file, text).unwrap();
+
+    let info = answer(&on_file(&["info", "--json"], &file), "info");
+    let refused = info["refused"].as_array().unwrap();
+    let of_info: u64 = refused
+        .iter()
+        .map(|kind| kind["count"].as_u64().unwrap())
+        .sum();
+    assert_eq!(of_info, 3);
+    assert!(
+        refused.iter().all(|kind| kind["severity"] == "error"),
+        "{refused:?}"
+    );
+
+    let output = on_file(&["check", "--json"], &file);
+    assert_eq!(output.status.code(), Some(2));
+    let check = answer(&output, "check");
+    assert_eq!((&check["refused"], &check["paths"]), (&json!(3), &json!(4)));
+    assert_eq!(check["files"][0]["refused"], 3);
+    assert!(check["errors"].as_u64().unwrap() >= 3);
+    let said = stdout(&on_file(&["check"], &file));
+    assert!(said.contains("4 paths, 3 of them refused, "), "{said}");
+}
+
+#[test]
+fn check_reports_a_wrong_unit_before_errors() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = lif(&folder, |layout| {
+        layout["nodes"][1]["nodePosition"]["x"] = json!(60_000.0);
+        let mut edge = layout["edges"][0].clone();
+        edge["endNodeId"] = json!("nowhere");
+        layout["edges"].as_array_mut().unwrap().push(edge);
+    });
+    let said = stdout(&on_file(&["check"], &file));
+    assert!(said.starts_with("warning: implausible (1)"), "{said}");
+    assert!(said.contains("error: unknown-node"), "{said}");
+    let report = answer(&on_file(&["check", "--json"], &file), "check");
+    assert_eq!(report["findings"][0]["code"], "implausible");
+    assert_eq!(report["kinds"][0]["code"], "implausible");
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use guideway::render::{Frame, FrameSize};
+use guideway::scene::{Frame, FrameSize};
 use serde_json::Value;
 
 use crate::support::{command, has_keys, json, names_in, site, stderr, stdout};
@@ -201,6 +201,7 @@ fn svg_picture_has_curves_and_colors() {
     assert!(count("drawn") > 0);
     let accounted = count("drawn") + count("outside") + count("hidden") + count("refused");
     assert_eq!(accounted, count("total"));
+    assert_eq!(report["legend"]["unit"], "m/s");
     let svg = fs::read_to_string(&picture).unwrap();
     assert!(svg.contains(r#"viewBox="0 0 640 360""#));
     assert_eq!(svg.matches("<path id=").count() as u64, count("drawn"));
@@ -208,7 +209,7 @@ fn svg_picture_has_curves_and_colors() {
         let color = format!("#{}", entry["color"].as_str().unwrap());
         assert!(svg.contains(&color), "{color}");
     }
-    assert!(svg.contains("maxSpeed</text>"));
+    assert!(svg.contains("maxSpeed (m/s)</text>"));
 
     for (bad, said) in [
         (&["--shade", "density"][..], "PNG"),

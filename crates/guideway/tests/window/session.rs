@@ -157,7 +157,8 @@ impl WindowSession {
         has_dialog
     }
 
-    /// Whether a dialog is open: it dims the rest of the window, which is mostly white, to gray.
+    /// Returns `true` if a dialog is open: it dims the rest of the window, which is mostly white,
+    /// to gray.
     pub(super) fn has_dialog(&self) -> bool {
         const COLOR_BYTES: usize = 12;
         let file = self.pixels.path().join("Xvfb_screen0");
@@ -204,7 +205,7 @@ impl Drop for WindowSession {
     }
 }
 
-/// Whether the programs and the driver that the tests need are installed.
+/// Returns `true` if the programs and the driver that the tests need are installed.
 pub(super) fn is_installed() -> bool {
     let runs = |program: &str| Command::new(program).arg("-version").output().is_ok();
     let has_driver = guideway::methods()

@@ -84,7 +84,7 @@ fn round_up(value: f64) -> f64 {
 }
 
 impl Chart {
-    /// Whether no series has a point.
+    /// Returns `true` if no series has a point.
     pub(crate) fn is_empty(&self) -> bool {
         self.series.iter().all(|series| series.points.is_empty())
     }

@@ -10,7 +10,7 @@ pub(crate) struct Table {
     pub(crate) name: &'static str,
     /// Caption.
     pub(crate) title: String,
-    /// Whether the page folds it, below the chart of its numbers.
+    /// True if the page folds it, below the chart of its numbers.
     pub(crate) is_folded: bool,
     /// Columns from left to right.
     pub(crate) columns: Vec<Column>,

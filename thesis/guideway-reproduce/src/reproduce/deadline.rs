@@ -32,7 +32,7 @@ impl Deadline {
         Self(None)
     }
 
-    /// Whether the time is over.
+    /// Returns `true` if the time is over.
     pub(crate) fn is_over(self) -> bool {
         self.0.is_some_and(|end| Instant::now() >= end)
     }

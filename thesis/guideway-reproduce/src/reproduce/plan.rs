@@ -23,7 +23,7 @@ pub const METHODS: [&str; 10] = [
 /// All settings of a run; the run file stores them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Plan {
-    /// Whether this is the quick run for slow devices.
+    /// True if this is the quick run for slow devices.
     pub is_quick: bool,
     /// Methods with their options.
     pub methods: Vec<String>,

@@ -16,7 +16,7 @@ pub struct Run {
     /// Times and computers of the measurement: one entry per start or continuation.
     #[serde(rename = "sittings")]
     pub sessions: Vec<RunSession>,
-    /// Whether the user stopped the last session.
+    /// True if the user stopped the last session.
     pub is_partial: bool,
     /// Planned measurements.
     pub plan: Plan,
@@ -57,7 +57,7 @@ pub struct PartFacts {
     pub name: String,
     /// Duration in seconds, summed over all sessions.
     pub elapsed_s: f64,
-    /// Whether the time limit cut it.
+    /// True if the time limit cut it.
     pub is_cut: bool,
     /// Error that ended it early.
     pub failure: Option<String>,
@@ -147,12 +147,12 @@ impl Run {
         self.sessions.iter().map(|session| session.elapsed_s).sum()
     }
 
-    /// Whether every part is complete, so that [`super::resume`] has nothing to measure.
+    /// Returns `true` if every part is complete, so that [`super::resume`] has nothing to measure.
     pub fn is_whole(&self) -> bool {
         PARTS.iter().all(|part| self.has(part))
     }
 
-    /// Whether a part is complete: neither cut nor failed.
+    /// Returns `true` if a part is complete: neither cut nor failed.
     pub(super) fn has(&self, part: &str) -> bool {
         let is_whole = |facts: &PartFacts| !facts.is_cut && facts.failure.is_none();
         let mut own = self.parts.iter().filter(|facts| facts.name == part);

@@ -55,7 +55,7 @@ pub struct Trial {
 
 /// State and result of a search.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Found<T> {
+pub(crate) struct SearchState<T> {
     /// The most paths within the target, with their measurement.
     pub(crate) best: Option<(usize, T)>,
     /// Reason why more paths are not possible.
@@ -66,7 +66,7 @@ pub(crate) struct Found<T> {
     pub(crate) trials: Vec<Trial>,
 }
 
-impl<T> Found<T> {
+impl<T> SearchState<T> {
     /// The state before the first trial.
     pub(crate) fn nothing() -> Self {
         Self {
@@ -79,15 +79,15 @@ impl<T> Found<T> {
 }
 
 /// Result of one trial.
-pub(crate) enum Attempt<T> {
+pub(crate) enum TrialOutcome<T> {
     /// The method drew: median frame time in milliseconds, and the measurement.
     Drawn { frame_ms: f64, measurement: T },
     /// The method refused, for this reason.
     Refused { reason: String },
 }
 
-enum Next {
-    Try(usize),
+enum NextTrial {
+    Measure(usize),
     End(Limit),
 }
 
@@ -98,18 +98,18 @@ impl Search {
     /// When a trial fails, or the caller cancels.
     pub(crate) fn run<T>(
         &self,
-        mut found: Found<T>,
+        mut found: SearchState<T>,
         is_over: impl Fn() -> bool,
-        mut trial: impl FnMut(usize) -> Result<Attempt<T>, RenderError>,
-    ) -> Result<Found<T>, RenderError> {
+        mut trial: impl FnMut(usize) -> Result<TrialOutcome<T>, RenderError>,
+    ) -> Result<SearchState<T>, RenderError> {
         found.limit = loop {
             let paths = match self.next(&found.trials) {
-                Next::Try(_) if is_over() => break Limit::Time,
-                Next::Try(paths) => paths,
-                Next::End(limit) => break limit,
+                NextTrial::Measure(_) if is_over() => break Limit::Time,
+                NextTrial::Measure(paths) => paths,
+                NextTrial::End(limit) => break limit,
             };
             let frame_ms = match trial(paths)? {
-                Attempt::Drawn {
+                TrialOutcome::Drawn {
                     frame_ms,
                     measurement,
                 } => {
@@ -118,7 +118,7 @@ impl Search {
                     }
                     Some(frame_ms)
                 }
-                Attempt::Refused { reason } => {
+                TrialOutcome::Refused { reason } => {
                     found.reason = Some(reason);
                     None
                 }
@@ -136,7 +136,7 @@ impl Search {
         frame_ms.is_some_and(|ms| ms <= self.target_ms)
     }
 
-    fn next(&self, trials: &[Trial]) -> Next {
+    fn next(&self, trials: &[Trial]) -> NextTrial {
         // The bracket: the last count within the target, and the last beyond it.
         let last = |is_low| {
             let mut own = trials
@@ -149,24 +149,24 @@ impl Search {
         // Larger steps far from the target.
         let step = |nearness: f64| if nearness < 0.2 { 4 } else { 2 };
         match (low, high) {
-            (None, None) => Next::Try(self.start.clamp(self.least, self.ceiling)),
-            (Some((low, _)), None) if low >= self.ceiling => Next::End(Limit::Ceiling),
+            (None, None) => NextTrial::Measure(self.start.clamp(self.least, self.ceiling)),
+            (Some((low, _)), None) if low >= self.ceiling => NextTrial::End(Limit::Ceiling),
             (Some((low, ms)), None) => {
                 let next = low.saturating_mul(step(ms / self.target_ms));
-                Next::Try(next.min(self.ceiling))
+                NextTrial::Measure(next.min(self.ceiling))
             }
-            (None, Some((high, ms))) if high <= self.least => Next::End(match ms {
+            (None, Some((high, ms))) if high <= self.least => NextTrial::End(match ms {
                 Some(_) => Limit::TooSlow,
                 None => Limit::Refused,
             }),
             (None, Some((high, ms))) => {
                 let nearness = ms.map_or(1.0, |ms| self.target_ms / ms);
-                Next::Try((high / step(nearness)).max(self.least))
+                NextTrial::Measure((high / step(nearness)).max(self.least))
             }
             (Some((low, low_ms)), Some((high, high_ms))) => {
                 let width = high.saturating_sub(low);
                 if width <= 1 || width as f64 <= low as f64 * self.tolerance {
-                    return Next::End(match high_ms {
+                    return NextTrial::End(match high_ms {
                         Some(_) => Limit::FrameTime,
                         None => Limit::Refused,
                     });
@@ -188,7 +188,7 @@ impl Search {
                     _ => 0.5,
                 };
                 let next = low + (width as f64 * fraction.clamp(0.02, 0.98)).round() as usize;
-                Next::Try(next.clamp(low + 1, high - 1))
+                NextTrial::Measure(next.clamp(low + 1, high - 1))
             }
         }
     }
@@ -206,22 +206,22 @@ mod tests {
         tolerance: 0.02,
     };
 
-    fn drawn<T>(frame_ms: f64, measurement: T) -> Attempt<T> {
-        Attempt::Drawn {
+    fn drawn<T>(frame_ms: f64, measurement: T) -> TrialOutcome<T> {
+        TrialOutcome::Drawn {
             frame_ms,
             measurement,
         }
     }
 
-    fn refused<T>() -> Attempt<T> {
-        Attempt::Refused {
+    fn refused<T>() -> TrialOutcome<T> {
+        TrialOutcome::Refused {
             reason: "no memory".to_owned(),
         }
     }
 
     /// Searches with a method that takes a + b n milliseconds for n paths and refuses above
     /// `capacity`.
-    fn search(a_ms: f64, b_ms: f64, capacity: usize) -> Found<usize> {
+    fn search(a_ms: f64, b_ms: f64, capacity: usize) -> SearchState<usize> {
         let trial = |paths: usize| {
             Ok(if paths > capacity {
                 refused()
@@ -229,7 +229,7 @@ mod tests {
                 drawn(a_ms + b_ms * paths as f64, paths)
             })
         };
-        SEARCH.run(Found::nothing(), || false, trial).unwrap()
+        SEARCH.run(SearchState::nothing(), || false, trial).unwrap()
     }
 
     #[test]
@@ -293,11 +293,11 @@ mod tests {
             trials.set(trials.get() + 1);
             Ok(drawn(paths as f64 * 1e-5, ()))
         };
-        let nothing = Found::nothing();
+        let nothing = SearchState::nothing();
         let found = SEARCH.run(nothing, || trials.get() >= 2, count).unwrap();
         assert_eq!((found.trials.len(), found.limit), (2, Limit::Time));
         assert!(found.best.is_some());
-        let nothing = Found::<()>::nothing();
+        let nothing = SearchState::<()>::nothing();
         let cancelled = SEARCH.run(nothing, || false, |_| Err(RenderError::Cancelled));
         assert_eq!(cancelled, Err(RenderError::Cancelled));
     }
@@ -316,7 +316,7 @@ mod tests {
                 })
             };
             let is_over = || left.get() == 0;
-            let part = SEARCH.run(Found::nothing(), is_over, trial).unwrap();
+            let part = SEARCH.run(SearchState::nothing(), is_over, trial).unwrap();
             assert_eq!(part.trials, whole.trials[..cut]);
             assert_eq!(SEARCH.run(part, || false, trial).unwrap(), whole);
         }
@@ -330,7 +330,7 @@ mod tests {
             let noise = 0.8 + 0.4 * f64::from(random >> 16) / 65_536.0;
             Ok(drawn(paths as f64 * 3e-5 * noise, ()))
         };
-        let found = SEARCH.run(Found::nothing(), || false, noisy).unwrap();
+        let found = SEARCH.run(SearchState::nothing(), || false, noisy).unwrap();
         assert_eq!(found.limit, Limit::FrameTime);
         assert!(found.trials.len() < 30, "{:?}", found.trials);
     }

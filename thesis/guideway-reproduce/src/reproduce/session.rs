@@ -58,14 +58,14 @@ impl<'a> Session<'a> {
         (self.progress)(current);
     }
 
-    /// Whether the time is over. If so, the part counts as cut.
+    /// Returns `true` if the time is over. If so, the part counts as cut.
     pub(crate) fn is_over(&self, time: Deadline) -> bool {
         let is_over = time.is_over();
         self.is_cut.set(self.is_cut.get() || is_over);
         is_over
     }
 
-    /// Whether the time cut the part since the last call.
+    /// Returns `true` if the time cut the part since the last call.
     pub(crate) fn take_is_cut(&self) -> bool {
         self.is_cut.take()
     }

@@ -161,7 +161,8 @@ fn writes_every_table_as_csv() {
     assert_eq!(lines.count(), 2 * METHODS.len() - 1);
 }
 
-/// Whether two values are equal up to the last digit of their numbers, which the reader may round.
+/// Returns `true` if two values are equal up to the last digit of their numbers, which the reader
+/// may round.
 fn are_equal(a: &Value, b: &Value) -> bool {
     match (a, b) {
         (Value::Number(a), Value::Number(b)) => {

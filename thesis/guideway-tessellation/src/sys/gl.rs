@@ -93,7 +93,7 @@ impl Gl {
         format!("{}, OpenGL {}", text(glow::RENDERER), text(glow::VERSION))
     }
 
-    /// Whether the device is a software rasterizer.
+    /// Returns `true` if the device is a software rasterizer.
     pub(crate) fn is_software(&self) -> bool {
         let renderer = unsafe { self.raw.get_parameter_string(glow::RENDERER) };
         ["llvmpipe", "softpipe", "swrast", "SwiftShader"]

@@ -47,7 +47,7 @@ impl Target {
         })
     }
 
-    /// Whether the target has this size.
+    /// Returns `true` if the target has this size.
     pub(crate) fn has_size(&self, width: u32, height: u32, samples: u32) -> bool {
         (self.width, self.height, self.samples) == (width, height, samples)
     }

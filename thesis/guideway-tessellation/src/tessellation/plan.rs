@@ -5,7 +5,7 @@
 use std::ops::Range;
 
 use guideway_layout::PathRef;
-use guideway_scene::{LineRule, Rgba, Scene};
+use guideway_scene::{LineRule, Scene};
 use guideway_spline::{Bounds, Point};
 
 use super::shared::{Counters, DrawElements, PATCH_VERTICES, PathRecord, WORKGROUP};
@@ -194,7 +194,7 @@ pub(super) struct PathTooLong {
 /// at both ends bound all others.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Widths {
-    /// Whether a path has no width.
+    /// True if a path has no width.
     includes_none: bool,
     /// Smallest and largest width.
     range_m: Option<(f32, f32)>,
@@ -211,32 +211,11 @@ impl Widths {
         }
     }
 
-    /// Whether a line rule makes all paths 1 pixel wide.
+    /// Returns `true` if a line rule makes all paths 1 pixel wide.
     pub(super) fn are_one_pixel(&self, rule: &LineRule, px_per_m: f64) -> bool {
         let own = self.range_m.into_iter();
         own.flat_map(|(min, max)| [Some(min), Some(max)])
             .chain(self.includes_none.then_some(None))
             .all(|width_m| (2.0 * rule.radius_px(width_m, px_per_m) - 1.0).abs() < 1e-6)
-    }
-}
-
-/// Colors that the method cannot draw.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-pub(super) enum UnsupportedColor {
-    #[error("paths of several colors")]
-    Several,
-    #[error("translucent paths")]
-    Translucent,
-}
-
-/// The opaque color that all paths share, or black without paths.
-///
-/// # Errors
-/// When paths differ in color or are translucent.
-pub(super) fn one_color(scene: &Scene) -> Result<Rgba, UnsupportedColor> {
-    match scene.common_color() {
-        None => Err(UnsupportedColor::Several),
-        Some(color) if !color.is_opaque() => Err(UnsupportedColor::Translucent),
-        Some(color) => Ok(color),
     }
 }

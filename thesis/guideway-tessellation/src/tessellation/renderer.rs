@@ -15,7 +15,7 @@ use super::background::Background;
 use super::camera;
 use super::chunk::{Chunk, STAGING_BYTES, VisibleCounts};
 use super::notes::notes;
-use super::plan::{PathTooLong, Plan, one_color};
+use super::plan::{PathTooLong, Plan};
 use super::programs::Programs;
 use super::shared::{self, VIEW};
 use super::tiles::{Tile, Tiling};
@@ -70,13 +70,10 @@ impl Renderer {
             scene,
             ..
         } = config;
-        let unsupported = |what: &str, remedy: &str| unsupported(method, what, remedy);
         let failed = |error: GlError| error.of_method(method);
-        let color = one_color(&scene).map_err(|error| {
-            unsupported(
-                &error.to_string(),
-                "Use one opaque color, or another method.",
-            )
+        let color = scene.opaque_color().map_err(|error| {
+            let remedy = "Use one opaque color, or another method.";
+            RenderError::unsupported(method, error.to_string(), remedy)
         })?;
 
         let mut stages = Vec::new();
@@ -88,8 +85,9 @@ impl Renderer {
         let plan = Plan::new(&scene, options.commands, &limits).map_err(|PathTooLong { row }| {
             let id = scene.layout().paths.id(row as usize);
             let limit = limits.buffer_bytes;
-            unsupported(
-                &format!(
+            RenderError::unsupported(
+                method,
+                format!(
                     "path `{id}`, whose control points exceed the {limit} bytes of one buffer of \
                      the device"
                 ),
@@ -203,13 +201,17 @@ impl Renderer {
     fn tiling(&self, view: &View, style: &Style) -> Result<Tiling, RenderError> {
         if style.shading != Shading::Color {
             let remedy = "Use color shading, or another method.";
-            return Err(unsupported(self.method, "shading by density", remedy));
+            return Err(RenderError::unsupported(
+                self.method,
+                "shading by density",
+                remedy,
+            ));
         }
         let error_px = camera::error_px(&self.plan, view);
         if error_px > MAX_ERROR_PX {
-            return Err(unsupported(
+            return Err(RenderError::unsupported(
                 self.method,
-                &format!(
+                format!(
                     "this scale: single precision would displace lines by up to {error_px:.2} \
                      pixels; the limit is {MAX_ERROR_PX}"
                 ),
@@ -364,13 +366,5 @@ impl Renderer {
 
     fn failed(&self, error: GlError) -> RenderError {
         error.of_method(self.method)
-    }
-}
-
-fn unsupported(method: &'static str, what: &str, remedy: &str) -> RenderError {
-    RenderError::Unsupported {
-        method,
-        what: what.to_owned(),
-        remedy: remedy.to_owned(),
     }
 }

@@ -1,5 +1,5 @@
-//! Culls clusters: from the bounds of each cluster and the frame to the visible clusters with their
-//! pixels and tiles.
+//! Culls clusters: tests the bounds of each cluster against the view, and returns the visible
+//! clusters with the pixels and tiles that they may touch.
 
 use std::ops::Range;
 
@@ -23,14 +23,14 @@ pub(crate) struct VisibleCluster {
     pub(crate) origin_px: Point<f64>,
     /// The pixels that it may touch.
     pub(crate) bounds_px: Bounds<f32>,
-    /// Whether all of it lies within the picture.
+    /// True if all of it lies within the picture.
     pub(crate) is_inside: bool,
-    /// Whether it is too large for cached lines: its lines are clipped at the picture, frame by
+    /// True if it is too large for cached lines: its lines are clipped at the picture, frame by
     /// frame.
     pub(crate) is_oversized: bool,
-    /// Whether the 16-bit rasterizer can draw it.
+    /// True if the 16-bit rasterizer can draw it.
     pub(crate) fits_fixed_point: bool,
-    /// First tile that it may touch, and the one behind the last.
+    /// First tile column and row that it may touch, and the end (exclusive).
     columns: [u16; 2],
     rows: [u16; 2],
 }
@@ -74,7 +74,7 @@ impl VisibleCluster {
         usize::from(self.rows[0])..usize::from(self.rows[1])
     }
 
-    /// Whether it may touch some rows of tiles.
+    /// Returns `true` if it may touch some rows of tiles.
     pub(crate) fn is_in(&self, rows: &Range<usize>) -> bool {
         self.rows().start < rows.end && rows.start < self.rows().end
     }

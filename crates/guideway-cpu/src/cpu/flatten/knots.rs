@@ -1,7 +1,8 @@
-//! Knots: the end points of the segments of chained curves, and how far each may be from a line.
+//! Knots: the end points of the segments of chained curves, with the tolerance of each.
 //!
-//! Input: runs of control points and their order in chains. Output: per knot its position, how far
-//! the segment behind it bends, and the slack that leaves for a line that passes the knot.
+//! Input: runs of control points and their order in chains. Output per knot: its position, the
+//! distance by which the segment behind it leaves its chord, and the slack, which is the tolerance
+//! that remains for a line that passes the knot.
 
 use std::ops::Range;
 

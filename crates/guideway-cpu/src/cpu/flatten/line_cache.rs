@@ -1,4 +1,5 @@
-//! Caches the polylines of every cluster between frames, with what they are valid for.
+//! Caches the polylines of every cluster between frames, with the scale and style that they are
+//! valid for.
 
 use rayon::prelude::*;
 
@@ -34,7 +35,7 @@ pub(crate) struct LineState {
 }
 
 impl LineState {
-    /// Whether a frame can draw the lines.
+    /// Returns `true` if a frame can draw the lines.
     pub(crate) fn is_valid(&self, ctx: &FrameContext<'_>) -> bool {
         self.key == ctx.cache_key() && self.drift_m <= MAX_DRIFT_UNITS * ctx.unit_m()
     }

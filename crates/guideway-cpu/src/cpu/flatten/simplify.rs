@@ -60,7 +60,7 @@ struct KnotSpan {
 }
 
 impl KnotSpan {
-    /// Whether there is a knot between its ends.
+    /// Returns `true` if there is a knot between its ends.
     fn is_long(self) -> bool {
         self.to > self.from + 1
     }

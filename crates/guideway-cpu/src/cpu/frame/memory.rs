@@ -1,4 +1,5 @@
-//! Memory of a frame: what it needs at least, and what it may reuse within the budget.
+//! Plans the memory of a frame: the bytes that it needs at least, and the caches that the budget
+//! has room for.
 
 use guideway_scene::{Budget, RenderError, Scene, Shading, Strip, Style};
 
@@ -18,7 +19,7 @@ pub(crate) struct FrameMemory {
     pub(crate) own_bytes: u64,
     pub(crate) frame_bytes: u64,
     pub(crate) picture_bytes: u64,
-    /// Whether the frame looks up known full pixels and looks for new ones.
+    /// True if the frame looks up known full pixels and looks for new ones.
     pub(crate) uses_full_pixels: bool,
 }
 

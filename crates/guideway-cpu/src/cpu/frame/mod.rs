@@ -1,4 +1,4 @@
-//! A frame from view to pixels.
+//! Draws a frame: from a view to pixels.
 //!
 //! | module            | does                                                                     |
 //! |-------------------|--------------------------------------------------------------------------|

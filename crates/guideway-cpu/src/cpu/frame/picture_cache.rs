@@ -66,7 +66,7 @@ impl PictureCache {
         (pixels + self.changes.capacity() * size_of::<Bounds<f64>>()) as u64
     }
 
-    /// Whether a frame differs at most by a pan of whole pixels.
+    /// Returns `true` if a frame differs at most by a pan of whole pixels.
     pub(crate) fn is_alike(&self, ctx: &FrameContext<'_>) -> bool {
         let is_near = self.transform.whole_px_to(&ctx.transform).is_some();
         is_near && self.size == ctx.view.size() && self.style == *ctx.style

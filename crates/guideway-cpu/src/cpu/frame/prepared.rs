@@ -25,18 +25,18 @@ use crate::cpu::raster::full_pixel_cache::FullPixelCache;
 /// Most pixels of a strip: 128 MiB of colors.
 const STRIP_PIXELS: usize = 1 << 25;
 
-/// A prepared scene, and what frames leave to the next one.
+/// A prepared scene, with the state that passes from one frame to the next.
 pub(crate) struct CpuPrepared {
     scene: Arc<Scene>,
     budget: Budget,
-    /// None: the threads that the process shares.
+    /// `None` for the thread pool of the process.
     pool: Option<ThreadPool>,
     clusters: PreparedClusters,
     preparation: Preparation,
     pipeline: FramePipeline,
     picture: Option<PictureCache>,
     full_pixels: FullPixelCache,
-    /// ToneScale of the last picture whose density was drawn in strips.
+    /// Tone scale of the last picture whose density was drawn in strips.
     tones: Option<(View, Style, ToneScale)>,
     simd: SimdLevel,
 }
@@ -210,7 +210,7 @@ impl Prepared for CpuPrepared {
                 DrawError::Failed(error) => error,
             })?;
             if let Some(found) = found {
-                full_pixels.keep(found);
+                full_pixels.store(found);
             }
             if strip.is_whole() {
                 pipeline.time("keep", |p| {
@@ -303,7 +303,7 @@ impl Prepared for CpuPrepared {
 /// Access for tests.
 #[cfg(test)]
 impl CpuPrepared {
-    /// Whether the last frame drew only a part of the picture.
+    /// Returns `true` if the last frame drew only a part of the picture.
     pub(crate) fn has_reused(&self) -> bool {
         let rects = self.pipeline.damage.rects_px();
         let damaged: usize = rects.map(|(x, y)| x.len() * y.len()).sum();

@@ -21,7 +21,8 @@ pub(crate) const MAX_RADIUS_PX: f64 = 8.0;
 /// that borders are rounded by, and all strokes that share a pixel err alike.
 const MIN_RADIUS_PX: f64 = 0.5;
 
-/// Whether 16 bits hold the lines of a cluster of this reach, with strokes of these half widths.
+/// Returns `true` if 16 bits hold the lines of a cluster of this reach, with strokes of these half
+/// widths.
 pub(crate) fn fits(reach_px: f64, radii_px: RangeInclusive<f64>) -> bool {
     reach_px <= MAX_REACH_PX
         && *radii_px.start() >= MIN_RADIUS_PX

@@ -40,7 +40,7 @@ pub(crate) struct LineCacheKey {
     pub(crate) unit_m: f64,
     /// Largest distance of a line from its curve, in units.
     pub(crate) tolerance_units: f32,
-    /// Whether curves that share end points were chained.
+    /// True if curves that share end points were chained.
     pub(crate) chains_curves: bool,
 }
 

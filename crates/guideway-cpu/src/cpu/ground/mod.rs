@@ -1,5 +1,5 @@
-//! Shared ground of all stages: constants of a tile, the sample pattern, what a frame looks at,
-//! damage, SIMD dispatch and per-thread slots. Nothing here imports a stage.
+//! Shared by all stages: constants of a tile, the sample pattern, the frame context, damage, SIMD
+//! dispatch and per-thread slots. Nothing here imports a stage.
 
 pub(super) mod damage;
 pub(super) mod fixed_steps;

@@ -34,7 +34,7 @@ pub(crate) struct Capsule {
     pub(crate) border_offset: f32,
 }
 
-/// Per row of samples of a row of pixels: the first covered sample and the one behind the last.
+/// Per row of samples of a row of pixels: the first covered sample and the end (exclusive).
 pub(crate) struct RowSpans {
     pub(crate) first: [u32; LANES],
     pub(crate) end: [u32; LANES],

@@ -1,13 +1,12 @@
-//! Finds pixels that stay full while the view zooms in, so that the frames to come need not cover
-//! them.
+//! Full-pixel cache: finds pixels that stay full while the view zooms in. Later frames skip them.
 //!
-//! Stroke widths in meters never grow while the scale does. Pixels that are full with the strokes
-//! of a nearer view, inset by a margin, are full in every view up to that scale, until an edit.
+//! Stroke widths in meters never grow with the scale. Pixels that are full with the strokes of a
+//! more magnified view, inset by a margin, are full in every view up to that scale, until an edit.
 //!
 //! ```text
 //!   frame 0   band 0 probed         the picture is probed in four bands, one per frame;
-//!   frame 1   band 1 probed         a band holds for the frames until the others are probed
-//!   ...                             and some more
+//!   frame 1   band 1 probed         a result is valid until the other bands are probed, and for
+//!   ...                             as many frames again
 //! ```
 
 use std::ops::Range;
@@ -23,15 +22,16 @@ use crate::cpu::ground::tile::{PixelRows, TILE_PX};
 
 /// Bands of a picture: one is probed per frame.
 const BANDS: usize = 4;
-/// Frames for which a band is to hold while the view zooms in. Derived: one round to probe the
-/// other bands, one round of use.
+/// Frames for which the result of a band stays valid while the view zooms in. Derived: four frames
+/// to probe all bands, four frames of use.
 const FRAMES: i32 = 2 * BANDS as i32;
-/// A band that holds for fewer frames is probed again.
+/// A band whose result is valid for fewer frames is probed again.
 const FRAMES_AHEAD: i32 = 1;
 /// Largest zoom factor over those frames: inset strokes of nearer views fill too little.
 const MAX_ZOOM: f64 = 1.25;
-/// Least share of full pixels among the touched ones. Measured: below, probing costs more than it
-/// saves.
+/// Least share of full pixels among the touched ones; below, probing costs more than it saves. D1
+/// in strokes of 3 px is above, in strokes of 1.5 px below: `guideway bench d1 --methods cpu
+/// --motion zoom --width-px 1.5`.
 const MIN_FULL_SHARE: f64 = 0.5;
 /// Least half width of inset strokes, in pixels.
 const MIN_RADIUS_PX: f64 = 0.125;
@@ -87,7 +87,7 @@ pub(crate) struct FullPixelBand {
     counts: [AtomicU32; 2],
 }
 
-/// The results that hold for a frame: one per band.
+/// The results that are valid for a frame: one per band.
 #[derive(Clone, Copy)]
 pub(crate) struct FullPixelLookup<'a> {
     bands: [Option<BandLookup<'a>>; BANDS],
@@ -111,7 +111,7 @@ impl BandKey {
         }
     }
 
-    /// Whether both views draw the same lines with the same style.
+    /// Returns `true` if both views draw the same lines with the same style.
     fn is_alike(&self, other: &Self) -> bool {
         (self.style, self.cache_key) == (other.style, other.cache_key)
     }
@@ -128,7 +128,7 @@ fn rows_of(band: usize, rows: usize) -> Range<usize> {
 }
 
 impl FullPixelCache {
-    /// Removes all results; remembers where probing was not worth it.
+    /// Removes all results, but remembers the view in which probing was not worth it.
     pub(crate) fn forget(&mut self) {
         *self = Self {
             rejected: self.rejected,
@@ -141,8 +141,8 @@ impl FullPixelCache {
         bands.sum::<u64>() + size_of_val(&self.spare[..]) as u64
     }
 
-    /// The results that hold for a frame and all views up to `max_px_per_m`: per band one that
-    /// needs no new probe, if there is any, and of these the one with the widest strokes.
+    /// The results that are valid for a frame and all views up to `max_px_per_m`, one per band:
+    /// preferably one that needs no new probe, then the one with the widest strokes.
     pub(crate) fn lookup(&self, ctx: &FrameContext<'_>, max_px_per_m: f64) -> FullPixelLookup<'_> {
         let rows = TileGrid::of(ctx.strip).rows.len();
         let bands = std::array::from_fn(|band| {
@@ -158,7 +158,7 @@ impl FullPixelCache {
         FullPixelLookup { bands }
     }
 
-    /// All results of a band that hold for a frame and all views up to `max_px_per_m`.
+    /// All results of a band that are valid for a frame and all views up to `max_px_per_m`.
     fn lookups_of(
         &self,
         band: usize,
@@ -171,7 +171,7 @@ impl FullPixelCache {
     }
 
     /// Plans a probe: the next band without a result, once the scene is unchanged between two
-    /// frames. None if the view zooms in too fast for results to last, or strokes are too thin.
+    /// frames. `None` if the view zooms in too fast for results to last, or strokes are too thin.
     pub(crate) fn plan(&mut self, ctx: &FrameContext<'_>) -> Option<FullPixelBand> {
         let key = BandKey::new(ctx);
         let before = self.before.replace(key)?;
@@ -203,7 +203,7 @@ impl FullPixelCache {
     }
 
     /// Stores the result of a probe.
-    pub(crate) fn keep(&mut self, found: FullPixelBand) {
+    pub(crate) fn store(&mut self, found: FullPixelBand) {
         let [touched, full] = found.counts.each_ref().map(|n| n.load(Ordering::Relaxed));
         let share = f64::from(full) / f64::from(touched.max(1));
         if share < MIN_FULL_SHARE && touched > 0 {
@@ -329,7 +329,8 @@ fn add_full(lookup: &FullPixelLookup<'_>, corner: Point<f64>, full: &mut PixelRo
 }
 
 impl BandLookup<'_> {
-    /// Whether it covers enough of some rows of tiles, finely enough, not to be probed again.
+    /// Returns `true` if it covers enough of some rows of tiles, finely enough, not to be probed
+    /// again.
     fn is_worth_it(&self, ctx: &FrameContext<'_>, rows: &Range<usize>) -> bool {
         self.resolution <= MAX_RESOLUTION && self.share(ctx, rows) >= MIN_VISIBLE_SHARE
     }

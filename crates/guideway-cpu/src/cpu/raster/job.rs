@@ -1,4 +1,4 @@
-//! Input of the raster stage: what all tiles of a band share, and the tile that is drawn.
+//! Input of the raster stage: the data that all tiles of a band share, and the tile to draw.
 
 use guideway_scene::cluster::ClusterIndex;
 use guideway_spline::Point;
@@ -10,7 +10,7 @@ use crate::cpu::flatten::line_cache::LineCache;
 use crate::cpu::ground::damage::{DamageMap, TileGrid};
 use crate::cpu::ground::frame_context::FrameContext;
 
-/// A band of the picture and what is drawn in it.
+/// A band of the picture, with its clusters, lines and tile lists.
 #[derive(Clone, Copy)]
 pub(crate) struct BandJob<'a> {
     pub(crate) ctx: &'a FrameContext<'a>,

@@ -1,5 +1,5 @@
 //! Draws the pieces of a tile in several colors, by descending draw rank: gathers sixteen lines at
-//! a time, adds them to the shape of their path, and composites the shape below what is there.
+//! a time, adds them to the shape of their path, and composites the shape below those before it.
 
 use guideway_scene::Rgba;
 use guideway_spline::Point;
@@ -16,8 +16,8 @@ use crate::cpu::flatten::tile_lines::TileLines;
 use crate::cpu::ground::samples::{LAYERED, columns};
 use crate::cpu::ground::tile::{LANES, SampleCounts};
 
-/// Strokes of one opaque color per shape: a composite afterwards finds out whether the tile is
-/// full.
+/// Strokes of one opaque color per shape. Compositing a shape detects full tiles, so smaller shapes
+/// detect them earlier.
 const STROKES_PER_SHAPE: usize = 32;
 
 /// Paths whose strokes make one shape.
@@ -73,7 +73,7 @@ impl<'a> LayeredTile<'a> {
         }
     }
 
-    /// Whether no lower piece can be seen.
+    /// Returns `true` if no lower piece can be seen.
     #[inline(always)]
     pub(crate) fn is_full(&self) -> bool {
         self.mask.is_full()
@@ -181,7 +181,7 @@ impl<'a> LayeredTile<'a> {
         self.strokes = 0;
     }
 
-    /// Draws what is left.
+    /// Draws the lines that remain.
     #[inline(always)]
     pub(crate) fn finish(mut self) {
         self.flush();

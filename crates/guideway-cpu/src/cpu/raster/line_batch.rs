@@ -148,13 +148,7 @@ impl<const C: usize> LineBatch<C> {
     #[inline(always)]
     pub(crate) fn boxes(&self) -> LineBoxes {
         let side = (TILE_PX * C) as f32;
-        let mut boxes = LineBoxes {
-            first_row: [0; LANES],
-            last_row: [0; LANES],
-            first_column: [0; LANES],
-            last_column: [0; LANES],
-            inside: [0; LANES],
-        };
+        let mut boxes = LineBoxes::EMPTY;
         for i in 0..LANES {
             let left = lesser(self.x[0][i], self.x[1][i]) - self.radius;
             let right = greater(self.x[0][i], self.x[1][i]) + self.radius;
@@ -227,6 +221,14 @@ pub(crate) fn capsule<const C: usize>(a: [f32; 2], b: [f32; 2], radius: f32) -> 
 }
 
 impl LineBoxes {
+    const EMPTY: Self = Self {
+        first_row: [0; LANES],
+        last_row: [0; LANES],
+        first_column: [0; LANES],
+        last_column: [0; LANES],
+        inside: [0; LANES],
+    };
+
     /// Boxes from first and last rows and columns; `inside` is -1 for lines that may touch the
     /// tile.
     #[inline(always)]
@@ -235,13 +237,7 @@ impl LineBoxes {
         columns: [[u16; LANES]; 2],
         inside: [i16; LANES],
     ) -> Self {
-        let mut boxes = Self {
-            first_row: [0; LANES],
-            last_row: [0; LANES],
-            first_column: [0; LANES],
-            last_column: [0; LANES],
-            inside: [0; LANES],
-        };
+        let mut boxes = Self::EMPTY;
         for i in 0..LANES {
             boxes.first_row[i] = rows[0][i].into();
             boxes.last_row[i] = rows[1][i].into();

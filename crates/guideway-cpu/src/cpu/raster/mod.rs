@@ -4,7 +4,7 @@
 //! | module                        | does                                                     |
 //! |-------------------------------|----------------------------------------------------------|
 //! | `tiles`                       | loops over the tiles of a band, on all threads           |
-//! | `job`                         | what the tiles of a band share; the tile that is drawn   |
+//! | `job`                         | data that the tiles of a band share; the tile to draw    |
 //! | `cluster_in_tile`             | the lines of one cluster relative to a tile              |
 //! | `layered`                     | several colors: strokes by descending draw rank          |
 //! | `line_batch`                  | 16 lines side by side: boxes, slopes, capsules           |

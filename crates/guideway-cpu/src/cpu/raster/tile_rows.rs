@@ -1,4 +1,5 @@
-//! Splits the rows of pixels of a row of tiles among threads, and a tile's pixels from them.
+//! Mutable access to the pixels of a row of tiles: splits them into halves for threads, and returns
+//! the pixels of one tile.
 
 use std::mem::take;
 use std::ops::Range;

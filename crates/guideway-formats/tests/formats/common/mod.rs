@@ -2,20 +2,45 @@
 
 use std::path::{Path, PathBuf};
 
-use guideway_formats::{ReadOptions, read_bytes, read_file};
+use crate::law::compare;
+use guideway_formats::{Losses, ReadOptions, read_bytes, read_file};
 use guideway_layout::{Code, Layout};
 use guideway_spline::Point;
 
 /// Returns the folder of real layouts beside the repository, if it exists. Their licenses keep them
 /// out of the repository.
 pub(crate) fn real_layouts(format: &str) -> Option<PathBuf> {
-    let shared = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/layouts");
-    let folder = shared.join(format);
-    if folder.is_dir() {
-        return Some(folder);
+    shared(&format!("layouts/{format}"))
+}
+
+/// Returns a folder or file of the material beside the repository, if it exists.
+pub(crate) fn shared(path: &str) -> Option<PathBuf> {
+    let shared = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared");
+    let path = shared.join(path);
+    if path.exists() {
+        return Some(path);
     }
-    println!("SKIPPED: the real layouts are not at {}", folder.display());
+    println!("SKIPPED: there is no {}", path.display());
     None
+}
+
+/// Returns the folder of small cases of a format beside the repository, if it exists.
+pub(crate) fn real_cases(format: &str) -> Option<PathBuf> {
+    let folder = real_layouts(".")?.join("../cases").join(format);
+    folder.is_dir().then_some(folder)
+}
+
+/// Reads a file that must be readable.
+pub(crate) fn read_real(path: &Path) -> Layout {
+    read_file(path, &ReadOptions::default()).unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// Checks that a layout read back differs from the written one in the listed losses only, and in
+/// all of them.
+pub(crate) fn assert_losses_are_differences(a: &Layout, b: &Layout, losses: &Losses, file: &str) {
+    let listed: Vec<String> = losses.iter().map(|loss| loss.what.clone()).collect();
+    let breaches = compare(a, b, &listed, 1e-5);
+    assert!(breaches.is_empty(), "{file}: {breaches:#?}");
 }
 
 /// Reads a real file; `None` without the folder of real layouts.

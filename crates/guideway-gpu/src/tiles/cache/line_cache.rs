@@ -1,4 +1,4 @@
-//! Cached lines: all lines of a LOD, but for clusters that edits have changed since.
+//! Cached lines: all lines of one LOD, except those of clusters that were edited since.
 
 use guideway_scene::View;
 

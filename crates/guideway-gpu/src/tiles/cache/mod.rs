@@ -1,6 +1,6 @@
 //! Caches between frames: lines of a level of detail, and finished pictures.
 //!
-//! | file | what it keeps |
+//! | file | content |
 //! |---|---|
 //! | `line_cache` | lines that later frames may draw, and the dirty clusters |
 //! | `picture_cache` | the view in the pixel buffer; tiles missing for the next view |

@@ -64,7 +64,7 @@ impl Capacity {
         }
     }
 
-    /// Returns whether all that a window has counted fits.
+    /// Returns `true` if all that a window has counted fits.
     pub(crate) fn holds(self, counters: &FrameCounters) -> bool {
         counters.lines <= self.lines && counters.references <= self.references
     }
@@ -80,7 +80,7 @@ impl Capacity {
         u64::from(if self.has_ranks { self.lines } else { 1 })
     }
 
-    /// Returns whether each buffer fits one binding.
+    /// Returns `true` if each buffer fits one binding.
     pub(crate) fn fits_bindings(self, gpu: &Gpu) -> bool {
         let limit = gpu.max_binding_bytes();
         u64::from(self.lines) * LINE_BYTES <= limit

@@ -57,16 +57,16 @@ impl<'a> FrameContext<'a> {
         let unit = f64::from(f32::EPSILON) / 2.0;
         let rounding_px = 4.0 * unit * facts.reach_m * view.px_per_m();
         if rounding_px > MAX_ROUNDING_PX {
-            return Err(RenderError::Unsupported {
-                method: NAME,
-                what: format!(
+            return Err(RenderError::unsupported(
+                NAME,
+                format!(
                     "paths {:.0} m across at {:.3} mm per pixel: single precision would move them \
                      by {rounding_px:.1} pixels",
                     2.0 * facts.reach_m,
                     1e3 / view.px_per_m()
                 ),
-                remedy: "Zoom out, or use `--method cpu`.".to_owned(),
-            });
+                "Zoom out, or use `--method cpu`.",
+            ));
         }
         let greatest_radius_px = |px_per_m| {
             let radius_px = |width_m| style.line_rule.radius_px(width_m, px_per_m);
@@ -75,15 +75,15 @@ impl<'a> FrameContext<'a> {
         let lod = LineLod::of(view, greatest_radius_px);
         let off_px = 0.5 / lod.steps_per_px();
         if off_px > MAX_ROUNDING_PX {
-            return Err(RenderError::Unsupported {
-                method: NAME,
-                what: format!(
+            return Err(RenderError::unsupported(
+                NAME,
+                format!(
                     "strokes that reach {:.0} pixels far: their ends would be off by {off_px:.1} \
                      pixels",
                     greatest_radius_px(view.px_per_m()),
                 ),
-                remedy: "Zoom out, limit widths in pixels, or use `--method cpu`.".to_owned(),
-            });
+                "Zoom out, limit widths in pixels, or use `--method cpu`.",
+            ));
         }
         Ok(Self {
             view,
@@ -99,12 +99,12 @@ impl<'a> FrameContext<'a> {
         (2.0 * MAX_QUANTIZATION_PX / self.lod.px_per_m).min(f64::from(f32::MAX)) as f32
     }
 
-    /// Returns whether the quantization of some cluster would show.
+    /// Returns `true` if the quantization of some cluster would show.
     pub(crate) fn is_near(&self) -> bool {
         self.facts.greatest_step_m > self.max_step_m()
     }
 
-    /// Returns whether lines need the draw ranks of their paths.
+    /// Returns `true` if lines need the draw ranks of their paths.
     pub(crate) fn needs_ranks(&self, paint: PaintMode) -> bool {
         paint != PaintMode::SingleColor || !self.facts.is_plain
     }

@@ -235,7 +235,7 @@ impl DispatchPlan {
         Ok(())
     }
 
-    /// Returns whether the plan has this key.
+    /// Returns `true` if the plan has this key.
     pub(crate) fn has_key(&self, key: PlanKey) -> bool {
         self.key == key
     }

@@ -1,4 +1,5 @@
-//! Draws a picture window by window, grows or splits what does not fit, and fetches the pixels.
+//! Draws a picture window by window, grows buffers or splits windows that overflow them, and reads
+//! the pixels back.
 
 use std::ops::Range;
 use std::time::Instant;
@@ -256,14 +257,14 @@ fn fetch_pixels(
 }
 
 fn too_many_lines(counters: &FrameCounters) -> RenderError {
-    RenderError::Unsupported {
-        method: NAME,
-        what: format!(
+    RenderError::unsupported(
+        NAME,
+        format!(
             "{} lines on {TILE_PX} x {TILE_PX} pixels: this device ends threads that run so long",
             counters.longest_list
         ),
-        remedy: "Zoom in, or use `--method cpu`.".to_owned(),
-    }
+        "Zoom in, or use `--method cpu`.",
+    )
 }
 
 /// Number of paths that may be visible.

@@ -120,7 +120,7 @@ pub(super) fn draw_window(
     Ok(counters)
 }
 
-/// Returns whether the longest list needs more loop iterations than a thread may run.
+/// Returns `true` if the longest list needs more loop iterations than a thread may run.
 pub(super) fn exceeds_loops(r: &Renderer<'_>, counters: &FrameCounters, paint: PaintMode) -> bool {
     paint.loops(counters) > u64::from(r.device.gpu.loops_per_thread())
 }

@@ -1,14 +1,14 @@
 //! Draws a frame: from a view to pixels.
 //!
-//! | file | what it does |
+//! | file | purpose |
 //! |---|---|
 //! | `context`, `line_lod`, `window` | a view of a scene, the LOD of its lines, the tiles to draw |
 //! | `capacity`, `line_buffers`, `tile_buffers` | buffers whose size depends on the view |
-//! | `line_source` | where a window's lines come from: flattened or cached |
+//! | `line_source` | origin of a window's lines: flattened or cached |
 //! | `dispatch_plan`, `workgroups` | the dispatches of a window with their buffers and sizes |
 //! | `occlusion` | decides when to draw in two occlusion passes |
-//! | `target` | all state that one picture leaves to the next |
-//! | `renderer` | what the functions below work with |
+//! | `target` | buffers and caches that pass from one picture to the next |
+//! | `renderer` | arguments and result of the draw functions |
 //! | `near_points` | keeps exact points of near clusters on the device |
 //! | `draw_window`, `draw` | draw a window; draw a picture window by window, and fetch it |
 

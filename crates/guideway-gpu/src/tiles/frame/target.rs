@@ -1,4 +1,4 @@
-//! The state that one picture leaves to the next: buffers, caches and what earlier frames showed.
+//! State that passes from one picture to the next: buffers, caches, and measures of earlier frames.
 
 use guideway_scene::{RenderError, View};
 use wgpu::BufferUsages;

@@ -9,7 +9,8 @@ use crate::tiles::layouts::FrameParams;
 use crate::tiles::options::NAME;
 
 const WORD_BYTES: u64 = size_of::<u32>() as u64;
-/// Most bytes of pixels per readback. Measured: copying one part overlaps with reading another.
+/// Most bytes of pixels per readback: copying one part overlaps with reading another, and two small
+/// buffers replace one of the size of the picture.
 const READBACK_BYTES: u64 = 1 << 19;
 
 /// Buffers of one picture size.
@@ -41,11 +42,11 @@ impl TileBuffers {
         let fit = gpu.max_binding_bytes() / row_bytes.max(1);
         let fit = fit.min(u64::from(gpu.max_workgroups() / columns));
         if fit == 0 {
-            return Err(RenderError::Unsupported {
-                method: NAME,
-                what: format!("a picture {} pixels wide on this device", size.width()),
-                remedy: "Request a narrower picture.".to_owned(),
-            });
+            return Err(RenderError::unsupported(
+                NAME,
+                format!("a picture {} pixels wide on this device", size.width()),
+                "Request a narrower picture.",
+            ));
         }
         let band_rows = rows.min(u32::try_from(fit).unwrap_or(u32::MAX));
         let tiles = u64::from(columns) * u64::from(band_rows);
@@ -75,7 +76,7 @@ impl TileBuffers {
         })
     }
 
-    /// Returns whether the buffers hold the whole picture at once.
+    /// Returns `true` if the buffers hold the whole picture at once.
     pub(crate) fn is_whole(&self) -> bool {
         self.band_rows == self.rows
     }

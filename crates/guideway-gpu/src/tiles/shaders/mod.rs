@@ -23,15 +23,20 @@ use crate::tiles::layouts::PointFormat;
 use import::resolve;
 
 /// An entry point: its name for messages, its file, and its bindings in order.
-struct Entry {
+pub(crate) struct Entry {
     name: &'static str,
     file: &'static str,
     bindings: &'static [&'static str],
 }
 
 impl Entry {
+    /// The source of an entry point without variants.
+    pub(crate) fn source(&self) -> Source {
+        self.variant(&[], &[])
+    }
+
     /// Resolves the imports. `variants` replace `{name}` in imports, `constants` precede the text.
-    fn source(&self, variants: &[(&str, &str)], constants: &[(&str, &str, &str)]) -> Source {
+    fn variant(&self, variants: &[(&str, &str)], constants: &[(&str, &str, &str)]) -> Source {
         Source {
             name: self.name,
             wgsl: resolve(self.file, variants, constants).into(),
@@ -40,7 +45,7 @@ impl Entry {
     }
 }
 
-const CULL: Entry = Entry {
+pub(crate) const CULL: Entry = Entry {
     name: "cull",
     file: "flatten/cull.wgsl",
     bindings: &["frame", "clusters", "counters"],
@@ -63,13 +68,13 @@ const FLATTEN: Entry = Entry {
     ],
 };
 
-const INVALIDATE_LINES: Entry = Entry {
+pub(crate) const INVALIDATE_LINES: Entry = Entry {
     name: "invalidate_lines",
     file: "cache/invalidate_lines.wgsl",
     bindings: &["frame", "clusters", "counters", "lines", "dirty_clusters"],
 };
 
-const COUNT_CACHED: Entry = Entry {
+pub(crate) const COUNT_CACHED: Entry = Entry {
     name: "count_cached",
     file: "cache/count_cached.wgsl",
     bindings: &[
@@ -82,7 +87,7 @@ const COUNT_CACHED: Entry = Entry {
     ],
 };
 
-const BIN_CACHED: Entry = Entry {
+pub(crate) const BIN_CACHED: Entry = Entry {
     name: "bin_cached",
     file: "cache/bin_cached.wgsl",
     bindings: &[
@@ -96,13 +101,13 @@ const BIN_CACHED: Entry = Entry {
     ],
 };
 
-const SCROLL: Entry = Entry {
+pub(crate) const SCROLL: Entry = Entry {
     name: "scroll",
     file: "cache/scroll.wgsl",
     bindings: &["scroll", "old_pixels", "pixels"],
 };
 
-const TILE_OFFSETS: Entry = Entry {
+pub(crate) const TILE_OFFSETS: Entry = Entry {
     name: "tile_offsets",
     file: "bin/tile_offsets.wgsl",
     bindings: &[
@@ -114,13 +119,13 @@ const TILE_OFFSETS: Entry = Entry {
     ],
 };
 
-const SPLIT_TILES: Entry = Entry {
+pub(crate) const SPLIT_TILES: Entry = Entry {
     name: "split_tiles",
     file: "bin/split_tiles.wgsl",
     bindings: &["frame", "tile_lists", "counters", "split_lists"],
 };
 
-const BIN_LINES: Entry = Entry {
+pub(crate) const BIN_LINES: Entry = Entry {
     name: "bin_lines",
     file: "bin/bin_lines.wgsl",
     bindings: &[
@@ -255,44 +260,12 @@ fn samples_per_row(samples: Samples) -> (&'static str, &'static str, &'static st
     ("SAMPLES_PER_ROW", "u32", value)
 }
 
-pub(crate) fn cull() -> Source {
-    CULL.source(&[], &[])
-}
-
 pub(crate) fn flatten(format: PointFormat) -> Source {
     let points = match format {
         PointFormat::Rounded => "rounded",
         PointFormat::Exact => "exact",
     };
-    FLATTEN.source(&[("points", points)], &[])
-}
-
-pub(crate) fn invalidate_lines() -> Source {
-    INVALIDATE_LINES.source(&[], &[])
-}
-
-pub(crate) fn count_cached() -> Source {
-    COUNT_CACHED.source(&[], &[])
-}
-
-pub(crate) fn bin_cached() -> Source {
-    BIN_CACHED.source(&[], &[])
-}
-
-pub(crate) fn scroll() -> Source {
-    SCROLL.source(&[], &[])
-}
-
-pub(crate) fn tile_offsets() -> Source {
-    TILE_OFFSETS.source(&[], &[])
-}
-
-pub(crate) fn split_tiles() -> Source {
-    SPLIT_TILES.source(&[], &[])
-}
-
-pub(crate) fn bin_lines() -> Source {
-    BIN_LINES.source(&[], &[])
+    FLATTEN.variant(&[("points", points)], &[])
 }
 
 pub(crate) fn sort_lists(lists: SortedLists) -> Source {
@@ -300,7 +273,7 @@ pub(crate) fn sort_lists(lists: SortedLists) -> Source {
         SortedLists::Short => ["0u", "10u", "false"],
         SortedLists::Long => ["10u", "12u", "true"],
     };
-    SORT_LISTS.source(
+    SORT_LISTS.variant(
         &[],
         &[
             ("MIN_COUNT_BITS", "u32", min_count_bits),
@@ -311,17 +284,17 @@ pub(crate) fn sort_lists(lists: SortedLists) -> Source {
 }
 
 pub(crate) fn cover_tiles(samples: Samples, team: Team) -> Source {
-    COVER_TILES.source(&[("team", team.name())], &[samples_per_row(samples)])
+    COVER_TILES.variant(&[("team", team.name())], &[samples_per_row(samples)])
 }
 
 pub(crate) fn cover_split_tiles(samples: Samples, team: Team) -> Source {
-    COVER_SPLIT_TILES.source(&[("team", team.name())], &[samples_per_row(samples)])
+    COVER_SPLIT_TILES.variant(&[("team", team.name())], &[samples_per_row(samples)])
 }
 
 pub(crate) fn opaque(samples: Samples, team: Team) -> Source {
-    OPAQUE.source(&[("rows", team.name())], &[samples_per_row(samples)])
+    OPAQUE.variant(&[("rows", team.name())], &[samples_per_row(samples)])
 }
 
 pub(crate) fn layers(samples: Samples) -> Source {
-    LAYERS.source(&[], &[samples_per_row(samples)])
+    LAYERS.variant(&[], &[samples_per_row(samples)])
 }

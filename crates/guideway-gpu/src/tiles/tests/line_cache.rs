@@ -7,7 +7,7 @@ use super::*;
 use crate::device::{DeviceBuffer, READBACK_USAGE};
 use crate::tiles::frame::tile_buffers::TileBuffers;
 
-/// Returns whether a frame was drawn from cached lines.
+/// Returns `true` if a frame was drawn from cached lines.
 fn is_warm(report: &Report) -> bool {
     report.stages.iter().all(|stage| stage.name != "flatten")
 }

@@ -19,14 +19,14 @@ use crate::tiles::layouts::{PathStyle, PointFormat};
 use guideway_scene::cluster::DirtyClusters;
 
 const STYLE_WORDS: usize = size_of::<PathStyle>() / 4;
-/// Unused points before the scene is packed anew: as many as this, or a quarter of all.
+/// Unused points from which on the scene is packed again: this many, or a quarter of all points.
 const MAX_UNUSED_POINTS: usize = 1 << 16;
 
 /// Result of an edit.
 pub(crate) enum SceneBufferEdit {
     /// The buffers are up to date.
     Applied(EditEffect),
-    /// The scene must be uploaded anew.
+    /// The scene must be uploaded again.
     NeedsUpload,
 }
 
@@ -236,8 +236,8 @@ fn send(
     Ok(())
 }
 
-/// Returns whether new parts of a path fit in the place of its strokes. Fills `points_m` with their
-/// points.
+/// Returns `true` if new parts of a path fit in the place of its strokes. Fills `points_m` with
+/// their points.
 fn fits_in_place(
     buffers: &SceneBuffers,
     path_strokes: &PathStrokes,

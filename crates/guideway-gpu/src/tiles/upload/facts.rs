@@ -51,7 +51,7 @@ impl SceneFacts {
     }
 }
 
-/// Returns whether all paths have one color, and none a width of its own.
+/// Returns `true` if all paths have one color, and none a width of its own.
 pub(crate) fn is_plain(scene: &Scene) -> bool {
     let mut widths = scene.draw_order().iter().map(|&path| scene.width_m(path));
     scene.common_color().is_some() && widths.all(|width| width.is_none())

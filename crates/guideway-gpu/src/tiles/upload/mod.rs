@@ -1,6 +1,6 @@
 //! Uploads a scene to the device, and applies edits in place.
 //!
-//! | file | what it does |
+//! | file | purpose |
 //! |---|---|
 //! | `path_parts` | cuts paths into strokes |
 //! | `cluster`, `pack` | groups neighboring strokes to clusters; quantizes their points |

@@ -79,7 +79,7 @@ impl PathStrokes {
         }
     }
 
-    /// Returns whether a point may move there within its cluster.
+    /// Returns `true` if a point may move there within its cluster.
     pub(crate) fn may_hold(&self, cluster: usize, [x, y]: [f32; 2]) -> bool {
         let [low, high] = self.original_boxes[cluster];
         let is_near = |v: f32, axis: usize| {

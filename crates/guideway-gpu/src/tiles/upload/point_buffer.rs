@@ -36,7 +36,7 @@ pub(crate) enum ViewDistance {
 }
 
 impl ViewDistance {
-    /// Returns whether any cluster is drawn, in a view that shows steps above `max_step_m`.
+    /// Returns `true` if any cluster is drawn, in a view that shows steps above `max_step_m`.
     pub(crate) fn draws_any(self, max_step_m: f32) -> bool {
         match self {
             Self::Far { min_step_m } => min_step_m <= max_step_m,

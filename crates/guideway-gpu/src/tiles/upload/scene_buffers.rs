@@ -229,9 +229,9 @@ fn check_binding(gpu: &Gpu, what: &str, bytes: u64) -> Result<(), RenderError> {
     if bytes <= limit {
         return Ok(());
     }
-    Err(RenderError::Unsupported {
-        method: NAME,
-        what: format!("{what}: {bytes} bytes exceed the device's limit of {limit} per binding"),
-        remedy: "Draw fewer paths, or use `--method cpu`.".to_owned(),
-    })
+    Err(RenderError::unsupported(
+        NAME,
+        format!("{what}: {bytes} bytes exceed the device's limit of {limit} per binding"),
+        "Draw fewer paths, or use `--method cpu`.",
+    ))
 }

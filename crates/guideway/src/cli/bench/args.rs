@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::ValueEnum;
-use guideway::render::FrameSize;
+use guideway::scene::FrameSize;
 
 use crate::cli::render::{Rule, Shade};
 use crate::cli::values;

@@ -3,9 +3,8 @@
 use std::path::Path;
 
 use guideway::layout::UserError;
-use guideway::render::density::ToneMap;
-use guideway::render::{Budget, Shading, Style};
-use guideway::scene::LineRule;
+use guideway::scene::density::ToneMap;
+use guideway::scene::{Budget, LineRule, Shading, Style};
 use guideway_bench::{Contest, Dataset, Motion, Moves, StylePreset, plain_scene};
 
 use super::args::{Args, MotionKind, StyleChoice};

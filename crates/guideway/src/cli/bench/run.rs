@@ -1,7 +1,7 @@
 //! Measures the methods, saves and prints the report.
 
 use guideway::layout::UserError;
-use guideway::render::Cancel;
+use guideway::scene::Cancel;
 use guideway_bench::{Contestant, StartError, compare};
 
 use super::args::Args;

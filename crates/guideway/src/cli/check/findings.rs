@@ -1,7 +1,7 @@
 //! Findings of a file, and their number by severity and kind.
 
 use guideway::envelope::ClearanceWork;
-use guideway::layout::{Code, Diagnostics, Severity};
+use guideway::layout::{Diagnostics, Severity};
 
 use crate::cli::exit::Exit;
 use crate::cli::text;
@@ -10,6 +10,8 @@ use crate::cli::text;
 pub(super) struct CheckedFile {
     pub(super) file: String,
     pub(super) paths: u64,
+    /// Paths that could not be drawn; `paths` includes them.
+    pub(super) refused: u64,
     pub(super) found: Diagnostics,
     /// The work of the clearance check, if it was requested.
     pub(super) clearance: Option<ClearanceWork>,
@@ -59,11 +61,4 @@ impl SeverityCounts {
             text::counted(self.notes, "note"),
         )
     }
-}
-
-/// The kinds of findings in all files with their number.
-pub(super) fn kinds(files: &[CheckedFile]) -> Vec<(Code, u64)> {
-    let count = |code| files.iter().map(|file| file.found.count(code)).sum();
-    let kinds = Code::ALL.iter().map(|&code| (code, count(code)));
-    kinds.filter(|(_, count)| *count > 0).collect()
 }

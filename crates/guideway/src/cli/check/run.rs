@@ -1,11 +1,11 @@
 //! Arguments of `check`; checks each file by itself and against the others, prints the report.
 
 use clap::ValueEnum;
-use guideway::layout::{CheckOptions, Code, Diagnostic, UserError, check, check_across};
+use guideway::layout::{CheckOptions, Diagnostic, FindingKind, UserError, check, check_across};
 use serde_json::{Value, json};
 
 use super::clearance::{self, ClearanceArgs};
-use super::findings::{CheckedFile, SeverityCounts, kinds};
+use super::findings::{CheckedFile, SeverityCounts};
 use super::{sarif, table};
 use crate::cli::error::usage_error;
 use crate::cli::exit::Exit;
@@ -31,7 +31,8 @@ pub(crate) struct Args {
     /// Findings to show per kind; JSON and SARIF hold all
     #[arg(long, value_name = "N", default_value_t = 10)]
     show: usize,
-    /// Maximum distance from the end of a path to its node [default: 0.01]
+    /// Maximum distance from the end of a path to its node [default: 0.01, and less in a layout of
+    /// paths shorter than a meter]
     #[arg(
         long,
         value_name = "METERS",
@@ -70,7 +71,7 @@ impl Args {
     fn options(&self) -> CheckOptions {
         let default = CheckOptions::default();
         CheckOptions {
-            gap_tolerance_m: self.gap.unwrap_or(default.gap_tolerance_m),
+            gap_tolerance_m: self.gap,
             kink_angle_rad: self.kink.map_or(default.kink_angle_rad, f64::to_radians),
             min_radius_m: self.min_radius,
             ..default
@@ -110,8 +111,9 @@ fn checked(args: &Args, out: &Output) -> Result<(Vec<CheckedFile>, Times), UserE
     let across = check_across(&layouts.iter().collect::<Vec<_>>());
     let mut files = Vec::with_capacity(layouts.len());
     for ((input, layout), across) in args.inputs.iter().zip(&mut layouts).zip(across) {
-        let mut found = std::mem::take(&mut layout.diagnostics);
-        found.append(check(layout, &options));
+        // A doubt about the unit comes first: findings of the reader may follow from it.
+        let mut found = check(layout, &options);
+        found.append(std::mem::take(&mut layout.diagnostics));
         found.append(across);
         let clearance = clearance_check
             .as_ref()
@@ -119,6 +121,7 @@ fn checked(args: &Args, out: &Output) -> Result<(Vec<CheckedFile>, Times), UserE
         files.push(CheckedFile {
             file: input.path.to_string_lossy().into_owned(),
             paths: layout.path_count() as u64,
+            refused: layout.refused.len() as u64,
             found,
             clearance: clearance.transpose()?,
         });
@@ -135,6 +138,7 @@ fn report(
     times: &Times,
 ) -> Result<(), UserError> {
     let total_ms = times.read_ms + times.check_ms;
+    let kinds = FindingKind::of(files.iter().map(|file| &file.found));
     let found = || {
         files
             .iter()
@@ -144,11 +148,12 @@ fn report(
         "file": input::names(&args.inputs),
         "files": files.iter().map(file_json).collect::<Vec<Value>>(),
         "paths": files.iter().map(|file| file.paths).sum::<u64>(),
+        "refused": files.iter().map(|file| file.refused).sum::<u64>(),
         "errors": counts.errors,
         "warnings": counts.warnings,
         "notes": counts.notes,
         "exit_code": counts.exit(args.strict).code(),
-        "kinds": kinds(files).into_iter().map(kind_json).collect::<Vec<Value>>(),
+        "kinds": kinds.into_iter().map(kind_json).collect::<Vec<Value>>(),
         "findings": found().map(|(file, f)| finding_json(&file.file, f)).collect::<Vec<Value>>(),
         "clearance": clearance::json(&args.clearance, files),
         "ms": { "read": times.read_ms, "check": times.check_ms, "total": total_ms },
@@ -169,18 +174,19 @@ fn file_json(file: &CheckedFile) -> Value {
     json!({
         "file": file.file,
         "paths": file.paths,
+        "refused": file.refused,
         "errors": counts.errors,
         "warnings": counts.warnings,
         "notes": counts.notes,
     })
 }
 
-fn kind_json((code, count): (Code, u64)) -> Value {
+fn kind_json(kind: FindingKind) -> Value {
     json!({
-        "code": code.name(),
-        "severity": code.severity().to_string(),
-        "count": count,
-        "meaning": code.meaning(),
+        "code": kind.code.name(),
+        "severity": kind.severity.to_string(),
+        "count": kind.count,
+        "meaning": kind.code.meaning(),
     })
 }
 
@@ -188,7 +194,7 @@ fn finding_json(file: &str, finding: &Diagnostic) -> Value {
     json!({
         "file": file,
         "code": finding.code.name(),
-        "severity": finding.severity().to_string(),
+        "severity": finding.severity.to_string(),
         "place": finding.place.element,
         "line": finding.place.line,
         "message": finding.message,

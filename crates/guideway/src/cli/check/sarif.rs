@@ -1,10 +1,12 @@
 //! The findings as SARIF 2.1.0 for code review tools: Static Analysis Results Interchange Format
 //! (<https://docs.oasis-open.org/sarif/sarif/v2.1.0/sarif-v2.1.0.html>).
 
-use guideway::layout::{Code, Diagnostic, Severity, UserError};
+use std::collections::BTreeSet;
+
+use guideway::layout::{Code, Diagnostic, FindingKind, Severity, UserError};
 use serde_json::{Value, json};
 
-use super::findings::{CheckedFile, kinds};
+use super::findings::CheckedFile;
 use crate::cli::error::json_error;
 use crate::cli::exit::Exit;
 
@@ -12,14 +14,15 @@ const SCHEMA: &str =
     "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json";
 
 pub(super) fn bytes(files: &[CheckedFile], exit: Exit) -> Result<Vec<u8>, UserError> {
-    let kinds = kinds(files);
-    let rules: Vec<Value> = kinds.iter().map(|(code, _)| rule(*code)).collect();
-    let rule_index = |code: Code| kinds.iter().position(|(known, _)| *known == code);
+    let kinds = FindingKind::of(files.iter().map(|file| &file.found));
+    let codes: BTreeSet<Code> = kinds.iter().map(|kind| kind.code).collect();
+    let rules: Vec<Value> = codes.iter().map(|&code| rule(code)).collect();
+    let rule_index = |code: Code| codes.iter().position(|known| *known == code);
     let results = files.iter().enumerate().flat_map(|(i, file)| {
         let result = move |finding| result(finding, &file.file, i, rule_index(finding.code));
         file.found.iter().map(result)
     });
-    let all: u64 = kinds.iter().map(|(_, count)| count).sum();
+    let all: u64 = kinds.iter().map(|kind| kind.count).sum();
     let listed: usize = files.iter().map(|file| file.found.iter().count()).sum();
     let mut invocation = json!({ "executionSuccessful": true, "exitCode": exit.code() });
     if all > listed as u64 {
@@ -70,6 +73,7 @@ fn rule(code: Code) -> Value {
 fn result(finding: &Diagnostic, file: &str, index: usize, rule: Option<usize>) -> Value {
     let Diagnostic {
         code,
+        severity,
         place,
         message,
         remedy,
@@ -81,7 +85,7 @@ fn result(finding: &Diagnostic, file: &str, index: usize, rule: Option<usize>) -
     json!({
         "ruleId": code.name(),
         "ruleIndex": rule,
-        "level": level(code.severity()),
+        "level": level(*severity),
         "message": { "text": format!("{}: {message}. {remedy}.", place.element) },
         "locations": [{
             "physicalLocation": physical,

@@ -1,6 +1,6 @@
 //! The findings of a file as a table for people.
 
-use guideway::layout::Code;
+use guideway::layout::FindingKind;
 
 use super::findings::{CheckedFile, SeverityCounts};
 use crate::cli::text;
@@ -8,17 +8,19 @@ use crate::cli::text;
 /// The findings of a file by kind, the most severe first, and their number.
 pub(super) fn text(file: &CheckedFile, shown_per_kind: usize) -> String {
     let found = &file.found;
-    let mut kinds: Vec<(Code, u64)> = found.counts().collect();
-    kinds.sort_by_key(|(code, _)| (std::cmp::Reverse(code.severity()), *code));
     let mut text = String::new();
-    for (code, count) in kinds {
+    for kind in FindingKind::of([found]) {
+        let FindingKind {
+            code,
+            severity,
+            count,
+        } = kind;
         text += &format!(
-            "{}: {code} ({})\n  {}\n",
-            code.severity(),
+            "{severity}: {code} ({})\n  {}\n",
             text::count(count),
             code.meaning()
         );
-        let of_kind = || found.iter().filter(|finding| finding.code == code);
+        let of_kind = || found.iter().filter(|finding| kind.has(finding));
         let mut last_remedy = "";
         for finding in of_kind().take(shown_per_kind) {
             let place = text::single_line(&finding.place.to_string(), 200);
@@ -36,7 +38,10 @@ pub(super) fn text(file: &CheckedFile, shown_per_kind: usize) -> String {
         }
         text.push('\n');
     }
-    let paths = text::counted(file.paths, "path");
+    let mut paths = text::counted(file.paths, "path");
+    if file.refused > 0 {
+        paths += &format!(", {} of them refused", text::count(file.refused));
+    }
     let counts = SeverityCounts::of(std::iter::once(found)).text();
     text + &format!("{}: {paths}, {counts}\n", file.file)
 }

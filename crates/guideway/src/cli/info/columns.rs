@@ -1,9 +1,9 @@
-//! Statistics of attribute columns: counts, range and most frequent values.
+//! Statistics of attribute columns: counts, range, unit and most frequent values.
 
 use std::collections::HashMap;
 use std::hash::Hash;
 
-use guideway::layout::{Attribute, Attributes, Values};
+use guideway::layout::{Attribute, Attributes, Quantity, TypeEntries, Values};
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -16,65 +16,131 @@ const TOP: usize = 5;
 #[derive(Debug, Serialize)]
 pub(super) struct Column {
     pub(super) name: String,
+    /// Symbol of the SI unit of the numbers, if it is known.
+    pub(super) unit: Option<&'static str>,
     #[serde(rename = "type")]
     pub(super) kind: &'static str,
     /// Rows with a value.
     pub(super) values: u64,
     /// Rows without a value.
     pub(super) missing: u64,
-    /// Distinct values.
+    /// Rows whose values differ between vehicle types.
+    pub(super) per_type: u64,
+    /// Distinct values, of all rows and vehicle types.
     pub(super) distinct: u64,
     /// Minimum of the finite numbers.
     pub(super) min: Option<f64>,
     /// Maximum of the finite numbers.
     pub(super) max: Option<f64>,
-    /// The most frequent values, the most frequent first; empty if every value is unique.
-    pub(super) top: Vec<Top>,
+    /// The most frequent values, the most frequent first; empty if every value is unique. A row
+    /// counts once for each vehicle type that has a value of its own.
+    pub(super) top: Vec<FrequentValue>,
 }
 
 /// A value with the number of its rows.
 #[derive(Debug, Serialize)]
-pub(super) struct Top {
+pub(super) struct FrequentValue {
     pub(super) value: String,
     pub(super) count: u64,
 }
 
-pub(super) fn of_table(attributes: &Attributes, rows: usize) -> Vec<Column> {
-    let columns: Vec<&Attribute> = attributes.iter().collect();
-    columns
-        .into_par_iter()
-        .map(|c| of(c, rows as u64))
-        .collect()
+impl Column {
+    /// Name with the unit.
+    pub(super) fn label(&self) -> String {
+        match self.unit {
+            Some(unit) => format!("{} ({unit})", self.name),
+            None => self.name.clone(),
+        }
+    }
 }
 
-fn of(attribute: &Attribute, rows: u64) -> Column {
-    let mut column = match &attribute.values {
-        Values::Bool(v) => tally("yes/no", v.values(), bool::to_string),
-        Values::Int(v) => Column {
-            min: v.values().min().map(|n| n as f64),
-            max: v.values().max().map(|n| n as f64),
-            ..tally("whole number", v.values(), i64::to_string)
-        },
-        Values::Float(v) => {
-            let finite = || v.values().filter(|n| n.is_finite());
-            // Zero and minus zero count as one value.
-            let bits = v.values().map(|n| (n + 0.0).to_bits());
-            Column {
-                min: finite().reduce(f64::min),
-                max: finite().reduce(f64::max),
-                ..tally("number", bits, |&b| number(f64::from_bits(b)))
-            }
-        }
-        Values::Text { text, present } => {
-            let here = text.iter().zip(present).filter(|(_, here)| **here);
-            tally("text", here.map(|(text, _)| text), |text| {
-                (*text).to_owned()
-            })
+/// The columns of a table.
+pub(super) fn of_table(attributes: &Attributes, rows: usize) -> Vec<Column> {
+    let columns: Vec<&Attribute> = attributes.iter().collect();
+    let statistics = |column: &Attribute| {
+        let statistics = of(column, None);
+        Column {
+            missing: (rows as u64).saturating_sub(statistics.values),
+            ..statistics
         }
     };
-    column.name.clone_from(&attribute.name);
-    column.missing = rows.saturating_sub(column.values);
-    column
+    columns.into_par_iter().map(statistics).collect()
+}
+
+/// The columns of a table whose elements have properties per vehicle type.
+pub(super) fn of_typed(attributes: &Attributes, types: &TypeEntries) -> Vec<Column> {
+    let only_per_type = types.attributes.iter();
+    let only_per_type = only_per_type.filter(|column| attributes.get(&column.name).is_none());
+    let columns: Vec<&Attribute> = attributes.iter().chain(only_per_type).collect();
+    let statistics = |column: &Attribute| {
+        let per_type = types.attributes.get(&column.name);
+        let own = attributes.get(&column.name);
+        let rows = 0..types.len();
+        let has_entry = |row: usize| {
+            let has_value = |entry| per_type.is_some_and(|c| c.values.get(entry).is_some());
+            types.entries(row).any(has_value)
+        };
+        let has_own = |row: usize| own.is_some_and(|c| c.values.get(row).is_some());
+        let count = |is_counted: &dyn Fn(usize) -> bool| {
+            rows.clone().filter(|&row| is_counted(row)).count() as u64
+        };
+        let values = count(&|row| has_own(row) || has_entry(row));
+        Column {
+            values,
+            missing: types.len() as u64 - values,
+            per_type: per_type.map_or(0, |_| count(&has_entry)),
+            ..of(column, per_type.filter(|_| own.is_some()))
+        }
+    };
+    columns.into_par_iter().map(statistics).collect()
+}
+
+/// Statistics of the values of a column, and of another one with the same name.
+fn of(column: &Attribute, other: Option<&Attribute>) -> Column {
+    let quantity = other.and_then(|other| other.quantity);
+    let statistics = match (&column.values, other.map(|other| &other.values)) {
+        (Values::Bool(a), None) => tally("yes/no", a.values(), bool::to_string),
+        (Values::Bool(a), Some(Values::Bool(b))) => {
+            tally("yes/no", a.values().chain(b.values()), bool::to_string)
+        }
+        (Values::Int(a), None) => whole_numbers(|| a.values()),
+        (Values::Int(a), Some(Values::Int(b))) => whole_numbers(|| a.values().chain(b.values())),
+        (Values::Float(a), None) => numbers(|| a.values()),
+        (Values::Float(a), Some(Values::Float(b))) => numbers(|| a.values().chain(b.values())),
+        (Values::Json(a), None) => tally("JSON", a.iter().flatten(), |text| (*text).to_owned()),
+        (a, b) => {
+            let texts = |values: &Values| {
+                let text = |row| values.get(row).map(|value| value.to_string());
+                (0..values.len()).filter_map(text).collect::<Vec<_>>()
+            };
+            let all = texts(a).into_iter().chain(b.map(texts).unwrap_or_default());
+            tally("text", all, String::clone)
+        }
+    };
+    Column {
+        name: column.name.clone(),
+        unit: column.quantity.or(quantity).map(Quantity::unit),
+        ..statistics
+    }
+}
+
+fn whole_numbers<I: Iterator<Item = i64>>(values: impl Fn() -> I) -> Column {
+    Column {
+        min: values().min().map(|n| n as f64),
+        max: values().max().map(|n| n as f64),
+        ..tally("whole number", values(), i64::to_string)
+    }
+}
+
+fn numbers<I: Iterator<Item = f64>>(values: impl Fn() -> I) -> Column {
+    let finite = || values().filter(|n| n.is_finite());
+    // Zero and minus zero count as one value.
+    let bits = values().map(|n| (n + 0.0).to_bits());
+    Column {
+        min: finite().reduce(f64::min),
+        max: finite().reduce(f64::max),
+        ..tally("number", bits, |&b| number(f64::from_bits(b)))
+    }
 }
 
 fn tally<T: Eq + Hash + Ord>(
@@ -96,27 +162,27 @@ fn tally<T: Eq + Hash + Ord>(
     }
     top.sort_by(order);
     top.retain(|(_, count)| *count > 1 || distinct <= TOP as u64);
+    let top = top.iter().map(|(value, count)| FrequentValue {
+        value: shown(value),
+        count: *count,
+    });
     Column {
         name: String::new(),
+        unit: None,
         kind,
         values: total,
         missing: 0,
+        per_type: 0,
         distinct,
         min: None,
         max: None,
-        top: top
-            .iter()
-            .map(|(value, count)| Top {
-                value: shown(value),
-                count: *count,
-            })
-            .collect(),
+        top: top.collect(),
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use guideway::layout::Value;
+    use guideway::layout::{NewPath, Paths, Value};
 
     use super::*;
 
@@ -124,7 +190,7 @@ mod tests {
     fn counts_values_and_finds_their_range() {
         let mut attributes = Attributes::default();
         for (row, speed) in [1.5, 0.5, 1.5, -0.0, 0.0].into_iter().enumerate() {
-            attributes.set(row, "speed", Value::Float(speed));
+            attributes.set_quantity(row, "speed", speed, Quantity::Speed);
         }
         for row in 0..20 {
             attributes.set(row, "name", Value::Text(&format!("n{row}")));
@@ -134,7 +200,39 @@ mod tests {
         assert_eq!((speed.values, speed.missing, speed.distinct), (5, 15, 3));
         assert_eq!((speed.min, speed.max), (Some(0.0), Some(1.5)));
         assert_eq!((speed.top[0].value.as_str(), speed.top[0].count), ("0", 2));
-        assert_eq!(columns[1].distinct, 20);
+        assert_eq!(
+            (speed.unit, speed.label().as_str()),
+            (Some("m/s"), "speed (m/s)")
+        );
+        assert_eq!((columns[1].distinct, columns[1].unit), (20, None));
         assert!(columns[1].top.is_empty());
+    }
+
+    #[test]
+    fn columns_include_values_per_vehicle_type() {
+        let mut paths = Paths::default();
+        for types in [&["tug", "fork"][..], &["tug"], &["tug"]] {
+            paths.push(&NewPath {
+                vehicle_types: types,
+                ..NewPath::default()
+            });
+        }
+        paths.attributes.set(1, "maxSpeed", Value::Float(3.0));
+        let per_type = &mut paths.vehicle_types_mut().attributes;
+        for (entry, speed) in [(0, 1.0), (1, 2.0)] {
+            per_type.set_quantity(entry, "maxSpeed", speed, Quantity::Speed);
+            per_type.set(entry, "layer", Value::Int(7));
+        }
+        let columns = of_typed(&paths.attributes, paths.vehicle_types());
+        let [speed, layer] = columns.as_slice() else {
+            panic!("{columns:?}");
+        };
+        assert_eq!((speed.name.as_str(), speed.unit), ("maxSpeed", Some("m/s")));
+        assert_eq!((speed.values, speed.missing, speed.per_type), (2, 1, 1));
+        assert_eq!(
+            (speed.distinct, speed.min, speed.max),
+            (3, Some(1.0), Some(3.0))
+        );
+        assert_eq!((layer.values, layer.per_type, layer.distinct), (1, 1, 1));
     }
 }

@@ -2,10 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use guideway::layout::{Code, Direction, Layout};
+use guideway::layout::{Diagnostics, Direction, FindingKind, Layout, Place};
 use serde::Serialize;
 
-use super::columns::{self, Column, Top};
+use super::columns::{self, Column, FrequentValue};
 use super::extent::Extent;
 use crate::cli::input::{self, Input};
 
@@ -25,7 +25,7 @@ pub(super) struct Summary {
     pub(super) nodes: u64,
     pub(super) stations: u64,
     pub(super) levels: Vec<LevelSummary>,
-    pub(super) vehicle_types: Vec<Top>,
+    pub(super) vehicle_types: Vec<FrequentValue>,
     pub(super) bounds_m: Option<Box2>,
     pub(super) length_m: f64,
     pub(super) attributes: Tables,
@@ -72,12 +72,12 @@ pub(super) struct Kind {
 }
 
 impl Kind {
-    fn new((code, count): (Code, u64)) -> Self {
+    fn new(kind: FindingKind) -> Self {
         Self {
-            code: code.name(),
-            severity: code.severity().to_string(),
-            count,
-            meaning: code.meaning(),
+            code: kind.code.name(),
+            severity: kind.severity.to_string(),
+            count: kind.count,
+            meaning: kind.code.meaning(),
         }
     }
 }
@@ -127,12 +127,12 @@ impl Summary {
             }),
             length_m: extent.length_m,
             attributes: Tables {
-                paths: columns::of_table(&layout.paths.attributes, layout.paths.len()),
-                nodes: columns::of_table(&layout.nodes.attributes, layout.nodes.len()),
+                paths: columns::of_typed(&layout.paths.attributes, layout.paths.vehicle_types()),
+                nodes: columns::of_typed(&layout.nodes.attributes, layout.nodes.vehicle_types()),
                 stations: columns::of_table(&layout.stations.attributes, layout.stations.len()),
             },
             refused: refused(layout),
-            findings: layout.diagnostics.counts().map(Kind::new).collect(),
+            findings: kinds(&layout.diagnostics),
             memory_bytes: layout.heap_bytes() as u64,
             ms: Times::default(),
         }
@@ -160,7 +160,7 @@ fn levels(layout: &Layout) -> Vec<LevelSummary> {
     layout.levels.iter().zip(paths).map(summary).collect()
 }
 
-fn vehicle_types(layout: &Layout) -> Vec<Top> {
+fn vehicle_types(layout: &Layout) -> Vec<FrequentValue> {
     let types = layout.paths.vehicle_types();
     let mut counts: BTreeMap<&str, u64> = BTreeMap::new();
     if !types.names().is_empty() {
@@ -168,19 +168,27 @@ fn vehicle_types(layout: &Layout) -> Vec<Top> {
             *counts.entry(name).or_insert(0) += 1;
         }
     }
-    let top = |(value, count): (&str, u64)| Top {
+    let top = |(value, count): (&str, u64)| FrequentValue {
         value: value.to_owned(),
         count,
     };
     counts.into_iter().map(top).collect()
 }
 
+/// The refused paths by code, with the severities of their findings.
 fn refused(layout: &Layout) -> Vec<Kind> {
-    let mut counts: BTreeMap<Code, u64> = BTreeMap::new();
+    let mut refused = Diagnostics::with_limit(0);
     for path in layout.refused.iter() {
-        *counts.entry(path.code).or_insert(0) += 1;
+        refused.push_refused(path, Place::default, "");
     }
-    counts.into_iter().map(Kind::new).collect()
+    kinds(&refused)
+}
+
+fn kinds(found: &Diagnostics) -> Vec<Kind> {
+    FindingKind::of([found])
+        .into_iter()
+        .map(Kind::new)
+        .collect()
 }
 
 fn size(input: &Input) -> Option<u64> {

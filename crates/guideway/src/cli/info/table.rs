@@ -1,6 +1,6 @@
 //! The `info` report as text.
 
-use super::columns::{Column, Top};
+use super::columns::{Column, FrequentValue};
 use super::summary::{Kind, Summary};
 use crate::cli::text::{bytes, count, counted, meters, number, single_line, time};
 
@@ -41,7 +41,7 @@ pub(super) fn text(of: &Summary) -> String {
         format!("{name}{height} ({})", counted(level.paths, "path"))
     });
     lines.put("levels", &join(levels));
-    lines.put("vehicles", &tops(&of.vehicle_types));
+    lines.put("vehicles", &frequent_values(&of.vehicle_types));
     lines.put("memory", &bytes(of.memory_bytes));
     lines.columns("paths", &of.attributes.paths);
     lines.columns("nodes", &of.attributes.nodes);
@@ -76,7 +76,7 @@ impl Lines {
         self.0 += &format!("columns of {table}:\n");
         let names = columns
             .iter()
-            .map(|column| single_line(&column.name, MAX_CHARS));
+            .map(|column| single_line(&column.label(), MAX_CHARS));
         let width = names.clone().map(|n| n.chars().count()).max().unwrap_or(0);
         for (column, name) in columns.iter().zip(names) {
             self.0 += &format!("  {name:<width$}  {}\n", column_text(column));
@@ -138,8 +138,11 @@ fn column_text(column: &Column) -> String {
     if column.missing > 0 {
         text += &format!(", {} without", count(column.missing));
     }
+    if column.per_type > 0 {
+        text += &format!(", {} by vehicle type", count(column.per_type));
+    }
     if !column.top.is_empty() {
-        text += &format!(": {}", tops(&column.top));
+        text += &format!(": {}", frequent_values(&column.top));
     }
     let rest = column.distinct.saturating_sub(column.top.len() as u64);
     if rest > 0 && !column.top.is_empty() {
@@ -148,7 +151,7 @@ fn column_text(column: &Column) -> String {
     text
 }
 
-fn tops(top: &[Top]) -> String {
+fn frequent_values(top: &[FrequentValue]) -> String {
     join(top.iter().map(|top| {
         format!(
             "{} ({})",

@@ -5,8 +5,7 @@ use std::path::{Path, PathBuf};
 use guideway::AUTO;
 use guideway::compose::{Backdrop, Picture, SweptAreas, Viewport};
 use guideway::layout::UserError;
-use guideway::render::{Budget, Style};
-use guideway::scene::{ColorBy, Scene, SceneOptions};
+use guideway::scene::{Budget, ColorBy, Scene, SceneOptions, Style};
 
 use super::decoration_args::DecorationArgs;
 use super::style_args::StyleArgs;

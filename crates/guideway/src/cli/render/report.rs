@@ -5,8 +5,7 @@ use std::path::Path;
 use guideway::compose::{Rendered, SweptReport};
 use guideway::envelope::NoEnvelope;
 use guideway::layout::Severity;
-use guideway::render::Clock;
-use guideway::scene::{Legend, Scene};
+use guideway::scene::{Clock, Legend, Scene};
 use serde_json::{Value, json};
 
 use super::args::Args;
@@ -91,7 +90,7 @@ pub(crate) fn paths_text(rendered: &Rendered) -> String {
 }
 
 fn legend_text(legend: &Legend) -> String {
-    let mut text = format!("colors by {}:\n", text::single_line(&legend.column, 60));
+    let mut text = format!("colors by {}:\n", text::single_line(&legend.title(), 60));
     for entry in &legend.entries {
         let color = entry.color;
         let label = text::single_line(&entry.label, 60);
@@ -180,6 +179,7 @@ fn legend_json(legend: &Legend) -> Value {
         .collect();
     json!({
         "column": legend.column,
+        "unit": legend.unit,
         "is_continuous": legend.is_continuous,
         "entries": entries,
     })

@@ -2,9 +2,8 @@
 
 use clap::ValueEnum;
 use guideway::layout::UserError;
-use guideway::render::density::ToneMap;
-use guideway::render::{Shading, Style};
-use guideway::scene::{LineRule, Rgba};
+use guideway::scene::density::ToneMap;
+use guideway::scene::{LineRule, Rgba, Shading, Style};
 
 use crate::cli::error::usage_error;
 use crate::cli::values;

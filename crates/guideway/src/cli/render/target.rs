@@ -6,7 +6,7 @@ use std::path::Path;
 use guideway::compose::{ComposeError, Picture, Rendered};
 use guideway::formats::Progress;
 use guideway::layout::UserError;
-use guideway::render::Method;
+use guideway::scene::Method;
 use guideway::{SaveError, write_png_by};
 
 use crate::cli::error::usage_error;
@@ -43,7 +43,7 @@ impl<'a> Target<'a> {
         Ok(Self::StandardOutput)
     }
 
-    /// Whether the output is an SVG file.
+    /// Returns `true` if the output is an SVG file.
     pub(super) fn is_vector(&self) -> bool {
         match self {
             Self::StandardOutput => false,

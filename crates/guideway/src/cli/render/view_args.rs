@@ -3,7 +3,7 @@
 use guideway::compose::Viewport;
 use guideway::envelope::EnvelopeSource;
 use guideway::layout::UserError;
-use guideway::render::FrameSize;
+use guideway::scene::FrameSize;
 use guideway::spline::Point;
 
 use crate::cli::error::usage_error;

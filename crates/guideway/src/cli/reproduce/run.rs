@@ -4,7 +4,7 @@ use std::cell::RefCell;
 use std::path::PathBuf;
 
 use guideway::layout::UserError;
-use guideway::render::Cancel;
+use guideway::scene::Cancel;
 use guideway_bench::{Start, StartError};
 use guideway_reproduce::reproduce::{Plan, Run, reproduce, resume};
 

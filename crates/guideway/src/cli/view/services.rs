@@ -11,10 +11,10 @@ use guideway::compose::{Backdrop, FloorPlan, Picture, SweptAreas, Viewport, draw
 use guideway::envelope::EnvelopeSource;
 use guideway::formats::{Progress, ReadOptions, read_file};
 use guideway::layout::{Layout, UserError};
-use guideway::render::{Frame, Method, View, elapsed_ms};
+use guideway::scene::{Frame, Method, View, elapsed_ms};
 use guideway_viewer::{AppServices, Job, LoadStage, MethodChoice, PictureRequest};
 
-use crate::cli::convert::Target;
+use crate::cli::convert;
 use crate::cli::error::usage_error;
 use crate::cli::floor_plan;
 use crate::cli::input::Input;
@@ -24,7 +24,7 @@ use crate::cli::output::Output;
 pub(super) struct CliServices {
     /// Start of the command, if it prints how long files take.
     timed_since: Option<Instant>,
-    /// Whether state, such as recent files, outlives the run.
+    /// True if state, such as recent files, outlives the run.
     keeps_state: bool,
 }
 
@@ -56,11 +56,11 @@ impl AppServices for CliServices {
     }
 
     fn check_save_in_place(&self, layout: &Layout, file: &Path) -> Result<(), UserError> {
-        Target::check_in_place(layout, file)
+        convert::check_in_place(layout, file)
     }
 
     fn save_layout(&self, layout: &Layout, path: &Path) -> Result<Vec<String>, UserError> {
-        let (losses, _) = Target::to_save(layout, path)?.write(layout, path)?;
+        let (losses, _) = convert::write(convert::target_to_save(layout, path)?, layout, path)?;
         Ok(losses.iter().map(|loss| loss.to_string()).collect())
     }
 

@@ -4,7 +4,7 @@ use guideway_scene::{RenderError, View};
 
 use crate::reproduce::deadline::Deadline;
 use crate::reproduce::run::{MostPaths, OUT_OF_TIME, Results};
-use crate::reproduce::search::{Attempt, Found, Limit};
+use crate::reproduce::search::{Limit, SearchState, TrialOutcome};
 use crate::reproduce::session::Session;
 use guideway_bench::{Dataset, Measured, Outcome, Row};
 
@@ -21,7 +21,7 @@ pub(crate) fn most_paths(
     });
     for (i, &(dataset, spec)) in open.iter().enumerate() {
         let index = index_of(rows, dataset, spec);
-        let begun = index.map_or_else(Found::nothing, |index| recorded(&rows[index]));
+        let begun = index.map_or_else(SearchState::nothing, |index| recorded(&rows[index]));
         let found = find(session, dataset, spec, begun, time.share(open.len() - i))?;
         let row = row(dataset, spec, found);
         match index {
@@ -38,8 +38,8 @@ fn index_of(rows: &[MostPaths], dataset: Dataset, spec: &str) -> Option<usize> {
 }
 
 /// The recorded state of a search.
-fn recorded(row: &MostPaths) -> Found<Measured> {
-    Found {
+fn recorded(row: &MostPaths) -> SearchState<Measured> {
+    SearchState {
         best: row.paths.zip(row.row.measured().cloned()),
         limit: row.limit,
         reason: row.reason.clone(),
@@ -51,9 +51,9 @@ fn find(
     session: &Session<'_>,
     dataset: Dataset,
     spec: &str,
-    begun: Found<Measured>,
+    begun: SearchState<Measured>,
     time: Deadline,
-) -> Result<Found<Measured>, RenderError> {
+) -> Result<SearchState<Measured>, RenderError> {
     session.plan.search.run(
         begun,
         || session.is_over(time),
@@ -69,17 +69,17 @@ fn find(
             // The thesis uses the mean; the median equals it on an idle machine, and tolerates
             // load.
             Ok(match outcomes.remove(0) {
-                Outcome::Measured(measured) => Attempt::Drawn {
+                Outcome::Measured(measured) => TrialOutcome::Drawn {
                     frame_ms: measured.frame_ms.median,
                     measurement: *measured,
                 },
-                Outcome::NotMeasured(reason) => Attempt::Refused { reason },
+                Outcome::NotMeasured(reason) => TrialOutcome::Refused { reason },
             })
         },
     )
 }
 
-fn row(dataset: Dataset, spec: &str, found: Found<Measured>) -> MostPaths {
+fn row(dataset: Dataset, spec: &str, found: SearchState<Measured>) -> MostPaths {
     let (paths, outcome) = match found.best {
         Some((paths, measured)) => (Some(paths), Outcome::Measured(Box::new(measured))),
         None => {

@@ -128,7 +128,7 @@ fn main(
     var gathered: SampleRow;
     for (var first = list.x; first < list.y; first += BATCH_LINES) {
         load_batch(tile, thread, first, list.y);
-        // Of loading lines and closing pixels.
+        // Iterations of loading lines and closing pixels.
         loops += 1u + BATCH_WORDS + 3u * TILE_PX;
         for (var word = 0u; word < BATCH_WORDS; word++) {
             var left = lines_of_pixel_row(thread, word);

@@ -4,7 +4,7 @@
 
 // import: shared/counters.wgsl
 
-// Of this thread.
+// Iterations of this thread.
 var<private> loops: u32;
 var<workgroup> workgroup_max_loops: atomic<u32>;
 

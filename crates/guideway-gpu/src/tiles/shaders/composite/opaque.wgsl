@@ -37,7 +37,7 @@ fn main(
     while is_open && remaining.is_any {
         let count = next_batch(thread, list, &remaining);
         is_open = composite_batch(own, tile, count, !remaining.is_any);
-        // Of loading a batch.
+        // Iterations of loading a batch.
         loops += 64u;
     }
     resolve_rows(tile, thread);

@@ -114,7 +114,7 @@ fn composite_batch(own: Thread, tile: Tile, count: u32, is_last: bool) -> bool {
             }
         }
         columns = columns_open(own);
-        // Of testing rows and columns.
+        // Iterations of testing rows and columns.
         loops += 5u + ROW_WORDS;
     }
     return !is_last && is_any_row_open(row_of_thread(own), columns != 0u);

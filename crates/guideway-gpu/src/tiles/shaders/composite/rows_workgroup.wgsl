@@ -64,7 +64,7 @@ fn composite_batch(own: Thread, tile: Tile, count: u32, is_last: bool) -> bool {
         load_batch(tile, own.number, first, count);
         composite_lines(own.number);
         is_open = close_pixels(own.number);
-        // Of loading lines.
+        // Iterations of loading lines.
         loops += 1u + BATCH_WORDS + 2u * TILE_PX;
     }
     return is_open;

@@ -11,7 +11,7 @@ struct Work {
     words_written: u32,
 }
 
-// Of this thread.
+// Work of this thread.
 var<private> work: Work;
 
 fn count_tests(count: u32) {

@@ -1,0 +1,247 @@
+//! Losses of the LIF writers: the parts of a layout that LIF does not hold, or holds in another
+//! form.
+
+use std::borrow::Cow;
+use std::collections::BTreeSet;
+
+use guideway_layout::{Attributes, Layout};
+
+use super::columns::MemberColumns;
+use super::elements::Elements;
+use crate::Losses;
+use crate::json::Tree;
+use crate::lif::members::{EDGE_ID, LAYOUT, META, ORIGIN, ORIGIN_OTHER, OTHER, TYPE_OTHER};
+use crate::lif::version::Version;
+use crate::trajectory::TRAJECTORY_COLUMN;
+
+/// Adds what both ways to save LIF lose.
+pub(in crate::lif) fn add_lost(elements: &Elements<'_>, losses: &mut Losses) {
+    let layout = elements.layout;
+    losses.add_widths(layout);
+    losses.add_colors(layout);
+    losses.add_ranks(layout);
+    let origins = usize::from(layout.geo_origin.is_some());
+    losses.add("geo origin", origins, "place on earth of the origin");
+    losses.add_blocks(layout);
+    losses.add("zones", layout.zones.len(), "zones");
+    let is_part = |name: &str| {
+        elements.version == Version::V2 && matches!(name, "manufacturer" | "seriesName")
+            || elements.is_from_lif && name == OTHER && elements.version == Version::V2
+    };
+    let types = layout.vehicle_types.iter();
+    let lost = types.filter(|t| t.attributes.iter().any(|column| !is_part(&column.name)));
+    losses.add(
+        "vehicle types",
+        lost.count(),
+        "vehicle types with properties of their own",
+    );
+
+    let further: &[&str] = if elements.is_from_lif {
+        &[OTHER, TYPE_OTHER]
+    } else {
+        &[]
+    };
+    let (of_path, of_node) = (&elements.edge_type[0], &elements.node_type);
+    let of_curve = [EDGE_ID, TRAJECTORY_COLUMN];
+    let held_of_curve: &[&str] = if elements.is_from_lif {
+        &of_curve
+    } else {
+        &of_curve[..1]
+    };
+    let held = [further, held_of_curve].concat();
+    let two_way = &elements.edge_type[1];
+    let paths = [&elements.edge, of_path, two_way];
+    let table = Table {
+        columns: &layout.paths.attributes,
+        of: "paths",
+    };
+    let is_drawn = |path: usize| !elements.network.is_between_levels(path);
+    add_columns_of(losses, table, &paths, &held, is_drawn);
+    let of_types = &layout.paths.vehicle_types().attributes;
+    add_columns(
+        losses,
+        of_types,
+        "vehicle types on paths",
+        &[of_path],
+        further,
+    );
+    let nodes = [&elements.node, of_node];
+    add_columns(losses, &layout.nodes.attributes, "nodes", &nodes, further);
+    let of_types = &layout.nodes.vehicle_types().attributes;
+    add_columns(
+        losses,
+        of_types,
+        "vehicle types at nodes",
+        &[of_node],
+        further,
+    );
+    let stations = [&elements.station, &elements.station_position];
+    add_columns(
+        losses,
+        &layout.stations.attributes,
+        "stations",
+        &stations,
+        further,
+    );
+    for level in &layout.levels {
+        let columns = [LAYOUT, ORIGIN].map(|names| elements.row_columns(&level.attributes, names));
+        let held = match elements.version {
+            Version::V1 => further.to_vec(),
+            Version::V2 => [further, &[ORIGIN_OTHER][..further.len().min(1)]].concat(),
+        };
+        let columns = match elements.version {
+            Version::V1 => vec![&columns[0]],
+            Version::V2 => columns.iter().collect(),
+        };
+        add_columns(losses, &level.attributes, "levels", &columns, &held);
+    }
+    let meta = elements.row_columns(&layout.attributes, META);
+    let is_held = |name: &str| further.contains(&name) || meta.has_source(name);
+    let columns = layout.attributes.iter();
+    let lost = columns.filter(|column| !is_held(&column.name)).count();
+    losses.add(
+        "layout properties",
+        lost,
+        "properties of the layout as a whole",
+    );
+}
+
+/// Columns of a table; `of` names its rows.
+#[derive(Clone, Copy)]
+struct Table<'a> {
+    columns: &'a Attributes,
+    of: &'a str,
+}
+
+fn add_columns(
+    losses: &mut Losses,
+    columns: &Attributes,
+    of: &str,
+    members: &[&MemberColumns<'_>],
+    held: &[&str],
+) {
+    add_columns_of(losses, Table { columns, of }, members, held, |_| true);
+}
+
+/// Adds the columns of a table that no member holds, and values that change, in the rows that
+/// count.
+fn add_columns_of(
+    losses: &mut Losses,
+    Table { columns, of }: Table<'_>,
+    members: &[&MemberColumns<'_>],
+    held: &[&str],
+    is_counted: impl Fn(usize) -> bool,
+) {
+    let columns = columns.iter();
+    for column in columns.filter(|column| !held.contains(&column.name.as_str())) {
+        let sources = members.iter().find(|m| m.has_source(&column.name));
+        let what = format!("column {}", column.name);
+        let Some(sources) = sources else {
+            let rows = (0..column.values.len()).filter(|&row| is_counted(row));
+            let count = rows.filter(|&row| column.values.get(row).is_some()).count();
+            losses.add(what, count, format!("values of {of}"));
+            continue;
+        };
+        let [unfit, other_form] = sources.count_changed(column, &is_counted);
+        let detail = format!("values of {of} that the format cannot hold");
+        losses.add(what.as_str(), unfit, detail);
+        let detail = format!("values of {of}: held as another member");
+        losses.add(what, other_form, detail);
+    }
+}
+
+/// Adds what a whole new file has in another form: values that 1.0 requires, curves with other
+/// knots, meta information.
+pub(in crate::lif) fn add_required(elements: &Elements<'_>, losses: &mut Losses) {
+    let layout = elements.layout;
+    if elements.version == Version::V1 {
+        let detail = "paths without a value: written as false, because the format requires one";
+        losses.add(
+            "column rotationAllowed",
+            count_without_rotation(layout),
+            detail,
+        );
+    }
+    let scaled = (0..layout.paths.len()).filter(|&path| elements.trajectories.is_scaled(path));
+    let detail = "curves: written with knots from 0 to 1, and with weights from 1 on";
+    losses.add("curves", scaled.count(), detail);
+    let types = layout.nodes.vehicle_types();
+    let stated = (0..layout.nodes.len() as u32)
+        .map(|node| (node, types.entries(node as usize)))
+        .filter(|(_, own)| !own.is_empty());
+    let grown = stated
+        .clone()
+        .filter(|(node, own)| elements.node_types(*node).len() > own.len());
+    let detail = "nodes: written with entries for the types of their paths";
+    losses.add("vehicle types", grown.count(), detail);
+    let implied = stated.filter(|(node, own)| {
+        let of_paths = elements.network.types_of_node(*node).len();
+        let has_value = |entry| {
+            types
+                .attributes
+                .iter()
+                .any(|c| c.values.get(entry).is_some())
+        };
+        of_paths == own.len()
+            && elements.node_types(*node).len() == own.len()
+            && !own.clone().any(has_value)
+    });
+    let detail = "nodes: types without properties are read as those of their paths";
+    losses.add("vehicle types", implied.count(), detail);
+    losses.add(
+        "vehicle types",
+        count_ends_between_levels(elements),
+        "nodes of paths between levels: written with entries for the types of these paths",
+    );
+    let detail = "time of the export and version of the format: those of the new file";
+    losses.add("layout properties", count_new_meta(elements), detail);
+}
+
+/// Counts the nodes without entries of their own at paths between levels. A reader that does not
+/// draw these paths does not know that the entries are theirs.
+fn count_ends_between_levels(elements: &Elements<'_>) -> usize {
+    let (layout, network) = (elements.layout, elements.network);
+    let paths = 0..layout.paths.len();
+    let ends = paths
+        .filter(|&path| network.is_between_levels(path))
+        .flat_map(|path| network.ends(path));
+    let ends: BTreeSet<u32> = ends.collect();
+    let types = layout.nodes.vehicle_types();
+    let is_open = |node: &&u32| {
+        (**node as usize) < layout.nodes.len() && types.entries(**node as usize).is_empty()
+    };
+    ends.iter().filter(is_open).count()
+}
+
+/// Counts the paths without a value for `rotationAllowed`.
+fn count_without_rotation(layout: &Layout) -> usize {
+    let names = ["rotationAllowed", "reachOrientationBeforeEntering"];
+    let is_without = |path: &usize| {
+        let mut names = names.iter();
+        let has_value = |name: &&str| {
+            let types = layout.paths.vehicle_types();
+            let in_entry = |entry| types.attributes.value(entry, name).is_some();
+            let entries = types.entries(*path);
+            layout.paths.attributes.value(*path, name).is_some()
+                || !entries.is_empty() && entries.clone().all(in_entry)
+        };
+        !names.any(has_value)
+    };
+    let may_have = names.iter().any(|name| layout.paths.has_column(name));
+    match may_have {
+        true => (0..layout.paths.len()).filter(is_without).count(),
+        false => layout.paths.len(),
+    }
+}
+
+/// Counts the members of the meta information that the new file replaces.
+fn count_new_meta(elements: &Elements<'_>) -> usize {
+    let mut old = Vec::new();
+    let columns = elements.row_columns(&elements.layout.attributes, META);
+    columns.add_to(&mut old, 0, None);
+    let version = Tree::Text(elements.version.stated().into());
+    let is_replaced = |(name, value): &&(Cow<'_, str>, Tree<'_>)| {
+        name == "exportTimestamp" || name == "lifVersion" && *value != version
+    };
+    old.iter().filter(is_replaced).count()
+}

@@ -1,0 +1,269 @@
+//! Targets: the formats that can be written, with their names and file extensions.
+
+use std::fs::File;
+use std::io::{BufWriter, Write};
+use std::path::Path;
+use std::time::SystemTime;
+
+use guideway_layout::Layout;
+
+use crate::lif::{self, Version};
+use crate::{
+    Format, Losses, WriteError, WriteProblem, arrow, dxf, geojson, opentcs, rmf, svg, vda5050,
+};
+
+/// A format that can be written, in one of its versions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Target {
+    /// Apache Arrow, a table of all elements.
+    Arrow,
+    /// DXF, a drawing for CAD programs.
+    Dxf,
+    /// GeoJSON with the whole layout, for geographic information systems.
+    GeoJson,
+    /// VDMA LIF 1.0.
+    Lif1,
+    /// VDMA LIF 2.0.
+    Lif2,
+    /// GeoJSON as a route graph of Nav2.
+    Nav2,
+    /// openTCS plant model 6.0.0.
+    OpenTcs6,
+    /// openTCS plant model 7.0.0.
+    OpenTcs7,
+    /// A navigation graph of Open-RMF.
+    Rmf,
+    /// SVG, a drawing with exact curves.
+    Svg,
+    /// VDA 5050 2.1, the order of a route.
+    Vda2,
+    /// VDA 5050 3.0, the order of a route.
+    Vda3,
+}
+
+impl Target {
+    /// All targets.
+    pub const ALL: &[Self] = &[
+        Self::Arrow,
+        Self::Dxf,
+        Self::GeoJson,
+        Self::Lif1,
+        Self::Lif2,
+        Self::Nav2,
+        Self::OpenTcs6,
+        Self::OpenTcs7,
+        Self::Rmf,
+        Self::Svg,
+        Self::Vda2,
+        Self::Vda3,
+    ];
+
+    /// Identifier on the command line.
+    pub fn id(self) -> &'static str {
+        match self {
+            Self::Arrow => "arrow",
+            Self::Dxf => "dxf",
+            Self::GeoJson => "geojson",
+            Self::Lif1 => "lif",
+            Self::Lif2 => "lif2",
+            Self::Nav2 => "nav2",
+            Self::OpenTcs6 => "opentcs6",
+            Self::OpenTcs7 => "opentcs",
+            Self::Rmf => "rmf",
+            Self::Svg => "svg",
+            Self::Vda2 => "vda5050",
+            Self::Vda3 => "vda5050-3",
+        }
+    }
+
+    /// The target with this identifier.
+    pub fn from_id(id: &str) -> Option<Self> {
+        let mut all = Self::ALL.iter().copied();
+        all.find(|target| target.id() == id)
+    }
+
+    /// Name for people.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Arrow => "Arrow",
+            Self::Dxf => "DXF",
+            Self::GeoJson => "GeoJSON",
+            Self::Lif1 => "LIF 1.0",
+            Self::Lif2 => "LIF 2.0",
+            Self::Nav2 => "Nav2 route graph",
+            Self::OpenTcs6 => "openTCS 6.0.0",
+            Self::OpenTcs7 => "openTCS 7.0.0",
+            Self::Rmf => "Open-RMF navigation graph",
+            Self::Svg => "SVG",
+            Self::Vda2 => "VDA 5050 2.1",
+            Self::Vda3 => "VDA 5050 3.0",
+        }
+    }
+
+    /// Description for the help of the command, without extensions.
+    pub fn description(self) -> &'static str {
+        match self {
+            Self::Arrow => "Apache Arrow, a table of everything",
+            Self::Dxf => "DXF, a drawing for CAD programs",
+            Self::GeoJson => "GeoJSON with the whole layout, for QGIS and the like",
+            Self::Lif1 => "VDMA LIF 1.0",
+            Self::Lif2 => "VDMA LIF 2.0",
+            Self::Nav2 => "GeoJSON as a route graph of Nav2",
+            Self::OpenTcs6 => "openTCS plant model 6.0.0",
+            Self::OpenTcs7 => "openTCS plant model 7.0.0",
+            Self::Rmf => "Open-RMF navigation graph (YAML)",
+            Self::Svg => "SVG, a drawing with exact curves",
+            Self::Vda2 => "VDA 5050 2.1, the order of one route",
+            Self::Vda3 => "VDA 5050 3.0, the order of one route",
+        }
+    }
+
+    /// File extensions that select the target, in lower case.
+    pub fn extensions(self) -> &'static [&'static str] {
+        match self {
+            Self::Arrow => &[".arrow", ".feather"],
+            Self::Dxf => &[".dxf"],
+            Self::GeoJson => &[".geojson"],
+            Self::Lif1 => &[".lif.json", ".lif"],
+            Self::Lif2 | Self::OpenTcs6 | Self::Vda3 => &[],
+            Self::Nav2 => &[".nav2.geojson"],
+            Self::OpenTcs7 => &[".opentcs.xml", ".xml"],
+            Self::Rmf => &[".nav_graph.yaml"],
+            Self::Svg => &[".svg"],
+            Self::Vda2 => &[".vda5050.json"],
+        }
+    }
+
+    /// The target that the extension of a file selects; of several extensions the longest one.
+    pub fn of_file_name(name: &str) -> Option<Self> {
+        let name = name.to_lowercase();
+        let fitting = |target: &Self| {
+            let extensions = target.extensions().iter();
+            let fitting = extensions.filter(|extension| name.ends_with(**extension));
+            fitting.map(|extension| extension.len()).max()
+        };
+        let targets = Self::ALL.iter().copied();
+        let fitting = targets.filter_map(|target| Some((fitting(&target)?, target)));
+        let longest = fitting.max_by_key(|(length, _)| *length);
+        longest.map(|(_, target)| target)
+    }
+
+    /// The target that holds everything that the file of a layout held: that of the same format and
+    /// version. `None` if the format of the file has no writer.
+    pub fn of_source(layout: &Layout) -> Option<Self> {
+        match opentcs::Version::of_layout(layout) {
+            Some(opentcs::Version::V6) => return Some(Self::OpenTcs6),
+            Some(opentcs::Version::V7) => return Some(Self::OpenTcs7),
+            None => {}
+        }
+        match vda5050::Version::of_layout(layout) {
+            Some(vda5050::Version::V2) => return Some(Self::Vda2),
+            Some(vda5050::Version::V3) => return Some(Self::Vda3),
+            None => {}
+        }
+        match Version::of_layout(layout) {
+            Some(Version::V1) => Some(Self::Lif1),
+            Some(Version::V2) => Some(Self::Lif2),
+            None => {
+                let provenance = &layout.provenance;
+                let is = |format: Format| provenance.format == format.name();
+                match provenance.format_version.as_str() {
+                    geojson::ROUTE_GRAPH if is(Format::GeoJson) => return Some(Self::Nav2),
+                    rmf::NAVIGATION_GRAPH if is(Format::Rmf) => return Some(Self::Rmf),
+                    _ => {}
+                }
+                let targets = [
+                    (Format::GeoJson, Self::GeoJson),
+                    (Format::Arrow, Self::Arrow),
+                    (Format::Dxf, Self::Dxf),
+                    (Format::Svg, Self::Svg),
+                ];
+                let found = targets.into_iter().find(|(format, _)| is(*format));
+                found.map(|(_, target)| target)
+            }
+        }
+    }
+
+    /// Returns `true` if the target is a drawing, which holds the paths only.
+    pub fn is_drawing(self) -> bool {
+        matches!(self, Self::Dxf | Self::Svg)
+    }
+
+    /// Writes a layout to a file. Returns the losses.
+    ///
+    /// # Errors
+    /// When the file cannot be written, or when the target is an order and the paths do not form
+    /// one route; the file is not touched then.
+    pub fn write_file(self, layout: &Layout, path: &Path) -> Result<Losses, WriteError> {
+        if self == Self::Arrow {
+            return arrow::write_layout(layout, path, &arrow::WriteOptions::default());
+        }
+        let fail = |problem: WriteProblem| WriteError {
+            path: path.to_owned(),
+            problem,
+        };
+        if let Some(version) = self.order_version() {
+            let mut text = Vec::new();
+            let exported = SystemTime::now();
+            let options = vda5050::WriteOptions { version, exported };
+            let losses = vda5050::write_layout(layout, &mut text, &options).map_err(fail)?;
+            std::fs::write(path, text).map_err(|error| fail(error.into()))?;
+            return Ok(losses);
+        }
+        let fail = |error: std::io::Error| fail(error.into());
+        let file = File::create(path).map_err(fail)?;
+        let mut out = BufWriter::with_capacity(1 << 16, file);
+        let losses = self.write_text(layout, &mut out).map_err(fail)?;
+        out.flush().map_err(fail)?;
+        Ok(losses)
+    }
+
+    /// The version of VDA 5050, if the target is an order.
+    fn order_version(self) -> Option<vda5050::Version> {
+        match self {
+            Self::Vda2 => Some(vda5050::Version::V2),
+            Self::Vda3 => Some(vda5050::Version::V3),
+            _ => None,
+        }
+    }
+
+    fn write_text(self, layout: &Layout, out: &mut impl Write) -> std::io::Result<Losses> {
+        let lif_options = |version| lif::WriteOptions {
+            version,
+            exported: SystemTime::now(),
+        };
+        match self {
+            Self::Arrow => unreachable!("Arrow has a writer of files"),
+            Self::Dxf => dxf::write_layout(layout, out),
+            Self::GeoJson => geojson::write_layout(layout, out, &geojson::WriteOptions::default()),
+            Self::Lif1 => lif::write_layout(layout, out, &lif_options(Version::V1)),
+            Self::Lif2 => lif::write_layout(layout, out, &lif_options(Version::V2)),
+            Self::Nav2 => {
+                geojson::write_route_graph(layout, out, &geojson::WriteOptions::default())
+            }
+            Self::OpenTcs6 => opentcs::write_layout(layout, out, opentcs::Version::V6),
+            Self::OpenTcs7 => opentcs::write_layout(layout, out, opentcs::Version::V7),
+            Self::Rmf => rmf::write_navigation_graph(layout, out),
+            Self::Svg => svg::write_layout(layout, out),
+            Self::Vda2 | Self::Vda3 => unreachable!("orders are written before"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn identifiers_and_extensions_select_one_target() {
+        for &target in Target::ALL {
+            assert_eq!(Target::from_id(target.id()), Some(target));
+            for extension in target.extensions() {
+                let name = format!("Hall 2{}", extension.to_uppercase());
+                assert_eq!(Target::of_file_name(&name), Some(target));
+            }
+        }
+        assert_eq!(Target::of_file_name("plan.png"), None);
+        assert_eq!(Target::of_file_name("a.b.geojson"), Some(Target::GeoJson));
+    }
+}

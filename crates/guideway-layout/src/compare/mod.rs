@@ -1,0 +1,73 @@
+//! Differences between two layouts: what a conversion lost or changed.
+//!
+//! | stage | input | output | file |
+//! |---|---|---|---|
+//! | match | identifiers of two tables | pairs of rows, rows without a partner | `row_pairs` |
+//! | compare curves | two paths | greatest distance | `curve_distance` |
+//! | compare columns | two tables, pairs of rows | differing cells by column | `columns` |
+//! | compare tables | two layouts | [`Difference`]s | `paths`, `places`, `groups`, `difference` |
+
+mod columns;
+mod curve_distance;
+mod difference;
+mod groups;
+mod paths;
+mod places;
+mod row_pairs;
+
+pub use self::difference::{CompareOptions, Difference};
+
+use self::difference::Differences;
+use self::row_pairs::RowPairs;
+use crate::Layout;
+
+/// Compares two layouts. Returns what differs, by kind, in the order of the tables; nothing if they
+/// mean the same.
+///
+/// Rows are matched by identifier, in order among equal ones; where no identifier of a table is
+/// kept, by their order. Provenance, findings, places in the source text and the order of columns
+/// do not count.
+///
+/// ```
+/// use guideway_layout::{CompareOptions, Layout, differences};
+/// use guideway_spline::Point;
+///
+/// let mut before = Layout::default();
+/// before.nodes.push("dock", Point::new(0.0, 0.0), None);
+/// let mut after = before.clone();
+/// after.nodes.set_position_m(0, Point::new(0.0, 2.0));
+/// let found = differences(&before, &after, &CompareOptions::default());
+/// assert_eq!((found[0].what.as_str(), found[0].count), ("positions", 1));
+/// ```
+pub fn differences(a: &Layout, b: &Layout, options: &CompareOptions) -> Vec<Difference> {
+    let mut found = Differences::default();
+    let nodes = RowPairs::of(
+        a.nodes.len(),
+        b.nodes.len(),
+        |row| a.nodes.id(row),
+        |row| b.nodes.id(row),
+    );
+    let stations = RowPairs::of(
+        a.stations.len(),
+        b.stations.len(),
+        |row| a.stations.id(row),
+        |row| b.stations.id(row),
+    );
+    let rows = |layout: &Layout| layout.paths.len();
+    let path_pairs = RowPairs::of(
+        rows(a),
+        rows(b),
+        |row| a.paths.id(row as usize),
+        |row| b.paths.id(row as usize),
+    );
+    paths::compare([a, b], &path_pairs, &nodes, options, &mut found);
+    places::compare_nodes([a, b], &nodes, options, &mut found);
+    places::compare_stations([a, b], &stations, &nodes, options, &mut found);
+    let members = groups::MemberPairs {
+        paths: &path_pairs,
+        nodes: &nodes,
+        stations: &stations,
+    };
+    groups::compare([a, b], &members, options, &mut found);
+    found.into_vec()
+}

@@ -1,0 +1,100 @@
+//! [`RowPairs`]: pairs of rows that stand for the same element in two layouts.
+
+use std::collections::HashMap;
+
+/// Pairs of rows of two tables.
+pub(super) struct RowPairs {
+    /// Row in the second table of each row of the first one.
+    partners: Vec<Option<u32>>,
+    /// Rows of the second table without a partner.
+    added: Vec<u32>,
+    /// Rows were matched by their order, because no identifier was kept.
+    by_order: bool,
+}
+
+impl RowPairs {
+    /// Matches rows by identifier, in order among equal ones. If no identifier matches and the
+    /// tables have the same length, matches them by order.
+    pub(super) fn of<'a>(
+        rows_a: usize,
+        rows_b: usize,
+        id_a: impl Fn(u32) -> &'a str,
+        id_b: impl Fn(u32) -> &'a str,
+    ) -> Self {
+        let mut rows: HashMap<&str, Vec<u32>> = HashMap::new();
+        for row in (0..rows_b as u32).rev() {
+            rows.entry(id_b(row)).or_default().push(row);
+        }
+        let take = |row| rows.get_mut(id_a(row)).and_then(Vec::pop);
+        let partners: Vec<Option<u32>> = (0..rows_a as u32).map(take).collect();
+        let mut added: Vec<u32> = rows.into_values().flatten().collect();
+        added.sort_unstable();
+        if rows_a > 0 && rows_a == rows_b && added.len() == rows_b {
+            return Self {
+                partners: (0..rows_a as u32).map(Some).collect(),
+                added: Vec::new(),
+                by_order: true,
+            };
+        }
+        Self {
+            partners,
+            added,
+            by_order: false,
+        }
+    }
+
+    /// Pairs of rows, in the order of the first table.
+    pub(super) fn pairs(&self) -> impl Iterator<Item = (u32, u32)> {
+        let rows = self.partners.iter().enumerate();
+        rows.filter_map(|(a, b)| Some((a as u32, (*b)?)))
+    }
+
+    /// Rows of the first table without a partner.
+    pub(super) fn removed(&self) -> impl Iterator<Item = u32> {
+        let rows = self.partners.iter().enumerate();
+        rows.filter(|(_, partner)| partner.is_none())
+            .map(|(row, _)| row as u32)
+    }
+
+    /// Rows of the second table without a partner.
+    pub(super) fn added(&self) -> &[u32] {
+        &self.added
+    }
+
+    /// Returns `true` if identifiers differ and rows were matched by order.
+    pub(super) fn is_by_order(&self) -> bool {
+        self.by_order
+    }
+
+    /// Row in the second table of a row of the first one.
+    pub(super) fn partner(&self, row: u32) -> Option<u32> {
+        *self.partners.get(row as usize)?
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn pairs(a: &[&str], b: &[&str]) -> RowPairs {
+        RowPairs::of(a.len(), b.len(), |r| a[r as usize], |r| b[r as usize])
+    }
+
+    #[test]
+    fn matches_equal_identifiers_in_order() {
+        let found = pairs(&["x", "y", "x", "z"], &["x", "x", "w", "y"]);
+        assert!(found.pairs().eq([(0, 0), (1, 3), (2, 1)]));
+        assert!(found.removed().eq([3]));
+        assert_eq!(found.added(), [2]);
+        assert!(!found.is_by_order());
+    }
+
+    #[test]
+    fn matches_by_order_if_no_identifier_is_kept() {
+        let found = pairs(&["a", "b"], &["1", "2"]);
+        assert!(found.is_by_order());
+        assert!(found.pairs().eq([(0, 0), (1, 1)]));
+        assert!(!pairs(&["a", "b"], &["1", "b"]).is_by_order());
+        assert!(!pairs(&["a"], &["1", "2"]).is_by_order());
+    }
+}

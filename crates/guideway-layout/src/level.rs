@@ -1,0 +1,16 @@
+//! [`Level`]: a floor of the layout.
+
+use crate::Attributes;
+
+/// A floor of a building, or one layout of a file that has several.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Level {
+    /// Identifier in the file.
+    pub id: String,
+    /// Human-readable name.
+    pub name: Option<String>,
+    /// Height above the ground in meters, if the file states it.
+    pub elevation_m: Option<f64>,
+    /// Further properties, in one row.
+    pub attributes: Attributes,
+}

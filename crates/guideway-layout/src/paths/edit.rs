@@ -1,0 +1,129 @@
+//! Edits of paths: sets columns, and the properties of single paths.
+
+use guideway_spline::Affine;
+
+use super::table::{NONE, Paths};
+use crate::optional_column::{column_for, set};
+use crate::{Direction, Geometry, OwnStyle, TypeEntries, WrittenCurve};
+
+impl Paths {
+    /// Sets the stroke width of every path, in meters; NaN where the rule of the view decides.
+    ///
+    /// # Panics
+    /// When the length is not [`Self::len`], as in the other setters of columns.
+    pub fn set_width_m(&mut self, column: Vec<f32>) {
+        assert_eq!(column.len(), self.len());
+        self.width_m = Some(column);
+    }
+
+    /// Sets the color of every path, 0xRRGGBBAA; 0 where the rule of the view decides.
+    pub fn set_color_rgba(&mut self, column: Vec<u32>) {
+        assert_eq!(column.len(), self.len());
+        self.color_rgba = Some(column);
+    }
+
+    /// Sets the draw rank of every path: higher ranks cover lower ones, equal ranks paint in file
+    /// order.
+    pub fn set_rank(&mut self, column: Vec<i32>) {
+        assert_eq!(column.len(), self.len());
+        self.rank = Some(column);
+    }
+
+    /// Sets the level of every path; `u32::MAX` means no level.
+    pub fn set_levels(&mut self, column: Vec<u32>) {
+        assert_eq!(column.len(), self.len());
+        self.levels = Some(column);
+    }
+
+    /// Sets the level of one path.
+    ///
+    /// # Panics
+    /// When `path` is not below [`Self::len`], as in the other setters of one path.
+    pub fn set_level(&mut self, path: usize, level: Option<u32>) {
+        set(
+            &mut self.levels,
+            self.ids.len(),
+            path,
+            NONE,
+            level.unwrap_or(NONE),
+        );
+    }
+
+    /// Sets the rows of the first and the last node of one path.
+    pub fn set_nodes(&mut self, path: usize, start: Option<u32>, end: Option<u32>) {
+        let rows = self.ids.len();
+        set(
+            &mut self.start_nodes,
+            rows,
+            path,
+            NONE,
+            start.unwrap_or(NONE),
+        );
+        set(&mut self.end_nodes, rows, path, NONE, end.unwrap_or(NONE));
+    }
+
+    /// Sets the directions in which vehicles drive along one path.
+    pub fn set_direction(&mut self, path: usize, direction: Direction) {
+        let rows = self.ids.len();
+        set(
+            &mut self.directions,
+            rows,
+            path,
+            Direction::Forward,
+            direction,
+        );
+    }
+
+    /// Replaces the identifiers of some paths, in increasing order. Cost: O(all identifiers).
+    pub fn set_ids(&mut self, ids: &[(usize, &str)]) {
+        self.ids.replace(ids);
+    }
+
+    /// Maps the curves of some paths: see [`Geometry::transform`].
+    pub fn transform(&mut self, paths: impl IntoIterator<Item = usize>, by: Affine) {
+        if self.written_curves.is_empty() {
+            self.geometry.transform(paths, by);
+            return;
+        }
+        let written_curves = &mut self.written_curves;
+        let paths = paths
+            .into_iter()
+            .inspect(|&path| written_curves.transform(path, by));
+        self.geometry.transform(paths, by);
+    }
+
+    /// Replaces the curves of some paths: see [`Geometry::replace_all`].
+    pub fn replace_curves(&mut self, paths: &[u32], with: &Geometry) {
+        self.geometry.replace_all(paths, with);
+        for &path in paths {
+            self.written_curves.set(path as usize, None);
+        }
+    }
+
+    /// Sets the curve of a path as its file wrote it, beside its runs.
+    pub fn set_written_curve(&mut self, path: usize, curve: WrittenCurve) {
+        self.written_curves.set(path, Some(curve.into()));
+    }
+
+    /// Sets the style of one path; properties that are `None` follow the rule of the view.
+    ///
+    /// # Panics
+    /// When `path` is not below [`Self::len`].
+    pub fn set_own_style(&mut self, path: usize, style: OwnStyle) {
+        let rows = self.len();
+        let width_m = style.width_m.unwrap_or(f32::NAN);
+        if let Some(column) = column_for(&mut self.width_m, rows, f32::NAN, style.width_m.is_some())
+        {
+            column[path] = width_m;
+        }
+        let color = style.color_rgba.unwrap_or(0);
+        if let Some(column) = column_for(&mut self.color_rgba, rows, 0, color != 0) {
+            column[path] = color;
+        }
+    }
+
+    /// The entries per vehicle type, to edit.
+    pub fn vehicle_types_mut(&mut self) -> &mut TypeEntries {
+        &mut self.vehicle_types
+    }
+}
