@@ -257,6 +257,10 @@ impl<'y> YamlNode<'y> {
         self.values[self.node].line
     }
 
+    pub(crate) fn is_object(self) -> bool {
+        matches!(self.content(), Content::Map(_))
+    }
+
     /// The kind of the value, for messages.
     pub(crate) fn kind(self) -> &'static str {
         match self.content() {

@@ -82,7 +82,7 @@ fn finds_each_kind_of_change() {
             l.paths
                 .transform([1], Affine::translation(Point::new(0.0, 1e-3)));
         }),
-        ("curves", |l| {
+        ("new curves", |l| {
             l.paths.set_written_curve(
                 0,
                 WrittenCurve {

@@ -11,7 +11,7 @@ use super::pair_writer::PairWriter;
 use super::write_sections::{write_after_entities, write_before_entities};
 use super::xdata::write_path_id;
 use crate::Losses;
-use crate::clamped::{ClampedCurve, rounded};
+use crate::clamped::{ClampedCurve, is_rewritten_as, rounded};
 use crate::common_losses::common_losses;
 
 /// Name of the attribute column that holds layer names.
@@ -35,12 +35,13 @@ pub fn write_layout(layout: &Layout, out: &mut impl Write) -> io::Result<Losses>
     let max_entities = layout.paths.geometry().run_count() as u64;
     let mut pairs = PairWriter::new(out);
     write_before_entities(&mut pairs, &layers.names, max_entities)?;
-    let (mut broken, mut without_knots) = (0, 0);
+    let (mut broken, mut without_knots, mut plain) = (0, 0, 0);
     let mut kinds = vec![None; layout.paths.len()];
     for path in layout.paths.iter() {
         let layer = &layers.names[layers.rows[path.row()] as usize];
         if let Some(written) = layout.paths.written_curve(path.row()) {
             without_knots += usize::from(written.knots.is_empty());
+            plain += usize::from(is_rewritten_as(path, None, written));
             kinds[path.row()] = Some("SPLINE");
             pairs.entity("SPLINE", layer)?;
             write_color(&mut pairs, true_color(layout, path))?;
@@ -65,6 +66,8 @@ pub fn write_layout(layout: &Layout, out: &mut impl Write) -> io::Result<Losses>
     losses.add("curves", broken, detail);
     let detail = "curves without knots: written with uniform ones";
     losses.add("curves", without_knots, detail);
+    let detail = "lines with a trajectory of their own: read as lines";
+    losses.add("curves", plain, detail);
     losses.add_replaced(layout, ENTITY_COLUMN, |row| kinds[row]);
     Ok(losses)
 }

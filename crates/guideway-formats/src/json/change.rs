@@ -3,7 +3,6 @@
 //! The old value is the one that a reader finds in the text, as a writer would write it. A member
 //! that the reader does not know is in neither value and stays.
 
-
 use super::array_splice::{ArrayEdit, ListEdit};
 use super::scan::{MemberRange, members, value_end};
 use super::splice::Splices;

@@ -4,7 +4,7 @@
 use guideway_layout::{Layout, Value};
 
 use super::yaml_text::value;
-use crate::fields::{Vocabulary, field_of};
+use crate::fields::{Vocabulary, field, field_of};
 
 /// Returns name and text of the parameter of a lane for a value; `None` for a value that a lane
 /// does not hold.
@@ -28,6 +28,8 @@ pub(super) fn path_column<'l>(column: &'l str, of_path: Value<'_>) -> Option<(&'
                 parameter(field.name, Value::Float(number / field.factor))
             }
             (Some(_), _) => None,
+            // A reader would take it for the property of this name.
+            (None, _) if field(Vocabulary::Rmf, column).is_some() => None,
             (None, _) => parameter(column, of_path),
         },
     }

@@ -26,13 +26,13 @@ pub(super) fn set_parameters<'y>(
     is_elsewhere: impl Fn(&str) -> bool,
     at: PlaceFn<'_>,
 ) -> Result<(), ReadError> {
-    let max_bytes = reader.builder.source.options.limits.text_bytes;
     let names = match table {
         Table::Paths => 0,
         Table::Nodes => 1,
         _ => 2,
     };
     let mut other = Vec::new();
+    let mut is_over_limit = false;
     for (key, node) in parameters.entries().filter(|(key, _)| !is_elsewhere(key)) {
         let value = parameter(node, reader.is_graph);
         let is_empty = value.is_none() && node.kind() == "nothing";
@@ -41,7 +41,13 @@ pub(super) fn set_parameters<'y>(
             continue;
         }
         if !reader.columns[names].contains(key) {
+            // An object of others, as this reader makes it.
+            if key == OTHER && node.is_object() {
+                other.extend(node.entries());
+                continue;
+            }
             if reader.columns[names].len() == MAX_COLUMNS || key == OTHER {
+                is_over_limit = true;
                 other.push((key, node));
                 continue;
             }
@@ -60,7 +66,7 @@ pub(super) fn set_parameters<'y>(
             }
         }
     }
-    set_other(reader, (table, row), &other, max_bytes, at)
+    set_other(reader, (table, row), &other, is_over_limit, at)
 }
 
 /// Sets the column of a parameter, in SI units where it is a known property.
@@ -134,12 +140,13 @@ fn set_other(
     reader: &mut SiteReader<'_, '_>,
     (table, row): (Table, usize),
     other: &[(&str, YamlNode<'_>)],
-    max_bytes: usize,
+    is_over_limit: bool,
     at: PlaceFn<'_>,
 ) -> Result<(), ReadError> {
     if other.is_empty() {
         return Ok(());
     }
+    let max_bytes = reader.builder.source.options.limits.text_bytes;
     let mut object = String::from("{");
     for (key, node) in other {
         let Some(value) = node
@@ -158,8 +165,10 @@ fn set_other(
         reader.builder.report(Code::Attribute, at, message, remedy);
         return Ok(());
     }
-    let remedy = "The others are in the column `other`";
-    reader.builder.report(Code::Attribute, at, message, remedy);
+    if is_over_limit {
+        let remedy = "The others are in the column `other`";
+        reader.builder.report(Code::Attribute, at, message, remedy);
+    }
     reader.builder.set(table, row, OTHER, Value::Json(&object))
 }
 

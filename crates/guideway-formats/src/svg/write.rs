@@ -117,8 +117,15 @@ fn losses(layout: &Layout) -> Losses {
     });
     let is_valid = |id: &str| !id.is_empty() && id.chars().all(is_xml_char);
     let invalid = layout.paths.iter().filter(|p| !is_valid(p.id()));
-    let detail = "identifiers that are empty or contain characters that XML forbids";
-    losses.add("identifiers", invalid.count(), detail);
+    let detail =
+        "paths whose identifiers are empty or contain characters that XML forbids: renamed";
+    let invalid = invalid.count();
+    // Without any identifier, paths are told apart by their order.
+    let what = match invalid == layout.paths.len() {
+        true => "identifiers",
+        false => "paths",
+    };
+    losses.add(what, invalid, detail);
     losses
 }
 

@@ -46,7 +46,7 @@ pub(super) fn compare_cells(
 }
 
 /// Returns `true` if two cells are equal, numbers within a relative tolerance. A whole number
-/// equals the number of the same value; NaN equals NaN.
+/// equals the number of the same value; NaN equals NaN; JSON texts may differ in white space.
 pub(super) fn are_equal(cells: [Option<Value<'_>>; 2], relative_tolerance: f64) -> bool {
     let number = |value: Value<'_>| match value {
         Value::Int(v) => Some(v as f64),
@@ -61,10 +61,31 @@ pub(super) fn are_equal(cells: [Option<Value<'_>>; 2], relative_tolerance: f64) 
                 let size = a.abs().max(b.abs());
                 a == b || (a - b).abs() <= size * relative_tolerance || a.is_nan() && b.is_nan()
             }
-            _ => a == b,
+            _ => match (a, b) {
+                (Value::Json(a), Value::Json(b)) => is_same_json(a, b),
+                _ => a == b,
+            },
         },
         _ => false,
     }
+}
+
+/// Returns true if two JSON texts are the same but for white space between their tokens.
+fn is_same_json(a: &str, b: &str) -> bool {
+    significant_bytes(a).eq(significant_bytes(b))
+}
+
+/// The bytes of a JSON text without the white space outside of its strings.
+fn significant_bytes(text: &str) -> impl Iterator<Item = u8> {
+    let (mut is_string, mut is_escaped) = (false, false);
+    text.bytes().filter(move |&byte| {
+        let is_kept = is_string || !byte.is_ascii_whitespace();
+        if byte == b'"' && !is_escaped {
+            is_string = !is_string;
+        }
+        is_escaped = is_string && byte == b'\\' && !is_escaped;
+        is_kept
+    })
 }
 
 fn describe(cell: Option<Value<'_>>) -> String {
@@ -98,5 +119,9 @@ mod tests {
         assert!(!equal(Some(Value::Text("2")), Some(Value::Int(2))));
         assert!(!equal(Some(Value::Text("[]")), Some(Value::Json("[]"))));
         assert!(!equal(Some(Value::Text("")), None));
+        let json = |a, b| equal(Some(Value::Json(a)), Some(Value::Json(b)));
+        assert!(json(r#"{"a\"": [1, " x"]}"#, "{\"a\\\"\":[1,\n\" x\"]}"));
+        assert!(!json(r#"["a b"]"#, r#"["ab"]"#));
+        assert!(!json(r#"["a\\", " "]"#, r#"["a\\",""]"#));
     }
 }

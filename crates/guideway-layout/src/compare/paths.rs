@@ -85,10 +85,17 @@ impl Pair<'_> {
             });
         }
         let [a, b] = self.layouts;
-        if a.paths.written_curve(p.row()) != b.paths.written_curve(q.row()) {
-            found.add("curves", || {
+        match (
+            a.paths.written_curve(p.row()),
+            b.paths.written_curve(q.row()),
+        ) {
+            (None, Some(_)) => found.add("new curves", || {
+                format!("{} is written as a curve of its own", self.name())
+            }),
+            (before, after) if before != after => found.add("curves", || {
                 format!("{} is written as another curve", self.name())
-            });
+            }),
+            _ => {}
         }
     }
 

@@ -229,7 +229,7 @@ fn sources(version: Version, column: Column, is_reverse: bool) -> Vec<(&'static 
         ("rotationAllowed", _) => vec![(rotation, Same), (reach, Negated)],
         ("reachOrientationBeforeEntering", _) => vec![(reach, Same), (rotation, Negated)],
         ("nodeDescriptor", name) if version == Version::V2 => vec![(name, Same), ("name", Renamed)],
-        (_, "maxSpeed") if is_reverse => vec![("maxReverseSpeed", Same), ("maxSpeed", Same)],
+        (_, "maxSpeed") if is_reverse => vec![("maxReverseSpeed", Renamed), ("maxSpeed", Same)],
         (_, name) if is_reverse && name == start => vec![(end, Same)],
         (_, name) if is_reverse && name == end => vec![(start, Same)],
         (_, name) if is_reverse && name == left => vec![(right, Same)],

@@ -4,7 +4,7 @@
 use std::borrow::Cow;
 use std::collections::BTreeSet;
 
-use guideway_layout::{Attributes, Layout};
+use guideway_layout::{Attributes, Direction, Layout};
 
 use super::columns::MemberColumns;
 use super::elements::Elements;
@@ -13,6 +13,9 @@ use crate::json::Tree;
 use crate::lif::members::{EDGE_ID, LAYOUT, META, ORIGIN, ORIGIN_OTHER, OTHER, TYPE_OTHER};
 use crate::lif::version::Version;
 use crate::trajectory::TRAJECTORY_COLUMN;
+
+/// The speed against the direction of a path.
+const REVERSE_SPEED: &str = "maxReverseSpeed";
 
 /// Adds what both ways to save LIF lose.
 pub(in crate::lif) fn add_lost(elements: &Elements<'_>, losses: &mut Losses) {
@@ -55,8 +58,18 @@ pub(in crate::lif) fn add_lost(elements: &Elements<'_>, losses: &mut Losses) {
         columns: &layout.paths.attributes,
         of: "paths",
     };
-    let is_drawn = |path: usize| !elements.network.is_between_levels(path);
-    add_columns_of(losses, table, &paths, &held, is_drawn);
+    let is_two_way = |path: usize| layout.paths.get(path).direction() == Direction::Both;
+    let is_counted = |name: &str, path: usize| {
+        !elements.network.is_between_levels(path) && (name != REVERSE_SPEED || is_two_way(path))
+    };
+    add_columns_of(losses, table, &paths, &held, is_counted);
+    let one_way = (0..layout.paths.len()).filter(|&path| !is_two_way(path));
+    let speeds = one_way.filter(|&path| layout.paths.value(path, REVERSE_SPEED).is_some());
+    losses.add(
+        format!("column {REVERSE_SPEED}"),
+        speeds.count(),
+        "values of paths that are driven one way",
+    );
     let of_types = &layout.paths.vehicle_types().attributes;
     add_columns(
         losses,
@@ -120,7 +133,7 @@ fn add_columns(
     members: &[&MemberColumns<'_>],
     held: &[&str],
 ) {
-    add_columns_of(losses, Table { columns, of }, members, held, |_| true);
+    add_columns_of(losses, Table { columns, of }, members, held, |_, _| true);
 }
 
 /// Adds the columns of a table that no member holds, and values that change, in the rows that
@@ -130,12 +143,13 @@ fn add_columns_of(
     Table { columns, of }: Table<'_>,
     members: &[&MemberColumns<'_>],
     held: &[&str],
-    is_counted: impl Fn(usize) -> bool,
+    is_counted: impl Fn(&str, usize) -> bool,
 ) {
     let columns = columns.iter();
     for column in columns.filter(|column| !held.contains(&column.name.as_str())) {
         let sources = members.iter().find(|m| m.has_source(&column.name));
         let what = format!("column {}", column.name);
+        let is_counted = |row| is_counted(&column.name, row);
         let Some(sources) = sources else {
             let rows = (0..column.values.len()).filter(|&row| is_counted(row));
             let count = rows.filter(|&row| column.values.get(row).is_some()).count();
