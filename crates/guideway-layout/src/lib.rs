@@ -68,7 +68,9 @@ pub use check::{
     CheckOptions, DisplayPosition, check, check_across, element_name, element_place, same_curves,
 };
 pub use code::{Code, Severity};
-pub use compare::{CompareOptions, Difference, differences};
+pub use compare::{
+    Change, Changes, CompareOptions, Difference, ElementChange, changes, differences,
+};
 pub use diagnostic::{Diagnostic, Diagnostics, FindingKind, Place};
 pub use geometry::{Geometry, Hulls, append_hulls};
 pub use groups::{Block, Member, VehicleType, Zone};

@@ -27,6 +27,22 @@ pub(super) fn are_near(a: PathRef<'_>, b: PathRef<'_>, tolerance_m: f64) -> bool
     is_covered(a, b, tolerance_m) && is_covered(b, a, tolerance_m)
 }
 
+/// Returns the greatest distance of a sampled point of either path from the other, in meters; `None`
+/// if one of them has no curve.
+pub(super) fn greatest_distance_m(a: PathRef<'_>, b: PathRef<'_>) -> Option<f64> {
+    let from = |path: PathRef<'_>, to: PathRef<'_>| {
+        let to = run_points(to);
+        let distance = |p| {
+            let runs = to
+                .iter()
+                .filter_map(|run| nearest_on_run(run, p, PRECISION_M));
+            runs.map(|near| near.distance).reduce(f64::min)
+        };
+        samples(path).filter_map(distance).reduce(f64::max)
+    };
+    Some(from(a, b)?.max(from(b, a)?))
+}
+
 fn beziers(path: PathRef<'_>) -> Vec<[Point<f64>; 4]> {
     let segments = path.runs().flat_map(|run| run.segments());
     segments.map(|s| uniform::to_bezier(&s)).collect()
@@ -34,14 +50,22 @@ fn beziers(path: PathRef<'_>) -> Vec<[Point<f64>; 4]> {
 
 /// Returns `true` if all samples of a path are near another one.
 fn is_covered(path: PathRef<'_>, by: PathRef<'_>, tolerance_m: f64) -> bool {
-    let by: Vec<Vec<Point<f64>>> = by.runs().map(|run| run.iter().collect()).collect();
+    let by = run_points(by);
     let is_near = |p: Point<f64>| {
         let mut runs = by.iter();
         runs.any(|run| {
             nearest_on_run(run, p, PRECISION_M).is_some_and(|n| n.distance <= tolerance_m)
         })
     };
+    samples(path).all(is_near)
+}
+
+fn run_points(path: PathRef<'_>) -> Vec<Vec<Point<f64>>> {
+    path.runs().map(|run| run.iter().collect()).collect()
+}
+
+fn samples(path: PathRef<'_>) -> impl Iterator<Item = Point<f64>> {
     let segments = path.runs().flat_map(|run| run.segments());
     let points = |s| (0..=STEPS).map(move |i| uniform::point(&s, f64::from(i) / f64::from(STEPS)));
-    segments.flat_map(points).all(is_near)
+    segments.flat_map(points)
 }

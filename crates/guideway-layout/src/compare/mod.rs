@@ -1,20 +1,26 @@
-//! Differences between two layouts: what a conversion lost or changed.
+//! Differences between two layouts: what a conversion lost, and what an engineer changed.
 //!
 //! | stage | input | output | file |
 //! |---|---|---|---|
-//! | match | identifiers of two tables | pairs of rows, rows without a partner | `row_pairs` |
+//! | match | identifiers and places of two tables | pairs of rows, rows without a partner | `row_pairs`, `element_pairs` |
 //! | compare curves | two paths | greatest distance | `curve_distance` |
 //! | compare columns | two tables, pairs of rows | differing cells by column | `columns` |
+//! | list changes | two layouts | [`Change`]s element by element | `changes`, `change` |
 //! | compare tables | two layouts | [`Difference`]s | `paths`, `places`, `groups`, `difference` |
 
+mod change;
+mod changes;
 mod columns;
 mod curve_distance;
 mod difference;
+mod element_pairs;
 mod groups;
 mod paths;
 mod places;
 mod row_pairs;
 
+pub use self::change::{Change, Changes, ElementChange};
+pub use self::changes::changes;
 pub use self::difference::{CompareOptions, Difference};
 
 use self::difference::Differences;

@@ -1,6 +1,7 @@
 //! [`RowPairs`]: pairs of rows that stand for the same element in two layouts.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
+use std::hash::Hash;
 
 /// Pairs of rows of two tables.
 pub(super) struct RowPairs {
@@ -21,6 +22,24 @@ impl RowPairs {
         id_a: impl Fn(u32) -> &'a str,
         id_b: impl Fn(u32) -> &'a str,
     ) -> Self {
+        let by_id = Self::by_id(rows_a, rows_b, id_a, id_b);
+        if rows_a > 0 && rows_a == rows_b && by_id.added.len() == rows_b {
+            return Self {
+                partners: (0..rows_a as u32).map(Some).collect(),
+                added: Vec::new(),
+                by_order: true,
+            };
+        }
+        by_id
+    }
+
+    /// Matches rows by identifier, in order among equal ones.
+    pub(super) fn by_id<'a>(
+        rows_a: usize,
+        rows_b: usize,
+        id_a: impl Fn(u32) -> &'a str,
+        id_b: impl Fn(u32) -> &'a str,
+    ) -> Self {
         let mut rows: HashMap<&str, Vec<u32>> = HashMap::new();
         for row in (0..rows_b as u32).rev() {
             rows.entry(id_b(row)).or_default().push(row);
@@ -29,18 +48,39 @@ impl RowPairs {
         let partners: Vec<Option<u32>> = (0..rows_a as u32).map(take).collect();
         let mut added: Vec<u32> = rows.into_values().flatten().collect();
         added.sort_unstable();
-        if rows_a > 0 && rows_a == rows_b && added.len() == rows_b {
-            return Self {
-                partners: (0..rows_a as u32).map(Some).collect(),
-                added: Vec::new(),
-                by_order: true,
-            };
-        }
         Self {
             partners,
             added,
             by_order: false,
         }
+    }
+
+    /// Matches the rows that have no partner yet by a key, such as their place. Rows without a key
+    /// and rows whose key several others have stay without a partner.
+    pub(super) fn match_rest<K: Eq + Hash>(
+        &mut self,
+        key_a: impl Fn(u32) -> Option<K>,
+        key_b: impl Fn(u32) -> Option<K>,
+    ) {
+        let removed: Vec<u32> = self.removed().collect();
+        let mut rows: HashMap<K, [Vec<u32>; 2]> = HashMap::new();
+        for row in removed {
+            if let Some(key) = key_a(row) {
+                rows.entry(key).or_default()[0].push(row);
+            }
+        }
+        for &row in &self.added {
+            if let Some(key) = key_b(row) {
+                rows.entry(key).or_default()[1].push(row);
+            }
+        }
+        for [of_a, of_b] in rows.into_values() {
+            if let ([a], [b]) = (&of_a[..], &of_b[..]) {
+                self.partners[*a as usize] = Some(*b);
+            }
+        }
+        let matched: HashSet<u32> = self.partners.iter().copied().flatten().collect();
+        self.added.retain(|row| !matched.contains(row));
     }
 
     /// Pairs of rows, in the order of the first table.
@@ -96,5 +136,17 @@ mod tests {
         assert!(found.pairs().eq([(0, 0), (1, 1)]));
         assert!(!pairs(&["a", "b"], &["1", "b"]).is_by_order());
         assert!(!pairs(&["a"], &["1", "2"]).is_by_order());
+    }
+
+    #[test]
+    fn matches_the_rest_by_unique_keys() {
+        let (a, b) = (["x", "p", "q", "r"], ["1", "x", "2", "3"]);
+        let mut found = RowPairs::by_id(4, 4, |r| a[r as usize], |r| b[r as usize]);
+        let keys_a = [None, Some(7), Some(8), Some(9)];
+        let keys_b = [Some(8), None, Some(9), Some(9)];
+        found.match_rest(|r| keys_a[r as usize], |r| keys_b[r as usize]);
+        assert!(found.pairs().eq([(0, 1), (2, 0)]));
+        assert!(found.removed().eq([1, 3]));
+        assert_eq!(found.added(), [2, 3]);
     }
 }

@@ -12,7 +12,7 @@ use super::output::Output;
 #[cfg(feature = "viewer")]
 use super::view;
 use super::{
-    bench, check, convert, demo, generate, info, interrupt, methods, render, reproduce, shell,
+    bench, check, convert, demo, diff, generate, info, interrupt, methods, render, reproduce, shell,
 };
 
 /// Draws and checks the path layouts of automated guided vehicles.
@@ -23,8 +23,8 @@ use super::{
     subcommand_required = true,
     arg_required_else_help = true,
     after_help = "Start with `guideway demo`, which needs no file.\n\n\
-        Exit codes: 0 success, 1 warnings under `check --strict`, 2 an error, 130 stopped by \
-        Ctrl-C."
+        Exit codes: 0 success, 1 warnings under `check --strict` or \
+        differences under `diff --exit-code`, 2 an error, 130 stopped by Ctrl-C."
 )]
 struct Cli {
     #[command(subcommand)]
@@ -48,6 +48,8 @@ enum Command {
     Info(info::Args),
     /// Find mistakes in layout files
     Check(check::Args),
+    /// List what changed from one layout to another
+    Diff(diff::Args),
     /// Write a layout in another format
     Convert(convert::Args),
     /// Generate a test layout of any size
@@ -89,6 +91,7 @@ fn run(command: &Command, out: &Output) -> Result<Exit, UserError> {
         Command::Render(args) => render::run(args, out),
         Command::Info(args) => info::run(args, out),
         Command::Check(args) => check::run(args, out),
+        Command::Diff(args) => diff::run(args, out),
         Command::Convert(args) => convert::run(args, out),
         Command::Generate(args) => generate::run(args, out),
         Command::Methods => methods::run(out),

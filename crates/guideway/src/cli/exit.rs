@@ -5,7 +5,7 @@
 pub(crate) enum Exit {
     /// Success.
     Clean,
-    /// `check --strict` found warnings.
+    /// `check --strict` found warnings, or `diff --exit-code` found differences.
     Warnings,
     /// `check` found errors, or `bench` measured no method.
     Errors,

@@ -13,6 +13,7 @@ mod bench;
 mod check;
 mod convert;
 mod demo;
+mod diff;
 mod envelope;
 mod error;
 mod exit;

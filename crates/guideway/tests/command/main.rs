@@ -4,6 +4,7 @@
 
 mod arrow;
 mod bench;
+mod diff;
 mod envelope;
 mod render;
 mod render_files;

@@ -1,0 +1,241 @@
+//! The list of changes as text, Markdown and JSON.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use guideway::layout::{Change, Changes, ElementChange, ElementKind};
+use serde_json::{Value, json};
+
+use crate::cli::text;
+
+/// Characters of a value, beyond which it is cut.
+const MAX_VALUE: usize = 60;
+
+/// Characters of the name of a file, beyond which it is cut.
+const MAX_NAME: usize = 200;
+
+/// Counts of the changes, with the names of the files.
+pub(super) struct Report {
+    files: [String; 2],
+    /// Number of elements per kind of element and of change.
+    counts: BTreeMap<(&'static str, &'static str), u64>,
+    ms: [f64; 2],
+}
+
+impl Report {
+    pub(super) fn new(files: [&Path; 2], found: &Changes, ms: [f64; 2]) -> Self {
+        let mut counts = BTreeMap::new();
+        for of in &found.elements {
+            let key = (element_name(of.element), kind_name(&of.change));
+            *counts.entry(key).or_default() += 1;
+        }
+        let name = |file: &Path| text::single_line(&file.display().to_string(), MAX_NAME);
+        Self {
+            files: files.map(name),
+            counts,
+            ms,
+        }
+    }
+
+    /// Counts, then one block per element.
+    pub(super) fn text(&self, found: &Changes, max: usize) -> String {
+        let [old, new] = &self.files;
+        let mut lines = format!("{old} -> {new}: {}\n", self.summary(found));
+        for (of, all) in listed(found, max) {
+            lines += &format!("{} `{}`\n", element_name(of.element), cut(&of.id));
+            for change in all {
+                lines += &format!("  {}\n", describe(&change.change));
+            }
+        }
+        if let Some(more) = rest(found, max) {
+            lines += &format!("and {more}; --max lists more\n");
+        }
+        for group in &found.groups {
+            lines += &format!("{}: {}\n", group.what, cut(&group.example));
+        }
+        let [read, compare] = self.ms.map(text::time);
+        lines + &format!("took {read} to read, {compare} to compare\n")
+    }
+
+    /// A heading with counts and a table with one row per element.
+    pub(super) fn markdown(&self, found: &Changes, max: usize) -> String {
+        let [old, new] = &self.files;
+        let mut lines = format!(
+            "### `{old}` to `{new}`\n\n{}\n",
+            capitalized(&self.summary(found))
+        );
+        if !found.elements.is_empty() {
+            lines += "\n| element | change |\n|---|---|\n";
+        }
+        for (of, all) in listed(found, max) {
+            let changes: Vec<String> = all.iter().map(|of| describe(&of.change)).collect();
+            let name = format!("{} `{}`", element_name(of.element), cut(&of.id));
+            lines += &format!("| {} | {} |\n", cell(&name), cell(&changes.join("; ")));
+        }
+        if let Some(more) = rest(found, max) {
+            lines += &format!("\nAnd {more}.\n");
+        }
+        for group in &found.groups {
+            lines += &format!("\n- {}: {}", group.what, cell(&cut(&group.example)));
+        }
+        lines.trim_end().to_owned() + "\n"
+    }
+
+    pub(super) fn json(&self, found: &Changes) -> Value {
+        let counts = self.counts.iter().map(|((element, kind), count)| {
+            json!({ "element": element, "change": kind, "count": count })
+        });
+        let groups = found.groups.iter().map(
+            |group| json!({ "what": group.what, "count": group.count, "example": group.example }),
+        );
+        json!({
+            "old": self.files[0],
+            "new": self.files[1],
+            "counts": counts.collect::<Vec<_>>(),
+            "changes": found.elements.iter().map(element_json).collect::<Vec<_>>(),
+            "groups": groups.collect::<Vec<_>>(),
+            "ms": { "read": self.ms[0], "compare": self.ms[1] },
+        })
+    }
+
+    /// `2 nodes moved, 1 path added`.
+    fn summary(&self, found: &Changes) -> String {
+        if found.is_empty() {
+            return "no difference".to_owned();
+        }
+        let counts = self
+            .counts
+            .iter()
+            .map(|((element, kind), &count)| match *kind {
+                "set" => format!("{} of {element}s", text::counted(count, "value")),
+                kind => format!("{} {kind}", text::counted(count, element)),
+            });
+        let groups = found.groups.iter().map(|group| group.what.clone());
+        counts.chain(groups).collect::<Vec<_>>().join(", ")
+    }
+}
+
+/// The changes by element, up to a number of elements.
+fn listed(found: &Changes, max: usize) -> impl Iterator<Item = (&ElementChange, &[ElementChange])> {
+    let by_element = found.elements.chunk_by(is_same_element);
+    by_element.take(max).map(|all| (&all[0], all))
+}
+
+/// The number of elements beyond those that are listed.
+fn rest(found: &Changes, max: usize) -> Option<String> {
+    let elements = found.elements.chunk_by(is_same_element).count();
+    let more = elements.saturating_sub(max) as u64;
+    (more > 0).then(|| text::counted(more, "more element"))
+}
+
+fn is_same_element(a: &ElementChange, b: &ElementChange) -> bool {
+    (a.element, a.old_row, a.new_row) == (b.element, b.old_row, b.new_row)
+}
+
+fn element_name(kind: ElementKind) -> &'static str {
+    match kind {
+        ElementKind::Path => "path",
+        ElementKind::Node => "node",
+        ElementKind::Station => "station",
+        ElementKind::Level => "level",
+        ElementKind::VehicleType => "vehicle type",
+        ElementKind::Block => "block",
+        ElementKind::Zone => "zone",
+    }
+}
+
+fn kind_name(change: &Change) -> &'static str {
+    match change {
+        Change::Added => "added",
+        Change::Removed => "removed",
+        Change::Renamed { .. } => "renamed",
+        Change::Moved { .. } => "moved",
+        Change::Reshaped { .. } => "reshaped",
+        Change::Set { .. } => "set",
+    }
+}
+
+fn describe(change: &Change) -> String {
+    match change {
+        Change::Added => "added".to_owned(),
+        Change::Removed => "removed".to_owned(),
+        Change::Renamed { to } => format!("renamed to `{}`", cut(to)),
+        Change::Moved { distance_m } => format!("moved by {}", text::meters(*distance_m)),
+        Change::Reshaped { greatest_m } => {
+            format!("reshaped, by at most {}", text::meters(*greatest_m))
+        }
+        Change::Set {
+            property,
+            vehicle_type,
+            before,
+            after,
+        } => {
+            let of = vehicle_type.as_ref();
+            let of = of.map_or_else(String::new, |of| format!(" for `{}`", cut(of)));
+            let [before, after] =
+                [before, after].map(|value| value.as_deref().map_or_else(|| "none".into(), cut));
+            format!("{property}{of}: {before} -> {after}")
+        }
+    }
+}
+
+fn element_json(of: &ElementChange) -> Value {
+    let mut object = json!({
+        "element": element_name(of.element),
+        "id": of.id,
+        "change": kind_name(&of.change),
+    });
+    match &of.change {
+        Change::Added | Change::Removed => {}
+        Change::Renamed { to } => object["to"] = json!(to),
+        Change::Moved { distance_m } => object["distance_m"] = json!(distance_m),
+        Change::Reshaped { greatest_m } => object["greatest_m"] = json!(greatest_m),
+        Change::Set {
+            property,
+            vehicle_type,
+            before,
+            after,
+        } => {
+            object["property"] = json!(property);
+            object["vehicle_type"] = json!(vehicle_type);
+            object["before"] = json!(before);
+            object["after"] = json!(after);
+        }
+    }
+    object
+}
+
+/// A value on one line, cut to a length that can be read.
+fn cut(value: &str) -> String {
+    text::single_line(value, MAX_VALUE)
+}
+
+/// A text as a cell of a Markdown table.
+fn cell(text: &str) -> String {
+    text.replace('|', "\\|")
+}
+
+fn capitalized(text: &str) -> String {
+    let mut letters = text.chars();
+    let first = letters.next().map(|first| first.to_ascii_uppercase());
+    first.into_iter().chain(letters).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn text_cuts_long_values_and_keeps_rows_apart() {
+        assert_eq!(cut("short"), "short");
+        assert_eq!(cut(&"x".repeat(100)).chars().count(), MAX_VALUE);
+        assert_eq!(cell("a|b"), "a\\|b");
+        let change = Change::Set {
+            property: "maxSpeed".into(),
+            vehicle_type: Some("tug".into()),
+            before: None,
+            after: Some("1.5 m/s".into()),
+        };
+        assert_eq!(describe(&change), "maxSpeed for `tug`: none -> 1.5 m/s");
+    }
+}
