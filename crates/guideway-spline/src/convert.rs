@@ -214,10 +214,11 @@ impl Fit<'_> {
     fn hermite(&self, curve: &Coefficients) -> [Point<f64>; 4] {
         let p = self.degree;
         let third = p as f64 / 3.0;
-        // C' = p (w1 / w0) (P1 - P0) at the start. Source: The NURBS Book, eq. 4.9.
+        // C' = p (w1 / w0) (P1 - P0) at the start. Source: The NURBS Book, eq. 4.9. A coefficient
+        // holds w1 P1, because w1 may be 0.
         let inner = |end: Coefficient, next: Coefficient| {
             let start = end.project();
-            start + (next.project() - start) * (third * next.weight / end.weight)
+            start + (next.point - start * next.weight) * (third / end.weight)
         };
         [
             curve[0].project(),
@@ -246,7 +247,13 @@ impl Fit<'_> {
         };
         let largest = (0..=p + 3).map(coefficient).fold(0.0, f64::max);
         let weights = curve[..=p].iter().map(|c| c.weight);
-        largest / weights.fold(f64::INFINITY, f64::min)
+        let least = weights.fold(f64::INFINITY, f64::min);
+        // A coefficient of weight 0 bounds nothing; those of the halves are positive.
+        if least > 0.0 {
+            largest / least
+        } else {
+            f64::INFINITY
+        }
     }
 
     /// The two halves of a curve. Source: de Casteljau; The NURBS Book, A1.5.

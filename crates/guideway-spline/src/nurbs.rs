@@ -83,13 +83,19 @@ pub enum NurbsError {
         /// Index of the point.
         index: usize,
     },
-    /// A weight is not a positive finite number.
-    #[error("weight {index} is {actual}, expected a positive finite number")]
+    /// A weight is negative or not finite.
+    #[error("weight {index} is {actual}, expected a finite number from 0 on")]
     Weight {
         /// Index of the weight.
         index: usize,
         /// Value of the weight.
         actual: f64,
+    },
+    /// All weights that count at a point of the curve are 0: it has no position there.
+    #[error("all weights that count at the parameter {at} are 0")]
+    NoWeight {
+        /// Parameter of the point.
+        at: f64,
     },
 }
 
@@ -111,16 +117,20 @@ impl Nurbs {
             return Err(NurbsError::NonFinitePoint { index });
         }
         for (index, &actual) in weights.iter().flatten().enumerate() {
-            if !(actual.is_finite() && actual > 0.0) {
+            if !(actual.is_finite() && actual >= 0.0) {
                 return Err(NurbsError::Weight { index, actual });
             }
         }
-        Ok(Self {
+        let curve = Self {
             degree,
             knots,
             points,
             weights,
-        })
+        };
+        match curve.weightless() {
+            Some(at) => Err(NurbsError::NoWeight { at }),
+            None => Ok(curve),
+        }
     }
 
     /// A smooth closed curve of `degree`; `points` holds each control point once.
@@ -179,6 +189,21 @@ impl Nurbs {
             total += share;
         }
         sum * (1.0 / total)
+    }
+
+    /// A parameter at which the sum of all weights is 0. The sum of a span is positive if it is at
+    /// its ends, because the basis functions there are positive within.
+    fn weightless(&self) -> Option<f64> {
+        let weights = self.weights.as_ref().filter(|all| all.contains(&0.0))?;
+        let total = |span: usize, u: f64| -> f64 {
+            let values = nonzero_basis(self.degree, &self.knots, span, u);
+            let shares = (span - self.degree..=span).zip(values);
+            shares.map(|(i, value)| value * weights[i]).sum()
+        };
+        let ends = |span: usize| [(span, self.knots[span]), (span, self.knots[span + 1])];
+        let mut ends = self.spans().flat_map(ends);
+        ends.find(|&(span, u)| total(span, u) <= 0.0)
+            .map(|(_, u)| u)
     }
 
     /// Indices k of the spans [u_k, u_(k + 1)] of the domain with a positive width.

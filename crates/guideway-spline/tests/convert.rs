@@ -299,8 +299,12 @@ fn errors_state_expected_and_actual_values() {
     assert_eq!(new(3, &k[1..], None), "expected 8 knots, found 7");
     assert_eq!(new(3, &k, Some(&[1.0])), "expected 4 weights, found 1");
     assert_eq!(
-        new(3, &k, Some(&[1.0, 0.0, 1.0, 1.0])),
-        "weight 1 is 0, expected a positive finite number"
+        new(3, &k, Some(&[1.0, -1.0, 1.0, 1.0])),
+        "weight 1 is -1, expected a finite number from 0 on"
+    );
+    assert_eq!(
+        new(3, &k, Some(&[1.0, 1.0, 1.0, 0.0])),
+        "all weights that count at the parameter 1 are 0"
     );
     let mut wrong = k;
     wrong[7] = 0.5;
@@ -319,4 +323,21 @@ fn errors_state_expected_and_actual_values() {
         infinite.unwrap_err().to_string(),
         "control point 0 is not finite"
     );
+}
+
+#[test]
+fn weights_of_zero_are_within_the_tolerance() {
+    let points = zigzag(7);
+    let knots = knots::uniform_clamped(3, 7);
+    for weights in [
+        [1.0, 0.0, 1.0, 1.0, 0.0, 0.0, 1.0],
+        [0.5, 0.0, 0.0, 2.0, 0.0, 0.0, 1.0],
+    ] {
+        let weights = Some(weights.to_vec());
+        let curve = Nurbs::new(3, knots.clone(), points.clone(), weights).unwrap();
+        let mut runs = Runs::default();
+        let done = nurbs_to_runs(&curve, 1e-4, &mut runs);
+        assert!(done.error_bound_m <= 1e-4, "{done:?}");
+        assert!(distance(&curve, &runs) < 2e-4);
+    }
 }
