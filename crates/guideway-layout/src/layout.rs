@@ -5,7 +5,8 @@ use std::sync::Arc;
 use guideway_spline::Affine;
 
 use crate::{
-    Attributes, Block, Diagnostics, Level, Nodes, Paths, Refused, Stations, VehicleType, Zone,
+    Attributes, Block, Diagnostics, GeoOrigin, Level, Nodes, Paths, Refused, Stations, VehicleType,
+    Zone,
 };
 
 /// A layout, as read from one file or merged from several.
@@ -79,6 +80,20 @@ impl Layout {
             + self.stations.heap_bytes()
     }
 
+    /// Moves the origin to another place on earth; everything keeps its own. A layout without a
+    /// place on earth, or at this one, does not change.
+    pub fn move_origin(&mut self, origin: GeoOrigin) {
+        let Some(before) = self.geo_origin.filter(|&before| before != origin) else {
+            return;
+        };
+        let by = before.to_origin(origin);
+        self.paths.transform(0..self.paths.len(), by);
+        self.nodes.transform(by);
+        self.stations.transform(by);
+        self.zones.iter_mut().for_each(|zone| zone.transform(by));
+        self.geo_origin = Some(origin);
+    }
+
     /// Maps curves, nodes and stations, and scales widths by the square root of the area scale.
     /// Attributes do not change, whatever they measure.
     pub fn transform(&mut self, by: Affine) {
@@ -92,15 +107,6 @@ impl Layout {
                 .set_width_m(widths_m.iter().map(|w| w * scale).collect());
         }
     }
-}
-
-/// The point on earth where a layout has its origin; x points east, y north (WGS 84).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct GeoOrigin {
-    /// Longitude in degrees, east positive.
-    pub longitude_deg: f64,
-    /// Latitude in degrees, north positive.
-    pub latitude_deg: f64,
 }
 
 /// Origin of a layout.

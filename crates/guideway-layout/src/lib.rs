@@ -40,6 +40,7 @@ mod check;
 mod code;
 mod compare;
 mod diagnostic;
+mod geo_origin;
 mod geometry;
 mod groups;
 mod layout;
@@ -65,16 +66,18 @@ mod written_curve;
 pub use attribute::{Attribute, Attributes, Value, Values};
 pub use cells::Cells;
 pub use check::{
-    CheckOptions, DisplayPosition, check, check_across, element_name, element_place, same_curves,
+    CheckOptions, DisplayPosition, check, check_across, element_name, element_place,
+    largest_angle_rad, same_curves,
 };
 pub use code::{Code, Severity};
 pub use compare::{
     Change, Changes, CompareOptions, Difference, ElementChange, changes, differences,
 };
 pub use diagnostic::{Diagnostic, Diagnostics, FindingKind, Place};
+pub use geo_origin::GeoOrigin;
 pub use geometry::{Geometry, Hulls, append_hulls};
 pub use groups::{Block, Member, VehicleType, Zone};
-pub use layout::{GeoOrigin, Layout, Provenance};
+pub use layout::{Layout, Provenance};
 pub use level::Level;
 pub use limits::Limits;
 pub use merge::merge;

@@ -1,6 +1,8 @@
 //! Merge: joins several layouts into one.
 
-use crate::{Attributes, Block, Diagnostics, Layout, Level, Provenance, Stations, Value, Zone};
+use crate::{
+    Attributes, Block, Code, Diagnostics, Layout, Level, Place, Provenance, Stations, Value, Zone,
+};
 
 /// Names for the column with the source of each row; the first one that no input uses applies.
 const SOURCE: [&str; 2] = ["source", "source_file"];
@@ -9,7 +11,8 @@ const SOURCE: [&str; 2] = ["source", "source_file"];
 /// ones.
 ///
 /// Identifiers do not change, even if several layouts use the same; paths refer to the nodes of
-/// their own layout. Levels of different layouts with the same identifier or name become one. The
+/// their own layout. Layouts with a place on earth get the origin of the first one, and lie as on
+/// earth. Levels of different layouts with the same identifier or name become one. The
 /// column `source` of paths, nodes and stations states [`Provenance::source`]. Columns of the same
 /// name become one, in the narrowest type that can represent all values. A single layout is
 /// returned unchanged.
@@ -28,8 +31,17 @@ pub fn merge(layouts: Vec<Layout>) -> Layout {
         },
         source: source.unwrap_or(SOURCE[0]),
     };
+    let unplaced = unplaced(&layouts);
     for layout in layouts {
         merged.add(layout);
+    }
+    for source in unplaced {
+        merged.layout.diagnostics.push(
+            Code::AssumedUnit,
+            || Place::element(source),
+            || "the layout has no place on earth, but others that are merged with it have".into(),
+            "Its positions are read as meters from the origin of the first layout that has one",
+        );
     }
     merged.layout
 }
@@ -43,6 +55,9 @@ struct Merged {
 impl Merged {
     /// Appends all elements of a layout; their references keep pointing to their own elements.
     fn add(&mut self, mut other: Layout) {
+        if let Some(origin) = self.layout.geo_origin {
+            other.move_origin(origin);
+        }
         let levels = self.add_levels(&other.levels);
         let level = |level: u32| levels[level as usize];
         let all = &mut self.layout;
@@ -184,6 +199,19 @@ impl Layout {
 /// Returns `true` if two levels have the same identifier or the same name.
 fn is_same(a: &Level, b: &Level) -> bool {
     a.id == b.id || a.name.is_some() && a.name == b.name
+}
+
+/// Sources of the layouts without a place on earth, if others have one.
+fn unplaced(layouts: &[Layout]) -> Vec<String> {
+    if layouts.iter().all(|layout| layout.geo_origin.is_none()) {
+        return Vec::new();
+    }
+    let is_empty = |layout: &Layout| layout.paths.len() + layout.nodes.len() == 0;
+    let unplaced = layouts.iter().filter(|layout| layout.geo_origin.is_none());
+    let unplaced = unplaced.filter(|layout| !is_empty(layout));
+    unplaced
+        .map(|layout| layout.provenance.source.clone())
+        .collect()
 }
 
 /// Provenance of several sources: each distinct name once, and the sums of the counts.

@@ -2,7 +2,9 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may fail by a panic")]
 
-use guideway_layout::{Code, Direction, Layout, Level, NewPath, Place, Value, check_across, merge};
+use guideway_layout::{
+    Code, Direction, GeoOrigin, Layout, Level, NewPath, Place, Value, check_across, merge,
+};
 use guideway_spline::{Affine, Point, Runs};
 
 /// A layout of one path from one node to another, on a level.
@@ -156,4 +158,42 @@ fn reports_shared_identifiers_in_the_later_files() {
     );
     assert_eq!(messages[2][1..], nodes);
     assert_eq!(found[2].count(Code::DuplicateId), 4);
+}
+
+#[test]
+fn layouts_on_earth_get_one_origin() {
+    let on_earth = |source: &str, longitude_deg: f64, latitude_deg: f64| {
+        let mut layout = layout(source, "E", ("L", None));
+        layout.geo_origin = Some(GeoOrigin {
+            longitude_deg,
+            latitude_deg,
+        });
+        layout
+    };
+    // The antimeridian lies between the second and the third.
+    let merged = merge(vec![
+        on_earth("a", 179.999, 50.0),
+        on_earth("b", 179.999, 50.001),
+        on_earth("c", -180.0, 50.0),
+        layout("d", "E", ("L", None)),
+    ]);
+    let origin = merged.geo_origin.unwrap();
+    assert_eq!((origin.longitude_deg, origin.latitude_deg), (179.999, 50.0));
+    let starts: Vec<_> = merged.paths.iter().map(|p| p.ends().unwrap().0).collect();
+    // A thousandth of a degree there, on the ellipsoid (PROJ): 71.696 m east, 111.229 m north.
+    let expected = [(0.0, 0.0), (0.0, 111.229), (71.696, 0.0), (0.0, 0.0)];
+    for (start, (x, y)) in starts.iter().zip(expected) {
+        assert!(start.distance(Point::new(x, y)) < 2e-3, "{start:?} {x} {y}");
+    }
+    for row in 0..8 {
+        let path = merged.paths.get(row as usize / 2).ends().unwrap();
+        let end = if row % 2 == 0 { path.0 } else { path.1 };
+        assert!(merged.nodes.position_m(row).distance(end) < 1e-9);
+    }
+    let assumed = merged
+        .diagnostics
+        .iter()
+        .filter(|d| d.code == Code::AssumedUnit);
+    let places: Vec<_> = assumed.map(|d| d.place.element.as_str()).collect();
+    assert_eq!(places, ["d"]);
 }

@@ -30,6 +30,7 @@ pub use element::{DisplayPosition, element_name, element_place};
 pub use ids::check_across;
 pub use options::CheckOptions;
 pub use same_curve::same_curves;
+pub use units::largest_angle_rad;
 
 use self::scale::{Scale, Tolerances};
 use crate::{Diagnostics, Layout};

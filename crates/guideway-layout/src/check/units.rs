@@ -1,5 +1,7 @@
 //! Units: sizes, coordinates and speeds that suggest another unit than the file states.
 
+use std::f64::consts::{PI, TAU};
+
 use super::element::element_name;
 use super::options::CheckOptions;
 use super::scale::{Axis, DriveTime, Scale, SizeDoubt};
@@ -7,9 +9,14 @@ use crate::{Attribute, Code, Diagnostics, Layout, Place, Quantity, TypeEntries, 
 
 /// Fastest plausible speed: no road vehicle exceeds it.
 const LARGEST_SPEED_M_PER_S: f64 = 100.0;
-/// Largest plausible angle: a full turn, rounded up.
-#[allow(clippy::approx_constant, reason = "messages state it")]
-const LARGEST_ANGLE_RAD: f64 = 6.2832;
+/// Writers round angles to four digits.
+const ROUNDING_RAD: f64 = 1.5e-5;
+/// Largest plausible angle: a full turn.
+const LARGEST_ANGLE_RAD: f64 = TAU + ROUNDING_RAD;
+/// Largest angle of formats whose angles range from -pi to pi.
+const HALF_TURN_RAD: f64 = PI + ROUNDING_RAD;
+/// Formats with such angles.
+const HALF_TURN_FORMATS: [&str; 2] = ["LIF", "VDA 5050"];
 
 /// Reports a layout that is too large or too small, once, coordinates too far from the origin, and
 /// columns with impossible speeds or angles.
@@ -92,16 +99,44 @@ fn far(layout: &Layout, scale: &Scale, options: &CheckOptions) -> Option<String>
     })
 }
 
+/// Column of the permitted orientations, a list of angles in radians.
+const ORIENTATIONS: &str = "vehicleOrientations";
+
+/// The greatest magnitude in a list of numbers.
+fn greatest(list: &str) -> Option<f64> {
+    let items = list.trim().trim_start_matches('[').trim_end_matches(']');
+    let numbers = items
+        .split(',')
+        .filter_map(|item| item.trim().parse::<f64>().ok());
+    numbers.map(f64::abs).reduce(f64::max)
+}
+
+/// The greatest angle that the formats of a layout allow, in radians. A larger one was probably
+/// written in degrees.
+pub fn largest_angle_rad(layout: &Layout) -> f64 {
+    let mut formats = layout.provenance.format.split(" + ");
+    match formats.all(|format| HALF_TURN_FORMATS.contains(&format)) {
+        true => HALF_TURN_RAD,
+        false => LARGEST_ANGLE_RAD,
+    }
+}
+
 /// Reports columns with impossible values, each once.
 fn columns(layout: &Layout, found: &mut Diagnostics) {
     let (paths, nodes) = (&layout.paths, &layout.nodes);
+    let largest_angle = largest_angle_rad(layout);
     let path = |row: usize| element_name("path", row, paths.id(row));
     let node = |row: usize| element_name("node", row, nodes.id(row as u32));
     for column in paths.attributes.iter() {
-        check_column(column, "paths", path, found);
+        check_column(column, "paths", path, largest_angle, found);
     }
     for column in nodes.attributes.iter() {
-        check_column(column, "nodes", node, found);
+        check_column(column, "nodes", node, largest_angle, found);
+    }
+    let stations = &layout.stations;
+    let station = |row: usize| element_name("station", row, stations.id(row as u32));
+    for column in stations.attributes.iter() {
+        check_column(column, "stations", station, largest_angle, found);
     }
     let element = |entries: &TypeEntries, entry: usize| {
         let end = |element: usize| entries.entries(element).end;
@@ -128,7 +163,7 @@ fn columns(layout: &Layout, found: &mut Diagnostics) {
                     node(row)
                 }
             };
-            check_column(column, table, name, found);
+            check_column(column, table, name, largest_angle, found);
         }
     }
 }
@@ -137,6 +172,7 @@ fn check_column(
     column: &Attribute,
     table: &str,
     name: impl Fn(usize) -> String,
+    largest_angle: f64,
     found: &mut Diagnostics,
 ) {
     let (largest, remedy) = match column.quantity {
@@ -144,12 +180,16 @@ fn check_column(
             LARGEST_SPEED_M_PER_S,
             "Check whether the speeds are in mm/s",
         ),
-        Some(Quantity::Angle) => (LARGEST_ANGLE_RAD, "Check whether the angles are in degrees"),
+        Some(Quantity::Angle) => (largest_angle, "Check whether the angles are in degrees"),
+        _ if column.name == ORIENTATIONS => {
+            (largest_angle, "Check whether the angles are in degrees")
+        }
         _ => return,
     };
     let magnitude = |row: usize| match column.values.get(row)? {
         Value::Float(value) => Some(value.abs()),
         Value::Int(value) => Some((value as f64).abs()),
+        Value::Json(list) if column.name == ORIENTATIONS => greatest(list),
         Value::Bool(_) | Value::Text(_) | Value::Json(_) => None,
     };
     let rows = 0..column.values.len();
@@ -169,6 +209,7 @@ fn check_column(
                 1 => ", and another value is too large".to_owned(),
                 n => format!(", and {n} other values are too large"),
             };
+            let largest = (largest * 1e4).round() / 1e4;
             format!("{name} has {value}, more than {largest}{others}")
         },
         remedy,

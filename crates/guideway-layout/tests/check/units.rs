@@ -1,7 +1,7 @@
 //! Units that cannot be right are reported first and once; tolerances follow the size of a layout.
 
 use guideway_layout::{
-    CheckOptions, Code, Diagnostics, GeoOrigin, NewPath, Place, Quantity, check,
+    CheckOptions, Code, Diagnostics, GeoOrigin, NewPath, Place, Quantity, Value, check,
 };
 
 use crate::findings::{codes, found, only};
@@ -179,4 +179,33 @@ fn impossible_speeds_and_angles_are_reported_once_per_column() {
                  value is too large";
     let turn = "column turn (rad) of paths: path \"e3\" has -90, more than 6.2832";
     assert_eq!(texts, [speed, turn]);
+}
+
+#[test]
+fn orientations_beyond_half_a_turn_are_degrees_in_lif_and_vda_5050() {
+    let doubts = |format: &str, angle: f64, list: Option<&str>| {
+        let mut sketch = row(3, 10.0);
+        sketch.layout.provenance.format = format.to_owned();
+        let attributes = &mut sketch.layout.paths.attributes;
+        match list {
+            Some(list) => attributes.set(0, "vehicleOrientations", Value::Json(list)),
+            None => attributes.set_quantity(0, "vehicleOrientation", angle, Quantity::Angle),
+        }
+        found(&sketch).count(Code::Implausible)
+    };
+    for (format, angle, expected) in [
+        ("LIF", 3.1416, 0),
+        ("LIF", -std::f64::consts::PI, 0),
+        ("LIF", 4.0, 1),
+        ("VDA 5050", -90.0, 1),
+        ("LIF + VDA 5050", 4.0, 1),
+        // Degrees from 0 to 360 in the file.
+        ("openTCS", 4.71, 0),
+        ("LIF + openTCS", 4.71, 0),
+        ("openTCS", 90.0, 1),
+    ] {
+        assert_eq!(doubts(format, angle, None), expected, "{format} {angle}");
+    }
+    assert_eq!(doubts("LIF", 0.0, Some("[0.0, 90, -1.5]")), 1);
+    assert_eq!(doubts("LIF", 0.0, Some("[0.0, 3.14, -1.5]")), 0);
 }

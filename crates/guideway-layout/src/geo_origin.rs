@@ -1,0 +1,40 @@
+//! [`GeoOrigin`]: the place of a layout on earth, and the plane in meters about it.
+
+use guideway_spline::{Affine, Point};
+
+/// The point on earth where a layout has its origin; x points east, y north (WGS 84).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GeoOrigin {
+    /// Longitude in degrees, east positive.
+    pub longitude_deg: f64,
+    /// Latitude in degrees, north positive.
+    pub latitude_deg: f64,
+}
+
+impl GeoOrigin {
+    /// Returns the meters per degree of longitude and of latitude.
+    ///
+    /// The scale is that of the WGS 84 ellipsoid, from its radii of curvature: along the meridian a
+    /// (1 - e^2) / (1 - e^2 sin^2)^(3/2), across it a / (1 - e^2 sin^2)^(1/2).
+    pub fn meters_per_degree(self) -> Point<f64> {
+        const SEMI_MAJOR_M: f64 = 6_378_137.0;
+        const ECCENTRICITY_SQUARED: f64 = 6.694_379_990_141_32e-3;
+        let (sin, cos) = self.latitude_deg.to_radians().sin_cos();
+        let root = (1.0 - ECCENTRICITY_SQUARED * sin * sin).sqrt();
+        let meridian_m = SEMI_MAJOR_M * (1.0 - ECCENTRICITY_SQUARED) / root.powi(3);
+        let across_m = SEMI_MAJOR_M / root;
+        Point::new(across_m * cos, meridian_m) * 1_f64.to_radians()
+    }
+
+    /// Returns the map of meters about this origin to meters about another one, which keeps every
+    /// place on earth. Of the two ways around the earth it takes the shorter one.
+    pub fn to_origin(self, other: Self) -> Affine {
+        let east_deg = self.longitude_deg - other.longitude_deg;
+        let east_deg = east_deg - 360.0 * (east_deg / 360.0).round();
+        let north_deg = self.latitude_deg - other.latitude_deg;
+        let [from, to] = [self, other].map(Self::meters_per_degree);
+        let about = Point::new(0.0, 0.0);
+        let offset = Point::new(east_deg * to.x, north_deg * to.y);
+        Affine::scale(to.x / from.x, to.y / from.y, about).then(Affine::translation(offset))
+    }
+}
