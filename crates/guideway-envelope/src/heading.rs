@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use guideway_layout::{Direction, Layout, Value};
+use guideway_layout::{Direction, Layout, Value, largest_angle_rad};
 
 use crate::Body;
 
@@ -65,6 +65,18 @@ pub fn headings(layout: &Layout, path: usize, body: &Body) -> Vec<Heading> {
         }
     }
     headings
+}
+
+/// Returns the number of paths whose orientation is larger than their format allows: probably
+/// degrees, so that the areas that a vehicle sweeps there are in doubt.
+pub fn doubtful_headings(layout: &Layout) -> u64 {
+    let largest_rad = largest_angle_rad(layout);
+    let is_doubtful = |path: &usize| {
+        let value = |name: &str| layout.paths.value(*path, name);
+        let angles = ORIENTATION.into_iter().find_map(value).map(angles);
+        angles.is_some_and(|angles| angles.iter().any(|angle| angle.abs() > largest_rad))
+    };
+    (0..layout.paths.len()).filter(is_doubtful).count() as u64
 }
 
 /// Parses a number, or a list of numbers: JSON, or a text with commas.

@@ -49,7 +49,7 @@ mod sweep;
 pub use body::Body;
 pub use clearance::{ClearanceOptions, ClearanceReport, ClearanceWork, Walls, check_clearance};
 pub use convex::ConvexPolygon;
-pub use heading::{Heading, headings};
+pub use heading::{Heading, doubtful_headings, headings};
 pub use no_envelope::NoEnvelope;
 pub use proximity::{ClosestApproach, ExemptZone, ProximityQuery, SweepTree};
 pub use source::EnvelopeSource;

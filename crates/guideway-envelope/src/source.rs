@@ -3,7 +3,7 @@
 use guideway_layout::{Layout, Value};
 
 use crate::file_area::file_area;
-use crate::{Body, Heading, NoEnvelope, Sweep, headings};
+use crate::{Body, Heading, NoEnvelope, Sweep, doubtful_headings, headings};
 
 /// The source of the envelopes of paths.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,6 +20,15 @@ const CORRIDOR: [&str; 2] = ["corridor.leftWidth", "corridor.rightWidth"];
 const CORRIDOR_REFERENCE: &str = "corridor.referencePoint";
 
 impl EnvelopeSource {
+    /// Returns the number of paths whose area is in doubt, because the file probably states their
+    /// orientation in degrees. A given area needs no orientation.
+    pub fn doubtful(self, layout: &Layout) -> u64 {
+        match self {
+            Self::Vehicle(_) => doubtful_headings(layout),
+            Self::File => 0,
+        }
+    }
+
     /// The area swept along a path.
     ///
     /// # Errors

@@ -44,6 +44,8 @@ pub struct SweptReport {
     pub outside: u64,
     /// Paths without an area, by reason: the order of [`NoEnvelope::ALL`].
     pub without: [u64; NoEnvelope::ALL.len()],
+    /// Paths whose area is in doubt: their orientation is probably in degrees.
+    pub doubtful: u64,
     /// Polygons in the picture.
     pub polygons: u64,
     /// Most that a polygon exceeds its area by, in meters.
@@ -116,6 +118,7 @@ impl VisibleAreas {
                 drawn: 0,
                 outside: 0,
                 without: [0; NoEnvelope::ALL.len()],
+                doubtful: vehicle.doubtful(layout),
                 polygons: 0,
                 tolerance_m,
             },

@@ -25,5 +25,6 @@ pub fn check_clearance(
     if let Some(walls) = walls {
         work = work.plus(walls.check(layout, source, options, &mut findings));
     }
+    work.doubtful = source.doubtful(layout);
     ClearanceReport { findings, work }
 }

@@ -53,6 +53,8 @@ pub struct ClearanceWork {
     pub paths: u64,
     /// Paths without an envelope, per reason of [`NoEnvelope::ALL`].
     pub no_envelope: [u64; NoEnvelope::ALL.len()],
+    /// Paths whose envelope is in doubt: their orientation is probably in degrees.
+    pub doubtful: u64,
     /// Pairs of paths, or of a path and a wall line, whose boxes are close enough.
     pub candidates: u64,
     /// Computed distances of two convex polygons.
@@ -64,6 +66,7 @@ impl ClearanceWork {
         Self {
             paths: self.paths + other.paths,
             no_envelope: std::array::from_fn(|i| self.no_envelope[i] + other.no_envelope[i]),
+            doubtful: self.doubtful + other.doubtful,
             candidates: self.candidates + other.candidates,
             tests: self.tests + other.tests,
         }

@@ -39,6 +39,17 @@ pub(crate) fn require_any(
     }
 }
 
+/// The doubt about areas whose orientation is probably in degrees, as a line.
+pub(crate) fn doubt(doubtful: u64) -> Option<String> {
+    (doubtful > 0).then(|| {
+        let paths = text::counted(doubtful, "path");
+        format!(
+            "{paths} with an orientation beyond what the format allows, perhaps in degrees: the \
+             swept areas are in doubt"
+        )
+    })
+}
+
 /// One line per reason: `3 paths without an envelope: the file gives none`.
 pub(crate) fn missing(without: &[u64; NoEnvelope::ALL.len()]) -> Vec<String> {
     let reasons = NoEnvelope::ALL

@@ -33,7 +33,7 @@ fn graph(folder: &Path, name: &str, lines: &[[f64; 4]]) -> PathBuf {
             y1 = y1
         ));
     }
-    let crs = r#""crs":{"type":"name","properties":{"name":"EPSG:3857"}}"#;
+    let crs = r#""crs":{"type":"name","properties":{"name":"EPSG:25832"}}"#;
     let file = folder.join(name);
     let features = features.join(",");
     fs::write(
@@ -197,4 +197,48 @@ fn draws_and_counts_polygons_of_the_file() {
         (&1.into(), &3.into())
     );
     assert_eq!(swept["without"][0]["why"], "the file gives none");
+}
+
+#[test]
+fn orientations_in_degrees_leave_doubt() {
+    let folder = tempfile::tempdir().unwrap();
+    let layout = |orientation: f64| {
+        let file = folder.path().join("a.lif.json");
+        let text = format!(
+            r#"{{"metaInformation": {{"projectIdentification": "p", "creator": "c",
+                "exportTimestamp": "2025-01-01T00:00:00Z", "lifVersion": "1.0.0"}},
+            "layouts": [{{"layoutId": "L", "nodes": [
+                {{"nodeId": "A", "nodePosition": {{"x": 0, "y": 0}},
+                    "vehicleTypeNodeProperties": []}},
+                {{"nodeId": "B", "nodePosition": {{"x": 9, "y": 0}},
+                    "vehicleTypeNodeProperties": []}}
+            ], "edges": [{{"edgeId": "e", "startNodeId": "A", "endNodeId": "B",
+                "vehicleTypeEdgeProperties": [{{"vehicleTypeId": "v", "rotationAllowed": false,
+                "vehicleOrientation": {orientation}, "orientationType": "GLOBAL"}}]}}],
+            "stations": []}}]}}"#
+        );
+        fs::write(&file, text).unwrap();
+        file
+    };
+    let doubt = "1 path with an orientation beyond what the format allows, perhaps in degrees";
+    for (orientation, is_doubtful) in [(90.0, true), (1.5, false)] {
+        let file = layout(orientation);
+        let picture = folder.path().join("a.png");
+        let more = ["-o", text(&picture), "--method", "cpu", "--envelope", "2x1"];
+        let render = guideway(&[&["render", text(&file)], &more[..]].concat());
+        assert_eq!(
+            stdout(&render).contains(doubt),
+            is_doubtful,
+            "{}",
+            stdout(&render)
+        );
+        let more = ["--clearance", "0.1", "--envelope", "2x1"];
+        let check = guideway(&[&["check", text(&file)], &more[..]].concat());
+        assert_eq!(
+            stdout(&check).contains(doubt),
+            is_doubtful,
+            "{}",
+            stdout(&check)
+        );
+    }
 }

@@ -139,7 +139,11 @@ pub(super) fn text(files: &[CheckedFile]) -> String {
             text::counted(work.candidates, "pair"),
             text::counted(work.tests, "distance"),
         );
-        for line in envelope::missing(&work.no_envelope) {
+        let doubt = envelope::doubt(work.doubtful);
+        for line in envelope::missing(&work.no_envelope)
+            .into_iter()
+            .chain(doubt)
+        {
             text += &format!("note: {line}\n");
         }
     }
@@ -155,6 +159,7 @@ pub(super) fn json(args: &ClearanceArgs, files: &[CheckedFile]) -> Value {
             "source": envelope::name(args.source()),
             "envelopes": sum(|work| work.paths),
             "without": sum(|work| work.no_envelope.iter().sum()),
+            "doubtful": sum(|work| work.doubtful),
             "candidate_pairs": sum(|work| work.candidates),
             "distances": sum(|work| work.tests),
         })

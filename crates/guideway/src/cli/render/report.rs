@@ -196,7 +196,8 @@ fn swept_text(swept: &SweptReport) -> String {
         text += &format!(", {} outside the view", text::count(swept.outside));
     }
     text.push('\n');
-    for line in envelope::missing(&swept.without) {
+    let doubt = envelope::doubt(swept.doubtful);
+    for line in envelope::missing(&swept.without).into_iter().chain(doubt) {
         text += &format!("note: {line}\n");
     }
     text
@@ -214,6 +215,7 @@ fn swept_json(swept: &SweptReport) -> Value {
         "drawn": swept.drawn,
         "outside": swept.outside,
         "without": without,
+        "doubtful": swept.doubtful,
         "polygons": swept.polygons,
         "tolerance_m": swept.tolerance_m,
     })
