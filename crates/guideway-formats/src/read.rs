@@ -62,7 +62,10 @@ pub fn read_bytes(
         Some(Format::GeoJson) => crate::geojson::read(source, bytes),
         Some(Format::Vda5050) => crate::vda5050::read(source, bytes),
         None if is_ros_map(bytes) => Err(source.fail(Problem::FloorPlan)),
-        None => Err(source.fail(unknown_format(bytes))),
+        None => {
+            let problem = crate::arrow::other_table(bytes);
+            Err(source.fail(problem.unwrap_or_else(|| unknown_format(bytes))))
+        }
     }
 }
 

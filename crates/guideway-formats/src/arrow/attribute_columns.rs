@@ -5,17 +5,15 @@ use std::fmt::Display;
 use arrow_array::Array;
 use arrow_array::cast::AsArray;
 use arrow_array::types::{Float32Type, Float64Type, Int64Type};
-use arrow_cast::display::{ArrayFormatter, FormatOptions};
 use arrow_schema::{DataType, Field};
 use guideway_layout::{Attribute, Cells, Code, Diagnostics, Place, Values};
 
 use super::attribute_names::attribute_of;
 use super::batch::Batch;
 use super::cast::{cast, count_lost};
-use super::catch_decode_panic::catch_decode_panic;
+use super::cell_formatter::CellFormatter;
 use super::column_names::PATHS_VERSION;
 use super::column_types::{is_text, value_type};
-use super::problems::damaged;
 use super::reading::Reading;
 use super::schema::{is_json, quantity};
 use super::text_array::TextArray;
@@ -51,6 +49,8 @@ enum AttributeCells<'a> {
 struct TextCells<'a> {
     sink: TextSink<'a>,
     present: Vec<bool>,
+    /// Number of values that have no text, and are missing.
+    lost: u64,
 }
 
 impl<'a> AttributeColumn<'a> {
@@ -141,6 +141,10 @@ impl<'a> AttributeColumn<'a> {
             AttributeCells::Text(texts) => (Values::Text(texts.into_cells()), None),
             AttributeCells::Formatted(texts) => {
                 report(field, "is stored as text", diagnostics);
+                if texts.lost > 0 {
+                    let lost = format!("has {} values that have no text", texts.lost);
+                    report(field, &lost, diagnostics);
+                }
                 (Values::Text(texts.into_cells()), None)
             }
         };
@@ -189,6 +193,7 @@ impl<'a> TextCells<'a> {
         Self {
             sink: TextSink::new(reading.limits, reading.budget, rows),
             present: Vec::with_capacity(rows),
+            lost: 0,
         }
     }
 
@@ -200,17 +205,22 @@ impl<'a> TextCells<'a> {
         Ok(texts)
     }
 
-    /// Appends a value, formatted as text.
+    /// Appends a value, formatted as text. One that cannot be formatted is lost.
     fn push(&mut self, value: Option<impl Display>) -> Result<(), Problem> {
-        self.present.push(value.is_some());
-        match value {
-            Some(value) => self.sink.push_formatted(value),
-            None => self.sink.push(""),
+        let has_text = match &value {
+            Some(value) => self.sink.push_formatted(value)?,
+            None => false,
+        };
+        self.present.push(has_text);
+        self.lost += u64::from(value.is_some() && !has_text);
+        match has_text {
+            true => Ok(()),
+            false => self.sink.push(""),
         }
     }
 
     fn add_texts(&mut self, batch: &Batch, index: usize) -> Result<(), Problem> {
-        let Self { sink, present } = self;
+        let Self { sink, present, .. } = self;
         let texts = TextArray::new(&batch.columns[index])?;
         for rows in batch.drawn.iter().cloned() {
             let (first_row, first) = (rows.start, present.len());
@@ -227,16 +237,12 @@ impl<'a> TextCells<'a> {
     fn add_formatted(&mut self, batch: &Batch, index: usize) -> Result<(), Problem> {
         let column = &batch.columns[index];
         let nulls = column.logical_nulls();
-        let options = FormatOptions::default();
-        catch_decode_panic("attribute", || {
-            let formatter = ArrayFormatter::try_new(column, &options)
-                .map_err(|e| damaged("attribute", e.to_string()))?;
-            for row in batch.drawn.iter().cloned().flatten() {
-                let here = nulls.as_ref().is_none_or(|n| n.is_valid(row));
-                self.push(here.then(|| formatter.value(row)))?;
-            }
-            Ok(())
-        })
+        let formatter = CellFormatter::new(column);
+        for row in batch.drawn.iter().cloned().flatten() {
+            let here = nulls.as_ref().is_none_or(|n| n.is_valid(row));
+            self.push(here.then(|| formatter.cell(row)))?;
+        }
+        Ok(())
     }
 
     fn into_cells(self) -> guideway_layout::TextCells {

@@ -3,6 +3,7 @@
 use arrow_schema::{DataType, Fields};
 
 use super::column_names::{DEGREE, KNOTS, MEMBER_ELEMENT, MEMBER_INDEX, POINTS, WEIGHTS};
+use super::point_items::is_point;
 
 /// Returns the type of the values, which a dictionary may hold.
 pub(super) fn value_type(column: &DataType) -> &DataType {
@@ -51,10 +52,6 @@ pub(super) fn is_integers(column: &DataType) -> bool {
 }
 
 pub(super) fn is_points(column: &DataType) -> bool {
-    let is_point = |item: &DataType| match item {
-        DataType::FixedSizeList(coordinate, 2) => is_number(coordinate.data_type()),
-        _ => false,
-    };
     is_list(column, is_point)
 }
 

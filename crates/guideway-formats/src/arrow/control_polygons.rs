@@ -2,7 +2,6 @@
 //! rows that cannot be drawn.
 
 use std::ops::{Range, Sub};
-use std::sync::Arc;
 
 use arrow_array::cast::AsArray;
 use arrow_array::types::{Float32Type, Float64Type};
@@ -13,17 +12,16 @@ use guideway_layout::Limits;
 use guideway_spline::{Point, Real, greater};
 
 use super::budget::Budget;
-use super::cast::cast;
 use super::column_names::CONTROL_POINTS;
 use super::fault::Fault;
+use super::list_array::{flat, unpacked};
 use super::message_body::Body;
+use super::point_items::{is_pair, is_point, pairs};
 use super::problems::wrong_structure;
 use crate::Problem;
 
 /// Smallest number of control points of a cubic B-spline.
 const MIN_POINTS: usize = 4;
-/// Bytes of a point in double precision.
-const MAX_POINT_BYTES: u64 = 16;
 
 /// Control polygons of a record batch: the points of all rows in sequence.
 pub(super) struct ControlPolygons {
@@ -35,6 +33,8 @@ pub(super) struct ControlPolygons {
     pub(super) deferred: Option<usize>,
     /// Null buffers of points and coordinates, with the number of values per point.
     nulls: Vec<(NullBuffer, usize)>,
+    /// Number of points with a third number.
+    pub(super) heights: u64,
     len: usize,
 }
 
@@ -71,10 +71,11 @@ impl ControlPolygons {
         budget: &Budget,
     ) -> Result<Self, Problem> {
         let wrong_type = || {
-            let expected = "list<fixed_size_list<float32 or float64, 2>>";
+            let expected = "list<fixed_size_list<float32 or float64, 2>>, or lists of points as \
+                            list<number> or struct<x, y>";
             wrong_structure(CONTROL_POINTS, expected, &column.data_type().to_string())
         };
-        let column = &flatten_views(column, budget)?;
+        let column = &flat(&unpacked(column, budget)?, budget)?;
         let (rows, items) = match column.data_type() {
             DataType::List(_) => {
                 let list = column.as_list::<i32>();
@@ -97,10 +98,11 @@ impl ControlPolygons {
             }
             _ => return Err(wrong_type()),
         };
-        let points = items.as_fixed_size_list_opt().ok_or_else(wrong_type)?;
-        if points.value_length() != 2 {
-            return Err(wrong_type());
-        }
+        let (points, heights) = match items.data_type() {
+            item if is_pair(item) => (items.as_fixed_size_list().clone(), 0),
+            item if is_point(item) => pairs(items, budget)?,
+            _ => return Err(wrong_type()),
+        };
         let (coordinates, deferred) = match points.values().data_type() {
             DataType::Float32 => {
                 let values = points.values().as_primitive::<Float32Type>().values();
@@ -123,7 +125,8 @@ impl ControlPolygons {
             row_nulls: non_empty_nulls(column.nulls()),
             coordinates,
             deferred,
-            nulls: point_nulls(points),
+            nulls: point_nulls(&points),
+            heights,
             len: column.len(),
         })
     }
@@ -221,33 +224,6 @@ impl ControlPolygons {
         let far = || points.iter().position(is_far).map(Fault::OutOfRange);
         non_finite.map(Fault::NonFinite).or_else(far)
     }
-}
-
-/// Converts a list view column to a list column, whose rows are in sequence.
-///
-/// Views may refer to the same points many times; the copies are charged to the budget.
-fn flatten_views(column: &ArrayRef, budget: &Budget) -> Result<ArrayRef, Problem> {
-    let (items, values, points) = match column.data_type() {
-        DataType::ListView(items) => {
-            let views = column.as_list_view::<i32>();
-            let sizes = views.sizes().iter().map(|&size| size as u64);
-            (items, views.values(), sizes.sum::<u64>())
-        }
-        DataType::LargeListView(items) => {
-            let views = column.as_list_view::<i64>();
-            let sizes = views.sizes().iter().map(|&size| size as u64);
-            (items, views.values(), sizes.sum::<u64>())
-        }
-        _ => return Ok(Arc::clone(column)),
-    };
-    let copied = points.saturating_sub(values.len() as u64);
-    let point_bytes = match items.data_type() {
-        DataType::FixedSizeList(coordinate, 2) => coordinate.data_type().primitive_width(),
-        _ => None,
-    };
-    let point_bytes = point_bytes.map_or(MAX_POINT_BYTES, |bytes| 2 * bytes as u64);
-    budget.charge(copied.saturating_mul(point_bytes))?;
-    cast(column, &DataType::LargeList(Arc::clone(items)))
 }
 
 /// Returns whether all coordinates are finite and within the limit.

@@ -1,14 +1,14 @@
-//! List arrays: uniform access to the lists of a column, and to points in them.
+//! List arrays: uniform access to the lists of a column.
 
 use std::ops::Range;
 use std::sync::Arc;
 
 use arrow_array::cast::AsArray;
 use arrow_array::types::{Float64Type, UInt32Type};
-use arrow_array::{Array, ArrayRef, Float64Array, LargeListArray, UInt32Array};
+use arrow_array::{Array, ArrayRef, Float64Array, LargeListArray, UInt32Array, new_null_array};
 use arrow_schema::DataType;
-use guideway_spline::Point;
 
+use super::budget::Budget;
 use super::cast::cast;
 use crate::Problem;
 
@@ -79,48 +79,71 @@ impl NumberLists {
     }
 }
 
-/// A column of lists of points.
-pub(super) struct PointLists {
-    lists: ListArray,
-    coordinates: Float64Array,
-}
-
-impl PointLists {
-    pub(super) fn new(column: &ArrayRef) -> Result<Self, Problem> {
-        let lists = ListArray::new(column)?;
-        let points = lists.items().as_fixed_size_list();
-        let coordinates = numbers(points.values())?;
-        Ok(Self { lists, coordinates })
-    }
-
-    /// Returns the points of a row, with NaN for missing numbers; none for null.
-    pub(super) fn get(&self, row: usize) -> impl ExactSizeIterator<Item = Point<f64>> {
-        let points = self.lists.items().as_fixed_size_list();
-        let range = self.lists.range(row).unwrap_or_default();
-        range.map(move |at| {
-            let number = |axis| value_or_nan(&self.coordinates, 2 * at + axis);
-            match points.is_valid(at) {
-                true => Point::new(number(0), number(1)),
-                false => Point::new(f64::NAN, f64::NAN),
-            }
-        })
-    }
-}
-
 /// Casts a column to row numbers; numbers that do not fit are null.
 pub(super) fn indices(column: &ArrayRef) -> Result<UInt32Array, Problem> {
     let cast = cast(column, &DataType::UInt32)?;
     Ok(cast.as_primitive::<UInt32Type>().clone())
 }
 
-fn numbers(column: &ArrayRef) -> Result<Float64Array, Problem> {
+pub(super) fn numbers(column: &ArrayRef) -> Result<Float64Array, Problem> {
     let cast = cast(column, &DataType::Float64)?;
     Ok(cast.as_primitive::<Float64Type>().clone())
 }
 
-fn value_or_nan(numbers: &Float64Array, at: usize) -> f64 {
+pub(super) fn value_or_nan(numbers: &Float64Array, at: usize) -> f64 {
     match numbers.is_valid(at) {
         true => numbers.value(at),
         false => f64::NAN,
     }
+}
+
+/// Converts a list view column to a list column, whose rows are in sequence.
+///
+/// Views may refer to the same items many times; the copies are charged to the budget.
+pub(super) fn flat(column: &ArrayRef, budget: &Budget) -> Result<ArrayRef, Problem> {
+    let (items, values, count) = match column.data_type() {
+        DataType::ListView(items) => {
+            let views = column.as_list_view::<i32>();
+            let sizes = views.sizes().iter().map(|&size| size as u64);
+            (items, views.values(), sizes.sum::<u64>())
+        }
+        DataType::LargeListView(items) => {
+            let views = column.as_list_view::<i64>();
+            let sizes = views.sizes().iter().map(|&size| size as u64);
+            (items, views.values(), sizes.sum::<u64>())
+        }
+        _ => return Ok(Arc::clone(column)),
+    };
+    charge_copies(count, values, budget)?;
+    cast(column, &DataType::LargeList(Arc::clone(items)))
+}
+
+/// Converts a dictionary of lists to the lists that its keys name, which are charged to the budget.
+pub(super) fn unpacked(column: &ArrayRef, budget: &Budget) -> Result<ArrayRef, Problem> {
+    let Some(dictionary) = column.as_any_dictionary_opt() else {
+        return Ok(Arc::clone(column));
+    };
+    let values = dictionary.values();
+    let (DataType::List(_) | DataType::LargeList(_) | DataType::FixedSizeList(..)) =
+        values.data_type()
+    else {
+        return Ok(Arc::clone(column));
+    };
+    if values.is_empty() {
+        // All keys are null, and their values are undefined.
+        return Ok(new_null_array(values.data_type(), column.len()));
+    }
+    let lists = ListArray::new(values)?;
+    let keys = dictionary.normalized_keys().into_iter().enumerate();
+    let keys = keys.filter(|(row, _)| column.is_valid(*row));
+    let count = keys.map(|(_, key)| lists.range(key).map_or(0, |range| range.len() as u64));
+    charge_copies(count.sum(), lists.items(), budget)?;
+    cast(column, values.data_type())
+}
+
+/// Charges copies of items for the part that exceeds the items themselves.
+fn charge_copies(count: u64, items: &ArrayRef, budget: &Budget) -> Result<(), Problem> {
+    let bytes = (items.get_buffer_memory_size() as u64).div_ceil(items.len().max(1) as u64);
+    let copied = count.saturating_sub(items.len() as u64);
+    budget.charge(copied.saturating_mul(bytes))
 }

@@ -7,15 +7,15 @@
 //!
 //! | stage | input | output | file |
 //! |---|---|---|---|
-//! | open | file | schema, ranges of messages | `container`, `schema`, `column_names`, `column_types` |
-//! | decode | messages | record batches, control polygons | `decode`, `message_body`, `control_polygons`, `fault` |
+//! | open | file | schema, ranges of messages | `container`, `schema`, `column_names`, `column_types`, `time_zones` |
+//! | decode | messages | record batches, control polygons | `decode`, `message_body`, `control_polygons`, `point_items`, `fault` |
 //! | sort | record batches | kinds of their rows | `element`, `row_kinds` |
 //! | assemble | control polygons of paths | geometry, drawn and refused rows | `assemble`, `point_store`, `batch`, `numbering` |
-//! | columns | record batches, drawn rows | identifiers, attributes, levels | `id_column`, `attribute_table`, `attribute_columns`, `attribute_names`, `level_column`, `type_lists`, `text_array`, `text_sink`, `list_array` |
+//! | columns | record batches, drawn rows | identifiers, attributes, levels | `id_column`, `attribute_table`, `attribute_columns`, `cell_formatter`, `attribute_names`, `level_column`, `type_lists`, `text_array`, `text_sink`, `list_array` |
 //! | paths | columns of paths | style and network | `path_columns`, `path_ids`, `style_columns`, `network_columns`, `written_curves` |
 //! | elements | rows of other kinds | their tables | `elements` |
 //! | read | all of these, batch by batch on several threads | layout | `read`, `reading` |
-//! | guards | | problems | `budget`, `catch_decode_panic`, `cast`, `problems` |
+//! | guards | | problems | `budget`, `catch_decode_panic`, `cast`, `problems`, `other_table` |
 //! | write | layout, or rows | file, losses | `write_layout`, `layout_rows`, `layout_columns`, `layout_arrays`, `layout_lists`, `attribute_plan`, `write`, `write_column`, `write_file`, `write_error` |
 
 mod assemble;
@@ -27,6 +27,7 @@ mod batch;
 mod budget;
 mod cast;
 mod catch_decode_panic;
+mod cell_formatter;
 mod column_names;
 mod column_types;
 mod container;
@@ -45,8 +46,10 @@ mod list_array;
 mod message_body;
 mod network_columns;
 mod numbering;
+mod other_table;
 mod path_columns;
 mod path_ids;
+mod point_items;
 mod point_store;
 mod problems;
 mod read;
@@ -56,6 +59,7 @@ mod schema;
 mod style_columns;
 mod text_array;
 mod text_sink;
+mod time_zones;
 mod type_lists;
 mod write;
 mod write_column;
@@ -64,6 +68,7 @@ mod write_file;
 mod write_layout;
 mod written_curves;
 
+pub(crate) use self::other_table::other_table;
 pub(crate) use self::read::read;
 pub use self::write::ArrowWriter;
 pub use self::write_column::{Column, ColumnType, Precision};

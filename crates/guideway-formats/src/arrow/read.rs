@@ -14,7 +14,7 @@ use super::assemble::PathAssembler;
 use super::batch::Batch;
 use super::budget::Budget;
 use super::cast::cast;
-use super::column_names::{ELEMENT, LATITUDE_KEY, LONGITUDE_KEY, PATHS_VERSION};
+use super::column_names::{CONTROL_POINTS, ELEMENT, LATITUDE_KEY, LONGITUDE_KEY, PATHS_VERSION};
 use super::container::{self, Message};
 use super::decode::{Decoded, Decoder};
 use super::element::Element;
@@ -24,6 +24,7 @@ use super::path_columns::PathColumns;
 use super::reading::Reading;
 use super::row_kinds::RowKinds;
 use super::schema::{self, ColumnRoles, Role};
+use super::time_zones::with_offsets;
 use crate::input::Input;
 use crate::source::Source;
 use crate::{Format, Problem, ReadError};
@@ -43,7 +44,7 @@ fn read_table(source: Source<'_>, input: &Input<'_>) -> Result<Layout, Problem> 
     let limits = &source.options.limits;
     let mut diagnostics = Diagnostics::with_limit(limits.diagnostics_per_code);
     let container = container::open(input)?;
-    let schema = &container.schema;
+    let schema = &with_offsets(&container.schema, &mut diagnostics);
     let version = schema::version(schema, &mut diagnostics)?;
     let columns = ColumnRoles::find(schema, version, &mut diagnostics)?;
     let budget = Budget::for_file(input.len());
@@ -112,6 +113,8 @@ struct TableReader<'a> {
     batch_count: u64,
     /// Number of rows of unknown kinds.
     unknown_rows: u64,
+    /// Number of control points with a third number.
+    heights: u64,
     /// Identifier of the last row of the previous batch, if rows may continue paths.
     last_id: Option<String>,
 }
@@ -149,6 +152,7 @@ impl<'a> TableReader<'a> {
             pending: Vec::new(),
             batch_count: 0,
             unknown_rows: 0,
+            heights: 0,
             last_id: None,
         }
     }
@@ -161,6 +165,7 @@ impl<'a> TableReader<'a> {
         let kinds = RowKinds::of(batch, columns)?;
         self.batch_count += 1;
         self.unknown_rows += kinds.unknown() as u64;
+        self.heights += polygons.heights;
         let mut arrays = batch.columns().to_vec();
         arrays[columns.control_points] = Arc::new(NullArray::new(0));
         let mut rows = Batch {
@@ -260,6 +265,14 @@ impl<'a> TableReader<'a> {
                 || Place::element(format!("column {ELEMENT}")),
                 || format!("{} rows are of a kind that is not known", self.unknown_rows),
                 "They are not read; write the name of a kind of element",
+            );
+        }
+        if self.heights > 0 {
+            diagnostics.push(
+                Code::Attribute,
+                || Place::element(format!("column {CONTROL_POINTS}")),
+                || format!("{} control points have more than two numbers", self.heights),
+                "The first two are read; write heights in a column of their own",
             );
         }
         let assembled = self.assembler.into_geometry();

@@ -6,7 +6,6 @@ use std::ops::Range;
 use guideway_layout::{Limits, TextColumn};
 
 use super::budget::Budget;
-use super::problems::damaged;
 use super::text_array::TextArray;
 use crate::Problem;
 
@@ -36,13 +35,17 @@ impl<'a> TextSink<'a> {
         Ok(())
     }
 
-    /// Appends a value, formatted as text.
-    pub(super) fn push_formatted(&mut self, value: impl Display) -> Result<(), Problem> {
+    /// Appends a value, formatted as text. Returns whether it can be formatted.
+    pub(super) fn push_formatted(&mut self, value: impl Display) -> Result<bool, Problem> {
         let mut text = BoundedString::new(self.limits.text_bytes);
-        if write!(text, "{value}").is_err() {
-            return Err(text.problem("the value cannot be formatted as text"));
+        let written = write!(text, "{value}");
+        if text.is_full {
+            return Err(too_long(text.limit, text.limit + 1));
         }
-        self.push(&text.text)
+        match written {
+            Ok(()) => self.push(&text.text).map(|()| true),
+            Err(fmt::Error) => Ok(false),
+        }
     }
 
     /// Appends several rows, with the result of `missing` for rows without a text.
@@ -104,13 +107,6 @@ impl BoundedString {
             limit,
             is_full: false,
         }
-    }
-
-    fn problem(&self, otherwise: &str) -> Problem {
-        if self.is_full {
-            return too_long(self.limit, self.limit + 1);
-        }
-        damaged("attribute", otherwise)
     }
 }
 

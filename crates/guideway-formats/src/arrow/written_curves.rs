@@ -7,7 +7,8 @@ use guideway_spline::Point;
 
 use super::batch::Batch;
 use super::column_names::{CURVE, DEGREE, KNOTS, POINTS, WEIGHTS};
-use super::list_array::{NumberLists, PointLists, indices};
+use super::list_array::{NumberLists, indices};
+use super::point_items::PointLists;
 use super::problems::damaged;
 use super::reading::Reading;
 use super::schema::Role;
@@ -46,7 +47,7 @@ impl<'a> CurveColumn<'a> {
         let degrees = indices(field(column, DEGREE)?)?;
         let knots = NumberLists::new(field(column, KNOTS)?)?;
         let weights = NumberLists::new(field(column, WEIGHTS)?)?;
-        let points = PointLists::new(field(column, POINTS)?)?;
+        let points = PointLists::new(field(column, POINTS)?, self.reading.budget)?;
         for row in batch.drawn.iter().cloned().flatten() {
             if column.is_valid(row) {
                 let curve = WrittenCurve {

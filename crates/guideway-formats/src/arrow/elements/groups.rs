@@ -9,11 +9,13 @@ use super::element_rows::ElementRows;
 use super::faults::Faults;
 use crate::Problem;
 use crate::arrow::batch::Batch;
+use crate::arrow::budget::Budget;
 use crate::arrow::column_names::{MEMBER_ELEMENT, MEMBER_INDEX, MEMBERS};
 use crate::arrow::element::Element;
 use crate::arrow::level_column::{LevelColumn, Levels, level_at};
-use crate::arrow::list_array::{ListArray, PointLists, indices};
+use crate::arrow::list_array::{ListArray, indices};
 use crate::arrow::numbering::Numbering;
+use crate::arrow::point_items::PointLists;
 use crate::arrow::problems::damaged;
 use crate::arrow::reading::Reading;
 use crate::arrow::schema::Role;
@@ -186,6 +188,7 @@ pub(super) struct ZoneRows<'a> {
     rows: ElementRows<'a>,
     levels: Option<LevelColumn<'a>>,
     index: Option<usize>,
+    budget: &'a Budget,
     outlines: Vec<Vec<Point<f64>>>,
 }
 
@@ -195,6 +198,7 @@ impl<'a> ZoneRows<'a> {
             rows: ElementRows::new(Element::Zone, reading, &[]),
             levels: LevelColumn::new(reading, 0),
             index: reading.columns.get(Role::Outline),
+            budget: reading.budget,
             outlines: Vec::new(),
         }
     }
@@ -209,7 +213,7 @@ impl<'a> ZoneRows<'a> {
                 .resize(self.outlines.len() + batch.drawn_rows(), Vec::new());
             return Ok(());
         };
-        let lists = PointLists::new(&batch.columns[index])?;
+        let lists = PointLists::new(&batch.columns[index], self.budget)?;
         let rows = batch.drawn.iter().cloned().flatten();
         self.outlines
             .extend(rows.map(|row| lists.get(row).collect()));
