@@ -4,6 +4,9 @@
 use guideway_layout::GeoOrigin;
 use guideway_spline::{Bounds, Point};
 
+/// Half of the longer axis of the WGS 84 ellipsoid.
+const SEMI_MAJOR_M: f64 = 6_378_137.0;
+
 /// Equirectangular projection about a center, which maps to the origin. It is true to scale near
 /// the center only, which suffices for a site.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,19 +26,10 @@ impl LocalProjection {
     }
 
     /// Makes the projection about a point on earth.
-    ///
-    /// The scale is that of the WGS 84 ellipsoid at the center, from its radii of curvature: along
-    /// the meridian a (1 - e^2) / (1 - e^2 sin^2)^(3/2), across it a / (1 - e^2 sin^2)^(1/2).
     pub(crate) fn about(center: GeoOrigin) -> Self {
-        const SEMI_MAJOR_M: f64 = 6_378_137.0;
-        const ECCENTRICITY_SQUARED: f64 = 6.694_379_990_141_32e-3;
-        let (sin, cos) = center.latitude_deg.to_radians().sin_cos();
-        let root = (1.0 - ECCENTRICITY_SQUARED * sin * sin).sqrt();
-        let meridian_m = SEMI_MAJOR_M * (1.0 - ECCENTRICITY_SQUARED) / root.powi(3);
-        let across_m = SEMI_MAJOR_M / root;
         Self {
             center: Point::new(wrapped(center.longitude_deg), center.latitude_deg),
-            meters_per_degree: Point::new(across_m * cos, meridian_m) * 1_f64.to_radians(),
+            meters_per_degree: center.meters_per_degree(),
         }
     }
 
@@ -61,6 +55,26 @@ impl LocalProjection {
         let scale = self.meters_per_degree;
         self.center + Point::new(position.x / scale.x, position.y / scale.y)
     }
+}
+
+/// Returns longitude and latitude (degrees) of a position in Mercator's projection of the whole
+/// earth, in meters from latitude and longitude 0.
+///
+/// The latitude of an ellipsoid is found by iteration; that of a sphere, whose eccentricity is 0,
+/// at once. Web Mercator maps the latitudes of the ellipsoid as if it were a sphere.
+pub(crate) fn from_mercator(position_m: Point<f64>, eccentricity_squared: f64) -> Point<f64> {
+    // Each step shrinks the error by the eccentricity squared: ten reach the last bit.
+    const STEPS: usize = 10;
+    let eccentricity = eccentricity_squared.sqrt();
+    let [longitude, height] = [position_m.x, position_m.y].map(|m| m / SEMI_MAJOR_M);
+    let mut latitude = height.sinh().atan();
+    if eccentricity > 0.0 {
+        for _ in 0..STEPS {
+            let flattened = eccentricity * (eccentricity * latitude.sin()).atanh();
+            latitude = (height + flattened).sinh().atan();
+        }
+    }
+    Point::new(longitude.to_degrees(), latitude.to_degrees())
 }
 
 /// Returns a longitude in the range from -180 to 180.
@@ -91,6 +105,22 @@ mod tests {
         for (x, y) in [(0.0, 0.0), (1234.5, -876.25), (-1e5, 1e5)] {
             let meters = Point::new(x, y);
             assert!(local.to_meters(local.to_degrees(meters)).distance(meters) < 1e-8);
+        }
+    }
+
+    #[test]
+    fn mercator_is_undone() {
+        // Values of PROJ for longitude 11, latitude 51: EPSG:3857 and EPSG:3395.
+        for (y_m, eccentricity_squared) in [
+            (6_621_293.722_740_17, 0.0),
+            (6_588_066.570_105_61, 6.694_379_990_141_32e-3),
+        ] {
+            let position = Point::new(1_224_514.398_726_27, y_m);
+            let degrees = from_mercator(position, eccentricity_squared);
+            assert!(
+                degrees.distance(Point::new(11.0, 51.0)) < 1e-9,
+                "{degrees:?}"
+            );
         }
     }
 

@@ -6,13 +6,14 @@ use guideway_layout::{Code, Layout, Place};
 use guideway_spline::Point;
 
 use super::columns::Named;
+use super::crs::System;
 use super::extension::Extension;
 use super::feature_source::Source;
 use super::mapper::Mapper;
 use super::model::{Feature, Geometry, Member, Root};
 use super::names;
 use super::properties::{Properties, Property};
-use super::unit::{Unit, is_degrees};
+use super::unit::{Statement, Unit};
 use crate::ReadError;
 use crate::builder::PlaceFn;
 use crate::json::{Field, field_place};
@@ -74,6 +75,10 @@ impl Mapper<'_> {
         let Some(properties) = properties else {
             return Ok(None);
         };
+        if let Some(code) = properties.code.get().copied().and_then(Property::id) {
+            // The draft of 2008 before the names: {"type": "EPSG", "properties": {"code": 4326}}.
+            return Ok(Some(code));
+        }
         let name = self.builder.text(&properties.name, at)?;
         Ok(name.map(str::to_owned))
     }
@@ -85,7 +90,7 @@ impl Mapper<'_> {
         features: &[Field<Feature<'_>>],
     ) -> Result<(), ReadError> {
         if self.is_graph {
-            if crs.is_some_and(is_degrees) {
+            if crs.is_some_and(|crs| matches!(System::of_name(crs), System::Degrees(_))) {
                 let message = || {
                     "the `crs` states degrees, but the route server of Nav2 reads positions as \
                      meters of its map"
@@ -102,7 +107,12 @@ impl Mapper<'_> {
         }
         let geometries = || features.iter().filter_map(|f| f.get()?.geometry.get());
         let positions = || geometries().flat_map(|geometry| positions(geometry));
-        let unit = Unit::detect(&mut self.builder, crs, positions);
+        let mut properties = features.iter().filter_map(|f| f.get()?.properties.get());
+        let statement = Statement {
+            crs,
+            is_plane: properties.any(|p| p.get(names::ELEMENT).is_some()),
+        };
+        let unit = Unit::detect(&mut self.builder, &statement, positions);
         self.set_unit(unit);
         Ok(())
     }

@@ -7,11 +7,12 @@
 //! |---|---|---|---|
 //! | read | text | records | `read`, `model`, `coordinates`, `properties`, `extension` |
 //! | map | records | layout | `features`, `geometry`, `elements`, `columns`, `member`; `feature_source`, `mapper` |
-//! | interpret | names, curves | units, types, lines | `unit`, `declared`, `curve_check`, `names` |
+//! | interpret | names, curves | units, types, lines | `crs`, `unit`, `declared`, `curve_check`, `names` |
 //! | write | layout | text, losses | `write*`, `references`, `nav2_ids`, `lines`, `json_writer` |
 
 mod columns;
 mod coordinates;
+mod crs;
 mod curve_check;
 mod declared;
 mod elements;

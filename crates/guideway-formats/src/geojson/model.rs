@@ -32,6 +32,7 @@ record! { Crs<'a> {
 
 record! { CrsProperties<'a> {
     name: Text<'a> = "name",
+    code: Property<'a> = "code",
 } }
 
 record! { Feature<'a> {

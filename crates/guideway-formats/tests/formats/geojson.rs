@@ -83,7 +83,7 @@ const COUNTED: &[&str] = &[
 pub(crate) fn collection(features: &str) -> Layout {
     read(&format!(
         r#"{{"type": "FeatureCollection",
-            "crs": {{"type": "name", "properties": {{"name": "EPSG:3857"}}}},
+            "crs": {{"type": "name", "properties": {{"name": "EPSG:25832"}}}},
             "features": [{features}]}}"#
     ))
 }
