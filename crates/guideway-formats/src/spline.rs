@@ -2,7 +2,7 @@
 //! runs, or to the control polygon if the numbers define no curve.
 
 use guideway_layout::{Code, WrittenCurve};
-use guideway_spline::{Nurbs, Point, Runs, knots, nurbs_to_runs, polyline_to_runs};
+use guideway_spline::{Nurbs, NurbsError, Point, Runs, knots, nurbs_to_runs, polyline_to_runs};
 
 use crate::builder::{Builder, PlaceFn};
 
@@ -18,7 +18,7 @@ pub(crate) struct Spline {
     pub(crate) knots: Vec<f64>,
     /// In meters, all finite.
     pub(crate) points: Vec<Point<f64>>,
-    /// Empty if all are 1; otherwise one per point, all finite and above zero.
+    /// Empty if all are 1; otherwise one per point, all finite and none below zero.
     pub(crate) weights: Vec<f64>,
 }
 
@@ -35,6 +35,63 @@ impl Spline {
     }
 }
 
+/// Degree and knots that a curve probably means, and the mistake that its writer made.
+struct Repair {
+    degree: usize,
+    knots: Vec<f64>,
+    mistake: &'static str,
+}
+
+impl Repair {
+    /// Finds the mistake that explains the number of knots, if there is one only.
+    fn of(spline: &Spline) -> Option<Self> {
+        let (degree, points, knots) = (spline.degree, spline.points.len(), &spline.knots);
+        let (first, last) = (*knots.first()?, *knots.last()?);
+        let count = knots.len();
+        let clamped_by = |times: usize| -> Vec<f64> {
+            let before = std::iter::repeat_n(first, times);
+            let after = std::iter::repeat_n(last, times);
+            before.chain(knots.iter().copied()).chain(after).collect()
+        };
+        let repeats = |knots: &[f64]| knots.iter().take_while(|knot| **knot == knots[0]).count();
+        let reversed: Vec<f64> = knots.iter().rev().copied().collect();
+        let repeats = repeats(knots).max(repeats(&reversed));
+        if count == points + degree + 1 || repeats > degree {
+            return None;
+        }
+        // Rhino and openNURBS count so.
+        if points > degree && count + 1 == points + degree {
+            return Some(Self {
+                degree,
+                knots: clamped_by(1),
+                mistake: "the writer leaves out the first and the last knot, which are repeated",
+            });
+        }
+        if degree > 1 && points >= degree && count == points + degree {
+            return Some(Self {
+                degree: degree - 1,
+                knots: knots.clone(),
+                mistake: "the degree is the order of the curve, which is degree + 1",
+            });
+        }
+        let is_increasing = knots.windows(2).all(|pair| pair[0] < pair[1]);
+        if points > degree && count + degree == points + 1 && is_increasing {
+            return Some(Self {
+                degree,
+                knots: clamped_by(degree),
+                mistake: "the writer lists each knot once, and the ends are meant degree + 1 times",
+            });
+        }
+        None
+    }
+}
+
+/// Returns whether weights change a curve: some differ, or all are 0.
+fn is_weighted(weights: &[f64]) -> bool {
+    let first = weights.first();
+    first.is_some_and(|&first| first == 0.0 || weights.iter().any(|&weight| weight != first))
+}
+
 impl Builder<'_> {
     /// Appends a curve to empty `runs`, or its control polygon if the numbers define no curve. They
     /// stay empty for fewer than two points. Returns whether the numbers define the curve.
@@ -44,9 +101,12 @@ impl Builder<'_> {
         at: PlaceFn<'_>,
         runs: &mut Runs,
     ) -> bool {
-        if let Some(curve) = self.curve(spline, at) {
+        if self.append_repaired(spline, at, runs) {
+            return false;
+        }
+        if let Some((curve, is_stated)) = self.curve(spline, at) {
             if self.convert(&curve, at, runs) {
-                return true;
+                return is_stated;
             }
             if curve.is_rational() {
                 let message = || "the weights differ too much for double precision".to_owned();
@@ -81,7 +141,7 @@ impl Builder<'_> {
             return true;
         }
         let error = done.error_bound_m;
-        if !runs.points().iter().all(|p| p.is_finite()) {
+        if !error.is_finite() || !runs.points().iter().all(|p| p.is_finite()) {
             runs.clear();
             return false;
         }
@@ -95,7 +155,46 @@ impl Builder<'_> {
         true
     }
 
-    fn curve(&mut self, spline: &Spline, at: PlaceFn<'_>) -> Option<Nurbs> {
+    /// Appends the curve of knots that follow a known mistake. Returns whether there is one.
+    fn append_repaired(&mut self, spline: &Spline, at: PlaceFn<'_>, runs: &mut Runs) -> bool {
+        let Some(Repair {
+            degree,
+            knots,
+            mistake,
+        }) = Repair::of(spline)
+        else {
+            return false;
+        };
+        let weights = is_weighted(&spline.weights).then(|| spline.weights.clone());
+        let curve = Nurbs::new(degree, knots, spline.points.clone(), weights);
+        let Some(curve) = curve.ok().filter(Self::is_affordable) else {
+            return false;
+        };
+        if !self.convert(&curve, at, runs) {
+            return false;
+        }
+        let (count, points) = (spline.knots.len(), spline.points.len());
+        let message = || {
+            let stated = spline.degree;
+            let expected = points + stated + 1;
+            format!(
+                "{count} knots; {points} control points of degree {stated} need {expected}: \
+                 probably {mistake}"
+            )
+        };
+        let remedy = "The one curve that fits is drawn; correct the knots or the degree";
+        self.report(Code::BadKnots, at, message, remedy);
+        true
+    }
+
+    /// Returns whether the approximation of a curve is not too large.
+    fn is_affordable(curve: &Nurbs) -> bool {
+        let is_exact = curve.degree() <= 3 && !curve.is_rational();
+        is_exact || curve.points().len() <= MAX_APPROXIMATED_POINTS
+    }
+
+    /// Returns the curve, and whether it is the stated one: it is not if the weights are wrong.
+    fn curve(&mut self, spline: &Spline, at: PlaceFn<'_>) -> Option<(Nurbs, bool)> {
         let (degree, count) = (spline.degree, spline.points.len());
         if count <= degree {
             let needed = degree + 1;
@@ -106,7 +205,7 @@ impl Builder<'_> {
             return None;
         }
         let knots = self.knots_of(spline, at)?;
-        let rational = spline.weights.iter().any(|&w| w != spline.weights[0]);
+        let rational = is_weighted(&spline.weights);
         if count > MAX_APPROXIMATED_POINTS && (rational || degree > 3) {
             let message = || {
                 format!(
@@ -119,10 +218,16 @@ impl Builder<'_> {
             return None;
         }
         let weights = rational.then(|| spline.weights.clone());
-        match Nurbs::new(degree, knots, spline.points.clone(), weights) {
+        match Nurbs::new(degree, knots.clone(), spline.points.clone(), weights) {
             Ok(curve) => {
                 self.check_shape(&curve, at);
-                Some(curve)
+                Some((curve, true))
+            }
+            Err(error @ (NurbsError::Weight { .. } | NurbsError::NoWeight { .. })) => {
+                let remedy = "Weight 1 is used for all points; correct the weights";
+                self.report(Code::BadWeight, at, || error.to_string(), remedy);
+                let plain = Nurbs::new(degree, knots, spline.points.clone(), None);
+                Some((plain.ok()?, false))
             }
             Err(error) => {
                 self.report_knots(at, || error.to_string());
@@ -145,14 +250,7 @@ impl Builder<'_> {
             return Some(values.clone());
         }
         self.report_knots(at, || {
-            let hint = match expected - count.min(expected) {
-                1 => "; perhaps `degree` is the order, which is degree + 1",
-                2 => "; perhaps the writer leaves out the first and last knot",
-                _ => "",
-            };
-            format!(
-                "{count} knots; {points} control points of degree {degree} need {expected}{hint}"
-            )
+            format!("{count} knots; {points} control points of degree {degree} need {expected}")
         });
         None
     }

@@ -1,7 +1,7 @@
 //! Trajectories of edges in LIF and VDA 5050: converts the NURBS record of either format to runs,
 //! or to the control polygon if it defines no curve.
 
-use guideway_layout::{Code, Place, Value, WrittenCurve};
+use guideway_layout::{Code, Place, Value, WrittenCurve, element_name};
 use guideway_spline::{MAX_DEGREE, Point, Runs, polyline_to_runs};
 
 use serde::de::{IgnoredAny, MapAccess};
@@ -49,7 +49,7 @@ impl Trajectory {
     /// is none.
     pub(crate) fn is_odd(&self) -> bool {
         let is_plain = |field: &Field<f64>| field.wrong_type().is_none();
-        let is_weight = |field: &Field<f64>| field.get().is_none_or(|&w| w.is_finite() && w > 0.0);
+        let is_weight = |field: &Field<f64>| field.get().is_none_or(|&w| w.is_finite() && w >= 0.0);
         let mut knots = items(&self.knots).map(|(_, knot)| knot);
         let mut points = items(&self.points).filter_map(|(_, point)| point.get());
         self.has_other
@@ -184,11 +184,11 @@ impl Builder<'_> {
     fn weight(&mut self, field: &Field<f64>, at: PlaceFn<'_>) -> f64 {
         self.check_type(field, &|| field_place(at, "weight"), "a number");
         let weight = field.get().copied().unwrap_or(1.0);
-        if weight.is_finite() && weight > 0.0 {
+        if weight.is_finite() && weight >= 0.0 {
             return weight;
         }
         let message = || format!("the weight is {weight}");
-        let remedy = "Weight 1 is used; give a number above 0";
+        let remedy = "Weight 1 is used; give a number from 0 on";
         self.report(Code::BadWeight, at, message, remedy);
         1.0
     }

@@ -60,13 +60,13 @@ codes! {
     TooFewPoints "too-few-points" Error "A curve has too few control points.";
     BadDegree "bad-degree" Error "The degree of a curve is not a supported whole number.";
     BadKnots "bad-knots" Error
-        "A knot vector has the wrong length or decreases; the control polygon is drawn.";
+        "A knot vector has the wrong length or decreases.";
     UnclampedKnots "unclamped-knots" Info
         "A knot vector is not clamped: the curve does not reach its outer control points.";
     MissingKnots "missing-knots" Info "A knot vector is absent; a uniform clamped one is used.";
     KnotMultiplicity "knot-multiplicity" Warning
         "An inner knot repeats more often than the degree, so the curve may break there.";
-    BadWeight "bad-weight" Warning "A weight is zero, negative or not finite; 1 is used.";
+    BadWeight "bad-weight" Warning "A weight is negative, not finite or without effect; 1 is used.";
     UnknownNode "unknown-node" Error "A path or station names a node that does not exist.";
     NodeGap "node-gap" Warning "A path does not begin or end at its node.";
     UnusedNode "unused-node" Info "No drawn path begins or ends at a node.";

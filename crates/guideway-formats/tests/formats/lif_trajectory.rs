@@ -35,8 +35,9 @@ fn absent_knots_default_to_uniform_clamped() {
 #[test]
 fn invalid_knots_draw_the_control_polygon_with_a_hint() {
     let cases = [
-        ("[0,0,0,0,1,1,1]", "the order"),
-        ("[0,0,0,1,1,1]", "leaves out the first and last"),
+        // As many knots as for degree 2, but more at one end than it has.
+        ("[0,0,0,0,1,1,1]", "7 knots"),
+        ("[1,1,1,0,0,0]", "6 knots"),
         ("[0,0,0,0,1,1,1,0.5]", "knot 7 is 0.5"),
         ("[0,0,0,0,0,0,0,0]", "domain"),
         ("[0,0,0,0,1,1,1,1,1]", "9 knots"),
@@ -48,6 +49,71 @@ fn invalid_knots_draw_the_control_polygon_with_a_hint() {
         let message = &finding.unwrap().message;
         assert!(message.contains(part), "{knots}: {message}");
         assert_eq!(layout.paths.geometry().segment_count(), 3, "three lines");
+    }
+}
+
+#[test]
+fn knots_that_follow_a_known_mistake_draw_the_curve() {
+    let arch = |degree: usize, knots: &str| {
+        let knots = format!(r#""degree": {degree}, "knotVector": {knots}, {ARCH}"#);
+        trajectory(&knots)
+    };
+    let points = |layout: &Layout| {
+        let runs = layout.paths.get(0).runs();
+        runs.flat_map(|run| run.iter()).collect::<Vec<_>>()
+    };
+    let right = points(&arch(3, "[0,0,0,0,1,1,1,1]"));
+    for (degree, knots, mistake) in [
+        (
+            3,
+            "[0,0,0,1,1,1]",
+            "the writer leaves out the first and the last knot",
+        ),
+        (4, "[0,0,0,0,1,1,1,1]", "the degree is the order"),
+        (3, "[0,1]", "the writer lists each knot once"),
+    ] {
+        let layout = arch(degree, knots);
+        assert_eq!(points(&layout), right, "{knots}");
+        assert_eq!(codes(&layout), [Code::BadKnots], "{knots}");
+        let message = &layout.diagnostics.iter().next().unwrap().message;
+        assert!(message.contains(mistake), "{knots}: {message}");
+        // The file states no curve: a writer gives back what it stated.
+        assert!(layout.paths.written_curve(0).is_none());
+        assert!(layout.paths.value(0, "trajectory").is_some());
+    }
+    // Of degree 2, with an inner knot.
+    let layout = arch(3, "[0,0,0,0.5,1,1,1]");
+    let right = points(&arch(2, "[0,0,0,0.5,1,1,1]"));
+    assert_eq!(points(&layout), right);
+}
+
+#[test]
+fn points_of_weight_zero_pull_nothing() {
+    let knots = r#""degree": 2, "knotVector": [0,0,0,1,1,1]"#;
+    let points = |weights: [f64; 3]| {
+        let point = |(x, y): (i32, i32), weight: f64| {
+            format!(r#"{{"x": {x}, "y": {y}, "weight": {weight:?}}}"#)
+        };
+        let points = [(0, 0), (5, 5), (10, 0)];
+        let points: Vec<_> = (0..3).map(|i| point(points[i], weights[i])).collect();
+        format!(r#"{knots}, "controlPoints": [{}]"#, points.join(","))
+    };
+    let layout = trajectory(&points([1.0, 0.0, 1.0]));
+    assert_eq!(codes(&layout), []);
+    let runs = layout.paths.get(0).runs();
+    assert!(
+        runs.flat_map(|run| run.iter())
+            .all(|point| point.y.abs() < 1e-12)
+    );
+    assert_eq!(
+        ends(&layout, "E"),
+        (Point::new(0.0, 0.0), Point::new(10.0, 0.0))
+    );
+    // At a point where all weights are zero there is no curve.
+    for weights in [[0.0, 1.0, 1.0], [0.0; 3], [1.0, 1.0, 0.0], [1.0, -1.0, 1.0]] {
+        let layout = trajectory(&points(weights));
+        assert_eq!(codes(&layout), [Code::BadWeight], "{weights:?}");
+        assert!(layout.paths.value(0, "trajectory").is_some(), "{weights:?}");
     }
 }
 
@@ -66,7 +132,7 @@ fn draws_unclamped_knots_as_stated() {
 
 #[test]
 fn invalid_weight_counts_as_one() {
-    for weight in ["0", "-1", "\"x\""] {
+    for weight in ["-0.5", "-1", "\"x\""] {
         let points = ARCH.replacen(r#""y":5"#, &format!(r#""y":5,"weight":{weight}"#), 1);
         let layout = trajectory(&format!(
             r#""degree": 3, "knotVector": [0,0,0,0,1,1,1,1], {points}"#
