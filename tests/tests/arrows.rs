@@ -87,6 +87,7 @@ const SCENE: &[&str] = &["guideway-spline", "guideway-layout", "guideway-scene"]
 /// External crates that only the listed crates may depend on.
 const RESTRICTED: &[(&str, &str)] = &[
     ("arrow-ipc", "guideway-formats"),
+    ("encoding_rs", "guideway-formats"),
     ("roxmltree", "guideway-formats"),
     ("saphyr-parser", "guideway-formats"),
     ("svgtypes", "guideway-formats"),

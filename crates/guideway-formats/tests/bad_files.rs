@@ -11,6 +11,7 @@ mod outcome;
 use std::fs;
 
 use guideway_bad_files::{folder, inputs};
+use guideway_layout::Severity;
 use serde_json::Value;
 
 use outcome::{check, check_any, check_error, read};
@@ -130,6 +131,11 @@ fn rejects_every_truncation() {
         let content = whole.trim_ascii_end().len();
         for length in 0..content {
             let error = match read(file, &whole[..length]).unwrap() {
+                // A drawing is read up to the cut, and says that it is cut.
+                Ok(layout) if file.starts_with("dxf/") => {
+                    assert!(layout.diagnostics.count_at_least(Severity::Error) > 0);
+                    continue;
+                }
                 Ok(_) => panic!("{file} can be read from {length} bytes"),
                 Err(error) => error,
             };

@@ -7,11 +7,14 @@ use std::collections::HashMap;
 use guideway_layout::{Code, Limits};
 
 use super::affine3::{Affine3, Vector3};
+use super::clips::Clips;
 use super::entity::{Entity, Insert, Polyline, Shape, Vertex, known_kind, plane, shape};
 use super::entity_counts::EntityCounts;
+use super::header::UnitVariables;
+use super::pair_reader::StrayLines;
 use super::records::{Record, RecordReader};
 use super::style::Layers;
-use super::text::decode_text;
+use super::text::TextDecoder;
 use crate::Problem;
 
 /// A scanned drawing.
@@ -19,8 +22,10 @@ use crate::Problem;
 pub(super) struct Drawing<'b> {
     /// The value of `$ACADVER`, such as `AC1015`; empty if absent.
     pub(super) version: String,
-    /// The value of `$INSUNITS`; 0 if absent.
-    pub(super) unit: i64,
+    /// The variables that tell the unit.
+    pub(super) units: UnitVariables,
+    /// The value of `$DWGCODEPAGE`.
+    pub(super) code_page: Option<&'b [u8]>,
     pub(super) layers: Layers,
     pub(super) blocks: Vec<Block<'b>>,
     block_rows: HashMap<String, u32>,
@@ -28,6 +33,31 @@ pub(super) struct Drawing<'b> {
     pub(super) entities: Vec<RecordReader<'b>>,
     /// Number of records per kind inside blocks.
     pub(super) counts: EntityCounts,
+    /// Boundaries that clip references to blocks.
+    pub(super) clips: Clips<'b>,
+    /// The reason why the file is not read to its end.
+    pub(super) cut: Option<Cut>,
+    /// The lines of an ASCII file that are no part of a pair.
+    pub(super) stray: Option<StrayLines>,
+}
+
+/// A record outside of sections.
+enum Section {
+    More,
+    Last,
+    /// The file has no more records.
+    Missing,
+}
+
+/// Flags of a block that stands for another drawing, attached or overlaid.
+const EXTERNAL: i64 = 4 | 8;
+
+/// The reason why a file is not read to its end.
+pub(super) enum Cut {
+    /// The EOF record is missing.
+    NoEnd,
+    /// A binary file is damaged.
+    Damage(Problem),
 }
 
 /// A block: entities that INSERTs place into the drawing.
@@ -35,6 +65,8 @@ pub(super) struct Drawing<'b> {
 pub(super) struct Block<'b> {
     /// The base point; `None` if the block is referenced but not defined.
     pub(super) base: Option<Vector3>,
+    /// The file of the drawing that the block stands for, if it is an external reference.
+    pub(super) external: Option<&'b [u8]>,
     pub(super) entities: Vec<Entity<'b>>,
     /// Cached result of [`Drawing::expanded_count`].
     expanded_count: Cell<Option<u64>>,
@@ -44,36 +76,71 @@ impl<'b> Drawing<'b> {
     /// Scans a file.
     ///
     /// # Errors
-    /// When the file has no EOF record, is malformed or exceeds a limit.
+    /// When the file ends or is damaged before its entities, is malformed or exceeds a limit.
     pub(super) fn read(bytes: &'b [u8], limits: &Limits) -> Result<Self, Problem> {
         let mut drawing = Self::default();
         let mut records = RecordReader::new(bytes, limits);
         let mut record = Record::default();
         loop {
-            if !records.read(&mut record, |kind, _| kind == b"SECTION")? {
-                return Err(missing_eof(bytes));
-            }
-            let section = match record.kind {
-                b"EOF" => return Ok(drawing),
-                b"SECTION" => record.text(2).unwrap_or_default(),
-                _ => continue,
+            let cut = match drawing.read_section(&mut records, &mut record, bytes) {
+                Ok(Section::More) => continue,
+                Ok(Section::Last) => break,
+                Ok(Section::Missing) if drawing.entities.is_empty() => {
+                    return Err(missing_eof(bytes));
+                }
+                Ok(Section::Missing) => Cut::NoEnd,
+                Err(damage @ Problem::Damaged { .. }) if !drawing.entities.is_empty() => {
+                    Cut::Damage(damage)
+                }
+                Err(problem) => return Err(problem),
             };
-            match section {
-                b"HEADER" => drawing.read_header(&record),
-                b"TABLES" => drawing.read_tables(&mut records, &mut record)?,
-                b"BLOCKS" => drawing.read_blocks(&mut records, &mut record)?,
-                b"ENTITIES" => drawing.entities.push(records),
-                _ => {}
-            }
+            drawing.cut = Some(cut);
+            break;
         }
+        drawing.stray = records.stray();
+        Ok(drawing)
+    }
+
+    /// Reads the next record outside of sections, with the section that it begins.
+    fn read_section(
+        &mut self,
+        records: &mut RecordReader<'b>,
+        record: &mut Record<'b>,
+        bytes: &'b [u8],
+    ) -> Result<Section, Problem> {
+        if !records.read(record, |kind, _| kind == b"SECTION")? {
+            return Ok(Section::Missing);
+        }
+        let section = match record.kind {
+            b"EOF" => return Ok(Section::Last),
+            b"SECTION" => record.text(2).unwrap_or_default(),
+            _ => return Ok(Section::More),
+        };
+        match section {
+            b"HEADER" => {
+                self.read_header(record);
+                self.layers.texts = TextDecoder::new(&self.version, self.code_page, bytes);
+            }
+            b"TABLES" => self.read_tables(records, record)?,
+            b"BLOCKS" => self.read_blocks(records, record)?,
+            b"ENTITIES" => self.entities.push(*records),
+            b"OBJECTS" => self.clips.read(records, record)?,
+            _ => {}
+        }
+        Ok(Section::More)
     }
 
     /// Reads the header, which is one record of variable names, each followed by its value.
     fn read_header(&mut self, record: &Record<'b>) {
         for pair in record.pairs.windows(2).filter(|pair| pair[0].code == 9) {
             match pair[0].text() {
-                b"$ACADVER" => self.version = decode_text(pair[1].text()),
-                b"$INSUNITS" => self.unit = pair[1].int().unwrap_or(0),
+                b"$ACADVER" => {
+                    self.version = String::from_utf8_lossy(pair[1].text()).into_owned();
+                }
+                b"$DWGCODEPAGE" => self.code_page = Some(pair[1].text()),
+                b"$INSUNITS" => self.units.insertion = pair[1].int().unwrap_or(0),
+                b"$LUNITS" => self.units.display = pair[1].int(),
+                b"$MEASUREMENT" => self.units.measurement = pair[1].int(),
                 _ => {}
             }
         }
@@ -84,7 +151,7 @@ impl<'b> Drawing<'b> {
         records: &mut RecordReader<'b>,
         record: &mut Record<'b>,
     ) -> Result<(), Problem> {
-        while has_more_in_section(records) && records.read(record, |kind, _| kind == b"LAYER")? {
+        while records.has_more_in_section() && records.read(record, |kind, _| kind == b"LAYER")? {
             if record.kind == b"LAYER" {
                 self.layers.define(record);
             }
@@ -102,12 +169,14 @@ impl<'b> Drawing<'b> {
         let mut row = None;
         let mut counts = std::mem::take(&mut self.counts);
         let wanted = |kind: &[u8], _| kind == b"BLOCK" || known_kind(kind).is_some();
-        while has_more_in_section(records) && records.read(record, wanted)? {
+        while records.has_more_in_section() && records.read(record, wanted)? {
             match record.kind {
                 b"BLOCK" => {
                     let name = record.text(2).unwrap_or_default();
                     row = Some(self.block_row(name));
                     current.base = Some(record.vector(10).unwrap_or(Vector3::ZERO));
+                    let is_external = record.int(70).unwrap_or(0) & EXTERNAL != 0;
+                    current.external = record.text(1).filter(|_| is_external);
                 }
                 b"ENDBLK" => {
                     let block = std::mem::take(&mut current);
@@ -128,7 +197,7 @@ impl<'b> Drawing<'b> {
 
     /// The row of a block by its case-insensitive name. Adds an undefined block if the name is new.
     fn block_row(&mut self, name: &[u8]) -> u32 {
-        let key = decode_text(name).to_uppercase();
+        let key = self.layers.texts.decode(name).to_uppercase();
         if let Some(&row) = self.block_rows.get(&key) {
             return row;
         }
@@ -224,11 +293,6 @@ impl<'b> Drawing<'b> {
         block.expanded_count.set(Some(sum));
         sum
     }
-}
-
-/// Whether the current section has another record.
-pub(super) fn has_more_in_section(records: &RecordReader<'_>) -> bool {
-    !matches!(records.peek(), None | Some(b"ENDSEC" | b"EOF" | b"SECTION"))
 }
 
 /// The vertices of a POLYLINE, or the broken shape that replaces it.

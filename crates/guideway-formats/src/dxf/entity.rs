@@ -5,9 +5,9 @@ use std::f64::consts::TAU;
 use guideway_layout::Code;
 
 use super::affine3::{Affine3, Vector3};
+use super::outlines::{face, multiline, solid};
 use super::records::Record;
 use super::style::{Color, Layers};
-use super::text::decode_text;
 use super::xdata::read_path_id;
 
 /// An entity: its shape and the properties that all kinds share.
@@ -34,6 +34,8 @@ pub(super) enum Shape {
     Polyline(Box<Polyline>),
     Spline(Box<Spline>),
     Insert(Box<Insert>),
+    /// Several lines, each of which is a path.
+    Lines(Vec<Self>),
     /// The finding that prevents drawing.
     Broken(Code, String),
 }
@@ -94,7 +96,7 @@ pub(super) struct Insert {
 }
 
 /// The supported kinds of entities.
-const KINDS: [&str; 8] = [
+const KINDS: [&str; 12] = [
     "LINE",
     "ARC",
     "CIRCLE",
@@ -103,6 +105,10 @@ const KINDS: [&str; 8] = [
     "POLYLINE",
     "SPLINE",
     "INSERT",
+    "MLINE",
+    "SOLID",
+    "TRACE",
+    "3DFACE",
 ];
 
 /// The kind of a record, if supported.
@@ -119,11 +125,11 @@ impl<'b> Entity<'b> {
         shape: Shape,
     ) -> Self {
         let hidden = match (record.int(67), record.int(60)) {
-            (Some(1), _) => Some("it is in paper affine3, not in the model"),
+            (Some(1), _) => Some("it is in paper space, not in the model"),
             (_, Some(1)) => Some("it is invisible"),
             _ => None,
         };
-        let layer = layers.row(&decode_text(record.text(8).unwrap_or(b"0")));
+        let layer = layers.row_of(record.text(8).unwrap_or(b"0"));
         let color = Color::of(record);
         let shape = match record.bad_code.get() {
             Some(code) => {
@@ -135,7 +141,7 @@ impl<'b> Entity<'b> {
         Self {
             kind,
             handle: record.text(5).unwrap_or_default(),
-            path_id: read_path_id(record),
+            path_id: read_path_id(record, &layers.texts),
             line: record.line,
             layer,
             color,
@@ -151,6 +157,7 @@ impl<'b> Entity<'b> {
                 let cells = u64::from(insert.columns) * u64::from(insert.rows);
                 cells.saturating_mul(in_block(insert.block))
             }
+            Shape::Lines(lines) => lines.len() as u64,
             _ => 1,
         }
     }
@@ -163,6 +170,9 @@ pub(super) fn shape(kind: &str, record: &Record<'_>) -> Shape {
         "ARC" | "CIRCLE" => circle(record, kind == "ARC"),
         "ELLIPSE" => ellipse(record),
         "LWPOLYLINE" => Some(lwpolyline(record)),
+        "MLINE" => multiline(record),
+        "SOLID" | "TRACE" => solid(record),
+        "3DFACE" => face(record),
         _ => Some(spline(record)),
     };
     shape.unwrap_or_else(|| {
@@ -260,6 +270,7 @@ fn spline(record: &Record<'_>) -> Shape {
         points: record.vectors(10),
         fit_points: record.vectors(11),
         tangents: [record.vector(12), record.vector(13)],
-        is_closed: record.int(70).unwrap_or(0) & 1 != 0,
+        // Closed, or periodic.
+        is_closed: record.int(70).unwrap_or(0) & 3 != 0,
     }))
 }

@@ -1,7 +1,5 @@
 //! Counts records by kind, in file order, for the provenance of a layout.
 
-use super::text::decode_text;
-
 /// Kinds counted by name; the rest share one counter, which bounds the counts of a hostile file.
 const MAX_KINDS: usize = 64;
 
@@ -16,7 +14,7 @@ impl EntityCounts {
             b"SEQEND" => {}
             b"VERTEX" => self.count("VERTEX without POLYLINE"),
             _ => {
-                let name: String = decode_text(kind).chars().take(32).collect();
+                let name: String = String::from_utf8_lossy(kind).chars().take(32).collect();
                 self.count(&name);
             }
         }

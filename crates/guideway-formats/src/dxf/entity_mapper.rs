@@ -1,14 +1,13 @@
 //! Maps entities to paths: expands INSERTs recursively and resolves inherited layers and colors.
 
-use guideway_layout::{Code, NewPath, Place, Value, WrittenCurve};
+use guideway_layout::{Code, NewPath, Place, Severity, Value, WrittenCurve};
 use guideway_spline::Runs;
 
 use super::affine3::{Affine3, Vector3};
 use super::drawing::Drawing;
 use super::entity::{Entity, Insert, Shape};
 use super::shapes::{ExceededLimit, ShapeLimits, append_arc, append_polyline, append_spline};
-use super::style::{Color, path_color};
-use super::text::decode_text;
+use super::style::{Color, Layer, path_color};
 use crate::ReadError;
 use crate::builder::{Builder, POINTS_PER_BYTE, PlaceFn, Table};
 use crate::clamped::is_rewritten_as;
@@ -23,6 +22,10 @@ const BYTES_PER_ENTITY: u64 = 16;
 /// Control points that any drawing may expand to. Larger than for other formats, because INSERTs
 /// legitimately repeat large blocks.
 const BASE_POINTS: u64 = 4 << 20;
+
+/// Remedy for blocks that are drawn beyond their boundary.
+pub(super) const CLIP_REMEDY: &str =
+    "To draw the visible part only, explode the block and trim it in the CAD program";
 
 /// The state that entities inherit from the INSERTs around them.
 #[derive(Clone, Copy)]
@@ -106,9 +109,29 @@ impl<'a> EntityMapper<'a> {
         if let Shape::Broken(code, detail) = &entity.shape {
             return self.refuse(entity, context, *code, detail, at);
         }
+        let id = path_id(entity, context);
+        let Shape::Lines(lines) = &entity.shape else {
+            return self.map_curve((&entity.shape, &id), entity, context, (layer, color), at);
+        };
+        for (i, line) in lines.iter().enumerate() {
+            let id = format!("{id} [{}]", i + 1);
+            self.map_curve((line, &id), entity, context, (layer, color), at)?;
+        }
+        Ok(())
+    }
+
+    /// Appends the path of a curve, or records it as refused, with a finding.
+    fn map_curve(
+        &mut self,
+        (shape, id): (&Shape, &str),
+        entity: &Entity<'_>,
+        context: &InsertContext<'_>,
+        (layer, color): (&Layer, u32),
+        at: PlaceFn<'_>,
+    ) -> Result<(), ReadError> {
         let (mut runs, mut written) = (Runs::default(), None);
         let transform = &context.transform;
-        let appended = self.append_shape(&entity.shape, transform, at, &mut runs, &mut written)?;
+        let appended = self.append_shape(shape, transform, at, &mut runs, &mut written)?;
         if let Err(limit) = appended {
             let (code, detail) = match limit {
                 ExceededLimit::Coordinate => (
@@ -123,11 +146,10 @@ impl<'a> EntityMapper<'a> {
             let detail = "it has fewer than two points";
             return self.refuse(entity, context, Code::TooFewPoints, detail, at);
         }
-        let id = path_id(entity, context);
-        self.builder.check_text(&id)?;
+        self.builder.check_text(id)?;
         self.builder.check_text(&layer.name)?;
         let row = self.builder.push_path(&NewPath {
-            id: &id,
+            id,
             runs: &runs,
             ..NewPath::default()
         })?;
@@ -178,7 +200,7 @@ impl<'a> EntityMapper<'a> {
                 *written = append_spline(&mut self.builder, spline, transform, at, runs)?;
                 Ok(())
             }
-            Shape::Insert(_) | Shape::Broken(..) => Ok(()),
+            Shape::Insert(_) | Shape::Lines(_) | Shape::Broken(..) => Ok(()),
         };
         let checked = appended.and_then(|()| limits.check(runs));
         if checked == Err(ExceededLimit::Points) {
@@ -202,6 +224,17 @@ impl<'a> EntityMapper<'a> {
             let detail = "its block is not defined in the file";
             return self.refuse(entity, context, Code::UnknownValue, detail, at);
         };
+        if let Some(file) = block.external.filter(|_| block.entities.is_empty()) {
+            let file = drawing.layers.texts.decode(file);
+            let detail = format!("the external drawing `{file}` is not in this file");
+            return self.refuse(entity, context, Code::UnknownValue, &detail, at);
+        }
+        if drawing.clips.holds(entity.handle) {
+            let message = || "a boundary clips the block (XCLIP); it is drawn whole".to_owned();
+            let (warning, code) = (Severity::Warning, Code::ApproximateShape);
+            self.builder
+                .report_as(warning, code, at, message, CLIP_REMEDY);
+        }
         // An outermost INSERT pays for all that it expands to, nested blocks included.
         if context.depth == 0 {
             let depth = self.builder.source.options.limits.depth;
@@ -270,7 +303,7 @@ fn path_id(entity: &Entity<'_>, context: &InsertContext<'_>) -> String {
         (Some(id), ..) => id.clone(),
         (None, b"", Some(line)) => format!("line {line}"),
         (None, b"", None) => entity.kind.to_owned(),
-        (None, handle, _) => decode_text(handle),
+        (None, handle, _) => String::from_utf8_lossy(handle).into_owned(),
     };
     format!("{}{own}", context.handle_prefix)
 }

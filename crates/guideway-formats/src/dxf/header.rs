@@ -38,8 +38,25 @@ const UNITS_M: [f64; 25] = [
 /// Unit of drawings without `$INSUNITS`: a millimeter, the unit of metric CAD templates.
 const DEFAULT_UNIT_M: f64 = 1e-3;
 
-/// Meters per drawing unit. Reports a finding and assumes millimeters if `code` names no unit.
-pub(super) fn insertion_unit_m(builder: &mut Builder<'_>, code: i64) -> f64 {
+/// The header variables that tell the unit.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct UnitVariables {
+    /// `$INSUNITS`; 0 if absent.
+    pub(super) insertion: i64,
+    /// `$LUNITS`: the form in which lengths are displayed.
+    pub(super) display: Option<i64>,
+    /// `$MEASUREMENT`: 0 for English templates, 1 for metric ones.
+    pub(super) measurement: Option<i64>,
+}
+
+/// Forms of `$LUNITS` that exist for inches only: feet and inches, decimal or fractional.
+const IN_INCHES: [i64; 2] = [3, 4];
+const INCH_M: f64 = 0.0254;
+
+/// Meters per drawing unit. Without a unit, reports a finding and assumes millimeters, or inches if
+/// lengths are displayed as feet and inches.
+pub(super) fn insertion_unit_m(builder: &mut Builder<'_>, units: UnitVariables) -> f64 {
+    let code = units.insertion;
     let known = usize::try_from(code)
         .ok()
         .and_then(|code| UNITS_M.get(code));
@@ -47,10 +64,20 @@ pub(super) fn insertion_unit_m(builder: &mut Builder<'_>, code: i64) -> f64 {
         return unit_m;
     }
     let at = || Place::element("$INSUNITS");
-    let message = || format!("unit code {code} names no unit; positions are read as millimeters");
+    let is_in_inches = units.display.is_some_and(|form| IN_INCHES.contains(&form));
+    let message = || {
+        let read_as = match (is_in_inches, units.measurement) {
+            (true, _) => "inches, because $LUNITS displays feet and inches",
+            (false, Some(0)) => {
+                "millimeters, but $MEASUREMENT states English units, which hints at inches"
+            }
+            _ => "millimeters",
+        };
+        format!("unit code {code} names no unit; positions are read as {read_as}")
+    };
     let remedy = "If that is wrong, set the unit of the drawing in the CAD program";
     builder.report(Code::AssumedUnit, &at, message, remedy);
-    DEFAULT_UNIT_M
+    if is_in_inches { INCH_M } else { DEFAULT_UNIT_M }
 }
 
 /// The release name for users, such as `2007 (AC1021)`, from the `$ACADVER` code.

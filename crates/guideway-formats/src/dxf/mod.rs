@@ -4,7 +4,7 @@
 //! |---|---|---|---|
 //! | tokenize | bytes | pairs of group code and value | `pair_reader` |
 //! | group | pairs | records (group code 0 up to the next one) | `records` |
-//! | parse | records | entities, layers, blocks | `drawing`, `entity`, `style`, `header` |
+//! | parse | records | entities, layers, blocks | `drawing`, `entity`, `outlines`, `style`, `header`, `clips`, `text` |
 //! | map | entities, INSERTs | paths with colors | `entity_mapper`, `shapes`, `fit_spline` |
 //! | write | layout | sections of pairs | `write`, `write_sections`, `pair_writer` |
 //!
@@ -12,12 +12,14 @@
 //! and because every value has to be bounded before use.
 
 mod affine3;
+mod clips;
 mod drawing;
 mod entity;
 mod entity_counts;
 mod entity_mapper;
 mod fit_spline;
 mod header;
+mod outlines;
 mod pair_reader;
 mod pair_writer;
 mod read;

@@ -63,7 +63,19 @@ pub(super) struct PairReader<'b> {
     offset: usize,
     line: u32,
     encoding: Encoding,
+    /// Lines where a group code should be, but is none: their number, and the first of them.
+    stray: Option<StrayLines>,
 }
+
+/// Lines of an ASCII file that are no part of a pair.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct StrayLines {
+    pub(super) count: u32,
+    pub(super) first: u32,
+}
+
+/// Stray lines up to which a file is read. Beyond, it is no drawing.
+const MAX_STRAY_LINES: u32 = 1_000;
 
 #[derive(Clone, Copy, PartialEq)]
 enum Encoding {
@@ -89,6 +101,7 @@ impl<'b> PairReader<'b> {
             offset,
             line: 1,
             encoding,
+            stray: None,
         }
     }
 
@@ -101,7 +114,13 @@ impl<'b> PairReader<'b> {
         self.offset
     }
 
-    /// The next pair; `None` if the file ends before the pair does.
+    /// The stray lines so far.
+    pub(super) fn stray(&self) -> Option<StrayLines> {
+        self.stray
+    }
+
+    /// The next pair; skips lines that are no group code, which a text with a line break leaves
+    /// behind. `None` if the file ends before the pair does.
     ///
     /// # Errors
     /// When a group code is malformed or unknown.
@@ -118,25 +137,52 @@ impl<'b> PairReader<'b> {
     }
 
     fn next_text(&mut self) -> Result<Option<Pair<'b>>, Problem> {
-        let line = self.line;
-        let Some(code) = self.text_line() else {
-            return Ok(None);
-        };
-        let Some(code) = group_code(code.trim_ascii()) else {
+        loop {
+            let line = self.line;
+            let Some(code) = self.text_line() else {
+                return Ok(None);
+            };
+            if let Some(code) = group_code(code.trim_ascii()) {
+                return Ok(self.text_line().map(|text| Pair {
+                    code,
+                    value: Value::Text(text),
+                    line: Some(line),
+                }));
+            }
             if self.offset >= self.bytes.len() {
                 return Ok(None);
             }
-            return Err(Problem::Syntax {
-                line: line.into(),
-                column: 1,
-                message: "expected a group code, which is an integer".into(),
+            let stray = self.stray.get_or_insert(StrayLines {
+                count: 0,
+                first: line,
             });
+            stray.count += 1;
+            if stray.count > MAX_STRAY_LINES {
+                return Err(Problem::Syntax {
+                    line: stray.first.into(),
+                    column: 1,
+                    message: "expected a group code, which is an integer".into(),
+                });
+            }
+            if self.codes_ahead(1) > self.codes_ahead(0) {
+                // The code itself is damaged: its value goes with it.
+                self.text_line();
+            }
+        }
+    }
+
+    /// The number of group codes among the next pairs, if they begin after some lines.
+    fn codes_ahead(mut self, lines: usize) -> usize {
+        const PAIRS: usize = 8;
+        for _ in 0..lines {
+            self.text_line();
+        }
+        let mut next_is_code = || {
+            let code = self.text_line()?;
+            self.text_line();
+            group_code(code.trim_ascii())
         };
-        Ok(self.text_line().map(|text| Pair {
-            code,
-            value: Value::Text(text),
-            line: Some(line),
-        }))
+        (0..PAIRS).filter_map(|_| next_is_code()).count()
     }
 
     /// The next line without its terminator.

@@ -2,19 +2,20 @@
 
 use std::collections::HashSet;
 
-use guideway_layout::{Code, Layout, Place};
+use guideway_layout::{Code, Layout, Place, Severity};
 
 use super::affine3::Affine3;
-use super::drawing::{Drawing, has_more_in_section};
+use super::drawing::{Cut, Drawing};
 use super::entity::known_kind;
 use super::entity_counts::EntityCounts;
-use super::entity_mapper::{EntityMapper, InsertContext};
+use super::entity_mapper::{CLIP_REMEDY, EntityMapper, InsertContext};
 use super::header::{insertion_unit_m, release_name};
 use super::pair_reader::{PairReader, SENTINEL};
 use super::records::{Record, RecordReader};
-use crate::ReadError;
+use super::text::is_known_page;
 use crate::builder::{Builder, PlaceFn};
 use crate::source::Source;
+use crate::{Problem, ReadError};
 
 /// The text budget is at least that of a file of this size: INSERTs repeat layer names and handles,
 /// so a small file may legally expand to much text.
@@ -44,7 +45,8 @@ pub(crate) fn read(source: Source<'_>, bytes: &[u8]) -> Result<Layout, ReadError
     let mut drawing = Drawing::read(bytes, limits).map_err(|p| source.fail(p))?;
     source.check_cancelled()?;
     let mut builder = Builder::new(source, bytes.len().max(MIN_TEXT_BUDGET_BYTES));
-    let unit_m = insertion_unit_m(&mut builder, drawing.unit);
+    let unit_m = insertion_unit_m(&mut builder, drawing.units);
+    report_text(&mut builder, &drawing, bytes);
     let is_binary = RecordReader::new(bytes, limits).is_binary();
     let provenance = &mut builder.layout.provenance;
     crate::Format::Dxf.name().clone_into(&mut provenance.format);
@@ -64,8 +66,12 @@ pub(crate) fn read(source: Source<'_>, bytes: &[u8]) -> Result<Layout, ReadError
     for mut records in std::mem::take(&mut drawing.entities) {
         let mut record = Record::default();
         let mut offset = records.position();
-        while has_more_in_section(&records) {
+        while records.has_more_in_section() {
             let read = records.read(&mut record, wanted);
+            if matches!(read, Err(Problem::Damaged { .. })) {
+                // The scan met it too: `report_cut` reports it.
+                break;
+            }
             read.map_err(|p| source.fail(p))?;
             counts.add(record.kind);
             layers.insert(record.text(8).unwrap_or_default());
@@ -81,6 +87,8 @@ pub(crate) fn read(source: Source<'_>, bytes: &[u8]) -> Result<Layout, ReadError
     if colors.iter().any(|&color| color != 0) {
         builder.layout.paths.set_color_rgba(colors);
     }
+    report_cut(&mut builder, &drawing);
+    report_lost_clips(&mut builder, drawing.clips.lost);
     report_skipped(&mut builder, "ENTITIES", &counts);
     report_skipped(&mut builder, "BLOCKS", &drawing.counts);
     let blocks = drawing.counts.0.into_iter();
@@ -92,14 +100,71 @@ pub(crate) fn read(source: Source<'_>, bytes: &[u8]) -> Result<Layout, ReadError
     Ok(builder.layout)
 }
 
+/// Reports a code page that is not known, if a text needs it.
+fn report_text(builder: &mut Builder<'_>, drawing: &Drawing<'_>, bytes: &[u8]) {
+    let Some(page) = drawing.code_page.filter(|page| !is_known_page(page)) else {
+        return;
+    };
+    if str::from_utf8(bytes).is_ok() {
+        return;
+    }
+    let message = || {
+        let page = String::from_utf8_lossy(page);
+        format!("the code page `{page}` is not known; texts are read as Windows-1252")
+    };
+    let remedy = "Names of layers may be wrong; save the drawing in release 2007 or later";
+    let at = || Place::element("$DWGCODEPAGE");
+    builder.report(Code::UnknownValue, &at, message, remedy);
+}
+
+/// Reports that the file is damaged or ends too early, and lines that are no part of a pair.
+fn report_cut(builder: &mut Builder<'_>, drawing: &Drawing<'_>) {
+    let error = Severity::Error;
+    if let Some(stray) = drawing.stray {
+        let at = || Place {
+            element: "the file".into(),
+            line: Some(stray.first),
+        };
+        let message = || {
+            let others = match stray.count {
+                1 => String::new(),
+                count => format!(", nor do {} further lines", count - 1),
+            };
+            format!("the line does not hold a group code, which is an integer{others}")
+        };
+        let remedy = "It is skipped; perhaps a text has a line break. Export the drawing again";
+        builder.report_as(error, Code::WrongType, &at, message, remedy);
+    }
+    let Some(cut) = &drawing.cut else {
+        return;
+    };
+    let message = || match cut {
+        Cut::NoEnd => "the EOF record at the end of every DXF file is missing".to_owned(),
+        Cut::Damage(problem) => problem.to_string(),
+    };
+    let at = || Place::element("the end of the file");
+    let remedy = "What comes before is read; copy or export the file again, it may be incomplete";
+    builder.report_as(error, Code::MissingField, &at, message, remedy);
+}
+
+/// Reports boundaries that clip an unknown reference.
+fn report_lost_clips(builder: &mut Builder<'_>, count: u64) {
+    if count > 0 {
+        let at = || Place::element("OBJECTS");
+        let message = || format!("{count} boundaries clip references that are not stated (XCLIP)");
+        let warning = Severity::Warning;
+        builder.report_as(warning, Code::ApproximateShape, &at, message, CLIP_REMEDY);
+    }
+}
+
 /// Reports the number of entities per unsupported kind.
 fn report_skipped(builder: &mut Builder<'_>, section: &str, counts: &EntityCounts) {
     for (kind, count) in &counts.0 {
         if known_kind(kind.as_bytes()).is_none() && kind != "VERTEX" {
             let at: PlaceFn<'_> = &|| Place::element(section);
             let message = || format!("{count} entities of the unsupported kind {kind}");
-            let remedy =
-                "They are left out; Guideway draws lines, arcs, ellipses, splines and blocks";
+            let remedy = "They are left out; Guideway draws lines, arcs, splines, outlines of \
+                          areas and blocks";
             builder.report(Code::NotDrawn, at, message, remedy);
         }
     }

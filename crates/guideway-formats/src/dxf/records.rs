@@ -5,7 +5,7 @@ use std::cell::Cell;
 use guideway_layout::Limits;
 
 use super::affine3::Vector3;
-use super::pair_reader::{Pair, PairReader};
+use super::pair_reader::{Pair, PairReader, StrayLines};
 use crate::Problem;
 
 /// Upper bound of pairs per curve point. Derived: three coordinates, a weight, a bulge, two widths.
@@ -115,6 +115,11 @@ impl<'b> RecordReader<'b> {
         self.pairs.is_binary()
     }
 
+    /// The stray lines so far.
+    pub(super) fn stray(&self) -> Option<StrayLines> {
+        self.pairs.stray()
+    }
+
     /// Number of bytes read.
     pub(super) fn position(&self) -> usize {
         self.pairs.position()
@@ -167,6 +172,11 @@ impl<'b> RecordReader<'b> {
     /// The kind of the next record.
     pub(super) fn peek(&self) -> Option<&'b [u8]> {
         self.next.map(|pair| pair.text())
+    }
+
+    /// Whether the current section has another record.
+    pub(super) fn has_more_in_section(&self) -> bool {
+        !matches!(self.peek(), None | Some(b"ENDSEC" | b"EOF" | b"SECTION"))
     }
 
     fn count(&mut self) -> Result<(), Problem> {

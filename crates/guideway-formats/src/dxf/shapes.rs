@@ -167,29 +167,69 @@ pub(super) fn append_spline(
         guideway_spline::polyline_to_runs(&points, runs);
         return Ok(None);
     };
-    let spline = spline::Spline {
+    let mut spline = spline::Spline {
         degree,
         knots: shape.knots.clone(),
         weights: valid_weights(builder, shape, at),
         points,
     };
+    if shape.is_closed {
+        unroll(&mut spline);
+    }
     let is_drawn = builder.append_spline(&spline, at, runs);
     Ok(is_drawn.then(|| spline.into_written()))
+}
+
+/// Unrolls a periodic curve: its knots cover one period, and its n control points are listed once.
+///
+/// If the first knot occurs m times, there are n + m knots, of which the last m end the period.
+/// Degree p needs p + 1 - m further knots before and after, each a period away from one that is
+/// listed, and as many repeated control points, less one. Source: Open CASCADE, `BSplCLib`.
+fn unroll(spline: &mut spline::Spline) {
+    let (degree, knots, count) = (spline.degree, &spline.knots, spline.points.len());
+    let Some((first, last)) = knots.first().zip(knots.last()) else {
+        return;
+    };
+    let multiplicity = knots.iter().take_while(|knot| *knot == first).count();
+    let missing = degree + 1 - multiplicity.min(degree + 1);
+    if missing == 0 || knots.len() != count + multiplicity || count < missing {
+        return;
+    }
+    let period = last - first;
+    // The knots of one period, without its end.
+    let within = &knots[..count];
+    let before = within[count - missing..].iter().map(|knot| knot - period);
+    let after = within[multiplicity..].iter().map(|knot| knot + period);
+    let unrolled = before
+        .chain(knots.iter().copied())
+        .chain(after.take(missing));
+    let unrolled: Vec<f64> = unrolled.collect();
+    let points = count + missing;
+    if unrolled.len() != points + degree + 1 {
+        return;
+    }
+    spline.knots = unrolled;
+    let repeated = spline.points.iter().copied().cycle().take(points);
+    spline.points = repeated.collect();
+    if !spline.weights.is_empty() {
+        let repeated = spline.weights.iter().copied().cycle().take(points);
+        spline.weights = repeated.collect();
+    }
 }
 
 /// The weights; empty (1 for each point) if absent or invalid, the latter with a finding.
 fn valid_weights(builder: &mut Builder<'_>, shape: &Spline, at: PlaceFn<'_>) -> Vec<f64> {
     let (weights, points) = (&shape.weights, shape.points.len());
-    let bad = weights.iter().find(|&&w| w <= 0.0);
+    let bad = weights.iter().find(|&&w| w < 0.0);
     let message = match bad {
         _ if weights.is_empty() => return Vec::new(),
         _ if weights.len() != points => {
             format!("{} weights for {points} control points", weights.len())
         }
-        Some(weight) => format!("the weight {weight:?} is not above 0"),
+        Some(weight) => format!("the weight {weight:?} is below 0"),
         None => return weights.clone(),
     };
-    let remedy = "1 is used for all; give each control point a weight above 0";
+    let remedy = "1 is used for all; give each control point a weight from 0 on";
     builder.report(Code::BadWeight, at, || message, remedy);
     Vec::new()
 }

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::records::Record;
-use super::text::decode_text;
+use super::text::TextDecoder;
 
 const WHITE: u32 = 0xFFFF_FFFF;
 
@@ -88,6 +88,8 @@ pub(super) struct Layer {
 /// All layers: those of the layer table, and those that only entities name.
 #[derive(Debug, Default)]
 pub(super) struct Layers {
+    /// Decoder of the names of layers and of other texts.
+    pub(super) texts: TextDecoder,
     all: Vec<Layer>,
     rows: HashMap<String, u32>,
 }
@@ -95,7 +97,7 @@ pub(super) struct Layers {
 impl Layers {
     /// Reads a LAYER record.
     pub(super) fn define(&mut self, record: &Record<'_>) {
-        let row = self.row(&decode_text(record.text(2).unwrap_or_default()));
+        let row = self.row_of(record.text(2).unwrap_or_default());
         let index = record.int(62).unwrap_or(7);
         let layer = &mut self.all[row as usize];
         layer.is_off = index < 0;
@@ -106,8 +108,13 @@ impl Layers {
         };
     }
 
+    /// The row of a layer by its name in the file.
+    pub(super) fn row_of(&mut self, name: &[u8]) -> u32 {
+        self.row(&self.texts.decode(name))
+    }
+
     /// The row of a layer by its case-insensitive name. Adds a layer if the name is new.
-    pub(super) fn row(&mut self, name: &str) -> u32 {
+    fn row(&mut self, name: &str) -> u32 {
         let key = name.to_uppercase();
         if let Some(&row) = self.rows.get(&key) {
             return row;

@@ -1,28 +1,178 @@
-//! Decodes text values of a DXF file to Unicode.
+//! Text decoder: decodes the text values of a DXF file to Unicode, by its release and code page.
 
-/// Decodes a text value: UTF-8 (since release 2007), else Latin-1 as an approximation of
-/// Windows-1252, with `\U+00E4` escapes in both.
-pub(super) fn decode_text(bytes: &[u8]) -> String {
-    let text = match std::str::from_utf8(bytes) {
-        Ok(text) => text.to_owned(),
-        Err(_) => bytes.iter().map(|&b| char::from(b)).collect(),
-    };
-    let mut parts = text.split(r"\U+");
-    let mut decoded = parts.next().unwrap_or_default().to_owned();
-    for part in parts {
-        let digits = part.get(..4).and_then(|d| u32::from_str_radix(d, 16).ok());
-        match digits.and_then(char::from_u32) {
-            Some(character) => {
-                decoded.push(character);
-                decoded.push_str(&part[4..]);
-            }
-            None => {
-                decoded.push_str(r"\U+");
-                decoded.push_str(part);
+use encoding_rs::{
+    BIG5, EUC_KR, Encoding, GBK, IBM866, ISO_8859_2, ISO_8859_3, ISO_8859_4, ISO_8859_5,
+    ISO_8859_6, ISO_8859_7, ISO_8859_8, MACINTOSH, SHIFT_JIS, WINDOWS_874, WINDOWS_1250,
+    WINDOWS_1251, WINDOWS_1252, WINDOWS_1253, WINDOWS_1254, WINDOWS_1255, WINDOWS_1256,
+    WINDOWS_1257, WINDOWS_1258,
+};
+
+/// Decoder of the text values of a file.
+#[derive(Debug)]
+pub(super) struct TextDecoder {
+    page: CodePage,
+    /// True if a text that is UTF-8 is read as such, whatever the code page.
+    prefers_utf8: bool,
+}
+
+/// A code page.
+#[derive(Clone, Copy, Debug)]
+enum CodePage {
+    Known(&'static Encoding),
+    /// The characters of the bytes from 128 on.
+    Table(&'static str),
+}
+
+/// First release whose texts are UTF-8.
+const UTF8_SINCE: &str = "AC1021";
+
+/// Code page 437 of DOS.
+const DOS_437: &str = "ÇüéâäàåçêëèïîìÄÅÉæÆôöòûùÿÖÜ¢£¥₧ƒáíóúñÑªº¿⌐¬½¼¡«»░▒▓│┤╡╢╖╕╣║╗╝╜╛┐\
+    └┴┬├─┼╞╟╚╔╩╦╠═╬╧╨╤╥╙╘╒╓╫╪┘┌█▄▌▐▀αßΓπΣσµτΦΘΩδ∞φε∩≡±≥≤⌠⌡÷≈°∙·√ⁿ²■\u{a0}";
+/// Code page 850 of DOS.
+const DOS_850: &str = "ÇüéâäàåçêëèïîìÄÅÉæÆôöòûùÿÖÜø£Ø×ƒáíóúñÑªº¿®¬½¼¡«»░▒▓│┤ÁÂÀ©╣║╗╝¢¥┐\
+    └┴┬├─┼ãÃ╚╔╩╦╠═╬¤ðÐÊËÈıÍÎÏ┘┌█▄¦Ì▀ÓßÔÒõÕµþÞÚÛÙýÝ¯´\u{ad}±‗¾¶§÷¸°¨·¹³²■\u{a0}";
+
+impl Default for TextDecoder {
+    fn default() -> Self {
+        Self {
+            page: CodePage::Known(WINDOWS_1252),
+            prefers_utf8: true,
+        }
+    }
+}
+
+impl TextDecoder {
+    /// Makes the decoder of a file from its release (`$ACADVER`) and code page (`$DWGCODEPAGE`).
+    /// Windows-1252 stands for a missing or unknown page.
+    ///
+    /// Before release 2007 the code page counts. But many programs wrote UTF-8 even then, and a
+    /// whole file of another encoding is UTF-8 by chance only if it has very few letters.
+    pub(super) fn new(release: &str, page: Option<&[u8]>, bytes: &[u8]) -> Self {
+        let page = page.and_then(code_page);
+        let is_utf8 = page.is_none() || release >= UTF8_SINCE || str::from_utf8(bytes).is_ok();
+        Self {
+            page: page.unwrap_or(CodePage::Known(WINDOWS_1252)),
+            prefers_utf8: is_utf8,
+        }
+    }
+
+    /// Decodes a text value, with the escapes `\U+00E4` (Unicode) and `\M+5BBF5` (a code page and
+    /// two bytes in it).
+    pub(super) fn decode(&self, bytes: &[u8]) -> String {
+        let text = match str::from_utf8(bytes) {
+            Ok(text) if self.prefers_utf8 || text.is_ascii() => text.to_owned(),
+            _ => self.page.decode(bytes),
+        };
+        if text.contains("\\U+") || text.contains("\\M+") {
+            return unescape(&text);
+        }
+        text
+    }
+}
+
+impl CodePage {
+    fn decode(self, bytes: &[u8]) -> String {
+        match self {
+            Self::Known(encoding) => encoding.decode_without_bom_handling(bytes).0.into_owned(),
+            Self::Table(high) => {
+                let letter = |&byte: &u8| match byte.checked_sub(128) {
+                    None => char::from(byte),
+                    Some(high_byte) => high.chars().nth(high_byte.into()).unwrap_or('\u{fffd}'),
+                };
+                bytes.iter().map(letter).collect()
             }
         }
     }
-    decoded
+}
+
+/// Returns whether a code page is known.
+pub(super) fn is_known_page(page: &[u8]) -> bool {
+    code_page(page).is_some()
+}
+
+/// Returns the code page of a name such as `ANSI_936`, `dos850`, `ISO8859-2` or `BIG5`.
+fn code_page(name: &[u8]) -> Option<CodePage> {
+    let name = str::from_utf8(name).ok()?.trim().to_ascii_uppercase();
+    let digits = name.trim_start_matches(|c: char| !c.is_ascii_digit());
+    Some(CodePage::Known(match (name.as_str(), digits) {
+        ("GB2312" | "GBK", _) | (_, "936") => GBK,
+        ("BIG5", _) | (_, "950") => BIG5,
+        ("KSC5601", _) | (_, "949") => EUC_KR,
+        ("MACINTOSH" | "MAC-ROMAN", _) => MACINTOSH,
+        ("ASCII" | "US_ASCII", _) | (_, "1252" | "8859-1" | "8859-9") => WINDOWS_1252,
+        (_, "874") => WINDOWS_874,
+        (_, "932") => SHIFT_JIS,
+        (_, "1250") => WINDOWS_1250,
+        (_, "1251") => WINDOWS_1251,
+        (_, "1253") => WINDOWS_1253,
+        (_, "1254") => WINDOWS_1254,
+        (_, "1255") => WINDOWS_1255,
+        (_, "1256") => WINDOWS_1256,
+        (_, "1257") => WINDOWS_1257,
+        (_, "1258") => WINDOWS_1258,
+        (_, "866") => IBM866,
+        (_, "8859-2") => ISO_8859_2,
+        (_, "8859-3") => ISO_8859_3,
+        (_, "8859-4") => ISO_8859_4,
+        (_, "8859-5") => ISO_8859_5,
+        (_, "8859-6") => ISO_8859_6,
+        (_, "8859-7") => ISO_8859_7,
+        (_, "8859-8") => ISO_8859_8,
+        (_, "437") => return Some(CodePage::Table(DOS_437)),
+        (_, "850") => return Some(CodePage::Table(DOS_850)),
+        _ => return None,
+    }))
+}
+
+/// Replaces the escapes of a text; what only looks like one stays.
+fn unescape(text: &str) -> String {
+    let mut decoded = String::with_capacity(text.len());
+    let mut rest = text;
+    while let Some(at) = rest.find('\\') {
+        decoded.push_str(&rest[..at]);
+        rest = &rest[at..];
+        match unicode_escape(rest).or_else(|| page_escape(rest)) {
+            Some((letters, length)) => {
+                decoded.push_str(&letters);
+                rest = &rest[length..];
+            }
+            None => {
+                decoded.push('\\');
+                rest = &rest[1..];
+            }
+        }
+    }
+    decoded + rest
+}
+
+/// Returns the letter of an escape such as `\U+00E4` at the start of a text, and the bytes that it
+/// takes.
+fn unicode_escape(text: &str) -> Option<(String, usize)> {
+    let digits = text.strip_prefix("\\U+")?.get(..4)?;
+    let letter = char::from_u32(u32::from_str_radix(digits, 16).ok()?)?;
+    Some((letter.to_string(), 7))
+}
+
+/// Returns the letter of an escape such as `\M+5BBF5` at the start of a text, and the bytes that it
+/// takes. The first digit is the code page.
+fn page_escape(text: &str) -> Option<(String, usize)> {
+    let digits = text.strip_prefix("\\M+")?.get(..5)?;
+    let (page, digits) = digits.split_at_checked(1)?;
+    let encoding = match page {
+        "1" => SHIFT_JIS,
+        "2" => BIG5,
+        "3" => EUC_KR,
+        "5" => GBK,
+        _ => return None,
+    };
+    let bytes = u16::from_str_radix(digits, 16).ok()?.to_be_bytes();
+    let bytes = match bytes[0] {
+        0 => &bytes[1..],
+        _ => &bytes[..],
+    };
+    let (letter, is_wrong) = encoding.decode_without_bom_handling(bytes);
+    (!is_wrong).then(|| (letter.into_owned(), 8))
 }
 
 #[cfg(test)]
@@ -30,10 +180,43 @@ mod tests {
     use super::*;
 
     #[test]
-    fn decodes_utf8_latin_1_and_unicode_escapes() {
-        assert_eq!(decode_text(b"W\xE4nde"), "Wände");
-        assert_eq!(decode_text("Wände".as_bytes()), "Wände");
-        assert_eq!(decode_text(br"W\U+00E4nde\U+"), r"Wände\U+");
-        assert_eq!(decode_text(br"\U+ZZZZ\U+D800"), r"\U+ZZZZ\U+D800");
+    fn decodes_by_code_page_and_release() {
+        for (release, page, bytes, expected) in [
+            ("AC1015", "ANSI_936", &b"\xBB\xF5\xBC\xDC"[..], "货架"),
+            ("AC1015", "GB2312", b"\xBB\xF5\xBC\xDC", "货架"),
+            ("AC1015", "ANSI_1250", b"\x8Ccie\xBFka", "Ścieżka"),
+            ("AC1015", "ansi_1251", b"\xEF\xF3\xF2\xFC", "путь"),
+            ("AC1015", "ANSI_932", b"\x92\xCA\x98H", "通路"),
+            ("AC1015", "ANSI_949", b"\xB1\xE6", "길"),
+            ("AC1009", "dos850", b"W\x84nde", "Wände"),
+            ("AC1009", "DOS437", b"\xE1\x81", "ßü"),
+            ("AC1009", "dos866", b"\xAF\xE3\xE2\xEC", "путь"),
+            ("AC1015", "ISO8859-2", b"\xB6", "ś"),
+            ("AC1015", "ANSI_1252", b"W\xE4nde \x80", "Wände €"),
+            // Another program's UTF-8 under a code page, and the UTF-8 of release 2007.
+            ("AC1015", "ANSI_936", "货架".as_bytes(), "货架"),
+            ("AC1021", "ANSI_936", "货架".as_bytes(), "货架"),
+            ("AC1021", "ANSI_1252", b"W\xE4nde", "Wände"),
+        ] {
+            let decoder = TextDecoder::new(release, Some(page.as_bytes()), bytes);
+            assert_eq!(decoder.decode(bytes), expected, "{release} {page}");
+        }
+        assert!(!is_known_page(b"ANSI_1361") && !is_known_page(b""));
+        // By chance UTF-8 too, in a file that is not.
+        let mixed = b"\xC4\xA3 \xBB\xF5";
+        let decoder = TextDecoder::new("AC1015", Some(b"ANSI_936"), mixed);
+        assert_eq!(decoder.decode(&mixed[..2]), "模");
+    }
+
+    #[test]
+    fn decodes_utf8_latin_1_and_escapes_without_a_page() {
+        let decode = |bytes: &[u8]| TextDecoder::default().decode(bytes);
+        assert_eq!(decode(b"W\xE4nde"), "Wände");
+        assert_eq!(decode("Wände".as_bytes()), "Wände");
+        assert_eq!(decode(br"W\U+00E4nde\U+"), r"Wände\U+");
+        assert_eq!(decode(br"\U+ZZZZ\U+D800"), r"\U+ZZZZ\U+D800");
+        assert_eq!(decode(br"\M+5BBF5\M+5BCDC"), "货架");
+        assert_eq!(decode(br"a\M+192CA\b"), r"a通\b");
+        assert_eq!(decode(br"\M+9BBF5\M+5BB\M+5\"), r"\M+9BBF5\M+5BB\M+5\");
     }
 }

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use super::pair_writer::PairWriter;
 use super::records::Record;
-use super::text::decode_text;
+use super::text::TextDecoder;
 
 /// The application name under which an entity stores the identifier of its path.
 pub(super) const APP_ID: &str = "GUIDEWAY";
@@ -17,11 +17,11 @@ const MAX_TEXT_BYTES: usize = 240;
 const MAX_ESCAPE_BYTES: usize = 7;
 
 /// The identifier that [`write_path_id`] left in an entity.
-pub(super) fn read_path_id(record: &Record<'_>) -> Option<String> {
+pub(super) fn read_path_id(record: &Record<'_>, texts: &TextDecoder) -> Option<String> {
     let mut pairs = record.pairs.iter();
     pairs.find(|pair| pair.code == 1001 && pair.text() == APP_ID.as_bytes())?;
-    let texts = pairs.take_while(|pair| pair.code == 1000);
-    Some(texts.map(|pair| decode_text(pair.text())).collect())
+    let parts = pairs.take_while(|pair| pair.code == 1000);
+    Some(parts.map(|pair| texts.decode(pair.text())).collect())
 }
 
 /// Appends an identifier to an entity, split over as many text values as it needs.

@@ -1,6 +1,7 @@
 //! Tests of the DXF reader, with helpers that build small drawings.
 
 mod blocks;
+mod cases;
 mod real_files;
 mod shapes;
 
