@@ -9,6 +9,7 @@ use crate::Format;
 /// | `ARROW1`, or the marker `FF FF FF FF` of a stream | Arrow |
 /// | a group code and `SECTION`, or the binary sentinel | DXF |
 /// | `{` | by the first key of the root object that one format uses; else LIF |
+/// | `[`, the control character RS, or a topic of MQTT before `{` | by a key of the first object |
 /// | `<` | by the name of the root element; else openTCS |
 /// | a line that begins with `levels:` | Open-RMF |
 ///
@@ -28,6 +29,10 @@ pub fn sniff(bytes: &[u8]) -> Option<Format> {
                 .find_map(format_of_key)
                 .unwrap_or(Format::Lif),
         ),
+        _ if first_of_several(text).is_some() => {
+            let format = root_keys(first_of_several(text)?).find_map(format_of_key);
+            format.filter(|format| matches!(format, Format::GeoJson | Format::Vda5050))
+        }
         b'<' => Some(match root_tag(text) {
             b"svg" => Format::Svg,
             b"OpenDRIVE" => Format::OpenDrive,
@@ -83,8 +88,19 @@ fn format_of_key(key: &[u8]) -> Option<Format> {
         b"layouts" | b"origins" | b"metaInformation" => Some(Format::Lif),
         b"features" | b"geometry" | b"coordinates" | b"geometries" => Some(Format::GeoJson),
         b"nodes" | b"edges" | b"orderId" | b"orderUpdateId" => Some(Format::Vda5050),
+        // Other messages of VDA 5050, and the wrapper of a client of MQTT.
+        b"headerId" | b"serialNumber" | b"payload" => Some(Format::Vda5050),
         _ => None,
     }
+}
+
+/// Returns the text from the first object of a sequence or an array on.
+fn first_of_several(text: &[u8]) -> Option<&[u8]> {
+    let at = text.iter().position(|&byte| byte == b'{')?;
+    let before = text[..at].trim_ascii();
+    let is_topic = before.contains(&b'/') && !before.iter().any(u8::is_ascii_whitespace);
+    let is_array = matches!(before, b"[" | b"\x1E" | b"\x1E[");
+    (is_array || is_topic).then_some(&text[at..])
 }
 
 /// Iterates over the keys of the root object of a JSON text, escapes unresolved; any bytes if the

@@ -8,11 +8,49 @@ use crate::json::{self, Field};
 use crate::source::Source;
 use crate::{Problem, ReadError, text};
 
-/// Reads a GeoJSON file.
+/// Reads a GeoJSON file, or a sequence or an array of GeoJSON objects.
 ///
 /// # Errors
 /// When the text is not JSON, its root is not that of GeoJSON, or a limit is exceeded.
 pub(crate) fn read(source: Source<'_>, bytes: &[u8]) -> Result<Layout, ReadError> {
+    let text = text::decode_utf8(&source, bytes)?;
+    let documents = json::documents(text);
+    let mut roots = Vec::with_capacity(documents.len());
+    for document in &documents {
+        roots.push(root(&source, document)?);
+    }
+    let mut layout = Mapper::new(source, bytes.len()).map(joined(roots), bytes.len())?;
+    if documents.len() == 1 {
+        json::add_line_numbers(&mut layout, documents[0]);
+    }
+    Ok(layout)
+}
+
+/// Joins the features of a sequence. The first system and the first member of Guideway count.
+fn joined<'t>(roots: Vec<Root<'t>>) -> Root<'t> {
+    let mut roots = roots.into_iter();
+    let Some(mut first) = roots.next() else {
+        return Root::default();
+    };
+    if roots.len() == 0 {
+        return first;
+    }
+    let mut features = first.take_features();
+    for mut next in roots {
+        features.extend(next.take_features());
+        if first.crs.is_absent() {
+            first.crs = next.crs;
+        }
+        if first.guideway.is_absent() {
+            first.guideway = next.guideway;
+        }
+    }
+    first.features = Field::Value(features);
+    first
+}
+
+/// Parses a root object.
+fn root<'t>(source: &Source<'_>, text: &'t str) -> Result<Root<'t>, ReadError> {
     let fail = |element: &str, expected: &str, found: String| {
         source.fail(Problem::Structure {
             place: Place::element(element),
@@ -20,8 +58,7 @@ pub(crate) fn read(source: Source<'_>, bytes: &[u8]) -> Result<Layout, ReadError
             found,
         })
     };
-    let text = text::decode_utf8(&source, bytes)?;
-    let Field::Value(root) = json::parse::<Root<'_>>(&source, text)? else {
+    let Field::Value(root) = json::parse::<Root<'_>>(source, text)? else {
         return Err(fail("the root", "an object", "something else".into()));
     };
     if let Some(kind) = root.features.wrong_type() {
@@ -35,7 +72,5 @@ pub(crate) fn read(source: Source<'_>, bytes: &[u8]) -> Result<Layout, ReadError
         let expected = "`features`, `geometry` or `coordinates` of GeoJSON";
         return Err(fail("the root", expected, "an object without them".into()));
     }
-    let mut layout = Mapper::new(source, bytes.len()).map(root, bytes.len())?;
-    json::add_line_numbers(&mut layout, text);
-    Ok(layout)
+    Ok(root)
 }

@@ -7,6 +7,7 @@
 //! | stage | input | output | file |
 //! |---|---|---|---|
 //! | limits | text | nesting and element count within limits | `limits` |
+//! | split | text with several values | its objects | `documents` |
 //! | parse | text | a record of [`Field`]s, or a problem | `parse`, `record`, `field`, `attributes` |
 //! | items | text of a long array | one record at a time | `lazy_array` |
 //! | check | fields | values, diagnostics | `check`, `cell` |
@@ -19,6 +20,7 @@ mod attributes;
 mod cell;
 mod change;
 mod check;
+mod documents;
 mod field;
 mod lazy_array;
 mod limits;
@@ -34,6 +36,7 @@ pub(crate) use self::array_splice::ArrayEdit;
 pub(crate) use self::attributes::{AttributeKey, Attributes, HasAttributes, OtherMembers};
 pub(crate) use self::cell::{Cell, CellKind, CellResult};
 pub(crate) use self::check::{field_place, items};
+pub(crate) use self::documents::{documents, payload};
 pub(crate) use self::field::{Field, FromJson, Key};
 pub(crate) use self::lazy_array::{LazyArray, LazyItem};
 pub(crate) use self::lines::add_line_numbers;

@@ -57,7 +57,7 @@ pub(super) fn problem(error: &serde_json::Error, text: &str, at: usize) -> Probl
         column,
         message: printable(&reword(
             message,
-            word_at(&text[at..], error.line(), error.column()),
+            rest_at(&text[at..], error.line(), error.column()),
         )),
     }
 }
@@ -68,21 +68,29 @@ fn ends_in_number(text: &str) -> bool {
     text.ends_with(['-', '+', '.', 'e', 'E'])
 }
 
-/// Returns the word at a place.
-fn word_at(text: &str, line: usize, column: usize) -> &str {
+/// Returns the rest of the line at a place.
+fn rest_at(text: &str, line: usize, column: usize) -> &str {
     let line = text.lines().nth(line.saturating_sub(1)).unwrap_or("");
-    let from = line.get(column.saturating_sub(1)..).unwrap_or("");
-    let end = from.find(|c: char| !c.is_ascii_alphanumeric() && c != '-');
-    &from[..end.unwrap_or(from.len())]
+    line.get(column.saturating_sub(1)..).unwrap_or("")
 }
 
-/// Rewords a message of the parser for people; `word` is the text at the place.
-fn reword(message: &str, word: &str) -> String {
-    match (message, word) {
-        ("expected value", "NaN" | "Infinity" | "nan" | "inf") => {
+/// Rewords a message of the parser for people; `rest` is the text at the place.
+fn reword(message: &str, rest: &str) -> String {
+    const OTHER_QUOTES: [char; 7] = [
+        '\'', '`', '\u{2018}', '\u{2019}', '\u{201C}', '\u{201D}', '\u{201E}',
+    ];
+    if let ("key must be a string" | "expected value", true) =
+        (message, rest.starts_with(OTHER_QUOTES))
+    {
+        let quote = rest.chars().next().unwrap_or_default();
+        return format!("found the quote {quote}; JSON wants double quotes around names and texts");
+    }
+    let end = rest.find(|c: char| !c.is_ascii_alphanumeric() && c != '-');
+    match (message, &rest[..end.unwrap_or(rest.len())]) {
+        ("expected value", word @ ("NaN" | "Infinity" | "nan" | "inf")) => {
             format!("expected a number, found {word}; JSON has no such number")
         }
-        ("invalid number", _) if word.contains("nfinity") => {
+        ("invalid number", word) if word.contains("nfinity") => {
             "expected a number, found -Infinity; JSON has no such number".into()
         }
         ("number out of range", _) => "the number exceeds the range of double precision".into(),

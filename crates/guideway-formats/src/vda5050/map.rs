@@ -5,7 +5,7 @@ use guideway_spline::Point;
 
 use super::mapper::{Mapper, TrajectoryEnds, whole};
 use super::members::{DERIVED, PASSES};
-use super::model::{Node, Position, Root, WithText};
+use super::model::{Edge, Node, Position, Root, WithText};
 use super::version::Version;
 use crate::ReadError;
 use crate::builder::{PlaceFn, Table};
@@ -39,34 +39,67 @@ fn names_nodes(root: &Root<'_>) -> Option<bool> {
 }
 
 impl Mapper<'_> {
-    /// Maps the root object to a layout.
-    pub(super) fn map(mut self, root: &Root<'_>) -> Result<Layout, ReadError> {
-        let at_root: PlaceFn<'_> = &|| Place::element("the root");
-        self.builder.check_repeated(root.repeated, at_root);
-        self.map_version(root);
-        let mut other = OtherMembers::default();
-        self.set_members(Table::Layout, 0, &root.attributes, &mut other, at_root)?;
-        self.set_other(Table::Layout, 0, other)?;
-        let ends = trajectory_ends(root);
-        for (i, node) in items(&root.nodes) {
-            self.map_node(node, &ends, &|| Place::element(format!("nodes[{i}]")))?;
+    /// Maps orders to a layout. The header of one order is properties of the layout; those of
+    /// several are columns of their paths.
+    pub(super) fn map(mut self, orders: &[Root<'_>]) -> Result<Layout, ReadError> {
+        for (i, root) in orders.iter().enumerate() {
+            self.begin_order();
+            let prefix = match orders.len() {
+                1 => String::new(),
+                _ => format!("orders[{i}]."),
+            };
+            let first_path = self.builder.layout.paths.len();
+            self.map_order(root, &prefix)?;
+            let rows = match orders.len() {
+                1 => 0..1,
+                _ => first_path..self.builder.layout.paths.len(),
+            };
+            let table = if orders.len() == 1 {
+                Table::Layout
+            } else {
+                Table::Paths
+            };
+            for row in rows {
+                let mut other = OtherMembers::default();
+                let at: PlaceFn<'_> = &|| Place::element(format!("{prefix}the root"));
+                self.set_members(table, row, &root.attributes, &mut other, at)?;
+                if orders.len() == 1 {
+                    self.set_other(table, row, other)?;
+                }
+            }
         }
-        self.set_passes()?;
-        for (i, edge) in items(&root.edges) {
-            self.map_edge(edge, &|| Place::element(format!("edges[{i}]")))?;
-        }
-        let edges = items(&root.edges).filter_map(|(_, edge)| edge.get());
+        self.map_version(&orders[0]);
+        let nodes: usize = orders.iter().map(|root| items(&root.nodes).count()).sum();
+        let edges = || orders.iter().flat_map(|root| items(&root.edges));
+        let has_curve = |edge: &&Field<Edge<'_>>| {
+            let edge = edge.get();
+            edge.is_some_and(|edge| edge.trajectory.get().is_some())
+        };
+        let curves = edges().filter(|(_, edge)| has_curve(edge)).count();
         let counts = [
-            ("nodes", items(&root.nodes).count()),
-            ("edges", items(&root.edges).count()),
-            (
-                "trajectories",
-                edges.filter(|e| e.trajectory.get().is_some()).count(),
-            ),
+            ("nodes", nodes),
+            ("edges", edges().count()),
+            ("trajectories", curves),
         ];
         self.builder.layout.provenance.counts =
             counts.map(|(name, n)| (name.to_owned(), n as u64)).to_vec();
         Ok(self.builder.layout)
+    }
+
+    fn map_order(&mut self, root: &Root<'_>, prefix: &str) -> Result<(), ReadError> {
+        let at_root: PlaceFn<'_> = &|| Place::element(format!("{prefix}the root"));
+        self.builder.check_repeated(root.repeated, at_root);
+        let ends = trajectory_ends(root);
+        for (i, node) in items(&root.nodes) {
+            self.map_node(node, &ends, &|| {
+                Place::element(format!("{prefix}nodes[{i}]"))
+            })?;
+        }
+        self.set_passes()?;
+        for (i, edge) in items(&root.edges) {
+            self.map_edge(edge, &|| Place::element(format!("{prefix}edges[{i}]")))?;
+        }
+        Ok(())
     }
 
     /// Sets the version: the stated one, unless the keys of the edges contradict it.
@@ -120,6 +153,12 @@ impl Mapper<'_> {
                 return self.pass_again(row, sequence, text);
             }
             self.ambiguous.insert(id.as_ref().to_owned());
+        } else if let Some(row) = self.earlier(&id, &place) {
+            self.nodes.insert(&self.builder.layout.nodes, row);
+            if let Some(sequence) = sequence {
+                self.sequence.entry(sequence).or_insert(row);
+            }
+            return Ok(());
         }
         let row = self.builder.push_node(&id, place.point, place.level)?;
         self.nodes.insert(&self.builder.layout.nodes, row);
@@ -145,6 +184,14 @@ impl Mapper<'_> {
             }
         }
         self.set_other(Table::Nodes, table_row, other)
+    }
+
+    /// Returns the row of a node of an earlier order with this identifier and place.
+    fn earlier(&self, id: &str, place: &NodePlace) -> Option<u32> {
+        let nodes = &self.builder.layout.nodes;
+        let row = self.earlier.get(nodes, id)?;
+        let is_same = (nodes.position_m(row), nodes.level(row)) == (place.point, place.level);
+        is_same.then_some(row)
     }
 
     /// Returns the place of a node: its position, else the end of a trajectory.

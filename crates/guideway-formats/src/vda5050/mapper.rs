@@ -20,6 +20,10 @@ pub(super) struct Mapper<'a> {
     pub(super) version: Version,
     /// Rows of nodes by identifier. An order may pass a node more than once.
     pub(super) nodes: NodeRows,
+    /// Rows of nodes of earlier orders by identifier.
+    pub(super) earlier: NodeRows,
+    /// First row of the nodes of this order.
+    first_node: u32,
     /// Identifiers that have several positions.
     pub(super) ambiguous: HashSet<String>,
     /// Rows of nodes by `sequenceId`.
@@ -54,6 +58,8 @@ impl<'a> Mapper<'a> {
             builder: Builder::new(source, file_bytes),
             version,
             nodes: NodeRows::default(),
+            earlier: NodeRows::default(),
+            first_node: 0,
             ambiguous: HashSet::new(),
             sequence: HashMap::new(),
             maps: HashMap::new(),
@@ -61,6 +67,20 @@ impl<'a> Mapper<'a> {
             derived: HashSet::new(),
             unplaced: Unplaced::default(),
         }
+    }
+
+    /// Begins an order: its identifiers and numbers are its own. A node of an earlier order at the
+    /// same place is the same node.
+    pub(super) fn begin_order(&mut self) {
+        let nodes = &self.builder.layout.nodes;
+        for row in self.first_node..nodes.len() as u32 {
+            self.earlier.insert(nodes, row);
+        }
+        self.first_node = nodes.len() as u32;
+        self.nodes = NodeRows::default();
+        self.ambiguous.clear();
+        self.sequence.clear();
+        self.unplaced = Unplaced::default();
     }
 
     /// Returns a `sequenceId`; reports it if it is not an integer from 0.

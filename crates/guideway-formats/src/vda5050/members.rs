@@ -17,6 +17,8 @@ pub(super) const PASSES: &str = "passes";
 /// Column that is true for a node without a position in the file, which lies at the end of a
 /// trajectory.
 pub(super) const DERIVED: &str = "positionFromTrajectory";
+/// Column of the order of a path, if a file has several.
+pub(super) const ORDER: &str = "orderId";
 /// Column of the place in the order.
 pub(super) const SEQUENCE: &str = "sequenceId";
 

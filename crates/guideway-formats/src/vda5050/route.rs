@@ -6,7 +6,7 @@ use std::collections::{HashMap, HashSet};
 use guideway_layout::{Layout, PathRef, Value};
 use guideway_spline::Point;
 
-use super::members::{DERIVED, PASSES, SEQUENCE};
+use super::members::{DERIVED, ORDER, PASSES, SEQUENCE};
 use super::version::Version;
 use crate::WriteProblem;
 use crate::json::items_at;
@@ -85,6 +85,14 @@ impl<'a> Route<'a> {
     pub(super) fn of(layout: &'a Layout, version: Version) -> Result<Self, WriteProblem> {
         let drawn = layout.paths.iter().filter(|path| path.ends().is_some());
         let rows: Vec<usize> = drawn.map(PathRef::row).collect();
+        // The orders of a log keep their headers in columns of their paths.
+        let is_order = Version::of_layout(layout).is_some();
+        let mut orders = rows.iter().map(|&row| layout.paths.value(row, ORDER));
+        if is_order && orders.any(|order| order.is_some()) {
+            return Err(WriteProblem::NotARoute {
+                detail: "the paths are of several orders; a file holds one".to_owned(),
+            });
+        }
         let mut error = None;
         for rows in [by_sequence(layout, &rows), Some(rows)]
             .into_iter()
