@@ -1,7 +1,7 @@
 //! Trajectories of edges in LIF and VDA 5050: converts the NURBS record of either format to runs,
 //! or to the control polygon if it defines no curve.
 
-use guideway_layout::{Code, Place, Value, WrittenCurve, element_name};
+use guideway_layout::{Code, Place, Value, WrittenCurve};
 use guideway_spline::{MAX_DEGREE, Point, Runs, polyline_to_runs};
 
 use serde::de::{IgnoredAny, MapAccess};
