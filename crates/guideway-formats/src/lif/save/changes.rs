@@ -11,7 +11,7 @@ use crate::json::{Members, Splices, Tree};
 use crate::lif::members::{META, OTHER};
 use crate::lif::model::NODE_PROPERTIES;
 use crate::lif::version::Version;
-use crate::lif::write::Edges;
+use crate::lif::write::{Edges, add_missing};
 
 /// The changes, as splices and as rows to add and remove.
 pub(super) struct Changes<'s, 't> {
@@ -175,17 +175,10 @@ impl<'s, 't> Changes<'s, 't> {
         let mut of_old: Vec<(&str, Option<usize>)> = of_old.collect();
         let mut of_new: Vec<(&str, Option<usize>)> = of_new.collect();
         for types in [&mut of_old, &mut of_new] {
-            for &name in self.old.network.types_of_node(a) {
-                if types.iter().all(|(known, _)| *known != name) {
-                    types.push((name, None));
-                }
-            }
+            add_missing(types, self.old.network.types_of_node(a));
         }
-        for &name in self.needed_types.get(&b).into_iter().flatten() {
-            if of_new.iter().all(|(known, _)| *known != name) {
-                of_new.push((name, None));
-            }
-        }
+        let needed = self.needed_types.get(&b);
+        add_missing(&mut of_new, needed.map_or(&[], Vec::as_slice));
         let of_old: Types<'s> = of_old
             .into_iter()
             .map(|(name, entry)| (name, old.node_type(a, entry)))

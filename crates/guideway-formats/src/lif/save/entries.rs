@@ -1,6 +1,8 @@
 //! Entries of vehicle types in the text of a file: changes, removes and adds those that were
 //! edited.
 
+use std::collections::{HashMap, HashSet, VecDeque};
+
 use crate::json::{ArrayEdit, Splices, Tree, items_at, member};
 use crate::lif::model::robot_name;
 use crate::lif::version::Version;
@@ -9,6 +11,28 @@ use crate::lif::write::Elements;
 /// Vehicle types of an element with their properties. An empty name stands for an entry without a
 /// type.
 pub(super) type Types<'a> = Vec<(&'a str, Tree<'a>)>;
+
+/// The positions of each name in a list of types, because an element may have many.
+struct Positions<'t>(HashMap<&'t str, VecDeque<usize>>);
+
+impl<'t> Positions<'t> {
+    fn of(types: &'t Types<'_>) -> Self {
+        let mut positions = HashMap::<_, VecDeque<_>>::new();
+        for (at, (name, _)) in types.iter().enumerate() {
+            positions.entry(*name).or_default().push_back(at);
+        }
+        Self(positions)
+    }
+
+    /// The first position of a name that is not taken.
+    fn first_free(&mut self, name: &str, is_taken: &[bool]) -> Option<usize> {
+        let positions = self.0.get_mut(name)?;
+        while positions.front().is_some_and(|&at| is_taken[at]) {
+            positions.pop_front();
+        }
+        positions.front().copied()
+    }
+}
 
 /// Changes the entries of the object at byte `at`, whose types were `old` and are `new`.
 pub(super) fn change<'a>(
@@ -22,6 +46,7 @@ pub(super) fn change<'a>(
     let text = splices.text();
     let mut is_written = vec![false; new.len()];
     let mut is_used = vec![false; old.len()];
+    let (mut old_positions, mut new_positions) = (Positions::of(old), Positions::of(new));
     let array = member(text, at, key).filter(|array| text.as_bytes()[array.start] == b'[');
     let mut edit = array.map(|array| ArrayEdit::new(text, array.start));
     let items = edit
@@ -29,22 +54,17 @@ pub(super) fn change<'a>(
         .map_or(Vec::new(), |edit| edit.items().to_vec());
     for (index, item) in items.into_iter().enumerate() {
         let names = names(text, item.start, version);
-        let take = |is_taken: &mut [bool], types: &[(&str, Tree<'_>)], name: &str| {
-            let mut all = types.iter().zip(is_taken.iter());
-            let found = all.position(|((known, _), taken)| *known == name && !taken)?;
-            is_taken[found] = true;
+        let before = names.iter().map(|name| {
+            let found = old_positions.first_free(name, &is_used)?;
+            is_used[found] = true;
             Some(found)
-        };
-        let before = names.iter().map(|name| take(&mut is_used, old, name));
+        });
         let Some(before) = before.collect::<Vec<_>>().into_iter().flatten().next() else {
             // An entry that the layout does not use.
             continue;
         };
-        let after = names.iter().map(|name| {
-            let mut all = new.iter().enumerate();
-            let is_free = |i: usize| !is_written[i];
-            all.find_map(|(i, (known, _))| (known == name && is_free(i)).then_some(i))
-        });
+        let after = names.iter();
+        let after = after.map(|name| new_positions.first_free(name, &is_written));
         let after: Vec<Option<usize>> = after.collect();
         let Some(first) = after.iter().flatten().next().copied() else {
             if let Some(edit) = &mut edit {
@@ -69,12 +89,10 @@ pub(super) fn change<'a>(
         }
     }
     // A type of before that has no entry in the text needs none now.
-    let is_without = |name: &str| {
-        let mut old = old.iter().zip(&is_used);
-        old.any(|((known, _), is_used)| *known == name && !is_used)
-    };
+    let without = old.iter().zip(&is_used).filter(|(_, is_used)| !*is_used);
+    let without: HashSet<&str> = without.map(|((name, _), _)| *name).collect();
     let added = new.iter().zip(is_written);
-    let added = added.filter(|((name, _), is_written)| !is_written && !is_without(name));
+    let added = added.filter(|((name, _), is_written)| !is_written && !without.contains(name));
     let added = added.map(|((name, properties), _)| {
         let name = if name.is_empty() {
             crate::lif::model::ANY_TYPE

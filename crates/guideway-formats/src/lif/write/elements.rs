@@ -1,7 +1,7 @@
 //! Objects of LIF: the nodes, edges and stations of a layout as JSON.
 
 use std::borrow::Cow;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use guideway_layout::{Attributes, Layout, TypeEntries, Value};
 use guideway_spline::Point;
@@ -113,11 +113,7 @@ impl<'a> Elements<'a> {
             let entries = own.entries(node as usize);
             types.extend(entries.map(|entry| (own.type_of(entry), Some(entry))));
         }
-        for &name in self.network.types_of_node(node) {
-            if types.iter().all(|(known, _)| *known != name) {
-                types.push((name, None));
-            }
-        }
+        add_missing(&mut types, self.network.types_of_node(node));
         if types.is_empty() {
             types.push((ANY_TYPE, None));
         }
@@ -334,6 +330,16 @@ impl<'a> Elements<'a> {
             self.merge_other(tree, &entries.attributes, entry, TYPE_OTHER);
         }
     }
+}
+
+/// Adds the names that a list of types lacks, each once.
+pub(in crate::lif) fn add_missing<'a>(
+    types: &mut Vec<(&'a str, Option<usize>)>,
+    names: &[&'a str],
+) {
+    let mut known: HashSet<&str> = types.iter().map(|(name, _)| *name).collect();
+    let missing = names.iter().filter(|name| known.insert(name));
+    types.extend(missing.map(|&name| (name, None)));
 }
 
 pub(super) fn text<'a>(

@@ -2,6 +2,7 @@
 //! is on a level, each path connects two nodes, and node identifiers are unique.
 
 use std::borrow::Cow;
+use std::collections::HashSet;
 
 use guideway_layout::{Layout, Level, PathRef};
 use guideway_spline::Point;
@@ -105,6 +106,8 @@ impl<'a> Network<'a> {
 
     fn add_paths(&mut self, layout: &'a Layout, names: &mut UniqueNames<'a>, losses: &mut Losses) {
         let mut end_nodes = EndNodes::default();
+        // The types that the nodes have so far.
+        let mut known = HashSet::new();
         let (mut new_nodes, mut between_levels, mut for_any) = (0, 0, 0);
         for path in layout.paths.iter() {
             let (Some(ends), row) = (path.ends(), path.row()) else {
@@ -131,9 +134,8 @@ impl<'a> Network<'a> {
             for_any += usize::from(types.len() == 0);
             for name in path_types(layout, row) {
                 for node in nodes {
-                    let types = &mut self.nodes[node as usize].types;
-                    if !types.contains(&name) {
-                        types.push(name);
+                    if known.insert((node, name)) {
+                        self.nodes[node as usize].types.push(name);
                     }
                 }
             }
