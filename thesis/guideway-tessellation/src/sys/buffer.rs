@@ -64,6 +64,7 @@ impl Buffer {
         let offset = first * size_of::<T>();
         let bytes: &[u8] = bytemuck::cast_slice(data);
         assert!((offset + bytes.len()) as u64 <= self.bytes);
+        // SAFETY: the assertion keeps the bytes within the buffer.
         unsafe {
             self.gl
                 .raw
@@ -79,6 +80,7 @@ impl Buffer {
         let bytes: &mut [u8] = bytemuck::cast_slice_mut(data);
         assert!(bytes.len() as u64 <= self.bytes);
         self.bind(glow::COPY_READ_BUFFER);
+        // SAFETY: the assertion keeps the bytes within the buffer, which is bound.
         unsafe {
             self.gl
                 .raw
@@ -88,6 +90,8 @@ impl Buffer {
 
     /// Binds the buffer to a storage block.
     pub(crate) fn bind_storage(&self, binding: u32) {
+        // SAFETY: the object belongs to this context, which is current; no memory of the host is
+        // passed.
         unsafe {
             self.gl
                 .raw
@@ -97,6 +101,8 @@ impl Buffer {
 
     /// Binds the buffer to a uniform block.
     pub(crate) fn bind_uniform(&self, binding: u32) {
+        // SAFETY: the object belongs to this context, which is current; no memory of the host is
+        // passed.
         unsafe {
             self.gl
                 .raw
@@ -105,6 +111,8 @@ impl Buffer {
     }
 
     pub(super) fn bind(&self, target: u32) {
+        // SAFETY: the object belongs to this context, which is current; no memory of the host is
+        // passed.
         unsafe { self.gl.raw.bind_buffer(target, Some(self.name)) };
     }
 
@@ -115,6 +123,7 @@ impl Buffer {
 
 impl Drop for Buffer {
     fn drop(&mut self) {
+        // SAFETY: the object belongs to this context, and nothing uses it afterwards.
         unsafe { self.gl.raw.delete_buffer(self.name) };
     }
 }

@@ -9,6 +9,7 @@ use super::{Buffer, Gl, Program, VertexArray};
 /// Runs a compute program.
 pub(crate) fn dispatch(gl: &Gl, program: &Program, groups: u32) {
     program.bind();
+    // SAFETY: the plan keeps what shaders access within buffers of the planned sizes.
     unsafe { gl.raw.dispatch_compute(groups, 1, 1) };
 }
 
@@ -52,6 +53,7 @@ pub(crate) fn draw_command(
     program.bind();
     vertices.bind();
     command.bind(glow::DRAW_INDIRECT_BUFFER);
+    // SAFETY: the plan keeps the command and what it draws within buffers of the planned sizes.
     unsafe {
         gl.raw
             .draw_arrays_indirect_offset(glow::PATCHES, offset_bytes as i32);

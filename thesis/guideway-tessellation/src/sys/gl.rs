@@ -89,12 +89,14 @@ impl Gl {
 
     /// Name of the device, and its OpenGL version.
     pub(crate) fn description(&self) -> String {
+        // SAFETY: the context is current; the text of the driver lives as long as the context.
         let text = |name| unsafe { self.raw.get_parameter_string(name) };
         format!("{}, OpenGL {}", text(glow::RENDERER), text(glow::VERSION))
     }
 
     /// Returns `true` if the device is a software rasterizer.
     pub(crate) fn is_software(&self) -> bool {
+        // SAFETY: the context is current; the text of the driver lives as long as the context.
         let renderer = unsafe { self.raw.get_parameter_string(glow::RENDERER) };
         ["llvmpipe", "softpipe", "swrast", "SwiftShader"]
             .iter()
@@ -103,15 +105,18 @@ impl Gl {
 
     /// Queries the limits of the device.
     pub(crate) fn limits(&self) -> Limits {
+        // SAFETY: the context is current, and the driver answers by value.
         let block_bytes = unsafe {
             self.raw
                 .get_parameter_i64(glow::MAX_SHADER_STORAGE_BLOCK_SIZE)
         };
+        // SAFETY: the context is current, and the driver answers by value.
         let groups = unsafe {
             self.raw
                 .get_parameter_indexed_i32(glow::MAX_COMPUTE_WORK_GROUP_COUNT, 0)
         };
         let mut viewport = [0; 2];
+        // SAFETY: the driver writes two numbers, as many as the slice has.
         unsafe {
             self.raw
                 .get_parameter_i32_slice(glow::MAX_VIEWPORT_DIMS, &mut viewport);
@@ -129,6 +134,7 @@ impl Gl {
     }
 
     fn integer(&self, name: u32) -> i32 {
+        // SAFETY: the context is current, and the driver answers by value.
         unsafe { self.raw.get_parameter_i32(name) }
     }
 
@@ -152,6 +158,7 @@ impl Gl {
                 operation: operation(),
             });
         }
+        // SAFETY: the context is current, and the driver answers by value.
         match unsafe { self.raw.get_error() } {
             glow::NO_ERROR => Ok(()),
             glow::OUT_OF_MEMORY => Err(GlError::OutOfMemory {
@@ -192,11 +199,13 @@ impl Gl {
         let visible = glow::COMMAND_BARRIER_BIT
             | glow::SHADER_STORAGE_BARRIER_BIT
             | glow::BUFFER_UPDATE_BARRIER_BIT;
+        // SAFETY: the context is current, and no memory of the host is passed.
         unsafe { self.raw.memory_barrier(visible) };
     }
 
     /// Sets the number of vertices per patch.
     pub(crate) fn set_patch_vertices(&self, vertices: u32) {
+        // SAFETY: the context is current, and no memory of the host is passed.
         unsafe {
             self.raw
                 .patch_parameter_i32(glow::PATCH_VERTICES, vertices as i32);
@@ -207,10 +216,12 @@ impl Gl {
     pub(crate) fn finish(&self, mut is_wanted: impl FnMut() -> bool) -> Result<(), GlError> {
         /// Interval of the calls of `is_wanted`: bounds the delay of a cancelled frame.
         const INTERVAL: Duration = Duration::from_millis(10);
+        // SAFETY: the context is current; the call makes an object and takes no memory of the host.
         let fence = unsafe { self.raw.fence_sync(glow::SYNC_GPU_COMMANDS_COMPLETE, 0) }
             .map_err(GlError::create("fence"))?;
         let wait = || {
             let interval_ns = INTERVAL.as_nanos() as i32;
+            // SAFETY: the fence belongs to this context and is not deleted yet.
             unsafe {
                 self.raw
                     .client_wait_sync(fence, glow::SYNC_FLUSH_COMMANDS_BIT, interval_ns)
@@ -220,6 +231,7 @@ impl Gl {
         while status == glow::TIMEOUT_EXPIRED && is_wanted() {
             status = wait();
         }
+        // SAFETY: the object belongs to this context, and nothing uses it afterwards.
         unsafe { self.raw.delete_sync(fence) };
         match status {
             glow::WAIT_FAILED => Err(GlError::Wait),

@@ -31,15 +31,22 @@ impl Program {
     pub(crate) fn new(gl: &Rc<Gl>, sources: &[(ShaderStage, String)]) -> Result<Self, GlError> {
         let program = Self {
             gl: Rc::clone(gl),
+            // SAFETY: the context is current; the call makes an object and takes no memory of the
+            // host.
             name: unsafe { gl.raw.create_program() }.map_err(GlError::create("program"))?,
         };
         for (stage, source) in sources {
             program.attach(*stage, source)?;
         }
+        // SAFETY: the object belongs to this context, which is current; no memory of the host is
+        // passed.
         unsafe { gl.raw.link_program(program.name) };
+        // SAFETY: the object belongs to this context, which is current; no memory of the host is
+        // passed.
         if unsafe { gl.raw.get_program_link_status(program.name) } {
             return Ok(program);
         }
+        // SAFETY: the program belongs to this context; the text of the log is copied.
         let log = unsafe { gl.raw.get_program_info_log(program.name) };
         Err(GlError::Link { log })
     }
@@ -53,6 +60,7 @@ impl Program {
             ShaderStage::Compute => glow::COMPUTE_SHADER,
         };
         let raw = &self.gl.raw;
+        // SAFETY: the shader and the program belong to this context; the source is a slice.
         unsafe {
             let shader = raw.create_shader(kind).map_err(GlError::create("shader"))?;
             raw.shader_source(shader, source);
@@ -72,6 +80,8 @@ impl Program {
     }
 
     pub(super) fn bind(&self) {
+        // SAFETY: the object belongs to this context, which is current; no memory of the host is
+        // passed.
         unsafe { self.gl.raw.use_program(Some(self.name)) };
     }
 
@@ -83,6 +93,7 @@ impl Program {
 
 impl Drop for Program {
     fn drop(&mut self) {
+        // SAFETY: the object belongs to this context, and nothing uses it afterwards.
         unsafe { self.gl.raw.delete_program(self.name) };
     }
 }
@@ -98,6 +109,8 @@ impl VertexArray {
     pub(crate) fn pulled(gl: &Rc<Gl>) -> Result<Self, GlError> {
         Ok(Self {
             gl: Rc::clone(gl),
+            // SAFETY: the context is current; the call makes an object and takes no memory of the
+            // host.
             name: unsafe { gl.raw.create_named_vertex_array() }
                 .map_err(GlError::create("vertex array"))?,
         })
@@ -113,6 +126,8 @@ impl VertexArray {
         let vertices = Self::pulled(gl)?;
         let (raw, name) = (&gl.raw, vertices.name);
         let stride = size_of::<[f32; 2]>() as i32;
+        // SAFETY: the object belongs to this context, which is current; no memory of the host is
+        // passed.
         unsafe {
             raw.enable_vertex_array_attrib(name, location);
             raw.vertex_array_attrib_format_f32(name, location, 2, glow::FLOAT, false, 0);
@@ -124,12 +139,15 @@ impl VertexArray {
     }
 
     pub(super) fn bind(&self) {
+        // SAFETY: the object belongs to this context, which is current; no memory of the host is
+        // passed.
         unsafe { self.gl.raw.bind_vertex_array(Some(self.name)) };
     }
 }
 
 impl Drop for VertexArray {
     fn drop(&mut self) {
+        // SAFETY: the object belongs to this context, and nothing uses it afterwards.
         unsafe { self.gl.raw.delete_vertex_array(self.name) };
     }
 }

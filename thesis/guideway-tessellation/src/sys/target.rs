@@ -62,6 +62,7 @@ impl Target {
     pub(crate) fn begin(&self, rgba: [f32; 4], center_x: i32, center_y: i32, viewport_side: u32) {
         let raw = &self.gl.raw;
         let (side, half) = (viewport_side as i32, viewport_side as i32 / 2);
+        // SAFETY: the framebuffer belongs to this context; the color is a slice of four numbers.
         unsafe {
             raw.bind_framebuffer(glow::FRAMEBUFFER, Some(self.drawn.framebuffer));
             raw.clear_buffer_f32_slice(glow::COLOR, 0, &rgba);
@@ -75,6 +76,7 @@ impl Target {
             return;
         };
         let (w, h) = (self.width as i32, self.height as i32);
+        // SAFETY: both framebuffers belong to this context; no memory of the host is passed.
         unsafe {
             self.gl.raw.blit_named_framebuffer(
                 Some(self.drawn.framebuffer),
@@ -103,6 +105,7 @@ impl Target {
         assert!(pixels.len() >= needed);
         let raw = &self.gl.raw;
         let source = self.resolved.as_ref().unwrap_or(&self.drawn);
+        // SAFETY: the assertions keep the pixels that are read within the slice.
         unsafe {
             raw.bind_framebuffer(glow::READ_FRAMEBUFFER, Some(source.framebuffer));
             raw.pixel_store_i32(glow::PACK_ROW_LENGTH, row_pixels as i32);
@@ -130,6 +133,7 @@ impl Surface {
     fn new(gl: &Rc<Gl>, width: u32, height: u32, samples: u32) -> Result<Self, GlError> {
         let raw = &gl.raw;
         let (w, h) = (width as i32, height as i32);
+        // SAFETY: the context is current; the call makes an object and takes no memory of the host.
         let surface = unsafe {
             Self {
                 gl: Rc::clone(gl),
@@ -144,6 +148,8 @@ impl Surface {
         let picture =
             format!("a picture of {width} x {height} pixels with {samples} samples per pixel");
         let bytes = u64::from(width) * u64::from(height) * u64::from(samples) * PIXEL_BYTES;
+        // SAFETY: the object belongs to this context, which is current; no memory of the host is
+        // passed.
         unsafe {
             raw.bind_renderbuffer(glow::RENDERBUFFER, Some(surface.renderbuffer));
             if samples > 1 {
@@ -159,6 +165,8 @@ impl Surface {
             }
         }
         gl.check_allocation(&picture, bytes)?;
+        // SAFETY: the object belongs to this context, which is current; no memory of the host is
+        // passed.
         let complete = unsafe {
             raw.bind_framebuffer(glow::FRAMEBUFFER, Some(surface.framebuffer));
             raw.framebuffer_renderbuffer(
@@ -179,6 +187,7 @@ impl Surface {
 
 impl Drop for Surface {
     fn drop(&mut self) {
+        // SAFETY: the objects belong to this context, and nothing uses them afterwards.
         unsafe {
             self.gl.raw.delete_framebuffer(self.framebuffer);
             self.gl.raw.delete_renderbuffer(self.renderbuffer);

@@ -60,9 +60,13 @@ impl Timeline {
         match &mut self.timestamps {
             Timestamps::Device(queries, used) => {
                 if *used == queries.len() {
+                    // SAFETY: the context is current; the call makes an object and takes no memory
+                    // of the host.
                     let query = unsafe { self.gl.raw.create_query() };
                     queries.push(query.map_err(GlError::create("query"))?);
                 }
+                // SAFETY: the object belongs to this context, which is current; no memory of the
+                // host is passed.
                 unsafe { self.gl.raw.query_counter(queries[*used], glow::TIMESTAMP) };
                 *used += 1;
             }
@@ -78,6 +82,7 @@ impl Timeline {
     pub(crate) fn elapsed_ms(&self) -> Vec<f64> {
         match &self.timestamps {
             Timestamps::Device(queries, used) => {
+                // SAFETY: the query belongs to this context; the driver answers by value.
                 let time_ns = |&query| unsafe {
                     self.gl
                         .raw
@@ -99,6 +104,7 @@ impl Drop for Timeline {
     fn drop(&mut self) {
         if let Timestamps::Device(queries, _) = &self.timestamps {
             for &query in queries {
+                // SAFETY: the object belongs to this context, and nothing uses it afterwards.
                 unsafe { self.gl.raw.delete_query(query) };
             }
         }
