@@ -108,7 +108,16 @@ struct Samples {
     top_px: usize,
     words: usize,
     bits: Vec<u64>,
+    /// Per row of samples, columns that are all set: polygons of one vehicle mostly overlap.
+    full: Vec<Range<usize>>,
+    /// Per row of samples, left and right end of a polygon.
+    ends: Vec<(f64, f64)>,
 }
+
+/// Rows of samples of a band.
+const ROWS: usize = BAND_PX * SAMPLES;
+/// The ends of a row that a polygon does not reach.
+const NO_ENDS: (f64, f64) = (f64::INFINITY, f64::NEG_INFINITY);
 
 impl Samples {
     fn new(width_px: usize, top_px: usize) -> Self {
@@ -117,7 +126,9 @@ impl Samples {
             width_px,
             top_px,
             words,
-            bits: vec![0; words * BAND_PX * SAMPLES],
+            bits: vec![0; words * ROWS],
+            full: vec![0..0; ROWS],
+            ends: vec![NO_ENDS; ROWS],
         }
     }
 
@@ -129,12 +140,46 @@ impl Samples {
                 (a.min(p.y), b.max(p.y))
             });
         let top_px = self.top_px as f64;
-        for row in samples_between(top - top_px, bottom - top_px, BAND_PX * SAMPLES) {
-            let y = top_px + (row as f64 + 0.5) / SAMPLES as f64;
-            let (left, right) = row_span(corners, y);
+        let rows = samples_between(top - top_px, bottom - top_px, ROWS);
+        self.find_ends(corners, rows.clone());
+        for row in rows {
+            let (left, right) = std::mem::replace(&mut self.ends[row], NO_ENDS);
             let columns = samples_between(left, right, self.width_px * SAMPLES);
-            self.mark(row, columns);
+            self.mark_new(row, columns);
         }
+    }
+
+    /// Sets [`Self::ends`] of the rows of a polygon, edge by edge.
+    fn find_ends(&mut self, corners: &[Point<f64>], rows: Range<usize>) {
+        let top_px = self.top_px as f64;
+        let next = corners.iter().cycle().skip(1);
+        for (a, b) in corners.iter().zip(next) {
+            let of_edge = samples_between(a.y.min(b.y) - top_px, a.y.max(b.y) - top_px, ROWS);
+            // The position of a row is rounded, so its neighbors are tested too.
+            let first = of_edge.start.saturating_sub(1).max(rows.start);
+            for row in first..(of_edge.end + 1).min(rows.end) {
+                let y = top_px + (row as f64 + 0.5) / SAMPLES as f64;
+                if (a.y <= y) != (b.y <= y) {
+                    let x = a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y));
+                    let (left, right) = &mut self.ends[row];
+                    (*left, *right) = (left.min(x), right.max(x));
+                }
+            }
+        }
+    }
+
+    /// Sets columns of a row, except those known to be set.
+    fn mark_new(&mut self, row: usize, columns: Range<usize>) {
+        let full = self.full[row].clone();
+        if columns.start > full.end || columns.end < full.start {
+            if columns.len() > full.len() {
+                self.full[row] = columns.clone();
+            }
+            return self.mark(row, columns);
+        }
+        self.full[row] = full.start.min(columns.start)..full.end.max(columns.end);
+        self.mark(row, columns.start..full.start);
+        self.mark(row, full.end..columns.end);
     }
 
     fn mark(&mut self, row: usize, columns: Range<usize>) {
@@ -187,20 +232,6 @@ fn samples_between(from: f64, to: f64, count: usize) -> Range<usize> {
     let first = (from * side - 0.5).ceil().max(0.0) as usize;
     let end = ((to * side - 0.5).floor() + 1.0).max(0.0) as usize;
     first..end.min(count)
-}
-
-/// Left and right end of a horizontal line within a convex polygon; infinite, reversed, if there is
-/// none.
-fn row_span(corners: &[Point<f64>], y: f64) -> (f64, f64) {
-    let (mut left, mut right) = (f64::INFINITY, f64::NEG_INFINITY);
-    let next = corners.iter().cycle().skip(1);
-    for (a, b) in corners.iter().zip(next) {
-        if (a.y <= y) != (b.y <= y) {
-            let x = a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y));
-            (left, right) = (left.min(x), right.max(x));
-        }
-    }
-    (left, right)
 }
 
 /// Composites a color over a share of a pixel; both have straight alpha.
