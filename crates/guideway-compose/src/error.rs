@@ -1,11 +1,9 @@
 //! Errors of composing a picture.
 
 use guideway_envelope::NoEnvelope;
-use guideway_formats::ReadError;
+use guideway_formats::{ReadError, SaveError};
 use guideway_layout::UserError;
 use guideway_scene::{RenderError, SceneError};
-
-use crate::SaveError;
 
 /// Why a picture was not composed.
 #[derive(Debug, thiserror::Error)]
@@ -43,13 +41,6 @@ impl From<ImageError> for UserError {
     fn from(error: ImageError) -> Self {
         let remedy = error.0.remedy();
         Self::new("image", error.to_string(), remedy)
-    }
-}
-
-impl From<SaveError> for UserError {
-    fn from(error: SaveError) -> Self {
-        let remedy = error.remedy();
-        Self::new("save", error.to_string(), remedy)
     }
 }
 

@@ -48,7 +48,6 @@ mod backdrop;
 mod blend;
 mod decorations;
 mod error;
-mod files;
 mod overlay;
 mod picture;
 mod png_writer;
@@ -63,9 +62,9 @@ pub use backdrop::{
 };
 pub use decorations::Decorations;
 pub use error::{ComposeError, ImageError};
-pub use files::{SaveError, remove_unfinished, replace_file};
 pub use guideway_document::decorations::{DecorationStyle, grid, legend, scale_bar};
 pub use guideway_document::text_format;
+pub use guideway_formats::lock_regular_file;
 pub use guideway_formats::raster::ImagePlacement;
 pub use picture::{Picture, Viewport};
 pub use png_writer::{save_png, save_png_by, write_png_by};

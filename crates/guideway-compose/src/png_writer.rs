@@ -1,12 +1,10 @@
 //! Encodes frames as PNG, at once or strip by strip, and writes them to files or streams.
 
-use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
+use guideway_formats::{SaveError, replace_file};
 use guideway_scene::{Frame, FrameSize};
-
-use crate::{SaveError, replace_file};
 
 /// Saves a frame as a PNG file, atomically.
 ///
@@ -33,10 +31,7 @@ pub fn save_png_by<T, E: From<SaveError>>(
             problem,
         })
     };
-    replace_file(path, |file| {
-        let file = File::create(file).map_err(fail)?;
-        write_png_by(file, size, fail, draw)
-    })
+    replace_file(path, |file| write_png_by(file, size, fail, draw))
 }
 
 /// Writes a picture as PNG to a stream, strip by strip: see [`save_png_by`]. `fail` converts the

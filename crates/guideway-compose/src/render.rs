@@ -56,7 +56,7 @@ impl Picture {
     ) -> Result<Rendered, ComposeError> {
         let started = Instant::now();
         let view = self.view()?;
-        let visible = self.backdrop.visible(&self.scene, &view)?;
+        let visible = self.backdrop.visible(&self.scene, &view, &self.budget)?;
         let decorations = self.place_decorations(&view);
         let mut backdrop =
             visible.prepare(&decorations.grid, method, &self.budget, &self.style, &view)?;

@@ -1,16 +1,16 @@
 //! Writes a picture as SVG: the same layers, order, colors and widths, as exact curves.
 
-use std::fs::File;
-use std::io::{self, BufWriter, Write};
+use std::io::{self, Write};
 use std::path::Path;
 
 use guideway_formats::svg::{Stroke, SvgWriter};
+use guideway_formats::{SaveError, replace_file};
 use guideway_scene::{MethodInfo, Report, Shading, View};
 
 use crate::backdrop::VisibleBackdrop;
 use crate::decorations::PlacedDecorations;
 use crate::vector::{width_px, write_draw_list, write_paths};
-use crate::{ComposeError, Picture, Rendered, SaveError, replace_file};
+use crate::{ComposeError, Picture, Rendered};
 
 /// Name of the format, as a method of the report.
 const NAME: &str = "svg";
@@ -27,15 +27,10 @@ impl Picture {
             return Err(ComposeError::DensityInSvg);
         }
         let view = self.view()?;
-        let backdrop = self.backdrop.visible(&self.scene, &view)?;
+        let backdrop = self.backdrop.visible(&self.scene, &view, &self.budget)?;
         let decorations = self.place_decorations(&view);
         let drawn = replace_file(output, |file| {
-            let written = File::create(file).and_then(|file| {
-                let mut out = BufWriter::with_capacity(1 << 16, file);
-                let drawn = self.write_svg(&mut out, &view, &backdrop, &decorations)?;
-                out.flush()?;
-                Ok(drawn)
-            });
+            let written = self.write_svg(file, &view, &backdrop, &decorations);
             written.map_err(|problem| SaveError {
                 path: output.to_owned(),
                 problem,

@@ -1,5 +1,7 @@
 //! Formats counts, lengths and names for people: in legends, scale bars and reports.
 
+use guideway_layout::is_hidden;
+
 /// A count with thousands separators: `1,020,350`.
 pub fn count(n: u64) -> String {
     let digits = n.to_string();
@@ -13,10 +15,10 @@ pub fn count(n: u64) -> String {
     grouped
 }
 
-/// A name from a file on one line: replaces control characters, and ends in `…` after `max_chars`
+/// A name from a file on one line: replaces characters that steer a terminal or reverse text, and ends in `…` after `max_chars`
 /// characters.
 pub fn single_line(text: &str, max_chars: usize) -> String {
-    let printable = |c: char| if c.is_control() { '\u{fffd}' } else { c };
+    let printable = |c: char| if is_hidden(c) { '\u{fffd}' } else { c };
     let mut line: String = text.chars().take(max_chars).map(printable).collect();
     if text.chars().nth(max_chars).is_some() {
         line.push('…');
@@ -48,6 +50,7 @@ mod tests {
     #[test]
     fn replaces_control_characters_and_truncates() {
         assert_eq!(single_line("a\u{1b}[31mb\n", 80), "a\u{fffd}[31mb\u{fffd}");
+        assert_eq!(single_line("a\u{202e}b", 80), "a\u{fffd}b");
         assert_eq!(single_line("abcdef", 3), "abc…");
     }
 

@@ -3,11 +3,13 @@
 use std::fmt;
 use std::io;
 
-use guideway_layout::Place;
+use guideway_layout::{Place, shown_text};
+
+use crate::Format;
 
 /// Reason why a file cannot be read: the file, the place, the problem and its remedy.
 #[derive(Debug, thiserror::Error)]
-#[error("{file}: {problem}. {}", .problem.remedy())]
+#[error("{}: {problem}. {}", shown_text(file), .problem.remedy())]
 pub struct ReadError {
     /// Name of the file or source, as given.
     pub file: String,
@@ -57,6 +59,9 @@ pub enum Problem {
         /// The first bytes: quoted text, or hexadecimal.
         first_bytes: String,
     },
+    /// The caller does not want files of this format.
+    #[error("this is a file of {}, a format that is shut off", .0.name())]
+    FormatOff(Format),
     /// The file ends before its content is complete.
     #[error("the file is incomplete, it ends after {at} bytes: {detail}")]
     Truncated {
@@ -158,6 +163,7 @@ impl Problem {
             Self::Io(_) => "io",
             Self::Empty => "empty",
             Self::UnknownFormat { .. } => "unknown-format",
+            Self::FormatOff(_) => "format-off",
             Self::Truncated { .. } => "truncated",
             Self::Syntax { .. } => "syntax",
             Self::Damaged { .. } => "damaged",
@@ -182,6 +188,7 @@ impl Problem {
             Self::Io(_) => "Check the permissions of the file, and that its disk is mounted".into(),
             Self::Empty => "Export the layout again; this export is empty".into(),
             Self::UnknownFormat { .. } => format!("Guideway reads {FormatList}"),
+            Self::FormatOff(_) => "Add the format to `--formats` if you trust the file".into(),
             Self::Truncated { .. } | Self::Damaged { .. } => {
                 "Copy or export the file again; this copy is damaged or incomplete".into()
             }
@@ -190,13 +197,18 @@ impl Problem {
                     .into()
             }
             Self::TooDeep { .. } => {
-                "Check the application that wrote the file, or raise the limit `depth`".into()
-            }
-            Self::LimitReached { .. } => {
-                "Raise the limit if this size is intended; else check the application that wrote \
-                 the file"
+                "Check the application that wrote the file, or raise the limit with `--limit depth=N`"
                     .into()
             }
+            Self::LimitReached { what, .. } => match limit_option(what) {
+                Some(option) => format!(
+                    "Raise the limit with `--limit {option}=N` if this size is intended; else \
+                     check the application that wrote the file"
+                ),
+                None => "Check the application that wrote the file, or split it into several \
+                         files"
+                    .into(),
+            },
             Self::NotUtf8 { .. } => "Save the file as UTF-8".into(),
             Self::Structure { .. } => {
                 format!("Check that this is a layout file; Guideway reads {FormatList}")
@@ -212,11 +224,29 @@ impl Problem {
     }
 }
 
+/// What [`Problem::LimitReached`] counts, and the option of the command that sets its limit. What is
+/// missing has a limit of its own that cannot be set.
+pub const LIMIT_OPTIONS: &[(&str, &str)] = &[
+    ("bytes in the file", "file-bytes"),
+    ("bytes in one text", "text-bytes"),
+    ("control points", "control-points"),
+    ("control points or knots of one curve", "curve-points"),
+    ("elements in the file", "elements"),
+    ("elements of one kind", "elements"),
+    ("paths", "paths"),
+    ("rows in the table", "paths"),
+];
+
+fn limit_option(what: &str) -> Option<&'static str> {
+    let found = LIMIT_OPTIONS.iter().find(|(counted, _)| *counted == what);
+    found.map(|(_, option)| *option)
+}
+
 struct FormatList;
 
 impl fmt::Display for FormatList {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (i, format) in crate::Format::ALL.iter().enumerate() {
+        for (i, format) in Format::ALL.iter().enumerate() {
             f.write_str(if i == 0 { "" } else { ", " })?;
             f.write_str(format.description())?;
         }

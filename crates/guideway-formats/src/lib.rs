@@ -11,7 +11,8 @@
 //! | map | records, elements | layout, diagnostics | one folder per format; `builder`, `node_rows` |
 //! | convert | curves and units of a format | uniform cubic runs, SI units | `spline`, `trajectory`, `ellipse`, `wgs84`, `speed_unit` |
 //! | floor plans | image, ROS map | pixels and their placement, walls | `raster`, `ros_map` |
-//! | write | layout | file, losses | `write*` per format; `clamped`, `driven`, `trajectory_writer`, `*_nodes`, `*_losses` |
+//! | write | layout | text, losses | `write*` per format; `clamped`, `driven`, `trajectory_writer`, `*_nodes`, `*_losses` |
+//! | save | bytes | a file that replaces its target | `output` |
 
 pub mod arrow;
 mod builder;
@@ -23,6 +24,7 @@ mod ellipse;
 mod end_nodes;
 mod error;
 mod fields;
+mod finite;
 mod format;
 pub mod geojson;
 mod input;
@@ -34,6 +36,7 @@ mod network_losses;
 mod node_rows;
 mod opendrive;
 pub mod opentcs;
+mod output;
 pub mod raster;
 mod read;
 pub mod rmf;
@@ -58,9 +61,13 @@ mod yaml;
 mod yaml_json;
 
 pub use arrow::{WriteError, WriteProblem};
-pub use error::{Problem, ReadError};
+pub use error::{LIMIT_OPTIONS, Problem, ReadError};
 pub use format::Format;
 pub use losses::{Loss, Losses};
+pub use output::{
+    NewFile, SaveError, is_same_file, lock_regular_file, remove_unfinished, replace_file,
+    try_remove_unfinished,
+};
 pub use read::{read_bytes, read_file};
 pub use sniff::sniff;
 pub use source::{Progress, ReadOptions};

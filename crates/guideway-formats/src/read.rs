@@ -4,7 +4,7 @@ use std::fs::{File, Metadata};
 use std::io::{self, Read};
 use std::path::Path;
 
-use guideway_layout::{Layout, Limits};
+use guideway_layout::{Layout, Limits, try_reserve};
 
 use crate::input::Input;
 #[cfg(unix)]
@@ -19,7 +19,7 @@ use crate::{Format, Problem, ReadError, sniff};
 /// When the file cannot be read, has an unknown format, exceeds a limit, or is damaged as a whole.
 /// Faults of single elements are diagnostics in [`Layout::diagnostics`].
 pub fn read_file(path: &Path, options: &ReadOptions<'_>) -> Result<Layout, ReadError> {
-    let name = path.display().to_string();
+    let name = path.to_string_lossy().into_owned();
     let fail = |problem| ReadError::new(&name, problem);
     let mut file = open(path).map_err(fail)?;
     let size = file.metadata().map_err(io_problem).map_err(fail)?.len();
@@ -28,7 +28,9 @@ pub fn read_file(path: &Path, options: &ReadOptions<'_>) -> Result<Layout, ReadE
     if is_arrow(&mut file).map_err(fail)? {
         let name = &name;
         let file = ReadAheadFile::new(file, size, path);
-        return crate::arrow::read(Source { name, options }, &Input::File(&file));
+        let source = Source { name, options };
+        source.check_format(Format::Arrow)?;
+        return crate::arrow::read(source, &Input::File(&file));
     }
     let bytes = read_whole(&mut file, options).map_err(fail)?;
     read_bytes(&name, &bytes, options)
@@ -49,7 +51,9 @@ pub fn read_bytes(
         return Err(source.fail(Problem::Empty));
     }
     check_size(bytes.len() as u64, &options.limits).map_err(|p| source.fail(p))?;
-    match sniff(bytes) {
+    let format = sniff(bytes);
+    format.map_or(Ok(()), |format| source.check_format(format))?;
+    match format {
         _ if is_utf16(bytes) => Err(source.fail(UTF_16)),
         Some(Format::Lif) => crate::lif::read(source, bytes),
         Some(Format::Arrow) => crate::arrow::read(source, &Input::Bytes(bytes)),
@@ -97,7 +101,7 @@ pub(crate) fn read_file_bytes(
     };
     let options = ReadOptions { limits, ..*options };
     let bytes = open(path).and_then(|mut file| read_whole(&mut file, &options));
-    bytes.map_err(|problem| ReadError::new(path.display().to_string(), problem))
+    bytes.map_err(|problem| ReadError::new(path.to_string_lossy(), problem))
 }
 
 fn open(path: &Path) -> Result<File, Problem> {
@@ -132,8 +136,7 @@ fn read_whole(file: &mut File, options: &ReadOptions<'_>) -> Result<Vec<u8>, Pro
     let total = file.metadata().map_err(io_problem)?.len();
     check_size(total, &options.limits)?;
     let mut bytes = Vec::new();
-    bytes
-        .try_reserve_exact(usize::try_from(total).unwrap_or(usize::MAX))
+    try_reserve(&mut bytes, usize::try_from(total).unwrap_or(usize::MAX))
         .map_err(|_| Problem::Io(io::ErrorKind::OutOfMemory.into()))?;
     // The file may grow during the read, so each chunk checks the size again.
     while file

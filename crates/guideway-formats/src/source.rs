@@ -3,13 +3,15 @@
 
 use guideway_layout::Limits;
 
-use crate::{Problem, ReadError};
+use crate::{Format, Problem, ReadError};
 
 /// Limits and observer of a read.
 #[derive(Clone, Default)]
 pub struct ReadOptions<'a> {
     /// Largest sizes that are accepted.
     pub limits: Limits,
+    /// Formats that are read; `None` for all.
+    pub formats: Option<&'a [Format]>,
     /// Observer of the progress, which may cancel the read.
     pub progress: Option<&'a dyn Progress>,
 }
@@ -40,6 +42,16 @@ impl Source<'_> {
     /// Makes an error that names this source.
     pub(crate) fn fail(&self, problem: Problem) -> ReadError {
         ReadError::new(self.name, problem)
+    }
+
+    /// Fails if files of a format are not to be read.
+    pub(crate) fn check_format(&self, format: Format) -> Result<(), ReadError> {
+        match self.options.formats {
+            Some(formats) if !formats.contains(&format) => {
+                Err(self.fail(Problem::FormatOff(format)))
+            }
+            _ => Ok(()),
+        }
     }
 
     /// Fails if the observer cancels the read.

@@ -1,13 +1,13 @@
 //! Targets: the formats that can be written, with their names and file extensions.
 
-use std::fs::File;
-use std::io::{BufWriter, Write};
+use std::io::Write;
 use std::path::Path;
 use std::time::SystemTime;
 
 use guideway_layout::Layout;
 
 use crate::lif::{self, Version};
+use crate::output::replace_file;
 use crate::{
     Format, Losses, WriteError, WriteProblem, arrow, dxf, geojson, opentcs, rmf, svg, vda5050,
 };
@@ -189,64 +189,43 @@ impl Target {
         matches!(self, Self::Dxf | Self::Svg)
     }
 
-    /// Writes a layout to a file. Returns the losses.
+    /// Writes a layout to a file: see [`NewFile`](crate::NewFile). Returns the losses.
     ///
     /// # Errors
-    /// When the file cannot be written, or when the target is an order and the paths do not form
-    /// one route; the file is not touched then.
+    /// As [`Self::write`]; the file is not touched then.
     pub fn write_file(self, layout: &Layout, path: &Path) -> Result<Losses, WriteError> {
-        if self == Self::Arrow {
-            return arrow::write_layout(layout, path, &arrow::WriteOptions::default());
-        }
-        let fail = |problem: WriteProblem| WriteError {
-            path: path.to_owned(),
-            problem,
+        replace_file(path, |out| {
+            self.write(layout, out).map_err(|problem| WriteError {
+                path: path.to_owned(),
+                problem,
+            })
+        })
+    }
+
+    /// Writes a layout to a stream. Returns the losses.
+    ///
+    /// # Errors
+    /// When the stream fails, or when the target is an order and the paths do not form one route.
+    pub fn write(self, layout: &Layout, out: &mut impl Write) -> Result<Losses, WriteProblem> {
+        let exported = SystemTime::now();
+        let lif = |version| lif::WriteOptions { version, exported };
+        let vda5050 = |version| vda5050::WriteOptions { version, exported };
+        let geojson = geojson::WriteOptions::default();
+        let losses = match self {
+            Self::Arrow => arrow::write_layout(layout, out, &arrow::WriteOptions::default())?,
+            Self::Dxf => dxf::write_layout(layout, out)?,
+            Self::GeoJson => geojson::write_layout(layout, out, &geojson)?,
+            Self::Lif1 => lif::write_layout(layout, out, &lif(Version::V1))?,
+            Self::Lif2 => lif::write_layout(layout, out, &lif(Version::V2))?,
+            Self::Nav2 => geojson::write_route_graph(layout, out, &geojson)?,
+            Self::OpenTcs6 => opentcs::write_layout(layout, out, opentcs::Version::V6)?,
+            Self::OpenTcs7 => opentcs::write_layout(layout, out, opentcs::Version::V7)?,
+            Self::Rmf => rmf::write_navigation_graph(layout, out)?,
+            Self::Svg => svg::write_layout(layout, out)?,
+            Self::Vda2 => vda5050::write_layout(layout, out, &vda5050(vda5050::Version::V2))?,
+            Self::Vda3 => vda5050::write_layout(layout, out, &vda5050(vda5050::Version::V3))?,
         };
-        if let Some(version) = self.order_version() {
-            let mut text = Vec::new();
-            let exported = SystemTime::now();
-            let options = vda5050::WriteOptions { version, exported };
-            let losses = vda5050::write_layout(layout, &mut text, &options).map_err(fail)?;
-            std::fs::write(path, text).map_err(|error| fail(error.into()))?;
-            return Ok(losses);
-        }
-        let fail = |error: std::io::Error| fail(error.into());
-        let file = File::create(path).map_err(fail)?;
-        let mut out = BufWriter::with_capacity(1 << 16, file);
-        let losses = self.write_text(layout, &mut out).map_err(fail)?;
-        out.flush().map_err(fail)?;
         Ok(losses)
-    }
-
-    /// The version of VDA 5050, if the target is an order.
-    fn order_version(self) -> Option<vda5050::Version> {
-        match self {
-            Self::Vda2 => Some(vda5050::Version::V2),
-            Self::Vda3 => Some(vda5050::Version::V3),
-            _ => None,
-        }
-    }
-
-    fn write_text(self, layout: &Layout, out: &mut impl Write) -> std::io::Result<Losses> {
-        let lif_options = |version| lif::WriteOptions {
-            version,
-            exported: SystemTime::now(),
-        };
-        match self {
-            Self::Arrow => unreachable!("Arrow has a writer of files"),
-            Self::Dxf => dxf::write_layout(layout, out),
-            Self::GeoJson => geojson::write_layout(layout, out, &geojson::WriteOptions::default()),
-            Self::Lif1 => lif::write_layout(layout, out, &lif_options(Version::V1)),
-            Self::Lif2 => lif::write_layout(layout, out, &lif_options(Version::V2)),
-            Self::Nav2 => {
-                geojson::write_route_graph(layout, out, &geojson::WriteOptions::default())
-            }
-            Self::OpenTcs6 => opentcs::write_layout(layout, out, opentcs::Version::V6),
-            Self::OpenTcs7 => opentcs::write_layout(layout, out, opentcs::Version::V7),
-            Self::Rmf => rmf::write_navigation_graph(layout, out),
-            Self::Svg => svg::write_layout(layout, out),
-            Self::Vda2 | Self::Vda3 => unreachable!("orders are written before"),
-        }
     }
 }
 

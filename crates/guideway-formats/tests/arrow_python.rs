@@ -93,7 +93,12 @@ fn network() -> Layout {
 
 fn write_network(folder: &Path) {
     let path = folder.join("network.arrow");
-    write_layout(&network(), &path, &WriteOptions::default()).expect("a file");
+    write_layout(
+        &network(),
+        &mut std::fs::File::create(&path).expect("a new file"),
+        &WriteOptions::default(),
+    )
+    .expect("a file");
 }
 
 #[test]

@@ -1,6 +1,6 @@
-//! [`Limits`]: bounds on what a reader accepts from untrusted files.
+//! [`Limits`]: bounds on what a reader accepts from untrusted files, and on what is written.
 
-/// Limits of a reader. Exceeding one is an error that names the limit, the value and the remedy.
+/// Limits of readers and writers. Exceeding one is an error that names the limit, the value and the remedy.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Limits {
     /// Largest file that a reader loads into memory as a whole, in bytes.
@@ -25,6 +25,8 @@ pub struct Limits {
     pub diagnostics_per_code: usize,
     /// Largest distance between a curve and its conversion to runs, in meters.
     pub conversion_tolerance_m: f64,
+    /// Largest file that is written, in bytes.
+    pub output_bytes: u64,
 }
 
 impl Default for Limits {
@@ -42,6 +44,8 @@ impl Default for Limits {
             coordinate_m: 1e9,
             diagnostics_per_code: 1_000,
             conversion_tolerance_m: 1e-4,
+            // As `file_bytes`: what is written can be read.
+            output_bytes: 8 << 30,
         }
     }
 }

@@ -111,15 +111,13 @@
 //! not at all.
 //!
 //! ```
-//! use std::fs::File;
-//!
 //! use guideway::formats::dxf;
 //!
 //! let layout = guideway::open("examples/site.lif.json")?;
 //! # let folder = tempfile::tempdir()?;
 //! # let target = folder.path().join("site.dxf");
 //! let losses = guideway::replace_file(&target, |file| {
-//!     let written = File::create(file).and_then(|mut file| dxf::write_layout(&layout, &mut file));
+//!     let written = dxf::write_layout(&layout, file);
 //!     written.map_err(|problem| guideway::SaveError { path: target.clone(), problem })
 //! })?;
 //! for loss in losses.iter() {
@@ -165,8 +163,9 @@ pub use guideway_layout as layout;
 pub use guideway_scene as scene;
 pub use guideway_spline as spline;
 
-pub use guideway_compose::{
-    SaveError, remove_unfinished, replace_file, save_png, save_png_by, write_png_by,
+pub use guideway_compose::{save_png, save_png_by, write_png_by};
+pub use guideway_formats::{
+    NewFile, SaveError, remove_unfinished, replace_file, try_remove_unfinished,
 };
 pub use methods::{
     AUTO, Available, MethodError, MethodOption, live_method, method, method_names, methods,

@@ -1,6 +1,7 @@
 //! The `guideway` command.
 
 mod cli;
+mod out_of_memory;
 
 use std::env;
 

@@ -74,7 +74,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         let options = WriteOptions {
             precision: Some(precision),
         };
-        arrow::write_layout(&layout, &arrows.join(name), &options)?;
+        let mut bytes = Vec::new();
+        arrow::write_layout(&layout, &mut bytes, &options)?;
+        fs::write(arrows.join(name), bytes)?;
     }
     Ok(())
 }

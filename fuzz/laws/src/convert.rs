@@ -1,6 +1,5 @@
 //! Law of conversion: a layout written in any format reads back with the same bounds.
 
-use std::fs;
 use std::time::SystemTime;
 
 use guideway_formats::lif::{self, Version};
@@ -96,13 +95,12 @@ impl Format {
     }
 }
 
-/// Bytes of an Arrow file. Its writer needs a path, so it writes to a temporary folder.
+/// Bytes of an Arrow file.
 pub(crate) fn arrow_bytes(layout: &Layout) -> Vec<u8> {
-    let folder = tempfile::tempdir().expect("a temporary folder");
-    let path = folder.path().join("layout.arrow");
-    arrow::write_layout(layout, &path, &arrow::WriteOptions::default())
+    let mut bytes = Vec::new();
+    arrow::write_layout(layout, &mut bytes, &arrow::WriteOptions::default())
         .unwrap_or_else(|error| panic!("{error}"));
-    fs::read(&path).expect("the file exists: it was just written")
+    bytes
 }
 
 /// Box of all curves; `None` if there is no curve.

@@ -45,15 +45,16 @@ impl Backdrop {
     /// Resolves the layers for a view.
     ///
     /// # Errors
-    /// When swept areas are requested and no path has one.
+    /// When swept areas are requested and no path has one, or they exceed the budget.
     pub(crate) fn visible(
         &self,
         scene: &Scene,
         view: &View,
+        budget: &Budget,
     ) -> Result<VisibleBackdrop<'_>, ComposeError> {
         let areas = self.swept.as_ref().map(|swept| {
             let rows = swept.rows.as_deref().unwrap_or(scene.draw_order());
-            VisibleAreas::new(scene.layout(), rows, swept.vehicle, view)
+            VisibleAreas::new(scene.layout(), rows, swept.vehicle, view, budget)
         });
         Ok(VisibleBackdrop {
             backdrop: self,

@@ -1,12 +1,13 @@
 //! Swept areas: finds the convex polygons that vehicles sweep, draws and writes them.
 
 use std::io::{self, Write};
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use guideway_cpu::{Areas, lay_areas};
 use guideway_envelope::{ConvexPolygon, EnvelopeSource, MIN_TOLERANCE_M, NoEnvelope};
 use guideway_formats::svg::SvgWriter;
 use guideway_layout::Layout;
-use guideway_scene::{Frame, Rgba, Scene, Strip, View};
+use guideway_scene::{Budget, Frame, RenderError, Rgba, Scene, Strip, View};
 use guideway_spline::{Bounds, Point};
 use rayon::prelude::*;
 
@@ -23,6 +24,9 @@ const COLOR: Rgba = Rgba {
 
 /// Most that a polygon may exceed its area by, in pixels: less than anyone sees.
 const TOLERANCE_PX: f64 = 0.25;
+
+/// Most polygons of the height of the picture. Measured: as many take about a second to fill.
+const MOST_HEIGHTS: f64 = 20_000.0;
 
 /// The areas that one vehicle sweeps along paths.
 #[derive(Clone, Debug, PartialEq)]
@@ -69,7 +73,7 @@ pub fn draw_swept_areas(
     view: &View,
 ) -> Result<Frame, ComposeError> {
     let mut frame = Frame::new(view.size());
-    let visible = VisibleAreas::new(layout, rows, vehicle, view)?;
+    let visible = VisibleAreas::new(layout, rows, vehicle, view, &Budget::default())?;
     draw(&visible.polygons(), &Strip::whole(view), &mut frame);
     Ok(frame)
 }
@@ -88,29 +92,29 @@ pub(super) fn draw(areas: &Areas, strip: &Strip, frame: &mut Frame) {
 }
 
 impl VisibleAreas {
-    /// Sweeps the vehicle along paths and keeps the polygons near the view.
+    /// Sweeps the vehicle along paths and keeps the polygons near the view. Where they take more
+    /// than the budget, they are coarser: a vehicle that turns on the spot sweeps very many.
     ///
     /// # Errors
-    /// When none of the paths has a swept area.
+    /// When none of the paths has a swept area, or the coarsest polygons exceed the budget.
     pub(super) fn new(
         layout: &Layout,
         rows: &[u32],
         vehicle: EnvelopeSource,
         view: &View,
+        budget: &Budget,
     ) -> Result<Self, ComposeError> {
-        let tolerance_m = (TOLERANCE_PX / view.px_per_m()).max(MIN_TOLERANCE_M);
-        let shown = view.world_bounds();
-        let by_path: Vec<_> = rows
-            .par_iter()
-            .map(|&path| {
-                let sweep = vehicle.sweep(layout, path as usize)?;
-                let mut polygons = Vec::new();
-                sweep.polygons(tolerance_m, Some(shown), &mut |polygon| {
-                    polygons.push(polygon.clone());
-                });
-                Ok(polygons)
-            })
-            .collect();
+        let mut tolerance_m = (TOLERANCE_PX / view.px_per_m()).max(MIN_TOLERANCE_M);
+        let coarsest_m = f64::from(view.size().height().max(view.size().width())) / view.px_per_m();
+        let by_path = loop {
+            let cost = Cost::new(view, budget);
+            let by_path = polygons_by_path(layout, rows, vehicle, (view, tolerance_m), &cost);
+            match cost.check() {
+                Ok(()) => break by_path,
+                Err(error) if tolerance_m > coarsest_m => return Err(error.into()),
+                Err(_) => tolerance_m *= 2.0,
+            }
+        };
         let mut visible = Self {
             areas: Vec::with_capacity(by_path.len()),
             report: SweptReport {
@@ -169,6 +173,78 @@ impl VisibleAreas {
     }
 }
 
+/// The polygons of each path within a view, to a tolerance in meters.
+fn polygons_by_path(
+    layout: &Layout,
+    rows: &[u32],
+    vehicle: EnvelopeSource,
+    (view, tolerance_m): (&View, f64),
+    cost: &Cost,
+) -> Vec<Result<Vec<ConvexPolygon>, NoEnvelope>> {
+    let shown = view.world_bounds();
+    let of_path = |&path: &u32| {
+        let sweep = vehicle.sweep(layout, path as usize)?;
+        let mut polygons = Vec::new();
+        if cost.check().is_ok() {
+            sweep.polygons(tolerance_m, Some(shown), &mut |polygon| {
+                if cost.add(polygon) {
+                    polygons.push(polygon.clone());
+                }
+            });
+        }
+        Ok(polygons)
+    };
+    rows.par_iter().map(of_path).collect()
+}
+
+/// The cost of the polygons so far: bytes, and rows of pixels.
+struct Cost<'v> {
+    view: &'v View,
+    bytes: AtomicU64,
+    rows_px: AtomicU64,
+    max_bytes: u64,
+    max_rows_px: u64,
+}
+
+impl<'v> Cost<'v> {
+    fn new(view: &'v View, budget: &Budget) -> Self {
+        Self {
+            view,
+            bytes: AtomicU64::new(0),
+            rows_px: AtomicU64::new(0),
+            // The rasterizer has a copy.
+            max_bytes: budget.memory_bytes / 2,
+            max_rows_px: (MOST_HEIGHTS * f64::from(view.size().height())) as u64,
+        }
+    }
+
+    /// Adds a polygon. Returns `false` if all polygons together cost too much.
+    fn add(&self, polygon: &ConvexPolygon) -> bool {
+        let bytes = size_of::<ConvexPolygon>() + size_of_val(polygon.points());
+        let Bounds { min, max } = polygon.bounds();
+        let [top, bottom] = [max, min].map(|corner| self.view.pixel_from_world(corner).y);
+        let height = f64::from(self.view.size().height());
+        // Casts saturate.
+        let rows_px = (bottom.min(height) - top.max(0.0)).max(0.0) as u64 + 1;
+        self.bytes.fetch_add(bytes as u64, Ordering::Relaxed);
+        self.rows_px.fetch_add(rows_px, Ordering::Relaxed);
+        self.check().is_ok()
+    }
+
+    fn check(&self) -> Result<(), RenderError> {
+        let bytes = self.bytes.load(Ordering::Relaxed);
+        if bytes <= self.max_bytes && self.rows_px.load(Ordering::Relaxed) <= self.max_rows_px {
+            return Ok(());
+        }
+        Err(RenderError::Budget {
+            method: "envelope",
+            what: "swept areas",
+            needed_bytes: 2 * bytes,
+            budget_bytes: 2 * self.max_bytes,
+        })
+    }
+}
+
 impl SweptReport {
     /// Fails when paths were swept and none has an area: the picture would not show that.
     fn require_any(&self) -> Result<(), ComposeError> {
@@ -182,3 +258,6 @@ impl SweptReport {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

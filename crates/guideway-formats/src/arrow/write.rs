@@ -12,11 +12,12 @@ use super::column_names::{CONTROL_POINTS, ID, PATHS_VERSION, VERSION_KEY};
 use super::write_column::{Cells, Column, IdCells, PolygonCells, Precision};
 use super::write_error::{WriteError, WriteProblem, fail};
 use super::write_file::{BATCH_POINTS, BATCH_ROWS, BATCH_TEXT_BYTES, IpcFile};
+use crate::output::NewFile;
 
 /// Writes a table of paths row by row, in memory independent of the number of rows.
 ///
-/// The rows go to a temporary file in the folder of the target; [`Self::finish`] renames it to the
-/// target. A writer dropped before leaves the target unchanged.
+/// The rows go to a [`NewFile`]; [`Self::finish`] replaces the target with it. A writer dropped before
+/// leaves the target unchanged.
 ///
 /// ```no_run
 /// use guideway_formats::arrow::{ArrowWriter, Column, ColumnType, Precision};
@@ -31,7 +32,7 @@ use super::write_file::{BATCH_POINTS, BATCH_ROWS, BATCH_TEXT_BYTES, IpcFile};
 /// # Ok::<(), guideway_formats::arrow::WriteError>(())
 /// ```
 pub struct ArrowWriter {
-    file: IpcFile,
+    file: IpcFile<NewFile>,
     ids: IdCells,
     polygons: PolygonCells,
     columns: Vec<Column>,
@@ -48,11 +49,12 @@ impl ArrowWriter {
         precision: Precision,
         columns: Vec<Column>,
     ) -> Result<Self, WriteError> {
-        Self::create_inner(path, precision, columns).map_err(|p| fail(path, p))
+        let file = NewFile::create(path)?;
+        Self::begin(file, precision, columns).map_err(|p| fail(path, p))
     }
 
-    fn create_inner(
-        path: &Path,
+    fn begin(
+        file: NewFile,
         precision: Precision,
         columns: Vec<Column>,
     ) -> Result<Self, WriteProblem> {
@@ -70,7 +72,7 @@ impl ArrowWriter {
         let metadata = HashMap::from([(VERSION_KEY.to_owned(), PATHS_VERSION.to_string())]);
         let schema = Schema::new_with_metadata(fields, metadata);
         Ok(Self {
-            file: IpcFile::create(path, schema)?,
+            file: IpcFile::begin(file, schema)?,
             ids,
             polygons,
             cells: columns.iter().map(Column::cells).collect(),
@@ -90,7 +92,7 @@ impl ArrowWriter {
         values: &[Option<Value<'_>>],
     ) -> Result<(), WriteError> {
         self.push_inner(id, run, values)
-            .map_err(|p| fail(self.file.target(), p))
+            .map_err(|p| fail(self.file.out().path(), p))
     }
 
     fn push_inner<T: Real>(
@@ -145,19 +147,18 @@ impl ArrowWriter {
         self.file.write(arrays)
     }
 
-    /// Writes the last batch and replaces the target.
+    /// Writes the last batch and replaces the target. Returns the size of the file in bytes.
     ///
     /// # Errors
     /// When the disk is full, or the target cannot be replaced; the target is then unchanged.
-    pub fn finish(self) -> Result<(), WriteError> {
-        let target = self.file.target().to_owned();
-        self.finish_inner().map_err(|p| fail(&target, p))
-    }
-
-    fn finish_inner(mut self) -> Result<(), WriteProblem> {
+    pub fn finish(mut self) -> Result<u64, WriteError> {
+        let target = self.file.out().path().to_owned();
         if self.polygons.rows() > 0 {
-            self.write_batch()?;
+            self.write_batch().map_err(|p| fail(&target, p))?;
         }
-        self.file.finish()
+        let file = self.file.finish().map_err(|p| fail(&target, p))?;
+        let bytes = file.bytes();
+        file.commit()?;
+        Ok(bytes)
     }
 }

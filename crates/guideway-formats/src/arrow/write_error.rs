@@ -4,10 +4,13 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use arrow_schema::ArrowError;
+use guideway_layout::shown_path;
+
+use crate::output::SaveError;
 
 /// Reason why a file cannot be written.
 #[derive(Debug, thiserror::Error)]
-#[error("{}: {problem}", .path.display())]
+#[error("{}: {problem}", shown_path(.path))]
 pub struct WriteError {
     /// Target file.
     pub path: PathBuf,
@@ -52,10 +55,8 @@ pub enum WriteProblem {
 impl WriteError {
     /// Returns the remedy, a sentence for the user.
     pub fn remedy(&self) -> &'static str {
-        match self.problem {
-            WriteProblem::Io(_) => {
-                "Check that the folder exists and is writable, and that the disk has space"
-            }
+        match &self.problem {
+            WriteProblem::Io(problem) => SaveError::remedy_of(problem),
             WriteProblem::TooFewPoints { .. } => "Give the run four or more control points",
             WriteProblem::Value { .. } => {
                 "Give each row one value per column, of the type of the column"
@@ -65,6 +66,12 @@ impl WriteError {
             }
             WriteProblem::Arrow(_) => "Please report this",
         }
+    }
+}
+
+impl From<SaveError> for WriteError {
+    fn from(error: SaveError) -> Self {
+        fail(&error.path, error.problem.into())
     }
 }
 

@@ -1,14 +1,10 @@
-//! Arrow file writer: writes record batches to a temporary file, which replaces the target at the
-//! end.
+//! Arrow file writer: writes record batches to a stream.
 
-use std::fs::{self, File};
-use std::io;
-use std::path::{Path, PathBuf};
+use std::io::Write;
 
 use arrow_array::{ArrayRef, RecordBatch};
 use arrow_ipc::writer::{FileWriter, IpcWriteOptions};
 use arrow_schema::{Schema, SchemaRef};
-use tempfile::NamedTempFile;
 
 use super::write_error::WriteProblem;
 
@@ -19,29 +15,26 @@ pub(super) const BATCH_POINTS: usize = 4 << 20;
 /// Bytes of text that end a batch early.
 pub(super) const BATCH_TEXT_BYTES: usize = 64 << 20;
 
-/// An Arrow file under construction, in a temporary file in the folder of the target.
-pub(super) struct IpcFile {
-    target: PathBuf,
-    writer: FileWriter<io::BufWriter<NamedTempFile>>,
+/// An Arrow file under construction.
+pub(super) struct IpcFile<W: Write> {
+    writer: FileWriter<W>,
     schema: SchemaRef,
 }
 
-impl IpcFile {
+impl<W: Write> IpcFile<W> {
     /// Begins a file without compression.
-    pub(super) fn create(target: &Path, schema: Schema) -> Result<Self, WriteProblem> {
+    pub(super) fn begin(out: W, schema: Schema) -> Result<Self, WriteProblem> {
         // 64 bytes: buffers of a mapped file are then aligned for AVX-512 loads.
         let options = IpcWriteOptions::try_new(64, false, arrow_ipc::MetadataVersion::V5)?;
-        let file = io::BufWriter::with_capacity(1 << 20, temporary_beside(target)?);
         Ok(Self {
-            target: target.to_owned(),
-            writer: FileWriter::try_new_with_options(file, &schema, options)?,
+            writer: FileWriter::try_new_with_options(out, &schema, options)?,
             schema: schema.into(),
         })
     }
 
-    /// Returns the target.
-    pub(super) fn target(&self) -> &Path {
-        &self.target
+    /// The stream.
+    pub(super) fn out(&self) -> &W {
+        self.writer.get_ref()
     }
 
     /// Appends a batch.
@@ -50,33 +43,8 @@ impl IpcFile {
         Ok(self.writer.write(&batch)?)
     }
 
-    /// Ends the file and replaces the target.
-    pub(super) fn finish(self) -> Result<(), WriteProblem> {
-        let file = self.writer.into_inner()?;
-        let file = file.into_inner().map_err(io::IntoInnerError::into_error)?;
-        file.persist(&self.target).map_err(|e| e.error)?;
-        Ok(())
+    /// Ends the file. Returns the stream.
+    pub(super) fn finish(self) -> Result<W, WriteProblem> {
+        Ok(self.writer.into_inner()?)
     }
-}
-
-/// Creates a temporary file in the folder of `path`: a rename is atomic only within one file
-/// system.
-fn temporary_beside(path: &Path) -> io::Result<NamedTempFile<File>> {
-    // A rename would replace a device by a file.
-    if fs::metadata(path).is_ok_and(|target| !target.is_file()) {
-        return Err(io::Error::other("the target exists and is not a file"));
-    }
-    let folder = match path.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
-    };
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".guideway-").suffix(".tmp");
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        // The mode of any new file, before the umask.
-        builder.permissions(fs::Permissions::from_mode(0o666));
-    }
-    builder.tempfile_in(folder)
 }

@@ -2,7 +2,7 @@
 //! that they need.
 
 use std::collections::HashMap;
-use std::path::Path;
+use std::io::Write;
 
 use arrow_schema::Schema;
 use guideway_layout::{Direction, Layout, PathRef, Values};
@@ -17,9 +17,10 @@ use super::layout_columns::{has_unique_level_ids, sources};
 use super::layout_rows::{Row, rows};
 use super::schema::is_reserved;
 use super::write_column::Precision;
-use super::write_error::{WriteError, WriteProblem, fail};
+use super::write_error::WriteProblem;
 use super::write_file::{BATCH_POINTS, BATCH_ROWS, BATCH_TEXT_BYTES, IpcFile};
 use crate::Losses;
+use crate::finite::check_finite;
 
 /// Largest distance by which `f32` may move a control point, in meters; beyond it `f64` is used.
 const F32_ERROR_M: f64 = 1e-5;
@@ -36,23 +37,28 @@ pub struct WriteOptions {
 /// holds all elements. Returns the losses, of which there are none.
 ///
 /// # Errors
-/// When the file cannot be written.
+/// When the output fails.
 pub fn write_layout(
     layout: &Layout,
-    path: &Path,
+    out: &mut impl Write,
     options: &WriteOptions,
-) -> Result<Losses, WriteError> {
+) -> Result<Losses, WriteProblem> {
+    check_finite(layout)?;
     let precision = options.precision.unwrap_or_else(|| precision_for(layout));
-    write_table(layout, path, precision).map_err(|problem| fail(path, problem))?;
+    write_table(layout, out, precision)?;
     Ok(Losses::default())
 }
 
-fn write_table(layout: &Layout, path: &Path, precision: Precision) -> Result<(), WriteProblem> {
+fn write_table(
+    layout: &Layout,
+    out: &mut impl Write,
+    precision: Precision,
+) -> Result<(), WriteProblem> {
     let version = version_for(layout);
     let sources = sources(layout, version, precision);
     let fields: Vec<_> = sources.iter().map(|s| s.field(version)).collect();
     let schema = Schema::new_with_metadata(fields, metadata(layout, version));
-    let mut file = IpcFile::create(path, schema)?;
+    let mut file = IpcFile::begin(out, schema)?;
     let kinds = match version {
         PATHS_VERSION => &[Element::Path][..],
         _ => &Element::ALL,
@@ -77,7 +83,8 @@ fn write_table(layout: &Layout, path: &Path, precision: Precision) -> Result<(),
             }
         }
     }
-    file.finish()
+    file.finish()?.flush()?;
+    Ok(())
 }
 
 /// Returns the number of points, or of other items of lists, of a row.

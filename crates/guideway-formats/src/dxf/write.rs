@@ -13,6 +13,7 @@ use super::xdata::write_path_id;
 use crate::Losses;
 use crate::clamped::{ClampedCurve, is_rewritten_as, rounded};
 use crate::common_losses::common_losses;
+use crate::finite::check_finite;
 
 /// Name of the attribute column that holds layer names.
 const LAYER_COLUMN: &str = "layer";
@@ -30,6 +31,7 @@ const ENTITY_COLUMN: &str = "entity";
 /// # Errors
 /// When writing to `out` fails.
 pub fn write_layout(layout: &Layout, out: &mut impl Write) -> io::Result<Losses> {
+    check_finite(layout)?;
     let mut losses = losses(layout);
     let layers = LayerTable::of(layout, &mut losses);
     let max_entities = layout.paths.geometry().run_count() as u64;

@@ -13,6 +13,7 @@ use super::references::References;
 use super::write_losses::list_losses;
 use super::write_member::write_member;
 use crate::Losses;
+use crate::finite::check_finite;
 use crate::wgs84::LocalProjection;
 
 /// Options of [`write_layout`].
@@ -43,6 +44,7 @@ pub fn write_layout(
     out: &mut impl Write,
     options: &WriteOptions,
 ) -> io::Result<Losses> {
+    check_finite(layout)?;
     let references = References::new(layout);
     let degrees = degrees(layout);
     let mut json = JsonWriter::new(out, degrees);

@@ -15,6 +15,7 @@ use super::nav2_values::{Kind, Placement, is_metadata, placement};
 use super::write::WriteOptions;
 use crate::Losses;
 use crate::common_losses::common_losses;
+use crate::finite::check_finite;
 
 /// Writes a layout as a route graph of Nav2: nodes as points, paths as directed edges with whole
 /// numbers as identifiers, columns as metadata. Returns the losses.
@@ -29,6 +30,7 @@ pub fn write_route_graph(
     out: &mut impl Write,
     options: &WriteOptions,
 ) -> io::Result<Losses> {
+    check_finite(layout)?;
     let ids = Nav2Ids::new(layout);
     let mut json = JsonWriter::new(out, None);
     json.begin('{')?;

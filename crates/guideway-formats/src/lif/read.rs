@@ -70,7 +70,7 @@ pub(super) fn read_again(layout: &Layout) -> Option<Layout> {
             diagnostics_per_code: 0,
             ..Limits::default()
         },
-        progress: None,
+        ..ReadOptions::default()
     };
     let source = Source {
         name: &layout.provenance.source,

@@ -20,6 +20,7 @@ use super::write_paths::write_paths;
 use super::write_places::{write_locations, write_points};
 use super::xml_writer::XmlWriter;
 use crate::Losses;
+use crate::finite::check_finite;
 
 /// Writes a layout, and returns what a plant model cannot hold of it or holds in another form.
 ///
@@ -31,6 +32,7 @@ use crate::Losses;
 /// # Errors
 /// When writing to `out` fails.
 pub fn write_layout(layout: &Layout, out: &mut impl Write, version: Version) -> io::Result<Losses> {
+    check_finite(layout)?;
     let mut losses = Losses::of_paths(layout, layout.refused.len());
     add_general_losses(layout, &mut losses);
     let plant = Plant::complete(layout, &mut losses);

@@ -25,7 +25,7 @@ pub fn is_raster(bytes: &[u8]) -> bool {
 /// [`MAX_PIXELS`](super::MAX_PIXELS) pixels.
 pub fn read_file(path: &Path, options: &ReadOptions<'_>) -> Result<Raster, ReadError> {
     let bytes = read_file_bytes(path, options, MAX_FILE_BYTES)?;
-    read(bytes).map_err(|problem| ReadError::new(path.display().to_string(), problem))
+    read(bytes).map_err(|problem| ReadError::new(path.to_string_lossy(), problem))
 }
 
 fn read(bytes: Vec<u8>) -> Result<Raster, Problem> {

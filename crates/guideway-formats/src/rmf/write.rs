@@ -14,6 +14,7 @@ use super::graph_plan::{GraphPlan, LevelPlan};
 use super::yaml_text::{key, number, quoted, value};
 use crate::Losses;
 use crate::clamped::rounded;
+use crate::finite::check_finite;
 
 /// Writes a layout as a navigation graph of Open-RMF: nodes as vertices, paths with nodes as
 /// straight lanes, doors and lifts, in meters. Returns the losses.
@@ -24,6 +25,7 @@ use crate::clamped::rounded;
 /// # Errors
 /// When `out` fails.
 pub fn write_navigation_graph(layout: &Layout, out: &mut impl Write) -> io::Result<Losses> {
+    check_finite(layout)?;
     let plan = GraphPlan::new(layout);
     let name = layout.attributes.value(0, "name");
     let name = match name {

@@ -44,7 +44,7 @@ pub struct OccupancyGrid {
 /// for the map file, [`raster::MAX_PIXELS`], [`Limits::coordinate_m`](guideway_layout::Limits).
 pub fn read_file(path: &Path, options: &ReadOptions<'_>) -> Result<OccupancyGrid, ReadError> {
     let bytes = read_file_bytes(path, options, MAX_FILE_BYTES)?;
-    let name = path.display().to_string();
+    let name = path.to_string_lossy().into_owned();
     let source = Source {
         name: &name,
         options,
@@ -69,7 +69,7 @@ pub fn read_file(path: &Path, options: &ReadOptions<'_>) -> Result<OccupancyGrid
 fn missing_image(image: &Path) -> Problem {
     Problem::InvalidValue {
         place: Place::element("image"),
-        detail: format!("there is no file {}", image.display()),
+        detail: format!("there is no file {}", guideway_layout::shown_path(&image)),
         remedy: "Put the image beside the map file and name it there, such as `image: hall.pgm`"
             .into(),
     }

@@ -9,6 +9,7 @@ use super::svg_writer::{PathData, Stroke, SvgWriter};
 use crate::Losses;
 use crate::clamped::POSITION_STEP_M;
 use crate::common_losses::common_losses;
+use crate::finite::check_finite;
 use crate::xml_text::is_xml_char;
 
 /// Name of the attribute column that holds group names.
@@ -39,6 +40,7 @@ const MIN_MARGIN_M: f64 = 0.5;
 /// # Errors
 /// When writing to `out` fails.
 pub fn write_layout(layout: &Layout, out: &mut impl Write) -> io::Result<Losses> {
+    check_finite(layout)?;
     let Bounds { min, max } = page_bounds(layout);
     let size_mm = (max - min) * 1e3;
     let size_mm = Point::new(size_mm.x.round(), size_mm.y.round());

@@ -9,6 +9,7 @@ use super::objects::Objects;
 use super::route::Route;
 use super::version::Version;
 use super::write_losses::losses;
+use crate::finite::check_finite;
 use crate::json::Tree;
 use crate::{Losses, WriteProblem};
 
@@ -33,6 +34,7 @@ pub fn write_layout(
     out: &mut impl Write,
     options: &WriteOptions,
 ) -> Result<Losses, WriteProblem> {
+    check_finite(layout)?;
     let route = Route::of(layout, options.version)?;
     let mut objects = Objects::new(layout, &route, options.version);
     write_order(&mut objects, out, options.exported)?;

@@ -14,7 +14,8 @@ use crate::networks::{differences, network};
 fn through(layout: &Layout, precision: Option<Precision>) -> (Layout, String) {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("layout.arrow");
-    let losses = write_layout(layout, &path, &WriteOptions { precision }).expect("a file");
+    let mut file = std::fs::File::create(&path).expect("a new file");
+    let losses = write_layout(layout, &mut file, &WriteOptions { precision }).expect("a file");
     assert!(losses.is_empty());
     let back = read_file(&path, &ReadOptions::default()).unwrap_or_else(|e| panic!("{e}"));
     let version = back.provenance.format_version.clone();

@@ -103,7 +103,12 @@ fn precision_is_single_where_the_error_is_small() {
     });
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("paths.arrow");
-    write_layout(&layout, &path, &WriteOptions::default()).expect("a file");
+    write_layout(
+        &layout,
+        &mut std::fs::File::create(&path).expect("a new file"),
+        &WriteOptions::default(),
+    )
+    .expect("a file");
     let back = read_file(&path, &ReadOptions::default()).expect("a layout");
     // `f32` holds 0.1 with an error of 1.5 nm, below the tolerance.
     let run = back.paths.get(0).runs().next().expect("a run");
@@ -111,7 +116,12 @@ fn precision_is_single_where_the_error_is_small() {
     let far = WriteOptions {
         precision: Some(Precision::F64),
     };
-    write_layout(&layout, &path, &far).expect("a file");
+    write_layout(
+        &layout,
+        &mut std::fs::File::create(&path).expect("a new file"),
+        &far,
+    )
+    .expect("a file");
     let back = read_file(&path, &ReadOptions::default()).expect("a layout");
     let run = back.paths.get(0).runs().next().expect("a run");
     assert_eq!(run.iter().collect::<Vec<_>>(), runs.points());
@@ -191,7 +201,7 @@ proptest! {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("paths.arrow");
         let options = WriteOptions { precision: Some(Precision::F64) };
-        let losses = write_layout(&layout, &path, &options).expect("a file");
+        let losses = write_layout(&layout, &mut std::fs::File::create(&path).expect("a new file"), &options).expect("a file");
         prop_assert!(losses.is_empty());
         let back = read_file(&path, &ReadOptions::default()).expect("a layout");
         prop_assert!(back.diagnostics.is_empty());

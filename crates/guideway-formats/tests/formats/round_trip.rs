@@ -34,8 +34,7 @@ impl Target {
         let exported = SystemTime::UNIX_EPOCH;
         match self {
             Self::Arrow => {
-                arrow::write_layout(layout, path, &arrow::WriteOptions::default()).unwrap();
-                return;
+                arrow::write_layout(layout, &mut out, &arrow::WriteOptions::default()).unwrap()
             }
             Self::Dxf => dxf::write_layout(layout, &mut out).unwrap(),
             Self::Lif(version) => {

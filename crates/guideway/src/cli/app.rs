@@ -1,10 +1,13 @@
 //! Parses the arguments, runs the subcommand and converts its outcome to an exit code.
 
+use std::borrow::Cow;
 use std::ffi::OsStr;
+use std::io::{self, Write};
 use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser, Subcommand};
-use guideway::layout::UserError;
+use guideway::formats::Format;
+use guideway::layout::{UserError, shown_lines};
 
 use super::error::parser_error;
 use super::exit::{ERROR, Exit};
@@ -12,7 +15,8 @@ use super::output::Output;
 #[cfg(feature = "viewer")]
 use super::view;
 use super::{
-    bench, check, convert, demo, diff, generate, info, interrupt, methods, render, reproduce, shell,
+    bench, check, convert, demo, diff, generate, info, interrupt, limits, methods, render,
+    reproduce, shell, threads,
 };
 
 /// Draws and checks the path layouts of automated guided vehicles.
@@ -35,6 +39,19 @@ struct Cli {
     /// Print only errors
     #[arg(long, short, global = true)]
     quiet: bool,
+    /// Set a limit on what is read or written; can be repeated. Names: file-bytes, output-bytes,
+    /// paths, control-points, curve-points, elements, text-bytes, depth, coordinate (in meters)
+    #[arg(long, global = true, value_name = "NAME=VALUE", value_parser = limits::setting)]
+    limit: Vec<limits::Setting>,
+    /// Formats that are read, such as `lif,dxf`; a file of another format is an error [default: all]
+    #[arg(
+        long,
+        global = true,
+        value_name = "A,B",
+        value_delimiter = ',',
+        value_parser = limits::format
+    )]
+    formats: Vec<Format>,
 }
 
 #[derive(Debug, Subcommand)]
@@ -75,7 +92,9 @@ pub(crate) fn main() -> ExitCode {
         Err(error) => return exit_from_parser(&error),
     };
     let out = Output::new(cli.json, cli.quiet);
-    match interrupt::watch().and_then(|()| run(&cli.command, &out)) {
+    limits::set(&cli.limit, &cli.formats);
+    let ready = interrupt::watch().and_then(|()| threads::check_environment());
+    match ready.and_then(|()| run(&cli.command, &out)) {
         Ok(exit) => ExitCode::from(exit.code()),
         Err(error) => {
             out.error(&error);
@@ -109,8 +128,12 @@ fn exit_from_parser(error: &clap::Error) -> ExitCode {
     if error.use_stderr() && wants_json {
         Output::new(true, false).error(&parser_error(error));
     } else {
+        let text = error.render().to_string();
         // Only a closed pipe can fail here, and its reader wants no more.
-        let _ = error.print();
+        let _ = match shown_lines(&text) {
+            Cow::Borrowed(_) => error.print(),
+            Cow::Owned(shown) => io::stderr().write_all(shown.as_bytes()),
+        };
     }
     ExitCode::from(error.exit_code() as u8)
 }

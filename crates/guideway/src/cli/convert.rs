@@ -1,16 +1,19 @@
 //! `guideway convert`: writes a layout in another format.
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use guideway::formats::{Losses, Target};
-use guideway::layout::{Layout, UserError};
+use guideway::formats::{Losses, Target, WriteError, WriteProblem};
+use guideway::layout::{Layout, UserError, shown_path};
+use guideway::replace_file;
 use serde_json::{Value, json};
 
 use super::exit::Exit;
 use super::input::{self, Input};
 use super::output::Output;
-use super::{arrow, text};
+use super::stdout::Stdout;
+use super::{limits, stdout, text};
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = input::PLACEMENT_HELP)]
@@ -19,7 +22,7 @@ pub(crate) struct Args {
     #[arg(required = true, value_name = "FILE", value_parser = Input::parser())]
     inputs: Vec<Input>,
     /// File to write; its extension selects the format unless --to is given. LIF stays in the
-    /// version that was read
+    /// version that was read. `-` writes to standard output
     output: PathBuf,
     /// Format of the output
     #[arg(long, value_name = "FORMAT", value_parser = target_parser())]
@@ -50,7 +53,7 @@ fn target_of(output: &Path) -> Result<Target, UserError> {
             "target-format",
             format!(
                 "{}: no format has this extension; known are {}",
-                output.display(),
+                shown_path(output),
                 extensions.join(", ")
             ),
             "Rename the output or name its format, such as `--to lif2`; `guideway render` writes \
@@ -109,7 +112,7 @@ pub(super) fn check_in_place(layout: &Layout, file: &Path) -> Result<(), UserErr
     };
     Err(UserError::new(
         "target-format",
-        format!("{} {would_lose}", file.display()),
+        format!("{} {would_lose}", shown_path(file)),
         "Save the layout under another name",
     ))
 }
@@ -120,18 +123,45 @@ pub(super) fn write(
     layout: &Layout,
     output: &Path,
 ) -> Result<(Losses, u64), UserError> {
-    arrow::replace(output, |file| target.write_file(layout, file))
+    let fail = |problem: WriteProblem| WriteError {
+        path: output.to_owned(),
+        problem,
+    };
+    Ok(replace_file(output, |file| {
+        file.set_limit(limits::limits().output_bytes);
+        let losses = target.write(layout, file).map_err(fail)?;
+        Ok::<_, WriteError>((losses, file.bytes()))
+    })?)
+}
+
+/// Writes the file to standard output.
+fn write_stdout(target: Target, layout: &Layout) -> Result<(Losses, u64), UserError> {
+    let mut out = Stdout::lock();
+    let losses = target.write(layout, &mut out);
+    let losses = losses.and_then(|losses| Ok(out.flush().map(|()| losses)?));
+    let losses = losses.map_err(|problem| WriteError {
+        path: "-".into(),
+        problem,
+    })?;
+    Ok((losses, out.bytes()))
 }
 
 pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
     // An unknown extension must not wait for the read.
     args.to.map_or_else(|| target_of(&args.output), Ok)?;
-    input::check_output(args.inputs.iter().map(|i| i.path.as_path()), &args.output)?;
+    let is_stdout = stdout::is_stdout(&args.output);
+    match is_stdout {
+        true => stdout::check(out, (args.to == Some(Target::Arrow)).then_some("Arrow"))?,
+        false => input::check_output(args.inputs.iter().map(|i| i.path.as_path()), &args.output)?,
+    }
     let (layout, read_ms) = input::read_all(&args.inputs, out)?;
     let of_source = || target_to_save(&layout, &args.output);
     let target = args.to.map_or_else(of_source, Ok)?;
-    let progress = out.progress(format!("writing {}", args.output.display()));
-    let (losses, bytes) = write(target, &layout, &args.output)?;
+    let progress = out.progress(format!("writing {}", shown_path(&args.output)));
+    let (losses, bytes) = match is_stdout {
+        true => write_stdout(target, &layout)?,
+        false => write(target, &layout, &args.output)?,
+    };
     let write_ms = progress.finish();
 
     let lost = losses.iter().map(
@@ -146,10 +176,10 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
         "not_stored": lost.collect::<Vec<Value>>(),
         "ms": { "read": read_ms, "write": write_ms, "total": read_ms + write_ms },
     });
-    out.report("convert", &body, || {
+    let report = || {
         let mut text = format!(
             "{}: {}, {}\n",
-            args.output.display(),
+            shown_path(&args.output),
             text::counted(layout.paths.len() as u64, "path"),
             text::bytes(bytes)
         );
@@ -169,7 +199,11 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
             text::time(read_ms),
             text::time(write_ms)
         )
-    })?;
+    };
+    match is_stdout {
+        true => out.note(report().trim_end()),
+        false => out.report("convert", &body, report)?,
+    }
     Ok(Exit::Clean)
 }
 

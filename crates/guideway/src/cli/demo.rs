@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use guideway::compose::{Decorations, Picture, Rendered};
 use guideway::formats::{ReadOptions, read_bytes};
-use guideway::layout::UserError;
+use guideway::layout::{UserError, shown_path};
 use guideway::scene::{ColorBy, FrameSize, Legend, LineRule, Scene, SceneOptions};
 use serde_json::json;
 
@@ -61,7 +61,7 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
     out.report("demo", &body, || {
         format!(
             "The picture is in {}\n\n{}{}took {}\n\n{}",
-            output.display(),
+            shown_path(&output),
             paths_text(&rendered),
             scene.legend().map_or_else(String::new, speeds),
             text::time(took_ms),

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use guideway::layout::UserError;
+use guideway::layout::{UserError, shown_path};
 
 /// Code of errors in the arguments.
 const USAGE: &str = "usage";
@@ -25,7 +25,7 @@ pub(crate) fn parser_error(error: &clap::Error) -> UserError {
 pub(crate) fn same_file_error(path: &Path) -> UserError {
     UserError::new(
         "same-file",
-        format!("{}: the output would replace an input", path.display()),
+        format!("{}: the output would replace an input", shown_path(path)),
         "Choose another name for the output",
     )
 }

@@ -3,12 +3,12 @@
 use std::path::Path;
 
 use guideway::compose::{FloorPlan, FloorPlanKind, Image, ImagePlacement};
-use guideway::formats::ReadOptions;
 use guideway::formats::ros_map::{self, OccupancyGrid};
-use guideway::layout::{Layout, UserError};
+use guideway::layout::{Layout, UserError, shown_path};
 
 use super::error::usage_error;
 use super::input::{self, Input};
+use super::limits;
 use super::output::Output;
 
 /// Reads a floor plan. Its content decides between an image, a map and a layout. The picture in
@@ -41,7 +41,7 @@ pub(crate) fn read_walls(input: &Input, out: &Output) -> Result<Layout, UserErro
         FloorPlanKind::Image => Err(usage_error(
             format!(
                 "{}: an image does not say where its walls are",
-                input.path.display()
+                shown_path(&input.path)
             ),
             "Give a drawing, a layout, or the `map.yaml` of a ROS map",
         )),
@@ -57,7 +57,7 @@ fn read_layout(input: &Input, out: &Output) -> Result<Layout, UserError> {
 
 /// Reads a map, which has a placement of its own. One after the file name moves the map as a whole.
 fn read_map(input: &Input, out: &Output) -> Result<OccupancyGrid, UserError> {
-    let name = input.path.display();
+    let name = shown_path(&input.path);
     if input.px_per_m.is_some() {
         return Err(usage_error(
             format!("{name}: `px-per-m` does not apply to a ROS map"),
@@ -65,7 +65,7 @@ fn read_map(input: &Input, out: &Output) -> Result<OccupancyGrid, UserError> {
         ));
     }
     let progress = out.progress(format!("reading {name}"));
-    let mut grid = ros_map::read_file(&input.path, &ReadOptions::default())?;
+    let mut grid = ros_map::read_file(&input.path, &limits::read_options(None))?;
     grid.placement = grid.placement.transformed(
         input.scale.unwrap_or(1.0),
         input.rotate_deg.unwrap_or(0.0),
@@ -77,7 +77,7 @@ fn read_map(input: &Input, out: &Output) -> Result<OccupancyGrid, UserError> {
 
 /// The placement of an image, which needs `px-per-m` and cannot have `scale`.
 fn placement(input: &Input) -> Result<ImagePlacement, UserError> {
-    let name = input.path.display();
+    let name = shown_path(&input.path);
     let Some(px_per_m) = input.px_per_m else {
         return Err(usage_error(
             format!("{name}: the image has no scale"),

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::ValueEnum;
 use guideway::formats::Progress;
 use guideway::formats::arrow::{ArrowWriter, Column, ColumnType, Precision, WriteError};
-use guideway::layout::{UserError, Value};
+use guideway::layout::{UserError, Value, shown_path};
 use guideway_datasets::{GeneratedPath, RUN_POINTS, d1, d2};
 use serde_json::json;
 
@@ -42,11 +42,12 @@ enum Dataset {
 
 pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
     arrow::check_output(&args.output)?;
-    let progress = out.progress(format!("writing {}", args.output.display()));
-    let ((), bytes) = arrow::replace(&args.output, |file| match args.dataset {
-        Dataset::D1 => write(file, d1(args.paths, args.seed), args.paths, &progress),
-        Dataset::D2 => write(file, d2(args.paths, args.seed), args.paths, &progress),
-    })?;
+    let progress = out.progress(format!("writing {}", shown_path(&args.output)));
+    let (file, paths) = (&args.output, args.paths);
+    let bytes = match args.dataset {
+        Dataset::D1 => write(file, d1(paths, args.seed), paths, &progress),
+        Dataset::D2 => write(file, d2(paths, args.seed), paths, &progress),
+    }?;
     let took_ms = progress.finish();
 
     let segments = args.paths * (RUN_POINTS - 3);
@@ -65,7 +66,7 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
     out.report("generate", &body, || {
         format!(
             "{}: {} of {}, {}\ntook {}\n",
-            args.output.display(),
+            shown_path(&args.output),
             text::counted(args.paths as u64, "path"),
             text::counted(segments as u64, "segment"),
             text::bytes(bytes),
@@ -75,12 +76,13 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
     Ok(Exit::Clean)
 }
 
+/// Writes the paths. Returns the size of the file in bytes.
 fn write(
     file: &Path,
     paths: impl Iterator<Item = GeneratedPath>,
     total: usize,
     progress: &ProgressBar,
-) -> Result<(), WriteError> {
+) -> Result<u64, WriteError> {
     let columns = vec![
         Column::new("kind", ColumnType::Text),
         Column::new("max_speed", ColumnType::Float32),

@@ -6,13 +6,14 @@ use std::path::{Path, PathBuf};
 
 use clap::builder::{OsStringValueParser, TypedValueParser};
 use guideway::SaveError;
-use guideway::formats::{ReadOptions, read_file};
-use guideway::layout::{Layout, UserError, merge};
+use guideway::formats::{is_same_file, read_file};
+use guideway::layout::{Layout, UserError, merge, shown_path};
 use guideway::spline::{Affine, Point};
 
 use super::error::{same_file_error, usage_error};
 use super::output::Output;
-use super::values;
+use super::stdout::is_stdout;
+use super::{limits, values};
 
 /// Help on placements, for every command that reads several files.
 pub(crate) const PLACEMENT_HELP: &str = "Several files are merged into one layout. Each can be \
@@ -60,10 +61,10 @@ impl Input {
 
     fn set(&mut self, key: &str, value: &str) -> Result<(), String> {
         match key {
-            "scale" => self.scale = Some(values::positive(value)?),
+            "scale" => self.scale = Some(values::factor(value)?),
             "rotate" => self.rotate_deg = Some(values::degrees(value)?),
             "offset" => self.offset_m = Some(values::point(value)?),
-            "px-per-m" => self.px_per_m = Some(values::positive(value)?),
+            "px-per-m" => self.px_per_m = Some(values::factor(value)?),
             _ => return Err("the keys are scale, rotate and offset; px-per-m for images".into()),
         }
         Ok(())
@@ -102,12 +103,8 @@ fn pairs(keys: &str) -> Vec<(&str, String)> {
 
 /// Reads a layout and shows the progress. Returns it and the duration in milliseconds.
 pub(crate) fn read(path: &Path, out: &Output) -> Result<(Layout, f64), UserError> {
-    let progress = out.progress(format!("reading {}", path.display()));
-    let options = ReadOptions {
-        progress: Some(&progress),
-        ..ReadOptions::default()
-    };
-    let layout = read_file(path, &options)?;
+    let progress = out.progress(format!("reading {}", shown_path(path)));
+    let layout = read_file(path, &limits::read_options(Some(&progress)))?;
     Ok((layout, progress.finish()))
 }
 
@@ -120,7 +117,7 @@ pub(crate) fn read_each(inputs: &[Input], out: &Output) -> Result<(Vec<Layout>, 
             return Err(usage_error(
                 format!(
                     "{}: `px-per-m` applies only to images",
-                    input.path.display()
+                    shown_path(&input.path)
                 ),
                 "Use `scale` for a layout, such as `plan.dxf@scale=0.001`",
             ));
@@ -128,11 +125,29 @@ pub(crate) fn read_each(inputs: &[Input], out: &Output) -> Result<(Vec<Layout>, 
         let (mut layout, ms) = read(&input.path, out)?;
         if let Some(transform) = input.transform() {
             layout.transform(transform);
+            check_reach(&layout, input)?;
         }
         layouts.push(layout);
         all_ms += ms;
     }
     Ok((layouts, all_ms))
+}
+
+/// Checks that a placement moved no element beyond the limit that the file itself obeys.
+fn check_reach(layout: &Layout, input: &Input) -> Result<(), UserError> {
+    let limit_m = limits::limits().coordinate_m;
+    match layout.first_beyond(limit_m) {
+        None => Ok(()),
+        Some(element) => Err(UserError::new(
+            "limit",
+            format!(
+                "{}: its placement moves {element} more than {limit_m:e} m away from the origin",
+                shown_path(&input.path)
+            ),
+            "Correct `scale` and `offset`; raise the limit with `--limit coordinate=N` if this \
+             distance is intended",
+        )),
+    }
 }
 
 /// Reads several layouts and merges them.
@@ -160,6 +175,7 @@ pub(crate) fn check_output<'a>(
             problem: io::Error::new(kind, reason),
         }))
     };
+    check_no_stdout(output)?;
     if output.is_dir() {
         return reject(ErrorKind::IsADirectory, "this is a folder");
     }
@@ -167,13 +183,19 @@ pub(crate) fn check_output<'a>(
     if folder.is_some_and(|folder| !folder.is_dir()) {
         return reject(ErrorKind::NotFound, "the folder does not exist");
     }
-    // An output that does not exist has no canonical path, and is no input.
-    let Ok(existing) = output.canonicalize() else {
-        return Ok(());
-    };
-    let mut inputs = inputs.into_iter().map(Path::canonicalize);
-    match inputs.any(|input| input.is_ok_and(|input| input == existing)) {
+    match inputs.into_iter().any(|input| is_same_file(input, output)) {
         true => Err(same_file_error(output)),
+        false => Ok(()),
+    }
+}
+
+/// Rejects `-` where a command writes files only.
+pub(crate) fn check_no_stdout(output: &Path) -> Result<(), UserError> {
+    match is_stdout(output) {
+        true => Err(usage_error(
+            "`-` is standard output, to which this command does not write its files",
+            "Give a name, or write `./-` for one that is called `-`",
+        )),
         false => Ok(()),
     }
 }
@@ -215,8 +237,10 @@ mod tests {
         for (bad, said) in [
             ("a@size=2", "scale, rotate and offset"),
             ("a@2,scale=3", "scale, rotate and offset"),
-            ("a@scale=0", "above 0"),
-            ("a@scale=1,2", "above 0"),
+            ("a@scale=0", "1e-9 to 1e9"),
+            ("a@scale=1e10", "1e-9 to 1e9"),
+            ("a@offset=1e10,0", "12.5,-3"),
+            ("a@scale=1,2", "1e-9 to 1e9"),
             ("a@offset=1", "12.5,-3"),
             ("a@rotate=x", "degrees"),
         ] {

@@ -3,8 +3,8 @@
 //! | module | purpose |
 //! |---|---|
 //! | `app` | parses arguments, dispatches to a subcommand, exits |
-//! | `input`, `floor_plan`, `envelope`, `arrow`, `values` | read arguments and files |
-//! | `output`, `text`, `progress_bar`, `error`, `exit`, `interrupt` | reports, errors, signals |
+//! | `input`, `floor_plan`, `envelope`, `arrow`, `values`, `limits`, `threads` | read arguments and files |
+//! | `output`, `stdout`, `text`, `progress_bar`, `error`, `exit`, `interrupt` | reports, errors, signals |
 //! | all others | one subcommand each |
 
 mod app;
@@ -22,13 +22,16 @@ mod generate;
 mod info;
 mod input;
 mod interrupt;
+mod limits;
 mod methods;
 mod output;
 mod progress_bar;
 mod render;
 mod reproduce;
 mod shell;
+mod stdout;
 mod text;
+mod threads;
 mod values;
 #[cfg(feature = "viewer")]
 mod view;

@@ -1,10 +1,9 @@
 //! Reports and errors as text or JSON, and files that hold them.
 
-use std::fs;
 use std::io::{self, ErrorKind, Write};
 use std::path::Path;
 
-use guideway::layout::UserError;
+use guideway::layout::{UserError, shown_lines};
 use guideway::{SaveError, replace_file};
 use serde::Serialize;
 use serde_json::json;
@@ -63,7 +62,7 @@ impl Output {
         } else if self.quiet {
             Ok(())
         } else {
-            print(text().as_bytes())
+            print(shown_lines(&text()).as_bytes())
         }
     }
 
@@ -71,7 +70,7 @@ impl Output {
     pub(crate) fn note(self, text: &str) {
         if !self.quiet && !self.json {
             // The result does not depend on a note that nobody can read.
-            let _ = writeln!(io::stderr(), "{text}");
+            let _ = writeln!(io::stderr(), "{}", shown_lines(text));
         }
     }
 
@@ -89,6 +88,7 @@ impl Output {
                 let _ = print(&bytes);
             }
         } else {
+            let (message, remedy) = (shown_lines(message), shown_lines(remedy));
             let _ = writeln!(io::stderr(), "error: {message}\nhint: {remedy}");
         }
     }
@@ -121,13 +121,12 @@ pub(crate) fn save_report<T: Serialize>(
 
 /// Saves a file atomically.
 pub(crate) fn save(path: &Path, bytes: &[u8]) -> Result<(), UserError> {
-    let write = |file: &Path| {
-        fs::write(file, bytes).map_err(|problem| SaveError {
+    Ok(replace_file(path, |file| {
+        file.write_all(bytes).map_err(|problem| SaveError {
             path: path.to_owned(),
             problem,
         })
-    };
-    Ok(replace_file(path, write)?)
+    })?)
 }
 
 /// Writes to standard output. A closed pipe (`| head`) is not an error.

@@ -1,11 +1,12 @@
 //! `guideway completions` and `guideway man`: files for the installation of the command.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap_complete::Shell;
-use guideway::layout::UserError;
+use guideway::layout::{UserError, shown_path};
 
 use super::exit::Exit;
+use super::input::check_no_stdout;
 use super::output::{self, Output};
 
 #[derive(Debug, clap::Args)]
@@ -40,13 +41,29 @@ pub(crate) fn man(args: &ManArgs, command: clap::Command, out: &Output) -> Resul
             output::print(&page)?;
         }
         Some(dir) => {
-            std::fs::create_dir_all(dir)
-                .and_then(|()| clap_mangen::generate_to(command, dir))
-                .map_err(|error| save_error(&dir.display().to_string(), &error))?;
-            out.note(&format!("manual pages are in {}", dir.display()));
+            check_no_stdout(dir)?;
+            std::fs::create_dir_all(dir).map_err(|error| save_error(&shown_path(dir), &error))?;
+            let mut command = command.disable_help_subcommand(true);
+            command.build();
+            write_pages(&command, dir)?;
+            out.note(&format!("manual pages are in {}", shown_path(dir)));
         }
     }
     Ok(Exit::Clean)
+}
+
+/// Writes the pages of a command and its subcommands, each whole or not at all.
+fn write_pages(command: &clap::Command, dir: &Path) -> Result<(), UserError> {
+    let visible = |command: &&clap::Command| !command.is_hide_set();
+    for subcommand in command.get_subcommands().filter(visible) {
+        write_pages(subcommand, dir)?;
+    }
+    let page = clap_mangen::Man::new(command.clone());
+    let file = dir.join(page.get_filename());
+    let mut text = Vec::new();
+    page.render(&mut text)
+        .map_err(|error| save_error(&shown_path(&file), &error))?;
+    output::save(&file, &text)
 }
 
 fn save_error(target: &str, error: &std::io::Error) -> UserError {

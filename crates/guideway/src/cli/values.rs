@@ -8,6 +8,8 @@ use guideway::layout::Limits;
 use guideway::scene::{Frame, FrameSize};
 use guideway::spline::Point;
 
+use super::threads::MAX_THREADS;
+
 /// The size of a picture that fits one frame, such as `1920x1080`.
 pub(crate) fn frame_size(text: &str) -> Result<FrameSize, String> {
     let size = size(text)?;
@@ -44,18 +46,50 @@ pub(crate) fn point(text: &str) -> Result<Point<f64>, String> {
     let (x, y) = text.split_once(',').ok_or_else(error)?;
     let number = |text: &str| text.trim().parse::<f64>().map_err(|_| error());
     let point = Point::new(number(x)?, number(y)?);
-    if point.is_finite() {
-        Ok(point)
-    } else {
-        Err(error())
+    match [point.x, point.y].iter().all(|v| v.abs() <= MAX_M) {
+        true => Ok(point),
+        false => Err(format!("{}, each at most {MAX_M:e} from 0", error())),
     }
 }
 
-/// A number above zero, such as a scale.
+/// Largest length and coordinate, in meters: that of the layouts.
+const MAX_M: f64 = 1e9;
+/// Largest width of a path in pixels: that of a picture.
+const MAX_PX: f64 = FrameSize::MAX_SIDE as f64;
+
+/// A length above zero in meters.
 pub(crate) fn positive(text: &str) -> Result<f64, String> {
     match text.trim().parse::<f64>() {
-        Ok(value) if value.is_finite() && value > 0.0 => Ok(value),
-        _ => Err("write a number above 0, such as 0.5 or 40".into()),
+        Ok(value) if value > 0.0 && value <= MAX_M => Ok(value),
+        _ => Err("write a number above 0 and at most 1e9, such as 0.5 or 40".into()),
+    }
+}
+
+/// A factor, such as a scale.
+pub(crate) fn factor(text: &str) -> Result<f64, String> {
+    match text.trim().parse::<f64>() {
+        Ok(value) if (1e-9..=1e9).contains(&value) => Ok(value),
+        _ => Err("write a number from 1e-9 to 1e9, such as 0.5 or 40".into()),
+    }
+}
+
+/// A width in pixels.
+pub(crate) fn width_px(text: &str) -> Result<f64, String> {
+    match text.trim().parse::<f64>() {
+        Ok(value) if (0.0..=MAX_PX).contains(&value) => Ok(value),
+        _ => Err(format!(
+            "write a number of pixels from 0 to {MAX_PX}, such as 1.5"
+        )),
+    }
+}
+
+/// A number of threads; 0 for one per core.
+pub(crate) fn threads(text: &str) -> Result<usize, String> {
+    match text.parse::<usize>() {
+        Ok(n) if n <= MAX_THREADS => Ok(n),
+        _ => Err(format!(
+            "write a whole number from 0 to {MAX_THREADS}, such as 4"
+        )),
     }
 }
 
@@ -67,11 +101,11 @@ pub(crate) fn degrees(text: &str) -> Result<f64, String> {
     }
 }
 
-/// A number of at least 0, such as a width.
+/// A length of at least 0 in meters, or an angle.
 pub(crate) fn not_negative(text: &str) -> Result<f64, String> {
     match text.trim().parse::<f64>() {
-        Ok(value) if value.is_finite() && value >= 0.0 => Ok(value),
-        _ => Err("write a number of at least 0, such as 0.1 or 2".into()),
+        Ok(value) if (0.0..=MAX_M).contains(&value) => Ok(value),
+        _ => Err("write a number from 0 to 1e9, such as 0.1 or 2".into()),
     }
 }
 
@@ -83,6 +117,14 @@ pub(crate) fn paths(text: &str) -> Result<usize, String> {
         _ => Err(format!(
             "write a whole number from 1 to {max}, such as 1_000_000"
         )),
+    }
+}
+
+/// A number of frames from 0 to 100,000 that are not measured.
+pub(crate) fn warmup(text: &str) -> Result<usize, String> {
+    match text {
+        "0" => Ok(0),
+        _ => frames(text).map_err(|_| "write a whole number from 0 to 100000, such as 3".into()),
     }
 }
 
@@ -176,11 +218,16 @@ mod tests {
         assert!(size("65535x65535").is_ok());
         let error = frame_size("65535x65535").unwrap_err();
         assert!(error.contains("1920x1080"), "{error}");
-        for bad in ["1", "1;2", "a,b", "NaN,0", "1,2,3", "inf,0"] {
+        for bad in ["1", "1;2", "a,b", "NaN,0", "1,2,3", "inf,0", "1e10,0"] {
             assert!(point(bad).unwrap_err().contains("12.5,-3"), "{bad}");
         }
-        for bad in ["NaN", "inf", "-1", "0", "", "1m"] {
+        for bad in ["NaN", "inf", "-1", "0", "", "1m", "1.1e9", "1e308"] {
             assert!(positive(bad).unwrap_err().contains("such as"), "{bad}");
+            assert!(factor(bad).unwrap_err().contains("such as"), "{bad}");
+        }
+        for bad in ["NaN", "inf", "-1", "", "1e22", "65536"] {
+            assert!(width_px(bad).unwrap_err().contains("such as"), "{bad}");
+            assert!(threads(bad).unwrap_err().contains("such as"), "{bad}");
         }
         assert!(not_negative("-0.1").is_err());
         for bad in ["0", "-1", "100.1", "NaN", "inf", ""] {

@@ -6,6 +6,7 @@ mod arrow;
 mod bench;
 mod diff;
 mod envelope;
+mod hostile;
 mod render;
 mod render_files;
 mod reports;

@@ -25,9 +25,10 @@ use guideway_layout::Layout;
 use super::save;
 use super::version::Version;
 use crate::Losses;
+use crate::finite::check_finite;
 
 pub(super) use self::edges::{EdgeGroups, EdgeRef, Edges};
-pub(super) use self::elements::Elements;
+pub(super) use self::elements::{Elements, add_missing};
 pub(super) use self::losses::{add_lost, add_required};
 pub(super) use self::network::{Network, level_of, path_types};
 pub use self::options::WriteOptions;
@@ -46,6 +47,7 @@ pub fn write_layout(
     out: &mut impl Write,
     options: &WriteOptions,
 ) -> io::Result<Losses> {
+    check_finite(layout)?;
     let is_same_version = Version::of_layout(layout) == Some(options.version);
     if is_same_version && let Some(losses) = save::save(layout, out, options.version)? {
         return Ok(losses);

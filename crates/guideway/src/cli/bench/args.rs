@@ -36,7 +36,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "N", default_value = "20", value_parser = values::frames)]
     pub(super) frames: usize,
     /// Unmeasured frames per method before those
-    #[arg(long, value_name = "N", default_value_t = 3)]
+    #[arg(long, value_name = "N", default_value = "3", value_parser = values::warmup)]
     pub(super) warmup: usize,
     /// Zoom factor about the densest place; 1 shows all paths, less zooms out
     #[arg(long, value_name = "TIMES", default_value = "1", value_parser = values::times)]
@@ -66,7 +66,7 @@ pub(crate) struct Args {
     #[arg(
         long,
         value_name = "PX",
-        value_parser = values::positive,
+        value_parser = values::width_px,
         conflicts_with = "line_rule"
     )]
     pub(super) width_px: Option<f64>,
@@ -74,7 +74,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "MB", default_value_t = 16_000)]
     pub(super) memory: u64,
     /// Threads of methods on the processor; 0 uses one per core
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(long, value_name = "N", default_value = "0", value_parser = values::threads)]
     pub(super) threads: usize,
     /// File to write the JSON report to
     #[arg(long, short, value_name = "JSON")]

@@ -1,6 +1,6 @@
 //! The findings of a file as a table for people.
 
-use guideway::layout::FindingKind;
+use guideway::layout::{FindingKind, shown_text};
 
 use super::findings::{CheckedFile, SeverityCounts};
 use crate::cli::text;
@@ -43,5 +43,5 @@ pub(super) fn text(file: &CheckedFile, shown_per_kind: usize) -> String {
         paths += &format!(", {} of them refused", text::count(file.refused));
     }
     let counts = SeverityCounts::of(std::iter::once(found)).text();
-    text + &format!("{}: {paths}, {counts}\n", file.file)
+    text + &format!("{}: {paths}, {counts}\n", shown_text(&file.file))
 }

@@ -53,7 +53,7 @@ pub(crate) struct Args {
 #[command(next_help_heading = "Resources")]
 struct ResourceArgs {
     /// Threads of the render method; 0 uses one per core
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(long, value_name = "N", default_value = "0", value_parser = values::threads)]
     threads: usize,
     /// Memory of the render method, in megabytes [default: 1074]
     #[arg(long, value_name = "MB")]

@@ -4,12 +4,12 @@ use std::path::Path;
 
 use guideway::compose::{Rendered, SweptReport};
 use guideway::envelope::NoEnvelope;
-use guideway::layout::Severity;
+use guideway::layout::{Severity, shown_path};
 use guideway::scene::{Clock, Legend, Scene};
 use serde_json::{Value, json};
 
 use super::args::Args;
-use crate::cli::{envelope, input, text};
+use crate::cli::{envelope, input, stdout, text};
 
 /// Duration of each step, in milliseconds.
 pub(super) struct Times {
@@ -29,10 +29,10 @@ impl Times {
 pub(super) fn text(path: &Path, scene: &Scene, rendered: &Rendered, times: &Times) -> String {
     let size = rendered.view.size();
     let mut text = String::new();
-    if path != Path::new("-") {
+    if !stdout::is_stdout(path) {
         text += &format!(
             "{}: {} x {} pixels\n",
-            path.display(),
+            shown_path(path),
             size.width(),
             size.height()
         );

@@ -20,10 +20,10 @@ pub(super) struct StyleArgs {
     )]
     width: Option<f64>,
     /// Minimum width of a path in pixels [default: 1.5]
-    #[arg(long, value_name = "N", value_parser = values::not_negative, allow_hyphen_values = true)]
+    #[arg(long, value_name = "N", value_parser = values::width_px, allow_hyphen_values = true)]
     min_px: Option<f64>,
     /// Maximum width of a path in pixels [default: 12]
-    #[arg(long, value_name = "N", value_parser = values::not_negative, allow_hyphen_values = true)]
+    #[arg(long, value_name = "N", value_parser = values::width_px, allow_hyphen_values = true)]
     max_px: Option<f64>,
     /// Rule for widths: `world` uses the widths above, `thesis` 3 px clamped to 4 to 300 mm
     #[arg(

@@ -26,7 +26,7 @@ pub(super) struct ViewArgs {
     #[arg(
         long,
         value_name = "PX_PER_M",
-        value_parser = values::positive,
+        value_parser = values::factor,
         allow_hyphen_values = true
     )]
     scale: Option<f64>,

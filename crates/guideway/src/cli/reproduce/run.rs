@@ -11,6 +11,7 @@ use guideway_reproduce::reproduce::{Plan, Run, reproduce, resume};
 use super::names::RUN_FILE;
 use super::{saved, text};
 use crate::cli::exit::Exit;
+use crate::cli::input::check_no_stdout;
 use crate::cli::output::Output;
 use crate::cli::progress_bar::ProgressBar;
 use crate::cli::{interrupt, values};
@@ -64,6 +65,7 @@ enum Task {
 
 pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
     let task = args.task()?;
+    check_no_stdout(&args.out)?;
     // Before hours of work: a folder that cannot be written is an error.
     saved::create_folder(&args.out)?;
     let run = match task {

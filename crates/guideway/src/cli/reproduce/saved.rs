@@ -5,7 +5,7 @@ use std::io::{BufReader, Read};
 use std::path::Path;
 
 use guideway::SaveError;
-use guideway::layout::UserError;
+use guideway::layout::{UserError, shown_path};
 use guideway_reproduce::report;
 use guideway_reproduce::reproduce::{ResumeError, Run};
 use serde::Deserialize;
@@ -93,7 +93,7 @@ pub(super) fn resume_error(folder: &Path, error: ResumeError) -> UserError {
 fn run_file_error(path: &Path, code: &'static str, problem: String) -> UserError {
     UserError::new(
         code,
-        format!("{}: {problem}", path.display()),
+        format!("{}: {problem}", shown_path(path)),
         format!("Name a {RUN_FILE} that `guideway reproduce` wrote"),
     )
 }

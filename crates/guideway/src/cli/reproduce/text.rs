@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use guideway::layout::UserError;
+use guideway::layout::{UserError, shown_path};
 use guideway_reproduce::report::PAGE;
 use guideway_reproduce::reproduce::{Finding, PartFacts, Run, Verdict, findings};
 use serde_json::json;
@@ -25,7 +25,7 @@ pub(super) fn report(folder: &Path, run: &Run, out: &Output) -> Result<(), UserE
         "ms": { "total": run.elapsed_s() * 1e3 },
     });
     out.report(REPORT, &body, || {
-        let mut answer = format!("The report is in {}\n", page.display());
+        let mut answer = format!("The report is in {}\n", shown_path(&page));
         if run.is_partial {
             answer += "The run was stopped; the report holds the parts measured so far.\n";
         }

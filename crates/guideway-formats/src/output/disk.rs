@@ -1,0 +1,53 @@
+//! The calls of the operating system by which a file is written.
+
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, Write};
+use std::path::Path;
+
+/// The calls by which a file is written. [`OsDisk`] makes them; a test lets each of them fail.
+pub(super) trait Disk: Send + Sync {
+    /// Creates a file that does not exist, for reading and writing. `mode` is that of Unix, before
+    /// the umask.
+    fn create(&self, path: &Path, mode: u32) -> io::Result<File>;
+    fn write(&self, file: &mut File, bytes: &[u8]) -> io::Result<usize>;
+    /// Waits until the bytes of a file are on its disk.
+    fn sync(&self, file: &File) -> io::Result<()>;
+    /// Closes a file. Network disks and quotas report some errors only here.
+    fn close(&self, file: File) -> io::Result<()>;
+    fn rename(&self, from: &Path, to: &Path) -> io::Result<()>;
+}
+
+/// The operating system.
+pub(super) struct OsDisk;
+
+impl Disk for OsDisk {
+    fn create(&self, path: &Path, mode: u32) -> io::Result<File> {
+        let mut options = OpenOptions::new();
+        options.read(true).write(true).create_new(true);
+        #[cfg(unix)]
+        std::os::unix::fs::OpenOptionsExt::mode(&mut options, mode);
+        #[cfg(not(unix))]
+        let _ = mode;
+        options.open(path)
+    }
+
+    fn write(&self, file: &mut File, bytes: &[u8]) -> io::Result<usize> {
+        file.write(bytes)
+    }
+
+    fn sync(&self, file: &File) -> io::Result<()> {
+        file.sync_all()
+    }
+
+    fn close(&self, file: File) -> io::Result<()> {
+        #[cfg(unix)]
+        nix::unistd::close(file)?;
+        #[cfg(not(unix))]
+        drop(file);
+        Ok(())
+    }
+
+    fn rename(&self, from: &Path, to: &Path) -> io::Result<()> {
+        fs::rename(from, to)
+    }
+}

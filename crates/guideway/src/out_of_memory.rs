@@ -1,0 +1,76 @@
+//! The allocator of the command: without memory it ends with an error and its exit code, and leaves
+//! no unfinished file, where Rust would abort.
+
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::io::Write;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use guideway::layout::may_fail;
+
+/// The exit code of every error.
+const ERROR: i32 = 2;
+
+#[global_allocator]
+static ALLOCATOR: Allocator = Allocator;
+
+/// The system's allocator, which ends the process when it has no memory.
+struct Allocator;
+
+#[expect(unsafe_code, reason = "an allocator is unsafe to implement")]
+// SAFETY: every call is passed on to the system's allocator; a failed one does not return, unless the
+// caller expects that it may fail.
+unsafe impl GlobalAlloc for Allocator {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        // SAFETY: the caller keeps the rules of `alloc`.
+        checked(unsafe { System.alloc(layout) })
+    }
+
+    unsafe fn alloc_zeroed(&self, layout: Layout) -> *mut u8 {
+        // SAFETY: the caller keeps the rules of `alloc_zeroed`.
+        checked(unsafe { System.alloc_zeroed(layout) })
+    }
+
+    unsafe fn realloc(&self, old: *mut u8, layout: Layout, bytes: usize) -> *mut u8 {
+        // SAFETY: the caller keeps the rules of `realloc`.
+        checked(unsafe { System.realloc(old, layout, bytes) })
+    }
+
+    unsafe fn dealloc(&self, old: *mut u8, layout: Layout) {
+        // SAFETY: the caller keeps the rules of `dealloc`.
+        unsafe { System.dealloc(old, layout) }
+    }
+}
+
+fn checked(memory: *mut u8) -> *mut u8 {
+    if memory.is_null() && !may_fail() {
+        end();
+    }
+    memory
+}
+
+/// Prints the error, removes unfinished files and ends the process.
+fn end() -> ! {
+    static IS_ENDING: AtomicBool = AtomicBool::new(false);
+    // Either step may need memory itself; the second attempt ends at once.
+    if !IS_ENDING.swap(true, Ordering::SeqCst) {
+        let text = b"error: out of memory\nhint: Free some memory, or process a smaller file or a \
+            smaller picture; `--limit` and `--memory` bound what is used\n";
+        // Nobody can be told that standard error is closed.
+        let _ = std::io::stderr().write_all(text);
+        guideway::try_remove_unfinished();
+    }
+    exit()
+}
+
+/// Ends the process without the handlers of libraries, which need memory.
+#[cfg(unix)]
+#[expect(unsafe_code, reason = "there is no safe function for it")]
+fn exit() -> ! {
+    // SAFETY: the call takes a number and does not return.
+    unsafe { nix::libc::_exit(ERROR) }
+}
+
+#[cfg(not(unix))]
+fn exit() -> ! {
+    std::process::exit(ERROR)
+}
