@@ -49,7 +49,7 @@ pub struct Movement {
     pub settled_ms: f64,
 }
 
-/// Opens a file and moves it: still, panned, zoomed, with a hundredth and then all of its paths
+/// Opens a file and moves it, without a journal: still, panned, zoomed, with a hundredth and then all of its paths
 /// dragged, and zoomed with all of them selected.
 ///
 /// # Errors
@@ -76,12 +76,6 @@ pub fn measure(
         return Err(error_of(
             error,
             "Use a file for which `guideway check` reports no errors",
-        ));
-    }
-    if layer.has_unsaved_work() {
-        return Err(error_of(
-            "the file has unsaved work from the last run of the viewer",
-            "Recover or discard the work in the window first, or measure a copy of the file",
         ));
     }
     user.wait(App::is_settled)?;

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use guideway_compose::FloorPlanKind;
+use guideway_layout::shown_path;
 
 use super::state::App;
 use crate::export::{PictureContent, png_picture};
@@ -27,7 +28,7 @@ impl App {
     /// Opens a dropped layout. A dropped map of ROS becomes the floor plan, as does an image once
     /// the user has entered its scale.
     pub(super) fn open_dropped(&mut self, file: &Path) {
-        let name = file.display();
+        let name = shown_path(&file);
         match FloorPlanKind::of_file(file) {
             FloorPlanKind::Layout => self.open(file.to_path_buf()),
             FloorPlanKind::RosMap => {
@@ -85,7 +86,8 @@ impl App {
             return self.save(path);
         };
         self.dialogs.notices.add(error.to_string());
-        let suggestion = path.with_extension(DEFAULT_EXTENSION).display().to_string();
+        let suggestion = path.with_extension(DEFAULT_EXTENSION);
+        let suggestion = suggestion.to_string_lossy().into_owned();
         let prompt = &mut self.dialogs.prompt;
         prompt.ask_with_text(PromptKind::SaveAs, suggestion);
     }
@@ -108,7 +110,7 @@ impl App {
         let (services, file) = (Arc::clone(&self.context.services), path.clone());
         let write = move || {
             let losses = services.save_layout(&snapshot.to_layout(), &file)?;
-            let mut text = format!("Saved {}", file.display());
+            let mut text = format!("Saved {}", shown_path(&file));
             if !losses.is_empty() {
                 text += &format!(". The format cannot hold: {}", losses.join("; "));
             }
@@ -145,7 +147,7 @@ impl App {
         let services = Arc::clone(&self.context.services);
         let write = move || {
             services.export_svg(&picture, &path)?;
-            Ok(format!("Wrote {}", path.display()))
+            Ok(format!("Wrote {}", shown_path(&path)))
         };
         self.writer.start(None, None, &self.context.repaint, write);
     }

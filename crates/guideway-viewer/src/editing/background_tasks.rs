@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use guideway_document::{Document, PathSet, Query, QueryError, SelectMode};
-use guideway_layout::CheckOptions;
+use guideway_layout::{CheckOptions, shown_path};
 use guideway_scene::{Scene, SceneError, SceneOptions};
 
 use super::document_slot::DocumentSlot;
@@ -189,7 +189,7 @@ impl BackgroundTasks {
             }
             Ok(Err(error)) => {
                 let name = file.file_name().unwrap_or(file.as_os_str());
-                let notice = format!("{}: {error}", name.to_string_lossy());
+                let notice = format!("{}: {error}", shown_path(Path::new(name)));
                 Some(TaskEvent::Notice(notice))
             }
             Err(error) => Some(TaskEvent::Notice(error.to_string())),

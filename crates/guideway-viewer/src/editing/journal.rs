@@ -4,6 +4,7 @@ use std::io;
 use std::path::Path;
 
 use guideway_document::{Document, ReplayProgress, SavedState};
+use guideway_layout::shown_path;
 
 use super::journal_file::JournalFile;
 use super::notice::Notice;
@@ -12,8 +13,10 @@ use super::unsaved_work::UnsavedWork;
 /// The journal of a document. It moves between threads with its document.
 #[derive(Default)]
 pub(crate) struct Journal {
-    /// `None` before a document is loaded, and after the file could not be written.
+    /// `None` before a document is loaded, and after the file could not be opened or written.
     file: Option<JournalFile>,
+    /// What the user should know about the journal that was opened.
+    notice: Option<Notice>,
     /// The saved state before the save in progress. While a save runs nothing is recorded: an entry
     /// would belong to neither the old nor the new file.
     saving: Option<SavedState>,
@@ -22,20 +25,28 @@ pub(crate) struct Journal {
 impl Journal {
     /// Opens the journal of a layout file that was just read.
     pub(crate) fn open(layout_file: &Path) -> Self {
-        Self {
-            file: Some(JournalFile::open(layout_file)),
-            saving: None,
+        let mut journal = Self::default();
+        match JournalFile::open(layout_file) {
+            Ok(file) => {
+                journal.notice = file.mismatched_copy().map(|kept| {
+                    format!(
+                        "{} has changed since it was left with unsaved work. That work is kept in \
+                         {}",
+                        shown_path(layout_file),
+                        shown_path(kept)
+                    )
+                });
+                journal.file = Some(file);
+            }
+            Err(error) => journal.notice = Some(unusable(layout_file, &error)),
         }
+        journal
     }
 
-    /// The notice about unsaved work that does not match the layout file, if there is any.
-    pub(crate) fn mismatch_notice(&self, layout_file: &Path) -> Option<Notice> {
-        let kept = self.file.as_ref()?.mismatched_copy()?;
-        Some(format!(
-            "{} has changed since it was left with unsaved work. That work is kept in {}",
-            layout_file.display(),
-            kept.display()
-        ))
+    /// The notice about a journal that was opened: unsaved work that does not match the layout file,
+    /// or a journal that cannot be used.
+    pub(crate) fn take_notice(&mut self) -> Option<Notice> {
+        self.notice.take()
     }
 
     /// Returns `true` if unsaved work of an earlier run awaits a decision.
@@ -98,7 +109,7 @@ impl Journal {
     /// When the journal cannot be written. The save may go on.
     pub(crate) fn begin_save(&mut self, before: SavedState, file: &Path) -> Result<(), Notice> {
         self.saving = Some(before);
-        let result = self.file.as_ref().map_or(Ok(()), |j| j.copy_base(file));
+        let result = self.file.as_mut().map_or(Ok(()), |j| j.copy_base(file));
         self.close_on_error(result, file)
     }
 
@@ -133,11 +144,17 @@ impl Journal {
     fn close_on_error<T>(&mut self, result: io::Result<T>, file: &Path) -> Result<T, Notice> {
         result.map_err(|error| {
             self.file = None;
-            format!(
-                "{}: cannot write the journal beside this file: {error}. Unsaved work would not \
-                 survive a crash: save often",
-                file.display()
-            )
+            unusable(file, &error)
         })
     }
+}
+
+/// The notice about a journal that cannot be opened or written.
+fn unusable(layout_file: &Path, error: &io::Error) -> Notice {
+    let file = shown_path(layout_file);
+    let reason = match error.kind() {
+        io::ErrorKind::WouldBlock => "the file is open in another window, which has the journal",
+        _ => &format!("cannot write the journal beside this file: {error}"),
+    };
+    format!("{file}: {reason}. Unsaved work would not survive a crash: save often")
 }

@@ -9,21 +9,26 @@
 //! the file as read, and base plus journal restore the work, even where nothing was edited before.
 //! The journal is not flushed to disk per entry: it survives a crash of the program, not a power
 //! cut.
+//!
+//! The window that has locked the journal owns both files. Another window on the same layout file
+//! reads, writes and deletes neither.
 
-use std::fs::{self, File, OpenOptions};
-use std::io::{self, Seek, SeekFrom, Write};
+use std::ffi::OsString;
+use std::fs::{self, File, Metadata, Permissions};
+use std::io::{self, ErrorKind, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
+use guideway_compose::lock_regular_file;
 use guideway_document::{Document, JournalEntry, ReplayProgress};
 
 use super::journal_header::{HEADER_BYTES, header, read_header};
-use super::unsaved_work::UnsavedWork;
+use super::unsaved_work::{UnsavedWork, read_entries};
 
-/// A journal file. It is created with the first entry.
+/// A journal file. It is created with the first entry, or before the first save.
 pub(crate) struct JournalFile {
     pub(super) journal: PathBuf,
     base: PathBuf,
-    /// Open for appending; `None` until the first entry.
+    /// Open and locked; `None` until it is created.
     file: Option<File>,
     /// True if unsaved work of an earlier run awaits a decision.
     has_unsaved_work: bool,
@@ -34,16 +39,25 @@ pub(crate) struct JournalFile {
 impl JournalFile {
     /// Opens the journal of a layout file that was just read. Unsaved work of another state of that
     /// file is moved aside.
-    pub(crate) fn open(layout_file: &Path) -> Self {
-        let journal = sibling(layout_file, "journal");
-        let unsaved = find_unsaved(&journal, layout_file).unwrap_or_default();
+    ///
+    /// # Errors
+    /// When another window has the journal, or it cannot be opened.
+    pub(crate) fn open(layout_file: &Path) -> io::Result<Self> {
         let mut opened = Self {
-            has_unsaved_work: unsaved == Some(Match::Same),
+            journal: sibling(layout_file, "journal"),
             base: sibling(layout_file, "base"),
-            journal,
             file: None,
+            has_unsaved_work: false,
             mismatched_copy: None,
         };
+        let mut file = match lock_regular_file(&opened.journal, false) {
+            Ok(file) => file,
+            Err(error) if error.kind() == ErrorKind::NotFound => return Ok(opened),
+            Err(error) => return Err(error),
+        };
+        let unsaved = find_unsaved(&mut file, layout_file).unwrap_or_default();
+        opened.has_unsaved_work = unsaved == Some(Match::Same);
+        opened.file = Some(file);
         if unsaved == Some(Match::Other) {
             opened.move_aside();
         }
@@ -51,15 +65,13 @@ impl JournalFile {
             // A journal without unsaved entries is of no use.
             opened.delete();
         }
-        opened
+        Ok(opened)
     }
 
     /// Renames journal and base, and replaces older copies of that name.
     fn move_aside(&mut self) {
         let [journal, base] = [&self.journal, &self.base].map(|file| {
-            let mut copy = file.clone().into_os_string();
-            copy.push("-old");
-            let copy = PathBuf::from(copy);
+            let copy = with_suffix(file, "-old");
             // There may be no base.
             fs::rename(file, &copy).ok().map(|()| copy)
         });
@@ -78,12 +90,14 @@ impl JournalFile {
 
     /// Unsaved work of an earlier run. It stays on disk until it is recovered or discarded.
     pub(crate) fn unsaved_work(&self, layout_file: &Path) -> Option<UnsavedWork> {
+        let file = self.file.as_ref().filter(|_| self.has_unsaved_work)?;
         let base = match self.base.exists() {
             true => &self.base,
             false => layout_file,
         };
-        self.has_unsaved_work.then(|| UnsavedWork {
+        Some(UnsavedWork {
             journal: self.journal.clone(),
+            entries: read_entries(file),
             base: base.to_owned(),
         })
     }
@@ -94,18 +108,19 @@ impl JournalFile {
     /// # Errors
     /// When the journal cannot be written.
     pub(super) fn resume(&mut self, done: ReplayProgress, layout_file: &Path) -> io::Result<bool> {
+        let Some(file) = &mut self.file else {
+            return Ok(true);
+        };
         let end = (HEADER_BYTES + done.bytes) as u64;
-        let mut options = OpenOptions::new();
-        let mut file = options.read(true).write(true).open(&self.journal)?;
         let is_all = file.metadata()?.len() <= end;
-        if read_header(&mut file)?.1 > done.bytes as u64 {
+        file.rewind()?;
+        if read_header(file)?.1 > done.bytes as u64 {
             // The saved state lies behind the damage: nothing counts as saved.
             file.rewind()?;
             file.write_all(&header(layout_file, 0)?)?;
         }
         file.set_len(end)?;
         file.seek(SeekFrom::End(0))?;
-        self.file = Some(file);
         self.has_unsaved_work = false;
         Ok(is_all)
     }
@@ -113,7 +128,7 @@ impl JournalFile {
     /// Appends the document's new entries.
     ///
     /// # Errors
-    /// When the journal cannot be written.
+    /// When the journal cannot be written, or another window has it.
     pub(crate) fn record(&mut self, document: &mut Document, layout_file: &Path) -> io::Result<()> {
         if self.has_unsaved_work {
             return Ok(());
@@ -122,49 +137,42 @@ impl JournalFile {
         if entries.is_empty() {
             return Ok(());
         }
-        let file = match &mut self.file {
-            Some(file) => file,
-            none => none.insert(create(&self.journal, layout_file)?),
-        };
         let records: Vec<u8> = entries.iter().flat_map(JournalEntry::to_record).collect();
-        file.write_all(&records)
+        self.created(layout_file)?.write_all(&records)
+    }
+
+    /// The journal, which is created where there is none.
+    fn created(&mut self, layout_file: &Path) -> io::Result<&mut File> {
+        match &mut self.file {
+            Some(file) => Ok(file),
+            none => {
+                let file = create(&self.journal, layout_file)?;
+                // That of a journal which is gone.
+                let _ = fs::remove_file(&self.base);
+                Ok(none.insert(file))
+            }
+        }
     }
 
     /// Copies the file as read, before its first save.
     ///
     /// # Errors
-    /// When the copy cannot be written.
-    pub(super) fn copy_base(&self, layout_file: &Path) -> io::Result<()> {
-        if self.base.exists() {
-            return Ok(());
+    /// When the copy cannot be written, or another window has the journal.
+    pub(super) fn copy_base(&mut self, layout_file: &Path) -> io::Result<()> {
+        self.created(layout_file)?;
+        match self.base.exists() {
+            true => Ok(()),
+            false => copy(layout_file, &self.base),
         }
-        // Saves replace files and never write into them, so a hard link is a copy.
-        let is_linked = fs::hard_link(layout_file, &self.base).is_ok();
-        if !is_linked {
-            fs::copy(layout_file, &self.base)?;
-        }
-        Ok(())
     }
 
     /// Marks all entries as saved, in `layout_file`, which may have another name than before.
     ///
     /// # Errors
-    /// When the journal cannot be written.
+    /// When the journal cannot be written, or another window has that of the other name.
     pub(super) fn mark_saved(&mut self, layout_file: &Path) -> io::Result<()> {
-        let (journal, base) = (
-            sibling(layout_file, "journal"),
-            sibling(layout_file, "base"),
-        );
-        if journal != self.journal {
-            fs::copy(&self.base, &base)?;
-            if let Some(file) = &mut self.file {
-                file.flush()?;
-                fs::copy(&self.journal, &journal)?;
-                *file = OpenOptions::new().write(true).open(&journal)?;
-                fs::remove_file(&self.journal)?;
-            }
-            fs::remove_file(&self.base)?;
-            (self.journal, self.base) = (journal, base);
+        if sibling(layout_file, "journal") != self.journal {
+            self.move_to(layout_file)?;
         }
         let Some(file) = &mut self.file else {
             return Ok(());
@@ -175,20 +183,51 @@ impl JournalFile {
         file.seek(SeekFrom::End(0)).map(drop)
     }
 
-    /// Deletes journal and base.
+    /// Moves journal and base beside another layout file. Unsaved work that is there already is
+    /// moved aside.
+    fn move_to(&mut self, layout_file: &Path) -> io::Result<()> {
+        let mut moved = Self {
+            journal: sibling(layout_file, "journal"),
+            base: sibling(layout_file, "base"),
+            file: None,
+            has_unsaved_work: false,
+            mismatched_copy: None,
+        };
+        if let Some(file) = &mut self.file {
+            let mut target = lock_regular_file(&moved.journal, true)?;
+            if target.metadata()?.len() > HEADER_BYTES as u64 {
+                moved.move_aside();
+                target = lock_regular_file(&moved.journal, true)?;
+            }
+            target.set_len(0)?;
+            file.rewind()?;
+            io::copy(file, &mut target)?;
+            moved.file = Some(target);
+        }
+        let _ = fs::remove_file(&moved.base);
+        if self.base.exists() {
+            copy(&self.base, &moved.base)?;
+        }
+        self.delete();
+        *self = moved;
+        Ok(())
+    }
+
+    /// Deletes journal and base, which this window owns.
     pub(super) fn delete(&mut self) {
         self.has_unsaved_work = false;
-        self.file = None;
-        for path in [&self.journal, &self.base] {
-            // Either may be absent.
-            let _ = fs::remove_file(path);
+        if let Some(_locked) = self.file.take() {
+            for path in [&self.base, &self.journal] {
+                // Either may be absent.
+                let _ = fs::remove_file(path);
+            }
         }
     }
 }
 
 /// All entries of a journal and the file that they begin with; `None` without a journal.
 #[cfg(test)]
-pub(crate) fn read_entries(layout_file: &Path) -> Option<(Vec<u8>, PathBuf)> {
+pub(crate) fn entries_on_disk(layout_file: &Path) -> Option<(Vec<u8>, PathBuf)> {
     let mut journal = fs::read(sibling(layout_file, "journal")).ok()?;
     let entries = journal.split_off(HEADER_BYTES);
     let base = sibling(layout_file, "base");
@@ -201,9 +240,44 @@ pub(crate) fn read_entries(layout_file: &Path) -> Option<(Vec<u8>, PathBuf)> {
 
 fn create(journal: &Path, layout_file: &Path) -> io::Result<File> {
     let header = header(layout_file, 0)?;
-    let mut file = File::create(journal)?;
+    let mut file = lock_regular_file(journal, true)?;
+    if file.metadata()?.len() > 0 {
+        let reason = "another window left unsaved work in it";
+        return Err(io::Error::new(ErrorKind::ResourceBusy, reason));
+    }
+    file.set_permissions(permissions(&fs::metadata(layout_file)?))?;
     file.write_all(&header)?;
     Ok(file)
+}
+
+/// Copies a file whole or not at all. A link of the name of the copy is replaced, not followed.
+fn copy(from: &Path, to: &Path) -> io::Result<()> {
+    let new = with_suffix(to, "-new");
+    // Left by a run that was killed.
+    let _ = fs::remove_file(&new);
+    let (mut source, mut target) = (File::open(from)?, File::create_new(&new)?);
+    let copied = target
+        .set_permissions(permissions(&source.metadata()?))
+        .and_then(|()| io::copy(&mut source, &mut target))
+        .and_then(|_| fs::rename(&new, to));
+    if copied.is_err() {
+        let _ = fs::remove_file(&new);
+    }
+    copied
+}
+
+/// The permissions of a file that tells of a layout: nobody reads it who may not read the layout, and
+/// this user may write it.
+fn permissions(of_layout: &Metadata) -> Permissions {
+    let mut permissions = of_layout.permissions();
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        permissions.set_mode(permissions.mode() | 0o600);
+    }
+    #[cfg(not(unix))]
+    permissions.set_readonly(false);
+    permissions
 }
 
 /// The state of the layout file that unsaved work belongs to.
@@ -216,10 +290,9 @@ enum Match {
 }
 
 /// Compares a journal that has unsaved entries with its layout file; `None` without such entries.
-fn find_unsaved(journal: &Path, layout_file: &Path) -> io::Result<Option<Match>> {
-    let mut file = File::open(journal)?;
-    let (found, saved_bytes) = read_header(&mut file)?;
-    let entry_bytes = file.metadata()?.len() - HEADER_BYTES as u64;
+fn find_unsaved(journal: &mut File, layout_file: &Path) -> io::Result<Option<Match>> {
+    let (found, saved_bytes) = read_header(journal)?;
+    let entry_bytes = journal.metadata()?.len() - HEADER_BYTES as u64;
     let is_same = match found == header(layout_file, saved_bytes)? {
         true => Match::Same,
         false => Match::Other,
@@ -229,9 +302,16 @@ fn find_unsaved(journal: &Path, layout_file: &Path) -> io::Result<Option<Match>>
 
 /// `.site.lif.json.guideway-journal` beside `site.lif.json`.
 fn sibling(layout_file: &Path, kind: &str) -> PathBuf {
-    let name = layout_file.file_name().unwrap_or_default();
-    let name = name.to_string_lossy();
-    layout_file.with_file_name(format!(".{name}.guideway-{kind}"))
+    let mut name = OsString::from(".");
+    name.push(layout_file.file_name().unwrap_or_default());
+    name.push(format!(".guideway-{kind}"));
+    layout_file.with_file_name(name)
+}
+
+fn with_suffix(file: &Path, suffix: &str) -> PathBuf {
+    let mut name = file.as_os_str().to_owned();
+    name.push(suffix);
+    name.into()
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! The header of a journal file: identifies the state of the layout file that its entries change.
 
-use std::fs::{self, File};
+use std::fs;
 use std::io::{self, Read};
 use std::path::Path;
 use std::time::UNIX_EPOCH;
@@ -11,7 +11,7 @@ const MAGIC: &[u8; 8] = b"GWJRNAL2";
 pub(super) const HEADER_BYTES: usize = 8 + 8 + 16 + 8;
 
 /// The header of a journal, and the entry bytes that are saved.
-pub(super) fn read_header(journal: &mut File) -> io::Result<([u8; HEADER_BYTES], u64)> {
+pub(super) fn read_header(journal: &mut impl Read) -> io::Result<([u8; HEADER_BYTES], u64)> {
     let mut header = [0; HEADER_BYTES];
     journal.read_exact(&mut header)?;
     let saved = header.last_chunk().map_or(0, |n| u64::from_le_bytes(*n));

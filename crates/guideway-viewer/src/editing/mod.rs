@@ -25,5 +25,5 @@ pub(crate) use edit_task::{EDIT_WAIT, EditTask};
 pub(crate) use findings::Findings;
 pub(crate) use journal::Journal;
 #[cfg(test)]
-pub(crate) use journal_file::{JournalFile, read_entries};
+pub(crate) use journal_file::{JournalFile, entries_on_disk};
 pub(crate) use unsaved_work::UnsavedWork;

@@ -1,11 +1,11 @@
 //! Unsaved work of an earlier run: replays its journal on the file that it begins with.
 
 use std::fs::File;
-use std::io::{self, Read};
+use std::io::{self, Read, Seek};
 use std::path::PathBuf;
 
 use guideway_document::{Document, ReplayProgress, replay};
-use guideway_layout::UserError;
+use guideway_layout::{UserError, shown_path};
 
 use super::journal_header::read_header;
 use crate::services::{Job, WINDOW_ERROR};
@@ -13,6 +13,8 @@ use crate::services::{Job, WINDOW_ERROR};
 /// A journal that an earlier run left, and its base file.
 pub(crate) struct UnsavedWork {
     pub(super) journal: PathBuf,
+    /// All entries, and how many of their bytes are in the saved file.
+    pub(super) entries: io::Result<(usize, Vec<u8>)>,
     /// The layout file that the journal begins with.
     pub(crate) base: PathBuf,
 }
@@ -27,12 +29,13 @@ impl UnsavedWork {
         document: &mut Document,
         job: &Job,
     ) -> Result<ReplayProgress, UserError> {
-        let (saved_bytes, entries) = self.entries().map_err(|error| {
+        let entries = self.entries.as_ref();
+        let &(saved_bytes, ref entries) = entries.map_err(|error| {
             UserError::new(
                 WINDOW_ERROR,
                 format!(
                     "{}: cannot read the journal: {error}",
-                    self.journal.display()
+                    shown_path(&self.journal)
                 ),
                 "Make the file readable and recover again, or discard the unsaved work",
             )
@@ -67,13 +70,13 @@ impl UnsavedWork {
         }
         Ok(done)
     }
+}
 
-    /// All entries, and how many of their bytes are in the saved file.
-    fn entries(&self) -> io::Result<(usize, Vec<u8>)> {
-        let mut journal = File::open(&self.journal)?;
-        let (_, saved_bytes) = read_header(&mut journal)?;
-        let mut entries = Vec::new();
-        journal.read_to_end(&mut entries)?;
-        Ok((entries.len().min(saved_bytes as usize), entries))
-    }
+/// Reads all entries of a journal, and how many of their bytes are in the saved file.
+pub(super) fn read_entries(mut journal: &File) -> io::Result<(usize, Vec<u8>)> {
+    journal.rewind()?;
+    let (_, saved_bytes) = read_header(&mut journal)?;
+    let mut entries = Vec::new();
+    journal.read_to_end(&mut entries)?;
+    Ok((entries.len().min(saved_bytes as usize), entries))
 }

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use guideway_document::decorations::{marks, scale_bar};
-use guideway_layout::UserError;
+use guideway_layout::{UserError, shown_path};
 use guideway_scene::{DrawList, FrameSize, RenderError, Style, View};
 
 use crate::backdrop::{FloorPlanLayer, SweptAreasLayer};
@@ -75,7 +75,7 @@ pub(crate) fn png_picture(
 ) -> Result<String, UserError> {
     let picture = scaled_to(picture, width_px)?;
     let result = services.export_png(&picture, method, job, path);
-    let path = path.display();
+    let path = shown_path(path);
     if job.is_cancelled() && result.is_err() {
         return Ok(format!("The export of {path} was cancelled"));
     }

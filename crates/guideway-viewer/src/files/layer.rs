@@ -6,6 +6,7 @@ use std::time::Duration;
 
 use eframe::egui::Context;
 use guideway_document::{Document, ReplayProgress, Snapshot};
+use guideway_layout::shown_path;
 use guideway_scene::SceneOptions;
 
 use super::layer_context::LayerContext;
@@ -32,6 +33,8 @@ pub(crate) struct Layer {
     loader: Option<Loader>,
     /// True if the render thread waits for the scene of a document that an edit has.
     owes_scene: bool,
+    /// True if unsaved work is recorded beside the file.
+    keeps_journal: bool,
 }
 
 impl Drop for Layer {
@@ -62,6 +65,7 @@ impl Layer {
             error: None,
             loader: None,
             owes_scene: false,
+            keeps_journal: context.services.keeps_journals(),
         };
         layer.load(None, options, context);
         layer
@@ -74,7 +78,7 @@ impl Layer {
     /// The file name without its folder.
     pub(crate) fn name(&self) -> String {
         let name = self.path.file_name().unwrap_or(self.path.as_os_str());
-        name.to_string_lossy().into_owned()
+        shown_path(Path::new(name))
     }
 
     /// The document, unless it is not loaded or an edit has it.
@@ -344,8 +348,7 @@ impl Layer {
                     // The journal of the replaced document.
                     self.discard_journal();
                 }
-                *self.slot.journal_mut() = Journal::open(&self.path);
-                self.slot.journal().mismatch_notice(&self.path)
+                self.open_journal()
             }
         };
         events.extend(notice.map(LayerEvent::Notice));
@@ -358,6 +361,17 @@ impl Layer {
             self.send_scene();
         }
         events.push(LayerEvent::Reached(LoadStage::Editable));
+    }
+
+    /// Opens the journal of the file, if this run keeps journals. Returns a notice about it.
+    fn open_journal(&mut self) -> Option<String> {
+        let journal = self.slot.journal_mut();
+        // The present one has a lock that would keep the next one out.
+        *journal = Journal::default();
+        if self.keeps_journal {
+            *journal = Journal::open(&self.path);
+        }
+        journal.take_notice()
     }
 
     /// Returns `true` if this is the file at `path`.

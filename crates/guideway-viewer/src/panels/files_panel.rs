@@ -2,6 +2,7 @@
 
 use eframe::egui::{Label, RichText, Ui};
 use guideway_document::Document;
+use guideway_layout::shown_path;
 
 use crate::action::Action;
 use crate::backdrop::FloorPlanLayer;
@@ -21,7 +22,7 @@ pub(super) fn show(
             let mark = if layer.is_changed() { "*" } else { "" };
             let name = format!("{}{mark}", layer.name());
             let label = ui.selectable_label(active == index, name);
-            let path = layer.path().display().to_string();
+            let path = shown_path(layer.path());
             if label.on_hover_text(path).clicked() {
                 actions.push(Action::Activate(index));
             }

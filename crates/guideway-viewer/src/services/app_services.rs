@@ -89,6 +89,11 @@ pub trait AppServices: Send + Sync {
         let _ = (stage, file);
     }
 
+    /// Returns `true` if unsaved work is recorded in a journal beside the file.
+    fn keeps_journals(&self) -> bool {
+        true
+    }
+
     /// Folder for state that outlives a run, such as recent files; `None` keeps no state.
     fn state_folder(&self) -> Option<PathBuf> {
         None

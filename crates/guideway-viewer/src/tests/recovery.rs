@@ -5,14 +5,13 @@ use std::sync::Arc;
 
 use eframe::egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable;
-use guideway_document::Document;
+use guideway_document::{Document, replay};
 use guideway_spline::Point;
 use tempfile::TempDir;
 
 use super::services::{TestServices, lanes};
 use super::test_window::{TestWindow, has_notice};
-use crate::editing::JournalFile;
-use crate::services::Job;
+use crate::editing::{JournalFile, entries_on_disk};
 
 /// A file of four lanes, all deleted in a run that crashed.
 struct Crashed {
@@ -28,9 +27,8 @@ impl Crashed {
         let mut document = Document::new(lanes(4).into(), &Default::default()).unwrap();
         document.select_all();
         document.delete_selection().unwrap();
-        JournalFile::open(&site)
-            .record(&mut document, &site)
-            .unwrap();
+        let mut journal = JournalFile::open(&site).unwrap();
+        journal.record(&mut document, &site).unwrap();
         let disk = TestServices::with([]);
         disk.files.lock().unwrap().insert(site, lanes(4));
         Self { folder, disk }
@@ -50,9 +48,8 @@ impl Crashed {
     fn entries(&self) -> usize {
         let site = self.folder.path().join("site.arrow");
         let mut document = Document::new(lanes(4).into(), &Default::default()).unwrap();
-        let found = JournalFile::open(&site).unsaved_work(&site).unwrap();
-        let done = found.replay(&mut document, &Job::default());
-        done.unwrap().entries
+        let (entries, _) = entries_on_disk(&site).unwrap();
+        replay(&entries, &mut document, |_| true).entries
     }
 
     fn set_blocked(&self, is_blocked: bool) {

@@ -8,12 +8,16 @@ fn document() -> Document {
     Document::new(lanes(4).into(), &Default::default()).unwrap()
 }
 
+fn open(site: &Path) -> JournalFile {
+    JournalFile::open(site).unwrap()
+}
+
 /// A file with a document that has recorded edits.
 fn edited() -> (tempfile::TempDir, PathBuf, Document, JournalFile) {
     let folder = tempfile::tempdir().unwrap();
     let site = folder.path().join("site.arrow");
     fs::write(&site, "as it was read").unwrap();
-    let mut journal = JournalFile::open(&site);
+    let mut journal = open(&site);
     assert!(!journal.has_unsaved_work());
     let mut edited = document();
     edited.select_all();
@@ -31,7 +35,7 @@ fn files(folder: &tempfile::TempDir) -> usize {
 
 /// Opens the journal and replays its work, as a restarted viewer does.
 fn replayed(site: &Path) -> (JournalFile, UnsavedWork, ReplayProgress, Document) {
-    let journal = JournalFile::open(site);
+    let journal = open(site);
     let found = journal.unsaved_work(site).unwrap();
     let mut recovered = document();
     let done = found.replay(&mut recovered, &Job::default()).unwrap();
@@ -56,13 +60,14 @@ fn finds_work_after_a_crash_of_the_same_file_only() {
     assert_eq!(recovered.node_position_m(0), edited.node_position_m(0));
     assert_eq!(recovered.node_position_m(2), Point::new(3.0, 3.0));
     fs::write(&site, "another layout").unwrap();
-    let journal = JournalFile::open(&site);
+    let journal = open(&site);
     assert!(!journal.has_unsaved_work());
     // The work is kept.
     let copy = journal.mismatched_copy().unwrap();
     assert!(fs::metadata(copy).unwrap().len() > HEADER_BYTES as u64);
+    drop(journal);
     assert!(
-        JournalFile::open(&site).mismatched_copy().is_none(),
+        open(&site).mismatched_copy().is_none(),
         "it is reported once"
     );
 }
@@ -93,7 +98,7 @@ fn work_after_an_unchanged_save_starts_from_the_file_as_read() {
         let folder = tempfile::tempdir().unwrap();
         let [site, target] = ["site.arrow", name].map(|name| folder.path().join(name));
         fs::write(&site, "as it was read").unwrap();
-        let mut journal = JournalFile::open(&site);
+        let mut journal = open(&site);
         let mut edited = document();
         journal.copy_base(&site).unwrap();
         fs::write(folder.path().join("new"), "as it is saved").unwrap();
@@ -151,7 +156,7 @@ fn truncated_entry_is_reported_and_overwritten() {
 fn work_stays_until_recovered_or_discarded() {
     let (_folder, site, _, journal) = edited();
     drop(journal);
-    let mut journal = JournalFile::open(&site);
+    let mut journal = open(&site);
     let job = Job::default();
     job.cancel();
     let mut other = document();
@@ -163,7 +168,9 @@ fn work_stays_until_recovered_or_discarded() {
     let mut other = document();
     other.move_node(3, Point::new(5.0, 5.0)).unwrap();
     journal.record(&mut other, &site).unwrap();
-    assert_eq!(replayed(&site).2.entries, 3);
+    drop(journal);
+    let (mut journal, _, done, _) = replayed(&site);
+    assert_eq!(done.entries, 3);
     // The edits before the discard form the new journal.
     journal.delete();
     journal.record(&mut other, &site).unwrap();
@@ -181,9 +188,109 @@ fn saved_or_discarded_work_leaves_no_files() {
     assert_eq!(files(&folder), 3);
     drop(journal);
     // A crash without unsaved work.
-    assert!(!JournalFile::open(&site).has_unsaved_work());
+    assert!(!open(&site).has_unsaved_work());
     assert_eq!(files(&folder), 1);
     let (folder, _, _, mut journal) = edited();
     journal.delete();
     assert_eq!(files(&folder), 1);
+}
+
+#[test]
+fn another_window_leaves_the_journal_alone() {
+    let (folder, site, mut edited, mut journal) = edited();
+    let busy = |result: io::Result<()>| {
+        let error = result.unwrap_err();
+        assert_eq!(error.kind(), ErrorKind::WouldBlock, "{error}");
+    };
+    let bytes = || fs::read(sibling(&site, "journal")).unwrap();
+    let before = bytes();
+    busy(JournalFile::open(&site).map(drop));
+    assert_eq!(bytes(), before);
+    // A window that was open before there was a journal.
+    journal.delete();
+    let mut second = open(&site);
+    edited.move_node(1, Point::new(2.0, 2.0)).unwrap();
+    journal.record(&mut edited, &site).unwrap();
+    let before = bytes();
+    let mut other = document();
+    other.move_node(3, Point::new(5.0, 5.0)).unwrap();
+    busy(second.record(&mut other, &site));
+    busy(second.copy_base(&site));
+    second.delete();
+    assert_eq!(bytes(), before);
+    // A window that saves under the name of this file.
+    let third_site = folder.path().join("third.arrow");
+    fs::write(&third_site, "third").unwrap();
+    let mut third = open(&third_site);
+    third.copy_base(&third_site).unwrap();
+    busy(third.mark_saved(&site));
+    assert_eq!(bytes(), before);
+    journal.delete();
+    third.mark_saved(&site).unwrap();
+    assert_eq!(files(&folder), 4);
+}
+
+#[test]
+fn saving_over_a_file_keeps_its_unsaved_work() {
+    let (folder, site, _, journal) = edited();
+    let left = fs::read(&journal.journal).unwrap();
+    drop(journal);
+    let other = folder.path().join("other.arrow");
+    fs::write(&other, "other").unwrap();
+    let mut journal = open(&other);
+    journal.copy_base(&other).unwrap();
+    journal.mark_saved(&site).unwrap();
+    let kept = with_suffix(&sibling(&site, "journal"), "-old");
+    assert_eq!(fs::read(kept).unwrap(), left);
+}
+
+#[test]
+fn later_writes_into_the_file_do_not_reach_the_base() {
+    let (_folder, site, _, mut journal) = edited();
+    journal.copy_base(&site).unwrap();
+    fs::write(&site, "written in place").unwrap();
+    let base = fs::read_to_string(sibling(&site, "base")).unwrap();
+    assert_eq!(base, "as it was read");
+}
+
+#[cfg(unix)]
+#[test]
+fn pipe_or_link_of_the_name_of_the_journal_is_an_error() {
+    let folder = tempfile::tempdir().unwrap();
+    let site = folder.path().join("site.arrow");
+    fs::write(&site, "").unwrap();
+    let journal = sibling(&site, "journal");
+    std::os::unix::fs::symlink(&site, &journal).unwrap();
+    assert!(JournalFile::open(&site).is_err());
+    fs::remove_file(&journal).unwrap();
+    let made = std::process::Command::new("mkfifo").arg(&journal).status();
+    assert!(made.unwrap().success());
+    assert!(JournalFile::open(&site).is_err());
+}
+
+#[cfg(unix)]
+#[test]
+fn names_that_are_not_utf8_have_journals_of_their_own() {
+    use std::ffi::OsStr;
+    use std::os::unix::ffi::OsStrExt;
+    let [a, b] = [b"h\xe4lle", b"h\xf6lle"].map(|name| Path::new(OsStr::from_bytes(name)));
+    assert_ne!(sibling(a, "journal"), sibling(b, "journal"));
+}
+
+#[cfg(unix)]
+#[test]
+fn journal_is_as_private_as_the_layout() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = tempfile::tempdir().unwrap();
+    let site = folder.path().join("site.arrow");
+    fs::write(&site, "").unwrap();
+    fs::set_permissions(&site, Permissions::from_mode(0o600)).unwrap();
+    open(&site).copy_base(&site).unwrap();
+    for kind in ["journal", "base"] {
+        let mode = fs::metadata(sibling(&site, kind))
+            .unwrap()
+            .permissions()
+            .mode();
+        assert_eq!(mode & 0o777, 0o600, "{kind}");
+    }
 }

@@ -85,7 +85,7 @@ pub(crate) struct OpenPrompt {
 impl Prompt {
     /// Opens a prompt that suggests a name derived from the active file.
     pub(crate) fn ask(&mut self, kind: PromptKind, file: Option<&Path>) {
-        let text = kind.suggestion(file).display().to_string();
+        let text = kind.suggestion(file).to_string_lossy().into_owned();
         self.ask_with_text(kind, text);
     }
 

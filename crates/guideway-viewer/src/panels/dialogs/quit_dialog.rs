@@ -1,6 +1,7 @@
 //! The question about unsaved changes before the window closes.
 
 use eframe::egui::{Context, Id, Modal, ViewportCommand};
+use guideway_layout::shown_path;
 
 use crate::action::Action;
 use crate::files::OpenFiles;
@@ -53,7 +54,7 @@ impl QuitDialog {
         Modal::new(Id::unique("quit")).show(ctx, |ui| {
             ui.label("Unsaved changes in:");
             for layer in files.layers().iter().filter(|layer| layer.is_changed()) {
-                ui.label(layer.path().display().to_string());
+                ui.label(shown_path(layer.path()));
             }
             ui.horizontal(|ui| {
                 if ui.button("Quit without saving").clicked() {

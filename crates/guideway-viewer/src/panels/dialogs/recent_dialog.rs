@@ -1,8 +1,9 @@
 //! The list of recent files: a click or a digit key opens one.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use eframe::egui::{Button, Context, Id, Key, Modal};
+use guideway_layout::shown_path;
 
 use crate::action::Action;
 
@@ -51,9 +52,9 @@ impl RecentDialog {
                 false => "Open recent file",
             });
             for ((file, exists), digit) in files.iter().zip(DIGITS) {
-                let name = file.file_name().unwrap_or(file.as_os_str());
-                let label = format!("{}  {}", digit.symbol_or_name(), name.to_string_lossy());
-                let path = file.display().to_string();
+                let name = shown_path(Path::new(file.file_name().unwrap_or(file.as_os_str())));
+                let label = format!("{}  {name}", digit.symbol_or_name());
+                let path = shown_path(file);
                 let button = ui.add_enabled(*exists, Button::new(label));
                 let is_chosen = button.clicked() || ui.input(|input| input.key_pressed(digit));
                 button

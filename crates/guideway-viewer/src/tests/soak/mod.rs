@@ -23,7 +23,7 @@ use super::random_input::{RandomSource, act, close_dialogs, keep_open};
 use super::services::lanes;
 use super::test_window::TestWindow;
 use crate::command::Command;
-use crate::editing::read_entries;
+use crate::editing::entries_on_disk;
 use file_store::FileStore;
 
 /// Events per chapter. A chapter ends at rest, with the first file loaded again.
@@ -180,7 +180,7 @@ impl Soak {
         if let Some(lines) = difference(&saved, &is) {
             return Err(format!("the saved file differs from the document: {lines}"));
         }
-        let replayed = match read_entries(&self.store.file) {
+        let replayed = match entries_on_disk(&self.store.file) {
             None => base,
             Some((acts, from)) => {
                 let from = self

@@ -9,8 +9,8 @@ use std::time::Instant;
 use etcetera::BaseStrategy;
 use guideway::compose::{Backdrop, FloorPlan, Picture, SweptAreas, Viewport, draw_swept_areas};
 use guideway::envelope::EnvelopeSource;
-use guideway::formats::{Progress, ReadOptions, read_file};
-use guideway::layout::{Layout, UserError};
+use guideway::formats::{Progress, read_file};
+use guideway::layout::{Layout, UserError, shown_path};
 use guideway::scene::{Frame, Method, View, elapsed_ms};
 use guideway_viewer::{AppServices, Job, LoadStage, MethodChoice, PictureRequest};
 
@@ -18,13 +18,14 @@ use crate::cli::convert;
 use crate::cli::error::usage_error;
 use crate::cli::floor_plan;
 use crate::cli::input::Input;
+use crate::cli::limits;
 use crate::cli::output::Output;
 
 /// The services of the command.
 pub(super) struct CliServices {
     /// Start of the command, if it prints how long files take.
     timed_since: Option<Instant>,
-    /// True if state, such as recent files, outlives the run.
+    /// True if state, such as recent files and journals, outlives the run.
     keeps_state: bool,
 }
 
@@ -48,11 +49,8 @@ impl CliServices {
 
 impl AppServices for CliServices {
     fn read_layout(&self, path: &Path, job: &Job) -> Result<Layout, UserError> {
-        let options = ReadOptions {
-            progress: Some(&JobProgress(job)),
-            ..ReadOptions::default()
-        };
-        Ok(read_file(path, &options)?)
+        let progress = JobProgress(job);
+        Ok(read_file(path, &limits::read_options(Some(&progress)))?)
     }
 
     fn check_save_in_place(&self, layout: &Layout, file: &Path) -> Result<(), UserError> {
@@ -134,9 +132,13 @@ impl AppServices for CliServices {
             LoadStage::Editable => "ready to be edited",
             LoadStage::Checked => "checked",
         };
-        let (ms, file) = (elapsed_ms(since), file.display());
+        let (ms, file) = (elapsed_ms(since), shown_path(file));
         // Standard error may be closed.
         let _ = writeln!(io::stderr(), "{ms:.0} ms: {file} is {stage}");
+    }
+
+    fn keeps_journals(&self) -> bool {
+        self.keeps_state
     }
 
     fn state_folder(&self) -> Option<PathBuf> {
