@@ -51,7 +51,7 @@ pub use clearance::{ClearanceOptions, ClearanceReport, ClearanceWork, Walls, che
 pub use convex::ConvexPolygon;
 pub use heading::{Heading, doubtful_headings, headings};
 pub use no_envelope::NoEnvelope;
-pub use proximity::{ClosestApproach, ExemptZone, ProximityQuery, SweepTree};
+pub use proximity::{ClosestApproach, ExemptZone, ProximityQuery, SweepTree, Undecided};
 pub use source::EnvelopeSource;
 pub use source_text::SourceError;
 pub use sweep::{MIN_TOLERANCE_M, Sweep};

@@ -40,7 +40,13 @@ pub struct ProximityQuery<'q> {
     pub tolerance_m: f64,
     /// Zones in which the sweeps may be near each other.
     pub exempt_zones: &'q [ExemptZone],
+    /// Largest number of polygon distances, counted with those of earlier queries.
+    pub max_tests: u64,
 }
+
+/// A query reached its largest number of polygon distances before it was decided.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Undecided;
 
 /// The hierarchy of a sweep, refined lazily. Later queries reuse the refinement of earlier ones.
 #[derive(Debug)]
@@ -79,12 +85,15 @@ impl SweepTree {
     /// The closest approach of two sweeps outside of exempt zones; `None` if it exceeds
     /// `threshold_m`. Finds every approach below `threshold_m`, and none above `threshold_m +
     /// tolerance_m`. Adds the number of polygon distances to `tests`.
+    ///
+    /// # Errors
+    /// When `tests` reaches [`ProximityQuery::max_tests`].
     pub fn nearest(
         &mut self,
         other: &mut Self,
         question: &ProximityQuery<'_>,
         tests: &mut u64,
-    ) -> Option<ClosestApproach> {
+    ) -> Result<Option<ClosestApproach>, Undecided> {
         let mut search = Search {
             trees: [self, other],
             question,
@@ -94,11 +103,12 @@ impl SweepTree {
         search.add([0, 0]);
         while let Some(pair) = search.open.pop() {
             match search.side_to_halve(&pair) {
+                _ if *search.tests >= question.max_tests => return Err(Undecided),
                 Some(side) => search.halve(pair.nodes, side),
-                None => return Some(search.closest_approach(pair)),
+                None => return Ok(Some(search.closest_approach(pair))),
             }
         }
-        None
+        Ok(None)
     }
 }
 

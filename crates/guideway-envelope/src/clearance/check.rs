@@ -1,6 +1,6 @@
 //! Checks the clearance of a whole layout.
 
-use guideway_layout::{Diagnostics, Layout};
+use guideway_layout::{Code, Diagnostics, Layout, Place};
 
 use super::pairs;
 use super::report::{ClearanceOptions, ClearanceReport};
@@ -26,5 +26,21 @@ pub fn check_clearance(
         work = work.plus(walls.check(layout, source, options, &mut findings));
     }
     work.doubtful = source.doubtful(layout);
+    if work.incomplete > 0 {
+        findings.push(
+            Code::Clearance,
+            || Place::element("paths"),
+            || {
+                format!(
+                    "{} of {} paths were compared with a part of what is near them only: each may \
+                     take {} distances",
+                    work.incomplete,
+                    work.paths,
+                    options.tests_per_path(layout.paths.len())
+                )
+            },
+            "Mend the findings above first; then check parts of the layout by themselves",
+        );
+    }
     ClearanceReport { findings, work }
 }

@@ -76,11 +76,14 @@ impl Joints {
             let mut next = first;
             while let Some(&ReachableJoint { joint, way_m, .. }) = all.get(next) {
                 next += 1;
-                for &(joint, length_m) in &self.ways[joint as usize] {
+                for &(joint, length_m) in self.ways[joint as usize].iter().take(MOST_WAYS) {
                     let way_m = way_m + length_m;
+                    if way_m > most_m || all.len() >= MOST_REACHED {
+                        continue;
+                    }
                     let known = all[first..].iter().position(|r| r.joint == joint);
                     let is_nearer = known.is_none_or(|known| way_m < all[first + known].way_m);
-                    if way_m <= most_m && is_nearer && all.len() < MOST_REACHED {
+                    if is_nearer {
                         all.push(ReachableJoint {
                             from: end.at,
                             joint,
@@ -120,6 +123,8 @@ impl Joints {
 /// Joints in reach of one path end; bounds the search in a dense network. Farther ones do not count
 /// as connected.
 const MOST_REACHED: usize = 256;
+/// Paths at one joint that the search follows.
+const MOST_WAYS: usize = 4096;
 
 /// Length of the control polygons of a path, an upper bound of its length.
 fn polygon_m(path: PathRef<'_>) -> f64 {

@@ -89,8 +89,10 @@ impl<'a> Paths<'a> {
         };
         let (bounds, reach_m) = (sweep.bounds(), sweep.reach_m());
         work.paths = 1;
-        let others = self.others(row, bounds);
+        let (others, is_cut) = self.others(row, bounds);
         work.candidates = others.len() as u64;
+        work.incomplete = u64::from(is_cut);
+        let max_tests = self.options.tests_per_path(self.layout.paths.len());
         let reaches_m = others.iter().filter_map(|&other| self.boxes[other]);
         let most_m = reaches_m.map(|(_, other_m)| other_m).fold(0.0, f64::max);
         let reached = self.joints.reached(row, self.max_path_m(reach_m, most_m));
@@ -113,9 +115,15 @@ impl<'a> Paths<'a> {
                 threshold_m: self.options.clearance_m,
                 tolerance_m: self.options.tolerance_m,
                 exempt_zones: &exempt_zones,
+                max_tests,
             };
             let mut other_tree = SweepTree::new(other_sweep);
-            let nearest = tree.nearest(&mut other_tree, &question, &mut work.tests);
+            // A pair whose boxes touch takes time even where no polygons are compared.
+            work.tests += 1;
+            let Ok(nearest) = tree.nearest(&mut other_tree, &question, &mut work.tests) else {
+                work.incomplete = 1;
+                break;
+            };
             violations.extend(nearest.map(|nearest| Violation {
                 paths: [row, other],
                 nearest,
@@ -129,13 +137,16 @@ impl<'a> Paths<'a> {
         reach_m + other_m + self.options.clearance_m
     }
 
-    /// The later paths whose bounds are within the clearance, by ascending row.
-    fn others(&self, row: usize, bounds: Bounds<f64>) -> Vec<usize> {
+    /// The later paths whose bounds are within the clearance, by ascending row. Also returns `true`
+    /// if there may be more.
+    fn others(&self, row: usize, bounds: Bounds<f64>) -> (Vec<usize>, bool) {
         let Bounds { min, max } = bounds.inflated(self.options.clearance_m);
         let near = AABB::from_corners([min.x, min.y], [max.x, max.y]);
         let level = |row| self.layout.paths.get(row).level();
         let is_apart = |a: Option<u32>, b: Option<u32>| a.is_some() && b.is_some() && a != b;
         let near = self.index.locate_in_envelope_intersecting(near);
+        let mut found = 0;
+        let near = near.inspect(|_| found += 1).take(MOST_NEIGHBORS);
         let others = near.map(|entry| entry.data as usize).filter(|&other| {
             other > row
                 && !is_apart(level(row), level(other))
@@ -143,9 +154,12 @@ impl<'a> Paths<'a> {
         });
         let mut others: Vec<usize> = others.collect();
         others.sort_unstable();
-        others
+        (others, found == MOST_NEIGHBORS)
     }
 }
+
+/// Paths near another one that are looked at.
+const MOST_NEIGHBORS: usize = 20_000;
 
 /// Default radius of the exempt zone at a joint, in reaches of the vehicle. Derived: about three
 /// vehicle lengths, after which lanes with usual bends have separated.

@@ -20,6 +20,11 @@ pub struct ClearanceOptions {
     pub gap_tolerance_m: f64,
     /// Paths whose curves are within this distance are one road, in meters.
     pub coincidence_tolerance_m: f64,
+    /// Polygon distances that are computed at most. Each path has an equal share, but not less than
+    /// `least_tests_per_path`.
+    pub most_tests: u64,
+    /// Least share of a path.
+    pub least_tests_per_path: u64,
     /// Findings stored per code; the rest are only counted.
     pub diagnostics_per_code: usize,
 }
@@ -32,6 +37,10 @@ impl Default for ClearanceOptions {
             near_joint_m: None,
             gap_tolerance_m: CheckOptions::LARGEST_GAP_M,
             coincidence_tolerance_m: CheckOptions::LARGEST_COINCIDENCE_M,
+            // Measured: 1.5 us each on a core of 2 GHz.
+            most_tests: 5_000_000,
+            // Measured: 60 to 140 on average over the paths of real sites and of D1.
+            least_tests_per_path: 3_000,
             diagnostics_per_code: Limits::default().diagnostics_per_code,
         }
     }
@@ -59,6 +68,16 @@ pub struct ClearanceWork {
     pub candidates: u64,
     /// Computed distances of two convex polygons.
     pub tests: u64,
+    /// Paths that were compared with a part of what is near them only, because their share of the
+    /// distances was used up.
+    pub incomplete: u64,
+}
+
+impl ClearanceOptions {
+    /// The polygon distances that one of `paths` paths may take.
+    pub(super) fn tests_per_path(&self, paths: usize) -> u64 {
+        (self.most_tests / (paths as u64).max(1)).max(self.least_tests_per_path)
+    }
 }
 
 impl ClearanceWork {
@@ -69,6 +88,7 @@ impl ClearanceWork {
             doubtful: self.doubtful + other.doubtful,
             candidates: self.candidates + other.candidates,
             tests: self.tests + other.tests,
+            incomplete: self.incomplete + other.incomplete,
         }
     }
 }

@@ -10,7 +10,9 @@ use rstar::{AABB, RTree};
 
 use super::message::approach;
 use super::report::{ClearanceOptions, ClearanceWork};
-use crate::{ClosestApproach, ConvexPolygon, EnvelopeSource, ProximityQuery, Sweep, SweepTree};
+use crate::{
+    ClosestApproach, ConvexPolygon, EnvelopeSource, ProximityQuery, Sweep, SweepTree, Undecided,
+};
 
 type P = Point<f64>;
 type Entry = GeomWithData<Rectangle<[f64; 2]>, u32>;
@@ -96,7 +98,10 @@ impl Walls {
             .map(|row| {
                 let mut work = ClearanceWork::default();
                 let sweep = source.sweep(layout, row).ok();
-                let violation = sweep.and_then(|s| self.violation(row, s, options, &mut work));
+                let violation = sweep.and_then(|s| {
+                    let of_all = (row, layout.paths.len());
+                    self.violation(of_all, s, options, &mut work)
+                });
                 (violation, work)
             })
             .collect();
@@ -112,7 +117,7 @@ impl Walls {
 
     fn violation(
         &self,
-        row: usize,
+        (row, paths): (usize, usize),
         sweep: Sweep,
         options: &ClearanceOptions,
         work: &mut ClearanceWork,
@@ -123,6 +128,8 @@ impl Walls {
             threshold_m: options.clearance_m,
             tolerance_m: options.tolerance_m,
             exempt_zones: &[],
+            // The pairs of paths have a share of their own.
+            max_tests: options.tests_per_path(paths),
         };
         let mut tree = SweepTree::new(sweep);
         let mut best: Option<Violation> = None;
@@ -134,8 +141,14 @@ impl Walls {
                 continue;
             };
             let mut wall = SweepTree::new(wall);
-            let Some(nearest) = tree.nearest(&mut wall, &question, &mut work.tests) else {
-                continue;
+            work.tests += 1;
+            let nearest = match tree.nearest(&mut wall, &question, &mut work.tests) {
+                Ok(Some(nearest)) => nearest,
+                Ok(None) => continue,
+                Err(Undecided) => {
+                    work.incomplete = 1;
+                    break;
+                }
             };
             walls.push(self.paths[line as usize]);
             if best

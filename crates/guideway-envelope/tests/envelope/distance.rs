@@ -20,8 +20,10 @@ fn nearest(
         threshold_m,
         tolerance_m: TOLERANCE_M,
         exempt_zones,
+        max_tests: u64::MAX,
     };
-    SweepTree::new(a).nearest(&mut SweepTree::new(b), &question, &mut 0)
+    let nearest = SweepTree::new(a).nearest(&mut SweepTree::new(b), &question, &mut 0);
+    nearest.expect("there is no limit")
 }
 
 fn moved(case: &Case, by: P) -> Case {

@@ -5,5 +5,6 @@ mod brute;
 mod clearance;
 mod convex;
 mod distance;
+mod limits;
 mod random;
 mod swept;

@@ -3,7 +3,7 @@
 use guideway::envelope::{
     ClearanceOptions, ClearanceReport, ClearanceWork, EnvelopeSource, Walls, check_clearance,
 };
-use guideway::layout::{Diagnostics, Layout, UserError};
+use guideway::layout::{Diagnostics, Layout, UserError, shown_path, shown_text};
 use serde_json::{Value, json};
 
 use super::findings::CheckedFile;
@@ -95,7 +95,7 @@ impl ClearanceArgs {
             let has = |path: usize| layer(path).as_ref() == Some(name);
             if !(0..layout.paths.len()).any(has) {
                 return Err(usage_error(
-                    format!("{}: no path is on layer `{name}`", plan.path.display()),
+                    format!("{}: no path is on layer `{name}`", shown_path(&plan.path)),
                     "Name a value of column `layer`; `guideway info` lists them",
                 ));
             }
@@ -134,11 +134,17 @@ pub(super) fn text(files: &[CheckedFile]) -> String {
         };
         text += &format!(
             "{}: {}, {} near each other or a wall, {}\n",
-            file.file,
+            shown_text(&file.file),
             text::counted(work.paths, "envelope"),
             text::counted(work.candidates, "pair"),
             text::counted(work.tests, "distance"),
         );
+        if work.incomplete > 0 {
+            text += &format!(
+                "note: {} compared with a part of what is near them only\n",
+                text::counted(work.incomplete, "path")
+            );
+        }
         let doubt = envelope::doubt(work.doubtful);
         for line in envelope::missing(&work.no_envelope)
             .into_iter()
@@ -162,6 +168,7 @@ pub(super) fn json(args: &ClearanceArgs, files: &[CheckedFile]) -> Value {
             "doubtful": sum(|work| work.doubtful),
             "candidate_pairs": sum(|work| work.candidates),
             "distances": sum(|work| work.tests),
+            "incomplete_paths": sum(|work| work.incomplete),
         })
     })
 }
