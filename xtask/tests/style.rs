@@ -53,6 +53,19 @@ fn finds_a_missing_header() {
 }
 
 #[test]
+fn finds_raw_file_names_in_messages() {
+    let text = "//! Header.\nprintln!(\"{}\", path.display());\n";
+    assert!(only_message("crates/a/src/a.rs", text).contains("shown_path"));
+    for other in [
+        "crates/a/tests/a.rs",
+        "xtask/src/a.rs",
+        "crates/a/src/b/tests.rs",
+    ] {
+        assert!(check_file(other, text).is_empty(), "{other}");
+    }
+}
+
+#[test]
 fn finds_a_question_word_as_subject() {
     let text = "//! What was covered becomes pixels.\n";
     assert!(only_message("crates/a/src/a.rs", text).contains("`What`"));

@@ -95,13 +95,17 @@ fn fuzz(target: &Target, seconds: u64) -> Outcome<String> {
     Ok(format!("{seconds} s, {runs} runs, peak {peak} MB"))
 }
 
-/// A `cargo fuzz` command without sanitizers. They need a nightly compiler and find nothing in safe
-/// Rust that its own checks do not.
+/// The variable that names a sanitizer, such as `address`.
+const SANITIZER: &str = "GUIDEWAY_SANITIZER";
+
+/// A `cargo fuzz` command. By default without sanitizers, which need a nightly compiler and find
+/// nothing in safe Rust that its own checks do not; the reader of Arrow calls a library in C.
 fn cargo_fuzz(subcommand: &str) -> Command {
+    let sanitizer = std::env::var(SANITIZER).unwrap_or_else(|_| "none".to_owned());
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let mut command = Command::new(env!("CARGO"));
     command
-        .args(["fuzz", subcommand, "--sanitizer", "none"])
+        .args(["fuzz", subcommand, "--sanitizer", &sanitizer])
         .current_dir(root);
     command
 }

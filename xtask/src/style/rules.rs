@@ -9,6 +9,8 @@ const MAX_COLUMNS: usize = 100;
 const MAX_RUST_LINES: usize = 400;
 /// Longest shader.
 const MAX_SHADER_LINES: usize = 200;
+/// The call that prints a file name as it is.
+const RAW_NAME: &str = ".display()";
 /// First words of headings and of comment paragraphs that make a riddle of the subject.
 const QUESTION_WORDS: &[&str] = &["What", "Which", "Who", "Where", "How", "Whether"];
 
@@ -63,6 +65,10 @@ pub fn check_file(name: &str, text: &str) -> Vec<Violation> {
                 format!("{columns} columns, limit {MAX_COLUMNS}: wrap the line"),
             );
         }
+        if kind == Kind::Rust && is_product(name) && line.contains(RAW_NAME) {
+            let message = "a raw file name may steer the terminal: use `shown_path`";
+            add(number, message.to_owned());
+        }
         let prose = prose(line, kind, in_fence);
         if let Some(word) = prose.and_then(question_subject) {
             add(
@@ -99,6 +105,11 @@ fn kind(name: &str) -> Option<Kind> {
 /// their names.
 fn needs_header(name: &str) -> bool {
     name.contains("/src/") && !name.contains("tests")
+}
+
+/// Returns `true` if a file is a part of what users run.
+fn is_product(name: &str) -> bool {
+    needs_header(name) && name.starts_with("crates/")
 }
 
 fn has_header(text: &str) -> bool {
