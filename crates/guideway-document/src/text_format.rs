@@ -15,8 +15,8 @@ pub fn count(n: u64) -> String {
     grouped
 }
 
-/// A name from a file on one line: replaces characters that steer a terminal or reverse text, and ends in `…` after `max_chars`
-/// characters.
+/// A name from a file on one line: replaces characters that steer a terminal or reverse text, and
+/// ends in `…` after `max_chars` characters.
 pub fn single_line(text: &str, max_chars: usize) -> String {
     let printable = |c: char| if is_hidden(c) { '\u{fffd}' } else { c };
     let mut line: String = text.chars().take(max_chars).map(printable).collect();

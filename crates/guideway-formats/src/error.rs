@@ -197,7 +197,8 @@ impl Problem {
                     .into()
             }
             Self::TooDeep { .. } => {
-                "Check the application that wrote the file, or raise the limit with `--limit depth=N`"
+                "Check the application that wrote the file, or raise the limit with `--limit \
+                 depth=N`"
                     .into()
             }
             Self::LimitReached { what, .. } => match limit_option(what) {
@@ -224,8 +225,8 @@ impl Problem {
     }
 }
 
-/// What [`Problem::LimitReached`] counts, and the option of the command that sets its limit. What is
-/// missing has a limit of its own that cannot be set.
+/// The things that [`Problem::LimitReached`] counts, and the option of the command that sets the
+/// limit of each. Others have a limit that cannot be set.
 pub const LIMIT_OPTIONS: &[(&str, &str)] = &[
     ("bytes in the file", "file-bytes"),
     ("bytes in one text", "text-bytes"),

@@ -1,6 +1,7 @@
 //! [`Limits`]: bounds on what a reader accepts from untrusted files, and on what is written.
 
-/// Limits of readers and writers. Exceeding one is an error that names the limit, the value and the remedy.
+/// Limits of readers and writers. Exceeding one is an error that names the limit, the value and the
+/// remedy.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Limits {
     /// Largest file that a reader loads into memory as a whole, in bytes.

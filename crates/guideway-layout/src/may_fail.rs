@@ -7,8 +7,8 @@ thread_local! {
     static MAY_FAIL: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Returns `true` while [`try_reserve`] runs on this thread. An allocator that ends the process where
-/// there is no memory lets that allocation fail instead.
+/// Returns `true` while [`try_reserve`] runs on this thread. An allocator that ends the process
+/// where there is no memory lets that allocation fail instead.
 pub fn may_fail() -> bool {
     MAY_FAIL.get()
 }

@@ -31,8 +31,9 @@ pub enum RenderError {
     },
     /// The view's center or scale is out of range.
     #[error(
-        "cannot draw the view around ({x_m:?}, {y_m:?}) at {px_per_m:?} pixels per meter: the center \
-         must be within 1e12 m of the origin and the scale between 1e-9 and 1e9 pixels per meter"
+        "cannot draw the view around ({x_m:?}, {y_m:?}) at {px_per_m:?} pixels per meter: the \
+         center must be within 1e12 m of the origin and the scale between 1e-9 and 1e9 pixels per \
+         meter"
     )]
     View {
         /// Requested center, in meters.

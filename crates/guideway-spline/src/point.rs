@@ -16,19 +16,19 @@ pub struct Point<T> {
     pub y: T,
 }
 
-// SAFETY: all bytes zero are two numbers of value zero.
 #[allow(
     unsafe_code,
     reason = "no derive does this for a type with a parameter; see SAFETY"
 )]
+// SAFETY: all bytes zero are two numbers of value zero.
 unsafe impl<T: Zeroable> Zeroable for Point<T> {}
 
-// SAFETY: `repr(C)` puts the two numbers of one type next to each other without padding, and any
-// bits of a `Pod` are a number.
 #[allow(
     unsafe_code,
     reason = "no derive does this for a type with a parameter; see SAFETY"
 )]
+// SAFETY: `repr(C)` puts the two numbers of one type next to each other without padding, and any
+// bits of a `Pod` are a number.
 unsafe impl<T: Pod> Pod for Point<T> {}
 
 impl<T: Real> Point<T> {

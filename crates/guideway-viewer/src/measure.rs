@@ -49,8 +49,8 @@ pub struct Movement {
     pub settled_ms: f64,
 }
 
-/// Opens a file and moves it, without a journal: still, panned, zoomed, with a hundredth and then all of its paths
-/// dragged, and zoomed with all of them selected.
+/// Opens a file and moves it, without a journal: still, panned, zoomed, with a hundredth and then
+/// all of its paths dragged, and zoomed with all of them selected.
 ///
 /// # Errors
 /// When the file cannot be read or rendered, or a movement does not settle.

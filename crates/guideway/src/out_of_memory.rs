@@ -17,8 +17,8 @@ static ALLOCATOR: Allocator = Allocator;
 struct Allocator;
 
 #[expect(unsafe_code, reason = "an allocator is unsafe to implement")]
-// SAFETY: every call is passed on to the system's allocator; a failed one does not return, unless the
-// caller expects that it may fail.
+// SAFETY: every call is passed on to the system's allocator; a failed one does not return, unless
+// the caller expects that it may fail.
 unsafe impl GlobalAlloc for Allocator {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         // SAFETY: the caller keeps the rules of `alloc`.

@@ -16,8 +16,8 @@ use crate::output::NewFile;
 
 /// Writes a table of paths row by row, in memory independent of the number of rows.
 ///
-/// The rows go to a [`NewFile`]; [`Self::finish`] replaces the target with it. A writer dropped before
-/// leaves the target unchanged.
+/// The rows go to a [`NewFile`]; [`Self::finish`] replaces the target with it. A writer dropped
+/// before leaves the target unchanged.
 ///
 /// ```no_run
 /// use guideway_formats::arrow::{ArrowWriter, Column, ColumnType, Precision};

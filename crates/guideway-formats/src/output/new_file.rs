@@ -30,7 +30,7 @@ pub struct NewFile {
     failure: Option<io::Error>,
 }
 
-/// What happens to the bytes at the end.
+/// The use of the bytes at the end.
 enum Goal {
     /// They are where they belong.
     Stream,
@@ -234,8 +234,8 @@ fn sync_folder(target: &Path) {
     let _ = target;
 }
 
-/// Writes a file by `write` and replaces `path` with it: see [`NewFile`]. An error of the disk takes
-/// the place of what `write` makes of it.
+/// Writes a file by `write` and replaces `path` with it: see [`NewFile`]. An error of the disk
+/// takes the place of what `write` makes of it.
 ///
 /// # Errors
 /// When the file cannot be written, or `write` fails; an existing target is then unchanged.

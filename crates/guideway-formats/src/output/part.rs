@@ -39,7 +39,7 @@ pub fn try_remove_unfinished() {
 
 fn remove_all(files: MutexGuard<'static, Vec<PathBuf>>) {
     for file in files.iter() {
-        // What cannot be removed stays: the process ends.
+        // A file that cannot be removed stays: the process ends.
         let _ = fs::remove_file(file);
     }
     // Never unlocked: a thread that begins or renames a file waits until the process ends.
@@ -74,7 +74,7 @@ impl Part {
                 continue;
             }
             let lock = file.try_clone().inspect_err(|_| {
-                // What cannot be removed, a later run sweeps.
+                // A later run sweeps a file that cannot be removed.
                 let _ = fs::remove_file(&path);
             })?;
             listed.push(path.clone());
@@ -102,7 +102,7 @@ impl Drop for Part {
         let mut listed = unfinished();
         if listed.contains(&self.path) {
             listed.retain(|file| *file != self.path);
-            // What cannot be removed, a later run sweeps.
+            // A later run sweeps a file that cannot be removed.
             let _ = fs::remove_file(&self.path);
         }
     }

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 /// Symbolic links that are followed one after the other, as Linux does.
 const MAX_LINKS: usize = 40;
 
-/// What is at the path of an output file.
+/// The thing at the path of an output file.
 pub(super) enum Place {
     /// A device or a pipe, to which bytes go directly.
     Stream(File),

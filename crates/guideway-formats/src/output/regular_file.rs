@@ -25,13 +25,13 @@ fn open_regular_file(path: &Path, is_new: bool) -> io::Result<File> {
     }
 }
 
-/// Opens a regular file for reading and writing, creates it if `is_new` is allowed, and locks it until
-/// it is closed. A symbolic link, a pipe or a device of that name is an error, and is neither followed
-/// nor waited for.
+/// Opens a regular file for reading and writing, creates it if `is_new` is allowed, and locks it
+/// until it is closed. A symbolic link, a pipe or a device of that name is an error, and is neither
+/// followed nor waited for.
 ///
 /// # Errors
-/// When the file cannot be opened, is no regular file, another program has locked it, or the disk has
-/// no locks.
+/// When the file cannot be opened, is no regular file, another program has locked it, or the disk
+/// has no locks.
 pub fn lock_regular_file(path: &Path, is_new: bool) -> io::Result<File> {
     loop {
         let file = open_regular_file(path, is_new)?;

@@ -119,12 +119,12 @@ fn each_failed_call_is_an_error_and_keeps_the_old_file() {
         for name in ["create", "write", "sync", "close", "rename"] {
             assert!(calls.contains(&name), "{name}: {calls:?}");
         }
-        for at in 0..calls.len() {
+        for (at, call) in calls.iter().enumerate() {
             fs::write(&path, "old").unwrap();
             let error = write_on(FaultyDisk::new(at, kind), &path).unwrap_err();
-            assert_eq!(error.problem.kind(), kind, "{}", calls[at]);
-            assert_eq!(fs::read_to_string(&path).unwrap(), "old", "{}", calls[at]);
-            assert_eq!(names(folder.path()), ["a"], "{}", calls[at]);
+            assert_eq!(error.problem.kind(), kind, "{call}");
+            assert_eq!(fs::read_to_string(&path).unwrap(), "old", "{call}");
+            assert_eq!(names(folder.path()), ["a"], "{call}");
         }
     }
 }

@@ -69,7 +69,7 @@ pub fn read_file(path: &Path, options: &ReadOptions<'_>) -> Result<OccupancyGrid
 fn missing_image(image: &Path) -> Problem {
     Problem::InvalidValue {
         place: Place::element("image"),
-        detail: format!("there is no file {}", guideway_layout::shown_path(&image)),
+        detail: format!("there is no file {}", guideway_layout::shown_path(image)),
         remedy: "Put the image beside the map file and name it there, such as `image: hall.pgm`"
             .into(),
     }

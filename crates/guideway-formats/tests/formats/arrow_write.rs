@@ -201,7 +201,8 @@ proptest! {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("paths.arrow");
         let options = WriteOptions { precision: Some(Precision::F64) };
-        let losses = write_layout(&layout, &mut std::fs::File::create(&path).expect("a new file"), &options).expect("a file");
+        let mut file = std::fs::File::create(&path).expect("a new file");
+        let losses = write_layout(&layout, &mut file, &options).expect("a file");
         prop_assert!(losses.is_empty());
         let back = read_file(&path, &ReadOptions::default()).expect("a layout");
         prop_assert!(back.diagnostics.is_empty());

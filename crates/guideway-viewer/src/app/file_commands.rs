@@ -28,7 +28,7 @@ impl App {
     /// Opens a dropped layout. A dropped map of ROS becomes the floor plan, as does an image once
     /// the user has entered its scale.
     pub(super) fn open_dropped(&mut self, file: &Path) {
-        let name = shown_path(&file);
+        let name = shown_path(file);
         match FloorPlanKind::of_file(file) {
             FloorPlanKind::Layout => self.open(file.to_path_buf()),
             FloorPlanKind::RosMap => {

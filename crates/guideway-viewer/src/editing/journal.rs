@@ -15,7 +15,7 @@ use super::unsaved_work::UnsavedWork;
 pub(crate) struct Journal {
     /// `None` before a document is loaded, and after the file could not be opened or written.
     file: Option<JournalFile>,
-    /// What the user should know about the journal that was opened.
+    /// A notice about the journal that was opened.
     notice: Option<Notice>,
     /// The saved state before the save in progress. While a save runs nothing is recorded: an entry
     /// would belong to neither the old nor the new file.
@@ -43,8 +43,8 @@ impl Journal {
         journal
     }
 
-    /// The notice about a journal that was opened: unsaved work that does not match the layout file,
-    /// or a journal that cannot be used.
+    /// The notice about a journal that was opened: unsaved work that does not match the layout
+    /// file, or a journal that cannot be used.
     pub(crate) fn take_notice(&mut self) -> Option<Notice> {
         self.notice.take()
     }

@@ -266,8 +266,8 @@ fn copy(from: &Path, to: &Path) -> io::Result<()> {
     copied
 }
 
-/// The permissions of a file that tells of a layout: nobody reads it who may not read the layout, and
-/// this user may write it.
+/// The permissions of a file that tells of a layout: nobody reads it who may not read the layout,
+/// and this user may write it.
 fn permissions(of_layout: &Metadata) -> Permissions {
     let mut permissions = of_layout.permissions();
     #[cfg(unix)]

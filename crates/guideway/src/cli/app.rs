@@ -43,7 +43,8 @@ struct Cli {
     /// paths, control-points, curve-points, elements, text-bytes, depth, coordinate (in meters)
     #[arg(long, global = true, value_name = "NAME=VALUE", value_parser = limits::setting)]
     limit: Vec<limits::Setting>,
-    /// Formats that are read, such as `lif,dxf`; a file of another format is an error [default: all]
+    /// Formats that are read, such as `lif,dxf`; a file of another format is an error [default:
+    /// all]
     #[arg(
         long,
         global = true,

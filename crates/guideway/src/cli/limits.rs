@@ -34,22 +34,30 @@ struct Limit {
 const SIZES: u64 = 1 << 40;
 
 const LIMITS: [Limit; 9] = [
-    Limit::new("file-bytes", SIZES, |limits, n| limits.file_bytes = n),
+    Limit::new("file-bytes", SIZES, |limits, n| {
+        limits.file_bytes = n;
+    }),
     Limit::new("output-bytes", u64::MAX, |limits, n| {
         limits.output_bytes = n
     }),
-    Limit::new("paths", u32::MAX as u64, |limits, n| limits.paths = n),
+    Limit::new("paths", u32::MAX as u64, |limits, n| {
+        limits.paths = n;
+    }),
     Limit::new("control-points", u32::MAX as u64, |limits, n| {
         limits.control_points = n;
     }),
     Limit::new("curve-points", SIZES, |limits, n| {
         limits.curve_points = n as usize
     }),
-    Limit::new("elements", SIZES, |limits, n| limits.elements = n),
+    Limit::new("elements", SIZES, |limits, n| {
+        limits.elements = n;
+    }),
     Limit::new("text-bytes", u32::MAX as u64, |limits, n| {
         limits.text_bytes = n as usize;
     }),
-    Limit::new("depth", 256, |limits, n| limits.depth = n as usize),
+    Limit::new("depth", 256, |limits, n| {
+        limits.depth = n as usize;
+    }),
     Limit::new("coordinate", 1_000_000_000_000, |limits, n| {
         limits.coordinate_m = n as f64;
     }),
