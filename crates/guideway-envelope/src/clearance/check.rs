@@ -26,8 +26,10 @@ pub fn check_clearance(
         work = work.plus(walls.check(layout, source, options, &mut findings));
     }
     work.doubtful = source.doubtful(layout);
+    // First, because the list stores so many findings of a code only.
+    let mut first = Diagnostics::with_limit(options.diagnostics_per_code);
     if work.incomplete > 0 {
-        findings.push(
+        first.push(
             Code::Clearance,
             || Place::element("paths"),
             || {
@@ -39,8 +41,10 @@ pub fn check_clearance(
                     options.tests_per_path(layout.paths.len())
                 )
             },
-            "Mend the findings above first; then check parts of the layout by themselves",
+            "Mend the other findings first; then check parts of the layout by themselves",
         );
     }
+    first.append(findings);
+    let findings = first;
     ClearanceReport { findings, work }
 }
