@@ -113,8 +113,16 @@ pub enum Problem {
     NotUtf8 {
         /// Position in the file, from 0.
         at: u64,
-        /// Description of the bytes, such as another encoding.
+        /// Description of the bytes.
         detail: &'static str,
+    },
+    /// The text is not in the encoding that it declares.
+    #[error("the text is not {encoding} at byte {at}, as the file declares")]
+    WrongEncoding {
+        /// Name of the declared encoding.
+        encoding: &'static str,
+        /// Position in the file, from 0.
+        at: u64,
     },
     /// The syntax is valid, the structure is not that of the format.
     #[error("{place}: expected {expected}, found {found}")]
@@ -170,6 +178,7 @@ impl Problem {
             Self::TooDeep { .. } => "too-deep",
             Self::LimitReached { .. } => "limit",
             Self::NotUtf8 { .. } => "not-utf8",
+            Self::WrongEncoding { .. } => "wrong-encoding",
             Self::Structure { .. } => "structure",
             Self::Unsupported { .. } => "unsupported",
             Self::FloorPlan => "floor-plan",
@@ -210,7 +219,7 @@ impl Problem {
                          files"
                     .into(),
             },
-            Self::NotUtf8 { .. } => "Save the file as UTF-8".into(),
+            Self::NotUtf8 { .. } | Self::WrongEncoding { .. } => "Save the file as UTF-8".into(),
             Self::Structure { .. } => {
                 format!("Check that this is a layout file; Guideway reads {FormatList}")
             }

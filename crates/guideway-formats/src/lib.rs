@@ -6,7 +6,7 @@
 //!
 //! | stage | input | output | modules |
 //! |---|---|---|---|
-//! | open | path or bytes | bytes, format | `read`, `input`, `format`, `sniff` |
+//! | open | path or bytes | bytes, format | `read`, `input`, `unpack`, `encoding`, `format`, `sniff` |
 //! | parse | bytes | records, elements | `text`, `json`, `xml`, `yaml`, `yaml_json` |
 //! | map | records, elements | layout, diagnostics | one folder per format; `builder`, `node_rows` |
 //! | convert | curves and units of a format | uniform cubic runs, SI units | `spline`, `trajectory`, `ellipse`, `wgs84`, `speed_unit` |
@@ -21,6 +21,7 @@ mod common_losses;
 mod driven;
 pub mod dxf;
 mod ellipse;
+mod encoding;
 mod end_nodes;
 mod error;
 mod fields;
@@ -51,6 +52,7 @@ mod text;
 mod trajectory;
 mod trajectory_writer;
 mod unique_names;
+mod unpack;
 mod user_error;
 pub mod vda5050;
 mod wgs84;

@@ -6,11 +6,13 @@ use std::path::Path;
 
 use guideway_layout::{Layout, Limits, try_reserve};
 
+use crate::encoding::to_utf8;
 use crate::input::Input;
 #[cfg(unix)]
 use crate::input::ReadAheadFile;
 use crate::ros_map::is_ros_map;
 use crate::source::{ReadOptions, Source};
+use crate::unpack::unpack;
 use crate::{Format, Problem, ReadError, sniff};
 
 /// Reads a layout file. The content decides the format, not the name of the file.
@@ -51,10 +53,12 @@ pub fn read_bytes(
         return Err(source.fail(Problem::Empty));
     }
     check_size(bytes.len() as u64, &options.limits).map_err(|p| source.fail(p))?;
+    let unpacked = unpack(bytes, &options.limits).map_err(|p| source.fail(p))?;
+    let text = to_utf8(&unpacked).map_err(|p| source.fail(p))?;
+    let bytes: &[u8] = &text;
     let format = sniff(bytes);
     format.map_or(Ok(()), |format| source.check_format(format))?;
     match format {
-        _ if is_utf16(bytes) => Err(source.fail(UTF_16)),
         Some(Format::Lif) => crate::lif::read(source, bytes),
         Some(Format::Arrow) => crate::arrow::read(source, &Input::Bytes(bytes)),
         Some(Format::OpenTcs) => crate::opentcs::read(source, bytes),
@@ -167,20 +171,6 @@ fn check_size(actual: u64, limits: &Limits) -> Result<(), Problem> {
         limit,
         actual,
     })
-}
-
-const UTF_16: Problem = Problem::NotUtf8 {
-    at: 0,
-    detail: "it is UTF-16",
-};
-
-/// Returns whether bytes are UTF-16: by the byte order mark, or by the zero byte of an ASCII
-/// character.
-fn is_utf16(bytes: &[u8]) -> bool {
-    matches!(
-        bytes,
-        [0xFF, 0xFE, ..] | [0xFE, 0xFF, ..] | [b'{' | b'<', 0, ..] | [0, b'{' | b'<', ..]
-    )
 }
 
 fn unknown_format(bytes: &[u8]) -> Problem {

@@ -1,6 +1,7 @@
 //! Format detection: finds the format of a file from its first bytes, regardless of its name.
 
 use crate::Format;
+use crate::xml::Prolog;
 
 /// Returns the format that bytes begin to be, or `None` if they match no format.
 ///
@@ -12,6 +13,8 @@ use crate::Format;
 /// | `[`, the control character RS, or a topic of MQTT before `{` | by a key of the first object |
 /// | `<` | by the name of the root element; else openTCS |
 /// | a line that begins with `levels:` | Open-RMF |
+///
+/// The bytes are UTF-8 and unpacked.
 ///
 /// LIF and openTCS are the fallbacks because their readers report what they found instead.
 pub fn sniff(bytes: &[u8]) -> Option<Format> {
@@ -44,32 +47,11 @@ pub fn sniff(bytes: &[u8]) -> Option<Format> {
 }
 
 /// Returns the local name of the root element of an XML text; any bytes if the text is not XML.
-fn root_tag(mut text: &[u8]) -> &[u8] {
-    loop {
-        let Some(start) = text.iter().position(|&byte| byte == b'<') else {
-            return b"";
-        };
-        text = &text[start + 1..];
-        let end = match text.first() {
-            Some(b'?') => "?>",
-            Some(b'!') if text.starts_with(b"!--") => "-->",
-            // An internal subset contains brackets of both kinds.
-            Some(b'!')
-                if text
-                    .split(|&b| b == b'>')
-                    .next()
-                    .is_some_and(|t| t.contains(&b'[')) =>
-            {
-                "]"
-            }
-            Some(b'!') => ">",
-            _ => break,
-        };
-        let found = text
-            .windows(end.len())
-            .position(|window| window == end.as_bytes());
-        text = &text[found.map_or(text.len(), |at| at + end.len())..];
-    }
+fn root_tag(text: &[u8]) -> &[u8] {
+    let Ok(Prolog { root, .. }) = Prolog::scan(text) else {
+        return b"";
+    };
+    let text = text.get(root + 1..).unwrap_or_default();
     let is_name = |byte: &u8| byte.is_ascii_alphanumeric() || b"-_.:".contains(byte);
     let length = text
         .iter()
@@ -87,6 +69,7 @@ fn format_of_key(key: &[u8]) -> Option<Format> {
     match key {
         b"layouts" | b"origins" | b"metaInformation" => Some(Format::Lif),
         b"features" | b"geometry" | b"coordinates" | b"geometries" => Some(Format::GeoJson),
+        b"format_version" | b"levels" | b"navigation" => Some(Format::Rmf),
         b"nodes" | b"edges" | b"orderId" | b"orderUpdateId" => Some(Format::Vda5050),
         // Other messages of VDA 5050, and the wrapper of a client of MQTT.
         b"headerId" | b"serialNumber" | b"payload" => Some(Format::Vda5050),

@@ -16,17 +16,17 @@ mod osm;
 use guideway_layout::Layout;
 
 use self::map_mapper::MapMapper;
+use crate::ReadError;
 use crate::source::Source;
-use crate::xml::{Doctype, Xml};
-use crate::{ReadError, text};
+use crate::xml::{self, Xml};
 
 /// Reads a map into a layout.
 ///
 /// # Errors
 /// When the text is not XML with an `<osm>` root or exceeds a limit, or when the caller cancels.
 pub(crate) fn read(source: Source<'_>, bytes: &[u8]) -> Result<Layout, ReadError> {
-    let text = text::decode_utf8(&source, bytes)?;
-    let xml = Xml::parse(&source, text, Doctype::Refused)?;
+    let text = xml::decode(&source, bytes)?;
+    let xml = Xml::parse(&source, &text)?;
     let root = xml.root_with_tag(&source, "osm", "<osm> of a Lanelet2 map")?;
     MapMapper::new(source, &xml, bytes.len()).read(root)
 }

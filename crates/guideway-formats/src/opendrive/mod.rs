@@ -23,9 +23,9 @@ mod speed;
 use guideway_layout::Layout;
 
 use self::road::RoadMapper;
+use crate::ReadError;
 use crate::source::Source;
-use crate::xml::{Doctype, Xml};
-use crate::{ReadError, text};
+use crate::xml::{self, Xml};
 
 /// Reads roads into a layout.
 ///
@@ -33,8 +33,8 @@ use crate::{ReadError, text};
 /// When the text is not XML with an `<OpenDRIVE>` root or exceeds a limit, or when the caller
 /// cancels.
 pub(crate) fn read(source: Source<'_>, bytes: &[u8]) -> Result<Layout, ReadError> {
-    let text = text::decode_utf8(&source, bytes)?;
-    let xml = Xml::parse(&source, text, Doctype::Refused)?;
+    let text = xml::decode(&source, bytes)?;
+    let xml = Xml::parse(&source, &text)?;
     let root = xml.root_with_tag(&source, "OpenDRIVE", "<OpenDRIVE>")?;
     RoadMapper::new(source, &xml, bytes.len()).read(root)
 }

@@ -47,17 +47,17 @@ pub use self::version::Version;
 pub use self::write::write_layout;
 
 use self::plant_mapper::PlantMapper;
+use crate::ReadError;
 use crate::source::Source;
-use crate::xml::{Doctype, Xml};
-use crate::{ReadError, text};
+use crate::xml::{self, Xml};
 
 /// Reads a plant model into a layout.
 ///
 /// # Errors
 /// When the text is not XML with a `<model>` root or exceeds a limit, or when the caller cancels.
 pub(crate) fn read(source: Source<'_>, bytes: &[u8]) -> Result<Layout, ReadError> {
-    let text = text::decode_utf8(&source, bytes)?;
-    let xml = Xml::parse(&source, text, Doctype::Refused)?;
+    let text = xml::decode(&source, bytes)?;
+    let xml = Xml::parse(&source, &text)?;
     let model = xml.root_with_tag(&source, "model", "<model> of an openTCS plant model")?;
     PlantMapper::new(source, &xml, bytes.len(), model).read(model)
 }

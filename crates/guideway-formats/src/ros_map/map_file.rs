@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use guideway_layout::{Place, Value};
 use guideway_spline::Point;
 
+use crate::encoding::to_utf8;
 use crate::raster::ImagePlacement;
 use crate::source::Source;
 use crate::text::{decode_utf8, printable};
@@ -59,7 +60,8 @@ pub enum MapMode {
 impl MapFile {
     /// Reads the fields of the map file at `path`.
     pub(super) fn parse(source: &Source<'_>, path: &Path, bytes: &[u8]) -> Result<Self, ReadError> {
-        let text = decode_utf8(source, bytes)?;
+        let bytes = to_utf8(bytes).map_err(|problem| source.fail(problem))?;
+        let text = decode_utf8(source, &bytes)?;
         let yaml = Yaml::parse(source, text)?;
         Self::of_yaml(&yaml, path).map_err(|problem| source.fail(problem))
     }
