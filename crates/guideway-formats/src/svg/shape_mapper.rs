@@ -7,6 +7,7 @@ use roxmltree::Node;
 use super::context::ElementContext;
 use super::path_builder::PathBuilder;
 use super::shapes::append_shape;
+use super::viewport::METERS_PER_PX;
 use crate::ReadError;
 use crate::builder::Table;
 use crate::source::Source;
@@ -114,14 +115,19 @@ impl<'a, 'd, 't> ShapeMapper<'a, 'd, 't> {
         }
     }
 
-    /// The stroke width in meters: scaled by the geometric mean of both axes. `None` without a
-    /// stroke, and with a finding if the width exceeds the largest coordinate.
+    /// The stroke width in meters: scaled by the geometric mean of both axes, unless it is
+    /// fixed. `None` without a stroke, and with a finding if the width exceeds the largest
+    /// coordinate.
     fn stroke_width_m(&mut self, node: Node<'d, 't>, context: &ElementContext<'_>) -> Option<f32> {
         if !context.style.has_stroke() {
             return None;
         }
         let Affine { x, y, .. } = context.meters_from_user;
-        let width_m = context.style.stroke_width * x.cross(y).abs().sqrt();
+        let scale = match context.style.is_stroke_fixed {
+            true => METERS_PER_PX,
+            false => x.cross(y).abs().sqrt(),
+        };
+        let width_m = context.style.stroke_width * scale;
         if width_m <= self.base.builder.source.options.limits.coordinate_m {
             return Some(width_m as f32);
         }

@@ -1,12 +1,12 @@
-//! Computes the style of an element: inherited style, attributes, style sheet rules and its `style`
-//! attribute in; stroke, fill, width and visibility out.
+//! Computes the style of an element: inherited style and winning declarations in; stroke, fill,
+//! width, font size and visibility out.
 
 use std::str::FromStr;
 
-use roxmltree::Node;
 use svgtypes::{Color, PaintFallback};
 
-use super::style_sheet::{StyleSheet, declarations};
+use super::cascade::{Cascade, Property, opacity};
+use super::length::{DEFAULT_FONT_PX, font_size_factor, length};
 use super::viewport::Viewport;
 
 /// The paint of a stroke or a fill.
@@ -27,6 +27,10 @@ pub(super) struct Style {
     pub(super) stroke_width: f64,
     stroke_opacity: f64,
     fill_opacity: f64,
+    /// Size of the font, in user units.
+    pub(super) font_size: f64,
+    /// Whether transforms leave the width of the stroke as it is. Not inherited.
+    pub(super) is_stroke_fixed: bool,
     /// Product of the opacities of the element and all groups around it.
     opacity: f64,
     pub(super) is_displayed: bool,
@@ -54,55 +58,67 @@ impl Style {
         stroke_width: 1.0,
         stroke_opacity: 1.0,
         fill_opacity: 1.0,
+        font_size: DEFAULT_FONT_PX,
+        is_stroke_fixed: false,
         opacity: 1.0,
         is_displayed: true,
         is_visible: true,
         is_clipped: false,
     };
 
-    /// The style of a child element of an element with this style.
-    pub(super) fn of_child(
-        mut self,
-        node: Node<'_, '_>,
-        sheet: &StyleSheet<'_>,
-        viewport: Viewport,
-    ) -> Self {
+    /// The style of a child element, from its winning declarations.
+    pub(super) fn of_child(mut self, cascade: &Cascade<'_>, viewport: Viewport) -> Self {
         let parent = self;
-        let attributes = node.attributes();
-        let own = attributes.filter(|a| a.namespace().is_none());
-        for attribute in own.filter(|a| a.name() != "style") {
-            self.set(attribute.name(), attribute.value(), parent, viewport);
-        }
-        let written = node.attribute("style").unwrap_or_default();
-        for (name, value) in sheet.matching(node).chain([written]).flat_map(declarations) {
-            self.set(name, value, parent, viewport);
+        self.is_stroke_fixed = false;
+        for &property in Property::ALL {
+            if let Some(value) = cascade.value(property) {
+                self.set(property, value, parent, viewport);
+            }
         }
         self
     }
 
-    /// Sets a property. Ignores a malformed value, as SVG requires.
-    fn set(&mut self, name: &str, value: &str, parent: Self, viewport: Viewport) {
-        let value = value.trim();
+    /// Sets a property to a valid value.
+    fn set(&mut self, property: Property, value: &str, parent: Self, viewport: Viewport) {
         let is_inherited = value == "inherit";
-        let opacity = || opacity(value);
-        match name {
-            "stroke" if is_inherited => self.stroke = parent.stroke,
-            "stroke" => self.stroke = self.paint(value).unwrap_or(self.stroke),
-            "fill" if is_inherited => self.fill = parent.fill,
-            "fill" => self.fill = self.paint(value).unwrap_or(self.fill),
-            "color" => self.color = Color::from_str(value).unwrap_or(self.color),
-            "stroke-width" => {
+        let of_parent = |own: f64| opacity(value).unwrap_or(own);
+        match property {
+            Property::FontSize => self.set_font_size(value, viewport),
+            Property::Color => self.color = Color::from_str(value).unwrap_or(self.color),
+            Property::Stroke => self.stroke = self.paint(value).unwrap_or(parent.stroke),
+            Property::Fill => self.fill = self.paint(value).unwrap_or(parent.fill),
+            Property::StrokeWidth => {
+                let viewport = viewport.with_font_size(self.font_size);
                 let width = viewport.length(value, Viewport::diagonal);
-                self.stroke_width = width.filter(|w| *w >= 0.0).unwrap_or(self.stroke_width);
+                self.stroke_width = width.unwrap_or(parent.stroke_width);
             }
-            "stroke-opacity" => self.stroke_opacity = opacity().unwrap_or(self.stroke_opacity),
-            "fill-opacity" => self.fill_opacity = opacity().unwrap_or(self.fill_opacity),
-            "opacity" => self.opacity = opacity().map_or(self.opacity, |o| parent.opacity * o),
-            "display" => self.is_displayed = parent.is_displayed && value != "none",
-            "visibility" if !is_inherited => self.is_visible = value == "visible",
-            "clip-path" | "mask" => self.is_clipped = parent.is_clipped || value != "none",
-            _ => {}
+            Property::StrokeOpacity => self.stroke_opacity = of_parent(parent.stroke_opacity),
+            Property::FillOpacity => self.fill_opacity = of_parent(parent.fill_opacity),
+            Property::Opacity => self.opacity = parent.opacity * of_parent(1.0),
+            Property::Display => self.is_displayed = parent.is_displayed && value != "none",
+            Property::Visibility if !is_inherited => self.is_visible = value == "visible",
+            Property::ClipPath | Property::Mask => {
+                self.is_clipped |= value != "none" && !is_inherited;
+            }
+            Property::VectorEffect => self.is_stroke_fixed = value.contains("non-scaling-stroke"),
+            Property::Visibility
+            | Property::Transform
+            | Property::TransformOrigin
+            | Property::TransformBox => {}
         }
+    }
+
+    /// Sets the size of the font. Lengths relative to a font refer to that of the parent.
+    fn set_font_size(&mut self, value: &str, viewport: Viewport) {
+        let size = match font_size_factor(value) {
+            Some((factor, true)) => Some(self.font_size * factor),
+            Some((factor, false)) => Some(DEFAULT_FONT_PX * factor),
+            None => {
+                let fonts = viewport.with_font_size(self.font_size).fonts;
+                length(value, fonts, self.font_size)
+            }
+        };
+        self.font_size = size.unwrap_or(self.font_size);
     }
 
     fn paint(&self, value: &str) -> Option<Paint> {
@@ -143,42 +159,50 @@ impl Style {
     }
 }
 
-/// Parses an opacity, a number or a percentage, and clamps it to 0..=1.
-fn opacity(value: &str) -> Option<f64> {
-    let number = match value.strip_suffix('%') {
-        Some(percent) => percent.trim().parse::<f64>().ok()? / 100.0,
-        None => value.parse().ok()?,
-    };
-    number.is_finite().then(|| number.clamp(0.0, 1.0))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    fn style(parent: Style, declarations: &str) -> Style {
+        let mut cascade = Cascade::default();
+        cascade.add_block(declarations, 0, 0);
+        parent.of_child(&cascade, Viewport::new(100.0, 100.0))
+    }
+
     #[test]
     fn multiplies_opacities_and_ignores_malformed_values() {
-        let mut style = Style::INITIAL;
-        assert_eq!(style.color_rgba(), Some(0x0000_00FF), "the default fill");
-        let viewport = Viewport::new(100.0, 100.0);
-        for (name, value) in [
-            ("stroke", "#fff"),
-            ("stroke-opacity", "50%"),
-            ("opacity", ".5"),
+        let initial = Style::INITIAL;
+        assert_eq!(initial.color_rgba(), Some(0x0000_00FF), "the default fill");
+        let half = style(initial, "stroke: #fff; stroke-opacity: 50%; opacity: .5");
+        assert_eq!(half.color_rgba(), Some(0xFFFF_FF40));
+        let same = style(half, "stroke: nonsense; opacity: x");
+        assert_eq!(same.color_rgba(), Some(0xFFFF_FF40));
+        let gradient = style(half, "stroke: url(#gradient)");
+        assert_eq!(gradient.color_rgba(), Some(0));
+        let invisible = style(half, "opacity: 0; stroke: none");
+        assert_eq!(invisible.color_rgba(), None);
+    }
+
+    #[test]
+    fn paints_follow_the_color_whatever_their_order() {
+        let found = style(Style::INITIAL, "stroke: currentColor; color: #123456");
+        assert_eq!(found.color_rgba(), Some(0x1234_56FF));
+    }
+
+    #[test]
+    fn fonts_scale_the_widths_of_strokes() {
+        let parent = style(Style::INITIAL, "font-size: 20px; stroke: red");
+        for (declarations, expected) in [
+            ("stroke-width: 1em", 20.0),
+            ("stroke-width: .5em; font-size: 2em", 20.0),
+            ("font-size: 50%; stroke-width: 1em", 10.0),
+            ("font-size: larger; stroke-width: 1em", 24.0),
+            ("font: italic 700 8px/2 serif; stroke-width: 1em", 8.0),
+            ("stroke-width: 1rem", 16.0),
+            ("stroke-width: -1", 1.0),
         ] {
-            style.set(name, value, Style::INITIAL, viewport);
+            let width = style(parent, declarations).stroke_width;
+            assert!((width - expected).abs() < 1e-12, "{declarations}: {width}");
         }
-        assert_eq!(style.color_rgba(), Some(0xFFFF_FF40));
-        style.set("stroke", "nonsense", Style::INITIAL, viewport);
-        assert_eq!(
-            style.color_rgba(),
-            Some(0xFFFF_FF40),
-            "a malformed value is ignored"
-        );
-        style.set("stroke", "url(#gradient)", Style::INITIAL, viewport);
-        assert_eq!(style.color_rgba(), Some(0));
-        style.set("opacity", "0", Style::INITIAL, viewport);
-        style.set("stroke", "none", Style::INITIAL, viewport);
-        assert_eq!(style.color_rgba(), None);
     }
 }

@@ -1,20 +1,22 @@
 //! Reads style sheets as drawing programs write them: rules for an element, a class or an
 //! identifier, in; declarations per element, out.
 //!
-//! Not based on `simplecss`, whose time grows with the square of the length. Cost: O(length) to
-//! read, one hash lookup per tag, class and identifier of an element.
+//! Not based on `simplecss`, whose time grows with the square of the length. All rules of a
+//! selector are folded into one declaration per property. Cost: O(length) to read; one hash lookup
+//! and at most one declaration per property for each tag, class and identifier of an element.
 
 use std::collections::HashMap;
 
 use roxmltree::Node;
 
+use super::cascade::{Cascade, INLINE};
+
 /// The rules of all style sheets of a file.
 #[derive(Default)]
 pub(super) struct StyleSheet<'d> {
-    /// The declarations of every rule, in file order.
-    rules: Vec<&'d str>,
-    /// Indices into `rules` per selector, such as `path`, `.road`, `path.road` or `#road7`.
-    selectors: HashMap<&'d str, Vec<usize>>,
+    /// The folded declarations per selector, such as `path`, `.road`, `path.road` or `#road7`.
+    selectors: HashMap<&'d str, Cascade<'d>>,
+    rule_count: usize,
     /// Number of unsupported selectors: combinators, pseudo-classes, attributes, at-rules.
     pub(super) ignored_selectors: usize,
 }
@@ -43,57 +45,50 @@ impl<'d> StyleSheet<'d> {
                 continue;
             }
             let length = rest.find('}').unwrap_or(rest.len());
-            self.rules.push(&rest[..length]);
+            let mut rule = Cascade::default();
+            rule.add_block(&rest[..length], 0, self.rule_count);
+            self.rule_count += 1;
             text = rest.get(length + 1..).unwrap_or_default();
             for selector in head.split(',').map(str::trim) {
                 match is_simple(selector) {
-                    true => self
-                        .selectors
-                        .entry(selector)
-                        .or_default()
-                        .push(self.rules.len() - 1),
+                    true => self.selectors.entry(selector).or_default().merge(&rule, 0),
                     false => self.ignored_selectors += 1,
                 }
             }
         }
     }
 
-    /// The declarations of all rules that match an element, by rising specificity.
-    pub(super) fn matching(&self, node: Node<'_, '_>) -> impl Iterator<Item = &'d str> {
+    /// The winning declarations of an element: of its attributes, the rules that match it and its
+    /// attribute `style`.
+    pub(super) fn cascade(&self, node: Node<'d, '_>) -> Cascade<'d> {
         /// Classes per element that are looked up; bounds the time of a hostile file.
         const MAX_CLASSES: usize = 64;
-        let mut found: Vec<(u8, usize)> = Vec::new();
+        let mut cascade = Cascade::default();
+        let attributes = node.attributes();
+        for attribute in attributes.filter(|a| a.namespace().is_none()) {
+            cascade.add_attribute(attribute.name(), attribute.value());
+        }
         let mut look_up = |specificity, selector: &str| {
-            let rules = self.selectors.get(selector).into_iter().flatten();
-            found.extend(rules.map(|&rule| (specificity, rule)));
+            if let Some(rules) = self.selectors.get(selector) {
+                cascade.merge(rules, specificity);
+            }
         };
-        if !self.rules.is_empty() {
+        if !self.selectors.is_empty() {
             let tag = node.tag_name().name();
-            look_up(0, "*");
-            look_up(1, tag);
+            look_up(1, "*");
+            look_up(2, tag);
             let classes = node.attribute("class").unwrap_or_default();
             for class in classes.split_ascii_whitespace().take(MAX_CLASSES) {
-                look_up(2, &format!(".{class}"));
-                look_up(3, &format!("{tag}.{class}"));
+                look_up(3, &format!(".{class}"));
+                look_up(4, &format!("{tag}.{class}"));
             }
             if let Some(id) = node.attribute("id") {
-                look_up(4, &format!("#{id}"));
+                look_up(5, &format!("#{id}"));
             }
-            found.sort_unstable();
         }
-        found.into_iter().map(|(_, rule)| self.rules[rule])
+        cascade.add_block(node.attribute("style").unwrap_or_default(), INLINE, 0);
+        cascade
     }
-}
-
-/// Splits declarations into names and values. Ignores `!important`.
-pub(super) fn declarations(text: &str) -> impl Iterator<Item = (&str, &str)> {
-    let pairs = text.split(';').filter_map(|part| part.split_once(':'));
-    pairs.map(|(name, value)| {
-        let value = value.split('!').next().unwrap_or(value);
-        // A comment may precede the name.
-        let name = name.rsplit("*/").next().unwrap_or(name);
-        (name.trim(), value.trim())
-    })
 }
 
 /// Whether a selector is an element, a class, an element with a class, or an identifier.
@@ -136,47 +131,45 @@ fn after_block(text: &str) -> &str {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::svg::cascade::Property;
 
-    fn matching(sheet: &str, element: &str) -> (Vec<String>, usize) {
+    fn strokes(sheet: &str, element: &str) -> (Option<String>, usize) {
         let document = roxmltree::Document::parse(element).unwrap();
         let mut rules = StyleSheet::default();
         rules.add(sheet);
-        let node = document.root_element();
-        let all = rules.matching(node).flat_map(declarations);
-        (
-            all.map(|(n, v)| format!("{n}={v}")).collect(),
-            rules.ignored_selectors,
-        )
+        let cascade = rules.cascade(document.root_element());
+        let stroke = cascade.value(Property::Stroke);
+        (stroke.map(str::to_owned), rules.ignored_selectors)
     }
 
     #[test]
-    fn orders_rules_by_specificity() {
-        let sheet = "/* a note */ #p{stroke:red} .a, .b { fill : none ;; stroke:blue!important }
-            path { stroke:black; /* b */ fill: url(#x) } path.b{ opacity:.5 } <!-- --> *{fill:red}";
-        let (found, ignored) = matching(sheet, "<path id='p' class='b c'/>");
-        let expected = [
-            "fill=red",
-            "stroke=black",
-            "fill=url(#x)",
-            "fill=none",
-            "stroke=blue",
-            "opacity=.5",
-            "stroke=red",
-        ];
-        assert_eq!(
-            (found.as_slice(), ignored),
-            (expected.map(String::from).as_slice(), 0)
-        );
+    fn the_most_specific_and_then_the_last_rule_wins() {
+        for (sheet, expected) in [
+            ("", "white"),
+            ("*{stroke:red}", "red"),
+            ("path { stroke: red } * { stroke: blue }", "red"),
+            (
+                "/* a note */ .a, .b { fill : none ;; stroke:red } path{stroke:blue}",
+                "red",
+            ),
+            (".b{stroke:blue} .c{stroke:green} .b{stroke:red}", "red"),
+            (".b{stroke:blue} .b{stroke:red} .c{stroke:green}", "green"),
+            ("path.b{stroke:red} .c{stroke:blue}", "red"),
+            (" <!-- #p{stroke:red} --> path.b{stroke:blue}", "red"),
+            ("*{stroke:red!important} #p{stroke:blue}", "red"),
+            (".b{stroke:red} .b{stroke:nonsense}", "red"),
+        ] {
+            let (found, ignored) = strokes(sheet, "<path id='p' class='b c' stroke='white'/>");
+            assert_eq!((found.as_deref(), ignored), (Some(expected), 0), "{sheet}");
+        }
     }
 
     #[test]
     fn counts_and_skips_unsupported_selectors() {
-        let sheet = "@import 'x'; @media print { .a { fill: red } } \
-            g .a, a:hover, [x] { fill: red } .a{fill:blue}";
-        assert_eq!(
-            matching(sheet, "<g class='a'/>"),
-            (vec!["fill=blue".to_owned()], 4)
-        );
+        let sheet = "@import 'x'; @media print { .a { stroke: red } } \
+            g .a, a:hover, [x] { stroke: red } .a{stroke:blue}";
+        let expected = (Some("blue".to_owned()), 4);
+        assert_eq!(strokes(sheet, "<g class='a'/>"), expected);
         for broken in [
             "}",
             ".a {",
@@ -184,11 +177,11 @@ mod tests {
             "{}",
             "/*",
             "@media {",
-            "} .b {fill:x",
+            "} .b {stroke:x",
             "<!-",
             ".",
         ] {
-            matching(broken, "<g class='a'/>");
+            strokes(broken, "<g class='a'/>");
         }
     }
 }

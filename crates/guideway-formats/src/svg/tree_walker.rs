@@ -5,18 +5,21 @@ use std::collections::HashMap;
 
 use guideway_layout::{Code, Layout};
 use guideway_spline::{Affine, Point};
-use roxmltree::Node;
+use roxmltree::{Node, NodeId};
 use svgtypes::ViewBox;
 
+use super::cascade::{Cascade, Property};
+use super::conditions::{choice, is_met};
 use super::context::ElementContext;
 use super::element_counts::{element_counts, report_ignored};
+use super::page::{DEFAULT_PAGE_PX, page_size};
+use super::repeat_budget::RepeatBudget;
 use super::shape_mapper::ShapeMapper;
 use super::shapes::SHAPES;
 use super::style::Style;
 use super::style_sheet::StyleSheet;
-use super::viewport::{
-    METERS_PER_PX, Viewport, is_physical, transform, view_box, view_box_transform,
-};
+use super::transform::{about, attribute_transform, css_transform, transform_origin};
+use super::viewport::{METERS_PER_PX, Viewport, view_box, view_box_transform};
 use crate::ReadError;
 use crate::source::Source;
 use crate::xml::Xml;
@@ -24,32 +27,15 @@ use crate::xml::Xml;
 const INKSCAPE: &str = "http://www.inkscape.org/namespaces/inkscape";
 const XLINK: &str = "http://www.w3.org/1999/xlink";
 
-/// Page size without `width`, `height` and `viewBox`, in pixels: the default of browsers.
-const DEFAULT_PAGE: Viewport = Viewport {
-    width: 300.0,
-    height: 150.0,
-};
-
-/// Bytes of elements that references may repeat in any file. Without a bound, nested `use` elements
-/// in a file of a kilobyte expand to billions of shapes.
-const BASE_REPEATED_BYTES: u64 = 16 << 20;
-
-/// Further bytes of elements that references may repeat, per byte of the file.
-const REPEATED_PER_BYTE: u64 = 16;
-
-/// Cost of repeating any element, in bytes, so that empty groups are not free.
-const ELEMENT_COST: u64 = 64;
-
 /// Walks a document.
 pub(super) struct TreeWalker<'a, 'd, 't> {
     mapper: ShapeMapper<'a, 'd, 't>,
     sheet: &'d StyleSheet<'d>,
     /// The first element per `id`.
     ids: HashMap<&'d str, Node<'d, 't>>,
-    /// Remaining budget of bytes that references may repeat.
-    repeated_left: u64,
-    /// Whether the finding about the exhausted budget was recorded.
-    is_exhaustion_reported: bool,
+    /// Targets of the references around the current element.
+    targets: Vec<NodeId>,
+    budget: RepeatBudget,
 }
 
 impl<'a, 'd, 't> TreeWalker<'a, 'd, 't> {
@@ -63,8 +49,8 @@ impl<'a, 'd, 't> TreeWalker<'a, 'd, 't> {
             mapper: ShapeMapper::new(source, xml, file_bytes),
             sheet,
             ids: HashMap::new(),
-            repeated_left: BASE_REPEATED_BYTES + file_bytes as u64 * REPEATED_PER_BYTE,
-            is_exhaustion_reported: false,
+            targets: Vec::new(),
+            budget: RepeatBudget::new(file_bytes),
         }
     }
 
@@ -88,12 +74,12 @@ impl<'a, 'd, 't> TreeWalker<'a, 'd, 't> {
     /// The context of the children of the root.
     fn root_context(&mut self, root: Node<'d, 't>) -> ElementContext<'static> {
         let view = self.view_box(root);
-        let [width, height] = self.page_size(root);
+        let [width, height] = page_size(&mut self.mapper.base, root);
         let viewport = match view {
             Some(view) => Viewport::new(view.w, view.h),
             None => Viewport::new(
-                width.unwrap_or(DEFAULT_PAGE.width),
-                height.unwrap_or(DEFAULT_PAGE.height),
+                width.unwrap_or(DEFAULT_PAGE_PX[0]),
+                height.unwrap_or(DEFAULT_PAGE_PX[1]),
             ),
         };
         let pixel_from_user = match (view, width, height) {
@@ -111,36 +97,17 @@ impl<'a, 'd, 't> TreeWalker<'a, 'd, 't> {
             y: pixel_from_user.y * -METERS_PER_PX,
             origin: Point::new(0.0, 0.0),
         };
+        let style = Style::INITIAL.of_child(&self.sheet.cascade(root), viewport);
+        let mut viewport = viewport.with_font_size(style.font_size);
+        viewport.fonts.root = style.font_size;
         ElementContext {
             meters_from_user,
             viewport,
-            style: Style::INITIAL.of_child(root, self.sheet, viewport),
+            style,
             group: None,
             id_prefix: "",
             depth: 0,
         }
-    }
-
-    /// The page size in pixels. Reports a finding if the size has no physical unit.
-    fn page_size(&mut self, root: Node<'d, 't>) -> [Option<f64>; 2] {
-        let attributes = ["width", "height"].map(|name| root.attribute(name));
-        // Percentages refer to the window of a browser, so they give no size.
-        let size = attributes.map(|text| {
-            let pixels = DEFAULT_PAGE.length(text?, |_| f64::NAN)?;
-            (pixels > 0.0).then_some(pixels)
-        });
-        if !attributes.iter().flatten().any(|text| is_physical(text)) {
-            let message = || {
-                "the page has no width or height in mm, cm or in; a pixel is read as 1/96 inch \
-                 (CSS)"
-                    .to_owned()
-            };
-            let remedy = "If that is wrong, give the page its size, such as width=\"210mm\"";
-            self.mapper
-                .base
-                .report(Code::AssumedUnit, root, message, remedy);
-        }
-        size
     }
 
     /// Sets styles, counts and provenance of the layout, and reports ignored elements.
@@ -190,23 +157,18 @@ impl<'a, 'd, 't> TreeWalker<'a, 'd, 't> {
                 .report(Code::Implausible, node, message, remedy);
             return Ok(());
         }
-        if !context.id_prefix.is_empty() && !self.charge_repeat(node, is_shape) {
+        if !context.id_prefix.is_empty() && !self.charge(node, context) {
             return Ok(());
         }
-        let Some(own) = transform(node) else {
-            let detail = "its `transform` is malformed";
-            let remedy = "It is left out with all its children; correct the `transform`";
-            let code = Code::WrongType;
-            if is_shape {
-                return self.mapper.refuse(node, context, code, detail, remedy);
-            }
-            let base = &mut self.mapper.base;
-            base.report(code, node, || detail.to_owned(), remedy);
-            return Ok(());
-        };
+        let cascade = self.sheet.cascade(node);
+        let mut style = context.style.of_child(&cascade, context.viewport);
+        style.is_displayed &= is_met(node);
+        let viewport = context.viewport.with_font_size(style.font_size);
+        let transform = self.transform(node, &cascade, viewport);
         let inner = ElementContext {
-            meters_from_user: own.then(context.meters_from_user),
-            style: context.style.of_child(node, self.sheet, context.viewport),
+            meters_from_user: transform.then(context.meters_from_user),
+            viewport,
+            style,
             depth: context.depth + 1,
             ..*context
         };
@@ -216,11 +178,7 @@ impl<'a, 'd, 't> TreeWalker<'a, 'd, 't> {
                 let group = label.or(context.group);
                 self.children(node, &ElementContext { group, ..inner })
             }
-            "switch" => {
-                let mut choices = node.children().filter(Node::is_element);
-                let choice = choices.find(|c| !c.has_attribute("requiredExtensions"));
-                choice.map_or(Ok(()), |choice| self.element(choice, &inner))
-            }
+            "switch" => choice(node).map_or(Ok(()), |choice| self.element(choice, &inner)),
             "svg" => self.nested_viewport(node, [None, None], &inner),
             "use" => self.reference(node, &inner),
             _ => self.mapper.map_shape(node, &inner),
@@ -252,24 +210,46 @@ impl<'a, 'd, 't> TreeWalker<'a, 'd, 't> {
         Ok(())
     }
 
-    /// Charges the budget for one more repetition of an element; false if it is exhausted, with a
-    /// finding the first time.
-    fn charge_repeat(&mut self, node: Node<'d, 't>, is_shape: bool) -> bool {
-        let shape_bytes = match is_shape {
-            true => node.range().len() as u64,
-            false => 0,
+    /// The transform of an element about its origin. Reports a finding, and applies no transform,
+    /// if it is malformed.
+    fn transform(
+        &mut self,
+        node: Node<'d, 't>,
+        cascade: &Cascade<'d>,
+        viewport: Viewport,
+    ) -> Affine {
+        let css = cascade.value(Property::Transform);
+        let css = css.and_then(|text| css_transform(text, viewport));
+        let written = css.is_none().then(|| node.attribute("transform")).flatten();
+        let transform = css.or_else(|| written.map_or(Some(Affine::IDENTITY), attribute_transform));
+        let Some(transform) = transform else {
+            let message = || "its `transform` is malformed".to_owned();
+            let remedy = "It is drawn without the `transform`; correct it";
+            let base = &mut self.mapper.base;
+            base.report(Code::WrongType, node, message, remedy);
+            return Affine::IDENTITY;
         };
-        let left = self.repeated_left.checked_sub(ELEMENT_COST + shape_bytes);
-        if left.is_none() && !self.is_exhaustion_reported {
-            self.is_exhaustion_reported = true;
-            let message = || "references repeat too much for a file of this size".to_owned();
-            let remedy = "It and all later repetitions are left out; use fewer references";
-            self.mapper
-                .base
-                .report(Code::Implausible, node, message, remedy);
+        let origin = cascade.value(Property::TransformOrigin);
+        let origin = origin.and_then(|text| transform_origin(text, viewport));
+        let Some(origin) = origin.filter(|_| transform != Affine::IDENTITY) else {
+            return transform;
+        };
+        let reference = cascade.value(Property::TransformBox).unwrap_or("view-box");
+        if reference != "view-box" {
+            let message = || format!("`transform-box: {reference}` is not supported");
+            let remedy = "It is drawn with the origin of `view-box`; apply its transform in the \
+                          drawing program";
+            let base = &mut self.mapper.base;
+            base.report(Code::UnknownValue, node, message, remedy);
         }
-        self.repeated_left = left.unwrap_or(0);
-        left.is_some()
+        about(transform, origin)
+    }
+
+    /// Charges the budget for one more repetition of an element. Returns `false` if it is
+    /// exhausted.
+    fn charge(&mut self, node: Node<'d, 't>, context: &ElementContext<'_>) -> bool {
+        self.budget
+            .charge(&mut self.mapper.base, node, context.id_prefix)
     }
 
     /// Walks a nested `svg` or a `symbol`, whose reference may override its size.
@@ -290,9 +270,9 @@ impl<'a, 'd, 't> TreeWalker<'a, 'd, 't> {
         let (transform, viewport) = match self.view_box(node) {
             Some(view) => (
                 view_box_transform(node, view, width, height),
-                Viewport::new(view.w, view.h),
+                outer.resized(view.w, view.h),
             ),
-            None => (Affine::IDENTITY, Viewport::new(width, height)),
+            None => (Affine::IDENTITY, outer.resized(width, height)),
         };
         let transform = transform.then(Affine::translation(corner));
         self.children(
@@ -305,7 +285,7 @@ impl<'a, 'd, 't> TreeWalker<'a, 'd, 't> {
         )
     }
 
-    /// Walks the target of a `use` element.
+    /// Follows the reference of a `use` element.
     fn reference(
         &mut self,
         node: Node<'d, 't>,
@@ -324,11 +304,32 @@ impl<'a, 'd, 't> TreeWalker<'a, 'd, 't> {
                 .report(Code::UnknownValue, node, message, remedy);
             return Ok(());
         };
+        let is_around = node.ancestors().any(|around| around == target);
+        if is_around || self.targets.contains(&target.id()) {
+            let message = || "it refers to an element that contains it".to_owned();
+            let remedy = "It is left out: it would have no end; refer to another element";
+            self.mapper
+                .base
+                .report(Code::UnknownValue, node, message, remedy);
+            return Ok(());
+        }
+        self.targets.push(target.id());
+        let result = self.target(node, target, context);
+        self.targets.pop();
+        result
+    }
+
+    /// Walks the target of a `use` element.
+    fn target(
+        &mut self,
+        node: Node<'d, 't>,
+        target: Node<'d, 't>,
+        context: &ElementContext<'_>,
+    ) -> Result<(), ReadError> {
         let viewport = context.viewport;
         let offset = corner(node, viewport);
         let id_prefix = format!("{}{}/", context.id_prefix, self.mapper.element_id(node));
         self.mapper.base.builder.check_text(&id_prefix)?;
-        self.repeated_left = self.repeated_left.saturating_sub(id_prefix.len() as u64);
         let inner = ElementContext {
             meters_from_user: Affine::translation(offset).then(context.meters_from_user),
             id_prefix: &id_prefix,
@@ -340,15 +341,21 @@ impl<'a, 'd, 't> TreeWalker<'a, 'd, 't> {
         ];
         match target.tag_name().name() {
             "symbol" | "svg" => {
+                let max_depth = self.mapper.base.builder.source.options.limits.depth;
+                if inner.depth >= max_depth || !self.charge(target, &inner) {
+                    return Ok(());
+                }
+                let cascade = self.sheet.cascade(target);
+                let style = inner.style.of_child(&cascade, viewport);
+                let viewport = viewport.with_font_size(style.font_size);
+                let transform = self.transform(target, &cascade, viewport);
                 let inner = ElementContext {
-                    style: inner.style.of_child(target, self.sheet, viewport),
+                    meters_from_user: transform.then(inner.meters_from_user),
+                    viewport,
+                    style,
                     depth: inner.depth + 1,
                     ..inner
                 };
-                let max_depth = self.mapper.base.builder.source.options.limits.depth;
-                if inner.depth > max_depth || !self.charge_repeat(target, false) {
-                    return Ok(());
-                }
                 self.nested_viewport(target, size, &inner)
             }
             _ => self.element(target, &inner),

@@ -1,27 +1,46 @@
-//! Resolves lengths, viewports, view boxes and transforms of elements to user units.
+//! Resolves viewports, view boxes and the lengths that refer to them to user units.
 
 use std::str::FromStr;
 
 use guideway_spline::{Affine, Point};
 use roxmltree::Node;
-use svgtypes::{Align, AspectRatio, Length, LengthUnit, Transform, ViewBox};
+use svgtypes::{Align, AspectRatio, ViewBox};
+
+use super::length::{FontSizes, length};
 
 /// Meters per CSS pixel, which is 1/96 of an inch.
 pub(super) const METERS_PER_PX: f64 = 0.0254 / 96.0;
 
-/// Pixels per `em`: the default font size of browsers. Font sizes of the drawing are not read.
-const FONT_PX: f64 = 16.0;
-
-/// The size that percentages refer to, in user units.
+/// The sizes that lengths refer to, in user units: of the viewport and of the font.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Viewport {
     pub(super) width: f64,
     pub(super) height: f64,
+    pub(super) fonts: FontSizes,
 }
 
 impl Viewport {
     pub(super) fn new(width: f64, height: f64) -> Self {
-        Self { width, height }
+        Self {
+            width,
+            height,
+            fonts: FontSizes::INITIAL,
+        }
+    }
+
+    /// The viewport of a nested element, with the same fonts.
+    pub(super) fn resized(self, width: f64, height: f64) -> Self {
+        Self {
+            width,
+            height,
+            ..self
+        }
+    }
+
+    /// The viewport for an element with this font size.
+    pub(super) fn with_font_size(mut self, own: f64) -> Self {
+        self.fonts.own = own;
+        self
     }
 
     /// Reference of lengths along x.
@@ -41,20 +60,7 @@ impl Viewport {
 
     /// Parses a length to user units; percentages are of `reference`.
     pub(super) fn length(self, text: &str, reference: fn(Self) -> f64) -> Option<f64> {
-        let length = Length::from_str(text.trim()).ok()?;
-        let factor = match length.unit {
-            LengthUnit::None | LengthUnit::Px => 1.0,
-            LengthUnit::In => 96.0,
-            LengthUnit::Cm => 96.0 / 2.54,
-            LengthUnit::Mm => 96.0 / 25.4,
-            LengthUnit::Pt => 96.0 / 72.0,
-            LengthUnit::Pc => 16.0,
-            LengthUnit::Em => FONT_PX,
-            LengthUnit::Ex => FONT_PX / 2.0,
-            LengthUnit::Percent => reference(self) / 100.0,
-        };
-        let length = length.number * factor;
-        length.is_finite().then_some(length)
+        length(text, self.fonts, reference(self))
     }
 
     /// The length in an attribute.
@@ -66,20 +72,6 @@ impl Viewport {
     ) -> Option<f64> {
         self.length(node.attribute(name)?, reference)
     }
-}
-
-/// The `transform` of an element; `None` if it is malformed.
-pub(super) fn transform(node: Node<'_, '_>) -> Option<Affine> {
-    let Some(text) = node.attribute("transform") else {
-        return Some(Affine::IDENTITY);
-    };
-    let Transform { a, b, c, d, e, f } = Transform::from_str(text).ok()?;
-    let affine = Affine {
-        x: Point::new(a, b),
-        y: Point::new(c, d),
-        origin: Point::new(e, f),
-    };
-    affine.is_finite().then_some(affine)
 }
 
 /// Parses a view box with a positive size.
@@ -125,11 +117,4 @@ pub(super) fn view_box_transform(
     Affine::translation(Point::new(-view.x, -view.y))
         .then(Affine::scale(x, y, Point::new(0.0, 0.0)))
         .then(Affine::translation(offset))
-}
-
-/// Whether a length has a physical unit, such as mm or in.
-pub(super) fn is_physical(text: &str) -> bool {
-    let unit = Length::from_str(text.trim()).map(|length| length.unit);
-    use LengthUnit::{Cm, In, Mm, Pc, Pt};
-    matches!(unit, Ok(In | Cm | Mm | Pt | Pc))
 }

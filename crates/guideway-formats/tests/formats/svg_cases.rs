@@ -1,0 +1,312 @@
+//! Tests of SVG after public reports: CSS transforms, font sizes, conditions, circles of
+//! references, strokes that do not scale, document type definitions.
+
+use guideway_layout::{Code, Layout};
+use guideway_spline::Point;
+use guideway_spline::uniform::point;
+
+use crate::common::{codes, ends, read, read_real, real_cases};
+
+/// Reads a page on which a user unit is a meter.
+fn page(content: &str) -> Layout {
+    read(&format!(
+        r#"<svg xmlns="http://www.w3.org/2000/svg" width="100000mm" height="100000mm"
+            viewBox="0 0 100 100" stroke="black" fill="none">{content}</svg>"#
+    ))
+}
+
+fn assert_line(content: &str, expected: [[f64; 2]; 2]) -> Layout {
+    let layout = page(content);
+    let (start, end) = ends(&layout, "p");
+    for (found, [x, y]) in [start, end].into_iter().zip(expected) {
+        let is_near = found.distance(Point::new(x, -y)) < 1e-9;
+        assert!(is_near, "{content}: {start:?} to {end:?}");
+    }
+    layout
+}
+
+#[test]
+fn css_transforms_apply_about_their_origin() {
+    let line = |attributes: &str| format!("<line id='p' x1='10' x2='20' {attributes}/>");
+    for (attributes, expected) in [
+        ("style='transform:scale(2)'", [[20.0, 0.0], [40.0, 0.0]]),
+        (
+            "style='transform: translate(1px, 50%) rotate(90deg)'",
+            [[1.0, 60.0], [1.0, 70.0]],
+        ),
+        // A valid property hides the attribute; an invalid one does not.
+        (
+            "transform='scale(3)' style='transform:none'",
+            [[10.0, 0.0], [20.0, 0.0]],
+        ),
+        (
+            "transform='scale(3)' style='transform:qwe'",
+            [[30.0, 0.0], [60.0, 0.0]],
+        ),
+        (
+            "transform='rotate(90)' transform-origin='10 0'",
+            [[10.0, 0.0], [10.0, 10.0]],
+        ),
+        (
+            "transform='scale(2)' transform-origin='center'",
+            [[-30.0, -50.0], [-10.0, -50.0]],
+        ),
+        (
+            "transform='scale(2)' style='transform-origin: right top'",
+            [[-80.0, 0.0], [-60.0, 0.0]],
+        ),
+        (
+            "transform='scale(2)' style='transform-origin: 10px 1em'",
+            [[10.0, -16.0], [30.0, -16.0]],
+        ),
+        ("transform-origin='center'", [[10.0, 0.0], [20.0, 0.0]]),
+    ] {
+        let layout = assert_line(&line(attributes), expected);
+        assert!(codes(&layout).is_empty(), "{attributes}");
+        // Groups and references transform alike.
+        let inner = "<line id='p' x1='10' x2='20'/>";
+        assert_line(&format!("<g {attributes}>{inner}</g>"), expected);
+        let sheet = attributes
+            .split_once("style='")
+            .map(|(_, rest)| rest.trim_end_matches('\''));
+        if let Some(sheet) = sheet.filter(|_| !attributes.starts_with("trans")) {
+            assert_line(&format!("<style>#p{{{sheet}}}</style>{inner}"), expected);
+        }
+    }
+}
+
+#[test]
+fn a_malformed_transform_is_ignored_with_a_warning() {
+    for content in [
+        "<line id='p' x2='9' transform='qwe'/>",
+        "<g transform='qwe'><line id='p' x2='9'/></g>",
+        "<svg transform='scale(1'><line id='p' x2='9'/></svg>",
+    ] {
+        let layout = assert_line(content, [[0.0, 0.0], [9.0, 0.0]]);
+        assert_eq!(codes(&layout), [Code::WrongType], "{content}");
+    }
+}
+
+#[test]
+fn an_unsupported_box_of_an_origin_is_reported() {
+    let style = "transform-box: fill-box; transform-origin: center; transform: scale(2)";
+    let layout = page(&format!("<line id='p' x2='9' style='{style}'/>"));
+    assert_eq!(codes(&layout), [Code::UnknownValue]);
+}
+
+#[test]
+fn em_is_the_size_of_the_font() {
+    for (content, length) in [
+        ("<line id='p' x2='1em'/>", 16.0),
+        ("<g font-size='20'><line id='p' x2='1em'/></g>", 20.0),
+        (
+            "<g style='font: bold 10px serif'><line id='p' x2='2em' font-size='50%'/></g>",
+            10.0,
+        ),
+        (
+            "<style>line{font-size:large}</style><line id='p' x2='1ex'/>",
+            9.6,
+        ),
+        ("<g font-size='9'><line id='p' x2='1rem'/></g>", 16.0),
+    ] {
+        assert_line(content, [[0.0, 0.0], [length, 0.0]]);
+    }
+}
+
+#[test]
+fn a_switch_draws_the_first_graphic_whose_conditions_hold() {
+    let wrong = "<line id='w' x2='1'/>";
+    let right = "<line id='p' x2='9'/>";
+    for before in [
+        "<random/>",
+        "<title>t</title><desc/><metadata/>",
+        "<foreignObject/>",
+        "<line id='w' x2='1' systemLanguage='xx'/>",
+        "<line id='w' x2='1' systemLanguage=''/>",
+        "<g requiredExtensions='http://ns.adobe.com/x'><line id='w' x2='1'/></g>",
+        "<x:line xmlns:x='urn:x'/>",
+    ] {
+        let layout = page(&format!("<switch>{before}{right}{wrong}</switch>"));
+        assert_eq!(layout.paths.len(), 1, "{before}");
+        ends(&layout, "p");
+    }
+    let english = "<line id='p' x2='9' systemLanguage='de, en-US'/>";
+    ends(&page(&format!("<switch>{english}{wrong}</switch>")), "p");
+    // Outside of a switch, conditions hide as `display` does.
+    let layout = page("<g systemLanguage='xx'><line id='p' x2='9'/></g>");
+    assert_eq!((layout.paths.len(), layout.refused.len()), (0, 1));
+}
+
+#[test]
+fn references_to_elements_around_them_are_refused() {
+    let shape = "<line id='s' x2='9'/>";
+    for (content, paths) in [
+        ("<use href='#u' id='u'/><line id='s' x2='9'/>".to_owned(), 1),
+        (format!("<g id='g'><use href='#g' x='2'/>{shape}</g>"), 1),
+        (
+            format!("<g id='a'><use href='#b'/></g><g id='b'><use href='#a'/>{shape}</g>"),
+            3,
+        ),
+        (
+            format!("<symbol id='a'><use href='#a'/>{shape}</symbol><use href='#a'/>"),
+            1,
+        ),
+        (format!("<svg id='a'><use href='#a'/>{shape}</svg>"), 1),
+    ] {
+        let layout = page(&content);
+        assert_eq!(layout.paths.len(), paths, "{content}");
+        let found = layout
+            .diagnostics
+            .iter()
+            .find(|d| d.code == Code::UnknownValue);
+        assert!(found.unwrap().message.contains("contains it"), "{content}");
+    }
+    // The same element twice, side by side, is no circle.
+    let twice = page(
+        "<defs><g id='a'><line id='s' x2='9'/></g></defs><use href='#a'/><use href='#a' y='2'/>",
+    );
+    assert_eq!(twice.paths.len(), 2);
+}
+
+#[test]
+fn strokes_that_do_not_scale_have_pixels_of_the_page() {
+    let layout = page(
+        "<g transform='scale(3)'>
+         <line id='a' x2='9' stroke-width='2' vector-effect='non-scaling-stroke'/>
+         <line id='b' x2='9' stroke-width='2' style='vector-effect: non-scaling-stroke'/>
+         <line id='c' x2='9' stroke-width='2'/>
+         <g vector-effect='non-scaling-stroke'><line id='d' x2='9' stroke-width='2'/></g></g>",
+    );
+    let widths: Vec<f32> = layout.paths.width_m().unwrap().to_vec();
+    let pixel = 0.0254 / 96.0 * 2.0;
+    for (found, expected) in widths.into_iter().zip([pixel, pixel, 6.0, 6.0]) {
+        assert!(
+            (f64::from(found) - expected).abs() < 1e-6,
+            "{found}, not {expected}"
+        );
+    }
+}
+
+#[test]
+fn old_inkscape_files_have_a_note() {
+    let file = |head: &str| {
+        let inkscape = "xmlns:inkscape='http://www.inkscape.org/namespaces/inkscape'";
+        read(&format!(
+            "<svg xmlns='http://www.w3.org/2000/svg' {inkscape} width='1220mm' {head}>\
+             <line x2='900' stroke='red'/></svg>"
+        ))
+    };
+    for (head, is_noted) in [
+        ("inkscape:version='0.91 r13725'", true),
+        ("inkscape:version='0.48.4'", true),
+        ("inkscape:version='0.92.3'", false),
+        ("inkscape:version='1.3'", false),
+        ("inkscape:version='0.91' viewBox='0 0 1220 610'", false),
+        ("", false),
+    ] {
+        let found = codes(&file(head)).contains(&Code::AssumedUnit);
+        assert_eq!(found, is_noted, "{head}");
+    }
+}
+
+/// Expected bounds of the rectangle of resvg's files, in user units of a page of 200.
+const RESVG: [(&str, [f64; 4]); 5] = [
+    (
+        "structure/style-attribute/transform.svg",
+        [20.0, 20.0, 180.0, 180.0],
+    ),
+    (
+        "structure/transform-origin/on-shape.svg",
+        [43.431_457, 43.431_457, 156.568_543, 156.568_543],
+    ),
+    ("shapes/rect/em-values.svg", [20.0, 20.0, 180.0, 180.0]),
+    (
+        "structure/switch/non-SVG-child.svg",
+        [20.0, 20.0, 180.0, 180.0],
+    ),
+    (
+        "structure/use/indirect-recursive-2.svg",
+        [20.0, 20.0, 180.0, 180.0],
+    ),
+];
+
+#[test]
+fn files_of_resvg_have_the_bounds_of_its_pictures() {
+    let Some(cases) = real_cases("svg_resvg") else {
+        return;
+    };
+    for (file, expected) in RESVG {
+        let layout = read_real(&cases.join(file));
+        assert_eq!(layout.paths.len(), 2, "{file}");
+        let path = layout.paths.iter().find(|p| p.id() == "rect1").unwrap();
+        let segments = path.runs().flat_map(|run| run.segments());
+        let points = segments.flat_map(|s| [0.0, 0.25, 0.5, 0.75, 1.0].map(|t| point(&s, t)));
+        let mut found = [
+            f64::INFINITY,
+            f64::INFINITY,
+            f64::NEG_INFINITY,
+            f64::NEG_INFINITY,
+        ];
+        for Point { x, y } in points {
+            found[0] = found[0].min(x);
+            found[1] = found[1].min(-y);
+            found[2] = found[2].max(x);
+            found[3] = found[3].max(-y);
+        }
+        for (found, expected) in found.into_iter().zip(expected) {
+            let found = found / (0.0254 / 96.0);
+            assert!(
+                (found - expected).abs() < 0.01,
+                "{file}: {found}, not {expected}"
+            );
+        }
+    }
+    let layout = read_real(&cases.join("shapes/path/invalid-transform.svg"));
+    assert_eq!(layout.paths.len(), 2);
+}
+
+#[test]
+fn definitions_declare_prefixes_and_entities() {
+    let file = |definition: &str, attributes: &str, content: &str| {
+        read(&format!(
+            "<!DOCTYPE svg {definition}><svg xmlns='http://www.w3.org/2000/svg' \
+             width='9mm' stroke='red' {attributes}>{content}</svg>"
+        ))
+    };
+    let line = "<line id='p' x2='9'/>";
+    for (definition, attributes, content) in [
+        (
+            "[<!ATTLIST g xmlns:k CDATA #FIXED 'urn:k' k:e CDATA #IMPLIED>]",
+            "",
+            "<g k:e='x'><line id='p' x2='9'/></g>",
+        ),
+        (
+            "PUBLIC '-//W3C//DTD SVG 1.1//EN' 'x'",
+            "",
+            "<use xlink:href='#p'/><line id='p' x2='9'/>",
+        ),
+        (
+            "[<?x ]><!-- ?><!ENTITY a 'p'>]",
+            "",
+            "<line id='&a;' x2='9'/>",
+        ),
+        (
+            "[<!ENTITY a \"]>\"><!ENTITY b '<line id=\"p\" x2=\"9\"/>'>]",
+            "id='&a;'",
+            "&b;",
+        ),
+        (
+            "[<!ENTITY % p 'x'>%p;<!ENTITY a 'p'><!NOTATION n SYSTEM ']>'>]",
+            "",
+            "<line id='&a;' x2='9'/>",
+        ),
+        ("[<!ENTITY s 'stroke-width:2'>]", "style='&s;'", line),
+    ] {
+        let layout = file(definition, attributes, content);
+        ends(&layout, "p");
+    }
+    let Some(cases) = real_cases("svg") else {
+        return;
+    };
+    assert_eq!(read_real(&cases.join("s06f_attlist.svg")).path_count(), 1);
+}
