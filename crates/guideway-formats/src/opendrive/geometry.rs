@@ -2,21 +2,13 @@
 
 use guideway_spline::Point;
 
+use super::arc_length::ArcLength;
 use super::polynomial::Cubic;
+use super::quadrature::gauss;
 
 /// Largest turning angle per quadrature panel, in radians. Derived: eight Gauss nodes are then
 /// exact to rounding.
 const PANEL_RAD: f64 = 0.5;
-
-/// Positive nodes and their weights of eight-point Gauss-Legendre quadrature on [-1, 1].
-///
-/// Source: Abramowitz and Stegun, table 25.4.
-const GAUSS: [(f64, f64); 4] = [
-    (0.183_434_642_495_649_8, 0.362_683_783_378_362),
-    (0.525_532_409_916_329, 0.313_706_645_877_887_3),
-    (0.796_666_477_413_626_7, 0.222_381_034_453_374_5),
-    (0.960_289_856_497_536_3, 0.101_228_536_290_376_3),
-];
 
 /// One segment of a geometry line: a `geometry` element of the plan view.
 #[derive(Clone, Debug)]
@@ -41,14 +33,19 @@ pub(super) enum Shape {
         panels: Vec<Point<f64>>,
     },
     /// A parametric cubic: u along the start heading, v to its left.
-    Cubic { u: Cubic, v: Cubic },
+    Cubic {
+        arc: ArcLength,
+        /// Arc length per s: 1 unless the stated length is not that of the curve.
+        scale: f64,
+    },
 }
 
 /// A segment evaluated at one distance.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct CurvePoint {
     pub(super) position: Point<f64>,
-    /// Derivative of the position; of length 1 where s is the arc length.
+    /// Derivative of the position; of length 1, as s is the arc length, unless the file states
+    /// another length.
     pub(super) derivative: Point<f64>,
     /// Derivative of the heading, in 1/m.
     pub(super) heading_rate: f64,
@@ -116,27 +113,53 @@ impl Geometry {
                     heading_rate: curvature + rate * s,
                 }
             }
-            Shape::Cubic { u, v } => {
-                let ([x, dx], [y, dy]) = (u.at(s), v.at(s));
-                let u_axis = unit(self.heading);
-                let rotate = |x: f64, y: f64| u_axis * x + left_normal(u_axis) * y;
-                let first = Point::new(dx, dy);
-                let second = Point::new(u.second(s), v.second(s));
+            Shape::Cubic { arc, scale } => {
+                let p = arc.parameter(s * scale);
+                let first = match arc.is_still(p) {
+                    true => Point::new(0.0, 0.0),
+                    false => arc.first(p),
+                };
+                let speed = first.norm();
                 CurvePoint {
-                    position: self.origin + rotate(x, y),
-                    derivative: rotate(dx, dy),
-                    heading_rate: first.cross(second) / first.dot(first),
+                    position: self.cubic_position(arc, p),
+                    derivative: self.rotated(first * (scale / speed)),
+                    heading_rate: first.cross(arc.second(p)) / speed.powi(3) * scale,
                 }
             }
         }
     }
 
+    /// The exact control points of the part `s..=s + length` of a parametric cubic; `None` for
+    /// other shapes.
+    pub(super) fn bezier(&self, s: f64, length: f64) -> Option<[Point<f64>; 4]> {
+        let Shape::Cubic { arc, scale } = &self.shape else {
+            return None;
+        };
+        let [from, to] = [s, s + length].map(|s| arc.parameter(s * scale));
+        let [start, end] = [from, to].map(|p| self.cubic_position(arc, p));
+        let third = (to - from) / 3.0;
+        let [a, b] = [from, to].map(|p| self.rotated(arc.first(p)) * third);
+        Some([start, start + a, end - b, end])
+    }
+
+    fn cubic_position(&self, arc: &ArcLength, p: f64) -> Point<f64> {
+        self.origin + self.rotated(Point::new(arc.u.at(p)[0], arc.v.at(p)[0]))
+    }
+
+    /// A vector of the axes u and v in the axes of the layout.
+    fn rotated(&self, vector: Point<f64>) -> Point<f64> {
+        let u_axis = unit(self.heading);
+        u_axis * vector.x + left_normal(u_axis) * vector.y
+    }
+
     /// Bounds of the derivatives on `s..=s + length`. Infinite if the derivative of the position
     /// may vanish, where the curve has no heading.
     ///
-    /// For a cubic with the derivative w, read as a complex number, the heading is Im log w. Its
-    /// derivatives follow from those of w, whose third is 0. With a = |w'| / |w| and b = |w''| /
-    /// |w|, they are at most a, b + a^2, 3 a b + 2 a^3 and 3 b^2 + 12 a^2 b + 6 a^4.
+    /// For a cubic with the derivative w by its parameter, read as a complex number, log w is the
+    /// logarithm of the speed plus i times the heading. The derivatives of both follow from those
+    /// of w, whose third is 0. With a = |w'| / |w| and b = |w''| / |w|, they are at most a, b +
+    /// a^2, 3 a b + 2 a^3 and 3 b^2 + 12 a^2 b + 6 a^4. Dividing each derivative by the speed gives
+    /// those of the heading by arc length.
     pub(super) fn derivative_bounds(&self, s: f64, length: f64) -> DerivativeBounds {
         match &self.shape {
             Shape::Clothoid {
@@ -150,31 +173,45 @@ impl Geometry {
                     heading,
                 }
             }
-            Shape::Cubic { u, v } => {
-                let first = |s: f64| Point::new(u.at(s)[1], v.at(s)[1]);
-                let second = |s: f64| Point::new(u.second(s), v.second(s)).norm();
-                let max_second = second(s).max(second(s + length));
-                let min_first = first(s + 0.5 * length).norm() - 0.5 * length * max_second;
-                let third = 6.0 * Point::new(u.d, v.d).norm();
-                let heading = match min_first > 0.0 {
+            Shape::Cubic { arc, scale } => {
+                let range = [s, s + length].map(|s| arc.parameter(s * scale));
+                let [least, max_second] = arc.speed_bounds(range);
+                let third = 6.0 * Point::new(arc.u.d, arc.v.d).norm();
+                let heading = match least > 0.0 {
                     true => {
-                        let (a, b) = (max_second / min_first, third / min_first);
-                        [
+                        let (a, b) = (max_second / least, third / least);
+                        let by_parameter = [
                             a,
                             b + a * a,
                             3.0 * a * b + 2.0 * a.powi(3),
                             3.0 * b * b + 12.0 * a * a * b + 6.0 * a.powi(4),
-                        ]
+                        ];
+                        by_arc_length(by_parameter, scale / least)
                     }
                     false => [f64::INFINITY; 4],
                 };
                 DerivativeBounds {
-                    position: 0.0,
+                    position: scale * direction_bounds(heading)[3],
                     heading,
                 }
             }
         }
     }
+}
+
+/// Bounds of the first four derivatives of the heading by s, from bounds of those of the heading
+/// and of the logarithm of the speed by the parameter. `rate` bounds the parameter per s.
+///
+/// With r the parameter per s, the operator d/ds is r d/dp, and r' = -r times the derivative of the
+/// logarithm of the speed. Applying it four times to the heading gives the terms.
+fn by_arc_length([l1, l2, l3, l4]: [f64; 4], rate: f64) -> [f64; 4] {
+    [
+        rate * l1,
+        rate.powi(2) * (l2 + l1 * l1),
+        rate.powi(3) * (l3 + 4.0 * l1 * l2 + 2.0 * l1.powi(3)),
+        rate.powi(4)
+            * (l4 + 4.0 * l2 * l2 + 7.0 * l1 * l3 + 18.0 * l1 * l1 * l2 + 6.0 * l1.powi(4)),
+    ]
 }
 
 /// Bounds of the direction e^(i heading) and its first four derivatives, from bounds of the first
@@ -227,15 +264,6 @@ fn integrate(from: f64, length: f64, heading: impl Fn(f64) -> f64) -> Point<f64>
     )
 }
 
-/// Gauss-Legendre quadrature of f over `from..=from + length`.
-fn gauss(from: f64, length: f64, f: impl Fn(f64) -> f64) -> f64 {
-    let half = 0.5 * length;
-    let middle = from + half;
-    let pair =
-        |(node, weight): (f64, f64)| (f(middle - half * node) + f(middle + half * node)) * weight;
-    half * GAUSS.into_iter().map(pair).sum::<f64>()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -282,8 +310,13 @@ mod tests {
         let shapes = [
             Shape::clothoid([0.3, -0.02], 0.0, 30.0, 1_000).unwrap(),
             Shape::Cubic {
-                u: cubic(0.0, 1.0, 0.001, -0.0002),
-                v: cubic(0.0, 0.1, 0.02, -0.0007),
+                arc: ArcLength::new(
+                    cubic(0.0, 1.0, 0.001, -0.0002),
+                    cubic(0.0, 0.1, 0.02, -0.0007),
+                    30.0,
+                )
+                .unwrap(),
+                scale: 1.0,
             },
         ];
         for shape in shapes {

@@ -1,4 +1,4 @@
-//! Reads lane read_lane_sections: `laneSection` elements in, the center offset of every lane out.
+//! Reads lane sections: `laneSection` elements in, the center offset of every lane out.
 //!
 //! ```text
 //!   lane  2  -----------   outer border = inner border + width(s)
@@ -11,7 +11,7 @@ use guideway_layout::Code;
 use roxmltree::Node;
 
 use super::polynomial::{Cubic, Piecewise};
-use super::reader::DocumentReader;
+use super::reader::{DocumentReader, start_m};
 use crate::ReadError;
 use crate::xml::{child, children};
 
@@ -22,8 +22,28 @@ pub(super) struct Lane<'d, 't> {
     pub(super) id: i64,
     /// Width by the distance along the road, in meters.
     widths: Piecewise,
-    /// Offset of the outer border by the distance along the road; an alternative to widths.
+    /// Offset of the outer border from lane 0, to the side of the lane, by the distance along the
+    /// road; an alternative to widths.
     borders: Piecewise,
+    /// Whether its records have the sign of the other side.
+    is_border_negative: bool,
+}
+
+impl Lane<'_, '_> {
+    /// Side of the lane: 1 on the left, -1 on the right, 0 for the center lane.
+    fn side(&self) -> f64 {
+        self.id.signum() as f64
+    }
+
+    /// The place along the road at which its widths begin.
+    pub(super) fn first_width(&self) -> Option<f64> {
+        self.widths.starts().next()
+    }
+
+    /// The place along the road and the value of the least width up to a place.
+    pub(super) fn least_width(&self, end_m: f64) -> Option<[f64; 2]> {
+        self.widths.minimum(end_m)
+    }
 }
 
 /// A part of a road with a constant set of lanes.
@@ -42,7 +62,7 @@ impl<'d, 't> LaneSection<'d, 't> {
         reader: &mut DocumentReader<'_, 'd, 't>,
         section: Node<'d, 't>,
     ) -> Result<Self, ReadError> {
-        let start_m = reader.number(section, "s").unwrap_or(0.0);
+        let start_m = reader.number(section, "s").unwrap_or_default();
         let mut lanes = Vec::new();
         for side in ["left", "center", "right"] {
             for node in children(section, side).flat_map(|side| children(side, "lane")) {
@@ -57,23 +77,62 @@ impl<'d, 't> LaneSection<'d, 't> {
                 };
                 let widths = records(reader, "width");
                 let borders = records(reader, "border");
+                let is_border_negative = borders.sign() < 0.0;
                 if id != 0 && widths.is_empty() && borders.is_empty() {
                     let message = || "the lane has no `width` and no `border`".to_owned();
                     let remedy = "It is drawn with width 0; give it a width";
-                    reader
-                        .base
-                        .report(Code::MissingField, node, message, remedy);
+                    reader.report(Code::MissingField, node, message, remedy);
                 }
                 lanes.push(Lane {
                     node,
                     id,
                     widths,
                     borders,
+                    is_border_negative,
                 });
             }
         }
         lanes.sort_by_key(|lane: &Lane<'_, '_>| (lane.id < 0, lane.id.unsigned_abs()));
-        Ok(Self { start_m, lanes })
+        let section = Self { start_m, lanes };
+        section.check_ids(reader);
+        section.check_borders(reader);
+        Ok(section)
+    }
+
+    /// Reports lanes whose identifier does not follow that of their inner neighbor.
+    fn check_ids(&self, reader: &mut DocumentReader<'_, 'd, 't>) {
+        let mut inner: i64 = 0;
+        for lane in &self.lanes {
+            let expected = match lane.id.signum() {
+                0 => 0,
+                side if side == inner.signum() => inner.saturating_add(side),
+                side => side,
+            };
+            if lane.id != expected {
+                let message = || format!("its `id` is {}, expected {expected}", lane.id);
+                let remedy = "It is drawn beside its neighbor; number lanes from 0 outwards";
+                reader.report(Code::Implausible, lane.node, message, remedy);
+            }
+            inner = lane.id;
+        }
+    }
+
+    /// Reports borders that contradict the side of their lane. Right lanes may state them as
+    /// offsets to the left, which are negative, or as distances.
+    fn check_borders(&self, reader: &mut DocumentReader<'_, 'd, 't>) {
+        let first_right = self
+            .lanes
+            .iter()
+            .find(|lane| lane.id < 0 && !lane.borders.is_empty());
+        let is_right_negative = first_right.is_some_and(|lane| lane.is_border_negative);
+        for lane in self.lanes.iter().filter(|lane| !lane.borders.is_empty()) {
+            let is_expected = lane.is_border_negative == (lane.id < 0 && is_right_negative);
+            if !is_expected {
+                let message = || "the sign of its border is that of the other side".to_owned();
+                let remedy = "It is drawn on the side of its `id`; correct the border or the `id`";
+                reader.report(Code::Implausible, lane.node, message, remedy);
+            }
+        }
     }
 
     /// Start of every polynomial of its lanes.
@@ -88,21 +147,23 @@ impl<'d, 't> LaneSection<'d, 't> {
         lane.id != 0 || self.lanes.len() == 1
     }
 
-    /// The left offset of the center of every lane, as polynomials about s, valid from s on.
-    /// `center_lane` is the offset of lane 0.
-    pub(super) fn center_offsets(&self, center_lane: Cubic, s: f64) -> Vec<Cubic> {
-        let (mut inner, mut side) = (center_lane, 0);
+    /// The left offset of the center of every lane between two places, as polynomials about the
+    /// first place. `center_lane` is the offset of lane 0.
+    pub(super) fn center_offsets(&self, center_lane: Cubic, range_m: [f64; 2]) -> Vec<Cubic> {
+        let (mut inner, mut side) = (center_lane, 0.0);
         let center = |lane: &Lane<'_, '_>| {
-            if lane.id.signum() != side {
-                (inner, side) = (center_lane, lane.id.signum());
+            if lane.side() != side {
+                (inner, side) = (center_lane, lane.side());
             }
             if lane.id == 0 {
                 return center_lane;
             }
-            let sign = side as f64;
             let outer = match lane.widths.is_empty() {
-                true => center_lane.plus(lane.borders.from(s), sign),
-                false => inner.plus(lane.widths.from(s), sign),
+                true => {
+                    let sign = if lane.is_border_negative { -1.0 } else { 1.0 };
+                    center_lane.plus(lane.borders.between(range_m), sign * side)
+                }
+                false => inner.plus(lane.widths.between(range_m), side),
             };
             let center = Cubic::default().plus(inner, 0.5).plus(outer, 0.5);
             inner = outer;
@@ -142,7 +203,7 @@ fn read_polynomials<'d, 't>(
     Piecewise::new(pieces)
 }
 
-/// Reads the lane read_lane_sections of a road, sorted by their start.
+/// Reads the lane sections of a road, sorted by their start.
 ///
 /// # Errors
 /// When the layout exceeds a limit, or when the caller cancels.
@@ -150,14 +211,12 @@ pub(super) fn read_lane_sections<'d, 't>(
     reader: &mut DocumentReader<'_, 'd, 't>,
     road: Node<'d, 't>,
 ) -> Result<Vec<LaneSection<'d, 't>>, ReadError> {
-    let lanes = child(road, "lanes");
-    let read_lane_sections = lanes
-        .into_iter()
-        .flat_map(|lanes| children(lanes, "laneSection"));
-    let read: Result<Vec<_>, _> = read_lane_sections
-        .map(|section| LaneSection::read(reader, section))
-        .collect();
-    let mut read_lane_sections = read?;
-    read_lane_sections.sort_by(|a, b| a.start_m.total_cmp(&b.start_m));
-    Ok(read_lane_sections)
+    let lanes = child(road, "lanes").into_iter();
+    let sections = lanes.flat_map(|lanes| children(lanes, "laneSection"));
+    let mut sections: Vec<Node<'d, 't>> = sections.collect();
+    sections.sort_by(|a, b| start_m(*a).total_cmp(&start_m(*b)));
+    reader.set_sections(&sections);
+    let read = sections.into_iter();
+    read.map(|section| LaneSection::read(reader, section))
+        .collect()
 }

@@ -6,18 +6,21 @@
 //! | Stage | Input | Output | File |
 //! |---|---|---|---|
 //! | parse | bytes | XML tree, numbers | `reader` |
-//! | plan view | `geometry` elements | reference line | `plan_view`, `geometry` |
+//! | plan view | `geometry` elements | reference line | `plan_view`, `geometry`, `arc_length`, `quadrature` |
 //! | lanes | `laneSection` elements | center offsets | `lanes`, `polynomial` |
 //! | fit | reference line and offset | cubics within the tolerance | `offset_fit` |
-//! | map | cubics | paths with attributes | `road` |
+//! | map | cubics | paths with attributes | `road`, `section`, `speed` |
 
+mod arc_length;
 mod geometry;
 mod lanes;
 mod offset_fit;
 mod plan_view;
 mod polynomial;
+mod quadrature;
 mod reader;
 mod road;
+mod section;
 mod speed;
 
 use guideway_layout::Layout;

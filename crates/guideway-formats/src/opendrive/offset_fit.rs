@@ -30,10 +30,18 @@ pub(super) struct OffsetSegment<'l> {
 }
 
 impl OffsetSegment<'_> {
-    /// Appends cubics within `tolerance_m` of the curve. Stops halving beyond `max_points` control
-    /// points or [`MAX_HALVINGS`]. Returns the error bound, in meters.
+    /// Appends cubics within `tolerance_m` of the curve, or the curve itself if it is cubic. Stops
+    /// halving beyond `max_points` control points or [`MAX_HALVINGS`]. Returns the error bound, in
+    /// meters.
     pub(super) fn append(&self, tolerance_m: f64, max_points: u64, runs: &mut Runs) -> f64 {
-        self.halve(MAX_HALVINGS, tolerance_m, max_points, runs)
+        let is_line = self.offset == Cubic::default();
+        match self.line.bezier(self.start_m, self.length_m) {
+            Some(bezier) if is_line => {
+                runs.push_bezier(&bezier);
+                0.0
+            }
+            _ => self.halve(MAX_HALVINGS, tolerance_m, max_points, runs),
+        }
     }
 
     fn halve(&self, halvings: u32, tolerance_m: f64, max_points: u64, runs: &mut Runs) -> f64 {

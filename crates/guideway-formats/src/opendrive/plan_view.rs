@@ -4,6 +4,7 @@ use guideway_layout::Code;
 use guideway_spline::Point;
 use roxmltree::Node;
 
+use super::arc_length::ArcLength;
 use super::geometry::{Geometry, Shape, parameter_at_length};
 use super::polynomial::Cubic;
 use super::reader::DocumentReader;
@@ -18,7 +19,7 @@ pub(super) fn read_geometry<'d, 't>(
         ["s", "x", "y", "hdg", "length"].map(|key| reader.number(node, key));
     let (start_m, x, y, heading, length_m) = (start_m?, x?, y?, heading?, length_m?);
     let origin = Point::new(x, y);
-    if !reader.base.check_point(origin, node) {
+    if !reader.check_point(origin, node) {
         return None;
     }
     let max_m = reader.base.builder.source.options.limits.coordinate_m;
@@ -27,15 +28,13 @@ pub(super) fn read_geometry<'d, 't>(
             format!("its length is {length_m} m and its start {start_m} m, expected 0 to {max_m} m")
         };
         let remedy = "It is left out; correct the length and `s`";
-        reader.base.report(Code::OutOfRange, node, message, remedy);
+        reader.report(Code::OutOfRange, node, message, remedy);
         return None;
     }
     let Some(shape) = read_shape(reader, node, heading, length_m) else {
         let message = || "it has no valid line, arc, spiral or polynomial".to_owned();
         let remedy = "It is left out with the lanes beside it; correct it";
-        reader
-            .base
-            .report(Code::UnknownValue, node, message, remedy);
+        reader.report(Code::UnknownValue, node, message, remedy);
         return None;
     };
     Some(Geometry {
@@ -85,37 +84,62 @@ fn read_shape<'d, 't>(
         }
         "poly3" => {
             let v = cubic(["a", "b", "c", "d"])?;
-            // The file gives v as a function of u, and the length along the curve. The shape takes
-            // the mean speed: u is the distance times `factor`.
-            let factor = parameter_at_length(v, length_m) / length_m;
+            // The file gives v as a function of u, and the length along the curve.
             let u = Cubic {
                 b: 1.0,
                 ..Cubic::default()
             };
-            Shape::Cubic {
-                u: u.stretched(factor),
-                v: v.stretched(factor),
-            }
+            polynomial(
+                reader,
+                geometry,
+                [u, v],
+                parameter_at_length(v, length_m),
+                length_m,
+            )?
         }
         _ => {
             let (u, v) = (
                 cubic(["aU", "bU", "cU", "dU"])?,
                 cubic(["aV", "bV", "cV", "dV"])?,
             );
-            let factor = match node.attribute("pRange") {
-                Some("arcLength") => 1.0,
-                _ => 1.0 / length_m,
+            let end = match node.attribute("pRange") {
+                Some("arcLength") => length_m,
+                _ => 1.0,
             };
-            Shape::Cubic {
-                u: u.stretched(factor),
-                v: v.stretched(factor),
-            }
+            polynomial(reader, geometry, [u, v], end, length_m)?
         }
     };
-    match &shape {
-        Shape::Cubic { u, v } if !(u.is_finite() && v.is_finite()) => None,
-        _ => Some(shape),
+    Some(shape)
+}
+
+/// Relative difference between the stated length of a curve and its own that is reported.
+const MAX_LENGTH_ERROR: f64 = 0.01;
+
+/// A parametric cubic on the parameters from 0 to `end`. Reports a finding if its length is not the
+/// stated one. Charges its panels to the budget of control points.
+fn polynomial<'d, 't>(
+    reader: &mut DocumentReader<'_, 'd, 't>,
+    geometry: Node<'d, 't>,
+    [u, v]: [Cubic; 2],
+    end: f64,
+    length_m: f64,
+) -> Option<Shape> {
+    let arc = ArcLength::new(u, v, end)?;
+    let points_left = &mut reader.base.builder.points_left;
+    *points_left = points_left.checked_sub(arc.panel_count())?;
+    let scale = arc.total() / length_m;
+    if (scale - 1.0).abs() > MAX_LENGTH_ERROR {
+        let message = || {
+            format!(
+                "its `length` is {length_m} m; its curve is {:.3} m long",
+                arc.total()
+            )
+        };
+        let remedy =
+            "The whole curve is drawn, and lanes are stretched along it; correct the length";
+        reader.report(Code::Implausible, geometry, message, remedy);
     }
+    scale.is_finite().then_some(Shape::Cubic { arc, scale })
 }
 
 /// A clothoid. Charges its quadrature panels to the budget of control points, because both take

@@ -259,16 +259,20 @@ fn lanes_beside_spirals_and_polynomials_stay_within_the_tolerance() {
         &integrated(100.0, heading, |s| shift(s) - half(s)),
     );
 
-    // The parameter of this parabola is not its arc length; offsets follow the parameter as well.
-    let parabola = param_poly3("arcLength", 1.0, 0.004);
-    let layout = read(&road(&geometry(100.0, &parabola), offset, width));
+    // The parameter of this parabola is not its arc length, which offsets follow.
+    let length = |x: f64| {
+        let slope = 0.008 * x;
+        (slope * slope.hypot(1.0) + slope.asinh()) / 0.016
+    };
+    let parabola = param_poly3("normalized", 100.0, 40.0);
+    let layout = read(&road(&geometry(length(100.0), &parabola), offset, width));
     for (id, side) in [("R.0.1", 1.0), ("R.0.-1", -1.0)] {
         let points: Vec<Point<f64>> = (0..=200)
             .map(|i| {
-                let s = f64::from(i) / 2.0;
-                let slope = 0.008 * s;
+                let x = f64::from(i) / 2.0;
+                let (s, slope) = (length(x), 0.008 * x);
                 let left = Point::new(-slope, 1.0) * (1.0 / 1_f64.hypot(slope));
-                Point::new(s, 0.004 * s * s) + left * (shift(s) + side * half(s))
+                Point::new(x, 0.004 * x * x) + left * (shift(s) + side * half(s))
             })
             .collect();
         assert_on_path(&layout, id, &points);
