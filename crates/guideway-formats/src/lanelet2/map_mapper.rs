@@ -130,6 +130,7 @@ impl<'a, 'd, 't> MapMapper<'a, 'd, 't> {
         } else {
             Direction::Both
         };
+        self.check_roles(lanelet);
         // A center line in the file takes precedence.
         if let Some(drawn) = self.member(lanelet, "centerline") {
             let points = self.points(drawn)?;
@@ -160,6 +161,22 @@ impl<'a, 'd, 't> MapMapper<'a, 'd, 't> {
         align(&mut left, &mut right);
         let center = center_line(&left, &right);
         self.push_path(lanelet, &center, "lanelet", direction)
+    }
+
+    /// Reports roles that several ways of a lanelet have.
+    fn check_roles(&mut self, lanelet: Node<'d, 't>) {
+        for role in ["left", "right", "centerline"] {
+            let ways = children(lanelet, "member").filter(|member| {
+                member.attribute("role") == Some(role) && member.attribute("type") == Some("way")
+            });
+            let count = ways.count();
+            if count > 1 {
+                let message = || format!("{count} of its ways have the role `{role}`");
+                let remedy = "Only the first one is read; join them to one way";
+                self.base
+                    .report(Code::UnknownValue, lanelet, message, remedy);
+            }
+        }
     }
 
     /// The way with a role in a relation.

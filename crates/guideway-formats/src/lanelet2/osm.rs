@@ -50,6 +50,13 @@ pub(super) fn positions<'d>(
         .iter()
         .filter_map(|(_, _, degrees)| degrees.filter(is_valid));
     let projection = Bounds::of_points(all_degrees).map(LocalProjection::centered_on);
+    if is_local {
+        let stated: Vec<_> = found
+            .iter()
+            .filter_map(|(node, local, degrees)| Some((*node, (*local)?, *degrees)))
+            .collect();
+        report_far_nodes(builder, xml, &stated, projection);
+    }
     let mut positions = HashMap::with_capacity(found.len());
     for (node, local, degrees) in found {
         let at: PlaceFn<'_> = &|| xml.place(node);
@@ -87,4 +94,48 @@ pub(super) fn positions<'d>(
         builder.report(Code::AssumedUnit, at, message, remedy);
     }
     positions
+}
+
+/// Distance by which a node must be off to be reported, in meters. Local coordinates that begin
+/// again at the border of a grid square are off by its size, 100 km.
+const FAR_M: f64 = 50_000.0;
+
+/// Reports nodes whose local coordinates are far from those of most others: from where longitude
+/// and latitude place them, or from the middle of the map if they have none.
+fn report_far_nodes<'d, 't>(
+    builder: &mut Builder<'_>,
+    xml: &Xml<'_>,
+    nodes: &[(Node<'d, 't>, Point<f64>, Option<Point<f64>>)],
+    projection: Option<LocalProjection>,
+) {
+    let all_degrees = nodes.iter().all(|(_, _, degrees)| degrees.is_some());
+    let expected = |degrees: Option<Point<f64>>| match (projection, degrees) {
+        (Some(projection), Some(degrees)) if all_degrees => projection.to_meters(degrees),
+        _ => Point::new(0.0, 0.0),
+    };
+    let offsets = nodes
+        .iter()
+        .map(|(_, local, degrees)| *local - expected(*degrees));
+    let offsets: Vec<Point<f64>> = offsets.collect();
+    let median = |axis: fn(&Point<f64>) -> f64| {
+        let mut values: Vec<f64> = offsets.iter().map(axis).collect();
+        values.sort_unstable_by(f64::total_cmp);
+        values.get(values.len() / 2).copied().unwrap_or_default()
+    };
+    let middle = Point::new(median(|p| p.x), median(|p| p.y));
+    for ((node, ..), offset) in nodes.iter().zip(&offsets) {
+        let off_m = offset.distance(middle);
+        if off_m > FAR_M {
+            let at: PlaceFn<'_> = &|| xml.place(*node);
+            let message = || {
+                format!(
+                    "its `local_x` and `local_y` are {:.0} km off those of the other nodes",
+                    off_m / 1e3
+                )
+            };
+            let remedy = "Use one origin for all nodes: local coordinates may have begun again at \
+                          the border of an MGRS square, after 100 km";
+            builder.report(Code::Implausible, at, message, remedy);
+        }
+    }
 }

@@ -53,8 +53,10 @@ impl<'d, 't> GroupMapper<'_, '_, 'd, 't> {
     /// # Errors
     /// When the layout exceeds a limit.
     pub(super) fn map_groups(&mut self, model: Node<'d, 't>) -> Result<(), ReadError> {
+        let objects = model.children().filter(Node::is_element);
+        let names: HashSet<&str> = objects.map(name_or_empty).collect();
         for block in children(model, "block") {
-            self.map_block(block)?;
+            self.map_block(block, &names)?;
         }
         self.reader.begin();
         let name = model.attribute("name");
@@ -73,8 +75,6 @@ impl<'d, 't> GroupMapper<'_, '_, 'd, 't> {
         });
         let types: Vec<Json> = types.collect();
         self.set_list(LOCATION_TYPES, types)?;
-        let objects = model.children().filter(Node::is_element);
-        let names: HashSet<&str> = objects.map(name_or_empty).collect();
         self.visual.store(self.reader, &names)?;
         self.reader.finish(Table::Layout, 0, model, &MODEL)
     }
@@ -113,7 +113,8 @@ impl<'d, 't> GroupMapper<'_, '_, 'd, 't> {
         vehicle.into()
     }
 
-    fn map_block(&mut self, block: Node<'d, 't>) -> Result<(), ReadError> {
+    /// Maps a block; `names` are those of all objects, also of refused ones.
+    fn map_block(&mut self, block: Node<'d, 't>, names: &HashSet<&str>) -> Result<(), ReadError> {
         self.reader.begin();
         let name = self.reader.name(block)?;
         let mut seen = HashSet::new();
@@ -123,6 +124,7 @@ impl<'d, 't> GroupMapper<'_, '_, 'd, 't> {
             match self.member(name) {
                 Some(element) if seen.insert(element) => members.push(element),
                 Some(_) => {}
+                None if names.contains(name) => self.reader.keep("member", name.into()),
                 None => {
                     let message = || format!("the member \"{name}\" does not exist");
                     let remedy = "It is left out of the block; add the element or correct the name";

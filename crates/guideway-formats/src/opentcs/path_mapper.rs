@@ -141,6 +141,13 @@ impl<'m, 'a, 'd, 't> PathMapper<'m, 'a, 'd, 't> {
                 .builder
                 .refuse(&name, Code::UnknownNode, &detail);
         };
+        let element = name_or_empty(path);
+        if let Some(layer) = self.visual.hidden_layer(element, child(path, "pathLayout")) {
+            let detail = format!("its layer `{layer}` is hidden");
+            let remedy = "Show the layer in the model editor to draw its paths";
+            let base = &mut self.reader.base;
+            return base.refuse(&name, Code::NotDrawn, path, &detail, remedy);
+        }
         let nodes = &self.reader.base.builder.layout.nodes;
         let (from, to) = (nodes.position_m(start), nodes.position_m(end));
         let mut runs = Runs::default();

@@ -30,6 +30,8 @@ pub(super) struct VisualLayout<'d, 't> {
     scale: Point<f64>,
     /// Label per layer identifier.
     layers: HashMap<&'d str, String>,
+    /// Identifiers of layers that are hidden, or in a hidden group.
+    hidden: HashSet<&'d str>,
     /// Legacy drawing properties per object name, up to version 0.0.3.
     legacy_elements: HashMap<&'d str, LegacyElement<'d, 't>>,
 }
@@ -98,6 +100,7 @@ impl<'d, 't> VisualLayout<'d, 't> {
                 node: None,
                 scale: Point::new(DEFAULT_SCALE, DEFAULT_SCALE),
                 layers: HashMap::new(),
+                hidden: HashSet::new(),
                 legacy_elements: HashMap::new(),
             };
         };
@@ -115,6 +118,7 @@ impl<'d, 't> VisualLayout<'d, 't> {
             node: Some(node),
             scale: Point::new(scale(reader, node, "scaleX"), scale(reader, node, "scaleY")),
             layers: layer_labels(layers).into_iter().collect(),
+            hidden: hidden_layers(node),
             legacy_elements,
         }
     }
@@ -125,6 +129,16 @@ impl<'d, 't> VisualLayout<'d, 't> {
             point.x * self.scale.x / 1000.0,
             -point.y * self.scale.y / 1000.0,
         )
+    }
+
+    /// The label of the layer of an element of a name, if the drawing hides it.
+    pub(super) fn hidden_layer(&self, name: &str, layout: Option<Node<'d, 't>>) -> Option<&str> {
+        let id = match layout {
+            Some(layout) => layout.attribute("layerId"),
+            None => self.legacy_element(name)?.layer(),
+        };
+        let id = self.hidden.get(id.unwrap_or("0"))?;
+        Some(self.layers.get(id).map_or(id, String::as_str))
     }
 
     /// The layer of an element of a name, with the layout element that names its layer. `None` for
@@ -193,6 +207,21 @@ impl<'d, 't> VisualLayout<'d, 't> {
         }
         Ok(())
     }
+}
+
+/// Identifiers of the layers of a drawing that are hidden, or in a hidden group.
+fn hidden_layers<'d>(drawing: Node<'d, '_>) -> HashSet<&'d str> {
+    let is_hidden = |node: &Node<'_, '_>| {
+        let visible = node.attribute("visible").unwrap_or_default();
+        matches!(visible.trim(), "false" | "0")
+    };
+    let groups = children(drawing, "layerGroup").filter(is_hidden);
+    let groups: HashSet<_> = groups.filter_map(|group| group.attribute("id")).collect();
+    let layers = children(drawing, "layer").filter(|layer| {
+        let group = layer.attribute("groupId");
+        is_hidden(layer) || group.is_some_and(|group| groups.contains(group))
+    });
+    layers.filter_map(|layer| layer.attribute("id")).collect()
 }
 
 /// The drawing of a new model.

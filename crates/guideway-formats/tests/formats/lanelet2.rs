@@ -1,6 +1,6 @@
 //! Tests of the Lanelet2 reader: a real map, and center lines between bounds.
 
-use crate::common::{assert_counts, codes, ends, read, real};
+use crate::common::{assert_counts, codes, ends, read, read_real, real, real_cases};
 use guideway_layout::{Code, Direction, Layout, Value};
 use guideway_spline::Point;
 
@@ -161,4 +161,68 @@ fn refuses_a_lanelet_without_a_bound() {
         layout.refused.iter().next().unwrap().code,
         Code::UnknownNode
     );
+}
+
+/// A map of a lanelet between two ways along x; the local x of the nodes of each way.
+fn local_map(xs: [f64; 3], degrees: bool) -> Layout {
+    let nodes: String = [0, 10]
+        .iter()
+        .flat_map(|&row| xs.iter().zip(0..).map(move |(x, i)| (row, x, i)))
+        .map(|(row, x, i)| {
+            let place = match degrees {
+                true => format!("lat='49' lon='{}'", 8.0 + f64::from(i) * 1e-4),
+                false => String::new(),
+            };
+            format!(
+                "<node id='{}' {place}><tag k='local_x' v='{x}'/>\
+                 <tag k='local_y' v='{row}'/></node>",
+                row + i
+            )
+        })
+        .collect();
+    let way = |id: i32, first: i32| {
+        let nodes: String = (first..first + 3)
+            .map(|i| format!("<nd ref='{i}'/>"))
+            .collect();
+        format!("<way id='{id}'>{nodes}</way>")
+    };
+    let member = |role: &str, id| format!("<member type='way' role='{role}' ref='{id}'/>");
+    read(&format!(
+        "<osm>{nodes}{}{}<relation id='200'>{}{}<tag k='type' v='lanelet'/></relation></osm>",
+        way(100, 0),
+        way(101, 10),
+        member("left", 101),
+        member("right", 100)
+    ))
+}
+
+#[test]
+fn nodes_whose_local_coordinates_begin_again_are_named() {
+    for degrees in [true, false] {
+        let found = local_map([99_995.0, 5.0, 15.0], degrees);
+        let places: Vec<String> = found
+            .diagnostics
+            .iter()
+            .filter(|d| d.code == Code::Implausible)
+            .map(|d| d.place.element.clone())
+            .collect();
+        assert_eq!(places, ["node \"0\"", "node \"10\""]);
+        let right = local_map([99_985.0, 99_995.0, 100_005.0], degrees);
+        assert!(!codes(&right).contains(&Code::Implausible));
+    }
+}
+
+#[test]
+fn a_second_way_of_a_role_is_reported() {
+    let Some(cases) = real_cases("ll2") else {
+        return;
+    };
+    let layout = read_real(&cases.join("l07_split.osm"));
+    let found = layout
+        .diagnostics
+        .iter()
+        .find(|d| d.code == Code::UnknownValue)
+        .unwrap();
+    assert_eq!(found.place.element, "relation \"200\"");
+    assert!(found.message.contains("`right`"), "{}", found.message);
 }

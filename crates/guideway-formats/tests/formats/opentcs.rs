@@ -290,3 +290,40 @@ fn reports_unknown_points_and_accepts_loops() {
         ("path \"P\"", Some(2))
     );
 }
+
+#[test]
+fn paths_of_hidden_layers_are_not_drawn() {
+    let model = |layer: &str, group: &str| {
+        let point =
+            |name: &str, x: u32| format!("<point name='{name}' positionX='{x}' positionY='0'/>");
+        let path = |name: &str, id: u32| {
+            format!(
+                "<path name='{name}' sourcePoint='A' destinationPoint='B'>\
+                 <pathLayout connectionType='DIRECT' layerId='{id}'/></path>"
+            )
+        };
+        read(&format!(
+            "<model version='6.0.0' name='m'>{}{}{}{}<visualLayout name='V'>\
+             <layer id='0' ordinal='0' visible='true' name='Shown' groupId='0'/>\
+             <layer id='1' ordinal='1' visible='{layer}' name='Other' groupId='1'/>\
+             <layerGroup id='0' name='G' visible='true'/>\
+             <layerGroup id='1' name='H' visible='{group}'/></visualLayout>\
+             <block name='b'><member name='other'/></block></model>",
+            point("A", 0),
+            point("B", 5000),
+            path("shown", 0),
+            path("other", 1)
+        ))
+    };
+    let shown = model("true", "true");
+    assert_eq!((shown.paths.len(), shown.refused.len()), (2, 0));
+    for (layer, group) in [("false", "true"), ("true", "false")] {
+        let layout = model(layer, group);
+        assert_eq!(layout.paths.len(), 1);
+        let refused = layout.refused.iter().next().unwrap();
+        assert_eq!((refused.id, refused.code), ("other", Code::NotDrawn));
+        assert_eq!(refused.detail, "its layer `Other` is hidden");
+        // The block keeps the name of its member, which exists.
+        assert_eq!(codes(&layout), [Code::NotDrawn]);
+    }
+}
