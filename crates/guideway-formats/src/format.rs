@@ -65,7 +65,7 @@ impl Format {
             Self::GeoJson => "GeoJSON and Nav2 route graphs",
             Self::Dxf => "DXF drawings",
             Self::Svg => "SVG drawings",
-            Self::Rmf => "Open-RMF buildings and navigation graphs (YAML)",
+            Self::Rmf => "Open-RMF buildings and navigation graphs (YAML), sites (JSON)",
             Self::OpenDrive => "OpenDRIVE roads (XML)",
             Self::Lanelet2 => "Lanelet2 maps (OSM XML)",
             Self::Arrow => "Arrow IPC files of paths",

@@ -10,6 +10,7 @@
 //! | scale | measurements, fiducials | a frame per level: file units to meters | `frame` |
 //! | map | vertices, lanes, walls, doors | nodes, paths, blocks | `site`, `level_mapper`, `edges` |
 //! | map | parameters, lifts | columns, stations | `parameters`, `lifts`; `reader`, `site_mapper` |
+//! | map | site of the site editor (JSON) | nodes, paths, stations | `site_file` |
 //! | write | layout | navigation graph, losses | `write`, `graph_*`, `yaml_text` |
 
 mod edges;
@@ -23,6 +24,7 @@ mod lifts;
 mod parameters;
 mod reader;
 mod site;
+mod site_file;
 mod site_mapper;
 mod write;
 mod yaml_text;
@@ -32,6 +34,7 @@ use guideway_layout::{Layout, Place};
 pub(crate) use self::site::NAVIGATION_GRAPH;
 pub use self::write::write_navigation_graph;
 
+use self::site_file::SiteFileMapper;
 use self::site_mapper::SiteMapper;
 use crate::source::Source;
 use crate::yaml::Yaml;
@@ -46,7 +49,7 @@ pub(crate) fn is_rmf(text: &[u8]) -> bool {
     })
 }
 
-/// Reads a building or a navigation graph into a layout.
+/// Reads a building, a navigation graph or a site into a layout.
 ///
 /// # Errors
 /// When the text is not YAML with an object `levels` or exceeds a limit, or when the caller
@@ -54,6 +57,9 @@ pub(crate) fn is_rmf(text: &[u8]) -> bool {
 pub(crate) fn read(source: Source<'_>, bytes: &[u8]) -> Result<Layout, ReadError> {
     let text = text::decode_utf8(&source, bytes)?;
     let yaml = Yaml::parse(&source, text)?;
+    if let Some(root) = yaml.root().filter(|root| site_file::is_site(*root)) {
+        return SiteFileMapper::new(source, bytes.len(), root).read();
+    }
     let levels = yaml.root().and_then(|root| root.get("levels"));
     let Some((root, levels)) = yaml.root().zip(levels.filter(|levels| levels.is_map())) else {
         let found = levels.map_or("nothing", |levels| levels.kind());
