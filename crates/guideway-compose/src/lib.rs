@@ -62,7 +62,7 @@ pub use backdrop::{
 };
 pub use decorations::Decorations;
 pub use error::{ComposeError, ImageError};
-pub use guideway_document::decorations::{DecorationStyle, grid, legend, scale_bar};
+pub use guideway_document::decorations::{Corner, DecorationStyle, grid, legend, scale_bar};
 pub use guideway_document::text_format;
 pub use guideway_formats::lock_regular_file;
 pub use guideway_formats::raster::ImagePlacement;

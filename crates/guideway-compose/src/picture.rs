@@ -7,7 +7,7 @@ use guideway_scene::{Budget, DrawList, FrameSize, RenderError, Scene, Style, Vie
 use guideway_spline::{Bounds, Point};
 
 use crate::backdrop::Backdrop;
-use crate::decorations::{Decorations, PlacedDecorations, place};
+use crate::decorations::{Decorations, PlacedDecorations, place, place_legend};
 
 /// Everything that a picture shows. All fields are public: start with [`Picture::new`] and set
 /// those that differ.
@@ -75,7 +75,7 @@ impl Picture {
     }
 
     /// The view that the viewport selects. Where it fits all layers, a title keeps a band at the
-    /// top to itself.
+    /// top to itself, and so does a legend for which no corner is free, there or on the left.
     ///
     /// # Errors
     /// When center or scale are out of range: see [`View::new`].
@@ -91,13 +91,44 @@ impl Picture {
         let bounds = [self.scene.bounds(), self.backdrop.bounds(&self.scene)];
         let bounds = bounds.into_iter().flatten().reduce(Bounds::union);
         let title_px = self.decorations.title_band_px(&self.decoration_style());
-        let free_height = (f64::from(size.height()) - title_px).max(1.0) as u32;
-        let all = View::fit(FrameSize::new(size.width(), free_height)?, bounds)?;
+        let plain = self.fit([0.0, title_px], px_per_m, bounds)?;
+        if center_m.is_some() || px_per_m.is_some() {
+            let center_m = center_m.unwrap_or(plain.center_m());
+            return View::new(size, center_m, plain.px_per_m());
+        }
+        let style = self.decoration_style();
+        match place_legend(&self.decorations, &self.scene, &plain, &style) {
+            Some(legend) if !legend.is_free => {
+                let beside = self.fit([legend.bounds.max.x, title_px], None, bounds)?;
+                let below = self.fit([0.0, legend.bounds.max.y], None, bounds)?;
+                match beside.px_per_m() >= below.px_per_m() {
+                    true => Ok(beside),
+                    false => Ok(below),
+                }
+            }
+            _ => Ok(plain),
+        }
+    }
+
+    /// The view that fits `bounds` into the picture without bands on the left and at the top, or
+    /// centers it there at a scale.
+    fn fit(
+        &self,
+        [left_px, top_px]: [f64; 2],
+        px_per_m: Option<f64>,
+        bounds: Option<Bounds<f64>>,
+    ) -> Result<View, RenderError> {
+        let size = self.viewport.size;
+        let free = |px: u32, band_px: f64| (f64::from(px) - band_px).max(1.0) as u32;
+        let (width, height) = (free(size.width(), left_px), free(size.height(), top_px));
+        let all = View::fit(FrameSize::new(width, height)?, bounds)?;
+        // The free part of the picture is beside its middle by half of the bands.
+        let band = Point::new(
+            -f64::from(size.width() - width),
+            f64::from(size.height() - height),
+        );
         let px_per_m = px_per_m.unwrap_or(all.px_per_m());
-        // The free part of the picture is below its middle by half of the band.
-        let up_m = f64::from(size.height() - free_height) / 2.0 / px_per_m;
-        let middle_m = all.center_m() + Point::new(0.0, up_m);
-        View::new(size, center_m.unwrap_or(middle_m), px_per_m)
+        View::new(size, all.center_m() + band * (0.5 / px_per_m), px_per_m)
     }
 
     /// Colors and sizes of the decorations.
@@ -114,8 +145,8 @@ impl Picture {
 
 #[cfg(test)]
 mod tests {
-    use guideway_layout::{Layout, NewPath};
-    use guideway_scene::SceneOptions;
+    use guideway_layout::{Layout, NewPath, Value};
+    use guideway_scene::{ColorBy, SceneOptions};
     use guideway_spline::Runs;
 
     use super::*;
@@ -135,6 +166,67 @@ mod tests {
         });
         let scene = Scene::new(Arc::new(layout), &SceneOptions::default()).unwrap();
         Picture::new(Arc::new(scene), size())
+    }
+
+    /// Paths of two levels of speed along all sides of a site, with a legend.
+    fn with_legend(side_m: Point<f64>) -> Picture {
+        let mut layout = Layout::default();
+        let corners = [
+            Point::new(0.0, 0.0),
+            Point::new(side_m.x, 0.0),
+            side_m,
+            Point::new(0.0, side_m.y),
+        ];
+        for (row, start) in corners.into_iter().enumerate() {
+            let mut runs = Runs::default();
+            runs.push_line(start, corners[(row + 1) % 4]);
+            layout.paths.push(&NewPath {
+                id: "side",
+                runs: &runs,
+                ..NewPath::default()
+            });
+            let kind = Value::Text(if row < 2 { "slow" } else { "fast" });
+            layout.paths.attributes.set(row, "kind", kind);
+        }
+        let options = SceneOptions {
+            color_by: Some(ColorBy {
+                column: "kind".into(),
+            }),
+            ..SceneOptions::default()
+        };
+        let scene = Scene::new(Arc::new(layout), &options).unwrap();
+        let mut picture = Picture::new(Arc::new(scene), size());
+        picture.decorations.has_legend = true;
+        picture
+    }
+
+    #[test]
+    fn a_legend_hides_no_path() {
+        for side_m in [
+            Point::new(12.0, 8.0),
+            Point::new(40.0, 8.0),
+            Point::new(4.0, 90.0),
+        ] {
+            let picture = with_legend(side_m);
+            let view = picture.view().unwrap();
+            let bounds = view.world_bounds();
+            assert!(bounds.contains(Point::new(0.0, 0.0)) && bounds.contains(side_m));
+            let style = picture.decoration_style();
+            let legend = place_legend(&picture.decorations, &picture.scene, &view, &style);
+            assert!(legend.unwrap().is_free, "{side_m:?}");
+        }
+    }
+
+    #[test]
+    fn a_legend_over_a_fixed_view_takes_a_free_corner() {
+        let mut picture = with_legend(Point::new(12.0, 8.0));
+        picture.viewport.center_m = Some(Point::new(12.0, 8.0));
+        picture.viewport.px_per_m = Some(20.0);
+        let view = picture.view().unwrap();
+        assert_eq!(view.px_per_m(), 20.0);
+        let style = picture.decoration_style();
+        let legend = place_legend(&picture.decorations, &picture.scene, &view, &style);
+        assert!(legend.unwrap().is_free);
     }
 
     #[test]

@@ -4,13 +4,16 @@
 //! |---|---|---|
 //! | `options` | | [`Decorations`]: the selection |
 //! | `title` | a text | draw list: one line at the top center |
+//! | `place_legend` | scene, view, selection | the legend in a corner without paths |
 //! | `place` | scene, view, selection | draw lists that keep clear of each other |
 //!
 //! `guideway_document::decorations` draws grid, marks, scale bar and legend.
 
 mod options;
 mod place;
+mod place_legend;
 mod title;
 
 pub use options::Decorations;
 pub(crate) use place::{PlacedDecorations, place};
+pub(crate) use place_legend::place_legend;

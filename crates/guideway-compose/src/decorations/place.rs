@@ -2,12 +2,13 @@
 
 use guideway_document::Document;
 use guideway_document::decorations::{
-    DecorationStyle, Label, MarkOptions, Marks, grid, legend, marks, scale_bar, scale_bar_box,
+    DecorationStyle, Label, MarkOptions, Marks, grid, marks, scale_bar, scale_bar_box,
 };
 use guideway_scene::{DrawList, Scene, Style, View};
 use guideway_spline::{Bounds, Point};
 
 use super::options::Decorations;
+use super::place_legend::place_legend;
 use super::title::title;
 
 /// Opacity of the paper behind the scale bar.
@@ -44,17 +45,15 @@ pub(crate) fn place(
         occupied.push(bounds);
         placed.margin.push((list, "title"));
     }
-    if let Some(colors) = scene.legend().filter(|_| decorations.has_legend) {
-        let top_px = decorations.title_band_px(style);
-        match legend(colors, size, top_px, style) {
-            Some((list, bounds)) => {
-                occupied.push(bounds);
-                placed.margin.push((list, "legend"));
-            }
-            None => placed.notes.push(
-                "the legend is larger than the picture, so it is only in this report".to_owned(),
-            ),
+    match place_legend(decorations, scene, view, style) {
+        Some(placed_legend) => {
+            occupied.push(placed_legend.bounds);
+            placed.margin.push((placed_legend.list, "legend"));
         }
+        None if decorations.has_legend && scene.legend().is_some() => placed
+            .notes
+            .push("the legend is larger than the picture, so it is only in this report".to_owned()),
+        None => {}
     }
     if decorations.has_scale_bar {
         let bounds = scale_bar_box(view, style);

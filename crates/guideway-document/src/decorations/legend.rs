@@ -1,4 +1,4 @@
-//! Legend: the meaning of the colors, in the upper left corner.
+//! Legend: the meaning of the colors, in a corner.
 
 use guideway_scene::{DrawList, FrameSize, Legend, LegendEntry, TextLine};
 use guideway_spline::{Bounds, Point};
@@ -11,8 +11,31 @@ const MAX_LABEL_CHARS: usize = 40;
 /// Opacity of the paper behind the legend: paths shine through without making it hard to read.
 const PAPER_OPACITY: f64 = 0.9;
 
-/// The legend and its box, `top_px` below the top of a picture of `size` pixels. `None` if the
-/// legend does not fit the picture.
+/// A corner of a picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Corner {
+    /// On the left, at the top.
+    UpperLeft,
+    /// On the right, at the top.
+    UpperRight,
+    /// On the right, at the bottom.
+    LowerRight,
+    /// On the left, at the bottom.
+    LowerLeft,
+}
+
+impl Corner {
+    /// All corners, clockwise.
+    pub const ALL: [Self; 4] = [
+        Self::UpperLeft,
+        Self::UpperRight,
+        Self::LowerRight,
+        Self::LowerLeft,
+    ];
+}
+
+/// The legend and its box in a corner of a picture of `size` pixels, whose upper `top_px` are
+/// taken. `None` if the legend does not fit the picture.
 ///
 /// ```text
 /// +-------------------+
@@ -25,6 +48,7 @@ pub fn legend(
     legend: &Legend,
     size: FrameSize,
     top_px: f64,
+    corner: Corner,
     style: &DecorationStyle,
 ) -> Option<(DrawList, Bounds<f64>)> {
     let line_px = style.line_px();
@@ -45,12 +69,19 @@ pub fn legend(
 
     let gap = Point::new(gap_px, gap_px);
     let lines_px = (labels.len() + 1) as f64 * line_px;
-    let min = gap + Point::new(0.0, top_px);
-    let max = min + Point::new(widest_px.ceil(), lines_px) + gap * 2.0;
-    let (width, height) = (f64::from(size.width()), f64::from(size.height()));
-    if max.x + gap_px > width || max.y + gap_px > height {
+    let extent = Point::new(widest_px.ceil(), lines_px) + gap * 2.0;
+    let first = gap + Point::new(0.0, top_px);
+    let last = Point::new(f64::from(size.width()), f64::from(size.height())) - gap - extent;
+    if first.x > last.x || first.y > last.y {
         return None;
     }
+    let min = match corner {
+        Corner::UpperLeft => first,
+        Corner::UpperRight => Point::new(last.x, first.y),
+        Corner::LowerRight => last,
+        Corner::LowerLeft => Point::new(first.x, last.y),
+    };
+    let max = min + extent;
     let mut list = DrawList::default();
     list.fill_rectangle(style.paper.with_opacity(PAPER_OPACITY), min, max);
     let corner = min + gap;
@@ -107,7 +138,7 @@ mod tests {
     fn swatch_and_label_share_a_line() {
         let size = FrameSize::new(800, 200).unwrap();
         let style = DecorationStyle::new(Rgba::WHITE, 1.0);
-        let (list, _) = legend(&speeds(), size, 0.0, &style).unwrap();
+        let (list, _) = legend(&speeds(), size, 0.0, Corner::UpperLeft, &style).unwrap();
         let texts: Vec<_> = list.texts.iter().map(|text| text.text.as_str()).collect();
         assert_eq!(texts, ["maxSpeed (m/s)", "fast (1,234)"]);
         let swatch = &list.fills[1].polygons[0];
@@ -116,9 +147,24 @@ mod tests {
     }
 
     #[test]
+    fn a_legend_lies_in_its_corner() {
+        let size = FrameSize::new(800, 200).unwrap();
+        let style = DecorationStyle::new(Rgba::WHITE, 1.0);
+        let boxes = Corner::ALL.map(|corner| {
+            let (_, bounds) = legend(&speeds(), size, 10.0, corner, &style).unwrap();
+            bounds.center()
+        });
+        let sides = boxes.map(|center| (center.x < 400.0, center.y < 100.0));
+        assert_eq!(
+            sides,
+            [(true, true), (false, true), (false, false), (true, false)]
+        );
+    }
+
+    #[test]
     fn a_legend_larger_than_the_picture_is_not_drawn() {
         let size = FrameSize::new(60, 40).unwrap();
         let style = DecorationStyle::new(Rgba::WHITE, 1.0);
-        assert!(legend(&speeds(), size, 0.0, &style).is_none());
+        assert!(legend(&speeds(), size, 0.0, Corner::UpperLeft, &style).is_none());
     }
 }

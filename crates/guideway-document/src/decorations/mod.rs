@@ -36,7 +36,7 @@ mod style;
 pub use grid::grid;
 pub use handles::{Handle, handles};
 pub use labels::{Label, LabelSize};
-pub use legend::legend;
+pub use legend::{Corner, legend};
 pub use marks::{Arrow, MAX_MARKED, MarkOptions, Marks};
 pub use outline::{Outline, outline, path_outline};
 pub use place_marks::marks;

@@ -5,7 +5,9 @@ use eframe::egui::{
     Color32, FontId, Modifiers, Painter, Pos2, Rect, Stroke, TextureHandle, Vec2, pos2,
 };
 use guideway_document::PathSet;
-use guideway_document::decorations::{DecorationStyle, handles, legend, outline, scale_bar};
+use guideway_document::decorations::{
+    Corner, DecorationStyle, handles, legend, outline, scale_bar,
+};
 use guideway_scene::View;
 use guideway_spline::Point;
 
@@ -57,7 +59,9 @@ impl CanvasPainter<'_> {
         list(scale_bar(&self.view, &style));
         let document = self.files.document();
         let colors = document.and_then(|document| document.scene().legend());
-        let colors = colors.and_then(|colors| legend(colors, self.view.size(), 0.0, &style));
+        let corner = Corner::UpperLeft;
+        let colors =
+            colors.and_then(|colors| legend(colors, self.view.size(), 0.0, corner, &style));
         if let Some((colors, _)) = colors {
             list(colors);
         }
