@@ -1,0 +1,200 @@
+//! Tests of growth: reading time against the size of inputs that attack one stage. An exponent is
+//! fitted over three sizes, so the speed of the machine does not matter.
+
+use std::fs;
+use std::sync::LazyLock;
+use std::time::Instant;
+
+use guideway_formats::{ReadOptions, read_bytes};
+
+/// Factor from one size to the next.
+const STEP: usize = 3;
+
+/// Largest exponent of a stage that is linear but for memory and logarithms.
+const LINEAR: f64 = 1.5;
+
+/// Time that this thread has run, in nanoseconds: on Linux without the time in which others ran.
+fn clock_ns() -> u64 {
+    static START: LazyLock<Instant> = LazyLock::new(Instant::now);
+    let of_thread = fs::read_to_string("/proc/thread-self/schedstat").ok();
+    let of_thread = of_thread.and_then(|text| text.split(' ').next()?.parse().ok());
+    of_thread.unwrap_or_else(|| START.elapsed().as_nanos() as u64)
+}
+
+/// Returns the exponent by which the time of `work` grows with its size, from `size`, and 3 and 9
+/// times as much.
+fn exponent(size: usize, work: impl Fn(usize)) -> f64 {
+    /// Shorter times are repeated.
+    const MIN_NS: u64 = 20_000_000;
+    let mean_ns = |size| {
+        let start = clock_ns();
+        let mut runs = 0_u32;
+        loop {
+            work(size);
+            runs += 1;
+            let elapsed = clock_ns() - start;
+            if elapsed > MIN_NS || runs == 1000 {
+                return (elapsed as f64 / f64::from(runs)).ln();
+            }
+        }
+    };
+    let sizes = [size, size * STEP, size * STEP * STEP];
+    let [first, _, last] = sizes.map(mean_ns);
+    // The least squares line over three equally spaced places has the slope of its ends.
+    (last - first) / (2.0 * (STEP as f64).ln())
+}
+
+/// Checks that the time to read the file of a size grows at most linearly.
+fn assert_linear(name: &str, size: usize, file: impl Fn(usize) -> String) {
+    let files = [1, STEP, STEP * STEP].map(|factor| file(size * factor));
+    let found = exponent(1, |factor| {
+        let index = factor.ilog(STEP) as usize;
+        let _ = read_bytes(name, files[index].as_bytes(), &ReadOptions::default());
+    });
+    assert!(found < LINEAR, "{name} grows with the exponent {found:.2}");
+}
+
+fn svg(content: &str) -> String {
+    let namespace = "http://www.w3.org/2000/svg";
+    format!("<svg xmlns='{namespace}' width='9mm' viewBox='0 0 9 9'>{content}</svg>")
+}
+
+#[test]
+fn a_square_is_noticed() {
+    let square = exponent(300, |size| {
+        let all: Vec<usize> = (0..size).collect();
+        let sum = |a: &usize| {
+            all.iter()
+                .map(|b| (a ^ b).count_ones() as usize)
+                .sum::<usize>()
+        };
+        std::hint::black_box(all.iter().map(sum).sum::<usize>());
+    });
+    assert!(square > LINEAR + 0.2, "{square:.2}");
+}
+
+#[test]
+fn styles_are_folded_once() {
+    let shape = "<path class='a b' id='i' d='M0 0H1' stroke='red'/>";
+    for (name, selector) in [
+        ("every element", "*"),
+        ("elements", "path"),
+        ("classes", ".a"),
+        ("elements with a class", "path.b"),
+        ("identifiers", "#i"),
+    ] {
+        assert_linear(name, 300, |size| {
+            let rules = format!("{selector}{{fill:red}}").repeat(size);
+            svg(&format!("<style>{rules}</style>{}", shape.repeat(size)))
+        });
+    }
+    assert_linear("a long rule", 300, |size| {
+        let rule = format!("path{{{}}}", "fill:red;stroke:blue;".repeat(size));
+        svg(&format!("<style>{rule}</style>{}", shape.repeat(size)))
+    });
+    assert_linear("a rule of many selectors", 300, |size| {
+        let selectors: Vec<String> = (0..size).map(|i| format!(".c{i}")).collect();
+        let rule = format!("{}{{{}}}", selectors.join(","), "fill:red;".repeat(size));
+        svg(&format!("<style>{rule}</style>"))
+    });
+    assert_linear("many sheets", 300, |size| {
+        let sheets = "<style>.a{fill:red}</style>".repeat(size);
+        svg(&(sheets + &shape.repeat(size)))
+    });
+}
+
+#[test]
+fn repeated_elements_pay_for_their_bytes() {
+    // The budget of repetitions is at least 16 MiB, so the sizes begin above it.
+    for (name, attribute, part) in [
+        ("styles", "style", "fill:red;"),
+        ("transforms", "transform", "scale(1)"),
+    ] {
+        assert_linear(name, 1500, |size| {
+            let heavy = format!("<g {attribute}='{}'/>", part.repeat(size));
+            let uses = "<use href='#t'/>".repeat(size);
+            svg(&format!("<defs><g id='t'>{heavy}</g></defs>{uses}"))
+        });
+    }
+    assert_linear("identifiers of references", 4500, |size| {
+        let id = "i".repeat(size);
+        let target = format!("<g id='t'>{}</g>", "<g/>".repeat(size));
+        svg(&format!("<defs>{target}</defs><use id='{id}' href='#t'/>"))
+    });
+}
+
+#[test]
+fn entities_and_namespaces_are_counted() {
+    let document = |declarations: &str, content: &str| {
+        format!("<!DOCTYPE svg [{declarations}]>{}", svg(content))
+    };
+    // The budget of expansions is at least 4 MiB, so the sizes begin above it.
+    assert_linear("references to a long entity", 3000, |size| {
+        let entity = format!("<!ENTITY a '{}'>", "x".repeat(size));
+        document(&entity, &"&a;".repeat(size))
+    });
+    assert_linear("names of entities that have no end", 3000, |size| {
+        document("<!ENTITY a 'x'>", &"<g id='&a&a&a'/>".repeat(size))
+    });
+    assert_linear("default attributes", 300, |size| {
+        let names: String = (0..size).map(|i| format!(" a{i} CDATA 'x'")).collect();
+        document(&format!("<!ATTLIST g{names}>"), &"<g/>".repeat(size))
+    });
+    assert_linear("prefixes", 3000, |size| {
+        let outer = |i: usize| format!("<g xmlns:n{i}='u{i}'>");
+        let open: String = (0..100).map(outer).collect();
+        let inner = "<g n0:a='1'/>".repeat(size);
+        svg(&format!("{open}{inner}{}", "</g>".repeat(100)))
+    });
+}
+
+#[test]
+fn roads_of_many_sections_are_linear() {
+    let road = |geometry: &str, types: &str, lanes: &str| {
+        format!(
+            "<OpenDRIVE><road id='1' length='1'>{types}<planView>{geometry}</planView>\
+             <lanes>{lanes}</lanes></road></OpenDRIVE>"
+        )
+    };
+    let geometries = |size: usize| -> String {
+        let line =
+            |s| format!("<geometry s='{s}' x='{s}' y='0' hdg='0' length='1'><line/></geometry>");
+        (0..size).map(line).collect()
+    };
+    let width = "<width sOffset='0' a='3' b='0' c='0' d='0'/>";
+    let sections = |size: usize| -> String {
+        let lane = format!("<left><lane id='1'>{width}</lane></left>");
+        let section = |s| format!("<laneSection s='{s}'>{lane}</laneSection>");
+        (0..size).map(section).collect()
+    };
+    assert_linear("sections beside geometries", 300, |size| {
+        road(&geometries(size), "", &sections(size))
+    });
+    assert_linear("sections beside lane offsets", 300, |size| {
+        let offset = |s| format!("<laneOffset s='{s}' a='1' b='0' c='0' d='0'/>");
+        let offsets: String = (0..size).map(offset).collect();
+        road(&geometries(size), "", &(offsets + &sections(size)))
+    });
+    let limit = |s| format!("<type s='{s}'><speed max='{}'/></type>", s % 9 + 1);
+    assert_linear("sections beside speed limits", 300, |size| {
+        let limits: String = (0..size).map(limit).collect();
+        road(&geometries(size), &limits, &sections(size))
+    });
+    assert_linear("lanes beside speed limits", 300, |size| {
+        let limits: String = (0..size).map(limit).collect();
+        let lane = |id| format!("<lane id='{id}'>{width}</lane>");
+        let lanes: String = (1..size).map(lane).collect();
+        let line = "<geometry s='0' x='0' y='0' hdg='0' length='1e5'><line/></geometry>";
+        let section = format!("<laneSection s='0'><left>{lanes}</left></laneSection>");
+        road(line, &limits, &section)
+    });
+    assert_linear("findings beside sections", 300, |size| {
+        let lane = "<left><lane id='1'/></left>";
+        let section = |s| format!("<laneSection s='{s}'>{lane}</laneSection>");
+        road(
+            &geometries(size),
+            "",
+            &(0..size).map(section).collect::<String>(),
+        )
+    });
+}
