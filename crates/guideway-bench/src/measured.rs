@@ -1,4 +1,4 @@
-//! Results of a measurement, as the JSON reports store them (docs/bench.md).
+//! Results of a measurement, as the JSON reports store them (README.md).
 
 use guideway_scene::{Clock, Preparation, RenderError, Report, Work};
 use serde::{Deserialize, Serialize};

@@ -82,10 +82,10 @@ pub(crate) fn ink(pixels: &[u8]) -> usize {
     pixels.filter(|pixel| *pixel != white).count()
 }
 
-/// Asserts that docs/bench.md explains every key of a report.
+/// Asserts that README.md of guideway-bench explains every key of a report.
 pub(crate) fn assert_documented(report: &Value) {
-    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/bench.md");
-    let page = std::fs::read_to_string(page).expect("docs/bench.md");
+    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../guideway-bench/README.md");
+    let page = std::fs::read_to_string(page).expect("README.md of guideway-bench");
     let mut found = BTreeSet::new();
     collect_keys(report, &mut found);
     assert!(found.len() > 20, "{found:?}");
@@ -95,7 +95,7 @@ pub(crate) fn assert_documented(report: &Value) {
     for key in found {
         assert!(
             page.contains(&format!("`{key}`")),
-            "docs/bench.md does not explain `{key}`"
+            "README.md of guideway-bench does not explain `{key}`"
         );
     }
 }
