@@ -3,7 +3,8 @@
 
 use guideway_document::decorations::{Corner, DecorationStyle, legend, scale_bar_box};
 use guideway_scene::{DrawList, Scene, View};
-use guideway_spline::{Bounds, Point};
+use guideway_spline::Bounds;
+use guideway_spline::uniform::to_bezier;
 
 use super::options::Decorations;
 use super::title::title;
@@ -52,7 +53,7 @@ pub(crate) fn place_legend(
     })
 }
 
-/// Returns whether a path may be within a box of pixels: by the control points of its segments.
+/// Returns whether a path may be within a box of pixels: by the hulls of its Bezier curves.
 fn has_path(scene: &Scene, view: &View, box_px: Bounds<f64>) -> bool {
     let corners = [box_px.min, box_px.max].map(|corner| view.world_from_pixel(corner));
     let Some(box_m) = Bounds::of_points(corners) else {
@@ -63,6 +64,6 @@ fn has_path(scene: &Scene, view: &View, box_px: Bounds<f64>) -> bool {
         .filter(|path| scene.shows_level(path.level()))
         .flat_map(|path| path.runs())
         .flat_map(|run| run.segments())
-        .filter_map(|segment: [Point<f64>; 4]| Bounds::of_points(segment))
+        .filter_map(|segment| Bounds::of_points(to_bezier(&segment)))
         .any(|bounds| bounds.intersects(box_m))
 }
