@@ -331,7 +331,8 @@ impl<'a> Builder<'a> {
         self.check_limit("control points or knots of one curve", limit, count as u64)
     }
 
-    fn charge_text(&mut self, text: &str) -> Result<(), ReadError> {
+    /// Charges a text to the budget of the file.
+    pub(crate) fn charge_text(&mut self, text: &str) -> Result<(), ReadError> {
         self.text_bytes += text.len() as u64;
         let what = "bytes of names and attributes";
         self.check_limit(what, self.max_text_bytes, self.text_bytes)

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use guideway_spline::Affine;
 
 use crate::{
-    Attributes, Block, Diagnostics, GeoOrigin, Level, Nodes, Paths, Refused, Stations, VehicleType,
-    Zone,
+    Attributes, Block, Diagnostics, GeoOrigin, Level, Nodes, Note, Paths, Refused, Stations,
+    VehicleType, Zone,
 };
 
 /// A layout, as read from one file or merged from several.
@@ -31,6 +31,8 @@ pub struct Layout {
     pub blocks: Vec<Block>,
     /// Areas with a rule.
     pub zones: Vec<Zone>,
+    /// Texts, points and placed blocks of a drawing.
+    pub notes: Vec<Note>,
     /// Properties of the layout as a whole, in one row.
     pub attributes: Attributes,
     /// Place on earth of the origin, if the positions of the file were degrees.
@@ -101,6 +103,7 @@ impl Layout {
         self.nodes.transform(by);
         self.stations.transform(by);
         self.zones.iter_mut().for_each(|zone| zone.transform(by));
+        self.notes.iter_mut().for_each(|note| note.transform(by));
         if let Some(widths_m) = self.paths.width_m() {
             let scale = by.x.cross(by.y).abs().sqrt() as f32;
             self.paths

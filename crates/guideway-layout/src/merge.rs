@@ -110,6 +110,7 @@ impl Merged {
             level: zone.level.map(level),
             ..zone
         }));
+        all.notes.append(&mut other.notes);
         fill(&mut all.attributes, &other.attributes);
         all.geo_origin = all.geo_origin.or(other.geo_origin);
         all.diagnostics

@@ -67,6 +67,8 @@ pub(super) struct Block<'b> {
     pub(super) base: Option<Vector3>,
     /// The file of the drawing that the block stands for, if it is an external reference.
     pub(super) external: Option<&'b [u8]>,
+    /// The name, as first written.
+    pub(super) name: String,
     pub(super) entities: Vec<Entity<'b>>,
     /// Cached result of [`Drawing::expanded_count`].
     expanded_count: Cell<Option<u64>>,
@@ -179,8 +181,9 @@ impl<'b> Drawing<'b> {
                     current.external = record.text(1).filter(|_| is_external);
                 }
                 b"ENDBLK" => {
-                    let block = std::mem::take(&mut current);
+                    let mut block = std::mem::take(&mut current);
                     if let Some(row) = row.take() {
+                        block.name = std::mem::take(&mut self.blocks[row as usize].name);
                         self.blocks[row as usize] = block;
                     }
                 }
@@ -197,12 +200,16 @@ impl<'b> Drawing<'b> {
 
     /// The row of a block by its case-insensitive name. Adds an undefined block if the name is new.
     fn block_row(&mut self, name: &[u8]) -> u32 {
-        let key = self.layers.texts.decode(name).to_uppercase();
+        let name = self.layers.texts.decode(name);
+        let key = name.to_uppercase();
         if let Some(&row) = self.block_rows.get(&key) {
             return row;
         }
         let row = self.blocks.len() as u32;
-        self.blocks.push(Block::default());
+        self.blocks.push(Block {
+            name,
+            ..Block::default()
+        });
         self.block_rows.insert(key, row);
         row
     }
@@ -248,7 +255,7 @@ impl<'b> Drawing<'b> {
                 };
                 return Ok(Some(entity));
             }
-            other => shape(other, record),
+            other => shape(other, record, &self.layers.texts),
         };
         Ok(Some(Entity::of(kind, record, &mut self.layers, shape)))
     }

@@ -6,8 +6,10 @@ use guideway_layout::Code;
 
 use super::affine3::{Affine3, Vector3};
 use super::outlines::{face, multiline, solid};
+use super::notes::{Mark, is_note, mark};
 use super::records::Record;
 use super::style::{Color, Layers};
+use super::text::TextDecoder;
 use super::xdata::read_path_id;
 
 /// An entity: its shape and the properties that all kinds share.
@@ -36,6 +38,8 @@ pub(super) enum Shape {
     Insert(Box<Insert>),
     /// Several lines, each of which is a path.
     Lines(Vec<Self>),
+    /// A text or a point, which is not drawn.
+    Mark(Box<Mark>),
     /// The finding that prevents drawing.
     Broken(Code, String),
 }
@@ -96,7 +100,7 @@ pub(super) struct Insert {
 }
 
 /// The supported kinds of entities.
-const KINDS: [&str; 12] = [
+const KINDS: [&str; 16] = [
     "LINE",
     "ARC",
     "CIRCLE",
@@ -109,6 +113,10 @@ const KINDS: [&str; 12] = [
     "SOLID",
     "TRACE",
     "3DFACE",
+    "TEXT",
+    "MTEXT",
+    "ATTRIB",
+    "POINT",
 ];
 
 /// The kind of a record, if supported.
@@ -164,7 +172,7 @@ impl<'b> Entity<'b> {
 }
 
 /// Parses the shape of a record of any supported kind except POLYLINE and INSERT.
-pub(super) fn shape(kind: &str, record: &Record<'_>) -> Shape {
+pub(super) fn shape(kind: &str, record: &Record<'_>, texts: &TextDecoder) -> Shape {
     let shape = match kind {
         "LINE" => line(record),
         "ARC" | "CIRCLE" => circle(record, kind == "ARC"),
@@ -173,6 +181,7 @@ pub(super) fn shape(kind: &str, record: &Record<'_>) -> Shape {
         "MLINE" => multiline(record),
         "SOLID" | "TRACE" => solid(record),
         "3DFACE" => face(record),
+        note if is_note(note) => mark(note, record, texts),
         _ => Some(spline(record)),
     };
     shape.unwrap_or_else(|| {

@@ -6,6 +6,7 @@ use guideway_spline::Runs;
 use super::affine3::{Affine3, Vector3};
 use super::drawing::Drawing;
 use super::entity::{Entity, Insert, Shape};
+use super::notes::{add_block, add_mark, is_note};
 use super::shapes::{ExceededLimit, ShapeLimits, append_arc, append_polyline, append_spline};
 use super::style::{Color, Layer, path_color};
 use crate::ReadError;
@@ -95,6 +96,15 @@ impl<'a> EntityMapper<'a> {
             }
             None => None,
         };
+        if is_note(entity.kind) {
+            // What is hidden or broken names nothing.
+            return match (&entity.shape, detail) {
+                (Shape::Mark(mark), None) => {
+                    add_mark(&mut self.builder, mark, &context.transform, &layer.name)
+                }
+                _ => Ok(()),
+            };
+        }
         if let Some(detail) = detail {
             return self.refuse(entity, context, Code::NotDrawn, &detail, at);
         }
@@ -200,7 +210,7 @@ impl<'a> EntityMapper<'a> {
                 *written = append_spline(&mut self.builder, spline, transform, at, runs)?;
                 Ok(())
             }
-            Shape::Insert(_) | Shape::Lines(_) | Shape::Broken(..) => Ok(()),
+            Shape::Insert(_) | Shape::Lines(_) | Shape::Mark(_) | Shape::Broken(..) => Ok(()),
         };
         let checked = appended.and_then(|()| limits.check(runs));
         if checked == Err(ExceededLimit::Points) {
@@ -273,6 +283,9 @@ impl<'a> EntityMapper<'a> {
                 for entity in &block.entities {
                     self.map_entity(drawing, entity, &inner)?;
                 }
+                let layer = inner.layer.map_or("", |row| &drawing.layers.get(row).name);
+                let at = transform.point(base).xy();
+                add_block(&mut self.builder, &block.name, layer, at)?;
             }
         }
         Ok(())

@@ -6,6 +6,7 @@
 //! | group | pairs | records (group code 0 up to the next one) | `records` |
 //! | parse | records | entities, layers, blocks | `drawing`, `entity`, `outlines`, `style`, `header`, `clips`, `text` |
 //! | map | entities, INSERTs | paths with colors | `entity_mapper`, `shapes`, `fit_spline` |
+//! | note | texts, points, INSERTs | notes of the layout | `notes` |
 //! | write | layout | sections of pairs | `write`, `write_sections`, `pair_writer` |
 //!
 //! The crate has its own tokenizer because a library would not report the entities that it skips,
@@ -19,6 +20,7 @@ mod entity_counts;
 mod entity_mapper;
 mod fit_spline;
 mod header;
+mod notes;
 mod outlines;
 mod pair_reader;
 mod pair_writer;

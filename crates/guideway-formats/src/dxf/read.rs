@@ -10,6 +10,7 @@ use super::entity::known_kind;
 use super::entity_counts::EntityCounts;
 use super::entity_mapper::{CLIP_REMEDY, EntityMapper, InsertContext};
 use super::header::{insertion_unit_m, release_name};
+use super::notes::is_note;
 use super::pair_reader::{PairReader, SENTINEL};
 use super::records::{Record, RecordReader};
 use super::text::is_known_page;
@@ -160,11 +161,17 @@ fn report_lost_clips(builder: &mut Builder<'_>, count: u64) {
 /// Reports the number of entities per unsupported kind.
 fn report_skipped(builder: &mut Builder<'_>, section: &str, counts: &EntityCounts) {
     for (kind, count) in &counts.0 {
-        if known_kind(kind.as_bytes()).is_none() && kind != "VERTEX" {
+        let is_drawn = known_kind(kind.as_bytes()).is_some() && !is_note(kind);
+        if !is_drawn && kind != "VERTEX" {
             let at: PlaceFn<'_> = &|| Place::element(section);
             let message = || format!("{count} entities of the unsupported kind {kind}");
-            let remedy = "They are left out; Guideway draws lines, arcs, splines, outlines of \
-                          areas and blocks";
+            let remedy = match is_note(kind) {
+                true => "They are not drawn; `guideway network` names stations after them",
+                false => {
+                    "They are left out; Guideway draws lines, arcs, splines, outlines of areas and \
+                     blocks"
+                }
+            };
             builder.report(Code::NotDrawn, at, message, remedy);
         }
     }

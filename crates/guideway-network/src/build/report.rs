@@ -1,0 +1,99 @@
+//! [`BuildReport`]: the account of a build.
+
+use guideway_spline::Point;
+
+/// A note that became neither a station nor a name.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LeftNote {
+    /// Its text, or what it is.
+    pub name: String,
+    /// Its position, in meters.
+    pub position_m: Point<f64>,
+}
+
+/// What a build joined, cut, named and left.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct BuildReport {
+    /// Paths of the drawing.
+    pub paths: u64,
+    /// Paths of layers that the options leave out.
+    pub paths_left: u64,
+    /// Circles that mark stations, and so are no edges.
+    pub circles: u64,
+    /// Paths without length.
+    pub dots: u64,
+    /// Paths with a gap, whose parts became edges of their own.
+    pub broken: u64,
+    /// Short lines that became curves.
+    pub smoothed_lines: u64,
+    /// Curves that replace them, in cubic segments.
+    pub smoothed_curves: u64,
+    /// Nodes where ends with a gap between them were joined.
+    pub gaps: u64,
+    /// Largest distance by which an end moved, in meters.
+    pub largest_move_m: f64,
+    /// Ends that meet the middle of a line.
+    pub junctions: u64,
+    /// Places where lines cross and are cut.
+    pub crossings: u64,
+    /// Pairs of curves that lie on each other, which have no crossings.
+    pub overlaps: u64,
+    /// Paths that were cut.
+    pub cut: u64,
+    /// Pieces that were shorter than the weld distance, and vanished in their node.
+    pub vanished: u64,
+    /// Pieces that are drawn twice; one stays.
+    pub repeated: u64,
+    /// Nodes.
+    pub nodes: u64,
+    /// Edges.
+    pub edges: u64,
+    /// Edges on which vehicles drive in both directions.
+    pub two_way: u64,
+    /// Stations, those of the drawing included.
+    pub stations: u64,
+    /// Nodes that a note names.
+    pub named: u64,
+    /// Notes that are farther from every line than the options allow, up to 100 of them.
+    pub left_notes: Vec<LeftNote>,
+    /// Number of such notes.
+    pub left_note_count: u64,
+}
+
+impl BuildReport {
+    /// Most notes that are listed.
+    const MAX_LEFT_NOTES: usize = 100;
+
+    /// Records a note that was left.
+    pub(super) fn leave_note(&mut self, name: &str, position_m: Point<f64>) {
+        self.left_note_count += 1;
+        if self.left_notes.len() < Self::MAX_LEFT_NOTES {
+            let name = name.to_owned();
+            self.left_notes.push(LeftNote { name, position_m });
+        }
+    }
+
+    /// Name and number of each thing that was done or left, in the order of the work.
+    pub fn counts(&self) -> [(&'static str, u64); 18] {
+        [
+            ("paths", self.paths),
+            ("paths_left", self.paths_left),
+            ("circles", self.circles),
+            ("dots", self.dots),
+            ("broken", self.broken),
+            ("smoothed_lines", self.smoothed_lines),
+            ("smoothed_curves", self.smoothed_curves),
+            ("gaps", self.gaps),
+            ("junctions", self.junctions),
+            ("crossings", self.crossings),
+            ("overlaps", self.overlaps),
+            ("cut", self.cut),
+            ("vanished", self.vanished),
+            ("repeated", self.repeated),
+            ("nodes", self.nodes),
+            ("edges", self.edges),
+            ("two_way", self.two_way),
+            ("stations", self.stations),
+        ]
+    }
+}

@@ -1,0 +1,17 @@
+//! Networks of paths: builds them from drawings, finds their faults, and the fastest routes in
+//! them.
+//!
+//! | module | input | output |
+//! |---|---|---|
+//! | [`build`] | the layout of a drawing, [`BuildOptions`] | a layout whose paths meet at nodes, and a [`BuildReport`] |
+//! | [`analyze`] | a layout | findings about parts, dead ends, stations, turns and speeds, per vehicle type |
+//! | [`Router`] | a layout, a vehicle type | the fastest [`Route`] between two stations or nodes |
+//! | `arcs`, `curve` | a layout | driven paths by node; Bezier curves |
+
+mod build;
+mod curve;
+
+pub use build::{
+    BuildError, BuildOptions, BuildReport, DirectionRule, LayerRule, LeftNote, Network, NoteSource,
+    build,
+};

@@ -1,0 +1,12 @@
+//! Tests of networks.
+
+#![expect(clippy::unwrap_used, reason = "helpers of tests may panic")]
+
+#[path = "network/build.rs"]
+mod build;
+#[path = "network/growth.rs"]
+mod growth;
+#[path = "network/laws.rs"]
+mod laws;
+#[path = "network/sketch.rs"]
+mod sketch;
