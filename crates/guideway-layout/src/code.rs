@@ -100,6 +100,24 @@ codes! {
         "Vehicles on two paths come nearer to each other than the requested clearance.";
     WallClearance "wall-clearance" Warning
         "A vehicle comes nearer to the floor plan than the requested clearance.";
+    NotConnected "not-connected" Warning
+        "No path connects a part of the network with the largest part of its level.";
+    OneWayPart "one-way-part" Warning
+        "Vehicles can enter a part of the network and not leave it, or leave it and not enter it.";
+    DeadEnd "dead-end" Warning "Vehicles can enter a node, and cannot go on.";
+    HeadOn "head-on" Warning "One-way paths lead to each other, and none leads away.";
+    StationWithoutNode "station-without-node" Warning "A station has no node.";
+    UnreachableStation "unreachable-station" Warning
+        "Vehicles cannot reach a station, or cannot leave it.";
+    HeadingJump "heading-jump" Warning
+        "The heading jumps from path to path at a node where rotation is forbidden.";
+    ReverseDriving "reverse-driving" Warning
+        "Vehicles must drive back where no rotation is permitted and no orientation is stated.";
+    LateralAcceleration "lateral-acceleration" Warning
+        "The speed of a path is too high for its tightest bend.";
+    NoNodes "no-nodes" Info "The paths of a drawing have no nodes, so they are no network.";
+    NotAnalyzed "not-analyzed" Info
+        "The network is analyzed for some of its vehicle types only.";
     Implausible "implausible" Warning
         "The values are legal but look like a mistake, such as a wrong unit.";
 }

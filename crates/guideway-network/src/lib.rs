@@ -6,11 +6,16 @@
 //! | [`build`] | the layout of a drawing, [`BuildOptions`] | a layout whose paths meet at nodes, and a [`BuildReport`] |
 //! | [`analyze`] | a layout | findings about parts, dead ends, stations, turns and speeds, per vehicle type |
 //! | [`Router`] | a layout, a vehicle type | the fastest [`Route`] between two stations or nodes |
-//! | `arcs`, `curve` | a layout | driven paths by node; Bezier curves |
+//! | `arcs`, `heading`, `bend`, `curve` | a layout | driven paths by node; headings; radii; Bezier curves |
 
+mod analyze;
+mod arcs;
+mod bend;
 mod build;
 mod curve;
+mod heading;
 
+pub use analyze::{AnalyzeOptions, analyze};
 pub use build::{
     BuildError, BuildOptions, BuildReport, DirectionRule, LayerRule, LeftNote, Network, NoteSource,
     build,

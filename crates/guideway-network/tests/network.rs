@@ -2,6 +2,8 @@
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests may panic")]
 
+#[path = "network/analyze.rs"]
+mod analyze;
 #[path = "network/build.rs"]
 mod build;
 #[path = "network/growth.rs"]
