@@ -14,9 +14,11 @@ mod bend;
 mod build;
 mod curve;
 mod heading;
+mod route;
 
 pub use analyze::{AnalyzeOptions, analyze};
 pub use build::{
     BuildError, BuildOptions, BuildReport, DirectionRule, LayerRule, LeftNote, Network, NoteSource,
     build,
 };
+pub use route::{Place, Route, RouteError, RouteOptions, RouteRow, Router};

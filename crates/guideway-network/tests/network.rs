@@ -10,5 +10,7 @@ mod build;
 mod growth;
 #[path = "network/laws.rs"]
 mod laws;
+#[path = "network/route.rs"]
+mod route;
 #[path = "network/sketch.rs"]
 mod sketch;
