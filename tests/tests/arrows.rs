@@ -12,6 +12,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("guideway-datasets", MODEL),
     ("guideway-scene", MODEL),
     ("guideway-envelope", MODEL),
+    ("guideway-network", MODEL),
     ("guideway-cpu", SCENE),
     ("guideway-gpu", SCENE),
     ("guideway-tessellation", SCENE),
@@ -110,7 +111,8 @@ const RESTRICTED: &[(&str, &str)] = &[
     ("fontdb", "guideway-compose"),
     ("harfrust", "guideway-compose"),
     ("skrifa", "guideway-compose"),
-    ("rstar", "guideway-envelope"),
+    ("rstar", "guideway-envelope guideway-network"),
+    ("toml", "guideway-network"),
     ("earcut", "guideway-envelope"),
     ("roaring", "guideway-document"),
 ];

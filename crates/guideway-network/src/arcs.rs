@@ -31,7 +31,8 @@ struct Groups {
 impl Groups {
     fn new(nodes: usize, arcs: &[Arc], node: impl Fn(&Arc) -> u32) -> Self {
         let mut ends = vec![0_u32; nodes + 1];
-        arcs.iter().for_each(|arc| ends[node(arc) as usize + 1] += 1);
+        arcs.iter()
+            .for_each(|arc| ends[node(arc) as usize + 1] += 1);
         for row in 1..ends.len() {
             ends[row] += ends[row - 1];
         }

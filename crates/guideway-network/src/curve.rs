@@ -10,7 +10,12 @@ pub(crate) const SAME_M: f64 = 1e-6;
 
 /// The straight line between two points, with even speed.
 pub(crate) fn line(start: Point<f64>, end: Point<f64>) -> Bezier {
-    [start, start.lerp(end, 1.0 / 3.0), start.lerp(end, 2.0 / 3.0), end]
+    [
+        start,
+        start.lerp(end, 1.0 / 3.0),
+        start.lerp(end, 2.0 / 3.0),
+        end,
+    ]
 }
 
 /// Returns `true` if a curve is a straight line of even speed, up to rounding.

@@ -38,11 +38,13 @@ impl Headings<'_> {
         } else {
             let last = path.runs().last()?;
             let mut segments = last.segments();
-            (0..segments.len()).rev().find_map(|row| {
-                let segment = segments.clone().nth(row)?;
-                end_direction(&uniform::to_bezier(&segment))
-            })
-            .or_else(|| segments.find_map(|s| end_direction(&uniform::to_bezier(&s))))
+            (0..segments.len())
+                .rev()
+                .find_map(|row| {
+                    let segment = segments.clone().nth(row)?;
+                    end_direction(&uniform::to_bezier(&segment))
+                })
+                .or_else(|| segments.find_map(|s| end_direction(&uniform::to_bezier(&s))))
         }?;
         Some(if arc.is_backward { -along } else { along })
     }
@@ -61,7 +63,12 @@ impl Headings<'_> {
         let travel_rad = travel.y.atan2(travel.x);
         let get = |name| value(self.layout, arc.path, self.vehicle_type, name);
         let orientations = match (
-            number(self.layout, arc.path, self.vehicle_type, "vehicleOrientation"),
+            number(
+                self.layout,
+                arc.path,
+                self.vehicle_type,
+                "vehicleOrientation",
+            ),
             get("vehicleOrientations"),
         ) {
             (Some(orientation), _) => vec![orientation],
@@ -72,9 +79,18 @@ impl Headings<'_> {
             return orientations;
         }
         // Without an orientation, vehicles drive ahead; against the path also backward.
-        let ahead = if orientations.is_empty() { vec![0.0] } else { orientations };
+        let ahead = if orientations.is_empty() {
+            vec![0.0]
+        } else {
+            orientations
+        };
         let backward = ahead.iter().filter(|_| arc.is_backward).map(|o| o + PI);
-        ahead.iter().copied().chain(backward).map(|o| travel_rad + o).collect()
+        ahead
+            .iter()
+            .copied()
+            .chain(backward)
+            .map(|o| travel_rad + o)
+            .collect()
     }
 
     /// The least turn in radians from the end of an arc to the start of the next one.

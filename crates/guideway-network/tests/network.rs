@@ -10,6 +10,8 @@ mod build;
 mod growth;
 #[path = "network/laws.rs"]
 mod laws;
+#[path = "network/notes.rs"]
+mod notes;
 #[path = "network/route.rs"]
 mod route;
 #[path = "network/sketch.rs"]

@@ -9,6 +9,7 @@
 //! | [`formats`] | reads and writes files |
 //! | [`layout`] | the model, its checks, merging of files |
 //! | [`spline`] | the mathematics of curves |
+//! | [`network`] | networks from drawings, their faults, and routes |
 //! | [`envelope`] | the areas that vehicles sweep, and their distances |
 //! | [`scene`] | colors, widths and draw order; edits; the contract of all render methods |
 //! | [`document`] | a layout under edit: selection, search, undo, journal |
@@ -160,6 +161,7 @@ pub use guideway_document as document;
 pub use guideway_envelope as envelope;
 pub use guideway_formats as formats;
 pub use guideway_layout as layout;
+pub use guideway_network as network;
 pub use guideway_scene as scene;
 pub use guideway_spline as spline;
 

@@ -36,7 +36,9 @@ pub(super) fn mark(kind: &str, record: &Record<'_>, texts: &TextDecoder) -> Opti
             (plain_mtext(&text), record.vector(10)?)
         }
         _ => {
-            let is_aligned = [72, 73, 74].iter().any(|&code| record.int(code).unwrap_or(0) != 0);
+            let is_aligned = [72, 73, 74]
+                .iter()
+                .any(|&code| record.int(code).unwrap_or(0) != 0);
             let aligned = record.vector(11).filter(|_| is_aligned);
             let at = aligned.or_else(|| record.vector(10))?;
             let text = plain_text(&texts.decode(record.text(1).unwrap_or_default()));
@@ -44,7 +46,11 @@ pub(super) fn mark(kind: &str, record: &Record<'_>, texts: &TextDecoder) -> Opti
         }
     };
     Some(Shape::Mark(Box::new(Mark {
-        kind: if kind == "POINT" { NoteKind::Point } else { NoteKind::Text },
+        kind: if kind == "POINT" {
+            NoteKind::Point
+        } else {
+            NoteKind::Text
+        },
         text,
         at,
         is_attribute: kind == "ATTRIB",
@@ -113,16 +119,18 @@ fn plain_text(text: &str) -> String {
     let mut plain = parts.next().unwrap_or_default().to_owned();
     for part in parts {
         let mut letters = part.chars();
-        plain.push_str(match letters.next().map(|letter| letter.to_ascii_lowercase()) {
-            Some('d') => "°",
-            Some('p') => "±",
-            Some('c') => "⌀",
-            Some('u' | 'o' | 'k') => "",
-            _ => {
-                letters = part.chars();
-                "%"
-            }
-        });
+        plain.push_str(
+            match letters.next().map(|letter| letter.to_ascii_lowercase()) {
+                Some('d') => "°",
+                Some('p') => "±",
+                Some('c') => "⌀",
+                Some('u' | 'o' | 'k') => "",
+                _ => {
+                    letters = part.chars();
+                    "%"
+                }
+            },
+        );
         plain.push_str(letters.as_str());
     }
     plain.trim().to_owned()

@@ -3,7 +3,9 @@
 //! Tarjan's algorithm with a stack of its own: a recursion would overflow on long ways. Source:
 //! Tarjan, Depth-first search and linear graph algorithms, 1972.
 
-use guideway_layout::Code;
+use std::collections::HashMap;
+
+use guideway_layout::{Code, Layout};
 
 use super::finding::{Detail, Element, Findings};
 use crate::arcs::Arcs;
@@ -15,16 +17,19 @@ const NONE: u32 = u32::MAX;
 pub(super) struct Components {
     pub(super) of_node: Vec<u32>,
     pub(super) sizes: Vec<u32>,
+    /// The component is the largest one of a level.
+    is_main: Vec<bool>,
 }
 
 impl Components {
-    pub(super) fn of(arcs: &Arcs) -> Self {
+    pub(super) fn of(layout: &Layout, arcs: &Arcs) -> Self {
         let nodes = arcs.node_count();
         let mut search = Search {
             arcs,
             found: Self {
                 of_node: vec![NONE; nodes as usize],
                 sizes: Vec::new(),
+                is_main: Vec::new(),
             },
             order: vec![NONE; nodes as usize],
             low: vec![0; nodes as usize],
@@ -36,14 +41,38 @@ impl Components {
                 search.visit(node);
             }
         }
-        search.found
+        let mut found = search.found;
+        found.is_main = found.largest(layout);
+        found
     }
 
-    /// The largest component of at least two nodes.
-    pub(super) fn largest(&self) -> Option<u32> {
-        let sizes = self.sizes.iter().copied().zip(0..);
-        let large = sizes.filter(|(size, _)| *size >= 2);
-        large.max_by_key(|&(size, row)| (size, std::cmp::Reverse(row))).map(|(_, row)| row)
+    /// Flags the largest component of each level, if it has at least two nodes. Where several are
+    /// of one size, it is the one with the first node.
+    fn largest(&self, layout: &Layout) -> Vec<bool> {
+        let mut best: HashMap<Option<u32>, u32> = HashMap::new();
+        for (node, &row) in self.of_node.iter().enumerate() {
+            if row == NONE || self.sizes[row as usize] < 2 {
+                continue;
+            }
+            let known = best.entry(layout.nodes.level(node as u32)).or_insert(row);
+            if self.sizes[row as usize] > self.sizes[*known as usize] {
+                *known = row;
+            }
+        }
+        let mut flags = vec![false; self.sizes.len()];
+        best.into_values().for_each(|row| flags[row as usize] = true);
+        flags
+    }
+
+    /// Returns `true` if ways lead in a circle.
+    pub(super) fn has_circle(&self) -> bool {
+        self.is_main.contains(&true)
+    }
+
+    /// Returns `true` if a node is in the largest component of a level.
+    pub(super) fn is_in_main(&self, node: u32) -> bool {
+        let row = self.of_node[node as usize];
+        row != NONE && self.is_main[row as usize]
     }
 }
 
@@ -118,7 +147,8 @@ impl Search<'_> {
 /// dead ends.
 pub(super) fn check(arcs: &Arcs, components: &Components, findings: &mut Findings) {
     let count = components.sizes.len();
-    let (mut entered, mut left, mut first) = (vec![false; count], vec![false; count], vec![NONE; count]);
+    let (mut entered, mut left, mut first) =
+        (vec![false; count], vec![false; count], vec![NONE; count]);
     for arc in &arcs.all {
         let [from, to] = [arc.from, arc.to].map(|node| components.of_node[node as usize] as usize);
         if from != to {
@@ -131,10 +161,9 @@ pub(super) fn check(arcs: &Arcs, components: &Components, findings: &mut Finding
             first[row as usize] = node as u32;
         }
     }
-    let largest = components.largest();
     for row in 0..count {
         let nodes = components.sizes[row];
-        if nodes >= 2 && entered[row] != left[row] && Some(row as u32) != largest {
+        if nodes >= 2 && entered[row] != left[row] && !components.is_main[row] {
             let can_enter = entered[row];
             let detail = Detail::OneWay { nodes, can_enter };
             findings.add(Code::OneWayPart, Element::Node(first[row]), detail);

@@ -31,10 +31,12 @@ pub(super) fn check(layout: &Layout, found: &mut Diagnostics) {
         };
         let is_two_way = path.direction() == Direction::Both;
         for (at, is_end) in [(start, false), (end, true)] {
-            let ends = places.entry((cell(at.x), cell(at.y))).or_insert_with(|| Ends {
-                first: path.row(),
-                ..Ends::default()
-            });
+            let ends = places
+                .entry((cell(at.x), cell(at.y)))
+                .or_insert_with(|| Ends {
+                    first: path.row(),
+                    ..Ends::default()
+                });
             ends.leading_in += u32::from(is_end || is_two_way);
             ends.leading_out += u32::from(!is_end || is_two_way);
         }
@@ -51,7 +53,9 @@ pub(super) fn check(layout: &Layout, found: &mut Diagnostics) {
         },
         "Make a network of it by `guideway network`",
     );
-    let head_on = places.into_iter().filter(|(_, e)| e.leading_in >= 2 && e.leading_out == 0);
+    let head_on = places
+        .into_iter()
+        .filter(|(_, e)| e.leading_in >= 2 && e.leading_out == 0);
     let mut head_on: Vec<_> = head_on.collect();
     head_on.sort_unstable_by_key(|((x, y), ends)| (ends.first, *x, *y));
     for ((x, y), ends) in head_on {
@@ -62,7 +66,10 @@ pub(super) fn check(layout: &Layout, found: &mut Diagnostics) {
             || element_place("path", ends.first, layout.paths.id(ends.first)),
             || {
                 let at = DisplayPosition(guideway_spline::Point::new(at[0], at[1]));
-                format!("{} paths are drawn toward each other and meet at {at}", ends.leading_in)
+                format!(
+                    "{} paths are drawn toward each other and meet at {at}",
+                    ends.leading_in
+                )
             },
             "Reverse one of them; `guideway network` makes lines two-way unless a rule says \
              otherwise",

@@ -37,7 +37,12 @@ pub(super) enum Detail {
     /// Vehicles must drive back.
     Reverse { from: u32, to: u32 },
     /// Speed in a bend.
-    Speed { speed: f64, radius_m: f64, limit: f64, at: Point<f64> },
+    Speed {
+        speed: f64,
+        radius_m: f64,
+        limit: f64,
+        at: Point<f64>,
+    },
 }
 
 struct Finding {
@@ -85,7 +90,8 @@ impl Findings {
         types: &[Option<&str>],
         found: &mut Diagnostics,
     ) {
-        self.list.sort_by_key(|f| (f.code, std::cmp::Reverse(f.severity), f.element));
+        self.list
+            .sort_by_key(|f| (f.code, std::cmp::Reverse(f.severity), f.element));
         let is_same = |a: &Finding, b: &Finding| {
             (a.code, a.severity, a.element) == (b.code, b.severity, b.element)
         };
@@ -107,13 +113,19 @@ impl Findings {
 fn of_types(group: &[Finding], types: &[Option<&str>]) -> String {
     let mut rows: Vec<u32> = group.iter().map(|finding| finding.vehicle_type).collect();
     rows.dedup();
-    if rows.len() >= types.len() || matches!(group[0].element, Element::Station(_)) && is_of_all(group) {
+    if rows.len() >= types.len()
+        || matches!(group[0].element, Element::Station(_)) && is_of_all(group)
+    {
         return String::new();
     }
     let names = rows.iter().filter_map(|&row| types[row as usize]);
     let names: Vec<String> = names.take(4).map(|name| format!("\"{name}\"")).collect();
     let more = rows.len() - names.len();
-    let rest = if more > 0 { format!(" and {more} more") } else { String::new() };
+    let rest = if more > 0 {
+        format!(" and {more} more")
+    } else {
+        String::new()
+    };
     let plural = if rows.len() == 1 { "" } else { "s" };
     format!(", for vehicle type{plural} {}{rest}", names.join(", "))
 }
@@ -136,7 +148,10 @@ fn message(layout: &Layout, detail: Detail) -> String {
         Detail::Part { nodes, paths } => format!(
             "no path connects this part of {nodes} nodes and {paths} paths with the largest part"
         ),
-        Detail::OneWay { nodes, can_enter: true } => {
+        Detail::OneWay {
+            nodes,
+            can_enter: true,
+        } => {
             format!("vehicles can enter this part of {nodes} nodes, but not leave it")
         }
         Detail::OneWay { nodes, .. } => {
@@ -154,7 +169,11 @@ fn message(layout: &Layout, detail: Detail) -> String {
         },
         Detail::NoNode => "it has no node, so no vehicle can stop there".to_owned(),
         Detail::NoPath => "no path leads to its node".to_owned(),
-        Detail::Turn { from, to, angle_rad } => format!(
+        Detail::Turn {
+            from,
+            to,
+            angle_rad,
+        } => format!(
             "from {} to {} the heading jumps by {:.1}°, and neither permits rotation here",
             path(from),
             path(to),
@@ -171,7 +190,12 @@ fn message(layout: &Layout, detail: Detail) -> String {
             path(from),
             path(to)
         ),
-        Detail::Speed { speed, radius_m, limit, at } => format!(
+        Detail::Speed {
+            speed,
+            radius_m,
+            limit,
+            at,
+        } => format!(
             "{:.2} m/s² sideways at {} m/s in a bend of radius {radius_m:.3} m at {}, above {limit} \
              m/s²; at most {:.2} m/s fit",
             speed * speed / radius_m,

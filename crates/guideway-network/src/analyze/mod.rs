@@ -50,7 +50,11 @@ pub fn analyze(layout: &Layout, options: &AnalyzeOptions) -> Diagnostics {
     let names = layout.paths.vehicle_types().names();
     let types: Vec<Option<&str>> = match names.is_empty() {
         true => vec![None],
-        false => names.iter().take(MAX_TYPES).map(|name| Some(name.as_str())).collect(),
+        false => names
+            .iter()
+            .take(MAX_TYPES)
+            .map(|name| Some(name.as_str()))
+            .collect(),
     };
     let mut findings = Findings::default();
     let is_route = layout.provenance.format == "VDA 5050";
@@ -58,10 +62,10 @@ pub fn analyze(layout: &Layout, options: &AnalyzeOptions) -> Diagnostics {
         let arcs = Arcs::of(layout, vehicle_type);
         findings.vehicle_type = row as u32;
         if !is_route {
-            let components = components::Components::of(&arcs);
+            let components = components::Components::of(layout, &arcs);
             parts::check(layout, &arcs, &mut findings);
             components::check(&arcs, &components, &mut findings);
-            ends::check(layout, &arcs, &mut findings);
+            ends::check(layout, &arcs, &components, &mut findings);
             stations::check_access(layout, &arcs, &components, &mut findings);
         }
         turns::check(layout, vehicle_type, &arcs, options, &mut findings);

@@ -41,15 +41,25 @@ pub(super) fn check(layout: &Layout, arcs: &Arcs, findings: &mut Findings) {
     let mut sorted: Vec<Part> = parts.into_values().collect();
     sorted.sort_unstable_by_key(|part| part.first);
     for &part in &sorted {
-        let known = largest.entry(layout.nodes.level(part.first)).or_insert(part);
+        let known = largest
+            .entry(layout.nodes.level(part.first))
+            .or_insert(part);
         if part.nodes > known.nodes {
             *known = part;
         }
     }
     for part in sorted {
         if largest[&layout.nodes.level(part.first)].first != part.first {
-            let Part { first, nodes, paths } = part;
-            findings.add(Code::NotConnected, Element::Node(first), Detail::Part { nodes, paths });
+            let Part {
+                first,
+                nodes,
+                paths,
+            } = part;
+            findings.add(
+                Code::NotConnected,
+                Element::Node(first),
+                Detail::Part { nodes, paths },
+            );
         }
     }
 }

@@ -21,7 +21,10 @@ pub(super) fn check(
         return;
     };
     let types = layout.paths.vehicle_types();
-    let own = layout.vehicle_types.iter().find(|t| Some(t.id.as_str()) == vehicle_type);
+    let own = layout
+        .vehicle_types
+        .iter()
+        .find(|t| Some(t.id.as_str()) == vehicle_type);
     let own = own.and_then(|t| match t.attributes.value(0, "maxSpeed") {
         Some(guideway_layout::Value::Float(speed)) => Some(speed),
         _ => None,
@@ -57,7 +60,11 @@ pub(super) fn check(
 pub(super) fn check_all(layout: &Layout, options: &AnalyzeOptions, found: &mut Diagnostics) {
     let mut findings = Findings::default();
     let names = layout.paths.vehicle_types().names();
-    let mut types: Vec<Option<&str>> = names.iter().take(super::MAX_TYPES).map(|n| Some(n.as_str())).collect();
+    let mut types: Vec<Option<&str>> = names
+        .iter()
+        .take(super::MAX_TYPES)
+        .map(|n| Some(n.as_str()))
+        .collect();
     if types.is_empty() {
         types.push(None);
     }

@@ -1,6 +1,6 @@
 //! Stations without a node, and stations that vehicles cannot reach or leave.
 
-use guideway_layout::{Code, Layout};
+use guideway_layout::{Code, Layout, Severity};
 
 use super::components::Components;
 use super::finding::{Detail, Element, Findings};
@@ -18,15 +18,20 @@ pub(super) fn check_nodes(layout: &Layout, findings: &mut Findings) {
         let nodes = layout.stations.nodes(station);
         let element = Element::Station(station);
         if nodes.is_empty() {
-            findings.add(Code::StationWithoutNode, element, Detail::NoNode);
+            // A location of openTCS may be a door or another device that no vehicle drives to.
+            let severity = match layout.provenance.format.as_str() {
+                "openTCS" => Severity::Info,
+                _ => Code::StationWithoutNode.severity(),
+            };
+            findings.add_as(severity, Code::StationWithoutNode, element, Detail::NoNode);
         } else if nodes.iter().all(|&node| !has_path[node as usize]) {
             findings.add(Code::UnreachableStation, element, Detail::NoPath);
         }
     }
 }
 
-/// Reports stations that vehicles of a type serve, and cannot reach from the largest component or
-/// leave toward it. Without a component, each station needs a way in and a way out.
+/// Reports stations that vehicles of a type serve, and cannot reach from the largest component of a
+/// level or leave toward it. Without a component, each station needs a way in and a way out.
 pub(super) fn check_access(
     layout: &Layout,
     arcs: &Arcs,
@@ -37,15 +42,25 @@ pub(super) fn check_access(
     if stations.is_empty() {
         return;
     }
-    let main = components.largest();
-    let of_main = |node: u32| main.is_some() && Some(components.of_node[node as usize]) == main;
-    let starts: Vec<u32> = (0..arcs.node_count()).filter(|&node| of_main(node)).collect();
-    let (reached, leading) = match main {
-        Some(_) => (
-            spread(&starts, arcs.node_count(), |node| arcs.leaving(node), |row| arcs.get(row).to),
-            spread(&starts, arcs.node_count(), |node| arcs.entering(node), |row| arcs.get(row).from),
+    let starts: Vec<u32> = (0..arcs.node_count())
+        .filter(|&node| components.is_in_main(node))
+        .collect();
+    let (reached, leading) = match components.has_circle() {
+        true => (
+            spread(
+                &starts,
+                arcs.node_count(),
+                |node| arcs.leaving(node),
+                |row| arcs.get(row).to,
+            ),
+            spread(
+                &starts,
+                arcs.node_count(),
+                |node| arcs.entering(node),
+                |row| arcs.get(row).from,
+            ),
         ),
-        None => {
+        false => {
             let nodes = 0..arcs.node_count();
             let has = |rows: &[u32]| !rows.is_empty();
             (
@@ -76,7 +91,9 @@ fn spread<'a>(
     far_end: impl Fn(u32) -> u32,
 ) -> Vec<bool> {
     let mut is_reached = vec![false; nodes as usize];
-    starts.iter().for_each(|&node| is_reached[node as usize] = true);
+    starts
+        .iter()
+        .for_each(|&node| is_reached[node as usize] = true);
     let mut waiting = starts.to_vec();
     while let Some(node) = waiting.pop() {
         for &row in arcs(node) {

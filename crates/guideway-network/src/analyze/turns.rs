@@ -31,7 +31,10 @@ pub(super) fn check(
     };
     for node in 0..arcs.node_count() {
         let rows = |rows: &[u32]| -> Vec<Arc> {
-            rows.iter().take(MAX_COMPARED).map(|&row| arcs.get(row)).collect()
+            rows.iter()
+                .take(MAX_COMPARED)
+                .map(|&row| arcs.get(row))
+                .collect()
         };
         let (entering, leaving) = (rows(arcs.entering(node)), rows(arcs.leaving(node)));
         if let Some(detail) = forbidden(&headings, &entering, &leaving, options) {
@@ -84,7 +87,11 @@ fn least(
         let (from, to) = (from.path, to.path);
         let detail = match lacks_orientation {
             true => Detail::Reverse { from, to },
-            false => Detail::Turn { from, to, angle_rad },
+            false => Detail::Turn {
+                from,
+                to,
+                angle_rad,
+            },
         };
         if best.is_none_or(|(least, _)| angle_rad < least) {
             best = Some((angle_rad, detail));

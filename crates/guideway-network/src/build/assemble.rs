@@ -3,9 +3,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-use guideway_layout::{
-    Block, Direction, Layout, Member, NewPath, Provenance, Quantity, Value,
-};
+use guideway_layout::{Block, Direction, Layout, Member, NewPath, Provenance, Quantity, Value};
 use guideway_spline::{Runs, uniform};
 
 use super::drawn::Drawn;
@@ -51,7 +49,10 @@ pub(super) fn assemble(
     add_blocks(&mut layout, drawing, drawn, pieces, &of_old);
     report.nodes = layout.nodes.len() as u64;
     report.edges = layout.paths.len() as u64;
-    let two_way = layout.paths.iter().filter(|p| p.direction() == Direction::Both);
+    let two_way = layout
+        .paths
+        .iter()
+        .filter(|p| p.direction() == Direction::Both);
     report.two_way = two_way.count() as u64;
     report.stations = layout.stations.len() as u64;
     Ok(layout)
@@ -96,17 +97,23 @@ fn add_nodes(
     let taken: HashSet<&str> = given.chain(kept).collect();
     let mut rows = vec![None; is_used.len()];
     let (mut sources, mut entries, mut number) = (Vec::new(), Vec::new(), 0);
-    for (node, row) in rows.iter_mut().enumerate().filter(|(node, _)| is_used[*node]) {
+    for (node, row) in rows
+        .iter_mut()
+        .enumerate()
+        .filter(|(node, _)| is_used[*node])
+    {
         let old = old_nodes.get(&(node as u32)).copied();
         let name = named.nodes.get(&(node as u32)).map(String::as_str);
         let mut own = String::new();
-        let id = name.or(old.map(|old| drawing.nodes.id(old))).unwrap_or_else(|| {
-            while own.is_empty() || taken.contains(own.as_str()) {
-                number += 1;
-                own = format!("N{number}");
-            }
-            &own
-        });
+        let id = name
+            .or(old.map(|old| drawing.nodes.id(old)))
+            .unwrap_or_else(|| {
+                while own.is_empty() || taken.contains(own.as_str()) {
+                    number += 1;
+                    own = format!("N{number}");
+                }
+                &own
+            });
         let types = drawing.nodes.vehicle_types();
         let names: Vec<&str> = old.map_or_else(Vec::new, |old| types.of(old as usize).collect());
         let (position_m, level) = (nodes.positions_m[node], nodes.levels[node]);
@@ -167,8 +174,12 @@ fn add_edges(
             level: curve.level,
             vehicle_types: &types,
         });
-        layout.paths.set_own_style(row, drawing.paths.own_style(source));
-        if piece.is_whole && !is_reversed && counts[&curve.source][0] == 1
+        layout
+            .paths
+            .set_own_style(row, drawing.paths.own_style(source));
+        if piece.is_whole
+            && !is_reversed
+            && counts[&curve.source][0] == 1
             && let Some(written) = drawing.paths.written_curve(source)
         {
             layout.paths.set_written_curve(row, written.clone());
@@ -220,7 +231,9 @@ fn set_properties(layout: &mut Layout, drawn: &Drawn, pieces: &[Piece], options:
         let speed = rule.and_then(|rule| options.layers[rule as usize].max_speed_m_s);
         if let Some(speed) = speed {
             let paths = &mut layout.paths;
-            paths.attributes.set_quantity(row, SPEED, speed, Quantity::Speed);
+            paths
+                .attributes
+                .set_quantity(row, SPEED, speed, Quantity::Speed);
             let entries = paths.vehicle_types().entries(row);
             let types = paths.vehicle_types_mut();
             entries.for_each(|entry| types.attributes.clear(entry, SPEED));
@@ -268,7 +281,9 @@ fn add_stations(
     let old = &drawing.stations;
     let rows: Vec<usize> = (0..old.len()).collect();
     layout.stations = old.select(&rows, |node| of_old.get(&node).copied());
-    let known: HashMap<&str, u32> = (0..old.len() as u32).map(|row| (old.id(row), row)).collect();
+    let known: HashMap<&str, u32> = (0..old.len() as u32)
+        .map(|row| (old.id(row), row))
+        .collect();
     for station in &named.stations {
         if let Some(&row) = known.get(station.id.as_str()) {
             return Err(BuildError::Name {
@@ -281,7 +296,9 @@ fn add_stations(
         let node = nodes[station.node as usize];
         let level = node.and_then(|node| layout.nodes.level(node));
         let at = Some(station.position_m);
-        let row = layout.stations.push(&station.id, at, node.into_iter().collect(), level);
+        let row = layout
+            .stations
+            .push(&station.id, at, node.into_iter().collect(), level);
         if !station.layer.is_empty() {
             let layer = Value::Text(&station.layer);
             layout.stations.attributes.set(row as usize, "layer", layer);
@@ -311,7 +328,11 @@ fn add_blocks(
             let rows = edges.get(&path).map_or(&[][..], Vec::as_slice);
             rows.iter().map(|&row| Member::Path(row)).collect()
         }
-        Member::Node(node) => of_old.get(&node).map(|&node| Member::Node(node)).into_iter().collect(),
+        Member::Node(node) => of_old
+            .get(&node)
+            .map(|&node| Member::Node(node))
+            .into_iter()
+            .collect(),
         Member::Station(station) => vec![Member::Station(station)],
     };
     layout.blocks = drawing
@@ -319,7 +340,11 @@ fn add_blocks(
         .iter()
         .map(|block| Block {
             id: block.id.clone(),
-            members: block.members.iter().flat_map(|&m: &Member| -> Vec<Member> { members(m) }).collect(),
+            members: block
+                .members
+                .iter()
+                .flat_map(|&m: &Member| -> Vec<Member> { members(m) })
+                .collect(),
             attributes: block.attributes.clone(),
         })
         .collect();

@@ -45,7 +45,11 @@ impl Clusters {
         if a == b {
             return;
         }
-        let (large, small) = if self.sizes[a] >= self.sizes[b] { (a, b) } else { (b, a) };
+        let (large, small) = if self.sizes[a] >= self.sizes[b] {
+            (a, b)
+        } else {
+            (b, a)
+        };
         self.parents[small] = large as u32;
         self.sizes[large] += self.sizes[small];
         self.next.swap(large, small);

@@ -69,11 +69,7 @@ impl Drawn {
     }
 }
 
-pub(super) fn collect(
-    drawing: &Layout,
-    options: &BuildOptions,
-    report: &mut BuildReport,
-) -> Drawn {
+pub(super) fn collect(drawing: &Layout, options: &BuildOptions, report: &mut BuildReport) -> Drawn {
     let (levels, rule_levels) = levels(drawing, options);
     let mut drawn = Drawn {
         curves: Vec::with_capacity(drawing.paths.len()),

@@ -72,7 +72,10 @@ fn fit_one(chain: &[Point<f64>], shares: &[f64], [start, end]: [Point<f64>; 2]) 
     let chord = first.distance(last);
     let determinant = pp * qq - pq * pq;
     let (p, q) = if determinant.abs() > 1e-12 * pp * qq {
-        ((pr * qq - qr * pq) / determinant, (pp * qr - pq * pr) / determinant)
+        (
+            (pr * qq - qr * pq) / determinant,
+            (pp * qr - pq * pr) / determinant,
+        )
     } else {
         (chord / 3.0, chord / 3.0)
     };

@@ -124,7 +124,9 @@ fn is_junction(foot: &Foot, drawn: &Drawn, nodes: &Nodes, reach_m: f64) -> bool 
         }
         let walk_m = WALK * reach_m;
         to_end_m > walk_m
-            || !nodes.clusters.has_walk(nodes.ends[foot.node as usize], end, walk_m)
+            || !nodes
+                .clusters
+                .has_walk(nodes.ends[foot.node as usize], end, walk_m)
     })
 }
 

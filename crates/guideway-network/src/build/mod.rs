@@ -81,8 +81,24 @@ pub fn build(drawing: &Layout, options: &BuildOptions) -> Result<Network, BuildE
     if options.split_crossings {
         crossings::find(&drawn, &index, options, &mut nodes, &mut cuts, &mut report)?;
     }
-    let named = names::find(drawing, &drawn, &index, options, &mut nodes, &mut cuts, &mut report)?;
+    let named = names::find(
+        drawing,
+        &drawn,
+        &index,
+        options,
+        &mut nodes,
+        &mut cuts,
+        &mut report,
+    )?;
     let pieces = pieces::cut(&drawn, &nodes, cuts, options, &mut report)?;
-    let layout = assemble::assemble(drawing, &drawn, &nodes, &pieces, &named, options, &mut report)?;
+    let layout = assemble::assemble(
+        drawing,
+        &drawn,
+        &nodes,
+        &pieces,
+        &named,
+        options,
+        &mut report,
+    )?;
     Ok(Network { layout, report })
 }

@@ -92,7 +92,9 @@ pub(super) fn find(
 }
 
 fn tree(points: impl Iterator<Item = Point<f64>>) -> Tree {
-    let entries = points.zip(0..).map(|(p, row)| GeomWithData::new([p.x, p.y], row));
+    let entries = points
+        .zip(0..)
+        .map(|(p, row)| GeomWithData::new([p.x, p.y], row));
     RTree::bulk_load(entries.collect())
 }
 
@@ -146,7 +148,8 @@ impl Places<'_> {
         let best = feet.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         let (_, part, foot) = best.filter(|(distance_m, ..)| *distance_m <= self.reach_m)?;
         let node = nodes.add(foot.point, curve(part).level);
-        self.tree.insert(GeomWithData::new([foot.point.x, foot.point.y], node));
+        self.tree
+            .insert(GeomWithData::new([foot.point.x, foot.point.y], node));
         cuts.push(Cut {
             part,
             t: foot.t,

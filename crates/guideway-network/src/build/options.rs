@@ -150,7 +150,10 @@ impl BuildOptions {
             ("reach", Some(self.reach_m)),
             ("smooth", self.smooth_m),
         ];
-        let speeds = self.layers.iter().map(|rule| ("max-speed", rule.max_speed_m_s));
+        let speeds = self
+            .layers
+            .iter()
+            .map(|rule| ("max-speed", rule.max_speed_m_s));
         for (name, value) in lengths.into_iter().chain(speeds) {
             if let Some(value) = value
                 && !(value.is_finite() && (0.0..=1e6).contains(&value))

@@ -73,7 +73,11 @@ fn cut_curve(row: u32, curve: &Curve, cuts: &[Cut], nodes: &Nodes, pieces: &mut 
         let (mut rest, mut done) = (*bezier, 0.0);
         while let Some(cut) = cuts.next_if(|cut| cut.part.bezier as usize == number) {
             // The parameter within the rest of the cubic.
-            let t = if done < 1.0 { (cut.t - done) / (1.0 - done) } else { 0.0 };
+            let t = if done < 1.0 {
+                (cut.t - done) / (1.0 - done)
+            } else {
+                0.0
+            };
             let (left, right) = split(&rest, t.clamp(0.0, 1.0));
             (rest, done) = (right, cut.t);
             if polygon_m(&left) > SAME_M {
@@ -148,7 +152,9 @@ fn is_same_curve(a: &Piece, b: &Piece, tolerance_m: f64) -> bool {
     let samples = |piece: &Piece| [0.25, 0.5, 0.75].map(|share| at_share(&piece.beziers, share));
     let (of_a, mut of_b) = (samples(a), samples(b));
     let is_near = |of_b: &[Point<f64>; 3]| {
-        of_a.iter().zip(of_b).all(|(p, q)| p.distance(*q) <= tolerance_m)
+        of_a.iter()
+            .zip(of_b)
+            .all(|(p, q)| p.distance(*q) <= tolerance_m)
     };
     if is_near(&of_b) {
         return true;

@@ -13,9 +13,7 @@ use guideway_spline::Point;
 use super::BuildReport;
 use super::drawn::{Curve, Drawn};
 use super::fit::fit;
-use crate::curve::{
-    Bezier, SAME_M, angle_rad, end_direction, is_line, reversed, start_direction,
-};
+use crate::curve::{Bezier, SAME_M, angle_rad, end_direction, is_line, reversed, start_direction};
 
 /// Largest turn from line to line within a curve, in radians: 30 degrees. A chain with sharper
 /// turns has corners.
@@ -49,7 +47,9 @@ fn join_chains(drawn: &mut Drawn, tolerance_m: f64) {
     for end in 0..2 * curves.len() as u32 {
         let curve = &curves[end as usize / 2];
         let p = curve.end(end % 2);
-        let ends = places.entry((cell(p.x), cell(p.y), curve.level)).or_default();
+        let ends = places
+            .entry((cell(p.x), cell(p.y), curve.level))
+            .or_default();
         if ends.len() < 3 {
             ends.push(end);
         }
@@ -91,12 +91,7 @@ fn outward(curve: &Curve, end: u32) -> Bezier {
 }
 
 /// The chain that begins at an end of a curve.
-fn chain(
-    curves: &[Curve],
-    partner: &[Option<u32>],
-    mut entry: u32,
-    is_done: &mut [bool],
-) -> Curve {
+fn chain(curves: &[Curve], partner: &[Option<u32>], mut entry: u32, is_done: &mut [bool]) -> Curve {
     let first = &curves[entry as usize / 2];
     let mut chain = Curve {
         beziers: Vec::new(),
@@ -137,7 +132,11 @@ fn smooth_curve(curve: &mut Curve, tolerance_m: f64, report: &mut BuildReport) {
         let mut fitted = Vec::new();
         if lines.len() > 2 {
             let directions = [
-                direction_at(start.checked_sub(1).map(|i| &old[i]), &lines[0], lines.get(1)),
+                direction_at(
+                    start.checked_sub(1).map(|i| &old[i]),
+                    &lines[0],
+                    lines.get(1),
+                ),
                 -direction_at(
                     old.get(end).map(reversed).as_ref(),
                     &reversed(&lines[lines.len() - 1]),

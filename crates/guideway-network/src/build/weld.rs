@@ -57,9 +57,7 @@ pub(super) fn weld(
     let firsts = join_equal(2 * curves.len() as u32, &position, &level, &mut clusters);
     let pairs = near_pairs(&firsts, &position, &level, drawn, options)?;
     for (_, a, b) in pairs {
-        if clusters.root(a) != clusters.root(b)
-            && !clusters.has_walk(a, b, WALK * options.weld_m)
-        {
+        if clusters.root(a) != clusters.root(b) && !clusters.has_walk(a, b, WALK * options.weld_m) {
             clusters.join(a, b);
         }
     }
@@ -78,7 +76,9 @@ fn join_equal(
     for end in 0..ends {
         let cell = |v: f64| (v / SAME_M).round() as i64;
         let p = position(end);
-        let first = *places.entry((cell(p.x), cell(p.y), level(end))).or_insert(end);
+        let first = *places
+            .entry((cell(p.x), cell(p.y), level(end)))
+            .or_insert(end);
         if first == end {
             firsts.push(end);
         } else {

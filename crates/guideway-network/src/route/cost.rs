@@ -76,8 +76,14 @@ impl Costs {
         let of_arc: Vec<Cost> = arcs.all.par_iter().map(|&arc| limits.cost(arc)).collect();
         let per_m = arcs.all.iter().zip(&of_arc).map(|(arc, cost)| {
             let nodes = &layout.nodes;
-            let chord_m = nodes.position_m(arc.from).distance(nodes.position_m(arc.to));
-            if chord_m > 0.0 { cost.drive_s / chord_m } else { f64::INFINITY }
+            let chord_m = nodes
+                .position_m(arc.from)
+                .distance(nodes.position_m(arc.to));
+            if chord_m > 0.0 {
+                cost.drive_s / chord_m
+            } else {
+                f64::INFINITY
+            }
         });
         let least = per_m.fold(f64::INFINITY, f64::min);
         let slowest = of_arc.iter().map(|cost| cost.rotation_speed_rad_s);
@@ -108,7 +114,10 @@ impl Costs {
 }
 
 fn own_speed(layout: &Layout, vehicle_type: Option<&str>) -> Option<f64> {
-    let own = layout.vehicle_types.iter().find(|t| Some(t.id.as_str()) == vehicle_type)?;
+    let own = layout
+        .vehicle_types
+        .iter()
+        .find(|t| Some(t.id.as_str()) == vehicle_type)?;
     match own.attributes.value(0, "maxSpeed")? {
         Value::Float(speed) => Some(speed),
         Value::Int(speed) => Some(speed as f64),
@@ -133,7 +142,11 @@ impl Limits<'_> {
             (Some(speed), None) | (None, Some(speed)) => speed,
             (None, None) => self.options.speed_m_s,
         };
-        let speed = if speed.is_finite() { speed.max(SLOWEST) } else { self.options.speed_m_s };
+        let speed = if speed.is_finite() {
+            speed.max(SLOWEST)
+        } else {
+            self.options.speed_m_s
+        };
         let rotation = get("maxRotationSpeed").filter(|speed| *speed > 0.0);
         let headings = Headings {
             layout: self.layout,
@@ -165,7 +178,11 @@ impl Limits<'_> {
                 let t = (f64::from(part) + 0.5) / f64::from(PARTS);
                 let curvature = uniform::curvature(&segment, t).abs();
                 let in_bend = (limit / curvature).sqrt();
-                let speed = if in_bend.is_finite() { speed.min(in_bend).max(SLOWEST) } else { speed };
+                let speed = if in_bend.is_finite() {
+                    speed.min(in_bend).max(SLOWEST)
+                } else {
+                    speed
+                };
                 time_s += own_m / f64::from(PARTS) / speed;
             }
         }

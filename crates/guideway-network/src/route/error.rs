@@ -51,7 +51,9 @@ impl From<RouteError> for UserError {
     fn from(error: RouteError) -> Self {
         let (code, remedy) = match &error {
             RouteError::UnknownPlace { .. } => ("unknown-place", "Name a station or a node"),
-            RouteError::Ambiguous { .. } => ("unknown-place", "Rename the nodes, or name a station"),
+            RouteError::Ambiguous { .. } => {
+                ("unknown-place", "Rename the nodes, or name a station")
+            }
             RouteError::NoNode { .. } => ("unknown-place", "Give the station a node"),
             RouteError::VehicleType { .. } => ("unknown-type", "Name one by --vehicle-type"),
             RouteError::NoWay { .. } => (

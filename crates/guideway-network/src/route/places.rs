@@ -28,14 +28,18 @@ pub(super) fn find(layout: &Layout, name: &str) -> Result<Place, RouteError> {
         .or_else(|| rows.find(|&row| is_named(&stations.attributes, row as usize)));
     if let Some(station) = station {
         return match stations.nodes(station) {
-            [] => Err(RouteError::NoNode { name: name.to_owned() }),
+            [] => Err(RouteError::NoNode {
+                name: name.to_owned(),
+            }),
             rows => Ok(place(name, rows.to_vec())),
         };
     }
     let rows = 0..nodes.len() as u32;
     let mut found: Vec<u32> = rows.clone().filter(|&row| nodes.id(row) == name).collect();
     if found.is_empty() {
-        found = rows.filter(|&row| is_named(&nodes.attributes, row as usize)).collect();
+        found = rows
+            .filter(|&row| is_named(&nodes.attributes, row as usize))
+            .collect();
     }
     match found.len() {
         0 => Err(RouteError::UnknownPlace {
@@ -58,7 +62,10 @@ fn place(name: &str, nodes: Vec<u32>) -> Place {
 fn known(layout: &Layout) -> String {
     let stations = (0..layout.stations.len() as u32).map(|row| layout.stations.id(row));
     let nodes = (0..layout.nodes.len() as u32).map(|row| layout.nodes.id(row));
-    listed(stations.chain(nodes), layout.stations.len() + layout.nodes.len())
+    listed(
+        stations.chain(nodes),
+        layout.stations.len() + layout.nodes.len(),
+    )
 }
 
 fn listed<'a>(names: impl Iterator<Item = &'a str>, count: usize) -> String {
@@ -75,7 +82,10 @@ pub(super) fn check_type(layout: &Layout, vehicle_type: Option<&str>) -> Result<
     let names = layout.paths.vehicle_types().names();
     let is_known = |given: &str| {
         let own = layout.vehicle_types.iter();
-        names.iter().chain(own.map(|t| &t.id)).any(|known| known == given)
+        names
+            .iter()
+            .chain(own.map(|t| &t.id))
+            .any(|known| known == given)
     };
     let given = match vehicle_type {
         Some(given) if !is_known(given) => format!("no vehicle type is named \"{given}\""),

@@ -93,7 +93,9 @@ impl Router<'_> {
             None => {
                 let nodes = (0..self.arcs.node_count()).filter(|&node| self.arcs.has(node));
                 let all = nodes.count();
-                let of = self.vehicle_type.map_or(String::new(), |t| format!(" of type \"{t}\""));
+                let of = self
+                    .vehicle_type
+                    .map_or(String::new(), |t| format!(" of type \"{t}\""));
                 format!("vehicles{of} reach {reached} of {all} nodes from there")
             }
         };
@@ -147,14 +149,21 @@ impl Route {
             nodes.iter().any(|node| first.contains_key(node))
         };
         let stations: Vec<usize> = stations.filter(is_on).collect();
-        route.stations = layout.stations.select(&stations, |node| first.get(&node).copied());
+        route.stations = layout
+            .stations
+            .select(&stations, |node| first.get(&node).copied());
         route
     }
 }
 
 /// Directs a path from its end to its start.
 fn turn_around(route: &mut Layout, path: usize, nodes: &HashMap<u32, u32>, row: &RouteRow) {
-    let runs: Vec<Vec<Point<f64>>> = route.paths.get(path).runs().map(|r| r.iter().collect()).collect();
+    let runs: Vec<Vec<Point<f64>>> = route
+        .paths
+        .get(path)
+        .runs()
+        .map(|r| r.iter().collect())
+        .collect();
     let mut turned = Runs::default();
     for run in runs.iter().rev() {
         turned.push(&run.iter().rev().copied().collect::<Vec<_>>());
@@ -164,7 +173,9 @@ fn turn_around(route: &mut Layout, path: usize, nodes: &HashMap<u32, u32>, row: 
         runs: &turned,
         ..NewPath::default()
     });
-    route.paths.replace_curves(&[path as u32], one.paths.geometry());
+    route
+        .paths
+        .replace_curves(&[path as u32], one.paths.geometry());
     let node = |row: u32| nodes.get(&row).copied();
     route.paths.set_nodes(path, node(row.from), node(row.to));
 }

@@ -47,20 +47,24 @@ impl Eq for Waiting {}
 impl Router<'_> {
     /// Rows of the arcs from one place to another one, or the number of nodes that are reached.
     /// With `any_turn`, rotation rules do not count.
-    pub(super) fn search(
-        &self,
-        from: &Place,
-        to: &Place,
-        any_turn: bool,
-    ) -> Result<Vec<u32>, u32> {
+    pub(super) fn search(&self, from: &Place, to: &Place, any_turn: bool) -> Result<Vec<u32>, u32> {
         let arcs = &self.arcs;
         let nodes = arcs.node_count() as usize;
         let mut is_goal = vec![false; nodes];
-        to.nodes.iter().for_each(|&node| is_goal[node as usize] = true);
-        let goals: Vec<Point<f64>> = to.nodes.iter().map(|&n| self.layout.nodes.position_m(n)).collect();
+        to.nodes
+            .iter()
+            .for_each(|&node| is_goal[node as usize] = true);
+        let goals: Vec<Point<f64>> = to
+            .nodes
+            .iter()
+            .map(|&n| self.layout.nodes.position_m(n))
+            .collect();
         let rest_s = |node: u32| {
             let at = self.layout.nodes.position_m(node);
-            let nearest = goals.iter().map(|goal| goal.distance(at)).fold(f64::INFINITY, f64::min);
+            let nearest = goals
+                .iter()
+                .map(|goal| goal.distance(at))
+                .fold(f64::INFINITY, f64::min);
             nearest * self.costs.least_s_per_m
         };
         let mut times_s = vec![f64::INFINITY; arcs.all.len()];
@@ -74,7 +78,11 @@ impl Router<'_> {
                 times_s[arc as usize] = time_s;
                 before[arc as usize] = from;
                 let estimate_s = time_s + rest_s(arcs.get(arc).to);
-                heap.push(Waiting { estimate_s, time_s, arc });
+                heap.push(Waiting {
+                    estimate_s,
+                    time_s,
+                    arc,
+                });
             }
             times_s[arc as usize]
         };
@@ -103,7 +111,11 @@ impl Router<'_> {
             }
             for &next in arcs.leaving(node) {
                 let turn = self.costs.turn(arc, next);
-                let turn = if any_turn { turn.or(Some((0.0, 0.0))) } else { turn };
+                let turn = if any_turn {
+                    turn.or(Some((0.0, 0.0)))
+                } else {
+                    turn
+                };
                 if let Some((_, turn_s)) = turn {
                     reach(&mut heap, next, arc, time_s + turn_s);
                 }

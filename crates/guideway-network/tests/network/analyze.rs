@@ -16,15 +16,24 @@ fn found(layout: &Layout, code: Code) -> Vec<(String, String)> {
     };
     let found = analyze(layout, &options);
     let of_code = found.iter().filter(|f| f.code == code);
-    of_code.map(|f| (f.place.element.clone(), f.message.clone())).collect()
+    of_code
+        .map(|f| (f.place.element.clone(), f.message.clone()))
+        .collect()
 }
 
 fn places(layout: &Layout, code: Code) -> Vec<String> {
-    found(layout, code).into_iter().map(|(place, _)| place).collect()
+    found(layout, code)
+        .into_iter()
+        .map(|(place, _)| place)
+        .collect()
 }
 
 /// A network of straight edges between nodes, whose first letter is their identifier.
-fn network_of(nodes: &[(&str, f64, f64)], edges: &[(&str, &str, Direction)], types: &[&str]) -> Layout {
+fn network_of(
+    nodes: &[(&str, f64, f64)],
+    edges: &[(&str, &str, Direction)],
+    types: &[&str],
+) -> Layout {
     let mut layout = Layout::default();
     for &(id, x, y) in nodes {
         layout.nodes.push(id, Point::new(x, y), None);
@@ -36,7 +45,11 @@ fn network_of(nodes: &[(&str, f64, f64)], edges: &[(&str, &str, Direction)], typ
 }
 
 fn add_edge(layout: &mut Layout, from: &str, to: &str, direction: Direction, types: &[&str]) {
-    let row = |id: &str| (0..layout.nodes.len() as u32).find(|&n| layout.nodes.id(n) == id).unwrap();
+    let row = |id: &str| {
+        (0..layout.nodes.len() as u32)
+            .find(|&n| layout.nodes.id(n) == id)
+            .unwrap()
+    };
     let (start, end) = (row(from), row(to));
     let mut runs = Runs::default();
     runs.push_line(layout.nodes.position_m(start), layout.nodes.position_m(end));
@@ -55,7 +68,9 @@ use Direction::{Both, Forward};
 
 #[test]
 fn dead_case_names_the_part_the_trap_and_both_stations() {
-    let Some(layout) = case("dead.lif.json") else { return };
+    let Some(layout) = case("dead.lif.json") else {
+        return;
+    };
     assert_eq!(places(&layout, Code::NotConnected), ["node \"x\""]);
     assert_eq!(places(&layout, Code::DeadEnd), ["node \"d\"", "node \"y\""]);
     let stations = found(&layout, Code::UnreachableStation);
@@ -67,7 +82,9 @@ fn dead_case_names_the_part_the_trap_and_both_stations() {
 
 #[test]
 fn corner_case_names_the_corner_and_the_stations() {
-    let Some(layout) = case("corner.lif.json") else { return };
+    let Some(layout) = case("corner.lif.json") else {
+        return;
+    };
     let corner = found(&layout, Code::HeadingJump);
     assert_eq!(corner.len(), 1);
     assert_eq!(corner[0].0, "node \"B\"");
@@ -80,17 +97,28 @@ fn corner_case_names_the_corner_and_the_stations() {
 
 #[test]
 fn drawings_are_no_networks_and_meet_head_on() {
-    let Some(layout) = case("two.dxf") else { return };
+    let Some(layout) = case("two.dxf") else {
+        return;
+    };
     let found = analyze(&layout, &AnalyzeOptions::default());
-    assert_eq!((found.count(Code::NoNodes), found.count(Code::HeadOn)), (1, 1));
+    assert_eq!(
+        (found.count(Code::NoNodes), found.count(Code::HeadOn)),
+        (1, 1)
+    );
     let head_on = found.iter().find(|f| f.code == Code::HeadOn).unwrap();
-    assert!(head_on.message.contains("(10.000, 0.000) m"), "{}", head_on.message);
+    assert!(
+        head_on.message.contains("(10.000, 0.000) m"),
+        "{}",
+        head_on.message
+    );
     assert_eq!(found.count_at_least(Severity::Warning), 0);
 }
 
 #[test]
 fn built_case_has_nothing_above_info() {
-    let Some(layout) = case("net.dxf") else { return };
+    let Some(layout) = case("net.dxf") else {
+        return;
+    };
     let made = network(&layout, &split()).layout;
     let found = analyze(&made, &AnalyzeOptions::default());
     assert_eq!(found.count_at_least(Severity::Warning), 0);
@@ -100,8 +128,18 @@ fn built_case_has_nothing_above_info() {
 
 #[test]
 fn ring_with_return_is_clean_and_one_way_parts_are_found() {
-    let nodes = [("a", 0.0, 0.0), ("b", 9.0, 0.0), ("c", 9.0, 9.0), ("d", 0.0, 9.0)];
-    let ring = [("a", "b", Forward), ("b", "c", Forward), ("c", "d", Forward), ("d", "a", Forward)];
+    let nodes = [
+        ("a", 0.0, 0.0),
+        ("b", 9.0, 0.0),
+        ("c", 9.0, 9.0),
+        ("d", 0.0, 9.0),
+    ];
+    let ring = [
+        ("a", "b", Forward),
+        ("b", "c", Forward),
+        ("c", "d", Forward),
+        ("d", "a", Forward),
+    ];
     let layout = network_of(&nodes, &ring, &[]);
     assert!(analyze(&layout, &AnalyzeOptions::default()).is_empty());
     let more = [nodes.as_slice(), &[("e", 20.0, 0.0), ("f", 30.0, 0.0)]].concat();
@@ -109,6 +147,21 @@ fn ring_with_return_is_clean_and_one_way_parts_are_found() {
     let part = found(&network_of(&more, &lead, &[]), Code::OneWayPart);
     assert_eq!(part.len(), 1);
     assert!(part[0].0 == "node \"e\"" && part[0].1.contains("enter this part of 2 nodes, but not"));
+}
+
+#[test]
+fn each_level_has_a_network_of_its_own() {
+    let nodes = [("a", 0.0, 0.0), ("b", 9.0, 0.0), ("c", 0.0, 0.0), ("d", 9.0, 0.0)];
+    let mut layout = network_of(&nodes, &[("a", "b", Both), ("c", "d", Both)], &[]);
+    for node in 0..4 {
+        layout.stations.push(&format!("S{node}"), None, vec![node], None);
+    }
+    assert_eq!(places(&layout, Code::NotConnected), ["node \"c\""]);
+    assert_eq!(places(&layout, Code::UnreachableStation).len(), 2);
+    for node in 0..4 {
+        layout.nodes.set_level(node, Some(node / 2));
+    }
+    assert!(analyze(&layout, &AnalyzeOptions::default()).is_empty());
 }
 
 #[test]
@@ -128,7 +181,13 @@ fn findings_name_the_vehicle_types_they_concern() {
     layout.stations.push("T", None, vec![0], None);
     let station = found(&layout, Code::UnreachableStation);
     assert_eq!(station.len(), 1);
-    assert!(station[0].1.ends_with("not leave it, for vehicle type \"fork\""), "{}", station[0].1);
+    assert!(
+        station[0]
+            .1
+            .ends_with("not leave it, for vehicle type \"fork\""),
+        "{}",
+        station[0].1
+    );
     let trap = found(&layout, Code::DeadEnd);
     assert!(trap.iter().any(|(place, _)| place == "node \"c\""));
     // Locked paths are closed.
@@ -148,9 +207,15 @@ fn corner(at_end: &str, at_start: &str) -> Layout {
 
 #[test]
 fn turns_follow_the_rules_and_the_orientation() {
-    assert_eq!(places(&corner("NONE", "NONE"), Code::HeadingJump), ["node \"b\""]);
+    assert_eq!(
+        places(&corner("NONE", "NONE"), Code::HeadingJump),
+        ["node \"b\""]
+    );
     for (end, start) in [("BOTH", "NONE"), ("NONE", "CW"), ("CCW", "BOTH")] {
-        assert!(places(&corner(end, start), Code::HeadingJump).is_empty(), "{end} {start}");
+        assert!(
+            places(&corner(end, start), Code::HeadingJump).is_empty(),
+            "{end} {start}"
+        );
     }
     // A vehicle that keeps its heading in the frame of the map drives sideways.
     let mut sideways = corner("NONE", "NONE");
@@ -179,11 +244,20 @@ fn way_back_needs_rotation_or_orientation() {
         }
     }
     assert_eq!(places(&layout, Code::ReverseDriving).len(), 2);
-    layout.paths.attributes.set(0, "vehicleOrientation", Value::Float(0.0));
-    layout.paths.attributes.set(1, "vehicleOrientation", Value::Float(PI));
+    layout
+        .paths
+        .attributes
+        .set(0, "vehicleOrientation", Value::Float(0.0));
+    layout
+        .paths
+        .attributes
+        .set(1, "vehicleOrientation", Value::Float(PI));
     assert!(places(&layout, Code::ReverseDriving).is_empty());
     assert!(places(&layout, Code::HeadingJump).is_empty());
-    layout.paths.attributes.set(1, "vehicleOrientation", Value::Float(0.0));
+    layout
+        .paths
+        .attributes
+        .set(1, "vehicleOrientation", Value::Float(0.0));
     assert_eq!(places(&layout, Code::HeadingJump).len(), 2);
 }
 
@@ -196,7 +270,10 @@ fn speed_must_fit_the_tightest_bend() {
             runs: &quarter(5.0),
             ..NewPath::default()
         });
-        layout.paths.attributes.set(0, "maxSpeed", Value::Float(speed));
+        layout
+            .paths
+            .attributes
+            .set(0, "maxSpeed", Value::Float(speed));
         let bends = found(&layout, Code::LateralAcceleration);
         assert_eq!(bends.len(), count, "{speed}: {bends:?}");
     }

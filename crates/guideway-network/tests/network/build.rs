@@ -11,7 +11,9 @@ use crate::sketch::{
 
 #[test]
 fn drawing_of_the_case_becomes_one_network() {
-    let Some(layout) = case("net.dxf") else { return };
+    let Some(layout) = case("net.dxf") else {
+        return;
+    };
     let made = network(&layout, &split());
     let expected = [
         [0, 0, 2000, 0],
@@ -37,14 +39,21 @@ fn drawing_of_the_case_becomes_one_network() {
     let node = stations.nodes(0)[0];
     assert_eq!(made.layout.nodes.position_m(node), Point::new(15.0, 0.0));
     let report = &made.report;
-    let done = (report.gaps, report.junctions, report.crossings, report.two_way);
+    let done = (
+        report.gaps,
+        report.junctions,
+        report.crossings,
+        report.two_way,
+    );
     assert_eq!(done, (1, 1, 1, 7));
     assert!((report.largest_move_m - 0.003).abs() < 1e-9);
 }
 
 #[test]
 fn lines_that_meet_head_on_in_the_case_become_two_way() {
-    let Some(layout) = case("two.dxf") else { return };
+    let Some(layout) = case("two.dxf") else {
+        return;
+    };
     let made = network(&layout, &split()).layout;
     assert_eq!((made.paths.len(), made.nodes.len()), (2, 3));
     assert!(made.paths.iter().all(|p| p.direction() == Direction::Both));
@@ -92,7 +101,13 @@ fn ends_meet_curves_and_curves_cross() {
 #[test]
 fn an_end_that_touches_its_own_line_makes_a_loop() {
     let mut layout = drawing(&[]);
-    let corners = [(0.0, 0.0), (10.0, 0.0), (10.0, 5.0), (5.0, 5.0), (5.0, 0.01)];
+    let corners = [
+        (0.0, 0.0),
+        (10.0, 0.0),
+        (10.0, 5.0),
+        (5.0, 5.0),
+        (5.0, 0.01),
+    ];
     let corners = corners.map(|(x, y)| Point::new(x, y));
     let mut runs = Runs::default();
     guideway_spline::polyline_to_runs(&corners, &mut runs);
@@ -106,7 +121,10 @@ fn an_end_that_touches_its_own_line_makes_a_loop() {
 fn chain_of_lines_shorter_than_the_weld_distance_stays() {
     let lines = (0..100).map(|i| [f64::from(i) * 0.03, 0.0, f64::from(i + 1) * 0.03, 0.0]);
     let made = network(&drawing(&lines.collect::<Vec<_>>()), &split());
-    assert_eq!((made.layout.paths.len(), made.layout.nodes.len()), (100, 101));
+    assert_eq!(
+        (made.layout.paths.len(), made.layout.nodes.len()),
+        (100, 101)
+    );
     assert_eq!((made.report.gaps, made.report.vanished), (0, 0));
 }
 
@@ -114,7 +132,11 @@ fn chain_of_lines_shorter_than_the_weld_distance_stays() {
 fn gaps_close_up_to_the_weld_distance() {
     for (gap_m, nodes) in [(0.0, 3), (0.049, 3), (0.051, 4)] {
         let layout = drawing(&[[0.0, 0.0, 5.0, 0.0], [5.0 + gap_m, 0.0, 9.0, 0.0]]);
-        assert_eq!(network(&layout, &split()).layout.nodes.len(), nodes, "{gap_m}");
+        assert_eq!(
+            network(&layout, &split()).layout.nodes.len(),
+            nodes,
+            "{gap_m}"
+        );
     }
 }
 
@@ -128,7 +150,11 @@ fn short_lines_become_a_curve_within_the_tolerance() {
     for i in 0..40 {
         let (a, b) = (at(i), at(i + 1));
         // Every third line is drawn the other way round.
-        let line = if i % 3 == 0 { [b.x, b.y, a.x, a.y] } else { [a.x, a.y, b.x, b.y] };
+        let line = if i % 3 == 0 {
+            [b.x, b.y, a.x, a.y]
+        } else {
+            [a.x, a.y, b.x, b.y]
+        };
         add_line(&mut layout, line, "TRACK");
     }
     let options = BuildOptions {
@@ -193,7 +219,10 @@ fn layers_map_to_levels_types_speeds_and_directions() {
     assert_eq!((paths.len(), made.report.paths_left), (2, 2));
     assert_eq!(paths.get(0).level(), made.layout.level_named("ground"));
     assert!(paths.vehicle_types().of(0).eq(["tugger"]));
-    assert_eq!(paths.value_for(0, "tugger", "maxSpeed"), Some(Value::Float(1.5)));
+    assert_eq!(
+        paths.value_for(0, "tugger", "maxSpeed"),
+        Some(Value::Float(1.5))
+    );
     assert_eq!(paths.get(1).direction(), Direction::Forward);
     assert_eq!(paths.get(1).ends().unwrap().0, Point::new(5.0, 1.0));
     assert_eq!(paths.get(0).direction(), Direction::Both);
@@ -243,8 +272,14 @@ fn levels_are_never_welded() {
     };
     let error = build(&layout, &options).unwrap_err();
     let said = error.to_string();
-    assert!(matches!(error, BuildError::Levels { count: 1, .. }), "{said}");
-    assert!(said.contains("level \"g\"") && said.contains("(5.020, 0.000) m"), "{said}");
+    assert!(
+        matches!(error, BuildError::Levels { count: 1, .. }),
+        "{said}"
+    );
+    assert!(
+        said.contains("level \"g\"") && said.contains("(5.020, 0.000) m"),
+        "{said}"
+    );
     options.levels_apart = true;
     let made = network(&layout, &options).layout;
     assert_eq!((made.paths.len(), made.nodes.len()), (3, 6));
@@ -257,7 +292,10 @@ fn notes_name_the_nearest_node_or_cut_the_line() {
     add_text(&mut layout, "MIDDLE", 4.0, 0.6);
     add_text(&mut layout, "FAR", 4.0, 3.0);
     let made = network(&layout, &split());
-    assert_eq!(edges_mm(&made.layout), [[0, 0, 4000, 0], [4000, 0, 10000, 0]]);
+    assert_eq!(
+        edges_mm(&made.layout),
+        [[0, 0, 4000, 0], [4000, 0, 10000, 0]]
+    );
     let stations = &made.layout.stations;
     assert_eq!((stations.id(0), stations.id(1)), ("END", "MIDDLE"));
     assert_eq!(made.report.left_note_count, 1);
@@ -298,7 +336,10 @@ fn two_stations_of_one_name_are_refused() {
     add_text(&mut layout, "A", 0.0, 0.0);
     add_text(&mut layout, "A", 10.0, 0.0);
     let error = build(&layout, &split()).unwrap_err().to_string();
-    assert!(error.contains("\"A\": at (0.000, 0.000) m and at (10.000"), "{error}");
+    assert!(
+        error.contains("\"A\": at (0.000, 0.000) m and at (10.000"),
+        "{error}"
+    );
     // Twice at one place is one station.
     layout.notes[1].position_m = Point::new(0.1, 0.0);
     assert_eq!(network(&layout, &split()).layout.stations.len(), 1);
@@ -315,8 +356,18 @@ fn lines_drawn_twice_and_dots_are_left() {
     ]);
     let made = network(&layout, &split());
     assert_ends_meet(&made.layout);
-    assert_eq!((made.report.dots, made.layout.nodes.len()), (1, 5), "{:?}", made.report);
-    assert_eq!(edges_mm(&made.layout).len(), 4, "{:?}", edges_mm(&made.layout));
+    assert_eq!(
+        (made.report.dots, made.layout.nodes.len()),
+        (1, 5),
+        "{:?}",
+        made.report
+    );
+    assert_eq!(
+        edges_mm(&made.layout).len(),
+        4,
+        "{:?}",
+        edges_mm(&made.layout)
+    );
 }
 
 #[test]
@@ -324,7 +375,9 @@ fn limits_stop_with_their_value() {
     let grid = |n: u32| -> Vec<[f64; 4]> {
         let lines = (0..n).map(f64::from);
         let (n, lines) = (f64::from(n), lines.map(|i| i + 0.5));
-        lines.flat_map(|i| [[i, 0.0, i, n], [0.0, i, n, i]]).collect()
+        lines
+            .flat_map(|i| [[i, 0.0, i, n], [0.0, i, n, i]])
+            .collect()
     };
     let options = BuildOptions {
         max_pieces: 100,
@@ -343,7 +396,12 @@ fn limits_stop_with_their_value() {
     };
     let error = build(&star, &options).unwrap_err();
     assert_eq!(error, BuildError::Pairs { limit: 8000 });
-    let heap: Vec<_> = (0..2000).map(|i| [f64::from(i) * 1e-5, 0.0, 1.0, 5.0]).collect();
+    let heap: Vec<_> = (0..2000)
+        .map(|i| [f64::from(i) * 1e-5, 0.0, 1.0, 5.0])
+        .collect();
     let error = build(&drawing(&heap), &split()).unwrap_err();
-    assert!(matches!(error, BuildError::Crowded { limit: 1000, .. }), "{error}");
+    assert!(
+        matches!(error, BuildError::Crowded { limit: 1000, .. }),
+        "{error}"
+    );
 }

@@ -8,7 +8,8 @@ use crate::sketch::{assert_ends_meet, drawing, edges_mm, network, split};
 
 /// Lines between points of a coarse grid, each a little off its place.
 fn lines() -> impl Strategy<Value = Vec<[f64; 4]>> {
-    let coordinate = (0_i32..8, -10_i32..=10).prop_map(|(n, off)| f64::from(n) + f64::from(off) * 1e-3);
+    let coordinate =
+        (0_i32..8, -10_i32..=10).prop_map(|(n, off)| f64::from(n) + f64::from(off) * 1e-3);
     prop::collection::vec(prop::array::uniform4(coordinate), 1..30)
 }
 
@@ -18,7 +19,8 @@ fn made(lines: &[[f64; 4]], options: &BuildOptions) -> Network {
 
 fn length_m(layout: &Layout) -> f64 {
     let runs = layout.paths.iter().flat_map(|path| path.runs());
-    runs.map(|run| guideway_spline::run_length(&run.iter().collect::<Vec<_>>(), 1e-6)).sum()
+    runs.map(|run| guideway_spline::run_length(&run.iter().collect::<Vec<_>>(), 1e-6))
+        .sum()
 }
 
 proptest! {

@@ -21,7 +21,10 @@ fn add(layout: &mut Layout, from: u32, to: u32, direction: Direction, speed: f64
         direction,
         ..NewPath::default()
     });
-    layout.paths.attributes.set(row, "maxSpeed", Value::Float(speed));
+    layout
+        .paths
+        .attributes
+        .set(row, "maxSpeed", Value::Float(speed));
 }
 
 /// A grid of two-way streets, one meter apart; speeds repeat.
@@ -65,42 +68,81 @@ fn longer_way_at_higher_speed_wins() {
     // The turn at c is 22.6 degrees, at 0.5 rad/s.
     let turn_rad = 2.0 * 0.2f64.atan();
     assert!((found.rows[1].turn_rad - turn_rad).abs() < 1e-9);
-    assert!((found.time_s - (leg_m + turn_rad / 0.5)).abs() < 1e-3, "{found:?}");
+    assert!(
+        (found.time_s - (leg_m + turn_rad / 0.5)).abs() < 1e-3,
+        "{found:?}"
+    );
     assert_eq!(route(&layout, "a", "a").unwrap().rows, []);
     // Against the path from b to c.
     assert!(route(&layout, "b", "c").unwrap().rows[0].is_backward);
     let turned = route(&layout, "b", "c").unwrap().layout(&layout);
     assert_eq!(turned.paths.get(0).ends().unwrap().0, Point::new(10.0, 0.0));
-    assert_eq!(turned.nodes.id(turned.paths.get(0).start_node().unwrap()), "b");
+    assert_eq!(
+        turned.nodes.id(turned.paths.get(0).start_node().unwrap()),
+        "b"
+    );
 }
 
 #[test]
 fn forbidden_turns_are_not_taken_and_are_named() {
-    let Some(layout) = case("corner.lif.json") else { return };
+    let Some(layout) = case("corner.lif.json") else {
+        return;
+    };
     let router = Router::new(&layout, Some("V"), &RouteOptions::default()).unwrap();
     let [a, c] = ["A", "C"].map(|name| router.place(name).unwrap());
     let error = router.route(&a, &c).unwrap_err().to_string();
-    assert!(error.contains("rotation is forbidden at node \"B\""), "{error}");
+    assert!(
+        error.contains("rotation is forbidden at node \"B\""),
+        "{error}"
+    );
 }
 
 #[test]
 fn stations_out_of_reach_and_unknown_names_are_errors() {
-    let Some(layout) = case("dead.lif.json") else { return };
+    let Some(layout) = case("dead.lif.json") else {
+        return;
+    };
     let router = Router::new(&layout, Some("agv"), &RouteOptions::default()).unwrap();
     let place = |name| router.place(name).unwrap();
-    let error = router.route(&place("PICK"), &place("DROP")).unwrap_err().to_string();
+    let error = router
+        .route(&place("PICK"), &place("DROP"))
+        .unwrap_err()
+        .to_string();
     assert!(error.contains("\"agv\" reach 1 of 6 nodes"), "{error}");
-    assert_eq!(router.route(&place("a"), &place("DROP")).unwrap().rows.len(), 2);
-    assert!(matches!(router.place("Z"), Err(RouteError::UnknownPlace { .. })));
+    assert_eq!(
+        router
+            .route(&place("a"), &place("DROP"))
+            .unwrap()
+            .rows
+            .len(),
+        2
+    );
+    assert!(matches!(
+        router.place("Z"),
+        Err(RouteError::UnknownPlace { .. })
+    ));
     let other = Router::new(&layout, Some("tug"), &RouteOptions::default());
-    assert!(other.err().unwrap().to_string().contains("the layout has agv"));
+    assert!(
+        other
+            .err()
+            .unwrap()
+            .to_string()
+            .contains("the layout has agv")
+    );
     let open = Router::new(&layout, None, &RouteOptions::default());
-    assert!(open.err().unwrap().to_string().contains("no vehicle type is given"));
+    assert!(
+        open.err()
+            .unwrap()
+            .to_string()
+            .contains("no vehicle type is given")
+    );
 }
 
 #[test]
 fn built_case_has_a_route_to_its_station() {
-    let Some(drawing) = case("net.dxf") else { return };
+    let Some(drawing) = case("net.dxf") else {
+        return;
+    };
     let layout = network(&drawing, &split()).layout;
     let found = route(&layout, "N1", "PICK-07").unwrap();
     assert_eq!(found.rows.len(), 4);
@@ -118,13 +160,18 @@ fn bends_slow_vehicles_down() {
         end_node: Some(1),
         ..NewPath::default()
     });
-    layout.paths.attributes.set(0, "maxSpeed", Value::Float(5.0));
+    layout
+        .paths
+        .attributes
+        .set(0, "maxSpeed", Value::Float(5.0));
     let options = RouteOptions {
         lateral_acceleration_m_s2: Some(1.0),
         ..RouteOptions::default()
     };
     let router = Router::new(&layout, None, &options).unwrap();
-    let found = router.route(&router.place("a").unwrap(), &router.place("b").unwrap()).unwrap();
+    let found = router
+        .route(&router.place("a").unwrap(), &router.place("b").unwrap())
+        .unwrap();
     // The speed in the bend is sqrt(1 * 4) = 2 m/s.
     let expected = std::f64::consts::FRAC_PI_2 * 4.0 / 2.0;
     assert!((found.time_s - expected).abs() < 1e-2, "{found:?}");
@@ -136,7 +183,9 @@ fn slow_time(layout: &Layout, from: u32, to: u32, options: &RouteOptions) -> f64
     let mut arcs = Vec::new();
     for path in paths.iter() {
         let (a, b) = (path.start_node().unwrap(), path.end_node().unwrap());
-        let Some(Value::Float(speed)) = paths.attributes.value(path.row(), "maxSpeed") else { continue };
+        let Some(Value::Float(speed)) = paths.attributes.value(path.row(), "maxSpeed") else {
+            continue;
+        };
         let [p, q] = [a, b].map(|node| layout.nodes.position_m(node));
         let time = p.distance(q) / speed;
         arcs.push((a, b, time, q - p));
@@ -144,7 +193,10 @@ fn slow_time(layout: &Layout, from: u32, to: u32, options: &RouteOptions) -> f64
             arcs.push((b, a, time, p - q));
         }
     }
-    let mut times: Vec<f64> = arcs.iter().map(|a| if a.0 == from { a.2 } else { f64::INFINITY }).collect();
+    let mut times: Vec<f64> = arcs
+        .iter()
+        .map(|a| if a.0 == from { a.2 } else { f64::INFINITY })
+        .collect();
     for _ in 0..arcs.len() {
         for i in 0..arcs.len() {
             for j in 0..arcs.len() {
@@ -154,13 +206,21 @@ fn slow_time(layout: &Layout, from: u32, to: u32, options: &RouteOptions) -> f64
                 // Two-way paths may be driven backward against their direction.
                 let angle = |u: Point<f64>, v: Point<f64>| u.cross(v).abs().atan2(u.dot(v));
                 let turn = angle(arcs[i].3, arcs[j].3);
-                let turn = if turn <= options.turn_angle_rad { 0.0 } else { turn };
+                let turn = if turn <= options.turn_angle_rad {
+                    0.0
+                } else {
+                    turn
+                };
                 let time = times[i] + turn / options.rotation_speed_rad_s + arcs[j].2;
                 times[j] = times[j].min(time);
             }
         }
     }
-    arcs.iter().zip(&times).filter(|(a, _)| a.1 == to).map(|(_, t)| *t).fold(f64::INFINITY, f64::min)
+    arcs.iter()
+        .zip(&times)
+        .filter(|(a, _)| a.1 == to)
+        .map(|(_, t)| *t)
+        .fold(f64::INFINITY, f64::min)
 }
 
 proptest! {
@@ -204,7 +264,13 @@ fn search_grows_almost_linearly() {
         let last = format!("n{}", side * side - 1);
         let places = ["n0", &last].map(|name| router.place(name).unwrap());
         let start = Instant::now();
-        assert!(!router.route(&places[0], &places[1]).unwrap().rows.is_empty());
+        assert!(
+            !router
+                .route(&places[0], &places[1])
+                .unwrap()
+                .rows
+                .is_empty()
+        );
         start.elapsed().as_secs_f64()
     });
     // The number of edges is the square of the side.

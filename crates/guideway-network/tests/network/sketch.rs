@@ -30,13 +30,23 @@ pub(crate) fn add_runs(layout: &mut Layout, runs: &Runs, layer: &str) {
         runs,
         ..NewPath::default()
     });
-    layout.paths.attributes.set(row, "layer", Value::Text(layer));
+    layout
+        .paths
+        .attributes
+        .set(row, "layer", Value::Text(layer));
 }
 
 /// A quarter of a circle about the origin.
 pub(crate) fn quarter(radius_m: f64) -> Runs {
     let mut runs = Runs::default();
-    arc_to_runs(Point::new(0.0, 0.0), radius_m, 0.0, FRAC_PI_2, 1e-6, &mut runs);
+    arc_to_runs(
+        Point::new(0.0, 0.0),
+        radius_m,
+        0.0,
+        FRAC_PI_2,
+        1e-6,
+        &mut runs,
+    );
     runs
 }
 
@@ -84,14 +94,19 @@ pub(crate) fn assert_ends_meet(layout: &Layout) {
         let (start, end) = path.ends().unwrap();
         for (at, node) in [(start, path.start_node()), (end, path.end_node())] {
             let node_at = layout.nodes.position_m(node.unwrap());
-            assert!(at.distance(node_at) < 1e-9, "{}: {at:?} {node_at:?}", path.id());
+            assert!(
+                at.distance(node_at) < 1e-9,
+                "{}: {at:?} {node_at:?}",
+                path.id()
+            );
         }
     }
 }
 
 /// A file of the folder `shared/cases/network` beside the repository, if it is there.
 pub(crate) fn case(name: &str) -> Option<Layout> {
-    let folder: PathBuf = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/cases/network");
+    let folder: PathBuf =
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/cases/network");
     let file = folder.join(name);
     if !file.exists() {
         eprintln!("SKIPPED: {} is not there", file.display());

@@ -60,10 +60,22 @@ impl Level {
         }));
     }
 
-    /// Adds a straight edge in each direction.
+    /// Adds a straight edge to the end of a spur, where vehicles turn around, and one back.
     pub(crate) fn both_ways(&mut self, prefix: &str, a: Xy, b: Xy, max_speed: f64, types: &[&str]) {
         self.edge(prefix, a, b, &Way::Straight, max_speed, types);
         self.edge(prefix, b, a, &Way::Straight, max_speed, types);
+        let [.., inward, outward] = self.edges.as_mut_slice() else {
+            return;
+        };
+        for (edge, rule) in [
+            (inward, "rotationAtEndNodeAllowed"),
+            (outward, "rotationAtStartNodeAllowed"),
+        ] {
+            let properties = edge["vehicleTypeEdgeProperties"].as_array_mut();
+            for of_type in properties.into_iter().flatten() {
+                of_type[rule] = json!("BOTH");
+            }
+        }
     }
 
     /// Adds a station with its node.

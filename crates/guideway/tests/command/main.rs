@@ -7,6 +7,7 @@ mod bench;
 mod diff;
 mod envelope;
 mod hostile;
+mod network;
 mod render;
 mod render_files;
 mod reports;

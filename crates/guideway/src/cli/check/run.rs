@@ -2,6 +2,7 @@
 
 use clap::ValueEnum;
 use guideway::layout::{CheckOptions, Diagnostic, FindingKind, UserError, check, check_across};
+use guideway::network::{AnalyzeOptions, analyze};
 use serde_json::{Value, json};
 
 use super::clearance::{self, ClearanceArgs};
@@ -56,6 +57,14 @@ pub(crate) struct Args {
         allow_hyphen_values = true
     )]
     min_radius: Option<f64>,
+    /// Largest lateral acceleration in bends, in m/s²; without it, speeds are not checked
+    #[arg(
+        long,
+        value_name = "VALUE",
+        value_parser = values::positive,
+        allow_hyphen_values = true
+    )]
+    lateral_acceleration: Option<f64>,
     #[command(flatten)]
     clearance: ClearanceArgs,
 }
@@ -75,6 +84,13 @@ impl Args {
             kink_angle_rad: self.kink.map_or(default.kink_angle_rad, f64::to_radians),
             min_radius_m: self.min_radius,
             ..default
+        }
+    }
+
+    fn network_options(&self) -> AnalyzeOptions {
+        AnalyzeOptions {
+            lateral_acceleration_m_s2: self.lateral_acceleration,
+            ..AnalyzeOptions::default()
         }
     }
 }
@@ -113,6 +129,7 @@ fn checked(args: &Args, out: &Output) -> Result<(Vec<CheckedFile>, Times), UserE
     for ((input, layout), across) in args.inputs.iter().zip(&mut layouts).zip(across) {
         // A doubt about the unit comes first: findings of the reader may follow from it.
         let mut found = check(layout, &options);
+        found.append(analyze(layout, &args.network_options()));
         found.append(std::mem::take(&mut layout.diagnostics));
         found.append(across);
         let clearance = clearance_check

@@ -1,0 +1,274 @@
+//! `guideway network`: makes a network from the lines of a drawing, and checks it.
+
+use std::fs;
+use std::path::PathBuf;
+
+use clap::ValueEnum;
+use guideway::layout::{CheckOptions, FindingKind, UserError, check};
+use guideway::network::{
+    AnalyzeOptions, BuildOptions, BuildReport, LayerRule, NoteSource, analyze, build,
+};
+use serde_json::{Value, json};
+
+use super::convert::{target_to_save, write};
+use super::exit::Exit;
+use super::input::{self, Input};
+use super::output::{Output, save};
+use super::{text, values};
+
+/// Notes that the text report lists.
+const SHOWN_NOTES: usize = 5;
+
+#[derive(Debug, clap::Args)]
+#[command(after_help = input::PLACEMENT_HELP)]
+pub(crate) struct Args {
+    /// Drawings; the content decides the format
+    #[arg(required = true, value_name = "PLAN", value_parser = Input::parser())]
+    inputs: Vec<Input>,
+    /// File to write; its extension selects the format
+    #[arg(short, long, value_name = "SITE")]
+    output: PathBuf,
+    /// Options and rules per layer, in TOML; arguments override them
+    #[arg(long, value_name = "FILE")]
+    map: Option<PathBuf>,
+    /// Save the options of this call for --map
+    #[arg(long, value_name = "FILE")]
+    save_map: Option<PathBuf>,
+    /// Distance within which ends become one node [default: 0.01]
+    #[arg(long, value_name = "METERS", value_parser = values::not_negative, allow_hyphen_values = true)]
+    weld: Option<f64>,
+    /// Cut lines where ends meet them and where they cross
+    #[arg(long)]
+    split: bool,
+    /// Cut lines where they cross
+    #[arg(long, value_name = "YES|NO")]
+    split_crossings: Option<YesNo>,
+    /// Replace chains of short lines by curves within this distance
+    #[arg(long, value_name = "METERS", value_parser = values::positive, allow_hyphen_values = true)]
+    smooth: Option<f64>,
+    /// Notes that are stations: text:LAYER, block:NAME, point:LAYER or circle:LAYER; repeatable
+    #[arg(long, value_name = "SOURCE")]
+    stations: Vec<NoteSource>,
+    /// Notes that name nodes; repeatable
+    #[arg(long, value_name = "SOURCE")]
+    names: Vec<NoteSource>,
+    /// Largest distance of a note from its node or line [default: 1]
+    #[arg(long, value_name = "METERS", value_parser = values::not_negative, allow_hyphen_values = true)]
+    reach: Option<f64>,
+    /// Use the lines of this layer only; repeatable, `*` at the end stands for any rest
+    #[arg(long, value_name = "LAYER")]
+    layer: Vec<String>,
+    /// Vehicles drive along lines as they were drawn, not both ways
+    #[arg(long)]
+    one_way: bool,
+    /// Levels lie one over the other: their ends meet by chance
+    #[arg(long)]
+    levels_apart: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum YesNo {
+    Yes,
+    No,
+}
+
+impl Args {
+    /// The options of the file, overridden by the arguments.
+    fn options(&self) -> Result<BuildOptions, UserError> {
+        let mut options = match &self.map {
+            None => BuildOptions::default(),
+            Some(file) => {
+                let name = file.display();
+                let text = fs::read_to_string(file).map_err(|error| {
+                    let remedy = "Name a TOML file; docs/network.md shows one";
+                    UserError::new("map", format!("{name}: {error}"), remedy)
+                })?;
+                BuildOptions::from_toml(&text).map_err(|error| {
+                    let error = UserError::from(error);
+                    let message = format!("{name}: {}", error.message);
+                    UserError { message, ..error }
+                })?
+            }
+        };
+        options.weld_m = self.weld.unwrap_or(options.weld_m);
+        options.reach_m = self.reach.unwrap_or(options.reach_m);
+        options.smooth_m = self.smooth.or(options.smooth_m);
+        options.split_junctions |= self.split;
+        options.split_crossings |= self.split;
+        if let Some(choice) = self.split_crossings {
+            options.split_crossings = choice == YesNo::Yes;
+        }
+        options.stations.extend(self.stations.iter().cloned());
+        options.names.extend(self.names.iter().cloned());
+        options.two_way &= !self.one_way;
+        options.levels_apart |= self.levels_apart;
+        if !self.layer.is_empty() {
+            options.other_layers = false;
+            let rules = self.layer.iter().map(|name| LayerRule {
+                name: name.clone(),
+                ..LayerRule::default()
+            });
+            options.layers.extend(rules);
+        }
+        Ok(options)
+    }
+}
+
+pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
+    let options = args.options()?;
+    input::check_output(args.inputs.iter().map(|i| i.path.as_path()), &args.output)?;
+    let (drawing, read_ms) = input::read_all(&args.inputs, out)?;
+    let target = target_to_save(&drawing, &args.output)?;
+    let progress = out.progress("building the network");
+    let made = build(&drawing, &options)?;
+    let build_ms = progress.finish();
+    drop(drawing);
+    let progress = out.progress("checking");
+    let mut found = check(&made.layout, &CheckOptions::default());
+    found.append(analyze(&made.layout, &AnalyzeOptions::default()));
+    let check_ms = progress.finish();
+    let progress = out.progress(format!("writing {}", args.output.display()));
+    let (losses, bytes) = write(target, &made.layout, &args.output)?;
+    let write_ms = progress.finish();
+    if let Some(file) = &args.save_map {
+        save(file, options.to_toml()?.as_bytes())?;
+    }
+    let total_ms = read_ms + build_ms + check_ms + write_ms;
+    let kinds = FindingKind::of([&found]);
+    let counts = made.report.counts().into_iter();
+    let counts: serde_json::Map<String, Value> = counts
+        .map(|(name, count)| (name.to_owned(), json!(count)))
+        .collect();
+    let left = made.report.left_notes.iter();
+    let left = left.map(|n| json!({ "name": n.name, "at_m": [n.position_m.x, n.position_m.y] }));
+    let body = json!({
+        "file": input::names(&args.inputs),
+        "output": args.output.to_string_lossy(),
+        "format": target.name(),
+        "counts": counts,
+        "named_nodes": made.report.named,
+        "largest_move_m": made.report.largest_move_m,
+        "left_notes": { "count": made.report.left_note_count, "first": left.collect::<Vec<_>>() },
+        "findings": kinds.iter().map(|kind| json!({
+            "code": kind.code.name(),
+            "severity": kind.severity.to_string(),
+            "count": kind.count,
+        })).collect::<Vec<_>>(),
+        "not_stored": losses.iter().map(|loss| json!({
+            "place": loss.what, "count": loss.count, "message": loss.to_string(),
+        })).collect::<Vec<_>>(),
+        "bytes": bytes,
+        "ms": {
+            "read": read_ms, "build": build_ms, "check": check_ms, "write": write_ms,
+            "total": total_ms,
+        },
+    });
+    out.report("network", &body, || {
+        let mut words = account(&made.report, &options);
+        words += "check: ";
+        words += &match kinds.is_empty() {
+            true => "no findings\n".to_owned(),
+            false => {
+                let kinds = kinds
+                    .iter()
+                    .map(|k| format!("{} {} ({})", k.count, k.code, k.severity));
+                kinds.collect::<Vec<_>>().join(", ") + "\n"
+            }
+        };
+        if !losses.is_empty() {
+            words += &format!("{} cannot hold, or holds in another form:\n", target.name());
+        }
+        for loss in losses.iter() {
+            let what = text::single_line(&loss.what, 80);
+            let detail = text::single_line(&loss.detail, 200);
+            words += &format!("  {what}: {} {detail}\n", text::count(loss.count));
+        }
+        let (name, size) = (args.output.display(), text::bytes(bytes));
+        words + &format!("{name}: {size}, took {}\n", text::time(total_ms))
+    })?;
+    Ok(Exit::Clean)
+}
+
+/// What was done and left, in words.
+fn account(report: &BuildReport, options: &BuildOptions) -> String {
+    let counted = text::counted;
+    let mut lines = vec![format!(
+        "{} between {}, {}",
+        counted(report.edges, "edge"),
+        counted(report.nodes, "node"),
+        counted(report.stations, "station"),
+    )];
+    let one_way = report.edges - report.two_way;
+    lines.push(match (options.two_way, one_way) {
+        (true, 0) => "two-way: vehicles drive along every line in both directions".to_owned(),
+        (true, _) => format!(
+            "two-way, except {} by the rules of layers",
+            counted(one_way, "edge")
+        ),
+        (false, _) => "one-way: vehicles drive as the lines were drawn".to_owned(),
+    });
+    let mut say = |count: u64, line: String| {
+        if count > 0 {
+            lines.push(line);
+        }
+    };
+    say(
+        report.gaps,
+        format!(
+            "joined: {}; the farthest end moved by {}",
+            counted(report.gaps, "gap"),
+            text::meters(report.largest_move_m)
+        ),
+    );
+    say(
+        report.junctions + report.crossings,
+        format!(
+            "cut: {} at {} and {}",
+            counted(report.cut, "line"),
+            counted(report.junctions, "junction"),
+            counted(report.crossings, "crossing")
+        ),
+    );
+    say(
+        report.smoothed_lines,
+        format!(
+            "smoothed: {} to {}",
+            counted(report.smoothed_lines, "line"),
+            counted(report.smoothed_curves, "curve")
+        ),
+    );
+    say(
+        report.named,
+        format!("named: {}", counted(report.named, "node")),
+    );
+    for (count, what) in [
+        (report.paths_left, "of layers that are left out"),
+        (report.circles, "that are circles of stations"),
+        (report.dots, "without length"),
+        (report.vanished, "shorter than the weld distance"),
+        (report.repeated, "drawn twice"),
+    ] {
+        say(count, format!("left: {} {what}", counted(count, "line")));
+    }
+    say(
+        report.broken,
+        format!("parted: {} with gaps", counted(report.broken, "line")),
+    );
+    say(
+        report.overlaps,
+        format!(
+            "not cut: {} of curves that lie on each other",
+            counted(report.overlaps, "pair")
+        ),
+    );
+    say(report.left_note_count, {
+        let names = report.left_notes.iter().take(SHOWN_NOTES);
+        let names: Vec<String> = names.map(|n| text::single_line(&n.name, 40)).collect();
+        format!(
+            "left: {} too far from every line, such as {}; --reach takes farther ones",
+            counted(report.left_note_count, "note"),
+            names.join(", ")
+        )
+    });
+    lines.iter().map(|line| format!("{line}\n")).collect()
+}

@@ -1,0 +1,144 @@
+//! `guideway route`: the fastest way between two stations or nodes.
+
+use std::path::PathBuf;
+
+use guideway::layout::{Layout, UserError};
+use guideway::network::{Route, RouteOptions, Router};
+use serde_json::{Value, json};
+
+use super::convert::{target_to_save, write};
+use super::exit::Exit;
+use super::input::{self, Input};
+use super::output::Output;
+use super::{text, values};
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// Layout file; the content decides the format
+    #[arg(value_name = "SITE", value_parser = Input::parser())]
+    input: Input,
+    /// Station or node where the vehicle starts, by identifier or name
+    from: String,
+    /// Station or node where the vehicle ends
+    to: String,
+    /// Vehicle type; needed where the layout has several
+    #[arg(long, value_name = "TYPE")]
+    vehicle_type: Option<String>,
+    /// Also write the route: GeoJSON, an order of VDA 5050 (.vda5050.json), or any other format
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Speed on paths without a limit, in m/s [default: 1]
+    #[arg(long, value_name = "SPEED", value_parser = values::positive, allow_hyphen_values = true)]
+    speed: Option<f64>,
+    /// Rotation speed where none is stated, in degrees per second [default: 28.6]
+    #[arg(long, value_name = "SPEED", value_parser = values::positive, allow_hyphen_values = true)]
+    rotation_speed: Option<f64>,
+    /// Largest lateral acceleration, in m/s²: it slows vehicles in bends
+    #[arg(long, value_name = "VALUE", value_parser = values::positive, allow_hyphen_values = true)]
+    lateral_acceleration: Option<f64>,
+}
+
+impl Args {
+    fn options(&self) -> RouteOptions {
+        let default = RouteOptions::default();
+        let rotation = self.rotation_speed.map(f64::to_radians);
+        RouteOptions {
+            speed_m_s: self.speed.unwrap_or(default.speed_m_s),
+            rotation_speed_rad_s: rotation.unwrap_or(default.rotation_speed_rad_s),
+            lateral_acceleration_m_s2: self.lateral_acceleration,
+            ..default
+        }
+    }
+}
+
+pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
+    if let Some(output) = &args.output {
+        input::check_output([args.input.path.as_path()], output)?;
+    }
+    let (layout, read_ms) = input::read_all(std::slice::from_ref(&args.input), out)?;
+    let progress = out.progress("searching");
+    let vehicle_type = args.vehicle_type.as_deref().or_else(|| only_type(&layout));
+    let router = Router::new(&layout, vehicle_type, &args.options())?;
+    let graph_ms = progress.finish();
+    let progress = out.progress("searching");
+    let route = router.route(&router.place(&args.from)?, &router.place(&args.to)?)?;
+    let search_ms = progress.finish();
+    if let Some(output) = &args.output {
+        let route = route.layout(&layout);
+        write(target_to_save(&route, output)?, &route, output)?;
+    }
+    let body = json!({
+        "file": args.input.path.to_string_lossy(),
+        "from": args.from,
+        "to": args.to,
+        "vehicle_type": vehicle_type,
+        "length_m": route.length_m,
+        "time_s": route.time_s,
+        "paths": rows_json(&layout, &route),
+        "output": args.output.as_ref().map(|output| output.to_string_lossy()),
+        "ms": {
+            "read": read_ms, "graph": graph_ms, "search": search_ms,
+            "total": read_ms + graph_ms + search_ms,
+        },
+    });
+    out.report("route", &body, || table(args, &layout, &route))?;
+    Ok(Exit::Clean)
+}
+
+/// The vehicle type of a layout that has one only.
+fn only_type(layout: &Layout) -> Option<&str> {
+    match layout.paths.vehicle_types().names() {
+        [one] => Some(one),
+        _ => None,
+    }
+}
+
+fn rows_json(layout: &Layout, route: &Route) -> Vec<Value> {
+    let rows = route.rows.iter();
+    rows.map(|row| {
+        json!({
+            "path": layout.paths.id(row.path as usize),
+            "backward": row.is_backward,
+            "from": layout.nodes.id(row.from),
+            "to": layout.nodes.id(row.to),
+            "turn_deg": row.turn_rad.to_degrees(),
+            "turn_s": row.turn_s,
+            "length_m": row.length_m,
+            "speed_m_s": row.speed_m_s,
+            "drive_s": row.drive_s,
+            "end_s": row.end_s,
+        })
+    })
+    .collect()
+}
+
+fn table(args: &Args, layout: &Layout, route: &Route) -> String {
+    let name = |text: &str| text::single_line(text, 40);
+    let mut words = String::new();
+    for row in &route.rows {
+        if row.turn_s > 0.0 {
+            let (angle, at) = (row.turn_rad.to_degrees(), name(layout.nodes.id(row.from)));
+            words += &format!(
+                "{:>9.1} s  turn by {angle:.1}° at {at}\n",
+                row.end_s - row.drive_s
+            );
+        }
+        words += &format!(
+            "{:>9.1} s  {} to {}: {} at {} m/s{}\n",
+            row.end_s,
+            name(layout.paths.id(row.path as usize)),
+            name(layout.nodes.id(row.to)),
+            text::meters(row.length_m),
+            text::number(row.speed_m_s),
+            if row.is_backward {
+                ", against the path"
+            } else {
+                ""
+            }
+        );
+    }
+    let length = text::meters(route.length_m);
+    let paths = text::counted(route.rows.len() as u64, "path");
+    let (from, to) = (name(&args.from), name(&args.to));
+    words + &format!("{from} to {to}: {paths}, {length}, {:.1} s\n", route.time_s)
+}
