@@ -93,6 +93,16 @@ impl Arcs {
         self.leaving.of(node)
     }
 
+    /// Rows of all arcs, in groups by the node where they begin.
+    pub(crate) fn leaving_rows(&self) -> &[u32] {
+        &self.leaving.arcs
+    }
+
+    /// Index of the first arc of a node in [`Self::leaving_rows`].
+    pub(crate) fn first_leaving(&self, node: u32) -> usize {
+        self.leaving.ends[node as usize] as usize
+    }
+
     /// Rows of the arcs that end at a node.
     pub(crate) fn entering(&self, node: u32) -> &[u32] {
         self.entering.of(node)

@@ -60,7 +60,8 @@ impl Components {
             }
         }
         let mut flags = vec![false; self.sizes.len()];
-        best.into_values().for_each(|row| flags[row as usize] = true);
+        best.into_values()
+            .for_each(|row| flags[row as usize] = true);
         flags
     }
 

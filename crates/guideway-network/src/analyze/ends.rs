@@ -16,7 +16,11 @@ pub(super) fn check(
     findings: &mut Findings,
 ) {
     let is_way = !components.has_circle() && layout.stations.is_empty();
-    let trap = if is_way { Severity::Info } else { Code::DeadEnd.severity() };
+    let trap = if is_way {
+        Severity::Info
+    } else {
+        Code::DeadEnd.severity()
+    };
     let mut has_station = vec![false; layout.nodes.len()];
     for station in 0..layout.stations.len() as u32 {
         for &node in layout.stations.nodes(station) {

@@ -55,8 +55,6 @@ pub(super) struct Costs {
     pub(super) of_arc: Vec<Cost>,
     /// Least time per meter of the straight distance between the ends of an arc, in s/m.
     pub(super) least_s_per_m: f64,
-    /// Longest time of a permitted turn.
-    pub(super) longest_turn_s: f64,
     turn_angle_rad: f64,
 }
 
@@ -86,10 +84,8 @@ impl Costs {
             }
         });
         let least = per_m.fold(f64::INFINITY, f64::min);
-        let slowest = of_arc.iter().map(|cost| cost.rotation_speed_rad_s);
         Self {
             least_s_per_m: if least.is_finite() { least } else { 0.0 },
-            longest_turn_s: std::f64::consts::PI / slowest.fold(f64::INFINITY, f64::min),
             of_arc,
             turn_angle_rad: options.turn_angle_rad,
         }
@@ -105,11 +101,6 @@ impl Costs {
         let speed = from.rotation_speed_rad_s.min(to.rotation_speed_rad_s);
         let is_rigid = from.forbids[1] && to.forbids[0];
         (!is_rigid).then_some((angle_rad, angle_rad / speed))
-    }
-
-    /// Returns `true` if no rotation is permitted where an arc ends, by the arc itself.
-    pub(super) fn forbids_at_end(&self, arc: u32) -> bool {
-        self.of_arc[arc as usize].forbids[1]
     }
 }
 

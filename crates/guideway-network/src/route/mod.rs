@@ -81,7 +81,12 @@ impl<'a> Router<'a> {
             Ok(found) => Ok(self.rows(&found)),
             Err(reached) => {
                 let detour = self.search(from, to, true).ok();
-                Err(self.no_way(from, to, reached, detour.as_deref()))
+                Err(self.no_way(
+                    from,
+                    to,
+                    reached,
+                    detour.as_ref().map(|found| &found.arcs[..]),
+                ))
             }
         }
     }

@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use guideway_layout::{Direction, Layout, NewPath, Provenance, element_name};
 use guideway_spline::{Point, Runs};
 
+use super::search::Found;
 use super::{Place, RouteError, Router};
 
 /// One path of a route.
@@ -41,14 +42,19 @@ pub struct Route {
     pub length_m: f64,
     /// Time of all paths and turns.
     pub time_s: f64,
+    /// Turns that the search compared, a measure of its work.
+    pub turns_compared: u64,
 }
 
 impl Router<'_> {
-    /// The rows of a list of arcs.
-    pub(super) fn rows(&self, found: &[u32]) -> Route {
-        let mut route = Route::default();
+    /// The rows of a way.
+    pub(super) fn rows(&self, found: &Found) -> Route {
+        let mut route = Route {
+            turns_compared: found.turns,
+            ..Route::default()
+        };
         let mut before = None;
-        for &row in found {
+        for &row in &found.arcs {
             let (arc, cost) = (self.arcs.get(row), &self.costs.of_arc[row as usize]);
             let turn = before.and_then(|before| self.costs.turn(before, row));
             let (turn_rad, turn_s) = turn.unwrap_or_default();

@@ -15,6 +15,14 @@ use super::{Place, Router};
 /// No arc before this one.
 const START: u32 = u32::MAX;
 
+/// A way, and the work of its search.
+pub(super) struct Found {
+    /// Rows of its arcs in order.
+    pub(super) arcs: Vec<u32>,
+    /// Turns that were compared.
+    pub(super) turns: u64,
+}
+
 /// An arc that waits, with the time when its end is reached.
 struct Waiting {
     estimate_s: f64,
@@ -45,9 +53,9 @@ impl PartialEq for Waiting {
 impl Eq for Waiting {}
 
 impl Router<'_> {
-    /// Rows of the arcs from one place to another one, or the number of nodes that are reached.
+    /// The arcs from one place to another one, or the number of nodes that are reached.
     /// With `any_turn`, rotation rules do not count.
-    pub(super) fn search(&self, from: &Place, to: &Place, any_turn: bool) -> Result<Vec<u32>, u32> {
+    pub(super) fn search(&self, from: &Place, to: &Place, any_turn: bool) -> Result<Found, u32> {
         let arcs = &self.arcs;
         let nodes = arcs.node_count() as usize;
         let mut is_goal = vec![false; nodes];
@@ -69,8 +77,9 @@ impl Router<'_> {
         };
         let mut times_s = vec![f64::INFINITY; arcs.all.len()];
         let mut before = vec![START; arcs.all.len()];
-        // Time from which a later arrival at a node cannot be faster on any way out of it.
-        let mut settled_s = vec![f64::INFINITY; nodes];
+        // Arcs by node whose time may still improve: the first `open` of each node.
+        let mut pending = arcs.leaving_rows().to_vec();
+        let mut open: Vec<usize> = (0..nodes as u32).map(|n| arcs.leaving(n).len()).collect();
         let mut heap = BinaryHeap::new();
         let mut reach = |heap: &mut BinaryHeap<Waiting>, arc: u32, from: u32, time_s: f64| {
             let time_s = time_s + self.costs.of_arc[arc as usize].drive_s;
@@ -84,14 +93,13 @@ impl Router<'_> {
                     arc,
                 });
             }
-            times_s[arc as usize]
         };
         for &node in &from.nodes {
             for &arc in arcs.leaving(node) {
                 reach(&mut heap, arc, START, 0.0);
             }
         }
-        let mut arrived = None;
+        let (mut arrived, mut turns) = (None, 0);
         let mut done = vec![false; arcs.all.len()];
         while let Some(Waiting { time_s, arc, .. }) = heap.pop() {
             if std::mem::replace(&mut done[arc as usize], true) {
@@ -102,14 +110,18 @@ impl Router<'_> {
                 arrived = Some(arc);
                 break;
             }
-            if time_s >= settled_s[node as usize] {
-                continue;
-            }
-            if any_turn || !self.costs.forbids_at_end(arc) {
-                let all_out_s = time_s + self.costs.longest_turn_s;
-                settled_s[node as usize] = settled_s[node as usize].min(all_out_s);
-            }
-            for &next in arcs.leaving(node) {
+            let first = arcs.first_leaving(node);
+            let mut row = 0;
+            while row < open[node as usize] {
+                let next = pending[first + row];
+                if done[next as usize] {
+                    // No later arrival improves it.
+                    open[node as usize] -= 1;
+                    pending.swap(first + row, first + open[node as usize]);
+                    continue;
+                }
+                row += 1;
+                turns += 1;
                 let turn = self.costs.turn(arc, next);
                 let turn = if any_turn {
                     turn.or(Some((0.0, 0.0)))
@@ -133,6 +145,6 @@ impl Router<'_> {
             found.push(arc);
         }
         found.reverse();
-        Ok(found)
+        Ok(Found { arcs: found, turns })
     }
 }

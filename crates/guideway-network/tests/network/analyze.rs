@@ -151,10 +151,17 @@ fn ring_with_return_is_clean_and_one_way_parts_are_found() {
 
 #[test]
 fn each_level_has_a_network_of_its_own() {
-    let nodes = [("a", 0.0, 0.0), ("b", 9.0, 0.0), ("c", 0.0, 0.0), ("d", 9.0, 0.0)];
+    let nodes = [
+        ("a", 0.0, 0.0),
+        ("b", 9.0, 0.0),
+        ("c", 0.0, 0.0),
+        ("d", 9.0, 0.0),
+    ];
     let mut layout = network_of(&nodes, &[("a", "b", Both), ("c", "d", Both)], &[]);
     for node in 0..4 {
-        layout.stations.push(&format!("S{node}"), None, vec![node], None);
+        layout
+            .stations
+            .push(&format!("S{node}"), None, vec![node], None);
     }
     assert_eq!(places(&layout, Code::NotConnected), ["node \"c\""]);
     assert_eq!(places(&layout, Code::UnreachableStation).len(), 2);

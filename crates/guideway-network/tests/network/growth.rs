@@ -25,13 +25,16 @@ fn town(n: usize) -> Layout {
     drawing(&lines)
 }
 
-/// Slope of the line through (log size, log seconds) with the least squared distances; the best of
-/// seven runs per size counts, because other programs may run beside.
+/// Runs per size.
+const REPEATS: u32 = 7;
+
+/// Slope of the line through (log size, log cost) with the least squared distances; the best run
+/// per size counts, because other programs may run beside.
 pub(crate) fn exponent(sizes: [usize; 3], mut run: impl FnMut(usize) -> f64) -> f64 {
     let points: Vec<(f64, f64)> = sizes
         .iter()
         .map(|&n| {
-            let best = (0..7).map(|_| run(n)).fold(f64::INFINITY, f64::min);
+            let best = (0..REPEATS).map(|_| run(n)).fold(f64::INFINITY, f64::min);
             ((n as f64).ln(), best.ln())
         })
         .collect();

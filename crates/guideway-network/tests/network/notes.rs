@@ -54,9 +54,19 @@ fn blocks_have_the_text_of_their_first_attribute() {
         .notes
         .iter()
         .filter(|n| n.kind == NoteKind::Block)
-        .map(|n| (n.block.as_str(), n.text.as_str(), n.position_m.x, n.position_m.y))
+        .map(|n| {
+            (
+                n.block.as_str(),
+                n.text.as_str(),
+                n.position_m.x,
+                n.position_m.y,
+            )
+        })
         .collect();
-    assert_eq!(blocks, [("Dock", "D-07", 10.0, 20.0), ("Dock", "", 30.0, 20.0)]);
+    assert_eq!(
+        blocks,
+        [("Dock", "D-07", 10.0, 20.0), ("Dock", "", 30.0, 20.0)]
+    );
     // The point of the block is on the layer of its INSERT, 2 m above the base point.
     let point = layout.notes.iter().find(|n| n.kind == NoteKind::Point);
     let point = point.unwrap();
@@ -79,5 +89,8 @@ fn circles_mark_stations_and_are_no_edges() {
     assert_eq!((made.layout.paths.len(), made.report.circles), (1, 1));
     assert_eq!((stations.len(), stations.id(0)), (1, "PARK"));
     let at = stations.position_m(0).unwrap();
-    assert!((at.x - 9.0).abs() < 1e-6 && (at.y - 0.2).abs() < 1e-6, "{at:?}");
+    assert!(
+        (at.x - 9.0).abs() < 1e-6 && (at.y - 0.2).abs() < 1e-6,
+        "{at:?}"
+    );
 }
