@@ -16,3 +16,5 @@ mod notes;
 mod route;
 #[path = "network/sketch.rs"]
 mod sketch;
+#[path = "network/smooth.rs"]
+mod smooth;

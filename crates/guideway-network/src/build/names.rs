@@ -4,6 +4,7 @@
 //! there.
 
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 
 use guideway_layout::{Layout, Note, NoteKind};
 use guideway_spline::Point;
@@ -189,12 +190,13 @@ fn name_node(
             second: position(node),
         });
     }
-    if named.nodes.contains_key(&node) {
-        report.leave_note(id, position(node));
-    } else {
-        named.nodes.insert(node, id.to_owned());
-        named.names.insert(id.to_owned(), node);
-        report.named += 1;
+    match named.nodes.entry(node) {
+        Entry::Occupied(_) => report.leave_note(id, position(node)),
+        Entry::Vacant(entry) => {
+            entry.insert(id.to_owned());
+            named.names.insert(id.to_owned(), node);
+            report.named += 1;
+        }
     }
     Ok(())
 }
