@@ -10,7 +10,7 @@ impl Layout {
     pub fn first_beyond(&self, limit_m: f64) -> Option<String> {
         let is_within = |v: f64| v.abs() <= limit_m;
         let is_near = |p: Point<f64>| is_within(p.x) && is_within(p.y);
-        let path = self.paths.geometry().first_out_of_range(limit_m);
+        let path = self.paths.geometry().first_beyond(limit_m);
         let path = path.or_else(|| {
             let widths = self.paths.width_m().unwrap_or_default();
             // A path without a width of its own has NaN.
@@ -42,13 +42,15 @@ impl Layout {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Level, Zone};
+    use crate::{Level, NewPath, Zone};
 
     #[test]
     fn names_the_first_element_beyond_the_limit() {
         for far in [11.0, -11.0, f64::NAN, f64::INFINITY] {
             let mut layout = Layout::default();
             layout.nodes.push("near", Point::new(10.0, -10.0), None);
+            // A path without a curve has no position.
+            layout.paths.push(&NewPath::default());
             assert_eq!(layout.first_beyond(10.0), None);
             layout.levels.push(Level {
                 elevation_m: Some(far),

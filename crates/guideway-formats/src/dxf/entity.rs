@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use guideway_layout::Code;
 
 use super::affine3::{Affine3, Vector3};
-use super::outlines::{face, multiline, solid};
 use super::notes::{Mark, is_note, mark};
+use super::outlines::{face, multiline, solid};
 use super::records::Record;
 use super::style::{Color, Layers};
 use super::text::TextDecoder;

@@ -81,7 +81,8 @@ pub(crate) fn read(source: Source<'_>, bytes: &[u8]) -> Result<Layout, ReadError
                 mapper.map_entity(&drawing, &entity, &context)?;
             }
             let before = std::mem::replace(&mut offset, records.position());
-            mapper.builder.advance(offset - before)?;
+            // A file that is cut may end before the place of its last peek.
+            mapper.builder.advance(offset.saturating_sub(before))?;
         }
     }
     let (mut builder, colors) = (mapper.builder, mapper.colors);

@@ -73,7 +73,7 @@ fn preserves_identifiers_that_xml_allows() {
         push_lines(&mut layout, id, &[(0.0, 0.0), (1.0, 1.0)]);
     }
     let (text, losses) = written(&layout);
-    assert_eq!(lost(&losses), [("directions", 6), ("identifiers", 2)]);
+    assert_eq!(lost(&losses), [("directions", 6), ("paths", 2)]);
     let again = read(&text);
     let ids: Vec<&str> = again.paths.iter().map(|p| p.id()).collect();
     assert_eq!(

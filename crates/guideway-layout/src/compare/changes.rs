@@ -74,6 +74,33 @@ struct Element<'a> {
     rows: [Option<u32>; 2],
 }
 
+/// A row whose values may differ per vehicle type.
+#[derive(Clone, Copy)]
+struct TypedRow<'a> {
+    columns: &'a Attributes,
+    types: &'a TypeEntries,
+    row: usize,
+}
+
+impl<'a> TypedRow<'a> {
+    /// The value for a vehicle type, else that for all.
+    fn value(self, vehicle_type: Option<&str>, name: &str) -> Option<Value<'a>> {
+        let of_type = || {
+            let entry = self.types.entry_for(self.row, vehicle_type?)?;
+            self.types.attributes.value(entry, name)
+        };
+        of_type().or_else(|| self.columns.value(self.row, name))
+    }
+
+    fn text(self, name: &str, value: Value<'_>) -> String {
+        let table = match self.columns.get(name) {
+            Some(_) => self.columns,
+            None => &self.types.attributes,
+        };
+        text_of(table, name, value)
+    }
+}
+
 impl<'a> Lister<'a> {
     fn add(&mut self, element: Element<'_>, change: Change) {
         self.found.push(ElementChange {
@@ -142,35 +169,49 @@ impl<'a> Lister<'a> {
         }
     }
 
-    fn add_cells(
-        &mut self,
-        element: Element<'_>,
-        tables: [(&Attributes, Option<usize>); 2],
-        vehicle_type: Option<&str>,
-    ) {
+    /// Adds the values of one row of two tables that differ.
+    fn add_cells(&mut self, element: Element<'_>, tables: [(&Attributes, usize); 2]) {
         for name in names(&tables.map(|(table, _)| table)) {
-            let cells = tables.map(|(table, row)| table.value(row?, name));
-            if are_equal(cells, self.options.relative_tolerance) {
-                continue;
+            let cells = tables.map(|(table, row)| table.value(row, name));
+            if !are_equal(cells, self.options.relative_tolerance) {
+                let texts = [0, 1].map(|i| Some(text_of(tables[i].0, name, cells[i]?)));
+                self.add_set(element, name, None, texts);
             }
-            let texts = [0, 1].map(|i| Some(text_of(tables[i].0, name, cells[i]?)));
-            self.add_set(element, name, vehicle_type, texts);
         }
     }
 
-    fn add_types(&mut self, element: Element<'_>, types: [&TypeEntries; 2], rows: [u32; 2]) {
-        let [before, after]: [BTreeSet<&str>; 2] =
-            [0, 1].map(|i| types[i].of(rows[i] as usize).collect());
+    /// Adds the values of two elements that differ, and their vehicle types. A value of all vehicle
+    /// types counts once, wherever the layouts hold it.
+    fn add_typed_cells(&mut self, element: Element<'_>, tables: [TypedRow<'_>; 2]) {
+        let [before, after] = tables.map(|of| of.types.of(of.row).collect::<BTreeSet<&str>>());
         if before != after {
             let texts = [&before, &after].map(|names| Some(type_list(names)));
             self.add_set(element, "vehicle types", None, texts);
         }
-        for name in before.intersection(&after) {
-            let tables = [0, 1].map(|i| {
-                let entry = types[i].entry_for(rows[i] as usize, name);
-                (&types[i].attributes, entry)
-            });
-            self.add_cells(element, tables, Some(name));
+        let common: Vec<&str> = before.intersection(&after).copied().collect();
+        let [a, b] = tables.map(|of| [of.columns, &of.types.attributes]);
+        for name in names(&[a[0], a[1], b[0], b[1]]) {
+            let texts = |of: Option<&str>| {
+                let cells = tables.map(|row| row.value(of, name));
+                let is_same = are_equal(cells, self.options.relative_tolerance);
+                (!is_same).then(|| [0, 1].map(|i| Some(tables[i].text(name, cells[i]?))))
+            };
+            let per_type: Vec<_> = common.iter().map(|&of| (of, texts(Some(of)))).collect();
+            let own = match per_type.split_first() {
+                None => texts(None),
+                Some(((_, first), rest)) if rest.iter().all(|(_, of)| of == first) => first.clone(),
+                Some(_) => {
+                    for (of, texts) in per_type {
+                        if let Some(texts) = texts {
+                            self.add_set(element, name, Some(of), texts);
+                        }
+                    }
+                    None
+                }
+            };
+            if let Some(texts) = own {
+                self.add_set(element, name, None, texts);
+            }
         }
     }
 
@@ -193,16 +234,12 @@ impl<'a> Lister<'a> {
                 [a.nodes.position_m(p), b.nodes.position_m(q)].map(Some),
             );
             self.add_level(element, [a.nodes.level(p), b.nodes.level(q)]);
-            let tables = [
-                (&a.nodes.attributes, Some(p as usize)),
-                (&b.nodes.attributes, Some(q as usize)),
-            ];
-            self.add_cells(element, tables, None);
-            self.add_types(
-                element,
-                [a.nodes.vehicle_types(), b.nodes.vehicle_types()],
-                [p, q],
-            );
+            let tables = [(&a.nodes, p), (&b.nodes, q)].map(|(nodes, row)| TypedRow {
+                columns: &nodes.attributes,
+                types: nodes.vehicle_types(),
+                row: row as usize,
+            });
+            self.add_typed_cells(element, tables);
         }
         self.add_unmatched(
             ElementKind::Node,
@@ -239,10 +276,10 @@ impl<'a> Lister<'a> {
                 self.add_set(element, "nodes", None, texts);
             }
             let tables = [
-                (&a.stations.attributes, Some(p as usize)),
-                (&b.stations.attributes, Some(q as usize)),
+                (&a.stations.attributes, p as usize),
+                (&b.stations.attributes, q as usize),
             ];
-            self.add_cells(element, tables, None);
+            self.add_cells(element, tables);
         }
         self.add_unmatched(
             ElementKind::Station,
@@ -272,16 +309,12 @@ impl<'a> Lister<'a> {
             self.add_set(element, "direction", None, directions);
             self.add_end(element, "start node", paths.map(PathRef::start_node));
             self.add_end(element, "end node", paths.map(PathRef::end_node));
-            let tables = [
-                (&a.paths.attributes, Some(p as usize)),
-                (&b.paths.attributes, Some(q as usize)),
-            ];
-            self.add_cells(element, tables, None);
-            self.add_types(
-                element,
-                [a.paths.vehicle_types(), b.paths.vehicle_types()],
-                [p, q],
-            );
+            let tables = [(&a.paths, p), (&b.paths, q)].map(|(paths, row)| TypedRow {
+                columns: &paths.attributes,
+                types: paths.vehicle_types(),
+                row: row as usize,
+            });
+            self.add_typed_cells(element, tables);
         }
         let ids: [&dyn Fn(u32) -> &'a str; 2] = [&|row| a.paths.id(row as usize), &|row| {
             b.paths.id(row as usize)

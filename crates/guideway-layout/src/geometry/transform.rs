@@ -59,6 +59,21 @@ impl Geometry {
     /// The first path without a curve, or with a coordinate that is not finite or whose absolute
     /// value exceeds `limit_m`.
     pub fn first_out_of_range(&self, limit_m: f64) -> Option<usize> {
+        self.first_path(|path| self.runs(path).len() == 0 || !self.is_within(path, limit_m))
+    }
+
+    /// The first path with a coordinate that is not finite or whose absolute value exceeds
+    /// `limit_m`. A path without a curve has none.
+    pub fn first_beyond(&self, limit_m: f64) -> Option<usize> {
+        self.first_path(|path| !self.is_within(path, limit_m))
+    }
+
+    fn first_path(&self, is_found: impl Fn(usize) -> bool + Sync) -> Option<usize> {
+        let paths = (0..self.path_count()).into_par_iter();
+        paths.find_first(|&path| is_found(path))
+    }
+
+    fn is_within(&self, path: usize, limit_m: f64) -> bool {
         let is_within = |p: Point<f64>| (p.x.abs() <= limit_m) & (p.y.abs() <= limit_m);
         let is_run_within = |run: RunPoints<'_>| match run {
             RunPoints::F64(points) => {
@@ -70,13 +85,7 @@ impl Geometry {
                 chunks.all(|p| is_within(p.to_f64()))
             }
         };
-        let is_out_of_range = |&path: &usize| {
-            let mut runs = self.runs(path);
-            runs.len() == 0 || !runs.all(is_run_within)
-        };
-        (0..self.path_count())
-            .into_par_iter()
-            .find_first(is_out_of_range)
+        self.runs(path).all(is_run_within)
     }
 }
 

@@ -101,7 +101,7 @@ fn network_mistakes_have_a_reason_and_a_remedy() {
     for (more, said) in [
         (&["--map", text(&map)][..], "line 2"),
         (&["--stations", "texts"], "text:LAYER"),
-        (&["--weld", "-1"], "at least 0"),
+        (&["--weld", "-1"], "a number from 0"),
     ] {
         let failed = guideway(&[&base[..], more].concat());
         assert_eq!(failed.status.code(), Some(2));

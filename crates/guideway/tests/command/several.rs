@@ -68,7 +68,7 @@ fn merges_files_with_their_placements() {
 #[test]
 fn rejects_invalid_placements() {
     for (bad, said) in [
-        ("x.dxf@scale=0", "above 0"),
+        ("x.dxf@scale=0", "a number from 1e-9"),
         ("x.dxf@size=3", "scale, rotate and offset"),
         ("x.dxf@offset=3", "12.5,-3"),
     ] {
