@@ -14,9 +14,9 @@ const MAX_ORIENTATIONS: usize = 8;
 /// An end of an arc.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum End {
-    /// Where vehicles enter the arc.
+    /// The end at which vehicles enter the arc.
     Start,
-    /// Where vehicles leave the arc.
+    /// The end at which vehicles leave the arc.
     End,
 }
 
@@ -55,7 +55,7 @@ impl Headings<'_> {
         has("vehicleOrientation") || has("vehicleOrientations")
     }
 
-    /// Headings in radians that a vehicle may have at an end of an arc; none if any will do.
+    /// Headings in radians that a vehicle may have at an end of an arc; empty when any will do.
     pub(crate) fn of(&self, arc: Arc, end: End) -> Vec<f64> {
         let Some(travel) = self.travel(arc, end) else {
             return Vec::new();

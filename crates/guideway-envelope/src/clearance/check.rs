@@ -26,7 +26,7 @@ pub fn check_clearance(
         work = work.plus(walls.check(layout, source, options, &mut findings));
     }
     work.doubtful = source.doubtful(layout);
-    // First, because the list stores so many findings of a code only.
+    // First, because the list stores only the first findings of a code.
     let mut first = Diagnostics::with_limit(options.diagnostics_per_code);
     if work.incomplete > 0 {
         first.push(

@@ -8,11 +8,12 @@ use guideway_layout::{Code, Limits};
 
 use super::affine3::{Affine3, Vector3};
 use super::clips::Clips;
-use super::entity::{Entity, Insert, Polyline, Shape, Vertex, known_kind, plane, shape};
+use super::entity::{Entity, known_kind, shape};
 use super::entity_counts::EntityCounts;
 use super::header::UnitVariables;
 use super::pair_reader::StrayLines;
 use super::records::{Record, RecordReader};
+use super::shape::{Insert, Polyline, Shape, Vertex, plane};
 use super::style::Layers;
 use super::text::TextDecoder;
 use crate::Problem;

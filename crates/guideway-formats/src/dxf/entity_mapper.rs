@@ -5,8 +5,9 @@ use guideway_spline::Runs;
 
 use super::affine3::{Affine3, Vector3};
 use super::drawing::Drawing;
-use super::entity::{Entity, Insert, Shape};
+use super::entity::Entity;
 use super::notes::{add_block, add_mark, is_note};
+use super::shape::{Insert, Shape};
 use super::shapes::{ExceededLimit, ShapeLimits, append_arc, append_polyline, append_spline};
 use super::style::{Color, Layer, path_color};
 use crate::ReadError;
@@ -97,7 +98,7 @@ impl<'a> EntityMapper<'a> {
             None => None,
         };
         if is_note(entity.kind) {
-            // What is hidden or broken names nothing.
+            // Hidden and broken entities name nothing.
             return match (&entity.shape, detail) {
                 (Shape::Mark(mark), None) => {
                     add_mark(&mut self.builder, mark, &context.transform, &layer.name)

@@ -4,7 +4,7 @@
 //! |---|---|---|---|
 //! | tokenize | bytes | pairs of group code and value | `pair_reader` |
 //! | group | pairs | records (group code 0 up to the next one) | `records` |
-//! | parse | records | entities, layers, blocks | `drawing`, `entity`, `outlines`, `style`, `header`, `clips`, `text` |
+//! | parse | records | entities, layers, blocks | `drawing`, `entity`, `shape`, `outlines`, `style`, `header`, `clips`, `text` |
 //! | map | entities, INSERTs | paths with colors | `entity_mapper`, `shapes`, `fit_spline` |
 //! | note | texts, points, INSERTs | notes of the layout | `notes` |
 //! | write | layout | sections of pairs | `write`, `write_sections`, `pair_writer` |
@@ -26,6 +26,7 @@ mod pair_reader;
 mod pair_writer;
 mod read;
 mod records;
+mod shape;
 mod shapes;
 mod style;
 mod text;

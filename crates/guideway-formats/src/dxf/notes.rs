@@ -4,22 +4,12 @@
 use guideway_layout::{Note, NoteKind};
 use guideway_spline::Point;
 
-use super::affine3::{Affine3, Vector3};
-use super::entity::{Shape, plane};
+use super::affine3::Affine3;
 use super::records::Record;
+use super::shape::{Mark, Shape, plane};
 use super::text::TextDecoder;
 use crate::ReadError;
 use crate::builder::Builder;
-
-/// A text or a point, in drawing units.
-#[derive(Debug)]
-pub(super) struct Mark {
-    kind: NoteKind,
-    text: String,
-    at: Vector3,
-    /// The text belongs to the INSERT before it.
-    is_attribute: bool,
-}
 
 /// Returns `true` if entities of a kind are notes.
 pub(super) fn is_note(kind: &str) -> bool {

@@ -1,8 +1,8 @@
 //! Outlines: parses multilines, solids, traces and faces to lines.
 
 use super::affine3::{Affine3, Vector3};
-use super::entity::{Polyline, Shape, Vertex, plane};
 use super::records::Record;
+use super::shape::{Polyline, Shape, Vertex, plane};
 
 /// Group codes of the corners of an area.
 const CORNERS: [i32; 4] = [10, 11, 12, 13];

@@ -5,8 +5,8 @@ use guideway_layout::{Code, WrittenCurve};
 use guideway_spline::{Affine as Affine2, MAX_DEGREE, Runs};
 
 use super::affine3::{Affine3, Vector3};
-use super::entity::{Arc, Polyline, Spline, Vertex};
 use super::fit_spline::append_fit_spline;
+use super::shape::{Arc, Polyline, Spline, Vertex};
 use crate::builder::{Builder, PlaceFn};
 use crate::{ReadError, ellipse, spline};
 

@@ -100,12 +100,15 @@ pub(super) fn positions<'d>(
 /// again at the border of a grid square are off by its size, 100 km.
 const FAR_M: f64 = 50_000.0;
 
+/// A node, its local position, and its degrees if it has them.
+type PlacedNode<'d, 't> = (Node<'d, 't>, Point<f64>, Option<Point<f64>>);
+
 /// Reports nodes whose local coordinates are far from those of most others: from where longitude
 /// and latitude place them, or from the middle of the map if they have none.
 fn report_far_nodes<'d, 't>(
     builder: &mut Builder<'_>,
     xml: &Xml<'_>,
-    nodes: &[(Node<'d, 't>, Point<f64>, Option<Point<f64>>)],
+    nodes: &[PlacedNode<'d, 't>],
     projection: Option<LocalProjection>,
 ) {
     let all_degrees = nodes.iter().all(|(_, _, degrees)| degrees.is_some());

@@ -166,7 +166,7 @@ mod tests {
             a,
             ..Cubic::default()
         };
-        let start = 2.406_657_433_403_102_8;
+        let start = 2.406_657_433_403_103;
         let widths = Piecewise::new(vec![(0.0, constant(3.0)), (start, constant(6.0))]);
         assert_eq!(widths.between([start.next_down(), 9.0]).a, 6.0);
         assert_eq!(widths.between([0.0, start.next_up()]).a, 3.0);

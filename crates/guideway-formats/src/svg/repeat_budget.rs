@@ -40,7 +40,7 @@ impl RepeatBudget {
         id_prefix: &str,
     ) -> bool {
         let start = node.range().start;
-        let end = node.attributes().last().map(|last| last.range().end);
+        let end = node.attributes().next_back().map(|last| last.range().end);
         let bytes = end.map_or(0, |end| end - start) + id_prefix.len();
         let left = self.left.checked_sub(ELEMENT_COST + bytes as u64);
         if left.is_none() && !self.is_exhaustion_reported {

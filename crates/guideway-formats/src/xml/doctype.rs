@@ -80,7 +80,7 @@ impl<'t> Definitions<'t> {
         let end = cursor.definition(doctype.start, &mut |cursor, keyword| {
             match keyword {
                 b"ENTITY" => {
-                    if let Some((name, value)) = cursor.entity()? {
+                    if let Some([name, value]) = cursor.entity()? {
                         let entities = &mut definitions.entities;
                         entities.entry(slice(name)).or_insert(slice(value));
                     }
@@ -241,7 +241,9 @@ impl<'t> Cursor<'t> {
                     self.at += 1;
                     return Ok(());
                 }
-                Some(b'"' | b'\'') => drop(self.quoted()?),
+                Some(b'"' | b'\'') => {
+                    self.quoted()?;
+                }
                 Some(b'<') => return Err(PrologError::Malformed(self.at)),
                 Some(_) => self.at += 1,
             }
@@ -250,14 +252,14 @@ impl<'t> Cursor<'t> {
 
     /// Reads name and value of an entity. `None` for a parameter entity, and for one that another
     /// file holds.
-    fn entity(&mut self) -> Result<Option<(Range<usize>, Range<usize>)>, PrologError> {
+    fn entity(&mut self) -> Result<Option<[Range<usize>; 2]>, PrologError> {
         self.skip_blank();
         if self.eat(b"%") {
             return Ok(None);
         }
         let name = self.word();
         self.skip_blank();
-        Ok(self.quoted()?.map(|value| (name, value)))
+        Ok(self.quoted()?.map(|value| [name, value]))
     }
 
     /// Reads the attributes of an element that have a default.

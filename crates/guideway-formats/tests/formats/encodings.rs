@@ -49,7 +49,8 @@ const TEXTS: [(&str, &str); 9] = [
     (
         "LIF",
         r#"{"layouts": [{"layoutId": "L", "nodes": [{"nodeId": "A", "nodePosition":
-            {"x": 0, "y": 0}}, {"nodeId": "B", "nodePosition": {"x": 9, "y": 0}}], "edges": [{"edgeId": "é",
+            {"x": 0, "y": 0}}, {"nodeId": "B", "nodePosition": {"x": 9, "y": 0}}], "edges": [
+            {"edgeId": "é",
             "startNodeId": "A", "endNodeId": "B", "vehicleTypeEdgeProperties": [{"vehicleTypeId":
             "t"}]}]}]}"#,
     ),
@@ -61,7 +62,8 @@ const TEXTS: [(&str, &str); 9] = [
     (
         "VDA 5050",
         r#"{"orderId": "o", "nodes": [{"nodeId": "A", "sequenceId": 0, "nodePosition":
-            {"x": 0, "y": 0, "mapId": "m"}}, {"nodeId": "B", "sequenceId": 2, "nodePosition": {"x": 9, "y": 0,
+            {"x": 0, "y": 0, "mapId": "m"}}, 
+            {"nodeId": "B", "sequenceId": 2, "nodePosition": {"x": 9, "y": 0,
             "mapId": "m"}}], "edges": [{"edgeId": "é", "sequenceId": 1, "startNodeId": "A",
             "endNodeId": "B"}]}"#,
     ),

@@ -18,7 +18,7 @@ pub struct ElementChange {
     pub change: Change,
 }
 
-/// What changed.
+/// A kind of change, with its values.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Change {
     /// Only the new layout has the element.
@@ -56,8 +56,8 @@ pub enum Change {
 /// All changes from one layout to another.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Changes {
-    /// Changes of nodes, paths and stations, in this order, each in the order of the old layout; new
-    /// elements last.
+    /// Changes of nodes, paths and stations, in this order, each in the order of the old layout;
+    /// new elements last.
     pub elements: Vec<ElementChange>,
     /// Differences of levels, vehicle types, blocks, zones and the layout as a whole.
     pub groups: Vec<Difference>,

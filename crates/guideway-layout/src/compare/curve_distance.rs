@@ -27,8 +27,8 @@ pub(super) fn are_near(a: PathRef<'_>, b: PathRef<'_>, tolerance_m: f64) -> bool
     is_covered(a, b, tolerance_m) && is_covered(b, a, tolerance_m)
 }
 
-/// Returns the greatest distance of a sampled point of either path from the other, in meters; `None`
-/// if one of them has no curve.
+/// Returns the greatest distance of a sampled point of either path from the other, in meters;
+/// `None` if one of them has no curve.
 pub(super) fn greatest_distance_m(a: PathRef<'_>, b: PathRef<'_>) -> Option<f64> {
     let from = |path: PathRef<'_>, to: PathRef<'_>| {
         let to = run_points(to);

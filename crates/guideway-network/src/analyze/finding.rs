@@ -5,6 +5,9 @@ use guideway_layout::{
 };
 use guideway_spline::Point;
 
+/// Vehicle types that are analyzed. Each costs a pass over all paths.
+pub(super) const MAX_TYPES: usize = 64;
+
 /// Element that a finding is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Element {
@@ -13,7 +16,7 @@ pub(super) enum Element {
     Station(u32),
 }
 
-/// What was found.
+/// A fault of a network.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Detail {
     /// A part of the network with a node, apart from the largest one.
@@ -196,8 +199,8 @@ fn message(layout: &Layout, detail: Detail) -> String {
             limit,
             at,
         } => format!(
-            "{:.2} m/s² sideways at {} m/s in a bend of radius {radius_m:.3} m at {}, above {limit} \
-             m/s²; at most {:.2} m/s fit",
+            "{:.2} m/s² sideways at {} m/s in a bend of radius {radius_m:.3} m at {}, above \
+             {limit} m/s²; at most {:.2} m/s fit",
             speed * speed / radius_m,
             speed as f32,
             DisplayPosition(at),

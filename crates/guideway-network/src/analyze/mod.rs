@@ -28,9 +28,7 @@ pub use options::AnalyzeOptions;
 
 use crate::arcs::Arcs;
 use finding::Findings;
-
-/// Vehicle types that are analyzed. Each costs a pass over all paths.
-const MAX_TYPES: usize = 64;
+use finding::MAX_TYPES;
 
 /// Finds the faults of a network, per vehicle type: parts that are not connected, one-way parts,
 /// dead ends, stations out of reach, turns and speeds that vehicles cannot drive.

@@ -4,6 +4,7 @@
 use guideway_layout::{Code, Diagnostics, Layout};
 
 use super::AnalyzeOptions;
+use super::finding::MAX_TYPES;
 use super::finding::{Detail, Element, Findings};
 use crate::arcs::number;
 use crate::bend::tightest;
@@ -62,7 +63,7 @@ pub(super) fn check_all(layout: &Layout, options: &AnalyzeOptions, found: &mut D
     let names = layout.paths.vehicle_types().names();
     let mut types: Vec<Option<&str>> = names
         .iter()
-        .take(super::MAX_TYPES)
+        .take(MAX_TYPES)
         .map(|n| Some(n.as_str()))
         .collect();
     if types.is_empty() {

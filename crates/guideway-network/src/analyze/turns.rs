@@ -65,7 +65,7 @@ fn forbidden(
     of_entering.chain(of_leaving).flatten().next()
 }
 
-/// What is wrong with all of some ways; `None` if vehicles can take one of them.
+/// The fault that all of some ways have; `None` if vehicles can take one of them.
 fn least(
     headings: &Headings<'_>,
     pairs: &[(Arc, Arc)],

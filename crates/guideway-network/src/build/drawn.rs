@@ -49,7 +49,7 @@ pub(super) struct Circle {
     pub(super) layer: String,
 }
 
-/// What the options select of a drawing.
+/// The part of a drawing that the options select.
 pub(super) struct Drawn {
     pub(super) curves: Vec<Curve>,
     pub(super) circles: Vec<Circle>,

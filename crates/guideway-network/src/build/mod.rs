@@ -50,7 +50,7 @@ use box_index::BoxIndex;
 pub struct Network {
     /// The paths are edges between nodes.
     pub layout: Layout,
-    /// What was joined, cut, named and left.
+    /// The counts of joined, cut, named and left parts.
     pub report: BuildReport,
 }
 

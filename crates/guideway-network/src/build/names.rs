@@ -38,7 +38,7 @@ pub(super) struct Named {
 
 type Tree = RTree<GeomWithData<[f64; 2], u32>>;
 
-/// Where notes find their nodes.
+/// The nodes and lines near which notes lie.
 struct Places<'a> {
     drawn: &'a Drawn,
     index: &'a BoxIndex,

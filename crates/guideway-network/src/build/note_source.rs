@@ -6,8 +6,6 @@ use std::str::FromStr;
 use guideway_layout::{Note, NoteKind};
 use serde::{Deserialize, Serialize};
 
-use super::options::fits;
-
 /// Notes of one kind on one layer, or the placements of one block; `*` at the end of the name
 /// stands for any rest.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -81,5 +79,14 @@ impl fmt::Display for NoteSource {
         let kind = KINDS.iter().find(|(_, kind)| *kind == self.kind);
         let kind = kind.map_or("text", |(name, _)| name);
         write!(f, "{kind}:{}", self.name)
+    }
+}
+
+/// Returns `true` if a name is the pattern, whatever its case; a `*` at the end of the pattern
+/// stands for any rest.
+pub(super) fn fits(pattern: &str, name: &str) -> bool {
+    match pattern.strip_suffix('*') {
+        Some(start) => name.to_lowercase().starts_with(&start.to_lowercase()),
+        None => pattern.to_lowercase() == name.to_lowercase(),
     }
 }

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::note_source::fits;
 use super::{BuildError, NoteSource};
 
 /// Options of [`build`](super::build). In TOML the names have hyphens and no units: `weld`,
@@ -62,7 +63,7 @@ impl Default for BuildOptions {
     }
 }
 
-/// What the lines of a layer are.
+/// The meaning of the lines of a layer.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct LayerRule {
@@ -95,15 +96,6 @@ pub enum DirectionRule {
     Forward,
     /// Against the drawing, from end to start.
     Backward,
-}
-
-/// Returns `true` if a name is the pattern, whatever its case; a `*` at the end of the pattern
-/// stands for any rest.
-pub(super) fn fits(pattern: &str, name: &str) -> bool {
-    match pattern.strip_suffix('*') {
-        Some(start) => name.to_lowercase().starts_with(&start.to_lowercase()),
-        None => pattern.to_lowercase() == name.to_lowercase(),
-    }
 }
 
 impl LayerRule {

@@ -11,7 +11,7 @@ pub struct LeftNote {
     pub position_m: Point<f64>,
 }
 
-/// What a build joined, cut, named and left.
+/// The parts that a build joined, cut, named and left.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BuildReport {
     /// Paths of the drawing.

@@ -17,7 +17,7 @@ const LENGTH_M: f64 = 1e-4;
 /// Slowest speed in m/s: a limit of zero closes no path.
 const SLOWEST: f64 = 1e-3;
 
-/// What an arc costs.
+/// The cost of an arc.
 pub(super) struct Cost {
     pub(super) length_m: f64,
     pub(super) speed_m_s: f64,

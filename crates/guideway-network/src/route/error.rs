@@ -30,7 +30,7 @@ pub enum RouteError {
     /// The layout does not have a vehicle type, or has several and none is given.
     #[error("{given}; the layout has {known}")]
     VehicleType {
-        /// What was given.
+        /// The name that was given.
         given: String,
         /// Some of the known types.
         known: String,
@@ -42,7 +42,7 @@ pub enum RouteError {
         from: String,
         /// Goal.
         to: String,
-        /// What is in the way.
+        /// The obstacle.
         why: String,
     },
 }
@@ -58,7 +58,7 @@ impl From<RouteError> for UserError {
             RouteError::VehicleType { .. } => ("unknown-type", "Name one by --vehicle-type"),
             RouteError::NoWay { .. } => (
                 "no-way",
-                "`guideway check` lists parts that are not connected, dead ends and forbidden turns",
+                "`guideway check` lists separate parts, dead ends and forbidden turns",
             ),
         };
         Self::new(code, error.to_string(), remedy)

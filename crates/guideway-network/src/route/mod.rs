@@ -5,6 +5,7 @@
 //! | `options`, `error` | assumed speeds; why there is no route |
 //! | `cost` | time along each arc, headings at its ends |
 //! | `places` | finds stations and nodes by name |
+//! | `router` | the network of one vehicle type |
 //! | `search` | A* over arcs, with the time of turns |
 //! | `rows` | the result: rows with lengths and times, and the layout of the route |
 
@@ -12,6 +13,7 @@ mod cost;
 mod error;
 mod options;
 mod places;
+mod router;
 mod rows;
 mod search;
 
@@ -20,18 +22,11 @@ use guideway_layout::Layout;
 pub use error::RouteError;
 pub use options::RouteOptions;
 pub use places::Place;
+pub use router::Router;
 pub use rows::{Route, RouteRow};
 
 use crate::arcs::Arcs;
 use cost::Costs;
-
-/// The network of one vehicle type, ready for searches.
-pub struct Router<'a> {
-    layout: &'a Layout,
-    vehicle_type: Option<&'a str>,
-    arcs: Arcs,
-    costs: Costs,
-}
 
 impl<'a> Router<'a> {
     /// Prepares the network of a vehicle type, or of the paths that are open to all.

@@ -5,8 +5,9 @@ use std::collections::HashMap;
 use guideway_layout::{Direction, Layout, NewPath, Provenance, element_name};
 use guideway_spline::{Point, Runs};
 
+use super::router::Router;
 use super::search::Found;
-use super::{Place, RouteError, Router};
+use super::{Place, RouteError};
 
 /// One path of a route.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,7 +37,7 @@ pub struct RouteRow {
 /// A way from one place to another one.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Route {
-    /// Its paths in order; none if start and goal are one place.
+    /// Its paths in order; empty when start and goal are one place.
     pub rows: Vec<RouteRow>,
     /// Length of all paths.
     pub length_m: f64,

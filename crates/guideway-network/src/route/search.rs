@@ -10,7 +10,8 @@ use std::collections::BinaryHeap;
 
 use guideway_spline::Point;
 
-use super::{Place, Router};
+use super::Place;
+use super::router::Router;
 
 /// No arc before this one.
 const START: u32 = u32::MAX;

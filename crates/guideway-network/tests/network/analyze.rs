@@ -1,4 +1,4 @@
-//! What `analyze` finds.
+//! Tests of `analyze`: each fault of a network is found once.
 
 use std::f64::consts::PI;
 

@@ -1,4 +1,4 @@
-//! What `build` joins, cuts, names, maps and refuses.
+//! Tests of `build`: it joins, cuts, names and maps lines, and refuses some.
 
 use guideway_layout::{Direction, Note, NoteKind, Value};
 use guideway_network::{BuildError, BuildOptions, DirectionRule, LayerRule, build};

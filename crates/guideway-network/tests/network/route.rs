@@ -222,7 +222,11 @@ fn slow_time(layout: &Layout, from: u32, to: u32, options: &RouteOptions) -> f64
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 48, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig {
+        cases: 48,
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    })]
 
     #[test]
     fn search_is_as_fast_as_trying_all_ways(
@@ -232,7 +236,8 @@ proptest! {
         let mut layout = Layout::default();
         for (row, &(x, y)) in points.iter().enumerate() {
             let off = row as f64 * 0.01;
-            layout.nodes.push(&format!("n{row}"), Point::new(f64::from(x) + off, f64::from(y)), None);
+            let at = Point::new(f64::from(x) + off, f64::from(y));
+            layout.nodes.push(&format!("n{row}"), at, None);
         }
         for (a, b, speed) in edges {
             let (a, b) = (a % points.len(), b % points.len());

@@ -38,7 +38,7 @@ const LIMITS: [Limit; 9] = [
         limits.file_bytes = n;
     }),
     Limit::new("output-bytes", u64::MAX, |limits, n| {
-        limits.output_bytes = n
+        limits.output_bytes = n;
     }),
     Limit::new("paths", u32::MAX as u64, |limits, n| {
         limits.paths = n;
@@ -47,7 +47,7 @@ const LIMITS: [Limit; 9] = [
         limits.control_points = n;
     }),
     Limit::new("curve-points", SIZES, |limits, n| {
-        limits.curve_points = n as usize
+        limits.curve_points = n as usize;
     }),
     Limit::new("elements", SIZES, |limits, n| {
         limits.elements = n;

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::PathBuf;
 
 use clap::ValueEnum;
-use guideway::layout::{CheckOptions, FindingKind, UserError, check};
+use guideway::layout::{CheckOptions, FindingKind, UserError, check, shown_path};
 use guideway::network::{
     AnalyzeOptions, BuildOptions, BuildReport, LayerRule, NoteSource, analyze, build,
 };
@@ -35,7 +35,12 @@ pub(crate) struct Args {
     #[arg(long, value_name = "FILE")]
     save_map: Option<PathBuf>,
     /// Distance within which ends become one node [default: 0.01]
-    #[arg(long, value_name = "METERS", value_parser = values::not_negative, allow_hyphen_values = true)]
+    #[arg(
+        long,
+        value_name = "METERS",
+        value_parser = values::not_negative,
+        allow_hyphen_values = true
+    )]
     weld: Option<f64>,
     /// Cut lines where ends meet them and where they cross
     #[arg(long)]
@@ -53,7 +58,12 @@ pub(crate) struct Args {
     #[arg(long, value_name = "SOURCE")]
     names: Vec<NoteSource>,
     /// Largest distance of a note from its node or line [default: 1]
-    #[arg(long, value_name = "METERS", value_parser = values::not_negative, allow_hyphen_values = true)]
+    #[arg(
+        long,
+        value_name = "METERS",
+        value_parser = values::not_negative,
+        allow_hyphen_values = true
+    )]
     reach: Option<f64>,
     /// Use the lines of this layer only; repeatable, `*` at the end stands for any rest
     #[arg(long, value_name = "LAYER")]
@@ -78,7 +88,7 @@ impl Args {
         let mut options = match &self.map {
             None => BuildOptions::default(),
             Some(file) => {
-                let name = file.display();
+                let name = shown_path(file);
                 let text = fs::read_to_string(file).map_err(|error| {
                     let remedy = "Name a TOML file; docs/network.md shows one";
                     UserError::new("map", format!("{name}: {error}"), remedy)
@@ -127,7 +137,7 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
     let mut found = check(&made.layout, &CheckOptions::default());
     found.append(analyze(&made.layout, &AnalyzeOptions::default()));
     let check_ms = progress.finish();
-    let progress = out.progress(format!("writing {}", args.output.display()));
+    let progress = out.progress(format!("writing {}", shown_path(&args.output)));
     let (losses, bytes) = write(target, &made.layout, &args.output)?;
     let write_ms = progress.finish();
     if let Some(file) = &args.save_map {
@@ -183,13 +193,13 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
             let detail = text::single_line(&loss.detail, 200);
             words += &format!("  {what}: {} {detail}\n", text::count(loss.count));
         }
-        let (name, size) = (args.output.display(), text::bytes(bytes));
+        let (name, size) = (shown_path(&args.output), text::bytes(bytes));
         words + &format!("{name}: {size}, took {}\n", text::time(total_ms))
     })?;
     Ok(Exit::Clean)
 }
 
-/// What was done and left, in words.
+/// The report in words.
 fn account(report: &BuildReport, options: &BuildOptions) -> String {
     let counted = text::counted;
     let mut lines = vec![format!(

@@ -156,7 +156,7 @@ fn add_columns_of(
             losses.add(what, count, format!("values of {of}"));
             continue;
         };
-        let [unfit, other_form] = sources.count_changed(column, &is_counted);
+        let [unfit, other_form] = sources.count_changed(column, is_counted);
         let detail = format!("values of {of} that the format cannot hold");
         losses.add(what.as_str(), unfit, detail);
         let detail = format!("values of {of}: held as another member");

@@ -40,7 +40,12 @@ pub(crate) struct Args {
     #[arg(long, short, value_name = "PNG|SVG")]
     output: Option<PathBuf>,
     /// Largest distance of curves and positions that count as equal
-    #[arg(long, value_name = "METERS", default_value = "0.000001", value_parser = values::not_negative)]
+    #[arg(
+        long,
+        value_name = "METERS",
+        default_value = "0.000001",
+        value_parser = values::not_negative
+    )]
     tolerance: f64,
     /// Number of elements to list; the counts are of all
     #[arg(long, value_name = "COUNT", default_value_t = 100)]

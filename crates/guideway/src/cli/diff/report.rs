@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use guideway::layout::{Change, Changes, ElementChange, ElementKind};
+use guideway::layout::{Change, Changes, ElementChange, ElementKind, shown_path};
 use serde_json::{Value, json};
 
 use crate::cli::text;
@@ -29,7 +29,7 @@ impl Report {
             let key = (element_name(of.element), kind_name(&of.change));
             *counts.entry(key).or_default() += 1;
         }
-        let name = |file: &Path| text::single_line(&file.display().to_string(), MAX_NAME);
+        let name = |file: &Path| text::single_line(&shown_path(file), MAX_NAME);
         Self {
             files: files.map(name),
             counts,
