@@ -12,7 +12,7 @@ use crate::trajectory::{TRAJECTORY_COLUMN, Trajectory, runs_of};
 #[derive(Clone, Copy)]
 pub(crate) struct TrajectoryWriter<'a> {
     pub(crate) layout: &'a Layout,
-    /// Whether the format requires weights from 1 on.
+    /// True if the format requires weights from 1 on.
     pub(crate) has_weights_from_1: bool,
     /// True for a layout read from the same format: its curves are written as they are, even where
     /// the schema forbids their knots or weights.

@@ -4,9 +4,6 @@
 use guideway_layout::GeoOrigin;
 use guideway_spline::{Bounds, Point};
 
-/// Half of the longer axis of the WGS 84 ellipsoid.
-const SEMI_MAJOR_M: f64 = 6_378_137.0;
-
 /// Equirectangular projection about a center, which maps to the origin. It is true to scale near
 /// the center only, which suffices for a site.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -66,7 +63,7 @@ pub(crate) fn from_mercator(position_m: Point<f64>, eccentricity_squared: f64) -
     // Each step shrinks the error by the eccentricity squared: ten reach the last bit.
     const STEPS: usize = 10;
     let eccentricity = eccentricity_squared.sqrt();
-    let [longitude, height] = [position_m.x, position_m.y].map(|m| m / SEMI_MAJOR_M);
+    let [longitude, height] = [position_m.x, position_m.y].map(|m| m / GeoOrigin::SEMI_MAJOR_M);
     let mut latitude = height.sinh().atan();
     if eccentricity > 0.0 {
         for _ in 0..STEPS {

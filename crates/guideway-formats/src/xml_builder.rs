@@ -50,7 +50,7 @@ impl<'a, 'd, 't> XmlBuilder<'a, 'd, 't> {
         self.builder.refuse_at(id, code, detail, &at, remedy)
     }
 
-    /// Whether a point can be drawn. Records a finding at an element if not.
+    /// Tells if a point can be drawn. Records a finding at an element if not.
     pub(crate) fn check_point(&mut self, point: Point<f64>, node: Node<'d, 't>) -> bool {
         let xml = self.xml;
         self.builder.check_point(point, &|| xml.place(node))

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-/// Whether XML 1.0 can contain a character.
+/// Tells if XML 1.0 can contain a character.
 pub(crate) fn is_xml_char(c: char) -> bool {
     !c.is_control() && !matches!(c, '\u{FFFE}' | '\u{FFFF}')
         || matches!(c, '\t' | '\n' | '\r' | '\u{7F}'..='\u{9F}')

@@ -12,17 +12,21 @@ pub struct GeoOrigin {
 }
 
 impl GeoOrigin {
+    /// Half of the longer axis of the WGS 84 ellipsoid, and the radius of the sphere of Web
+    /// Mercator, in meters.
+    pub const SEMI_MAJOR_M: f64 = 6_378_137.0;
+    /// Square of the first eccentricity of the WGS 84 ellipsoid.
+    pub const ECCENTRICITY_SQUARED: f64 = 6.694_379_990_141_32e-3;
+
     /// Returns the meters per degree of longitude and of latitude.
     ///
     /// The scale is that of the WGS 84 ellipsoid, from its radii of curvature: along the meridian a
     /// (1 - e^2) / (1 - e^2 sin^2)^(3/2), across it a / (1 - e^2 sin^2)^(1/2).
     pub fn meters_per_degree(self) -> Point<f64> {
-        const SEMI_MAJOR_M: f64 = 6_378_137.0;
-        const ECCENTRICITY_SQUARED: f64 = 6.694_379_990_141_32e-3;
         let (sin, cos) = self.latitude_deg.to_radians().sin_cos();
-        let root = (1.0 - ECCENTRICITY_SQUARED * sin * sin).sqrt();
-        let meridian_m = SEMI_MAJOR_M * (1.0 - ECCENTRICITY_SQUARED) / root.powi(3);
-        let across_m = SEMI_MAJOR_M / root;
+        let root = (1.0 - Self::ECCENTRICITY_SQUARED * sin * sin).sqrt();
+        let meridian_m = Self::SEMI_MAJOR_M * (1.0 - Self::ECCENTRICITY_SQUARED) / root.powi(3);
+        let across_m = Self::SEMI_MAJOR_M / root;
         Point::new(across_m * cos, meridian_m) * 1_f64.to_radians()
     }
 

@@ -149,7 +149,7 @@ fn question_subject(prose: &str) -> Option<&'static str> {
     let is_question = text.ends_with('?');
     QUESTION_WORDS
         .iter()
-        .find(|&&word| word == first && is_sentence && !is_question && word != "Whether")
+        .find(|&&word| word == first && is_sentence && !is_question)
         .copied()
 }
 

@@ -13,7 +13,7 @@ use super::title::title;
 pub(crate) struct PlacedLegend {
     pub(crate) list: DrawList,
     pub(crate) bounds: Bounds<f64>,
-    /// Whether no path and no other decoration is below it.
+    /// True if no path and no other decoration is below it.
     pub(crate) is_free: bool,
 }
 

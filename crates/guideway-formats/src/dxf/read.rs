@@ -22,7 +22,7 @@ use crate::{Problem, ReadError};
 /// so a small file may legally expand to much text.
 const MIN_TEXT_BUDGET_BYTES: usize = 4 << 20;
 
-/// Whether bytes begin like a DXF file: with the binary sentinel, or with the first SECTION after
+/// Tells if bytes begin like a DXF file: with the binary sentinel, or with the first SECTION after
 /// optional comments.
 pub(crate) fn is_dxf(bytes: &[u8]) -> bool {
     if bytes.starts_with(SENTINEL) {

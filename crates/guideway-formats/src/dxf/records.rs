@@ -174,7 +174,7 @@ impl<'b> RecordReader<'b> {
         self.next.map(|pair| pair.text())
     }
 
-    /// Whether the current section has another record.
+    /// Tells if the current section has another record.
     pub(super) fn has_more_in_section(&self) -> bool {
         !matches!(self.peek(), None | Some(b"ENDSEC" | b"EOF" | b"SECTION"))
     }

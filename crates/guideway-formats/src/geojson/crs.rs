@@ -1,8 +1,7 @@
 //! Coordinate reference systems: finds the unit that the `crs` of a file stands for, by its code in
 //! the EPSG registry.
 
-/// Eccentricity squared of the WGS 84 ellipsoid.
-const WGS84_E2: f64 = 6.694_379_990_141_32e-3;
+use guideway_layout::GeoOrigin;
 
 /// Kind of the positions that a coordinate reference system has.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,7 +39,7 @@ impl System {
     pub(super) fn of_code(code: u32) -> Self {
         match code {
             3857 | 3785 | 6871 | 102_100 | 102_113 | 900_913 => return Self::Mercator(0.0),
-            3395 => return Self::Mercator(WGS84_E2),
+            3395 => return Self::Mercator(GeoOrigin::ECCENTRICITY_SQUARED),
             _ => {}
         }
         let mut system = Self::Unknown;

@@ -18,7 +18,7 @@ pub(super) fn tag<'d>(element: Node<'d, '_>, key: &str) -> Option<&'d str> {
         .attribute("v")
 }
 
-/// Whether the editor marked an element as deleted. Deleted elements stay in the file.
+/// Tells if the editor marked an element as deleted. Deleted elements stay in the file.
 pub(super) fn is_deleted(element: Node<'_, '_>) -> bool {
     element.attribute("action") == Some("delete") || element.attribute("visible") == Some("false")
 }

@@ -63,7 +63,7 @@ impl ArcLength {
         Point::new(self.u.second(p), self.v.second(p))
     }
 
-    /// Whether the curve stands still at a parameter, where it has no heading.
+    /// Tells if the curve stands still at a parameter, where it has no heading.
     pub(super) fn is_still(&self, p: f64) -> bool {
         /// Share of the mean speed that rounding leaves of 0.
         const ROUNDING: f64 = 1e-9;

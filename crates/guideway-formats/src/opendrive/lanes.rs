@@ -25,7 +25,7 @@ pub(super) struct Lane<'d, 't> {
     /// Offset of the outer border from lane 0, to the side of the lane, by the distance along the
     /// road; an alternative to widths.
     borders: Piecewise,
-    /// Whether its records have the sign of the other side.
+    /// True if its records have the sign of the other side.
     is_border_negative: bool,
 }
 
@@ -141,7 +141,7 @@ impl<'d, 't> LaneSection<'d, 't> {
         lanes.flat_map(|lane| lane.widths.starts().chain(lane.borders.starts()))
     }
 
-    /// Whether a lane is drawn. The center lane has no width; it stands for a road without other
+    /// Tells if a lane is drawn. The center lane has no width; it stands for a road without other
     /// lanes.
     pub(super) fn draws(&self, lane: &Lane<'_, '_>) -> bool {
         lane.id != 0 || self.lanes.len() == 1

@@ -72,7 +72,7 @@ impl Cubic {
         ]
     }
 
-    /// Whether all coefficients are finite.
+    /// Tells if all coefficients are finite.
     pub(super) fn is_finite(self) -> bool {
         (self.a + self.b + self.c + self.d).is_finite()
     }

@@ -32,7 +32,7 @@ pub(super) struct Road<'d, 't> {
     /// End of the geometry line.
     pub(super) end_m: f64,
     types: RoadTypes<'d, 't>,
-    /// Whether traffic keeps to the left.
+    /// True if traffic keeps to the left.
     is_left_hand: bool,
 }
 

@@ -26,9 +26,9 @@ pub(super) struct DrawnPath {
     pub(super) shape: Shape,
     /// Control points in units of the drawing, y down.
     pub(super) control_units: Vec<[i64; 2]>,
-    /// Whether the file has the path from its end to its start.
+    /// True if the file has the path from its end to its start.
     pub(super) is_reversed: bool,
-    /// Whether the column of connection types states the type, which the curve does not tell.
+    /// True if the column of connection types states the type, which the curve does not tell.
     pub(super) is_stated: bool,
 }
 

@@ -118,7 +118,7 @@ impl Element {
         object
     }
 
-    /// Whether an object has all attributes of the element, with valid values, and no more.
+    /// Tells if an object has all attributes of the element, with valid values, and no more.
     pub(super) fn is_whole(&self, object: &Map<String, Value>) -> bool {
         let is_valid = |f: &Field| object.get(f.name).is_some_and(|v| f.kind.text(v).is_some());
         object.len() == self.fields.len() && self.fields.iter().all(is_valid)

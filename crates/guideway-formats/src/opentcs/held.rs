@@ -16,7 +16,7 @@ use super::values::{is_two_way, json, number, speed_mm_s};
 use super::version::Version;
 use super::visual_layout::DEFAULT_LAYER;
 
-/// Whether the elements and XML attributes of a file hold a value of a column.
+/// The form in which the elements and XML attributes of a file hold a value of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Held {
     Written,
@@ -79,7 +79,7 @@ fn envelope(name: &str, value: Value<'_>) -> Held {
     })
 }
 
-/// Whether the attributes of a path are written: `drawn` has its connection type.
+/// Tells if the attributes of a path are written: `drawn` has its connection type.
 pub(super) fn held_by_path(
     layout: &Layout,
     drawn: &DrawnPaths,
@@ -134,7 +134,7 @@ fn label_offset(axis: usize, value: Value<'_>) -> Held {
     }
 }
 
-/// Whether the attributes that points and locations have in common are written.
+/// Tells if the attributes that points and locations have in common are written.
 fn held_by_place(version: Version, name: &str, value: Value<'_>) -> Held {
     match name {
         "positionX" | "positionY" => Held::when(version == Version::V6 && is_number(value)),
@@ -149,7 +149,7 @@ fn held_by_place(version: Version, name: &str, value: Value<'_>) -> Held {
     }
 }
 
-/// Whether the attributes of a node are written.
+/// Tells if the attributes of a node are written.
 pub(super) fn held_by_node(version: Version, name: &str, value: Value<'_>) -> Held {
     match name {
         "type" => choice(value, POINT_TYPES, DEFAULT_POINT_TYPE),
@@ -163,7 +163,7 @@ pub(super) fn held_by_node(version: Version, name: &str, value: Value<'_>) -> He
     }
 }
 
-/// Whether the attributes of a station are written.
+/// Tells if the attributes of a station are written.
 pub(super) fn held_by_station(version: Version, name: &str, value: Value<'_>) -> Held {
     match name {
         "kind" => Held::when(matches!(value, Value::Text(_))),
@@ -174,7 +174,7 @@ pub(super) fn held_by_station(version: Version, name: &str, value: Value<'_>) ->
     }
 }
 
-/// Whether the attributes of a block are written.
+/// Tells if the attributes of a block are written.
 pub(super) fn held_by_block(_: usize, name: &str, value: Value<'_>) -> Held {
     let Value::Text(text) = value else {
         return Held::Not;
@@ -186,7 +186,7 @@ pub(super) fn held_by_block(_: usize, name: &str, value: Value<'_>) -> Held {
     }
 }
 
-/// Whether the attributes of a layout are written.
+/// Tells if the attributes of a layout are written.
 pub(super) fn held_by_layout(_: usize, name: &str, value: Value<'_>) -> Held {
     match name {
         "name" => Held::when(matches!(value, Value::Text(_))),

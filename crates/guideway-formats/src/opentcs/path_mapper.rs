@@ -68,7 +68,7 @@ struct Speeds {
 }
 
 impl Speeds {
-    /// Whether the path is driven from its end to its start only.
+    /// Tells if the path is driven from its end to its start only.
     fn is_reversed(self) -> bool {
         self.forward == Some(0.0) && self.reverse.is_some_and(|speed| speed > 0.0)
     }

@@ -114,7 +114,7 @@ impl<'a> Plant<'a> {
         name.unwrap_or(&self.default_kind)
     }
 
-    /// Whether a path has its name, or none has: others count as lost and new.
+    /// Tells if a path has its name, or none has: others count as lost and new.
     pub(super) fn keeps_path(&self, layout: &Layout, row: usize) -> bool {
         self.are_paths_renamed || self.path_names[row] == layout.paths.id(row)
     }

@@ -80,7 +80,7 @@ impl Connection {
         }
     }
 
-    /// Whether a path of this type can have a curve.
+    /// Tells if a path of this type can have a curve.
     fn can_draw(self, beziers: &[Bezier]) -> bool {
         let is_straight = || are_straight(beziers);
         !has_gap(beziers)
@@ -122,7 +122,7 @@ pub(super) fn beziers_of(path: PathRef<'_>) -> Vec<Bezier> {
     segments.map(|s| uniform::to_bezier(&s)).collect()
 }
 
-/// Whether a curve is a chain of straight lines.
+/// Tells if a curve is a chain of straight lines.
 pub(super) fn are_straight(beziers: &[Bezier]) -> bool {
     beziers.iter().all(|b| is_straight(b, POSITION_STEP_M))
 }

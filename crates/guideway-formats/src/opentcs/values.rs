@@ -35,7 +35,7 @@ pub(super) fn speed_mm_s(value: Option<Value<'_>>) -> Option<i32> {
     is_speed.then(|| (mm_s.round() as i32).max(i32::from(mm_s > 0.0)))
 }
 
-/// Whether a path is driven both ways.
+/// Tells if a path is driven both ways.
 pub(super) fn is_two_way(layout: &Layout, path: usize) -> bool {
     layout.paths.get(path).direction() == Direction::Both
 }

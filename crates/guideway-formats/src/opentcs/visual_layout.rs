@@ -46,7 +46,7 @@ pub(super) struct LegacyElement<'d, 't> {
     pub(super) label_offset: [Option<&'d str>; 2],
     /// Color of a block or of the route of a vehicle.
     pub(super) color: Option<&'d str>,
-    /// Whether it has properties other than these.
+    /// True if it has properties other than these.
     has_more: bool,
 }
 

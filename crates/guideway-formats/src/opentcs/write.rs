@@ -122,7 +122,7 @@ fn add_general_losses(layout: &Layout, losses: &mut Losses) {
     losses.add("vehicle types", layout.vehicle_types.len(), detail);
 }
 
-/// Whether the name of a level is that of a layer other than the default one.
+/// Tells if the name of a level is that of a layer other than the default one.
 fn is_layer(layout: &Layout, level: Option<u32>) -> bool {
     let level = level.and_then(|level| layout.levels.get(level as usize));
     level.is_some_and(|level| level.name.as_ref().unwrap_or(&level.id) != DEFAULT_LAYER)

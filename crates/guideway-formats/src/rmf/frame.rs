@@ -9,13 +9,10 @@ use guideway_spline::{Affine, Bounds, Point};
 
 use super::level::Level;
 use crate::builder::{Builder, PlaceFn};
-use crate::wgs84::{LocalProjection, is_lon_lat};
+use crate::wgs84::{LocalProjection, from_mercator, is_lon_lat};
 
 /// Meters per pixel without a measurement: the initial scale of the editor.
 const DEFAULT_SCALE: f64 = 0.05;
-
-/// Radius of the sphere of web Mercator, in meters.
-const MERCATOR_RADIUS_M: f64 = 6_378_137.0;
 
 /// The coordinate system of a file.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -71,7 +68,7 @@ pub(super) fn frames(
             let bounds = Bounds::of_points(positions.copied().filter(|p| p.is_finite()));
             let middle = bounds.map_or(Point::new(0.0, 0.0), |b| b.min.lerp(b.max, 0.5));
             // A meter at the latitude p has the length 1 / cos p = cosh(y / R) in the projection.
-            let scale = 1.0 / (middle.y / MERCATOR_RADIUS_M).cosh();
+            let scale = 1.0 / (middle.y / GeoOrigin::SEMI_MAJOR_M).cosh();
             builder.layout.geo_origin = bounds.and_then(|_| mercator_origin(middle));
             let to_origin = Affine::translation(-middle);
             Frame::Plane(to_origin.then(Affine::scale(scale, scale, Point::new(0.0, 0.0))))
@@ -82,8 +79,7 @@ pub(super) fn frames(
 
 /// The place on earth of a position in web Mercator, if it is on earth.
 fn mercator_origin(position: Point<f64>) -> Option<GeoOrigin> {
-    let [longitude, latitude] = [position.x, position.y].map(|m| m / MERCATOR_RADIUS_M);
-    let degrees = Point::new(longitude.to_degrees(), latitude.sinh().atan().to_degrees());
+    let degrees = from_mercator(position, 0.0);
     is_lon_lat(degrees).then_some(GeoOrigin {
         longitude_deg: degrees.x,
         latitude_deg: degrees.y,

@@ -40,7 +40,7 @@ use crate::source::Source;
 use crate::yaml::Yaml;
 use crate::{Problem, ReadError, text};
 
-/// Whether a text has the top-level YAML key `levels` of buildings and graphs.
+/// Tells if a text has the top-level YAML key `levels` of buildings and graphs.
 pub(crate) fn is_rmf(text: &[u8]) -> bool {
     let mut lines = text.split(|&byte| byte == b'\n');
     lines.any(|line| {

@@ -144,7 +144,7 @@ impl<'a, 'y> SiteMapper<'a, 'y> {
     }
 }
 
-/// Whether the file is a navigation graph: the third value of its first vertex is parameters or
+/// Tells if the file is a navigation graph: the third value of its first vertex is parameters or
 /// missing. In a building it is a height. Without vertices, the key of the name decides.
 fn is_graph(levels: &[Level<'_>], root: YamlNode<'_>) -> bool {
     let vertices = levels

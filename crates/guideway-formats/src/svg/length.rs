@@ -10,9 +10,9 @@ pub(super) const DEFAULT_FONT_PX: f64 = 16.0;
 /// Sizes of fonts that lengths refer to, in user units.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FontSizes {
-    /// Of the element: `em`.
+    /// Size at the element: `em`.
     pub(super) own: f64,
-    /// Of the root element: `rem`.
+    /// Size at the root element: `rem`.
     pub(super) root: f64,
 }
 

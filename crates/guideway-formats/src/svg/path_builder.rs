@@ -44,7 +44,7 @@ impl PathBuilder {
         }
     }
 
-    /// Whether an arc was dropped because it exceeds the largest coordinate.
+    /// Tells if an arc was dropped because it exceeds the largest coordinate.
     pub(super) fn is_out_of_range(&self) -> bool {
         self.is_out_of_range
     }

@@ -29,13 +29,13 @@ pub(super) struct Style {
     fill_opacity: f64,
     /// Size of the font, in user units.
     pub(super) font_size: f64,
-    /// Whether transforms leave the width of the stroke as it is. Not inherited.
+    /// True if transforms leave the width of the stroke as it is. Not inherited.
     pub(super) is_stroke_fixed: bool,
     /// Product of the opacities of the element and all groups around it.
     opacity: f64,
     pub(super) is_displayed: bool,
     pub(super) is_visible: bool,
-    /// Whether it or a group around it has a clip path or a mask; Guideway ignores both.
+    /// True if it or a group around it has a clip path or a mask; Guideway ignores both.
     pub(super) is_clipped: bool,
 }
 
@@ -136,7 +136,7 @@ impl Style {
         })
     }
 
-    /// Whether the stroke has a paint and a width.
+    /// Tells if the stroke has a paint and a width.
     pub(super) fn has_stroke(&self) -> bool {
         self.stroke != Paint::None && self.stroke_width > 0.0
     }

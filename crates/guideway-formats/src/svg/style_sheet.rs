@@ -91,7 +91,7 @@ impl<'d> StyleSheet<'d> {
     }
 }
 
-/// Whether a selector is an element, a class, an element with a class, or an identifier.
+/// Tells if a selector is an element, a class, an element with a class, or an identifier.
 fn is_simple(selector: &str) -> bool {
     let is_name = |c: char| c.is_alphanumeric() || "-_.#*".contains(c);
     !selector.is_empty()

@@ -55,7 +55,7 @@ impl PathData {
         }
     }
 
-    /// Whether it has no commands.
+    /// Tells if it has no commands.
     pub fn is_empty(&self) -> bool {
         self.data.is_empty()
     }

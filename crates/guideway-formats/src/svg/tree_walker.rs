@@ -362,7 +362,7 @@ impl<'a, 'd, 't> TreeWalker<'a, 'd, 't> {
         }
     }
 
-    /// Whether an element has another namespace than the drawing.
+    /// Tells if an element has another namespace than the drawing.
     fn is_foreign(&self, node: Node<'d, 't>) -> bool {
         node.tag_name().namespace() != self.mapper.base.xml.root().tag_name().namespace()
     }

@@ -29,7 +29,7 @@ pub(super) fn version_of(root: &Root<'_>) -> Version {
     }
 }
 
-/// Whether edges name their nodes; `None` without edges.
+/// Tells if edges name their nodes; `None` without edges.
 fn names_nodes(root: &Root<'_>) -> Option<bool> {
     let mut edges = items(&root.edges)
         .filter_map(|(_, edge)| edge.get())

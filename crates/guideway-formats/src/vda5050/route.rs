@@ -41,7 +41,7 @@ pub(super) struct RoutePlace<'a> {
     pub(super) position_m: Point<f64>,
     pub(super) map: Option<&'a str>,
     pub(super) sequence: u64,
-    /// Whether the route passed the node before.
+    /// True if the route passed the node before.
     pub(super) is_repeated: bool,
     /// Members of this pass, if they are not those of the row.
     pub(super) pass: Option<&'a str>,

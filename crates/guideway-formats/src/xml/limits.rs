@@ -108,7 +108,7 @@ struct Tag {
     length: Option<usize>,
     attributes: u64,
     namespaces: u64,
-    /// Whether it is self-closing, as in `<a/>`.
+    /// True if it is self-closing, as in `<a/>`.
     is_self_closing: bool,
 }
 

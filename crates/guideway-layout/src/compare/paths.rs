@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use super::columns::{compare_cells, names};
 use super::curve_distance::are_near;
 use super::difference::{CompareOptions, Differences};
+use super::element_pairs::level_id;
 use super::row_pairs::RowPairs;
 use crate::{Layout, PathRef};
 
@@ -127,11 +128,7 @@ impl Pair<'_> {
     }
 
     fn level_ids(&self) -> [Option<&str>; 2] {
-        let id = |i: usize| {
-            let level = self.paths[i].level()?;
-            Some(self.layouts[i].levels.get(level as usize)?.id.as_str())
-        };
-        [id(0), id(1)]
+        [0, 1].map(|i| level_id(self.layouts[i], self.paths[i].level()))
     }
 
     fn vehicle_types(&self) -> [BTreeSet<&str>; 2] {

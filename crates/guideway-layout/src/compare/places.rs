@@ -4,6 +4,7 @@ use guideway_spline::Point;
 
 use super::columns::compare_row;
 use super::difference::{CompareOptions, Differences};
+use super::element_pairs::level_id;
 use super::row_pairs::RowPairs;
 use crate::Layout;
 
@@ -131,11 +132,7 @@ fn compare_levels(
     name: impl Fn() -> String,
     found: &mut Differences,
 ) {
-    let id = |i: usize| {
-        let level = layouts[i].levels.get(levels[i]? as usize)?;
-        Some(level.id.as_str())
-    };
-    let (before, after) = (id(0), id(1));
+    let [before, after] = [0, 1].map(|i| level_id(layouts[i], levels[i]));
     if before != after {
         found.add("levels", || {
             format!("{} is on {after:?} instead of {before:?}", name())

@@ -74,12 +74,13 @@ impl RowPairs {
                 rows.entry(key).or_default()[1].push(row);
             }
         }
+        let mut matched = HashSet::new();
         for [of_a, of_b] in rows.into_values() {
             if let ([a], [b]) = (&of_a[..], &of_b[..]) {
                 self.partners[*a as usize] = Some(*b);
+                matched.insert(*b);
             }
         }
-        let matched: HashSet<u32> = self.partners.iter().copied().flatten().collect();
         self.added.retain(|row| !matched.contains(row));
     }
 

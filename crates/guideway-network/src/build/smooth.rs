@@ -58,7 +58,7 @@ fn join_chains(drawn: &mut Drawn, tolerance_m: f64) {
     for ends in places.values() {
         let &[a, b] = ends.as_slice() else { continue };
         let (first, second) = (&curves[a as usize / 2], &curves[b as usize / 2]);
-        // Seen from the end of one line to the start of the other one.
+        // Both from the end of one line to the start of the other one.
         let last = outward(first, a);
         let next = reversed(&outward(second, b));
         if a / 2 != b / 2 && first.rule == second.rule && follow(&last, &next, tolerance_m) {

@@ -179,29 +179,11 @@ pub(in crate::lif) fn add_required(elements: &Elements<'_>, losses: &mut Losses)
     let scaled = (0..layout.paths.len()).filter(|&path| elements.trajectories.is_scaled(path));
     let detail = "curves: written with knots from 0 to 1, and with weights from 1 on";
     losses.add("curves", scaled.count(), detail);
-    let types = layout.nodes.vehicle_types();
-    let stated = (0..layout.nodes.len() as u32)
-        .map(|node| (node, types.entries(node as usize)))
-        .filter(|(_, own)| !own.is_empty());
-    let grown = stated
-        .clone()
-        .filter(|(node, own)| elements.node_types(*node).len() > own.len());
+    let [grown, implied] = count_changed_nodes(elements);
     let detail = "nodes: written with entries for the types of their paths";
-    losses.add("vehicle types", grown.count(), detail);
-    let implied = stated.filter(|(node, own)| {
-        let of_paths = elements.network.types_of_node(*node).len();
-        let has_value = |entry| {
-            types
-                .attributes
-                .iter()
-                .any(|c| c.values.get(entry).is_some())
-        };
-        of_paths == own.len()
-            && elements.node_types(*node).len() == own.len()
-            && !own.clone().any(has_value)
-    });
+    losses.add("vehicle types", grown, detail);
     let detail = "nodes: types without properties are read as those of their paths";
-    losses.add("vehicle types", implied.count(), detail);
+    losses.add("vehicle types", implied, detail);
     losses.add(
         "vehicle types",
         count_ends_between_levels(elements),
@@ -209,6 +191,28 @@ pub(in crate::lif) fn add_required(elements: &Elements<'_>, losses: &mut Losses)
     );
     let detail = "time of the export and version of the format: those of the new file";
     losses.add("layout properties", count_new_meta(elements), detail);
+}
+
+/// Counts the nodes with entries of their own that get more, and those whose entries a reader takes
+/// for implied: without values, and for the types of their paths.
+fn count_changed_nodes(elements: &Elements<'_>) -> [usize; 2] {
+    let types = elements.layout.nodes.vehicle_types();
+    let has_value =
+        |entry| (types.attributes.iter()).any(|column| column.values.get(entry).is_some());
+    let (mut grown, mut implied) = (0, 0);
+    for node in 0..elements.layout.nodes.len() as u32 {
+        let mut own = types.entries(node as usize);
+        if own.is_empty() {
+            continue;
+        }
+        let of_paths = elements.network.types_of_node(node).len();
+        if elements.node_types(node).len() > own.len() {
+            grown += 1;
+        } else if of_paths == own.len() && !own.any(has_value) {
+            implied += 1;
+        }
+    }
+    [grown, implied]
 }
 
 /// Counts the nodes without entries of their own at paths between levels. A reader that does not

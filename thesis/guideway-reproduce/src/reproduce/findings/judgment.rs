@@ -4,7 +4,7 @@ use crate::reproduce::run::Reading;
 use crate::reproduce::{Results, Run};
 use guideway_bench::{Dataset, Measured};
 
-/// Whether a claim holds, with the evidence; `None` when the run lacks the measurements.
+/// True if a claim holds, with the evidence; `None` when the run lacks the measurements.
 pub(super) type Judgment = Option<(bool, String)>;
 
 /// Joins the judgments per dataset: the claim must hold in each dataset that has one.
