@@ -91,8 +91,8 @@ const WORKSPACES: [&str; 4] = [
 
 fn check_advisories(deny: &Path, manifest: &str) -> Result<()> {
     let checked = step::command(deny)
-        .args(["--manifest-path", manifest, "--locked"])
-        .args(["check", "--config", "deny.toml", "advisories"])
+        .args(["--manifest-path", manifest, "--config", "deny.toml"])
+        .args(["--locked", "check", "advisories"])
         .capture()?;
     // Without a network there is no advisory database: report that, and do not fail.
     let offline = [
