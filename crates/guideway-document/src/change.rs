@@ -1,8 +1,8 @@
-//! Changes of a document as data: edits of the scene and moves of nodes.
+//! Changes of a document as data: edits of the scene and moves of nodes with their stations.
 
 use std::sync::Arc;
 
-use guideway_scene::Edit;
+use guideway_scene::{Edit, TableEdit};
 use guideway_spline::Point;
 
 /// A change of a document; one or more form an undoable step.
@@ -10,12 +10,25 @@ use guideway_spline::Point;
 pub enum Change {
     /// An edit of the scene.
     Scene(Edit),
-    /// New positions of nodes, in meters.
+    /// New positions of nodes, in meters. A station with a position of its own moves along, by the
+    /// mean of the moves of its nodes. Paths stay.
     MoveNodes(NodeMoves),
 }
 
 /// Rows of nodes and their new positions, in meters.
 pub type NodeMoves = Arc<[(u32, Point<f64>)]>;
+
+impl From<Edit> for Change {
+    fn from(edit: Edit) -> Self {
+        Self::Scene(edit)
+    }
+}
+
+impl From<TableEdit> for Change {
+    fn from(edit: TableEdit) -> Self {
+        Self::Scene(Edit::Tables(edit))
+    }
+}
 
 impl Change {
     /// Memory of the change, in bytes.

@@ -3,7 +3,9 @@
 use std::sync::Arc;
 
 use guideway_layout::Layout;
-use guideway_scene::{Edit, LayoutCopy, LineRule, PathState, Scene, SceneError, SceneOptions};
+use guideway_scene::{
+    Edit, LayoutCopy, LineRule, PathState, Scene, SceneError, SceneOptions, Table, TableEdit,
+};
 use guideway_spline::{Bounds, Point};
 
 use crate::PathSet;
@@ -11,7 +13,6 @@ use crate::edit_observer::EditObserver;
 use crate::history::History;
 use crate::index::Index;
 use crate::journal::JournalEntry;
-use crate::moved_nodes::MovedNodes;
 use crate::pick::{Hit, pick};
 
 /// A layout under inspection and editing.
@@ -23,8 +24,6 @@ pub struct Document {
     pub(crate) index: Index,
     /// Shared with the undo steps, most of which do not change it.
     pub(crate) selection: Arc<PathSet>,
-    /// Nodes that edits moved; the scene's layout still has their old positions.
-    pub(crate) moved_nodes: MovedNodes,
     pub(crate) history: History,
     pub(crate) observer: EditObserver,
     /// Entries since the last [`Document::take_journal_entries`].
@@ -48,7 +47,6 @@ impl Document {
             index: Index::new(scene.layout()),
             scene,
             selection: Arc::default(),
-            moved_nodes: MovedNodes::default(),
             history: History::default(),
             observer: EditObserver::default(),
             journal_entries: Vec::new(),
@@ -61,7 +59,7 @@ impl Document {
         &self.scene
     }
 
-    /// The layout. [`Self::node_position_m`] has the present positions of nodes.
+    /// The layout, with the rows of removed elements; see [`Scene::exists`].
     pub fn layout(&self) -> &Layout {
         self.scene.layout()
     }
@@ -71,21 +69,22 @@ impl Document {
         &self.index
     }
 
-    /// Present position of a node, in meters.
+    /// Position of a node, in meters.
     ///
     /// # Panics
     /// When the node is unknown.
     pub fn node_position_m(&self, node: u32) -> Point<f64> {
-        self.moved_nodes.node_position_m(self.layout(), node)
+        self.layout().nodes.position_m(node)
     }
 
-    /// Present position of a station, in meters: that of the file, or of its first node. A station
-    /// moves along when all of its nodes move. `None` without either.
+    /// Position of a station, in meters: its own, or that of its first node. `None` without either.
     ///
     /// # Panics
     /// When the station is unknown.
     pub fn station_position_m(&self, station: u32) -> Option<Point<f64>> {
-        self.moved_nodes.station_position_m(self.layout(), station)
+        let stations = &self.layout().stations;
+        let at_node = || Some(self.node_position_m(*stations.nodes(station).first()?));
+        stations.position_m(station).or_else(at_node)
     }
 
     /// Sets the observer of scene edits. It is called in order, once per edit, after the edit is
@@ -122,6 +121,11 @@ impl Document {
         if !not_shown.is_empty() {
             // Cannot fail: all rows exist.
             let _ = scene.edit(&Edit::SetStates(not_shown));
+        }
+        for of in [Table::Nodes, Table::Stations] {
+            let rows = old.removed(of).map(|row| (row, false)).collect();
+            // Cannot fail: all rows exist.
+            let _ = scene.edit(&Edit::Tables(TableEdit::SetExists { of, rows }));
         }
         self.scene = scene;
         self.revision += 1;

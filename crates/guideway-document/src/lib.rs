@@ -24,7 +24,6 @@ mod index;
 mod journal;
 mod locate;
 pub mod measure;
-mod moved_nodes;
 mod pick;
 mod query;
 mod reverse_pairs;

@@ -3,36 +3,30 @@
 use std::sync::Arc;
 
 use guideway_layout::{CheckOptions, Diagnostics, Layout, NewPath, check};
-use guideway_scene::PathState;
+use guideway_scene::Table;
 
 use crate::PathSet;
 use crate::document::Document;
-use crate::moved_nodes::MovedNodes;
 
 /// The state of a document at one moment, to save while editing goes on.
 #[derive(Clone, Debug)]
 pub struct Snapshot {
     layout: Arc<Layout>,
-    removed: PathSet,
-    moved_nodes: MovedNodes,
+    removed: Removed,
     state: u64,
 }
 
 impl Document {
-    /// The present state. Costs a scan of the path states, and no copy of the layout: the next edit
-    /// copies it if the snapshot still exists.
+    /// The present state. Costs a scan of the states, and no copy of the layout: the next edit copies
+    /// it if the snapshot still exists.
     pub fn snapshot(&self) -> Snapshot {
-        let has_removed = self.scene.path_count() < self.layout().path_count();
-        let rows = 0..if has_removed {
-            self.scene.row_count() as u32
-        } else {
-            0
-        };
-        let is_removed = |&row: &u32| self.scene.state(row) == PathState::Removed;
         Snapshot {
             layout: self.scene.shared_layout(),
-            removed: rows.filter(is_removed).collect(),
-            moved_nodes: self.moved_nodes.clone(),
+            removed: Removed {
+                paths: self.scene.removed(Table::Paths).collect(),
+                nodes: self.scene.removed(Table::Nodes).collect(),
+                stations: self.scene.removed(Table::Stations).collect(),
+            },
             state: self.state(),
         }
     }
@@ -50,55 +44,99 @@ impl Snapshot {
     }
 
     /// Findings of [`check`] in the present state, and diagnostics of the reader. Rows are those of
-    /// the document, where removed paths still have one.
+    /// the document, where removed elements still have one.
     pub fn findings(&self, options: &CheckOptions) -> Diagnostics {
         let old = &*self.layout;
-        let is_unchanged = self.removed.is_empty() && self.moved_nodes.is_empty();
-        let mut found = if is_unchanged {
-            check(old, options)
-        } else {
-            check(&self.layout_with_stable_rows(), options)
+        let mut found = match self.removed.is_empty() {
+            true => check(old, options),
+            false => check(&self.layout_to_check(), options),
         };
+        if self.removed.has_places() {
+            let [nodes, stations] = [Table::Nodes, Table::Stations].map(|of| self.kept(of));
+            found.change_places(|place| {
+                let number = |kind: &str, rows: &[usize]| {
+                    let number = place.element.strip_prefix(kind)?.parse::<usize>().ok()?;
+                    Some(format!("{kind}{}", rows.get(number.checked_sub(1)?)? + 1))
+                };
+                let renumbered = number("node number ", &nodes);
+                let renumbered = renumbered.or_else(|| number("station number ", &stations));
+                if let Some(element) = renumbered {
+                    place.element = element;
+                }
+            });
+        }
         found.append(old.diagnostics.clone());
         found
     }
 
-    /// The layout to check, with an empty path in the row of each removed one.
-    fn layout_with_stable_rows(&self) -> Layout {
+    /// The layout to check: with an empty path in the row of each removed one, and without removed
+    /// nodes and stations.
+    fn layout_to_check(&self) -> Layout {
         let old = &*self.layout;
         let mut paths = old.paths.clone();
         let empty = paths.push(&NewPath::default());
-        let row = |row: usize| match self.removed.contains(row as u32) {
+        let row = |row: usize| match self.removed.paths.contains(row as u32) {
             true => empty,
             false => row,
         };
         let rows: Vec<usize> = (0..old.paths.len()).map(row).collect();
-        Layout {
+        let mut layout = Layout {
             paths: paths.select(&rows, Some),
-            nodes: self.moved_nodes.nodes(old),
-            stations: self.moved_nodes.stations(old),
+            nodes: old.nodes.clone(),
+            stations: old.stations.clone(),
             levels: old.levels.clone(),
             geo_origin: old.geo_origin,
             ..Layout::default()
-        }
-    }
-
-    /// The layout without removed paths, with nodes and stations at their present positions. Paths
-    /// after a removed one get new rows.
-    pub fn to_layout(&self) -> Layout {
-        let mut layout = (*self.layout).clone();
-        layout.nodes = self.moved_nodes.nodes(&self.layout);
-        layout.stations = self.moved_nodes.stations(&self.layout);
-        if !self.removed.is_empty() {
-            layout.retain_paths(&self.rows());
-        }
+        };
+        self.retain_places(&mut layout);
         layout
     }
 
-    /// The rows of the paths that exist.
-    fn rows(&self) -> Vec<usize> {
-        let rows = 0..self.layout.paths.len();
-        rows.filter(|&row| !self.removed.contains(row as u32))
-            .collect()
+    /// The layout without removed elements. What follows a removed element gets a new row.
+    pub fn to_layout(&self) -> Layout {
+        let mut layout = (*self.layout).clone();
+        if !self.removed.paths.is_empty() {
+            layout.retain_paths(&self.kept(Table::Paths));
+        }
+        self.retain_places(&mut layout);
+        layout
+    }
+
+    /// Drops removed nodes and stations.
+    fn retain_places(&self, layout: &mut Layout) {
+        if self.removed.has_places() {
+            let [nodes, stations] = [Table::Nodes, Table::Stations].map(|of| self.kept(of));
+            layout.retain_nodes_and_stations(&nodes, &stations);
+        }
+    }
+
+    /// The rows of the elements that exist.
+    fn kept(&self, of: Table) -> Vec<usize> {
+        let removed = match of {
+            Table::Paths => &self.removed.paths,
+            Table::Nodes => &self.removed.nodes,
+            Table::Stations => &self.removed.stations,
+        };
+        let rows = 0..of.row_count(&self.layout);
+        rows.filter(|&row| !removed.contains(row as u32)).collect()
+    }
+}
+
+/// Rows of removed elements.
+#[derive(Clone, Debug, Default)]
+struct Removed {
+    paths: PathSet,
+    nodes: PathSet,
+    stations: PathSet,
+}
+
+impl Removed {
+    fn is_empty(&self) -> bool {
+        self.paths.is_empty() && !self.has_places()
+    }
+
+    /// Returns `true` if a node or a station is removed.
+    fn has_places(&self) -> bool {
+        !self.nodes.is_empty() || !self.stations.is_empty()
     }
 }

@@ -1,6 +1,6 @@
 //! [`Attributes`]: the further columns of a table, each with a name and one type.
 
-use crate::{Cells, Quantity, TextCells};
+use crate::{Quantity, Value, Values};
 
 /// Further columns of a table, in the order of the file.
 ///
@@ -108,6 +108,46 @@ impl Attributes {
         self.columns.iter().map(|c| c.values.heap_bytes()).sum()
     }
 
+    /// Returns `true` if [`Self::set_rows`] with these arguments changes no other row, and neither
+    /// the type nor the quantity of the column.
+    pub fn fits(&self, name: &str, quantity: Option<Quantity>, values: &Values) -> bool {
+        self.get(name).is_some_and(|column| {
+            let has_quantity = quantity.is_none() || quantity == column.quantity;
+            let holds = |value| column.values.holds(value);
+            has_quantity && values.iter().flatten().all(holds)
+        })
+    }
+
+    /// Sets the values of some rows of a column, which is created or widened as needed. `values`
+    /// has one row per row, or one for all of them; a row without a value removes the old one.
+    pub fn set_rows(
+        &mut self,
+        name: &str,
+        quantity: Option<Quantity>,
+        rows: impl IntoIterator<Item = usize>,
+        values: &Values,
+    ) {
+        if self.get(name).is_none() {
+            self.columns.push(Attribute::new(name, values.select(&[])));
+        }
+        let Some(column) = self.columns.iter_mut().find(|c| c.name == name) else {
+            return;
+        };
+        column.quantity = quantity.or(column.quantity);
+        values
+            .iter()
+            .flatten()
+            .for_each(|value| column.values.widen_for(value));
+        let is_one_for_all = values.len() == 1;
+        for (at, row) in rows.into_iter().enumerate() {
+            match values.get(if is_one_for_all { 0 } else { at }) {
+                Some(value) => column.values.set(row, value),
+                None if row < column.values.len() => column.values.clear(row),
+                None => {}
+            }
+        }
+    }
+
     /// The column with this name; a new one has the type of `value`.
     fn column_mut(&mut self, name: &str, value: Value<'_>) -> &mut Attribute {
         let known = self.columns.iter().position(|c| c.name == name);
@@ -153,163 +193,6 @@ impl Attribute {
     }
 }
 
-/// The values of a column, in one type.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Values {
-    /// Yes or no.
-    Bool(Cells<bool>),
-    /// Whole numbers.
-    Int(Cells<i64>),
-    /// Numbers.
-    Float(Cells<f64>),
-    /// Text.
-    Text(TextCells),
-    /// JSON texts: lists and objects that have no type of their own.
-    Json(TextCells),
-}
-
-impl Values {
-    fn empty_for(value: Value<'_>) -> Self {
-        match value {
-            Value::Bool(_) => Self::Bool(Cells::default()),
-            Value::Int(_) => Self::Int(Cells::default()),
-            Value::Float(_) => Self::Float(Cells::default()),
-            Value::Text(_) => Self::Text(TextCells::default()),
-            Value::Json(_) => Self::Json(TextCells::default()),
-        }
-    }
-
-    /// Number of rows.
-    pub fn len(&self) -> usize {
-        match self {
-            Self::Bool(v) => v.len(),
-            Self::Int(v) => v.len(),
-            Self::Float(v) => v.len(),
-            Self::Text(v) | Self::Json(v) => v.len(),
-        }
-    }
-
-    /// Returns `true` if there are no rows.
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-
-    /// The value of a row, if it has one.
-    pub fn get(&self, row: usize) -> Option<Value<'_>> {
-        match self {
-            Self::Bool(v) => v.get(row).map(Value::Bool),
-            Self::Int(v) => v.get(row).map(Value::Int),
-            Self::Float(v) => v.get(row).map(Value::Float),
-            Self::Text(v) => v.get(row).map(Value::Text),
-            Self::Json(v) => v.get(row).map(Value::Json),
-        }
-    }
-
-    /// The given rows, in this order.
-    #[must_use]
-    pub fn select(&self, rows: &[usize]) -> Self {
-        match self {
-            Self::Bool(v) => Self::Bool(v.select(rows)),
-            Self::Int(v) => Self::Int(v.select(rows)),
-            Self::Float(v) => Self::Float(v.select(rows)),
-            Self::Text(v) => Self::Text(v.select(rows)),
-            Self::Json(v) => Self::Json(v.select(rows)),
-        }
-    }
-
-    fn widen_for(&mut self, value: Value<'_>) {
-        *self = match (&*self, value) {
-            (Self::Bool(_), Value::Bool(_))
-            | (Self::Int(_), Value::Int(_))
-            | (Self::Float(_), Value::Float(_) | Value::Int(_))
-            | (Self::Json(_), Value::Json(_))
-            | (Self::Text(_), _) => return,
-            (Self::Int(v), Value::Float(_)) => {
-                Self::Float(v.iter().map(|v| v.map(|v| v as f64)).collect())
-            }
-            (narrow, _) => {
-                let text = |row| narrow.get(row).map(|value| value.to_string());
-                let mut wide = TextCells::default();
-                (0..narrow.len()).for_each(|row| wide.push(text(row).as_deref()));
-                Self::Text(wide)
-            }
-        };
-    }
-
-    fn set(&mut self, row: usize, value: Value<'_>) {
-        match (self, value) {
-            (Self::Text(v), Value::Text(x)) | (Self::Json(v), Value::Json(x)) => {
-                v.set(row, Some(x));
-            }
-            (Self::Text(v), _) => v.set(row, Some(&value.to_string())),
-            (Self::Bool(v), Value::Bool(x)) => v.set(row, x),
-            (Self::Int(v), Value::Int(x)) => v.set(row, x),
-            (Self::Float(v), Value::Float(x)) => v.set(row, x),
-            (Self::Float(v), Value::Int(x)) => v.set(row, x as f64),
-            _ => unreachable!("`widen_for` has widened the column for this value"),
-        }
-    }
-
-    fn clear(&mut self, row: usize) {
-        match self {
-            Self::Bool(v) => v.clear(row),
-            Self::Int(v) => v.clear(row),
-            Self::Float(v) => v.clear(row),
-            Self::Text(v) | Self::Json(v) => v.set(row, None),
-        }
-    }
-
-    fn copy_row(&mut self, from: usize, to: usize) {
-        match self {
-            Self::Bool(v) => v.get(from).into_iter().for_each(|x| v.set(to, x)),
-            Self::Int(v) => v.get(from).into_iter().for_each(|x| v.set(to, x)),
-            Self::Float(v) => v.get(from).into_iter().for_each(|x| v.set(to, x)),
-            Self::Text(v) | Self::Json(v) => {
-                if let Some(text) = v.get(from).map(str::to_owned) {
-                    v.set(to, Some(&text));
-                }
-            }
-        }
-    }
-
-    fn heap_bytes(&self) -> usize {
-        match self {
-            Self::Bool(v) => v.heap_bytes(),
-            Self::Int(v) => v.heap_bytes(),
-            Self::Float(v) => v.heap_bytes(),
-            Self::Text(v) | Self::Json(v) => v.heap_bytes(),
-        }
-    }
-}
-
-/// One value of an attribute.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Value<'a> {
-    /// Yes or no.
-    Bool(bool),
-    /// A whole number.
-    Int(i64),
-    /// A number.
-    Float(f64),
-    /// Text.
-    Text(&'a str),
-    /// JSON: a list or an object.
-    Json(&'a str),
-}
-
-impl std::fmt::Display for Value<'_> {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Bool(v) => v.fmt(f),
-            Self::Int(v) => v.fmt(f),
-            // Files often store `f32`: 0.3 must not print as 0.30000001192092896.
-            Self::Float(v) if f64::from(*v as f32) == *v => (*v as f32).fmt(f),
-            Self::Float(v) => v.fmt(f),
-            Self::Text(v) | Self::Json(v) => f.write_str(v),
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -333,6 +216,31 @@ mod tests {
             assert_eq!(column.get(4), Some(value));
             assert_eq!((column.get(3), column.get(5)), (None, None));
         }
+    }
+
+    #[test]
+    fn sets_rows_to_one_value_or_one_each() {
+        let of = |values: &[Option<f64>]| -> Values {
+            let values = values.iter().map(|v| v.map(Value::Float));
+            values.collect()
+        };
+        let mut attributes = Attributes::default();
+        let speed = Some(Quantity::Speed);
+        let set = |a: &mut Attributes, rows: &[usize], values: &Values| {
+            a.set_rows("speed", speed, rows.iter().copied(), values);
+        };
+        assert!(!attributes.fits("speed", speed, &of(&[])));
+        set(&mut attributes, &[3, 1], &of(&[Some(2.0)]));
+        assert!(attributes.fits("speed", None, &of(&[None, Some(1.0)])));
+        assert!(!attributes.fits("speed", Some(Quantity::Length), &of(&[])));
+        let text: Values = [Some(Value::Text("fast"))].into_iter().collect();
+        assert!(!attributes.fits("speed", None, &text));
+        set(&mut attributes, &[0, 3, 9], &of(&[Some(0.5), None, None]));
+        let column = attributes.get("speed").unwrap();
+        assert_eq!(column.quantity, speed);
+        let cells: Vec<_> = column.values.iter().collect();
+        let number = |value| Some(Value::Float(value));
+        assert_eq!(cells, [number(0.5), number(2.0), None, None]);
     }
 
     #[test]

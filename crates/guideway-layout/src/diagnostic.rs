@@ -111,6 +111,14 @@ impl Diagnostics {
         }
     }
 
+    /// Changes the places of all findings.
+    pub fn change_places(&mut self, change: impl FnMut(&mut Place)) {
+        self.stored
+            .iter_mut()
+            .map(|finding| &mut finding.place)
+            .for_each(change);
+    }
+
     /// Adds a finding of the severity of its code. Calls `place` and `message` only if the list
     /// stores it.
     pub fn push(

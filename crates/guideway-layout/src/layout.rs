@@ -74,6 +74,33 @@ impl Layout {
         }
     }
 
+    /// Keeps the nodes and stations of the given rows, in this order, and removes all others. Paths,
+    /// stations and blocks lose their references to removed ones.
+    ///
+    /// # Panics
+    /// When a row is not below the number of nodes or stations.
+    pub fn retain_nodes_and_stations(&mut self, nodes: &[usize], stations: &[usize]) {
+        let new_rows = |len: usize, kept: &[usize]| {
+            let mut rows = vec![None; len];
+            for (new, &old) in kept.iter().enumerate() {
+                rows[old] = Some(new as u32);
+            }
+            rows
+        };
+        let node_rows = new_rows(self.nodes.len(), nodes);
+        let station_rows = new_rows(self.stations.len(), stations);
+        let node = |row: u32| node_rows[row as usize];
+        self.paths.renumber_nodes(node);
+        self.nodes = self.nodes.select(nodes);
+        self.stations = self.stations.select(stations, node);
+        for block in &mut self.blocks {
+            let members = block.members.drain(..);
+            let station = |row: u32| station_rows[row as usize];
+            let kept = members.filter_map(|member| member.renumbered(Some, node, station));
+            block.members = kept.collect();
+        }
+    }
+
     /// Heap bytes in use, approximately: it omits levels, diagnostics and provenance.
     pub fn heap_bytes(&self) -> usize {
         self.paths.heap_bytes()

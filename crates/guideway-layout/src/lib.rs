@@ -14,7 +14,7 @@
 //! | `written_curve` | NURBS curves as their file wrote them |
 //! | `source_text` | place of each row in the text of its file |
 //! | `text`, `cells`, `text_cells`, `optional_column` | columns |
-//! | `attribute`, `quantity` | further columns, with units |
+//! | `attribute`, `values`, `quantity` | further columns, with units |
 //! | `property` | names, kinds and units of the columns that several formats share |
 //! | `code`, `diagnostic`, `limits` | findings and limits of readers |
 //! | `user_error` | the error that the command and the window show |
@@ -65,9 +65,10 @@ mod text;
 mod text_cells;
 mod type_entries;
 mod user_error;
+mod values;
 mod written_curve;
 
-pub use attribute::{Attribute, Attributes, Value, Values};
+pub use attribute::{Attribute, Attributes};
 pub use cells::Cells;
 pub use check::{
     CheckOptions, DisplayPosition, check, check_across, element_name, element_place,
@@ -101,4 +102,5 @@ pub use text::TextColumn;
 pub use text_cells::TextCells;
 pub use type_entries::TypeEntries;
 pub use user_error::UserError;
+pub use values::{Value, Values};
 pub use written_curve::{WrittenCurve, WrittenCurves};

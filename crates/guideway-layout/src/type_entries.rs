@@ -132,6 +132,55 @@ impl TypeEntries {
         }
     }
 
+    /// Replaces the entries of some elements, each once, by those of `with`, which has one element
+    /// for each of them. Names that no element has any more are dropped.
+    ///
+    /// Cost: O(all entries).
+    ///
+    /// # Panics
+    /// When an element is not below [`Self::len`].
+    pub fn replace(&mut self, elements: &[usize], with: &Self) {
+        let mut sources = vec![None; self.len()];
+        for (at, &element) in elements.iter().enumerate() {
+            sources[element] = Some(at);
+        }
+        let mut replaced = Self::default();
+        // A row past the end selects no value.
+        let none = self.types.len();
+        let (mut kept, mut new_rows, mut new_from) = (Vec::new(), Vec::new(), Vec::new());
+        for (element, source) in sources.into_iter().enumerate() {
+            let (table, element) = source.map_or((&*self, element), |at| (with, at));
+            let entries = table.entries(element);
+            if source.is_some() {
+                let first = replaced.types.len();
+                new_rows.extend(first..first + entries.len());
+                kept.extend(entries.clone().map(|_| none));
+                new_from.extend(entries);
+            } else {
+                kept.extend(entries);
+            }
+            let types: Vec<&str> = table.of(element).collect();
+            replaced.push(&types);
+        }
+        replaced.attributes = self.attributes.select(&kept);
+        for column in with.attributes.iter() {
+            let values = column.values.select(&new_from);
+            let rows = new_rows.iter().copied();
+            let (name, quantity) = (&column.name, column.quantity);
+            replaced.attributes.set_rows(name, quantity, rows, &values);
+        }
+        *self = replaced;
+    }
+
+    /// Copies the properties of an element's entries to the entries of another one, by type.
+    pub fn copy_values(&mut self, from: usize, to: usize) {
+        for entry in self.entries(to) {
+            if let Some(source) = self.entry_for(from, self.type_of(entry)) {
+                self.attributes.copy_row(source, entry);
+            }
+        }
+    }
+
     /// Renames a vehicle type. Returns false, and changes nothing, if no element has it or the new
     /// name is in use.
     pub fn rename(&mut self, old: &str, new: &str) -> bool {
@@ -214,6 +263,39 @@ mod tests {
         assert_eq!(speeds(&entries, 1), [("tug", None)]);
         assert_eq!(speeds(&entries, 2), [("tug", number(3.0))]);
         assert_eq!(entries.first_value(0, "maxSpeed"), number(2.0));
+    }
+
+    #[test]
+    fn replace_keeps_other_elements_and_is_its_own_inverse() {
+        let mut entries = sample();
+        let before = entries.clone();
+        let mut with = TypeEntries::default();
+        with.push(&["crane"]);
+        with.push(&["fork", "tug"]);
+        with.attributes.set(1, "maxSpeed", Value::Float(7.0));
+        let old = entries.select(&[2, 1]);
+        entries.replace(&[2, 1], &with);
+        let number = |value| Some(Value::Float(value));
+        assert_eq!(speeds(&entries, 0), speeds(&before, 0));
+        assert_eq!(speeds(&entries, 1), [("fork", number(7.0)), ("tug", None)]);
+        assert_eq!(speeds(&entries, 2), [("crane", None)]);
+        entries.replace(&[2, 1], &old);
+        for element in 0..3 {
+            assert_eq!(speeds(&entries, element), speeds(&before, element));
+        }
+        assert_eq!(entries.names(), before.names());
+    }
+
+    #[test]
+    fn copies_values_to_the_same_types() {
+        let mut entries = sample();
+        entries.push(&["fork", "crane"]);
+        entries.copy_values(0, 3);
+        let number = |value| Some(Value::Float(value));
+        assert_eq!(
+            speeds(&entries, 3),
+            [("fork", number(2.0)), ("crane", None)]
+        );
     }
 
     #[test]

@@ -16,7 +16,7 @@
 //! | files | content |
 //! |---|---|
 //! | `scene/`, `color`, `color_by`, `style`, `width`, `density` | appearance of the paths |
-//! | `edit/` | changes of a scene and their inverses |
+//! | `edit/`, `table` | changes of a scene and their inverses |
 //! | `cluster/` | the spatial index of paths, nodes and strokes |
 //! | `view`, `frame`, `strip`, `limits` | the picture |
 //! | `method`, `report`, `error` | the contract of render methods |
@@ -36,6 +36,7 @@ mod report;
 mod scene;
 mod strip;
 mod style;
+mod table;
 mod user_error;
 mod view;
 mod width;
@@ -43,7 +44,7 @@ mod width;
 pub use color::{ParseColorError, Rgba};
 pub use color_by::{ColorBy, Legend, LegendEntry};
 pub use draw_list::{DrawList, Fill, TextLine};
-pub use edit::{Edit, EditError, Insertion};
+pub use edit::{Edit, EditError, Insertion, NewNode, NewStation, TableEdit};
 pub use error::RenderError;
 pub use frame::{Frame, FrameSize};
 pub use method::{Budget, Cancel, EditOutcome, Method, MethodInfo, Prepared};
@@ -51,5 +52,6 @@ pub use report::{Clock, Preparation, Report, Stage, Work, elapsed_ms};
 pub use scene::{LayoutCopy, NoOpaqueColor, PathState, Scene, SceneError, SceneOptions};
 pub use strip::Strip;
 pub use style::{Shading, Style};
+pub use table::Table;
 pub use view::View;
 pub use width::LineRule;

@@ -1,6 +1,6 @@
 //! Places the marks of a view: collects what is visible, thins it out, and positions it.
 
-use guideway_scene::{LineRule, PathState, View};
+use guideway_scene::{LineRule, PathState, Table, View};
 use guideway_spline::{Bounds, Point};
 
 use super::arrows;
@@ -77,7 +77,8 @@ impl<'d> Visible<'d> {
         let nodes = few(&mut index.nodes_in(bounds).filter(is_on_level));
         let station_m = |station: u32| document.station_position_m(station);
         let is_visible = |station: &u32| {
-            scene.shows_level(layout.stations.level(*station))
+            scene.exists(Table::Stations, *station)
+                && scene.shows_level(layout.stations.level(*station))
                 && station_m(*station).is_some_and(|at| bounds.contains(at))
         };
         let stations = 0..layout.stations.len() as u32;

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use guideway_layout::{Direction, Layout, NewPath, PathRef};
-use guideway_scene::{Edit, EditError, Insertion, PathState};
+use guideway_scene::{Edit, EditError, Insertion, PathState, Table};
 use guideway_spline::{Affine, Point, Runs};
 
 use super::curves::{curve_along, refined, runs_of, with_moved_ends};
@@ -40,8 +40,7 @@ impl Document {
     /// # Errors
     /// As [`Self::transform_selection`], or when the node is unknown.
     pub fn move_node(&mut self, node: u32, to_m: Point<f64>) -> Result<(), EditError> {
-        let rows = self.layout().nodes.len();
-        if node as usize >= rows {
+        if !self.scene.exists(Table::Nodes, node) {
             return Err(EditError::UnknownReference {
                 what: "node",
                 row: node,

@@ -1,8 +1,10 @@
 //! Performs changes as undoable steps, and undoes and redoes them.
 
+use std::collections::HashMap;
 use std::sync::Arc;
 
-use guideway_scene::{Edit, EditError, PathState};
+use guideway_scene::{Edit, EditError, PathState, Table, TableEdit};
+use guideway_spline::Point;
 
 use crate::change::{Change, NodeMoves};
 use crate::document::Document;
@@ -19,7 +21,16 @@ impl Document {
             return Ok(());
         }
         let selection = Arc::clone(&self.selection);
-        let inverse = self.apply(&changes)?;
+        let rows = self.row_counts();
+        let inverse = match self.apply(&changes) {
+            Ok(inverse) => inverse,
+            Err(error) => {
+                if self.row_counts() != rows {
+                    self.journal_entries.push(JournalEntry::Try(changes));
+                }
+                return Err(error);
+            }
+        };
         self.journal_entries.push(JournalEntry::Do(changes));
         self.history.push(name, inverse, selection);
         Ok(())
@@ -94,26 +105,65 @@ impl Document {
         self.revision += 1;
         let mut inverse = Vec::new();
         for change in changes {
-            match self.apply_one(change) {
-                Ok(undo) => inverse.push(undo),
-                Err(error) => {
-                    for undo in inverse.iter().rev() {
-                        self.apply_one(undo)?;
+            for edit in self.edits_of(change) {
+                match self.edit_scene(&edit) {
+                    Ok(undo) => inverse.push(undo),
+                    Err(error) => {
+                        for undo in inverse.iter().rev() {
+                            self.edit_scene(undo)?;
+                        }
+                        return Err(error);
                     }
-                    return Err(error);
                 }
             }
         }
-        inverse.reverse();
         self.deselect_hidden();
-        Ok(inverse)
+        Ok(inverse.into_iter().rev().map(Change::Scene).collect())
     }
 
-    fn apply_one(&mut self, change: &Change) -> Result<Change, EditError> {
+    fn row_counts(&self) -> [usize; 3] {
+        [Table::Paths, Table::Nodes, Table::Stations].map(|of| of.row_count(self.layout()))
+    }
+
+    /// The edits of the scene that a change means now.
+    fn edits_of(&self, change: &Change) -> Vec<Edit> {
         match change {
-            Change::Scene(edit) => self.edit_scene(edit).map(Change::Scene),
-            Change::MoveNodes(to) => self.move_nodes(to).map(Change::MoveNodes),
+            Change::Scene(edit) => vec![edit.clone()],
+            Change::MoveNodes(to) => {
+                let stations = self.stations_after(to);
+                let nodes = TableEdit::MoveNodes(Arc::clone(to));
+                let stations =
+                    (!stations.is_empty()).then(|| TableEdit::MoveStations(stations.into()));
+                [nodes]
+                    .into_iter()
+                    .chain(stations)
+                    .map(Edit::Tables)
+                    .collect()
+            }
         }
+    }
+
+    /// The stations that move along with nodes, and their new positions: each by the mean of the
+    /// moves of its nodes.
+    fn stations_after(&self, to: &NodeMoves) -> Vec<(u32, Option<Point<f64>>)> {
+        let layout = self.layout();
+        let rows = layout.nodes.len();
+        let known = to.iter().filter(|(node, _)| (*node as usize) < rows);
+        let by_m = |&(node, at_m): &(u32, Point<f64>)| (node, at_m - layout.nodes.position_m(node));
+        let moves: HashMap<u32, Point<f64>> = known.map(by_m).collect();
+        let at_nodes = moves.keys().flat_map(|&node| self.index.stations_at(node));
+        let mut stations: Vec<u32> = at_nodes.collect();
+        stations.sort_unstable();
+        stations.dedup();
+        let exists = |station: &u32| self.scene.exists(Table::Stations, *station);
+        let after = stations.into_iter().filter(exists).filter_map(|station| {
+            let placed_m = layout.stations.position_m(station)?;
+            let nodes = layout.stations.nodes(station);
+            let moves = nodes.iter().filter_map(|node| moves.get(node));
+            let sum = moves.fold(Point::new(0.0, 0.0), |sum, by| sum + *by);
+            Some((station, Some(placed_m + sum * (1.0 / nodes.len() as f64))))
+        });
+        after.collect()
     }
 
     fn edit_scene(&mut self, edit: &Edit) -> Result<Edit, EditError> {
@@ -122,27 +172,13 @@ impl Document {
             .edit_with_undo(edit, |edit| self.observer.notify(edit))?;
         let changed: &[u32] = match edit {
             Edit::Transform { paths, .. } | Edit::Reshape { paths, .. } => paths,
-            Edit::Restyle(_) | Edit::SetStates(_) | Edit::Insert(_) => &[],
+            Edit::Restyle(_) | Edit::SetStates(_) | Edit::Insert(_) | Edit::Tables(_) => &[],
         };
         self.index.update(changed, self.scene.layout());
+        if let (Edit::Tables(edit), Edit::Tables(undo)) = (edit, &undo) {
+            self.index.update_tables(edit, undo, &self.scene);
+        }
         Ok(undo)
-    }
-
-    fn move_nodes(&mut self, to: &NodeMoves) -> Result<NodeMoves, EditError> {
-        let rows = self.layout().nodes.len();
-        if let Some(&(row, _)) = to.iter().find(|(node, _)| *node as usize >= rows) {
-            return Err(EditError::UnknownReference { what: "node", row });
-        }
-        if to.iter().any(|(_, at)| !at.is_finite()) {
-            return Err(EditError::OutOfBounds { path: None });
-        }
-        let from = to
-            .iter()
-            .map(|&(node, _)| (node, self.node_position_m(node)))
-            .collect();
-        self.index.move_nodes(to);
-        self.moved_nodes.extend(to);
-        Ok(from)
     }
 }
 

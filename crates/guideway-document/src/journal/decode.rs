@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use guideway_layout::{Direction, Geometry, OwnStyle};
+use guideway_layout::{Geometry, OwnStyle};
 use guideway_scene::{Edit, Insertion, PathState};
 use guideway_spline::{Affine, Point, Runs};
 
@@ -15,6 +15,7 @@ pub(super) fn decode(bytes: &[u8]) -> Option<JournalEntry> {
     let mut input = Decoder(bytes);
     let entry = match input.byte()? {
         tag::DO => JournalEntry::Do(input.list(Decoder::change)?),
+        tag::TRY => JournalEntry::Try(input.list(Decoder::change)?),
         tag::UNDO => JournalEntry::Undo,
         tag::REDO => JournalEntry::Redo,
         _ => return None,
@@ -23,37 +24,37 @@ pub(super) fn decode(bytes: &[u8]) -> Option<JournalEntry> {
 }
 
 /// The bytes that are left to decode.
-struct Decoder<'a>(&'a [u8]);
+pub(super) struct Decoder<'a>(&'a [u8]);
 
 impl Decoder<'_> {
-    fn take<const N: usize>(&mut self) -> Option<[u8; N]> {
+    pub(super) fn take<const N: usize>(&mut self) -> Option<[u8; N]> {
         let (bytes, rest) = self.0.split_first_chunk()?;
         self.0 = rest;
         Some(*bytes)
     }
 
-    fn byte(&mut self) -> Option<u8> {
+    pub(super) fn byte(&mut self) -> Option<u8> {
         self.take::<1>().map(|[byte]| byte)
     }
 
-    fn number(&mut self) -> Option<u32> {
+    pub(super) fn number(&mut self) -> Option<u32> {
         self.take().map(u32::from_le_bytes)
     }
 
-    fn point(&mut self) -> Option<Point<f64>> {
+    pub(super) fn point(&mut self) -> Option<Point<f64>> {
         let x = f64::from_le_bytes(self.take()?);
         let y = f64::from_le_bytes(self.take()?);
         Some(Point::new(x, y))
     }
 
-    fn text(&mut self) -> Option<String> {
+    pub(super) fn text(&mut self) -> Option<String> {
         let len = self.number()? as usize;
         let (text, rest) = self.0.split_at_checked(len)?;
         self.0 = rest;
         String::from_utf8(text.to_vec()).ok()
     }
 
-    fn optional(&mut self) -> Option<Option<u32>> {
+    pub(super) fn optional(&mut self) -> Option<Option<u32>> {
         let is_present = self.byte()? != 0;
         let value = self.number()?;
         Some(is_present.then_some(value))
@@ -61,7 +62,10 @@ impl Decoder<'_> {
 
     /// Decodes a list. It grows item by item, and each item consumes bytes: a damaged count cannot
     /// exhaust memory.
-    fn list<T>(&mut self, mut item: impl FnMut(&mut Self) -> Option<T>) -> Option<Vec<T>> {
+    pub(super) fn list<T>(
+        &mut self,
+        mut item: impl FnMut(&mut Self) -> Option<T>,
+    ) -> Option<Vec<T>> {
         let count = self.number()?;
         let mut items = Vec::new();
         for _ in 0..count {
@@ -70,7 +74,7 @@ impl Decoder<'_> {
         Some(items)
     }
 
-    fn rows(&mut self) -> Option<Arc<[u32]>> {
+    pub(super) fn rows(&mut self) -> Option<Arc<[u32]>> {
         self.list(Self::number).map(Arc::from)
     }
 
@@ -101,6 +105,7 @@ impl Decoder<'_> {
                 let node = |input: &mut Self| Some((input.number()?, input.point()?));
                 return Some(Change::MoveNodes(self.list(node)?.into()));
             }
+            tag::TABLES => Edit::Tables(self.tables()?),
             _ => return None,
         };
         Some(Change::Scene(edit))
@@ -128,11 +133,7 @@ impl Decoder<'_> {
             runs: self.runs()?,
             start_node: self.optional()?,
             end_node: self.optional()?,
-            direction: match self.byte()? {
-                0 => Direction::Forward,
-                1 => Direction::Both,
-                _ => return None,
-            },
+            direction: self.direction()?,
             level: self.optional()?,
             vehicle_types: self.list(Self::text)?,
             style: self.style()?,

@@ -1,6 +1,6 @@
 //! Encodes journal entries as payload bytes. `decode` is the inverse.
 
-use guideway_layout::{Direction, Geometry, OwnStyle, RunPoints};
+use guideway_layout::{Geometry, OwnStyle, RunPoints};
 use guideway_scene::{Edit, Insertion, PathState};
 use guideway_spline::Point;
 
@@ -16,41 +16,49 @@ pub(super) fn encode(entry: &JournalEntry) -> Vec<u8> {
             out.byte(tag::DO);
             out.list(changes, |out, change| out.change(change));
         }
+        JournalEntry::Try(changes) => {
+            out.byte(tag::TRY);
+            out.list(changes, |out, change| out.change(change));
+        }
         JournalEntry::Undo => out.byte(tag::UNDO),
         JournalEntry::Redo => out.byte(tag::REDO),
     }
     out.0
 }
 
-#[derive(Default)]
 /// Little-endian output.
-struct Encoder(Vec<u8>);
+#[derive(Default)]
+pub(super) struct Encoder(Vec<u8>);
 
 impl Encoder {
-    fn byte(&mut self, value: u8) {
+    pub(super) fn byte(&mut self, value: u8) {
         self.0.push(value);
     }
 
-    fn number(&mut self, value: u32) {
+    pub(super) fn bytes(&mut self, bytes: &[u8]) {
+        self.0.extend(bytes);
+    }
+
+    pub(super) fn number(&mut self, value: u32) {
         self.0.extend(value.to_le_bytes());
     }
 
-    fn point(&mut self, at: Point<f64>) {
+    pub(super) fn point(&mut self, at: Point<f64>) {
         self.0.extend(at.x.to_le_bytes());
         self.0.extend(at.y.to_le_bytes());
     }
 
-    fn text(&mut self, text: &str) {
+    pub(super) fn text(&mut self, text: &str) {
         self.number(text.len() as u32);
         self.0.extend(text.as_bytes());
     }
 
-    fn optional(&mut self, value: Option<u32>) {
+    pub(super) fn optional(&mut self, value: Option<u32>) {
         self.byte(u8::from(value.is_some()));
         self.number(value.unwrap_or(0));
     }
 
-    fn list<T>(&mut self, items: &[T], mut put: impl FnMut(&mut Self, &T)) {
+    pub(super) fn list<T>(&mut self, items: &[T], mut put: impl FnMut(&mut Self, &T)) {
         self.number(items.len() as u32);
         items.iter().for_each(|item| put(self, item));
     }
@@ -104,6 +112,10 @@ impl Encoder {
                 self.byte(tag::INSERT);
                 self.list(paths, Self::insertion);
             }
+            Edit::Tables(edit) => {
+                self.byte(tag::TABLES);
+                self.tables(edit);
+            }
         }
     }
 
@@ -115,10 +127,7 @@ impl Encoder {
         }
         self.optional(path.start_node);
         self.optional(path.end_node);
-        self.byte(match path.direction {
-            Direction::Forward => 0,
-            Direction::Both => 1,
-        });
+        self.direction(path.direction);
         self.optional(path.level);
         self.list(&path.vehicle_types, |out, name| out.text(name));
         self.style(path.style);

@@ -7,6 +7,8 @@ use crate::change::Change;
 pub enum JournalEntry {
     /// Performed changes, as one step.
     Do(Vec<Change>),
+    /// Tried changes that were rejected after they had appended rows: later entries count these rows.
+    Try(Vec<Change>),
     /// Undid the last step.
     Undo,
     /// Redid the last undone step.

@@ -12,12 +12,14 @@
 //! | file | input | output |
 //! |---|---|---|
 //! | `entry` | | [`JournalEntry`] |
-//! | `encode`, `decode` | entry, payload | payload, entry |
+//! | `encode`, `decode`, and `_tables` for edits of tables | entry, payload | payload, entry |
 //! | `record` | payload | record with size and checksum, and back |
 //! | `replay` | journal, document | the recovered document |
 
 mod decode;
+mod decode_tables;
 mod encode;
+mod encode_tables;
 mod entry;
 mod record;
 mod replay;

@@ -43,6 +43,8 @@ pub fn replay(
 fn perform(entry: JournalEntry, document: &mut Document) -> Result<(), EditError> {
     match entry {
         JournalEntry::Do(changes) => document.perform("recovered edit", changes)?,
+        // Rejected again, and leaves the same rows.
+        JournalEntry::Try(changes) => drop(document.perform("rejected edit", changes)),
         JournalEntry::Undo => drop(document.undo()),
         JournalEntry::Redo => drop(document.redo()),
     }

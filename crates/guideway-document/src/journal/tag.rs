@@ -3,9 +3,25 @@
 pub(super) const DO: u8 = 1;
 pub(super) const UNDO: u8 = 2;
 pub(super) const REDO: u8 = 3;
+pub(super) const TRY: u8 = 4;
 pub(super) const TRANSFORM: u8 = 11;
 pub(super) const RESHAPE: u8 = 12;
 pub(super) const RESTYLE: u8 = 13;
 pub(super) const SET_STATES: u8 = 14;
 pub(super) const INSERT: u8 = 15;
 pub(super) const MOVE_NODES: u8 = 16;
+pub(super) const TABLES: u8 = 17;
+
+// After `TABLES`:
+pub(super) const SET_IDS: u8 = 1;
+pub(super) const SET_VALUES: u8 = 2;
+pub(super) const SET_COLUMN: u8 = 3;
+pub(super) const SET_ENTRIES: u8 = 4;
+pub(super) const SET_ENDS: u8 = 5;
+pub(super) const SET_DIRECTIONS: u8 = 6;
+pub(super) const SET_LEVELS: u8 = 7;
+pub(super) const SET_STATION_NODES: u8 = 8;
+pub(super) const SET_MEMBERS: u8 = 9;
+pub(super) const MOVE: u8 = 10;
+pub(super) const INSERT_PLACES: u8 = 11;
+pub(super) const SET_EXISTS: u8 = 12;

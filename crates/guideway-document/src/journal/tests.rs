@@ -1,7 +1,11 @@
 //! Round trips of entries, and damage to their bytes.
 
-use guideway_layout::{Direction, Geometry, OwnStyle};
-use guideway_scene::{Edit, Insertion, PathState};
+use std::sync::Arc;
+
+use guideway_layout::{
+    Attribute, Direction, Geometry, Member, OwnStyle, Quantity, TypeEntries, Value,
+};
+use guideway_scene::{Edit, Insertion, NewNode, NewStation, PathState, Table, TableEdit};
 use guideway_spline::{Affine, Point, Runs};
 
 use super::decode::decode;
@@ -44,12 +48,110 @@ fn every_change() -> JournalEntry {
     ];
     let mut changes: Vec<Change> = edits.into_iter().map(Change::Scene).collect();
     changes.push(Change::MoveNodes([(1, Point::new(5.0, 6.0))].into()));
+    changes.extend(every_table_edit().into_iter().map(Change::from));
     JournalEntry::Do(changes)
+}
+
+/// An edit of tables of every kind, with values of every type.
+fn every_table_edit() -> Vec<TableEdit> {
+    let column = |name: &str, value: Value<'_>| Attribute {
+        quantity: Some(Quantity::Speed),
+        source_type: Some("f32".into()),
+        ..Attribute::new(name, [None, Some(value)].into_iter().collect())
+    };
+    let set = |value: Value<'_>| TableEdit::SetValues {
+        of: Table::Paths,
+        vehicle_type: Some("tug".into()),
+        column: "maxSpeed".into(),
+        quantity: Some(Quantity::Speed),
+        rows: [3, 9].into(),
+        values: Arc::new([Some(value), None].into_iter().collect()),
+    };
+    let values = [
+        Value::Bool(true),
+        Value::Int(-3),
+        Value::Float(0.5),
+        Value::Text("é"),
+        Value::Json("[1]"),
+    ];
+    let mut entries = TypeEntries::default();
+    entries.push(&["tug", "fork"]);
+    entries.push(&[]);
+    entries
+        .attributes
+        .insert(column("maxSpeed", Value::Float(1.0)));
+    let set_column = |column| TableEdit::SetColumn {
+        of: Table::Nodes,
+        per_type: true,
+        name: "zone".into(),
+        column,
+    };
+    let at_m = Point::new(1.0, 2.0);
+    let (of, members) = (
+        Table::Stations,
+        [Member::Path(1), Member::Node(2), Member::Station(3)],
+    );
+    let mut edits = vec![
+        TableEdit::SetIds {
+            of,
+            ids: [(2, "dock".into())].into(),
+        },
+        set_column(None),
+        set_column(Some(Arc::new(column("zone", Value::Text("A"))))),
+        TableEdit::SetEntries {
+            of: Table::Nodes,
+            rows: [1, 0].into(),
+            entries: entries.into(),
+        },
+        TableEdit::SetEnds([(1, [None, Some(4)])].into()),
+        TableEdit::SetDirections([(0, Direction::Both), (1, Direction::Forward)].into()),
+        TableEdit::SetLevels {
+            of,
+            levels: [(0, None), (1, Some(2))].into(),
+        },
+        TableEdit::SetStationNodes([(1, [2, 3].into())].into()),
+        TableEdit::SetMembers([(0, members.into())].into()),
+        TableEdit::MoveNodes([(1, at_m)].into()),
+        TableEdit::MoveStations([(0, None), (1, Some(at_m))].into()),
+        TableEdit::InsertNodes(
+            [NewNode {
+                id: "n".into(),
+                position_m: at_m,
+                level: Some(1),
+                vehicle_types: vec!["tug".into()],
+                attributes_of: Some(3),
+            }]
+            .into(),
+        ),
+        TableEdit::InsertStations(
+            [NewStation {
+                id: "s".into(),
+                position_m: Some(at_m),
+                nodes: vec![4],
+                ..NewStation::default()
+            }]
+            .into(),
+        ),
+        TableEdit::SetExists {
+            of,
+            rows: [(1, false), (2, true)].into(),
+        },
+    ];
+    edits.extend(values.map(set));
+    edits
 }
 
 #[test]
 fn decodes_what_it_encodes() {
-    for entry in [every_change(), JournalEntry::Undo, JournalEntry::Redo] {
+    let JournalEntry::Do(tried) = every_change() else {
+        panic!("changes that are done");
+    };
+    for entry in [
+        every_change(),
+        JournalEntry::Try(tried),
+        JournalEntry::Undo,
+        JournalEntry::Redo,
+    ] {
         let decoded = decode(&encode(&entry)).unwrap();
         assert_eq!(format!("{decoded:?}"), format!("{entry:?}"));
     }

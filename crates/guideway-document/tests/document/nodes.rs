@@ -49,7 +49,7 @@ fn a_node_moves_along_if_all_its_paths_move() {
 }
 
 #[test]
-fn a_station_moves_along_if_all_its_nodes_move() {
+fn a_station_moves_by_the_mean_of_the_moves_of_its_nodes() {
     let mut layout = lanes(3);
     let stations = &mut layout.stations;
     stations.push("rack", Some(p(-1.0, 0.5)), vec![0, 1], None);
@@ -69,7 +69,7 @@ fn a_station_moves_along_if_all_its_nodes_move() {
     let before = stations(&document);
     assert_eq!(before[2], p(0.0, 2.0));
     document.move_node(0, p(0.0, -3.0)).unwrap();
-    assert_eq!(stations(&document), before, "a rack has two nodes");
+    assert_eq!(stations(&document)[0], p(-1.0, -1.0), "half as far");
     document.move_node(1, p(0.0, 0.0)).unwrap();
     document.move_node(2, p(4.0, 2.0)).unwrap();
     let after = [p(-1.0, -1.5), p(2.0, 2.0), p(4.0, 2.0), p(5.0, 5.0)];
@@ -78,8 +78,6 @@ fn a_station_moves_along_if_all_its_nodes_move() {
         document.undo().unwrap();
     }
     assert_eq!(stations(&document), before);
-    document.move_node(1, p(0.0, 0.0)).unwrap();
-    assert_eq!(stations(&document), before, "the other is back");
 }
 
 #[test]

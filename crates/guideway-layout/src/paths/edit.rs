@@ -62,6 +62,15 @@ impl Paths {
         set(&mut self.end_nodes, rows, path, NONE, end.unwrap_or(NONE));
     }
 
+    /// Replaces the row of each node by that which `node` returns, if it stays.
+    pub(crate) fn renumber_nodes(&mut self, node: impl Fn(u32) -> Option<u32>) {
+        let columns = [&mut self.start_nodes, &mut self.end_nodes];
+        let rows = columns.into_iter().flatten().flatten();
+        for row in rows.filter(|row| **row != NONE) {
+            *row = node(*row).unwrap_or(NONE);
+        }
+    }
+
     /// Sets the directions in which vehicles drive along one path.
     pub fn set_direction(&mut self, path: usize, direction: Direction) {
         let rows = self.ids.len();

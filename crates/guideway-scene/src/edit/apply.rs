@@ -33,7 +33,7 @@ impl Scene {
         on_accepted: impl FnOnce(&Edit),
     ) -> Result<Edit, EditError> {
         edit.check(self)?;
-        if !matches!(edit, Edit::SetStates(_)) {
+        if edit.changes_layout() {
             // Copies a shared layout now, so that the observer, then its only other owner, need not
             // copy it too.
             Arc::make_mut(&mut self.layout);
@@ -72,6 +72,7 @@ impl Scene {
                 let rows = first..first + paths.len() as u32;
                 Edit::SetStates(rows.map(|path| (path, PathState::Removed)).collect())
             }
+            Edit::Tables(edit) => Edit::Tables(edit.inverse(self)),
         }
     }
 
@@ -92,6 +93,7 @@ impl Scene {
             Edit::Restyle(styles) => self.restyle(styles),
             Edit::SetStates(states) => self.set_states(states),
             Edit::Insert(paths) => self.insert(paths),
+            Edit::Tables(edit) => self.apply_to_tables(edit),
         }
     }
 
@@ -145,6 +147,8 @@ impl Scene {
             layout.paths.set_own_style(row, path.style);
             if let Some(from) = path.attributes_of {
                 layout.paths.attributes.copy_row(from as usize, row);
+                let entries = layout.paths.vehicle_types_mut();
+                entries.copy_values(from as usize, row);
             }
         }
         let rows = self.row_count();

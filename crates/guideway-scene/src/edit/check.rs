@@ -9,7 +9,7 @@ use crate::scene::Scene;
 
 /// Largest coordinate of a control point after an edit, in meters: far beyond any site, and still
 /// with a resolution of 1e-7 m in `f64`.
-const MAX_COORDINATE_M: f64 = 1e9;
+pub(super) const MAX_COORDINATE_M: f64 = 1e9;
 
 impl Edit {
     /// Accepts the edit or returns the reason for rejecting it.
@@ -52,6 +52,7 @@ impl Edit {
                 })
             }
             Self::Insert(paths) => paths.iter().try_for_each(|path| path.check(scene.layout())),
+            Self::Tables(edit) => edit.check(scene.layout()),
             Self::Restyle(_) | Self::SetStates(_) => Ok(()),
         }
     }

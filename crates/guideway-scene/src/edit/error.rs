@@ -17,9 +17,9 @@ pub enum EditError {
         /// Row of the path; `None` for a path that is not part of the scene yet.
         path: Option<u32>,
     },
-    /// The layout has no such level or node.
+    /// The layout has no such element, level or block.
     UnknownReference {
-        /// `level` or `node`.
+        /// What it is, such as `level` or `node`.
         what: &'static str,
         /// The requested row.
         row: u32,
@@ -31,6 +31,36 @@ pub enum EditError {
         /// Row of the path.
         path: u32,
     },
+    /// A node or station would not be at a finite position within the coordinate limit.
+    FarPosition {
+        /// `node` or `station`.
+        what: &'static str,
+    },
+    /// The number of values differs from the number of rows, and is not one.
+    ValueCountMismatch,
+    /// A number is NaN or infinite.
+    NotFinite {
+        /// Name of its column.
+        column: String,
+    },
+    /// Stations have no entries per vehicle type.
+    NoVehicleTypes,
+    /// An element has no entry for a vehicle type.
+    NoEntry {
+        /// `path` or `node`.
+        what: &'static str,
+        /// Row of the element.
+        row: u32,
+        /// The vehicle type.
+        vehicle_type: String,
+    },
+    /// Entries per vehicle type have a column that the table lacks, or has in another type.
+    ColumnType {
+        /// Name of the column.
+        column: String,
+    },
+    /// An edit of tables sets the states of paths.
+    PathState,
 }
 
 impl fmt::Display for EditError {
@@ -57,6 +87,40 @@ impl fmt::Display for EditError {
                 write!(
                     f,
                     "the edit names the path in row {path} twice; name each path once"
+                )
+            }
+            Self::FarPosition { what } => write!(
+                f,
+                "a {what} needs a finite position within the coordinate limit of 1e9 m"
+            ),
+            Self::ValueCountMismatch => {
+                write!(f, "the edit needs one value per row, or one for all rows")
+            }
+            Self::NotFinite { column } => {
+                write!(f, "a value of `{column}` is no finite number")
+            }
+            Self::NoVehicleTypes => write!(
+                f,
+                "stations have no properties per vehicle type; set the property for all types"
+            ),
+            Self::NoEntry {
+                what,
+                row,
+                vehicle_type,
+            } => write!(
+                f,
+                "the {what} in row {row} has no entry for the vehicle type `{vehicle_type}`; add \
+                 the type to it first"
+            ),
+            Self::ColumnType { column } => write!(
+                f,
+                "`{column}` per vehicle type is no column yet, or one of another type; create the \
+                 column first"
+            ),
+            Self::PathState => {
+                write!(
+                    f,
+                    "`Edit::SetStates` removes and restores paths, not an edit of tables"
                 )
             }
         }

@@ -6,11 +6,14 @@
 //! | `operation` | | [`Edit`], [`Insertion`]: edits as data |
 //! | `check` | edit, scene | accepts the edit or returns an [`EditError`] |
 //! | `apply` | checked edit, scene | the changed scene and the inverse edit |
+//! | `tables` | | the same for what no picture shows: [`TableEdit`] |
 
 mod apply;
 mod check;
 mod error;
 mod operation;
+mod tables;
 
 pub use error::EditError;
 pub use operation::{Edit, Insertion};
+pub use tables::{NewNode, NewStation, TableEdit};

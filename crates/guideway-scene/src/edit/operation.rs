@@ -5,6 +5,7 @@ use std::sync::Arc;
 use guideway_layout::{Direction, Geometry, OwnStyle};
 use guideway_spline::{Affine, Runs};
 
+use super::tables::TableEdit;
 use crate::scene::PathState;
 
 /// A change of a scene. Rows are stable: a removed path keeps its row, an inserted one gets the
@@ -31,6 +32,8 @@ pub enum Edit {
     SetStates(Arc<[(u32, PathState)]>),
     /// Appends paths after the last row, drawn above all others of their rank.
     Insert(Arc<[Insertion]>),
+    /// Changes what no picture shows: identifiers, references, properties, nodes and stations.
+    Tables(TableEdit),
 }
 
 /// A path to insert.
@@ -52,22 +55,31 @@ pub struct Insertion {
     pub vehicle_types: Vec<String>,
     /// Width and color of its own.
     pub style: OwnStyle,
-    /// Row of the path whose attributes it copies, if any.
+    /// Row of the path whose attributes it copies, if any, those per vehicle type too.
     pub attributes_of: Option<u32>,
 }
 
 impl Edit {
-    /// Rows of the existing paths that the edit changes.
+    /// Rows of the existing paths whose picture the edit changes.
     pub fn paths(&self) -> impl Iterator<Item = u32> {
         let (paths, styles, states): (&[u32], &[_], &[_]) = match self {
             Self::Transform { paths, .. } | Self::Reshape { paths, .. } => (paths, &[], &[]),
             Self::Restyle(styles) => (&[], styles, &[]),
             Self::SetStates(states) => (&[], &[], states),
-            Self::Insert(_) => (&[], &[], &[]),
+            Self::Insert(_) | Self::Tables(_) => (&[], &[], &[]),
         };
         let styled = styles.iter().map(|(path, _)| *path);
         let set = states.iter().map(|(path, _)| *path);
         paths.iter().copied().chain(styled).chain(set)
+    }
+
+    /// Returns `true` if the edit changes the layout, and not only what the scene shows of it.
+    pub(super) fn changes_layout(&self) -> bool {
+        let keeps = matches!(
+            self,
+            Self::SetStates(_) | Self::Tables(TableEdit::SetExists { .. })
+        );
+        !keeps
     }
 
     /// Heap bytes held, shared with clones.
@@ -81,6 +93,7 @@ impl Edit {
                 let all = paths.iter().map(Insertion::heap_bytes).sum::<usize>();
                 size_of_val(&**paths) + all
             }
+            Self::Tables(edit) => edit.heap_bytes(),
         }
     }
 }

@@ -10,6 +10,7 @@ use super::bounds::curve_bounds;
 use super::error::{NoOpaqueColor, SceneError};
 use crate::color::Rgba;
 use crate::color_by::{self, ColorBy, Legend};
+use crate::table::Table;
 
 /// Colors and visible level of a scene.
 #[derive(Clone, Debug, Default)]
@@ -32,6 +33,8 @@ pub struct Scene {
     /// State per row; empty while all paths are shown.
     pub(crate) states: Vec<PathState>,
     removed_count: usize,
+    /// Removed nodes and stations, by row; rows past the end exist.
+    removed_places: [Vec<bool>; 2],
     /// The only visible level; `None` shows all.
     level: Option<u32>,
     draw_order: Vec<u32>,
@@ -101,6 +104,7 @@ impl Scene {
             base,
             states,
             removed_count: 0,
+            removed_places: [Vec::new(), Vec::new()],
             level,
             draw_order,
             bounds: OnceLock::new(),
@@ -159,6 +163,46 @@ impl Scene {
     /// Visibility of a path, by row.
     pub fn state(&self, path: u32) -> PathState {
         self.states.get(path as usize).copied().unwrap_or_default()
+    }
+
+    /// Returns `true` if an element is part of the layout: it has a row and is not removed.
+    pub fn exists(&self, of: Table, row: u32) -> bool {
+        let row = row as usize;
+        let is_removed = match of {
+            Table::Paths => self.states.get(row) == Some(&PathState::Removed),
+            Table::Nodes => self.removed_places[0].get(row) == Some(&true),
+            Table::Stations => self.removed_places[1].get(row) == Some(&true),
+        };
+        row < of.row_count(&self.layout) && !is_removed
+    }
+
+    /// Rows of the removed paths, nodes or stations, in increasing order.
+    pub fn removed(&self, of: Table) -> impl Iterator<Item = u32> {
+        let (states, places): (&[PathState], &[bool]) = match of {
+            Table::Paths => (&self.states, &[]),
+            Table::Nodes => (&[], &self.removed_places[0]),
+            Table::Stations => (&[], &self.removed_places[1]),
+        };
+        let states = states.iter().map(|state| *state == PathState::Removed);
+        let all = states.chain(places.iter().copied());
+        let removed = (0..).zip(all).filter(|(_, is_removed)| *is_removed);
+        removed.map(|(row, _)| row)
+    }
+
+    /// Removes and restores nodes or stations.
+    pub(crate) fn set_exists(&mut self, of: Table, rows: &[(u32, bool)]) {
+        let removed = match of {
+            Table::Paths => return,
+            Table::Nodes => &mut self.removed_places[0],
+            Table::Stations => &mut self.removed_places[1],
+        };
+        for &(row, exists) in rows {
+            let row = row as usize;
+            if removed.len() <= row {
+                removed.resize(row + 1, false);
+            }
+            removed[row] = !exists;
+        }
     }
 
     /// Color of a path, by row.

@@ -260,10 +260,13 @@ impl Prepared for CpuPrepared {
         let pending = match edit {
             Edit::Transform { paths, .. } | Edit::Reshape { paths, .. } => begin(paths),
             Edit::SetStates(_) => begin(&edit.paths().collect::<Vec<u32>>()),
-            Edit::Restyle(_) | Edit::Insert(_) => Vec::new(),
+            Edit::Restyle(_) | Edit::Insert(_) | Edit::Tables(_) => Vec::new(),
         };
         let scene_now = Arc::make_mut(scene);
         install(pool.as_ref(), || scene_now.edit(edit)).map_err(RenderError::Edit)?;
+        if matches!(edit, Edit::Tables(_)) {
+            return Ok(EditOutcome::InPlace { moved_bytes: 0 });
+        }
         *tones = None;
         full_pixels.forget();
         let fixed = fixed_bytes(scene, budget);
@@ -282,6 +285,7 @@ impl Prepared for CpuPrepared {
                 }
                 Edit::Restyle(_) => clusters.bounds_of(&edit.paths().collect::<Vec<_>>()),
                 Edit::Insert(_) => clusters.append(scene),
+                Edit::Tables(_) => Vec::new(),
             }
         });
         if let Some(picture) = picture {

@@ -54,6 +54,9 @@ pub(crate) fn apply(
     let first_new = uploaded.scene.row_count() as u32;
     let scene = Arc::make_mut(&mut uploaded.scene);
     scene.edit(edit).map_err(RenderError::Edit)?;
+    if matches!(edit, Edit::Tables(_)) {
+        return Ok(SceneBufferEdit::Applied(EditEffect::default()));
+    }
     uploaded.is_incomplete = true;
     let new_rows = first_new..uploaded.scene.row_count() as u32;
     let rows: Vec<u32> = edit.paths().chain(new_rows).collect();
