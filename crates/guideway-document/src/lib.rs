@@ -36,7 +36,9 @@ mod view_history;
 
 pub use change::{Change, NodeMoves};
 pub use document::Document;
-pub use edit::{PointRef, drawn_path};
+pub use edit::{
+    Clip, Elements, Neighbors, NewEdge, OperationError, PointRef, PropertyRef, drawn_path,
+};
 pub use element::Element;
 pub use history::SavedState;
 pub use index::Index;

@@ -2,14 +2,41 @@
 //!
 //! | file | input | output |
 //! |---|---|---|
-//! | `operations`, `points` | selection, positions | [`Change`](crate::Change)s |
-//! | `curves` | control points | new control points |
-//! | `perform` | changes | the changed document and an undoable step |
+//! | `transform`, `node_moves`, `points` | elements, nodes, control points | moved elements, and what follows them |
+//! | `draw`, `create` | positions, nodes | new paths, nodes and stations |
+//! | `properties`, `vehicle_types`, `levels`, `directions`, `rename` | elements | other properties |
+//! | `copy`, `clip`, `paste`, by `copies` | elements | copies in the same or another document |
+//! | `delete` | elements | removed rows |
+//! | `curves`, `names`, `property_value`, `elements`, `error` | | parts of the above |
+//! | `perform` | [`Change`](crate::Change)s | the changed document and an undoable step |
 
+mod clip;
+mod copies;
+mod copy;
+mod create;
 mod curves;
-mod operations;
+mod delete;
+mod directions;
+mod draw;
+mod elements;
+mod error;
+mod levels;
+mod names;
+mod node_moves;
+mod paste;
 mod perform;
 mod points;
+mod properties;
+mod property_value;
+mod rename;
+mod transform;
+mod vehicle_types;
 
-pub use operations::drawn_path;
+pub use clip::Clip;
+pub use create::NewEdge;
+pub use draw::drawn_path;
+pub use elements::Elements;
+pub use error::OperationError;
 pub use points::PointRef;
+pub use properties::PropertyRef;
+pub use transform::Neighbors;

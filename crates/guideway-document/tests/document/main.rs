@@ -1,12 +1,17 @@
 //! Tests of the document without a window.
 
+mod copy;
 mod find;
 mod findings;
+mod growth;
 mod history;
 mod marks;
+mod network;
 mod nodes;
 mod operations;
+mod properties;
 mod query;
 mod random;
+mod random_network;
 mod selection;
 mod site;

@@ -1,7 +1,7 @@
 //! Nodes and stations: how they move, and how paths follow them.
 
-use guideway_document::Document;
 use guideway_document::measure::length_m;
+use guideway_document::{Document, Elements, Neighbors, PointRef};
 use guideway_scene::EditError;
 use guideway_spline::Affine;
 
@@ -30,22 +30,74 @@ fn path_ends_follow_a_moved_node_and_straight_stays_straight() {
 }
 
 #[test]
-fn a_node_moves_along_if_all_its_paths_move() {
+fn nodes_move_along_and_neighbors_stretch() {
     let mut document = two_joined();
     select(&mut document, [0]);
     let by = Affine::translation(p(0.0, 3.0));
     document.transform_selection("move", by).unwrap();
-    assert_eq!(document.node_position_m(0), p(0.0, 3.0));
-    assert_eq!(
-        document.node_position_m(1),
-        p(10.0, 0.0),
-        "bc is still there"
-    );
-    select(&mut document, [0, 1]);
-    document.transform_selection("move", by).unwrap();
-    assert_eq!(document.node_position_m(1), p(10.0, 3.0));
-    assert_eq!(document.node_near(p(10.0, 3.1), 0.5), Some(1));
-    assert_eq!(document.node_near(p(10.0, 0.0), 0.5), None);
+    for (node, x) in [(0, 0.0), (1, 10.0)] {
+        assert_eq!(document.node_position_m(node), p(x, 3.0));
+        assert_eq!(document.node_near(p(x, 3.1), 0.5), Some(node));
+        assert_eq!(document.node_near(p(x, 0.0), 0.5), None);
+    }
+    let (start, end) = ends(&document, 1);
+    assert!(is_near(start, p(10.0, 3.0)) && is_near(end, p(20.0, 0.0)));
+}
+
+#[test]
+fn detached_paths_get_nodes_of_their_own() {
+    let mut document = two_joined();
+    let by = Affine::translation(p(0.0, 3.0));
+    let first = Elements::of_paths([0]);
+    document
+        .transform("move", &first, by, Neighbors::Detach)
+        .unwrap();
+    let nodes = &document.layout().nodes;
+    assert_eq!((nodes.len(), nodes.id(3)), (4, "b copy 1"));
+    assert_eq!(nodes.position_m(0), p(0.0, 3.0), "only `ab` used it");
+    assert_eq!(nodes.position_m(1), p(10.0, 0.0), "`bc` is still there");
+    assert_eq!(nodes.position_m(3), p(10.0, 3.0));
+    let path = document.layout().paths.get(0);
+    assert_eq!((path.start_node(), path.end_node()), (Some(0), Some(3)));
+    let at = |node| document.index().paths_at(node).collect::<Vec<u32>>();
+    assert_eq!((at(1), at(3)), (vec![1], vec![0]));
+    document.undo().unwrap();
+    assert_eq!(document.to_layout().nodes.len(), 3);
+    let at: Vec<u32> = document.index().paths_at(1).collect();
+    assert_eq!(at.len(), 2, "both are back");
+}
+
+#[test]
+fn control_points_take_nodes_along_or_leave_them() {
+    let mut document = two_joined();
+    let at = |point| PointRef {
+        path: 1,
+        run: 0,
+        point,
+    };
+    let before = document.layout().paths.get(1).runs().next().unwrap();
+    let before: Vec<_> = before.iter().collect();
+    let by = p(0.0, 2.0);
+    document.move_point(at(1), before[1] + by).unwrap();
+    assert!(is_near(document.node_position_m(1), p(10.0, 2.0)));
+    assert!(is_near(ends(&document, 0).1, p(10.0, 2.0)));
+    assert!(is_near(ends(&document, 1).0, p(10.0, 2.0)));
+    document.undo().unwrap();
+    for point in [0, 3] {
+        document.move_point(at(point), before[point] + by).unwrap();
+        let (start, end) = ends(&document, 1);
+        assert!(is_near(start, p(10.0, 0.0)) && is_near(end, p(20.0, 0.0)));
+        let run = document.layout().paths.get(1).runs().next().unwrap();
+        assert_eq!(run.iter().nth(point), Some(before[point] + by));
+        document.undo().unwrap();
+    }
+    document.insert_point(at(0)).unwrap();
+    document.insert_point(at(1)).unwrap();
+    document.move_point(at(2), p(13.0, 9.0)).unwrap();
+    let (start, end) = ends(&document, 1);
+    assert!(is_near(start, p(10.0, 0.0)) && is_near(end, p(20.0, 0.0)));
+    document.remove_point(at(2)).unwrap();
+    assert!(is_near(ends(&document, 1).0, p(10.0, 0.0)));
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use guideway_document::{Document, SelectMode};
-use guideway_layout::{Direction, Layout, NewPath, Value};
+use guideway_layout::{Block, Direction, Layout, Level, Member, NewPath, Quantity, Value};
 use guideway_scene::{FrameSize, View};
 use guideway_scene::{Scene, SceneOptions};
 use guideway_spline::{Point, Runs};
@@ -100,4 +100,52 @@ pub(crate) fn two_joined() -> Document {
         });
     }
     document_of(layout)
+}
+
+/// Four nodes of a square of 10 m with a path along each side, from `a` by `b`, `c` and `d`. The
+/// tugger and the stacker may use `ab`, the others are open to all. Station `dock` is at `a`, one
+/// meter below; station `rack` between `b` and `c`, one meter to the right.
+pub(crate) fn square() -> Layout {
+    let mut layout = Layout::default();
+    let corners = [
+        ("a", 0.0, 0.0),
+        ("b", 10.0, 0.0),
+        ("c", 10.0, 10.0),
+        ("d", 0.0, 10.0),
+    ];
+    for level in ["ground", "upper"] {
+        layout.levels.push(Level {
+            id: level.into(),
+            ..Level::default()
+        });
+    }
+    for (id, x, y) in corners {
+        layout.nodes.push_for_types(id, p(x, y), Some(0), &["tug"]);
+    }
+    for (row, id) in ["ab", "bc", "cd", "da"].into_iter().enumerate() {
+        let ends = [row as u32, (row as u32 + 1) % 4];
+        let [start, end] = ends.map(|node| layout.nodes.position_m(node));
+        let mut runs = Runs::default();
+        runs.push_line(start, end);
+        layout.paths.push(&NewPath {
+            id,
+            runs: &runs,
+            start_node: Some(ends[0]),
+            end_node: Some(ends[1]),
+            level: Some(0),
+            vehicle_types: if row == 0 { &["tug", "stacker"] } else { &[] },
+            ..NewPath::default()
+        });
+        let attributes = &mut layout.paths.attributes;
+        attributes.set_quantity(row, "maxSpeed", 1.5, Quantity::Speed);
+    }
+    let (dock, rack) = (Some(p(0.0, -1.0)), Some(p(11.0, 5.0)));
+    layout.stations.push("dock", dock, vec![0], Some(0));
+    layout.stations.push("rack", rack, vec![1, 2], Some(0));
+    layout.blocks.push(Block {
+        id: "crossing".into(),
+        members: vec![Member::Path(1), Member::Node(1), Member::Station(1)],
+        ..Block::default()
+    });
+    layout
 }

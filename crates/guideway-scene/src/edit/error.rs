@@ -81,7 +81,10 @@ impl fmt::Display for EditError {
                     "a new path needs finite points within the coordinate limit of 1e9 m"
                 )
             }
-            Self::UnknownReference { what, row } => write!(f, "unknown {what} row {row}"),
+            Self::UnknownReference { what, row } => write!(
+                f,
+                "the layout has no {what} in row {row}; choose one that exists"
+            ),
             Self::CurveCountMismatch => write!(f, "the edit needs exactly one curve per path"),
             Self::DuplicatePath { path } => {
                 write!(

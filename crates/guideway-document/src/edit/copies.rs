@@ -1,0 +1,139 @@
+//! Builds the copies of elements: new rows that refer to each other as the originals do.
+
+use guideway_layout::Layout;
+use guideway_scene::{Edit, Insertion, NewNode, NewStation, Scene, Table, TableEdit};
+use guideway_spline::{Affine, Runs};
+
+use super::elements::Elements;
+use super::names::Names;
+use crate::PathSet;
+use crate::change::Change;
+
+/// Elements to copy.
+pub(super) struct Source<'a> {
+    pub(super) layout: &'a Layout,
+    /// Paths, all of their end nodes, and stations.
+    pub(super) elements: &'a Elements,
+    /// True if the copies go into the same layout, and so take over properties by row.
+    pub(super) is_own: bool,
+    /// Number of the copy in its names; `None` keeps names that are free.
+    pub(super) number: Option<u32>,
+    /// Level of the target for each level of the source; `None` keeps levels.
+    pub(super) levels: Option<&'a [Option<u32>]>,
+}
+
+/// New rows of a document.
+pub(super) struct Copies<'a> {
+    names: [Names<'a>; 3],
+    first_rows: [u32; 3],
+    nodes: Vec<NewNode>,
+    paths: Vec<Insertion>,
+    stations: Vec<NewStation>,
+}
+
+impl<'a> Copies<'a> {
+    /// No copies yet, to be inserted into a scene.
+    pub(super) fn into(scene: &'a Scene) -> Self {
+        let tables = [Table::Paths, Table::Nodes, Table::Stations];
+        Self {
+            names: tables.map(|of| Names::of(of, scene)),
+            first_rows: tables.map(|of| of.row_count(scene.layout()) as u32),
+            nodes: Vec::new(),
+            paths: Vec::new(),
+            stations: Vec::new(),
+        }
+    }
+
+    /// Adds a transformed copy.
+    pub(super) fn add(&mut self, source: &Source<'_>, by: Affine) {
+        let Source {
+            layout, elements, ..
+        } = source;
+        let own = |row: u32| source.is_own.then_some(row);
+        let level = |level: Option<u32>| match source.levels {
+            Some(levels) => levels.get(level? as usize).copied().flatten(),
+            None => level,
+        };
+        let first_node = self.first_rows[1] + self.nodes.len() as u32;
+        let node = |row: u32| {
+            let is_copied = elements.nodes.contains(row);
+            // The rank counts the rows up to and with this one.
+            is_copied.then(|| first_node + elements.nodes.rank(row) as u32 - 1)
+        };
+        let [path_names, node_names, station_names] = &mut self.names;
+        let name = |names: &mut Names<'_>, id: &str| match source.number {
+            Some(number) => names.unique(&format!("{id} copy {number}")),
+            None => names.unique(id),
+        };
+        for row in &elements.nodes {
+            let nodes = &layout.nodes;
+            self.nodes.push(NewNode {
+                id: name(node_names, nodes.id(row)),
+                position_m: by.apply(nodes.position_m(row)),
+                level: level(nodes.level(row)),
+                vehicle_types: nodes
+                    .vehicle_types()
+                    .of(row as usize)
+                    .map(str::to_owned)
+                    .collect(),
+                attributes_of: own(row),
+            });
+        }
+        for row in &elements.paths {
+            let (paths, at) = (&layout.paths, row as usize);
+            let path = paths.get(at);
+            let mut runs = Runs::default();
+            for run in path.runs() {
+                runs.push(&run.iter().map(|p| by.apply(p)).collect::<Vec<_>>());
+            }
+            self.paths.push(Insertion {
+                id: name(path_names, path.id()),
+                runs,
+                start_node: path.start_node().and_then(node),
+                end_node: path.end_node().and_then(node),
+                direction: path.direction(),
+                level: level(path.level()),
+                vehicle_types: paths.vehicle_types().of(at).map(str::to_owned).collect(),
+                style: paths.own_style(at),
+                attributes_of: own(row),
+            });
+        }
+        for row in &elements.stations {
+            let stations = &layout.stations;
+            let nodes = stations.nodes(row).iter().filter_map(|&row| node(row));
+            self.stations.push(NewStation {
+                id: name(station_names, stations.id(row)),
+                position_m: stations.position_m(row).map(|at_m| by.apply(at_m)),
+                nodes: nodes.collect(),
+                level: level(stations.level(row)),
+                attributes_of: own(row),
+            });
+        }
+    }
+
+    /// The rows that the copies will have.
+    pub(super) fn rows(&self) -> Elements {
+        let rows =
+            |first: u32, count: usize| -> PathSet { (first..first + count as u32).collect() };
+        Elements {
+            paths: rows(self.first_rows[0], self.paths.len()),
+            nodes: rows(self.first_rows[1], self.nodes.len()),
+            stations: rows(self.first_rows[2], self.stations.len()),
+        }
+    }
+
+    /// The changes that insert the copies.
+    pub(super) fn into_changes(self) -> Vec<Change> {
+        let mut changes: Vec<Change> = Vec::new();
+        if !self.nodes.is_empty() {
+            changes.push(TableEdit::InsertNodes(self.nodes.into()).into());
+        }
+        if !self.paths.is_empty() {
+            changes.push(Edit::Insert(self.paths.into()).into());
+        }
+        if !self.stations.is_empty() {
+            changes.push(TableEdit::InsertStations(self.stations.into()).into());
+        }
+        changes
+    }
+}

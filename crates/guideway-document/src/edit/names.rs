@@ -1,0 +1,73 @@
+//! Names of new elements: unique in their table, numbered where the wanted name is taken.
+
+use std::collections::{HashMap, HashSet};
+
+use guideway_scene::{Scene, Table};
+
+use super::error::OperationError;
+use crate::document::Document;
+
+/// The identifiers of a table that are in use.
+pub(super) struct Names<'a> {
+    of: Table,
+    taken: HashSet<&'a str>,
+    new: HashSet<String>,
+    /// Last number tried for a name.
+    numbers: HashMap<String, u32>,
+}
+
+impl<'a> Names<'a> {
+    pub(super) fn of(of: Table, scene: &'a Scene) -> Self {
+        let layout = scene.layout();
+        let rows = 0..of.row_count(layout) as u32;
+        let rows = rows.filter(|&row| scene.exists(of, row));
+        Self {
+            of,
+            taken: rows.map(|row| of.id(layout, row)).collect(),
+            new: HashSet::new(),
+            numbers: HashMap::new(),
+        }
+    }
+
+    /// Takes the wanted name, or the first of `NAME 2`, `NAME 3` and so on that is free.
+    pub(super) fn unique(&mut self, wanted: &str) -> String {
+        let mut name = wanted.to_owned();
+        while self.is_taken(&name) {
+            let number = self.numbers.entry(wanted.to_owned()).or_insert(1);
+            *number += 1;
+            name = format!("{wanted} {number}");
+        }
+        self.new.insert(name.clone());
+        name
+    }
+
+    /// Takes exactly this name.
+    pub(super) fn exact(&mut self, id: &str) -> Result<String, OperationError> {
+        let what = self.of.element();
+        if id.is_empty() {
+            return Err(OperationError::EmptyId { what });
+        }
+        if self.is_taken(id) {
+            let id = id.to_owned();
+            return Err(OperationError::IdTaken { what, id });
+        }
+        self.new.insert(id.to_owned());
+        Ok(id.to_owned())
+    }
+
+    /// Gives a name free.
+    pub(super) fn release(&mut self, id: &str) {
+        self.taken.remove(id);
+    }
+
+    fn is_taken(&self, id: &str) -> bool {
+        self.taken.contains(id) || self.new.contains(id)
+    }
+}
+
+impl Document {
+    /// The names of a table, to take new ones.
+    pub(super) fn names(&self, of: Table) -> Names<'_> {
+        Names::of(of, &self.scene)
+    }
+}

@@ -1,0 +1,171 @@
+//! Pastes a [`Clip`] into a document.
+
+use std::sync::Arc;
+
+use guideway_layout::{Attribute, Layout, TypeEntries};
+use guideway_scene::{Table, TableEdit};
+use guideway_spline::Affine;
+
+use super::clip::Clip;
+use super::copies::{Copies, Source};
+use super::elements::Elements;
+use super::error::OperationError;
+use super::property_value::{column_type, takes};
+use crate::change::Change;
+use crate::document::Document;
+
+const TABLES: [Table; 3] = [Table::Paths, Table::Nodes, Table::Stations];
+
+impl Document {
+    /// Pastes copied elements, transformed, with all their properties and vehicle types, and selects
+    /// the pasted paths. A name that is taken gets a number. `level` puts everything on one level;
+    /// else each element goes to the level of the same identifier or name. Returns the new rows.
+    ///
+    /// # Errors
+    /// When the document lacks a level, has a column in another type or unit, or an element would
+    /// exceed the coordinate limit.
+    pub fn paste(
+        &mut self,
+        clip: &Clip,
+        by: Affine,
+        level: Option<u32>,
+    ) -> Result<Elements, OperationError> {
+        let source = clip.layout();
+        let elements = Elements {
+            paths: (0..source.paths.len() as u32).collect(),
+            nodes: (0..source.nodes.len() as u32).collect(),
+            stations: (0..source.stations.len() as u32).collect(),
+        };
+        for of in TABLES {
+            check_columns(of, source, self.layout())?;
+        }
+        let levels = levels_of(source, self.layout(), level)?;
+        let mut copies = Copies::into(&self.scene);
+        let source = Source {
+            layout: source,
+            elements: &elements,
+            is_own: false,
+            number: None,
+            levels: Some(&levels),
+        };
+        copies.add(&source, by);
+        let (rows, mut changes) = (copies.rows(), copies.into_changes());
+        for of in TABLES {
+            let first = rows.rows(of).min().unwrap_or(0);
+            changes.extend(values_of(of, clip.layout(), first));
+        }
+        self.perform("paste", changes)?;
+        self.selection = Arc::new(rows.paths.clone());
+        Ok(rows)
+    }
+}
+
+/// Level of the document for each level of the source that is in use.
+fn levels_of(
+    source: &Layout,
+    target: &Layout,
+    level: Option<u32>,
+) -> Result<Vec<Option<u32>>, OperationError> {
+    let rows = |of: Table| (0..of.row_count(source) as u32).map(move |row| (of, row));
+    let used = TABLES.into_iter().flat_map(rows);
+    let used: crate::PathSet = used.filter_map(|(of, row)| of.level(source, row)).collect();
+    let same = |(row, of_source): (usize, &guideway_layout::Level)| {
+        let name = of_source.name.as_deref();
+        let found = target.level_named(&of_source.id);
+        let found = found.or_else(|| target.level_named(name?));
+        match (level.or(found), target.levels.is_empty()) {
+            (None, false) if used.contains(row as u32) => Err(OperationError::UnknownLevel {
+                level: of_source.id.clone(),
+            }),
+            (level, _) => Ok(level),
+        }
+    };
+    source.levels.iter().enumerate().map(same).collect()
+}
+
+/// Columns that hold for all vehicle types, then those per type.
+fn columns(of: Table, layout: &Layout) -> [Vec<&Attribute>; 2] {
+    let entries = of.entries(layout);
+    let has_values = |column: &&Attribute| column.values.iter().any(|value| value.is_some());
+    let per_type = entries.map(|entries| entries.attributes.iter().filter(has_values).collect());
+    [
+        of.attributes(layout).iter().filter(has_values).collect(),
+        per_type.unwrap_or_default(),
+    ]
+}
+
+/// Checks that no column of the target changes its type or its unit.
+fn check_columns(of: Table, source: &Layout, target: &Layout) -> Result<(), OperationError> {
+    let known = |per_type: bool, name: &str| match per_type {
+        true => of.entries(target)?.attributes.get(name),
+        false => of.attributes(target).get(name),
+    };
+    for (columns, per_type) in columns(of, source).into_iter().zip([false, true]) {
+        for column in columns {
+            let Some(own) = known(per_type, &column.name) else {
+                continue;
+            };
+            let mut values = column.values.iter().flatten();
+            let has_unit = own.quantity == column.quantity || own.values.is_empty();
+            if !has_unit || !values.all(|value| takes(&own.values, value)) {
+                return Err(OperationError::OtherColumn {
+                    column: column.name.clone(),
+                    there: column_type(column),
+                    here: column_type(own),
+                });
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Sets the values of the pasted elements of a table, whose rows begin at `first`.
+fn values_of(of: Table, source: &Layout, first: u32) -> Vec<Change> {
+    let [shared, per_type] = columns(of, source);
+    let mut changes = Vec::new();
+    let mut set = |vehicle_type: Option<&str>, column: &Attribute, places: &[(u32, usize)]| {
+        let has_value = |(_, place): &&(u32, usize)| column.values.get(*place).is_some();
+        let places: Vec<(u32, usize)> = places.iter().filter(has_value).copied().collect();
+        if places.is_empty() {
+            return;
+        }
+        let rows = places.iter().map(|(row, _)| first + row);
+        let values: Vec<usize> = places.iter().map(|(_, place)| *place).collect();
+        let edit = TableEdit::SetValues {
+            of,
+            vehicle_type: vehicle_type.map(Arc::from),
+            column: column.name.as_str().into(),
+            quantity: column.quantity,
+            rows: rows.collect(),
+            values: Arc::new(column.values.select(&values)),
+        };
+        changes.push(edit.into());
+    };
+    let all: Vec<(u32, usize)> = (0..of.row_count(source))
+        .map(|row| (row as u32, row))
+        .collect();
+    shared
+        .into_iter()
+        .for_each(|column| set(None, column, &all));
+    let Some(entries) = of.entries(source).filter(|_| !per_type.is_empty()) else {
+        return changes;
+    };
+    for (name, places) in entries_by_type(entries) {
+        per_type
+            .iter()
+            .for_each(|column| set(Some(name), column, &places));
+    }
+    changes
+}
+
+/// Elements and their entries, by vehicle type.
+fn entries_by_type(entries: &TypeEntries) -> Vec<(&str, Vec<(u32, usize)>)> {
+    let mut by_type = std::collections::BTreeMap::<&str, Vec<(u32, usize)>>::new();
+    for element in 0..entries.len() {
+        for entry in entries.entries(element) {
+            let places = by_type.entry(entries.type_of(entry)).or_default();
+            places.push((element as u32, entry));
+        }
+    }
+    by_type.into_iter().collect()
+}

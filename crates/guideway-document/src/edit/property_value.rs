@@ -1,0 +1,143 @@
+//! Values of properties: whether a property takes a value, and in which type and unit.
+
+use guideway_layout::{Attribute, ElementKind, Property, PropertyKind, Quantity, Value, Values};
+use guideway_scene::Table;
+
+use super::error::OperationError;
+
+/// The value as the property stores it, and the quantity of its column.
+///
+/// # Errors
+/// When elements of the table do not have the property, or it takes other values.
+pub(super) fn accepted<'a>(
+    of: Table,
+    name: &str,
+    column: Option<&Attribute>,
+    value: Option<Value<'a>>,
+) -> Result<(Option<Value<'a>>, Option<Quantity>), OperationError> {
+    let wrong = |expected: String, value: Value<'_>| OperationError::WrongValue {
+        property: name.to_owned(),
+        expected,
+        value: value.to_string(),
+    };
+    let known = Property::named(name);
+    if let (Some(property), None) = (known, column)
+        && !property.of.contains(&kind_of(of))
+    {
+        return Err(OperationError::WrongElement {
+            property: name.to_owned(),
+            what: of.element(),
+            of: element_names(property.of),
+        });
+    }
+    let quantity = known.and_then(Property::quantity);
+    let Some(value) = value else {
+        return Ok((None, column.map_or(quantity, |column| column.quantity)));
+    };
+    // The column of a file may have another type than the property: then the column decides.
+    let of_property = known.filter(|property| fits_column(column, property.kind));
+    let value = match of_property {
+        Some(property) => {
+            of_kind(property.kind, value).ok_or_else(|| wrong(expected_by(property.kind), value))?
+        }
+        None => value,
+    };
+    match column {
+        Some(column) if !takes(&column.values, value) => {
+            Err(wrong(type_name(&column.values).to_owned(), value))
+        }
+        Some(column) => Ok((Some(value), column.quantity.or(quantity))),
+        None => Ok((Some(value), quantity)),
+    }
+}
+
+/// Name of the type of a column, with its unit.
+pub(super) fn column_type(column: &Attribute) -> String {
+    let name = type_name(&column.values);
+    match column.quantity {
+        Some(quantity) => format!("{name} in {}", quantity.unit()),
+        None => name.to_owned(),
+    }
+}
+
+/// Returns `true` if a column takes a value without turning other values into text.
+pub(super) fn takes(values: &Values, value: Value<'_>) -> bool {
+    match values {
+        Values::Text(_) => matches!(value, Value::Text(_)),
+        Values::Int(_) => matches!(value, Value::Int(_) | Value::Float(_)),
+        _ => values.holds(value),
+    }
+}
+
+fn fits_column(column: Option<&Attribute>, kind: PropertyKind) -> bool {
+    let Some(column) = column else { return true };
+    matches!(
+        (&column.values, kind),
+        (Values::Float(_) | Values::Int(_), PropertyKind::Number(_))
+            | (Values::Int(_), PropertyKind::Integer)
+            | (Values::Bool(_), PropertyKind::Flag)
+            | (
+                Values::Text(_),
+                PropertyKind::Text | PropertyKind::Choice(_)
+            )
+            | (Values::Json(_), PropertyKind::List | PropertyKind::Json)
+    )
+}
+
+/// The value in the type of a kind of property, if it fits.
+fn of_kind(kind: PropertyKind, value: Value<'_>) -> Option<Value<'_>> {
+    match (kind, value) {
+        (PropertyKind::Number(_), Value::Int(v)) => Some(Value::Float(v as f64)),
+        (PropertyKind::Number(_), Value::Float(v)) => v.is_finite().then_some(value),
+        (PropertyKind::Integer, Value::Int(_))
+        | (PropertyKind::Flag, Value::Bool(_))
+        | (PropertyKind::Text, Value::Text(_))
+        | (PropertyKind::Json, Value::Json(_)) => Some(value),
+        (PropertyKind::List, Value::Json(text)) => text.starts_with('[').then_some(value),
+        (PropertyKind::Choice(words), Value::Text(word)) => words.contains(&word).then_some(value),
+        _ => None,
+    }
+}
+
+fn expected_by(kind: PropertyKind) -> String {
+    match kind {
+        PropertyKind::Number(quantity) => format!("a number in {}", quantity.unit()),
+        PropertyKind::Integer => "a whole number".into(),
+        PropertyKind::Flag => "true or false".into(),
+        PropertyKind::Text => "a text".into(),
+        PropertyKind::Choice(words) => format!("one of {}", words.join(", ")),
+        PropertyKind::List => "a list".into(),
+        PropertyKind::Json => "a list or an object".into(),
+    }
+}
+
+fn type_name(values: &Values) -> &'static str {
+    match values {
+        Values::Bool(_) => "true or false",
+        Values::Int(_) => "whole numbers",
+        Values::Float(_) => "numbers",
+        Values::Text(_) => "texts",
+        Values::Json(_) => "lists and objects",
+    }
+}
+
+fn kind_of(of: Table) -> ElementKind {
+    match of {
+        Table::Paths => ElementKind::Path,
+        Table::Nodes => ElementKind::Node,
+        Table::Stations => ElementKind::Station,
+    }
+}
+
+fn element_names(kinds: &[ElementKind]) -> String {
+    let name = |kind: &ElementKind| match kind {
+        ElementKind::Path => "path",
+        ElementKind::Node => "node",
+        ElementKind::Station => "station",
+        ElementKind::Level => "level",
+        ElementKind::VehicleType => "vehicle type",
+        ElementKind::Block => "block",
+        ElementKind::Zone => "zone",
+    };
+    kinds.iter().map(name).collect::<Vec<_>>().join(" or a ")
+}

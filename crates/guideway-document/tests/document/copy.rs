@@ -1,0 +1,131 @@
+//! Copies inside a document, and from one document into another.
+
+use guideway_document::{Document, Elements, PropertyRef};
+use guideway_layout::{CompareOptions, Layout, Level, Quantity, Value, differences};
+use guideway_scene::{SceneOptions, Table};
+use guideway_spline::Affine;
+
+use crate::site::{document_of, ends, is_near, p, square};
+
+#[test]
+fn copies_bring_their_nodes_and_stations() {
+    let mut document = document_of(square());
+    let tug = PropertyRef {
+        of: Table::Paths,
+        name: "maxSpeed",
+        vehicle_type: Some("tug"),
+    };
+    let first = [0].into_iter().collect();
+    document
+        .set_property(tug, &first, Some(Value::Float(0.5)))
+        .unwrap();
+    let copied = document
+        .copy(&Elements::of_paths([0, 1]), 2, p(100.0, 0.0))
+        .unwrap();
+    assert_eq!(
+        [
+            copied.paths.len(),
+            copied.nodes.len(),
+            copied.stations.len()
+        ],
+        [4, 6, 4]
+    );
+    assert_eq!(*document.selection(), copied.paths);
+    let layout = document.to_layout();
+    let path = layout.paths.get(6);
+    assert_eq!(path.id(), "ab copy 2");
+    let nodes = [path.start_node(), path.end_node()].map(|node| layout.nodes.id(node.unwrap()));
+    assert_eq!(nodes, ["a copy 2", "b copy 2"]);
+    let (start, end) = ends(&document, 6);
+    assert!(is_near(start, p(200.0, 0.0)) && is_near(end, p(210.0, 0.0)));
+    assert_eq!(
+        layout.paths.value_for(6, "tug", "maxSpeed"),
+        Some(Value::Float(0.5))
+    );
+    let rack = layout.stations.nodes(5);
+    let ids: Vec<&str> = rack.iter().map(|&node| layout.nodes.id(node)).collect();
+    assert_eq!(
+        (layout.stations.id(5), ids),
+        ("rack copy 2", vec!["b copy 2", "c copy 2"])
+    );
+    assert_eq!(layout.stations.position_m(5), Some(p(211.0, 5.0)));
+    // A second copy of the same paths has other names.
+    document
+        .copy(&Elements::of_paths([0]), 1, p(0.0, 50.0))
+        .unwrap();
+    assert_eq!(document.layout().paths.id(8), "ab copy 1 2");
+    document.undo().unwrap();
+    document.undo().unwrap();
+    assert_eq!(document.to_layout().nodes.len(), 4);
+    assert!(
+        document
+            .copy(&Elements::of_paths([99]), 1, p(0.0, 0.0))
+            .is_err()
+    );
+}
+
+#[test]
+fn pastes_into_an_empty_document_what_was_copied() {
+    let mut source = document_of(square());
+    let types = PropertyRef {
+        of: Table::Paths,
+        name: "maxSpeed",
+        vehicle_type: Some("stacker"),
+    };
+    let first = [0].into_iter().collect();
+    source
+        .set_property(types, &first, Some(Value::Float(0.25)))
+        .unwrap();
+    let clip = source.clip(&Elements::of_paths(0..4)).unwrap();
+    let empty = Layout {
+        levels: square().levels,
+        ..Layout::default()
+    };
+    let mut target = Document::new(empty.into(), &SceneOptions::default()).unwrap();
+    target.paste(&clip, Affine::IDENTITY, None).unwrap();
+    let mut expected = source.to_layout();
+    expected.blocks.clear();
+    let found = differences(&expected, &target.to_layout(), &CompareOptions::default());
+    assert!(found.is_empty(), "{found:?}");
+    let pasted = target
+        .paste(&clip, Affine::translation(p(0.0, 30.0)), Some(1))
+        .unwrap();
+    let layout = target.to_layout();
+    assert_eq!(layout.paths.id(4), "ab 2");
+    assert_eq!(layout.nodes.level(pasted.nodes.min().unwrap()), Some(1));
+    assert_eq!(
+        layout.paths.value_for(4, "stacker", "maxSpeed"),
+        Some(Value::Float(0.25))
+    );
+    assert_eq!(layout.nodes.id(layout.stations.nodes(2)[0]), "a 2");
+    while target.undo().is_some() {}
+    assert_eq!(target.to_layout().paths.len(), 0);
+}
+
+#[test]
+fn paste_names_the_level_or_column_that_does_not_fit() {
+    let source = document_of(square());
+    let clip = source.clip(&Elements::of_paths([0])).unwrap();
+    let mut other = square();
+    other.levels = vec![Level {
+        id: "roof".into(),
+        ..Level::default()
+    }];
+    let mut target = document_of(other);
+    let error = target.paste(&clip, Affine::IDENTITY, None).unwrap_err();
+    assert!(error.to_string().contains("no level `ground`"), "{error}");
+    assert!(target.paste(&clip, Affine::IDENTITY, Some(0)).is_ok());
+    let mut other = square();
+    let attributes = &mut other.paths.attributes;
+    attributes.set_quantity(0, "maxSpeed", 1.0, Quantity::Length);
+    let mut target = document_of(other);
+    let error = target
+        .paste(&clip, Affine::IDENTITY, None)
+        .unwrap_err()
+        .to_string();
+    assert!(
+        error.contains("numbers in m/s") && error.contains("numbers in m in"),
+        "{error}"
+    );
+    assert!(!target.is_changed());
+}
