@@ -15,8 +15,8 @@ use super::output::Output;
 #[cfg(feature = "viewer")]
 use super::view;
 use super::{
-    bench, check, convert, demo, diff, generate, info, interrupt, limits, methods, network, render,
-    reproduce, route, shell, threads,
+    bench, check, convert, demo, diff, edit, generate, info, interrupt, limits, methods, network,
+    render, reproduce, route, shell, threads,
 };
 
 /// Draws and checks the path layouts of automated guided vehicles.
@@ -70,6 +70,8 @@ enum Command {
     Diff(diff::Args),
     /// Write a layout in another format
     Convert(convert::Args),
+    /// Edit a layout by a script
+    Edit(edit::Args),
     /// Make a network from the lines of a drawing
     Network(Box<network::Args>),
     /// Find the fastest way between two stations or nodes
@@ -117,6 +119,7 @@ fn run(command: &Command, out: &Output) -> Result<Exit, UserError> {
         Command::Check(args) => check::run(args, out),
         Command::Diff(args) => diff::run(args, out),
         Command::Convert(args) => convert::run(args, out),
+        Command::Edit(args) => edit::run(args, out),
         Command::Network(args) => network::run(args, out),
         Command::Route(args) => route::run(args, out),
         Command::Generate(args) => generate::run(args, out),

@@ -14,6 +14,7 @@ mod check;
 mod convert;
 mod demo;
 mod diff;
+mod edit;
 mod envelope;
 mod error;
 mod exit;

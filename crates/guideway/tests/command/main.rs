@@ -5,6 +5,7 @@
 mod arrow;
 mod bench;
 mod diff;
+mod edit;
 mod envelope;
 mod hostile;
 mod network;

@@ -1,0 +1,159 @@
+//! Reads the members of a step as texts, numbers, points and references.
+
+use std::path::{Path, PathBuf};
+
+use guideway::document::Document;
+use guideway::scene::Table;
+use guideway::spline::Point;
+use serde_json::{Map, Value};
+
+use super::selection::row_named;
+use super::step::StepError;
+
+/// The members of a step, without `do`.
+pub(super) struct Members<'a> {
+    pub(super) members: &'a Map<String, Value>,
+    /// Folder from which the script names files.
+    pub(super) folder: &'a Path,
+}
+
+impl<'a> Members<'a> {
+    /// A member; `None` if it is absent.
+    pub(super) fn get(&self, name: &str) -> Option<&'a Value> {
+        self.members.get(name)
+    }
+
+    pub(super) fn text(&self, name: &'static str) -> Result<&'a str, StepError> {
+        self.optional_text(name)?
+            .ok_or_else(|| missing(name, "a text"))
+    }
+
+    pub(super) fn optional_text(&self, name: &'static str) -> Result<Option<&'a str>, StepError> {
+        match self.get(name) {
+            None => Ok(None),
+            Some(Value::String(text)) => Ok(Some(text)),
+            Some(other) => Err(wrong(name, "a text", other)),
+        }
+    }
+
+    pub(super) fn texts(&self, name: &'static str) -> Result<Vec<&'a str>, StepError> {
+        let texts = match self.get(name) {
+            None => return Ok(Vec::new()),
+            Some(Value::Array(texts)) => texts,
+            Some(other) => return Err(wrong(name, "a list of texts", other)),
+        };
+        let text = |value: &'a Value| {
+            value
+                .as_str()
+                .ok_or_else(|| wrong(name, "a list of texts", value))
+        };
+        texts.iter().map(text).collect()
+    }
+
+    pub(super) fn flag(&self, name: &'static str) -> Result<bool, StepError> {
+        match self.get(name) {
+            None => Ok(false),
+            Some(Value::Bool(flag)) => Ok(*flag),
+            Some(other) => Err(wrong(name, "true or false", other)),
+        }
+    }
+
+    pub(super) fn number(&self, name: &'static str) -> Result<f64, StepError> {
+        match self.get(name) {
+            None => Err(missing(name, "a number")),
+            Some(value) => value.as_f64().ok_or_else(|| wrong(name, "a number", value)),
+        }
+    }
+
+    /// A whole number from 1 to `most`.
+    pub(super) fn count(&self, name: &'static str, most: u32) -> Result<u32, StepError> {
+        let Some(value) = self.get(name) else {
+            return Ok(1);
+        };
+        let count = value.as_u64().and_then(|n| u32::try_from(n).ok());
+        let count = count.filter(|n| (1..=most).contains(n));
+        count.ok_or_else(|| wrong(name, &format!("a whole number from 1 to {most}"), value))
+    }
+
+    /// A position or a vector in meters.
+    pub(super) fn point(&self, name: &'static str) -> Result<Point<f64>, StepError> {
+        self.optional_point(name)?
+            .ok_or_else(|| missing(name, "two numbers in meters"))
+    }
+
+    pub(super) fn optional_point(
+        &self,
+        name: &'static str,
+    ) -> Result<Option<Point<f64>>, StepError> {
+        let Some(value) = self.get(name) else {
+            return Ok(None);
+        };
+        let numbers = value
+            .as_array()
+            .map(|list| list.iter().map(Value::as_f64).collect());
+        let numbers: Option<Vec<f64>> = numbers.flatten();
+        match numbers.as_deref() {
+            Some(&[x, y]) => Ok(Some(Point::new(x, y))),
+            _ => Err(wrong(
+                name,
+                "two numbers in meters, such as [12.5, -3]",
+                value,
+            )),
+        }
+    }
+
+    /// The row of the element that a member names.
+    pub(super) fn element(
+        &self,
+        name: &'static str,
+        of: Table,
+        document: &Document,
+    ) -> Result<u32, StepError> {
+        row_named(name, of, self.text(name)?, document)
+    }
+
+    /// The index of the level that a member names; `None` if it is absent.
+    pub(super) fn level(
+        &self,
+        name: &'static str,
+        document: &Document,
+    ) -> Result<Option<u32>, StepError> {
+        let Some(level) = self.optional_text(name)? else {
+            return Ok(None);
+        };
+        let layout = document.layout();
+        layout.level_named(level).map(Some).ok_or_else(|| {
+            let known: Vec<&str> = layout
+                .levels
+                .iter()
+                .map(|level| level.id.as_str())
+                .collect();
+            let remedy = match known.is_empty() {
+                true => "Leave it out: the layout has no levels".to_owned(),
+                false => format!("Choose one of {}", known.join(", ")),
+            };
+            StepError::of_member(name, format!("no level is called `{level}`"), remedy)
+        })
+    }
+
+    /// A file, from the folder of the script.
+    pub(super) fn file(&self, name: &'static str) -> Result<PathBuf, StepError> {
+        Ok(self.folder.join(self.text(name)?))
+    }
+}
+
+fn missing(name: &'static str, form: &str) -> StepError {
+    StepError::of_member(name, "is missing", format!("Add it, as {form}"))
+}
+
+pub(super) fn wrong(name: &'static str, form: &str, value: &Value) -> StepError {
+    let mut value = value.to_string();
+    if value.chars().count() > 60 {
+        value = value.chars().take(60).collect::<String>() + "...";
+    }
+    StepError::of_member(
+        name,
+        format!("{value} is not {form}"),
+        format!("Write {form}"),
+    )
+}

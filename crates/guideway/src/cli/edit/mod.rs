@@ -1,0 +1,197 @@
+//! `guideway edit`: edits a layout by a script of steps in JSON.
+//!
+//! | module | input | output |
+//! |---|---|---|
+//! | `script` | the file | its steps, or where it is wrong |
+//! | `step` | | the kinds of steps, what they have touched, and their errors |
+//! | `members` | a step | its members as numbers, points, names |
+//! | `selection` | `all`, names or a query | rows of the document |
+//! | `steps` | a step, a document | the edited document |
+//! | `page` | the kinds of steps | the table of the help and of the page |
+
+mod members;
+mod page;
+mod script;
+mod selection;
+mod step;
+mod steps;
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::Instant;
+
+use guideway::document::Document;
+use guideway::layout::{UserError, shown_path};
+use guideway::scene::{SceneOptions, Table, elapsed_ms};
+use serde_json::{Value, json};
+
+use self::script::Script;
+use self::step::Touched;
+use super::convert::{target_to_save, write};
+use super::error::usage_error;
+use super::exit::Exit;
+use super::input::{self, Input};
+use super::output::Output;
+use super::text;
+
+/// Names per step that a report lists.
+const SHOWN_NAMES: usize = 10;
+
+#[derive(Debug, clap::Args)]
+#[command(after_help = "`guideway edit --help` lists the steps.", after_long_help = page::help())]
+pub(crate) struct Args {
+    /// Layout file; the content decides the format
+    #[arg(value_name = "FILE", value_parser = Input::parser())]
+    input: Input,
+    /// Steps, as JSON: {"steps": [{"do": "rename", "node": "N7", "to": "gate"}]}
+    #[arg(long, value_name = "STEPS")]
+    script: PathBuf,
+    /// File to write; its extension selects the format. LIF stays in the version that was read
+    #[arg(short, long, value_name = "OUT", required_unless_present = "dry_run")]
+    output: Option<PathBuf>,
+    /// List what each step would touch, and write nothing
+    #[arg(long)]
+    dry_run: bool,
+}
+
+/// A step that was performed.
+struct Done {
+    name: String,
+    touched: Touched,
+    ms: f64,
+}
+
+pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
+    let script = Script::read(&args.script)?;
+    let output = args.output.as_ref().filter(|_| !args.dry_run);
+    if let Some(output) = output {
+        let inputs = [args.input.path.as_path(), args.script.as_path()];
+        input::check_output(inputs, output)?;
+    }
+    let (layout, read_ms) = input::read_all(std::slice::from_ref(&args.input), out)?;
+    let refused = layout.refused.len();
+    let target = output
+        .map(|output| target_to_save(&layout, output))
+        .transpose()?;
+    let mut document = Document::new(Arc::new(layout), &SceneOptions::default())?;
+    let progress = out.progress("editing");
+    let mut done = Vec::new();
+    for (number, step) in (1..).zip(&script.steps) {
+        let started = Instant::now();
+        let touched = step
+            .perform(&mut document, &script.folder)
+            .map_err(|error| {
+                let file = shown_path(&args.script);
+                let (what, remedy) = (error.describe(&step.name), error.remedy);
+                let remedy = format!("{remedy}. No step was kept and nothing was written");
+                UserError::new(
+                    "edit-script",
+                    format!("{file}: step {number} {what}"),
+                    remedy,
+                )
+            })?;
+        done.push(Done {
+            name: step.name.clone(),
+            touched,
+            ms: elapsed_ms(started),
+        });
+    }
+    let edit_ms = progress.finish();
+    let layout = document.to_layout();
+    let mut write_ms = 0.0;
+    let mut written = None;
+    if let (Some(output), Some(target)) = (output, target) {
+        let progress = out.progress(format!("writing {}", shown_path(output)));
+        written = Some((output, target, write(target, &layout, output)?));
+        write_ms = progress.finish();
+    }
+    let total_ms = read_ms + edit_ms + write_ms;
+    let lost = written.iter().flat_map(|(_, _, (losses, _))| losses.iter());
+    let lost = lost.map(
+        |loss| json!({ "place": loss.what, "count": loss.count, "message": loss.to_string() }),
+    );
+    let body = json!({
+        "file": args.input.path.to_string_lossy(),
+        "script": args.script.to_string_lossy(),
+        "output": output.map(|output| output.to_string_lossy()),
+        "dry_run": args.dry_run,
+        "steps": done.iter().zip(1..).map(step_json).collect::<Vec<_>>(),
+        "refused": refused,
+        "not_stored": lost.collect::<Vec<Value>>(),
+        "ms": { "read": read_ms, "edit": edit_ms, "write": write_ms, "total": total_ms },
+    });
+    out.report("edit", &body, || {
+        let lines = done
+            .iter()
+            .zip(1..)
+            .map(|(step, number)| step_line(step, number));
+        let mut words: String = lines.collect();
+        match &written {
+            None => words += "nothing was written\n",
+            Some((output, target, (losses, bytes))) => {
+                if !losses.is_empty() {
+                    words += &format!("{} cannot hold, or holds in another form:\n", target.name());
+                }
+                for loss in losses.iter() {
+                    let what = text::single_line(&loss.what, 80);
+                    let detail = text::single_line(&loss.detail, 200);
+                    words += &format!("  {what}: {} {detail}\n", text::count(loss.count));
+                }
+                let (name, size) = (shown_path(output), text::bytes(*bytes));
+                words += &format!("{name}: {size}\n");
+            }
+        }
+        words + &format!("took {}\n", text::time(total_ms))
+    })?;
+    Ok(Exit::Clean)
+}
+
+fn step_json((step, number): (&Done, u32)) -> Value {
+    let touched = &step.touched;
+    json!({
+        "step": number,
+        "do": step.name,
+        "paths": touched.count(Table::Paths),
+        "nodes": touched.count(Table::Nodes),
+        "stations": touched.count(Table::Stations),
+        "names": touched.names.iter().take(SHOWN_NAMES).collect::<Vec<_>>(),
+        "ms": step.ms,
+    })
+}
+
+/// `  3 set: 12 paths: aisle-1, aisle-2, ...`.
+fn step_line(step: &Done, number: u32) -> String {
+    let touched = &step.touched;
+    let counts = [Table::Paths, Table::Nodes, Table::Stations].map(|of| (of, touched.count(of)));
+    let counts = counts.iter().filter(|(_, count)| *count > 0);
+    let counts: Vec<String> = counts
+        .map(|(of, n)| text::counted(*n, of.element()))
+        .collect();
+    let counts = match counts.is_empty() {
+        true => "nothing".to_owned(),
+        false => counts.join(", "),
+    };
+    let mut names: Vec<String> = touched
+        .names
+        .iter()
+        .map(|n| text::single_line(n, 40))
+        .collect();
+    if names.len() > SHOWN_NAMES {
+        names.truncate(SHOWN_NAMES);
+        names.push("...".to_owned());
+    }
+    let names = match names.is_empty() {
+        true => String::new(),
+        false => format!(": {}", names.join(", ")),
+    };
+    format!("{number:>3} {}: {counts}{names}\n", step.name)
+}
+
+/// An error of the script as a whole.
+fn script_error(message: String, remedy: &str) -> UserError {
+    let error = usage_error(message, remedy);
+    UserError {
+        code: "edit-script",
+        ..error
+    }
+}

@@ -1,0 +1,76 @@
+//! The steps as text: for the help, and for the page `docs/edit-script.md`.
+
+use super::steps::STEPS;
+
+/// The steps for a terminal.
+pub(super) fn help() -> String {
+    let mut text = "A script is an object with a list of steps. A step that fails leaves the \
+                    layout as it was, and nothing is written. Lengths are in meters, speeds in \
+                    m/s, angles in degrees.\n\nSteps:\n"
+        .to_owned();
+    for kind in STEPS {
+        text += &format!("\n  {}: {}\n", kind.name, kind.meaning);
+        for member in kind.members {
+            let mark = if member.is_required { "" } else { "?" };
+            let (name, form, meaning) = (member.name, member.form, member.meaning);
+            text += &format!("      {name}{mark}: {form}. {meaning}\n");
+        }
+        text += &format!("      {}\n", kind.example);
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+    use std::sync::Arc;
+
+    use guideway::document::Document;
+    use guideway::scene::SceneOptions;
+
+    use super::*;
+    use crate::cli::edit::script::Script;
+
+    /// The steps in Markdown.
+    fn markdown() -> String {
+        let mut text = String::new();
+        for kind in STEPS {
+            text += &format!("### `{}`\n\n{}\n\n", kind.name, kind.meaning);
+            text += "| member | form | required | meaning |\n|---|---|---|---|\n";
+            for member in kind.members {
+                let required = if member.is_required { "yes" } else { "no" };
+                let form = member.form.replace('|', "\\|");
+                let (name, meaning) = (member.name, member.meaning);
+                text += &format!("| `{name}` | {form} | {required} | {meaning} |\n");
+            }
+            text += &format!("\n```json\n{}\n```\n\n", kind.example);
+        }
+        text
+    }
+
+    #[test]
+    fn the_page_has_the_table_of_every_step() {
+        let page = include_str!("../../../docs/edit-script.md");
+        let expected = markdown();
+        let is_at_end = page.trim_end().ends_with(expected.trim_end());
+        assert!(is_at_end, "the page must end with\n{expected}");
+    }
+
+    #[test]
+    fn every_example_runs_on_the_example_site() {
+        let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
+        let layout = Arc::new(guideway::open(examples.join("site.lif.json")).unwrap());
+        let folder = tempfile::tempdir().unwrap();
+        for kind in STEPS {
+            let file = folder.path().join("steps.json");
+            std::fs::write(&file, format!("{{\"steps\": [{}]}}", kind.example)).unwrap();
+            let script = Script::read(&file).unwrap();
+            let options = SceneOptions::default();
+            let mut document = Document::new(Arc::clone(&layout), &options).unwrap();
+            let touched = script.steps[0].perform(&mut document, &examples);
+            let touched = touched.unwrap_or_else(|error| panic!("{error:?}"));
+            assert!(!touched.names.is_empty(), "{} touches nothing", kind.name);
+            assert!(document.is_changed(), "{} changes nothing", kind.name);
+        }
+    }
+}

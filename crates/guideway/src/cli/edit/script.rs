@@ -1,0 +1,152 @@
+//! Reads a script: checks that each step is known and has no unknown members.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+use guideway::document::Document;
+use guideway::layout::{UserError, shown_path};
+use serde_json::{Map, Value};
+
+use super::members::Members;
+use super::script_error;
+use super::step::{StepError, StepKind, Touched};
+use super::steps::STEPS;
+use crate::cli::limits;
+
+/// A script to perform.
+pub(super) struct Script {
+    pub(super) steps: Vec<ScriptStep>,
+    /// Folder of the script, from which it names other files.
+    pub(super) folder: PathBuf,
+}
+
+/// One step of a script.
+pub(super) struct ScriptStep {
+    pub(super) name: String,
+    kind: &'static StepKind,
+    members: Map<String, Value>,
+}
+
+impl ScriptStep {
+    /// Performs the step on a document.
+    pub(super) fn perform(
+        &self,
+        document: &mut Document,
+        folder: &Path,
+    ) -> Result<Touched, StepError> {
+        let members = Members {
+            members: &self.members,
+            folder,
+        };
+        (self.kind.perform)(&members, document)
+    }
+}
+
+impl Script {
+    /// Reads and checks a script.
+    pub(super) fn read(path: &Path) -> Result<Self, UserError> {
+        let name = shown_path(path);
+        let limit = limits::limits().file_bytes;
+        let read = File::open(path).and_then(|file| {
+            let mut bytes = Vec::new();
+            file.take(limit.saturating_add(1)).read_to_end(&mut bytes)?;
+            Ok(bytes)
+        });
+        let bytes = read.map_err(|error| {
+            script_error(format!("{name}: {error}"), "Name a JSON file with steps")
+        })?;
+        if bytes.len() as u64 > limit {
+            return Err(script_error(
+                format!("{name}: the script has more than {limit} bytes"),
+                "Split it, or raise the limit with `--limit file-bytes=N`",
+            ));
+        }
+        Ok(Self {
+            steps: Self::steps(&bytes).map_err(|error| {
+                let message = format!("{name}: {}", error.message);
+                UserError { message, ..error }
+            })?,
+            folder: path.parent().unwrap_or(Path::new("")).to_owned(),
+        })
+    }
+
+    fn steps(bytes: &[u8]) -> Result<Vec<ScriptStep>, UserError> {
+        const FORM: &str = "Write {\"steps\": [{\"do\": \"rename\", ...}, ...]}; `guideway edit \
+                            --help` lists the steps";
+        let script: Value = serde_json::from_slice(bytes)
+            .map_err(|error| script_error(format!("no JSON: {error}"), FORM))?;
+        let Value::Object(mut script) = script else {
+            return Err(script_error("the script is no object".into(), FORM));
+        };
+        let steps = script.remove("steps");
+        if let Some(unknown) = script.keys().next() {
+            let message = format!("unknown member `{unknown}`; a script has `steps`");
+            return Err(script_error(message, FORM));
+        }
+        let Some(Value::Array(steps)) = steps else {
+            return Err(script_error("`steps` is no list".into(), FORM));
+        };
+        let steps = steps.into_iter().zip(1..);
+        steps
+            .map(|(step, number)| Self::step(step, number))
+            .collect()
+    }
+
+    fn step(step: Value, number: u32) -> Result<ScriptStep, UserError> {
+        let Value::Object(mut members) = step else {
+            let message = format!("step {number} is no object");
+            return Err(script_error(
+                message,
+                "Write a step as {\"do\": \"rename\", ...}",
+            ));
+        };
+        let known = || {
+            STEPS
+                .iter()
+                .map(|kind| kind.name)
+                .collect::<Vec<_>>()
+                .join(", ")
+        };
+        let Some(Value::String(name)) = members.remove("do") else {
+            let remedy = format!("Name the step, one of {}", known());
+            return Err(script_error(
+                format!("step {number} has no text `do`"),
+                &remedy,
+            ));
+        };
+        let Some(kind) = STEPS.iter().find(|kind| kind.name == name) else {
+            let remedy = format!("Choose one of {}", known());
+            return Err(script_error(
+                format!("step {number}: unknown step `{name}`"),
+                &remedy,
+            ));
+        };
+        let is_known = |name: &&String| kind.members.iter().any(|member| member.name == **name);
+        if let Some(unknown) = members.keys().find(|name| !is_known(name)) {
+            let names: Vec<&str> = kind.members.iter().map(|member| member.name).collect();
+            return Err(script_error(
+                format!("step {number} (`{name}`): unknown member `{unknown}`"),
+                &format!("The members of `{name}` are {}", names.join(", ")),
+            ));
+        }
+        let missing = kind
+            .members
+            .iter()
+            .find(|m| m.is_required && !members.contains_key(m.name));
+        if let Some(missing) = missing {
+            return Err(script_error(
+                format!(
+                    "step {number} (`{name}`) lacks the member `{}`",
+                    missing.name
+                ),
+                &format!("Add it: {}", missing.meaning),
+            ));
+        }
+        Ok(ScriptStep {
+            name,
+            kind: *kind,
+            members,
+        })
+    }
+}

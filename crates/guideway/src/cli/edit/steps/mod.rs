@@ -1,0 +1,33 @@
+//! The kinds of steps. A new kind is a [`StepKind`] in a file and an entry in [`STEPS`].
+
+mod copies;
+mod create;
+mod delete;
+mod moves;
+mod paths;
+mod properties;
+mod values;
+
+use super::step::StepKind;
+
+/// All kinds of steps, in the order of the help.
+pub(super) const STEPS: &[&StepKind] = &[
+    &properties::SET,
+    &properties::RENAME,
+    &properties::SET_VEHICLE_TYPES,
+    &properties::SET_LEVEL,
+    &paths::REVERSE,
+    &paths::ONE_WAY,
+    &paths::TWO_WAY,
+    &create::NODE,
+    &create::EDGE,
+    &create::STATION,
+    &delete::DELETE,
+    &moves::MOVE,
+    &moves::TURN,
+    &moves::MIRROR,
+    &moves::SCALE,
+    &moves::MOVE_NODE,
+    &copies::COPY,
+    &copies::PASTE,
+];
