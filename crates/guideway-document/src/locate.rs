@@ -1,6 +1,7 @@
 //! Locates the elements that findings name, and the position of elements.
 
 use guideway_layout::{Layout, Place};
+use guideway_scene::Table;
 use guideway_spline::Bounds;
 
 use crate::document::Document;
@@ -26,6 +27,16 @@ pub fn locate(layout: &Layout, place: &Place) -> Option<Element> {
 }
 
 impl Document {
+    /// Returns `true` if an element exists and is not removed.
+    pub fn contains(&self, element: Element) -> bool {
+        let (of, row) = match element {
+            Element::Path(row) => (Table::Paths, row),
+            Element::Node(row) => (Table::Nodes, row),
+            Element::Station(row) => (Table::Stations, row),
+        };
+        self.scene.exists(of, row)
+    }
+
     /// Bounding box of an element, in meters; `None` for a path without a curve and for a station
     /// without a position.
     pub fn bounds_of(&self, element: Element) -> Option<Bounds<f64>> {

@@ -17,8 +17,8 @@ pub struct Snapshot {
 }
 
 impl Document {
-    /// The present state. Costs a scan of the states, and no copy of the layout: the next edit copies
-    /// it if the snapshot still exists.
+    /// The present state. Costs a scan of the states, and no copy of the layout: the next edit
+    /// copies it if the snapshot still exists.
     pub fn snapshot(&self) -> Snapshot {
         Snapshot {
             layout: self.scene.shared_layout(),

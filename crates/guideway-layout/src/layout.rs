@@ -74,8 +74,8 @@ impl Layout {
         }
     }
 
-    /// Keeps the nodes and stations of the given rows, in this order, and removes all others. Paths,
-    /// stations and blocks lose their references to removed ones.
+    /// Keeps the nodes and stations of the given rows, in this order, and removes all others.
+    /// Paths, stations and blocks lose their references to removed ones.
     ///
     /// # Panics
     /// When a row is not below the number of nodes or stations.

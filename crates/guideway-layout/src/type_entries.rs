@@ -167,7 +167,10 @@ impl TypeEntries {
             let values = column.values.select(&new_from);
             let rows = new_rows.iter().copied();
             let (name, quantity) = (&column.name, column.quantity);
-            replaced.attributes.set_rows(name, quantity, rows, &values);
+            let has_values = values.iter().any(|value| value.is_some());
+            if has_values {
+                replaced.attributes.set_rows(name, quantity, rows, &values);
+            }
         }
         *self = replaced;
     }

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use guideway_layout::{
-    Block, CompareOptions, Direction, Layout, Level, Member, NewPath, Quantity, TypeEntries, Value,
-    Values, differences,
+    Attribute, Block, CompareOptions, Direction, Layout, Level, Member, NewPath, Quantity,
+    TypeEntries, Value, Values, differences,
 };
 use guideway_scene::{
     Edit, EditError, Insertion, NewNode, NewStation, Scene, SceneOptions, Table, TableEdit,
@@ -224,6 +224,15 @@ fn rejected_edits_change_nothing_and_say_why() {
         entries.attributes.set(0, "maxSpeed", Value::Text("fast"));
         Arc::new(entries)
     };
+    let set_column = |values: Vec<f64>| {
+        let values = values.into_iter().map(|v| Some(Value::Float(v)));
+        TableEdit::SetColumn {
+            of: Table::Paths,
+            per_type: false,
+            name: "speed".into(),
+            column: Some(Attribute::new("speed", values.collect()).into()),
+        }
+    };
     let wrong = [
         (
             TableEdit::SetEnds([(2, [None; 2])].into()),
@@ -264,6 +273,16 @@ fn rejected_edits_change_nothing_and_say_why() {
                 what: "path",
                 row: 1,
                 vehicle_type: "fork".into(),
+            },
+        ),
+        (
+            set_column(vec![1.0, 2.0, 3.0]),
+            EditError::ValueCountMismatch,
+        ),
+        (
+            set_column(vec![f64::INFINITY]),
+            EditError::NotFinite {
+                column: "speed".into(),
             },
         ),
         (

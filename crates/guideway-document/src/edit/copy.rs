@@ -25,7 +25,8 @@ impl Document {
     /// copied. Copies keep properties and style; their names are numbered. Returns their rows.
     ///
     /// # Errors
-    /// When an element does not exist, or a copy would exceed the coordinate limit; the document is unchanged.
+    /// When an element does not exist, or a copy would exceed the coordinate limit; the
+    /// document is unchanged.
     pub fn copy(
         &mut self,
         elements: &Elements,

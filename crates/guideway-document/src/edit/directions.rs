@@ -7,7 +7,7 @@ use guideway_scene::{Table, TableEdit};
 
 use super::curves::{reversed, runs_of};
 use super::error::OperationError;
-use super::points::reshape;
+use super::perform::reshape;
 use crate::PathSet;
 use crate::change::Change;
 use crate::document::Document;

@@ -7,7 +7,7 @@ use guideway_scene::{Edit, EditError, Insertion};
 use guideway_spline::{Point, Runs};
 
 use super::curves::{curve_along, refined, runs_of};
-use super::points::reshape;
+use super::perform::reshape;
 use crate::PathSet;
 use crate::change::Change;
 use crate::document::Document;

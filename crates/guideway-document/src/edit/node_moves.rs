@@ -7,7 +7,7 @@ use guideway_scene::{EditError, Table};
 use guideway_spline::Point;
 
 use super::curves::{runs_of, with_moved_ends};
-use super::points::reshape;
+use super::perform::reshape;
 use crate::PathSet;
 use crate::change::Change;
 use crate::document::Document;

@@ -17,7 +17,7 @@ use crate::document::Document;
 const TABLES: [Table; 3] = [Table::Paths, Table::Nodes, Table::Stations];
 
 impl Document {
-    /// Pastes copied elements, transformed, with all their properties and vehicle types, and selects
+    /// Pastes copied elements, transformed, with all their properties and vehicle types. Selects
     /// the pasted paths. A name that is taken gets a number. `level` puts everything on one level;
     /// else each element goes to the level of the same identifier or name. Returns the new rows.
     ///

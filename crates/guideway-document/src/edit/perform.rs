@@ -4,8 +4,9 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use guideway_scene::{Edit, EditError, PathState, Table, TableEdit};
-use guideway_spline::Point;
+use guideway_spline::{Point, Runs};
 
+use super::curves::geometry_of;
 use crate::change::{Change, NodeMoves};
 use crate::document::Document;
 use crate::history::{SavedState, Step};
@@ -185,4 +186,12 @@ impl Document {
 /// A change that sets the state of paths.
 pub(super) fn set_states(paths: impl Iterator<Item = u32>, state: PathState) -> Change {
     Change::Scene(Edit::SetStates(paths.map(|path| (path, state)).collect()))
+}
+
+/// A change that replaces the curves of paths.
+pub(super) fn reshape(paths: Vec<u32>, curves: &[Runs]) -> Change {
+    Change::Scene(Edit::Reshape {
+        paths: paths.into(),
+        curves: Arc::new(geometry_of(curves)),
+    })
 }

@@ -1,12 +1,10 @@
 //! Edits of single control points: move, insert, remove.
 
-use std::sync::Arc;
+use guideway_scene::{EditError, Table};
+use guideway_spline::Point;
 
-use guideway_scene::{Edit, EditError, Table};
-use guideway_spline::{Point, Runs};
-
-use super::curves::{geometry_of, hold_start, runs_of, start_of, with_changed_run};
-use crate::change::Change;
+use super::curves::{hold_start, runs_of, start_of, with_changed_run};
+use super::perform::reshape;
 use crate::document::Document;
 
 /// Reference to a control point of a path.
@@ -21,8 +19,8 @@ pub struct PointRef {
 }
 
 impl Document {
-    /// Moves a control point. The point at a node, the second or the last but one of the path, takes
-    /// the node along. Other points leave the ends of the path at their nodes, and its runs
+    /// Moves a control point. The point at a node, the second or the last but one of the path,
+    /// takes the node along. Other points leave the ends of the path at their nodes, and its runs
     /// together.
     ///
     /// # Errors
@@ -141,12 +139,4 @@ impl Document {
             None => Ok(()),
         }
     }
-}
-
-/// A change that replaces the curves of paths.
-pub(super) fn reshape(paths: Vec<u32>, curves: &[Runs]) -> Change {
-    Change::Scene(Edit::Reshape {
-        paths: paths.into(),
-        curves: Arc::new(geometry_of(curves)),
-    })
 }

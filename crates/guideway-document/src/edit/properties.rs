@@ -75,7 +75,7 @@ impl Document {
         let mut changes = Vec::new();
         match vehicle_type {
             None => {
-                // What holds for all types is in no entry.
+                // A value for all types is in no entry.
                 let own = entries.map(|entries| types_with_value(entries, rows, name));
                 for (vehicle_type, rows) in own.unwrap_or_default() {
                     changes.push(set(Some(vehicle_type), rows, one(None)));

@@ -7,7 +7,7 @@ use crate::change::Change;
 pub enum JournalEntry {
     /// Performed changes, as one step.
     Do(Vec<Change>),
-    /// Tried changes that were rejected after they had appended rows: later entries count these rows.
+    /// Tried changes that were rejected after they had appended rows, which later entries count.
     Try(Vec<Change>),
     /// Undid the last step.
     Undo,

@@ -172,3 +172,18 @@ fn rejects_truncated_entries_and_survives_damaged_ones() {
         }
     }
 }
+
+#[test]
+fn decodes_entries_of_earlier_versions() {
+    // Do, of one change: moves node 1 to (5, 6).
+    let mut bytes = vec![1, 1, 0, 0, 0, 16, 1, 0, 0, 0, 1, 0, 0, 0];
+    bytes.extend(5f64.to_le_bytes());
+    bytes.extend(6f64.to_le_bytes());
+    let JournalEntry::Do(changes) = decode(&bytes).unwrap() else {
+        panic!("changes that are done");
+    };
+    let [Change::MoveNodes(to)] = changes.as_slice() else {
+        panic!("one move: {changes:?}");
+    };
+    assert_eq!(**to, [(1, Point::new(5.0, 6.0))]);
+}

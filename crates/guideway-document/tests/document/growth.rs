@@ -106,7 +106,7 @@ fn edits_of_all_rows_and_their_undo_grow_linearly() {
         (
             "move",
             Box::new(|document| {
-                let paths = Elements::of_paths(&all(document));
+                let paths = Elements::of_paths(all(document));
                 let by = Affine::translation(p(1.0, 2.0));
                 document
                     .transform("move", &paths, by, Neighbors::Follow)

@@ -1,6 +1,6 @@
 //! Nodes, paths and stations that are created and deleted.
 
-use guideway_document::{Document, Elements, NewEdge, OperationError, PathSet};
+use guideway_document::{Document, Element, Elements, NewEdge, OperationError, PathSet};
 use guideway_layout::{CheckOptions, Code, Member, NewPath};
 use guideway_scene::Table;
 use guideway_spline::Runs;
@@ -92,6 +92,7 @@ fn a_deleted_node_needs_its_paths_to_go_too() {
         ("cd", Some(1), Some(2))
     );
     assert_eq!(document.node_near(p(10.0, 0.0), 1.0), None);
+    assert!(!document.contains(Element::Node(1)) && document.contains(Element::Node(0)));
     document.undo().unwrap();
     assert_eq!(counts(&document), [4, 4, 2]);
     assert_eq!(document.node_near(p(10.0, 0.0), 1.0), Some(1));

@@ -71,7 +71,7 @@ fn action() -> impl Strategy<Value = Action> {
         1 => rows().prop_map(Action::CreateStation),
         1 => rows().prop_map(Action::Reverse),
         1 => (rows(), any::<bool>()).prop_map(|(rows, both)| Action::Direct(rows, both)),
-        1 => (table(), rows(), types()).prop_map(|(of, rows, types)| Action::SetTypes(of, rows, types)),
+        1 => (table(), rows(), types()).prop_map(|(of, rows, t)| Action::SetTypes(of, rows, t)),
         1 => (elements(), prop::option::of(0..3u32)).prop_map(|(e, l)| Action::SetLevel(e, l)),
         1 => (elements(), any::<bool>()).prop_map(|(e, with)| Action::Delete(e, with)),
         3 => (elements(), -3.0..3.0, place(), any::<bool>())
@@ -263,7 +263,7 @@ fn perform(document: &mut Document, action: &Action) {
     }
 }
 
-/// What is torn off or orphaned, as text; `None` if nothing is.
+/// The first element that is torn off or orphaned, as text; `None` without one.
 fn fault(document: &Document) -> Option<String> {
     let layout = document.layout();
     for row in document.existing(Table::Paths) {

@@ -19,7 +19,7 @@ pub enum EditError {
     },
     /// The layout has no such element, level or block.
     UnknownReference {
-        /// What it is, such as `level` or `node`.
+        /// Its kind, such as `level` or `node`.
         what: &'static str,
         /// The requested row.
         row: u32,

@@ -24,7 +24,7 @@ pub(super) fn show(ui: &mut Ui, files: &OpenFiles, find: &mut Find, actions: &mu
     }
     if let Some(document) = files.document() {
         let layout = document.layout();
-        for element in find.results(layout) {
+        for element in find.results(document) {
             let kind = match element {
                 Element::Path(_) => "path",
                 Element::Node(_) => "node",

@@ -1,7 +1,6 @@
 //! Search by name, and the query that selects paths.
 
 use guideway_document::{Document, Element, search};
-use guideway_layout::Layout;
 
 use crate::background::{BackgroundTask, RepaintHandle};
 
@@ -33,10 +32,10 @@ impl Find {
         });
     }
 
-    /// The results that exist in `layout`, which may have been reloaded since the search.
-    pub(crate) fn results<'a>(&'a self, layout: &'a Layout) -> impl Iterator<Item = Element> + 'a {
+    /// The results that exist in the document, which may have changed since the search.
+    pub(crate) fn results<'a>(&'a self, of: &'a Document) -> impl Iterator<Item = Element> + 'a {
         let results = self.results.iter().copied();
-        results.filter(|element| exists(*element, layout))
+        results.filter(|element| of.contains(*element))
     }
 
     /// Takes a finished search. Returns the element to zoom to.
@@ -49,15 +48,7 @@ impl Find {
             return None;
         }
         let first = self.results.first().copied()?;
-        document.and_then(|d| exists(first, d.layout()).then_some(first))
-    }
-}
-
-fn exists(element: Element, layout: &Layout) -> bool {
-    match element {
-        Element::Path(row) => (row as usize) < layout.paths.len(),
-        Element::Node(row) => (row as usize) < layout.nodes.len(),
-        Element::Station(row) => (row as usize) < layout.stations.len(),
+        document.and_then(|d| d.contains(first).then_some(first))
     }
 }
 
@@ -85,7 +76,8 @@ mod tests {
             find.poll(Some(&document))
         });
         assert_eq!(found, Some(Element::Path(37)));
-        assert_eq!(find.results(&lanes(40)).next(), Some(Element::Path(37)));
-        assert_eq!(find.results(&lanes(3)).count(), 0);
+        assert_eq!(find.results(&document).next(), Some(Element::Path(37)));
+        let shorter = Document::new(lanes(3).into(), &Default::default()).unwrap();
+        assert_eq!(find.results(&shorter).count(), 0);
     }
 }

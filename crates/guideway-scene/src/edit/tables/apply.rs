@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use guideway_layout::{Layout, Nodes, Stations};
+use guideway_layout::{Attribute, Layout, Nodes, Stations};
 
 use super::inverse::places;
 use super::operation::{NewNode, NewStation, TableEdit};
@@ -43,7 +43,10 @@ impl TableEdit {
                 name,
                 column,
             } => match (of.columns_mut(layout, *per_type), column) {
-                (Some(columns), Some(column)) => columns.insert((**column).clone()),
+                (Some(columns), Some(column)) => columns.insert(Attribute {
+                    name: name.as_ref().to_owned(),
+                    ..(**column).clone()
+                }),
                 (Some(columns), None) => drop(columns.remove(name)),
                 (None, _) => {}
             },

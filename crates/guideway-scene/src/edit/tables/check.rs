@@ -28,10 +28,21 @@ impl TableEdit {
                     None => Ok(()),
                 }
             }
-            Self::SetColumn { of, per_type, .. } => match of.columns(layout, *per_type) {
-                Some(_) => Ok(()),
-                None => Err(EditError::NoVehicleTypes),
-            },
+            Self::SetColumn {
+                of,
+                per_type,
+                name,
+                column,
+            } => {
+                let rows = column_len(*of, layout, *per_type)?;
+                match column {
+                    Some(column) if column.values.len() > rows => {
+                        Err(EditError::ValueCountMismatch)
+                    }
+                    Some(column) => check_finite(name, &column.values),
+                    None => Ok(()),
+                }
+            }
             Self::SetEntries { of, rows, entries } => {
                 check_rows(*of, layout, rows.iter().copied())?;
                 check_new_entries(*of, layout, rows.len(), entries)
@@ -146,6 +157,10 @@ fn check_values(column: &str, rows: usize, values: &Values) -> Result<(), EditEr
     if values.len() != rows && values.len() != 1 {
         return Err(EditError::ValueCountMismatch);
     }
+    check_finite(column, values)
+}
+
+fn check_finite(column: &str, values: &Values) -> Result<(), EditError> {
     let is_finite = |value| !matches!(value, Value::Float(v) if !f64::is_finite(v));
     match values.iter().flatten().all(is_finite) {
         true => Ok(()),
@@ -153,6 +168,16 @@ fn check_values(column: &str, rows: usize, values: &Values) -> Result<(), EditEr
             column: column.to_owned(),
         }),
     }
+}
+
+/// Number of rows of the columns of a table, or of its entries per vehicle type.
+fn column_len(of: Table, layout: &Layout, per_type: bool) -> Result<usize, EditError> {
+    if !per_type {
+        return Ok(of.row_count(layout));
+    }
+    let entries = of.entries(layout).ok_or(EditError::NoVehicleTypes)?;
+    let last = entries.len().checked_sub(1);
+    Ok(last.map_or(0, |last| entries.entries(last).end))
 }
 
 /// Checks that each row has an entry for a vehicle type.
@@ -190,6 +215,6 @@ fn check_new_entries(
                 column: name.clone(),
             });
         }
-        check_values(name, column.values.len(), &column.values)
+        check_finite(name, &column.values)
     })
 }

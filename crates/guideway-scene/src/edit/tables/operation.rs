@@ -44,8 +44,8 @@ pub enum TableEdit {
         /// The new column; `None` removes it.
         column: Option<Arc<Attribute>>,
     },
-    /// Sets the vehicle types of paths or nodes, with their properties per type. Cost: O(all entries
-    /// of the table).
+    /// Sets the vehicle types of paths or nodes, with their properties per type. Cost: O(all
+    /// entries of the table).
     SetEntries {
         /// The paths or the nodes.
         of: Table,

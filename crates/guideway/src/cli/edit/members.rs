@@ -3,12 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use guideway::document::Document;
-use guideway::scene::Table;
 use guideway::spline::Point;
 use serde_json::{Map, Value};
 
-use super::selection::row_named;
-use super::step::StepError;
+use super::error::StepError;
 
 /// The members of a step, without `do`.
 pub(super) struct Members<'a> {
@@ -100,16 +98,6 @@ impl<'a> Members<'a> {
                 value,
             )),
         }
-    }
-
-    /// The row of the element that a member names.
-    pub(super) fn element(
-        &self,
-        name: &'static str,
-        of: Table,
-        document: &Document,
-    ) -> Result<u32, StepError> {
-        row_named(name, of, self.text(name)?, document)
     }
 
     /// The index of the level that a member names; `None` if it is absent.

@@ -3,12 +3,13 @@
 //! | module | input | output |
 //! |---|---|---|
 //! | `script` | the file | its steps, or where it is wrong |
-//! | `step` | | the kinds of steps, what they have touched, and their errors |
+//! | `step`, `error` | | the kinds of steps, what they have touched, and their errors |
 //! | `members` | a step | its members as numbers, points, names |
 //! | `selection` | `all`, names or a query | rows of the document |
 //! | `steps` | a step, a document | the edited document |
 //! | `page` | the kinds of steps | the table of the help and of the page |
 
+mod error;
 mod members;
 mod page;
 mod script;
@@ -26,16 +27,12 @@ use guideway::scene::{SceneOptions, Table, elapsed_ms};
 use serde_json::{Value, json};
 
 use self::script::Script;
-use self::step::Touched;
+use self::step::{SHOWN_NAMES, Touched};
 use super::convert::{target_to_save, write};
-use super::error::usage_error;
 use super::exit::Exit;
 use super::input::{self, Input};
 use super::output::Output;
 use super::text;
-
-/// Names per step that a report lists.
-const SHOWN_NAMES: usize = 10;
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = "`guideway edit --help` lists the steps.", after_long_help = page::help())]
@@ -185,13 +182,4 @@ fn step_line(step: &Done, number: u32) -> String {
         false => format!(": {}", names.join(", ")),
     };
     format!("{number:>3} {}: {counts}{names}\n", step.name)
-}
-
-/// An error of the script as a whole.
-fn script_error(message: String, remedy: &str) -> UserError {
-    let error = usage_error(message, remedy);
-    UserError {
-        code: "edit-script",
-        ..error
-    }
 }

@@ -8,9 +8,9 @@ use guideway::document::Document;
 use guideway::layout::{UserError, shown_path};
 use serde_json::{Map, Value};
 
+use super::error::StepError;
 use super::members::Members;
-use super::script_error;
-use super::step::{StepError, StepKind, Touched};
+use super::step::{StepKind, Touched};
 use super::steps::STEPS;
 use crate::cli::limits;
 
@@ -145,8 +145,13 @@ impl Script {
         }
         Ok(ScriptStep {
             name,
-            kind: *kind,
+            kind,
             members,
         })
     }
+}
+
+/// An error of the script as a whole.
+fn script_error(message: String, remedy: &str) -> UserError {
+    UserError::new("edit-script", message, remedy)
 }

@@ -6,8 +6,9 @@ use guideway::document::{Document, Elements, PathSet, Query};
 use guideway::scene::Table;
 use serde_json::Value;
 
+use super::error::StepError;
 use super::members::{Members, wrong};
-use super::step::{Member, StepError, optional};
+use super::step::{Member, optional};
 
 /// Form of a selection of paths.
 const PATHS_FORM: &str = "\"all\", [\"NAME\", ...] or {\"query\": \"...\"}";
@@ -37,6 +38,16 @@ impl Members<'_> {
             nodes: self.rows("nodes", Table::Nodes, document)?,
             stations: self.rows("stations", Table::Stations, document)?,
         })
+    }
+
+    /// The row of the element that a member names.
+    pub(super) fn element(
+        &self,
+        name: &'static str,
+        of: Table,
+        document: &Document,
+    ) -> Result<u32, StepError> {
+        row_named(name, of, self.text(name)?, document)
     }
 
     /// The selected paths.

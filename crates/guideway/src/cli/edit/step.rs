@@ -1,9 +1,13 @@
-//! [`StepKind`]: a kind of step, what a step has touched, and why it fails.
+//! [`StepKind`]: a kind of step, and [`Touched`]: what a step has touched.
 
-use guideway::document::{Document, Elements, OperationError};
-use guideway::scene::{EditError, Table};
+use guideway::document::{Document, Elements};
+use guideway::scene::Table;
 
+use super::error::StepError;
 use super::members::Members;
+
+/// Names per step that a report lists.
+pub(super) const SHOWN_NAMES: usize = 10;
 
 /// A kind of step.
 pub(super) struct StepKind {
@@ -61,7 +65,7 @@ pub(super) struct Touched {
 
 impl Touched {
     /// Names that a step keeps: one more than a report lists.
-    const MAX_NAMES: usize = super::SHOWN_NAMES + 1;
+    const MAX_NAMES: usize = SHOWN_NAMES + 1;
 
     pub(super) fn of(elements: Elements, document: &Document) -> Self {
         let layout = document.layout();
@@ -91,64 +95,4 @@ impl Touched {
     pub(super) fn count(&self, of: Table) -> u64 {
         self.elements.rows(of).len()
     }
-}
-
-/// The reason why a step fails.
-#[derive(Debug)]
-pub(super) struct StepError {
-    /// Name of the member that is wrong, if one is.
-    member: Option<&'static str>,
-    what: String,
-    pub(super) remedy: String,
-}
-
-impl StepError {
-    pub(super) fn of_member(
-        member: &'static str,
-        what: impl Into<String>,
-        remedy: impl Into<String>,
-    ) -> Self {
-        Self {
-            member: Some(member),
-            what: what.into(),
-            remedy: remedy.into(),
-        }
-    }
-
-    /// The error after `step 7`.
-    pub(super) fn describe(&self, step: &str) -> String {
-        match self.member {
-            Some(member) => format!("(`{step}`), member `{member}`: {}", self.what),
-            None => format!("(`{step}`): {}", self.what),
-        }
-    }
-}
-
-impl From<OperationError> for StepError {
-    fn from(error: OperationError) -> Self {
-        // The message ends with the remedy.
-        let text = error.to_string();
-        let (what, remedy) = match text.split_once("; ") {
-            Some((what, remedy)) => (what.to_owned(), sentence(remedy)),
-            None => (text, "Correct the step".to_owned()),
-        };
-        Self {
-            member: None,
-            what,
-            remedy,
-        }
-    }
-}
-
-impl From<EditError> for StepError {
-    fn from(error: EditError) -> Self {
-        OperationError::from(error).into()
-    }
-}
-
-/// The text with a capital letter.
-fn sentence(text: &str) -> String {
-    let mut chars = text.chars();
-    let first = chars.next().map(|c| c.to_uppercase().to_string());
-    first.unwrap_or_default() + chars.as_str()
 }

@@ -7,9 +7,10 @@ use guideway::formats::read_file;
 use guideway::scene::SceneOptions;
 use guideway::spline::Affine;
 
+use crate::cli::edit::error::StepError;
 use crate::cli::edit::members::Members;
 use crate::cli::edit::selection::{NODES, PATHS, STATIONS};
-use crate::cli::edit::step::{StepError, StepKind, Touched, optional, required};
+use crate::cli::edit::step::{StepKind, Touched, optional, required};
 use crate::cli::limits;
 
 /// Most copies of one step: a slip of the keyboard must not fill the memory.

@@ -4,9 +4,10 @@ use guideway::document::{Document, NewEdge};
 use guideway::layout::Direction;
 use guideway::scene::Table;
 
+use crate::cli::edit::error::StepError;
 use crate::cli::edit::members::Members;
 use crate::cli::edit::selection::row_named;
-use crate::cli::edit::step::{Member, StepError, StepKind, Touched, optional, required};
+use crate::cli::edit::step::{Member, StepKind, Touched, optional, required};
 
 const ID: Member = optional("id", "text", "Name; without it, one is made.");
 const LEVEL: Member = optional("level", "text", "Name of its level.");

@@ -2,9 +2,10 @@
 
 use guideway::document::Document;
 
+use crate::cli::edit::error::StepError;
 use crate::cli::edit::members::Members;
 use crate::cli::edit::selection::{NODES, PATHS, STATIONS};
-use crate::cli::edit::step::{StepError, StepKind, Touched, optional};
+use crate::cli::edit::step::{StepKind, Touched, optional};
 
 pub(super) const DELETE: StepKind = StepKind {
     name: "delete",

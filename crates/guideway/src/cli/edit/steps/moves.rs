@@ -4,9 +4,10 @@ use guideway::document::{Document, Neighbors};
 use guideway::scene::Table;
 use guideway::spline::{Affine, Point};
 
+use crate::cli::edit::error::StepError;
 use crate::cli::edit::members::Members;
 use crate::cli::edit::selection::{NODES, PATHS, STATIONS};
-use crate::cli::edit::step::{Member, StepError, StepKind, Touched, optional, required};
+use crate::cli::edit::step::{Member, StepKind, Touched, optional, required};
 
 const DETACH: Member = optional(
     "detach",

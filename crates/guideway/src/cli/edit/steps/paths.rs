@@ -3,9 +3,10 @@
 use guideway::document::{Document, Elements};
 use guideway::layout::Direction;
 
+use crate::cli::edit::error::StepError;
 use crate::cli::edit::members::Members;
 use crate::cli::edit::selection::PATHS;
-use crate::cli::edit::step::{StepError, StepKind, Touched};
+use crate::cli::edit::step::{StepKind, Touched};
 
 pub(super) const REVERSE: StepKind = StepKind {
     name: "reverse",

@@ -4,9 +4,10 @@ use guideway::document::{Document, PropertyRef};
 use guideway::scene::Table;
 
 use super::values::Given;
+use crate::cli::edit::error::StepError;
 use crate::cli::edit::members::Members;
 use crate::cli::edit::selection::{NODES, PATHS, STATIONS, row_named};
-use crate::cli::edit::step::{StepError, StepKind, Touched, optional, required};
+use crate::cli::edit::step::{StepKind, Touched, optional, required};
 
 pub(super) const SET: StepKind = StepKind {
     name: "set",
@@ -27,7 +28,7 @@ pub(super) const SET: StepKind = StepKind {
             "Sets it for this vehicle type only.",
         ),
     ],
-    example: r#"{"do": "set", "paths": {"query": "maxSpeed > 1"}, "property": "maxSpeed", "value": 1}"#,
+    example: r#"{"do": "set", "paths": "all", "property": "maxSpeed", "value": 0.8}"#,
     perform: set,
 };
 
