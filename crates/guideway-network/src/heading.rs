@@ -3,10 +3,10 @@
 use std::f64::consts::{PI, TAU};
 
 use guideway_layout::{Layout, Value};
+use guideway_spline::bezier::{end_direction, start_direction};
 use guideway_spline::{Point, uniform};
 
 use crate::arcs::{Arc, number, value};
-use crate::curve::{end_direction, start_direction};
 
 /// Orientations of one path that are considered.
 const MAX_ORIENTATIONS: usize = 8;

@@ -6,13 +6,12 @@
 //! | [`build`] | the layout of a drawing, [`BuildOptions`] | a layout whose paths meet at nodes, and a [`BuildReport`] |
 //! | [`analyze`] | a layout | findings about parts, dead ends, stations, turns and speeds, per vehicle type |
 //! | [`Router`] | a layout, a vehicle type | the fastest [`Route`] between two stations or nodes |
-//! | `arcs`, `heading`, `bend`, `curve` | a layout | driven paths by node; headings; radii; Bezier curves |
+//! | `arcs`, `heading`, `bend` | a layout | driven paths by node; headings; radii |
 
 mod analyze;
 mod arcs;
 mod bend;
 mod build;
-mod curve;
 mod heading;
 mod route;
 

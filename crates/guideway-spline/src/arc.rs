@@ -39,15 +39,7 @@ pub fn arc_to_runs(
     out: &mut Runs,
 ) -> Conversion {
     let sweep = sweep.clamp(-TAU, TAU);
-    let error = |pieces: u32| {
-        let (sin, cos) = (sweep / f64::from(4 * pieces)).sin_cos();
-        radius.abs() * 2.0 / 27.0 * sin.powi(6) / (cos * cos)
-    };
-    // A cubic covers at most a quarter turn, so the search starts at 1 to 4 pieces.
-    let least = (1..4).find(|&n| sweep.abs() <= FRAC_PI_2 * f64::from(n));
-    let pieces = (least.unwrap_or(4)..MAX_ARC_PIECES)
-        .find(|&n| error(n) <= tolerance_m)
-        .unwrap_or(MAX_ARC_PIECES);
+    let (pieces, error_bound_m) = pieces_of_arc(radius, sweep, tolerance_m);
     let angle = sweep / f64::from(pieces);
     let k = 4.0 / 3.0 * (angle / 4.0).tan();
     let radius_vector = |i: u32| {
@@ -62,7 +54,21 @@ pub fn arc_to_runs(
     }
     Conversion {
         exact: false,
-        error_bound_m: error(pieces),
+        error_bound_m,
         pieces: pieces as usize,
     }
+}
+
+/// Number of equal cubics that an arc requires, and the bound of their error in meters.
+pub(crate) fn pieces_of_arc(radius: f64, sweep: f64, tolerance_m: f64) -> (u32, f64) {
+    let error = |pieces: u32| {
+        let (sin, cos) = (sweep / f64::from(4 * pieces)).sin_cos();
+        radius.abs() * 2.0 / 27.0 * sin.powi(6) / (cos * cos)
+    };
+    // A cubic covers at most a quarter turn, so the search starts at 1 to 4 pieces.
+    let least = (1..4).find(|&n| sweep.abs() <= FRAC_PI_2 * f64::from(n));
+    let pieces = (least.unwrap_or(4)..MAX_ARC_PIECES)
+        .find(|&n| error(n) <= tolerance_m)
+        .unwrap_or(MAX_ARC_PIECES);
+    (pieces, error(pieces))
 }

@@ -19,6 +19,9 @@
 //! | [`uniform`], `runs` | control points | points and derivatives of a segment; a curve |
 //! | [`basis`], [`knots`], `nurbs` | degree, knots, weights | a NURBS curve and its points |
 //! | `convert`, `arc` | NURBS, Bezier curves, polylines, arcs | runs and an error bound |
+//! | [`bezier`] | four points | points, parts and directions of a cubic Bezier curve |
+//! | `intersect` | two cubic Beziers | where they cross |
+//! | [`construct`] | points, directions, radii, curves | arcs, splines, fillets; parts and joins of curves |
 //! | `flatten` | a run and a tolerance | a polyline |
 //! | `length`, `nearest` | a run | its arc length; the point nearest to another |
 //! | `hilbert` | a point of a box | its index along the Hilbert curve |
@@ -27,10 +30,13 @@
 mod affine;
 mod arc;
 pub mod basis;
+pub mod bezier;
 mod bounds;
+pub mod construct;
 mod convert;
 mod flatten;
 mod hilbert;
+mod intersect;
 pub mod knots;
 mod length;
 pub mod mem;
@@ -48,6 +54,7 @@ pub use bounds::Bounds;
 pub use convert::{Conversion, MAX_HALVINGS, bezier_to_runs, nurbs_to_runs, polyline_to_runs};
 pub use flatten::{MAX_LINES_PER_SEGMENT, flatten_run};
 pub use hilbert::hilbert;
+pub use intersect::{Meeting, Overlap, intersect};
 pub use length::{run_length, segment_length};
 pub use nearest::{Nearest, nearest_on_run};
 pub use nurbs::{Nurbs, NurbsError};

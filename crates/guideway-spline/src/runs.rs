@@ -77,6 +77,35 @@ impl Runs {
         })
     }
 
+    /// All segments of all runs, in order.
+    pub fn segments(&self) -> impl Iterator<Item = &[Point<f64>; 4]> {
+        self.iter().flat_map(<[_]>::array_windows)
+    }
+
+    /// Start of the curve; `None` without runs.
+    pub fn start(&self) -> Option<Point<f64>> {
+        self.segments().next().map(uniform::start)
+    }
+
+    /// End of the curve; `None` without runs.
+    pub fn end(&self) -> Option<Point<f64>> {
+        self.points.last_chunk().map(uniform::end)
+    }
+
+    /// The same curve from its end to its start.
+    #[must_use]
+    pub fn reversed(&self) -> Self {
+        let points: Vec<_> = self.points.iter().rev().copied().collect();
+        let starts = std::iter::once(0).chain(self.ends.iter().copied());
+        // A run ends where it started before.
+        let ends = starts
+            .take(self.ends.len())
+            .map(|start| points.len() - start);
+        let mut ends: Vec<_> = ends.collect();
+        ends.reverse();
+        Self { points, ends }
+    }
+
     /// Number of runs.
     pub fn len(&self) -> usize {
         self.ends.len()

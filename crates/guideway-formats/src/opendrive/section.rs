@@ -1,7 +1,7 @@
 //! Maps a lane section: cuts it into offset segments, fits them, and appends a path per lane.
 
 use guideway_layout::{Code, Direction, NewPath, Quantity, Value};
-use guideway_spline::{Point, Runs};
+use guideway_spline::Runs;
 use roxmltree::Node;
 
 use super::geometry::Geometry;
@@ -237,7 +237,7 @@ impl<'r, 'a, 'd, 't> SectionMapper<'r, 'a, 'd, 't> {
         }
         // In right-hand traffic, left lanes (id > 0) lead against the geometry line.
         if (lane.id > 0) != road.is_left_hand && lane.id != 0 {
-            runs = reversed(&runs);
+            runs = runs.reversed();
         }
         let row = self.reader.base.builder.push_path(&NewPath {
             id,
@@ -279,15 +279,4 @@ impl<'r, 'a, 'd, 't> SectionMapper<'r, 'a, 'd, 't> {
             }
         }
     }
-}
-
-/// The same curve in the opposite direction.
-fn reversed(runs: &Runs) -> Runs {
-    let mut reversed = Runs::default();
-    let all: Vec<&[Point<f64>]> = runs.iter().collect();
-    for run in all.into_iter().rev() {
-        let points: Vec<Point<f64>> = run.iter().rev().copied().collect();
-        reversed.push(&points);
-    }
-    reversed
 }

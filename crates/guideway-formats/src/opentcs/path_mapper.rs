@@ -159,7 +159,7 @@ impl<'m, 'a, 'd, 't> PathMapper<'m, 'a, 'd, 't> {
         let mut ends = [Some(start), Some(end)];
         if speeds.is_reversed() {
             ends.reverse();
-            runs = reversed(&runs);
+            runs = runs.reversed();
         }
         let row = self.reader.base.builder.push_path(&NewPath {
             id: &name,
@@ -353,15 +353,4 @@ impl<'m, 'a, 'd, 't> PathMapper<'m, 'a, 'd, 't> {
         set_envelopes(reader, table, row, path)?;
         reader.finish(table, row, path, &PATH)
     }
-}
-
-/// The same curve from its end to its start.
-pub(super) fn reversed(runs: &Runs) -> Runs {
-    let mut reversed = Runs::default();
-    let all: Vec<_> = runs.iter().collect();
-    for run in all.into_iter().rev() {
-        let points: Vec<_> = run.iter().rev().copied().collect();
-        reversed.push(&points);
-    }
-    reversed
 }

@@ -1,6 +1,6 @@
 //! Directions, stops and curvature of one cubic segment.
 
-use guideway_spline::{Point, uniform};
+use guideway_spline::{Point, bezier, uniform};
 
 /// One segment as a Bezier curve, with the length below which vectors are rounding errors.
 #[derive(Clone, Copy, Debug)]
@@ -61,7 +61,7 @@ impl Cubic {
             }
         };
         let inside = roots.into_iter().filter(|t| 0.0 < *t && *t < 1.0);
-        inside.map(move |t| split(&p, t).map(|part| Self::of_bezier(part, rounding)))
+        inside.map(move |t| bezier::split(&p, t).map(|part| Self::of_bezier(part, rounding)))
     }
 }
 
@@ -79,14 +79,6 @@ fn quadratic_roots([q0, q1, q2]: [f64; 3]) -> [f64; 2] {
     };
     let sum = b + root.copysign(b);
     [sum / a, q0 / sum]
-}
-
-/// The parts of a Bezier curve before and after `t`. Source: de Casteljau; The NURBS Book, A1.5.
-pub(super) fn split(p: &[Point<f64>; 4], t: f64) -> [[Point<f64>; 4]; 2] {
-    let (a, b, c) = (p[0].lerp(p[1], t), p[1].lerp(p[2], t), p[2].lerp(p[3], t));
-    let (d, e) = (a.lerp(b, t), b.lerp(c, t));
-    let middle = d.lerp(e, t);
-    [[p[0], a, d, middle], [middle, e, c, p[3]]]
 }
 
 /// The greatest curvature of a segment, in 1/m, and its position.

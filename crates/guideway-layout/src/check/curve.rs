@@ -3,9 +3,8 @@
 //! `same_curve` compares two curves by tests of increasing cost: end points, area between curve and
 //! chord, control points, points at equal steps of arc length.
 
-use guideway_spline::{Point, segment_length, uniform};
+use guideway_spline::{Point, bezier, segment_length, uniform};
 
-use super::cubic;
 use crate::PathRef;
 
 /// Points per curve in the comparison of two curves.
@@ -151,7 +150,7 @@ fn parameter_at(segment: &Segment, target_m: f64, whole_m: f64, precision_m: f64
     let (mut low, mut high) = (0.0, 1.0);
     let mut t = target_m / whole_m;
     for _ in 0..40 {
-        let [part, _] = cubic::split(&bezier, t);
+        let [part, _] = bezier::split(&bezier, t);
         let over_m = segment_length(&uniform::from_bezier(&part), precision_m) - target_m;
         if over_m.abs() <= precision_m {
             break;

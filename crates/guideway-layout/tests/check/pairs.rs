@@ -16,17 +16,6 @@ fn pair(first: &Runs, second: &Runs) -> Sketch {
     sketch
 }
 
-/// The same curve from end to start.
-fn reversed(runs: &Runs) -> Runs {
-    let mut reversed = Runs::default();
-    let all: Vec<_> = runs.iter().collect();
-    for run in all.iter().rev() {
-        let points: Vec<_> = run.iter().rev().copied().collect();
-        reversed.push(&points);
-    }
-    reversed
-}
-
 /// The same curve with every segment split in two.
 fn halved(runs: &Runs) -> Runs {
     let mut halved = Runs::default();
@@ -50,7 +39,7 @@ fn line_of_two_runs_duplicates_a_line_of_one() {
         message,
         "has the curve of path \"first\", and agrees in all properties"
     );
-    let (_, message) = only(&found(&pair(&whole, &reversed(&parts))), Code::ReversePair);
+    let (_, message) = only(&found(&pair(&whole, &parts.reversed())), Code::ReversePair);
     assert_eq!(
         message,
         "has the curve of path \"first\" in the opposite direction"
@@ -114,7 +103,7 @@ fn paths_without_common_vehicle_type_are_no_pair() {
 #[test]
 fn reports_each_later_path_of_a_group_once() {
     let there = line_runs(p(0.0, 0.0), p(10.0, 0.0));
-    let back = reversed(&there);
+    let back = there.reversed();
     let mut sketch = Sketch::default();
     for i in 0..3_000 {
         sketch.free_path("", if i % 3 == 2 { &back } else { &there });
@@ -187,7 +176,7 @@ fn layout(curves: &[(Vec<Point<f64>>, bool)]) -> Vec<(String, Runs)> {
     for (i, (points, has_reverse)) in curves.iter().enumerate() {
         let runs = runs_of(points);
         if *has_reverse {
-            paths.push((format!("{i} back"), reversed(&halved(&runs))));
+            paths.push((format!("{i} back"), halved(&runs).reversed()));
         }
         paths.push((i.to_string(), runs));
     }
@@ -229,7 +218,7 @@ proptest! {
         let first = runs_of(&points.iter().map(|&at| at + place).collect::<Vec<_>>());
         let place = place + p(offset_m, 0.0);
         let second = runs_of(&points.iter().map(|&at| at + place).collect::<Vec<_>>());
-        let second = halved(&if back { reversed(&second) } else { second });
+        let second = halved(&if back { second.reversed() } else { second });
         let found = found(&pair(&first, &second));
         prop_assert_eq!(found.count(Code::ReversePair), u64::from(back));
         prop_assert_eq!(found.count(Code::DuplicatePath), u64::from(!back));

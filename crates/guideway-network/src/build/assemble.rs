@@ -4,6 +4,7 @@
 use std::collections::{HashMap, HashSet};
 
 use guideway_layout::{Block, Direction, Layout, Member, NewPath, Provenance, Quantity, Value};
+use guideway_spline::bezier::reversed;
 use guideway_spline::{Runs, uniform};
 
 use super::drawn::Drawn;
@@ -11,7 +12,6 @@ use super::names::Named;
 use super::pieces::Piece;
 use super::weld::Nodes;
 use super::{BuildError, BuildOptions, BuildReport, DirectionRule, LayerRule};
-use crate::curve::reversed;
 
 /// A row that no table has: its cells are empty.
 const NO_ROW: usize = usize::MAX;

@@ -1,11 +1,11 @@
 //! [`BoxIndex`]: finds the cubics whose boxes overlap another box.
 
+use guideway_spline::bezier::{Bezier, bounds};
 use guideway_spline::{Bounds, Point};
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 
 use super::drawn::Drawn;
-use crate::curve::{Bezier, bounds};
 
 /// A cubic of a curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -2,17 +2,16 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use guideway_spline::Point;
+use guideway_spline::bezier::SAME_M;
+use guideway_spline::{Overlap, Point, intersect};
 use rayon::prelude::*;
 
 use super::box_index::{BoxIndex, Part};
 use super::drawn::Drawn;
 use super::grid::Grid;
-use super::intersect::{Overlap, intersect};
 use super::junctions::Cut;
 use super::weld::Nodes;
 use super::{BuildError, BuildOptions, BuildReport};
-use crate::curve::SAME_M;
 
 /// Pairs of cubics with overlapping boxes that may be compared, per piece that is allowed.
 const PAIRS_PER_PIECE: u64 = 20;

@@ -3,10 +3,10 @@
 use std::collections::HashMap;
 
 use guideway_layout::{Layout, Level, NoteKind, PathRef, Value};
+use guideway_spline::bezier::{Bezier, SAME_M};
 use guideway_spline::{Bounds, Point, uniform};
 
 use super::{BuildOptions, BuildReport, NoteSource};
-use crate::curve::{Bezier, SAME_M};
 
 /// A curve between two ends.
 #[derive(Clone, Debug)]

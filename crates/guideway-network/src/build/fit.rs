@@ -6,8 +6,7 @@
 //! Source: Schneider, An algorithm for automatically fitting digitized curves, Graphics Gems 1990.
 
 use guideway_spline::Point;
-
-use crate::curve::{Bezier, line, point, unit};
+use guideway_spline::bezier::{Bezier, line, point, unit};
 
 /// Samples per line where a curve is compared with its chain.
 const SAMPLES: usize = 4;

@@ -1,13 +1,13 @@
 //! Junctions: ends that meet the middle of a curve cut it there.
 
 use guideway_spline::Point;
+use guideway_spline::bezier::{SAME_M, nearest, split};
 use rayon::prelude::*;
 
 use super::box_index::{BoxIndex, Part};
 use super::drawn::{Curve, Drawn, polygon_m};
 use super::weld::{Nodes, WALK};
 use super::{BuildError, BuildOptions, BuildReport};
-use crate::curve::{SAME_M, nearest, split};
 
 /// A place where a curve is cut.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -133,7 +133,7 @@ fn is_junction(foot: &Foot, drawn: &Drawn, nodes: &Nodes, reach_m: f64) -> bool 
 /// Length of the control polygons between a foot and an end of its curve.
 fn along_m(curve: &Curve, foot: &Foot, side: u32) -> f64 {
     let row = foot.part.bezier as usize;
-    let (left, right) = split(&curve.beziers[row], foot.t);
+    let [left, right] = split(&curve.beziers[row], foot.t);
     let (part, others) = match side {
         0 => (left, &curve.beziers[..row]),
         _ => (right, &curve.beziers[row + 1..]),

@@ -12,7 +12,7 @@
 //! | `smooth`, `fit` | replaces chains of short lines by curves |
 //! | `weld`, `grid`, `clusters` | joins ends that lie within a distance |
 //! | `box_index` | finds curves near a point or a curve |
-//! | `junctions`, `crossings`, `intersect` | finds where ends meet curves, and curves cross |
+//! | `junctions`, `crossings` | finds where ends meet curves, and curves cross |
 //! | `names` | stations and names of nodes from the notes of the drawing |
 //! | `pieces` | cuts curves and drops what has vanished or is drawn twice |
 //! | `assemble` | the layout: nodes, edges, properties, groups |
@@ -26,7 +26,6 @@ mod drawn;
 mod error;
 mod fit;
 mod grid;
-mod intersect;
 mod junctions;
 mod names;
 mod note_source;

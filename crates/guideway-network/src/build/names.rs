@@ -8,6 +8,7 @@ use std::collections::hash_map::Entry;
 
 use guideway_layout::{Layout, Note, NoteKind};
 use guideway_spline::Point;
+use guideway_spline::bezier::nearest;
 use rstar::primitives::GeomWithData;
 use rstar::{PointDistance, RTree};
 
@@ -16,7 +17,6 @@ use super::drawn::Drawn;
 use super::junctions::Cut;
 use super::weld::Nodes;
 use super::{BuildError, BuildOptions, BuildReport};
-use crate::curve::nearest;
 
 /// A station to make.
 #[derive(Clone, Debug)]

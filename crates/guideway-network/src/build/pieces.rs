@@ -3,12 +3,12 @@
 use std::collections::HashMap;
 
 use guideway_spline::Point;
+use guideway_spline::bezier::{Bezier, SAME_M, move_end, move_start, point, split};
 
 use super::drawn::{Curve, Drawn, polygon_m};
 use super::junctions::Cut;
 use super::weld::{Nodes, WALK};
 use super::{BuildError, BuildOptions, BuildReport};
-use crate::curve::{Bezier, SAME_M, move_end, move_start, point, split};
 
 /// Pieces between the same two nodes that are compared with a new one.
 const MAX_COMPARED: usize = 16;
@@ -78,7 +78,7 @@ fn cut_curve(row: u32, curve: &Curve, cuts: &[Cut], nodes: &Nodes, pieces: &mut 
             } else {
                 0.0
             };
-            let (left, right) = split(&rest, t.clamp(0.0, 1.0));
+            let [left, right] = split(&rest, t.clamp(0.0, 1.0));
             (rest, done) = (right, cut.t);
             if polygon_m(&left) > SAME_M {
                 piece.beziers.push(left);

@@ -9,11 +9,13 @@
 use std::collections::HashMap;
 
 use guideway_spline::Point;
+use guideway_spline::bezier::{
+    Bezier, SAME_M, angle_rad, end_direction, is_line, reversed, start_direction,
+};
 
 use super::BuildReport;
 use super::drawn::{Curve, Drawn};
 use super::fit::fit;
-use crate::curve::{Bezier, SAME_M, angle_rad, end_direction, is_line, reversed, start_direction};
 
 /// Largest turn from line to line within a curve, in radians: 30 degrees. A chain with sharper
 /// turns has corners.

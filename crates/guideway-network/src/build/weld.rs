@@ -7,12 +7,12 @@
 use std::collections::HashMap;
 
 use guideway_spline::Point;
+use guideway_spline::bezier::SAME_M;
 
 use super::clusters::Clusters;
 use super::drawn::Drawn;
 use super::grid::Grid;
 use super::{BuildError, BuildOptions, BuildReport};
-use crate::curve::SAME_M;
 
 /// Most ends within the weld distance of one end.
 const MAX_NEAR: usize = 1000;

@@ -1,15 +1,15 @@
-//! Cubic Bezier curves: evaluates, splits, moves and intersects them.
+//! Cubic Bezier curves: evaluates, splits, reverses and moves them.
 
-use guideway_spline::{Bounds, Nearest, Point, nearest_on_run, uniform};
+use crate::{Bounds, Nearest, Point, nearest_on_run, uniform};
 
 /// Four control points; the parameter runs from 0 to 1.
-pub(crate) type Bezier = [Point<f64>; 4];
+pub type Bezier = [Point<f64>; 4];
 
 /// Distance below which two points are one, in meters.
-pub(crate) const SAME_M: f64 = 1e-6;
+pub const SAME_M: f64 = 1e-6;
 
 /// The straight line between two points, with even speed.
-pub(crate) fn line(start: Point<f64>, end: Point<f64>) -> Bezier {
+pub fn line(start: Point<f64>, end: Point<f64>) -> Bezier {
     [
         start,
         start.lerp(end, 1.0 / 3.0),
@@ -19,7 +19,7 @@ pub(crate) fn line(start: Point<f64>, end: Point<f64>) -> Bezier {
 }
 
 /// Returns `true` if a curve is a straight line of even speed, up to rounding.
-pub(crate) fn is_line(b: &Bezier) -> bool {
+pub fn is_line(b: &Bezier) -> bool {
     let straight = line(b[0], b[3]);
     let size = (b[3] - b[0]).norm();
     let far = b[0].x.abs().max(b[0].y.abs());
@@ -28,7 +28,7 @@ pub(crate) fn is_line(b: &Bezier) -> bool {
 }
 
 /// Box of the control points, which contains the curve.
-pub(crate) fn bounds(b: &Bezier) -> Bounds<f64> {
+pub fn bounds(b: &Bezier) -> Bounds<f64> {
     let of = |f: fn(f64, f64) -> f64| {
         let point = |p: Point<f64>, q: Point<f64>| Point::new(f(p.x, q.x), f(p.y, q.y));
         point(point(b[0], b[1]), point(b[2], b[3]))
@@ -40,48 +40,89 @@ pub(crate) fn bounds(b: &Bezier) -> Bounds<f64> {
 }
 
 /// The point at a parameter.
-pub(crate) fn point(b: &Bezier, t: f64) -> Point<f64> {
-    split(b, t).0[3]
+pub fn point(b: &Bezier, t: f64) -> Point<f64> {
+    split(b, t)[0][3]
 }
 
 /// The parts before and after a parameter, by de Casteljau's algorithm.
-pub(crate) fn split(b: &Bezier, t: f64) -> (Bezier, Bezier) {
+///
+/// A parameter beyond 0 to 1 extends the curve.
+pub fn split(b: &Bezier, t: f64) -> [Bezier; 2] {
     let [p01, p12, p23] = [0, 1, 2].map(|i| b[i].lerp(b[i + 1], t));
     let (p012, p123) = (p01.lerp(p12, t), p12.lerp(p23, t));
     let middle = p012.lerp(p123, t);
-    ([b[0], p01, p012, middle], [middle, p123, p23, b[3]])
+    [[b[0], p01, p012, middle], [middle, p123, p23, b[3]]]
+}
+
+/// The first derivative at a parameter.
+pub fn derivative(b: &Bezier, t: f64) -> Point<f64> {
+    uniform::derivative(&uniform::from_bezier(b), t)
+}
+
+/// The same curve with greater parameters: one cubic whose parts are two consecutive ones. `None`
+/// if the second one does not continue the polynomial of the first one.
+///
+/// Their lengths may differ, as those of the parts of [`split`] do. Two lines of one direction are
+/// one line.
+pub fn unite(first: &Bezier, second: &Bezier) -> Option<Bezier> {
+    let polygon = |b: &Bezier| b.windows(2).map(|leg| leg[0].distance(leg[1])).sum::<f64>();
+    let size = polygon(first).max(polygon(second));
+    let far = first.iter().chain(second).map(|p| p.x.abs().max(p.y.abs()));
+    let slack = 1e-10 * size + 1e-15 * far.fold(0.0, f64::max);
+    if is_line(first) && is_line(second) {
+        let whole = line(first[0], second[3]);
+        let t = first[0].distance(first[3]) / whole[0].distance(whole[3]);
+        let is_between = (0.0..=1.0).contains(&t);
+        return (is_between && point(&whole, t).distance(first[3]) <= slack).then_some(whole);
+    }
+    // The derivatives at the common point are as the widths of the parameter ranges.
+    let width = second[0].distance(second[1]) / first[2].distance(first[3]);
+    if !(1e-9..1e9).contains(&width) {
+        return None;
+    }
+    // The longer one is extended, which loses no digits.
+    if width > 1.0 + 1e-9 {
+        return unite(&reversed(second), &reversed(first)).map(|whole| reversed(&whole));
+    }
+    let [whole, _] = split(first, 1.0 + width);
+    let [_, rest] = split(&whole, 1.0 / (1.0 + width));
+    let is_same = rest
+        .iter()
+        .zip(second)
+        .all(|(p, q)| p.distance(*q) <= slack);
+    is_same.then_some([first[0], whole[1], whole[2], second[3]])
 }
 
 /// Unit direction at the start; `None` for a curve without length.
-pub(crate) fn start_direction(b: &Bezier) -> Option<Point<f64>> {
+pub fn start_direction(b: &Bezier) -> Option<Point<f64>> {
     let vectors = [b[1] - b[0], b[2] - b[0], b[3] - b[0]];
     vectors.into_iter().find_map(unit)
 }
 
 /// Unit direction at the end; `None` for a curve without length.
-pub(crate) fn end_direction(b: &Bezier) -> Option<Point<f64>> {
+pub fn end_direction(b: &Bezier) -> Option<Point<f64>> {
     let vectors = [b[3] - b[2], b[3] - b[1], b[3] - b[0]];
     vectors.into_iter().find_map(unit)
 }
 
 /// A vector of length 1 in the same direction; `None` below a nanometer.
-pub(crate) fn unit(vector: Point<f64>) -> Option<Point<f64>> {
+pub fn unit(vector: Point<f64>) -> Option<Point<f64>> {
     let length = vector.norm();
     (length > 1e-9).then(|| vector * (1.0 / length))
 }
 
 /// Angle between two directions, in radians from 0 to pi.
-pub(crate) fn angle_rad(from: Point<f64>, to: Point<f64>) -> f64 {
+pub fn angle_rad(from: Point<f64>, to: Point<f64>) -> f64 {
     from.cross(to).abs().atan2(from.dot(to))
 }
 
 /// The same curve from end to start.
-pub(crate) fn reversed(b: &Bezier) -> Bezier {
+pub fn reversed(b: &Bezier) -> Bezier {
     [b[3], b[2], b[1], b[0]]
 }
 
 /// The point of a curve nearest to another one, within a micrometer.
-pub(crate) fn nearest(b: &Bezier, to: Point<f64>) -> Nearest {
+pub fn nearest(b: &Bezier, to: Point<f64>) -> Nearest {
     let start = || Nearest {
         segment: 0,
         t: 0.0,
@@ -107,7 +148,7 @@ pub(crate) fn nearest(b: &Bezier, to: Point<f64>) -> Nearest {
 
 /// Moves the start of a curve to a point. A line stays straight; the tangent of another curve
 /// stays.
-pub(crate) fn move_start(b: &mut Bezier, to: Point<f64>) {
+pub fn move_start(b: &mut Bezier, to: Point<f64>) {
     if is_line(b) {
         *b = line(to, b[3]);
     } else {
@@ -117,7 +158,7 @@ pub(crate) fn move_start(b: &mut Bezier, to: Point<f64>) {
 }
 
 /// Moves the end of a curve to a point, as [`move_start`].
-pub(crate) fn move_end(b: &mut Bezier, to: Point<f64>) {
+pub fn move_end(b: &mut Bezier, to: Point<f64>) {
     let mut back = reversed(b);
     move_start(&mut back, to);
     *b = reversed(&back);
@@ -136,10 +177,33 @@ mod tests {
 
     #[test]
     fn parts_meet_and_keep_the_curve() {
-        let (left, right) = split(&BEND, 0.3);
+        let [left, right] = split(&BEND, 0.3);
         assert_eq!((left[3], right[0]), (point(&BEND, 0.3), point(&BEND, 0.3)));
         assert!(point(&left, 0.5).distance(point(&BEND, 0.15)) < 1e-12);
         assert!(point(&right, 0.5).distance(point(&BEND, 0.65)) < 1e-12);
+    }
+
+    #[test]
+    fn parts_unite_again_and_others_do_not() {
+        for t in [0.001, 0.3, 0.5, 0.9] {
+            let [left, right] = split(&BEND, t);
+            let whole = unite(&left, &right).unwrap();
+            assert!(
+                whole.iter().zip(&BEND).all(|(p, q)| p.distance(*q) < 1e-6),
+                "{t} {whole:?}"
+            );
+            let mut other = right;
+            other[2].x += 1e-6;
+            assert_eq!(unite(&left, &other), None);
+        }
+        let p = |x: f64| Point::new(x, 0.5 * x);
+        assert_eq!(
+            unite(&line(p(0.0), p(1.0)), &line(p(1.0), p(8.0))),
+            Some(line(p(0.0), p(8.0)))
+        );
+        assert_eq!(unite(&line(p(0.0), p(1.0)), &line(p(1.0), p(0.5))), None);
+        let corner = line(p(1.0), Point::new(5.0, 0.5));
+        assert_eq!(unite(&line(p(0.0), p(1.0)), &corner), None);
     }
 
     #[test]

@@ -1,8 +1,7 @@
-//! Intersections of two cubics, by halving both until they are straight.
+//! Crossings of two cubics: halves both until they are straight, then corrects by Newton's method.
 
-use guideway_spline::Point;
-
-use crate::curve::{Bezier, bounds, is_line, line, point, split};
+use crate::Point;
+use crate::bezier::{Bezier, bounds, derivative, is_line, line, point, split};
 
 /// Distance of a control point from its chord below which a part counts as straight, in meters.
 const FLAT_M: f64 = 1e-5;
@@ -10,7 +9,10 @@ const FLAT_M: f64 = 1e-5;
 /// Most halvings of one curve.
 const MAX_DEPTH: u32 = 40;
 
-/// Most intersections of two cubics that are not one curve: Bezout's theorem.
+/// Steps of Newton's method: each one doubles the digits, and the first guess has five.
+const NEWTON_STEPS: u32 = 4;
+
+/// Most crossings of two cubics that are not one curve: Bezout's theorem.
 const MAX_FOUND: usize = 9;
 
 /// Most pairs of parts that are compared. Two curves that lie on each other need more.
@@ -18,18 +20,22 @@ const MAX_STEPS: u32 = 4096;
 
 /// A place where two curves cross.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Meeting {
+pub struct Meeting {
     /// Parameters on both curves.
-    pub(super) at: [f64; 2],
-    pub(super) position_m: Point<f64>,
+    pub at: [f64; 2],
+    /// The place, in meters: that on the first curve.
+    pub position_m: Point<f64>,
 }
 
 /// The curves lie on each other, so that they have no single crossings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Overlap;
+pub struct Overlap;
 
 /// Appends the places where two curves cross or touch.
-pub(super) fn intersect(a: &Bezier, b: &Bezier, found: &mut Vec<Meeting>) -> Result<(), Overlap> {
+///
+/// # Errors
+/// [`Overlap`] if the curves share a part.
+pub fn intersect(a: &Bezier, b: &Bezier, found: &mut Vec<Meeting>) -> Result<(), Overlap> {
     if is_line(a) && is_line(b) {
         found.extend(lines_meet(a, b));
         return Ok(());
@@ -40,7 +46,31 @@ pub(super) fn intersect(a: &Bezier, b: &Bezier, found: &mut Vec<Meeting>) -> Res
         first,
         found,
     };
-    search.visit(a, (0.0, 1.0), b, (0.0, 1.0), MAX_DEPTH)
+    search.visit(a, (0.0, 1.0), b, (0.0, 1.0), MAX_DEPTH)?;
+    found[first..]
+        .iter_mut()
+        .for_each(|meeting| correct(meeting, a, b));
+    Ok(())
+}
+
+/// Newton's method for a(s) = b(t). Keeps the meeting where it leads away, as beside a touch.
+fn correct(meeting: &mut Meeting, a: &Bezier, b: &Bezier) {
+    let gap = |[s, t]: [f64; 2]| point(b, t) - point(a, s);
+    let mut at = meeting.at;
+    for _ in 0..NEWTON_STEPS {
+        let (u, v, offset) = (derivative(a, at[0]), derivative(b, at[1]), gap(at));
+        let turn = u.cross(v);
+        let step = [offset.cross(v) / turn, offset.cross(u) / turn];
+        let next = [0, 1].map(|i| (at[i] + step[i]).clamp(0.0, 1.0));
+        if !(gap(next).norm() < offset.norm()) {
+            break;
+        }
+        at = next;
+    }
+    *meeting = Meeting {
+        at,
+        position_m: point(a, at[0]),
+    };
 }
 
 /// The crossing of the chords of two curves.
@@ -96,11 +126,11 @@ impl Search<'_> {
         let size = |c: &Bezier| bounds(c).size();
         let is_longer = size(a).x.max(size(a).y) >= size(b).x.max(size(b).y);
         if !flat_a && (flat_b || is_longer) {
-            let (left, right) = split(a, 0.5);
+            let [left, right] = split(a, 0.5);
             self.visit(&left, (a0, am), b, (b0, b1), depth_left - 1)?;
             self.visit(&right, (am, a1), b, (b0, b1), depth_left - 1)
         } else {
-            let (left, right) = split(b, 0.5);
+            let [left, right] = split(b, 0.5);
             self.visit(a, (a0, a1), &left, (b0, bm), depth_left - 1)?;
             self.visit(a, (a0, a1), &right, (bm, b1), depth_left - 1)
         }
@@ -159,9 +189,9 @@ mod tests {
         intersect(&wave, &between(-1.0, 0.0, 10.0, 0.0), &mut found).unwrap();
         assert_eq!(found.len(), 3, "{found:?}");
         for meeting in &found {
-            assert!(meeting.position_m.y.abs() < 1e-4, "{meeting:?}");
+            assert!(meeting.position_m.y.abs() < 1e-12, "{meeting:?}");
             let on_wave = point(&wave, meeting.at[0]);
-            assert!(on_wave.distance(meeting.position_m) < 1e-4);
+            assert!(on_wave.distance(meeting.position_m) < 1e-12);
         }
     }
 
@@ -170,7 +200,7 @@ mod tests {
         let bend = [(0.0, 0.0), (4.0, 0.0), (4.0, 1.0), (4.0, 5.0)];
         let bend = bend.map(|(x, y)| Point::new(x, y));
         let mut found = Vec::new();
-        let (left, _) = split(&bend, 0.7);
+        let [left, _] = split(&bend, 0.7);
         assert_eq!(intersect(&bend, &left, &mut found), Err(Overlap));
     }
 }
