@@ -37,7 +37,8 @@ mod view_history;
 pub use change::{Change, NodeMoves};
 pub use document::Document;
 pub use edit::{
-    Clip, Elements, Neighbors, NewEdge, OperationError, PointRef, PropertyRef, drawn_path,
+    AlignTo, Clip, Elements, Neighbors, NewEdge, OperationError, PointRef, PropertyRef, Shape,
+    ShapeError, Welded, drawn_path,
 };
 pub use element::Element;
 pub use history::SavedState;

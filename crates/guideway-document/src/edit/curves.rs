@@ -94,16 +94,6 @@ pub(super) fn with_changed_run(
     Some(changed)
 }
 
-/// The same curve from its end to its start.
-pub(super) fn reversed(runs: &Runs) -> Runs {
-    let all: Vec<&[Point<f64>]> = runs.iter().collect();
-    let mut reversed = Runs::default();
-    for run in all.into_iter().rev() {
-        reversed.push(&run.iter().rev().copied().collect::<Vec<_>>());
-    }
-    reversed
-}
-
 /// Start of a run of at least three points.
 pub(super) fn start_of(run: &[Point<f64>]) -> Point<f64> {
     (run[0] + run[1] * 4.0 + run[2]) * (1.0 / 6.0)

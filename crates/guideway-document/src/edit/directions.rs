@@ -5,7 +5,7 @@ use std::sync::Arc;
 use guideway_layout::{Direction, Values};
 use guideway_scene::{Table, TableEdit};
 
-use super::curves::{reversed, runs_of};
+use super::curves::runs_of;
 use super::error::OperationError;
 use super::perform::reshape;
 use crate::PathSet;
@@ -32,7 +32,7 @@ impl Document {
         let path = |row: &u32| self.layout().paths.get(*row as usize);
         let curves: Vec<_> = rows
             .iter()
-            .map(|row| reversed(&runs_of(path(row))))
+            .map(|row| runs_of(path(row)).reversed())
             .collect();
         let ends = rows
             .iter()

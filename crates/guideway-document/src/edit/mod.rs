@@ -8,6 +8,7 @@
 //! | `copy`, `clip`, `paste`, by `copies` | elements | copies in the same or another document |
 //! | `delete` | elements | removed rows |
 //! | `curves`, `names`, `property_value`, `elements`, `error` | | parts of the above |
+//! | `shapes` | paths, nodes, radii | paths that are split, joined, welded, aligned, rounded |
 //! | `perform` | [`Change`](crate::Change)s | the changed document and an undoable step |
 
 mod clip;
@@ -29,6 +30,7 @@ mod points;
 mod properties;
 mod property_value;
 mod rename;
+mod shapes;
 mod transform;
 mod vehicle_types;
 
@@ -39,4 +41,5 @@ pub use elements::Elements;
 pub use error::OperationError;
 pub use points::PointRef;
 pub use properties::PropertyRef;
+pub use shapes::{AlignTo, Shape, ShapeError, Welded};
 pub use transform::Neighbors;

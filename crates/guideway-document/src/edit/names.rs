@@ -41,6 +41,16 @@ impl<'a> Names<'a> {
         name
     }
 
+    /// Takes names for the pieces of an element: `NAME.1`, `NAME.2` and so on, without those in
+    /// use.
+    pub(super) fn pieces(&mut self, name: &str, count: usize) -> Vec<String> {
+        let numbered = (1..).map(|number: u64| format!("{name}.{number}"));
+        let free = numbered.filter(|name| !self.is_taken(name)).take(count);
+        let free: Vec<String> = free.collect();
+        self.new.extend(free.iter().cloned());
+        free
+    }
+
     /// Takes exactly this name.
     pub(super) fn exact(&mut self, id: &str) -> Result<String, OperationError> {
         let what = self.of.element();
@@ -60,7 +70,8 @@ impl<'a> Names<'a> {
         self.taken.remove(id);
     }
 
-    fn is_taken(&self, id: &str) -> bool {
+    /// Returns `true` if an element has the name, or it was taken for a new one.
+    pub(super) fn is_taken(&self, id: &str) -> bool {
         self.taken.contains(id) || self.new.contains(id)
     }
 }

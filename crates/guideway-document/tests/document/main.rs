@@ -14,4 +14,5 @@ mod query;
 mod random;
 mod random_network;
 mod selection;
+mod shapes;
 mod site;

@@ -56,8 +56,8 @@ impl Arc {
     /// The arc from the first through the second to the third point.
     ///
     /// # Errors
-    /// When two of the points are the same, or the second one lies on the line of the others but not
-    /// between them.
+    /// When two of the points are the same, or the second one lies on the line of the others but
+    /// not between them.
     pub fn through(points: [Point<f64>; 3]) -> Result<Self, ConstructError> {
         let [start, through, end] = points;
         check_distinct(&[start, through, end, start])?;
@@ -100,8 +100,9 @@ impl Arc {
         }
     }
 
-    /// Appends the arc: a line exactly, all others as equal cubics within `tolerance` of the circle,
-    /// in the unit of the points. Source of the bound: see [`arc_to_runs`](crate::arc_to_runs).
+    /// Appends the arc: a line exactly, all others as equal cubics within `tolerance` of the
+    /// circle, in the unit of the points. Source of the bound: see
+    /// [`arc_to_runs`](crate::arc_to_runs).
     pub fn push(self, tolerance: f64, out: &mut Runs) -> Conversion {
         let (start, end, half_rad) = (self.start, self.end, self.half_rad);
         if half_rad == 0.0 {

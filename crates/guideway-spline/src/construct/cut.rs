@@ -83,42 +83,51 @@ fn share_at_length(segment: &[Point<f64>; 4], length: f64, whole: f64, tolerance
 /// The parts of a curve before and after a parameter. `None` if one of them would have no length,
 /// or the curve has no such segment.
 pub fn cut(runs: &Runs, at: Parameter) -> Option<[Runs; 2]> {
-    let (mut before, mut after) = (Runs::default(), Runs::default());
-    for (number, run) in runs.iter().enumerate() {
-        if number < at.run {
-            before.push(run);
-        } else if number > at.run {
-            after.push(run);
-        } else {
-            cut_run(run, at, &mut before, &mut after)?;
+    point_at(runs, at)?;
+    let parts: [Runs; 2] = cut_all(runs, &[at]).try_into().ok()?;
+    let has_length = |part: &Runs| !is_dot(part.points());
+    parts.iter().all(has_length).then_some(parts)
+}
+
+/// The parts of a curve between parameters, which are in increasing order: one more part than
+/// parameters. A part without length has no runs.
+pub fn cut_all(runs: &Runs, at: &[Parameter]) -> Vec<Runs> {
+    let mut cuts = at.iter().peekable();
+    let mut parts = Vec::with_capacity(at.len() + 1);
+    let mut part = Runs::default();
+    for (run, points) in runs.iter().enumerate() {
+        for (segment, control) in points.array_windows().enumerate() {
+            let (mut done, mut is_whole) = (0.0, true);
+            let mut rest = uniform::to_bezier(control);
+            let is_here = |cut: &&Parameter| (cut.run, cut.segment) == (run, segment);
+            while let Some(cut) = cuts.next_if(is_here) {
+                // The parameter in the rest of the segment; NaN at its end.
+                let t = ((cut.t - done) / (1.0 - done)).clamp(0.0, 1.0);
+                let [before, after] = split(&rest, if t.is_nan() { 1.0 } else { t });
+                if is_dot(&after) && is_whole {
+                    part.push_segment(control);
+                    (rest, is_whole, done) = (after, false, cut.t);
+                } else if !is_dot(&before) {
+                    part.push_bezier(&before);
+                    (rest, is_whole, done) = (after, false, cut.t);
+                }
+                parts.push(std::mem::take(&mut part));
+            }
+            if is_whole {
+                part.push_segment(control);
+            } else if !is_dot(&rest) {
+                part.push_bezier(&rest);
+            }
         }
     }
-    (has_length(before.points()) && has_length(after.points())).then_some([before, after])
+    parts.push(part);
+    parts.resize_with(at.len() + 1, Runs::default);
+    parts
 }
 
-/// Returns `true` if the points are not all at one place.
-fn has_length(points: &[Point<f64>]) -> bool {
+/// Returns `true` if all points are at one place.
+fn is_dot(points: &[Point<f64>]) -> bool {
     points
         .iter()
-        .any(|point| point.distance(points[0]) > SAME_M)
-}
-
-fn cut_run(run: &[Point<f64>], at: Parameter, before: &mut Runs, after: &mut Runs) -> Option<()> {
-    let segment: &[Point<f64>; 4] = run.get(at.segment..)?.first_chunk()?;
-    let halves = split(&uniform::to_bezier(segment), at.t.clamp(0.0, 1.0));
-    let [has_first, has_second] = [0, 1].map(|side| has_length(&halves[side]));
-    // A part without length leaves its segment whole on the other side.
-    let whole_before = at.segment + usize::from(!has_second);
-    let whole_after = at.segment + usize::from(has_first || !has_second);
-    if whole_before > 0 {
-        before.push(&run[..whole_before + 3]);
-    }
-    if has_first && has_second {
-        before.push(&uniform::from_bezier(&halves[0]));
-        after.push(&uniform::from_bezier(&halves[1]));
-    }
-    if run.len() >= whole_after + 4 {
-        after.push(&run[whole_after..]);
-    }
-    Some(())
+        .all(|point| point.distance(points[0]) <= SAME_M)
 }

@@ -35,7 +35,10 @@ pub enum ConstructError {
         through: Point<f64>,
     },
     /// The end of an arc lies on the start tangent, behind the start.
-    #[error("no arc begins in this direction: its end ({:.3}, {:.3}) lies straight behind its start", .end.x, .end.y)]
+    #[error(
+        "no arc begins in this direction: its end ({:.3}, {:.3}) lies straight behind its start",
+        .end.x, .end.y
+    )]
     StraightBehind {
         /// The end.
         end: Point<f64>,
@@ -61,7 +64,10 @@ pub enum ConstructError {
         radius: f64,
     },
     /// No arc of the radius touches both curves.
-    #[error("a radius of {radius} does not fit; the largest one that does is {:.3}", floor(*.largest))]
+    #[error(
+        "a radius of {radius} does not fit; the largest one that does is {:.3}",
+        floor(*.largest)
+    )]
     TooLarge {
         /// The radius.
         radius: f64,

@@ -84,7 +84,8 @@ impl Piece {
     }
 }
 
-/// A row of the system: factors of the derivatives before, at and after a point, and its right side.
+/// A row of the system: factors of the derivatives before, at and after a point, and its right
+/// side.
 type Row = ([f64; 3], Point<f64>);
 
 /// Derivatives at all points, by elimination without pivots: every row is dominated by its middle.

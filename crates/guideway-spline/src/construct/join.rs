@@ -16,7 +16,7 @@ pub fn join(first: &Runs, second: &Runs, tolerance: f64) -> Result<Runs, Constru
         return Err(ConstructError::TooFewPoints { actual: 0 });
     };
     let gap = end.distance(start);
-    if !(gap <= tolerance) {
+    if gap.is_nan() || gap > tolerance {
         return Err(ConstructError::Gap { gap, tolerance });
     }
     let mut segments: Vec<[Point<f64>; 4]> = first.segments().copied().collect();

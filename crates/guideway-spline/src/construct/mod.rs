@@ -5,7 +5,7 @@
 //! | `arc` | points, a start direction | an arc of a circle |
 //! | `interpolate` | points | a curve through them without kinks |
 //! | `handles` | points with handles | a curve of Beziers |
-//! | `cut` | a curve, a parameter | its two parts |
+//! | `cut` | a curve, parameters | its parts |
 //! | `join` | two consecutive curves | one curve |
 //! | `cross` | two curves | where they cross |
 //! | `fillet` | two curves that meet in a corner | their rests and the arc between |
@@ -24,7 +24,7 @@ mod side;
 
 pub use arc::Arc;
 pub use cross::{Crossing, crossings};
-pub use cut::{Parameter, cut, nearest_parameter, parameter_at_length, point_at};
+pub use cut::{Parameter, cut, cut_all, nearest_parameter, parameter_at_length, point_at};
 pub use error::ConstructError;
 pub use fillet::{Fillet, fillet};
 pub use handles::{Anchor, curve_of_anchors};

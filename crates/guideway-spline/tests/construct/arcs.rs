@@ -29,7 +29,8 @@ proptest! {
         let center = center(a, b, c);
         let radius = a.distance(center);
         // Thin triangles lose the digits of the center, by which the test measures.
-        prop_assume!(radius < 1e4 && [a.distance(b), b.distance(c), a.distance(c)].iter().all(|d| *d > 0.1));
+        let distances = [a.distance(b), b.distance(c), a.distance(c)];
+        prop_assume!(radius < 1e4 && distances.iter().all(|d| *d > 0.1));
         let arc = Arc::through([a + by, b + by, c + by]).unwrap();
         let rounding = 1e-11 * (radius + far);
         prop_assert!((arc.radius() - radius).abs() <= 1e-9 * radius * radius + rounding);
@@ -45,7 +46,9 @@ proptest! {
         prop_assert!(runs.start().unwrap().distance(a + by) <= reach);
         prop_assert!(runs.end().unwrap().distance(c + by) <= reach);
         // The second point lies on this part of the circle, not on the other one.
-        let to_b = samples.array_windows().map(|[s, e]| crate::common::distance_to_line(b + by, *s, *e));
+        let to_b = samples
+            .array_windows()
+            .map(|[s, e]| crate::common::distance_to_line(b + by, *s, *e));
         let sagitta = crate::common::sagitta(&samples);
         prop_assert!(to_b.fold(f64::INFINITY, f64::min) <= sagitta + TOLERANCE + 1e3 * rounding);
         let length: f64 = samples.array_windows().map(|[s, e]| s.distance(*e)).sum();
@@ -54,7 +57,10 @@ proptest! {
 
     #[test]
     fn arc_from_a_tangent_begins_along_it(
-        start in point_within(50.0), heading in -3.1..3.1_f64, turn in -3.0..3.0_f64, chord in 0.1..80.0,
+        start in point_within(50.0),
+        heading in -3.1..3.1_f64,
+        turn in -3.0..3.0_f64,
+        chord in 0.1..80.0,
     ) {
         let at = |angle: f64| p(angle.cos(), angle.sin());
         let end = start + at(heading + turn) * chord;

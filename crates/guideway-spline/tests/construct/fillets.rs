@@ -41,8 +41,8 @@ fn check(found: &Fillet, curves: &[Runs; 2], radius: f64) -> Result<(), TestCase
         if rest.is_empty() {
             continue;
         }
-        let meeting = [rest.end(), rest.start()][begin].unwrap();
-        let arc_end = [arc.start(), arc.end()][begin].unwrap();
+        let meeting = [rest.end(), rest.start()][begin].expect("a rest");
+        let arc_end = [arc.start(), arc.end()][begin].expect("an arc");
         prop_assert!(meeting.distance(arc_end) < 1e-9);
         let (of_rest, of_arc) = (directions(rest)[end], directions(&arc)[begin]);
         prop_assert!(of_rest.distance(of_arc) < 1e-6, "{of_rest:?} {of_arc:?}");
@@ -61,13 +61,17 @@ proptest! {
 
     #[test]
     fn lines_are_cut_at_the_tangent_length(
-        turn in 0.02..3.0_f64, left in any::<bool>(), radius in 0.05..5.0, far in prop_oneof![Just(0.0), Just(1e5)],
+        turn in 0.02..3.0_f64,
+        left in any::<bool>(),
+        radius in 0.05..5.0,
+        far in prop_oneof![Just(0.0), Just(1e5)],
     ) {
         let turn = if left { turn } else { -turn };
         let corner = p(far, far);
         let tangent = radius * (0.5 * turn.abs()).tan();
         let size = tangent * 1.5 + 1.0;
-        let curves = [line(corner - p(size, 0.0), corner), line(corner, corner + unit(turn) * size)];
+        let [before, after] = [corner - p(size, 0.0), corner + unit(turn) * size];
+        let curves = [line(before, corner), line(corner, after)];
         let found = fillet(&curves[0], &curves[1], radius).unwrap();
         prop_assert!((length(&found.before) - (size - tangent)).abs() < 1e-7);
         prop_assert!((length(&found.after) - (size - tangent)).abs() < 1e-7);
@@ -81,9 +85,11 @@ proptest! {
     fn largest_radius_of_lines_fits_and_hardly_more(
         turn in 0.1..3.0_f64, sizes in [0.5..9.0_f64, 0.5..9.0],
     ) {
-        let curves = [line(p(-sizes[0], 0.0), p(0.0, 0.0)), line(p(0.0, 0.0), unit(turn) * sizes[1])];
+        let corner = p(0.0, 0.0);
+        let curves = [line(p(-sizes[0], 0.0), corner), line(corner, unit(turn) * sizes[1])];
         let expected = sizes[0].min(sizes[1]) / (0.5 * turn).tan();
-        let Err(ConstructError::TooLarge { largest, .. }) = fillet(&curves[0], &curves[1], 1.5 * expected) else {
+        let large = fillet(&curves[0], &curves[1], 1.5 * expected);
+        let Err(ConstructError::TooLarge { largest, .. }) = large else {
             return Err(TestCaseError::fail("it fits"));
         };
         prop_assert!((largest - expected).abs() <= 1e-5 * expected, "{largest} {expected}");
@@ -93,7 +99,10 @@ proptest! {
 
     #[test]
     fn arc_touches_bent_curves(
-        turn in 0.3..2.5_f64, sizes in [4.0..9.0, 4.0..9.0], bends in [-0.3..0.3, -0.3..0.3], radius in 0.05..20.0,
+        turn in 0.3..2.5_f64,
+        sizes in [4.0..9.0, 4.0..9.0],
+        bends in [-0.3..0.3, -0.3..0.3],
+        radius in 0.05..20.0,
     ) {
         let curves = bent(turn, sizes, bends);
         match fillet(&curves[0], &curves[1], radius) {

@@ -24,10 +24,10 @@ fn line(from: P, to: P) -> Runs {
 /// Unit directions at the start and at the end.
 fn directions(runs: &Runs) -> [P; 2] {
     let beziers: Vec<_> = runs.segments().map(uniform::to_bezier).collect();
-    let start = bezier::start_direction(&beziers[0]).unwrap();
+    let start = bezier::start_direction(&beziers[0]).expect("a curve with a length");
     [
         start,
-        bezier::end_direction(beziers.last().unwrap()).unwrap(),
+        bezier::end_direction(beziers.last().expect("a curve")).expect("a curve with a length"),
     ]
 }
 

@@ -35,7 +35,8 @@ proptest! {
             let Some(next) = segments.get(i + 1) else { continue };
             // Derivatives by the common parameter.
             let (h, k) = (range(i), range(i + 1));
-            let (ends, begins) = (uniform::derivative(segment, 1.0) * (1.0 / h), uniform::derivative(next, 0.0) * (1.0 / k));
+            let ends = uniform::derivative(segment, 1.0) * (1.0 / h);
+            let begins = uniform::derivative(next, 0.0) * (1.0 / k);
             prop_assert!(ends.distance(begins) < 1e-9 * size / h.min(k), "{ends:?} {begins:?}");
             let ends = uniform::second_derivative(segment, 1.0) * (1.0 / (h * h));
             let begins = uniform::second_derivative(next, 0.0) * (1.0 / (k * k));
