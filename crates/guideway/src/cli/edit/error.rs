@@ -1,6 +1,7 @@
 //! [`StepError`]: the reason why a step fails.
 
-use guideway::document::OperationError;
+use guideway::document::{OperationError, ShapeError};
+use guideway::layout::UserError;
 use guideway::scene::EditError;
 
 /// The reason why a step fails.
@@ -43,6 +44,21 @@ impl From<OperationError> for StepError {
             Some((what, remedy)) => (what.to_owned(), sentence(remedy)),
             None => (text, "Correct the step".to_owned()),
         };
+        Self {
+            member: None,
+            what,
+            remedy,
+        }
+    }
+}
+
+impl From<ShapeError> for StepError {
+    fn from(error: ShapeError) -> Self {
+        let UserError {
+            message: what,
+            remedy,
+            ..
+        } = error.into();
         Self {
             member: None,
             what,

@@ -63,6 +63,23 @@ impl<'a> Members<'a> {
         }
     }
 
+    pub(super) fn optional_number(&self, name: &'static str) -> Result<Option<f64>, StepError> {
+        self.get(name).map(|_| self.number(name)).transpose()
+    }
+
+    /// Positions in meters.
+    pub(super) fn points(&self, name: &'static str) -> Result<Vec<Point<f64>>, StepError> {
+        let points: &[Value] = match self.get(name) {
+            None => &[],
+            Some(Value::Array(points)) => points,
+            Some(other) => return Err(wrong(name, "a list of points", other)),
+        };
+        let point = |value: &Value| {
+            point_of(value).ok_or_else(|| wrong(name, "a list of points [x, y] in m", value))
+        };
+        points.iter().map(point).collect()
+    }
+
     /// A whole number from 1 to `most`.
     pub(super) fn count(&self, name: &'static str, most: u32) -> Result<u32, StepError> {
         let Some(value) = self.get(name) else {
@@ -86,18 +103,8 @@ impl<'a> Members<'a> {
         let Some(value) = self.get(name) else {
             return Ok(None);
         };
-        let numbers = value
-            .as_array()
-            .map(|list| list.iter().map(Value::as_f64).collect());
-        let numbers: Option<Vec<f64>> = numbers.flatten();
-        match numbers.as_deref() {
-            Some(&[x, y]) => Ok(Some(Point::new(x, y))),
-            _ => Err(wrong(
-                name,
-                "two numbers in meters, such as [12.5, -3]",
-                value,
-            )),
-        }
+        let point = point_of(value).map(Some);
+        point.ok_or_else(|| wrong(name, "two numbers in meters, such as [12.5, -3]", value))
     }
 
     /// The index of the level that a member names; `None` if it is absent.
@@ -127,6 +134,14 @@ impl<'a> Members<'a> {
     /// A file, from the folder of the script.
     pub(super) fn file(&self, name: &'static str) -> Result<PathBuf, StepError> {
         Ok(self.folder.join(self.text(name)?))
+    }
+}
+
+fn point_of(value: &Value) -> Option<Point<f64>> {
+    let numbers: Option<Vec<f64>> = value.as_array()?.iter().map(Value::as_f64).collect();
+    match numbers?.as_slice() {
+        &[x, y] => Some(Point::new(x, y)),
+        _ => None,
     }
 }
 

@@ -30,6 +30,7 @@ mod tests {
 
     use super::*;
     use crate::cli::edit::script::Script;
+    use crate::cli::edit::step::Touched;
 
     /// The steps in Markdown.
     fn markdown() -> String {
@@ -67,8 +68,12 @@ mod tests {
             let script = Script::read(&file).unwrap();
             let options = SceneOptions::default();
             let mut document = Document::new(Arc::clone(&layout), &options).unwrap();
-            let touched = script.steps[0].perform(&mut document, &examples);
-            let touched = touched.unwrap_or_else(|error| panic!("{error:?}"));
+            let mut touched = Touched::default();
+            // An example may need a step before.
+            for step in &script.steps {
+                let done = step.perform(&mut document, &examples);
+                touched = done.unwrap_or_else(|error| panic!("{}: {error:?}", kind.name));
+            }
             assert!(!touched.names.is_empty(), "{} touches nothing", kind.name);
             assert!(document.is_changed(), "{} changes nothing", kind.name);
         }

@@ -50,6 +50,17 @@ impl Members<'_> {
         row_named(name, of, self.text(name)?, document)
     }
 
+    /// As [`Self::element`]; `None` if the member is absent.
+    pub(super) fn optional_element(
+        &self,
+        name: &'static str,
+        of: Table,
+        document: &Document,
+    ) -> Result<Option<u32>, StepError> {
+        let named = self.get(name).map(|_| self.element(name, of, document));
+        named.transpose()
+    }
+
     /// The selected paths.
     pub(super) fn paths(&self, document: &Document) -> Result<PathSet, StepError> {
         Ok(self.elements(document)?.paths)

@@ -6,6 +6,7 @@ mod delete;
 mod moves;
 mod paths;
 mod properties;
+mod shapes;
 mod values;
 
 use super::step::StepKind;
@@ -21,6 +22,8 @@ pub(super) const STEPS: &[&StepKind] = &[
     &paths::TWO_WAY,
     &create::NODE,
     &create::EDGE,
+    &create::ARC,
+    &create::SPLINE,
     &create::STATION,
     &delete::DELETE,
     &moves::MOVE,
@@ -28,6 +31,14 @@ pub(super) const STEPS: &[&StepKind] = &[
     &moves::MIRROR,
     &moves::SCALE,
     &moves::MOVE_NODE,
+    &shapes::ALIGN,
+    &shapes::DISTRIBUTE,
+    &shapes::SPLIT,
+    &shapes::SPLIT_CROSSINGS,
+    &shapes::JOIN,
+    &shapes::WELD,
+    &shapes::STRAIGHTEN,
+    &shapes::FILLET,
     &copies::COPY,
     &copies::PASTE,
 ];
