@@ -225,7 +225,8 @@ impl<'w, W: Write> SvgWriter<'w, W> {
         self.end_group()
     }
 
-    /// Writes a monospace text in a color 0xRRGGBBAA, stretched to `width`.
+    /// Writes a monospace text in a color 0xRRGGBBAA, its glyphs stretched to `width`, whichever font
+    /// the viewer has.
     ///
     /// # Errors
     /// When writing fails.
@@ -238,9 +239,13 @@ impl<'w, W: Write> SvgWriter<'w, W> {
         text: &str,
     ) -> io::Result<()> {
         let layout = format!(r#"x="{x}" y="{y}" font-size="{height}" textLength="{width}""#);
+        let adjust = r#"lengthAdjust="spacingAndGlyphs""#;
         let style = r#"font-family="monospace" stroke="none""#;
         let (fill, text) = (paint("fill", rgba), escape(text));
-        writeln!(self.out, "<text {layout} {style}{fill}>{text}</text>")
+        writeln!(
+            self.out,
+            "<text {layout} {adjust} {style}{fill}>{text}</text>"
+        )
     }
 
     /// Writes an image from a data URI. `matrix` (a, b, c, d, e, f of SVG) maps the unit square to
