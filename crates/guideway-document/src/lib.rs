@@ -43,7 +43,7 @@ pub use edit::{
 pub use element::Element;
 pub use history::SavedState;
 pub use index::Index;
-pub use journal::{JournalEntry, ReplayProgress, replay};
+pub use journal::{JournalEntry, ReplayProgress, count_records, replay};
 pub use locate::locate;
 pub use pick::{Hit, nearest, pick};
 pub use query::{Query, QueryError};

@@ -1,6 +1,6 @@
 //! The requests that parts of the window send to the application.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use guideway_document::{Element, SelectMode};
 use guideway_layout::CheckOptions;
@@ -28,18 +28,24 @@ pub(crate) enum Action {
     Check(CheckOptions),
     /// Opens a file.
     Open(PathBuf),
-    /// Saves the active file under this name.
+    /// Saves the active file under this name; asks before another file is replaced.
     SaveAs(PathBuf),
-    /// Writes the picture as PNG of this width in pixels.
-    ExportPng { path: PathBuf, width_px: u32 },
-    /// Writes the picture as SVG.
-    ExportSvg(PathBuf),
+    /// Saves the active file under this name, over what is there.
+    SaveOver(PathBuf),
+    /// Writes the picture as a file; asks before another file is replaced.
+    Export(Export),
+    /// Writes the picture as a file, over what is there.
+    ExportOver(Export),
     /// Replaces the floor plan; an empty text removes it.
     SetFloorPlan(String),
     /// Edits the file of this index from now on.
     Activate(usize),
-    /// Closes the file of this index.
+    /// Closes the file of this index; asks if it has unsaved changes.
     Close(usize),
+    /// Closes the file of this index; its unsaved changes are lost.
+    CloseWithoutSaving(usize),
+    /// Reads the active file again; its unsaved changes are lost.
+    ReloadWithoutSaving,
     /// Replays the unsaved work of the file of this index.
     Recover(usize),
     /// Deletes the unsaved work of the file of this index.
@@ -54,4 +60,27 @@ pub(crate) enum Action {
     Notify(String),
     /// Closes the window although there are unsaved changes.
     QuitWithoutSaving,
+    /// Saves the files that the leave dialog is about, then closes them.
+    SaveAndLeave,
+}
+
+/// A picture to write.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Export {
+    /// As PNG of this width in pixels.
+    Png {
+        path: PathBuf,
+        width_px: u32,
+    },
+    Svg {
+        path: PathBuf,
+    },
+}
+
+impl Export {
+    pub(crate) fn path(&self) -> &Path {
+        match self {
+            Self::Png { path, .. } | Self::Svg { path } => path,
+        }
+    }
 }

@@ -43,5 +43,7 @@ mod window;
 
 pub use launch_options::LaunchOptions;
 pub use measure::{Movement, measure};
-pub use services::{AppServices, Job, LoadStage, MethodChoice, PictureRequest, SweptAreas};
+pub use services::{
+    AppServices, FileStamp, Job, LoadStage, MethodChoice, PictureRequest, SweptAreas,
+};
 pub use window::run;

@@ -26,6 +26,7 @@ mod replay;
 mod tag;
 
 pub use entry::JournalEntry;
+pub use record::count_records;
 pub use replay::{ReplayProgress, replay};
 
 #[cfg(test)]

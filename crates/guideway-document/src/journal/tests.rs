@@ -1,5 +1,6 @@
 //! Round trips of entries, and damage to their bytes.
 
+use std::io::Cursor;
 use std::sync::Arc;
 
 use guideway_layout::{
@@ -11,6 +12,7 @@ use guideway_spline::{Affine, Point, Runs};
 use super::decode::decode;
 use super::encode::encode;
 use super::entry::JournalEntry;
+use super::record::count_records;
 use crate::change::Change;
 
 /// An entry with one change of every kind.
@@ -186,4 +188,20 @@ fn decodes_entries_of_earlier_versions() {
         panic!("one move: {changes:?}");
     };
     assert_eq!(**to, [(1, Point::new(5.0, 6.0))]);
+}
+
+#[test]
+fn counts_whole_records() {
+    let mut journal: Vec<u8> = Vec::new();
+    for entry in [every_change(), JournalEntry::Undo, JournalEntry::Redo] {
+        journal.extend(entry.to_record());
+    }
+    let count = |bytes: &[u8]| count_records(&mut Cursor::new(bytes)).unwrap();
+    assert_eq!(count(&journal), 3);
+    assert_eq!(
+        count(&journal[..journal.len() - 1]),
+        2,
+        "the last one is cut off"
+    );
+    assert_eq!(count(&[]), 0);
 }

@@ -8,9 +8,11 @@ use guideway_compose::FloorPlanKind;
 use guideway_layout::shown_path;
 
 use super::state::App;
+use crate::action::{Action, Export};
+use crate::command::Command;
 use crate::export::{PictureContent, png_picture};
 use crate::files::LayerContext;
-use crate::panels::dialogs::PromptKind;
+use crate::panels::dialogs::{PromptKind, Question, Risk};
 use crate::services::{Job, PictureRequest};
 
 /// Placement suggested for a dropped image: a scale that the user has to adapt.
@@ -48,19 +50,44 @@ impl App {
         self.tools.clear_hover();
     }
 
-    /// Closes the active file, unless it has unsaved changes.
-    pub(super) fn close_active(&mut self) {
-        let Some(layer) = self.files.active() else {
+    /// Closes a file; asks first if it has unsaved changes.
+    pub(super) fn request_close(&mut self, index: usize) {
+        match self.files.layers().get(index) {
+            Some(layer) if layer.is_changed() => {
+                let path = layer.path().to_owned();
+                self.dialogs.leave.close_file(path);
+            }
+            Some(_) => self.close(index),
+            None => {}
+        }
+    }
+
+    /// Reads the active file again; asks first if it has unsaved changes.
+    pub(super) fn request_reload(&mut self) {
+        match self.files.active() {
+            Some(layer) if layer.is_changed() => self.dialogs.confirm.ask(Question {
+                file: layer.path().to_owned(),
+                risk: Risk::DiscardsChanges,
+                confirmed: Action::ReloadWithoutSaving,
+            }),
+            _ => self.reload(self.files.active_index(), true),
+        }
+    }
+
+    /// Saves the next file of those that close after saving. Gives up where a question comes up or
+    /// the file is not written.
+    pub(super) fn save_before_leaving(&mut self) {
+        let Some(index) = self.dialogs.leave.next_to_save(&self.files) else {
             return;
         };
-        if layer.is_changed() {
-            let notice = format!(
-                "{} has unsaved changes; save or undo them before you close it",
-                layer.name()
-            );
-            self.dialogs.notices.add(notice);
-        } else {
-            self.close(self.files.active_index());
+        let is_ready = self.files.layers()[index].document().is_some();
+        if self.writer.is_busy() || !is_ready {
+            return;
+        }
+        self.files.activate(index);
+        self.save_in_place();
+        if !self.writer.is_busy() {
+            self.dialogs.leave.close();
         }
     }
 
@@ -83,13 +110,34 @@ impl App {
         let services = &self.context.services;
         let check = unwritten.map(|d| services.check_save_in_place(d.layout(), &path));
         let Some(Err(error)) = check else {
-            return self.save(path);
+            return self.save_as(path);
         };
         self.dialogs.notices.add(error.to_string());
         let suggestion = path.with_extension(DEFAULT_EXTENSION);
         let suggestion = suggestion.to_string_lossy().into_owned();
         let prompt = &mut self.dialogs.prompt;
         prompt.ask_with_text(PromptKind::SaveAs, suggestion);
+    }
+
+    /// Saves the active file under this name; asks before it overwrites what others wrote.
+    pub(super) fn save_as(&mut self, path: PathBuf) {
+        let Some(layer) = self.files.active() else {
+            return;
+        };
+        let on_disk = self.context.services.file_stamp(&path);
+        let risk = match layer.is_at(&path) {
+            true if layer.save.is_changed_by_others(on_disk) => Some(Risk::OverwritesChanges),
+            false if on_disk.is_some() => Some(Risk::ReplacesFile(Command::SaveAs)),
+            _ => None,
+        };
+        match risk {
+            Some(risk) => self.dialogs.confirm.ask(Question {
+                file: path.clone(),
+                risk,
+                confirmed: Action::SaveOver(path),
+            }),
+            None => self.save(path),
+        }
     }
 
     /// Saves the active file under this name.
@@ -120,24 +168,24 @@ impl App {
             .start(Some(path), None, &self.context.repaint, write);
     }
 
-    /// Writes the canvas as PNG of this width in pixels.
-    pub(super) fn export_png(&mut self, path: PathBuf, width_px: u32) {
-        let Some(picture) = self.picture() else {
-            return;
-        };
-        if self.is_writer_busy() {
-            return;
+    /// Writes the canvas as a picture; asks before it replaces a file.
+    pub(super) fn export_as(&mut self, export: Export) {
+        if self.context.services.file_stamp(export.path()).is_none() {
+            return self.export(export);
         }
-        let job = Arc::<Job>::default();
-        let watched = Arc::clone(&job);
-        let (services, method) = (Arc::clone(&self.context.services), self.method());
-        let write = move || png_picture(picture, width_px, &method, &*services, &watched, &path);
-        self.writer
-            .start(None, Some(job), &self.context.repaint, write);
+        let again = match export {
+            Export::Png { .. } => Command::ExportPng,
+            Export::Svg { .. } => Command::ExportSvg,
+        };
+        self.dialogs.confirm.ask(Question {
+            file: export.path().to_owned(),
+            risk: Risk::ReplacesFile(again),
+            confirmed: Action::ExportOver(export),
+        });
     }
 
-    /// Writes the canvas as SVG.
-    pub(super) fn export_svg(&mut self, path: PathBuf) {
+    /// Writes the canvas as a picture.
+    pub(super) fn export(&mut self, export: Export) {
         let Some(picture) = self.picture() else {
             return;
         };
@@ -145,11 +193,23 @@ impl App {
             return;
         }
         let services = Arc::clone(&self.context.services);
-        let write = move || {
-            services.export_svg(&picture, &path)?;
-            Ok(format!("Wrote {}", shown_path(&path)))
-        };
-        self.writer.start(None, None, &self.context.repaint, write);
+        let repaint = &self.context.repaint;
+        match export {
+            Export::Png { path, width_px } => {
+                let job = Arc::<Job>::default();
+                let (watched, method) = (Arc::clone(&job), self.method());
+                let write =
+                    move || png_picture(picture, width_px, &method, &*services, &watched, &path);
+                self.writer.start(None, Some(job), repaint, write);
+            }
+            Export::Svg { path } => {
+                let write = move || {
+                    services.export_svg(&picture, &path)?;
+                    Ok(format!("Wrote {}", shown_path(&path)))
+                };
+                self.writer.start(None, None, repaint, write);
+            }
+        }
     }
 
     /// Copies the canvas to the clipboard.

@@ -3,14 +3,16 @@
 use std::thread;
 use std::time::Duration;
 
-use eframe::egui::{CentralPanel, Context, Frame, Panel, ScrollArea, TextWrapMode, Ui};
+use eframe::egui::{
+    CentralPanel, Context, Frame, Panel, ScrollArea, TextWrapMode, Ui, ViewportCommand,
+};
+use guideway_document::Document;
 
-use super::routing::release_keyboard;
 use super::state::App;
 use crate::backdrop::ActiveDocument;
 use crate::canvas::CanvasPainter;
 use crate::files::{Layer, LayerContext, LayerEvent};
-use crate::panels::{MenuBar, SidePanel, StatusBar, pressed_commands};
+use crate::panels::{MenuBar, SidePanel, StatusBar};
 use crate::render_queue::{FALLBACK_METHOD, RenderRequest};
 use crate::services::LoadStage;
 use crate::tools::PointerEvent;
@@ -24,13 +26,14 @@ impl App {
     pub(crate) fn show(&mut self, ui: &mut Ui) {
         let ctx = ui.ctx().clone();
         self.poll(&ctx);
-        for command in pressed_commands(&ctx) {
-            self.perform(command, &ctx);
-        }
+        self.take_input(&ctx);
+        self.update_title(&ctx);
         Panel::top("menus").show(ui, |ui| {
             let bar = MenuBar {
                 files: &self.files,
                 writer: &self.writer,
+                settings: &self.settings,
+                has_swept_areas: self.swept_areas.is_visible,
                 tool: self.tools.tool(),
             };
             let actions = bar.show(ui);
@@ -59,6 +62,24 @@ impl App {
         self.apply_all(actions, &ctx);
     }
 
+    /// Shows the name of the active file in the title of the window, and whether it is saved.
+    fn update_title(&mut self, ctx: &Context) {
+        let title = match self.files.active() {
+            // An edit in progress may be a mere selection.
+            Some(layer) if layer.is_busy() => return,
+            Some(layer) => {
+                let is_changed = layer.document().is_some_and(Document::is_changed);
+                let mark = if is_changed { " *" } else { "" };
+                format!("{}{mark} - Guideway", layer.name())
+            }
+            None => "Guideway".to_owned(),
+        };
+        if title != self.title {
+            ctx.send_viewport_cmd(ViewportCommand::Title(title.clone()));
+            self.title = title;
+        }
+    }
+
     fn show_side_panel(&mut self, ui: &mut Ui, ctx: &Context) {
         let mut panel = SidePanel {
             files: &mut self.files,
@@ -76,12 +97,17 @@ impl App {
     }
 
     fn show_canvas(&mut self, ui: &mut Ui) {
-        let primary_pans = self.tools.tool().adds_points();
-        for event in self.canvas.input(ui, primary_pans) {
+        if let Some(event) = self.canvas.show(ui) {
             self.point(event);
-            if matches!(event, PointerEvent::Clicked(..)) {
-                release_keyboard(ui.ctx());
-            }
+        }
+        if !self.canvas.is_pressed() {
+            self.point(PointerEvent::Hover(self.canvas.pointer_px()));
+        }
+        if let Some(cursor) = self.canvas.cursor() {
+            ui.ctx().set_cursor_icon(cursor);
+        } else if self.canvas.pointer_px().is_some() {
+            ui.ctx()
+                .set_cursor_icon(self.tools.cursor(self.files.document()));
         }
         let Some(view) = self.canvas.camera.view() else {
             return;
@@ -217,9 +243,13 @@ impl App {
                 let notices = self.files.end_save(saved_as);
                 self.notify_all(notices);
             }
+            if written.result.is_err() {
+                self.dialogs.leave.close();
+            }
             let text = written.result.unwrap_or_else(|error| error.to_string());
             self.dialogs.notices.add(text);
         }
+        self.save_before_leaving();
         let notices = self.files.poll_watcher(&self.settings.scene_options());
         self.notify_all(notices);
         let notice = self.clipboard.poll(ctx);

@@ -43,15 +43,21 @@ impl App {
                 }
             }
             Action::Open(path) => self.open(path),
-            Action::SaveAs(path) => self.save(path),
-            Action::ExportPng { path, width_px } => self.export_png(path, width_px),
-            Action::ExportSvg(path) => self.export_svg(path),
+            Action::SaveAs(path) => self.save_as(path),
+            Action::SaveOver(path) => self.save(path),
+            Action::Export(export) => self.export_as(export),
+            Action::ExportOver(export) => self.export(export),
             Action::SetFloorPlan(text) => {
                 let services = &self.context.services;
                 self.floor_plan.set(&text, services, repaint);
             }
             Action::Activate(index) => self.files.activate(index),
-            Action::Close(index) => self.close(index),
+            Action::Close(index) => self.request_close(index),
+            Action::CloseWithoutSaving(index) => {
+                self.dialogs.leave.close();
+                self.close(index);
+            }
+            Action::ReloadWithoutSaving => self.reload(self.files.active_index(), true),
             Action::Recover(index) => {
                 self.files.recover(index, self.settings.scene_options());
             }
@@ -64,7 +70,8 @@ impl App {
             Action::ApplyTheme => self.apply_theme(ctx),
             Action::Recolor => self.recolor(),
             Action::Notify(text) => self.dialogs.notices.add(text),
-            Action::QuitWithoutSaving => self.dialogs.quit.quit_without_saving(ctx),
+            Action::QuitWithoutSaving => self.dialogs.leave.quit_without_saving(ctx),
+            Action::SaveAndLeave => self.dialogs.leave.save_first(),
         }
     }
 
@@ -78,7 +85,7 @@ impl App {
         match command {
             Command::Open => prompt(self, PromptKind::Open),
             Command::OpenRecent => self.dialogs.recent.open(self.files.recent().files()),
-            Command::Reload => self.reload(self.files.active_index(), true),
+            Command::Reload => self.request_reload(),
             Command::Save => self.save_in_place(),
             Command::SaveAs => prompt(self, PromptKind::SaveAs),
             Command::FloorPlan => {
@@ -89,18 +96,17 @@ impl App {
             Command::ExportPng => prompt(self, PromptKind::ExportPng),
             Command::ExportSvg => prompt(self, PromptKind::ExportSvg),
             Command::CopyPicture => self.copy_picture(),
-            Command::Close => self.close_active(),
-            Command::Quit => self.dialogs.quit.quit(ctx, &self.files),
+            Command::Close => self.request_close(self.files.active_index()),
+            Command::Quit => self.dialogs.leave.quit(ctx, &self.files),
             Command::NextFile => self.files.activate_next(),
             Command::Find => self.find.wants_focus = true,
             Command::Shortcuts => self.dialogs.shortcuts.is_open ^= true,
             Command::Cancel => self.cancel(ctx),
             Command::FinishPath => self.finish_path(),
-            Command::Undo | Command::Redo => {
-                self.tools.abort_gesture();
-                self.edit_selection(command);
-            }
-            Command::SelectAll
+            Command::Undo if self.tools.remove_last_point() => {}
+            Command::Undo
+            | Command::Redo
+            | Command::SelectAll
             | Command::Deselect
             | Command::Delete
             | Command::Duplicate
@@ -140,7 +146,9 @@ impl App {
         }
     }
 
+    /// Edits the selection, or takes a step of the history. What a drag has done so far stays.
     fn edit_selection(&mut self, command: Command) {
+        self.tools.abort_drag();
         let view = self.canvas.camera.view();
         if let Some(task) = selection_command(command, view.as_ref()) {
             self.edit(task);
@@ -176,20 +184,45 @@ impl App {
         }
     }
 
-    /// Aborts dialogs, gesture, tool or selection, in this order; cancels exports and loads.
+    /// Ends the first of these that is there: a dialog, the focus of a field, a gesture, exports and
+    /// loads, a tool, the selection, notices.
     fn cancel(&mut self, ctx: &Context) {
+        let is_typing = ctx.text_edit_focused();
         release_keyboard(ctx);
-        self.dialogs.close_all();
-        if !self.tools.cancel() {
-            self.edit_selection(Command::Deselect);
+        if self.dialogs.close() || is_typing {
+            return;
         }
-        if let Some(job) = self.writer.job() {
+        if self.tools.has_gesture() {
+            let effect = self.tools.cancel_gesture();
+            self.canvas.release_pointer();
+            return self.apply_effect(effect);
+        }
+        if self.cancel_jobs() {
+            return;
+        }
+        let document = self.files.document();
+        if self.tools.tool() != Tool::Select {
+            self.tools.select(Tool::Select);
+        } else if document.is_some_and(|document| !document.selection().is_empty()) {
+            self.edit_selection(Command::Deselect);
+        } else {
+            self.dialogs.notices.clear();
+        }
+    }
+
+    /// Cancels exports and loads. Returns `false` if there are none.
+    fn cancel_jobs(&mut self) -> bool {
+        let export = self.writer.job();
+        if let Some(job) = export {
             job.cancel();
         }
+        let mut is_cancelled = export.is_some();
         let layers = self.files.layers_mut().iter_mut();
         for layer in layers.filter(|layer| layer.load_job().is_some()) {
             layer.cancel_load();
+            is_cancelled = true;
         }
+        is_cancelled
     }
 
     /// Runs an edit of the active document. One that takes longer than a frame continues in the
@@ -207,7 +240,7 @@ impl App {
     pub(super) fn point(&mut self, event: PointerEvent) {
         let Some(context) = tool_context(&self.files, &self.canvas, &self.settings) else {
             if matches!(event, PointerEvent::DragEnded(_)) {
-                self.tools.abort_gesture();
+                self.tools.abort_drag();
             }
             return;
         };

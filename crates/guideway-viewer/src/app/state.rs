@@ -41,6 +41,8 @@ pub(crate) struct App {
     pub(crate) dialogs: Dialogs,
     pub(crate) writer: FileWriter,
     pub(crate) clipboard: Clipboard,
+    /// The title that the window shows.
+    pub(crate) title: String,
     /// Longest time that a frame waits for an edit.
     pub(crate) edit_wait: Duration,
     /// Time that the first frames still wait for a picture.
@@ -70,6 +72,7 @@ impl App {
             dialogs: Dialogs::default(),
             writer: FileWriter::default(),
             clipboard: Clipboard::default(),
+            title: String::new(),
             edit_wait: EDIT_WAIT,
             first_picture_wait: Duration::ZERO,
         };

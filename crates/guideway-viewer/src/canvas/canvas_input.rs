@@ -1,12 +1,14 @@
 //! Pointer, wheel and touch input of the canvas: moves the camera and reports pointer events.
 
 use eframe::egui::{
-    Event, Key, MouseWheelSource, MouseWheelUnit, PointerButton, Pos2, Rect, Response, Sense, Ui,
+    Context, CursorIcon, Event, Key, LayerId, MouseWheelSource, MouseWheelUnit, Order, Pos2, Rect,
+    Response, Sense, Ui,
 };
 use guideway_scene::{FrameSize, View};
 use guideway_spline::Point;
 
 use super::camera::Camera;
+use super::pointer_tracker::{PointerInput, PointerStep, PointerTracker};
 use super::screen::Screen;
 use crate::tools::PointerEvent;
 
@@ -22,6 +24,7 @@ pub(crate) struct Canvas {
     pub(crate) camera: Camera,
     screen: Screen,
     pointer_px: Option<Point<f64>>,
+    pointer: PointerTracker,
     /// Longest side of a texture of this computer, in pixels.
     max_texture_side: u32,
 }
@@ -35,6 +38,7 @@ impl Default for Canvas {
                 px_per_point: 1.0,
             },
             pointer_px: None,
+            pointer: PointerTracker::default(),
             max_texture_side: 0,
         }
     }
@@ -65,9 +69,9 @@ impl Canvas {
         shrunk_to_texture(&self.camera.view()?, self.max_texture_side)
     }
 
-    /// Takes all available space of `ui` and handles its input. Returns pointer events in order.
-    /// With `primary_pans` the primary button pans instead of dragging.
-    pub(crate) fn input(&mut self, ui: &mut Ui, primary_pans: bool) -> Vec<PointerEvent> {
+    /// Takes all available space of `ui`; the wheel and the fingers on it move the camera. Returns
+    /// the end of a drag that a second finger took over.
+    pub(crate) fn show(&mut self, ui: &mut Ui) -> Option<PointerEvent> {
         let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
         let px_per_point = ui.ctx().pixels_per_point();
         self.screen = Screen { rect, px_per_point };
@@ -76,64 +80,68 @@ impl Canvas {
             .resize(size_px.x.round() as u32, size_px.y.round() as u32);
         self.max_texture_side = ui.input(|input| input.max_texture_side) as u32;
         self.pointer_px = response.hover_pos().map(|at| self.screen.pixel(at));
-        let events = self.pointer_events(ui, &response, primary_pans);
+        let was_pressed = self.pointer.is_pressed();
         self.wheel(ui, &response);
         let is_moving = ui.input(|input| input.pointer.any_down() || input.is_scrolling());
         if !is_moving {
             self.camera.settle();
         }
+        (was_pressed && !self.pointer.is_pressed()).then_some(PointerEvent::Cancelled)
+    }
+
+    /// Handles a pointer event of the window. Pans the camera, and returns what reaches the tools.
+    /// With `primary_pans` the primary button pans instead of dragging.
+    pub(crate) fn pointer_events(
+        &mut self,
+        event: &Event,
+        ctx: &Context,
+        primary_pans: bool,
+    ) -> Vec<PointerEvent> {
+        let is_space_down = ctx.input(|input| input.key_down(Key::Space));
+        let input = PointerInput {
+            screen: self.screen,
+            time_s: ctx.input(|input| input.time),
+            modifiers: ctx.input(|input| input.modifiers),
+            is_on_canvas: place_of(event).is_some_and(|at| self.is_uncovered(at, ctx)),
+            primary_pans: primary_pans || (is_space_down && !ctx.text_edit_focused()),
+        };
+        let mut steps = Vec::new();
+        self.pointer.handle(event, &input, &mut steps);
+        let mut events = Vec::new();
+        for step in steps {
+            match step {
+                PointerStep::Pan(by) => self.pan(by),
+                PointerStep::Tool(event) => events.push(event),
+            }
+        }
         events
     }
 
-    fn pointer_events(
-        &mut self,
-        ui: &Ui,
-        response: &Response,
-        primary_pans: bool,
-    ) -> Vec<PointerEvent> {
-        let mut events = Vec::new();
-        let screen = self.screen;
-        let modifiers = ui.input(|input| input.modifiers);
-        // The last movement may arrive in the same frame as the release.
-        let drags = |button| response.dragged_by(button) || response.drag_stopped_by(button);
-        let is_space_down = ui.input(|input| input.key_down(Key::Space));
-        let is_panning = drags(PointerButton::Middle)
-            || drags(PointerButton::Secondary)
-            || (drags(PointerButton::Primary) && (primary_pans || is_space_down));
-        if is_panning {
-            self.pan(ui.input(|input| input.pointer.delta()));
-        } else if response.drag_started_by(PointerButton::Primary)
-            && let Some(origin) = ui.input(|input| input.pointer.press_origin())
-        {
-            events.push(PointerEvent::DragStarted(screen.pixel(origin)));
-        }
-        let at_px = response.interact_pointer_pos().map(|at| screen.pixel(at));
-        if drags(PointerButton::Primary)
-            && !is_panning
-            && let Some(at_px) = at_px
-        {
-            events.push(PointerEvent::Dragged(at_px, modifiers));
-        }
-        if response.drag_stopped_by(PointerButton::Primary) {
-            events.push(PointerEvent::DragEnded(modifiers));
-        }
-        if let Some(at_px) = at_px {
-            if response.clicked() {
-                events.push(PointerEvent::Clicked(at_px, modifiers));
-            }
-            if response.double_clicked() {
-                events.push(PointerEvent::DoubleClicked);
-            }
-        }
-        if !ui.input(|input| input.pointer.any_down()) {
-            events.push(PointerEvent::Hover(self.pointer_px));
-        }
-        if let Some(at_px) = self.pointer_px {
-            let is_pressed = |key| ui.input(|input| input.key_pressed(key));
-            events.extend(is_pressed(Key::Insert).then_some(PointerEvent::InsertPoint(at_px)));
-            events.extend(is_pressed(Key::Backspace).then_some(PointerEvent::RemovePoint(at_px)));
-        }
-        events
+    /// The pixel of the picture under the pointer at the time of the last event.
+    pub(crate) fn event_px(&self, ctx: &Context) -> Option<Point<f64>> {
+        let at = self.pointer.at().filter(|at| self.is_uncovered(*at, ctx))?;
+        Some(self.screen.pixel(at))
+    }
+
+    /// Returns `true` while a button that went down on the canvas is down.
+    pub(crate) fn is_pressed(&self) -> bool {
+        self.pointer.is_pressed()
+    }
+
+    /// The cursor of a drag that pans.
+    pub(crate) fn cursor(&self) -> Option<CursorIcon> {
+        self.pointer.is_panning().then_some(CursorIcon::Grabbing)
+    }
+
+    /// Ends the drag of a pressed button: the rest of it has no effect.
+    pub(crate) fn release_pointer(&mut self) {
+        self.pointer.release();
+    }
+
+    /// Returns `true` if a point of the window is on the canvas, and no menu or dialog is over it.
+    fn is_uncovered(&self, at: Pos2, ctx: &Context) -> bool {
+        let is_covered = |layer: LayerId| layer.order != Order::Background;
+        self.screen.rect.contains(at) && !ctx.layer_id_at(at).is_some_and(is_covered)
     }
 
     /// Pans by points of the window.
@@ -153,6 +161,8 @@ impl Canvas {
             )
         });
         if let Some(touch) = touch {
+            // The first finger also acts as the pointer.
+            self.pointer.release();
             self.pan(touch.translation_delta);
             let at_px = self.screen.pixel(touch.center_pos);
             self.camera.zoom(f64::from(touch.zoom_delta), at_px);
@@ -197,6 +207,14 @@ impl Canvas {
             self.camera
                 .zoom(ZOOM_PER_NOTCH.powf(f64::from(notches)), at_px);
         }
+    }
+}
+
+/// The place of a pointer event in the window.
+fn place_of(event: &Event) -> Option<Pos2> {
+    match *event {
+        Event::PointerMoved(at) | Event::PointerButton { pos: at, .. } => Some(at),
+        _ => None,
     }
 }
 

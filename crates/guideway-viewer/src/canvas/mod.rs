@@ -2,7 +2,7 @@
 //!
 //! | part | input | output | file |
 //! |---|---|---|---|
-//! | [`Canvas`] | pointer, wheel, touch | camera moves, pointer events | `canvas_input` |
+//! | [`Canvas`] | pointer, wheel, touch | camera moves, pointer events | `canvas_input`, `pointer_tracker` |
 //! | [`Camera`](camera::Camera) | pan, zoom, fit | view, view history | `camera` |
 //! | [`CanvasPainter`] | pictures, draw lists, gesture | shapes of egui | `canvas_painter` |
 //!
@@ -15,6 +15,7 @@ mod canvas_painter;
 mod draft;
 mod paint_draw_list;
 mod paint_gesture;
+mod pointer_tracker;
 mod screen;
 mod shape_text;
 

@@ -8,7 +8,7 @@ use guideway_layout::shown_path;
 
 use super::journal_file::JournalFile;
 use super::notice::Notice;
-use super::unsaved_work::UnsavedWork;
+use super::unsaved_work::{UnsavedSummary, UnsavedWork};
 
 /// The journal of a document. It moves between threads with its document.
 #[derive(Default)]
@@ -51,9 +51,12 @@ impl Journal {
 
     /// Returns `true` if unsaved work of an earlier run awaits a decision.
     pub(crate) fn has_unsaved_work(&self) -> bool {
-        self.file
-            .as_ref()
-            .is_some_and(JournalFile::has_unsaved_work)
+        self.unsaved_summary().is_some()
+    }
+
+    /// Unsaved work of an earlier run that awaits a decision.
+    pub(crate) fn unsaved_summary(&self) -> Option<UnsavedSummary> {
+        self.file.as_ref()?.unsaved_summary()
     }
 
     /// Unsaved work of an earlier run.

@@ -22,7 +22,7 @@ use guideway_compose::lock_regular_file;
 use guideway_document::{Document, JournalEntry, ReplayProgress};
 
 use super::journal_header::{HEADER_BYTES, header, read_header};
-use super::unsaved_work::{UnsavedWork, read_entries};
+use super::unsaved_work::{UnsavedSummary, UnsavedWork, read_entries};
 
 /// A journal file. It is created with the first entry, or before the first save.
 pub(crate) struct JournalFile {
@@ -30,8 +30,8 @@ pub(crate) struct JournalFile {
     base: PathBuf,
     /// Open and locked; `None` until it is created.
     file: Option<File>,
-    /// True if unsaved work of an earlier run awaits a decision.
-    has_unsaved_work: bool,
+    /// Unsaved work of an earlier run that awaits a decision.
+    unsaved: Option<UnsavedSummary>,
     /// Destination of unsaved work that does not match the layout file.
     mismatched_copy: Option<PathBuf>,
 }
@@ -47,7 +47,7 @@ impl JournalFile {
             journal: sibling(layout_file, "journal"),
             base: sibling(layout_file, "base"),
             file: None,
-            has_unsaved_work: false,
+            unsaved: None,
             mismatched_copy: None,
         };
         let mut file = match lock_regular_file(&opened.journal, false) {
@@ -56,12 +56,14 @@ impl JournalFile {
             Err(error) => return Err(error),
         };
         let unsaved = find_unsaved(&mut file, layout_file).unwrap_or_default();
-        opened.has_unsaved_work = unsaved == Some(Match::Same);
+        if unsaved == Some(Match::Same) {
+            opened.unsaved = Some(UnsavedSummary::of(&mut file)?);
+        }
         opened.file = Some(file);
         if unsaved == Some(Match::Other) {
             opened.move_aside();
         }
-        if !opened.has_unsaved_work {
+        if opened.unsaved.is_none() {
             // A journal without unsaved entries is of no use.
             opened.delete();
         }
@@ -83,14 +85,14 @@ impl JournalFile {
         self.mismatched_copy.as_deref()
     }
 
-    /// Returns `true` if unsaved work of an earlier run awaits a decision.
-    pub(crate) fn has_unsaved_work(&self) -> bool {
-        self.has_unsaved_work
+    /// Unsaved work of an earlier run that awaits a decision.
+    pub(crate) fn unsaved_summary(&self) -> Option<UnsavedSummary> {
+        self.unsaved
     }
 
     /// Unsaved work of an earlier run. It stays on disk until it is recovered or discarded.
     pub(crate) fn unsaved_work(&self, layout_file: &Path) -> Option<UnsavedWork> {
-        let file = self.file.as_ref().filter(|_| self.has_unsaved_work)?;
+        let file = self.file.as_ref().filter(|_| self.unsaved.is_some())?;
         let base = match self.base.exists() {
             true => &self.base,
             false => layout_file,
@@ -121,7 +123,7 @@ impl JournalFile {
         }
         file.set_len(end)?;
         file.seek(SeekFrom::End(0))?;
-        self.has_unsaved_work = false;
+        self.unsaved = None;
         Ok(is_all)
     }
 
@@ -130,7 +132,7 @@ impl JournalFile {
     /// # Errors
     /// When the journal cannot be written, or another window has it.
     pub(crate) fn record(&mut self, document: &mut Document, layout_file: &Path) -> io::Result<()> {
-        if self.has_unsaved_work {
+        if self.unsaved.is_some() {
             return Ok(());
         }
         let entries = document.take_journal_entries();
@@ -190,7 +192,7 @@ impl JournalFile {
             journal: sibling(layout_file, "journal"),
             base: sibling(layout_file, "base"),
             file: None,
-            has_unsaved_work: false,
+            unsaved: None,
             mismatched_copy: None,
         };
         if let Some(file) = &mut self.file {
@@ -215,7 +217,7 @@ impl JournalFile {
 
     /// Deletes journal and base, which this window owns.
     pub(super) fn delete(&mut self) {
-        self.has_unsaved_work = false;
+        self.unsaved = None;
         if let Some(_locked) = self.file.take() {
             for path in [&self.base, &self.journal] {
                 // Either may be absent.

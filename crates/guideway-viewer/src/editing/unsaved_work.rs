@@ -3,12 +3,38 @@
 use std::fs::File;
 use std::io::{self, Read, Seek};
 use std::path::PathBuf;
+use std::time::SystemTime;
 
-use guideway_document::{Document, ReplayProgress, replay};
+use guideway_document::{Document, ReplayProgress, count_records, replay};
 use guideway_layout::{UserError, shown_path};
 
 use super::journal_header::read_header;
 use crate::services::{Job, WINDOW_ERROR};
+
+/// The size and age of unsaved work.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct UnsavedSummary {
+    /// Entries behind those that are saved.
+    pub(crate) steps: u64,
+    /// Time of the last entry.
+    pub(crate) last_written: SystemTime,
+}
+
+impl UnsavedSummary {
+    /// The summary of a journal, from its start.
+    ///
+    /// # Errors
+    /// When the journal cannot be read.
+    pub(super) fn of(journal: &mut File) -> io::Result<Self> {
+        journal.rewind()?;
+        let (_, saved_bytes) = read_header(journal)?;
+        journal.seek_relative(saved_bytes.cast_signed())?;
+        Ok(Self {
+            steps: count_records(journal)?,
+            last_written: journal.metadata()?.modified()?,
+        })
+    }
+}
 
 /// A journal that an earlier run left, and its base file.
 pub(crate) struct UnsavedWork {

@@ -175,6 +175,7 @@ impl Layer {
         self.tasks.set_options(options.clone());
         let LayerContext { services, repaint } = context.clone();
         let path = self.path.clone();
+        self.save.begin_load(services.file_stamp(&path));
         self.loader = Some(Loader::start(services, path, unsaved, options, repaint));
     }
 
@@ -192,13 +193,14 @@ impl Layer {
     pub(crate) fn end_save(
         &mut self,
         saved_as: Option<PathBuf>,
-        repaint: &RepaintHandle,
+        context: &LayerContext,
     ) -> Option<LayerEvent> {
         if let Some(path) = &saved_as {
             self.path.clone_from(path);
         }
-        let complete = self.save.end(saved_as);
-        self.run(complete, EDIT_WAIT, repaint)
+        let state = context.services.file_stamp(&self.path);
+        let complete = self.save.end(saved_as, state);
+        self.run(complete, EDIT_WAIT, &context.repaint)
     }
 
     /// Deletes the journal: its work is saved or unwanted.
@@ -341,6 +343,7 @@ impl Layer {
             events.push(LayerEvent::Notice(changed_on_disk(&self.name())));
             return;
         }
+        self.save.complete_load();
         let notice = match done {
             Some(done) => self.slot.journal_mut().resume(done, &self.path),
             None => {

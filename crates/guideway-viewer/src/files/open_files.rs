@@ -61,6 +61,11 @@ impl OpenFiles {
         self.layers.get_mut(self.active)
     }
 
+    /// The index of the file at `path`.
+    pub(crate) fn index_of(&self, path: &Path) -> Option<usize> {
+        self.layers.iter().position(|layer| layer.is_at(path))
+    }
+
     /// The document that is edited, unless it is not loaded or an edit has it.
     pub(crate) fn document(&self) -> Option<&Document> {
         self.active()?.document()
@@ -102,7 +107,7 @@ impl OpenFiles {
 
     /// Opens a file, or activates it if it is open.
     pub(crate) fn open(&mut self, path: PathBuf, method: &str, options: SceneOptions) {
-        if let Some(index) = self.layers.iter().position(|layer| layer.is_at(&path)) {
+        if let Some(index) = self.index_of(&path) {
             self.active = index;
             return;
         }
@@ -201,7 +206,7 @@ impl OpenFiles {
             return Vec::new();
         };
         let is_written = saved_as.is_some();
-        let event = self.layers[index].end_save(saved_as, &self.context.repaint);
+        let event = self.layers[index].end_save(saved_as, &self.context);
         self.is_watch_outdated = true;
         let mut notices = Vec::new();
         if let Some(LayerEvent::Notice(notice)) = event {

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use guideway_document::Snapshot;
 
-use super::watcher::{Stamp, stamp};
+use super::watcher::Stamp;
 use crate::editing::{DocumentSlot, EditTask};
 
 /// True if a file is being saved or reloaded, and its state on disk after the last save.
@@ -16,6 +16,10 @@ pub(crate) struct SaveState {
     drops_changes: bool,
     /// State of the file after the last save from this window.
     written: Stamp,
+    /// State of the file that the document stands for: as it was read or saved here.
+    known: Stamp,
+    /// State of the file at the start of the load in progress.
+    loading: Stamp,
 }
 
 impl SaveState {
@@ -35,6 +39,22 @@ impl SaveState {
 
     pub(super) fn drops_changes(&self) -> bool {
         self.drops_changes
+    }
+
+    /// Returns `true` if another program has changed the file, now in this state, since it was read
+    /// or saved here. A file that is gone holds nothing to lose.
+    pub(crate) fn is_changed_by_others(&self, state: Stamp) -> bool {
+        state.is_some() && state != self.known
+    }
+
+    /// Begins to read the file in this state.
+    pub(super) fn begin_load(&mut self, state: Stamp) {
+        self.loading = state;
+    }
+
+    /// The document is that of the file at the start of the load.
+    pub(super) fn complete_load(&mut self) {
+        self.known = self.loading;
     }
 
     pub(super) fn begin_reload(&mut self, drops_changes: bool) {
@@ -71,12 +91,13 @@ impl SaveState {
         Some((snapshot, notices.collect()))
     }
 
-    /// Ends a save. Returns the edit that completes it in the document and its journal.
-    pub(super) fn end(&mut self, saved_as: Option<PathBuf>) -> EditTask {
+    /// Ends a save; with a path, the layout was written there, into this state. Returns the edit that
+    /// completes it in the document and its journal.
+    pub(super) fn end(&mut self, saved_as: Option<PathBuf>, state: Stamp) -> EditTask {
         self.is_saving = false;
         match saved_as {
             Some(path) => {
-                self.written = stamp(&path);
+                (self.written, self.known) = (state, state);
                 EditTask::with_journal(move |_, journal| journal.complete_save(&path))
             }
             None => EditTask::with_journal(|document, journal| {
@@ -111,7 +132,12 @@ mod tests {
         assert!(save.begin(&mut slot, file).is_some() && save.is_saving());
         assert!(!slot.document().unwrap().is_changed());
         let repaint: RepaintHandle = Arc::new(|| {});
-        slot.run(save.end(None), Duration::from_secs(60), file, &repaint);
+        slot.run(
+            save.end(None, None),
+            Duration::from_secs(60),
+            file,
+            &repaint,
+        );
         assert!(slot.document().unwrap().is_changed() && !save.is_written());
     }
 

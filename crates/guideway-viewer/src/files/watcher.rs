@@ -1,13 +1,13 @@
 //! Detects files that other programs changed, by polling their time and size.
 
 use std::collections::HashMap;
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
 use std::thread;
-use std::time::{Duration, SystemTime};
+use std::time::Duration;
 
 use crate::background::RepaintHandle;
+use crate::services::FileStamp;
 
 /// Polling interval. Polling works on every disk and network file system and sees replaced files;
 /// notifications of the operating system do not.
@@ -19,8 +19,8 @@ pub(crate) struct Watcher {
     changed: Receiver<(PathBuf, Stamp)>,
 }
 
-/// Time and size of a file, which identify its state; `None` without a file.
-pub(crate) type Stamp = Option<(SystemTime, u64)>;
+/// The state of a file; `None` without a file.
+pub(crate) type Stamp = Option<FileStamp>;
 
 impl Watcher {
     pub(crate) fn start(repaint: RepaintHandle) -> Self {
@@ -67,7 +67,7 @@ struct FileStates {
 impl FileStates {
     fn set_files(&mut self, files: Vec<PathBuf>) {
         let state = |file: PathBuf| {
-            let stamp = stamp(&file);
+            let stamp = FileStamp::of(&file);
             (file, (stamp, stamp))
         };
         self.files = files.into_iter().map(state).collect();
@@ -78,7 +78,7 @@ impl FileStates {
     fn poll(&mut self) -> Vec<(PathBuf, Stamp)> {
         let mut changed = Vec::new();
         for (file, (reported, seen)) in &mut self.files {
-            let now = stamp(file);
+            let now = FileStamp::of(file);
             if now == *seen && now != *reported && now.is_some() {
                 *reported = now;
                 changed.push((file.clone(), now));
@@ -89,13 +89,10 @@ impl FileStates {
     }
 }
 
-pub(crate) fn stamp(file: &Path) -> Stamp {
-    let metadata = fs::metadata(file).ok()?;
-    Some((metadata.modified().ok()?, metadata.len()))
-}
-
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
 
     #[test]
@@ -108,7 +105,7 @@ mod tests {
         assert!(states.poll().is_empty());
         fs::write(&file, "12").unwrap();
         assert!(states.poll().is_empty(), "it may still be written");
-        assert_eq!(states.poll(), [(file.clone(), stamp(&file))]);
+        assert_eq!(states.poll(), [(file.clone(), FileStamp::of(&file))]);
         assert!(states.poll().is_empty(), "reported once");
         fs::remove_file(&file).unwrap();
         assert!(
@@ -117,6 +114,6 @@ mod tests {
         );
         fs::write(&file, "123").unwrap();
         states.poll();
-        assert_eq!(states.poll(), [(file.clone(), stamp(&file))]);
+        assert_eq!(states.poll(), [(file.clone(), FileStamp::of(&file))]);
     }
 }

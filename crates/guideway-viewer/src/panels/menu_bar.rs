@@ -2,10 +2,11 @@
 
 use std::time::Duration;
 
-use eframe::egui::{self, Button, Context, ProgressBar, Ui};
+use eframe::egui::{self, Button, ProgressBar, Ui};
 
 use crate::action::Action;
-use crate::command::{Command, ENTRIES, MENUS};
+use crate::command::{Command, MENUS, Menu, shortcuts_of};
+use crate::display_settings::DisplaySettings;
 use crate::files::{FileWriter, OpenFiles};
 use crate::services::Job;
 use crate::tools::Tool;
@@ -14,32 +15,13 @@ use crate::tools::Tool;
 /// processor, which the load itself needs.
 const PROGRESS_INTERVAL: Duration = Duration::from_millis(500);
 
-/// The commands whose shortcuts are pressed. While a text field has the focus, these are shortcuts
-/// with Ctrl that the field does not use itself, and Cancel.
-pub(crate) fn pressed_commands(ctx: &Context) -> Vec<Command> {
-    let is_typing = ctx.text_edit_focused();
-    let is_active = |command: Command, has_ctrl: bool| {
-        !is_typing || command == Command::Cancel || (has_ctrl && !is_text_command(command))
-    };
-    let pressed = ENTRIES.iter().filter(|entry| {
-        is_active(entry.command, entry.shortcut.modifiers.command)
-            && ctx.input_mut(|input| input.consume_shortcut(&entry.shortcut))
-    });
-    pressed.map(|entry| entry.command).collect()
-}
-
-/// Returns `true` if a text field handles the shortcut itself.
-fn is_text_command(command: Command) -> bool {
-    matches!(
-        command,
-        Command::Undo | Command::Redo | Command::SelectAll | Command::CopyPicture
-    )
-}
-
 /// The content of the menu bar.
 pub(crate) struct MenuBar<'a> {
     pub(crate) files: &'a OpenFiles,
     pub(crate) writer: &'a FileWriter,
+    pub(crate) settings: &'a DisplaySettings,
+    /// True if swept areas are shown.
+    pub(crate) has_swept_areas: bool,
     pub(crate) tool: Tool,
 }
 
@@ -48,8 +30,8 @@ impl MenuBar<'_> {
     pub(crate) fn show(&self, ui: &mut Ui) -> Vec<Action> {
         let mut actions = Vec::new();
         egui::MenuBar::new().ui(ui, |ui| {
-            for menu in MENUS {
-                ui.menu_button(menu, |ui| actions.extend(self.menu(menu, ui)));
+            for menu in &MENUS {
+                ui.menu_button(menu.name, |ui| actions.extend(self.menu(menu, ui)));
             }
             ui.separator();
             for (tool, name) in [
@@ -78,29 +60,114 @@ impl MenuBar<'_> {
         actions
     }
 
-    fn menu(&self, menu: &str, ui: &mut Ui) -> Option<Action> {
-        let document = self.files.document();
-        let steps = document.map_or((None, None), |document| document.undo_redo_names());
-        let mut action = None;
-        let mut listed = Vec::new();
-        for entry in ENTRIES.iter().filter(|entry| entry.menu == menu) {
-            // A command with two shortcuts is listed once.
-            if listed.contains(&entry.command) {
-                continue;
+    fn menu(&self, menu: &Menu, ui: &mut Ui) -> Option<Action> {
+        let mut chosen = None;
+        for (number, group) in menu.groups.iter().enumerate() {
+            if number > 0 {
+                ui.separator();
             }
-            listed.push(entry.command);
-            let label = match (entry.command, steps) {
-                (Command::Undo, (Some(step), _)) => format!("Undo: {step}"),
-                (Command::Redo, (_, Some(step))) => format!("Redo: {step}"),
-                _ => entry.label.to_owned(),
-            };
-            let shortcut = ui.ctx().format_shortcut(&entry.shortcut);
-            if ui.add(Button::new(label).shortcut_text(shortcut)).clicked() {
-                action = Some(Action::Command(entry.command));
+            for &command in *group {
+                let mut button = Button::new(self.label(command)).selected(self.is_on(command));
+                if let Some(shortcut) = shortcuts_of(command).next() {
+                    button = button.shortcut_text(ui.ctx().format_shortcut(shortcut));
+                }
+                if ui.add_enabled(self.is_possible(command), button).clicked() {
+                    chosen = Some(Action::Command(command));
+                }
             }
         }
-        action
+        chosen
     }
+
+    /// The text of a command; undo and redo name their step.
+    fn label(&self, command: Command) -> String {
+        let document = self.files.document();
+        let (undo, redo) = document.map_or((None, None), |document| document.undo_redo_names());
+        let step = match command {
+            Command::Undo => undo,
+            Command::Redo => redo,
+            _ => None,
+        };
+        let label = command.label();
+        step.map_or_else(|| label.to_owned(), |step| format!("{label}: {step}"))
+    }
+
+    /// Returns `true` if a command has something to act on.
+    fn is_possible(&self, command: Command) -> bool {
+        let Some(layer) = self.files.active() else {
+            return !needs_file(command);
+        };
+        // While an edit has the document, what comes after it is not known.
+        let Some(document) = layer.document() else {
+            return true;
+        };
+        let (undo, redo) = document.undo_redo_names();
+        match command {
+            Command::Undo => undo.is_some(),
+            Command::Redo => redo.is_some(),
+            Command::ShowAll => document.scene().hidden_count() > 0,
+            Command::NextFile => self.files.layers().len() > 1,
+            Command::FinishPath => self.tool == Tool::Draw,
+            command if needs_selection(command) => !document.selection().is_empty(),
+            _ => true,
+        }
+    }
+
+    /// Returns `true` if a command is a switch that is on.
+    fn is_on(&self, command: Command) -> bool {
+        match command {
+            Command::Arrows => self.settings.has_arrows,
+            Command::Symbols => self.settings.has_symbols,
+            Command::Labels => self.settings.has_labels,
+            Command::Grid => self.settings.has_grid,
+            Command::Density => self.settings.is_density,
+            Command::ThesisRule => self.settings.is_thesis_rule,
+            Command::Dark => self.settings.is_dark,
+            Command::SweptAreas => self.has_swept_areas,
+            Command::ToolSelect => self.tool == Tool::Select,
+            Command::ToolPoints => self.tool == Tool::Points,
+            Command::ToolDraw => self.tool == Tool::Draw,
+            Command::ToolMeasure => self.tool == Tool::Measure,
+            _ => false,
+        }
+    }
+}
+
+fn needs_selection(command: Command) -> bool {
+    matches!(
+        command,
+        Command::Deselect
+            | Command::Delete
+            | Command::Duplicate
+            | Command::RotateLeft
+            | Command::FlipHorizontal
+            | Command::FlipVertical
+            | Command::Refine
+            | Command::ZoomToSelection
+            | Command::Hide
+            | Command::Isolate
+    )
+}
+
+fn needs_file(command: Command) -> bool {
+    needs_selection(command)
+        || matches!(
+            command,
+            Command::Reload
+                | Command::Save
+                | Command::SaveAs
+                | Command::ExportPng
+                | Command::ExportSvg
+                | Command::CopyPicture
+                | Command::Close
+                | Command::Undo
+                | Command::Redo
+                | Command::SelectAll
+                | Command::Find
+                | Command::NextFile
+                | Command::ShowAll
+                | Command::FinishPath
+        )
 }
 
 /// A progress bar with a button that cancels the job.

@@ -16,6 +16,6 @@ mod side_panel;
 mod status_bar;
 
 pub(crate) use findings_panel::FindingsPanel;
-pub(crate) use menu_bar::{MenuBar, pressed_commands};
+pub(crate) use menu_bar::MenuBar;
 pub(crate) use side_panel::SidePanel;
 pub(crate) use status_bar::StatusBar;

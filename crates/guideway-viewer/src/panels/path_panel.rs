@@ -1,4 +1,4 @@
-//! The Path section: shape, curvature and attributes of the path under the pointer.
+//! The Path section: shape, curvature and attributes of the selected path.
 
 use eframe::egui::{Grid, Label, Pos2, Sense, Shape, Stroke, Ui, Vec2};
 use guideway_document::Document;
@@ -7,31 +7,24 @@ use guideway_layout::Paths;
 
 use crate::canvas::shape_text;
 use crate::files::OpenFiles;
-use crate::tools::{MAX_HOVER_CANDIDATES, Tools};
 
 /// Longest list of attributes.
 const MAX_ATTRIBUTES: usize = 40;
 const PLOT_HEIGHT: f32 = 48.0;
 
-/// Shows the path under the pointer, or else the only selected one.
-pub(super) fn show(ui: &mut Ui, files: &OpenFiles, tools: &Tools) {
+/// Shows the selected path, if there is exactly one: what the pointer hovers over is in the status
+/// bar, so that the panel keeps still.
+pub(super) fn show(ui: &mut Ui, files: &OpenFiles) {
     let Some(document) = files.document() else {
         return;
     };
     let selected = document.selection();
-    let only = selected.min().filter(|_| selected.len() == 1);
-    let hovered = tools.hovered(Some(document));
-    let Some(row) = hovered.map(|hit| hit.path).or(only) else {
-        ui.label("Hover over a path or select one");
+    let Some(row) = selected.min().filter(|_| selected.len() == 1) else {
+        ui.label("Select one path to see its properties");
         return;
     };
     let path = document.layout().paths.get(row as usize);
     ui.strong(path.id());
-    let reverse = hovered.and_then(|hit| document.reverse_path_at(hit, MAX_HOVER_CANDIDATES));
-    if let Some(reverse) = reverse {
-        let id = document.layout().paths.id(reverse as usize);
-        ui.label(format!("Reverse path: {id} (click again to select it)"));
-    }
     let bends = bends(path);
     ui.label(shape_text(path, &bends));
     plot_curvature(ui, &bends);

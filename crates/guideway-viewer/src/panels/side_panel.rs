@@ -33,7 +33,7 @@ impl SidePanel<'_> {
         section("Files", true).show(ui, |ui| {
             files_panel::show(ui, self.files, self.floor_plan, &mut actions);
         });
-        section("Path", true).show(ui, |ui| path_panel::show(ui, self.files, self.tools));
+        section("Path", true).show(ui, |ui| path_panel::show(ui, self.files));
         section("Selection", true).show(ui, |ui| {
             let (tools, exact_edit) = (&mut *self.tools, &mut *self.exact_edit);
             selection_panel::show(ui, self.files, tools, exact_edit, &mut actions);

@@ -5,7 +5,7 @@ use eframe::egui::{Label, Ui};
 use crate::canvas::Canvas;
 use crate::display_settings::DisplaySettings;
 use crate::files::OpenFiles;
-use crate::tools::{Tool, Tools};
+use crate::tools::{MAX_HOVER_CANDIDATES, Tool, Tools};
 
 /// The content of the status bar.
 pub(crate) struct StatusBar<'a> {
@@ -41,8 +41,16 @@ impl StatusBar<'_> {
             }
             let document = self.files.document();
             if let (Some(hit), Some(document)) = (self.tools.hovered(document), document) {
-                let id = document.layout().paths.id(hit.path as usize);
-                ui.add(Label::new(id).truncate());
+                let id = |path: u32| document.layout().paths.id(path as usize);
+                let text = match document.reverse_path_at(hit, MAX_HOVER_CANDIDATES) {
+                    Some(reverse) => format!(
+                        "{} (a second click selects the reverse path {})",
+                        id(hit.path),
+                        id(reverse)
+                    ),
+                    None => id(hit.path).to_owned(),
+                };
+                ui.add(Label::new(text).truncate());
             }
         });
     }

@@ -7,7 +7,7 @@ use guideway_envelope::EnvelopeSource;
 use guideway_layout::{Layout, UserError};
 use guideway_scene::{Frame, Method, View};
 
-use super::{Job, PictureRequest};
+use super::{FileStamp, Job, PictureRequest};
 
 /// Files, pictures and render methods, as the window calls them. Calls come from several threads.
 pub trait AppServices: Send + Sync {
@@ -29,6 +29,12 @@ pub trait AppServices: Send + Sync {
     /// # Errors
     /// When the format has no writer, or the file cannot be written.
     fn save_layout(&self, layout: &Layout, path: &Path) -> Result<Vec<String>, UserError>;
+
+    /// The state of a file on disk, by which changes of other programs are noticed; `None` without
+    /// a file.
+    fn file_stamp(&self, path: &Path) -> Option<FileStamp> {
+        FileStamp::of(path)
+    }
 
     /// Reads a floor plan. `plan` is a file name with an optional placement, such as
     /// `hall.png@px-per-m=20` or `map.yaml`.

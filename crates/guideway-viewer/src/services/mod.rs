@@ -4,11 +4,13 @@
 //! [`AppServices`].
 
 mod app_services;
+mod file_stamp;
 mod job;
 mod picture_request;
 mod window_error;
 
 pub use app_services::{AppServices, LoadStage, MethodChoice};
+pub use file_stamp::FileStamp;
 pub use job::Job;
 pub use picture_request::{PictureRequest, SweptAreas};
 pub(crate) use window_error::WINDOW_ERROR;

@@ -61,6 +61,13 @@ fn file_being_saved_is_neither_closed_nor_reloaded() {
     window.key(CTRL, Key::S);
     assert!(!window.document().is_changed() && window.app().files.layers()[0].is_changed());
     window.key(CTRL, Key::W);
+    assert!(
+        window
+            .harness
+            .query_by_label("Close without saving")
+            .is_some()
+    );
+    window.key(NONE, Key::Escape);
     window.app().reload(0, true);
     assert!(
         !window.app().files.layers()[0].is_loading(),
@@ -192,6 +199,7 @@ fn asks_before_discarding_unsaved_changes() {
     window.key(NONE, Key::Delete);
     window.key(CTRL, Key::W);
     assert_eq!(window.app().files.layers().len(), 1, "the file stays open");
+    window.key(NONE, Key::Escape);
     window.key(CTRL, Key::Q);
     assert!(
         window

@@ -9,6 +9,7 @@ mod methods;
 mod random_input;
 mod random_run;
 mod recovery;
+mod safety;
 pub(crate) mod services;
 mod soak;
 mod test_window;

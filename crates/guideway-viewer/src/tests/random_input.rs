@@ -3,7 +3,7 @@
 use eframe::egui::{Event, Key, Modifiers, Pos2, Vec2};
 
 use super::test_window::TestWindow;
-use crate::command::{Command, ENTRIES};
+use crate::command::{Command, SHORTCUTS};
 
 /// SplitMix64 (Steele, Lea, Flood 2014).
 pub(super) struct RandomSource(pub(super) u64);
@@ -86,16 +86,16 @@ fn resize(window: &mut TestWindow, random: &mut RandomSource) {
 
 /// Presses the shortcut of a random command that neither ends the run nor reads or writes files.
 fn press(window: &mut TestWindow, random: &mut RandomSource) {
-    let entry = &ENTRIES[random.below(ENTRIES.len())];
+    let (command, shortcut) = &SHORTCUTS[random.below(SHORTCUTS.len())];
     let geometry = window.document().layout().paths.geometry();
-    let is_too_large = matches!(entry.command, Command::Duplicate | Command::Refine)
+    let is_too_large = matches!(command, Command::Duplicate | Command::Refine)
         && geometry.point_count() > MAX_POINTS;
     let ends_the_run = matches!(
-        entry.command,
+        command,
         Command::Quit | Command::Close | Command::Reload | Command::Save | Command::SaveAs
     );
     if !is_too_large && !ends_the_run {
-        window.key(entry.shortcut.modifiers, entry.shortcut.logical_key);
+        window.key(shortcut.modifiers, shortcut.logical_key);
     }
 }
 

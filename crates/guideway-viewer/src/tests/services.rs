@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
-use std::time::Duration;
+use std::time::{Duration, SystemTime};
 
 use guideway_compose::FloorPlan;
 use guideway_cpu::Cpu;
@@ -17,7 +17,7 @@ use guideway_scene::{
 use guideway_scene::{Edit, Scene};
 use guideway_spline::{Point, Runs};
 
-use crate::services::{AppServices, Job, MethodChoice, PictureRequest, WINDOW_ERROR};
+use crate::services::{AppServices, FileStamp, Job, MethodChoice, PictureRequest, WINDOW_ERROR};
 use guideway_layout::UserError;
 
 /// Files in memory and switches for faults.
@@ -28,6 +28,8 @@ pub(crate) struct TestServices {
     pub(crate) is_full: Mutex<bool>,
     /// True if reading and writing block.
     pub(crate) is_blocked: Mutex<bool>,
+    /// Number of writes of each file.
+    pub(crate) writes: Mutex<HashMap<PathBuf, u64>>,
     /// The state folder.
     pub(crate) state: Mutex<Option<PathBuf>>,
     /// Paths of the last rendered swept areas.
@@ -92,6 +94,25 @@ impl TestServices {
             std::thread::sleep(Duration::from_millis(1));
         }
         Ok(())
+    }
+
+    /// Replaces a file, as another program does.
+    pub(crate) fn overwrite(&self, path: &str, layout: Layout) {
+        let mut files = self
+            .files
+            .lock()
+            .expect("no test panics while it holds the lock");
+        files.insert(path.into(), layout);
+        drop(files);
+        self.note_write(Path::new(path));
+    }
+
+    fn note_write(&self, path: &Path) {
+        let mut writes = self
+            .writes
+            .lock()
+            .expect("no test panics while it holds the lock");
+        *writes.entry(path.to_owned()).or_default() += 1;
     }
 
     fn error(message: &str) -> UserError {
@@ -163,6 +184,21 @@ impl AppServices for TestServices {
         }
     }
 
+    fn file_stamp(&self, path: &Path) -> Option<FileStamp> {
+        let writes = self
+            .writes
+            .lock()
+            .expect("no test panics while it holds the lock");
+        let files = self
+            .files
+            .lock()
+            .expect("no test panics while it holds the lock");
+        files.contains_key(path).then(|| FileStamp {
+            modified: SystemTime::UNIX_EPOCH,
+            bytes: writes.get(path).copied().unwrap_or(0),
+        })
+    }
+
     fn save_layout(&self, layout: &Layout, path: &Path) -> Result<Vec<String>, UserError> {
         self.wait_for_disk(&Job::default())?;
         if *self
@@ -177,6 +213,8 @@ impl AppServices for TestServices {
             .lock()
             .expect("no test panics while it holds the lock");
         files.insert(path.to_owned(), layout.clone());
+        drop(files);
+        self.note_write(path);
         Ok(vec!["the format is a test".into()])
     }
 

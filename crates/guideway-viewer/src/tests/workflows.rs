@@ -253,7 +253,7 @@ fn clicks_alternate_between_the_paths_of_a_reverse_pair() {
         assert!(
             window
                 .harness
-                .query_by_label_contains("Reverse path: lane 1")
+                .query_by_label_contains("the reverse path lane 1")
                 .is_some()
         );
     }

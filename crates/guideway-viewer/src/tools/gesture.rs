@@ -1,6 +1,7 @@
 //! The gesture in progress.
 
-use guideway_document::PointRef;
+use eframe::egui::Modifiers;
+use guideway_document::{Document, PointRef};
 use guideway_spline::Point;
 
 /// The gesture in progress. Screen positions are pixels from the upper left corner of the picture.
@@ -26,14 +27,40 @@ pub(crate) enum Gesture {
     Node {
         node: u32,
         from_m: Point<f64>,
-        has_moved: bool,
+        progress: DragProgress,
     },
     /// Moves a control point; the layout follows at once.
     Handle {
         point: PointRef,
         from_m: Point<f64>,
-        has_moved: bool,
+        progress: DragProgress,
     },
     /// Points of a path that is drawn or measured.
     Points(Vec<Point<f64>>),
+}
+
+/// The edits of a drag that the layout follows at once.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct DragProgress {
+    /// The state of the document before the drag. Each edit of the drag starts from it, so that the
+    /// whole drag is one step to undo.
+    pub(super) before: u64,
+    /// The last place of the pointer, in pixels, while an earlier edit had the document.
+    pub(super) missed: Option<(Point<f64>, Modifiers)>,
+}
+
+impl DragProgress {
+    pub(super) fn begin(document: &Document) -> Self {
+        Self {
+            before: document.state(),
+            missed: None,
+        }
+    }
+
+    /// Takes back what the drag did so far.
+    pub(super) fn take_back(self, document: &mut Document) {
+        if document.state() != self.before {
+            document.undo();
+        }
+    }
 }

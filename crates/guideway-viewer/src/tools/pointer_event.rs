@@ -14,6 +14,8 @@ pub(crate) enum PointerEvent {
     Dragged(Point<f64>, Modifiers),
     /// The primary button went up after a drag.
     DragEnded(Modifiers),
+    /// The other button went down during a drag.
+    Cancelled,
     Clicked(Point<f64>, Modifiers),
     DoubleClicked,
     /// The key that inserts a control point was pressed.

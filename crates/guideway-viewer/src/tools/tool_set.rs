@@ -1,10 +1,10 @@
 //! The selected tool and its gesture: turns pointer events into edits.
 
-use eframe::egui::Modifiers;
+use eframe::egui::{CursorIcon, Modifiers};
 use guideway_document::{Document, Hit, PathSet, SelectMode};
 use guideway_spline::{Affine, Bounds, Point};
 
-use super::gesture::Gesture;
+use super::gesture::{DragProgress, Gesture};
 use super::hit_test::{MAX_HOVER_CANDIDATES, hit_end, hit_handle};
 use super::pointer_event::PointerEvent;
 use super::snapping::{snap_move, snap_point, snap_to_node};
@@ -44,26 +44,65 @@ impl Tools {
         self.tool = tool;
     }
 
-    /// Aborts the gesture in progress.
-    pub(crate) fn abort_gesture(&mut self) {
-        self.gesture = Gesture::None;
+    /// Ends the drag in progress; what it has done so far stays.
+    pub(crate) fn abort_drag(&mut self) {
+        if !matches!(self.gesture, Gesture::Points(_)) {
+            self.gesture = Gesture::None;
+        }
     }
 
-    /// Aborts the gesture, or else returns to the select tool. Returns whether there was either.
-    pub(crate) fn cancel(&mut self) -> bool {
-        let has_gesture = !matches!(self.gesture, Gesture::None);
-        let has_tool = self.tool != Tool::Select;
-        self.gesture = Gesture::None;
-        if !has_gesture {
-            self.tool = Tool::Select;
+    /// Removes the last point of the path that is drawn or measured. Returns `false` if there is
+    /// none.
+    pub(crate) fn remove_last_point(&mut self) -> bool {
+        let Gesture::Points(points) = &mut self.gesture else {
+            return false;
+        };
+        points.pop();
+        if points.is_empty() {
+            self.gesture = Gesture::None;
         }
-        has_gesture || has_tool
+        true
+    }
+
+    /// Returns `true` while a gesture is in progress.
+    pub(crate) fn has_gesture(&self) -> bool {
+        !matches!(self.gesture, Gesture::None | Gesture::Idle)
+    }
+
+    /// Ends the gesture in progress and takes back what it did to the document.
+    pub(crate) fn cancel_gesture(&mut self) -> Option<ToolEffect> {
+        let gesture = std::mem::take(&mut self.gesture);
+        let (Gesture::Node { progress, .. } | Gesture::Handle { progress, .. }) = gesture else {
+            return None;
+        };
+        let undo = EditTask::view_change(move |document| progress.take_back(document));
+        Some(ToolEffect::Edit(undo))
     }
 
     /// The path under the pointer. `None` if the document was replaced by a shorter one.
     pub(crate) fn hovered(&self, document: Option<&Document>) -> Option<&Hit> {
         let rows = document?.scene().row_count();
         self.hover.as_ref().filter(|hit| (hit.path as usize) < rows)
+    }
+
+    /// The cursor over the canvas, which shows what a press would do.
+    pub(crate) fn cursor(&self, document: Option<&Document>) -> CursorIcon {
+        match (&self.gesture, self.tool) {
+            (Gesture::Move { .. } | Gesture::Node { .. } | Gesture::Handle { .. }, _) => {
+                CursorIcon::Move
+            }
+            (_, Tool::Draw | Tool::Measure) => CursorIcon::Crosshair,
+            (_, Tool::Select | Tool::Points) => {
+                let hovered = self.hovered(document);
+                let is_selected =
+                    |hit: &Hit| document.is_some_and(|d| d.selection().contains(hit.path));
+                match hovered {
+                    Some(hit) if is_selected(hit) => CursorIcon::Move,
+                    Some(_) => CursorIcon::PointingHand,
+                    None => CursorIcon::Default,
+                }
+            }
+        }
     }
 
     /// Forgets the path under the pointer.
@@ -98,6 +137,7 @@ impl Tools {
             PointerEvent::DragStarted(at_px) => self.begin_drag(at_px, context),
             PointerEvent::Dragged(at_px, modifiers) => self.drag(at_px, modifiers, context),
             PointerEvent::DragEnded(modifiers) => self.end_drag(modifiers, context),
+            PointerEvent::Cancelled => self.cancel_gesture(),
             PointerEvent::Clicked(at_px, modifiers) => self.click(at_px, modifiers, context),
             PointerEvent::DoubleClicked => self.double_click(context),
             PointerEvent::InsertPoint(at_px) => self.change_points(at_px, true, context),
@@ -135,12 +175,12 @@ impl Tools {
                     (Some(handle), _) => Gesture::Handle {
                         point: handle.point,
                         from_m: context.world(handle.at_px),
-                        has_moved: false,
+                        progress: DragProgress::begin(document),
                     },
                     (None, Some(node)) => Gesture::Node {
                         node,
                         from_m: document.node_position_m(node),
-                        has_moved: false,
+                        progress: DragProgress::begin(document),
                     },
                     (None, None) => selection_box,
                 }
@@ -156,21 +196,18 @@ impl Tools {
         modifiers: Modifiers,
         context: &ToolContext<'_>,
     ) -> Option<ToolEffect> {
-        // Without a document the last edit is in progress: the next movement counts.
-        context.document?;
-        let (at_m, to_grid) = (context.world(at_px), self.snaps_to_grid);
-        let to_m = self.snapped(context, at_m, modifiers);
+        let has_document = context.document.is_some();
         match &mut self.gesture {
-            Gesture::None | Gesture::Idle | Gesture::Points(_) => None,
             Gesture::Box { to_px, .. } => {
                 *to_px = at_px;
-                None
+                return None;
             }
             Gesture::Move {
                 from_m,
                 by_end,
                 by_m,
             } => {
+                let (at_m, to_grid) = (context.world(at_px), self.snaps_to_grid);
                 let node_m = match *by_end {
                     true => snap_to_node(context, at_m, modifiers),
                     false => None,
@@ -179,26 +216,60 @@ impl Tools {
                     Some(node_m) => node_m - *from_m,
                     None => snap_move(context, to_grid, at_m - *from_m, modifiers),
                 };
-                None
+                return None;
             }
-            Gesture::Node {
-                node, has_moved, ..
-            } => {
-                let (node, undo_first) = (*node, std::mem::replace(has_moved, true));
-                let edit = move |document: &mut Document| document.move_node(node, to_m);
-                Some(ToolEffect::Edit(replacing_edit(undo_first, edit)))
+            Gesture::Node { progress, .. } | Gesture::Handle { progress, .. } if !has_document => {
+                // The last edit is in progress; what is missed now the next movement makes up for.
+                progress.missed = Some((at_px, modifiers));
+                return None;
             }
-            Gesture::Handle {
-                point, has_moved, ..
-            } => {
-                let (point, undo_first) = (*point, std::mem::replace(has_moved, true));
-                let edit = move |document: &mut Document| document.move_point(point, to_m);
-                Some(ToolEffect::Edit(replacing_edit(undo_first, edit)))
-            }
+            _ => {}
         }
+        self.edit_at(at_px, modifiers, context)
+    }
+
+    /// The edit of a drag that the layout follows at once; `None` for other gestures.
+    fn edit_at(
+        &mut self,
+        at_px: Point<f64>,
+        modifiers: Modifiers,
+        context: &ToolContext<'_>,
+    ) -> Option<ToolEffect> {
+        let before = self.gesture.clone();
+        let (Gesture::Node { progress, .. } | Gesture::Handle { progress, .. }) = &mut self.gesture
+        else {
+            return None;
+        };
+        progress.missed = None;
+        let progress = *progress;
+        let (view, line_rule, to_grid) = (context.view, context.line_rule, self.snaps_to_grid);
+        Some(ToolEffect::Edit(EditTask::edit(
+            move |document: &mut Document| {
+                progress.take_back(document);
+                let context = ToolContext {
+                    view,
+                    document: Some(document),
+                    line_rule,
+                };
+                let at_m = context.world(at_px);
+                let to_m = snap_point(&context, &before, to_grid, at_m, modifiers);
+                match before {
+                    Gesture::Node { node, .. } => document.move_node(node, to_m),
+                    Gesture::Handle { point, .. } => document.move_point(point, to_m),
+                    _ => Ok(()),
+                }
+            },
+        )))
     }
 
     fn end_drag(&mut self, modifiers: Modifiers, context: &ToolContext<'_>) -> Option<ToolEffect> {
+        if let Gesture::Node { progress, .. } | Gesture::Handle { progress, .. } = self.gesture
+            && let Some((at_px, modifiers)) = progress.missed
+        {
+            let edit = self.edit_at(at_px, modifiers, context);
+            self.gesture = Gesture::None;
+            return edit;
+        }
         match std::mem::take(&mut self.gesture) {
             Gesture::Box { from_px, to_px } => {
                 let corners = [from_px, to_px].map(|pixel| context.world(pixel));
@@ -239,11 +310,17 @@ impl Tools {
             }
             return None;
         }
-        let hit = context.pick(at_px, usize::MAX);
-        let hit = hit.map(|hit| alternate_in_pair(hit, context));
-        let paths: PathSet = hit.iter().map(|hit| hit.path).collect();
-        let mode = select_mode(modifiers);
+        // The path is looked for when the document is back from the edits in progress.
+        let (view, line_rule, mode) = (context.view, context.line_rule, select_mode(modifiers));
         Some(ToolEffect::Edit(EditTask::view_change(move |document| {
+            let context = ToolContext {
+                view,
+                document: Some(document),
+                line_rule,
+            };
+            let hit = context.pick(at_px, usize::MAX);
+            let hit = hit.map(|hit| alternate_in_pair(hit, &context));
+            let paths: PathSet = hit.iter().map(|hit| hit.path).collect();
             document.select(paths, mode);
         })))
     }
@@ -306,19 +383,6 @@ fn alternate_in_pair(hit: Hit, context: &ToolContext<'_>) -> Hit {
     };
     let path = other().unwrap_or(hit.path);
     Hit { path, ..hit }
-}
-
-/// An edit that replaces the one before, so that a whole drag is one step to undo.
-fn replacing_edit<E: ToString + 'static>(
-    undo_first: bool,
-    edit: impl FnOnce(&mut Document) -> Result<(), E> + Send + 'static,
-) -> EditTask {
-    EditTask::edit(move |document| {
-        if undo_first {
-            document.undo();
-        }
-        edit(document)
-    })
 }
 
 fn select_mode(modifiers: Modifiers) -> SelectMode {

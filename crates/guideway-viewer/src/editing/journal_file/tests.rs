@@ -18,7 +18,7 @@ fn edited() -> (tempfile::TempDir, PathBuf, Document, JournalFile) {
     let site = folder.path().join("site.arrow");
     fs::write(&site, "as it was read").unwrap();
     let mut journal = open(&site);
-    assert!(!journal.has_unsaved_work());
+    assert!(journal.unsaved_summary().is_none());
     let mut edited = document();
     edited.select_all();
     edited.delete_selection().unwrap();
@@ -61,7 +61,7 @@ fn finds_work_after_a_crash_of_the_same_file_only() {
     assert_eq!(recovered.node_position_m(2), Point::new(3.0, 3.0));
     fs::write(&site, "another layout").unwrap();
     let journal = open(&site);
-    assert!(!journal.has_unsaved_work());
+    assert!(journal.unsaved_summary().is_none());
     // The work is kept.
     let copy = journal.mismatched_copy().unwrap();
     assert!(fs::metadata(copy).unwrap().len() > HEADER_BYTES as u64);
@@ -188,7 +188,7 @@ fn saved_or_discarded_work_leaves_no_files() {
     assert_eq!(files(&folder), 3);
     drop(journal);
     // A crash without unsaved work.
-    assert!(!open(&site).has_unsaved_work());
+    assert!(open(&site).unsaved_summary().is_none());
     assert_eq!(files(&folder), 1);
     let (folder, _, _, mut journal) = edited();
     journal.delete();

@@ -1,17 +1,19 @@
 //! Dialogs over the window: prompts, questions, notices, help.
 
+mod confirm_dialog;
+mod leave_dialog;
 mod notices;
 mod prompt;
-mod quit_dialog;
 mod recent_dialog;
 mod recover_dialog;
 mod shortcuts_window;
 
 use eframe::egui::Context;
 
+pub(crate) use confirm_dialog::{ConfirmDialog, Question, Risk};
+pub(crate) use leave_dialog::LeaveDialog;
 pub(crate) use notices::Notices;
 pub(crate) use prompt::{Prompt, PromptKind};
-pub(crate) use quit_dialog::QuitDialog;
 pub(crate) use recent_dialog::RecentDialog;
 pub(crate) use shortcuts_window::ShortcutsWindow;
 
@@ -23,19 +25,36 @@ use crate::files::OpenFiles;
 pub(crate) struct Dialogs {
     pub(crate) prompt: Prompt,
     pub(crate) recent: RecentDialog,
-    pub(crate) quit: QuitDialog,
+    pub(crate) leave: LeaveDialog,
+    pub(crate) confirm: ConfirmDialog,
     pub(crate) notices: Notices,
     pub(crate) shortcuts: ShortcutsWindow,
 }
 
 impl Dialogs {
-    /// Closes all dialogs except the question about unsaved work.
-    pub(crate) fn close_all(&mut self) {
+    /// Closes the open dialogs; the question about unsaved work stays. Returns `false` if there is
+    /// none.
+    pub(crate) fn close(&mut self) -> bool {
+        let is_open = self.prompt.is_open()
+            || self.recent.is_open()
+            || self.leave.is_open()
+            || self.confirm.is_open()
+            || self.shortcuts.is_open;
         self.prompt.close();
         self.recent.close();
-        self.quit.close();
-        self.notices.clear();
+        self.leave.close();
+        self.confirm.close();
         self.shortcuts.is_open = false;
+        is_open
+    }
+
+    /// Returns `true` if a dialog waits for an answer: until then keys do nothing else.
+    pub(crate) fn is_modal(&self, files: &OpenFiles) -> bool {
+        self.prompt.is_open()
+            || self.recent.is_open()
+            || self.leave.is_open()
+            || self.confirm.is_open()
+            || recover_dialog::undecided(files).is_some()
     }
 
     /// Shows the open dialogs and returns the actions of answers.
@@ -43,7 +62,8 @@ impl Dialogs {
         let mut actions = Vec::new();
         actions.extend(self.prompt.show(ctx));
         actions.extend(self.recent.show(ctx));
-        actions.extend(self.quit.show(ctx, files));
+        actions.extend(self.leave.show(ctx, files));
+        actions.extend(self.confirm.show(ctx));
         actions.extend(recover_dialog::show(ctx, files));
         self.notices.show(ctx);
         self.shortcuts.show(ctx);

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use eframe::egui::{Context, DragValue, Id, Key, Modal, TextEdit};
 
-use crate::action::Action;
+use crate::action::{Action, Export};
 
 /// Width of an exported PNG until the user changes it, in pixels: 4K UHD.
 const DEFAULT_WIDTH_PX: u32 = 3840;
@@ -60,8 +60,8 @@ impl PromptKind {
         Some(match self {
             Self::Open => Action::Open(path),
             Self::SaveAs => Action::SaveAs(path),
-            Self::ExportPng => Action::ExportPng { path, width_px },
-            Self::ExportSvg => Action::ExportSvg(path),
+            Self::ExportPng => Action::Export(Export::Png { path, width_px }),
+            Self::ExportSvg => Action::Export(Export::Svg { path }),
             Self::FloorPlan => return None,
         })
     }
@@ -97,6 +97,10 @@ impl Prompt {
             width_px: DEFAULT_WIDTH_PX,
             wants_focus: true,
         });
+    }
+
+    pub(super) fn is_open(&self) -> bool {
+        self.open.is_some()
     }
 
     #[cfg(test)]

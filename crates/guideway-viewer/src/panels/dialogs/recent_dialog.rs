@@ -34,7 +34,6 @@ impl RecentDialog {
         self.files = Some(files);
     }
 
-    #[cfg(test)]
     pub(crate) fn is_open(&self) -> bool {
         self.files.is_some()
     }

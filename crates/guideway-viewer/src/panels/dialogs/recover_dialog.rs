@@ -2,19 +2,32 @@
 
 use eframe::egui::{Context, Id, Modal};
 
+use guideway_document::text_format;
+
 use crate::action::Action;
 use crate::files::{Layer, OpenFiles};
 
+/// The first file with unsaved work about which the user has not decided.
+pub(super) fn undecided(files: &OpenFiles) -> Option<usize> {
+    let is_undecided = |layer: &Layer| layer.has_unsaved_work() && !layer.is_recovering();
+    files.layers().iter().position(is_undecided)
+}
+
 /// Asks about the first file with undecided work.
 pub(super) fn show(ctx: &Context, files: &OpenFiles) -> Option<Action> {
-    let is_undecided = |layer: &Layer| layer.has_unsaved_work() && !layer.is_recovering();
-    let index = files.layers().iter().position(is_undecided)?;
-    let name = files.layers()[index].name();
+    let index = undecided(files)?;
+    let layer = &files.layers()[index];
+    let work = layer.slot.journal().unsaved_summary()?;
+    let steps = text_format::counted(work.steps, "unsaved step");
+    let age = work.last_written.elapsed().unwrap_or_default();
+    let text = format!(
+        "{} has {steps} from an earlier run of this window, the last one {} ago.",
+        layer.name(),
+        text_format::duration(age)
+    );
     let mut action = None;
     Modal::new(Id::unique("recover")).show(ctx, |ui| {
-        ui.label(format!(
-            "{name} has unsaved work from the last run of the viewer."
-        ));
+        ui.label(text);
         ui.horizontal(|ui| {
             if ui.button("Recover").clicked() {
                 action = Some(Action::Recover(index));

@@ -2,7 +2,7 @@
 
 use eframe::egui::{Context, Grid, ScrollArea, Ui, Window};
 
-use crate::command::ENTRIES;
+use crate::command::{MENUS, shortcuts_of};
 
 /// Height at which all shortcuts show without scrolling, in points.
 const HEIGHT: f32 = 740.0;
@@ -34,13 +34,16 @@ impl ShortcutsWindow {
 }
 
 fn content(ui: &mut Ui) {
-    let (left, right) = ENTRIES.split_at(ENTRIES.len().div_ceil(2));
+    let commands = MENUS.iter().flat_map(|menu| menu.groups);
+    let commands: Vec<_> = commands.flat_map(|group| group.iter()).collect();
+    let (left, right) = commands.split_at(commands.len().div_ceil(2));
     let grid = Grid::new("shortcuts").num_columns(4).striped(true);
     grid.show(ui, |ui| {
-        for (row, entry) in left.iter().enumerate() {
-            for entry in [Some(entry), right.get(row)].into_iter().flatten() {
-                ui.monospace(ui.ctx().format_shortcut(&entry.shortcut));
-                ui.label(entry.label);
+        for (row, command) in left.iter().enumerate() {
+            for command in [Some(command), right.get(row)].into_iter().flatten() {
+                let keys = shortcuts_of(**command).map(|keys| ui.ctx().format_shortcut(keys));
+                ui.monospace(keys.collect::<Vec<_>>().join(", "));
+                ui.label(command.label());
             }
             ui.end_row();
         }

@@ -94,14 +94,35 @@ fn drawn_path_joins_the_nodes_near_its_ends() {
 }
 
 #[test]
-fn cancel_aborts_the_gesture_before_the_tool() {
+fn last_point_is_removed_until_none_is_left() {
     let mut bench = Bench::new();
     bench.tools.select(Tool::Measure);
-    let at = bench.pixel(5.0, 2.0);
-    bench.send(PointerEvent::Clicked(at, NONE));
-    assert!(bench.tools.cancel());
-    assert_eq!(bench.tools.tool(), Tool::Measure);
-    assert!(bench.tools.cancel());
-    assert_eq!(bench.tools.tool(), Tool::Select);
-    assert!(!bench.tools.cancel());
+    for x in [5.0, 6.0] {
+        let at = bench.pixel(x, 2.0);
+        bench.send(PointerEvent::Clicked(at, NONE));
+    }
+    let removed = [(); 3].map(|()| bench.tools.remove_last_point());
+    assert_eq!(removed, [true, true, false]);
+    assert!(!bench.tools.has_gesture());
+}
+
+#[test]
+fn cancelled_drag_of_a_node_changes_nothing() {
+    let mut bench = Bench::new();
+    bench.tools.select(Tool::Points);
+    let end = |bench: &Bench| {
+        let document = bench.slot.document().unwrap();
+        document.layout().paths.get(1).ends().unwrap().1
+    };
+    let before = end(&bench);
+    let (from, to) = (bench.pixel(10.0, 2.0), bench.pixel(12.0, 2.5));
+    bench.send(PointerEvent::DragStarted(from));
+    bench.send(PointerEvent::Dragged(to, NONE));
+    assert_ne!(end(&bench), before);
+    bench.send(PointerEvent::Cancelled);
+    assert_eq!(end(&bench), before);
+    // The rest of the drag has no effect.
+    bench.send(PointerEvent::Dragged(to, NONE));
+    bench.send(PointerEvent::DragEnded(NONE));
+    assert_eq!(end(&bench), before);
 }

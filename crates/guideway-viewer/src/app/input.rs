@@ -1,0 +1,86 @@
+//! Routes keys and pointer events in the order in which they came: a click followed by Delete in
+//! one slow frame deletes what was clicked.
+
+use eframe::egui::{Context, Event, Key};
+
+use super::routing::release_keyboard;
+use super::state::App;
+use crate::command::{Command, command_of};
+use crate::tools::{PointerEvent, Tool};
+
+impl App {
+    /// Handles the keys and pointer events of a frame. Fields and dialogs get what is left.
+    pub(super) fn take_input(&mut self, ctx: &Context) {
+        let events = ctx.input(|input| input.events.clone());
+        let mut is_left = Vec::with_capacity(events.len());
+        for event in &events {
+            is_left.push(!self.take_key(event, ctx));
+            self.take_pointer(event, ctx);
+        }
+        let mut is_left = is_left.into_iter();
+        ctx.input_mut(|input| input.events.retain(|_| is_left.next().unwrap_or(true)));
+    }
+
+    /// Performs the command of a pressed key. Returns `true` if there is one.
+    fn take_key(&mut self, event: &Event, ctx: &Context) -> bool {
+        let Event::Key {
+            key,
+            pressed: true,
+            modifiers,
+            ..
+        } = *event
+        else {
+            return false;
+        };
+        let is_typing = ctx.text_edit_focused();
+        let Some(command) = command_of(key, modifiers) else {
+            if !is_typing && !self.dialogs.is_modal(&self.files) {
+                self.take_point_key(key, ctx);
+            }
+            return false;
+        };
+        let is_for_field = is_typing && (!modifiers.command || is_text_command(command));
+        let is_blocked = is_for_field || self.dialogs.is_modal(&self.files);
+        let is_idle = command == Command::FinishPath && self.tools.tool() != Tool::Draw;
+        if is_idle || (is_blocked && command != Command::Cancel) {
+            return false;
+        }
+        self.perform(command, ctx);
+        true
+    }
+
+    /// Inserts or removes a control point under the pointer.
+    fn take_point_key(&mut self, key: Key, ctx: &Context) {
+        let Some(at_px) = self.canvas.event_px(ctx) else {
+            return;
+        };
+        match key {
+            Key::Insert => self.point(PointerEvent::InsertPoint(at_px)),
+            Key::Backspace => self.point(PointerEvent::RemovePoint(at_px)),
+            _ => {}
+        }
+    }
+
+    fn take_pointer(&mut self, event: &Event, ctx: &Context) {
+        // A dialog that a key of this frame opened covers the canvas from the next frame on.
+        let begins = matches!(event, Event::PointerButton { pressed: true, .. });
+        if begins && self.dialogs.is_modal(&self.files) {
+            return;
+        }
+        let primary_pans = self.tools.tool().adds_points();
+        for event in self.canvas.pointer_events(event, ctx, primary_pans) {
+            self.point(event);
+            if matches!(event, PointerEvent::Clicked(..)) {
+                release_keyboard(ctx);
+            }
+        }
+    }
+}
+
+/// Returns `true` if a text field handles the shortcut itself.
+fn is_text_command(command: Command) -> bool {
+    matches!(
+        command,
+        Command::Undo | Command::Redo | Command::SelectAll | Command::CopyPicture
+    )
+}
