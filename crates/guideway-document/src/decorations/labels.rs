@@ -3,6 +3,7 @@
 use guideway_scene::{FrameSize, TextLine};
 use guideway_spline::{Bounds, Point};
 
+use super::line_mask::LineMask;
 use crate::text_format::single_line;
 
 /// Most labels in a view.
@@ -28,12 +29,17 @@ pub struct Label {
     pub at_px: Point<f64>,
 }
 
-/// Side of its position on which a label is placed.
+/// Place of a label beside its position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Side {
     Right,
+    Left,
     Above,
     Below,
+    AboveRight,
+    BelowRight,
+    AboveLeft,
+    BelowLeft,
 }
 
 /// A name to place beside a position.
@@ -43,8 +49,19 @@ pub(super) struct Name<'a> {
     pub(super) at_px: Point<f64>,
     /// Sides to try, the preferred one first.
     pub(super) sides: &'static [Side],
+    /// Largest part of its box that lines may cross, from 0 to 1.
+    pub(super) max_crossed: f64,
     /// True if the name must not hide an arrow.
     pub(super) spares_arrows: bool,
+}
+
+/// What is in the picture before the labels.
+pub(super) struct Obstacles<'a> {
+    /// Positions of symbols, in pixels.
+    pub(super) symbols: &'a [Point<f64>],
+    /// Boxes of arrows, in pixels.
+    pub(super) arrows: &'a [Bounds<f64>],
+    pub(super) lines: &'a LineMask,
 }
 
 impl LabelSize {
@@ -60,12 +77,21 @@ impl LabelSize {
 
     /// Middle of the left edge of a label on a side of a position.
     fn left_middle_px(self, side: Side, at_px: Point<f64>, width_px: f64) -> Point<f64> {
-        at_px
-            + match side {
-                Side::Right => Point::new(self.line_px / 2.0, 0.0),
-                Side::Above => Point::new(-width_px / 2.0, -self.line_px),
-                Side::Below => Point::new(-width_px / 2.0, self.line_px),
-            }
+        // Clear of a symbol or line at the position.
+        let gap_px = self.line_px / 2.0;
+        let left_px = -gap_px - width_px;
+        let near_px = 0.8 * self.line_px;
+        let (x, y) = match side {
+            Side::Right => (gap_px, 0.0),
+            Side::Left => (left_px, 0.0),
+            Side::Above => (-width_px / 2.0, -self.line_px),
+            Side::Below => (-width_px / 2.0, self.line_px),
+            Side::AboveRight => (gap_px, -near_px),
+            Side::BelowRight => (gap_px, near_px),
+            Side::AboveLeft => (left_px, -near_px),
+            Side::BelowLeft => (left_px, near_px),
+        };
+        at_px + Point::new(x, y)
     }
 
     /// Box of the symbol of a node or station.
@@ -74,12 +100,12 @@ impl LabelSize {
     }
 }
 
-/// Places names beside their positions, first come, first served. Omits a name that would leave the
-/// picture or overlap another label, a symbol or, if it spares arrows, one of the boxes `arrows`.
+/// Places names beside their positions, first come, first served, on the side where lines cross
+/// them least. Omits a name that would leave the picture, be crossed more than it allows, or overlap
+/// another label, a symbol or, if it spares arrows, an arrow.
 pub(super) fn place<'a>(
     names: impl Iterator<Item = Name<'a>>,
-    symbols: impl Iterator<Item = Point<f64>>,
-    arrows: &[Bounds<f64>],
+    obstacles: &Obstacles<'_>,
     size: LabelSize,
     picture: FrameSize,
 ) -> Vec<Label> {
@@ -88,7 +114,8 @@ pub(super) fn place<'a>(
         max: Point::new(f64::from(picture.width()), f64::from(picture.height())),
     };
     let mut labels = Vec::new();
-    let mut taken: Vec<Bounds<f64>> = symbols.map(|at| size.symbol_box(at)).collect();
+    let symbols = obstacles.symbols.iter();
+    let mut taken: Vec<Bounds<f64>> = symbols.map(|&at| size.symbol_box(at)).collect();
     for name in names {
         if labels.len() == MAX_LABELS {
             break;
@@ -101,19 +128,31 @@ pub(super) fn place<'a>(
         let is_clear = |bounds: Bounds<f64>, others: &[Bounds<f64>]| {
             !others.iter().any(|other| other.intersects(bounds))
         };
-        let placed = name.sides.iter().find_map(|&side| {
+        let mut best: Option<(f64, Label, Bounds<f64>)> = None;
+        for &side in name.sides {
             let label = Label {
                 text: text.clone(),
                 at_px: size.left_middle_px(side, name.at_px, width_px),
             };
             let bounds = size.label_box(&label);
+            let crossed = obstacles.lines.coverage(bounds);
+            let least = best
+                .as_ref()
+                .map_or(f64::INFINITY, |(crossed, ..)| *crossed);
             let is_inside = picture.contains(bounds.min) && picture.contains(bounds.max);
             let is_free = is_inside
+                && crossed < least
+                && crossed <= name.max_crossed
                 && is_clear(bounds, &taken)
-                && (!name.spares_arrows || is_clear(bounds, arrows));
-            is_free.then_some((label, bounds))
-        });
-        if let Some((label, bounds)) = placed {
+                && (!name.spares_arrows || is_clear(bounds, obstacles.arrows));
+            if is_free {
+                best = Some((crossed, label, bounds));
+            }
+            if crossed == 0.0 && is_free {
+                break;
+            }
+        }
+        if let Some((_, label, bounds)) = best {
             // Keeps a space between neighbors, which would read as one name.
             let space = Point::new(size.char_px, 0.0);
             taken.push(Bounds {
@@ -128,7 +167,9 @@ pub(super) fn place<'a>(
 
 #[cfg(test)]
 mod tests {
-    use std::iter::empty;
+    use guideway_layout::{Layout, NewPath};
+    use guideway_scene::View;
+    use guideway_spline::Runs;
 
     use super::*;
 
@@ -141,23 +182,43 @@ mod tests {
         FrameSize::new(100, 100).unwrap()
     }
 
+    /// Places names in a picture with a level line at this height, in pixels.
+    fn placed(names: Vec<Name<'_>>, arrows: &[Bounds<f64>], line_y_px: f64) -> Vec<Label> {
+        let mut layout = Layout::default();
+        let mut runs = Runs::default();
+        let y = 50.0 - line_y_px;
+        runs.push_line(Point::new(-100.0, y), Point::new(100.0, y));
+        layout.paths.push(&NewPath {
+            runs: &runs,
+            ..NewPath::default()
+        });
+        let view = View::new(picture(), Point::new(0.0, 0.0), 1.0).unwrap();
+        let obstacles = Obstacles {
+            symbols: &[],
+            arrows,
+            lines: &LineMask::new(layout.paths.iter(), &view, 1.0),
+        };
+        place(names.into_iter(), &obstacles, SIZE, picture())
+    }
+
     fn name(text: &'static str, at_px: Point<f64>, sides: &'static [Side]) -> Name<'static> {
         Name {
             text,
             at_px,
             sides,
+            max_crossed: 0.0,
             spares_arrows: true,
         }
     }
 
     #[test]
     fn keeps_a_space_between_labels_on_one_line() {
-        let placed = |gap_px: f64| {
+        let count = |gap_px: f64| {
             let names = [("one", 20.0), ("two", 20.0 + 3.0 * SIZE.char_px + gap_px)];
             let names = names.map(|(text, x)| name(text, Point::new(x, 50.0), &[Side::Right]));
-            place(names.into_iter(), empty(), &[], SIZE, picture()).len()
+            placed(names.into(), &[], 5.0).len()
         };
-        assert_eq!([1.0, 6.5, 7.5].map(placed), [1, 1, 2]);
+        assert_eq!([1.0, 6.5, 7.5].map(count), [1, 1, 2]);
     }
 
     #[test]
@@ -169,8 +230,7 @@ mod tests {
             max: at + head,
         };
         let placed = |sides| {
-            let names = [name("one", at, sides)].into_iter();
-            let labels = place(names, empty(), &[arrow], SIZE, picture());
+            let labels = placed(vec![name("one", at, sides)], &[arrow], 5.0);
             labels.first().map(|label| label.at_px)
         };
         let above = Point::new(50.0 - 1.5 * SIZE.char_px, 50.0 - SIZE.line_px);
@@ -179,5 +239,21 @@ mod tests {
             placed(&[Side::Right, Side::Above, Side::Below]),
             Some(above)
         );
+    }
+
+    #[test]
+    fn no_line_strikes_a_name_through_unless_it_may() {
+        let at = Point::new(20.0, 50.0);
+        let y_of = |max_crossed, sides| {
+            let names = vec![Name {
+                max_crossed,
+                ..name("one", at, sides)
+            }];
+            placed(names, &[], 50.0).first().map(|label| label.at_px.y)
+        };
+        assert_eq!(y_of(0.0, &[Side::Right]), None);
+        assert_eq!(y_of(1.0, &[Side::Right]), Some(50.0));
+        let sides = &[Side::Right, Side::AboveRight];
+        assert!(y_of(1.0, sides).unwrap() < 45.0);
     }
 }

@@ -16,7 +16,7 @@
 //! | `outline` | paths, view | [`Outline`]: center lines of selected paths |
 //! | `handles` | document, view | [`Handle`]s: control points of selected paths |
 //!
-//! `arrows`, `labels` and `declutter` position marks; `round_step` rounds the distances of grids
+//! `arrows`, `labels`, `line_mask` and `declutter` position marks; `round_step` rounds the distances of grids
 //! and scale bars.
 
 mod arrows;
@@ -26,6 +26,7 @@ mod grid;
 mod handles;
 mod labels;
 mod legend;
+mod line_mask;
 mod marks;
 mod outline;
 mod place_marks;

@@ -6,13 +6,34 @@ use guideway_spline::{Bounds, Point};
 use super::arrows;
 use super::declutter::{Declutter, is_crowded};
 use super::draw_marks::arrow_box;
-use super::labels::{self, Label, LabelSize, Name, Side};
+use super::labels::{self, Label, LabelSize, Name, Obstacles, Side};
+use super::line_mask::LineMask;
 use super::marks::{Arrow, MAX_MARKED, MarkOptions, Marks};
 use crate::document::Document;
 use crate::reverse_pairs::ReversePairs;
 
 /// Diameter of a symbol, in points; marks nearer to each other overlap.
 const SYMBOL_POINTS: f64 = 8.0;
+/// Largest part of a node's name that lines may cross: a corner of it.
+const MAX_CROSSED_NODE: f64 = 0.12;
+/// Largest part of a path's name that lines may cross.
+const MAX_CROSSED_PATH: f64 = 0.03;
+
+/// Places of the names of stations and nodes, the preferred one first.
+const AROUND: &[Side] = &[
+    Side::Right,
+    Side::Left,
+    Side::AboveRight,
+    Side::BelowRight,
+    Side::AboveLeft,
+    Side::BelowLeft,
+    Side::Above,
+    Side::Below,
+];
+/// Places of the name of a rather upright path.
+const BESIDE_UPRIGHT: &[Side] = &[Side::Right, Side::Left, Side::Above, Side::Below];
+/// Places of the name of a rather level path.
+const BESIDE_LEVEL: &[Side] = &[Side::Above, Side::Below, Side::Right];
 
 /// Places the marks of all shown paths, nodes and stations in a view.
 pub fn marks(document: &Document, view: &View, options: &MarkOptions) -> Marks {
@@ -122,7 +143,8 @@ impl<'d> Visible<'d> {
     }
 
     /// Labels of stations, nodes and paths, in order of priority, clear of `symbols`, and those of
-    /// paths clear of `arrows`. A path has its label above it if it is level, else to its right.
+    /// paths clear of `arrows`. Lines may cross the names of stations, if there is no other place.
+    /// A node that a station stands on has the name of the station.
     fn labels(
         &self,
         symbols: &[Point<f64>],
@@ -130,33 +152,48 @@ impl<'d> Visible<'d> {
         size: LabelSize,
         px_per_point: f64,
     ) -> Vec<Label> {
-        const RIGHT: &[Side] = &[Side::Right];
-        const BESIDE_UPRIGHT: &[Side] = &[Side::Right, Side::Above, Side::Below];
-        const BESIDE_LEVEL: &[Side] = &[Side::Above, Side::Below, Side::Right];
-        let name = |text, at_px, sides, spares_arrows| Name {
-            text,
-            at_px,
-            sides,
-            spares_arrows,
-        };
         let layout = self.document.layout();
-        let stations = self.stations.iter();
-        let stations =
-            stations.map(|&(row, at_px)| name(layout.stations.id(row), at_px, RIGHT, false));
-        let nodes = self.nodes.iter();
-        let nodes = nodes.map(|&(row, at_px)| name(layout.nodes.id(row), at_px, RIGHT, false));
-        let paths = self.paths.iter().filter_map(|&path| {
-            let path = layout.paths.get(path as usize);
-            let (at_px, is_level) = arrows::middle(path, self.view, px_per_point)?;
-            let sides = if is_level {
-                BESIDE_LEVEL
-            } else {
-                BESIDE_UPRIGHT
-            };
-            Some(name(path.id(), at_px, sides, true))
+        let path = |row: u32| layout.paths.get(row as usize);
+        let lines = self.paths.iter().map(|&row| path(row));
+        let obstacles = Obstacles {
+            symbols,
+            arrows,
+            lines: &LineMask::new(lines, self.view, px_per_point),
+        };
+        let stations = self.stations.iter().map(|&(row, at_px)| Name {
+            text: layout.stations.id(row),
+            at_px,
+            sides: AROUND,
+            max_crossed: 1.0,
+            spares_arrows: false,
+        });
+        let mut free = Declutter::new(SYMBOL_POINTS * px_per_point);
+        for (_, at_px) in &self.stations {
+            free.place(*at_px);
+        }
+        let nodes = self.nodes.iter().filter(|(_, at_px)| free.place(*at_px));
+        let nodes = nodes.map(|&(row, at_px)| Name {
+            text: layout.nodes.id(row),
+            at_px,
+            sides: AROUND,
+            max_crossed: MAX_CROSSED_NODE,
+            spares_arrows: false,
+        });
+        let paths = self.paths.iter().filter_map(|&row| {
+            let (at_px, is_level) = arrows::middle(path(row), self.view, px_per_point)?;
+            Some(Name {
+                text: path(row).id(),
+                at_px,
+                sides: if is_level {
+                    BESIDE_LEVEL
+                } else {
+                    BESIDE_UPRIGHT
+                },
+                max_crossed: MAX_CROSSED_PATH,
+                spares_arrows: true,
+            })
         });
         let names = stations.chain(nodes).chain(paths);
-        let symbols = symbols.iter().copied();
-        labels::place(names, symbols, arrows, size, self.view.size())
+        labels::place(names, &obstacles, size, self.view.size())
     }
 }
