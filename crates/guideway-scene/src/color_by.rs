@@ -59,14 +59,14 @@ const CLASSES: [Rgba; 7] = [
     Rgba::opaque(86, 180, 233),
     Rgba::opaque(190, 170, 30),
 ];
-/// Samples of the cividis scale (Nuñez, Anderton, Renslow 2018): perceived lightness rises evenly
-/// with any color vision.
+/// Samples of the scale of numbers, from blue over red to orange: lightness and warmth rise, and each
+/// color has a contrast of at least 3:1 on white and on dark paper (WCAG 2.2, criterion 1.4.11).
 const SCALE: [Rgba; 5] = [
-    Rgba::opaque(0, 32, 77),
-    Rgba::opaque(66, 77, 108),
-    Rgba::opaque(124, 123, 120),
-    Rgba::opaque(187, 173, 108),
-    Rgba::opaque(255, 234, 70),
+    Rgba::opaque(66, 94, 212),
+    Rgba::opaque(136, 80, 190),
+    Rgba::opaque(186, 70, 140),
+    Rgba::opaque(212, 80, 80),
+    Rgba::opaque(226, 112, 20),
 ];
 /// Color of values beyond the palette.
 const OTHER: Rgba = Rgba::opaque(90, 90, 90);
@@ -158,12 +158,7 @@ fn scale(layout: &Layout, by: &ColorBy, drawn: &[u32], number: Numbers<'_>) -> (
     let values = || drawn.iter().filter_map(|&path| number(path));
     let low = values().fold(f64::INFINITY, f64::min);
     let high = values().fold(f64::NEG_INFINITY, f64::max);
-    let color_at = |fraction: f64| {
-        let step = fraction * (SCALE.len() - 1) as f64;
-        let below = (step as usize).min(SCALE.len() - 2);
-        SCALE[below].lerp(SCALE[below + 1], step - below as f64)
-    };
-    let color = |path| number(path).map_or(MISSING, |v| color_at((v - low) / (high - low)));
+    let color = |path| number(path).map_or(MISSING, |v| scale_color((v - low) / (high - low)));
     let colors = (0..layout.paths.len() as u32).map(color).collect();
     let entries = (0..SCALE.len())
         .map(|i| i as f64 / (SCALE.len() - 1) as f64)
@@ -172,7 +167,7 @@ fn scale(layout: &Layout, by: &ColorBy, drawn: &[u32], number: Numbers<'_>) -> (
                 .trim_end_matches('0')
                 .trim_end_matches('.')
                 .to_owned(),
-            color: color_at(t),
+            color: scale_color(t),
             paths: None,
         })
         .collect();
@@ -185,6 +180,24 @@ fn scale(layout: &Layout, by: &ColorBy, drawn: &[u32], number: Numbers<'_>) -> (
             is_continuous: true,
         },
     )
+}
+
+/// The color of the scale at a fraction of its range.
+fn scale_color(fraction: f64) -> Rgba {
+    let step = fraction * (SCALE.len() - 1) as f64;
+    let below = (step as usize).min(SCALE.len() - 2);
+    SCALE[below].lerp(SCALE[below + 1], step - below as f64)
+}
+
+/// Colors of `count` classes: of the scale if they are ordered numbers, else of the palette.
+fn class_colors(count: usize, are_numbers: bool) -> Vec<Rgba> {
+    let fraction = |class: usize| class as f64 / count.max(2).saturating_sub(1) as f64;
+    match are_numbers {
+        true => (0..count)
+            .map(|class| scale_color(fraction(class)))
+            .collect(),
+        false => CLASSES[..count].to_vec(),
+    }
 }
 
 /// Gives each of the most frequent values a color; the others share one.
@@ -202,14 +215,16 @@ fn classes(layout: &Layout, by: &ColorBy, drawn: &[u32], label: Labels<'_>) -> (
     let rest = by_count.split_off(by_count.len().min(CLASSES.len()));
     // Numbers are listed in ascending order, not by frequency.
     let number = |value: &String| value.parse::<f64>().ok();
-    if by_count.iter().all(|(value, _)| number(value).is_some()) {
+    let are_numbers = by_count.iter().all(|(value, _)| number(value).is_some());
+    if are_numbers {
         let by_value = |a: &String, b: &String| number(a).partial_cmp(&number(b));
         by_count.sort_by(|a, b| by_value(&a.0, &b.0).unwrap_or(Ordering::Equal));
     }
+    let class_colors = class_colors(by_count.len(), are_numbers);
     let color_of: HashMap<&str, Rgba> = by_count
         .iter()
-        .zip(CLASSES)
-        .map(|((value, _), color)| (value.as_str(), color))
+        .zip(&class_colors)
+        .map(|((value, _), color)| (value.as_str(), *color))
         .collect();
     let color = |path| match label(path) {
         Some(value) => color_of.get(value.as_str()).copied().unwrap_or(OTHER),
@@ -223,7 +238,7 @@ fn classes(layout: &Layout, by: &ColorBy, drawn: &[u32], label: Labels<'_>) -> (
     };
     let mut entries: Vec<_> = by_count
         .iter()
-        .zip(CLASSES)
+        .zip(class_colors)
         .map(|((value, n), color)| entry(value, color, *n))
         .collect();
     if !rest.is_empty() {
@@ -242,4 +257,39 @@ fn classes(layout: &Layout, by: &ColorBy, drawn: &[u32], label: Labels<'_>) -> (
             is_continuous: false,
         },
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Relative luminance of WCAG 2.2.
+    fn luminance(color: Rgba) -> f64 {
+        let linear = |channel: u8| match f64::from(channel) / 255.0 {
+            c if c <= 0.04045 => c / 12.92,
+            c => ((c + 0.055) / 1.055).powf(2.4),
+        };
+        0.2126 * linear(color.r) + 0.7152 * linear(color.g) + 0.0722 * linear(color.b)
+    }
+
+    #[test]
+    fn scale_contrasts_with_light_and_dark_paper() {
+        let dark = luminance(Rgba::opaque(24, 26, 30));
+        for step in 0..=100 {
+            let color = luminance(scale_color(f64::from(step) / 100.0));
+            let (on_white, on_dark) = (1.05 / (color + 0.05), (color + 0.05) / (dark + 0.05));
+            assert!(
+                on_white >= 3.0 && on_dark >= 3.0,
+                "{step}: {on_white} {on_dark}"
+            );
+        }
+    }
+
+    #[test]
+    fn ordered_classes_span_the_scale() {
+        let colors = class_colors(3, true);
+        assert_eq!((colors[0], colors[2]), (SCALE[0], SCALE[4]));
+        assert_eq!(class_colors(1, true), [SCALE[0]]);
+        assert_eq!(class_colors(2, false), CLASSES[..2]);
+    }
 }

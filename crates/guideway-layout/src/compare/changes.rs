@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use guideway_spline::Point;
+use rayon::prelude::*;
 
 use super::change::{Change, Changes, ElementChange};
 use super::columns::{are_equal, names};
@@ -290,15 +291,24 @@ impl<'a> Lister<'a> {
 
     fn paths(&mut self, pairs: &RowPairs) {
         let [a, b] = self.layouts;
-        for (p, q) in pairs.pairs() {
-            let paths = [a.paths.get(p as usize), b.paths.get(q as usize)];
+        let paired: Vec<(u32, u32)> = pairs.pairs().collect();
+        let paths_of = |(p, q): (u32, u32)| [a.paths.get(p as usize), b.paths.get(q as usize)];
+        let tolerance_m = self.options.tolerance_m;
+        let curves = paired
+            .par_iter()
+            .map(|&pair| curve_change(paths_of(pair), tolerance_m));
+        let curves: Vec<Option<Change>> = curves.collect();
+        for ((p, q), curve) in paired.into_iter().zip(curves) {
+            let paths = paths_of((p, q));
             let element = Element {
                 kind: ElementKind::Path,
                 id: paths[0].id(),
                 rows: [Some(p), Some(q)],
             };
             self.add_name(element, paths[1].id());
-            self.add_curve(element, paths);
+            if let Some(change) = curve {
+                self.add(element, change);
+            }
             self.add_level(element, paths.map(PathRef::level));
             let directions = paths.map(|path| {
                 Some(match path.direction() {
@@ -332,19 +342,19 @@ impl<'a> Lister<'a> {
             self.add_set(element, name, None, [id(0), id(1)]);
         }
     }
+}
 
-    fn add_curve(&mut self, element: Element<'_>, paths: [PathRef<'_>; 2]) {
-        let [p, q] = paths;
-        if are_near(p, q, self.options.tolerance_m) {
-            return;
-        }
-        if let Some(distance_m) = shift_m(paths, self.options.tolerance_m) {
-            self.add(element, Change::Moved { distance_m });
-            return;
-        }
-        let greatest_m = greatest_distance_m(p, q).unwrap_or(f64::INFINITY);
-        self.add(element, Change::Reshaped { greatest_m });
+/// The change of the curve of a path, if it is not the same within a tolerance.
+fn curve_change(paths: [PathRef<'_>; 2], tolerance_m: f64) -> Option<Change> {
+    let [p, q] = paths;
+    if are_near(p, q, tolerance_m) {
+        return None;
     }
+    if let Some(distance_m) = shift_m(paths, tolerance_m) {
+        return Some(Change::Moved { distance_m });
+    }
+    let greatest_m = greatest_distance_m(p, q).unwrap_or(f64::INFINITY);
+    Some(Change::Reshaped { greatest_m })
 }
 
 /// Returns the length of the shift of a path that was moved as a whole.

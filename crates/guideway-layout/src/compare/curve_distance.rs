@@ -1,11 +1,16 @@
 //! Distance of two curves: an upper bound where it suffices, else by samples.
 
+use std::cell::OnceCell;
+
 use guideway_spline::{Point, nearest_on_run, uniform};
 
 use crate::PathRef;
 
 /// Samples per segment.
 const STEPS: u32 = 16;
+
+/// Samples of a segment, with both ends.
+const SAMPLES: usize = STEPS as usize + 1;
 
 /// Precision of a nearest point, in meters.
 const PRECISION_M: f64 = 1e-9;
@@ -24,7 +29,8 @@ pub(super) fn are_near(a: PathRef<'_>, b: PathRef<'_>, tolerance_m: f64) -> bool
             return true;
         }
     }
-    is_covered(a, b, tolerance_m) && is_covered(b, a, tolerance_m)
+    is_covered([a, b], [&of_a, &of_b], tolerance_m)
+        && is_covered([b, a], [&of_b, &of_a], tolerance_m)
 }
 
 /// Returns the greatest distance of a sampled point of either path from the other, in meters;
@@ -48,16 +54,34 @@ fn beziers(path: PathRef<'_>) -> Vec<[Point<f64>; 4]> {
     segments.map(|s| uniform::to_bezier(&s)).collect()
 }
 
-/// Returns `true` if all samples of a path are near another one.
-fn is_covered(path: PathRef<'_>, by: PathRef<'_>, tolerance_m: f64) -> bool {
-    let by = run_points(by);
-    let is_near = |p: Point<f64>| {
-        let mut runs = by.iter();
+/// Returns `true` if all samples of the first path are near the second one. Where the paths have
+/// equally many segments, the same place of the other path is tried before the nearest one.
+fn is_covered(
+    [of, by]: [PathRef<'_>; 2],
+    [own, others]: [&[[Point<f64>; 4]]; 2],
+    tolerance_m: f64,
+) -> bool {
+    let runs: OnceCell<Vec<Vec<Point<f64>>>> = OnceCell::new();
+    let is_near_at_all = |p: Point<f64>| {
+        let mut runs = runs.get_or_init(|| run_points(by)).iter();
         runs.any(|run| {
             nearest_on_run(run, p, PRECISION_M).is_some_and(|n| n.distance <= tolerance_m)
         })
     };
-    samples(path).all(is_near)
+    let has_same_segments = own.len() == others.len();
+    samples(of).enumerate().all(|(sample, p)| {
+        let (segment, step) = (sample / SAMPLES, sample % SAMPLES);
+        let same_place = has_same_segments
+            .then(|| bezier_point(&others[segment], step as f64 / f64::from(STEPS)));
+        same_place.is_some_and(|q| p.distance(q) <= tolerance_m) || is_near_at_all(p)
+    })
+}
+
+/// The point of a cubic Bezier curve at `t`, by de Casteljau's algorithm.
+fn bezier_point(controls: &[Point<f64>; 4], t: f64) -> Point<f64> {
+    let [a, b, c, d] = *controls;
+    let (ab, bc, cd) = (a.lerp(b, t), b.lerp(c, t), c.lerp(d, t));
+    ab.lerp(bc, t).lerp(bc.lerp(cd, t), t)
 }
 
 fn run_points(path: PathRef<'_>) -> Vec<Vec<Point<f64>>> {

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use guideway::layout::{Change, Changes, ElementChange, ElementKind, shown_path};
+use serde::{Serialize, Serializer};
 use serde_json::{Value, json};
 
 use crate::cli::text;
@@ -81,21 +82,22 @@ impl Report {
         lines.trim_end().to_owned() + "\n"
     }
 
-    pub(super) fn json(&self, found: &Changes) -> Value {
+    /// The whole list. The changes become JSON one by one as they are written.
+    pub(super) fn json<'a>(&'a self, found: &'a Changes) -> impl Serialize + 'a {
         let counts = self.counts.iter().map(|((element, kind), count)| {
             json!({ "element": element, "change": kind, "count": count })
         });
         let groups = found.groups.iter().map(
             |group| json!({ "what": group.what, "count": group.count, "example": group.example }),
         );
-        json!({
-            "old": self.files[0],
-            "new": self.files[1],
-            "counts": counts.collect::<Vec<_>>(),
-            "changes": found.elements.iter().map(element_json).collect::<Vec<_>>(),
-            "groups": groups.collect::<Vec<_>>(),
-            "ms": { "read": self.ms[0], "compare": self.ms[1] },
-        })
+        Body {
+            old: &self.files[0],
+            new: &self.files[1],
+            counts: counts.collect(),
+            changes: &found.elements,
+            groups: groups.collect(),
+            ms: json!({ "read": self.ms[0], "compare": self.ms[1] }),
+        }
     }
 
     /// `2 nodes moved, 1 path added`.
@@ -113,6 +115,22 @@ impl Report {
         let groups = found.groups.iter().map(|group| group.what.clone());
         counts.chain(groups).collect::<Vec<_>>().join(", ")
     }
+}
+
+/// The list of changes as JSON.
+#[derive(Serialize)]
+struct Body<'a> {
+    old: &'a str,
+    new: &'a str,
+    counts: Vec<Value>,
+    #[serde(serialize_with = "each_change")]
+    changes: &'a [ElementChange],
+    groups: Vec<Value>,
+    ms: Value,
+}
+
+fn each_change<S: Serializer>(changes: &[ElementChange], to: S) -> Result<S::Ok, S::Error> {
+    to.collect_seq(changes.iter().map(element_json))
 }
 
 /// The changes by element, up to a number of elements.
