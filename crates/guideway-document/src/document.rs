@@ -8,8 +8,8 @@ use guideway_scene::{
 };
 use guideway_spline::{Bounds, Point};
 
-use crate::PathSet;
 use crate::edit_observer::EditObserver;
+use crate::elements::Elements;
 use crate::history::History;
 use crate::index::Index;
 use crate::journal::JournalEntry;
@@ -23,7 +23,7 @@ pub struct Document {
     pub(crate) scene: Scene,
     pub(crate) index: Index,
     /// Shared with the undo steps, most of which do not change it.
-    pub(crate) selection: Arc<PathSet>,
+    pub(crate) selection: Arc<Elements>,
     pub(crate) history: History,
     pub(crate) observer: EditObserver,
     /// Entries since the last [`Document::take_journal_entries`].

@@ -3,8 +3,8 @@
 use std::collections::HashSet;
 use std::sync::Arc;
 
-use crate::PathSet;
 use crate::change::Change;
+use crate::elements::Elements;
 
 /// Steps that can be undone and redone.
 #[derive(Clone, Debug, Default)]
@@ -29,7 +29,7 @@ pub(crate) struct Step {
     pub(crate) name: &'static str,
     pub(crate) number: u64,
     pub(crate) changes: Vec<Change>,
-    pub(crate) selection: Arc<PathSet>,
+    pub(crate) selection: Arc<Elements>,
 }
 
 impl History {
@@ -38,7 +38,7 @@ impl History {
         &mut self,
         name: &'static str,
         inverse: Vec<Change>,
-        selection: Arc<PathSet>,
+        selection: Arc<Elements>,
     ) {
         self.newest += 1;
         self.undone.clear();
@@ -80,7 +80,7 @@ impl History {
                 // Consecutive steps usually share one selection.
                 let is_new = counted.insert(Arc::as_ptr(&step.selection));
                 let selection = if is_new {
-                    step.selection.serialized_size()
+                    step.selection.heap_bytes()
                 } else {
                     0
                 };

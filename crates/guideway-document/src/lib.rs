@@ -19,6 +19,7 @@ mod document;
 mod edit;
 mod edit_observer;
 mod element;
+mod elements;
 mod history;
 mod index;
 mod journal;
@@ -37,10 +38,11 @@ mod view_history;
 pub use change::{Change, NodeMoves};
 pub use document::Document;
 pub use edit::{
-    AlignTo, Clip, Elements, Neighbors, NewEdge, OperationError, PointRef, PropertyRef, Shape,
+    AlignTo, Clip, Neighbors, NewEdge, OperationError, PointRef, PropertyRef, Shape,
     ShapeError, Welded, drawn_path,
 };
 pub use element::Element;
+pub use elements::Elements;
 pub use history::SavedState;
 pub use index::Index;
 pub use journal::{JournalEntry, ReplayProgress, count_records, replay};

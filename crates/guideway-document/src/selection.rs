@@ -3,11 +3,13 @@
 use std::sync::Arc;
 
 use guideway_layout::PathRef;
-use guideway_scene::{Edit, PathState};
+use guideway_scene::{Edit, PathState, Table};
 use guideway_spline::{Bounds, uniform};
 
 use crate::PathSet;
 use crate::document::Document;
+use crate::element::Element;
+use crate::elements::Elements;
 
 /// Combination of a new selection with the present one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -24,21 +26,34 @@ pub enum SelectMode {
 impl Document {
     /// Rows of the selected paths.
     pub fn selection(&self) -> &PathSet {
+        &self.selection.paths
+    }
+
+    /// Rows of everything that is selected.
+    pub fn selected(&self) -> &Elements {
         &self.selection
     }
 
     /// Selects paths; paths that are not shown are ignored.
     pub fn select(&mut self, paths: PathSet, mode: SelectMode) {
+        self.select_elements(&Elements::of_paths(paths), mode);
+    }
+
+    /// Selects elements; those that are not shown are ignored.
+    pub fn select_elements(&mut self, elements: &Elements, mode: SelectMode) {
         self.revision += 1;
-        let shown: PathSet = paths
-            .into_iter()
-            .filter(|&path| self.is_shown(path))
-            .collect();
-        self.selection = Arc::new(match mode {
-            SelectMode::Replace => shown,
-            SelectMode::Add => &*self.selection | shown,
-            SelectMode::Remove => &*self.selection - shown,
-        });
+        let mut selection = Elements::default();
+        for of in Table::ALL {
+            let present = self.selection.rows(of);
+            let chosen = elements.rows(of).iter();
+            let chosen: PathSet = chosen.filter(|&row| self.is_shown(of, row)).collect();
+            *selection.rows_mut(of) = match mode {
+                SelectMode::Replace => chosen,
+                SelectMode::Add => present | &chosen,
+                SelectMode::Remove => present - &chosen,
+            };
+        }
+        self.selection = Arc::new(selection);
     }
 
     /// Selects the paths whose curve is inside a box in meters, or also paths that cross its border
@@ -57,28 +72,33 @@ impl Document {
     /// Selects all shown paths.
     pub fn select_all(&mut self) {
         self.revision += 1;
-        self.selection = Arc::new(self.scene.draw_order().iter().copied().collect());
+        let shown = self.scene.draw_order().iter().copied();
+        self.selection = Arc::new(Elements::of_paths(shown));
     }
 
-    /// Bounding box of the selected curves, in meters; `None` without a selection.
+    /// Bounding box of what is selected, in meters; `None` without a selection.
     pub fn selection_bounds(&self) -> Option<Bounds<f64>> {
-        let boxes = self
-            .selection
-            .iter()
-            .filter_map(|path| self.index.path_bounds(path));
-        boxes.reduce(Bounds::union)
+        let selected = &self.selection;
+        let elements = (selected.paths.iter().map(Element::Path))
+            .chain(selected.nodes.iter().map(Element::Node))
+            .chain(selected.stations.iter().map(Element::Station));
+        elements
+            .filter_map(|element| self.bounds_of(element))
+            .reduce(Bounds::union)
     }
 
     /// Hides the selected paths. Visibility is not part of the undo history.
     pub fn hide_selection(&mut self) {
-        let paths = std::mem::take(&mut self.selection);
-        self.set_visibility(paths.iter(), PathState::Hidden);
+        let selection = std::mem::take(&mut self.selection);
+        self.set_visibility(selection.paths.iter(), PathState::Hidden);
     }
 
     /// Hides all but the selected paths.
     pub fn isolate_selection(&mut self) {
         let all = self.scene.draw_order().iter().copied();
-        let others: Vec<u32> = all.filter(|&path| !self.selection.contains(path)).collect();
+        let others: Vec<u32> = all
+            .filter(|&path| !self.selection.paths.contains(path))
+            .collect();
         self.set_visibility(others.into_iter(), PathState::Hidden);
     }
 
@@ -114,17 +134,32 @@ impl Document {
         }
     }
 
-    /// Removes paths that are not shown from the selection.
+    /// Removes elements that are not shown from the selection.
     pub(crate) fn deselect_hidden(&mut self) {
-        if !self.selection.iter().all(|path| self.is_shown(path)) {
-            let selection = std::mem::take(&mut self.selection);
-            let shown = selection.iter().filter(|&path| self.is_shown(path));
-            self.selection = Arc::new(shown.collect());
+        let is_shown = |of| {
+            let mut rows = self.selection.rows(of).iter();
+            rows.all(|row| self.is_shown(of, row))
+        };
+        if !Table::ALL.into_iter().all(is_shown) {
+            let mut shown = Elements::default();
+            for of in Table::ALL {
+                let rows = self.selection.rows(of).iter();
+                *shown.rows_mut(of) = rows.filter(|&row| self.is_shown(of, row)).collect();
+            }
+            self.selection = Arc::new(shown);
         }
     }
 
-    fn is_shown(&self, path: u32) -> bool {
-        (path as usize) < self.scene.row_count() && self.scene.state(path) == PathState::Shown
+    /// Returns `true` if a path is shown, or a node or station exists on a level that is shown.
+    fn is_shown(&self, of: Table, row: u32) -> bool {
+        let exists = (row as usize) < of.row_count(self.layout()) && self.scene.exists(of, row);
+        exists
+            && match of {
+                Table::Paths => self.scene.state(row) == PathState::Shown,
+                Table::Nodes | Table::Stations => {
+                    self.scene.shows_level(of.level(self.layout(), row))
+                }
+            }
     }
 }
 

@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use guideway_scene::Table;
 use guideway_spline::{Bounds, Point};
 
 use crate::document::Document;
@@ -41,6 +42,20 @@ impl Document {
             Some(step) => Point::new(on_grid(at_m.x, step), on_grid(at_m.y, step)),
             None => at_m,
         }
+    }
+
+    /// The nearest station within `reach_m` meters of a position, on a level that is shown.
+    pub fn station_near(&self, at_m: Point<f64>, reach_m: f64) -> Option<u32> {
+        let shown = self.existing(Table::Stations).filter(|&station| {
+            let level = self.layout().stations.level(station);
+            self.scene.shows_level(level)
+        });
+        let near = shown.filter_map(|station| {
+            let distance_m = self.station_position_m(station)?.distance(at_m);
+            (distance_m <= reach_m).then_some((distance_m, station))
+        });
+        let nearest = near.min_by(|a, b| a.0.total_cmp(&b.0));
+        nearest.map(|(_, station)| station)
     }
 
     /// The nearest node within `reach_m` meters of a position.

@@ -14,6 +14,9 @@ pub enum Table {
 }
 
 impl Table {
+    /// All tables.
+    pub const ALL: [Self; 3] = [Self::Paths, Self::Nodes, Self::Stations];
+
     /// Name of one element: `path`, `node` or `station`.
     pub fn element(self) -> &'static str {
         match self {

@@ -3,10 +3,9 @@
 use guideway_layout::Layout;
 use guideway_scene::{EditError, Table};
 
-use super::elements::Elements;
-
 use crate::PathSet;
 use crate::document::Document;
+use crate::elements::Elements;
 
 /// Copied paths, nodes and stations with all their properties, independent of their document.
 #[derive(Clone, Debug)]

@@ -4,10 +4,10 @@ use guideway_layout::Layout;
 use guideway_scene::{Edit, Insertion, NewNode, NewStation, Scene, Table, TableEdit};
 use guideway_spline::{Affine, Runs};
 
-use super::elements::Elements;
 use super::names::Names;
 use crate::PathSet;
 use crate::change::Change;
+use crate::elements::Elements;
 
 /// Elements to copy.
 pub(super) struct Source<'a> {
@@ -34,7 +34,7 @@ pub(super) struct Copies<'a> {
 impl<'a> Copies<'a> {
     /// No copies yet, to be inserted into a scene.
     pub(super) fn into(scene: &'a Scene) -> Self {
-        let tables = [Table::Paths, Table::Nodes, Table::Stations];
+        let tables = Table::ALL;
         Self {
             names: tables.map(|of| Names::of(of, scene)),
             first_rows: tables.map(|of| of.row_count(scene.layout()) as u32),

@@ -6,8 +6,8 @@ use guideway_scene::EditError;
 use guideway_spline::{Affine, Point};
 
 use super::copies::{Copies, Source};
-use super::elements::Elements;
 use crate::document::Document;
+use crate::elements::Elements;
 
 impl Document {
     /// Copies the selected paths with their nodes and stations, and selects the copied paths. See
@@ -16,7 +16,7 @@ impl Document {
     /// # Errors
     /// As [`Self::copy`].
     pub fn copy_selection(&mut self, count: u32, step_m: Point<f64>) -> Result<(), EditError> {
-        let selected = self.selected_elements();
+        let selected = Arc::clone(&self.selection);
         self.copy(&selected, count, step_m).map(drop)
     }
 
@@ -52,7 +52,7 @@ impl Document {
         }
         let (rows, changes) = (copies.rows(), copies.into_changes());
         self.perform("copy", changes)?;
-        self.selection = Arc::new(rows.paths.clone());
+        self.selection = Arc::new(Elements::of_paths(&rows.paths));
         Ok(rows)
     }
 }

@@ -4,21 +4,25 @@ use std::sync::Arc;
 
 use guideway_scene::{EditError, PathState, Table, TableEdit};
 
-use super::elements::Elements;
 use super::error::OperationError;
 use super::perform::set_states;
 use crate::PathSet;
 use crate::change::Change;
 use crate::document::Document;
+use crate::elements::Elements;
 
 impl Document {
-    /// Deletes the selected paths, and the nodes that only they use.
+    /// Deletes what is selected, the paths of selected nodes, and the nodes that only the deleted
+    /// paths use.
     ///
     /// # Errors
     /// When the scene rejects a change; the document is unchanged.
     pub fn delete_selection(&mut self) -> Result<(), EditError> {
-        let selected = self.selected_elements();
-        let changes = self.deletion_of(&selected);
+        let mut all = Elements::clone(&self.selection);
+        for node in &self.selection.nodes {
+            all.paths.extend(self.existing_paths_at(node));
+        }
+        let changes = self.deletion_of(&all);
         self.perform("delete", changes)
     }
 

@@ -8,9 +8,9 @@ use guideway_spline::{Point, Runs};
 
 use super::curves::{curve_along, refined, runs_of};
 use super::perform::reshape;
-use crate::PathSet;
 use crate::change::Change;
 use crate::document::Document;
+use crate::elements::Elements;
 
 impl Document {
     /// Nearly doubles the control points of the selected paths without changing their curves.
@@ -18,7 +18,7 @@ impl Document {
     /// # Errors
     /// As [`Self::transform_selection`].
     pub fn refine_selection(&mut self) -> Result<(), EditError> {
-        let paths: Vec<u32> = self.selection.iter().collect();
+        let paths: Vec<u32> = self.selection.paths.iter().collect();
         let curves: Vec<Runs> = self
             .selected_paths()
             .map(|path| refined(&runs_of(path)))
@@ -63,12 +63,12 @@ impl Document {
             "draw path",
             vec![Change::Scene(Edit::Insert([path].into()))],
         )?;
-        self.selection = Arc::new(PathSet::from_iter([row]));
+        self.selection = Arc::new(Elements::of_paths([row]));
         Ok(())
     }
 
     fn selected_paths(&self) -> impl Iterator<Item = PathRef<'_>> {
-        let rows = self.selection.iter();
+        let rows = self.selection.paths.iter();
         rows.map(|path| self.layout().paths.get(path as usize))
     }
 }

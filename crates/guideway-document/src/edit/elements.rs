@@ -1,55 +1,13 @@
-//! [`Elements`]: rows of paths, nodes and stations on which an operation works.
+//! Elements of a document: which exist, and which belong together.
 
 use guideway_scene::{EditError, Table};
 
 use crate::PathSet;
 use crate::document::Document;
+use crate::elements::Elements;
 use crate::index::nodes_of;
 
-/// Rows of paths, nodes and stations.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Elements {
-    /// Rows of paths.
-    pub paths: PathSet,
-    /// Rows of nodes.
-    pub nodes: PathSet,
-    /// Rows of stations.
-    pub stations: PathSet,
-}
-
-impl Elements {
-    /// Only paths.
-    pub fn of_paths(paths: impl IntoIterator<Item = u32>) -> Self {
-        Self {
-            paths: paths.into_iter().collect(),
-            ..Self::default()
-        }
-    }
-
-    /// The rows of a table.
-    pub fn rows(&self, of: Table) -> &PathSet {
-        match of {
-            Table::Paths => &self.paths,
-            Table::Nodes => &self.nodes,
-            Table::Stations => &self.stations,
-        }
-    }
-
-    /// Returns `true` if there are no rows.
-    pub fn is_empty(&self) -> bool {
-        self.paths.is_empty() && self.nodes.is_empty() && self.stations.is_empty()
-    }
-}
-
 impl Document {
-    /// The selected paths.
-    pub(super) fn selected_elements(&self) -> Elements {
-        Elements {
-            paths: (*self.selection).clone(),
-            ..Elements::default()
-        }
-    }
-
     /// Rows of a table that exist.
     pub fn existing(&self, of: Table) -> impl Iterator<Item = u32> {
         let rows = 0..of.row_count(self.layout()) as u32;
@@ -58,7 +16,7 @@ impl Document {
 
     /// Checks that all elements exist.
     pub(super) fn check_exist(&self, elements: &Elements) -> Result<(), EditError> {
-        [Table::Paths, Table::Nodes, Table::Stations]
+        Table::ALL
             .into_iter()
             .try_for_each(|of| self.check_rows_exist(of, elements.rows(of)))
     }

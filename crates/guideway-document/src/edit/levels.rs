@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use guideway_scene::{Table, TableEdit};
 
-use super::elements::Elements;
 use super::error::OperationError;
 use crate::change::Change;
 use crate::document::Document;
+use crate::elements::Elements;
 
 impl Document {
     /// Moves elements to a level; `None` takes them off all levels. The nodes whose paths all move

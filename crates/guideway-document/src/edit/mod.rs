@@ -37,7 +37,6 @@ mod vehicle_types;
 pub use clip::Clip;
 pub use create::NewEdge;
 pub use draw::drawn_path;
-pub use elements::Elements;
 pub use error::OperationError;
 pub use points::PointRef;
 pub use properties::PropertyRef;

@@ -8,13 +8,11 @@ use guideway_spline::Affine;
 
 use super::clip::Clip;
 use super::copies::{Copies, Source};
-use super::elements::Elements;
 use super::error::OperationError;
 use super::property_value::{column_type, takes};
 use crate::change::Change;
 use crate::document::Document;
-
-const TABLES: [Table; 3] = [Table::Paths, Table::Nodes, Table::Stations];
+use crate::elements::Elements;
 
 impl Document {
     /// Pastes copied elements, transformed, with all their properties and vehicle types. Selects
@@ -36,7 +34,7 @@ impl Document {
             nodes: (0..source.nodes.len() as u32).collect(),
             stations: (0..source.stations.len() as u32).collect(),
         };
-        for of in TABLES {
+        for of in Table::ALL {
             check_columns(of, source, self.layout())?;
         }
         let levels = levels_of(source, self.layout(), level)?;
@@ -50,12 +48,12 @@ impl Document {
         };
         copies.add(&source, by);
         let (rows, mut changes) = (copies.rows(), copies.into_changes());
-        for of in TABLES {
+        for of in Table::ALL {
             let first = rows.rows(of).min().unwrap_or(0);
             changes.extend(values_of(of, clip.layout(), first));
         }
         self.perform("paste", changes)?;
-        self.selection = Arc::new(rows.paths.clone());
+        self.selection = Arc::new(rows.clone());
         Ok(rows)
     }
 }
@@ -67,7 +65,7 @@ fn levels_of(
     level: Option<u32>,
 ) -> Result<Vec<Option<u32>>, OperationError> {
     let rows = |of: Table| (0..of.row_count(source) as u32).map(move |row| (of, row));
-    let used = TABLES.into_iter().flat_map(rows);
+    let used = Table::ALL.into_iter().flat_map(rows);
     let used: crate::PathSet = used.filter_map(|(of, row)| of.level(source, row)).collect();
     let same = |(row, of_source): (usize, &guideway_layout::Level)| {
         let name = of_source.name.as_deref();

@@ -123,7 +123,7 @@ impl Document {
     }
 
     fn row_counts(&self) -> [usize; 3] {
-        [Table::Paths, Table::Nodes, Table::Stations].map(|of| of.row_count(self.layout()))
+        Table::ALL.map(|of| of.row_count(self.layout()))
     }
 
     /// The edits of the scene that a change means now.

@@ -5,10 +5,10 @@ use std::sync::Arc;
 use guideway_scene::{Edit, EditError, NewNode, Table, TableEdit};
 use guideway_spline::{Affine, Point};
 
-use super::elements::Elements;
 use crate::PathSet;
 use crate::change::Change;
 use crate::document::Document;
+use crate::elements::Elements;
 
 /// Paths that are not transformed, but share a node with one that is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -26,7 +26,7 @@ impl Document {
     /// # Errors
     /// As [`Self::transform`].
     pub fn transform_selection(&mut self, name: &'static str, by: Affine) -> Result<(), EditError> {
-        let selected = self.selected_elements();
+        let selected = Arc::clone(&self.selection);
         self.transform(name, &selected, by, Neighbors::Follow)
     }
 

@@ -90,6 +90,7 @@ impl App {
             settings: &mut self.settings,
             swept_areas: &mut self.swept_areas,
             findings: &mut self.findings,
+            properties: &mut self.properties,
             methods: &self.methods,
         };
         let actions = panel.show(ui);

@@ -67,6 +67,12 @@ impl App {
         if begins && self.dialogs.is_modal(&self.files) {
             return;
         }
+        if begins
+            && self.canvas.is_over(event, ctx)
+            && let Some(action) = self.properties.commit()
+        {
+            self.apply_all(vec![action], ctx);
+        }
         let primary_pans = self.tools.tool().adds_points();
         for event in self.canvas.pointer_events(event, ctx, primary_pans) {
             self.point(event);

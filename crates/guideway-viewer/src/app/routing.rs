@@ -1,7 +1,7 @@
 //! Routes actions, commands and pointer events to the part that owns the state.
 
 use eframe::egui::{Context, Theme};
-use guideway_document::{Document, Element, SelectMode};
+use guideway_document::{Document, Element, Elements, SelectMode};
 use guideway_spline::{Bounds, Point};
 
 use super::state::App;
@@ -188,6 +188,7 @@ impl App {
     /// loads, a tool, the selection, notices.
     fn cancel(&mut self, ctx: &Context) {
         let is_typing = ctx.text_edit_focused();
+        self.properties.discard();
         release_keyboard(ctx);
         if self.dialogs.close() || is_typing {
             return;
@@ -203,7 +204,7 @@ impl App {
         let document = self.files.document();
         if self.tools.tool() != Tool::Select {
             self.tools.select(Tool::Select);
-        } else if document.is_some_and(|document| !document.selection().is_empty()) {
+        } else if document.is_some_and(|document| !document.selected().is_empty()) {
             self.edit_selection(Command::Deselect);
         } else {
             self.dialogs.notices.clear();
@@ -267,17 +268,15 @@ impl App {
         }
     }
 
-    /// Zooms to an element and selects it if it is a path.
+    /// Zooms to an element and selects it.
     pub(super) fn zoom_to(&mut self, element: Element) {
         let bounds = self.files.document().and_then(|d| d.bounds_of(element));
         if let Some(bounds) = bounds {
             self.canvas.camera.zoom_to(bounds);
         }
-        if let Element::Path(path) = element {
-            self.edit(EditTask::view_change(move |document| {
-                document.select([path].into_iter().collect(), SelectMode::Replace);
-            }));
-        }
+        self.edit(EditTask::view_change(move |document| {
+            document.select_elements(&Elements::of(element), SelectMode::Replace);
+        }));
     }
 
     fn select_by_query(&mut self, mode: SelectMode) {
@@ -320,6 +319,7 @@ fn tool_context<'a>(
         view: canvas.camera.view()?,
         document: files.document(),
         line_rule: settings.line_rule(),
+        picks_symbols: settings.has_symbols,
     })
 }
 

@@ -13,8 +13,8 @@ use crate::display_settings::DisplaySettings;
 use crate::editing::EDIT_WAIT;
 use crate::export::Clipboard;
 use crate::files::{FileWriter, LayerContext, OpenFiles};
-use crate::panels::FindingsPanel;
 use crate::panels::dialogs::Dialogs;
+use crate::panels::{FindingsPanel, PropertiesPanel};
 use crate::render_queue::MethodSelection;
 use crate::selection::{ExactEdit, Find};
 use crate::services::AppServices;
@@ -38,6 +38,7 @@ pub(crate) struct App {
     pub(crate) find: Find,
     pub(crate) exact_edit: ExactEdit,
     pub(crate) findings: FindingsPanel,
+    pub(crate) properties: PropertiesPanel,
     pub(crate) dialogs: Dialogs,
     pub(crate) writer: FileWriter,
     pub(crate) clipboard: Clipboard,
@@ -69,6 +70,7 @@ impl App {
             find: Find::default(),
             exact_edit: ExactEdit::default(),
             findings: FindingsPanel::default(),
+            properties: PropertiesPanel::default(),
             dialogs: Dialogs::default(),
             writer: FileWriter::default(),
             clipboard: Clipboard::default(),

@@ -102,7 +102,7 @@ impl Canvas {
             screen: self.screen,
             time_s: ctx.input(|input| input.time),
             modifiers: ctx.input(|input| input.modifiers),
-            is_on_canvas: place_of(event).is_some_and(|at| self.is_uncovered(at, ctx)),
+            is_on_canvas: self.is_over(event, ctx),
             primary_pans: primary_pans || (is_space_down && !ctx.text_edit_focused()),
         };
         let mut steps = Vec::new();
@@ -115,6 +115,11 @@ impl Canvas {
             }
         }
         events
+    }
+
+    /// Returns `true` if a pointer event is on the canvas.
+    pub(crate) fn is_over(&self, event: &Event, ctx: &Context) -> bool {
+        place_of(event).is_some_and(|at| self.is_uncovered(at, ctx))
     }
 
     /// The pixel of the picture under the pointer at the time of the last event.

@@ -4,10 +4,10 @@
 use eframe::egui::{
     Color32, FontId, Modifiers, Painter, Pos2, Rect, Stroke, TextureHandle, Vec2, pos2,
 };
-use guideway_document::PathSet;
 use guideway_document::decorations::{
-    Corner, DecorationStyle, handles, legend, outline, scale_bar,
+    Corner, DecorationStyle, MAX_MARKED, handles, legend, outline, scale_bar,
 };
+use guideway_document::{Document, PathSet};
 use guideway_scene::View;
 use guideway_spline::Point;
 
@@ -15,6 +15,7 @@ use super::draft::Draft;
 use super::paint_draw_list::{color32, paint_draw_list};
 use super::paint_gesture::{
     HOVER_COLOR, MIN_OUTLINE_WIDTH, SELECTION_COLOR, paint_box, paint_handles, paint_outline,
+    paint_rings,
 };
 use super::screen::Screen;
 use crate::backdrop::{FloorPlanLayer, SweptAreasLayer};
@@ -107,6 +108,9 @@ impl CanvasPainter<'_> {
             paint_outline(painter, &lines, hovered, |pixel| screen.point(pixel));
         }
         paint_draw_list(painter, screen, &overlay.marks.draw(style, place));
+        if let Some(document) = document {
+            paint_rings(painter, screen, &selected_symbols(document, view));
+        }
         if let (Tool::Points, Some(document)) = (self.tools.tool(), document) {
             paint_handles(painter, screen, &handles(document, view));
         }
@@ -120,6 +124,7 @@ impl CanvasPainter<'_> {
                     view: self.view,
                     document: self.files.document(),
                     line_rule: self.settings.line_rule(),
+                    picks_symbols: false,
                 };
                 let next = self.pointer_px.map(|at| self.view.world_from_pixel(at));
                 let next = next.map(|at_m| self.tools.snapped(&context, at_m, self.modifiers));
@@ -156,4 +161,20 @@ impl CanvasPainter<'_> {
             painter.galley(corner, galley, color);
         }
     }
+}
+
+/// Positions of the selected nodes and stations in a view, in pixels; the first ones, if there are
+/// too many to tell apart.
+fn selected_symbols(document: &Document, view: &View) -> Vec<Point<f64>> {
+    let selected = document.selected();
+    let nodes = selected
+        .nodes
+        .iter()
+        .map(|node| document.node_position_m(node));
+    let stations = selected.stations.iter();
+    let stations = stations.filter_map(|station| document.station_position_m(station));
+    let bounds = view.world_bounds();
+    let visible = nodes.chain(stations).filter(|at_m| bounds.contains(*at_m));
+    let first = visible.take(MAX_MARKED);
+    first.map(|at_m| view.pixel_from_world(at_m)).collect()
 }

@@ -10,6 +10,8 @@ pub(super) const SELECTION_COLOR: Color32 = Color32::from_rgb(30, 120, 255);
 pub(super) const HOVER_COLOR: Color32 = Color32::from_rgb(255, 140, 0);
 /// Least width of an outline, in points.
 pub(super) const MIN_OUTLINE_WIDTH: f32 = 2.5;
+/// Radius of the ring around a selected node or station, in points.
+const RING_RADIUS: f32 = 9.0;
 /// Side of the square of a handle, in points.
 const HANDLE_SIZE: f32 = 7.0;
 
@@ -37,6 +39,14 @@ pub(super) fn paint_outline(
             }
             painter.add(mesh);
         }
+    }
+}
+
+/// Paints rings around selected nodes and stations.
+pub(super) fn paint_rings(painter: &Painter, screen: Screen, at_px: &[Point<f64>]) {
+    for &at_px in at_px {
+        let stroke = Stroke::new(MIN_OUTLINE_WIDTH, SELECTION_COLOR);
+        painter.circle_stroke(screen.point(at_px), RING_RADIUS, stroke);
     }
 }
 

@@ -10,6 +10,7 @@ mod find_panel;
 mod findings_panel;
 mod menu_bar;
 mod path_panel;
+mod properties;
 mod render_panel;
 mod selection_panel;
 mod side_panel;
@@ -17,5 +18,6 @@ mod status_bar;
 
 pub(crate) use findings_panel::FindingsPanel;
 pub(crate) use menu_bar::MenuBar;
+pub(crate) use properties::PropertiesPanel;
 pub(crate) use side_panel::SidePanel;
 pub(crate) use status_bar::StatusBar;

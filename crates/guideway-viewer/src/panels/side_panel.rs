@@ -3,6 +3,7 @@
 use eframe::egui::{CollapsingHeader, Ui};
 
 use super::findings_panel::FindingsPanel;
+use super::properties::PropertiesPanel;
 use super::{display_panel, files_panel, find_panel, path_panel, render_panel, selection_panel};
 use crate::action::Action;
 use crate::backdrop::{FloorPlanLayer, SweptAreasLayer};
@@ -22,6 +23,7 @@ pub(crate) struct SidePanel<'a> {
     pub(crate) settings: &'a mut DisplaySettings,
     pub(crate) swept_areas: &'a mut SweptAreasLayer,
     pub(crate) findings: &'a mut FindingsPanel,
+    pub(crate) properties: &'a mut PropertiesPanel,
     pub(crate) methods: &'a MethodSelection,
 }
 
@@ -33,7 +35,10 @@ impl SidePanel<'_> {
         section("Files", true).show(ui, |ui| {
             files_panel::show(ui, self.files, self.floor_plan, &mut actions);
         });
-        section("Path", true).show(ui, |ui| path_panel::show(ui, self.files));
+        section("Properties", true).show(ui, |ui| {
+            path_panel::show(ui, self.files);
+            self.properties.show(ui, self.files, &mut actions);
+        });
         section("Selection", true).show(ui, |ui| {
             let (tools, exact_edit) = (&mut *self.tools, &mut *self.exact_edit);
             selection_panel::show(ui, self.files, tools, exact_edit, &mut actions);

@@ -6,6 +6,7 @@ mod drag;
 mod files;
 mod findings;
 mod methods;
+mod properties;
 mod random_input;
 mod random_run;
 mod recovery;

@@ -3,6 +3,7 @@
 //! [`Tools`] turns [`PointerEvent`]s into [`ToolEffect`]s. It needs no window: input is a view and
 //! a document ([`ToolContext`]).
 
+mod cursor;
 mod gesture;
 mod hit_test;
 mod pointer_event;

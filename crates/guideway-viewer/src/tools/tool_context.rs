@@ -1,6 +1,6 @@
 //! The state outside the tools that a pointer event depends on.
 
-use guideway_document::{Document, Hit};
+use guideway_document::{Document, Element, Hit};
 use guideway_scene::{LineRule, View};
 use guideway_spline::Point;
 
@@ -12,6 +12,8 @@ pub(crate) struct ToolContext<'a> {
     /// The active document; `None` while it is loaded or an edit has it.
     pub(crate) document: Option<&'a Document>,
     pub(crate) line_rule: LineRule,
+    /// True if nodes and stations are shown, and can be picked.
+    pub(crate) picks_symbols: bool,
 }
 
 impl ToolContext<'_> {
@@ -22,6 +24,14 @@ impl ToolContext<'_> {
     /// The radius of hit tests in meters.
     pub(super) fn hit_radius_m(&self) -> f64 {
         HIT_RADIUS_PX / self.view.px_per_m()
+    }
+
+    /// The station or node under the pointer.
+    pub(super) fn pick_symbol(&self, at_px: Point<f64>) -> Option<Element> {
+        let document = self.document.filter(|_| self.picks_symbols)?;
+        let (at_m, radius_m) = (self.world(at_px), self.hit_radius_m());
+        let station = document.station_near(at_m, radius_m).map(Element::Station);
+        station.or_else(|| document.node_near(at_m, radius_m).map(Element::Node))
     }
 
     /// The topmost path under the pointer; `None` if more than `max_candidates` are near it.

@@ -1,7 +1,7 @@
 //! The selected tool and its gesture: turns pointer events into edits.
 
-use eframe::egui::{CursorIcon, Modifiers};
-use guideway_document::{Document, Hit, PathSet, SelectMode};
+use eframe::egui::Modifiers;
+use guideway_document::{Document, Element, Elements, Hit, SelectMode};
 use guideway_spline::{Affine, Bounds, Point};
 
 use super::gesture::{DragProgress, Gesture};
@@ -85,26 +85,6 @@ impl Tools {
         self.hover.as_ref().filter(|hit| (hit.path as usize) < rows)
     }
 
-    /// The cursor over the canvas, which shows what a press would do.
-    pub(crate) fn cursor(&self, document: Option<&Document>) -> CursorIcon {
-        match (&self.gesture, self.tool) {
-            (Gesture::Move { .. } | Gesture::Node { .. } | Gesture::Handle { .. }, _) => {
-                CursorIcon::Move
-            }
-            (_, Tool::Draw | Tool::Measure) => CursorIcon::Crosshair,
-            (_, Tool::Select | Tool::Points) => {
-                let hovered = self.hovered(document);
-                let is_selected =
-                    |hit: &Hit| document.is_some_and(|d| d.selection().contains(hit.path));
-                match hovered {
-                    Some(hit) if is_selected(hit) => CursorIcon::Move,
-                    Some(_) => CursorIcon::PointingHand,
-                    None => CursorIcon::Default,
-                }
-            }
-        }
-    }
-
     /// Forgets the path under the pointer.
     pub(crate) fn clear_hover(&mut self) {
         self.hover = None;
@@ -154,8 +134,19 @@ impl Tools {
             from_px: at_px,
             to_px: at_px,
         };
+        let selected = document.selected();
+        let is_selected = |symbol| match symbol {
+            Element::Path(row) => selected.paths.contains(row),
+            Element::Node(row) => selected.nodes.contains(row),
+            Element::Station(row) => selected.stations.contains(row),
+        };
         self.gesture = match self.tool {
             Tool::Draw | Tool::Measure => return None,
+            Tool::Select if context.pick_symbol(at_px).is_some_and(is_selected) => Gesture::Move {
+                from_m: context.world(at_px),
+                by_m: Point::new(0.0, 0.0),
+                by_end: false,
+            },
             Tool::Select => match context.pick(at_px, usize::MAX) {
                 Some(hit) if document.selection().contains(hit.path) => {
                     let end = hit_end(document, &hit, context.hit_radius_m());
@@ -250,6 +241,7 @@ impl Tools {
                     view,
                     document: Some(document),
                     line_rule,
+                    picks_symbols: false,
                 };
                 let at_m = context.world(at_px);
                 let to_m = snap_point(&context, &before, to_grid, at_m, modifiers);
@@ -312,16 +304,23 @@ impl Tools {
         }
         // The path is looked for when the document is back from the edits in progress.
         let (view, line_rule, mode) = (context.view, context.line_rule, select_mode(modifiers));
+        let picks_symbols = context.picks_symbols && self.tool == Tool::Select;
         Some(ToolEffect::Edit(EditTask::view_change(move |document| {
             let context = ToolContext {
                 view,
                 document: Some(document),
                 line_rule,
+                picks_symbols,
             };
-            let hit = context.pick(at_px, usize::MAX);
-            let hit = hit.map(|hit| alternate_in_pair(hit, &context));
-            let paths: PathSet = hit.iter().map(|hit| hit.path).collect();
-            document.select(paths, mode);
+            let elements = match context.pick_symbol(at_px) {
+                Some(symbol) => Elements::of(symbol),
+                None => {
+                    let hit = context.pick(at_px, usize::MAX);
+                    let hit = hit.map(|hit| alternate_in_pair(hit, &context));
+                    Elements::of_paths(hit.iter().map(|hit| hit.path))
+                }
+            };
+            document.select_elements(&elements, mode);
         })))
     }
 

@@ -35,6 +35,7 @@ impl Bench {
             view: self.view,
             document: self.slot.document(),
             line_rule: LineRule::default(),
+            picks_symbols: false,
         };
         if let Some(ToolEffect::Edit(edit)) = self.tools.handle(event, &context) {
             let repaint: RepaintHandle = Arc::new(|| {});

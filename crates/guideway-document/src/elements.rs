@@ -1,0 +1,67 @@
+//! [`Elements`]: rows of paths, nodes and stations.
+
+use guideway_scene::Table;
+
+use crate::PathSet;
+use crate::element::Element;
+
+/// Rows of paths, nodes and stations.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Elements {
+    /// Rows of paths.
+    pub paths: PathSet,
+    /// Rows of nodes.
+    pub nodes: PathSet,
+    /// Rows of stations.
+    pub stations: PathSet,
+}
+
+impl Elements {
+    /// Only paths.
+    pub fn of_paths(paths: impl IntoIterator<Item = u32>) -> Self {
+        Self {
+            paths: paths.into_iter().collect(),
+            ..Self::default()
+        }
+    }
+
+    /// A single element.
+    pub fn of(element: Element) -> Self {
+        let mut elements = Self::default();
+        match element {
+            Element::Path(row) => elements.paths.insert(row),
+            Element::Node(row) => elements.nodes.insert(row),
+            Element::Station(row) => elements.stations.insert(row),
+        };
+        elements
+    }
+
+    /// The rows of a table.
+    pub fn rows(&self, of: Table) -> &PathSet {
+        match of {
+            Table::Paths => &self.paths,
+            Table::Nodes => &self.nodes,
+            Table::Stations => &self.stations,
+        }
+    }
+
+    /// The rows of a table, to change.
+    pub fn rows_mut(&mut self, of: Table) -> &mut PathSet {
+        match of {
+            Table::Paths => &mut self.paths,
+            Table::Nodes => &mut self.nodes,
+            Table::Stations => &mut self.stations,
+        }
+    }
+
+    /// Memory of the rows, in bytes.
+    pub(crate) fn heap_bytes(&self) -> usize {
+        let sets = [&self.paths, &self.nodes, &self.stations];
+        sets.map(PathSet::serialized_size).iter().sum()
+    }
+
+    /// Returns `true` if there are no rows.
+    pub fn is_empty(&self) -> bool {
+        self.paths.is_empty() && self.nodes.is_empty() && self.stations.is_empty()
+    }
+}

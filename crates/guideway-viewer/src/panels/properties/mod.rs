@@ -1,0 +1,299 @@
+//! The Properties section: facts and properties of what is selected, as fields that edit.
+//!
+//! A text becomes an edit when it is confirmed: by Enter, by leaving its field, or by a press on
+//! the canvas. Escape takes it back.
+
+mod draft;
+mod facts;
+mod field;
+mod pickers;
+mod typed_value;
+
+use std::sync::Arc;
+
+use eframe::egui::{Button, Grid, Label, RichText, TextEdit, Ui};
+use guideway_document::{Document, Elements, PathSet, text_format};
+use guideway_layout::{ElementKind, Layout, Level, PROPERTIES, Property};
+use guideway_scene::Table;
+
+use self::draft::{Draft, Subject, Target};
+use self::facts::Facts;
+use self::field::{Common, Field, FieldKind, MAX_COMPARED, fields, kind_of_property};
+use crate::action::Action;
+use crate::files::OpenFiles;
+
+/// Width of the names beside the fields, in points.
+const NAME_WIDTH: f32 = 130.0;
+
+/// The section: what is shown, and the text that is being typed.
+#[derive(Default)]
+pub(crate) struct PropertiesPanel {
+    /// Per kind of element, valid for one revision of a document.
+    shown: Vec<Shown>,
+    draft: Option<Draft>,
+    /// Properties that the selection gets once they have a value.
+    added: Vec<(Table, &'static Property)>,
+    /// Name of a vehicle type to add.
+    new_type: String,
+}
+
+/// The selected elements of one table.
+struct Shown {
+    /// Index of the file, and revision of its document.
+    file: usize,
+    revision: u64,
+    of: Table,
+    rows: Arc<PathSet>,
+    facts: Facts,
+    fields: Vec<Field>,
+    levels: Vec<String>,
+}
+
+impl PropertiesPanel {
+    /// The edit of a text that was typed but not confirmed yet.
+    pub(crate) fn commit(&mut self) -> Option<Action> {
+        match self.draft.take()?.edit() {
+            Ok(edit) => edit.map(Action::Edit),
+            Err(error) => Some(Action::Notify(error)),
+        }
+    }
+
+    /// Takes back a text that was typed but not confirmed.
+    pub(crate) fn discard(&mut self) {
+        self.draft = None;
+    }
+
+    /// Shows the fields of the selection.
+    pub(super) fn show(&mut self, ui: &mut Ui, files: &OpenFiles, actions: &mut Vec<Action>) {
+        let Some(document) = files.document() else {
+            // What is being typed waits for the edit in progress.
+            ui.label("…");
+            return;
+        };
+        let selected = document.selected();
+        if selected.is_empty() {
+            self.shown.clear();
+            self.added.clear();
+            ui.label("Select paths, nodes or stations to see and edit their properties");
+            return;
+        }
+        self.update(document, files.active_index());
+        for shown in std::mem::take(&mut self.shown) {
+            self.show_table(ui, &shown, actions);
+            self.shown.push(shown);
+        }
+    }
+
+    /// Reads the selection again after a change.
+    fn update(&mut self, document: &Document, file: usize) {
+        let revision = document.revision();
+        let first = self.shown.first();
+        if first.is_some_and(|shown| (shown.file, shown.revision) == (file, revision)) {
+            return;
+        }
+        let (layout, selected) = (document.layout(), document.selected());
+        let tables = [Table::Paths, Table::Nodes, Table::Stations].into_iter();
+        let tables = tables.filter(|&of| !selected.rows(of).is_empty());
+        self.shown = tables
+            .map(|of| Shown::new(layout, of, selected, (file, revision)))
+            .collect();
+    }
+
+    fn show_table(&mut self, ui: &mut Ui, shown: &Shown, actions: &mut Vec<Action>) {
+        ui.strong(shown.heading());
+        if shown.rows.len() > MAX_COMPARED as u64 {
+            ui.small(format!("Values are those of the first {MAX_COMPARED}"));
+        }
+        let element = shown.of.element();
+        let grid = Grid::new(("properties", element)).num_columns(2);
+        grid.min_col_width(NAME_WIDTH).show(ui, |ui| {
+            self.show_facts(ui, shown, actions);
+            let added = self.added.clone();
+            let added = added.iter().filter(|(of, _)| *of == shown.of);
+            let added = added.filter_map(|(_, property)| shown.empty_field(property));
+            let fields = shown.fields.iter().cloned().chain(added);
+            for field in fields {
+                self.show_field(ui, shown, &field, actions);
+            }
+        });
+        self.add_property(ui, shown);
+    }
+
+    fn show_facts(&mut self, ui: &mut Ui, shown: &Shown, actions: &mut Vec<Action>) {
+        let facts = &shown.facts;
+        if let Some(name) = &facts.name {
+            ui.label("name");
+            let value = Common::Same(name.clone());
+            self.text_field(ui, shown.target(Subject::Name), &value, actions);
+            ui.end_row();
+        }
+        if let Some([start, end]) = &facts.ends {
+            for (label, node) in [("from node", start), ("to node", end)] {
+                ui.label(label);
+                ui.add(Label::new(node).truncate());
+                ui.end_row();
+            }
+        }
+        if shown.of == Table::Paths {
+            ui.label("direction");
+            pickers::direction(ui, shown, actions);
+            ui.end_row();
+        }
+        if !shown.levels.is_empty() {
+            ui.label("level");
+            pickers::level(ui, shown, actions);
+            ui.end_row();
+        }
+        if shown.of == Table::Paths {
+            ui.label("vehicle types");
+            pickers::vehicle_types(ui, shown, &mut self.new_type, actions);
+            ui.end_row();
+        }
+    }
+
+    /// One row for all vehicle types, and one for each with a value of its own.
+    fn show_field(&mut self, ui: &mut Ui, shown: &Shown, field: &Field, actions: &mut Vec<Action>) {
+        let name = match field.unit {
+            Some(unit) => format!("{} ({unit})", field.name),
+            None => field.name.clone(),
+        };
+        let label = ui.add(Label::new(&name).truncate());
+        let meaning = Property::named(&field.name).map_or(&*name, |property| property.meaning);
+        label.on_hover_text(meaning);
+        if field.per_type.is_empty() || field.shared != Common::None {
+            self.value_field(ui, shown, field, None, actions);
+        } else {
+            ui.weak("per vehicle type");
+        }
+        ui.end_row();
+        for (vehicle_type, value) in &field.per_type {
+            ui.add(Label::new(format!("    {vehicle_type}")).truncate());
+            self.value_field(ui, shown, field, Some((vehicle_type, value)), actions);
+            ui.end_row();
+        }
+    }
+
+    fn value_field(
+        &mut self,
+        ui: &mut Ui,
+        shown: &Shown,
+        field: &Field,
+        per_type: Option<(&String, &Common)>,
+        actions: &mut Vec<Action>,
+    ) {
+        let target = shown.target(Subject::Property {
+            name: field.name.clone(),
+            kind: field.kind,
+            unit: field.unit,
+            vehicle_type: per_type.map(|(name, _)| name.clone()),
+        });
+        let value = per_type.map_or(&field.shared, |(_, value)| value);
+        match field.kind {
+            FieldKind::Flag => pickers::choice(ui, target, value, &["true", "false"], actions),
+            FieldKind::Choice(words) => pickers::choice(ui, target, value, words, actions),
+            _ => self.text_field(ui, target, value, actions),
+        }
+    }
+
+    /// Offers the known properties that no selected element has.
+    fn add_property(&mut self, ui: &mut Ui, shown: &Shown) {
+        let kind = match shown.of {
+            Table::Paths => ElementKind::Path,
+            Table::Nodes => ElementKind::Node,
+            Table::Stations => ElementKind::Station,
+        };
+        ui.menu_button("Add property", |ui| {
+            for property in PROPERTIES
+                .iter()
+                .filter(|property| property.of.contains(&kind))
+            {
+                let is_shown = shown.fields.iter().any(|field| field.name == property.name);
+                let button = Button::new(property.name);
+                let button = ui.add_enabled(!is_shown, button);
+                if button.on_hover_text(property.meaning).clicked() {
+                    self.added.push((shown.of, property));
+                    ui.close();
+                }
+            }
+        });
+    }
+
+    fn text_field(
+        &mut self,
+        ui: &mut Ui,
+        target: Target,
+        value: &Common,
+        actions: &mut Vec<Action>,
+    ) {
+        let (before, hint) = match value {
+            Common::Same(value) => (value.clone(), ""),
+            Common::None => (String::new(), "none"),
+            Common::Several => (String::new(), "several values"),
+        };
+        let typed = self.draft.as_ref().filter(|draft| draft.target == target);
+        let mut text = typed.map_or_else(|| before.clone(), |draft| draft.text.clone());
+        let field = TextEdit::singleline(&mut text).hint_text(hint);
+        let response = ui.add(field.desired_width(f32::INFINITY));
+        if response.has_focus() {
+            self.draft = Some(Draft {
+                target,
+                text,
+                before,
+            });
+        } else if response.lost_focus() && self.draft.is_some() {
+            actions.extend(self.commit());
+        }
+    }
+}
+
+impl Shown {
+    fn new(layout: &Layout, of: Table, selected: &Elements, key: (usize, u64)) -> Self {
+        let rows = selected.rows(of);
+        let name = |level: &Level| level.name.clone().unwrap_or_else(|| level.id.clone());
+        Self {
+            file: key.0,
+            revision: key.1,
+            of,
+            facts: Facts::new(layout, of, rows),
+            fields: fields(layout, of, rows),
+            rows: Arc::new(rows.clone()),
+            levels: layout.levels.iter().map(name).collect(),
+        }
+    }
+
+    fn target(&self, subject: Subject) -> Target {
+        Target {
+            of: self.of,
+            rows: Arc::clone(&self.rows),
+            subject,
+        }
+    }
+
+    /// The field of a property that no element has yet.
+    fn empty_field(&self, property: &Property) -> Option<Field> {
+        let is_there = self.fields.iter().any(|field| field.name == property.name);
+        (!is_there).then(|| Field {
+            name: property.name.to_owned(),
+            unit: property.quantity().map(|quantity| quantity.unit()),
+            kind: kind_of_property(property),
+            shared: Common::None,
+            per_type: Vec::new(),
+        })
+    }
+
+    fn elements(&self) -> Elements {
+        let rows = PathSet::clone(&self.rows);
+        let mut elements = Elements::default();
+        match self.of {
+            Table::Paths => elements.paths = rows,
+            Table::Nodes => elements.nodes = rows,
+            Table::Stations => elements.stations = rows,
+        }
+        elements
+    }
+
+    fn heading(&self) -> RichText {
+        let count = text_format::counted(self.rows.len(), self.of.element());
+        RichText::new(count)
+    }
+}

@@ -1,0 +1,146 @@
+//! Fields that choose from what there is: words, directions, levels, vehicle types.
+
+use std::sync::Arc;
+
+use eframe::egui::{Button, ComboBox, TextEdit, Ui};
+use guideway_document::Document;
+use guideway_layout::Direction;
+
+use super::Shown;
+use super::draft::Target;
+use super::field::Common;
+use crate::action::Action;
+use crate::editing::EditTask;
+
+/// A choice of words; an empty one removes the property.
+pub(super) fn choice(
+    ui: &mut Ui,
+    target: Target,
+    value: &Common,
+    words: &[&str],
+    actions: &mut Vec<Action>,
+) {
+    let shown = match value {
+        Common::Same(value) => value,
+        Common::None => "none",
+        Common::Several => "several values",
+    };
+    let combo = ComboBox::from_id_salt(format!("{:?}", target.subject));
+    combo.selected_text(shown).show_ui(ui, |ui| {
+        for word in words.iter().copied().chain([""]) {
+            let label = if word.is_empty() { "none" } else { word };
+            if ui.selectable_label(shown == label, label).clicked() && shown != label {
+                match target.clone().edit(word) {
+                    Ok(edit) => actions.push(Action::Edit(edit)),
+                    Err(error) => actions.push(Action::Notify(error)),
+                }
+            }
+        }
+    });
+}
+
+pub(super) fn direction(ui: &mut Ui, shown: &Shown, actions: &mut Vec<Action>) {
+    let name = |direction| match direction {
+        Direction::Forward => "one-way",
+        Direction::Both => "two-way",
+    };
+    let present = shown.facts.direction;
+    ui.horizontal(|ui| {
+        let combo = ComboBox::from_id_salt("direction");
+        let text = present.map_or("several values", name);
+        combo.selected_text(text).show_ui(ui, |ui| {
+            for direction in [Direction::Forward, Direction::Both] {
+                let label = ui.selectable_label(present == Some(direction), name(direction));
+                if label.clicked() && present != Some(direction) {
+                    let rows = Arc::clone(&shown.rows);
+                    actions.push(Action::Edit(EditTask::edit(
+                        move |document: &mut Document| document.set_direction(&rows, direction),
+                    )));
+                }
+            }
+        });
+        let reverse = ui.button("Reverse");
+        if reverse.on_hover_text("Exchange start and end").clicked() {
+            let rows = Arc::clone(&shown.rows);
+            actions.push(Action::Edit(EditTask::edit(
+                move |document: &mut Document| document.reverse(&rows),
+            )));
+        }
+    });
+}
+
+pub(super) fn level(ui: &mut Ui, shown: &Shown, actions: &mut Vec<Action>) {
+    let name = |level: Option<u32>| match level {
+        Some(level) => shown
+            .levels
+            .get(level as usize)
+            .map_or("unknown", |name| name),
+        None => "none",
+    };
+    let present = shown.facts.level;
+    let combo = ComboBox::from_id_salt(("level", shown.of.element()));
+    let text = present.map_or("several values", name);
+    combo.selected_text(text).show_ui(ui, |ui| {
+        let levels = (0..shown.levels.len() as u32).map(Some).chain([None]);
+        for level in levels {
+            let label = ui.selectable_label(present == Some(level), name(level));
+            if label.clicked() && present != Some(level) {
+                let elements = shown.elements();
+                actions.push(Action::Edit(EditTask::edit(
+                    move |document: &mut Document| document.set_level(&elements, level),
+                )));
+            }
+        }
+    });
+}
+
+/// A check box per vehicle type of the layout; none checked opens the paths to all.
+pub(super) fn vehicle_types(
+    ui: &mut Ui,
+    shown: &Shown,
+    new_type: &mut String,
+    actions: &mut Vec<Action>,
+) {
+    let present = shown.facts.vehicle_types.as_deref();
+    let text = match present {
+        Some([]) => "all".to_owned(),
+        Some(types) => types.join(", "),
+        None => "several values".to_owned(),
+    };
+    let combo = ComboBox::from_id_salt("vehicle types")
+        .selected_text(text)
+        .truncate();
+    combo.show_ui(ui, |ui| {
+        for name in &shown.facts.all_types {
+            let types = present.unwrap_or_default();
+            let mut is_on = types.contains(name);
+            if ui.checkbox(&mut is_on, name).clicked() {
+                let others = types.iter().filter(|other| *other != name);
+                let types = others.chain(is_on.then_some(name)).cloned().collect();
+                actions.push(set_types(shown, types));
+            }
+        }
+        if ui.button("all").clicked() {
+            actions.push(set_types(shown, Vec::new()));
+        }
+        ui.horizontal(|ui| {
+            let field = TextEdit::singleline(new_type).hint_text("new vehicle type");
+            ui.add(field.desired_width(120.0));
+            let name = new_type.trim();
+            let is_new = !name.is_empty() && !shown.facts.all_types.iter().any(|n| n == name);
+            if ui.add_enabled(is_new, Button::new("Add")).clicked() {
+                let types = present.unwrap_or_default().iter().cloned();
+                actions.push(set_types(shown, types.chain([name.to_owned()]).collect()));
+                new_type.clear();
+            }
+        });
+    });
+}
+
+fn set_types(shown: &Shown, types: Vec<String>) -> Action {
+    let (of, rows) = (shown.of, Arc::clone(&shown.rows));
+    Action::Edit(EditTask::edit(move |document: &mut Document| {
+        let types: Vec<&str> = types.iter().map(String::as_str).collect();
+        document.set_vehicle_types(of, &rows, &types)
+    }))
+}
