@@ -2,8 +2,8 @@
 //! [`Layout`], holds them to the limits and to budgets by file size, and records diagnostics.
 
 use guideway_layout::{
-    Attributes, Block, Code, Diagnostics, Layout, Member, NewPath, Place, Property, RefusedPath,
-    Severity, TextColumn, Value, element_name,
+    Attributes, Block, Code, Diagnostics, Layout, Member, NewPath, Origin, Place, Property,
+    RefusedPath, Severity, SourceSpans, TextColumn, Value, element_name,
 };
 use guideway_spline::{Point, Runs};
 
@@ -35,6 +35,9 @@ pub(crate) struct Builder<'a> {
     file_bytes: u64,
     /// Bytes of the file that were read, for readers that pass through it once.
     read_bytes: u64,
+    /// First byte in the file of the element that is mapped, for readers that learn the lines of
+    /// elements and findings at the end.
+    pub(crate) element_byte: Option<usize>,
 }
 
 /// The table that an attribute belongs to.
@@ -71,6 +74,7 @@ impl<'a> Builder<'a> {
             max_text_bytes: max_text_bytes(file_bytes as u64),
             file_bytes: file_bytes as u64,
             read_bytes: 0,
+            element_byte: None,
         }
     }
 
@@ -111,7 +115,8 @@ impl<'a> Builder<'a> {
         message: impl FnOnce() -> String,
         remedy: &str,
     ) {
-        let (at, message) = (|| printable_place(at), || printable(&message()));
+        let byte = self.element_byte;
+        let (at, message) = (|| printable_place(at, byte), || printable(&message()));
         let found = &mut self.layout.diagnostics;
         found.push_as(severity, code, at, message, remedy);
     }
@@ -129,7 +134,9 @@ impl<'a> Builder<'a> {
         self.check_paths()?;
         let points = path.runs.points().len() as u64;
         self.points_left = self.points_left.saturating_sub(points);
-        Ok(self.layout.paths.push(path))
+        let row = self.layout.paths.push(path);
+        mark(&mut self.layout.paths.source, row, self.element_byte);
+        Ok(row)
     }
 
     /// Sets the number of control points that the file may expand to.
@@ -188,7 +195,8 @@ impl<'a> Builder<'a> {
         self.charge_text(detail)?;
         self.check_paths()?;
         let path = RefusedPath { id, code, detail };
-        let at = || printable_place(at);
+        let byte = self.element_byte;
+        let at = || printable_place(at, byte);
         self.layout.diagnostics.push_refused(path, at, remedy);
         self.layout.refused.push(id, code, detail);
         Ok(())
@@ -213,10 +221,10 @@ impl<'a> Builder<'a> {
         types: &[&str],
     ) -> Result<u32, ReadError> {
         self.charge_text(id)?;
-        Ok(self
-            .layout
-            .nodes
-            .push_for_types(id, position_m, level, types))
+        let nodes = &mut self.layout.nodes;
+        let row = nodes.push_for_types(id, position_m, level, types);
+        mark(&mut nodes.source, row as usize, self.element_byte);
+        Ok(row)
     }
 
     /// Appends a station and returns its row.
@@ -228,7 +236,10 @@ impl<'a> Builder<'a> {
         level: Option<u32>,
     ) -> Result<u32, ReadError> {
         self.charge_text(id)?;
-        Ok(self.layout.stations.push(id, position_m, nodes, level))
+        let stations = &mut self.layout.stations;
+        let row = stations.push(id, position_m, nodes, level);
+        mark(&mut stations.source, row as usize, self.element_byte);
+        Ok(row)
     }
 
     /// Appends a block and returns its row.
@@ -358,12 +369,20 @@ impl<'a> Builder<'a> {
     }
 }
 
-/// A place without control characters of the file.
-fn printable_place(at: PlaceFn<'_>) -> Place {
+/// A place without control characters of the file, whose line follows from a byte.
+fn printable_place(at: PlaceFn<'_>, byte: Option<usize>) -> Place {
     let place = at();
     Place {
         element: printable(&place.element),
+        origin: byte.map(Origin::Byte),
         ..place
+    }
+}
+
+/// Keeps the first byte of the element of a row. One that is too far for the column is left out.
+fn mark(source: &mut SourceSpans, row: usize, byte: Option<usize>) {
+    if let Some(byte) = byte.filter(|&byte| byte < u32::MAX as usize) {
+        source.set(row, byte);
     }
 }
 

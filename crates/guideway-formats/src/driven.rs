@@ -1,20 +1,14 @@
-//! Driven paths: tells paths for vehicles from walls, doors and the lanes of humans, which a layout
-//! of Open-RMF holds too.
+//! Driven nodes: tells nodes for vehicles from those of walls, doors and the lanes of humans, which
+//! a layout of Open-RMF holds too.
 
-use guideway_layout::{Layout, PathRef, Value};
-
-/// Returns whether vehicles may drive along a path.
-pub(crate) fn is_driven(layout: &Layout, path: PathRef<'_>) -> bool {
-    let element = layout.paths.attributes.value(path.row(), "element");
-    !matches!(element, Some(Value::Text("wall" | "door" | "human lane")))
-}
+use guideway_layout::Layout;
 
 /// Returns for each node whether vehicles may reach it: all but those of walls and doors only. A
 /// planner that looks for the nearest node would else start there.
 pub(crate) fn driven_nodes(layout: &Layout) -> Vec<bool> {
     let mut is_end = vec![[false; 2]; layout.nodes.len()];
     for path in layout.paths.iter() {
-        let is_driven = is_driven(layout, path);
+        let is_driven = layout.paths.is_driven(path.row());
         for node in [path.start_node(), path.end_node()].into_iter().flatten() {
             is_end[node as usize][usize::from(is_driven)] = true;
         }

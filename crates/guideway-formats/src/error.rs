@@ -3,9 +3,12 @@
 use std::fmt;
 use std::io;
 
-use guideway_layout::{Place, shown_text};
+use guideway_layout::{Place, TextPosition, shown_text};
 
 use crate::Format;
+
+/// Place of a problem that concerns the file as a whole.
+const WHOLE_FILE: &str = "the file";
 
 /// Reason why a file cannot be read: the file, the place, the problem and its remedy.
 #[derive(Debug, thiserror::Error)]
@@ -163,6 +166,21 @@ pub enum Problem {
 }
 
 impl Problem {
+    /// Returns the place of the problem in the file: the whole file, where it is nowhere else.
+    pub fn place(&self) -> Place {
+        match self {
+            Self::Syntax { line, column, .. } | Self::TooDeep { line, column, .. } => {
+                let [line, column] = [line, column].map(|n| u32::try_from(*n).unwrap_or(u32::MAX));
+                Place::element(WHOLE_FILE).at(TextPosition { line, column })
+            }
+            Self::Damaged { place, .. }
+            | Self::Structure { place, .. }
+            | Self::Unsupported { place, .. }
+            | Self::InvalidValue { place, .. } => place.clone(),
+            _ => Place::element(WHOLE_FILE),
+        }
+    }
+
     /// Returns the stable code of the kind of problem, for programs.
     pub fn code(&self) -> &'static str {
         match self {

@@ -1,6 +1,6 @@
 //! Fills a layout from an XML document: a [`Builder`] that reports findings at elements.
 
-use guideway_layout::Code;
+use guideway_layout::{Code, NewPath};
 use guideway_spline::Point;
 use roxmltree::Node;
 
@@ -48,6 +48,48 @@ impl<'a, 'd, 't> XmlBuilder<'a, 'd, 't> {
         let xml = self.xml;
         let at = || xml.place(node);
         self.builder.refuse_at(id, code, detail, &at, remedy)
+    }
+
+    /// Appends the path of an element, with its line, and returns its row.
+    ///
+    /// # Errors
+    /// When the layout would exceed a limit, or the caller cancels the read; as the others here.
+    pub(crate) fn push_path(
+        &mut self,
+        node: Node<'d, 't>,
+        path: &NewPath<'_>,
+    ) -> Result<usize, ReadError> {
+        let row = self.builder.push_path(path)?;
+        let source = &mut self.builder.layout.paths.source;
+        source.set_position(row, self.xml.position(node));
+        Ok(row)
+    }
+
+    /// Appends the node of an element, with its line, and returns its row.
+    pub(crate) fn push_node(
+        &mut self,
+        node: Node<'d, 't>,
+        id: &str,
+        position_m: Point<f64>,
+    ) -> Result<u32, ReadError> {
+        let row = self.builder.push_node(id, position_m, None)?;
+        let source = &mut self.builder.layout.nodes.source;
+        source.set_position(row as usize, self.xml.position(node));
+        Ok(row)
+    }
+
+    /// Appends the station of an element, with its line, and returns its row.
+    pub(crate) fn push_station(
+        &mut self,
+        node: Node<'d, 't>,
+        id: &str,
+        position_m: Option<Point<f64>>,
+        nodes: Vec<u32>,
+    ) -> Result<u32, ReadError> {
+        let row = self.builder.push_station(id, position_m, nodes, None)?;
+        let source = &mut self.builder.layout.stations.source;
+        source.set_position(row as usize, self.xml.position(node));
+        Ok(row)
     }
 
     /// Tells if a point can be drawn. Records a finding at an element if not.

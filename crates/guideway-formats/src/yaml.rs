@@ -6,7 +6,7 @@
 use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};
 
-use guideway_layout::Value;
+use guideway_layout::{TextPosition, Value};
 use saphyr_parser::{Event, Parser, ScalarStyle, ScanError};
 
 use crate::source::Source;
@@ -255,6 +255,11 @@ impl<'y> YamlNode<'y> {
     /// The first line of the value, from 1.
     pub(crate) fn line(self) -> u32 {
         self.values[self.node].line
+    }
+
+    /// The place of the value in its file, to the line.
+    pub(crate) fn position(self) -> TextPosition {
+        TextPosition::line(self.line())
     }
 
     pub(crate) fn is_object(self) -> bool {

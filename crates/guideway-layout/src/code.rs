@@ -43,6 +43,11 @@ macro_rules! codes {
                 match self { $(Self::$variant => Severity::$severity,)* }
             }
 
+            /// The code of a name.
+            pub fn named(name: &str) -> Option<Self> {
+                Self::ALL.iter().copied().find(|code| code.name() == name)
+            }
+
             /// Meaning, in one sentence.
             pub fn meaning(self) -> &'static str {
                 match self { $(Self::$variant => $doc,)* }
@@ -118,6 +123,7 @@ codes! {
     NoNodes "no-nodes" Info "The paths of a drawing have no nodes, so they are no network.";
     NotAnalyzed "not-analyzed" Info
         "The network is analyzed for some of its vehicle types only.";
+    Unreadable "unreadable" Error "A file cannot be read.";
     Implausible "implausible" Warning
         "The values are legal but look like a mistake, such as a wrong unit.";
 }

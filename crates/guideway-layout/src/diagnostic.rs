@@ -1,38 +1,8 @@
 //! [`Diagnostic`]: a finding about a layout, and [`Diagnostics`], a bounded list of them.
 
 use std::collections::BTreeMap;
-use std::fmt;
 
-use crate::{Code, Limits, RefusedPath, Severity};
-
-/// Position of a finding in its source.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Place {
-    /// Element of the file, such as `layouts[0].edges[3].trajectory` or `path "A --- B"`.
-    pub element: String,
-    /// Line in a text file, counted from 1.
-    pub line: Option<u32>,
-}
-
-impl Place {
-    /// An element without a line.
-    pub fn element(element: impl Into<String>) -> Self {
-        Self {
-            element: element.into(),
-            line: None,
-        }
-    }
-}
-
-impl fmt::Display for Place {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.element)?;
-        match self.line {
-            Some(line) => write!(f, " (line {line})"),
-            None => Ok(()),
-        }
-    }
-}
+use crate::{Code, Limits, Place, RefusedPath, Severity};
 
 /// One finding.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -186,6 +156,28 @@ impl Diagnostics {
         self.stored.iter_mut()
     }
 
+    /// Removes the stored findings that `keeps` rejects, and all findings of the kinds that
+    /// `keeps_kind` rejects, stored or not.
+    pub fn retain(
+        &mut self,
+        mut keeps_kind: impl FnMut(Code, Severity) -> bool,
+        mut keeps: impl FnMut(&Diagnostic) -> bool,
+    ) {
+        self.counts
+            .retain(|&(code, severity), _| keeps_kind(code, severity));
+        let counts = &mut self.counts;
+        self.stored.retain(|finding| {
+            let kind = (finding.code, finding.severity);
+            let Some(count) = counts.get_mut(&kind) else {
+                return false;
+            };
+            let stays = keeps(finding);
+            *count -= u64::from(!stays);
+            stays
+        });
+        self.counts.retain(|_, count| *count > 0);
+    }
+
     /// Exact number of findings of each code, whatever their severity.
     pub fn counts(&self) -> impl Iterator<Item = (Code, u64)> {
         let mut counts = BTreeMap::new();
@@ -262,6 +254,27 @@ mod tests {
             (Code::ZeroLength, Severity::Info, 2),
         ];
         assert_eq!(kinds, expected);
+    }
+
+    #[test]
+    fn removed_findings_are_not_counted() {
+        let mut found = Diagnostics::with_limit(2);
+        push(&mut found, Severity::Info, 5);
+        push(&mut found, Severity::Error, 3);
+        push(&mut found, Severity::Warning, 1);
+        let mut seen = 0;
+        found.retain(
+            |_, severity| severity != Severity::Error,
+            |finding| {
+                seen += 1;
+                finding.severity == Severity::Info && seen > 1
+            },
+        );
+        // One of two stored notes is gone, the three that were counted only stay.
+        let kinds = FindingKind::of([&found]);
+        assert_eq!(kinds.len(), 1);
+        assert_eq!((kinds[0].severity, kinds[0].count), (Severity::Info, 4));
+        assert_eq!(found.iter().count(), 1);
     }
 
     #[test]

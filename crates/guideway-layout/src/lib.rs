@@ -12,12 +12,12 @@
 //! | `groups` | vehicle types, blocks, zones |
 //! | `geometry`, `run_points` | the curves of all paths in flat buffers |
 //! | `written_curve` | NURBS curves as their file wrote them |
-//! | `source_text` | place of each row in the text of its file |
+//! | `source_text`, `line_index`, `locate` | place of each row in the text of its file, as a line |
 //! | `text`, `cells`, `text_cells`, `optional_column` | columns |
 //! | `attribute`, `values`, `quantity` | further columns, with units |
 //! | `property` | names, kinds and units of the columns that several formats share |
-//! | `code`, `diagnostic`, `limits` | findings and limits of readers |
-//! | `user_error` | the error that the command and the window show |
+//! | `code`, `place`, `diagnostic`, `limits` | findings and limits of readers |
+//! | `user_error`, `near` | the error that the command and the window show, and names it suggests |
 //! | `merge` | joins layouts |
 //! | `compare` | differences between two layouts |
 //! | `check` | finds defects of geometry and topology |
@@ -46,13 +46,17 @@ mod groups;
 mod layout;
 mod level;
 mod limits;
+mod line_index;
+mod locate;
 mod may_fail;
 mod merge;
+mod near;
 mod nodes;
 mod note;
 mod optional_column;
 mod path;
 mod paths;
+mod place;
 mod property;
 mod quantity;
 mod reach;
@@ -78,19 +82,22 @@ pub use code::{Code, Severity};
 pub use compare::{
     Change, Changes, CompareOptions, Difference, ElementChange, changes, differences,
 };
-pub use diagnostic::{Diagnostic, Diagnostics, FindingKind, Place};
+pub use diagnostic::{Diagnostic, Diagnostics, FindingKind};
 pub use geo_origin::GeoOrigin;
 pub use geometry::{Geometry, Hulls, append_hulls};
 pub use groups::{Block, Member, VehicleType, Zone};
 pub use layout::{Layout, Provenance};
 pub use level::Level;
 pub use limits::Limits;
+pub use line_index::{LineIndex, TextPosition};
 pub use may_fail::{may_fail, try_reserve};
 pub use merge::merge;
+pub use near::near_names;
 pub use nodes::Nodes;
 pub use note::{Note, NoteKind};
 pub use path::{Direction, NewPath, OwnStyle};
 pub use paths::{PathRef, Paths};
+pub use place::{Origin, Place};
 pub use property::{ElementKind, PROPERTIES, Property, PropertyKind};
 pub use quantity::Quantity;
 pub use refused::{Refused, RefusedPath};

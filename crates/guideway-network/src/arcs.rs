@@ -53,15 +53,16 @@ impl Groups {
 }
 
 impl Arcs {
-    /// The arcs of a vehicle type, or those open to all if it is `None`. Paths without nodes and
-    /// locked paths have none.
+    /// The arcs of a vehicle type, or those open to all if it is `None`. Paths without nodes,
+    /// locked paths, walls and doors have none.
     pub(crate) fn of(layout: &Layout, vehicle_type: Option<&str>) -> Self {
         let mut all = Vec::with_capacity(layout.paths.len());
         for path in layout.paths.iter() {
             let (Some(from), Some(to)) = (path.start_node(), path.end_node()) else {
                 continue;
             };
-            if !is_open(layout, path.row(), vehicle_type) {
+            let is_driven = layout.paths.is_driven(path.row());
+            if !is_driven || !is_open(layout, path.row(), vehicle_type) {
                 continue;
             }
             let forward = Arc {

@@ -45,6 +45,7 @@ pub fn check_clearance(
         );
     }
     first.append(findings);
-    let findings = first;
+    let mut findings = first;
+    layout.locate(&mut findings);
     ClearanceReport { findings, work }
 }

@@ -1,7 +1,7 @@
 //! Clearances between pairs of paths.
 
 use guideway_layout::{
-    Code, Diagnostics, DisplayPosition, Layout, element_name, element_place, same_curves,
+    Code, Diagnostics, DisplayPosition, Layout, Member, element_name, element_place, same_curves,
 };
 use guideway_spline::Bounds;
 use rayon::prelude::*;
@@ -171,7 +171,7 @@ impl Violation {
         let id = |row| layout.paths.id(row);
         found.push(
             Code::Clearance,
-            || element_place("path", row, id(row)),
+            || element_place(Member::Path(row as u32), id(row)),
             || {
                 let other = element_name("path", other, id(other));
                 let approach = approach(nearest.distance_m);

@@ -1,7 +1,8 @@
 //! Checks the clearance of paths to the walls of a floor plan.
 
 use guideway_layout::{
-    Code, Diagnostics, DisplayPosition, Layout, RunPoints, TextColumn, element_name, element_place,
+    Code, Diagnostics, DisplayPosition, Layout, Member, RunPoints, TextColumn, element_name,
+    element_place,
 };
 use guideway_spline::{Bounds, Point, flatten_run};
 use rayon::prelude::*;
@@ -196,7 +197,7 @@ impl Walls {
         let id = layout.paths.id(row);
         found.push(
             Code::WallClearance,
-            || element_place("path", row, id),
+            || element_place(Member::Path(row as u32), id),
             || {
                 let wall = self.paths[line as usize] as usize;
                 let wall = element_name("path", wall, self.ids.get(wall));

@@ -1,6 +1,6 @@
 //! Path identifiers: those of drawn paths, and the refused paths with their reasons.
 
-use guideway_layout::{Diagnostics, Refused, TextColumn, element_place};
+use guideway_layout::{Diagnostics, Place, Refused, TextColumn, element_name};
 
 use super::batch::Batch;
 use super::id_column::{IdColumn, id_texts};
@@ -47,7 +47,7 @@ impl<'a> PathIds<'a> {
     /// Returns the identifiers of drawn paths, and the refused paths.
     pub(super) fn finish(self, diagnostics: &mut Diagnostics) -> (TextColumn, Refused) {
         for path in self.refused.iter() {
-            let place = || element_place("path", 0, path.id);
+            let place = || Place::element(element_name("path", 0, path.id));
             let remedy = "It is left out; correct its control points";
             diagnostics.push_refused(path, place, remedy);
         }

@@ -1,6 +1,6 @@
 //! Maps entities to paths: expands INSERTs recursively and resolves inherited layers and colors.
 
-use guideway_layout::{Code, NewPath, Place, Severity, Value, WrittenCurve};
+use guideway_layout::{Code, NewPath, Place, Severity, TextPosition, Value, WrittenCurve};
 use guideway_spline::Runs;
 
 use super::affine3::{Affine3, Vector3};
@@ -73,8 +73,8 @@ impl<'a> EntityMapper<'a> {
         context: &InsertContext<'_>,
     ) -> Result<(), ReadError> {
         let at: PlaceFn<'_> = &|| Place {
-            element: format!("{} {}", entity.kind, path_id(entity, context)),
             line: entity.line,
+            ..Place::element(format!("{} {}", entity.kind, path_id(entity, context)))
         };
         // Inside a block, layer 0 means the layer of the INSERT.
         let layer_row = match context.layer {
@@ -164,6 +164,10 @@ impl<'a> EntityMapper<'a> {
             runs: &runs,
             ..NewPath::default()
         })?;
+        if let Some(line) = entity.line {
+            let source = &mut self.builder.layout.paths.source;
+            source.set_position(row, TextPosition::line(line));
+        }
         if let Some(written) = written {
             let paths = &mut self.builder.layout.paths;
             if !is_rewritten_as(paths.get(row), None, &written) {

@@ -123,10 +123,7 @@ fn report_text(builder: &mut Builder<'_>, drawing: &Drawing<'_>, bytes: &[u8]) {
 fn report_cut(builder: &mut Builder<'_>, drawing: &Drawing<'_>) {
     let error = Severity::Error;
     if let Some(stray) = drawing.stray {
-        let at = || Place {
-            element: "the file".into(),
-            line: Some(stray.first),
-        };
+        let at = || Place::on_line("the file", stray.first);
         let message = || {
             let others = match stray.count {
                 1 => String::new(),

@@ -19,10 +19,11 @@ use crate::builder::PlaceFn;
 use crate::json::{Field, field_place};
 
 impl Mapper<'_> {
-    /// Maps the root object to a layout.
+    /// Maps the root object to a layout; `starts` are the first bytes of its features.
     pub(super) fn map(
         mut self,
         mut root: Root<'_>,
+        starts: &[usize],
         file_bytes: usize,
     ) -> Result<Layout, ReadError> {
         let at_root: PlaceFn<'_> = &|| Place::element("the root");
@@ -58,10 +59,12 @@ impl Mapper<'_> {
         for nodes in [true, false] {
             for (i, feature) in features.iter().enumerate() {
                 if feature.get().is_some_and(is_node) == nodes {
+                    self.builder.element_byte = starts.get(i).copied();
                     self.map_feature(feature, &|| Place::element(format!("features[{i}]")))?;
                 }
             }
         }
+        self.builder.element_byte = None;
         if let Some(member) = member {
             self.map_blocks(member)?;
         }

@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 use guideway_layout::{Direction, Layout, PathRef};
 
-use crate::driven::{driven_nodes, is_driven};
+use crate::driven::driven_nodes;
 use crate::unique_names::UniqueNames;
 
 /// Numbers of the nodes and edges of a layout, all different.
@@ -54,7 +54,7 @@ impl Nav2Ids {
 /// Returns whether a path becomes an edge: vehicles drive on it, it has a curve and both nodes.
 pub(super) fn is_edge(layout: &Layout, path: &PathRef<'_>) -> bool {
     let has_nodes = path.start_node().is_some() && path.end_node().is_some();
-    path.runs().len() > 0 && has_nodes && is_driven(layout, *path)
+    path.runs().len() > 0 && has_nodes && layout.paths.is_driven(path.row())
 }
 
 /// Numbers that are not in use.

@@ -19,11 +19,27 @@ pub(crate) fn read(source: Source<'_>, bytes: &[u8]) -> Result<Layout, ReadError
     for document in &documents {
         roots.push(root(&source, document)?);
     }
-    let mut layout = Mapper::new(source, bytes.len()).map(joined(roots), bytes.len())?;
-    if documents.len() == 1 {
-        json::add_line_numbers(&mut layout, documents[0]);
-    }
+    let starts: Vec<usize> = documents
+        .iter()
+        .flat_map(|part| starts(text, part))
+        .collect();
+    let mapper = Mapper::new(source, bytes.len());
+    let mut layout = mapper.map(joined(roots), &starts, bytes.len())?;
+    let only = (documents.len() == 1).then(|| documents[0]);
+    json::find_lines(&mut layout, text, only);
     Ok(layout)
+}
+
+/// The first bytes in the file of the features of a document, which may be a feature itself.
+fn starts(text: &str, document: &str) -> Vec<usize> {
+    let start = json::offset_in(text, document).unwrap_or(0);
+    match json::root_items(document, "features") {
+        None => vec![start],
+        Some(features) => features
+            .into_iter()
+            .map(|item| start + item.start)
+            .collect(),
+    }
 }
 
 /// Joins the features of a sequence. The first system and the first member of Guideway count.

@@ -1,38 +1,90 @@
-//! Line numbers: finds the line of each diagnostic by a second scan over the text, from the path of
-//! its element such as `layouts[0].nodes[3].x`.
+//! Lines: finds the line of each element of the layout, from its first byte, and of each diagnostic,
+//! from the path of its element such as `layouts[0].nodes[3].x`, by a second scan over the text.
 
 use std::collections::HashMap;
+use std::ops::Range;
 
-use guideway_layout::Layout;
+use guideway_layout::{Layout, LineIndex, Origin};
 
-/// Sets the line of each diagnostic to that of its element in the text, or of the innermost
-/// enclosing object that exists. Without diagnostics it does not scan the text.
-pub(crate) fn add_line_numbers(layout: &mut Layout, text: &str) {
-    let lines = lines(layout, text);
-    for (diagnostic, line) in layout.diagnostics.iter_mut().zip(lines) {
-        diagnostic.place.line = line;
+use super::scan::{items_at, member};
+
+/// Returns the first byte of a part of a text; `None` for a text of its own.
+pub(crate) fn offset_in(text: &str, part: &str) -> Option<usize> {
+    let start = (part.as_ptr() as usize).checked_sub(text.as_ptr() as usize)?;
+    (start + part.len() <= text.len()).then_some(start)
+}
+
+/// Returns the places in a document of the items of an array that its root object has, if it has
+/// one.
+pub(crate) fn root_items(document: &str, key: &str) -> Option<Vec<Range<usize>>> {
+    let root = document.len() - document.trim_start().len();
+    let array = member(document, root, key)?;
+    document[array.clone()]
+        .starts_with('[')
+        .then(|| items_at(document, array.start))
+}
+
+/// Sets the line of each diagnostic to that of its element in the text of the file, or of the
+/// innermost enclosing object that exists; elements are those of a part of the text, `document`.
+/// Keeps the lines of the rows of the layout, unless it keeps the text.
+pub(crate) fn find_lines(layout: &mut Layout, file: &str, document: Option<&str>) {
+    let keeps_text = layout.provenance.text.is_some();
+    if keeps_text && layout.diagnostics.is_empty() {
+        return;
+    }
+    let lines = LineIndex::new(file);
+    if !keeps_text {
+        let spans = [
+            &mut layout.paths.source,
+            &mut layout.nodes.source,
+            &mut layout.stations.source,
+        ];
+        spans
+            .into_iter()
+            .for_each(|spans| spans.keep_positions(&lines));
+    }
+    let document = document.and_then(|part| Some((part, offset_in(file, part)?)));
+    let starts = document.map_or_else(Vec::new, |(part, before)| {
+        let starts = starts(layout, part).into_iter();
+        starts
+            .map(|start| start.map(|start| before + start))
+            .collect()
+    });
+    let mut starts = starts.into_iter();
+    for diagnostic in layout.diagnostics.iter_mut() {
+        let place = &mut diagnostic.place;
+        let own = match place.origin {
+            Some(Origin::Byte(byte)) => Some(byte),
+            _ => None,
+        };
+        if let Some(byte) = starts.next().flatten().or(own) {
+            *place = std::mem::take(place).at(lines.position(byte));
+        }
+        place.origin = place
+            .origin
+            .filter(|origin| !matches!(origin, Origin::Byte(_)));
     }
 }
 
-fn lines(layout: &Layout, text: &str) -> Vec<Option<u32>> {
+/// The first byte of the element of each diagnostic.
+fn starts(layout: &Layout, text: &str) -> Vec<Option<usize>> {
     let mut wanted = ElementTree::default();
     let elements = layout.diagnostics.iter().map(|d| &d.place.element);
     let nodes: Vec<usize> = elements.map(|element| wanted.add(element)).collect();
     if nodes.is_empty() {
         return Vec::new();
     }
-    let mut scan = LineScan {
+    let mut scan = ElementScan {
         bytes: text.as_bytes(),
         at: 0,
-        line: 1,
-        lines: vec![None; wanted.nodes.len()],
+        starts: vec![None; wanted.nodes.len()],
     };
     scan.value(ROOT, &wanted);
     // A diagnostic of the whole file has no line.
-    scan.lines[ROOT] = None;
+    scan.starts[ROOT] = None;
     let of_innermost = |node: usize| {
         let mut outwards = std::iter::successors(Some(node), |&node| wanted.nodes[node].parent);
-        outwards.find_map(|node| scan.lines[node])
+        outwards.find_map(|node| scan.starts[node])
     };
     nodes.into_iter().map(of_innermost).collect()
 }
@@ -92,20 +144,19 @@ impl<'e> ElementTree<'e> {
 }
 
 /// Scan over a text that was parsed before, so its syntax is valid.
-struct LineScan<'t> {
+struct ElementScan<'t> {
     bytes: &'t [u8],
     at: usize,
-    line: u32,
-    /// Line of each element of the tree that was found.
-    lines: Vec<Option<u32>>,
+    /// First byte of each element of the tree that was found.
+    starts: Vec<Option<usize>>,
 }
 
-impl<'t> LineScan<'t> {
-    /// Records the line of a wanted value, scans its children, and skips past it.
+impl<'t> ElementScan<'t> {
+    /// Records the place of a wanted value, scans its children, and skips past it.
     fn value(&mut self, node: usize, wanted: &ElementTree<'_>) {
         let first = self.peek();
         // The last one of repeated keys is used.
-        self.lines[node] = Some(self.line);
+        self.starts[node] = Some(self.at);
         let is_container = matches!(first, Some(b'{' | b'['));
         if !is_container || !wanted.nodes[node].has_children {
             return self.skip();
@@ -142,10 +193,8 @@ impl<'t> LineScan<'t> {
     /// Skips white space and returns the next byte.
     fn peek(&mut self) -> Option<u8> {
         while let Some(&byte) = self.bytes.get(self.at) {
-            match byte {
-                b'\n' => self.line = self.line.saturating_add(1),
-                b' ' | b'\t' | b'\r' => {}
-                _ => return Some(byte),
+            if !b" \t\r\n".contains(&byte) {
+                return Some(byte);
             }
             self.at += 1;
         }
@@ -206,7 +255,7 @@ mod tests {
         layout
             .diagnostics
             .push(Code::Attribute, place, String::new, "");
-        add_line_numbers(&mut layout, text);
+        find_lines(&mut layout, text, Some(text));
         layout.diagnostics.iter().next().and_then(|d| d.place.line)
     }
 

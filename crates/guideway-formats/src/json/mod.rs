@@ -11,7 +11,7 @@
 //! | parse | text | a record of [`Field`]s, or a problem | `parse`, `record`, `field`, `attributes` |
 //! | items | text of a long array | one record at a time | `lazy_array` |
 //! | check | fields | values, diagnostics | `check`, `cell` |
-//! | lines | diagnostics, text | line numbers | `lines` |
+//! | lines | diagnostics, rows, text | lines and columns | `lines` |
 //! | write | values of a layout | text | `tree` |
 //! | splice | text of the file, old and new values | changed parts of the text | `scan`, `splice`, `array_splice`, `style` |
 
@@ -39,7 +39,7 @@ pub(crate) use self::check::{field_place, items};
 pub(crate) use self::documents::{documents, payload};
 pub(crate) use self::field::{Field, FromJson, Key};
 pub(crate) use self::lazy_array::{LazyArray, LazyItem};
-pub(crate) use self::lines::add_line_numbers;
+pub(crate) use self::lines::{find_lines, offset_in, root_items};
 pub(crate) use self::parse::parse;
 pub(crate) use self::record::record;
 pub(crate) use self::scan::{items_at, member, push_compact};

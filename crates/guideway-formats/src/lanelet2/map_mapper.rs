@@ -216,12 +216,16 @@ impl<'a, 'd, 't> MapMapper<'a, 'd, 't> {
         }
         let id = id(element);
         builder.check_text(id)?;
-        let row = builder.push_path(&NewPath {
-            id,
-            runs: &runs,
-            direction,
-            ..NewPath::default()
-        })?;
+        let row = self.base.push_path(
+            element,
+            &NewPath {
+                id,
+                runs: &runs,
+                direction,
+                ..NewPath::default()
+            },
+        )?;
+        let builder = &mut self.base.builder;
         builder.set(Table::Paths, row, "element", Value::Text(kind))?;
         self.set_tags(element, row)
     }

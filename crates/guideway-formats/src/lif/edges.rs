@@ -255,13 +255,6 @@ impl Mapper<'_> {
             vehicle_types: &vehicle_types,
             ..NewPath::default()
         })?;
-        if let Some(before) = self.text_start {
-            self.builder
-                .layout
-                .paths
-                .source
-                .set(row, before + item.start);
-        }
         if let Some(read) = read {
             let text = || {
                 let (key, i) = curve.entry?;

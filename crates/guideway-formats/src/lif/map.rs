@@ -27,12 +27,14 @@ impl Mapper<'_> {
         let layouts = self.layouts(root)?;
         // All nodes come first: an edge may lead to a node of a later layout.
         for (level, entry) in layouts.iter().enumerate() {
+            self.builder.element_byte = None;
             self.map_level(entry)?;
             let mut nodes = entry.record.nodes.items(file);
             while let Some(batch) = nodes.next(&mut self.builder)? {
                 for node in &batch {
                     let i = node.index;
                     let at = || Place::element(format!("{}.nodes[{i}]", entry.place));
+                    self.builder.element_byte = Some(self.text_start + node.start);
                     self.map_node(node, level as u32, &at)?;
                 }
             }
@@ -43,6 +45,7 @@ impl Mapper<'_> {
                 for edge in &batch {
                     let i = edge.index;
                     let at = || Place::element(format!("{}.edges[{i}]", entry.place));
+                    self.builder.element_byte = Some(self.text_start + edge.start);
                     self.map_edge(edge, level as u32, &at)?;
                 }
             }
@@ -51,10 +54,12 @@ impl Mapper<'_> {
                 for station in &batch {
                     let i = station.index;
                     let at = || Place::element(format!("{}.stations[{i}]", entry.place));
+                    self.builder.element_byte = Some(self.text_start + station.start);
                     self.map_station(station, level as u32, &at)?;
                 }
             }
         }
+        self.builder.element_byte = None;
         self.set_node_types();
         Ok(self.finish(layouts.len()))
     }

@@ -31,8 +31,8 @@ pub(super) struct Mapper<'a> {
     /// Rows of the vehicle types with properties.
     type_rows: HashMap<String, usize>,
     pub(super) counts: Counts,
-    /// Bytes before the text in the file, if the layout keeps the places of its rows.
-    pub(super) text_start: Option<usize>,
+    /// Bytes of the file before its text.
+    pub(super) text_start: usize,
 }
 
 /// Columns of the members of each object; `None` for a member that a version lacks.
@@ -83,9 +83,8 @@ pub(super) struct Counts {
 }
 
 impl<'a> Mapper<'a> {
-    /// Makes an empty layout for a file of `file_bytes` bytes. `text_start` is the place of the
-    /// text in the file, if the layout keeps the places of its rows.
-    pub(super) fn new(source: Source<'a>, file_bytes: usize, text_start: Option<usize>) -> Self {
+    /// Makes an empty layout for a file of `file_bytes` bytes, `text_start` of them before its text.
+    pub(super) fn new(source: Source<'a>, file_bytes: usize, text_start: usize) -> Self {
         Self {
             builder: Builder::new(source, file_bytes),
             columns: Columns::all(),

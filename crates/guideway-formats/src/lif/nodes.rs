@@ -44,13 +44,6 @@ impl Mapper<'_> {
             Some(_) => {}
         }
         let row = row as usize;
-        if let Some(before) = self.text_start {
-            self.builder
-                .layout
-                .nodes
-                .source
-                .set(row, before + item.start);
-        }
         let mut other = OtherMembers::default();
         add_nested(&mut other, "nodePosition", position);
         let mut cells = self.cells(&node.attributes, &self.columns.node, &mut other, at)?;

@@ -50,12 +50,10 @@ pub(crate) fn read(source: Source<'_>, bytes: &[u8]) -> Result<Layout, ReadError
     }
     // Without the byte order mark, which the kept text begins with.
     let before = bytes.len() - text.len();
-    let text_start = (bytes.len() <= MAX_KEPT_BYTES).then_some(before);
-    let mut layout = Mapper::new(source, bytes.len(), text_start).map(&root, text)?;
-    if text_start.is_some() {
-        layout.provenance.text = std::str::from_utf8(bytes).ok().map(Into::into);
-    }
-    json::add_line_numbers(&mut layout, text);
+    let whole = std::str::from_utf8(bytes).unwrap_or(text);
+    let mut layout = Mapper::new(source, bytes.len(), before).map(&root, text)?;
+    layout.provenance.text = (bytes.len() <= MAX_KEPT_BYTES).then(|| whole.into());
+    json::find_lines(&mut layout, whole, Some(text));
     Ok(layout)
 }
 

@@ -43,10 +43,6 @@ impl Mapper<'_> {
         let row = self
             .builder
             .push_station(&id, position, nodes, Some(level))? as usize;
-        if let Some(before) = self.text_start {
-            let source = &mut self.builder.layout.stations.source;
-            source.set(row, before + item.start);
-        }
         cells.extend(self.cells(&station.attributes, &self.columns.station, &mut other, at)?);
         cells.extend(other_cell(other, OTHER));
         for cell in &cells {

@@ -131,10 +131,7 @@ fn place(xml: &Xml<'_>, indices: &HashMap<NodeId, usize>, node: Node<'_, '_>) ->
         (owner, name) if owner == node => name,
         (_, name) => format!("{} of {name}", node.tag_name().name()),
     };
-    Place {
-        element,
-        line: u32::try_from(xml.line(node)).ok(),
-    }
+    Place::element(element).at(xml.position(node))
 }
 
 /// The start of a section along its road; 0 if it states no number.

@@ -239,15 +239,18 @@ impl<'r, 'a, 'd, 't> SectionMapper<'r, 'a, 'd, 't> {
         if (lane.id > 0) != road.is_left_hand && lane.id != 0 {
             runs = runs.reversed();
         }
-        let row = self.reader.base.builder.push_path(&NewPath {
-            id,
-            runs: &runs,
-            direction: match lane.id {
-                0 => Direction::Both,
-                _ => Direction::Forward,
+        let row = self.reader.base.push_path(
+            lane.node,
+            &NewPath {
+                id,
+                runs: &runs,
+                direction: match lane.id {
+                    0 => Direction::Both,
+                    _ => Direction::Forward,
+                },
+                ..NewPath::default()
             },
-            ..NewPath::default()
-        })?;
+        )?;
         let kind = lane.node.attribute("type").unwrap_or("none");
         for (name, value) in [
             ("type", Some(kind)),

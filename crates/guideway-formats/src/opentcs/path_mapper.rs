@@ -135,11 +135,9 @@ impl<'m, 'a, 'd, 't> PathMapper<'m, 'a, 'd, 't> {
                 missing.join("\" and \"")
             );
             self.reader.base.builder.check_text(&detail)?;
-            return self
-                .reader
-                .base
-                .builder
-                .refuse(&name, Code::UnknownNode, &detail);
+            let remedy = "It is left out; correct it in the tool that wrote the file";
+            let base = &mut self.reader.base;
+            return base.refuse(&name, Code::UnknownNode, path, &detail, remedy);
         };
         let element = name_or_empty(path);
         if let Some(layer) = self.visual.hidden_layer(element, child(path, "pathLayout")) {
@@ -161,14 +159,17 @@ impl<'m, 'a, 'd, 't> PathMapper<'m, 'a, 'd, 't> {
             ends.reverse();
             runs = runs.reversed();
         }
-        let row = self.reader.base.builder.push_path(&NewPath {
-            id: &name,
-            runs: &runs,
-            start_node: ends[0],
-            end_node: ends[1],
-            direction: speeds.direction(),
-            ..NewPath::default()
-        })?;
+        let row = self.reader.base.push_path(
+            path,
+            &NewPath {
+                id: &name,
+                runs: &runs,
+                start_node: ends[0],
+                end_node: ends[1],
+                direction: speeds.direction(),
+                ..NewPath::default()
+            },
+        )?;
         if let Some(name) = path.attribute("name") {
             self.rows.entry(name).or_insert(row as u32);
         }

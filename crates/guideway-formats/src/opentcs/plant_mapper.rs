@@ -193,7 +193,7 @@ impl<'a, 'd, 't> PlantMapper<'a, 'd, 't> {
             return Ok(());
         };
         let reader = &mut self.reader;
-        let row = reader.base.builder.push_node(&name, position.drawn, None)?;
+        let row = reader.base.push_node(point, &name, position.drawn)?;
         if let Some(name) = point.attribute("name") {
             self.nodes.entry(name).or_insert(row);
         }
@@ -242,8 +242,7 @@ impl<'a, 'd, 't> PlantMapper<'a, 'd, 't> {
             }
         }
         let drawn = position.as_ref().map(|position| position.drawn);
-        let builder = &mut reader.base.builder;
-        let row = builder.push_station(&name, drawn, nodes, None)?;
+        let row = reader.base.push_station(location, &name, drawn, nodes)?;
         if let Some(name) = location.attribute("name") {
             self.stations.entry(name).or_insert(row);
         }

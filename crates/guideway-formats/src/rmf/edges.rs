@@ -56,6 +56,8 @@ impl<'y> SiteMapper<'_, 'y> {
             .reader
             .builder
             .push_node(&id, position, Some(level_index))?;
+        let nodes = &mut self.reader.builder.layout.nodes;
+        nodes.source.set_position(row as usize, vertex.position());
         let height_m = vertex.item(2).and_then(YamlNode::number);
         if let Some(height_m) = height_m.filter(|height_m| *height_m != 0.0) {
             let attributes = self.reader.builder.attributes(Table::Nodes);
@@ -155,6 +157,8 @@ impl<'y> SiteMapper<'_, 'y> {
             // Each graph is for the vehicles of one fleet.
             vehicle_types: fleet.as_deref().as_slice(),
         })?;
+        let paths = &mut self.reader.builder.layout.paths;
+        paths.source.set_position(row, edge.position());
         // A navigation graph has lanes only, apart from its doors.
         if !is_graph {
             let element = Value::Text(element);
@@ -226,6 +230,8 @@ impl<'y> SiteMapper<'_, 'y> {
                 level: level.map(|level| level as u32),
                 ..NewPath::default()
             })?;
+            let paths = &mut self.reader.builder.layout.paths;
+            paths.source.set_position(row, door.position());
             let element = Value::Text("door");
             self.reader
                 .builder

@@ -6,7 +6,7 @@ use std::collections::HashMap;
 
 use guideway_layout::{Direction, Layout, Member, PathRef, Value};
 
-use crate::driven::{driven_nodes, is_driven};
+use crate::driven::driven_nodes;
 use crate::unique_names::UniqueNames;
 
 /// Name of the level of a layout without levels.
@@ -157,7 +157,7 @@ fn kind(layout: &Layout, path: PathRef<'_>) -> PathKind {
     let level = |node: Option<u32>| node.map(|node| level_of(layout, node));
     let levels = [path.start_node(), path.end_node()].map(level);
     let is_on_one_level = levels[0].is_some() && levels[0] == levels[1];
-    match is_driven(layout, path) && path.runs().len() > 0 && is_on_one_level {
+    match layout.paths.is_driven(path.row()) && path.runs().len() > 0 && is_on_one_level {
         true => PathKind::Lane,
         false => PathKind::Absent,
     }

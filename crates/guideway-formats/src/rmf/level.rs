@@ -37,10 +37,7 @@ impl<'y> Level<'y> {
     ) -> Result<Self, ReadError> {
         builder.check_text(name)?;
         if !content.is_map() {
-            let at: PlaceFn<'_> = &|| Place {
-                element: format!("levels.{name}"),
-                line: Some(content.line()),
-            };
+            let at: PlaceFn<'_> = &|| Place::on_line(format!("levels.{name}"), content.line());
             let message = || format!("expected an object, found {}", content.kind());
             let remedy = "The level is empty; give it vertices and lanes";
             builder.report(Code::WrongType, at, message, remedy);
@@ -118,10 +115,7 @@ impl<'y> Level<'y> {
     /// The place of a value of the level.
     pub(super) fn place(&self, key: &str) -> Place {
         let found = self.content.get(key).unwrap_or(self.content);
-        Place {
-            element: format!("levels.{}.{key}", self.name),
-            line: Some(found.line()),
-        }
+        Place::on_line(format!("levels.{}.{key}", self.name), found.line())
     }
 
     /// The place of an item of a list of the level.

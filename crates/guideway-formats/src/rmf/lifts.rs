@@ -64,6 +64,8 @@ pub(super) fn map_lifts<'y>(
         let nodes = reader.lifts.remove(name).unwrap_or_default();
         let builder = &mut reader.builder;
         let row = builder.push_station(name, position_m, nodes, None)? as usize;
+        let source = &mut builder.layout.stations.source;
+        source.set_position(row, lift.position());
         builder.set(Table::Stations, row, "kind", Value::Text("lift"))?;
         for (key, entry, quantity) in [
             ("theta", number("yaw", ("position", 2)), Quantity::Angle),

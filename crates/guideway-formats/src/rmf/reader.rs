@@ -56,8 +56,5 @@ impl<'a, 'y> SiteReader<'a, 'y> {
 
 /// The place of a named element.
 pub(super) fn place(element: &str, node: YamlNode<'_>) -> Place {
-    Place {
-        element: element.to_owned(),
-        line: Some(node.line()),
-    }
+    Place::on_line(element, node.line())
 }

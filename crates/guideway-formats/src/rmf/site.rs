@@ -64,10 +64,7 @@ impl<'a, 'y> SiteMapper<'a, 'y> {
     /// Reports duplicate keys and further documents of the file.
     fn report_document(&mut self, yaml: &Yaml<'_>) {
         for (key, line) in &yaml.duplicate_keys {
-            let at: PlaceFn<'_> = &|| Place {
-                element: "an object".into(),
-                line: Some(*line),
-            };
+            let at: PlaceFn<'_> = &|| Place::on_line("an object", *line);
             let message = || format!("the key `{key}` occurs more than once");
             let remedy = "The last value is used; remove the others";
             self.reader
@@ -75,10 +72,7 @@ impl<'a, 'y> SiteMapper<'a, 'y> {
                 .report(Code::DuplicateKey, at, message, remedy);
         }
         if let Some(line) = yaml.next_document {
-            let at: PlaceFn<'_> = &|| Place {
-                element: "the next document".into(),
-                line: Some(line),
-            };
+            let at: PlaceFn<'_> = &|| Place::on_line("the next document", line);
             let message = || "the file contains more than one document".to_owned();
             let remedy = "Only the first one is read; split the file";
             self.reader

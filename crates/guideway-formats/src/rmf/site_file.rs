@@ -193,6 +193,8 @@ impl<'a, 'y> SiteFileMapper<'a, 'y> {
             builder.check_text(name)?;
             if builder.check_point(position, at) {
                 let row = builder.push_node(name, position, level)?;
+                let source = &mut builder.layout.nodes.source;
+                source.set_position(row as usize, anchor.position());
                 self.nodes.insert(id, row);
             }
         }
@@ -257,6 +259,8 @@ impl<'a, 'y> SiteFileMapper<'a, 'y> {
             level: level.or(from).or(to),
             vehicle_types: &fleets,
         })?;
+        let source = &mut builder.layout.paths.source;
+        source.set_position(row, edge.position());
         builder.set(Table::Paths, row, "element", Value::Text(element))?;
         if element != "lane" {
             return Ok(());
@@ -355,6 +359,8 @@ impl<'a, 'y> SiteFileMapper<'a, 'y> {
             builder.report(Code::MissingField, at, message, remedy);
         }
         let row = builder.push_station(name, middle, Vec::new(), None)? as usize;
+        let source = &mut builder.layout.stations.source;
+        source.set_position(row, lift.position());
         builder.set(Table::Stations, row, "kind", Value::Text("lift"))
     }
 }

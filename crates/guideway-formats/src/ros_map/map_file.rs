@@ -103,10 +103,7 @@ impl<'y> Fields<'y> {
                 format!("Give the fields {list}, one a line"),
             ));
         };
-        let at = |key: &str, line| Place {
-            element: printable(key),
-            line: Some(line),
-        };
+        let at = |key: &str, line| Place::on_line(printable(key), line);
         if let Some((key, line)) = yaml.duplicate_keys.first() {
             let remedy = "Remove all but one of them".into();
             return Err(invalid(
@@ -133,7 +130,11 @@ impl<'y> Fields<'y> {
     fn invalid(&self, key: &str, detail: String, remedy: &str) -> Problem {
         let line = self.root.get(key).map(|value| value.line());
         let element = key.to_owned();
-        invalid(Place { element, line }, detail, remedy.into())
+        let place = Place {
+            line,
+            ..Place::element(element)
+        };
+        invalid(place, detail, remedy.into())
     }
 
     fn required(&self, key: &str, remedy: &str) -> Result<YamlNode<'y>, Problem> {

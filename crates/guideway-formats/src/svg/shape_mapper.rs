@@ -94,12 +94,15 @@ impl<'a, 'd, 't> ShapeMapper<'a, 'd, 't> {
         self.clipped += u64::from(style.is_clipped);
         let id = self.path_id(node, context);
         self.base.builder.check_text(&id)?;
-        let row = self.base.builder.push_path(&NewPath {
-            id: &id,
-            runs,
-            direction: Direction::Both,
-            ..NewPath::default()
-        })?;
+        let row = self.base.push_path(
+            node,
+            &NewPath {
+                id: &id,
+                runs,
+                direction: Direction::Both,
+                ..NewPath::default()
+            },
+        )?;
         self.colors.push(color);
         let width_m = self.stroke_width_m(node, context);
         self.widths_m.push(width_m.unwrap_or(f32::NAN));
@@ -162,7 +165,7 @@ impl<'a, 'd, 't> ShapeMapper<'a, 'd, 't> {
     pub(super) fn element_id(&self, node: Node<'d, 't>) -> String {
         match node.attribute("id") {
             Some(id) if !id.is_empty() => id.to_owned(),
-            _ => format!("line {}", self.base.xml.line(node)),
+            _ => format!("line {}", self.base.xml.position(node).line),
         }
     }
 }

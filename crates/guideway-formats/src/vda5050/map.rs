@@ -6,6 +6,7 @@ use guideway_spline::Point;
 use super::mapper::{Mapper, TrajectoryEnds, whole};
 use super::members::{DERIVED, PASSES};
 use super::model::{Edge, Node, Position, Root, WithText};
+use super::read::Places;
 use super::version::Version;
 use crate::ReadError;
 use crate::builder::{PlaceFn, Table};
@@ -41,15 +42,19 @@ fn names_nodes(root: &Root<'_>) -> Option<bool> {
 impl Mapper<'_> {
     /// Maps orders to a layout. The header of one order is properties of the layout; those of
     /// several are columns of their paths.
-    pub(super) fn map(mut self, orders: &[Root<'_>]) -> Result<Layout, ReadError> {
-        for (i, root) in orders.iter().enumerate() {
+    pub(super) fn map(
+        mut self,
+        orders: &[Root<'_>],
+        places: &[Places],
+    ) -> Result<Layout, ReadError> {
+        for (i, (root, places)) in orders.iter().zip(places).enumerate() {
             self.begin_order();
             let prefix = match orders.len() {
                 1 => String::new(),
                 _ => format!("orders[{i}]."),
             };
             let first_path = self.builder.layout.paths.len();
-            self.map_order(root, &prefix)?;
+            self.map_order(root, places, &prefix)?;
             let rows = match orders.len() {
                 1 => 0..1,
                 _ => first_path..self.builder.layout.paths.len(),
@@ -86,19 +91,28 @@ impl Mapper<'_> {
         Ok(self.builder.layout)
     }
 
-    fn map_order(&mut self, root: &Root<'_>, prefix: &str) -> Result<(), ReadError> {
+    fn map_order(
+        &mut self,
+        root: &Root<'_>,
+        places: &Places,
+        prefix: &str,
+    ) -> Result<(), ReadError> {
         let at_root: PlaceFn<'_> = &|| Place::element(format!("{prefix}the root"));
         self.builder.check_repeated(root.repeated, at_root);
         let ends = trajectory_ends(root);
         for (i, node) in items(&root.nodes) {
+            self.builder.element_byte = places.nodes.get(i).copied();
             self.map_node(node, &ends, &|| {
                 Place::element(format!("{prefix}nodes[{i}]"))
             })?;
         }
+        self.builder.element_byte = None;
         self.set_passes()?;
         for (i, edge) in items(&root.edges) {
+            self.builder.element_byte = places.edges.get(i).copied();
             self.map_edge(edge, &|| Place::element(format!("{prefix}edges[{i}]")))?;
         }
+        self.builder.element_byte = None;
         Ok(())
     }
 

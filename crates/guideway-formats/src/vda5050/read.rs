@@ -15,15 +15,17 @@ use crate::{Problem, ReadError, text};
 /// When the text is not JSON, its root is not that of an order, or a limit is exceeded.
 pub(crate) fn read(source: Source<'_>, bytes: &[u8]) -> Result<Layout, ReadError> {
     let text = text::decode_utf8(&source, bytes)?;
-    let documents: Vec<_> = json::documents(text)
-        .into_iter()
-        .map(json::payload)
-        .collect();
+    let raw = json::documents(text);
+    let documents: Vec<_> = raw.iter().map(|document| json::payload(document)).collect();
     let mut orders = Vec::with_capacity(documents.len());
+    let mut places = Vec::with_capacity(documents.len());
     let mut others = Vec::new();
     for (i, document) in documents.iter().enumerate() {
         match order(&source, document) {
-            Ok(root) => orders.push(root),
+            Ok(root) => {
+                orders.push(root);
+                places.push(Places::of(text, raw[i], document));
+            }
             // The log of a client has messages of all kinds.
             Err(error) if matches!(error.problem, Problem::Structure { .. }) => {
                 others.push((i, error));
@@ -38,17 +40,41 @@ pub(crate) fn read(source: Source<'_>, bytes: &[u8]) -> Result<Layout, ReadError
     }
     let version = version_of(&orders[0]);
     let mapper = Mapper::new(source, bytes.len(), version);
-    let mut layout = mapper.map(&orders)?;
+    let mut layout = mapper.map(&orders, &places)?;
     for (i, error) in others {
         let place = || Place::element(format!("message {}", i + 1));
         let remedy = "It is left out; Guideway reads orders";
         let diagnostics = &mut layout.diagnostics;
         diagnostics.push(Code::NotDrawn, place, || error.problem.to_string(), remedy);
     }
-    if documents.len() == 1 {
-        json::add_line_numbers(&mut layout, &documents[0]);
-    }
+    let only = (documents.len() == 1).then(|| documents[0].as_ref());
+    json::find_lines(&mut layout, text, only);
     Ok(layout)
+}
+
+/// First bytes in the file of the nodes and edges of an order.
+pub(super) struct Places {
+    pub(super) nodes: Vec<usize>,
+    pub(super) edges: Vec<usize>,
+}
+
+impl Places {
+    /// The places of a message in the text of the file, and of the order that it wraps. An order
+    /// inside a string has the place of its message.
+    fn of(text: &str, message: &str, order: &str) -> Self {
+        let own = json::offset_in(text, order);
+        let start = own.or_else(|| json::offset_in(text, message)).unwrap_or(0);
+        let items = |key| {
+            let items = json::root_items(order, key).unwrap_or_default().into_iter();
+            items
+                .map(|item| start + own.map_or(0, |_| item.start))
+                .collect()
+        };
+        Self {
+            nodes: items("nodes"),
+            edges: items("edges"),
+        }
+    }
 }
 
 /// Parses an order.

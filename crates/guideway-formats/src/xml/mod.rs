@@ -16,7 +16,7 @@ mod problem;
 use std::borrow::Cow;
 use std::cell::OnceCell;
 
-use guideway_layout::Place;
+use guideway_layout::{LineIndex, Place, TextPosition};
 use roxmltree::{Document, Node, ParsingOptions};
 
 use crate::source::Source;
@@ -39,8 +39,8 @@ pub(crate) fn decode<'b>(source: &Source<'_>, bytes: &'b [u8]) -> Result<Cow<'b,
 pub(crate) struct Xml<'t> {
     text: &'t str,
     document: Document<'t>,
-    /// Byte offset of every line end; computed for the first finding that needs a line.
-    line_ends: OnceCell<Vec<usize>>,
+    /// Lines of the text; computed for the first element that needs one.
+    lines: OnceCell<LineIndex<'t>>,
 }
 
 impl<'t> Xml<'t> {
@@ -62,7 +62,7 @@ impl<'t> Xml<'t> {
         Ok(Self {
             text,
             document,
-            line_ends: OnceCell::new(),
+            lines: OnceCell::new(),
         })
     }
 
@@ -102,19 +102,13 @@ impl<'t> Xml<'t> {
             Some(name) => format!("{tag} \"{name}\""),
             None => tag.to_owned(),
         };
-        Place {
-            element,
-            line: u32::try_from(self.line(node)).ok(),
-        }
+        Place::element(element).at(self.position(node))
     }
 
-    /// The first line of an element, from 1.
-    pub(crate) fn line(&self, node: Node<'_, '_>) -> usize {
-        let ends = self.line_ends.get_or_init(|| {
-            let all = self.text.bytes().enumerate();
-            all.filter(|(_, b)| *b == b'\n').map(|(i, _)| i).collect()
-        });
-        ends.partition_point(|&end| end < node.range().start) + 1
+    /// The first character of an element.
+    pub(crate) fn position(&self, node: Node<'_, '_>) -> TextPosition {
+        let lines = self.lines.get_or_init(|| LineIndex::new(self.text));
+        lines.position(node.range().start)
     }
 }
 

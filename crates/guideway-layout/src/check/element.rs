@@ -4,11 +4,22 @@ use std::fmt;
 
 use guideway_spline::Point;
 
-use crate::Place;
+use crate::{Member, Origin, Place};
 
-/// Place of a finding at an element: see [`element_name`].
-pub fn element_place(kind: &str, row: usize, id: &str) -> Place {
-    Place::element(element_name(kind, row, id))
+/// Place of a finding at an element of a layout, whose line [`Layout::locate`] finds: see
+/// [`element_name`].
+///
+/// [`Layout::locate`]: crate::Layout::locate
+pub fn element_place(member: Member, id: &str) -> Place {
+    let (kind, row) = match member {
+        Member::Path(row) => ("path", row),
+        Member::Node(row) => ("node", row),
+        Member::Station(row) => ("station", row),
+    };
+    Place {
+        origin: Some(Origin::Member(member)),
+        ..Place::element(element_name(kind, row as usize, id))
+    }
 }
 
 /// Name of an element: `path "A"`, or `path number 3` (counted from 1) if it has no identifier.

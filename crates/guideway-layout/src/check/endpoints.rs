@@ -4,7 +4,7 @@ use guideway_spline::Point;
 
 use super::element::{DisplayPosition, element_name, element_place};
 use super::scale::Tolerances;
-use crate::{Code, Diagnostics, Layout, PathRef};
+use crate::{Code, Diagnostics, Layout, Member, PathRef};
 
 /// Reports gaps between paths and their nodes, unused nodes, and paths between levels.
 pub(super) fn check(layout: &Layout, tolerances: &Tolerances, found: &mut Diagnostics) {
@@ -36,7 +36,7 @@ pub(super) fn check(layout: &Layout, tolerances: &Tolerances, found: &mut Diagno
         };
         found.push(
             Code::UnusedNode,
-            || element_place("node", node, layout.nodes.id(node as u32)),
+            || element_place(Member::Node(node as u32), layout.nodes.id(node as u32)),
             || "no drawn path begins or ends here".to_owned(),
             remedy,
         );
@@ -56,7 +56,7 @@ fn node_gap(
     if gap_m > tolerance_m {
         found.push(
             Code::NodeGap,
-            || element_place("path", path.row(), path.id()),
+            || element_place(Member::Path(path.row() as u32), path.id()),
             || {
                 let node = element_name("node", node as usize, layout.nodes.id(node));
                 let (at, node_at) = (DisplayPosition(at), DisplayPosition(node_at));
@@ -75,7 +75,7 @@ fn cross_level(layout: &Layout, path: PathRef<'_>, found: &mut Diagnostics) {
     {
         found.push(
             Code::CrossLevel,
-            || element_place("path", path.row(), path.id()),
+            || element_place(Member::Path(path.row() as u32), path.id()),
             || {
                 let id = |level: u32| layout.levels.get(level as usize).map_or("", |l| &l.id);
                 let from = element_name("level", start as usize, id(start));

@@ -70,5 +70,6 @@ pub fn check(layout: &Layout, options: &CheckOptions) -> Diagnostics {
     endpoints::check(layout, &tolerances, &mut found);
     shape::check(layout, options, &tolerances, &mut found);
     pairs::check(layout, &tolerances, &mut found);
+    layout.locate(&mut found);
     found
 }

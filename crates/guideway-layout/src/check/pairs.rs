@@ -62,7 +62,7 @@ impl Pair {
         };
         found.push(
             self.code,
-            || element_place("path", row, paths.id(row)),
+            || element_place(crate::Member::Path(row as u32), paths.id(row)),
             || self.message(paths, comparison),
             remedy,
         );

@@ -8,7 +8,7 @@ use super::options::CheckOptions;
 use super::scale::Tolerances;
 use super::turns_in_place::turns_in_place;
 use super::worst::Worst;
-use crate::{Code, Diagnostics, Layout, PathRef, RunPoints};
+use crate::{Code, Diagnostics, Layout, Member, PathRef, RunPoints, Severity};
 
 /// Relative tolerance of the radius: rounding may push an arc of exactly the limit below it.
 const RADIUS_SLACK: f64 = 1e-6;
@@ -26,7 +26,7 @@ pub(super) fn check(
             Some(hull) if hull.size().x.max(hull.size().y) <= tolerances.dot_m => {
                 zero_length(layout, path, found);
             }
-            Some(_) => Shape::of(path, options, tolerances.gap_m).report(path, found),
+            Some(_) => Shape::of(path, options, tolerances.gap_m).report(layout, path, found),
         }
     }
 }
@@ -108,10 +108,18 @@ impl Shape {
         }
     }
 
-    fn report(&self, path: PathRef<'_>, found: &mut Diagnostics) {
-        let place = || element_place("path", path.row(), path.id());
+    fn report(&self, layout: &Layout, path: PathRef<'_>, found: &mut Diagnostics) {
+        let place = || element_place(Member::Path(path.row() as u32), path.id());
+        let is_drawn = path.start_node().is_none() && path.end_node().is_none();
+        let severity = |code: Code, is_right: bool| match is_right {
+            true => Severity::Info,
+            false => code.severity(),
+        };
         if let Some(worst) = self.gap_m {
-            found.push(
+            // A shape of a drawing may have several parts.
+            let is_shape = matches!(layout.provenance.format.as_str(), "DXF" | "SVG");
+            found.push_as(
+                severity(Code::BrokenPath, is_drawn && is_shape),
                 Code::BrokenPath,
                 place,
                 || {
@@ -121,8 +129,10 @@ impl Shape {
                 "Close the gap, or split the path in two",
             );
         }
-        if let Some(worst) = self.kink_rad {
-            found.push(
+        if let Some(worst) = self.kink_rad.filter(|_| layout.paths.is_driven(path.row())) {
+            // Lines of a drawing are for no vehicle yet.
+            found.push_as(
+                severity(Code::Kink, is_drawn),
                 Code::Kink,
                 place,
                 || {
@@ -166,7 +176,7 @@ fn zero_length(layout: &Layout, path: PathRef<'_>, found: &mut Diagnostics) {
     };
     found.push(
         Code::ZeroLength,
-        || element_place("path", path.row(), path.id()),
+        || element_place(Member::Path(path.row() as u32), path.id()),
         || {
             let at = path.runs().flat_map(|run| run.segments()).next();
             let at = at.map_or_else(Point::default, |segment| uniform::start(&segment));

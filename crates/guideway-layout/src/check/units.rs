@@ -2,10 +2,10 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::element::element_name;
+use super::element::{element_name, element_place};
 use super::options::CheckOptions;
 use super::scale::{Axis, DriveTime, Scale, SizeDoubt};
-use crate::{Attribute, Code, Diagnostics, Layout, Place, Quantity, TypeEntries, Value};
+use crate::{Attribute, Code, Diagnostics, Layout, Member, Place, Quantity, TypeEntries, Value};
 
 /// Fastest plausible speed: no road vehicle exceeds it.
 const LARGEST_SPEED_M_PER_S: f64 = 100.0;
@@ -125,8 +125,8 @@ pub fn largest_angle_rad(layout: &Layout) -> f64 {
 fn columns(layout: &Layout, found: &mut Diagnostics) {
     let (paths, nodes) = (&layout.paths, &layout.nodes);
     let largest_angle = largest_angle_rad(layout);
-    let path = |row: usize| element_name("path", row, paths.id(row));
-    let node = |row: usize| element_name("node", row, nodes.id(row as u32));
+    let path = |row: usize| element_place(Member::Path(row as u32), paths.id(row));
+    let node = |row: usize| element_place(Member::Node(row as u32), nodes.id(row as u32));
     for column in paths.attributes.iter() {
         check_column(column, "paths", path, largest_angle, found);
     }
@@ -134,7 +134,8 @@ fn columns(layout: &Layout, found: &mut Diagnostics) {
         check_column(column, "nodes", node, largest_angle, found);
     }
     let stations = &layout.stations;
-    let station = |row: usize| element_name("station", row, stations.id(row as u32));
+    let id = |row: usize| stations.id(row as u32);
+    let station = |row: usize| element_place(Member::Station(row as u32), id(row));
     for column in stations.attributes.iter() {
         check_column(column, "stations", station, largest_angle, found);
     }
@@ -171,7 +172,7 @@ fn columns(layout: &Layout, found: &mut Diagnostics) {
 fn check_column(
     column: &Attribute,
     table: &str,
-    name: impl Fn(usize) -> String,
+    element: impl Fn(usize) -> Place,
     largest_angle: f64,
     found: &mut Diagnostics,
 ) {
@@ -200,10 +201,13 @@ fn check_column(
     let others = wrong.count();
     found.push(
         Code::Implausible,
-        || Place::element(format!("column {} of {table}", column.label())),
+        || Place {
+            origin: element(first).origin,
+            ..Place::element(format!("column {} of {table}", column.label()))
+        },
         || {
             let value = column.values.get(first).map(|value| value.to_string());
-            let (value, name) = (value.unwrap_or_default(), name(first));
+            let (value, name) = (value.unwrap_or_default(), element(first).element);
             let others = match others {
                 0 => String::new(),
                 1 => ", and another value is too large".to_owned(),

@@ -192,6 +192,13 @@ impl Paths {
         (0..self.len()).map(|row| self.get(row))
     }
 
+    /// Returns `true` if vehicles may drive along a path: it is no wall, door or lane of humans,
+    /// which a layout of Open-RMF holds too.
+    pub fn is_driven(&self, path: usize) -> bool {
+        let element = self.attributes.value(path, "element");
+        !matches!(element, Some(Value::Text("wall" | "door" | "human lane")))
+    }
+
     /// Box of all control points, which contains all curves; `None` if there are no points.
     pub fn hull_bounds(&self) -> Option<Bounds<f64>> {
         self.geometry.hull_bounds(0..self.len())

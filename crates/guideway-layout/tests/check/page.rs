@@ -29,6 +29,6 @@ fn every_entry_has_meaning_example_and_remedy() {
         let meaning = code.meaning();
         assert!(words.join(" ").contains(meaning), "{code}: {meaning}");
         assert!(text.contains("\n> "), "{code} has no example");
-        assert!(text.contains("\nRemedy: "), "{code} has no remedy");
+        assert!(text.contains("Remedy: "), "{code} has no remedy");
     }
 }

@@ -5,9 +5,9 @@
 
 use std::collections::HashMap;
 
-use guideway_layout::{Code, Layout};
+use guideway_layout::{Code, Layout, Member};
 
-use super::finding::{Detail, Element, Findings};
+use super::finding::{Detail, Findings};
 use crate::arcs::Arcs;
 
 /// Number of a node or component that has none yet.
@@ -167,7 +167,7 @@ pub(super) fn check(arcs: &Arcs, components: &Components, findings: &mut Finding
         if nodes >= 2 && entered[row] != left[row] && !components.is_main[row] {
             let can_enter = entered[row];
             let detail = Detail::OneWay { nodes, can_enter };
-            findings.add(Code::OneWayPart, Element::Node(first[row]), detail);
+            findings.add(Code::OneWayPart, Member::Node(first[row]), detail);
         }
     }
 }

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use guideway_layout::{
-    Code, Diagnostics, Direction, DisplayPosition, Layout, Place, Severity, element_place,
+    Code, Diagnostics, Direction, DisplayPosition, Layout, Member, Place, Severity, element_place,
 };
 
 /// Ends within one cell of this size meet.
@@ -63,7 +63,7 @@ pub(super) fn check(layout: &Layout, found: &mut Diagnostics) {
         found.push_as(
             Severity::Info,
             Code::HeadOn,
-            || element_place("path", ends.first, layout.paths.id(ends.first)),
+            || element_place(Member::Path(ends.first as u32), layout.paths.id(ends.first)),
             || {
                 let at = DisplayPosition(guideway_spline::Point::new(at[0], at[1]));
                 format!(

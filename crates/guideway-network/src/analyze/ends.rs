@@ -3,10 +3,10 @@
 //! Where no way leads in a circle and there is no station, the paths are a way and not a network:
 //! its end is information.
 
-use guideway_layout::{Code, Layout, Severity};
+use guideway_layout::{Code, Layout, Member, Severity};
 
 use super::components::Components;
-use super::finding::{Detail, Element, Findings};
+use super::finding::{Detail, Findings};
 use crate::arcs::Arcs;
 
 pub(super) fn check(
@@ -33,7 +33,7 @@ pub(super) fn check(
         let mut leaving = arcs.leaving(node).iter().filter(away);
         let mut entering = arcs.entering(node).iter().filter(away);
         let entered = entering.clone().count() as u32;
-        let element = Element::Node(node);
+        let element = Member::Node(node);
         match leaving.next() {
             None if entered >= 2 => {
                 findings.add(Code::HeadOn, element, Detail::HeadOn { paths: entered });

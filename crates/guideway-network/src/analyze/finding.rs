@@ -1,20 +1,13 @@
 //! [`Findings`]: findings in compact form, merged over vehicle types and written in words.
 
 use guideway_layout::{
-    Code, Diagnostics, DisplayPosition, Layout, Place, Severity, element_name, element_place,
+    Code, Diagnostics, DisplayPosition, Layout, Member, Place, Severity, element_name,
+    element_place,
 };
 use guideway_spline::Point;
 
 /// Vehicle types that are analyzed. Each costs a pass over all paths.
 pub(super) const MAX_TYPES: usize = 64;
-
-/// Element that a finding is about.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Element {
-    Path(u32),
-    Node(u32),
-    Station(u32),
-}
 
 /// A fault of a network.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,7 +44,7 @@ pub(super) enum Detail {
 struct Finding {
     code: Code,
     severity: Severity,
-    element: Element,
+    element: Member,
     detail: Detail,
     vehicle_type: u32,
 }
@@ -66,7 +59,7 @@ pub(super) struct Findings {
 
 impl Findings {
     /// Adds a finding with the severity of its code.
-    pub(super) fn add(&mut self, code: Code, element: Element, detail: Detail) {
+    pub(super) fn add(&mut self, code: Code, element: Member, detail: Detail) {
         self.add_as(code.severity(), code, element, detail);
     }
 
@@ -74,7 +67,7 @@ impl Findings {
         &mut self,
         severity: Severity,
         code: Code,
-        element: Element,
+        element: Member,
         detail: Detail,
     ) {
         self.list.push(Finding {
@@ -93,6 +86,17 @@ impl Findings {
         types: &[Option<&str>],
         found: &mut Diagnostics,
     ) {
+        // Ways that are not in the layout may lead on to other levels.
+        if layout
+            .refused
+            .iter()
+            .any(|path| path.code == Code::CrossLevel)
+        {
+            let of_ways = [Code::DeadEnd, Code::OneWayPart, Code::UnreachableStation];
+            let on_ways = |finding: &&mut Finding| of_ways.contains(&finding.code);
+            let findings = self.list.iter_mut().filter(on_ways);
+            findings.for_each(|finding| finding.severity = Severity::Info);
+        }
         self.list
             .sort_by_key(|f| (f.code, std::cmp::Reverse(f.severity), f.element));
         let is_same = |a: &Finding, b: &Finding| {
@@ -117,7 +121,7 @@ fn of_types(group: &[Finding], types: &[Option<&str>]) -> String {
     let mut rows: Vec<u32> = group.iter().map(|finding| finding.vehicle_type).collect();
     rows.dedup();
     if rows.len() >= types.len()
-        || matches!(group[0].element, Element::Station(_)) && is_of_all(group)
+        || matches!(group[0].element, Member::Station(_)) && is_of_all(group)
     {
         return String::new();
     }
@@ -137,12 +141,13 @@ fn is_of_all(group: &[Finding]) -> bool {
     matches!(group[0].detail, Detail::NoNode | Detail::NoPath)
 }
 
-fn place(layout: &Layout, element: Element) -> Place {
-    match element {
-        Element::Path(row) => element_place("path", row as usize, layout.paths.id(row as usize)),
-        Element::Node(row) => element_place("node", row as usize, layout.nodes.id(row)),
-        Element::Station(row) => element_place("station", row as usize, layout.stations.id(row)),
-    }
+fn place(layout: &Layout, element: Member) -> Place {
+    let id = match element {
+        Member::Path(row) => layout.paths.id(row as usize),
+        Member::Node(row) => layout.nodes.id(row),
+        Member::Station(row) => layout.stations.id(row),
+    };
+    element_place(element, id)
 }
 
 fn message(layout: &Layout, detail: Detail) -> String {

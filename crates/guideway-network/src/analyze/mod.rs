@@ -43,6 +43,7 @@ pub fn analyze(layout: &Layout, options: &AnalyzeOptions) -> Diagnostics {
     if !has_nodes {
         drawing::check(layout, &mut found);
         speeds::check_all(layout, options, &mut found);
+        layout.locate(&mut found);
         return found;
     }
     let names = layout.paths.vehicle_types().names();
@@ -82,5 +83,6 @@ pub fn analyze(layout: &Layout, options: &AnalyzeOptions) -> Diagnostics {
             "Check the vehicle types one by one, in files of their own",
         );
     }
+    layout.locate(&mut found);
     found
 }

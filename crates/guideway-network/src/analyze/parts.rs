@@ -2,9 +2,9 @@
 
 use std::collections::HashMap;
 
-use guideway_layout::{Code, Layout};
+use guideway_layout::{Code, Layout, Member};
 
-use super::finding::{Detail, Element, Findings};
+use super::finding::{Detail, Findings};
 use crate::arcs::Arcs;
 
 /// A set of connected nodes.
@@ -57,7 +57,7 @@ pub(super) fn check(layout: &Layout, arcs: &Arcs, findings: &mut Findings) {
             } = part;
             findings.add(
                 Code::NotConnected,
-                Element::Node(first),
+                Member::Node(first),
                 Detail::Part { nodes, paths },
             );
         }

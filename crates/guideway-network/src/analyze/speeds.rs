@@ -1,11 +1,11 @@
 //! Speeds against bends: the lateral acceleration of a vehicle is its speed squared over the
 //! radius.
 
-use guideway_layout::{Code, Diagnostics, Layout};
+use guideway_layout::{Code, Diagnostics, Layout, Member};
 
 use super::AnalyzeOptions;
 use super::finding::MAX_TYPES;
-use super::finding::{Detail, Element, Findings};
+use super::finding::{Detail, Findings};
 use crate::arcs::number;
 use crate::bend::tightest;
 
@@ -52,7 +52,7 @@ pub(super) fn check(
                 limit,
                 at,
             };
-            findings.add(Code::LateralAcceleration, Element::Path(row as u32), detail);
+            findings.add(Code::LateralAcceleration, Member::Path(row as u32), detail);
         }
     }
 }

@@ -1,22 +1,23 @@
 //! Stations without a node, and stations that vehicles cannot reach or leave.
 
-use guideway_layout::{Code, Layout, Severity};
+use guideway_layout::{Code, Layout, Member, PathRef, Severity};
 
 use super::components::Components;
-use super::finding::{Detail, Element, Findings};
+use super::finding::{Detail, Findings};
 use crate::arcs::Arcs;
 
 /// Reports stations without a node, and those whose nodes no path of any type reaches.
 pub(super) fn check_nodes(layout: &Layout, findings: &mut Findings) {
     let mut has_path = vec![false; layout.nodes.len()];
-    for path in layout.paths.iter() {
+    let driven = |path: &PathRef<'_>| layout.paths.is_driven(path.row());
+    for path in layout.paths.iter().filter(driven) {
         for node in [path.start_node(), path.end_node()].into_iter().flatten() {
             has_path[node as usize] = true;
         }
     }
     for station in 0..layout.stations.len() as u32 {
         let nodes = layout.stations.nodes(station);
-        let element = Element::Station(station);
+        let element = Member::Station(station);
         if nodes.is_empty() {
             // A location of openTCS may be a door or another device that no vehicle drives to.
             let severity = match layout.provenance.format.as_str() {
@@ -78,7 +79,7 @@ pub(super) fn check_access(
         let (can_come, can_go) = (any(&reached), any(&leading));
         if !can_come || !can_go {
             let detail = Detail::Access { can_come, can_go };
-            findings.add(Code::UnreachableStation, Element::Station(station), detail);
+            findings.add(Code::UnreachableStation, Member::Station(station), detail);
         }
     }
 }

@@ -3,10 +3,10 @@
 //! A node is reported if a path that leads to it has no continuation that vehicles can take, or a
 //! path that leads away has none before it. At a crossing without rotation, straight on is enough.
 
-use guideway_layout::{Code, Layout};
+use guideway_layout::{Code, Layout, Member};
 
 use super::AnalyzeOptions;
-use super::finding::{Detail, Element, Findings};
+use super::finding::{Detail, Findings};
 use crate::arcs::{Arc, Arcs};
 use crate::heading::Headings;
 
@@ -42,7 +42,7 @@ pub(super) fn check(
                 Detail::Reverse { .. } => Code::ReverseDriving,
                 _ => Code::HeadingJump,
             };
-            findings.add(code, Element::Node(node), detail);
+            findings.add(code, Member::Node(node), detail);
         }
     }
 }

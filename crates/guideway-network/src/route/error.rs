@@ -6,11 +6,11 @@ use guideway_layout::UserError;
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum RouteError {
     /// No station or node has a name.
-    #[error("\"{name}\" is no station and no node; known are {known}")]
+    #[error("\"{name}\" is no station and no node; {known}")]
     UnknownPlace {
         /// The name.
         name: String,
-        /// Some of the known names.
+        /// Near names, or some of the known ones.
         known: String,
     },
     /// Several nodes have a name.

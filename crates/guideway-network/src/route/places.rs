@@ -1,6 +1,6 @@
 //! Places: finds stations and nodes by name, and checks vehicle types.
 
-use guideway_layout::{Attributes, Layout, Value};
+use guideway_layout::{Attributes, Layout, Value, near_names};
 
 use super::RouteError;
 
@@ -44,7 +44,7 @@ pub(super) fn find(layout: &Layout, name: &str) -> Result<Place, RouteError> {
     match found.len() {
         0 => Err(RouteError::UnknownPlace {
             name: name.to_owned(),
-            known: known(layout),
+            known: known(layout, name),
         }),
         1 => Ok(place(name, found)),
         count => Err(RouteError::Ambiguous {
@@ -59,13 +59,19 @@ fn place(name: &str, nodes: Vec<u32>) -> Place {
     Place { name, nodes }
 }
 
-fn known(layout: &Layout) -> String {
+/// Names near an unknown one, else some known ones.
+fn known(layout: &Layout, name: &str) -> String {
     let stations = (0..layout.stations.len() as u32).map(|row| layout.stations.id(row));
     let nodes = (0..layout.nodes.len() as u32).map(|row| layout.nodes.id(row));
-    listed(
+    let near = near_names(name, stations.clone().chain(nodes.clone()));
+    if !near.is_empty() {
+        return format!("near names are {}", near.join(", "));
+    }
+    let known = listed(
         stations.chain(nodes),
         layout.stations.len() + layout.nodes.len(),
-    )
+    );
+    format!("known are {known}")
 }
 
 fn listed<'a>(names: impl Iterator<Item = &'a str>, count: usize) -> String {
