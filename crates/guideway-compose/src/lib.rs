@@ -12,6 +12,7 @@
 //! | swept areas | paths, vehicle ([`SweptAreas`]) | `backdrop` |
 //! | other scenes | [`Scene`](guideway_scene::Scene)s below the topmost one | `backdrop` |
 //! | paths | the topmost scene | a render method, `vector` |
+//! | route | paths in order ([`MarkedRoute`]) | `decorations` |
 //! | arrows, nodes, stations, labels | scene, view | `decorations` |
 //! | legend, title, scale bar | scene, view | `decorations` |
 //!
@@ -60,7 +61,7 @@ pub use backdrop::{
     Backdrop, FloorPlan, FloorPlanKind, Image, PreparedFloorPlan, SweptAreas, SweptReport,
     draw_swept_areas,
 };
-pub use decorations::Decorations;
+pub use decorations::{Decorations, MarkedRoute};
 pub use error::{ComposeError, ImageError};
 pub use guideway_document::decorations::{Corner, DecorationStyle, grid, legend, scale_bar};
 pub use guideway_document::text_format;

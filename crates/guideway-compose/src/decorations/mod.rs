@@ -5,6 +5,7 @@
 //! | `options` | | [`Decorations`]: the selection |
 //! | `title` | a text | draw list: one line at the top center |
 //! | `place_legend` | scene, view, selection | the legend in a corner without paths |
+//! | `route` | scene, view, rows of paths | draw list: a band along a route, its ends marked |
 //! | `place` | scene, view, selection | draw lists that keep clear of each other |
 //!
 //! `guideway_document::decorations` draws grid, marks, scale bar and legend.
@@ -12,8 +13,10 @@
 mod options;
 mod place;
 mod place_legend;
+mod route;
 mod title;
 
 pub use options::Decorations;
 pub(crate) use place::{PlacedDecorations, place};
 pub(crate) use place_legend::place_legend;
+pub use route::MarkedRoute;

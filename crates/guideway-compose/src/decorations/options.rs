@@ -2,6 +2,8 @@
 
 use guideway_document::decorations::DecorationStyle;
 
+use super::route::MarkedRoute;
+
 /// The decorations of a picture. The default is none.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Decorations {
@@ -19,6 +21,8 @@ pub struct Decorations {
     pub has_scale_bar: bool,
     /// The meaning of the colors, if the scene colors paths by a column.
     pub has_legend: bool,
+    /// A route over the paths.
+    pub route: Option<MarkedRoute>,
     /// One line at the top.
     pub title: Option<String>,
 }
@@ -34,6 +38,7 @@ impl Decorations {
             has_labels: true,
             has_scale_bar: true,
             has_legend: true,
+            route: None,
             title: Some(title.into()),
         }
     }

@@ -9,6 +9,7 @@ use guideway_spline::{Bounds, Point};
 
 use super::options::Decorations;
 use super::place_legend::place_legend;
+use super::route;
 use super::title::title;
 
 /// Opacity of the paper behind the scale bar.
@@ -77,6 +78,11 @@ pub(crate) fn place(
             );
         }
         placed.marks = marks.draw(style, |at_px| at_px);
+    }
+    if let Some(route) = &decorations.route {
+        let mut list = route::draw(route, scene, view, paths, style);
+        list.append(std::mem::take(&mut placed.marks));
+        placed.marks = list;
     }
     placed
 }

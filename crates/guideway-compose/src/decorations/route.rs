@@ -1,0 +1,163 @@
+//! The route of a picture: a translucent band over its paths, with start and end marked.
+
+use std::f64::consts::TAU;
+
+use guideway_document::decorations::{DecorationStyle, Outline, path_outline};
+use guideway_scene::{DrawList, Rgba, Scene, Style, TextLine, View};
+use guideway_spline::Point;
+
+use crate::vector::width_px;
+
+/// Width that the band has beyond that of the path, on either side, in points.
+const MARGIN_POINTS: f64 = 3.0;
+/// Radius of the marks of start and end, in points.
+const MARK_RADIUS_POINTS: f64 = 8.0;
+/// Radius of the paper around them, in points.
+const RING_RADIUS_POINTS: f64 = 10.5;
+/// Corners of a disc. Derived: a disc of 20 pixels differs from it by less than 0.4 pixels.
+const DISC_CORNERS: usize = 16;
+const BAND: Rgba = Rgba::opaque(255, 120, 0);
+const BAND_OPACITY: f64 = 0.55;
+const START: Rgba = Rgba::opaque(0, 130, 60);
+const END: Rgba = Rgba::opaque(200, 20, 30);
+const LABEL_PAPER_OPACITY: f64 = 0.9;
+
+/// A route to draw.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct MarkedRoute {
+    /// Rows of its paths in order; `true` where the vehicle drives from the end of the path to its
+    /// start.
+    pub paths: Vec<(u32, bool)>,
+    /// Name of the start.
+    pub from: String,
+    /// Name of the goal.
+    pub to: String,
+}
+
+/// Draws a route: band, then the marks with their names. Paths that the scene does not have are
+/// left out.
+pub(super) fn draw(
+    route: &MarkedRoute,
+    scene: &Scene,
+    view: &View,
+    paths: &Style,
+    style: &DecorationStyle,
+) -> DrawList {
+    let mut list = DrawList::default();
+    let layout = scene.layout();
+    let rows = route.paths.iter().copied();
+    let rows: Vec<_> = rows
+        .filter(|&(row, _)| (row as usize) < layout.paths.len())
+        .collect();
+    let color = BAND.with_opacity(BAND_OPACITY);
+    for &(row, _) in &rows {
+        let margin_px = MARGIN_POINTS * style.px_per_point;
+        let radius_px = width_px(scene, row, view, paths) / 2.0 + margin_px;
+        if let Outline::Lines(lines) = path_outline(layout.paths.get(row as usize), view) {
+            lines
+                .iter()
+                .for_each(|line| band(&mut list, color, line, radius_px));
+        }
+    }
+    let end_of = |&(row, is_backward): &(u32, bool), is_last: bool| {
+        let (start, end) = layout.paths.get(row as usize).ends()?;
+        Some(if is_backward == is_last { start } else { end })
+    };
+    let start = rows.first().and_then(|path| end_of(path, false));
+    let goal = rows.last().and_then(|path| end_of(path, true));
+    for (at, name, color) in [(start, &route.from, START), (goal, &route.to, END)] {
+        if let Some(at) = at {
+            mark(&mut list, view.pixel_from_world(at), name, color, style);
+        }
+    }
+    list
+}
+
+/// A polyline of a radius, with round joins and caps.
+fn band(list: &mut DrawList, color: Rgba, line: &[Point<f64>], radius_px: f64) {
+    for pair in line.windows(2) {
+        let along = pair[1] - pair[0];
+        let length = along.norm();
+        if length > 0.0 {
+            let side = Point::new(-along.y, along.x) * (radius_px / length);
+            let corners = [
+                pair[0] + side,
+                pair[1] + side,
+                pair[1] - side,
+                pair[0] - side,
+            ];
+            list.fill_polygon(color, &corners);
+        }
+    }
+    for &at in line {
+        list.fill_polygon(color, &disc(at, radius_px));
+    }
+}
+
+fn mark(list: &mut DrawList, at: Point<f64>, name: &str, color: Rgba, style: &DecorationStyle) {
+    let point_px = style.px_per_point;
+    list.fill_polygon(style.paper, &disc(at, RING_RADIUS_POINTS * point_px));
+    list.fill_polygon(color, &disc(at, MARK_RADIUS_POINTS * point_px));
+    let beside = Point::new((RING_RADIUS_POINTS + 3.0) * point_px, 0.0);
+    list.texts.push(TextLine {
+        text: guideway_document::text_format::single_line(name, 40),
+        left_middle_px: at + beside,
+        char_width_px: style.line_px() * TextLine::CHAR_ASPECT,
+        color,
+        background: style.paper.with_opacity(LABEL_PAPER_OPACITY),
+    });
+}
+
+fn disc(center: Point<f64>, radius_px: f64) -> Vec<Point<f64>> {
+    let angle = |corner: usize| TAU * corner as f64 / DISC_CORNERS as f64;
+    let corner = |angle: f64| center + Point::new(angle.cos(), angle.sin()) * radius_px;
+    (0..DISC_CORNERS).map(|i| corner(angle(i))).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use guideway_layout::{Layout, NewPath};
+    use guideway_scene::{FrameSize, SceneOptions};
+    use guideway_spline::Runs;
+
+    use super::*;
+
+    #[test]
+    fn band_follows_the_paths_and_marks_both_ends() {
+        let mut layout = Layout::default();
+        for (from, to) in [((0.0, 0.0), (10.0, 0.0)), ((10.0, 8.0), (10.0, 0.0))] {
+            let mut runs = Runs::default();
+            runs.push_line(Point::new(from.0, from.1), Point::new(to.0, to.1));
+            layout.paths.push(&NewPath {
+                runs: &runs,
+                ..NewPath::default()
+            });
+        }
+        let scene = Scene::new(Arc::new(layout), &SceneOptions::default()).unwrap();
+        let size = FrameSize::new(400, 300).unwrap();
+        let view = View::fit(size, scene.bounds()).unwrap();
+        let paths = Style::default();
+        let style = DecorationStyle::for_picture(size, paths.background);
+        let route = MarkedRoute {
+            // The second path is driven from its end to its start, the third does not exist.
+            paths: vec![(0, false), (1, true), (9, false)],
+            from: "dock".into(),
+            to: "rack".into(),
+        };
+        let list = draw(&route, &scene, &view, &paths, &style);
+        let colors: Vec<_> = list.fills.iter().map(|fill| fill.color).collect();
+        let band = BAND.with_opacity(BAND_OPACITY);
+        assert_eq!(colors, [band, style.paper, START, style.paper, END]);
+        let center = |fill: usize| {
+            let corners = &list.fills[fill].polygons[0];
+            let sum = corners.iter().fold(Point::default(), |sum, p| sum + *p);
+            view.world_from_pixel(sum * (1.0 / corners.len() as f64))
+        };
+        assert!(center(2).distance(Point::new(0.0, 0.0)) < 1e-6);
+        assert!(center(4).distance(Point::new(10.0, 8.0)) < 1e-6);
+        let texts: Vec<_> = list.texts.iter().map(|text| text.text.as_str()).collect();
+        assert_eq!(texts, ["dock", "rack"]);
+    }
+}
