@@ -35,8 +35,7 @@ pub(crate) struct Builder<'a> {
     file_bytes: u64,
     /// Bytes of the file that were read, for readers that pass through it once.
     read_bytes: u64,
-    /// First byte in the file of the element that is mapped, for readers that learn the lines of
-    /// elements and findings at the end.
+    /// First byte in the file of the element that is mapped, where lines are found at the end.
     pub(crate) element_byte: Option<usize>,
 }
 
@@ -135,8 +134,8 @@ impl<'a> Builder<'a> {
         let points = path.runs.points().len() as u64;
         self.points_left = self.points_left.saturating_sub(points);
         let row = self.layout.paths.push(path);
-        mark(&mut self.layout.paths.source, row, self.element_byte);
-        Ok(row)
+        let row = mark(&mut self.layout.paths.source, row as u32, self.element_byte);
+        Ok(row as usize)
     }
 
     /// Sets the number of control points that the file may expand to.
@@ -196,8 +195,8 @@ impl<'a> Builder<'a> {
         self.check_paths()?;
         let path = RefusedPath { id, code, detail };
         let byte = self.element_byte;
-        let at = || printable_place(at, byte);
-        self.layout.diagnostics.push_refused(path, at, remedy);
+        let found = &mut self.layout.diagnostics;
+        found.push_refused(path, || printable_place(at, byte), remedy);
         self.layout.refused.push(id, code, detail);
         Ok(())
     }
@@ -223,8 +222,7 @@ impl<'a> Builder<'a> {
         self.charge_text(id)?;
         let nodes = &mut self.layout.nodes;
         let row = nodes.push_for_types(id, position_m, level, types);
-        mark(&mut nodes.source, row as usize, self.element_byte);
-        Ok(row)
+        Ok(mark(&mut nodes.source, row, self.element_byte))
     }
 
     /// Appends a station and returns its row.
@@ -238,8 +236,7 @@ impl<'a> Builder<'a> {
         self.charge_text(id)?;
         let stations = &mut self.layout.stations;
         let row = stations.push(id, position_m, nodes, level);
-        mark(&mut stations.source, row as usize, self.element_byte);
-        Ok(row)
+        Ok(mark(&mut stations.source, row, self.element_byte))
     }
 
     /// Appends a block and returns its row.
@@ -371,19 +368,18 @@ impl<'a> Builder<'a> {
 
 /// A place without control characters of the file, whose line follows from a byte.
 fn printable_place(at: PlaceFn<'_>, byte: Option<usize>) -> Place {
-    let place = at();
-    Place {
-        element: printable(&place.element),
-        origin: byte.map(Origin::Byte),
-        ..place
-    }
+    let mut place = at();
+    place.element = printable(&place.element);
+    place.origin = byte.map(Origin::Byte);
+    place
 }
 
-/// Keeps the first byte of the element of a row. One that is too far for the column is left out.
-fn mark(source: &mut SourceSpans, row: usize, byte: Option<usize>) {
+/// Keeps the first byte of the element of a row, if the column can hold it. Returns the row.
+fn mark(source: &mut SourceSpans, row: u32, byte: Option<usize>) -> u32 {
     if let Some(byte) = byte.filter(|&byte| byte < u32::MAX as usize) {
-        source.set(row, byte);
+        source.set(row as usize, byte);
     }
+    row
 }
 
 /// Formats a number, in scientific notation where its digits would fill the line.

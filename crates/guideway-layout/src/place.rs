@@ -15,11 +15,11 @@ pub struct Place {
     pub column: Option<u32>,
     /// Row in a table, counted from 1; of a file that is no text.
     pub row: Option<u32>,
-    /// What the line follows from.
+    /// The element or byte from which the line follows.
     pub origin: Option<Origin>,
 }
 
-/// What the line of a place follows from.
+/// The element or byte from which the line of a place follows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Origin {
     /// An element of the layout.

@@ -10,6 +10,8 @@ mod build;
 mod growth;
 #[path = "network/laws.rs"]
 mod laws;
+#[path = "network/not_driven.rs"]
+mod not_driven;
 #[path = "network/notes.rs"]
 mod notes;
 #[path = "network/route.rs"]

@@ -1,5 +1,6 @@
-//! Lines: finds the line of each element of the layout, from its first byte, and of each diagnostic,
-//! from the path of its element such as `layouts[0].nodes[3].x`, by a second scan over the text.
+//! Lines: finds the line of each element of the layout, from its first byte, and of each
+//! diagnostic, from the path of its element such as `layouts[0].nodes[3].x`, by a second scan over
+//! the text.
 
 use std::collections::HashMap;
 use std::ops::Range;

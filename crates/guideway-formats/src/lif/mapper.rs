@@ -83,7 +83,8 @@ pub(super) struct Counts {
 }
 
 impl<'a> Mapper<'a> {
-    /// Makes an empty layout for a file of `file_bytes` bytes, `text_start` of them before its text.
+    /// Makes an empty layout for a file of `file_bytes` bytes, `text_start` of them before the
+    /// text.
     pub(super) fn new(source: Source<'a>, file_bytes: usize, text_start: usize) -> Self {
         Self {
             builder: Builder::new(source, file_bytes),

@@ -6,7 +6,7 @@ use guideway_spline::Point;
 use super::mapper::{Mapper, TrajectoryEnds, whole};
 use super::members::{DERIVED, PASSES};
 use super::model::{Edge, Node, Position, Root, WithText};
-use super::read::Places;
+use super::places::Places;
 use super::version::Version;
 use crate::ReadError;
 use crate::builder::{PlaceFn, Table};

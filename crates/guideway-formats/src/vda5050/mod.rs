@@ -5,7 +5,7 @@
 //!
 //! | stage | input | output | file |
 //! |---|---|---|---|
-//! | read | text | records | `read`, `model`, `version` |
+//! | read | text | records | `read`, `model`, `version`, `places` |
 //! | map | records | levels, nodes, paths, columns | `mapper`, `map`, `edges`, `members` |
 //! | order | layout | paths and nodes as one route | `route` |
 //! | write | route | text | `write`, `objects`, `held`, `actions` |
@@ -19,6 +19,7 @@ mod mapper;
 mod members;
 mod model;
 mod objects;
+mod places;
 mod read;
 mod route;
 mod version;

@@ -5,6 +5,7 @@ use guideway_layout::{Code, Layout, Place};
 use super::map::version_of;
 use super::mapper::Mapper;
 use super::model::Root;
+use super::places::Places;
 use crate::json::{self, Field};
 use crate::source::Source;
 use crate::{Problem, ReadError, text};
@@ -50,31 +51,6 @@ pub(crate) fn read(source: Source<'_>, bytes: &[u8]) -> Result<Layout, ReadError
     let only = (documents.len() == 1).then(|| documents[0].as_ref());
     json::find_lines(&mut layout, text, only);
     Ok(layout)
-}
-
-/// First bytes in the file of the nodes and edges of an order.
-pub(super) struct Places {
-    pub(super) nodes: Vec<usize>,
-    pub(super) edges: Vec<usize>,
-}
-
-impl Places {
-    /// The places of a message in the text of the file, and of the order that it wraps. An order
-    /// inside a string has the place of its message.
-    fn of(text: &str, message: &str, order: &str) -> Self {
-        let own = json::offset_in(text, order);
-        let start = own.or_else(|| json::offset_in(text, message)).unwrap_or(0);
-        let items = |key| {
-            let items = json::root_items(order, key).unwrap_or_default().into_iter();
-            items
-                .map(|item| start + own.map_or(0, |_| item.start))
-                .collect()
-        };
-        Self {
-            nodes: items("nodes"),
-            edges: items("edges"),
-        }
-    }
 }
 
 /// Parses an order.
