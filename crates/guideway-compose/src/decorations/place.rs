@@ -65,6 +65,9 @@ pub(crate) fn place(
         list.append(scale_bar(view, style));
         placed.margin.push((list, "scale bar"));
     }
+    let route = decorations.route.as_ref();
+    let route = route.map(|route| route::draw(route, scene, view, paths, style));
+    occupied.extend(route.iter().flat_map(|route| &route.occupied));
     if decorations.has_grid {
         placed.grid = grid(view, style);
     }
@@ -79,10 +82,10 @@ pub(crate) fn place(
         }
         placed.marks = marks.draw(style, |at_px| at_px);
     }
-    if let Some(route) = &decorations.route {
-        let mut list = route::draw(route, scene, view, paths, style);
-        list.append(std::mem::take(&mut placed.marks));
-        placed.marks = list;
+    if let Some(mut route) = route {
+        route.band.append(std::mem::take(&mut placed.marks));
+        placed.marks = route.band;
+        placed.margin.push((route.ends, "route"));
     }
     placed
 }
