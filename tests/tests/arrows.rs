@@ -112,7 +112,7 @@ const RESTRICTED: &[(&str, &str)] = &[
     ("harfrust", "guideway-compose"),
     ("skrifa", "guideway-compose"),
     ("rstar", "guideway-envelope guideway-network"),
-    ("toml", "guideway-network"),
+    ("toml", "guideway guideway-network"),
     ("earcut", "guideway-envelope"),
     ("roaring", "guideway-document"),
 ];

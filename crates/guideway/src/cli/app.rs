@@ -27,7 +27,7 @@ use super::{
     subcommand_required = true,
     arg_required_else_help = true,
     after_help = "Start with `guideway demo`, which needs no file.\n\n\
-        Exit codes: 0 success, 1 warnings under `check --strict` or \
+        Exit codes: 0 success, 1 findings of `check` at or above its failing level, or \
         differences under `diff --exit-code`, 2 an error, 130 stopped by Ctrl-C."
 )]
 struct Cli {

@@ -5,10 +5,10 @@
 pub(crate) enum Exit {
     /// Success.
     Clean,
-    /// `check --strict` found warnings, or `diff --exit-code` found differences.
-    Warnings,
-    /// `check` found errors, or `bench` measured no method.
-    Errors,
+    /// `check` found what it must not pass, or `diff --exit-code` found differences.
+    Found,
+    /// `check` could read no file, or `bench` measured no method.
+    Failed,
     /// Ctrl-C stopped the command; its results so far are saved.
     Interrupted,
 }
@@ -18,8 +18,8 @@ impl Exit {
     pub(crate) fn code(self) -> u8 {
         match self {
             Self::Clean => 0,
-            Self::Warnings => 1,
-            Self::Errors => ERROR,
+            Self::Found => 1,
+            Self::Failed => ERROR,
             Self::Interrupted => INTERRUPTED as u8,
         }
     }

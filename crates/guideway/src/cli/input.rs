@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use clap::builder::{OsStringValueParser, TypedValueParser};
 use guideway::SaveError;
 use guideway::formats::{is_same_file, read_file};
-use guideway::layout::{Layout, UserError, merge, shown_path};
+use guideway::layout::{Layout, Limits, UserError, merge, shown_path};
 use guideway::spline::{Affine, Point};
 
 use super::error::{same_file_error, usage_error};
@@ -70,6 +70,20 @@ impl Input {
         Ok(())
     }
 
+    /// Rejects a key that applies only to images.
+    pub(crate) fn check_keys(&self) -> Result<(), UserError> {
+        match self.px_per_m {
+            None => Ok(()),
+            Some(_) => Err(usage_error(
+                format!(
+                    "{}: `px-per-m` applies only to images",
+                    shown_path(&self.path)
+                ),
+                "Use `scale` for a layout, such as `plan.dxf@scale=0.001`",
+            )),
+        }
+    }
+
     /// The transform of the placement; `None` without one.
     fn transform(&self) -> Option<Affine> {
         let Self {
@@ -113,29 +127,28 @@ pub(crate) fn read(path: &Path, out: &Output) -> Result<(Layout, f64), UserError
 pub(crate) fn read_each(inputs: &[Input], out: &Output) -> Result<(Vec<Layout>, f64), UserError> {
     let (mut layouts, mut all_ms) = (Vec::new(), 0.0);
     for input in inputs {
-        if input.px_per_m.is_some() {
-            return Err(usage_error(
-                format!(
-                    "{}: `px-per-m` applies only to images",
-                    shown_path(&input.path)
-                ),
-                "Use `scale` for a layout, such as `plan.dxf@scale=0.001`",
-            ));
-        }
+        input.check_keys()?;
         let (mut layout, ms) = read(&input.path, out)?;
-        if let Some(transform) = input.transform() {
-            layout.transform(transform);
-            check_reach(&layout, input)?;
-        }
+        place(&mut layout, input, limits::limits())?;
         layouts.push(layout);
         all_ms += ms;
     }
     Ok((layouts, all_ms))
 }
 
+/// Moves a layout to its placement.
+pub(crate) fn place(layout: &mut Layout, input: &Input, limits: &Limits) -> Result<(), UserError> {
+    match input.transform() {
+        None => Ok(()),
+        Some(transform) => {
+            layout.transform(transform);
+            check_reach(layout, input, limits.coordinate_m)
+        }
+    }
+}
+
 /// Checks that a placement moved no element beyond the limit that the file itself obeys.
-fn check_reach(layout: &Layout, input: &Input) -> Result<(), UserError> {
-    let limit_m = limits::limits().coordinate_m;
+fn check_reach(layout: &Layout, input: &Input, limit_m: f64) -> Result<(), UserError> {
     match layout.first_beyond(limit_m) {
         None => Ok(()),
         Some(element) => Err(UserError::new(

@@ -10,6 +10,7 @@ static ACCEPTED: OnceLock<Accepted> = OnceLock::new();
 
 #[derive(Default)]
 struct Accepted {
+    settings: Vec<Setting>,
     limits: Limits,
     formats: Option<Vec<Format>>,
 }
@@ -102,13 +103,15 @@ fn id(format: Format) -> String {
 
 /// Sets limits and formats of this run.
 pub(crate) fn set(settings: &[Setting], formats: &[Format]) {
-    let mut limits = Limits::default();
-    for setting in settings {
-        (setting.limit.set)(&mut limits, setting.value);
-    }
+    let limits = with(Limits::default(), settings);
+    let settings = settings.to_vec();
     let formats = (!formats.is_empty()).then(|| formats.to_vec());
     // Set before anything is read; a second call would change nothing.
-    let _ = ACCEPTED.set(Accepted { limits, formats });
+    let _ = ACCEPTED.set(Accepted {
+        settings,
+        limits,
+        formats,
+    });
 }
 
 fn accepted() -> &'static Accepted {
@@ -120,10 +123,32 @@ pub(crate) fn limits() -> &'static Limits {
     &accepted().limits
 }
 
+/// Some limits, changed by settings.
+fn with(mut limits: Limits, settings: &[Setting]) -> Limits {
+    for setting in settings {
+        (setting.limit.set)(&mut limits, setting.value);
+    }
+    limits
+}
+
+/// The limits of files with settings of their own; those of the arguments override them.
+pub(crate) fn limits_over(settings: &[Setting]) -> Limits {
+    let limits = with(Limits::default(), settings);
+    with(limits, &accepted().settings)
+}
+
 /// The options of every read of this run.
 pub(crate) fn read_options(progress: Option<&dyn Progress>) -> ReadOptions<'_> {
+    read_options_within(limits().clone(), progress)
+}
+
+/// The options of a read with limits of its own.
+pub(crate) fn read_options_within(
+    limits: Limits,
+    progress: Option<&dyn Progress>,
+) -> ReadOptions<'_> {
     ReadOptions {
-        limits: limits().clone(),
+        limits,
         formats: accepted().formats.as_deref(),
         progress,
     }

@@ -3,7 +3,7 @@
 //! | module | purpose |
 //! |---|---|
 //! | `app` | parses arguments, dispatches to a subcommand, exits |
-//! | `input`, `floor_plan`, `envelope`, `arrow`, `values`, `limits`, `threads` | read arguments and files |
+//! | `input`, `floor_plan`, `envelope`, `arrow`, `relative_path`, `values`, `limits`, `threads` | read arguments and files |
 //! | `output`, `stdout`, `text`, `progress_bar`, `error`, `exit`, `interrupt` | reports, errors, signals |
 //! | all others | one subcommand each |
 
@@ -28,6 +28,7 @@ mod methods;
 mod network;
 mod output;
 mod progress_bar;
+mod relative_path;
 mod render;
 mod reproduce;
 mod route;

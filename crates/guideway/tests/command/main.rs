@@ -4,16 +4,21 @@
 
 mod arrow;
 mod bench;
+mod checks;
 mod diff;
 mod edit;
 mod envelope;
 mod hostile;
+mod lines;
 mod network;
+mod public_files;
 mod render;
 mod render_files;
 mod reports;
 mod reproduce;
 mod ros_map;
+mod route;
 mod sarif;
 mod several;
+mod site_repository;
 mod support;

@@ -144,13 +144,13 @@ fn check_exits_with_1_on_warnings_only_if_strict() {
 }
 
 #[test]
-fn check_exits_with_2_on_errors_and_prints_remedies() {
+fn check_exits_with_1_on_errors_and_prints_remedies() {
     let folder = tempfile::tempdir().unwrap();
     let file = lif(&folder, |layout| {
         layout["edges"][0]["endNodeId"] = json!("nowhere");
     });
     let output = on_file(&["check"], &file);
-    assert_eq!(output.status.code(), Some(2));
+    assert_eq!(output.status.code(), Some(1));
     let said = stdout(&output);
     assert!(
         said.contains("error: unknown-node") && said.contains("hint: "),
@@ -158,7 +158,7 @@ fn check_exits_with_2_on_errors_and_prints_remedies() {
     );
 
     let output = on_file(&["check", "--json"], &file);
-    assert_eq!(output.status.code(), Some(2));
+    assert_eq!(output.status.code(), Some(1));
     let report = answer(&output, "check");
     let keys = [
         "file",
@@ -178,7 +178,7 @@ fn check_exits_with_2_on_errors_and_prints_remedies() {
     );
     let keys = ["code", "severity", "place", "line", "message", "remedy"];
     has_keys(&report["findings"][0], &keys);
-    assert_eq!(report["exit_code"], 2);
+    assert_eq!(report["exit_code"], 1);
 }
 
 #[test]
@@ -214,7 +214,7 @@ fn check_and_info_agree_about_refused_paths() {
     );
 
     let output = on_file(&["check", "--json"], &file);
-    assert_eq!(output.status.code(), Some(2));
+    assert_eq!(output.status.code(), Some(1));
     let check = answer(&output, "check");
     assert_eq!((&check["refused"], &check["paths"]), (&json!(3), &json!(4)));
     assert_eq!(check["files"][0]["refused"], 3);

@@ -104,4 +104,82 @@ fn findings_in_json_files_have_lines() {
         .unwrap();
     let region = &wrong["locations"][0]["physicalLocation"]["region"];
     assert!(region["startLine"].as_u64().unwrap() > 0, "{wrong:#}");
+    assert!(region["startColumn"].as_u64().unwrap() > 1, "{wrong:#}");
+}
+
+#[test]
+fn logs_have_what_code_scanning_asks_for() {
+    let folder = tempfile::tempdir().unwrap();
+    // A note of the whole file has no line.
+    fs::create_dir(folder.path().join("plans")).unwrap();
+    let name = "plans/roads.geojson";
+    let line = |id: usize| {
+        format!(
+            r#"{{"type": "Feature", "properties": {{}}, "id": {id},
+                "geometry": {{"type": "LineString", "coordinates": [[{id}, 500]]}}}}"#
+        )
+    };
+    let lines: Vec<String> = (0..6000).map(line).collect();
+    let features = lines.join(",\n");
+    let text = format!("{{\"type\": \"FeatureCollection\", \"features\": [{features}]}}");
+    fs::write(folder.path().join(name), text).unwrap();
+    fs::write(folder.path().join("broken.json"), "{\n \"layouts\": [\n}").unwrap();
+    let output = crate::support::command()
+        .current_dir(folder.path())
+        .args(["check", "--format", "sarif", "--baseline", "none.json"])
+        .args(["broken.json", name])
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(2), "the baseline does not exist");
+    fs::write(
+        folder.path().join("none.json"),
+        r#"{"guideway": {"report": "baseline", "version": 1}, "findings": []}"#,
+    )
+    .unwrap();
+    // With a baseline, more findings are kept than a log may have.
+    let output = crate::support::command()
+        .current_dir(folder.path())
+        .args(["check", "--format", "sarif", "--baseline", "none.json"])
+        .args(["broken.json", name])
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+    let log: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let run = &log["runs"][0];
+    let results = run["results"].as_array().unwrap();
+    assert_eq!(results.len(), 5000);
+    assert!(results.iter().all(|result| result["level"] == "error"));
+    let said = run["invocations"][0]["toolExecutionNotifications"][0]["message"]["text"].as_str();
+    assert!(said.unwrap().contains("of severity error"), "{said:?}");
+    let mut prints = std::collections::HashSet::new();
+    for result in results {
+        let place = &result["locations"][0]["physicalLocation"];
+        assert!(
+            place["region"]["startLine"].as_u64().unwrap() >= 1,
+            "{result:#}"
+        );
+        let uri = place["artifactLocation"]["uri"].as_str().unwrap();
+        assert!([name, "broken.json"].contains(&uri), "{uri}");
+        let print = &result["partialFingerprints"]["primaryLocationLineHash"];
+        assert!(prints.insert(format!("{uri} {print}")), "{result:#}");
+    }
+    let unreadable = results
+        .iter()
+        .find(|r| r["ruleId"] == "unreadable")
+        .unwrap();
+    let place = &unreadable["locations"][0]["physicalLocation"];
+    assert_eq!(place["region"]["startLine"], 3);
+    for rule in run["tool"]["driver"]["rules"].as_array().unwrap() {
+        let texts = [
+            &rule["fullDescription"]["text"],
+            &rule["help"]["text"],
+            &rule["help"]["markdown"],
+            &rule["defaultConfiguration"]["level"],
+        ];
+        let is_text = |text: &&Value| text.as_str().is_some_and(|text| !text.is_empty());
+        assert!(texts.iter().all(is_text), "{rule:#}");
+    }
+    if let Some(errors) = errors(&log) {
+        assert_eq!(errors, "", "{:#}", run["results"][0]);
+    }
 }

@@ -85,7 +85,7 @@ fn check_finds_identifiers_in_several_files() {
     let folder = tempfile::tempdir().unwrap();
     let copy = folder.path().join("copy.json");
     fs::copy(site(), &copy).unwrap();
-    let output = guideway(&["check", "--json", text(&site()), text(&copy)]);
+    let output = guideway(&["check", "--together", "--json", text(&site()), text(&copy)]);
     let report = json(&output, "check");
     has_keys(&report, &["file", "files", "findings", "kinds", "paths"]);
     assert_eq!(report["files"].as_array().unwrap().len(), 2);
@@ -102,8 +102,23 @@ fn check_finds_identifiers_in_several_files() {
             .unwrap()
             .contains("site.lif.json")
     );
-    let said = stdout(&guideway(&["check", text(&site()), text(&copy)]));
+    let said = stdout(&guideway(&[
+        "check",
+        "--together",
+        text(&site()),
+        text(&copy),
+    ]));
     assert!(said.contains("all files: 0 errors"), "{said}");
+    // Each by itself, both are right.
+    let alone = json(
+        &guideway(&["check", "--json", text(&site()), text(&copy)]),
+        "check",
+    );
+    let of_kind = |code: &str| {
+        let findings = alone["findings"].as_array().unwrap();
+        findings.iter().filter(|f| f["code"] == code).count()
+    };
+    assert_eq!(of_kind("duplicate-id"), 0);
 }
 
 #[test]

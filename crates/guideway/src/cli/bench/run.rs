@@ -31,6 +31,6 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
     Ok(if comparison.methods.iter().any(is_measured) {
         Exit::Clean
     } else {
-        Exit::Errors
+        Exit::Failed
     })
 }

@@ -1,99 +1,20 @@
-//! Arguments of `check`; checks each file by itself and against the others, prints the report.
+//! Runs `check`: checks each file, compares with the baseline, prints the report.
 
-use clap::ValueEnum;
-use guideway::layout::{CheckOptions, Diagnostic, FindingKind, UserError, check, check_across};
-use guideway::network::{AnalyzeOptions, analyze};
-use serde_json::{Value, json};
+use std::path::Path;
 
-use super::clearance::{self, ClearanceArgs};
-use super::findings::{CheckedFile, SeverityCounts};
-use super::{sarif, table};
+use guideway::layout::{Diagnostics, UserError, check_across};
+
+use super::args::{Args, Format};
+use super::baseline::{self, Baseline};
+use super::config::Configs;
+use super::findings::{CheckedFile, exit};
+use super::one_file::{Checked, apply, check_file};
+use super::report::{Times, report};
+use super::sarif;
 use crate::cli::error::usage_error;
 use crate::cli::exit::Exit;
-use crate::cli::input::{self, Input};
+use crate::cli::input;
 use crate::cli::output::{Output, print};
-use crate::cli::{text, values};
-
-#[derive(Debug, clap::Args)]
-#[command(
-    after_help = format!("Exit codes: 0 no errors (under --strict: no warnings), \
-    1 warnings under --strict, 2 errors.\n\n{}", input::PLACEMENT_HELP)
-)]
-pub(crate) struct Args {
-    /// Layout files; the content decides the format
-    #[arg(required = true, value_name = "FILE", value_parser = Input::parser())]
-    inputs: Vec<Input>,
-    /// Form of the report: a table, JSON (the same as --json), or SARIF 2.1.0 for code review tools
-    #[arg(long, default_value = "table")]
-    format: Format,
-    /// Exit with code 1 if there are warnings
-    #[arg(long)]
-    strict: bool,
-    /// Findings to show per kind; JSON and SARIF hold all
-    #[arg(long, value_name = "N", default_value_t = 10)]
-    show: usize,
-    /// Maximum distance from the end of a path to its node [default: 0.01, and less in a layout of
-    /// paths shorter than a meter]
-    #[arg(
-        long,
-        value_name = "METERS",
-        value_parser = values::not_negative,
-        allow_hyphen_values = true
-    )]
-    gap: Option<f64>,
-    /// Maximum change of direction at a smooth joint [default: 5]
-    #[arg(
-        long,
-        value_name = "DEGREES",
-        value_parser = values::not_negative,
-        allow_hyphen_values = true
-    )]
-    kink: Option<f64>,
-    /// Minimum turning radius of the vehicles; without it, radii are not checked
-    #[arg(
-        long,
-        value_name = "METERS",
-        value_parser = values::positive,
-        allow_hyphen_values = true
-    )]
-    min_radius: Option<f64>,
-    /// Largest lateral acceleration in bends, in m/s²; without it, speeds are not checked
-    #[arg(
-        long,
-        value_name = "VALUE",
-        value_parser = values::positive,
-        allow_hyphen_values = true
-    )]
-    lateral_acceleration: Option<f64>,
-    #[command(flatten)]
-    clearance: ClearanceArgs,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Format {
-    Table,
-    Json,
-    Sarif,
-}
-
-impl Args {
-    fn options(&self) -> CheckOptions {
-        let default = CheckOptions::default();
-        CheckOptions {
-            gap_tolerance_m: self.gap,
-            kink_angle_rad: self.kink.map_or(default.kink_angle_rad, f64::to_radians),
-            min_radius_m: self.min_radius,
-            ..default
-        }
-    }
-
-    fn network_options(&self) -> AnalyzeOptions {
-        AnalyzeOptions {
-            lateral_acceleration_m_s2: self.lateral_acceleration,
-            ..AnalyzeOptions::default()
-        }
-    }
-}
 
 pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
     if out.is_json() && args.format == Format::Sarif {
@@ -102,119 +23,77 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
             "Omit --json",
         ));
     }
-    let (files, times) = checked(args, out)?;
-    let counts = SeverityCounts::of(files.iter().map(|file| &file.found));
-    let exit = counts.exit(args.strict);
+    args.inputs
+        .iter()
+        .try_for_each(|input| input.check_keys())?;
+    let inputs = || args.inputs.iter().map(|input| input.path.as_path());
+    if let Some(file) = &args.write_baseline {
+        input::check_output(inputs(), file)?;
+    }
+    let baseline = args.baseline.as_deref().map(Baseline::read).transpose()?;
+    let (mut files, times) = checked(args, out)?;
+    if let ([CheckedFile { unread, .. }], false) = (&mut files[..], args.format == Format::Sarif)
+        && let Some(error) = unread.take()
+    {
+        return Err(error);
+    }
+    if let Some(path) = &args.write_baseline {
+        write_baseline(path, &mut files)?;
+    }
+    if let Some(baseline) = &baseline {
+        for file in files.iter_mut().filter(|file| file.unread.is_none()) {
+            (file.known, file.gone) = baseline.remove_known(&file.path, &mut file.found);
+        }
+    }
+    let exit = exit(&files);
     match args.format {
         Format::Sarif => print(&sarif::bytes(&files, exit)?)?,
-        Format::Json => report(args, &Output::new(true, false), &files, &counts, &times)?,
-        Format::Table => report(args, out, &files, &counts, &times)?,
+        Format::Json => report(args, &Output::new(true, false), &files, &times)?,
+        Format::Table => report(args, out, &files, &times)?,
     }
     Ok(exit)
 }
 
-struct Times {
-    read_ms: f64,
-    check_ms: f64,
-}
-
-/// Checks each file by itself, and against the files before it.
+/// Checks each file by itself, and, as one layout, against the files before it.
 fn checked(args: &Args, out: &Output) -> Result<(Vec<CheckedFile>, Times), UserError> {
-    let (mut layouts, read_ms) = input::read_each(&args.inputs, out)?;
-    let clearance_check = args.clearance.check(out)?;
-    let progress = out.progress("checking");
-    let options = args.options();
-    let across = check_across(&layouts.iter().collect::<Vec<_>>());
-    let mut files = Vec::with_capacity(layouts.len());
-    for ((input, layout), across) in args.inputs.iter().zip(&mut layouts).zip(across) {
-        // A doubt about the unit comes first: findings of the reader may follow from it.
-        let mut found = check(layout, &options);
-        found.append(analyze(layout, &args.network_options()));
-        found.append(std::mem::take(&mut layout.diagnostics));
-        found.append(across);
-        let clearance = clearance_check
-            .as_ref()
-            .map(|check| check.run(layout, &mut found));
-        files.push(CheckedFile {
-            file: input.path.to_string_lossy().into_owned(),
-            paths: layout.path_count() as u64,
-            refused: layout.refused.len() as u64,
-            found,
-            clearance: clearance.transpose()?,
-        });
+    let clearance = args.clearance.check(out)?;
+    let mut configs = Configs::new(args.config.as_deref());
+    let mut times = Times::default();
+    let (mut files, mut layouts) = (Vec::with_capacity(args.inputs.len()), Vec::new());
+    for input in &args.inputs {
+        let Checked {
+            file,
+            layout,
+            read_ms,
+            check_ms,
+        } = check_file(args, input, &mut configs, clearance.as_ref(), out)?;
+        times.read_ms += read_ms;
+        times.check_ms += check_ms;
+        files.push(file);
+        layouts.extend(layout.filter(|_| args.together));
     }
-    let check_ms = progress.finish();
-    Ok((files, Times { read_ms, check_ms }))
-}
-
-fn report(
-    args: &Args,
-    out: &Output,
-    files: &[CheckedFile],
-    counts: &SeverityCounts,
-    times: &Times,
-) -> Result<(), UserError> {
-    let total_ms = times.read_ms + times.check_ms;
-    let kinds = FindingKind::of(files.iter().map(|file| &file.found));
-    let found = || {
-        files
-            .iter()
-            .flat_map(|file| file.found.iter().map(move |f| (file, f)))
-    };
-    let body = json!({
-        "file": input::names(&args.inputs),
-        "files": files.iter().map(file_json).collect::<Vec<Value>>(),
-        "paths": files.iter().map(|file| file.paths).sum::<u64>(),
-        "refused": files.iter().map(|file| file.refused).sum::<u64>(),
-        "errors": counts.errors,
-        "warnings": counts.warnings,
-        "notes": counts.notes,
-        "exit_code": counts.exit(args.strict).code(),
-        "kinds": kinds.into_iter().map(kind_json).collect::<Vec<Value>>(),
-        "findings": found().map(|(file, f)| finding_json(&file.file, f)).collect::<Vec<Value>>(),
-        "clearance": clearance::json(&args.clearance, files),
-        "ms": { "read": times.read_ms, "check": times.check_ms, "total": total_ms },
-    });
-    out.report("check", &body, || {
-        let tables = files.iter().map(|file| table::text(file, args.show));
-        let mut text: String = tables.collect();
-        if files.len() > 1 {
-            text += &format!("all files: {}\n", counts.text());
+    if args.together {
+        let progress = out.progress("comparing the files");
+        let across = check_across(&layouts.iter().collect::<Vec<_>>());
+        let read = files.iter_mut().filter(|file| file.unread.is_none());
+        for (file, across) in read.zip(across) {
+            file.found.append(across);
         }
-        text += &clearance::text(files);
-        text + &format!("took {}\n", text::time(total_ms))
-    })
+        times.check_ms += progress.finish();
+    }
+    for file in &mut files {
+        apply(&file.rules, &mut file.found);
+    }
+    Ok((files, times))
 }
 
-fn file_json(file: &CheckedFile) -> Value {
-    let counts = SeverityCounts::of(std::iter::once(&file.found));
-    json!({
-        "file": file.file,
-        "paths": file.paths,
-        "refused": file.refused,
-        "errors": counts.errors,
-        "warnings": counts.warnings,
-        "notes": counts.notes,
-    })
-}
-
-fn kind_json(kind: FindingKind) -> Value {
-    json!({
-        "code": kind.code.name(),
-        "severity": kind.severity.to_string(),
-        "count": kind.count,
-        "meaning": kind.code.meaning(),
-    })
-}
-
-fn finding_json(file: &str, finding: &Diagnostic) -> Value {
-    json!({
-        "file": file,
-        "code": finding.code.name(),
-        "severity": finding.severity.to_string(),
-        "place": finding.place.element,
-        "line": finding.place.line,
-        "message": finding.message,
-        "remedy": finding.remedy,
-    })
+/// Writes a baseline of the findings, which then are known.
+fn write_baseline(path: &Path, files: &mut [CheckedFile]) -> Result<(), UserError> {
+    let mut all = Vec::new();
+    for file in files.iter_mut().filter(|file| file.unread.is_none()) {
+        all.extend(baseline::entries(path, &file.path, &file.found)?);
+        file.known = file.found.iter().count() as u64;
+        file.found = Diagnostics::default();
+    }
+    baseline::write(path, all)
 }

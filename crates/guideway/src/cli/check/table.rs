@@ -1,6 +1,6 @@
 //! The findings of a file as a table for people.
 
-use guideway::layout::{FindingKind, shown_text};
+use guideway::layout::{FindingKind, shown_path, shown_text};
 
 use super::findings::{CheckedFile, SeverityCounts};
 use crate::cli::text;
@@ -42,6 +42,13 @@ pub(super) fn text(file: &CheckedFile, shown_per_kind: usize) -> String {
     if file.refused > 0 {
         paths += &format!(", {} of them refused", text::count(file.refused));
     }
+    if file.unread.is_some() {
+        "not read".clone_into(&mut paths);
+    }
     let counts = SeverityCounts::of(std::iter::once(found)).text();
-    text + &format!("{}: {paths}, {counts}\n", shown_text(&file.file))
+    text += &format!("{}: {paths}, {counts}\n", shown_text(&file.file));
+    if let Some(config) = &file.config {
+        text += &format!("options of {}\n", shown_path(config));
+    }
+    text
 }

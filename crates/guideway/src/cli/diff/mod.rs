@@ -88,7 +88,7 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
         Form::Markdown => report.markdown(&found, args.max),
     })?;
     Ok(match args.exit_code && !found.is_empty() {
-        true => Exit::Warnings,
+        true => Exit::Found,
         false => Exit::Clean,
     })
 }

@@ -42,7 +42,7 @@ pub(crate) struct Args {
     #[command(flatten)]
     view: ViewArgs,
     #[command(flatten)]
-    decorations: DecorationArgs,
+    pub(super) decorations: DecorationArgs,
     #[command(flatten)]
     style: StyleArgs,
     #[command(flatten)]

@@ -3,6 +3,7 @@
 use guideway::compose::Decorations;
 
 use crate::cli::input::Input;
+use crate::cli::route::RouteEnds;
 
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "Decorations")]
@@ -15,7 +16,8 @@ pub(super) struct DecorationArgs {
     #[arg(
         long,
         conflicts_with_all = [
-            "site", "nodes", "stations", "arrows", "labels", "grid", "scale_bar", "title", "legend"
+            "site", "nodes", "stations", "arrows", "labels", "grid", "scale_bar", "title", "legend",
+            "route"
         ]
     )]
     plain: bool,
@@ -37,6 +39,9 @@ pub(super) struct DecorationArgs {
     /// Draw a scale bar in the lower left corner
     #[arg(long)]
     scale_bar: bool,
+    /// Draw the fastest route between two stations or nodes over the paths
+    #[arg(long, value_name = "FROM,TO[,TYPE]", value_parser = RouteEnds::parse)]
+    pub(super) route: Option<RouteEnds>,
     /// Draw a title at the top
     #[arg(long, value_name = "TEXT")]
     title: Option<String>,
@@ -57,6 +62,7 @@ impl DecorationArgs {
             has_labels: self.labels,
             has_scale_bar: self.scale_bar,
             has_legend: false,
+            route: None,
             title: self.title.clone(),
         }
     }

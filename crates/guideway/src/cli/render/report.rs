@@ -9,6 +9,7 @@ use guideway::scene::{Clock, Legend, Scene};
 use serde_json::{Value, json};
 
 use super::args::Args;
+use crate::cli::route::FoundRoute;
 use crate::cli::{envelope, input, stdout, text};
 
 /// Duration of each step, in milliseconds.
@@ -26,7 +27,19 @@ impl Times {
     }
 }
 
-pub(super) fn text(path: &Path, scene: &Scene, rendered: &Rendered, times: &Times) -> String {
+/// The subject of a report.
+pub(super) struct Shown<'a> {
+    pub(super) scene: &'a Scene,
+    pub(super) rendered: &'a Rendered,
+    pub(super) route: Option<&'a FoundRoute>,
+}
+
+pub(super) fn text(path: &Path, shown: &Shown<'_>, times: &Times) -> String {
+    let Shown {
+        scene,
+        rendered,
+        route,
+    } = *shown;
     let size = rendered.view.size();
     let mut text = String::new();
     if !stdout::is_stdout(path) {
@@ -39,6 +52,7 @@ pub(super) fn text(path: &Path, scene: &Scene, rendered: &Rendered, times: &Time
     }
     text += &paths_text(rendered);
     text += &rendered.swept.as_ref().map_or_else(String::new, swept_text);
+    text += &route.map_or_else(String::new, FoundRoute::text);
     text += &format!(
         "took {}: reading {}, drawing {}, writing {}\n",
         text::time(times.total()),
@@ -102,7 +116,12 @@ fn legend_text(legend: &Legend) -> String {
     text
 }
 
-pub(super) fn json(args: &Args, scene: &Scene, rendered: &Rendered, times: &Times) -> Value {
+pub(super) fn json(args: &Args, shown: &Shown<'_>, times: &Times) -> Value {
+    let Shown {
+        scene,
+        rendered,
+        route,
+    } = *shown;
     let report = &rendered.report;
     let (view, size) = (&rendered.view, rendered.view.size());
     let shown = view.world_bounds();
@@ -143,6 +162,7 @@ pub(super) fn json(args: &Args, scene: &Scene, rendered: &Rendered, times: &Time
             "refused": report.refused,
         },
         "envelopes": rendered.swept.as_ref().map(swept_json),
+        "route": route.map(FoundRoute::json),
         "lines": report.lines,
         "peak_bytes": report.peak_bytes,
         "bands": report.bands,

@@ -2,12 +2,11 @@
 
 use std::sync::Arc;
 
-use guideway::compose::Rendered;
 use guideway::layout::UserError;
 use guideway::scene::Scene;
 
 use super::args::Args;
-use super::report::{self, Times};
+use super::report::{self, Shown, Times};
 use super::target::Target;
 use crate::cli::exit::Exit;
 use crate::cli::output::Output;
@@ -38,7 +37,10 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
     let progress = out.progress("preparing the scene");
     let scene = Arc::new(Scene::new(Arc::new(layout), &options.scene)?);
     let scene_ms = progress.finish();
-    let picture = args.picture(&options, Arc::clone(&scene), plan);
+    let mut picture = args.picture(&options, Arc::clone(&scene), plan);
+    let route = args.decorations.route.as_ref();
+    let route = route.map(|ends| ends.find(scene.layout())).transpose()?;
+    picture.decorations.route = route.as_ref().map(|route| route.mark.clone());
     let (rendered, svg_ms) = match method {
         None => {
             let progress = out.progress("writing the picture");
@@ -57,26 +59,30 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
         render: rendered.render_ms,
         write: rendered.write_ms + svg_ms,
     };
-    print_report(args, &target, &scene, &rendered, &times, out)?;
+    let shown = Shown {
+        scene: &scene,
+        rendered: &rendered,
+        route: route.as_ref(),
+    };
+    print_report(args, &target, &shown, &times, out)?;
     Ok(Exit::Clean)
 }
 
 fn print_report(
     args: &Args,
     target: &Target<'_>,
-    scene: &Scene,
-    rendered: &Rendered,
+    shown: &Shown<'_>,
     times: &Times,
     out: &Output,
 ) -> Result<(), UserError> {
-    let text = || report::text(&args.output, scene, rendered, times);
+    let text = || report::text(&args.output, shown, times);
     match target {
         Target::StandardOutput => {
             out.note(text().trim_end());
             Ok(())
         }
         Target::File(_) => {
-            let body = report::json(args, scene, rendered, times);
+            let body = report::json(args, shown, times);
             out.report("render", &body, text)
         }
     }

@@ -1,16 +1,20 @@
-//! `guideway route`: the fastest way between two stations or nodes.
+//! Arguments of `route`; finds the way and prints it.
 
 use std::path::PathBuf;
 
+use clap::ValueEnum;
 use guideway::layout::{Layout, UserError};
 use guideway::network::{Route, RouteOptions, Router};
 use serde_json::{Value, json};
 
-use super::convert::{target_to_save, write};
-use super::exit::Exit;
-use super::input::{self, Input};
-use super::output::Output;
-use super::{text, values};
+use super::ends::only_type;
+use super::geojson;
+use crate::cli::convert::{target_to_save, write};
+use crate::cli::error::usage_error;
+use crate::cli::exit::Exit;
+use crate::cli::input::{self, Input};
+use crate::cli::output::{Output, print};
+use crate::cli::{text, values};
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
@@ -24,6 +28,9 @@ pub(crate) struct Args {
     /// Vehicle type; needed where the layout has several
     #[arg(long, value_name = "TYPE")]
     vehicle_type: Option<String>,
+    /// Form of the route: a list, JSON (the same as --json), or GeoJSON with a line per path
+    #[arg(long, default_value = "list")]
+    format: Format,
     /// Also write the route: GeoJSON, an order of VDA 5050 (.vda5050.json), or any other format
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -36,6 +43,13 @@ pub(crate) struct Args {
     /// Largest lateral acceleration, in m/s²: it slows vehicles in bends
     #[arg(long, value_name = "VALUE", value_parser = values::positive, allow_hyphen_values = true)]
     lateral_acceleration: Option<f64>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Format {
+    List,
+    Json,
+    Geojson,
 }
 
 impl Args {
@@ -52,6 +66,12 @@ impl Args {
 }
 
 pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
+    if out.is_json() && args.format == Format::Geojson {
+        return Err(usage_error(
+            "--json and --format geojson select different reports",
+            "Omit --json",
+        ));
+    }
     if let Some(output) = &args.output {
         input::check_output([args.input.path.as_path()], output)?;
     }
@@ -81,16 +101,13 @@ pub(crate) fn run(args: &Args, out: &Output) -> Result<Exit, UserError> {
             "total": read_ms + graph_ms + search_ms,
         },
     });
-    out.report("route", &body, || table(args, &layout, &route))?;
-    Ok(Exit::Clean)
-}
-
-/// The vehicle type of a layout that has one only.
-fn only_type(layout: &Layout) -> Option<&str> {
-    match layout.paths.vehicle_types().names() {
-        [one] => Some(one),
-        _ => None,
+    let list = || table(args, &layout, &route);
+    match args.format {
+        Format::List => out.report("route", &body, list)?,
+        Format::Json => Output::new(true, false).report("route", &body, list)?,
+        Format::Geojson => print(&geojson::bytes(&layout, &route)?)?,
     }
+    Ok(Exit::Clean)
 }
 
 fn rows_json(layout: &Layout, route: &Route) -> Vec<Value> {
